@@ -1,0 +1,342 @@
+//! The text of a generated module: type, facts, kernels.
+
+mod facts;
+mod parts;
+
+use proc_macro2::{Ident, Literal, TokenStream};
+use quote::{format_ident, quote};
+use symbolic::{Counts, Expr, Scalar};
+use syn::spanned::Spanned;
+
+use crate::derive::{self, Component, ConstraintKernels, Sparse};
+use crate::elaborate::{Body, ConstraintBody, Model};
+use crate::kernel::kernel;
+use crate::parse::Definition;
+
+/// The module of a constraint: its type and one type for the drive of each measure.
+pub(crate) fn constraint(
+    d: &Definition,
+    mut model: Model,
+    runtime: &TokenStream,
+    text: &str,
+) -> syn::Result<TokenStream> {
+    let body = std::mem::replace(&mut model.body, Body::Force(Vec::new()));
+    let Body::Constraint(body) = body else {
+        unreachable!("elaborated as a constraint")
+    };
+    let component = match body.component {
+        Some(_) => Component::Along,
+        None => Component::None,
+    };
+    let not_linear = |_| {
+        let at = d.psi.as_ref().map_or_else(|| d.name.span(), Spanned::span);
+        syn::Error::new(at, "`psi` is not linear in the velocities")
+    };
+    let kernels = derive::constraint(&mut model, &body, &component).map_err(not_linear)?;
+    let drives: Vec<(Ident, Ident)> = body
+        .measures
+        .iter()
+        .map(|(name, _)| {
+            (
+                name.clone(),
+                format_ident!("{}{}Drive", d.name, parts::camel(name)),
+            )
+        })
+        .collect();
+    let main = Type {
+        name: d.name.clone(),
+        rows: d.rows.iter().map(ToString::to_string).collect(),
+        doc: d.doc.clone(),
+        component: body.component.as_ref().map(|(name, _)| name.to_string()),
+        drives: drives.clone(),
+        driven: false,
+        scene_type: parts::scene_type(d),
+    };
+    let mut items = vec![constraint_type(d, &model, &main, &kernels, &body, text)];
+    for ((measure, driver), (_, value)) in drives.iter().zip(&body.measures) {
+        let row = model.g.sum(&[
+            (1.0, *value),
+            (-1.0, model.inputs.measure_0),
+            (-1.0, model.inputs.motion[0]),
+        ]);
+        let driven = ConstraintBody {
+            holonomic: true,
+            rows: vec![row],
+            place: body.place.clone(),
+            component: None,
+            measures: vec![(measure.clone(), *value)],
+        };
+        let kernels =
+            derive::constraint(&mut model, &driven, &Component::Multiplier).map_err(not_linear)?;
+        let drive = Type {
+            name: driver.clone(),
+            rows: vec![measure.to_string()],
+            doc: vec![format!(
+                "The {measure} of `{}` follows a function of time: measure − initial measure − f(t) = 0.",
+                d.name
+            )],
+            component: Some("drive".to_owned()),
+            drives: Vec::new(),
+            driven: true,
+            scene_type: measure.to_string(),
+        };
+        items.push(constraint_type(d, &model, &drive, &kernels, &driven, text));
+    }
+    let uses = parts::uses(runtime, true);
+    Ok(quote!(#uses #(#items)*))
+}
+
+/// What differs between a constraint and the drives of its measures.
+struct Type {
+    name: Ident,
+    rows: Vec<String>,
+    doc: Vec<String>,
+    component: Option<String>,
+    /// Measure and type of its drive.
+    drives: Vec<(Ident, Ident)>,
+    driven: bool,
+    scene_type: String,
+}
+
+fn constraint_type(
+    d: &Definition,
+    model: &Model,
+    t: &Type,
+    k: &ConstraintKernels,
+    body: &ConstraintBody,
+    text: &str,
+) -> TokenStream {
+    let name = &t.name;
+    let structure = parts::structure(d, model, name, &t.doc, t.driven);
+    let spec = facts::constraint_spec(d, t, k, body, text);
+    let from_arguments = parts::from_arguments(d, model, t.driven);
+    let measure = t.driven.then(|| body.measures[0].1);
+    let initialise = parts::initialise(model, measure);
+    let requirement = parts::requirement(model);
+    let visit = t
+        .drives
+        .iter()
+        .map(|(_, driver)| quote!(visitor.drive::<#driver>();));
+
+    let phi = method("phi", "Φ", model, &k.phi, POSITION);
+    let (constants, varying): (Vec<_>, Vec<_>) =
+        k.c.iter().enumerate().partition(|(_, e)| e.constant);
+    let c_constant = indexed(
+        "c_constant",
+        "Constant entries of C",
+        model,
+        &constants,
+        Scalar::F64,
+    );
+    let c = indexed(
+        "c",
+        "Varying entries of C",
+        model,
+        &varying,
+        Scalar::Generic,
+    );
+    let b = method("b", "b", model, &k.b, POSITION);
+    let gamma = method("gamma", "Γ", model, &k.gamma, VELOCITY);
+    let wrench = method(
+        "wrench",
+        "Entries of the wrench map",
+        model,
+        &values(&k.wrench),
+        POSITION,
+    );
+    let component = method(
+        "component",
+        "Coefficients of the named component",
+        model,
+        &k.component,
+        POSITION,
+    );
+    let place = {
+        let kernel = kernel(model, &k.place, Scalar::Generic);
+        let doc = counted("The place of the reaction", kernel.counts);
+        let (statements, [x, y]) = (&kernel.statements, [&kernel.outputs[0], &kernel.outputs[1]]);
+        quote! {
+            #[doc = #doc]
+            fn place<T: Ring>(&self, x: &[Pose<T>]) -> [T; 2] {
+                #(#statements)*
+                [#x, #y]
+            }
+        }
+    };
+    let d_force_dx = method(
+        "d_force_dx",
+        "∂(Cᵀλ)/∂x",
+        model,
+        &values(&k.d_force_dx),
+        FORCE,
+    );
+    let d_residual_dx = method(
+        "d_residual_dx",
+        "∂(C·a − Γ)/∂x",
+        model,
+        &values(&k.d_residual_dx),
+        RESIDUAL,
+    );
+    let d_gamma_dv = method(
+        "d_gamma_dv",
+        "∂Γ/∂v",
+        model,
+        &values(&k.d_gamma_dv),
+        VELOCITY,
+    );
+    quote! {
+        #structure
+
+        // Kernels have one signature; not every definition uses every argument of it.
+        #[allow(unused_variables)]
+        #[allow(clippy::too_many_arguments)]
+        impl Constraint for #name {
+            #spec
+            #from_arguments
+            fn visit_drives<V: Visitor>(visitor: &mut V) { #(#visit)* }
+            #initialise
+            #requirement
+            #phi
+            #c_constant
+            #c
+            #b
+            #gamma
+            #wrench
+            #component
+            #place
+            #d_force_dx
+            #d_residual_dx
+            #d_gamma_dv
+        }
+    }
+}
+
+/// The module of a force.
+pub(crate) fn force(
+    d: &Definition,
+    mut model: Model,
+    runtime: &TokenStream,
+    text: &str,
+) -> syn::Result<TokenStream> {
+    let Body::Force(terms) = std::mem::replace(&mut model.body, Body::Force(Vec::new())) else {
+        unreachable!("elaborated as a force")
+    };
+    let k = derive::force(&mut model, &terms);
+    let name = &d.name;
+    let structure = parts::structure(d, &model, name, &d.doc, false);
+    let spec = facts::force_spec(d, &model, &k, text);
+    let from_arguments = parts::from_arguments(d, &model, false);
+    let initialise = parts::initialise(&model, None);
+    let requirement = parts::requirement(&model);
+    let q: Vec<Expr> = k.q.iter().map(|(_, e)| *e).collect();
+    let q = real_method("q", "Entries of Q", &model, &q);
+    let dq_dx = real_method("dq_dx", "∂Q/∂x", &model, &values(&k.dq_dx));
+    let dq_dv = real_method("dq_dv", "∂Q/∂v", &model, &values(&k.dq_dv));
+    let uses = parts::uses(runtime, false);
+    Ok(quote! {
+        #uses
+        #structure
+
+        #[allow(unused_variables)]
+        impl Force for #name {
+            #spec
+            #from_arguments
+            #initialise
+            #requirement
+            #q
+            #dq_dx
+            #dq_dv
+        }
+    })
+}
+
+/// Arguments of a method beside `&self` and `out`.
+#[derive(Clone, Copy)]
+struct Signature {
+    v: bool,
+    a: bool,
+    lambda: bool,
+}
+
+const POSITION: Signature = Signature {
+    v: false,
+    a: false,
+    lambda: false,
+};
+const VELOCITY: Signature = Signature {
+    v: true,
+    a: false,
+    lambda: false,
+};
+const FORCE: Signature = Signature {
+    v: false,
+    a: false,
+    lambda: true,
+};
+const RESIDUAL: Signature = Signature {
+    v: true,
+    a: true,
+    lambda: false,
+};
+
+fn method(name: &str, what: &str, model: &Model, outputs: &[Expr], s: Signature) -> TokenStream {
+    let name = format_ident!("{name}");
+    let kernel = kernel(model, outputs, Scalar::Generic);
+    let doc = counted(what, kernel.counts);
+    let v = s.v.then(|| quote!(v: &[Twist<T>],));
+    let a = s.a.then(|| quote!(a: &[Twist<T>],));
+    let lambda = s.lambda.then(|| quote!(lambda: &[T],));
+    let body = kernel.into_out();
+    quote! {
+        #[doc = #doc]
+        fn #name<T: Ring>(&self, x: &[Pose<T>], #v #a f: &[[T; 3]], #lambda out: &mut [T]) { #body }
+    }
+}
+
+fn real_method(name: &str, what: &str, model: &Model, outputs: &[Expr]) -> TokenStream {
+    let name = format_ident!("{name}");
+    let kernel = kernel(model, outputs, Scalar::Generic);
+    let doc = counted(what, kernel.counts);
+    let body = kernel.into_out();
+    quote! {
+        #[doc = #doc]
+        fn #name<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) { #body }
+    }
+}
+
+/// Entries of C at their places in the pattern.
+fn indexed(
+    name: &str,
+    what: &str,
+    model: &Model,
+    entries: &[(usize, &derive::Entry)],
+    scalar: Scalar,
+) -> TokenStream {
+    let name = format_ident!("{name}");
+    let outputs: Vec<Expr> = entries.iter().map(|(_, e)| e.value).collect();
+    let kernel = kernel(model, &outputs, scalar);
+    let doc = counted(what, kernel.counts);
+    let assignments = entries.iter().zip(&kernel.outputs).map(|((k, _), e)| {
+        let k = Literal::usize_unsuffixed(*k);
+        quote!(out[#k] = #e;)
+    });
+    let statements = &kernel.statements;
+    let signature = match scalar {
+        Scalar::F64 => quote!(fn #name(&self, out: &mut [f64])),
+        Scalar::Generic => {
+            quote!(fn #name<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]))
+        }
+    };
+    quote! {
+        #[doc = #doc]
+        #signature { #(#statements)* #(#assignments)* }
+    }
+}
+
+fn values(block: &Sparse) -> Vec<Expr> {
+    block.iter().map(|(_, e)| *e).collect()
+}
+
+fn counted(what: &str, counts: Counts) -> String {
+    format!(" {what}. Operations: {counts}.")
+}

@@ -1,0 +1,193 @@
+//! The facts of a definition as a constant.
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+use super::{Type, parts};
+use crate::derive::{ConstraintKernels, ForceKernels, N_DOF, Sparse};
+use crate::elaborate::{ConstraintBody, Model, Source};
+use crate::parse::{Definition, Param, ParamKind};
+use parts::index;
+
+pub(super) fn constraint_spec(
+    d: &Definition,
+    t: &Type,
+    k: &ConstraintKernels,
+    body: &ConstraintBody,
+    text: &str,
+) -> TokenStream {
+    // A relative coordinate that moves no origin is an angle.
+    let motion = t
+        .driven
+        .then(|| match k.c.iter().all(|e| e.column % N_DOF == N_DOF - 1) {
+            true => quote!(Angle),
+            false => quote!(Length),
+        });
+    let common = common(d, &t.name.to_string(), &t.scene_type, &t.doc, motion, text);
+    let level = match body.holonomic {
+        true => quote!(Level::Holonomic),
+        false => quote!(Level::Nonholonomic),
+    };
+    let rows = t
+        .rows
+        .iter()
+        .zip(&k.restricts_start)
+        .map(|(name, restricts)| match restricts {
+            true => quote!(Row::restricting_start(#name)),
+            false => quote!(Row::keeping_start(#name)),
+        });
+    let c = k.c.iter().map(|e| {
+        let [row, slot, dof] = [e.row, e.column / N_DOF, e.column % N_DOF].map(index);
+        match e.constant {
+            true => quote!(Entry::constant(#row, #slot, #dof)),
+            false => quote!(Entry::varying(#row, #slot, #dof)),
+        }
+    });
+    let rheonomic = !k.b.is_empty();
+    let component = match &t.component {
+        Some(name) => quote!(Some(#name)),
+        None => quote!(None),
+    };
+    let measures = t.drives.iter().map(|(measure, drive)| {
+        let (name, drive) = (measure.to_string(), drive.to_string());
+        quote!(Measure::new(#name, #drive))
+    });
+    let wrench = pattern(&k.wrench);
+    let d_force_dx = pattern(&k.d_force_dx);
+    let d_residual_dx = pattern(&k.d_residual_dx);
+    let d_gamma_dv = pattern(&k.d_gamma_dv);
+    quote! {
+        const SPEC: ConstraintSpec = ConstraintSpec {
+            common: #common,
+            level: #level,
+            rows: &[#(#rows),*],
+            c: &[#(#c),*],
+            rheonomic: #rheonomic,
+            wrench: #wrench,
+            component: #component,
+            measures: &[#(#measures),*],
+            d_force_dx: #d_force_dx,
+            d_residual_dx: #d_residual_dx,
+            d_gamma_dv: #d_gamma_dv,
+        };
+    }
+}
+
+pub(super) fn force_spec(
+    d: &Definition,
+    model: &Model,
+    k: &ForceKernels,
+    text: &str,
+) -> TokenStream {
+    let common = common(
+        d,
+        &d.name.to_string(),
+        &parts::scene_type(d),
+        &d.doc,
+        None,
+        text,
+    );
+    let q = k.q.iter().map(|(column, _)| index(*column));
+    let dq_dx = pattern(&k.dq_dx);
+    let dq_dv = pattern(&k.dq_dv);
+    let dissipative = !k.dq_dv.is_empty();
+    let of_time = |s: &Source| matches!(s, Source::Function { .. });
+    let rheonomic = k.q.iter().any(|(_, e)| model.depends_on(*e, of_time));
+    quote! {
+        const SPEC: ForceSpec = ForceSpec {
+            common: #common,
+            q: &[#(#q),*],
+            dq_dx: #dq_dx,
+            dq_dv: #dq_dv,
+            dissipative: #dissipative,
+            rheonomic: #rheonomic,
+        };
+    }
+}
+
+fn common(
+    d: &Definition,
+    name: &str,
+    scene_type: &str,
+    doc: &[String],
+    motion: Option<TokenStream>,
+    text: &str,
+) -> TokenStream {
+    let driven = motion.is_some();
+    let variant = match &d.variant {
+        Some((key, value, default)) if !driven => {
+            let key = key.to_string();
+            quote!(Some(Variant { key: #key, value: #value, default: #default }))
+        }
+        _ => quote!(None),
+    };
+    let doc = doc.join(" ");
+    let slots = d.slots.iter().map(ToString::to_string);
+    let mut parameters: Vec<TokenStream> = d.params.iter().map(|p| parameter(d, p)).collect();
+    if let Some(unit) = motion {
+        parameters.push(quote! {
+            Parameter::required(
+                "motion",
+                Shape::Functions(&[Unit::#unit]),
+                "The function of time that the measure follows.",
+            )
+        });
+    }
+    let points_apart = d.points_apart;
+    let requirements = d.requirements.iter().map(|(words, _)| words.value());
+    // The text of a drive is that of its joint, which carries it already.
+    let text = if driven { "" } else { text };
+    quote! {
+        Spec {
+            name: #name,
+            scene_type: #scene_type,
+            variant: #variant,
+            doc: #doc,
+            text: #text,
+            slots: &[#(#slots),*],
+            parameters: &[#(#parameters),*],
+            points_apart: #points_apart,
+            requirements: &[#(#requirements),*],
+        }
+    }
+}
+
+fn parameter(d: &Definition, p: &Param) -> TokenStream {
+    let name = p.name.to_string();
+    let slot = |s: &syn::Ident| {
+        index(
+            d.slots
+                .iter()
+                .position(|t| t == s)
+                .expect("checked while elaborating"),
+        )
+    };
+    let shape = match &p.kind {
+        ParamKind::Point(s) => {
+            let slot = slot(s);
+            quote!(Shape::Point { slot: #slot })
+        }
+        ParamKind::Direction(s) => {
+            let slot = slot(s);
+            quote!(Shape::Direction { slot: #slot })
+        }
+        ParamKind::GroundLine => quote!(Shape::GroundLine),
+        ParamKind::Number(unit) => quote!(Shape::Numbers(&[Unit::#unit])),
+        ParamKind::Numbers(units) => quote!(Shape::Numbers(&[#(Unit::#units),*])),
+        ParamKind::Function(unit) => quote!(Shape::Functions(&[Unit::#unit])),
+        ParamKind::Functions(units) => quote!(Shape::Functions(&[#(Unit::#units),*])),
+    };
+    let doc = p.doc.join(" ");
+    match p.default {
+        Some(_) => quote!(Parameter::optional(#name, #shape, #doc)),
+        None => quote!(Parameter::required(#name, #shape, #doc)),
+    }
+}
+
+fn pattern(block: &Sparse) -> TokenStream {
+    let entries = block.iter().map(|([row, column], _)| {
+        let (row, column) = (index(*row), index(*column));
+        quote!([#row, #column])
+    });
+    quote!(&[#(#entries),*])
+}

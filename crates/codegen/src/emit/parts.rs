@@ -1,0 +1,278 @@
+//! Parts that constraints and forces share: the type, its constructor, what is kept from the start.
+
+use proc_macro2::{Ident, TokenStream};
+use quote::{format_ident, quote};
+use symbolic::{Expr, Scalar};
+
+use crate::elaborate::{Comparison, Condition, Model};
+use crate::kebab_case;
+use crate::kernel::kernel;
+use crate::parse::{Definition, Kept, Param, ParamKind};
+
+/// `displacement` → `Displacement`
+pub(super) fn camel(name: &Ident) -> String {
+    let name = name.to_string();
+    let mut out = String::new();
+    for word in name.split('_') {
+        let mut letters = word.chars();
+        out.extend(letters.next().map(|c| c.to_ascii_uppercase()));
+        out.push_str(letters.as_str());
+    }
+    out
+}
+
+pub(super) fn scene_type(d: &Definition) -> String {
+    match &d.scene {
+        Some(name) => name.value(),
+        None => kebab_case(&d.name.to_string()),
+    }
+}
+
+/// What the generated items name.
+pub(super) fn uses(runtime: &TokenStream, constraint: bool) -> TokenStream {
+    let (traits, specs) = match constraint {
+        true => (
+            quote!(Constraint, Ring, Visitor),
+            quote!(
+                ConstraintSpec,
+                Entry,
+                Level,
+                Measure,
+                Parameter,
+                Row,
+                Shape,
+                Spec,
+                Unit,
+                Variant
+            ),
+        ),
+        false => (
+            quote!(Force, Real),
+            quote!(ForceSpec, Parameter, Shape, Spec, Unit, Variant),
+        ),
+    };
+    quote! {
+        #[allow(unused_imports)]
+        use #runtime::{#traits};
+        #[allow(unused_imports)]
+        use #runtime::arguments::{Argument, ArgumentError, Reader};
+        #[allow(unused_imports)]
+        use #runtime::plane::{Direction, Line, Pose, Twist};
+        #[allow(unused_imports)]
+        use #runtime::spec::{#specs};
+    }
+}
+
+/// The type with its fields.
+pub(super) fn structure(
+    d: &Definition,
+    model: &Model,
+    name: &Ident,
+    doc: &[String],
+    driven: bool,
+) -> TokenStream {
+    let doc: Vec<String> = doc.iter().map(|line| format!(" {line}")).collect();
+    let params = d.params.iter().filter_map(|p| {
+        let (name, ty) = (&p.name, field_type(p)?);
+        let doc = param_doc(p, d);
+        Some(quote!(#[doc = #doc] pub #name: #ty,))
+    });
+    let kept = model.kept.iter().map(|k| {
+        let name = format_ident!("{}", k.field);
+        let ty = match k.kind {
+            Kept::Number => quote!(f64),
+            Kept::Vector => quote!([f64; 2]),
+        };
+        let doc = match &k.overridden_by {
+            Some(p) => format!(" `{p}`, or its value at the assembled start; set by `initialise`."),
+            None => " Kept from the assembled start; set by `initialise`.".to_owned(),
+        };
+        quote!(#[doc = #doc] pub #name: #ty,)
+    });
+    let measure = driven.then(|| {
+        quote! {
+            #[doc = " Value of the measure at the assembled start; set by `initialise`."]
+            pub measure_0: f64,
+        }
+    });
+    quote! {
+        #(#[doc = #doc])*
+        #[derive(Clone, Debug, PartialEq)]
+        pub struct #name {
+            #(#params)*
+            #(#kept)*
+            #measure
+        }
+    }
+}
+
+fn param_doc(p: &Param, d: &Definition) -> String {
+    if !p.doc.is_empty() {
+        return format!(" {}", p.doc.join(" "));
+    }
+    let slot = |s: &Ident| match d.slots.len() {
+        1 => "the body".to_owned(),
+        _ => format!("body {s}"),
+    };
+    match &p.kind {
+        ParamKind::Point(s) => format!(" Point in the frame of {} (m).", slot(s)),
+        ParamKind::Direction(s) => format!(" Unit vector in the frame of {}.", slot(s)),
+        ParamKind::GroundLine => " Line of the ground.".to_owned(),
+        _ => format!(" The parameter `{}`.", p.name),
+    }
+}
+
+/// Functions of time are no fields: they travel as jets.
+fn field_type(p: &Param) -> Option<TokenStream> {
+    Some(match &p.kind {
+        ParamKind::Point(_) => quote!([f64; 2]),
+        ParamKind::Direction(_) => quote!(Direction),
+        ParamKind::GroundLine => quote!(Line),
+        ParamKind::Number(_) if p.default.is_some() => quote!(Option<f64>),
+        ParamKind::Number(_) => quote!(f64),
+        ParamKind::Numbers(units) => {
+            let n = index(units.len());
+            quote!([f64; #n])
+        }
+        ParamKind::Function(_) | ParamKind::Functions(_) => return None,
+    })
+}
+
+/// A number without suffix.
+pub(crate) fn index(k: usize) -> proc_macro2::Literal {
+    proc_macro2::Literal::usize_unsuffixed(k)
+}
+
+/// The constructor from checked arguments.
+pub(super) fn from_arguments(d: &Definition, model: &Model, driven: bool) -> TokenStream {
+    let mut reads: Vec<TokenStream> = d
+        .params
+        .iter()
+        .map(|p| {
+            let name = &p.name;
+            match &p.kind {
+                ParamKind::Point(_) => quote!(let #name = reader.point()?;),
+                ParamKind::Direction(_) => quote!(let #name = reader.direction()?;),
+                ParamKind::GroundLine => quote!(let #name = reader.line()?;),
+                ParamKind::Number(_) if p.default.is_some() => {
+                    quote!(let #name = reader.optional_number()?;)
+                }
+                ParamKind::Number(_) => quote!(let [#name] = reader.numbers()?;),
+                ParamKind::Numbers(_) => quote!(let #name = reader.numbers()?;),
+                ParamKind::Function(_) | ParamKind::Functions(_) => quote!(reader.skip();),
+            }
+        })
+        .collect();
+    if driven {
+        reads.push(quote!(reader.skip();));
+    }
+    let fields = d
+        .params
+        .iter()
+        .filter(|p| field_type(p).is_some())
+        .map(|p| &p.name);
+    let kept = model.kept.iter().map(|k| {
+        let name = format_ident!("{}", k.field);
+        match k.kind {
+            Kept::Number => quote!(#name: 0.0,),
+            Kept::Vector => quote!(#name: [0.0; 2],),
+        }
+    });
+    let measure = driven.then(|| quote!(measure_0: 0.0,));
+    // Without parameters nothing is read, and only the count is checked.
+    let reader = match reads.is_empty() {
+        true => quote!(Reader::new(Self::SPEC.common.parameters, arguments)?;),
+        false => quote!(let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;),
+    };
+    quote! {
+        fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
+            #reader
+            #(#reads)*
+            Ok(Self { #(#fields,)* #(#kept)* #measure })
+        }
+    }
+}
+
+/// The method that keeps values from the start. Each value may use those before it.
+pub(super) fn initialise(model: &Model, measure: Option<Expr>) -> TokenStream {
+    let kept = model.kept.iter().map(|k| {
+        let field = format_ident!("{}", k.field);
+        let printed = kernel(model, &k.values, Scalar::F64);
+        let (statements, outputs) = (&printed.statements, &printed.outputs);
+        let value = match k.kind {
+            Kept::Number => quote!(#(#outputs)*),
+            Kept::Vector => quote!([#(#outputs),*]),
+        };
+        match &k.overridden_by {
+            Some(p) => quote! {
+                self.#field = match self.#p {
+                    Some(given) => given,
+                    None => { #(#statements)* #value }
+                };
+            },
+            None => quote!(self.#field = { #(#statements)* #value };),
+        }
+    });
+    let measure = measure.map(|e| {
+        let printed = kernel(model, &[e], Scalar::F64);
+        let (statements, outputs) = (&printed.statements, &printed.outputs);
+        quote!(self.measure_0 = { #(#statements)* #(#outputs)* };)
+    });
+    quote! {
+        fn initialise(&mut self, x: &[Pose]) { #(#kept)* #measure }
+    }
+}
+
+/// The method that checks requirement `k`.
+pub(super) fn requirement(model: &Model) -> TokenStream {
+    let arms = model.requirements.iter().enumerate().map(|(k, condition)| {
+        let mut scalars = Vec::new();
+        collect(condition, &mut scalars);
+        let printed = kernel(model, &scalars, Scalar::F64);
+        let test = print_condition(condition, &mut printed.outputs.iter());
+        let (k, statements) = (index(k), &printed.statements);
+        quote!(#k => { #(#statements)* #test })
+    });
+    let body = match model.requirements.is_empty() {
+        true => quote!(true),
+        false => quote!(match k { #(#arms)* _ => true }),
+    };
+    quote! {
+        fn requirement(&self, k: usize, x: &[Pose]) -> bool { #body }
+    }
+}
+
+fn collect(c: &Condition, out: &mut Vec<Expr>) {
+    match c {
+        Condition::Compare(_, a, b) => out.extend([*a, *b]),
+        Condition::And(a, b) | Condition::Or(a, b) => {
+            collect(a, out);
+            collect(b, out);
+        }
+    }
+}
+
+fn print_condition<'a>(
+    c: &Condition,
+    scalars: &mut impl Iterator<Item = &'a TokenStream>,
+) -> TokenStream {
+    match c {
+        Condition::Compare(comparison, ..) => {
+            let (a, b) = (scalars.next(), scalars.next());
+            match comparison {
+                Comparison::Equal => quote!(#a == #b),
+                Comparison::NotEqual => quote!(#a != #b),
+                Comparison::Greater => quote!(#a > #b),
+                Comparison::Less => quote!(#a < #b),
+            }
+        }
+        Condition::And(a, b) => {
+            let (a, b) = (print_condition(a, scalars), print_condition(b, scalars));
+            quote!(#a && #b)
+        }
+        Condition::Or(a, b) => {
+            let (a, b) = (print_condition(a, scalars), print_condition(b, scalars));
+            quote!(#a || #b)
+        }
+    }
+}

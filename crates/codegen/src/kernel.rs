@@ -1,0 +1,54 @@
+//! One function from one list of expressions: inputs that are used, shared pieces, outputs, and the count.
+
+use proc_macro2::{Ident, Literal, Span, TokenStream};
+use quote::quote;
+use symbolic::{Counts, Expr, Printer, Program, Scalar};
+
+use crate::elaborate::Model;
+
+/// The body of a kernel.
+pub(crate) struct Kernel {
+    /// `let` statements for inputs and shared pieces.
+    pub(crate) statements: Vec<TokenStream>,
+    /// One expression for each output.
+    pub(crate) outputs: Vec<TokenStream>,
+    pub(crate) counts: Counts,
+}
+
+/// Prints `outputs` for a number type.
+pub(crate) fn kernel(model: &Model, outputs: &[Expr], scalar: Scalar) -> Kernel {
+    let program = Program::new(&model.g, outputs);
+    let (shared, printed) = Printer::new(&model.g, &program, scalar, &model.names).print();
+    let mut used: Vec<_> = outputs.iter().flat_map(|&e| model.g.inputs(e)).collect();
+    used.sort_unstable();
+    used.dedup();
+    let inputs = used.into_iter().map(|s| {
+        let name = Ident::new(model.g.name(s), Span::call_site());
+        let (access, is_f64) = model.inputs.source(s).access();
+        match is_f64 && scalar == Scalar::Generic {
+            true => quote!(let #name = T::from(#access);),
+            false => quote!(let #name = #access;),
+        }
+    });
+    Kernel {
+        statements: inputs.chain(shared).collect(),
+        outputs: printed,
+        counts: program.counts(),
+    }
+}
+
+impl Kernel {
+    /// The kernel as statements that assign `out[k]`.
+    pub(crate) fn into_out(self) -> TokenStream {
+        let Self {
+            statements,
+            outputs,
+            ..
+        } = self;
+        let assignments = outputs.iter().enumerate().map(|(k, e)| {
+            let k = Literal::usize_unsuffixed(k);
+            quote!(out[#k] = #e;)
+        });
+        quote!(#(#statements)* #(#assignments)*)
+    }
+}

@@ -1,0 +1,122 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Code map, in the order of the data
+//!
+//! | module | step |
+//! | --- | --- |
+//! | [`parse`] | tokens → [`parse::Definition`] |
+//! | `vector` | vectors as sums of parts in frames: products of parts of one frame need no rotation |
+//! | `elaborate` | expressions of the language → scalars of the graph, with shapes checked |
+//! | `identity` | is an expression zero for every pose? |
+//! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods; laws → Q and its derivatives |
+//! | `kernel` | a list of expressions → one function with its operation count |
+//! | `emit` | kernels and facts → the text of a module |
+
+mod derive;
+mod elaborate;
+mod emit;
+mod identity;
+mod kernel;
+pub mod parse;
+mod vector;
+
+use proc_macro2::TokenStream;
+use quote::quote;
+
+pub use parse::{Definition, Kind};
+
+/// A definition with its generated module.
+pub struct Expansion {
+    /// Name of the definition.
+    pub name: String,
+    /// Constraint or force.
+    pub kind: Kind,
+    /// Items of the module: the type, its facts and its kernels.
+    pub items: TokenStream,
+}
+
+/// Expands the body of one `joint!` or `force!`. `runtime` is the path of the crate `joints` as seen from
+/// the expanded code, `text` the definition as its author wrote it.
+///
+/// # Errors
+/// At the token that is wrong: an unknown name, a wrong shape, a Ψ that is not linear in velocities,
+/// a parameter that is never used, …
+pub fn expand(
+    kind: Kind,
+    body: TokenStream,
+    runtime: &TokenStream,
+    text: &str,
+) -> syn::Result<Expansion> {
+    let definition = parse::definition(kind, body)?;
+    let model = elaborate::elaborate(&definition)?;
+    let items = match kind {
+        Kind::Constraint => emit::constraint(&definition, model, runtime, text)?,
+        Kind::Force => emit::force(&definition, model, runtime, text)?,
+    };
+    Ok(Expansion {
+        name: definition.name.to_string(),
+        kind,
+        items,
+    })
+}
+
+/// Expands a file that holds one `joint! { … }` or `force! { … }`.
+///
+/// # Errors
+/// If the file is no Rust, holds something else, or its definition is wrong.
+pub fn expand_file(source: &str, runtime: &TokenStream) -> syn::Result<Expansion> {
+    let file = syn::parse_file(source)?;
+    let [syn::Item::Macro(item)] = file.items.as_slice() else {
+        return Err(syn::Error::new(
+            proc_macro2::Span::call_site(),
+            "a definition file holds exactly one `joint! { … }` or `force! { … }`",
+        ));
+    };
+    let path = &item.mac.path;
+    let kind = match () {
+        () if path.is_ident("joint") => Kind::Constraint,
+        () if path.is_ident("force") => Kind::Force,
+        () => {
+            return Err(syn::Error::new_spanned(
+                path,
+                "expected `joint!` or `force!`",
+            ));
+        }
+    };
+    expand(kind, item.mac.tokens.clone(), runtime, source.trim_end())
+}
+
+/// The module around the items of an expansion in a user's crate.
+#[must_use]
+pub fn in_module(expansion: &Expansion) -> TokenStream {
+    let module = quote::format_ident!("__{}", snake_case(&expansion.name));
+    let items = &expansion.items;
+    quote! {
+        #[doc(hidden)]
+        mod #module { #items }
+        pub use #module::*;
+    }
+}
+
+/// `PinInSlot` → `pin_in_slot`
+#[must_use]
+pub fn snake_case(name: &str) -> String {
+    separated(name, '_')
+}
+
+/// `PinInSlot` → `pin-in-slot`
+#[must_use]
+pub fn kebab_case(name: &str) -> String {
+    separated(name, '-')
+}
+
+fn separated(name: &str, separator: char) -> String {
+    let mut out = String::new();
+    for (k, c) in name.chars().enumerate() {
+        if c.is_uppercase() && k > 0 {
+            out.push(separator);
+        }
+        out.extend(c.to_lowercase());
+    }
+    out
+}

@@ -1,0 +1,358 @@
+//! The loop shared by all methods: trials, rejections, accepted steps, legs between break times, limits.
+//!
+//! Not here: formulas of a method (`Stepper`), the law of step control (`control`), output times (`sample`).
+
+use crate::control::Control;
+use crate::error::{Cause, Failure, IntegrationError};
+use crate::interval::{Interval, Leg};
+use crate::method::{End, Ends, Outcome, Stepper, Trial};
+use crate::ode::{Ode, StepEnd, StepInfo};
+use crate::options::{InitialStep, Options};
+use crate::start::{StartScratch, initial_step};
+use crate::statistics::Statistics;
+use crate::step::Step;
+use std::ops::ControlFlow;
+
+/// A step below this many units in the last place of t counts as collapsed: stage times would no longer differ.
+const SMALLEST_STEP_IN_EPSILONS: f64 = 16.0;
+/// A step that would leave less than this part of itself before the end of a leg is stretched to the end.
+const STRETCH: f64 = 1.01;
+/// Step-size factor after a failed evaluation.
+const FACTOR_AFTER_FAILURE: f64 = 0.25;
+/// Step-size factor after a rejection by the hook.
+const FACTOR_AFTER_HOOK: f64 = 0.5;
+
+/// See [`crate::integrate`].
+pub(crate) fn drive<O, S, F>(
+    ode: &mut O,
+    stepper: &mut S,
+    interval: &Interval<'_>,
+    y0: &[f64],
+    options: &Options,
+    mut observe: F,
+) -> Result<Outcome, Box<Failure<O::Error>>>
+where
+    O: Ode,
+    S: Stepper<O>,
+    F: FnMut(&mut Step<'_, O>) -> ControlFlow<()>,
+{
+    let legs = match check(ode, interval, y0, options) {
+        Ok(legs) => legs,
+        Err(error) => return Err(refuse(error, interval.t0, y0)),
+    };
+    let mut run = Run::new(interval.t0, y0, options, Control::new(S::CONTROL));
+    for leg in &legs {
+        if let Err(error) = run.start(ode, leg, S::ORDER) {
+            return Err(run.fail(error));
+        }
+        while run.t != leg.end {
+            let trial = match run.next_trial(leg) {
+                Ok(trial) => trial,
+                Err(error) => return Err(run.fail(error)),
+            };
+            match run.attempt(ode, stepper, &trial) {
+                Ok(()) => {
+                    let flow = observe(&mut run.accepted(ode, stepper, trial));
+                    run.advance(&trial);
+                    if flow.is_break() {
+                        return Ok(run.finish(End::Stopped));
+                    }
+                }
+                Err(cause) => run.reject(&trial, cause),
+            }
+        }
+    }
+    Ok(run.finish(End::Reached))
+}
+
+/// Evaluates f, counts, and turns values that are not finite into a [`Cause`].
+#[inline]
+pub(crate) fn evaluate<O: Ode>(
+    ode: &mut O,
+    t: f64,
+    y: &[f64],
+    dy: &mut [f64],
+    count: &mut u64,
+) -> Result<(), Cause<O::Error>> {
+    *count += 1;
+    ode.rhs(t, y, dy).map_err(Cause::Problem)?;
+    finite(dy).map_err(|component| Cause::NonFinite { component })
+}
+
+/// Checks everything that can be known before the first evaluation.
+pub(crate) fn check<O: Ode>(
+    ode: &O,
+    interval: &Interval<'_>,
+    y0: &[f64],
+    options: &Options,
+) -> Result<Vec<Leg>, IntegrationError<O::Error>> {
+    if y0.len() != ode.dim() {
+        return Err(IntegrationError::DimensionMismatch {
+            expected: ode.dim(),
+            found: y0.len(),
+        });
+    }
+    if let Err(component) = finite(y0) {
+        return Err(IntegrationError::NonFiniteInitialState {
+            component,
+            value: y0[component],
+        });
+    }
+    options.check(y0.len())?;
+    interval.legs()
+}
+
+/// A failure before anything was done.
+pub(crate) fn refuse<E: std::error::Error>(
+    error: IntegrationError<E>,
+    t: f64,
+    y0: &[f64],
+) -> Box<Failure<E>> {
+    Box::new(Failure {
+        error,
+        t,
+        y: y0.to_vec(),
+        statistics: Statistics::default(),
+    })
+}
+
+/// `Err` with the first component that is not finite.
+#[inline]
+fn finite(v: &[f64]) -> Result<(), usize> {
+    v.iter().position(|x| !x.is_finite()).map_or(Ok(()), Err)
+}
+
+/// State of an integration. Index 0: start of the step, 1: its end.
+struct Run<'a, E: std::error::Error + 'static> {
+    options: &'a Options,
+    control: Control,
+    statistics: Statistics,
+    t: f64,
+    /// Signed size of the next trial.
+    h: f64,
+    y0: Vec<f64>,
+    f0: Vec<f64>,
+    y1: Vec<f64>,
+    f1: Vec<f64>,
+    scale: Vec<f64>,
+    /// Error norm of the last trial that got so far.
+    error_norm: Option<f64>,
+    /// Rejections since the last accepted step.
+    failures: u32,
+    last_rejection: Option<Cause<E>>,
+    is_first_leg: bool,
+}
+
+impl<'a, E: std::error::Error + 'static> Run<'a, E> {
+    fn new(t: f64, y0: &[f64], options: &'a Options, control: Control) -> Self {
+        let zeros = || vec![0.0; y0.len()];
+        Self {
+            options,
+            control,
+            statistics: Statistics::default(),
+            t,
+            h: 0.0,
+            y0: y0.to_vec(),
+            f0: zeros(),
+            y1: zeros(),
+            f1: zeros(),
+            scale: zeros(),
+            error_norm: None,
+            failures: 0,
+            last_rejection: None,
+            is_first_leg: true,
+        }
+    }
+
+    /// Derivative and first step size at the start of a leg.
+    fn start<O: Ode<Error = E>>(
+        &mut self,
+        ode: &mut O,
+        leg: &Leg,
+        order: i32,
+    ) -> Result<(), IntegrationError<E>> {
+        let t = leg.evaluation_time(leg.start);
+        evaluate(
+            ode,
+            t,
+            &self.y0,
+            &mut self.f0,
+            &mut self.statistics.evaluations,
+        )
+        .map_err(|cause| IntegrationError::StartFailed {
+            t: leg.start,
+            cause,
+        })?;
+        self.control.reset();
+        let h_max = self.options.max_step.min((leg.end - leg.start).abs());
+        self.h = match self.options.initial_step {
+            InitialStep::Given(h) if self.is_first_leg => {
+                h.min(h_max).copysign(leg.end - leg.start)
+            }
+            _ => {
+                self.options
+                    .tolerance
+                    .scale(&self.y0, &self.y0, &mut self.scale);
+                let scratch = StartScratch {
+                    y: &mut self.y1,
+                    f: &mut self.f1,
+                };
+                let start = (&self.y0[..], &self.f0[..], &self.scale[..]);
+                initial_step(ode, leg, order, start, h_max, scratch, &mut self.statistics)
+            }
+        };
+        self.is_first_leg = false;
+        Ok(())
+    }
+
+    /// The next trial, ending exactly at the end of the leg if it reaches so far.
+    fn next_trial<'l>(&mut self, leg: &'l Leg) -> Result<Trial<'l>, IntegrationError<E>> {
+        let (t, h) = (self.t, self.h);
+        let steps = self.statistics.accepted + self.statistics.rejected();
+        if steps >= self.options.max_steps {
+            return Err(IntegrationError::TooManySteps { t, steps, h });
+        }
+        let remaining = leg.end - t;
+        let reaches_end = STRETCH * h.abs() >= remaining.abs();
+        let too_small =
+            h.abs() < SMALLEST_STEP_IN_EPSILONS * f64::EPSILON * t.abs() && !reaches_end;
+        if too_small || self.failures > self.options.max_failures || t + h == t {
+            let norm = self.error_norm.unwrap_or(f64::NAN);
+            return Err(IntegrationError::StepSizeCollapsed {
+                t,
+                h,
+                failures: self.failures,
+                last_error_norm: self.error_norm,
+                cause: self
+                    .last_rejection
+                    .take()
+                    .unwrap_or(Cause::ErrorTest { norm }),
+            });
+        }
+        let t1 = if reaches_end { leg.end } else { t + h };
+        // The difference of the rounded times: what is integrated over is what is reported.
+        Ok(Trial {
+            leg,
+            t,
+            h: t1 - t,
+            t1,
+        })
+    }
+
+    /// Stages, error test, hook. On success `y1`, `f1` and `error_norm` describe a step that is accepted.
+    fn attempt<O: Ode<Error = E>, S: Stepper<O>>(
+        &mut self,
+        ode: &mut O,
+        stepper: &mut S,
+        trial: &Trial<'_>,
+    ) -> Result<(), Cause<E>> {
+        let non_finite = |component| Cause::NonFinite { component };
+        let evaluations = &mut self.statistics.evaluations;
+        stepper.trial(ode, trial, &self.y0, &self.f0, &mut self.y1, evaluations)?;
+        finite(&self.y1).map_err(non_finite)?;
+        self.options
+            .tolerance
+            .scale(&self.y0, &self.y1, &mut self.scale);
+        let norm = stepper.error_norm(trial.h, &self.f0, &self.scale);
+        self.error_norm = Some(norm);
+        if norm.is_nan() || norm > 1.0 {
+            return Err(Cause::ErrorTest { norm });
+        }
+        let info = StepInfo {
+            t0: trial.t,
+            t: trial.t1,
+            t_rhs: trial.stage_time(1.0),
+            error_norm: norm,
+            scale: &self.scale,
+        };
+        match ode
+            .end_of_step(&info, &mut self.y1, &mut self.f1)
+            .map_err(Cause::Problem)?
+        {
+            StepEnd::Unchanged => {
+                stepper.end_derivative(ode, trial, &self.y1, &mut self.f1, evaluations)
+            }
+            StepEnd::Projected {
+                correction,
+                evaluations,
+            } => {
+                self.statistics.hook_evaluations += evaluations;
+                finite(&self.y1).and(finite(&self.f1)).map_err(non_finite)?;
+                self.statistics.projections += 1;
+                let largest = &mut self.statistics.largest_correction;
+                *largest = largest.max(correction);
+                Ok(())
+            }
+            StepEnd::Reject => Err(Cause::RejectedByHook),
+        }
+    }
+
+    /// The step just accepted, for the observer.
+    fn accepted<'s, O: Ode<Error = E>, S: Stepper<O>>(
+        &'s mut self,
+        ode: &'s mut O,
+        stepper: &'s mut S,
+        trial: Trial<'s>,
+    ) -> Step<'s, O> {
+        self.statistics.accepted += 1;
+        let ends = Ends {
+            trial,
+            y0: &self.y0,
+            f0: &self.f0,
+            y1: &self.y1,
+            f1: &self.f1,
+        };
+        let error_norm = self.error_norm.unwrap_or(0.0);
+        Step::new(ode, stepper, ends, error_norm, &mut self.statistics)
+    }
+
+    /// Goes on from the end of the step just accepted.
+    fn advance(&mut self, trial: &Trial<'_>) {
+        std::mem::swap(&mut self.y0, &mut self.y1);
+        std::mem::swap(&mut self.f0, &mut self.f1);
+        self.t = trial.t1;
+        self.failures = 0;
+        self.last_rejection = None;
+        let h = self.control.accept(trial.h, self.error_norm.unwrap_or(0.0));
+        self.h = h.clamp(-self.options.max_step, self.options.max_step);
+    }
+
+    /// Counts a rejected trial and shortens the step.
+    fn reject(&mut self, trial: &Trial<'_>, cause: Cause<E>) {
+        self.failures += 1;
+        let statistics = &mut self.statistics;
+        self.h = match cause {
+            Cause::ErrorTest { norm } if !norm.is_nan() => {
+                statistics.rejected_by_error += 1;
+                self.control.reject(trial.h, norm)
+            }
+            Cause::RejectedByHook => {
+                statistics.rejected_by_hook += 1;
+                self.control.shorten(trial.h, FACTOR_AFTER_HOOK)
+            }
+            _ => {
+                statistics.rejected_by_failure += 1;
+                self.control.shorten(trial.h, FACTOR_AFTER_FAILURE)
+            }
+        };
+        self.last_rejection = Some(cause);
+    }
+
+    fn finish(self, end: End) -> Outcome {
+        Outcome {
+            t: self.t,
+            y: self.y0,
+            end,
+            statistics: self.statistics,
+        }
+    }
+
+    fn fail(self, error: IntegrationError<E>) -> Box<Failure<E>> {
+        Box::new(Failure {
+            error,
+            t: self.t,
+            y: self.y0,
+            statistics: self.statistics,
+        })
+    }
+}

@@ -1,0 +1,156 @@
+//! What can go wrong, by name and with numbers.
+
+use crate::statistics::Statistics;
+use std::error::Error;
+use thiserror::Error;
+
+/// Why a trial step was rejected.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Cause<E: Error + 'static> {
+    /// Error control asks for shorter steps.
+    #[error("error control (the last estimated local error is {norm:.3e} of the permitted one)")]
+    ErrorTest {
+        /// Weighted norm of the last estimated error; ≤ 1 if that step was accepted and the next one had to be shorter.
+        norm: f64,
+    },
+    /// A derivative or a new state was not finite.
+    #[error("component {component} (counted from 0) of a stage or of the new state is not finite")]
+    NonFinite {
+        /// First such component, counted from 0.
+        component: usize,
+    },
+    /// The right-hand side or the hook returned an error.
+    #[error("the problem reports: {0}")]
+    Problem(#[source] E),
+    /// The hook returned [`crate::StepEnd::Reject`].
+    #[error("the hook at the end of the step rejects it")]
+    RejectedByHook,
+}
+
+/// Why an integration could not start or go on.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum IntegrationError<E: Error + 'static> {
+    /// The initial state does not fit the problem.
+    #[error("the initial state has {found} components, the problem has {expected}")]
+    DimensionMismatch {
+        /// n of the problem.
+        expected: usize,
+        /// Length of the initial state.
+        found: usize,
+    },
+    /// The initial state has a NaN or an infinity.
+    #[error("component {component} (counted from 0) of the initial state is {value}")]
+    NonFiniteInitialState {
+        /// First such component, counted from 0.
+        component: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A time is not finite, or the interval is longer than the largest number.
+    #[error("{name} = {value} is not a time one can integrate from or to")]
+    InvalidTime {
+        /// Which time.
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
+    /// An option is outside its range.
+    #[error("{option} = {value}, expected {expected}")]
+    InvalidOption {
+        /// Name of the field.
+        option: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it should be.
+        expected: &'static str,
+    },
+    /// A list of tolerances does not fit the problem.
+    #[error("{found} values for {tolerance}, the problem has {expected} components")]
+    ToleranceLength {
+        /// `rtol` or `atol`.
+        tolerance: &'static str,
+        /// n of the problem.
+        expected: usize,
+        /// Length of the list.
+        found: usize,
+    },
+    /// An output time lies outside the interval or is out of order.
+    #[error(
+        "output time {t} (number {index}, counted from 0) is outside [{t0}, {t_end}] or out of order"
+    )]
+    InvalidOutputTime {
+        /// Position in the list, counted from 0.
+        index: usize,
+        /// The time.
+        t: f64,
+        /// Start of the interval.
+        t0: f64,
+        /// End of the interval.
+        t_end: f64,
+    },
+    /// f could not be evaluated at the start or just after a break time, where no shorter step can help.
+    #[error("f(t, y) cannot be evaluated at t = {t}, where a step has to start: {cause}")]
+    StartFailed {
+        /// The time.
+        t: f64,
+        /// Why.
+        #[source]
+        cause: Cause<E>,
+    },
+    /// The step size has become too small to go on.
+    #[error(
+        "step size collapsed at t = {t} (h = {h:.3e} after {failures} rejected trials in a row): {cause}; \
+         is there a singularity, a jump that is not declared as break time, or a tolerance that cannot be met?"
+    )]
+    StepSizeCollapsed {
+        /// Time reached.
+        t: f64,
+        /// Signed step size that was to be tried next.
+        h: f64,
+        /// Rejected trials since the last accepted step.
+        failures: u32,
+        /// Norm of the last estimated error, if any trial got so far.
+        last_error_norm: Option<f64>,
+        /// Reason of the last rejection.
+        #[source]
+        cause: Cause<E>,
+    },
+    /// `Options::max_steps` was reached.
+    #[error(
+        "{steps} steps done at t = {t} (h = {h:.3e}) and t_end not reached: raise max_steps or loosen the tolerance"
+    )]
+    TooManySteps {
+        /// Time reached.
+        t: f64,
+        /// Accepted and rejected steps.
+        steps: u64,
+        /// Signed step size that was to be tried next.
+        h: f64,
+    },
+    /// The extra evaluations for accurate output inside an accepted step failed.
+    #[error("no output at t = {t}: {cause}")]
+    OutputFailed {
+        /// The output time.
+        t: f64,
+        /// Why.
+        #[source]
+        cause: Cause<E>,
+    },
+}
+
+/// An error together with everything that had been reached before it.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[error("{error}")]
+pub struct Failure<E: Error + 'static> {
+    /// What went wrong.
+    #[source]
+    pub error: IntegrationError<E>,
+    /// Time of the last accepted step, or t0.
+    pub t: f64,
+    /// State there.
+    pub y: Vec<f64>,
+    /// Cost up to the failure.
+    pub statistics: Statistics,
+}

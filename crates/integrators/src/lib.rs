@@ -1,0 +1,39 @@
+#![doc = include_str!("../README.md")]
+//!
+//! ## Code map
+//!
+//! | module | idea |
+//! | --- | --- |
+//! | `ode` | the problem: [`Ode`], the hook at the end of a step |
+//! | `interval` | where to integrate: [`Interval`], break times, one-sided evaluation |
+//! | `options` | how to integrate: [`Options`], [`Tolerance`], [`InitialStep`] |
+//! | `method` | the choice of a method and what a method must provide |
+//! | `drive` | the loop of trials, rejections and accepted steps, shared by all methods |
+//! | `control`, `start` | step-size control and the automatic first step |
+//! | `step` | an accepted step with its dense output: [`Step`] |
+//! | `sample` | rows at given output times: [`sample()`] |
+//! | `dopri5` | Dormand–Prince 5(4): `tableau`, `step`, `dense` |
+
+#![forbid(unsafe_code)]
+
+mod control;
+mod dopri5;
+mod drive;
+mod error;
+mod interval;
+mod method;
+mod ode;
+mod options;
+mod sample;
+mod start;
+mod statistics;
+mod step;
+
+pub use error::{Cause, Failure, IntegrationError};
+pub use interval::Interval;
+pub use method::{End, Method, Outcome, integrate};
+pub use ode::{Function, Ode, StepEnd, StepInfo};
+pub use options::{InitialStep, Options, Tolerance};
+pub use sample::{OutputTimes, sample};
+pub use statistics::Statistics;
+pub use step::{OutputError, Step};

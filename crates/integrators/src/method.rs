@@ -1,0 +1,177 @@
+//! The choice of a method, and what a method has to provide for the shared loop.
+
+use crate::control::ControlConstants;
+use crate::dopri5::Dopri5;
+use crate::drive::drive;
+use crate::error::{Cause, Failure};
+use crate::interval::{Interval, Leg};
+use crate::ode::Ode;
+use crate::options::Options;
+use crate::statistics::Statistics;
+use crate::step::Step;
+use std::ops::ControlFlow;
+
+/// Explicit one-step methods.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Method {
+    /// Dormand–Prince 5(4), seven stages, the last one reused; known as `ode45`. Order 5. Dense output of order 4
+    /// (local error O(h⁵)) without and of order 5 (local error O(h⁶), like the step) with two extra evaluations in the step.
+    Dopri5,
+}
+
+/// How an integration ended without failure.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum End {
+    /// `t_end` was reached, exactly.
+    Reached,
+    /// The observer asked to stop.
+    Stopped,
+}
+
+/// Result of an integration without failure.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Outcome {
+    /// Time reached: `t_end`, or the end of the step after which the observer stopped.
+    pub t: f64,
+    /// State there.
+    pub y: Vec<f64>,
+    /// Whether `t_end` was reached.
+    pub end: End,
+    /// Cost.
+    pub statistics: Statistics,
+}
+
+/// Integrates y' = f(t, y), y(t0) = `y0` over `interval` and calls `observe` with each accepted step.
+///
+/// Memory is allocated before the first step only. If t0 = t_end nothing is evaluated and nobody is called.
+///
+/// # Errors
+///
+/// A [`Failure`] with the last good state, its time and the statistics; what `observe` has seen stays valid. Its `error` is
+/// one of [`DimensionMismatch`], [`NonFiniteInitialState`], [`InvalidTime`], [`InvalidOption`], [`ToleranceLength`] (nothing
+/// was done), [`StartFailed`], [`StepSizeCollapsed`], [`TooManySteps`].
+///
+/// [`DimensionMismatch`]: crate::IntegrationError::DimensionMismatch
+/// [`NonFiniteInitialState`]: crate::IntegrationError::NonFiniteInitialState
+/// [`InvalidTime`]: crate::IntegrationError::InvalidTime
+/// [`InvalidOption`]: crate::IntegrationError::InvalidOption
+/// [`ToleranceLength`]: crate::IntegrationError::ToleranceLength
+/// [`StartFailed`]: crate::IntegrationError::StartFailed
+/// [`StepSizeCollapsed`]: crate::IntegrationError::StepSizeCollapsed
+/// [`TooManySteps`]: crate::IntegrationError::TooManySteps
+///
+/// # Examples
+///
+/// y' = 2t from y(0) = 0 gives y(3) = 9.
+///
+/// ```
+/// use integrators::{Function, Interval, Method, Options, integrate};
+/// use std::ops::ControlFlow;
+///
+/// let mut ode = Function::new(1, |t, _y: &[f64], dy: &mut [f64]| dy[0] = 2.0 * t);
+/// let end = integrate(Method::Dopri5, &mut ode, &Interval::new(0.0, 3.0), &[0.0], &Options::default(), |_step| {
+///     ControlFlow::Continue(())
+/// })?;
+/// assert!((end.y[0] - 9.0).abs() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn integrate<O, F>(
+    method: Method,
+    ode: &mut O,
+    interval: &Interval<'_>,
+    y0: &[f64],
+    options: &Options,
+    observe: F,
+) -> Result<Outcome, Box<Failure<O::Error>>>
+where
+    O: Ode,
+    F: FnMut(&mut Step<'_, O>) -> ControlFlow<()>,
+{
+    match method {
+        Method::Dopri5 => {
+            let mut stepper = Dopri5::new(ode.dim());
+            drive(ode, &mut stepper, interval, y0, options, observe)
+        }
+    }
+}
+
+/// One trial: from t over h to t1 = t + h, inside a leg.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Trial<'a> {
+    pub(crate) leg: &'a Leg,
+    pub(crate) t: f64,
+    pub(crate) h: f64,
+    pub(crate) t1: f64,
+}
+
+impl Trial<'_> {
+    /// Time of the stage with node `c`; at break times the neighbouring number inside the leg.
+    #[inline]
+    pub(crate) fn stage_time(&self, c: f64) -> f64 {
+        let t = if c == 1.0 {
+            self.t1
+        } else {
+            self.t + c * self.h
+        };
+        self.leg.evaluation_time(t)
+    }
+}
+
+/// Both ends of an accepted step: states (after projection) and derivatives there.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Ends<'a> {
+    pub(crate) trial: Trial<'a>,
+    pub(crate) y0: &'a [f64],
+    pub(crate) f0: &'a [f64],
+    pub(crate) y1: &'a [f64],
+    pub(crate) f1: &'a [f64],
+}
+
+/// What the shared loop needs from a method: a trial step, its error, the derivative at its end.
+pub(crate) trait Stepper<O: Ode>: Dense<O> {
+    /// Order of the solution that is carried on.
+    const ORDER: i32;
+    const CONTROL: ControlConstants;
+
+    /// Computes the stages and the new state `y1`.
+    fn trial(
+        &mut self,
+        ode: &mut O,
+        trial: &Trial<'_>,
+        y0: &[f64],
+        f0: &[f64],
+        y1: &mut [f64],
+        evaluations: &mut u64,
+    ) -> Result<(), Cause<O::Error>>;
+
+    /// Weighted norm of the estimated error of the last trial.
+    fn error_norm(&self, h: f64, f0: &[f64], scale: &[f64]) -> f64;
+
+    /// Writes the derivative at the end of the last trial to `f1`, for a state that the hook has left unchanged.
+    fn end_derivative(
+        &mut self,
+        ode: &mut O,
+        trial: &Trial<'_>,
+        y1: &[f64],
+        f1: &mut [f64],
+        evaluations: &mut u64,
+    ) -> Result<(), Cause<O::Error>>;
+}
+
+/// What dense output needs from a method; object-safe, so that [`Step`] need not name the method.
+pub(crate) trait Dense<O: Ode> {
+    /// Without further evaluations.
+    fn interpolate(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]);
+
+    /// Extra evaluations for [`Dense::interpolate_accurately`], once in an accepted step.
+    fn prepare(
+        &mut self,
+        ode: &mut O,
+        ends: &Ends<'_>,
+        evaluations: &mut u64,
+    ) -> Result<(), Cause<O::Error>>;
+
+    /// As accurate as the step itself; needs [`Dense::prepare`].
+    fn interpolate_accurately(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]);
+}

@@ -1,0 +1,113 @@
+//! The problem y' = f(t, y) as the caller states it, with a hook at the end of each step.
+//!
+//! Not here: tolerances and limits (`options`), the time span and its break times (`interval`).
+
+use std::convert::Infallible;
+use std::error::Error;
+
+/// An ordinary differential equation `y' = f(t, y)`, y ∈ ℝⁿ.
+pub trait Ode {
+    /// Why f or the hook cannot be evaluated. A trial step that meets an error is rejected and repeated with a shorter
+    /// step; the error reaches the caller only when shortening does not help.
+    type Error: Error + 'static;
+
+    /// Number n of components of y.
+    fn dim(&self) -> usize;
+
+    /// Writes f(t, y) to `dy`; `y` and `dy` have length n.
+    ///
+    /// # Errors
+    ///
+    /// The problem's own. Non-finite values need no error: they are found and treated alike.
+    fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Error>;
+
+    /// Called after a trial step has passed the error test, before it is accepted. May move `y` onto a manifold.
+    ///
+    /// | argument | length | meaning |
+    /// | --- | --- | --- |
+    /// | `step` | – | where the step began and ended, its estimated error and the error weights |
+    /// | `y` | n | on entry the result of the step; may be changed if [`StepEnd::Projected`] is returned |
+    /// | `dy` | n | on entry unspecified; must hold f([`StepInfo::t_rhs`], `y`) if `Projected` is returned |
+    ///
+    /// # Errors
+    ///
+    /// The problem's own; the trial step is then rejected.
+    fn end_of_step(
+        &mut self,
+        step: &StepInfo<'_>,
+        y: &mut [f64],
+        dy: &mut [f64],
+    ) -> Result<StepEnd, Self::Error> {
+        let _ = (step, y, dy);
+        Ok(StepEnd::Unchanged)
+    }
+}
+
+/// What [`Ode::end_of_step`] may know about the step it judges.
+#[derive(Debug, Clone, Copy)]
+pub struct StepInfo<'a> {
+    /// Time at the start of the step.
+    pub t0: f64,
+    /// Time at the end of the step.
+    pub t: f64,
+    /// Time at which to evaluate f at the end of the step: `t`, except at a break time, where it is the
+    /// neighbouring floating-point number inside the step, so that f has its value from this side.
+    pub t_rhs: f64,
+    /// Estimated local error in the weighted norm; at most 1.
+    pub error_norm: f64,
+    /// Weights of the norm, `atol + rtol·max(|y0|, |y1|)` per component, length n.
+    pub scale: &'a [f64],
+}
+
+impl StepInfo<'_> {
+    /// Weighted root mean square `√(1/n · Σ (d_i / scale_i)²)`: the norm in which the local error must stay below 1.
+    /// A projection whose correction is of the order 1 in this norm is as large as the permitted error.
+    #[must_use]
+    pub fn norm(&self, d: &[f64]) -> f64 {
+        crate::control::weighted_rms(d, self.scale)
+    }
+}
+
+/// What [`Ode::end_of_step`] did.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StepEnd {
+    /// `y` was left as it was.
+    Unchanged,
+    /// `y` was changed and `dy` holds f at the new `y`.
+    Projected {
+        /// Size of the change in the norm of [`StepInfo::norm`]; the largest one is kept in the statistics.
+        correction: f64,
+        /// Evaluations of f spent, usually 1; added to `Statistics::hook_evaluations`.
+        evaluations: u64,
+    },
+    /// The step is not to be trusted, for instance because the correction is large compared with the permitted error;
+    /// it is repeated with half the size.
+    Reject,
+}
+
+/// An [`Ode`] without errors and without hook, made from a closure `f(t, y, dy)`.
+#[derive(Debug, Clone)]
+pub struct Function<F> {
+    dim: usize,
+    f: F,
+}
+
+impl<F: FnMut(f64, &[f64], &mut [f64])> Function<F> {
+    /// `dim` components; `f` writes f(t, y) to its third argument.
+    pub fn new(dim: usize, f: F) -> Self {
+        Self { dim, f }
+    }
+}
+
+impl<F: FnMut(f64, &[f64], &mut [f64])> Ode for Function<F> {
+    type Error = Infallible;
+
+    fn dim(&self) -> usize {
+        self.dim
+    }
+
+    fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Infallible> {
+        (self.f)(t, y, dy);
+        Ok(())
+    }
+}

@@ -1,0 +1,39 @@
+//! What an integration has cost.
+
+/// Counts of one integration, complete also after a failure.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Statistics {
+    /// Evaluations of f for the steps: starts, restarts at break times, stages, rejected trials included.
+    pub evaluations: u64,
+    /// Evaluations of f for dense output only.
+    pub output_evaluations: u64,
+    /// Evaluations of f reported by [`crate::Ode::end_of_step`].
+    pub hook_evaluations: u64,
+    /// Accepted steps.
+    pub accepted: u64,
+    /// Trials rejected because the estimated error was too large.
+    pub rejected_by_error: u64,
+    /// Trials rejected because f or the hook failed or a value was not finite.
+    pub rejected_by_failure: u64,
+    /// Trials rejected by [`crate::StepEnd::Reject`].
+    pub rejected_by_hook: u64,
+    /// Accepted steps that were projected.
+    pub projections: u64,
+    /// Largest reported correction of an accepted step.
+    pub largest_correction: f64,
+}
+
+impl Statistics {
+    /// Rejected trials for whatever reason.
+    #[must_use]
+    pub fn rejected(&self) -> u64 {
+        self.rejected_by_error + self.rejected_by_failure + self.rejected_by_hook
+    }
+
+    /// All evaluations of f: for steps, in the hook and for output.
+    #[must_use]
+    pub fn total_evaluations(&self) -> u64 {
+        self.evaluations + self.hook_evaluations + self.output_evaluations
+    }
+}

@@ -1,0 +1,191 @@
+//! An accepted step as the observer sees it: both ends and the solution between them.
+
+use crate::error::Cause;
+use crate::method::{Dense, Ends};
+use crate::ode::Ode;
+use crate::statistics::Statistics;
+use std::error::Error;
+use thiserror::Error;
+
+/// Why the dense output of a step gave no value.
+#[derive(Debug, Clone, PartialEq, Error)]
+#[non_exhaustive]
+pub enum OutputError<E: Error + 'static> {
+    /// Dense output does not extrapolate.
+    #[error("t = {t} lies outside the step from {t0} to {t1}")]
+    OutsideStep {
+        /// Time asked for.
+        t: f64,
+        /// Start of the step.
+        t0: f64,
+        /// End of the step.
+        t1: f64,
+    },
+    /// `out` does not have the length of the state.
+    #[error("room for {found} components, the state has {expected}")]
+    Length {
+        /// n.
+        expected: usize,
+        /// Length of `out`.
+        found: usize,
+    },
+    /// An extra evaluation failed.
+    #[error("extra evaluation for output: {0}")]
+    Evaluation(#[source] Cause<E>),
+}
+
+/// An accepted step from (t0, y0) to (t1, y1), y1 after projection by the hook.
+///
+/// Both dense outputs give y0 at t0 and y1 at t1 bit for bit, have the derivatives f(t0, y0) and f(t1, y1) there, and are
+/// therefore continuously differentiable over all steps between two break times, with and without projection.
+/// Between the ends they lie on no manifold: project what is written.
+pub struct Step<'a, O: Ode> {
+    ode: &'a mut O,
+    dense: &'a mut dyn Dense<O>,
+    ends: Ends<'a>,
+    error_norm: f64,
+    statistics: &'a mut Statistics,
+    is_prepared: bool,
+}
+
+impl<'a, O: Ode> Step<'a, O> {
+    pub(crate) fn new(
+        ode: &'a mut O,
+        dense: &'a mut dyn Dense<O>,
+        ends: Ends<'a>,
+        error_norm: f64,
+        statistics: &'a mut Statistics,
+    ) -> Self {
+        Self {
+            ode,
+            dense,
+            ends,
+            error_norm,
+            statistics,
+            is_prepared: false,
+        }
+    }
+
+    /// Time at the start.
+    #[must_use]
+    pub fn t0(&self) -> f64 {
+        self.ends.trial.t
+    }
+
+    /// Time at the end.
+    #[must_use]
+    pub fn t1(&self) -> f64 {
+        self.ends.trial.t1
+    }
+
+    /// State at the start.
+    #[must_use]
+    pub fn y0(&self) -> &'a [f64] {
+        self.ends.y0
+    }
+
+    /// State at the end, after projection.
+    #[must_use]
+    pub fn y1(&self) -> &'a [f64] {
+        self.ends.y1
+    }
+
+    /// Derivative at the start; at a break time the one of this side.
+    #[must_use]
+    pub fn f0(&self) -> &'a [f64] {
+        self.ends.f0
+    }
+
+    /// Derivative at the end, of the projected state; at a break time the one of this side.
+    #[must_use]
+    pub fn f1(&self) -> &'a [f64] {
+        self.ends.f1
+    }
+
+    /// Weighted norm of the estimated local error, at most 1.
+    #[must_use]
+    pub fn error_norm(&self) -> f64 {
+        self.error_norm
+    }
+
+    /// Counts so far, this step included.
+    #[must_use]
+    pub fn statistics(&self) -> &Statistics {
+        self.statistics
+    }
+
+    /// The problem, for what an observer computes with it.
+    pub fn ode(&mut self) -> &mut O {
+        self.ode
+    }
+
+    /// Writes y(t) to `out` (length n) without evaluating f; one order less than the steps. For pictures and for finding
+    /// events.
+    ///
+    /// # Errors
+    ///
+    /// [`OutputError::OutsideStep`], [`OutputError::Length`].
+    pub fn interpolate(&self, t: f64, out: &mut [f64]) -> Result<(), OutputError<O::Error>> {
+        match self.locate(t, out)? {
+            Place::Start => out.copy_from_slice(self.ends.y0),
+            Place::End => out.copy_from_slice(self.ends.y1),
+            Place::Inside { theta } => self.dense.interpolate(&self.ends, theta, out),
+        }
+        Ok(())
+    }
+
+    /// Writes y(t) to `out` (length n), as accurate as the steps. The first call inside a step makes extra evaluations of
+    /// f; further calls in the same step, and calls at its ends, make none.
+    ///
+    /// # Errors
+    ///
+    /// [`OutputError::OutsideStep`], [`OutputError::Length`]; [`OutputError::Evaluation`] if f fails.
+    pub fn interpolate_accurately(
+        &mut self,
+        t: f64,
+        out: &mut [f64],
+    ) -> Result<(), OutputError<O::Error>> {
+        match self.locate(t, out)? {
+            Place::Start => out.copy_from_slice(self.ends.y0),
+            Place::End => out.copy_from_slice(self.ends.y1),
+            Place::Inside { theta } => {
+                if !self.is_prepared {
+                    let count = &mut self.statistics.output_evaluations;
+                    self.dense
+                        .prepare(self.ode, &self.ends, count)
+                        .map_err(OutputError::Evaluation)?;
+                    self.is_prepared = true;
+                }
+                self.dense.interpolate_accurately(&self.ends, theta, out);
+            }
+        }
+        Ok(())
+    }
+
+    fn locate(&self, t: f64, out: &[f64]) -> Result<Place, OutputError<O::Error>> {
+        let (t0, t1) = (self.t0(), self.t1());
+        if out.len() != self.ends.y0.len() {
+            return Err(OutputError::Length {
+                expected: self.ends.y0.len(),
+                found: out.len(),
+            });
+        }
+        if t == t0 {
+            return Ok(Place::Start);
+        }
+        if t == t1 {
+            return Ok(Place::End);
+        }
+        if t0.min(t1) < t && t < t0.max(t1) {
+            let theta = (t - t0) / self.ends.trial.h;
+            return Ok(Place::Inside { theta });
+        }
+        Err(OutputError::OutsideStep { t, t0, t1 })
+    }
+}
+
+enum Place {
+    Start,
+    Inside { theta: f64 },
+    End,
+}

@@ -1,0 +1,32 @@
+//! Memory is allocated at the start only.
+
+use crate::problems::kepler;
+use integrators::{Function, Interval, Method, Options, OutputTimes, sample};
+use std::ops::ControlFlow;
+
+#[test]
+fn the_number_of_allocations_does_not_depend_on_the_length() {
+    let count = |t_end: f64| {
+        let mut ode = Function::new(4, kepler);
+        let (interval, options) = (Interval::new(0.0, t_end), Options::default());
+        let times = OutputTimes::Every(0.1);
+        let mut accepted = 0;
+        let info = allocation_counter::measure(|| {
+            let y0 = [1.0, 0.0, 0.0, 1.1];
+            let end = sample(
+                Method::Dopri5,
+                &mut ode,
+                &interval,
+                &y0,
+                &options,
+                &times,
+                |_, _, _| ControlFlow::Continue(()),
+            );
+            accepted = end.expect("smooth problem").statistics.accepted;
+        });
+        (info.count_total, accepted)
+    };
+    let (short, long) = (count(1.0), count(100.0));
+    assert!(long.1 > 10 * short.1, "{short:?} {long:?}");
+    assert_eq!(short.0, long.0);
+}

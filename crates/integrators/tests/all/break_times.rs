@@ -1,0 +1,127 @@
+//! Kinks and jumps of f, declared and not.
+
+use crate::problems::run;
+use integrators::{Function, Interval, Method, Options, integrate};
+use std::ops::ControlFlow;
+
+const DECLARED: [f64; 1] = [1.0];
+
+/// y' = |t − 1|: y(2) = 1 from 0, a polynomial on either side.
+fn kink(t: f64, _y: &[f64], dy: &mut [f64]) {
+    dy[0] = (t - 1.0).abs();
+}
+
+/// y' = −y before t = 1, +y from t = 1 on: y(2) = 1 from 1.
+fn jump_with_less(t: f64, y: &[f64], dy: &mut [f64]) {
+    dy[0] = if t < 1.0 { -y[0] } else { y[0] };
+}
+
+/// The same, with the value at t = 1 taken from the other side.
+fn jump_with_less_or_equal(t: f64, y: &[f64], dy: &mut [f64]) {
+    dy[0] = if t <= 1.0 { -y[0] } else { y[0] };
+}
+
+fn interval(break_times: &[f64]) -> Interval<'_> {
+    Interval {
+        t0: 0.0,
+        t_end: 2.0,
+        break_times,
+    }
+}
+
+#[test]
+fn declared_kink_costs_nothing_and_is_exact() {
+    let options = Options::default();
+    let with = run(
+        &mut Function::new(1, kink),
+        &interval(&DECLARED),
+        &[0.0],
+        &options,
+    );
+    let without = run(
+        &mut Function::new(1, kink),
+        &interval(&[]),
+        &[0.0],
+        &options,
+    );
+    // Order 5 integrates a linear f exactly; what is left is rounding.
+    assert!((with.y[0] - 1.0).abs() < 1e-14, "{}", with.y[0]);
+    assert_eq!(with.statistics.rejected(), 0);
+    assert!(without.statistics.rejected() > 0);
+    assert!((without.y[0] - 1.0).abs() > 1e-14);
+    assert!((without.y[0] - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn declared_jump_needs_no_rejection_on_either_side() {
+    let options = Options::default();
+    let run = |f: fn(f64, &[f64], &mut [f64]), breaks: &[f64]| {
+        run(
+            &mut Function::new(1, f),
+            &interval(breaks),
+            &[1.0],
+            &options,
+        )
+    };
+    let less = run(jump_with_less, &DECLARED);
+    let less_or_equal = run(jump_with_less_or_equal, &DECLARED);
+    assert_eq!(less, less_or_equal);
+    assert_eq!(less.statistics.rejected(), 0);
+    assert!((less.y[0] - 1.0).abs() < 1e-8, "{}", less.y[0]);
+    let undeclared = run(jump_with_less, &[]);
+    assert!(undeclared.statistics.rejected() > 5);
+    assert!(undeclared.statistics.evaluations > less.statistics.evaluations);
+}
+
+#[test]
+fn declared_jump_backwards() {
+    let back = Interval {
+        t0: 2.0,
+        t_end: 0.0,
+        break_times: &DECLARED,
+    };
+    let end = run(
+        &mut Function::new(1, jump_with_less),
+        &back,
+        &[1.0],
+        &Options::default(),
+    );
+    assert_eq!(end.statistics.rejected(), 0);
+    assert!((end.y[0] - 1.0).abs() < 1e-8, "{}", end.y[0]);
+}
+
+#[test]
+fn steps_end_exactly_at_break_times_and_the_end() {
+    let breaks = [1.7, 0.1 + 0.2, -3.0, 1.1, 5.0, 1.1];
+    let mut ends = Vec::new();
+    let mut ode = Function::new(1, |_t, y: &[f64], dy: &mut [f64]| dy[0] = -y[0]);
+    let end = integrate(
+        Method::Dopri5,
+        &mut ode,
+        &interval(&breaks),
+        &[1.0],
+        &Options::default(),
+        |step| {
+            ends.push(step.t1());
+            ControlFlow::Continue(())
+        },
+    )
+    .expect("smooth problem");
+    for t in [0.1 + 0.2, 1.1, 1.7, 2.0] {
+        assert!(ends.contains(&t), "{t} in {ends:?}");
+    }
+    assert_eq!(end.t, 2.0);
+    assert!(ends.is_sorted());
+}
+
+#[test]
+fn neighbouring_break_times_are_passed() {
+    let breaks = [1.0, 1.0_f64.next_up(), 1.0_f64.next_up().next_up()];
+    let end = run(
+        &mut Function::new(1, kink),
+        &interval(&breaks),
+        &[0.0],
+        &Options::default(),
+    );
+    assert!((end.y[0] - 1.0).abs() < 1e-14, "{}", end.y[0]);
+}

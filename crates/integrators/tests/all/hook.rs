@@ -1,0 +1,206 @@
+//! Projection at the end of steps.
+
+use crate::problems::{WEIGHT, distance, fixed_step, observed_orders};
+use integrators::{
+    Cause, IntegrationError, Interval, Method, Ode, Options, Outcome, StepEnd, StepInfo, integrate,
+};
+use std::convert::Infallible;
+use std::ops::ControlFlow;
+
+/// The harmonic oscillator, kept on the unit circle; rejects corrections above `limit` in the norm of the error.
+struct Circle {
+    limit: f64,
+}
+
+impl Ode for Circle {
+    type Error = Infallible;
+
+    fn dim(&self) -> usize {
+        2
+    }
+
+    fn rhs(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Infallible> {
+        dy.copy_from_slice(&[y[1], -y[0]]);
+        Ok(())
+    }
+
+    fn end_of_step(
+        &mut self,
+        step: &StepInfo<'_>,
+        y: &mut [f64],
+        dy: &mut [f64],
+    ) -> Result<StepEnd, Infallible> {
+        let radius = y[0].hypot(y[1]);
+        let projected = [y[0] / radius, y[1] / radius];
+        let correction = step.norm(&[projected[0] - y[0], projected[1] - y[1]]);
+        if correction > self.limit {
+            return Ok(StepEnd::Reject);
+        }
+        y.copy_from_slice(&projected);
+        self.rhs(step.t_rhs, y, dy)?;
+        Ok(StepEnd::Projected {
+            correction,
+            evaluations: 1,
+        })
+    }
+}
+
+/// Rounding of y/|y|.
+const ON_CIRCLE: f64 = 4.0 * f64::EPSILON;
+
+fn circle(t_end: f64, options: &Options) -> Outcome {
+    let mut ode = Circle {
+        limit: f64::INFINITY,
+    };
+    let mut previous: Option<([f64; 2], [f64; 2])> = None;
+    integrate(
+        Method::Dopri5,
+        &mut ode,
+        &Interval::new(0.0, t_end),
+        &[1.0, 0.0],
+        options,
+        |step| {
+            let (y1, f1) = ([step.y1()[0], step.y1()[1]], [step.f1()[0], step.f1()[1]]);
+            assert!((y1[0].hypot(y1[1]) - 1.0).abs() < ON_CIRCLE);
+            // The derivative belongs to the projected state and is the first stage of the next step.
+            assert_eq!(f1, [y1[1], -y1[0]]);
+            if let Some((y, f)) = previous.replace((y1, f1)) {
+                assert_eq!((&y[..], &f[..]), (step.y0(), step.f0()));
+            }
+            ControlFlow::Continue(())
+        },
+    )
+    .expect("smooth problem")
+}
+
+#[test]
+fn states_stay_on_the_circle_and_the_derivative_is_reused() {
+    let end = circle(20.0, &Options::with_tolerance(1e-6, 1e-6));
+    let s = end.statistics;
+    assert_eq!(
+        (s.projections, s.hook_evaluations),
+        (s.accepted, s.accepted)
+    );
+    // f at the start, once for the first step size, six stages for every trial.
+    assert_eq!(s.evaluations, 2 + 6 * (s.accepted + s.rejected()));
+    assert!(s.largest_correction > 0.0 && s.largest_correction < 1.0);
+    assert!(distance(&end.y, &[20.0_f64.cos(), -20.0_f64.sin()]) < 1e-4);
+}
+
+/// For q'' = −q a step of size h multiplies q − i·v by R(ih), R(z) = 1 + z + … + z⁵/120 + z⁶/600 being the stability function of the
+/// method (Hairer, Wanner II, IV.2); projection leaves the angle of R(ih) only, whose error is of order 6.
+#[test]
+fn projected_steps_turn_by_the_angle_of_the_stability_function() {
+    const ROUNDING: f64 = 1e-13; // some hundred steps
+    let errors = [16.0, 32.0, 64.0].map(|n: f64| {
+        let h = 4.0 / n;
+        let y = circle(4.0, &fixed_step(h)).y;
+        let re = 1.0 - h.powi(2) / 2.0 + h.powi(4) / 24.0 - h.powi(6) / 600.0;
+        let im = h - h.powi(3) / 6.0 + h.powi(5) / 120.0;
+        let angle = n * im.atan2(re);
+        assert!(distance(&y, &[angle.cos(), -angle.sin()]) < ROUNDING);
+        distance(&y, &[4.0_f64.cos(), -4.0_f64.sin()])
+    });
+    let orders = observed_orders(&errors);
+    assert!(
+        orders.iter().all(|p| (p - 6.0).abs() < 0.1),
+        "{errors:?} {orders:?}"
+    );
+}
+
+/// The largest gap of value and slope of the dense outputs at step ends, by one-sided differences inside the steps.
+#[test]
+fn dense_output_passes_smoothly_through_projected_states() {
+    let mut ode = Circle {
+        limit: f64::INFINITY,
+    };
+    let options = fixed_step(1.25); // large corrections, (1/600 − 1/720)·h⁶ ≈ 1e-3
+    let mut y = [[0.0; 2]; 2];
+    let end = integrate(
+        Method::Dopri5,
+        &mut ode,
+        &Interval::new(0.0, 10.0),
+        &[1.0, 0.0],
+        &options,
+        |step| {
+            let small = 1e-6 * (step.t1() - step.t0());
+            let (start, end) = (step.t0() + small, step.t1() - small);
+            for accurate in 0..2 {
+                if accurate == 0 {
+                    step.interpolate(start, &mut y[0]).expect("inside");
+                    step.interpolate(end, &mut y[1]).expect("inside");
+                } else {
+                    step.interpolate_accurately(start, &mut y[0])
+                        .expect("inside");
+                    step.interpolate_accurately(end, &mut y[1]).expect("inside");
+                }
+                for i in 0..2 {
+                    let slope_0 = (y[0][i] - step.y0()[i]) / (start - step.t0());
+                    let slope_1 = (step.y1()[i] - y[1][i]) / (step.t1() - end);
+                    // Differences over 1e-6 of a step: truncation 1e-6, rounding 1e-16/1e-6.
+                    assert!((slope_0 - step.f0()[i]).abs() < 1e-5);
+                    assert!((slope_1 - step.f1()[i]).abs() < 1e-5);
+                }
+            }
+            for (t, ends) in [(step.t0(), step.y0()), (step.t1(), step.y1())] {
+                step.interpolate(t, &mut y[0]).expect("an end");
+                step.interpolate_accurately(t, &mut y[1]).expect("an end");
+                assert_eq!((ends, ends), (&y[0][..], &y[1][..]));
+            }
+            ControlFlow::Continue(())
+        },
+    )
+    .expect("smooth problem");
+    // Otherwise the slopes would agree without any care.
+    assert!(
+        WEIGHT * end.statistics.largest_correction > 1e-4,
+        "{:?}",
+        end.statistics
+    );
+}
+
+#[test]
+fn rejection_by_the_hook_halves_the_step() {
+    let interval = Interval::new(0.0, 10.0);
+    let options = Options::with_tolerance(1e-3, 1e-3);
+    let free = circle(10.0, &options).statistics;
+    let limit = 0.5 * free.largest_correction;
+    let mut ode = Circle { limit };
+    let end = integrate(
+        Method::Dopri5,
+        &mut ode,
+        &interval,
+        &[1.0, 0.0],
+        &options,
+        |_| ControlFlow::Continue(()),
+    )
+    .expect("shorter steps have smaller corrections");
+    let s = end.statistics;
+    assert!(
+        s.rejected_by_hook > 0 && s.largest_correction <= limit,
+        "{s:?}"
+    );
+    assert!(s.accepted > free.accepted);
+
+    let mut ode = Circle { limit: -1.0 };
+    let failure = integrate(
+        Method::Dopri5,
+        &mut ode,
+        &interval,
+        &[1.0, 0.0],
+        &options,
+        |_| ControlFlow::Continue(()),
+    )
+    .expect_err("no step is good enough");
+    assert!(
+        matches!(
+            failure.error,
+            IntegrationError::StepSizeCollapsed {
+                cause: Cause::RejectedByHook,
+                ..
+            }
+        ),
+        "{failure}"
+    );
+    assert_eq!((failure.t, &failure.y[..]), (0.0, &[1.0, 0.0][..]));
+}

@@ -1,0 +1,11 @@
+//! Behaviour of the integrators on problems with known answers.
+
+mod allocations;
+mod arenstorf;
+mod break_times;
+mod failures;
+mod hook;
+mod kepler;
+mod order;
+mod output;
+mod problems;

@@ -1,0 +1,9 @@
+force! { plane BodyPointForce(i) {
+    /// A force with given components in the frame of the body at point `s` of the body.
+    params { s: Point in i, force: [Function<Force>, Function<Force>] }
+    scene "point-force";
+    variant frame = "body";
+    let f = vector(i, [force[0], force[1]]);
+    force: f[0] on point(i, s)[0];
+    force: f[1] on point(i, s)[1];
+} }

@@ -1,0 +1,14 @@
+joint! { plane Fixed(i, j) {
+    /// Point `s_j` of body j keeps its initial place in body i, and the relative angle keeps its initial value.
+    params { s_i: Point in i, s_j: Point in j }
+    initial {
+        offset: Vector in i = local(i, point(j, s_j) - point(i, s_i)),
+        angle_0: Angle = angle(j) - angle(i),
+    }
+    rows: [x, y, angle];
+    phi: [
+        point(i, s_i) + vector(i, offset) - point(j, s_j),
+        angle(j) - angle(i) - angle_0,
+    ];
+    place: point(i, s_i);
+} }

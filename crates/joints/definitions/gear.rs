@@ -1,0 +1,9 @@
+joint! { plane Gear(i, j, carrier) {
+    /// Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The
+    /// ratio of an external mesh is negative.
+    params { ratio: Ratio }
+    initial { phase: Angle = angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) }
+    rows: [mesh];
+    phi: angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) - phase;
+    place: origin(i);
+} }

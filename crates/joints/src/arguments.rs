@@ -1,0 +1,230 @@
+//! Values for the parameters of a definition, checked against its [`Parameter`] list in one place, so that a
+//! kernel never meets a direction without length or a negative stiffness.
+
+use std::fmt;
+
+use crate::plane::{Direction, Line};
+use crate::spec::{Parameter, Shape};
+
+/// One value, in the order of the definition's parameters.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Argument {
+    /// A point or a vector that becomes a direction.
+    Pair([f64; 2]),
+    /// Two points.
+    Pairs([[f64; 2]; 2]),
+    /// One number, or as many as the parameter has.
+    Numbers(Vec<f64>),
+    /// Not given: the parameter has a default, or is a function of time that travels separately.
+    Absent,
+}
+
+/// What is wrong with the values given to a definition.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum ArgumentError {
+    /// The number of values differs from the number of parameters.
+    Count {
+        /// Number of parameters of the definition.
+        expected: usize,
+        /// Number of values given.
+        found: usize,
+    },
+    /// A value is missing and the parameter has no default.
+    Missing {
+        /// Name of the parameter.
+        parameter: &'static str,
+    },
+    /// A value has another shape than the parameter.
+    Shape {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// What the parameter takes.
+        expected: Shape,
+    },
+    /// A number is NaN or infinite.
+    NotFinite {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// A number that may not be negative is.
+    Negative {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// A direction of length zero, or a line through two equal points.
+    NoDirection {
+        /// Name of the parameter.
+        parameter: &'static str,
+        /// The vector whose direction is wanted.
+        vector: [f64; 2],
+    },
+}
+
+impl ArgumentError {
+    /// The parameter at fault, if it is one.
+    #[must_use]
+    pub fn parameter(&self) -> Option<&'static str> {
+        match self {
+            Self::Count { .. } => None,
+            Self::Missing { parameter }
+            | Self::Shape { parameter, .. }
+            | Self::NotFinite { parameter, .. }
+            | Self::Negative { parameter, .. }
+            | Self::NoDirection { parameter, .. } => Some(parameter),
+        }
+    }
+}
+
+impl fmt::Display for ArgumentError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Count { expected, found } => {
+                write!(f, "{found} values given, the definition has {expected} parameters")
+            }
+            Self::Missing { parameter } => write!(f, "`{parameter}` is missing"),
+            Self::Shape { parameter, expected } => write!(f, "`{parameter}` must be {expected}"),
+            Self::NotFinite { parameter, value } => {
+                write!(f, "`{parameter}` is {value}, need finite numbers")
+            }
+            Self::Negative { parameter, value } => {
+                write!(f, "`{parameter}` is {value}, need a number ≥ 0")
+            }
+            Self::NoDirection { parameter, vector: [x, y] } => write!(
+                f,
+                "`{parameter}` has no direction: the vector is ({x}, {y}), of length zero"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ArgumentError {}
+
+/// Reads checked values one after the other; used by generated constructors.
+pub struct Reader<'a> {
+    parameters: &'static [Parameter],
+    arguments: &'a [Argument],
+    next: usize,
+}
+
+impl<'a> Reader<'a> {
+    /// A reader of `arguments` for `parameters`.
+    ///
+    /// # Errors
+    /// [`ArgumentError::Count`] if the numbers differ.
+    pub fn new(
+        parameters: &'static [Parameter],
+        arguments: &'a [Argument],
+    ) -> Result<Self, ArgumentError> {
+        match parameters.len() == arguments.len() {
+            true => Ok(Self { parameters, arguments, next: 0 }),
+            false => Err(ArgumentError::Count {
+                expected: parameters.len(),
+                found: arguments.len(),
+            }),
+        }
+    }
+
+    fn take(&mut self) -> (&'static Parameter, &'a Argument) {
+        let at = self.next;
+        self.next += 1;
+        (&self.parameters[at], &self.arguments[at])
+    }
+
+    /// Passes over a parameter that is a function of time.
+    pub fn skip(&mut self) {
+        self.next += 1;
+    }
+
+    /// The next value, a point.
+    ///
+    /// # Errors
+    /// If it is missing, of another shape or not finite.
+    pub fn point(&mut self) -> Result<[f64; 2], ArgumentError> {
+        let (parameter, argument) = self.take();
+        let Argument::Pair(p) = argument else { return Err(mismatch(parameter, argument)) };
+        finite(parameter, p)?;
+        Ok(*p)
+    }
+
+    /// The next value, a direction, normalised here.
+    ///
+    /// # Errors
+    /// If it is missing, of another shape, not finite or of length zero.
+    pub fn direction(&mut self) -> Result<Direction, ArgumentError> {
+        let (parameter, argument) = self.take();
+        let Argument::Pair(v) = argument else { return Err(mismatch(parameter, argument)) };
+        finite(parameter, v)?;
+        Direction::new(*v)
+            .ok_or(ArgumentError::NoDirection { parameter: parameter.name, vector: *v })
+    }
+
+    /// The next value, a line of the ground.
+    ///
+    /// # Errors
+    /// If it is missing, of another shape, not finite, or its points coincide.
+    pub fn line(&mut self) -> Result<Line, ArgumentError> {
+        let (parameter, argument) = self.take();
+        let Argument::Pairs([a, b]) = argument else { return Err(mismatch(parameter, argument)) };
+        finite(parameter, a)?;
+        finite(parameter, b)?;
+        Line::new(*a, *b).ok_or(ArgumentError::NoDirection {
+            parameter: parameter.name,
+            vector: [b[0] - a[0], b[1] - a[1]],
+        })
+    }
+
+    /// The next value, `N` numbers.
+    ///
+    /// # Errors
+    /// If it is missing, of another count, not finite, or negative where that is not allowed.
+    pub fn numbers<const N: usize>(&mut self) -> Result<[f64; N], ArgumentError> {
+        let (parameter, argument) = self.take();
+        let Argument::Numbers(values) = argument else {
+            return Err(mismatch(parameter, argument));
+        };
+        let Ok(values) = <[f64; N]>::try_from(values.as_slice()) else {
+            return Err(mismatch(parameter, argument));
+        };
+        finite(parameter, &values)?;
+        let Shape::Numbers(units) = parameter.shape else {
+            return Err(mismatch(parameter, argument));
+        };
+        for (&value, unit) in values.iter().zip(units) {
+            if value < 0.0 && !unit.may_be_negative() {
+                return Err(ArgumentError::Negative { parameter: parameter.name, value });
+            }
+        }
+        Ok(values)
+    }
+
+    /// The next value, one number that may be absent.
+    ///
+    /// # Errors
+    /// As [`Reader::numbers`], but not if it is missing.
+    pub fn optional_number(&mut self) -> Result<Option<f64>, ArgumentError> {
+        if self.arguments[self.next] == Argument::Absent {
+            self.next += 1;
+            return Ok(None);
+        }
+        self.numbers::<1>().map(|[x]| Some(x))
+    }
+}
+
+fn mismatch(parameter: &'static Parameter, argument: &Argument) -> ArgumentError {
+    match argument {
+        Argument::Absent => ArgumentError::Missing { parameter: parameter.name },
+        _ => ArgumentError::Shape { parameter: parameter.name, expected: parameter.shape },
+    }
+}
+
+fn finite(parameter: &'static Parameter, values: &[f64]) -> Result<(), ArgumentError> {
+    match values.iter().find(|x| !x.is_finite()) {
+        Some(&value) => Err(ArgumentError::NotFinite { parameter: parameter.name, value }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,32 @@
+#![doc = include_str!("../README.md")]
+//!
+//! # Code map
+//!
+//! | module | content |
+//! | --- | --- |
+//! | [`ring`] | the number types kernels run on |
+//! | [`plane`] | poses and twists of planar bodies |
+//! | [`spec`] | what a definition says of itself: rows, parameters, patterns, counts |
+//! | [`arguments`] | values for the parameters of a definition |
+//! | [`constraint`] | the traits of constraints, static and as objects |
+//! | [`force`] | the same for forces |
+//! | [`visitor`] | all definitions, one after the other, with their types |
+//! | [`generated`] | one module for each file in `definitions/` |
+
+pub mod arguments;
+pub mod constraint;
+pub mod force;
+pub mod generated;
+pub mod plane;
+pub mod ring;
+pub mod spec;
+pub mod visitor;
+
+pub use arguments::{Argument, ArgumentError};
+pub use constraint::{Constraint, Element};
+pub use force::{Force, ForceElement};
+pub use generated::{plane_constraints, plane_forces};
+pub use plane::{Direction, Line, Pose, Twist};
+pub use ring::{Real, Ring};
+pub use spec::{ConstraintSpec, ForceSpec};
+pub use visitor::Visitor;

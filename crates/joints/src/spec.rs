@@ -1,0 +1,296 @@
+//! What a definition says of itself, as constants of the generated code: enough for a scene reader, an
+//! assembler and a report to treat a joint that they have never heard of.
+
+use std::fmt;
+
+/// Facts common to constraints and forces.
+#[derive(Clone, Copy, Debug)]
+pub struct Spec {
+    /// Name of the definition, for example `PinInSlot`.
+    pub name: &'static str,
+    /// Value of `type` in a scene file, for example `pin-in-slot`.
+    pub scene_type: &'static str,
+    /// Several definitions may share a scene type and differ by the value of one key.
+    pub variant: Option<Variant>,
+    /// The definition's doc comment.
+    pub doc: &'static str,
+    /// The definition's own text.
+    pub text: &'static str,
+    /// Names of the body slots, for example `["i", "j"]`.
+    pub slots: &'static [&'static str],
+    /// Parameters, in the order of their arguments.
+    pub parameters: &'static [Parameter],
+    /// Whether a place in a scene is one common point (`at = [x, y]`) or one point for each point parameter.
+    pub points_apart: bool,
+    /// What must hold at the assembled start, in words, in the order of `requirement`.
+    pub requirements: &'static [&'static str],
+}
+
+impl Spec {
+    /// Units of the functions of time that the kernels take, in the order of `f`.
+    pub fn functions(&self) -> impl Iterator<Item = (&'static str, Unit)> + use<> {
+        self.parameters.iter().flat_map(|p| {
+            let units = match p.shape {
+                Shape::Functions(units) => units,
+                _ => &[],
+            };
+            units.iter().map(|u| (p.name, *u))
+        })
+    }
+}
+
+/// One key that tells apart definitions of one scene type.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Variant {
+    /// The key.
+    pub key: &'static str,
+    /// Its value for this definition.
+    pub value: &'static str,
+    /// Whether this definition is meant where the key is not given.
+    pub default: bool,
+}
+
+/// One parameter of a definition.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Its name, which is its key in a scene file unless it is a point.
+    pub name: &'static str,
+    /// What it takes.
+    pub shape: Shape,
+    /// Whether it may be left out: it then has its value at the assembled start.
+    pub optional: bool,
+    /// Its doc comment.
+    pub doc: &'static str,
+}
+
+impl Parameter {
+    /// A parameter that must be given.
+    #[must_use]
+    pub const fn required(name: &'static str, shape: Shape, doc: &'static str) -> Self {
+        Self { name, shape, optional: false, doc }
+    }
+
+    /// A parameter that has its value at the assembled start where none is given.
+    #[must_use]
+    pub const fn optional(name: &'static str, shape: Shape, doc: &'static str) -> Self {
+        Self { name, shape, optional: true, doc }
+    }
+}
+
+/// What a parameter takes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Shape {
+    /// A point in the frame of the body in this slot.
+    Point {
+        /// The slot.
+        slot: usize,
+    },
+    /// A direction in the frame of the body in this slot.
+    Direction {
+        /// The slot.
+        slot: usize,
+    },
+    /// A straight line of the ground through two points.
+    GroundLine,
+    /// Numbers with their units; one number is written without brackets.
+    Numbers(&'static [Unit]),
+    /// Functions of time with the units of their values.
+    Functions(&'static [Unit]),
+}
+
+impl fmt::Display for Shape {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Point { .. } => f.write_str("a point [x, y]"),
+            Self::Direction { .. } => f.write_str("a direction [x, y]"),
+            Self::GroundLine => f.write_str("two points [[x, y], [x, y]]"),
+            Self::Numbers([unit]) => write!(f, "a number ({unit})"),
+            Self::Numbers(units) => write!(f, "{} numbers ({})", units.len(), list(units)),
+            Self::Functions([unit]) => write!(f, "a number or a function of time ({unit})"),
+            Self::Functions(units) => {
+                write!(f, "{} numbers or functions of time ({})", units.len(), list(units))
+            }
+        }
+    }
+}
+
+fn list(units: &[Unit]) -> String {
+    units.iter().map(Unit::to_string).collect::<Vec<_>>().join(", ")
+}
+
+/// Unit of a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unit {
+    /// m
+    Length,
+    /// rad
+    Angle,
+    /// 1
+    Ratio,
+    /// m/s
+    Velocity,
+    /// rad/s
+    AngularVelocity,
+    /// N
+    Force,
+    /// N·m
+    Torque,
+    /// N/m, not negative
+    Stiffness,
+    /// N·m/rad, not negative
+    TorsionStiffness,
+    /// N·s/m, not negative
+    Damping,
+    /// N·m·s/rad, not negative
+    TorsionDamping,
+}
+
+impl Unit {
+    /// Whether negative values have a meaning.
+    #[must_use]
+    pub fn may_be_negative(self) -> bool {
+        !matches!(
+            self,
+            Self::Stiffness | Self::TorsionStiffness | Self::Damping | Self::TorsionDamping
+        )
+    }
+}
+
+impl fmt::Display for Unit {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Length => "m",
+            Self::Angle => "rad",
+            Self::Ratio => "1",
+            Self::Velocity => "m/s",
+            Self::AngularVelocity => "rad/s",
+            Self::Force => "N",
+            Self::Torque => "N·m",
+            Self::Stiffness => "N/m",
+            Self::TorsionStiffness => "N·m/rad",
+            Self::Damping => "N·s/m",
+            Self::TorsionDamping => "N·m·s/rad",
+        })
+    }
+}
+
+/// Facts of a constraint definition.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstraintSpec {
+    /// What it shares with forces.
+    pub common: Spec,
+    /// Position or velocity level.
+    pub level: Level,
+    /// Its rows, in order.
+    pub rows: &'static [Row],
+    /// Entries of its block of C that are not identically zero, row by row.
+    pub c: &'static [Entry],
+    /// Whether it depends on time explicitly, so that b is not identically zero.
+    pub rheonomic: bool,
+    /// Entries (component, row) of the map from multipliers to the wrench on the first body that are not
+    /// identically zero.
+    pub wrench: &'static [[usize; 2]],
+    /// A named force component beside Fx, Fy and T.
+    pub component: Option<&'static str>,
+    /// Relative coordinates that a drive may prescribe.
+    pub measures: &'static [Measure],
+    /// Pattern (row of the block, column of the block) of `∂(Cᵀλ)/∂x`.
+    pub d_force_dx: &'static [[usize; 2]],
+    /// Pattern (row, column of the block) of `∂(C·a − Γ)/∂x`.
+    pub d_residual_dx: &'static [[usize; 2]],
+    /// Pattern (row, column of the block) of `∂Γ/∂v`.
+    pub d_gamma_dv: &'static [[usize; 2]],
+}
+
+/// Where a constraint is stated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Level {
+    /// `Φ(q, t) = 0`
+    Holonomic,
+    /// `Ψ(q, t)·q̇ + ψ(q, t) = 0`
+    Nonholonomic,
+}
+
+/// One row of a constraint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// Its name inside the joint.
+    pub name: &'static str,
+    /// Whether it restricts the start: a row that keeps an initial value holds at any start.
+    pub restricts_start: bool,
+}
+
+impl Row {
+    /// A row that restricts the start.
+    #[must_use]
+    pub const fn restricting_start(name: &'static str) -> Self {
+        Self { name, restricts_start: true }
+    }
+
+    /// A row that keeps an initial value.
+    #[must_use]
+    pub const fn keeping_start(name: &'static str) -> Self {
+        Self { name, restricts_start: false }
+    }
+}
+
+/// One entry of the block of C.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry {
+    /// Row of the constraint.
+    pub row: usize,
+    /// Body slot.
+    pub slot: usize,
+    /// Degree of freedom of the body: 0 x, 1 y, 2 rotation.
+    pub dof: usize,
+    /// Whether it depends on parameters only.
+    pub constant: bool,
+}
+
+impl Entry {
+    /// An entry that depends on parameters only.
+    #[must_use]
+    pub const fn constant(row: usize, slot: usize, dof: usize) -> Self {
+        Self { row, slot, dof, constant: true }
+    }
+
+    /// An entry that depends on the configuration.
+    #[must_use]
+    pub const fn varying(row: usize, slot: usize, dof: usize) -> Self {
+        Self { row, slot, dof, constant: false }
+    }
+}
+
+/// A relative coordinate that a drive may prescribe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Measure {
+    /// Value of a drive's `type` in a scene file.
+    pub name: &'static str,
+    /// Name of the definition of the driven row.
+    pub drive: &'static str,
+}
+
+impl Measure {
+    /// A measure and the definition of its drive.
+    #[must_use]
+    pub const fn new(name: &'static str, drive: &'static str) -> Self {
+        Self { name, drive }
+    }
+}
+
+/// Facts of a force definition.
+#[derive(Clone, Copy, Debug)]
+pub struct ForceSpec {
+    /// What it shares with constraints.
+    pub common: Spec,
+    /// Columns of its block of Q that are not identically zero.
+    pub q: &'static [usize],
+    /// Pattern (row, column of the block) of `∂Q/∂x`.
+    pub dq_dx: &'static [[usize; 2]],
+    /// Pattern (row, column of the block) of `∂Q/∂v`.
+    pub dq_dv: &'static [[usize; 2]],
+    /// Whether it depends on velocities.
+    pub dissipative: bool,
+    /// Whether it depends on time explicitly.
+    pub rheonomic: bool,
+}

@@ -1,0 +1,215 @@
+//! Double-double numbers: an unevaluated sum `hi + lo` of two `f64`, about 32 digits.
+//!
+//! For residuals and certificates: a singular value that is zero falls from 1e-16 to 1e-32 when it
+//! is computed again in this format, one that is merely small stays. Not a general number type: no
+//! transcendental functions, no formatting of all digits.
+//!
+//! Products are split after Dekker instead of using `f64::mul_add`. Both are exact, so both give
+//! the same bits on every platform; but on x86-64 without the FMA target feature `mul_add` is a call
+//! into a software routine, some twenty times slower. The price is range: operands of a product
+//! must stay below 2⁹⁹⁶ in absolute value, and products above 2⁻⁹⁶⁷, for the low part to be right.
+//!
+//! Sources: T. J. Dekker, A floating-point technique for extending the available precision, Numer.
+//! Math. 18 (1971) 224–242; M. Joldes, J.-M. Muller, V. Popescu, Tight and rigorous error bounds for
+//! basic building blocks of double-word arithmetic, ACM TOMS 44 (2017) 15res.
+
+use std::cmp::Ordering;
+use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+/// A double-double number.
+///
+/// ```
+/// use linalg::Dd;
+/// let third = Dd::from(1.0) / Dd::from(3.0);
+/// let left = third * Dd::from(3.0) - Dd::from(1.0);
+/// assert!(left.abs() < Dd::from(1e-31));
+/// // Far below the resolution of f64:
+/// assert_eq!((Dd::from(1.0) + Dd::from(1e-25) - Dd::from(1.0)).to_f64(), 1e-25);
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Dd {
+    hi: f64,
+    lo: f64,
+}
+
+/// `a + b = s + e` exactly, with s the rounded sum; any order of sizes (Knuth).
+pub fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    let b_part = s - a;
+    let a_part = s - b_part;
+    (s, (a - a_part) + (b - b_part))
+}
+
+/// `a·b = p + e` exactly, with p the rounded product, within the range stated in the module docs.
+pub fn two_product(a: f64, b: f64) -> (f64, f64) {
+    let p = a * b;
+    let (a_hi, a_lo) = split(a);
+    let (b_hi, b_lo) = split(b);
+    let e = ((a_hi * b_hi - p) + a_hi * b_lo + a_lo * b_hi) + a_lo * b_lo;
+    (p, e)
+}
+
+/// `a + b = s + e` exactly if `|a| ≥ |b|` or a = 0 (Dekker).
+fn fast_two_sum(a: f64, b: f64) -> (f64, f64) {
+    let s = a + b;
+    (s, b - (s - a))
+}
+
+/// Two halves of at most 26 bits each (Veltkamp).
+fn split(a: f64) -> (f64, f64) {
+    const FACTOR: f64 = 134_217_729.0; // 2²⁷ + 1
+    let t = FACTOR * a;
+    let hi = t - (t - a);
+    (hi, a - hi)
+}
+
+impl Dd {
+    /// Zero.
+    pub const ZERO: Self = Self { hi: 0.0, lo: 0.0 };
+    /// One.
+    pub const ONE: Self = Self { hi: 1.0, lo: 0.0 };
+    /// Relative rounding error of one operation is below this: 2⁻¹⁰².
+    pub const EPSILON: f64 = 1.972_152_263_052_53e-31;
+
+    /// The exact sum of two numbers.
+    pub fn from_sum(a: f64, b: f64) -> Self {
+        Self::from_pair(two_sum(a, b))
+    }
+
+    /// The exact product of two numbers.
+    pub fn from_product(a: f64, b: f64) -> Self {
+        Self::from_pair(two_product(a, b))
+    }
+
+    /// Leading part: the value rounded to `f64`.
+    pub fn hi(self) -> f64 {
+        self.hi
+    }
+
+    /// Trailing part, at most half a unit in the last place of `hi`.
+    pub fn lo(self) -> f64 {
+        self.lo
+    }
+
+    /// The value rounded to `f64`.
+    pub fn to_f64(self) -> f64 {
+        self.hi
+    }
+
+    /// |x|.
+    #[must_use]
+    pub fn abs(self) -> Self {
+        if self.hi < 0.0 { -self } else { self }
+    }
+
+    /// √x; NaN for negative numbers.
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        if self.hi <= 0.0 || !self.hi.is_finite() {
+            return Self::from(self.hi.sqrt());
+        }
+        // One Newton step from the rounded root doubles its digits.
+        let root = self.hi.sqrt();
+        let left = self - Self::from_product(root, root);
+        Self::from_pair(fast_two_sum(root, left.hi / (2.0 * root)))
+    }
+
+    fn from_pair((hi, lo): (f64, f64)) -> Self {
+        Self { hi, lo }
+    }
+}
+
+impl From<f64> for Dd {
+    fn from(x: f64) -> Self {
+        Self { hi: x, lo: 0.0 }
+    }
+}
+
+impl Neg for Dd {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self {
+            hi: -self.hi,
+            lo: -self.lo,
+        }
+    }
+}
+
+impl Add for Dd {
+    type Output = Self;
+
+    /// Accurate also under cancellation: `AccurateDWPlusDW`, algorithm 6 of Joldes et al.
+    fn add(self, y: Self) -> Self {
+        let (s_hi, s_lo) = two_sum(self.hi, y.hi);
+        let (t_hi, t_lo) = two_sum(self.lo, y.lo);
+        let (v_hi, v_lo) = fast_two_sum(s_hi, s_lo + t_hi);
+        Self::from_pair(fast_two_sum(v_hi, t_lo + v_lo))
+    }
+}
+
+impl Sub for Dd {
+    type Output = Self;
+
+    fn sub(self, y: Self) -> Self {
+        self + -y
+    }
+}
+
+impl Mul for Dd {
+    type Output = Self;
+
+    /// `DWTimesDW1`, algorithm 10 of Joldes et al.
+    fn mul(self, y: Self) -> Self {
+        let (p, e) = two_product(self.hi, y.hi);
+        let cross = self.hi * y.lo + self.lo * y.hi;
+        Self::from_pair(fast_two_sum(p, e + cross))
+    }
+}
+
+impl Div for Dd {
+    type Output = Self;
+
+    /// Long division with three quotient digits of 53 bits, the last one for rounding.
+    fn div(self, y: Self) -> Self {
+        let q_1 = self.hi / y.hi;
+        if !q_1.is_finite() {
+            return Self::from(q_1);
+        }
+        let left = self - y * Self::from(q_1);
+        let q_2 = left.hi / y.hi;
+        let left = left - y * Self::from(q_2);
+        let q_3 = left.hi / y.hi;
+        Self::from_pair(fast_two_sum(q_1, q_2)) + Self::from(q_3)
+    }
+}
+
+impl AddAssign for Dd {
+    fn add_assign(&mut self, y: Self) {
+        *self = *self + y;
+    }
+}
+
+impl SubAssign for Dd {
+    fn sub_assign(&mut self, y: Self) {
+        *self = *self - y;
+    }
+}
+
+impl MulAssign for Dd {
+    fn mul_assign(&mut self, y: Self) {
+        *self = *self * y;
+    }
+}
+
+impl PartialOrd for Dd {
+    fn partial_cmp(&self, y: &Self) -> Option<Ordering> {
+        match self.hi.partial_cmp(&y.hi)? {
+            Ordering::Equal => self.lo.partial_cmp(&y.lo),
+            unequal => Some(unequal),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

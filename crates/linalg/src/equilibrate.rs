@@ -1,0 +1,208 @@
+//! Row and column equilibration by powers of two.
+//!
+//! Rank decisions compare singular values, and those depend on units: metres beside radians,
+//! 1e-8 m beside 1e8 m. Equilibration replaces C by `D_r·C·D_c` with all row and column maxima near
+//! one. The factors are powers of two, so scaling is exact and the rank is untouched. Not for
+//! solving: nothing here looks at conditioning.
+//!
+//! Source of the iteration: D. Ruiz, A scaling algorithm to equilibrate both rows and columns norms
+//! in matrices, RAL-TR-2001-034 (2001), with the maximum norm.
+
+use crate::{Matrix, kernels};
+
+/// Sweeps of the iteration at most. Each one halves the exponents still to be balanced, and the
+/// exponents of `f64` span 2098 < 2¹², so more sweeps change nothing unless the pattern fights back.
+const SWEEPS_MAX: usize = 12;
+
+/// The diagonal matrices `D_r = diag(2^rows)` and `D_c = diag(2^cols)` of an equilibration.
+///
+/// Exponents instead of factors: that the scaling is exact is then a property of the type.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Scaling {
+    /// Exponents of the row factors, length m.
+    pub rows: Vec<i32>,
+    /// Exponents of the column factors, length n.
+    pub cols: Vec<i32>,
+}
+
+/// The Ruiz scaling of `c`: in `D_r·C·D_c` the largest entry of each row and column is in [½, 4),
+/// unless the pattern of zeros forbids it (then rows and columns are as balanced as the sweeps
+/// get them). Rows and columns of zeros keep the factor 1. Non-finite entries are ignored.
+///
+/// ```
+/// use linalg::{Matrix, equilibrate};
+/// let c = Matrix::from_rows(&[[1e8, 2.0e8], [3e-8, 0.0]]);
+/// let scaled = equilibrate(&c).apply(&c);
+/// assert!(scaled.max_abs() < 4.0 && scaled[(1, 0)] >= 0.5);
+/// ```
+pub fn equilibrate(c: &Matrix) -> Scaling {
+    let mut scaling = Scaling {
+        rows: vec![0; c.nrows()],
+        cols: vec![0; c.ncols()],
+    };
+    let mut row_top = vec![None; c.nrows()];
+    let mut col_top = vec![None; c.ncols()];
+    for _ in 0..SWEEPS_MAX {
+        row_top.fill(None);
+        col_top.fill(None);
+        for i in 0..c.nrows() {
+            for (j, &c_ij) in c.row(i).iter().enumerate() {
+                let top = exponent(c_ij).map(|e| e + scaling.rows[i] + scaling.cols[j]);
+                // `None` is less than any exponent.
+                row_top[i] = top.max(row_top[i]);
+                col_top[j] = top.max(col_top[j]);
+            }
+        }
+        let moved_rows = half_step(&mut scaling.rows, &row_top);
+        let moved_cols = half_step(&mut scaling.cols, &col_top);
+        if !moved_rows && !moved_cols {
+            break;
+        }
+    }
+    scaling
+}
+
+/// Subtracts half of each largest exponent, rounded towards zero; false when nothing moved.
+fn half_step(exponents: &mut [i32], top: &[Option<i32>]) -> bool {
+    let mut moved = false;
+    for (e, top) in exponents.iter_mut().zip(top) {
+        let step = top.map_or(0, |t| t / 2);
+        *e -= step;
+        moved |= step != 0;
+    }
+    moved
+}
+
+impl Scaling {
+    /// No scaling of an m×n matrix.
+    pub fn identity(m: usize, n: usize) -> Self {
+        Self {
+            rows: vec![0; m],
+            cols: vec![0; n],
+        }
+    }
+
+    /// `D_r·C·D_c`.
+    ///
+    /// # Panics
+    /// If the shape of `c` is not that of the scaling.
+    pub fn apply(&self, c: &Matrix) -> Matrix {
+        self.map(c, 1)
+    }
+
+    /// `D_r⁻¹·C·D_c⁻¹`, the inverse of [`Scaling::apply`].
+    ///
+    /// # Panics
+    /// If the shape of `c` is not that of the scaling.
+    pub fn undo(&self, c: &Matrix) -> Matrix {
+        self.map(c, -1)
+    }
+
+    fn map(&self, c: &Matrix, sign: i32) -> Matrix {
+        assert_eq!(
+            (c.nrows(), c.ncols()),
+            (self.rows.len(), self.cols.len()),
+            "scaling and matrix differ in shape"
+        );
+        Matrix::from_fn(c.nrows(), c.ncols(), |i, j| {
+            scale(c[(i, j)], sign * (self.rows[i] + self.cols[j]))
+        })
+    }
+
+    /// Row factor `2^rows[i]`.
+    ///
+    /// # Panics
+    /// If `i` is not below m.
+    pub fn row_factor(&self, i: usize) -> f64 {
+        scale(1.0, self.rows[i])
+    }
+}
+
+/// Exponent e of `2^e ≤ |x| < 2^(e+1)`; `None` for zero and non-finite numbers.
+fn exponent(x: f64) -> Option<i32> {
+    const BIAS: i32 = 1023;
+    const TO_NORMAL: i32 = 54;
+    if x == 0.0 || !x.is_finite() {
+        return None;
+    }
+    let field = |x: f64| ((x.to_bits() >> 52) & 0x7ff) as i32;
+    match field(x) {
+        0 => Some(field(scale(x, TO_NORMAL)) - BIAS - TO_NORMAL),
+        e => Some(e - BIAS),
+    }
+}
+
+/// `x·2^e`, exact unless the result leaves the range of normal numbers.
+pub(crate) fn scale(x: f64, e: i32) -> f64 {
+    // Largest power of two whose inverse is normal too.
+    const STEP: i32 = 1022;
+    let power = |e: i32| f64::from_bits(((e + 1023) as u64) << 52);
+    let mut x = x;
+    let mut e = e;
+    while e > STEP && x.is_finite() && x != 0.0 {
+        x *= power(STEP);
+        e -= STEP;
+    }
+    while e < -STEP && x != 0.0 {
+        x *= power(-STEP);
+        e += STEP;
+    }
+    x * power(e.clamp(-STEP, STEP))
+}
+
+/// Power-of-two exponent that brings the largest entry of `x` into [1, 2); 0 for zeros.
+pub(crate) fn unit_exponent(x: &[f64]) -> i32 {
+    exponent(kernels::max_abs(x)).map_or(0, |e| -e)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn exponents_by_hand() {
+        assert_eq!(exponent(1.0), Some(0));
+        assert_eq!(exponent(-3.9), Some(1));
+        assert_eq!(exponent(f64::MIN_POSITIVE), Some(-1022));
+        assert_eq!(exponent(f64::from_bits(1)), Some(-1074));
+        assert_eq!(exponent(0.0), None);
+        assert_eq!(exponent(f64::NAN), None);
+    }
+
+    #[test]
+    fn scale_reaches_both_ends() {
+        assert_eq!(scale(f64::from_bits(1), 1074), 1.0);
+        assert_eq!(scale(1.5, -1022), 1.5 * f64::MIN_POSITIVE);
+        assert_eq!(scale(1.0, 5000), f64::INFINITY);
+        assert_eq!(scale(0.0, i32::MAX), 0.0);
+    }
+
+    #[test]
+    fn undo_is_exact() {
+        let c = Matrix::from_rows(&[[1.1e8, -2.3e-3, 0.0], [7.7e-8, 0.0, 3.1e-12]]);
+        let scaling = equilibrate(&c);
+        assert_eq!(scaling.undo(&scaling.apply(&c)), c);
+    }
+
+    #[test]
+    fn row_and_column_maxima_are_near_one() {
+        let c = Matrix::from_fn(7, 5, |i, j| {
+            (1.0 + (3 * i + 5 * j) as f64).sin() * 10f64.powi(4 * i as i32 - 7 * j as i32)
+        });
+        let scaled = equilibrate(&c).apply(&c);
+        for a in [&scaled, &scaled.transpose()] {
+            for i in 0..a.nrows() {
+                let top = kernels::max_abs(a.row(i));
+                assert!((0.5..4.0).contains(&top), "row {i}: {top}");
+            }
+        }
+    }
+
+    #[test]
+    fn zero_rows_and_columns_are_left_alone() {
+        let c = Matrix::from_rows(&[[0.0, 0.0], [0.0, 1024.0]]);
+        let scaling = equilibrate(&c);
+        assert_eq!((scaling.rows[0], scaling.cols[0]), (0, 0));
+        assert!(scaling.apply(&c)[(1, 1)] < 4.0);
+    }
+}

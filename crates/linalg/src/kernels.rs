@@ -1,0 +1,75 @@
+//! The three inner loops everything here is made of: dot product, `y += s·x`, and a norm that
+//! neither overflows nor underflows.
+//!
+//! Not a BLAS: slices only, and a fixed order of summation, so that the same input gives the same
+//! bits on every platform. For that reason there is no `mul_add` here.
+
+/// `xᵀ·y` over the shorter length, summed in four interleaved partial sums.
+pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
+    let n = x.len().min(y.len());
+    let (x4, x_rest) = x[..n].as_chunks::<4>();
+    let (y4, y_rest) = y[..n].as_chunks::<4>();
+    let mut s = [0.0_f64; 4];
+    for (a, b) in x4.iter().zip(y4) {
+        for l in 0..4 {
+            s[l] += a[l] * b[l];
+        }
+    }
+    let mut sum = (s[0] + s[2]) + (s[1] + s[3]);
+    for (a, b) in x_rest.iter().zip(y_rest) {
+        sum += a * b;
+    }
+    sum
+}
+
+/// `y ← y + s·x` over the shorter length.
+pub(crate) fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
+    for (a, b) in x.iter().zip(y) {
+        *b += s * a;
+    }
+}
+
+/// Euclidean norm, safe for entries whose squares leave the range of `f64`.
+pub(crate) fn norm(x: &[f64]) -> f64 {
+    // Squares of entries between these bounds neither overflow in sums nor lose digits.
+    const SMALL: f64 = 1e-140;
+    const LARGE: f64 = 1e140;
+    let sum = dot(x, x);
+    if sum > SMALL * SMALL && sum < LARGE * LARGE {
+        return sum.sqrt();
+    }
+    let largest = max_abs(x);
+    if largest == 0.0 || !largest.is_finite() {
+        return largest;
+    }
+    let sum: f64 = x.iter().map(|a| (a / largest) * (a / largest)).sum();
+    largest * sum.sqrt()
+}
+
+/// Largest absolute entry, 0 for an empty slice; NaN entries are skipped.
+pub(crate) fn max_abs(x: &[f64]) -> f64 {
+    x.iter().fold(0.0_f64, |largest, a| largest.max(a.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dot_of_seven_entries_by_hand() {
+        let x = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
+        assert_eq!(dot(&x, &x), 140.0);
+    }
+
+    #[test]
+    fn norm_survives_the_ends_of_the_range() {
+        assert_eq!(norm(&[0.0, 0.0]), 0.0);
+        for size in [1e-300, 1e-200, 1.0, 1e200, 1e300] {
+            let ratio = norm(&[3.0 * size, 4.0 * size]) / (5.0 * size);
+            assert!(
+                (ratio - 1.0).abs() < 4.0 * f64::EPSILON,
+                "{size:e}: {ratio}"
+            );
+        }
+    }
+}

@@ -1,0 +1,32 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod equilibrate;
+mod kernels;
+#[cfg(feature = "faer")]
+mod large;
+mod matrix;
+mod null_space;
+mod qr;
+mod rank;
+mod regularized;
+mod saddle;
+mod singular_values;
+mod strong_basis;
+
+pub mod double_double;
+
+pub use double_double::Dd;
+pub use equilibrate::{Scaling, equilibrate};
+pub use matrix::{Matrix, ShapeError};
+pub use null_space::{
+    Circuit, Components, circuits, components, dependencies, orthonormal, support_tolerance,
+};
+pub use qr::PivotedQr;
+pub use rank::{
+    Doubt, Evidence, KeptRowsError, RankDecision, RankError, RankStatus, decide, decide_dropping,
+    decide_keeping,
+};
+pub use regularized::{StepError, least_squares_step};
+pub use saddle::{KeptRowSaddle, SaddleError};
+pub use singular_values::singular_values;

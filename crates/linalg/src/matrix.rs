@@ -1,0 +1,322 @@
+//! `Matrix`: a dense, row-major matrix of `f64`, as plain as possible.
+//!
+//! A constraint matrix C is m×n with one contiguous row per constraint; everything in this crate
+//! pivots, drops or keeps *rows*, so rows are what the storage makes cheap. Not a linear algebra
+//! library: there are no operators, no views and no decompositions here.
+
+use std::ops::{Index, IndexMut};
+
+use approx::{AbsDiffEq, RelativeEq};
+
+use crate::kernels;
+
+#[cfg(feature = "nalgebra")]
+mod interop;
+
+/// A dense row-major matrix of `f64`.
+///
+/// ```
+/// use linalg::Matrix;
+/// let c = Matrix::from_rows(&[[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]);
+/// assert_eq!((c.nrows(), c.ncols()), (3, 2));
+/// assert_eq!(c[(2, 0)], 5.0);
+/// assert_eq!(c.transpose().product(&c)[(0, 1)], 44.0); // 1·2 + 3·4 + 5·6
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Matrix {
+    nrows: usize,
+    ncols: usize,
+    data: Vec<f64>,
+}
+
+/// The number of values does not fill the asked shape.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "a {nrows}×{ncols} matrix needs {} values, found {found}",
+    nrows.saturating_mul(*ncols)
+)]
+pub struct ShapeError {
+    /// Rows asked for.
+    pub nrows: usize,
+    /// Columns asked for.
+    pub ncols: usize,
+    /// Number of values given.
+    pub found: usize,
+}
+
+impl Matrix {
+    /// All entries zero.
+    pub fn zeros(nrows: usize, ncols: usize) -> Self {
+        Self {
+            nrows,
+            ncols,
+            data: vec![0.0; nrows * ncols],
+        }
+    }
+
+    /// The n×n identity.
+    pub fn identity(n: usize) -> Self {
+        Self::from_fn(n, n, |i, j| f64::from(u8::from(i == j)))
+    }
+
+    /// Entry (i, j) is `f(i, j)`; called row by row.
+    pub fn from_fn(nrows: usize, ncols: usize, mut f: impl FnMut(usize, usize) -> f64) -> Self {
+        let mut data = Vec::with_capacity(nrows * ncols);
+        for i in 0..nrows {
+            for j in 0..ncols {
+                data.push(f(i, j));
+            }
+        }
+        Self { nrows, ncols, data }
+    }
+
+    /// From rows of equal length.
+    pub fn from_rows<const N: usize>(rows: &[[f64; N]]) -> Self {
+        Self {
+            nrows: rows.len(),
+            ncols: N,
+            data: rows.as_flattened().to_vec(),
+        }
+    }
+
+    /// Takes over row-major values.
+    ///
+    /// # Errors
+    /// [`ShapeError`] unless `data.len() == nrows * ncols`.
+    pub fn from_vec(nrows: usize, ncols: usize, data: Vec<f64>) -> Result<Self, ShapeError> {
+        if nrows.checked_mul(ncols) == Some(data.len()) {
+            Ok(Self { nrows, ncols, data })
+        } else {
+            Err(ShapeError {
+                nrows,
+                ncols,
+                found: data.len(),
+            })
+        }
+    }
+
+    /// Number of rows.
+    pub fn nrows(&self) -> usize {
+        self.nrows
+    }
+
+    /// Number of columns.
+    pub fn ncols(&self) -> usize {
+        self.ncols
+    }
+
+    /// Row `i` as a slice of length `ncols`.
+    ///
+    /// # Panics
+    /// If `i` is not below `nrows`.
+    pub fn row(&self, i: usize) -> &[f64] {
+        assert!(i < self.nrows, "row {i} of {} rows", self.nrows);
+        &self.data[i * self.ncols..(i + 1) * self.ncols]
+    }
+
+    /// Row `i`, writable.
+    ///
+    /// # Panics
+    /// If `i` is not below `nrows`.
+    pub fn row_mut(&mut self, i: usize) -> &mut [f64] {
+        assert!(i < self.nrows, "row {i} of {} rows", self.nrows);
+        &mut self.data[i * self.ncols..(i + 1) * self.ncols]
+    }
+
+    /// All values, row by row.
+    pub fn as_slice(&self) -> &[f64] {
+        &self.data
+    }
+
+    /// All values, row by row, writable.
+    pub fn as_mut_slice(&mut self) -> &mut [f64] {
+        &mut self.data
+    }
+
+    /// Exchanges two rows.
+    ///
+    /// # Panics
+    /// If an index is not below `nrows`.
+    pub fn swap_rows(&mut self, i: usize, j: usize) {
+        if i != j {
+            let (low, high) = self.two_rows_mut(i.min(j), i.max(j));
+            low.swap_with_slice(high);
+        }
+    }
+
+    /// Two rows at once, `i < j`.
+    pub(crate) fn two_rows_mut(&mut self, i: usize, j: usize) -> (&mut [f64], &mut [f64]) {
+        debug_assert!(i < j, "rows {i} and {j}");
+        let n = self.ncols;
+        let (head, tail) = self.data.split_at_mut(j * n);
+        (&mut head[i * n..(i + 1) * n], &mut tail[..n])
+    }
+
+    /// Aᵀ.
+    pub fn transpose(&self) -> Self {
+        Self::from_fn(self.ncols, self.nrows, |i, j| self[(j, i)])
+    }
+
+    /// A·B.
+    ///
+    /// # Panics
+    /// If the inner dimensions differ.
+    pub fn product(&self, b: &Self) -> Self {
+        assert_eq!(
+            self.ncols, b.nrows,
+            "product of {}×{} and {}×{}",
+            self.nrows, self.ncols, b.nrows, b.ncols
+        );
+        let mut out = Self::zeros(self.nrows, b.ncols);
+        for i in 0..self.nrows {
+            for (k, &a_ik) in self.row(i).iter().enumerate() {
+                kernels::axpy(a_ik, b.row(k), out.row_mut(i));
+            }
+        }
+        out
+    }
+
+    /// A·x; allocates.
+    ///
+    /// # Panics
+    /// If `x` is not of length `ncols`.
+    pub fn times(&self, x: &[f64]) -> Vec<f64> {
+        assert_eq!(self.ncols, x.len(), "A·x with {} columns", self.ncols);
+        (0..self.nrows)
+            .map(|i| kernels::dot(self.row(i), x))
+            .collect()
+    }
+
+    /// Aᵀ·y; allocates.
+    ///
+    /// # Panics
+    /// If `y` is not of length `nrows`.
+    pub fn transpose_times(&self, y: &[f64]) -> Vec<f64> {
+        assert_eq!(self.nrows, y.len(), "Aᵀ·y with {} rows", self.nrows);
+        let mut out = vec![0.0; self.ncols];
+        for (i, &y_i) in y.iter().enumerate() {
+            kernels::axpy(y_i, self.row(i), &mut out);
+        }
+        out
+    }
+
+    /// The rows named by `rows`, in that order.
+    ///
+    /// # Panics
+    /// If an index is not below `nrows`.
+    pub fn select_rows(&self, rows: &[usize]) -> Self {
+        let mut data = Vec::with_capacity(rows.len() * self.ncols);
+        for &i in rows {
+            data.extend_from_slice(self.row(i));
+        }
+        Self {
+            nrows: rows.len(),
+            ncols: self.ncols,
+            data,
+        }
+    }
+
+    /// Largest absolute entry, 0 for an empty matrix.
+    pub fn max_abs(&self) -> f64 {
+        kernels::max_abs(&self.data)
+    }
+
+    /// Frobenius norm, without overflow.
+    pub fn frobenius_norm(&self) -> f64 {
+        kernels::norm(&self.data)
+    }
+
+    /// Position and value of the first entry that is NaN or infinite.
+    pub fn first_non_finite(&self) -> Option<(usize, usize, f64)> {
+        let at = self.data.iter().position(|a| !a.is_finite())?;
+        Some((at / self.ncols, at % self.ncols, self.data[at]))
+    }
+}
+
+impl Index<(usize, usize)> for Matrix {
+    type Output = f64;
+
+    fn index(&self, (i, j): (usize, usize)) -> &f64 {
+        &self.row(i)[j]
+    }
+}
+
+impl IndexMut<(usize, usize)> for Matrix {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut f64 {
+        &mut self.row_mut(i)[j]
+    }
+}
+
+impl AbsDiffEq for Matrix {
+    type Epsilon = f64;
+
+    fn default_epsilon() -> f64 {
+        f64::EPSILON
+    }
+
+    fn abs_diff_eq(&self, other: &Self, epsilon: f64) -> bool {
+        (self.nrows, self.ncols) == (other.nrows, other.ncols)
+            && self.data.abs_diff_eq(&other.data, epsilon)
+    }
+}
+
+impl RelativeEq for Matrix {
+    fn default_max_relative() -> f64 {
+        f64::EPSILON
+    }
+
+    fn relative_eq(&self, other: &Self, epsilon: f64, max_relative: f64) -> bool {
+        (self.nrows, self.ncols) == (other.nrows, other.ncols)
+            && self.data.relative_eq(&other.data, epsilon, max_relative)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn wrong_shape_is_named() {
+        let error = Matrix::from_vec(2, 3, vec![0.0; 5]).unwrap_err();
+        assert_eq!(error.to_string(), "a 2×3 matrix needs 6 values, found 5");
+        let huge = Matrix::from_vec(usize::MAX, 2, Vec::new()).unwrap_err();
+        assert_eq!(huge.found, 0);
+    }
+
+    #[test]
+    fn rows_swap_and_select() {
+        let mut a = Matrix::from_rows(&[[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]]);
+        a.swap_rows(2, 0);
+        assert_eq!(a.row(0), [5.0, 6.0]);
+        assert_eq!(
+            a.select_rows(&[2, 1]),
+            Matrix::from_rows(&[[1.0, 2.0], [3.0, 4.0]])
+        );
+        assert_eq!(a.times(&[1.0, 1.0]), [11.0, 7.0, 3.0]);
+        assert_eq!(a.transpose_times(&[1.0, 0.0, 1.0]), [6.0, 8.0]);
+    }
+
+    #[test]
+    fn empty_shapes_are_legal() {
+        let a = Matrix::zeros(0, 3);
+        assert_eq!(a.transpose().product(&a), Matrix::zeros(3, 3));
+        assert_eq!(a.max_abs(), 0.0);
+        assert_eq!(a.first_non_finite(), None);
+    }
+
+    #[test]
+    fn non_finite_entry_is_located() {
+        let a = Matrix::from_rows(&[[1.0, 2.0], [f64::NEG_INFINITY, f64::NAN]]);
+        assert_eq!(a.first_non_finite(), Some((1, 0, f64::NEG_INFINITY)));
+    }
+
+    #[test]
+    fn approx_compares_shape_and_entries() {
+        let a = Matrix::identity(2);
+        let mut b = a.clone();
+        b[(0, 1)] = 1e-9;
+        approx::assert_abs_diff_eq!(a, b, epsilon = 1e-8);
+        approx::assert_abs_diff_ne!(a, b, epsilon = 1e-10);
+        approx::assert_abs_diff_ne!(a, Matrix::zeros(1, 4), epsilon = 10.0);
+    }
+}

@@ -1,0 +1,246 @@
+//! The left null space of a constraint matrix, read from a rank decision, and what it says in
+//! words: which rows depend on which (circuits), and which groups of rows mix (components).
+//!
+//! Columns z with `Cᵀ·z = 0` are the self-stresses: multipliers may change by them without any
+//! force on any body. Not here: verdicts on joints and reactions, which need the grouping of rows.
+
+use crate::{Matrix, PivotedQr, RankDecision, equilibrate::scale};
+
+/// Coefficients are zero below this multiple of τ/σ_r, the rounding noise of T: τ already contains
+/// a factor 10 over the noise of the singular values, another 10 is for the triangular solves.
+const SUPPORT_FACTOR: f64 = 10.0;
+
+/// Never call a coefficient zero above this, however poor the evidence.
+const SUPPORT_MAX: f64 = 1e-3;
+
+/// One minimal dependent set of rows: `Σ coefficients[l] · row rows[l] = 0`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Circuit {
+    /// The dropped row whose fundamental circuit this is; it is among `rows`.
+    pub dropped: usize,
+    /// Rows with a non-zero coefficient, ascending.
+    pub rows: Vec<usize>,
+    /// Coefficients for the rows of C as given, the first largest of them normalised to +1.
+    pub coefficients: Vec<f64>,
+}
+
+/// Partition of the rows by common dependencies.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Components {
+    /// Rows that mix with each other: each list ascending, lists ordered by their first row.
+    pub coupled: Vec<Vec<usize>>,
+    /// Rows in no dependency at all: their multipliers are unique. Ascending.
+    pub coloops: Vec<usize>,
+}
+
+/// Z (m×p) with `Cᵀ·Z = 0`: column j is `[−T_jᵀ; e_j]` in the order (K, D), scattered to row order;
+/// it says `row dropped[j] = Σ T_ji · row kept[i]`.
+///
+/// ```
+/// use linalg::{Matrix, decide, dependencies};
+/// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [0.5, 0.25]]);
+/// let z = dependencies(&decide(&c, 0.0)?);
+/// assert_eq!(z, Matrix::from_rows(&[[-0.5], [-0.25], [1.0]]));
+/// # Ok::<(), linalg::RankError>(())
+/// ```
+pub fn dependencies(decision: &RankDecision) -> Matrix {
+    scatter(decision, &decision.dependence)
+}
+
+/// Orthonormal basis (m×p) of the left null space of the *equilibrated* rows `D_r·C·D_c`.
+///
+/// The norm of row i is the margin of "row i is unique": zero iff it is in no dependency, one iff
+/// it depends on nothing else (a row of zeros). `D_r` times a column is a self-stress of C.
+pub fn orthonormal(decision: &RankDecision) -> Matrix {
+    let z = scatter(decision, &decision.equilibrated_dependence());
+    let p = z.ncols();
+    PivotedQr::of_columns(&z).q_columns(0..p)
+}
+
+/// Largest equilibrated coefficient that counts as zero: `min(10·τ/σ_r, 10⁻³)`.
+pub fn support_tolerance(decision: &RankDecision) -> f64 {
+    let evidence = &decision.evidence;
+    (SUPPORT_FACTOR * evidence.tolerance / evidence.sigma_r).min(SUPPORT_MAX)
+}
+
+/// The fundamental circuit of each dropped row, in the order of `dropped`.
+///
+/// The support is decided on equilibrated coefficients relative to the largest of the circuit,
+/// against [`support_tolerance`]. A row of zeros is a circuit by itself.
+pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
+    let support = Support::new(decision);
+    let exponents = &decision.scaling.rows;
+    (0..decision.redundancy)
+        .map(|j| {
+            let dropped = decision.dropped[j];
+            let mut terms: Vec<(usize, f64)> = (0..decision.rank)
+                .filter(|&i| support.contains(j, i))
+                .map(|i| (decision.kept[i], -support.t[(j, i)]))
+                .chain([(dropped, 1.0)])
+                .collect();
+            terms.sort_unstable_by_key(|&(row, _)| row);
+            // z̃ᵀ·D_r·C·D_c = 0: the coefficient of row i of C is z̃_i·2^rows[i]. Exponents relative
+            // to that of the dropped row keep the numbers in range.
+            for (row, z) in &mut terms {
+                *z = scale(*z, exponents[*row] - exponents[dropped]);
+            }
+            let largest = terms
+                .iter()
+                .map(|&(_, z)| z)
+                .fold(0.0_f64, |a, b| if b.abs() > a.abs() { b } else { a });
+            Circuit {
+                dropped,
+                rows: terms.iter().map(|&(row, _)| row).collect(),
+                coefficients: terms.iter().map(|&(_, z)| z / largest).collect(),
+            }
+        })
+        .collect()
+}
+
+/// Connected components of the graph "kept row i – dropped row j where T_ji ≠ 0".
+///
+/// They are the components of the row matroid: rows of one list mix in some dependency, rows of
+/// different lists never do, and the result does not depend on which rows were kept.
+///
+/// ```
+/// use linalg::{Matrix, components, decide};
+/// let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [3.0, 0.0, 0.0], [1.0, 1.0, 1.0]]);
+/// let found = components(&decide(&c, 0.0)?);
+/// assert_eq!(found.coupled, [[0, 2]]);
+/// assert_eq!(found.coloops, [1, 3]);
+/// # Ok::<(), linalg::RankError>(())
+/// ```
+pub fn components(decision: &RankDecision) -> Components {
+    let support = Support::new(decision);
+    let m = decision.rank + decision.redundancy;
+    let mut label: Vec<usize> = (0..m).collect();
+    let mut coloop = vec![true; m];
+    for j in 0..decision.redundancy {
+        let row_j = decision.dropped[j];
+        coloop[row_j] = false;
+        for i in (0..decision.rank).filter(|&i| support.contains(j, i)) {
+            let row_i = decision.kept[i];
+            coloop[row_i] = false;
+            let (a, b) = (root(&label, row_i), root(&label, row_j));
+            // The smaller row becomes the root, so that roots name the first row of a component.
+            label[a.max(b)] = a.min(b);
+        }
+    }
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); m];
+    for row in (0..m).filter(|&row| !coloop[row]) {
+        members[root(&label, row)].push(row);
+    }
+    Components {
+        coupled: members
+            .into_iter()
+            .filter(|rows| !rows.is_empty())
+            .collect(),
+        coloops: (0..m).filter(|&row| coloop[row]).collect(),
+    }
+}
+
+/// Which equilibrated coefficients count as non-zero.
+struct Support {
+    t: Matrix,
+    /// Absolute threshold for each dropped row.
+    threshold: Vec<f64>,
+}
+
+impl Support {
+    fn new(decision: &RankDecision) -> Self {
+        let t = decision.equilibrated_dependence();
+        let relative = support_tolerance(decision);
+        let threshold = (0..t.nrows())
+            .map(|j| relative * t.row(j).iter().fold(1.0_f64, |a, b| a.max(b.abs())))
+            .collect();
+        Self { t, threshold }
+    }
+
+    fn contains(&self, j: usize, i: usize) -> bool {
+        self.t[(j, i)].abs() > self.threshold[j]
+    }
+}
+
+fn scatter(decision: &RankDecision, t: &Matrix) -> Matrix {
+    let mut z = Matrix::zeros(decision.rank + decision.redundancy, decision.redundancy);
+    for (j, &row_j) in decision.dropped.iter().enumerate() {
+        z[(row_j, j)] = 1.0;
+        for (i, &row_i) in decision.kept.iter().enumerate() {
+            z[(row_i, j)] = -t[(j, i)];
+        }
+    }
+    z
+}
+
+fn root(label: &[usize], mut row: usize) -> usize {
+    while label[row] != row {
+        row = label[row];
+    }
+    row
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::decide;
+
+    /// Rows: two independent groups {0, 1, 2} and {3, 4}, a coloop 5, a row of zeros 6.
+    fn grouped() -> Matrix {
+        Matrix::from_rows(&[
+            [1.0, 0.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [2.0, -4.0, 0.0, 0.0],
+            [0.0, 0.0, 1e6, 0.0],
+            [0.0, 0.0, 3.0, 0.0],
+            [0.0, 0.0, 0.0, 1.0],
+            [0.0, 0.0, 0.0, 0.0],
+        ])
+    }
+
+    #[test]
+    fn circuits_by_hand() {
+        let decision = decide(&grouped(), 0.0).unwrap();
+        let found = circuits(&decision);
+        let rows: Vec<_> = found.iter().map(|c| c.rows.clone()).collect();
+        assert_eq!(rows.len(), 3);
+        for (expected, coefficients) in [
+            (vec![0, 1, 2], vec![-0.5, 1.0, 0.25]),
+            (vec![3, 4], vec![-3e-6, 1.0]),
+            (vec![6], vec![1.0]),
+        ] {
+            let circuit = found.iter().find(|c| c.rows == expected).expect("circuit");
+            for (a, b) in circuit.coefficients.iter().zip(&coefficients) {
+                assert!((a - b).abs() < 1e-15 * b.abs().max(1e-3), "{circuit:?}");
+            }
+        }
+        let parts = components(&decision);
+        assert_eq!(parts.coupled, [vec![0, 1, 2], vec![3, 4], vec![6]]);
+        assert_eq!(parts.coloops, [5]);
+    }
+
+    #[test]
+    fn bases_annihilate_the_rows_they_belong_to() {
+        let c = grouped();
+        let decision = decide(&c, 0.0).unwrap();
+        let scaled = decision.scaling.apply(&c);
+        let z = orthonormal(&decision);
+        approx::assert_abs_diff_eq!(
+            z.transpose().product(&z),
+            Matrix::identity(3),
+            epsilon = 1e-15
+        );
+        assert!(scaled.transpose().product(&z).max_abs() < 1e-15);
+        assert!(c.transpose().product(&dependencies(&decision)).max_abs() < 1e-9);
+        // Margins: zero for the coloop, one for the row of zeros.
+        let margin = |i: usize| z.row(i).iter().map(|a| a * a).sum::<f64>().sqrt();
+        assert!(margin(5) < 1e-15 && (margin(6) - 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn full_rank_has_no_dependencies() {
+        let decision = decide(&Matrix::identity(3), 0.0).unwrap();
+        assert_eq!(orthonormal(&decision), Matrix::zeros(3, 0));
+        assert!(circuits(&decision).is_empty());
+        assert_eq!(components(&decision).coloops, [0, 1, 2]);
+    }
+}

@@ -1,0 +1,88 @@
+//! What the factors are used for: products with Q and Qᵀ, explicit columns of Q, and triangular
+//! solves with leading blocks of R.
+
+use super::{PivotedQr, factor};
+use crate::{Matrix, kernels};
+
+impl PivotedQr {
+    /// `x ← Q·x`.
+    ///
+    /// # Panics
+    /// If `x` is not of length [`PivotedQr::dimension`].
+    pub fn q_mul(&self, x: &mut [f64]) {
+        self.assert_dimension(x);
+        for k in (0..self.steps()).rev() {
+            factor::apply(self.tau[k], &self.factors.row(k)[k..], &mut x[k..]);
+        }
+    }
+
+    /// `x ← Qᵀ·x`.
+    ///
+    /// # Panics
+    /// If `x` is not of length [`PivotedQr::dimension`].
+    pub fn q_transpose_mul(&self, x: &mut [f64]) {
+        self.assert_dimension(x);
+        for k in 0..self.steps() {
+            factor::apply(self.tau[k], &self.factors.row(k)[k..], &mut x[k..]);
+        }
+    }
+
+    /// Q as an n×n matrix.
+    pub fn q(&self) -> Matrix {
+        self.q_columns(0..self.dimension())
+    }
+
+    /// Columns `range` of Q: the first r span range(A), the last n − r its complement.
+    ///
+    /// # Panics
+    /// If the range ends beyond [`PivotedQr::dimension`].
+    pub fn q_columns(&self, range: std::ops::Range<usize>) -> Matrix {
+        let n = self.dimension();
+        assert!(range.end <= n, "columns {range:?} of a Q of order {n}");
+        let mut columns = Matrix::zeros(range.len(), n);
+        for (l, k) in range.enumerate() {
+            columns[(l, k)] = 1.0;
+            self.q_mul(columns.row_mut(l));
+        }
+        columns.transpose()
+    }
+
+    /// `x ← R₁₁⁻¹·x` with the leading block of R of order `x.len()`. Zero pivots give infinities.
+    ///
+    /// # Panics
+    /// If `x` is longer than [`PivotedQr::steps`].
+    pub fn solve_r(&self, x: &mut [f64]) {
+        self.assert_leading(x);
+        for k in (0..x.len()).rev() {
+            let column = self.factors.row(k);
+            x[k] /= column[k];
+            let x_k = x[k];
+            kernels::axpy(-x_k, &column[..k], &mut x[..k]);
+        }
+    }
+
+    /// `x ← R₁₁⁻ᵀ·x` with the leading block of R of order `x.len()`. Zero pivots give infinities.
+    ///
+    /// # Panics
+    /// If `x` is longer than [`PivotedQr::steps`].
+    pub fn solve_r_transpose(&self, x: &mut [f64]) {
+        self.assert_leading(x);
+        for k in 0..x.len() {
+            let column = self.factors.row(k);
+            x[k] = (x[k] - kernels::dot(&column[..k], &x[..k])) / column[k];
+        }
+    }
+
+    fn assert_dimension(&self, x: &[f64]) {
+        assert_eq!(x.len(), self.dimension(), "vector for a Q of this order");
+    }
+
+    fn assert_leading(&self, x: &[f64]) {
+        assert!(
+            x.len() <= self.steps(),
+            "leading block of order {} of an R with {} rows",
+            x.len(),
+            self.steps()
+        );
+    }
+}

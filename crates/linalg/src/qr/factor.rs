@@ -1,0 +1,103 @@
+//! The factorisation: choose the longest remaining column, reflect, downdate the norms.
+
+use super::PivotedQr;
+use crate::{Matrix, kernels};
+
+/// A downdated norm is recomputed once cancellation has eaten half of its digits (√eps).
+const DOWNDATE_LIMIT: f64 = 1.490_116_119_384_765_6e-8;
+
+/// Remaining length of one column.
+#[derive(Clone, Copy)]
+struct Length {
+    /// Downdated value.
+    now: f64,
+    /// Value when it was last computed from the entries.
+    exact: f64,
+}
+
+/// Factors in place; the rows of `a` are the columns that are pivoted.
+pub(super) fn factor(mut a: Matrix) -> PivotedQr {
+    let m = a.nrows();
+    let steps = m.min(a.ncols());
+    let mut tau = vec![0.0; steps];
+    let mut permutation: Vec<usize> = (0..m).collect();
+    let mut lengths: Vec<Length> = (0..m)
+        .map(|j| {
+            let exact = kernels::norm(a.row(j));
+            Length { now: exact, exact }
+        })
+        .collect();
+
+    for k in 0..steps {
+        let pivot = longest(&lengths, k);
+        a.swap_rows(k, pivot);
+        permutation.swap(k, pivot);
+        lengths.swap(k, pivot);
+
+        tau[k] = reflect(&mut a.row_mut(k)[k..]);
+        for j in k + 1..m {
+            let (v, column) = a.two_rows_mut(k, j);
+            apply(tau[k], &v[k..], &mut column[k..]);
+            downdate(&mut lengths[j], &column[k..]);
+        }
+    }
+    PivotedQr {
+        factors: a,
+        tau,
+        permutation,
+    }
+}
+
+/// First index from `k` on with the largest length, so that ties do not reorder.
+fn longest(lengths: &[Length], k: usize) -> usize {
+    let mut best = k;
+    for j in k + 1..lengths.len() {
+        if lengths[j].now > lengths[best].now {
+            best = j;
+        }
+    }
+    best
+}
+
+/// Overwrites `x` by `[β, v_1, v_2, …]` with `H·x = β·e_0`, `H = I − τ·v·vᵀ`, `v_0 = 1`; returns τ.
+/// A column that is already `[β, 0, …]` gets τ = 0, that is H = I.
+fn reflect(x: &mut [f64]) -> f64 {
+    let alpha = x[0];
+    if kernels::max_abs(&x[1..]) == 0.0 {
+        return 0.0;
+    }
+    let beta = -kernels::norm(x).copysign(alpha);
+    let v_0 = alpha - beta;
+    for v in &mut x[1..] {
+        *v /= v_0;
+    }
+    x[0] = beta;
+    v_0 / -beta
+}
+
+/// `y ← (I − τ·v·vᵀ)·y` with `v_0 = 1` (the stored entry 0 of `v` is R's).
+pub(super) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
+    if tau == 0.0 {
+        return;
+    }
+    let s = -tau * (y[0] + kernels::dot(&v[1..], &y[1..]));
+    y[0] += s;
+    kernels::axpy(s, &v[1..], &mut y[1..]);
+}
+
+/// Length of `column[1..]` from that of `column[0..]`, `ℓ² ← ℓ² − R_kj²`; recomputed when the
+/// difference has lost half of its digits since the last exact value.
+fn downdate(length: &mut Length, column: &[f64]) {
+    if length.now == 0.0 {
+        return;
+    }
+    let ratio = column[0].abs() / length.now;
+    let left = ((1.0 - ratio) * (1.0 + ratio)).max(0.0);
+    let against_exact = left * (length.now / length.exact).powi(2);
+    if against_exact <= DOWNDATE_LIMIT {
+        let exact = kernels::norm(&column[1..]);
+        *length = Length { now: exact, exact };
+    } else {
+        length.now *= left.sqrt();
+    }
+}

@@ -1,0 +1,292 @@
+//! The one place where a rank is decided, and where a tolerance for it lives.
+//!
+//! A rank is decided once per regime of a motion, at a point polished onto the constraints, never
+//! inside a right-hand side: off the manifold by δ a singular value that is exactly zero on it is
+//! about δ. The decision carries its evidence (all singular values of the equilibrated matrix) and
+//! may be `Undecided`; then both readings are in it. Not here: what redundancy means for reactions
+//! (`null_space` gives the dependencies) and any weighting by masses, which creates false small
+//! singular values.
+//!
+//! The rule, with singular values σ of `D_r·C·D_c` (maxima of rows and columns near one):
+//! `τ = 10·max(eps·√(m·n), constraint residual)`, rank r is decided iff `σ_{r+1} ≤ τ` and
+//! `σ_r ≥ 10³·τ`.
+
+mod explicit;
+#[cfg(test)]
+mod tests;
+
+use crate::strong_basis::{self, Basis};
+use crate::{Matrix, PivotedQr, Scaling, equilibrate, equilibrate::scale, singular_values};
+
+pub use explicit::{KeptRowsError, decide_dropping, decide_keeping};
+
+/// Factor between the noise estimate and the tolerance τ: rounding of an equilibrated matrix and
+/// the polished residual were each measured within a factor 4 of the singular value they cause.
+const NOISE_FACTOR: f64 = 10.0;
+
+/// The smallest non-zero singular value must clear τ by this factor, or the rank is undecided.
+const CLEARANCE: f64 = 1e3;
+
+/// Rank of a constraint matrix C (m×n), with the rows to keep and the evidence for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RankDecision {
+    /// r = rank C. If undecided: the reading with the larger gap.
+    pub rank: usize,
+    /// Degree of redundancy p = m − r.
+    pub redundancy: usize,
+    /// r independent rows K, ascending.
+    pub kept: Vec<usize>,
+    /// The other p rows D, ascending.
+    pub dropped: Vec<usize>,
+    /// T = C_D·C_K⁺ (p×r) in the row scaling of C: row `dropped[j]` = Σ T_ji · row `kept[i]`.
+    /// Equilibrated, its entries are at most 2 when [`decide`] chose the rows.
+    pub dependence: Matrix,
+    /// The scaling under which the rank was decided.
+    pub scaling: Scaling,
+    /// The numbers behind the decision.
+    pub evidence: Evidence,
+    /// Decided, or why not.
+    pub status: RankStatus,
+}
+
+/// The numbers behind a rank decision; all of them belong to the equilibrated matrix.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evidence {
+    /// All `min(m, n)` singular values, largest first.
+    pub singular_values: Vec<f64>,
+    /// σ_r, infinite for rank 0.
+    pub sigma_r: f64,
+    /// σ_{r+1}, zero if r = min(m, n).
+    pub sigma_next: f64,
+    /// σ_r / σ_{r+1}, infinite if σ_{r+1} = 0.
+    pub gap: f64,
+    /// τ: below it a singular value counts as zero.
+    pub tolerance: f64,
+    /// The residual of the constraints that the caller stated.
+    pub constraint_residual: f64,
+    /// Largest `‖row of C_D − T·C_K‖₂`: how far the dependencies are from exact.
+    pub dependence_residual: f64,
+}
+
+/// Whether the singular values leave room for another rank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum RankStatus {
+    /// `σ_{r+1} ≤ τ` and `σ_r ≥ 10³·τ`.
+    Decided,
+    /// Two ranks can be read from the singular values; do not build on either.
+    Undecided(Doubt),
+}
+
+/// Why a rank is undecided, with the numbers.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// Singular values between "certainly zero" and "certainly not".
+    #[error(
+        "singular value {sigma:.3e} lies between the tolerance {tolerance:.3e} and {required:.3e}: \
+         rank {lower} or {upper}; polish the point or decide in higher precision"
+    )]
+    NoClearGap {
+        /// Singular values that are certainly not zero.
+        lower: usize,
+        /// Singular values above the tolerance.
+        upper: usize,
+        /// The smallest one above the tolerance.
+        sigma: f64,
+        /// τ.
+        tolerance: f64,
+        /// 10³·τ.
+        required: f64,
+    },
+    /// The tolerance swallows every singular value of a matrix that is not zero.
+    #[error(
+        "tolerance {tolerance:.3e} exceeds the largest singular value {sigma_max:.3e} of a non-zero \
+         matrix: the constraint residual is too large to decide anything, polish the point first"
+    )]
+    NotPolished {
+        /// σ₁.
+        sigma_max: f64,
+        /// τ.
+        tolerance: f64,
+    },
+}
+
+/// Input that no rank can be decided for.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RankError {
+    /// An entry of C is NaN or infinite.
+    #[error("constraint matrix: entry in row {row}, column {col} is {value}, need a finite number")]
+    NonFinite {
+        /// Row of the entry.
+        row: usize,
+        /// Column of the entry.
+        col: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// The stated residual is no residual.
+    #[error("constraint residual is {value}, need a finite number that is not negative")]
+    Residual {
+        /// What was given.
+        value: f64,
+    },
+}
+
+/// Decides the rank of C, chooses the rows to keep and expresses the others by them.
+///
+/// | argument | shape | meaning |
+/// | --- | --- | --- |
+/// | `c` | m×n | constraint matrix; `0×n` and `m×0` have rank 0 |
+/// | `constraint_residual` | – | `‖Φ‖∞` of the point where C was evaluated, relative to the lengths of the model, so that it compares with entries of the equilibrated matrix; 0 for an exact point |
+///
+/// ```
+/// use linalg::{Matrix, RankStatus, decide};
+/// // The third constraint is the sum of the other two.
+/// let c = Matrix::from_rows(&[[1.0, 0.0, 2.0], [0.0, 1.0, 0.0], [1.0, 1.0, 2.0]]);
+/// let decision = decide(&c, 0.0)?;
+/// assert_eq!((decision.rank, decision.redundancy), (2, 1));
+/// assert_eq!(decision.status, RankStatus::Decided);
+/// assert!(decision.evidence.gap > 1e15);
+/// # Ok::<(), linalg::RankError>(())
+/// ```
+///
+/// # Errors
+/// - [`RankError::NonFinite`]: an entry is NaN or infinite.
+/// - [`RankError::Residual`]: the residual is negative, NaN or infinite.
+///
+/// Source: rank rule and scaling as in the module docs; rows by pivoted QR of `(D_r·C·D_c)ᵀ` and
+/// strong exchanges (Gu and Eisenstat 1996).
+pub fn decide(c: &Matrix, constraint_residual: f64) -> Result<RankDecision, RankError> {
+    let (scaling, scaled, reading) = read(c, constraint_residual)?;
+    let qr = PivotedQr::of_rows(scaled.clone());
+    let basis = strong_basis::bounded(&scaled, qr.permutation()[..reading.rank].to_vec());
+    Ok(reading.with_basis(scaling, basis))
+}
+
+/// A rank read from singular values, without rows yet.
+struct Reading {
+    rank: usize,
+    evidence: Evidence,
+    status: RankStatus,
+}
+
+/// Checks the input, equilibrates, and reads the rank.
+fn read(c: &Matrix, constraint_residual: f64) -> Result<(Scaling, Matrix, Reading), RankError> {
+    if let Some((row, col, value)) = c.first_non_finite() {
+        return Err(RankError::NonFinite { row, col, value });
+    }
+    if !(constraint_residual.is_finite() && constraint_residual >= 0.0) {
+        return Err(RankError::Residual {
+            value: constraint_residual,
+        });
+    }
+    let scaling = equilibrate(c);
+    let scaled = scaling.apply(c);
+    let noise = f64::EPSILON * (c.nrows() as f64 * c.ncols() as f64).sqrt();
+    let tolerance = NOISE_FACTOR * noise.max(constraint_residual);
+    let reading = Reading::new(singular_values(&scaled), tolerance, constraint_residual);
+    Ok((scaling, scaled, reading))
+}
+
+impl Reading {
+    fn new(singular_values: Vec<f64>, tolerance: f64, constraint_residual: f64) -> Self {
+        let above = |limit: f64| singular_values.partition_point(|&sigma| sigma > limit);
+        let required = CLEARANCE * tolerance;
+        let upper = above(tolerance);
+        let lower = singular_values.partition_point(|&sigma| sigma >= required);
+        let lower = lower.min(upper);
+        let sigma_max = singular_values.first().copied().unwrap_or(0.0);
+        let status = if upper == 0 && sigma_max > 0.0 {
+            RankStatus::Undecided(Doubt::NotPolished {
+                sigma_max,
+                tolerance,
+            })
+        } else if lower < upper {
+            RankStatus::Undecided(Doubt::NoClearGap {
+                lower,
+                upper,
+                sigma: singular_values[upper - 1],
+                tolerance,
+                required,
+            })
+        } else {
+            RankStatus::Decided
+        };
+
+        let sigma_r = |r: usize| {
+            if r == 0 {
+                f64::INFINITY
+            } else {
+                singular_values[r - 1]
+            }
+        };
+        let sigma_next = |r: usize| singular_values.get(r).copied().unwrap_or(0.0);
+        // Below the tolerance there is only noise: no gap may profit from it.
+        let clear_gap = |r: usize| sigma_r(r).min(sigma_max) / sigma_next(r).max(tolerance);
+        let rank = (lower..=upper)
+            .max_by(|&a, &b| clear_gap(a).total_cmp(&clear_gap(b)))
+            .unwrap_or(upper);
+        let (sigma_r, sigma_next) = (sigma_r(rank), sigma_next(rank));
+        Self {
+            rank,
+            evidence: Evidence {
+                sigma_r,
+                sigma_next,
+                gap: if sigma_next == 0.0 {
+                    f64::INFINITY
+                } else {
+                    sigma_r / sigma_next
+                },
+                tolerance,
+                constraint_residual,
+                dependence_residual: 0.0,
+                singular_values,
+            },
+            status,
+        }
+    }
+
+    fn with_basis(self, scaling: Scaling, basis: Basis) -> RankDecision {
+        let Basis {
+            kept,
+            dropped,
+            t,
+            residual,
+        } = basis;
+        // D_r,D·C_D = T̃·D_r,K·C_K, hence T = D_r,D⁻¹·T̃·D_r,K.
+        let dependence = Matrix::from_fn(t.nrows(), t.ncols(), |j, i| {
+            scale(t[(j, i)], scaling.rows[kept[i]] - scaling.rows[dropped[j]])
+        });
+        RankDecision {
+            rank: self.rank,
+            redundancy: dropped.len(),
+            kept,
+            dropped,
+            dependence,
+            scaling,
+            evidence: Evidence {
+                dependence_residual: residual,
+                ..self.evidence
+            },
+            status: self.status,
+        }
+    }
+}
+
+impl RankDecision {
+    /// T̃ = D_r,D·T·D_r,K⁻¹ (p×r), the dependence between equilibrated rows.
+    pub fn equilibrated_dependence(&self) -> Matrix {
+        let t = &self.dependence;
+        let rows = &self.scaling.rows;
+        Matrix::from_fn(t.nrows(), t.ncols(), |j, i| {
+            scale(t[(j, i)], rows[self.dropped[j]] - rows[self.kept[i]])
+        })
+    }
+
+    /// Whether the rank is decided.
+    pub fn is_decided(&self) -> bool {
+        self.status == RankStatus::Decided
+    }
+}

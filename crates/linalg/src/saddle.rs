@@ -1,0 +1,207 @@
+//! Constrained equations of motion with independent rows, solved without forming the saddle matrix:
+//!
+//! ```text
+//! | M  Cᵀ | | a |   | f |
+//! | C  0  | | λ | = | γ |     M = diag(m) ≥ 0 (n), C of full row rank (r×n)
+//! ```
+//!
+//! LU with partial pivoting of the tall Cᵀ gives a null space basis N of C, the reduced mass
+//! `Nᵀ·M·N` (order k = n − r) is factored by Cholesky
+//! (as L·D·Lᵀ), and λ comes back through the same LU. M is
+//! never inverted, so masses may be zero as long as M is positive definite on ker C.
+//!
+//! This runs for every evaluation of a right-hand side: all storage is allocated in
+//! [`KeptRowSaddle::new`], `factor` and `solve` allocate nothing. Not for redundant rows: choose
+//! the kept ones with [`decide`](crate::decide) first; no rank is decided here.
+//!
+//! The algebra, with `P·Cᵀ = L·U`, `L = [L₁; L₂]` unit lower trapezoidal and y = P·a:
+//! `C·a = γ ⇔ Lᵀ·y = U⁻ᵀ·γ`, `N = Pᵀ·[−L₁⁻ᵀ·L₂ᵀ; I]`, `(NᵀMN)·z = Nᵀ·(f − M·a_p)`,
+//! `L·U·λ = P·(f − M·a)`. Source: null space method, M. Benzi, G. H. Golub, J. Liesen, Numerical
+//! solution of saddle point problems, Acta Numerica 14 (2005) 1–137, section 6.
+
+mod factor;
+mod solve;
+#[cfg(test)]
+mod tests;
+
+/// Solver of the saddle equations of n coordinates and r independent constraint rows.
+///
+/// ```
+/// use linalg::KeptRowSaddle;
+/// // Unit mass on the line x = y, pushed along x: a = (½, ½), λ = ½ on the row (1, −1).
+/// let c = [1.0, -1.0];
+/// let mut saddle = KeptRowSaddle::new(2, 1)?;
+/// saddle.factor(|_| &c, &[1.0, 1.0])?;
+/// let (mut a, mut lambda) = ([0.0; 2], [0.0; 1]);
+/// saddle.solve(&[1.0, 0.0], &[0.0], &mut a, &mut lambda)?;
+/// assert_eq!((a, lambda), ([0.5, 0.5], [0.5]));
+/// # Ok::<(), linalg::SaddleError>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct KeptRowSaddle {
+    n: usize,
+    r: usize,
+    /// Row j: `U_0j … U_jj`, then column j of L below its unit diagonal. r×n, row-major.
+    lu: Vec<f64>,
+    /// Position i of P·x is coordinate `permutation[i]`.
+    permutation: Vec<usize>,
+    /// Row c: `−L₁⁻ᵀ·L₂ᵀ·e_c`, the dependent part of the null vector c. k×r, row-major.
+    null_basis: Vec<f64>,
+    /// diag(M) in the order of P.
+    mass: Vec<f64>,
+    /// L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. k×k, row-major.
+    reduced_mass: Vec<f64>,
+    pivot_ratio: f64,
+    state: State,
+    /// Scratch of `solve`: P·a and P·(f − M·a), both n.
+    y: Vec<f64>,
+    g: Vec<f64>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum State {
+    Empty,
+    Factored,
+}
+
+/// Why the saddle equations have no (unique) solution.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SaddleError {
+    /// More rows than coordinates cannot be independent.
+    #[error("{r} independent rows in {n} coordinates are impossible: keep at most {n}")]
+    TooManyRows {
+        /// Coordinates.
+        n: usize,
+        /// Rows.
+        r: usize,
+    },
+    /// An argument has the wrong length.
+    #[error("{argument} has {found} entries, need {expected}")]
+    Length {
+        /// Name of the argument.
+        argument: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length it must have.
+        expected: usize,
+    },
+    /// A NaN or infinite entry.
+    #[error("{argument} contains the value {value} at {index}, need finite numbers")]
+    NonFinite {
+        /// Name of the argument.
+        argument: &'static str,
+        /// Entry; for the rows of C the index in row-major order.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// A negative mass.
+    #[error("mass {index} is {value:.3e}, need a number that is not negative")]
+    NegativeMass {
+        /// Coordinate.
+        index: usize,
+        /// Its mass.
+        value: f64,
+    },
+    /// A kept row depends on the rows before it.
+    #[error(
+        "kept row {row} depends on the rows before it: pivot {pivot:.3e} in a row of size \
+         {scale:.3e}; the configuration is singular or the kept rows were chosen elsewhere"
+    )]
+    RankLost {
+        /// Number of the kept row.
+        row: usize,
+        /// Largest entry left of it.
+        pivot: f64,
+        /// Largest entry of it before elimination.
+        scale: f64,
+    },
+    /// A motion that the constraints allow moves no mass.
+    #[error(
+        "the mass is not positive definite on the allowed motions: reduced mass {reduced:.3e} of \
+         {size:.3e}; give mass or inertia to what moves along the massless motion {motion:?}"
+    )]
+    MasslessMotion {
+        /// What is left of the reduced mass.
+        reduced: f64,
+        /// The size that it must be compared with.
+        size: f64,
+        /// The motion, largest entry 1.
+        motion: Vec<f64>,
+    },
+    /// `solve` without a successful `factor`.
+    #[error("nothing is factored: call `factor` and handle its error before `solve`")]
+    NotFactored,
+}
+
+impl KeptRowSaddle {
+    /// Storage for n coordinates and r rows.
+    ///
+    /// # Errors
+    /// [`SaddleError::TooManyRows`] if r > n.
+    pub fn new(n: usize, r: usize) -> Result<Self, SaddleError> {
+        if r > n {
+            return Err(SaddleError::TooManyRows { n, r });
+        }
+        let k = n - r;
+        Ok(Self {
+            n,
+            r,
+            lu: vec![0.0; r * n],
+            permutation: (0..n).collect(),
+            null_basis: vec![0.0; k * r],
+            mass: vec![0.0; n],
+            reduced_mass: vec![0.0; k * k],
+            pivot_ratio: f64::INFINITY,
+            state: State::Empty,
+            y: vec![0.0; n],
+            g: vec![0.0; n],
+        })
+    }
+
+    /// Number of coordinates n.
+    pub fn n_coordinates(&self) -> usize {
+        self.n
+    }
+
+    /// Number of constraint rows r.
+    pub fn n_rows(&self) -> usize {
+        self.r
+    }
+
+    /// Smallest `|pivot| / largest entry of its row` of the last factorisation, infinite for r = 0:
+    /// the monitor for near-singular configurations. It changes smoothly along a motion except where
+    /// the pivot order changes, and falls towards zero as the kept rows become dependent.
+    pub fn pivot_ratio(&self) -> f64 {
+        self.pivot_ratio
+    }
+}
+
+fn check_length(argument: &'static str, x: &[f64], expected: usize) -> Result<(), SaddleError> {
+    if x.len() == expected {
+        Ok(())
+    } else {
+        Err(SaddleError::Length {
+            argument,
+            found: x.len(),
+            expected,
+        })
+    }
+}
+
+/// `first` is the index of `x[0]` in the argument.
+fn check_finite(argument: &'static str, x: &[f64], first: usize) -> Result<(), SaddleError> {
+    // Branch-free: x·0 is NaN exactly for NaN and infinities.
+    if x.iter().map(|a| a * 0.0).sum::<f64>() == 0.0 {
+        return Ok(());
+    }
+    match x.iter().position(|a| !a.is_finite()) {
+        Some(i) => Err(SaddleError::NonFinite {
+            argument,
+            index: first + i,
+            value: x[i],
+        }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,184 @@
+//! Factorisation: LU of Cᵀ row by row, null space basis, reduced mass.
+
+use super::{KeptRowSaddle, SaddleError, State, check_finite, check_length};
+use crate::kernels::{axpy, dot, max_abs};
+
+/// A pivot below this fraction of its row is rounding noise, whatever the configuration.
+const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
+
+impl KeptRowSaddle {
+    /// Factors for the kept rows of C and the masses.
+    ///
+    /// | argument | shape | meaning |
+    /// | --- | --- | --- |
+    /// | `row` | r calls, each n | `row(k)` is the k-th kept row of C |
+    /// | `mass` | n | diagonal of M, entries ≥ 0 |
+    ///
+    /// Cost about n·r² + k·r²/2 + k²·r/2 multiplications; allocates nothing unless it fails.
+    /// After an error the solver holds no factorisation.
+    ///
+    /// # Errors
+    /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad input.
+    /// - [`SaddleError::RankLost`]: a row depends on the ones before it to working precision.
+    /// - [`SaddleError::MasslessMotion`]: M is not positive definite on ker C; carries the motion.
+    pub fn factor<'c>(
+        &mut self,
+        row: impl Fn(usize) -> &'c [f64],
+        mass: &[f64],
+    ) -> Result<(), SaddleError> {
+        self.state = State::Empty;
+        check_length("mass", mass, self.n)?;
+        check_finite("mass", mass, 0)?;
+        if let Some(index) = mass.iter().position(|&m| m < 0.0) {
+            return Err(SaddleError::NegativeMass {
+                index,
+                value: mass[index],
+            });
+        }
+        for (i, p) in self.permutation.iter_mut().enumerate() {
+            *p = i;
+        }
+        self.pivot_ratio = f64::INFINITY;
+        for j in 0..self.r {
+            self.eliminate(j, row(j))?;
+        }
+        for (m, &coordinate) in self.mass.iter_mut().zip(&self.permutation) {
+            *m = mass[coordinate];
+        }
+        self.fill_null_basis();
+        self.factor_reduced_mass()?;
+        self.state = State::Factored;
+        Ok(())
+    }
+
+    /// Column j of U and of L from row j of C: gather, eliminate with the rows before, pivot.
+    fn eliminate(&mut self, j: usize, c_j: &[f64]) -> Result<(), SaddleError> {
+        let n = self.n;
+        check_length("row of C", c_j, n)?;
+        check_finite("C", c_j, j * n)?;
+        let scale = max_abs(c_j);
+
+        let (before, rest) = self.lu.split_at_mut(j * n);
+        let x = &mut rest[..n];
+        for (x_i, &coordinate) in x.iter_mut().zip(&self.permutation) {
+            *x_i = c_j[coordinate];
+        }
+        for (k, l_k) in before.chunks_exact(n).enumerate() {
+            let u_kj = x[k];
+            if u_kj != 0.0 {
+                axpy(-u_kj, &l_k[k + 1..], &mut x[k + 1..]);
+            }
+        }
+
+        let mut at = j;
+        for i in j + 1..n {
+            if x[i].abs() > x[at].abs() {
+                at = i;
+            }
+        }
+        let pivot = x[at];
+        if pivot.is_nan() || pivot.abs() <= PIVOT_FLOOR * scale {
+            return Err(SaddleError::RankLost {
+                row: j,
+                pivot: pivot.abs(),
+                scale,
+            });
+        }
+        self.pivot_ratio = self.pivot_ratio.min(pivot.abs() / scale);
+        if at != j {
+            self.permutation.swap(at, j);
+            x.swap(at, j);
+            for l_k in before.chunks_exact_mut(n) {
+                l_k.swap(at, j);
+            }
+        }
+        for l in &mut x[j + 1..] {
+            *l /= pivot;
+        }
+        Ok(())
+    }
+
+    /// Solves `L₁ᵀ·Y = −L₂ᵀ` column by column.
+    fn fill_null_basis(&mut self) {
+        let (n, r) = (self.n, self.r);
+        if r == 0 {
+            return;
+        }
+        for (c, y) in self.null_basis.chunks_exact_mut(r).enumerate() {
+            for t in (0..r).rev() {
+                let l_t = &self.lu[t * n..(t + 1) * n];
+                y[t] = -l_t[r + c] - dot(&l_t[t + 1..r], &y[t + 1..r]);
+            }
+        }
+    }
+
+    /// Cholesky factorisation of `NᵀMN` without roots, L·D·Lᵀ.
+    fn factor_reduced_mass(&mut self) -> Result<(), SaddleError> {
+        let (r, k) = (self.r, self.n - self.r);
+        let heaviest = max_abs(&self.mass);
+        // What cancels in NᵀMN, and what rounding of N turns from zero into mass.
+        let cancelled = k as f64 * f64::EPSILON;
+        let spurious = (self.n as f64 * f64::EPSILON).powi(2) * heaviest;
+        for i in 0..k {
+            let y_i = &self.null_basis[i * r..(i + 1) * r];
+            let (above, rest) = self.reduced_mass.split_at_mut(i * k);
+            let l_i = &mut rest[..k];
+            for j in 0..=i {
+                let y_j = &self.null_basis[j * r..(j + 1) * r];
+                l_i[j] = y_i
+                    .iter()
+                    .zip(y_j)
+                    .zip(&self.mass)
+                    .map(|((a, b), m)| a * m * b)
+                    .sum();
+            }
+            l_i[i] += self.mass[r + i];
+            let size = l_i[i];
+            // First v_j = l_ij·d_j, then l_ij: L has a unit diagonal, d sits in its place.
+            for j in 0..i {
+                l_i[j] -= dot(&l_i[..j], &above[j * k..j * k + j]);
+            }
+            let mut reduced = size;
+            for j in 0..i {
+                let v_j = l_i[j];
+                l_i[j] /= above[j * k + j];
+                reduced -= v_j * l_i[j];
+            }
+            let floor = (cancelled * size).max(spurious * (1.0 + dot(y_i, y_i)));
+            if reduced.is_nan() || reduced <= floor {
+                return Err(SaddleError::MasslessMotion {
+                    reduced,
+                    size: size.max(heaviest),
+                    motion: self.massless_motion(i),
+                });
+            }
+            l_i[i] = reduced;
+        }
+        Ok(())
+    }
+
+    /// The motion `N·z` with `z = [−L₁₁⁻ᵀ·l_i; 1; 0]` that the failed pivot i stands for.
+    fn massless_motion(&self, i: usize) -> Vec<f64> {
+        let (r, k) = (self.r, self.n - self.r);
+        let mut z = vec![0.0; k];
+        z[i] = 1.0;
+        for j in 0..i {
+            z[j] = -self.reduced_mass[i * k + j];
+        }
+        for j in (0..i).rev() {
+            let z_j = z[j];
+            axpy(-z_j, &self.reduced_mass[j * k..j * k + j], &mut z[..j]);
+        }
+        let mut y = vec![0.0; self.n];
+        for (c, &z_c) in z.iter().enumerate() {
+            axpy(z_c, &self.null_basis[c * r..(c + 1) * r], &mut y[..r]);
+            y[r + c] = z_c;
+        }
+        let largest = max_abs(&y);
+        let mut motion = vec![0.0; self.n];
+        for (&coordinate, y_i) in self.permutation.iter().zip(&y) {
+            motion[coordinate] = y_i / largest;
+        }
+        motion
+    }
+}

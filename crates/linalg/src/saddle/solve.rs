@@ -1,0 +1,110 @@
+//! Solution for one right-hand side; any number of them per factorisation.
+
+use super::{KeptRowSaddle, SaddleError, State, check_finite, check_length};
+use crate::kernels::{axpy, dot};
+
+impl KeptRowSaddle {
+    /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the last factorisation; allocates nothing.
+    ///
+    /// | argument | shape | meaning |
+    /// | --- | --- | --- |
+    /// | `f` | n | applied forces; 0 for a projection |
+    /// | `gamma` | r | right-hand side of the kept rows; −Φ for a mass-metric projection step |
+    /// | `a` | n | overwritten: accelerations (or the correction of the projection) |
+    /// | `lambda` | r | overwritten: multipliers of the kept rows |
+    ///
+    /// # Errors
+    /// - [`SaddleError::NotFactored`]: there is no successful `factor` before.
+    /// - [`SaddleError::Length`], [`SaddleError::NonFinite`]: bad input; outputs are untouched.
+    pub fn solve(
+        &mut self,
+        f: &[f64],
+        gamma: &[f64],
+        a: &mut [f64],
+        lambda: &mut [f64],
+    ) -> Result<(), SaddleError> {
+        let (n, r) = (self.n, self.r);
+        if self.state != State::Factored {
+            return Err(SaddleError::NotFactored);
+        }
+        check_length("f", f, n)?;
+        check_length("gamma", gamma, r)?;
+        check_length("a", a, n)?;
+        check_length("lambda", lambda, r)?;
+        check_finite("f", f, 0)?;
+        check_finite("gamma", gamma, 0)?;
+
+        self.particular(gamma);
+        self.force_left(f);
+        self.add_free_motion();
+        self.force_left(f);
+        self.multipliers();
+
+        for (&coordinate, &y_i) in self.permutation.iter().zip(&self.y) {
+            a[coordinate] = y_i;
+        }
+        lambda.copy_from_slice(&self.g[..r]);
+        Ok(())
+    }
+
+    fn lu_row(&self, j: usize) -> &[f64] {
+        &self.lu[j * self.n..(j + 1) * self.n]
+    }
+
+    /// y = P·a_p with `C·a_p = γ` and zeros in the free coordinates: `Uᵀ·s = γ`, `L₁ᵀ·y₁ = s`.
+    fn particular(&mut self, gamma: &[f64]) {
+        let (n, r) = (self.n, self.r);
+        let (y, free) = self.y.split_at_mut(r);
+        free.fill(0.0);
+        for (j, row) in self.lu.chunks_exact(n.max(1)).enumerate() {
+            y[j] = (gamma[j] - dot(&row[..j], &y[..j])) / row[j];
+        }
+        for (j, row) in self.lu.chunks_exact(n.max(1)).enumerate().rev() {
+            y[j] -= dot(&row[j + 1..r], &y[j + 1..r]);
+        }
+    }
+
+    /// g = P·(f − M·a).
+    fn force_left(&mut self, f: &[f64]) {
+        for i in 0..self.n {
+            self.g[i] = f[self.permutation[i]] - self.mass[i] * self.y[i];
+        }
+    }
+
+    /// y ← y + P·N·z with `(NᵀMN)·z = Nᵀ·g`.
+    fn add_free_motion(&mut self) {
+        let (r, k) = (self.r, self.n - self.r);
+        let (y, z) = self.y.split_at_mut(r);
+        for c in 0..k {
+            let l_c = &self.reduced_mass[c * k..(c + 1) * k];
+            let null_c = &self.null_basis[c * r..(c + 1) * r];
+            let n_c_g = dot(null_c, &self.g[..r]) + self.g[r + c];
+            z[c] = n_c_g - dot(&l_c[..c], &z[..c]);
+        }
+        for c in 0..k {
+            z[c] /= self.reduced_mass[c * k + c];
+        }
+        for c in (0..k).rev() {
+            let z_c = z[c];
+            axpy(-z_c, &self.reduced_mass[c * k..c * k + c], &mut z[..c]);
+            axpy(z_c, &self.null_basis[c * r..(c + 1) * r], y);
+        }
+    }
+
+    /// g[..r] ← λ with `L₁·U·λ = g₁`; the other rows of `L·U·λ = g` then hold as well.
+    fn multipliers(&mut self) {
+        let r = self.r;
+        let mut g = std::mem::take(&mut self.g);
+        for j in 0..r {
+            let g_j = g[j];
+            axpy(-g_j, &self.lu_row(j)[j + 1..r], &mut g[j + 1..r]);
+        }
+        for j in (0..r).rev() {
+            let row = self.lu_row(j);
+            g[j] /= row[j];
+            let g_j = g[j];
+            axpy(-g_j, &row[..j], &mut g[..j]);
+        }
+        self.g = g;
+    }
+}

@@ -1,0 +1,1 @@
+//! Test data live beside this crate; the tests are in `all/`.
