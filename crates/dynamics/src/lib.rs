@@ -1,1 +1,5 @@
-//! Placeholder.
+#![doc = include_str!("../README.md")]
+
+pub mod options;
+
+pub use options::{Formulation, Method, MotionOptions, RowChoice, Stabilisation};

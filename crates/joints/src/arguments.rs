@@ -84,17 +84,26 @@ impl fmt::Display for ArgumentError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Count { expected, found } => {
-                write!(f, "{found} values given, the definition has {expected} parameters")
+                write!(
+                    f,
+                    "{found} values given, the definition has {expected} parameters"
+                )
             }
             Self::Missing { parameter } => write!(f, "`{parameter}` is missing"),
-            Self::Shape { parameter, expected } => write!(f, "`{parameter}` must be {expected}"),
+            Self::Shape {
+                parameter,
+                expected,
+            } => write!(f, "`{parameter}` must be {expected}"),
             Self::NotFinite { parameter, value } => {
                 write!(f, "`{parameter}` is {value}, need finite numbers")
             }
             Self::Negative { parameter, value } => {
                 write!(f, "`{parameter}` is {value}, need a number ≥ 0")
             }
-            Self::NoDirection { parameter, vector: [x, y] } => write!(
+            Self::NoDirection {
+                parameter,
+                vector: [x, y],
+            } => write!(
                 f,
                 "`{parameter}` has no direction: the vector is ({x}, {y}), of length zero"
             ),
@@ -121,7 +130,11 @@ impl<'a> Reader<'a> {
         arguments: &'a [Argument],
     ) -> Result<Self, ArgumentError> {
         match parameters.len() == arguments.len() {
-            true => Ok(Self { parameters, arguments, next: 0 }),
+            true => Ok(Self {
+                parameters,
+                arguments,
+                next: 0,
+            }),
             false => Err(ArgumentError::Count {
                 expected: parameters.len(),
                 found: arguments.len(),
@@ -146,7 +159,9 @@ impl<'a> Reader<'a> {
     /// If it is missing, of another shape or not finite.
     pub fn point(&mut self) -> Result<[f64; 2], ArgumentError> {
         let (parameter, argument) = self.take();
-        let Argument::Pair(p) = argument else { return Err(mismatch(parameter, argument)) };
+        let Argument::Pair(p) = argument else {
+            return Err(mismatch(parameter, argument));
+        };
         finite(parameter, p)?;
         Ok(*p)
     }
@@ -157,10 +172,14 @@ impl<'a> Reader<'a> {
     /// If it is missing, of another shape, not finite or of length zero.
     pub fn direction(&mut self) -> Result<Direction, ArgumentError> {
         let (parameter, argument) = self.take();
-        let Argument::Pair(v) = argument else { return Err(mismatch(parameter, argument)) };
+        let Argument::Pair(v) = argument else {
+            return Err(mismatch(parameter, argument));
+        };
         finite(parameter, v)?;
-        Direction::new(*v)
-            .ok_or(ArgumentError::NoDirection { parameter: parameter.name, vector: *v })
+        Direction::new(*v).ok_or(ArgumentError::NoDirection {
+            parameter: parameter.name,
+            vector: *v,
+        })
     }
 
     /// The next value, a line of the ground.
@@ -169,7 +188,9 @@ impl<'a> Reader<'a> {
     /// If it is missing, of another shape, not finite, or its points coincide.
     pub fn line(&mut self) -> Result<Line, ArgumentError> {
         let (parameter, argument) = self.take();
-        let Argument::Pairs([a, b]) = argument else { return Err(mismatch(parameter, argument)) };
+        let Argument::Pairs([a, b]) = argument else {
+            return Err(mismatch(parameter, argument));
+        };
         finite(parameter, a)?;
         finite(parameter, b)?;
         Line::new(*a, *b).ok_or(ArgumentError::NoDirection {
@@ -196,7 +217,10 @@ impl<'a> Reader<'a> {
         };
         for (&value, unit) in values.iter().zip(units) {
             if value < 0.0 && !unit.may_be_negative() {
-                return Err(ArgumentError::Negative { parameter: parameter.name, value });
+                return Err(ArgumentError::Negative {
+                    parameter: parameter.name,
+                    value,
+                });
             }
         }
         Ok(values)
@@ -217,14 +241,22 @@ impl<'a> Reader<'a> {
 
 fn mismatch(parameter: &'static Parameter, argument: &Argument) -> ArgumentError {
     match argument {
-        Argument::Absent => ArgumentError::Missing { parameter: parameter.name },
-        _ => ArgumentError::Shape { parameter: parameter.name, expected: parameter.shape },
+        Argument::Absent => ArgumentError::Missing {
+            parameter: parameter.name,
+        },
+        _ => ArgumentError::Shape {
+            parameter: parameter.name,
+            expected: parameter.shape,
+        },
     }
 }
 
 fn finite(parameter: &'static Parameter, values: &[f64]) -> Result<(), ArgumentError> {
     match values.iter().find(|x| !x.is_finite()) {
-        Some(&value) => Err(ArgumentError::NotFinite { parameter: parameter.name, value }),
+        Some(&value) => Err(ArgumentError::NotFinite {
+            parameter: parameter.name,
+            value,
+        }),
         None => Ok(()),
     }
 }

@@ -22,13 +22,25 @@ pub struct Pose<T = f64> {
 
 impl Pose<f64> {
     /// The pose of the ground: the global frame.
-    pub const GROUND: Self = Self { x: 0.0, y: 0.0, angle: 0.0, cos: 1.0, sin: 0.0 };
+    pub const GROUND: Self = Self {
+        x: 0.0,
+        y: 0.0,
+        angle: 0.0,
+        cos: 1.0,
+        sin: 0.0,
+    };
 
     /// Position and angle, with cosine and sine computed.
     #[must_use]
     pub fn new(x: f64, y: f64, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
-        Self { x, y, angle, cos, sin }
+        Self {
+            x,
+            y,
+            angle,
+            cos,
+            sin,
+        }
     }
 
     /// The local coordinates of a global point: `R ᵀ·(p − r)`.
@@ -75,7 +87,11 @@ impl<T: Ring> Twist<T> {
     /// A body at rest.
     #[must_use]
     pub fn zero() -> Self {
-        Self { x: T::from(0.0), y: T::from(0.0), omega: T::from(0.0) }
+        Self {
+            x: T::from(0.0),
+            y: T::from(0.0),
+            omega: T::from(0.0),
+        }
     }
 }
 

@@ -10,12 +10,7 @@ pub trait Ring:
 }
 
 impl<T> Ring for T where
-    T: Copy
-        + From<f64>
-        + Add<Output = T>
-        + Sub<Output = T>
-        + Mul<Output = T>
-        + Neg<Output = T>
+    T: Copy + From<f64> + Add<Output = T> + Sub<Output = T> + Mul<Output = T> + Neg<Output = T>
 {
 }
 

@@ -67,13 +67,23 @@ impl Parameter {
     /// A parameter that must be given.
     #[must_use]
     pub const fn required(name: &'static str, shape: Shape, doc: &'static str) -> Self {
-        Self { name, shape, optional: false, doc }
+        Self {
+            name,
+            shape,
+            optional: false,
+            doc,
+        }
     }
 
     /// A parameter that has its value at the assembled start where none is given.
     #[must_use]
     pub const fn optional(name: &'static str, shape: Shape, doc: &'static str) -> Self {
-        Self { name, shape, optional: true, doc }
+        Self {
+            name,
+            shape,
+            optional: true,
+            doc,
+        }
     }
 }
 
@@ -108,14 +118,23 @@ impl fmt::Display for Shape {
             Self::Numbers(units) => write!(f, "{} numbers ({})", units.len(), list(units)),
             Self::Functions([unit]) => write!(f, "a number or a function of time ({unit})"),
             Self::Functions(units) => {
-                write!(f, "{} numbers or functions of time ({})", units.len(), list(units))
+                write!(
+                    f,
+                    "{} numbers or functions of time ({})",
+                    units.len(),
+                    list(units)
+                )
             }
         }
     }
 }
 
 fn list(units: &[Unit]) -> String {
-    units.iter().map(Unit::to_string).collect::<Vec<_>>().join(", ")
+    units
+        .iter()
+        .map(Unit::to_string)
+        .collect::<Vec<_>>()
+        .join(", ")
 }
 
 /// Unit of a number.
@@ -224,13 +243,19 @@ impl Row {
     /// A row that restricts the start.
     #[must_use]
     pub const fn restricting_start(name: &'static str) -> Self {
-        Self { name, restricts_start: true }
+        Self {
+            name,
+            restricts_start: true,
+        }
     }
 
     /// A row that keeps an initial value.
     #[must_use]
     pub const fn keeping_start(name: &'static str) -> Self {
-        Self { name, restricts_start: false }
+        Self {
+            name,
+            restricts_start: false,
+        }
     }
 }
 
@@ -251,13 +276,23 @@ impl Entry {
     /// An entry that depends on parameters only.
     #[must_use]
     pub const fn constant(row: usize, slot: usize, dof: usize) -> Self {
-        Self { row, slot, dof, constant: true }
+        Self {
+            row,
+            slot,
+            dof,
+            constant: true,
+        }
     }
 
     /// An entry that depends on the configuration.
     #[must_use]
     pub const fn varying(row: usize, slot: usize, dof: usize) -> Self {
-        Self { row, slot, dof, constant: false }
+        Self {
+            row,
+            slot,
+            dof,
+            constant: false,
+        }
     }
 }
 

@@ -1,1 +1,43 @@
-//! Placeholder.
+#![doc = include_str!("../README.md")]
+//!
+//! # Notation
+//!
+//! | doc | code | meaning | shape |
+//! | --- | --- | --- | --- |
+//! | q, q̇ | `q`, `rate` | coordinates, body by body (x, y, φ), and their rates | n_q |
+//! | v, v̇ | `v`, `a` | velocities and accelerations, body by body; in the plane v = q̇ | n_v |
+//! | Φ | `phi` | holonomic constraints | m |
+//! | Ψ, ψ | `psi` | Pfaffian rows, Ψ·v + ψ = 0 | h × n_v |
+//! | C, b | `c`, `b` | all rows stacked, C = \[Φq; Ψ\], C·v = b = \[−Φt; −ψ\] | (m+h) × n_v |
+//! | Γ | `gamma` | right-hand side of C·v̇ = Γ | m+h |
+//! | M | `mass` | diagonal of the mass matrix | n_v |
+//! | Q | `force` | applied forces, weight included | n_v |
+//! | λ | `lambda` | multipliers in M·v̇ + Cᵀ·λ = Q; the reaction of the joint X is −C_Xᵀ·λ_X | m+h |
+//!
+//! # Code map, in the order of the data
+//!
+//! | module | content |
+//! | --- | --- |
+//! | [`function`] | functions of time with their derivatives and break times |
+//! | [`registry`] | definitions by their scene type |
+//! | [`description`] | bodies, joints, drives and forces as plain data |
+//! | [`mechanism`] | the assembled equations |
+//! | [`system`] | what a solver sees of them |
+//! | [`start`] | a consistent start |
+//! | [`reaction`] | multipliers to forces and torques |
+
+pub mod description;
+pub mod function;
+pub mod mechanism;
+pub mod reaction;
+pub mod registry;
+pub mod start;
+pub mod system;
+
+pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
+pub use function::{Function, FunctionError};
+pub use mechanism::{BuildError, Mechanism};
+pub use reaction::{ConstraintId, ConstraintKind, Reaction};
+pub use registry::{ConstraintDefinition, ForceDefinition, PlaneConstraint, PlaneForce, Registry};
+pub use start::{Assembly, Coordinate, StartError, StartOptions};
+pub use system::{Layout, RowLabel, Scratch, System};

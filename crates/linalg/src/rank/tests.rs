@@ -2,6 +2,7 @@
 //! of nalgebra, and brute force over all choices.
 
 use nalgebra::DMatrix;
+use proptest::prelude::*;
 
 use super::*;
 use crate::strong_basis::COEFFICIENT_BOUND;
@@ -293,6 +294,37 @@ fn empty_and_zero_matrices_have_rank_zero() {
         let decision = decide(&Matrix::zeros(m, n), 0.0).unwrap();
         assert_eq!((decision.rank, decision.redundancy), (0, m));
         assert!(decision.is_decided());
+    }
+}
+
+proptest! {
+    /// Any bit pattern: an answer of the right shape or a named error, never a panic.
+    #[test]
+    fn arbitrary_input_is_survived(
+        m in 0..6_usize, n in 0..6_usize, residual in any::<f64>(),
+        data in prop::collection::vec(
+            prop_oneof![4 => Just(0.0), 8 => any::<f64>(), 1 => Just(f64::NAN)], 36),
+    ) {
+        let c = Matrix::from_fn(m, n, |i, j| data[6 * i + j]);
+        for residual in [0.0, residual] {
+            match decide(&c, residual) {
+                Ok(decision) => {
+                    prop_assert_eq!(decision.rank + decision.redundancy, m);
+                    prop_assert_eq!(crate::circuits(&decision).len(), decision.redundancy);
+                    let parts = components(&decision);
+                    let grouped: usize = parts.coupled.iter().map(Vec::len).sum();
+                    prop_assert_eq!(grouped + parts.coloops.len(), m);
+                    let z = crate::orthonormal(&decision);
+                    prop_assert_eq!((z.nrows(), z.ncols()), (m, decision.redundancy));
+                }
+                Err(RankError::NonFinite { row, col, .. }) => {
+                    prop_assert!(!c[(row, col)].is_finite());
+                }
+                Err(RankError::Residual { value }) => {
+                    prop_assert!(!(value.is_finite() && value >= 0.0));
+                }
+            }
+        }
     }
 }
 

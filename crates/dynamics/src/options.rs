@@ -1,0 +1,113 @@
+//! What a run is asked to do.
+
+/// How the equations of motion are integrated.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Method {
+    /// Dormand–Prince 5(4), the method of MATLAB's `ode45`.
+    #[default]
+    Dopri5,
+}
+
+impl Method {
+    /// Its name in scenes and results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dopri5 => "dopri5",
+        }
+    }
+}
+
+/// How redundant rows are dealt with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Formulation {
+    /// r independent rows are kept, the others only monitored.
+    #[default]
+    KeptRows,
+}
+
+impl Formulation {
+    /// Its name in scenes and results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::KeptRows => "kept-rows",
+        }
+    }
+}
+
+/// How drift off the constraints is prevented.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Stabilisation {
+    /// Position and velocity are projected in the mass metric after each step.
+    #[default]
+    Projection,
+}
+
+impl Stabilisation {
+    /// Its name in scenes and results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Projection => "projection",
+        }
+    }
+}
+
+/// Which rows are kept.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum RowChoice {
+    /// The rank decision chooses well-conditioned ones.
+    #[default]
+    Automatic,
+    /// All but these rows, counted from 0.
+    Drop(Vec<usize>),
+}
+
+/// What a run is asked to do.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionOptions {
+    /// Last time (s); the first is 0.
+    pub t_end: f64,
+    /// Time between written rows (s).
+    pub output_step: f64,
+    /// Relative tolerance of the step control.
+    pub rtol: f64,
+    /// Absolute tolerance of the step control.
+    pub atol: f64,
+    /// Integrator.
+    pub method: Method,
+    /// Treatment of redundancy.
+    pub formulation: Formulation,
+    /// Treatment of drift.
+    pub stabilisation: Stabilisation,
+    /// Rows to keep.
+    pub rows: RowChoice,
+}
+
+impl MotionOptions {
+    /// Output steps of a run where none is given.
+    pub const OUTPUT_STEPS: f64 = 200.0;
+    /// Relative tolerance where none is given.
+    pub const RTOL: f64 = 1e-8;
+    /// Absolute tolerance where none is given.
+    pub const ATOL: f64 = 1e-10;
+
+    /// The defaults for a run to `t_end`.
+    #[must_use]
+    pub fn to(t_end: f64) -> Self {
+        Self {
+            t_end,
+            output_step: t_end / Self::OUTPUT_STEPS,
+            rtol: Self::RTOL,
+            atol: Self::ATOL,
+            method: Method::default(),
+            formulation: Formulation::default(),
+            stabilisation: Stabilisation::default(),
+            rows: RowChoice::default(),
+        }
+    }
+}

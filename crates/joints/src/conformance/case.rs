@@ -1,0 +1,269 @@
+//! Cases: parameters, poses and motions drawn for a definition from what its spec says, ordinary and awkward ones.
+
+use std::f64::consts::{FRAC_PI_2, PI};
+use std::fmt;
+
+use crate::arguments::Argument;
+use crate::plane::{N_DOF, Pose, Twist};
+use crate::spec::{Parameter, Shape, Spec, Unit};
+
+/// Ordinary cases of one check.
+pub const ORDINARY_CASES: usize = 1000;
+/// Awkward cases of one check, of each kind.
+pub const AWKWARD_CASES: usize = 25;
+/// Motions of one case. A right-hand side of one row can vanish by chance for one motion, and its relative error
+/// then means nothing; several side by side have a size.
+pub(super) const MOTIONS: usize = 4;
+
+/// What is special about a case.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Kind {
+    /// Nothing: coordinates within ±2, angles within ±π.
+    Ordinary,
+    /// All frames have the same angle.
+    ParallelFrames,
+    /// Angles are 0, ±π/2 or ±π, and directions are along a frame axis.
+    RightAngles,
+    /// Angles differ from ±π by 1e-9.
+    NearPi,
+    /// Angles of about ±1000.
+    LargeAngles,
+    /// Coordinates within ±1000.
+    FarApart,
+    /// Coordinates within ±2 of a point 1000 away.
+    FarTogether,
+    /// All points are the origins of their frames.
+    ZeroOffsets,
+    /// All bodies have the same pose.
+    Coincident,
+    /// All bodies have the same pose, and all points are the origins of their frames.
+    CoincidentPoints,
+    /// All bodies stand still.
+    AtRest,
+}
+
+impl Kind {
+    const AWKWARD: [Self; 10] = [
+        Self::ParallelFrames,
+        Self::RightAngles,
+        Self::NearPi,
+        Self::LargeAngles,
+        Self::FarApart,
+        Self::FarTogether,
+        Self::ZeroOffsets,
+        Self::Coincident,
+        Self::CoincidentPoints,
+        Self::AtRest,
+    ];
+}
+
+/// Velocities, accelerations and multipliers.
+#[derive(Clone, Debug)]
+pub(super) struct Motion {
+    pub(super) v: Vec<Twist>,
+    pub(super) a: Vec<Twist>,
+    pub(super) lambda: Vec<f64>,
+}
+
+/// One case: everything that the kernels of a definition take.
+#[derive(Clone, Debug)]
+pub struct Case {
+    /// Its number among the cases of the check.
+    pub index: usize,
+    /// What is special about it.
+    pub kind: Kind,
+    /// Values of the parameters.
+    pub arguments: Vec<Argument>,
+    /// The assembled start, from which initial values are taken.
+    pub start: Vec<Pose>,
+    /// The poses at which kernels are evaluated.
+    pub x: Vec<Pose>,
+    /// The functions of time, as jets.
+    pub f: Vec<[f64; 3]>,
+    pub(super) motions: Vec<Motion>,
+}
+
+impl Case {
+    /// All cases for a definition with so many rows.
+    pub(super) fn all(seed: u64, spec: &'static Spec, rows: usize) -> impl Iterator<Item = Self> {
+        let kinds = std::iter::repeat_n(Kind::Ordinary, ORDINARY_CASES)
+            .chain(Kind::AWKWARD.into_iter().flat_map(|k| std::iter::repeat_n(k, AWKWARD_CASES)));
+        let mut random = Random(seed);
+        kinds.enumerate().map(move |(index, kind)| Self {
+            index,
+            kind,
+            arguments: spec.parameters.iter().map(|p| argument(p, kind, &mut random)).collect(),
+            start: poses(spec.slots.len(), kind, &mut random),
+            x: poses(spec.slots.len(), kind, &mut random),
+            f: spec.functions().map(|_| std::array::from_fn(|_| random.within(2.0))).collect(),
+            motions: (0..MOTIONS)
+                .map(|_| motion(spec.slots.len(), rows, kind, &mut random))
+                .collect(),
+        })
+    }
+
+    /// The case with an ordinary start, drawn anew.
+    pub(super) fn with_another_start(&self, attempt: u64) -> Self {
+        let mut random = Random(attempt ^ ((self.index as u64) << 32));
+        Self { start: poses(self.x.len(), Kind::Ordinary, &mut random), ..self.clone() }
+    }
+
+    /// The case with all bodies moved as one rigid body: poses, start and motions.
+    pub(super) fn moved(&self) -> Self {
+        let turn = Pose::new(0.7, -1.3, 0.9);
+        let poses = |x: &[Pose]| x.iter().map(|p| compose(&turn, p)).collect();
+        let twists = |v: &[Twist]| -> Vec<Twist> {
+            v.iter()
+                .map(|v| Twist {
+                    x: turn.cos * v.x - turn.sin * v.y,
+                    y: turn.cos * v.y + turn.sin * v.x,
+                    omega: v.omega,
+                })
+                .collect()
+        };
+        Self {
+            start: poses(&self.start),
+            x: poses(&self.x),
+            motions: self
+                .motions
+                .iter()
+                .map(|m| Motion { v: twists(&m.v), a: twists(&m.a), lambda: m.lambda.clone() })
+                .collect(),
+            ..self.clone()
+        }
+    }
+
+    /// The largest coordinate of poses, start and parameters, at least 1: round-off of 1 ε in it moves Φ by
+    /// this number times ‖C‖·ε.
+    pub(super) fn size(&self) -> f64 {
+        let poses = self.x.iter().chain(&self.start).flat_map(|p| [p.x, p.y, p.angle]);
+        let arguments = self.arguments.iter().flat_map(|a| match a {
+            Argument::Pair(p) => p.to_vec(),
+            Argument::Pairs([a, b]) => vec![a[0], a[1], b[0], b[1]],
+            Argument::Numbers(n) => n.clone(),
+            Argument::Absent => Vec::new(),
+        });
+        let functions = self.f.iter().flatten().copied();
+        poses.chain(arguments).chain(functions).fold(1.0, |m, e| m.max(e.abs()))
+    }
+}
+
+impl fmt::Display for Case {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "  case {} ({:?})", self.index, self.kind)?;
+        writeln!(f, "  parameters {:?}", self.arguments)?;
+        for (name, poses) in [("start", &self.start), ("pose", &self.x)] {
+            write!(f, "  {name}")?;
+            for p in poses {
+                write!(f, " (x {:?}, y {:?}, angle {:?})", p.x, p.y, p.angle)?;
+            }
+            writeln!(f)?;
+        }
+        write!(f, "  functions of time {:?}", self.f)
+    }
+}
+
+fn compose(outer: &Pose, inner: &Pose) -> Pose {
+    let [x, y] = outer.to_global([inner.x, inner.y]);
+    Pose::new(x, y, outer.angle + inner.angle)
+}
+
+fn argument(parameter: &Parameter, kind: Kind, random: &mut Random) -> Argument {
+    if parameter.optional && random.below(2) == 0 {
+        return Argument::Absent;
+    }
+    match parameter.shape {
+        Shape::Point { .. } if matches!(kind, Kind::ZeroOffsets | Kind::CoincidentPoints) => {
+            Argument::Pair([0.0, 0.0])
+        }
+        Shape::Point { .. } => Argument::Pair(random.pair(2.0)),
+        Shape::Direction { .. } if kind == Kind::RightAngles => {
+            Argument::Pair([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][random.below(4)])
+        }
+        Shape::Direction { .. } => Argument::Pair(random.pair(1.0)),
+        Shape::GroundLine => Argument::Pairs([random.pair(2.0), random.pair(2.0)]),
+        Shape::Numbers(units) => {
+            Argument::Numbers(units.iter().map(|&u| number(u, random)).collect())
+        }
+        Shape::Functions(_) => Argument::Absent,
+    }
+}
+
+fn number(unit: Unit, random: &mut Random) -> f64 {
+    match unit.may_be_negative() {
+        true => random.within(3.0),
+        false => random.within(5.0).abs(),
+    }
+}
+
+fn poses(n: usize, kind: Kind, random: &mut Random) -> Vec<Pose> {
+    let base = match kind {
+        Kind::FarTogether => [1e3, -1e3],
+        _ => [0.0, 0.0],
+    };
+    let reach = if kind == Kind::FarApart { 1e3 } else { 2.0 };
+    let draw = |random: &mut Random| {
+        let [x, y] = random.pair(reach);
+        let sign = [-1.0, 1.0][random.below(2)];
+        let angle = match kind {
+            Kind::RightAngles => [0.0, FRAC_PI_2, -FRAC_PI_2, PI, -PI][random.below(5)],
+            Kind::NearPi => sign * (PI + [1e-9, -1e-9][random.below(2)]),
+            Kind::LargeAngles => sign * (1e3 + random.within(PI)),
+            _ => random.within(PI),
+        };
+        Pose::new(base[0] + x, base[1] + y, angle)
+    };
+    let first = draw(random);
+    (0..n)
+        .map(|slot| match kind {
+            _ if slot == 0 => first,
+            Kind::Coincident | Kind::CoincidentPoints => first,
+            Kind::ParallelFrames => {
+                Pose { angle: first.angle, cos: first.cos, sin: first.sin, ..draw(random) }
+            }
+            _ => draw(random),
+        })
+        .collect()
+}
+
+fn motion(slots: usize, rows: usize, kind: Kind, random: &mut Random) -> Motion {
+    let speed = if kind == Kind::AtRest { 0.0 } else { 2.0 };
+    let mut twists = |reach: f64| -> Vec<Twist> {
+        (0..slots)
+            .map(|_| {
+                let [x, y, omega]: [f64; N_DOF] = std::array::from_fn(|_| random.within(reach));
+                Twist { x, y, omega }
+            })
+            .collect()
+    };
+    let (v, a) = (twists(speed), twists(5.0));
+    Motion { v, a, lambda: (0..rows).map(|_| random.within(3.0)).collect() }
+}
+
+/// SplitMix64 (Steele, Lea, Flood 2014): reproducible on every platform, without a dependency.
+pub(super) struct Random(pub(super) u64);
+
+impl Random {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in ±reach.
+    pub(super) fn within(&mut self, reach: f64) -> f64 {
+        let unit = (self.next() >> 11) as f64 / (1u64 << 53) as f64;
+        reach * (2.0 * unit - 1.0)
+    }
+
+    fn pair(&mut self, reach: f64) -> [f64; 2] {
+        [self.within(reach), self.within(reach)]
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.next() >> 33) as usize % n
+    }
+}

@@ -1,0 +1,348 @@
+//! Functions of time, with their first two derivatives and the times where a derivative jumps. Nothing else in the
+//! house depends on time.
+
+mod spline;
+
+use spline::Spline;
+
+/// A scalar function of time.
+///
+/// ```
+/// use model::Function;
+/// let ramp = Function::steps(0.0, &[[1.0, 2.0, 0.5]])?; // from t = 1 to t = 2 by 0.5
+/// assert_eq!(ramp.jet(0.0), [0.0, 0.0, 0.0]);
+/// assert_eq!(ramp.jet(1.5)[0], 0.25);
+/// assert_eq!(ramp.jet(3.0), [0.5, 0.0, 0.0]);
+/// assert_eq!(ramp.break_times(), [1.0, 2.0]);
+/// # Ok::<(), model::FunctionError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Function(Law);
+
+#[derive(Clone, Debug, PartialEq)]
+enum Law {
+    Polynomial(Vec<f64>),
+    Harmonic {
+        amplitude: f64,
+        omega: f64,
+        phase: f64,
+        offset: f64,
+    },
+    Steps {
+        start: f64,
+        steps: Vec<Step>,
+    },
+    Table(Spline),
+}
+
+/// A smooth step `by·(10s³ − 15s⁴ + 6s⁵)`, `s = (t − from)/(to − from)` clamped to [0, 1].
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Step {
+    from: f64,
+    to: f64,
+    by: f64,
+}
+
+/// What is wrong with a function of time.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FunctionError {
+    /// A number is NaN or infinite.
+    #[error("`{name}` is {value}, need finite numbers")]
+    NotFinite {
+        /// Which number.
+        name: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// A step that ends before it begins.
+    #[error("step {step} runs from t = {from} to t = {to}; `to` must be later than `from`")]
+    EmptyStep {
+        /// Number of the step, from 1.
+        step: usize,
+        /// Its first time.
+        from: f64,
+        /// Its last time.
+        to: f64,
+    },
+    /// A table with too few points.
+    #[error("a table needs at least 2 points, found {found}")]
+    ShortTable {
+        /// Number of points.
+        found: usize,
+    },
+    /// Times and values differ in number.
+    #[error("{times} times and {values} values; a table needs as many of both")]
+    Uneven {
+        /// Number of times.
+        times: usize,
+        /// Number of values.
+        values: usize,
+    },
+    /// Times that do not grow.
+    #[error("times must grow: times[{index}] = {later} follows {earlier}")]
+    NotIncreasing {
+        /// Place of the later time, from 0.
+        index: usize,
+        /// The time before it.
+        earlier: f64,
+        /// The time that does not grow.
+        later: f64,
+    },
+}
+
+impl Function {
+    /// The same value at all times.
+    ///
+    /// # Errors
+    /// If it is not finite.
+    pub fn constant(value: f64) -> Result<Self, FunctionError> {
+        Self::polynomial(&[value])
+    }
+
+    /// `rate·t`
+    ///
+    /// # Errors
+    /// If the rate is not finite.
+    pub fn constant_rate(rate: f64) -> Result<Self, FunctionError> {
+        finite("rate", &[rate])?;
+        Self::polynomial(&[0.0, rate])
+    }
+
+    /// `Σ coefficients[k]·tᵏ`
+    ///
+    /// # Errors
+    /// If a coefficient is not finite.
+    pub fn polynomial(coefficients: &[f64]) -> Result<Self, FunctionError> {
+        finite("coefficients", coefficients)?;
+        Ok(Self(Law::Polynomial(coefficients.to_vec())))
+    }
+
+    /// `amplitude·sin(omega·t + phase) + offset`
+    ///
+    /// # Errors
+    /// If a number is not finite.
+    pub fn harmonic(
+        amplitude: f64,
+        omega: f64,
+        phase: f64,
+        offset: f64,
+    ) -> Result<Self, FunctionError> {
+        finite("amplitude", &[amplitude])?;
+        finite("omega", &[omega])?;
+        finite("phase", &[phase])?;
+        finite("offset", &[offset])?;
+        Ok(Self(Law::Harmonic {
+            amplitude,
+            omega,
+            phase,
+            offset,
+        }))
+    }
+
+    /// `start` and smooth steps `[from, to, by]`: between its times each adds `by·(10s³ − 15s⁴ + 6s⁵)`.
+    ///
+    /// # Errors
+    /// If a number is not finite or a step does not take time.
+    pub fn steps(start: f64, steps: &[[f64; 3]]) -> Result<Self, FunctionError> {
+        finite("start", &[start])?;
+        for (k, &[from, to, by]) in steps.iter().enumerate() {
+            finite("from", &[from])?;
+            finite("to", &[to])?;
+            finite("by", &[by])?;
+            if to <= from {
+                return Err(FunctionError::EmptyStep {
+                    step: k + 1,
+                    from,
+                    to,
+                });
+            }
+        }
+        let steps = steps
+            .iter()
+            .map(|&[from, to, by]| Step { from, to, by })
+            .collect();
+        Ok(Self(Law::Steps { start, steps }))
+    }
+
+    /// The natural cubic spline through a table, continued as a straight line on both sides.
+    ///
+    /// # Errors
+    /// If there are fewer than two points, times do not grow, or a number is not finite.
+    pub fn table(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
+        finite("times", times)?;
+        finite("values", values)?;
+        if times.len() != values.len() {
+            return Err(FunctionError::Uneven {
+                times: times.len(),
+                values: values.len(),
+            });
+        }
+        if times.len() < 2 {
+            return Err(FunctionError::ShortTable { found: times.len() });
+        }
+        if let Some(k) = (1..times.len()).find(|&k| times[k] <= times[k - 1]) {
+            return Err(FunctionError::NotIncreasing {
+                index: k,
+                earlier: times[k - 1],
+                later: times[k],
+            });
+        }
+        Ok(Self(Law::Table(Spline::natural(times, values))))
+    }
+
+    /// `[f(t), ḟ(t), f̈(t)]`
+    #[must_use]
+    pub fn jet(&self, t: f64) -> [f64; 3] {
+        match &self.0 {
+            // Horner's scheme for the value and both derivatives.
+            Law::Polynomial(c) => c.iter().rev().fold([0.0; 3], |[f, d, dd], &c| {
+                [f * t + c, d * t + f, dd * t + 2.0 * d]
+            }),
+            Law::Harmonic {
+                amplitude,
+                omega,
+                phase,
+                offset,
+            } => {
+                let (sin, cos) = (omega * t + phase).sin_cos();
+                [
+                    amplitude * sin + offset,
+                    amplitude * omega * cos,
+                    -amplitude * omega * omega * sin,
+                ]
+            }
+            Law::Steps { start, steps } => steps.iter().fold([*start, 0.0, 0.0], |sum, step| {
+                let jet = step.jet(t);
+                [sum[0] + jet[0], sum[1] + jet[1], sum[2] + jet[2]]
+            }),
+            Law::Table(spline) => spline.jet(t),
+        }
+    }
+
+    /// Times at which a derivative jumps, ascending.
+    #[must_use]
+    pub fn break_times(&self) -> Vec<f64> {
+        let mut times = match &self.0 {
+            Law::Polynomial(_) | Law::Harmonic { .. } => Vec::new(),
+            Law::Steps { steps, .. } => steps.iter().flat_map(|s| [s.from, s.to]).collect(),
+            Law::Table(spline) => spline.times().to_vec(),
+        };
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        times
+    }
+
+    /// Whether the value is the same at all times.
+    #[must_use]
+    pub fn is_constant(&self) -> bool {
+        match &self.0 {
+            Law::Polynomial(c) => c.iter().skip(1).all(|&c| c == 0.0),
+            Law::Harmonic {
+                amplitude, omega, ..
+            } => *amplitude == 0.0 || *omega == 0.0,
+            Law::Steps { steps, .. } => steps.iter().all(|s| s.by == 0.0),
+            Law::Table(_) => false,
+        }
+    }
+}
+
+impl Step {
+    fn jet(self, t: f64) -> [f64; 3] {
+        let Self { from, to, by } = self;
+        if t <= from {
+            return [0.0; 3];
+        }
+        if t >= to {
+            return [by, 0.0, 0.0];
+        }
+        let span = to - from;
+        let s = (t - from) / span;
+        [
+            by * s * s * s * (10.0 + s * (6.0 * s - 15.0)),
+            by / span * 30.0 * s * s * (s - 1.0) * (s - 1.0),
+            by / (span * span) * 60.0 * s * (s - 1.0) * (2.0 * s - 1.0),
+        ]
+    }
+}
+
+fn finite(name: &'static str, values: &[f64]) -> Result<(), FunctionError> {
+    match values.iter().find(|x| !x.is_finite()) {
+        Some(&value) => Err(FunctionError::NotFinite { name, value }),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Central differences of a smooth function, step 1e-4: error about 1e-8 of the third derivative.
+    const DIFFERENCE: f64 = 1e-6;
+
+    #[test]
+    fn derivatives_agree_with_differences() {
+        let functions = [
+            Function::polynomial(&[1.0, -2.0, 0.5, 0.25]).unwrap(),
+            Function::harmonic(0.7, 3.0, 0.4, 1.0).unwrap(),
+            Function::steps(0.3, &[[0.0, 1.0, 2.0], [0.5, 2.0, -1.0]]).unwrap(),
+            Function::table(&[-1.0, 0.0, 0.7, 2.0], &[0.0, 1.0, -1.0, 0.5]).unwrap(),
+        ];
+        let h = 1e-4;
+        for f in &functions {
+            for t in [-0.4, 0.2, 0.55, 0.8, 1.3] {
+                let [before, now, after] = [f.jet(t - h), f.jet(t), f.jet(t + h)];
+                for k in 0..2 {
+                    let difference = (after[k] - before[k]) / (2.0 * h);
+                    assert!(
+                        (difference - now[k + 1]).abs() < DIFFERENCE * 100.0,
+                        "{f:?} at {t}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_spline_reproduces_a_straight_line_exactly_also_outside() {
+        let f = Function::table(&[0.0, 1.0, 4.0], &[1.0, 3.0, 9.0]).unwrap();
+        for t in [-2.0, 0.0, 0.5, 1.0, 3.0, 4.0, 6.0] {
+            let [value, rate, second] = f.jet(t);
+            assert!((value - (1.0 + 2.0 * t)).abs() < 1e-14);
+            assert!((rate - 2.0).abs() < 1e-14 && second.abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_spline_has_two_continuous_derivatives_at_its_points() {
+        let f = Function::table(&[0.0, 1.0, 1.5, 4.0], &[1.0, -3.0, 2.0, 0.0]).unwrap();
+        for t in [0.0, 1.0, 1.5, 4.0] {
+            let (before, after) = (f.jet(t - 1e-9), f.jet(t + 1e-9));
+            for k in 0..3 {
+                assert!((before[k] - after[k]).abs() < 1e-6, "derivative {k} at {t}");
+            }
+        }
+    }
+
+    #[test]
+    fn wrong_data_are_named() {
+        assert_eq!(
+            Function::steps(0.0, &[[1.0, 1.0, 2.0]])
+                .unwrap_err()
+                .to_string(),
+            "step 1 runs from t = 1 to t = 1; `to` must be later than `from`"
+        );
+        assert!(matches!(
+            Function::table(&[0.0, 1.0, 1.0], &[0.0; 3]),
+            Err(FunctionError::NotIncreasing { index: 2, .. })
+        ));
+        assert!(matches!(
+            Function::table(&[0.0], &[0.0]),
+            Err(FunctionError::ShortTable { found: 1 })
+        ));
+        assert!(matches!(
+            Function::constant(f64::NAN),
+            Err(FunctionError::NotFinite { .. })
+        ));
+    }
+}

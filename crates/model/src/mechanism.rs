@@ -1,0 +1,220 @@
+//! The assembled mechanism: elements in a list, each with its bodies, rows and entries. Building checks
+//! everything that can be wrong; what is built has no invalid state.
+
+mod build;
+mod kernels;
+
+use std::ops::Range;
+
+use joints::Pose;
+
+use crate::description::{Body, BodyRef};
+use crate::function::Function;
+use crate::registry::{PlaneConstraint, PlaneForce};
+use crate::system::Layout;
+
+pub use build::BuildError;
+
+/// Coordinates and velocities of a planar body.
+pub(crate) const N_BODY: usize = 3;
+
+/// A mechanism in the plane: bodies, constraints, forces, and the equations they make.
+///
+/// ```
+/// use joints::Revolute;
+/// use model::{Body, BodyRef, Description, Joint, Mechanism, System};
+/// // A pendulum of length 2 hanging straight down, moving with 1 rad/s.
+/// let pendulum = Description {
+///     gravity: [0.0, -9.81],
+///     bodies: vec![Body {
+///         name: "bob".into(),
+///         mass: 1.0,
+///         inertia: 0.1,
+///         position: [0.0, -2.0],
+///         ..Body::default()
+///     }],
+///     joints: vec![Joint::new(
+///         "pivot",
+///         &[BodyRef::Ground, BodyRef::Body(0)],
+///         Revolute { s_i: [0.0, 0.0], s_j: [0.0, 2.0] },
+///     )],
+///     ..Description::default()
+/// };
+/// let mechanism = Mechanism::build(&pendulum).unwrap();
+/// let mut s = mechanism.scratch();
+/// mechanism.pose(0.0, &[0.0, -2.0, 0.0], &mut s);
+/// mechanism.phi(&mut s);
+/// assert_eq!(s.phi, [0.0, 0.0]);
+/// mechanism.twist(&[2.0, 0.0, 1.0], &mut s);
+/// mechanism.gamma(&mut s);
+/// // Γ = −R_j·s_j·φ̇² on the second body.
+/// assert_eq!(s.gamma, [0.0, -2.0]);
+/// ```
+#[derive(Clone)]
+pub struct Mechanism {
+    name: String,
+    bodies: Vec<Body>,
+    constraints: Vec<PlacedConstraint>,
+    forces: Vec<PlacedForce>,
+    functions: Vec<TimeFunction>,
+    mass: Vec<f64>,
+    weight: Vec<f64>,
+    /// Constant entries of C, zero elsewhere.
+    entries: Vec<f64>,
+    n_slots: usize,
+    /// Largest number of values of one kernel.
+    block: usize,
+    layout: Layout,
+}
+
+/// A constraint in its place.
+#[derive(Clone)]
+pub(crate) struct PlacedConstraint {
+    pub(crate) element: Box<dyn PlaneConstraint>,
+    pub(crate) bodies: Vec<BodyRef>,
+    /// Its poses in the scratch.
+    pub(crate) slots: Range<usize>,
+    /// Its entries of C in the scratch.
+    pub(crate) entries: Range<usize>,
+    /// Places of the varying entries, relative to `entries`.
+    pub(crate) varying: Vec<usize>,
+    pub(crate) rows: Range<usize>,
+    pub(crate) functions: Range<usize>,
+}
+
+/// A force in its place.
+#[derive(Clone)]
+pub(crate) struct PlacedForce {
+    pub(crate) name: String,
+    pub(crate) element: Box<dyn PlaneForce>,
+    pub(crate) bodies: Vec<BodyRef>,
+    pub(crate) slots: Range<usize>,
+    pub(crate) functions: Range<usize>,
+    /// Column of Q for each value of the kernel; nothing for the ground.
+    pub(crate) columns: Vec<Option<usize>>,
+}
+
+/// A function of time as an element takes it.
+#[derive(Clone)]
+pub(crate) struct TimeFunction {
+    function: Function,
+    /// f(0) for drives, which follow f(t) − f(0).
+    offset: f64,
+}
+
+impl TimeFunction {
+    fn jet(&self, t: f64) -> [f64; 3] {
+        let [f, d, dd] = self.function.jet(t);
+        [f - self.offset, d, dd]
+    }
+}
+
+impl Mechanism {
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Its bodies, as described.
+    #[must_use]
+    pub fn bodies(&self) -> &[Body] {
+        &self.bodies
+    }
+
+    /// Coordinates and velocities as described, not corrected.
+    #[must_use]
+    pub fn described_state(&self) -> (Vec<f64>, Vec<f64>) {
+        let q = self
+            .bodies
+            .iter()
+            .flat_map(|b| [b.position[0], b.position[1], b.angle])
+            .collect();
+        let v = self
+            .bodies
+            .iter()
+            .flat_map(|b| [b.velocity[0], b.velocity[1], b.angular_velocity])
+            .collect();
+        (q, v)
+    }
+
+    /// Whether forces are applied that a potential of the weight does not explain: energy may be fed or lost.
+    #[must_use]
+    pub fn has_applied_forces(&self) -> bool {
+        !self.forces.is_empty()
+    }
+
+    /// Kinetic energy at velocities v (J).
+    #[must_use]
+    pub fn kinetic_energy(&self, v: &[f64]) -> f64 {
+        self.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum()
+    }
+
+    /// Power of the weight and the applied forces (W), after `force` has been evaluated.
+    #[must_use]
+    pub fn applied_power(&self, force: &[f64], v: &[f64]) -> f64 {
+        force.iter().zip(v).map(|(q, v)| q * v).sum()
+    }
+
+    /// Potential energy of the weight (J).
+    #[must_use]
+    pub fn potential_energy(&self, q: &[f64]) -> f64 {
+        self.weight.iter().zip(q).map(|(w, q)| -w * q).sum()
+    }
+
+    /// Takes initial values of joints, drives and forces from a configuration.
+    pub(crate) fn initialise(&mut self, q: &[f64]) {
+        let poses: Vec<Pose> = q
+            .chunks_exact(N_BODY)
+            .map(|c| Pose::new(c[0], c[1], c[2]))
+            .collect();
+        let of = |bodies: &[BodyRef]| -> Vec<Pose> {
+            bodies.iter().map(|&b| pose_of(&poses, b)).collect()
+        };
+        for c in &mut self.constraints {
+            c.element.element_mut().initialise(&of(&c.bodies));
+        }
+        for f in &mut self.forces {
+            f.element.element_mut().initialise(&of(&f.bodies));
+        }
+    }
+
+    /// The first requirement of a definition that does not hold at a configuration: who, and what.
+    pub(crate) fn unmet_requirement(&self, q: &[f64]) -> Option<(String, &'static str)> {
+        let poses: Vec<Pose> = q
+            .chunks_exact(N_BODY)
+            .map(|c| Pose::new(c[0], c[1], c[2]))
+            .collect();
+        let of = |bodies: &[BodyRef]| -> Vec<Pose> {
+            bodies.iter().map(|&b| pose_of(&poses, b)).collect()
+        };
+        for (c, group) in self.constraints.iter().zip(&self.layout.groups) {
+            let element = c.element.element();
+            let words = element.spec().common.requirements;
+            let x = of(&c.bodies);
+            if let Some(k) = (0..words.len()).find(|&k| !element.requirement(k, &x)) {
+                return Some((group.name.clone(), words[k]));
+            }
+        }
+        for f in &self.forces {
+            let element = f.element.element();
+            let words = element.spec().common.requirements;
+            let x = of(&f.bodies);
+            if let Some(k) = (0..words.len()).find(|&k| !element.requirement(k, &x)) {
+                return Some((f.name.clone(), words[k]));
+            }
+        }
+        None
+    }
+
+    pub(crate) fn constraints(&self) -> &[PlacedConstraint] {
+        &self.constraints
+    }
+}
+
+pub(crate) fn pose_of(poses: &[Pose], body: BodyRef) -> Pose {
+    match body {
+        BodyRef::Ground => Pose::GROUND,
+        BodyRef::Body(k) => poses[k],
+    }
+}

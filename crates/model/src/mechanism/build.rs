@@ -1,0 +1,463 @@
+//! From a description to a mechanism. All faults of a description are found in one go.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use joints::spec::{Level, Spec};
+
+use super::{Mechanism, N_BODY, PlacedConstraint, PlacedForce, TimeFunction};
+use crate::description::{Body, BodyRef, Description};
+use crate::function::Function;
+use crate::reaction::{ConstraintGroup, ConstraintKind};
+use crate::registry::PlaneConstraint;
+use crate::system::{Layout, RowLabel};
+
+/// One fault of a description.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// There is nothing to move.
+    #[error("a mechanism needs at least one body")]
+    NoBodies,
+    /// Two things have one name.
+    #[error("the name `{name}` is used twice")]
+    DuplicateName {
+        /// The name.
+        name: String,
+    },
+    /// A name that is always taken.
+    #[error("`ground` is the name of the ground and is always there")]
+    Ground,
+    /// A number of a body is NaN or infinite.
+    #[error("body `{body}`: {field} is {value}, need finite numbers")]
+    NotFinite {
+        /// The body.
+        body: String,
+        /// Which number.
+        field: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// A mass or an inertia is negative.
+    #[error("body `{body}`: {field} is {value}, need a number ≥ 0")]
+    Negative {
+        /// The body.
+        body: String,
+        /// Which number.
+        field: &'static str,
+        /// The number.
+        value: f64,
+    },
+    /// Gravity is NaN or infinite.
+    #[error("gravity is [{x}, {y}], need finite numbers")]
+    Gravity {
+        /// Its x component.
+        x: f64,
+        /// Its y component.
+        y: f64,
+    },
+    /// A joint, drive or force has another number of bodies than its definition.
+    #[error("`{name}` connects {found} bodies, `{definition}` needs {expected}")]
+    BodyCount {
+        /// The joint, drive or force.
+        name: String,
+        /// Its definition.
+        definition: &'static str,
+        /// Number of slots.
+        expected: usize,
+        /// Number of bodies given.
+        found: usize,
+    },
+    /// A body that does not exist.
+    #[error("`{name}` refers to body number {body}; there are {n_bodies}, counted from 0")]
+    UnknownBody {
+        /// The joint, drive or force.
+        name: String,
+        /// The number.
+        body: usize,
+        /// Number of bodies.
+        n_bodies: usize,
+    },
+    /// A joint between a body and itself.
+    #[error("`{name}` connects `{body}` with itself")]
+    SameBody {
+        /// The joint, drive or force.
+        name: String,
+        /// The body.
+        body: String,
+    },
+    /// A joint or force without any moving body.
+    #[error("`{name}` connects the ground with itself")]
+    GroundOnly {
+        /// The joint, drive or force.
+        name: String,
+    },
+    /// Another number of functions of time than the definition has.
+    #[error("`{name}` has {found} functions of time, `{definition}` needs {expected}")]
+    FunctionCount {
+        /// The joint or force.
+        name: String,
+        /// Its definition.
+        definition: &'static str,
+        /// Number of functions of the definition.
+        expected: usize,
+        /// Number of functions given.
+        found: usize,
+    },
+}
+
+impl Mechanism {
+    /// Assembles a mechanism. Initial values are those of the described configuration until
+    /// [`crate::start::assemble`] has found a consistent one.
+    ///
+    /// # Errors
+    /// All faults of the description.
+    pub fn build(d: &Description) -> Result<Self, Vec<BuildError>> {
+        let mut errors = Vec::new();
+        check_bodies(d, &mut errors);
+        check_names(d, &mut errors);
+        check_places(d, &mut errors);
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        let mut b = Builder::default();
+        let of_level = |level| {
+            d.joints
+                .iter()
+                .filter(move |j| j.element.element().spec().level == level)
+        };
+        for j in of_level(Level::Holonomic) {
+            b.constraint(
+                &j.name,
+                ConstraintKind::Joint,
+                &j.bodies,
+                j.element.as_ref(),
+                &j.functions,
+            );
+        }
+        for drive in &d.drives {
+            let motion = std::slice::from_ref(&drive.motion);
+            b.constraint(
+                &drive.name,
+                ConstraintKind::Drive,
+                &drive.bodies,
+                drive.element.as_ref(),
+                motion,
+            );
+        }
+        b.layout.m = b.layout.labels.len();
+        for j in of_level(Level::Nonholonomic) {
+            b.constraint(
+                &j.name,
+                ConstraintKind::Joint,
+                &j.bodies,
+                j.element.as_ref(),
+                &j.functions,
+            );
+        }
+        b.layout.h = b.layout.labels.len() - b.layout.m;
+        for f in &d.forces {
+            b.force(f);
+        }
+        Ok(b.finish(d))
+    }
+}
+
+fn check_bodies(d: &Description, errors: &mut Vec<BuildError>) {
+    if d.bodies.is_empty() {
+        errors.push(BuildError::NoBodies);
+    }
+    let [x, y] = d.gravity;
+    if !(x.is_finite() && y.is_finite()) {
+        errors.push(BuildError::Gravity { x, y });
+    }
+    for b in &d.bodies {
+        let fields = [
+            ("mass", b.mass),
+            ("inertia", b.inertia),
+            ("position", b.position[0]),
+            ("position", b.position[1]),
+            ("angle", b.angle),
+            ("velocity", b.velocity[0]),
+            ("velocity", b.velocity[1]),
+            ("angular velocity", b.angular_velocity),
+        ];
+        for (field, value) in fields {
+            let body = b.name.clone();
+            if !value.is_finite() {
+                errors.push(BuildError::NotFinite { body, field, value });
+            } else if value < 0.0 && matches!(field, "mass" | "inertia") {
+                errors.push(BuildError::Negative { body, field, value });
+            }
+        }
+    }
+}
+
+fn check_names(d: &Description, errors: &mut Vec<BuildError>) {
+    let mut seen = BTreeMap::new();
+    let bodies = d.bodies.iter().map(|b| (&b.name, "body"));
+    let others = d
+        .joints
+        .iter()
+        .map(|j| &j.name)
+        .chain(d.drives.iter().map(|x| &x.name))
+        .chain(d.forces.iter().map(|f| &f.name))
+        .map(|name| (name, "joint"));
+    for (name, space) in bodies.chain(others) {
+        if name == "ground" {
+            errors.push(BuildError::Ground);
+        } else if seen.insert((name, space), ()).is_some() {
+            errors.push(BuildError::DuplicateName { name: name.clone() });
+        }
+    }
+}
+
+fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
+    for j in &d.joints {
+        let spec = &j.element.element().spec().common;
+        check_place(
+            &d.bodies,
+            &j.name,
+            spec,
+            &j.bodies,
+            j.functions.len(),
+            errors,
+        );
+    }
+    for x in &d.drives {
+        let spec = &x.element.element().spec().common;
+        check_place(&d.bodies, &x.name, spec, &x.bodies, 1, errors);
+    }
+    for f in &d.forces {
+        let spec = &f.element.element().spec().common;
+        check_place(
+            &d.bodies,
+            &f.name,
+            spec,
+            &f.bodies,
+            f.functions.len(),
+            errors,
+        );
+    }
+}
+
+fn check_place(
+    all: &[Body],
+    name: &str,
+    spec: &'static Spec,
+    bodies: &[BodyRef],
+    functions: usize,
+    errors: &mut Vec<BuildError>,
+) {
+    let name = || name.to_owned();
+    if bodies.len() != spec.slots.len() {
+        let (expected, found) = (spec.slots.len(), bodies.len());
+        errors.push(BuildError::BodyCount {
+            name: name(),
+            definition: spec.name,
+            expected,
+            found,
+        });
+    }
+    let expected = spec.functions().count();
+    if functions != expected {
+        let definition = spec.name;
+        errors.push(BuildError::FunctionCount {
+            name: name(),
+            definition,
+            expected,
+            found: functions,
+        });
+    }
+    for (k, &body) in bodies.iter().enumerate() {
+        if let BodyRef::Body(body) = body
+            && body >= all.len()
+        {
+            errors.push(BuildError::UnknownBody {
+                name: name(),
+                body,
+                n_bodies: all.len(),
+            });
+        } else if let BodyRef::Body(at) = body
+            && bodies[..k].contains(&body)
+        {
+            errors.push(BuildError::SameBody {
+                name: name(),
+                body: all[at].name.clone(),
+            });
+        }
+    }
+    if bodies.iter().all(|b| *b == BodyRef::Ground) {
+        errors.push(BuildError::GroundOnly { name: name() });
+    }
+}
+
+/// Grows the lists of a mechanism, element by element.
+#[derive(Default)]
+struct Builder {
+    constraints: Vec<PlacedConstraint>,
+    forces: Vec<PlacedForce>,
+    functions: Vec<TimeFunction>,
+    entries: Vec<f64>,
+    n_slots: usize,
+    block: usize,
+    layout: Layout,
+}
+
+impl Builder {
+    fn constraint(
+        &mut self,
+        name: &str,
+        kind: ConstraintKind,
+        bodies: &[BodyRef],
+        element: &dyn PlaneConstraint,
+        functions: &[Function],
+    ) {
+        let spec = element.element().spec();
+        let first_row = self.layout.labels.len();
+        let rows = first_row..first_row + spec.rows.len();
+        let first_entry = self.entries.len();
+        let entries = first_entry..first_entry + spec.c.len();
+        self.entries.resize(entries.end, 0.0);
+        element
+            .element()
+            .c_constant(&mut self.entries[entries.clone()]);
+        for (k, row) in spec.rows.iter().enumerate() {
+            self.layout.labels.push(RowLabel {
+                number: first_row + k + 1,
+                joint: name.to_owned(),
+                row: row.name,
+            });
+            self.pattern_row(
+                bodies,
+                spec.c
+                    .iter()
+                    .enumerate()
+                    .filter(|(_, e)| e.row == k)
+                    .map(|(at, e)| (e.slot, e.dof, first_entry + at)),
+            );
+        }
+        let varying = spec
+            .c
+            .iter()
+            .enumerate()
+            .filter(|(_, e)| !e.constant)
+            .map(|(at, _)| at);
+        let offset = |f: &Function| match kind {
+            ConstraintKind::Drive => f.jet(0.0)[0],
+            ConstraintKind::Joint => 0.0,
+        };
+        let placed = PlacedConstraint {
+            element: element.boxed(),
+            bodies: bodies.to_vec(),
+            slots: self.take_slots(bodies.len()),
+            entries,
+            varying: varying.collect(),
+            rows: rows.clone(),
+            functions: self.take_functions(functions, offset),
+        };
+        self.layout.rheonomic |= spec.rheonomic;
+        self.layout.groups.push(ConstraintGroup {
+            name: name.to_owned(),
+            kind,
+            spec,
+            bodies: bodies.to_vec(),
+            rows,
+        });
+        self.constraints.push(placed);
+    }
+
+    fn force(&mut self, f: &crate::description::Force) {
+        let spec = f.element.element().spec();
+        let column = |k: &usize| match f.bodies[k / N_BODY] {
+            BodyRef::Ground => None,
+            BodyRef::Body(body) => Some(N_BODY * body + k % N_BODY),
+        };
+        let placed = PlacedForce {
+            name: f.name.clone(),
+            element: f.element.clone(),
+            bodies: f.bodies.clone(),
+            slots: self.take_slots(f.bodies.len()),
+            functions: self.take_functions(&f.functions, |_| 0.0),
+            columns: spec.q.iter().map(column).collect(),
+        };
+        self.block = self.block.max(spec.q.len());
+        self.forces.push(placed);
+    }
+
+    /// One row of the pattern of C from (slot, degree of freedom, place in the entries).
+    fn pattern_row(
+        &mut self,
+        bodies: &[BodyRef],
+        entries: impl Iterator<Item = (usize, usize, usize)>,
+    ) {
+        let pattern = &mut self.layout.pattern;
+        if pattern.start.is_empty() {
+            pattern.start.push(0);
+        }
+        for (slot, dof, entry) in entries {
+            if let BodyRef::Body(body) = bodies[slot] {
+                pattern.column.push(N_BODY * body + dof);
+                pattern.entry.push(entry);
+            }
+        }
+        pattern.start.push(pattern.column.len());
+    }
+
+    fn take_slots(&mut self, n: usize) -> Range<usize> {
+        self.n_slots += n;
+        self.n_slots - n..self.n_slots
+    }
+
+    fn take_functions(
+        &mut self,
+        functions: &[Function],
+        offset: impl Fn(&Function) -> f64,
+    ) -> Range<usize> {
+        let first = self.functions.len();
+        for function in functions {
+            let offset = offset(function);
+            self.layout.break_times.extend(function.break_times());
+            self.functions.push(TimeFunction {
+                function: function.clone(),
+                offset,
+            });
+        }
+        first..self.functions.len()
+    }
+
+    fn finish(mut self, d: &Description) -> Mechanism {
+        self.layout.n_q = N_BODY * d.bodies.len();
+        self.layout.n_v = self.layout.n_q;
+        if self.layout.pattern.start.is_empty() {
+            self.layout.pattern.start.push(0);
+        }
+        self.layout.break_times.sort_by(f64::total_cmp);
+        self.layout.break_times.dedup();
+        let [gx, gy] = d.gravity;
+        let mut mechanism = Mechanism {
+            name: d.name.clone(),
+            bodies: d.bodies.clone(),
+            constraints: self.constraints,
+            forces: self.forces,
+            functions: self.functions,
+            mass: d
+                .bodies
+                .iter()
+                .flat_map(|b| [b.mass, b.mass, b.inertia])
+                .collect(),
+            weight: d
+                .bodies
+                .iter()
+                .flat_map(|b| [b.mass * gx, b.mass * gy, 0.0])
+                .collect(),
+            entries: self.entries,
+            n_slots: self.n_slots,
+            block: self.block,
+            layout: self.layout,
+        };
+        let (q, _) = mechanism.described_state();
+        mechanism.initialise(&q);
+        mechanism
+    }
+}

@@ -1,0 +1,147 @@
+//! The kernels of an assembled mechanism: every element in turn, on the caller's storage.
+
+use std::ops::Range;
+
+use joints::{Pose, Twist};
+
+use super::{Mechanism, N_BODY, pose_of};
+use crate::description::BodyRef;
+use crate::system::{Layout, Scratch, System};
+
+impl System for Mechanism {
+    fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    fn mass(&self) -> &[f64] {
+        &self.mass
+    }
+
+    fn scratch(&self) -> Scratch {
+        let layout = &self.layout;
+        Scratch {
+            t: 0.0,
+            poses: vec![Pose::GROUND; self.bodies.len()],
+            phi: vec![0.0; layout.m],
+            entries: self.entries.clone(),
+            b: vec![0.0; layout.rows()],
+            gamma: vec![0.0; layout.rows()],
+            force: vec![0.0; layout.n_v],
+            slot_poses: vec![Pose::GROUND; self.n_slots],
+            slot_twists: vec![Twist::zero(); self.n_slots],
+            jets: vec![[0.0; 3]; self.functions.len()],
+            block: vec![0.0; self.block],
+        }
+    }
+
+    fn pose(&self, t: f64, q: &[f64], s: &mut Scratch) {
+        s.t = t;
+        for (pose, q) in s.poses.iter_mut().zip(q.chunks_exact(N_BODY)) {
+            *pose = Pose::new(q[0], q[1], q[2]);
+        }
+        let (poses, slot_poses) = (&s.poses, &mut s.slot_poses);
+        for (slots, bodies) in self.places() {
+            for (pose, &body) in slot_poses[slots].iter_mut().zip(bodies) {
+                *pose = pose_of(poses, body);
+            }
+        }
+        for (jet, f) in s.jets.iter_mut().zip(&self.functions) {
+            *jet = f.jet(t);
+        }
+    }
+
+    fn phi(&self, s: &mut Scratch) {
+        for c in &self.constraints {
+            if c.rows.start < self.layout.m {
+                let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
+                c.element.element().phi(x, f, &mut s.phi[c.rows.clone()]);
+            }
+        }
+    }
+
+    fn c(&self, s: &mut Scratch) {
+        for c in &self.constraints {
+            if !c.varying.is_empty() {
+                let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
+                c.element
+                    .element()
+                    .c(x, f, &mut s.entries[c.entries.clone()]);
+            }
+        }
+    }
+
+    fn b(&self, s: &mut Scratch) {
+        for c in &self.constraints {
+            let element = c.element.element();
+            if element.spec().rheonomic {
+                let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
+                element.b(x, f, &mut s.b[c.rows.clone()]);
+            }
+        }
+    }
+
+    fn twist(&self, v: &[f64], s: &mut Scratch) {
+        let slot_twists = &mut s.slot_twists;
+        for (slots, bodies) in self.places() {
+            for (twist, &body) in slot_twists[slots].iter_mut().zip(bodies) {
+                if let BodyRef::Body(k) = body {
+                    let v = &v[N_BODY * k..];
+                    *twist = Twist {
+                        x: v[0],
+                        y: v[1],
+                        omega: v[2],
+                    };
+                }
+            }
+        }
+    }
+
+    fn gamma(&self, s: &mut Scratch) {
+        for c in &self.constraints {
+            let (x, v) = (
+                &s.slot_poses[c.slots.clone()],
+                &s.slot_twists[c.slots.clone()],
+            );
+            let f = &s.jets[c.functions.clone()];
+            c.element
+                .element()
+                .gamma(x, v, f, &mut s.gamma[c.rows.clone()]);
+        }
+    }
+
+    fn force(&self, s: &mut Scratch) {
+        s.force.copy_from_slice(&self.weight);
+        for force in &self.forces {
+            let (x, v) = (
+                &s.slot_poses[force.slots.clone()],
+                &s.slot_twists[force.slots.clone()],
+            );
+            let f = &s.jets[force.functions.clone()];
+            force.element.element().q(x, v, f, &mut s.block);
+            for (column, value) in force.columns.iter().zip(&s.block) {
+                if let Some(column) = column {
+                    s.force[*column] += value;
+                }
+            }
+        }
+    }
+
+    fn rate(&self, _q: &[f64], v: &[f64], qd: &mut [f64]) {
+        qd.copy_from_slice(v);
+    }
+}
+
+impl Mechanism {
+    /// Slots and bodies of all constraints and forces.
+    fn places(&self) -> impl Iterator<Item = (Range<usize>, &[BodyRef])> {
+        let constraints = self
+            .constraints
+            .iter()
+            .map(|c| (c.slots.clone(), c.bodies.as_slice()));
+        let forces = self
+            .forces
+            .iter()
+            .map(|f| (f.slots.clone(), f.bodies.as_slice()));
+        constraints.chain(forces)
+    }
+}

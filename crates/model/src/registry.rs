@@ -1,0 +1,216 @@
+//! Definitions by their scene type: what lets a scene reader build joints and forces that it does not know.
+
+use joints::spec::{ConstraintSpec, ForceSpec, Spec};
+use joints::{Argument, ArgumentError, Constraint, Element, Force, ForceElement, Visitor};
+use linalg::Dd;
+
+/// A planar constraint as an object: kernels in `f64` and in double-double.
+pub trait PlaneConstraint: Send + Sync {
+    /// Kernels for motion.
+    fn element(&self) -> &dyn Element<f64>;
+    /// The same, to set initial values.
+    fn element_mut(&mut self) -> &mut dyn Element<f64>;
+    /// Kernels for certificates.
+    fn extended(&self) -> &dyn Element<Dd>;
+    /// A copy.
+    fn boxed(&self) -> Box<dyn PlaneConstraint>;
+}
+
+impl<K: Constraint> PlaneConstraint for K {
+    fn element(&self) -> &dyn Element<f64> {
+        self
+    }
+    fn element_mut(&mut self) -> &mut dyn Element<f64> {
+        self
+    }
+    fn extended(&self) -> &dyn Element<Dd> {
+        self
+    }
+    fn boxed(&self) -> Box<dyn PlaneConstraint> {
+        Box::new(self.clone())
+    }
+}
+
+impl Clone for Box<dyn PlaneConstraint> {
+    fn clone(&self) -> Self {
+        self.as_ref().boxed()
+    }
+}
+
+/// A planar force as an object.
+pub trait PlaneForce: Send + Sync {
+    /// Its kernels.
+    fn element(&self) -> &dyn ForceElement<f64>;
+    /// The same, to set initial values.
+    fn element_mut(&mut self) -> &mut dyn ForceElement<f64>;
+    /// A copy.
+    fn boxed(&self) -> Box<dyn PlaneForce>;
+}
+
+impl<K: Force> PlaneForce for K {
+    fn element(&self) -> &dyn ForceElement<f64> {
+        self
+    }
+    fn element_mut(&mut self) -> &mut dyn ForceElement<f64> {
+        self
+    }
+    fn boxed(&self) -> Box<dyn PlaneForce> {
+        Box::new(self.clone())
+    }
+}
+
+impl Clone for Box<dyn PlaneForce> {
+    fn clone(&self) -> Self {
+        self.as_ref().boxed()
+    }
+}
+
+/// Builds a constraint from the values of its parameters.
+pub type BuildConstraint = fn(&[Argument]) -> Result<Box<dyn PlaneConstraint>, ArgumentError>;
+
+/// Builds a force from the values of its parameters.
+pub type BuildForce = fn(&[Argument]) -> Result<Box<dyn PlaneForce>, ArgumentError>;
+
+/// A constraint definition.
+#[derive(Clone, Debug)]
+pub struct ConstraintDefinition {
+    /// Its facts.
+    pub spec: &'static ConstraintSpec,
+    /// Its constructor.
+    pub build: BuildConstraint,
+    /// The drives of its measures, in their order.
+    pub drives: Vec<DriveDefinition>,
+}
+
+/// The drive of a measure. It takes the arguments of its joint and one function of time.
+#[derive(Clone, Debug)]
+pub struct DriveDefinition {
+    /// Its facts.
+    pub spec: &'static ConstraintSpec,
+    /// Its constructor.
+    pub build: BuildConstraint,
+}
+
+/// A force definition.
+#[derive(Clone, Debug)]
+pub struct ForceDefinition {
+    /// Its facts.
+    pub spec: &'static ForceSpec,
+    /// Its constructor.
+    pub build: BuildForce,
+}
+
+/// All definitions that a scene may name.
+///
+/// ```
+/// use model::Registry;
+/// let registry = Registry::planar();
+/// let revolute = registry.constraints("revolute").next().unwrap();
+/// assert_eq!(revolute.spec.rows.len(), 2);
+/// assert_eq!(revolute.drives.len(), 1); // its angle
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct Registry {
+    constraints: Vec<ConstraintDefinition>,
+    forces: Vec<ForceDefinition>,
+}
+
+impl Registry {
+    /// No definition at all.
+    #[must_use]
+    pub fn empty() -> Self {
+        Self::default()
+    }
+
+    /// All planar definitions that are shipped.
+    #[must_use]
+    pub fn planar() -> Self {
+        let mut registry = Self::empty();
+        joints::plane_constraints(&mut registry);
+        joints::plane_forces(&mut registry);
+        registry
+    }
+
+    /// Adds a constraint definition with the drives of its measures.
+    pub fn add_constraint<K: Constraint>(&mut self) {
+        self.constraint::<K>();
+    }
+
+    /// Adds a force definition.
+    pub fn add_force<K: Force>(&mut self) {
+        self.force::<K>();
+    }
+
+    /// Constraints of a scene type; several may share one and differ by a key or the number of bodies.
+    pub fn constraints<'a>(
+        &'a self,
+        scene_type: &'a str,
+    ) -> impl Iterator<Item = &'a ConstraintDefinition> {
+        self.constraints
+            .iter()
+            .filter(move |d| d.spec.common.scene_type == scene_type)
+    }
+
+    /// Forces of a scene type.
+    pub fn forces<'a>(&'a self, scene_type: &'a str) -> impl Iterator<Item = &'a ForceDefinition> {
+        self.forces
+            .iter()
+            .filter(move |d| d.spec.common.scene_type == scene_type)
+    }
+
+    /// Facts of all constraints.
+    pub fn constraint_specs(&self) -> impl Iterator<Item = &'static Spec> + '_ {
+        self.constraints.iter().map(|d| &d.spec.common)
+    }
+
+    /// Facts of all forces.
+    pub fn force_specs(&self) -> impl Iterator<Item = &'static Spec> + '_ {
+        self.forces.iter().map(|d| &d.spec.common)
+    }
+}
+
+/// The drives of one definition.
+struct Drives(Vec<DriveDefinition>);
+
+impl Visitor for Drives {
+    fn constraint<K: Constraint>(&mut self) {}
+    fn force<K: Force>(&mut self) {}
+    fn drive<K: Constraint>(&mut self) {
+        self.0.push(DriveDefinition {
+            spec: &K::SPEC,
+            build: build_constraint::<K>,
+        });
+    }
+}
+
+impl Visitor for Registry {
+    fn constraint<K: Constraint>(&mut self) {
+        let mut drives = Drives(Vec::new());
+        K::visit_drives(&mut drives);
+        self.constraints.push(ConstraintDefinition {
+            spec: &K::SPEC,
+            build: build_constraint::<K>,
+            drives: drives.0,
+        });
+    }
+
+    /// Drives come with their constraint.
+    fn drive<K: Constraint>(&mut self) {}
+
+    fn force<K: Force>(&mut self) {
+        self.forces.push(ForceDefinition {
+            spec: &K::SPEC,
+            build: build_force::<K>,
+        });
+    }
+}
+
+fn build_constraint<K: Constraint>(
+    arguments: &[Argument],
+) -> Result<Box<dyn PlaneConstraint>, ArgumentError> {
+    Ok(Box::new(K::from_arguments(arguments)?))
+}
+
+fn build_force<K: Force>(arguments: &[Argument]) -> Result<Box<dyn PlaneForce>, ArgumentError> {
+    Ok(Box::new(K::from_arguments(arguments)?))
+}

@@ -1,0 +1,304 @@
+//! A consistent start: the configuration nearest to the described one, in the mass metric, that the
+//! constraints allow. Rows that keep an initial value do not restrict it: they hold at any start.
+//!
+//! No rank is decided here: away from the constraints a redundant row is not yet redundant. The correction is the
+//! regularised least-squares step of `linalg`, repeated to rounding.
+
+use linalg::{StepError, least_squares_step};
+
+use crate::mechanism::{Mechanism, N_BODY};
+use crate::system::{RowLabel, Scratch, System};
+
+/// What a start may and may not do.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StartOptions {
+    /// Coordinates and velocities that keep their described values exactly.
+    pub keep: Vec<Coordinate>,
+    /// Whether a correction of more than a thousandth of the scene's size is accepted.
+    pub correction: CorrectionLimit,
+}
+
+/// How far a start may be corrected.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CorrectionLimit {
+    /// By a thousandth of the scene's size, and a thousandth of a radian.
+    #[default]
+    Small,
+    /// By any amount.
+    Any,
+}
+
+/// One coordinate or velocity of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coordinate {
+    /// Place of the body in the list.
+    pub body: usize,
+    /// 0 x, 1 y, 2 angle.
+    pub dof: usize,
+    /// Position or velocity.
+    pub level: KeepLevel,
+}
+
+/// Position or velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeepLevel {
+    /// `x`, `y` or `angle`
+    Position,
+    /// `vx`, `vy` or `omega`
+    Velocity,
+}
+
+/// An assembled configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembly {
+    /// Coordinates on the constraints.
+    pub q: Vec<f64>,
+    /// Velocities as described, not yet on the constraints.
+    pub v: Vec<f64>,
+    /// `q` minus the described coordinates.
+    pub correction: Vec<f64>,
+    /// Largest |Φ|.
+    pub residual: f64,
+    /// Length by which positions are measured (m).
+    pub size: f64,
+}
+
+/// Why no consistent start was found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StartError {
+    /// The constraints cannot be satisfied from the described configuration.
+    #[error(
+        "the constraints cannot be assembled: after {iterations} iterations row {worst} still misses by {residual:.3e}; \
+         check the places of the joints, or give a start nearer to an assembled one"
+    )]
+    NoAssembly {
+        /// The row that misses most.
+        worst: RowLabel,
+        /// By how much.
+        residual: f64,
+        /// Iterations made.
+        iterations: usize,
+    },
+    /// The nearest assembled configuration is far from the described one.
+    #[error(
+        "the start must be corrected by {correction:.3e} ({coordinate} of body `{body}`), more than the allowed {limit:.3e}; \
+         correct the scene, or set `allow_correction = true` in `[start]`"
+    )]
+    LargeCorrection {
+        /// The body that moves most.
+        body: String,
+        /// Which coordinate.
+        coordinate: &'static str,
+        /// By how much.
+        correction: f64,
+        /// What is allowed.
+        limit: f64,
+    },
+    /// A definition requires something that the start does not have.
+    #[error("`{name}` requires at the start: {requirement}")]
+    Requirement {
+        /// The joint, drive or force.
+        name: String,
+        /// What is required.
+        requirement: &'static str,
+    },
+    /// The correction step failed.
+    #[error("the start cannot be corrected: {0}")]
+    Step(#[from] StepError),
+}
+
+/// Iterations of the assembly; each gains digits linearly with the size of the correction.
+const ITERATIONS: usize = 60;
+
+/// Damping of the least-squares step, relative to rows of size one: small against any row that matters,
+/// large against rounding.
+const DAMPING: f64 = 1e-10;
+
+/// Share of the scene's size (and of a radian) that a start may be corrected without being asked.
+const SMALL_CORRECTION: f64 = 1e-3;
+
+/// Φ of a configuration counts as zero below this many roundings of the largest coordinate.
+const ROUNDINGS: f64 = 10.0;
+
+/// Finds a consistent configuration and takes the initial values of joints, drives and forces from it.
+///
+/// The correction minimises `(q − q₀)ᵀ·M·(q − q₀)` under Φ(q, 0) = 0; coordinates without mass or inertia weigh as the
+/// smallest one that has it, kept ones do not move.
+///
+/// # Errors
+/// - [`StartError::NoAssembly`]: the constraints contradict each other or the start is too far off.
+/// - [`StartError::LargeCorrection`]: the correction exceeds what `options` allow.
+/// - [`StartError::Requirement`]: a definition's requirement does not hold.
+pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Assembly, StartError> {
+    let (described, v) = mechanism.described_state();
+    mechanism.initialise(&described);
+    let size = scene_size(mechanism, &described);
+    let rows = restricting_rows(mechanism);
+    let weights = weights(mechanism, options);
+    let mut s = mechanism.scratch();
+    let q = nearest(mechanism, &mut s, &rows, &weights, &described)?;
+    mechanism.initialise(&q);
+    if let Some((name, requirement)) = mechanism.unmet_requirement(&q) {
+        return Err(StartError::Requirement { name, requirement });
+    }
+    let correction: Vec<f64> = q.iter().zip(&described).map(|(a, b)| a - b).collect();
+    if options.correction == CorrectionLimit::Small {
+        check_correction(mechanism, &correction, size)?;
+    }
+    mechanism.pose(0.0, &q, &mut s);
+    mechanism.phi(&mut s);
+    let residual = s.phi.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+    Ok(Assembly {
+        q,
+        v,
+        correction,
+        residual,
+        size,
+    })
+}
+
+/// Largest distance of a body from the middle of all bodies, or 1 m where there is one place only.
+fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, q, &mut s);
+    let bodies = s.poses.iter().map(|p| [p.x, p.y]);
+    let places = mechanism.constraint_ids().map(|id| mechanism.place(id, &s));
+    let points: Vec<[f64; 2]> = bodies.chain(places).collect();
+    let span = |k: usize| {
+        let low = points.iter().fold(f64::INFINITY, |a, p| a.min(p[k]));
+        let high = points.iter().fold(f64::NEG_INFINITY, |a, p| a.max(p[k]));
+        high - low
+    };
+    let size = span(0).hypot(span(1));
+    if size > 0.0 { size } else { 1.0 }
+}
+
+/// Rows of Φ that restrict the start.
+fn restricting_rows(mechanism: &Mechanism) -> Vec<usize> {
+    let layout = mechanism.layout();
+    layout
+        .groups
+        .iter()
+        .flat_map(|g| g.rows.clone().zip(g.spec.rows))
+        .filter(|(row, spec)| *row < layout.m && spec.restricts_start)
+        .map(|(row, _)| row)
+        .collect()
+}
+
+/// Inverse weights of the coordinates in the mass metric, zero for those that are kept.
+fn weights(mechanism: &Mechanism, options: &StartOptions) -> Vec<f64> {
+    let mass = mechanism.mass();
+    let smallest = |angles: bool| {
+        let of_kind = mass
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| (k % N_BODY == 2) == angles);
+        let positive = of_kind.map(|(_, &m)| m).filter(|&m| m > 0.0);
+        positive.fold(f64::INFINITY, f64::min)
+    };
+    let fallback = [smallest(false), smallest(true)].map(|m| if m.is_finite() { m } else { 1.0 });
+    let mut weights: Vec<f64> = mass
+        .iter()
+        .enumerate()
+        .map(|(k, &m)| {
+            1.0 / if m > 0.0 {
+                m
+            } else {
+                fallback[usize::from(k % N_BODY == 2)]
+            }
+        })
+        .collect();
+    for kept in options
+        .keep
+        .iter()
+        .filter(|c| c.level == KeepLevel::Position)
+    {
+        weights[N_BODY * kept.body + kept.dof] = 0.0;
+    }
+    weights
+}
+
+/// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, until Φ is zero to rounding.
+fn nearest(
+    mechanism: &Mechanism,
+    s: &mut Scratch,
+    rows: &[usize],
+    weights: &[f64],
+    described: &[f64],
+) -> Result<Vec<f64>, StartError> {
+    let mut q = described.to_vec();
+    let mut best = f64::INFINITY;
+    let mut stalled = 0;
+    for iteration in 0..=ITERATIONS {
+        mechanism.pose(0.0, &q, s);
+        mechanism.phi(s);
+        mechanism.c(s);
+        let (worst, residual) = rows
+            .iter()
+            .map(|&r| (r, s.phi[r].abs()))
+            .fold(
+                (0, 0.0),
+                |a, b| if b.1 > a.1 || b.1.is_nan() { b } else { a },
+            );
+        let scale = q.iter().fold(1.0_f64, |a, x| a.max(x.abs()));
+        let tolerance = ROUNDINGS * f64::EPSILON * scale;
+        stalled = if residual < best { 0 } else { stalled + 1 };
+        best = best.min(residual);
+        // Rounding may leave a little more than the tolerance: a stalled iteration near it is done.
+        if residual <= tolerance || (stalled > 1 && residual <= ROUNDINGS * tolerance) {
+            return Ok(q);
+        }
+        if iteration == ITERATIONS || !residual.is_finite() {
+            let worst = mechanism.layout().labels[worst].clone();
+            return Err(StartError::NoAssembly {
+                worst,
+                residual,
+                iterations: iteration,
+            });
+        }
+        let c = mechanism.layout().dense(s).select_rows(rows);
+        let shift: Vec<f64> = described.iter().zip(&q).map(|(a, b)| a - b).collect();
+        // C·(q₀ + δ − q) + Φ = 0
+        let moved = c.times(&shift);
+        let misfit: Vec<f64> = rows
+            .iter()
+            .zip(&moved)
+            .map(|(&r, m)| s.phi[r] + m)
+            .collect();
+        let mut step = least_squares_step(&c, &misfit, weights, DAMPING)?;
+        // The damping leaves a small misfit; one more step removes it where the rows agree.
+        let left = c.times(&step);
+        let misfit: Vec<f64> = misfit.iter().zip(&left).map(|(a, b)| a + b).collect();
+        for (a, b) in step
+            .iter_mut()
+            .zip(least_squares_step(&c, &misfit, weights, DAMPING)?)
+        {
+            *a += b;
+        }
+        for k in 0..q.len() {
+            q[k] = described[k] + step[k];
+        }
+    }
+    unreachable!("the last iteration returns")
+}
+
+fn check_correction(
+    mechanism: &Mechanism,
+    correction: &[f64],
+    size: f64,
+) -> Result<(), StartError> {
+    let names = ["x", "y", "angle"];
+    let limits = [size, size, 1.0].map(|unit| SMALL_CORRECTION * unit);
+    let excess = |k: usize| correction[k].abs() / limits[k % N_BODY];
+    let worst = (0..correction.len()).fold(0, |a, b| if excess(b) > excess(a) { b } else { a });
+    if correction.is_empty() || excess(worst) <= 1.0 {
+        return Ok(());
+    }
+    Err(StartError::LargeCorrection {
+        body: mechanism.bodies()[worst / N_BODY].name.clone(),
+        coordinate: names[worst % N_BODY],
+        correction: correction[worst].abs(),
+        limit: limits[worst % N_BODY],
+    })
+}

@@ -1,0 +1,162 @@
+//! What a solver sees of a mechanism: sizes, patterns and kernels on the caller's storage. No kernel
+//! allocates; each computes one thing, so that nobody pays for what he does not ask.
+
+use joints::{Pose, Twist};
+use linalg::Matrix;
+
+use crate::reaction::ConstraintGroup;
+
+/// The equations of a mechanism.
+///
+/// Order of calls at one instant: [`System::pose`]; then any of [`System::phi`], [`System::c`], [`System::b`];
+/// [`System::twist`]; then [`System::gamma`] and [`System::force`]. Results stand in the [`Scratch`].
+pub trait System: Sync {
+    /// Sizes, patterns and labels.
+    fn layout(&self) -> &Layout;
+
+    /// Diagonal of M, n_v.
+    fn mass(&self) -> &[f64];
+
+    /// Storage for one evaluation at a time.
+    fn scratch(&self) -> Scratch;
+
+    /// Takes time and coordinates: poses of bodies, values of functions of time.
+    fn pose(&self, t: f64, q: &[f64], s: &mut Scratch);
+
+    /// `s.phi`: Φ(q, t), m values.
+    fn phi(&self, s: &mut Scratch);
+
+    /// `s.entries`: the entries of C.
+    fn c(&self, s: &mut Scratch);
+
+    /// `s.b`: b of C·v = b, m + h values.
+    fn b(&self, s: &mut Scratch);
+
+    /// Takes velocities.
+    fn twist(&self, v: &[f64], s: &mut Scratch);
+
+    /// `s.gamma`: Γ of C·v̇ = Γ, m + h values.
+    fn gamma(&self, s: &mut Scratch);
+
+    /// `s.force`: Q, n_v values.
+    fn force(&self, s: &mut Scratch);
+
+    /// q̇ = T(q)·v.
+    fn rate(&self, q: &[f64], v: &[f64], qd: &mut [f64]);
+}
+
+/// Sizes, patterns and labels of a mechanism.
+#[derive(Clone, Debug, Default)]
+pub struct Layout {
+    /// Number of coordinates.
+    pub n_q: usize,
+    /// Number of velocities.
+    pub n_v: usize,
+    /// Number of holonomic rows m; they come first.
+    pub m: usize,
+    /// Number of nonholonomic rows h.
+    pub h: usize,
+    /// Pattern of C.
+    pub pattern: Pattern,
+    /// Joints and drives, in the order of their rows.
+    pub groups: Vec<ConstraintGroup>,
+    /// One label for each row.
+    pub labels: Vec<RowLabel>,
+    /// Times at which a function of time has a jump in a derivative, ascending.
+    pub break_times: Vec<f64>,
+    /// Whether a row depends on time explicitly.
+    pub rheonomic: bool,
+}
+
+impl Layout {
+    /// Number of rows m + h.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.m + self.h
+    }
+
+    /// Row `i` of C as (column, value).
+    pub fn row<'a>(&'a self, s: &'a Scratch, i: usize) -> impl Iterator<Item = (usize, f64)> + 'a {
+        let range = self.pattern.start[i]..self.pattern.start[i + 1];
+        range.map(move |k| (self.pattern.column[k], s.entries[self.pattern.entry[k]]))
+    }
+
+    /// Writes row `i` of C into a dense row of n_v values.
+    pub fn scatter_row(&self, s: &Scratch, i: usize, out: &mut [f64]) {
+        out.fill(0.0);
+        for (column, value) in self.row(s, i) {
+            out[column] += value;
+        }
+    }
+
+    /// C as a dense matrix; allocates.
+    #[must_use]
+    pub fn dense(&self, s: &Scratch) -> Matrix {
+        let mut c = Matrix::zeros(self.rows(), self.n_v);
+        for i in 0..self.rows() {
+            self.scatter_row(s, i, c.row_mut(i));
+        }
+        c
+    }
+
+    /// `C·v − b` of row `i`.
+    #[must_use]
+    pub fn velocity_residual(&self, s: &Scratch, i: usize, v: &[f64]) -> f64 {
+        self.row(s, i).map(|(column, c)| c * v[column]).sum::<f64>() - s.b[i]
+    }
+}
+
+/// Pattern of C by rows. Entries of one row stand at `start[i]..start[i + 1]`.
+#[derive(Clone, Debug, Default)]
+pub struct Pattern {
+    /// Where each row starts; one more than rows.
+    pub start: Vec<usize>,
+    /// Column of each entry.
+    pub column: Vec<usize>,
+    /// Place of each entry in [`Scratch::entries`].
+    pub entry: Vec<usize>,
+}
+
+/// Name of a row: joint and row of the joint.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RowLabel {
+    /// Number of the row, from 1.
+    pub number: usize,
+    /// Name of the joint or drive.
+    pub joint: String,
+    /// Name of the row inside it.
+    pub row: &'static str,
+}
+
+impl std::fmt::Display for RowLabel {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{} (`{}`, {})", self.number, self.joint, self.row)
+    }
+}
+
+/// Storage of one evaluation. Made by [`System::scratch`]; holds the results of the kernels.
+#[derive(Clone, Debug)]
+pub struct Scratch {
+    /// Time of the poses.
+    pub t: f64,
+    /// Pose of each body.
+    pub poses: Vec<Pose>,
+    /// Φ, m values.
+    pub phi: Vec<f64>,
+    /// Entries of the blocks of C, constraint by constraint, ground columns included.
+    pub entries: Vec<f64>,
+    /// b, m + h values.
+    pub b: Vec<f64>,
+    /// Γ, m + h values.
+    pub gamma: Vec<f64>,
+    /// Q, n_v values.
+    pub force: Vec<f64>,
+    /// Poses of the slots of all constraints, then of all forces.
+    pub(crate) slot_poses: Vec<Pose>,
+    /// Twists of the same slots.
+    pub(crate) slot_twists: Vec<Twist>,
+    /// Values of the functions of time.
+    pub(crate) jets: Vec<[f64; 3]>,
+    /// Results of one kernel.
+    pub(crate) block: Vec<f64>,
+}
