@@ -1,1 +1,3 @@
-//! Tests.
+//! All tests that need more than one crate, in one binary.
+
+mod robot_trolley;

@@ -1,19 +1,24 @@
 //! Expressions of the language become scalars of the expression graph. Shapes are checked here, and here names
 //! are resolved; after this step only mathematics is left.
 
+mod body;
+mod check;
+mod condition;
 mod expression;
+mod function;
 mod inputs;
+#[cfg(test)]
+mod tests;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use proc_macro2::Ident;
-use symbolic::{Derivation, Expr, Graph, Node};
-use syn::spanned::Spanned;
+use proc_macro2::{Ident, TokenStream};
+use symbolic::{Derivation, Expr, Graph};
 
 use crate::parse::{Definition, Kept, Param, ParamKind};
 use crate::vector::{Frame, Turn, Vector};
+pub(crate) use condition::{Comparison, Condition};
 use expression::Value;
-pub(crate) use expression::{Comparison, Condition};
 pub(crate) use inputs::{Inputs, Source};
 
 /// A definition as mathematics.
@@ -56,24 +61,48 @@ pub(crate) struct ConstraintBody {
     /// Whether `rows` are Φ; otherwise they are Ψ·q̇ + ψ.
     pub(crate) holonomic: bool,
     pub(crate) rows: Vec<Expr>,
+    /// The text of each row, where errors point.
+    pub(crate) at: Vec<TokenStream>,
     pub(crate) place: Vector,
     pub(crate) component: Option<(Ident, Vector)>,
     pub(crate) measures: Vec<(Ident, Expr)>,
 }
 
-/// Names that generated kernels use themselves.
-const RESERVED: [&str; 11] = [
-    "x",
-    "v",
-    "a",
-    "f",
-    "k",
-    "out",
-    "lambda",
-    "motion",
-    "measure_0",
-    "reader",
-    "arguments",
+/// Names of fields, locals and patterns of the generated type: no parameter can have them.
+const RESERVED: [&str; 5] = ["motion", "measure_0", "reader", "arguments", "None"];
+
+/// Names of types and traits in the generated module: no definition can have them.
+const RESERVED_TYPES: [&str; 30] = [
+    "Argument",
+    "ArgumentError",
+    "Constraint",
+    "ConstraintSpec",
+    "Direction",
+    "Entry",
+    "Err",
+    "Force",
+    "ForceSpec",
+    "Level",
+    "Line",
+    "Measure",
+    "None",
+    "Ok",
+    "Option",
+    "Parameter",
+    "Pose",
+    "Reader",
+    "Real",
+    "Result",
+    "Ring",
+    "Row",
+    "Shape",
+    "Some",
+    "Spec",
+    "T",
+    "Twist",
+    "Unit",
+    "Variant",
+    "Visitor",
 ];
 
 /// Names in scope, and which of them were used.
@@ -89,6 +118,15 @@ struct Scope<'a> {
 /// # Errors
 /// At the token that is wrong.
 pub(crate) fn elaborate(d: &Definition) -> syn::Result<Model> {
+    if RESERVED_TYPES.iter().any(|r| d.name == r) {
+        return Err(syn::Error::new_spanned(
+            &d.name,
+            format!(
+                "`{0}` is a type that generated code uses: choose another name, for example `{0}Joint`",
+                d.name
+            ),
+        ));
+    }
     let mut g = Graph::new();
     let inputs = Inputs::new(&mut g, d);
     let time = inputs.time_derivation(&mut g);
@@ -120,13 +158,17 @@ pub(crate) fn elaborate(d: &Definition) -> syn::Result<Model> {
     Ok(scope.model)
 }
 
-impl Scope<'_> {
+impl<'a> Scope<'a> {
     fn declare_params(&mut self) -> syn::Result<()> {
-        for p in &self.definition.params {
+        let definition = self.definition;
+        for p in &definition.params {
             if RESERVED.iter().any(|r| p.name == r) {
                 return Err(syn::Error::new_spanned(
                     &p.name,
-                    format!("`{}` is a name of generated code", p.name),
+                    format!(
+                        "`{}` is a name that generated code uses: choose another one",
+                        p.name
+                    ),
                 ));
             }
             let value = self.param_value(p)?;
@@ -135,12 +177,12 @@ impl Scope<'_> {
         Ok(())
     }
 
-    fn param_value(&mut self, p: &Param) -> syn::Result<Value> {
+    fn param_value(&mut self, p: &'a Param) -> syn::Result<Value> {
         let name = p.name.to_string();
         if let (Some(default), false) = (&p.default, matches!(p.kind, ParamKind::Number(_))) {
-            return Err(syn::Error::new(
-                default.span(),
-                "only a number may have a default",
+            return Err(syn::Error::new_spanned(
+                default,
+                format!("`{name}` is no number: only a single number may have a default"),
             ));
         }
         Ok(match &p.kind {
@@ -162,20 +204,21 @@ impl Scope<'_> {
             }
             ParamKind::Numbers(units) => Value::List(
                 (0..units.len())
-                    .map(|k| Value::Scalar(self.model.inputs.scalar(&format!("{name}_{k}"))))
+                    .map(|k| Value::Scalar(self.model.inputs.values(&name)[k]))
                     .collect(),
             ),
-            ParamKind::Function(_) => Value::Scalar(self.model.inputs.scalar(&name)),
+            ParamKind::Function(_) => Value::Scalar(self.model.inputs.values(&name)[0]),
             ParamKind::Functions(units) => Value::List(
                 (0..units.len())
-                    .map(|k| Value::Scalar(self.model.inputs.scalar(&format!("{name}_{k}"))))
+                    .map(|k| Value::Scalar(self.model.inputs.values(&name)[k]))
                     .collect(),
             ),
             ParamKind::Number(_) => match &p.default {
-                None => Value::Scalar(self.model.inputs.scalar(&name)),
+                None => Value::Scalar(self.model.inputs.values(&name)[0]),
                 Some(default) => {
                     let value = self.scalar(default)?;
-                    self.keep(&name, Kept::Number, vec![value], Some(p.name.clone()))
+                    self.refuse_all(default, check::START)?;
+                    self.keep(&p.name, Kept::Number, vec![value], Some(p.name.clone()))?
                 }
             },
         })
@@ -205,6 +248,12 @@ impl Scope<'_> {
     }
 
     fn declare(&mut self, name: &Ident, value: Value) -> syn::Result<()> {
+        if self.definition.slots.contains(name) {
+            return Err(syn::Error::new_spanned(
+                name,
+                format!("`{name}` is a body slot already: choose another name"),
+            ));
+        }
         match self.values.insert(name.to_string(), value) {
             Some(_) => Err(syn::Error::new_spanned(
                 name,
@@ -215,30 +264,23 @@ impl Scope<'_> {
     }
 
     fn bind(&mut self) -> syn::Result<()> {
-        for b in &self.definition.bindings {
+        let definition = self.definition;
+        for b in &definition.bindings {
             let value = self.value(&b.value)?;
-            let value = match b.kept {
-                None => {
-                    self.name_value(&b.name.to_string(), &value);
-                    value
-                }
-                Some(Kept::Number) => {
-                    let value = self.as_scalar(value, b.value.span())?;
-                    self.keep(&b.name.to_string(), Kept::Number, vec![value], None)
-                }
-                Some(Kept::Vector) => {
-                    let Value::Pair(pair) = value else {
-                        return Err(syn::Error::new(
-                            b.value.span(),
-                            format!(
-                                "expected the components of a vector in a frame, `local(slot, …)`; this is {}",
-                                value.shape()
-                            ),
-                        ));
-                    };
-                    self.keep(&b.name.to_string(), Kept::Vector, pair.to_vec(), None)
+            let Some(kept) = &b.kept else {
+                self.name_value(&b.name.to_string(), &value);
+                self.declare(&b.name, value)?;
+                continue;
+            };
+            let values = match kept {
+                Kept::Number => vec![self.as_scalar(value, &b.value)?],
+                Kept::Vector(slot) => {
+                    let slot = self.slot(slot)?;
+                    self.pair_in(slot, value, &b.value)?.to_vec()
                 }
             };
+            self.refuse_all(&b.value, check::START)?;
+            let value = self.keep(&b.name, kept.clone(), values, None)?;
             self.declare(&b.name, value)?;
         }
         Ok(())
@@ -247,32 +289,51 @@ impl Scope<'_> {
     fn name_value(&mut self, name: &str, value: &Value) {
         let pieces: Vec<(Expr, String)> = match value {
             Value::Scalar(e) => vec![(*e, name.to_owned())],
-            Value::Pair([a, b]) => vec![(*a, format!("{name}_0")), (*b, format!("{name}_1"))],
+            Value::Pair { pair: [a, b], .. } => {
+                vec![(*a, format!("{name}_0")), (*b, format!("{name}_1"))]
+            }
             Value::Vector(v) => {
                 let [x, y] = v.to_ground(&mut self.model.g, &self.model.turns);
                 vec![(x, format!("{name}_x")), (y, format!("{name}_y"))]
             }
             _ => Vec::new(),
         };
-        self.model.names.extend(pieces);
+        // A local of this name would hide an argument.
+        let free = |name: &String| !inputs::ARGUMENTS.contains(&name.as_str()) && name != "None";
+        self.model
+            .names
+            .extend(pieces.into_iter().filter(|(_, name)| free(name)));
     }
 
     fn keep(
         &mut self,
-        name: &str,
+        name: &Ident,
         kind: Kept,
         values: Vec<Expr>,
         overridden_by: Option<Ident>,
-    ) -> Value {
+    ) -> syn::Result<Value> {
         // The optional parameter keeps its own name; what it resolves to is another field.
         let field = match overridden_by {
             Some(_) => format!("{name}_0"),
-            None => name.to_owned(),
+            None => name.to_string(),
         };
-        let symbols = self.model.inputs.kept(&mut self.model.g, &field, kind);
+        let params = self.definition.params.iter().map(|p| p.name.to_string());
+        let kept = self.model.kept.iter().map(|k| k.field.clone());
+        if RESERVED.contains(&field.as_str()) || params.chain(kept).any(|f| f == field) {
+            return Err(syn::Error::new_spanned(
+                name,
+                format!(
+                    "the value kept for `{name}` would be called `{field}`, which is taken: choose another name"
+                ),
+            ));
+        }
+        let symbols = self.model.inputs.kept(&mut self.model.g, &field, &kind);
         let of_start = values.iter().any(|&v| self.model.depends_on_start(v));
-        let value = match (kind, symbols.as_slice()) {
-            (Kept::Vector, &[a, b]) => Value::Pair([a, b]),
+        let value = match (&kind, symbols.as_slice()) {
+            (Kept::Vector(slot), &[x, y]) => Value::Pair {
+                slot: self.slot(slot)?,
+                pair: [x, y],
+            },
             _ => Value::Scalar(symbols[0]),
         };
         self.model.kept.push(KeptValue {
@@ -282,120 +343,7 @@ impl Scope<'_> {
             overridden_by,
             of_start,
         });
-        value
-    }
-
-    fn require(&mut self) -> syn::Result<()> {
-        for (_, condition) in &self.definition.requirements {
-            let condition = self.condition(condition)?;
-            self.model.requirements.push(condition);
-        }
-        Ok(())
-    }
-
-    fn constraint(&mut self) -> syn::Result<ConstraintBody> {
-        let d = self.definition;
-        let (holonomic, expr) = match (&d.phi, &d.psi) {
-            (Some(phi), _) => (true, phi),
-            (None, Some(psi)) => (false, psi),
-            (None, None) => unreachable!("the parser requires phi or psi"),
-        };
-        let value = self.value(expr)?;
-        let rows = self.rows(value, expr.span())?;
-        if rows.len() != d.rows.len() {
-            return Err(syn::Error::new(
-                expr.span(),
-                format!(
-                    "{} rows here, but `rows:` names {}",
-                    rows.len(),
-                    d.rows.len()
-                ),
-            ));
-        }
-        for &row in &rows {
-            self.check_polynomial(row, expr.span())?;
-            let moving = self
-                .model
-                .depends_on(row, |s| matches!(s, Source::Twist { .. }));
-            if holonomic && moving {
-                return Err(syn::Error::new(
-                    expr.span(),
-                    "`phi` depends on velocities: a velocity level constraint is `psi`",
-                ));
-            }
-            if !holonomic && !moving {
-                return Err(syn::Error::new(
-                    expr.span(),
-                    "`psi` contains no velocity: a position level constraint is `phi`",
-                ));
-            }
-        }
-        let place = d.place.as_ref().expect("the parser requires a place");
-        let place_value = self.vector(place)?;
-        let component = match &d.component {
-            None => None,
-            Some((name, e)) => Some((name.clone(), self.vector(e)?)),
-        };
-        let mut measures = Vec::new();
-        for (name, e) in &d.measures {
-            let value = self.scalar(e)?;
-            self.check_polynomial(value, e.span())?;
-            if self
-                .model
-                .depends_on(value, |s| matches!(s, Source::Twist { .. }))
-            {
-                return Err(syn::Error::new(
-                    e.span(),
-                    "a measure is a relative position or angle",
-                ));
-            }
-            measures.push((name.clone(), value));
-        }
-        Ok(ConstraintBody {
-            holonomic,
-            rows,
-            place: place_value,
-            component,
-            measures,
-        })
-    }
-
-    fn forces(&mut self) -> syn::Result<Vec<(Expr, Expr)>> {
-        let mut terms = Vec::new();
-        for (law, coordinate) in &self.definition.forces {
-            let (l, c) = (self.scalar(law)?, self.scalar(coordinate)?);
-            if self
-                .model
-                .depends_on(c, |s| matches!(s, Source::Twist { .. }))
-            {
-                return Err(syn::Error::new(
-                    coordinate.span(),
-                    "a force acts on a relative position or angle, not on a velocity",
-                ));
-            }
-            terms.push((l, c));
-        }
-        Ok(terms)
-    }
-
-    fn check_polynomial(&self, e: Expr, at: proc_macro2::Span) -> syn::Result<()> {
-        let mut stack = vec![e];
-        while let Some(e) = stack.pop() {
-            let polynomial = match self.model.g.node(e) {
-                Node::Call(..) => false,
-                Node::Product(_, factors) => factors.iter().all(|f| f.1 > 0),
-                _ => true,
-            };
-            if !polynomial {
-                return Err(syn::Error::new(
-                    at,
-                    "a constraint kernel is a polynomial: no quotients and no `norm` here; put what depends on \
-                     parameters and the start only into `initial`",
-                ));
-            }
-            stack.extend(self.model.g.children(e));
-        }
-        Ok(())
+        Ok(value)
     }
 
     fn check_use(&self) -> syn::Result<()> {
@@ -407,32 +355,10 @@ impl Scope<'_> {
         {
             Some(name) => Err(syn::Error::new_spanned(
                 name,
-                format!("`{name}` is never used"),
+                format!("`{name}` is never used: use it or leave it out"),
             )),
             None => Ok(()),
         }
-    }
-
-    fn slot(&self, name: &Ident) -> syn::Result<usize> {
-        self.definition
-            .slots
-            .iter()
-            .position(|s| s == name)
-            .ok_or_else(|| {
-                let slots: Vec<_> = self
-                    .definition
-                    .slots
-                    .iter()
-                    .map(|s| format!("`{s}`"))
-                    .collect();
-                syn::Error::new_spanned(
-                    name,
-                    format!(
-                        "`{name}` is no body slot; the slots are {}",
-                        slots.join(", ")
-                    ),
-                )
-            })
     }
 }
 

@@ -6,7 +6,6 @@ mod parts;
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
 use symbolic::{Counts, Expr, Scalar};
-use syn::spanned::Spanned;
 
 use crate::derive::{self, Component, ConstraintKernels, Sparse};
 use crate::elaborate::{Body, ConstraintBody, Model};
@@ -28,11 +27,11 @@ pub(crate) fn constraint(
         Some(_) => Component::Along,
         None => Component::None,
     };
-    let not_linear = |_| {
-        let at = d.psi.as_ref().map_or_else(|| d.name.span(), Spanned::span);
-        syn::Error::new(at, "`psi` is not linear in the velocities")
+    let idle = |at: &[TokenStream], row: usize| {
+        syn::Error::new_spanned(&at[row], "no velocity changes this: it restricts no motion")
     };
-    let kernels = derive::constraint(&mut model, &body, &component).map_err(not_linear)?;
+    let kernels =
+        derive::constraint(&mut model, &body, &component).map_err(|row| idle(&body.at, row))?;
     let drives: Vec<(Ident, Ident)> = body
         .measures
         .iter()
@@ -43,6 +42,14 @@ pub(crate) fn constraint(
             )
         })
         .collect();
+    for (k, (measure, driver)) in drives.iter().enumerate() {
+        if drives[..k].iter().any(|(_, other)| other == driver) {
+            return Err(syn::Error::new_spanned(
+                measure,
+                format!("two measures would have the drive `{driver}`: choose another name"),
+            ));
+        }
+    }
     let main = Type {
         name: d.name.clone(),
         rows: d.rows.iter().map(ToString::to_string).collect(),
@@ -62,12 +69,13 @@ pub(crate) fn constraint(
         let driven = ConstraintBody {
             holonomic: true,
             rows: vec![row],
+            at: vec![quote!(#measure)],
             place: body.place.clone(),
             component: None,
             measures: vec![(measure.clone(), *value)],
         };
-        let kernels =
-            derive::constraint(&mut model, &driven, &Component::Multiplier).map_err(not_linear)?;
+        let kernels = derive::constraint(&mut model, &driven, &Component::Multiplier)
+            .map_err(|row| idle(&driven.at, row))?;
         let drive = Type {
             name: driver.clone(),
             rows: vec![measure.to_string()],

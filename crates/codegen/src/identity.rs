@@ -1,21 +1,90 @@
 //! Is an expression zero for every pose? Decided by evaluation at fixed pseudo-random points that respect
 //! `cos² + sin² = 1` and unit directions; used only to leave structural zeros out of patterns.
 
-use symbolic::{Expr, Graph};
+use std::ops::{Add, Div, Mul, Neg};
+
+use symbolic::{Expr, Function, Graph, Number};
 
 use crate::elaborate::{Inputs, Source};
 
 /// Points tried; a polynomial that is not zero vanishes at all of them with probability zero.
 const POINTS: u64 = 6;
 
-/// Rounding of a sum of order-one terms, with room for cancellation.
+/// Rounding relative to the size of what cancels: ε = 2.2e-16 for each of at most some thousand operations.
 const ROUNDING: f64 = 1e-12;
+
+/// A value with the size of its terms: what the value would be, did nothing cancel.
+#[derive(Clone, Copy)]
+struct Measured {
+    value: f64,
+    size: f64,
+}
+
+impl From<f64> for Measured {
+    fn from(value: f64) -> Self {
+        let size = value.abs();
+        Self { value, size }
+    }
+}
+
+impl Add for Measured {
+    type Output = Self;
+    fn add(self, other: Self) -> Self {
+        Self {
+            value: self.value + other.value,
+            size: self.size + other.size,
+        }
+    }
+}
+
+impl Mul for Measured {
+    type Output = Self;
+    fn mul(self, other: Self) -> Self {
+        Self {
+            value: self.value * other.value,
+            size: self.size * other.size,
+        }
+    }
+}
+
+impl Div for Measured {
+    type Output = Self;
+    fn div(self, other: Self) -> Self {
+        Self {
+            value: self.value / other.value,
+            size: self.size * other.size / (other.value * other.value),
+        }
+    }
+}
+
+impl Neg for Measured {
+    type Output = Self;
+    fn neg(self) -> Self {
+        let value = -self.value;
+        Self { value, ..self }
+    }
+}
+
+impl Number for Measured {
+    fn call(self, f: Function) -> Self {
+        let value = self.value.call(f);
+        let slope = match f {
+            Function::Sqrt => 0.5 / value,
+            Function::Sin | Function::Cos => 1.0,
+            Function::RecipOrZero => value * value,
+        };
+        Self {
+            value,
+            size: value.abs() + slope.abs() * self.size,
+        }
+    }
+}
 
 /// Whether `e` vanishes at every configuration.
 pub(crate) fn is_zero(g: &Graph, inputs: &Inputs, e: Expr) -> bool {
     g.is_zero(e)
         || (0..POINTS).all(|point| {
-            let value = g.evaluate(e, &|s| {
+            let at = |s| {
                 let angle = |key: &str| 6.0 * sample(point, key);
                 let name = g.name(s);
                 match inputs.source(s) {
@@ -35,8 +104,9 @@ pub(crate) fn is_zero(g: &Graph, inputs: &Inputs, e: Expr) -> bool {
                     }
                     _ => 0.5 + sample(point, name),
                 }
-            });
-            value.abs() < ROUNDING
+            };
+            let Measured { value, size } = g.evaluate(e, &|s| Measured::from(at(s)));
+            value.abs() <= ROUNDING * size
         })
 }
 
@@ -49,3 +119,6 @@ fn sample(point: u64, key: &str) -> f64 {
     hash ^= hash >> 29;
     (hash.wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 11) as f64 / (1_u64 << 53) as f64
 }
+
+#[cfg(test)]
+mod tests;

@@ -4,6 +4,7 @@
 //!
 //! | module | step |
 //! | --- | --- |
+//! | [`invocation`](Invocation) | tokens of a macro call → runtime path, definition, text |
 //! | [`parse`] | tokens → [`parse::Definition`] |
 //! | `vector` | vectors as sums of parts in frames: products of parts of one frame need no rotation |
 //! | `elaborate` | expressions of the language → scalars of the graph, with shapes checked |
@@ -11,18 +12,22 @@
 //! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods; laws → Q and its derivatives |
 //! | `kernel` | a list of expressions → one function with its operation count |
 //! | `emit` | kernels and facts → the text of a module |
+//! | `nearest` | hints for misspelt names |
 
 mod derive;
 mod elaborate;
 mod emit;
 mod identity;
+mod invocation;
 mod kernel;
+mod nearest;
 pub mod parse;
 mod vector;
 
 use proc_macro2::TokenStream;
 use quote::quote;
 
+pub use invocation::Invocation;
 pub use parse::{Definition, Kind};
 
 /// A definition with its generated module.

@@ -35,6 +35,11 @@ impl Vector {
         }
     }
 
+    /// Components of all parts, each in its own frame.
+    pub(crate) fn components(&self) -> impl Iterator<Item = Expr> + '_ {
+        self.parts.values().flatten().copied()
+    }
+
     /// `a·self + b·other`
     pub(crate) fn combine(&self, g: &mut Graph, a: f64, other: &Self, b: f64) -> Self {
         let mut parts = BTreeMap::new();
@@ -173,3 +178,6 @@ fn dot(g: &mut Graph, a: [Expr; 2], b: [Expr; 2]) -> Expr {
     let (x, y) = (g.mul(a[0], b[0]), g.mul(a[1], b[1]));
     g.add(x, y)
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,5 +1,25 @@
 #![doc = include_str!("../README.md")]
+//!
+//! # Code map, in the order of the data
+//!
+//! | module | content |
+//! | --- | --- |
+//! | [`options`] | what a run is asked to do |
+//! | [`prepare`] | consistent start, decided rank, kept rows |
+//! | [`motion`] | the solved equations on kept rows: acceleration, projection, reactions, monitors |
+//! | [`events`] | what happened on the way |
+//! | [`simulate`] | a run: integration, projected output, energy balance |
 
+mod error;
+pub mod events;
+pub mod motion;
 pub mod options;
+pub mod prepare;
+pub mod simulate;
 
+pub use error::{MotionError, Trip};
+pub use events::{Event, EventKind};
+pub use motion::{Correction, KeptRowMotion, Motion};
 pub use options::{Formulation, Method, MotionOptions, RowChoice, Stabilisation};
+pub use prepare::{Prepared, prepare};
+pub use simulate::{Failure, Sample, Summary, simulate};

@@ -1,2 +1,27 @@
-//! x
-use proc_macro as _;
+#![doc = include_str!("../README.md")]
+
+use codegen::{Invocation, Kind, expand, in_module};
+use proc_macro::TokenStream;
+
+/// Defines a constraint: its type, its facts and its kernels, as an implementation of `joints::Constraint`.
+///
+/// The language is described in the crate `codegen`, an example is in the description of this crate.
+#[proc_macro]
+pub fn joint(call: TokenStream) -> TokenStream {
+    items(Kind::Constraint, call)
+}
+
+/// Defines a force: its type, its facts and its kernels, as an implementation of `joints::Force`.
+///
+/// The language is described in the crate `codegen`.
+#[proc_macro]
+pub fn force(call: TokenStream) -> TokenStream {
+    items(Kind::Force, call)
+}
+
+fn items(kind: Kind, call: TokenStream) -> TokenStream {
+    Invocation::parse(kind, call.into())
+        .and_then(|call| expand(kind, call.body, &call.runtime, &call.text))
+        .map_or_else(|error| error.into_compile_error(), |e| in_module(&e))
+        .into()
+}

@@ -12,8 +12,11 @@
 //! | [`force`] | the same for forces |
 //! | [`visitor`] | all definitions, one after the other, with their types |
 //! | [`generated`] | one module for each file in `definitions/` |
+//! | `conformance` | property tests of every definition, with the feature `conformance` |
 
 pub mod arguments;
+#[cfg(feature = "conformance")]
+pub mod conformance;
 pub mod constraint;
 pub mod force;
 pub mod generated;
@@ -25,7 +28,7 @@ pub mod visitor;
 pub use arguments::{Argument, ArgumentError};
 pub use constraint::{Constraint, Element};
 pub use force::{Force, ForceElement};
-pub use generated::{plane_constraints, plane_forces};
+pub use generated::*;
 pub use plane::{Direction, Line, Pose, Twist};
 pub use ring::{Real, Ring};
 pub use spec::{ConstraintSpec, ForceSpec};

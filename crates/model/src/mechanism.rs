@@ -156,6 +156,12 @@ impl Mechanism {
         force.iter().zip(v).map(|(q, v)| q * v).sum()
     }
 
+    /// Power of the weight alone (W).
+    #[must_use]
+    pub fn weight_power(&self, v: &[f64]) -> f64 {
+        self.weight.iter().zip(v).map(|(w, v)| w * v).sum()
+    }
+
     /// Potential energy of the weight (J).
     #[must_use]
     pub fn potential_energy(&self, q: &[f64]) -> f64 {

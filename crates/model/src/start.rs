@@ -103,6 +103,17 @@ pub enum StartError {
         /// What is required.
         requirement: &'static str,
     },
+    /// The velocity constraints cannot be satisfied with the velocities that are kept.
+    #[error(
+        "no velocities satisfy the constraints: row {worst} still misses by {residual:.3e}; \
+         the velocities held by `keep` leave no freedom for it, or redundant drives contradict each other"
+    )]
+    NoVelocity {
+        /// The row that misses most.
+        worst: RowLabel,
+        /// By how much.
+        residual: f64,
+    },
     /// The correction step failed.
     #[error("the start cannot be corrected: {0}")]
     Step(#[from] StepError),
@@ -135,7 +146,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     mechanism.initialise(&described);
     let size = scene_size(mechanism, &described);
     let rows = restricting_rows(mechanism);
-    let weights = weights(mechanism, options);
+    let weights = weights(mechanism, options, KeepLevel::Position);
     let mut s = mechanism.scratch();
     let q = nearest(mechanism, &mut s, &rows, &weights, &described)?;
     mechanism.initialise(&q);
@@ -156,6 +167,67 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
         residual,
         size,
     })
+}
+
+/// The velocities nearest to `v` in the mass metric that satisfy `C·v = b` in the kept rows at an assembled
+/// configuration. Velocities that `options` keep do not change.
+///
+/// # Errors
+/// - [`StartError::NoVelocity`]: the kept velocities leave no freedom for the constraints.
+pub fn consistent_velocity(
+    mechanism: &Mechanism,
+    options: &StartOptions,
+    q: &[f64],
+    v: &[f64],
+    kept: &[usize],
+) -> Result<Vec<f64>, StartError> {
+    let layout = mechanism.layout();
+    let weights = weights(mechanism, options, KeepLevel::Velocity);
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, q, &mut s);
+    mechanism.c(&mut s);
+    mechanism.b(&mut s);
+    let c = layout.dense(&s).select_rows(kept);
+    let mut v = v.to_vec();
+    let mut best = f64::INFINITY;
+    for _ in 0..ITERATIONS {
+        let residual: Vec<f64> = kept
+            .iter()
+            .map(|&i| layout.velocity_residual(&s, i, &v))
+            .collect();
+        let (worst, size) = largest(kept.iter().copied().zip(residual.iter().map(|r| r.abs())));
+        let scale = v.iter().fold(0.0_f64, |a, x| a.max(x.abs())).max(1.0);
+        let tolerance = ROUNDINGS * f64::EPSILON * scale;
+        // Rounding may leave a little more than the tolerance.
+        if size <= tolerance || (size >= best && size <= ROUNDINGS * tolerance) {
+            return Ok(v);
+        }
+        if size >= best || !size.is_finite() {
+            let worst = layout.labels[worst].clone();
+            return Err(StartError::NoVelocity {
+                worst,
+                residual: size,
+            });
+        }
+        best = size;
+        let step = least_squares_step(&c, &residual, &weights, DAMPING)?;
+        for (v, dv) in v.iter_mut().zip(step) {
+            *v += dv;
+        }
+    }
+    let worst = layout.labels[kept.first().copied().unwrap_or(0)].clone();
+    Err(StartError::NoVelocity {
+        worst,
+        residual: best,
+    })
+}
+
+/// The row with the largest value, NaN above all.
+fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
+    rows.fold(
+        (0, 0.0),
+        |a, b| if b.1 > a.1 || b.1.is_nan() { b } else { a },
+    )
 }
 
 /// Largest distance of a body from the middle of all bodies, or 1 m where there is one place only.
@@ -187,7 +259,7 @@ fn restricting_rows(mechanism: &Mechanism) -> Vec<usize> {
 }
 
 /// Inverse weights of the coordinates in the mass metric, zero for those that are kept.
-fn weights(mechanism: &Mechanism, options: &StartOptions) -> Vec<f64> {
+fn weights(mechanism: &Mechanism, options: &StartOptions, level: KeepLevel) -> Vec<f64> {
     let mass = mechanism.mass();
     let smallest = |angles: bool| {
         let of_kind = mass
@@ -209,11 +281,7 @@ fn weights(mechanism: &Mechanism, options: &StartOptions) -> Vec<f64> {
             }
         })
         .collect();
-    for kept in options
-        .keep
-        .iter()
-        .filter(|c| c.level == KeepLevel::Position)
-    {
+    for kept in options.keep.iter().filter(|c| c.level == level) {
         weights[N_BODY * kept.body + kept.dof] = 0.0;
     }
     weights

@@ -1,1 +1,25 @@
-//! Placeholder.
+#![doc = include_str!("../README.md")]
+//!
+//! # Code map
+//!
+//! | module | content |
+//! | --- | --- |
+//! | [`verdict`] | unique, not unique, undecided: with the number behind it |
+//! | [`matrices`] | solvability of a plain constraint matrix |
+//! | [`existence`] | do the rows contradict each other? |
+//! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
+//! | `words` | dependencies as sentences |
+
+pub mod existence;
+pub mod matrices;
+pub mod mechanism;
+pub mod verdict;
+mod words;
+
+pub use existence::{ConstraintLevel, Contradiction, contradiction};
+pub use matrices::Solvability;
+pub use mechanism::{
+    Analysis, AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, analyse,
+    certify,
+};
+pub use verdict::{Judgement, Verdict};

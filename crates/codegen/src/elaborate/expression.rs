@@ -1,20 +1,29 @@
 //! One expression of the language: names, functions, shapes.
 
-use proc_macro2::{Ident, Span};
-use symbolic::{Expr, Function};
-use syn::spanned::Spanned;
+use proc_macro2::Ident;
+use symbolic::{Expr, Node};
 use syn::{BinOp, Lit, UnOp};
 
 use super::Scope;
-use crate::vector::{Frame, Vector};
+use crate::nearest::hint;
+use crate::vector::Vector;
+
+/// Magnitudes of numbers: products of a few of them, and of their derivatives, are far from overflow.
+const NUMBERS: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
+
+/// Highest power; what needs more is no joint.
+const POWER: u32 = 32;
 
 /// The value of an expression, with its shape.
 #[derive(Clone, Debug)]
 pub(crate) enum Value {
     Scalar(Expr),
     Vector(Vector),
-    /// Two components without a frame.
-    Pair([Expr; 2]),
+    /// Two components in the frame of a body.
+    Pair {
+        slot: usize,
+        pair: [Expr; 2],
+    },
     /// A point parameter.
     Point {
         slot: usize,
@@ -38,7 +47,7 @@ impl Value {
         match self {
             Self::Scalar(_) => "a scalar",
             Self::Vector(_) => "a vector",
-            Self::Pair(_) => "a pair of components",
+            Self::Pair { .. } => "a pair of components in a frame",
             Self::Point { .. } => "a point parameter",
             Self::Direction { .. } => "a direction parameter",
             Self::Line { .. } => "a line",
@@ -47,41 +56,17 @@ impl Value {
     }
 }
 
-/// A condition on the start.
-pub(crate) enum Condition {
-    Compare(Comparison, Expr, Expr),
-    And(Box<Condition>, Box<Condition>),
-    Or(Box<Condition>, Box<Condition>),
-}
+impl<'a> Scope<'a> {
+    /// The value of an expression.
+    pub(super) fn value(&mut self, e: &'a syn::Expr) -> syn::Result<Value> {
+        let value = self.unbounded(e)?;
+        match self.out_of_bounds(&value) {
+            Some(what) => Err(syn::Error::new_spanned(e, what)),
+            None => Ok(value),
+        }
+    }
 
-/// How two scalars are compared.
-#[derive(Clone, Copy)]
-pub(crate) enum Comparison {
-    Equal,
-    NotEqual,
-    Greater,
-    Less,
-}
-
-/// Functions of the language: name, what it takes, and what it gives.
-const FUNCTIONS: [(&str, usize); 13] = [
-    ("point", 2),
-    ("direction", 2),
-    ("vector", 2),
-    ("local", 2),
-    ("origin", 1),
-    ("angle", 1),
-    ("start", 1),
-    ("along", 1),
-    ("velocity", 1),
-    ("rate", 1),
-    ("perp", 1),
-    ("norm", 1),
-    ("dot", 2),
-];
-
-impl Scope<'_> {
-    pub(super) fn value(&mut self, e: &syn::Expr) -> syn::Result<Value> {
+    fn unbounded(&mut self, e: &'a syn::Expr) -> syn::Result<Value> {
         match e {
             syn::Expr::Paren(inner) => self.value(&inner.expr),
             syn::Expr::Group(inner) => self.value(&inner.expr),
@@ -92,13 +77,16 @@ impl Scope<'_> {
             },
             syn::Expr::Unary(unary) => {
                 let UnOp::Neg(_) = unary.op else {
-                    return Err(syn::Error::new_spanned(unary.op, "unknown operator"));
+                    return Err(syn::Error::new_spanned(
+                        unary.op,
+                        "unknown operator: there are + - * /",
+                    ));
                 };
                 let minus_one = self.model.g.number(-1.0);
                 match self.value(&unary.expr)? {
                     Value::Scalar(a) => Ok(Value::Scalar(self.model.g.neg(a))),
                     Value::Vector(v) => Ok(Value::Vector(v.scale(&mut self.model.g, minus_one))),
-                    other => Err(wrong(unary.expr.span(), "a scalar or a vector", &other)),
+                    other => Err(wrong(&unary.expr, "a scalar or a vector", &other)),
                 }
             }
             syn::Expr::Binary(binary) => self.binary(binary),
@@ -111,39 +99,39 @@ impl Scope<'_> {
             }
             other => Err(syn::Error::new_spanned(
                 other,
-                "expected numbers, names, functions and + - * /",
+                "expected an expression of numbers, names, functions and + - * /",
             )),
         }
     }
 
-    pub(super) fn scalar(&mut self, e: &syn::Expr) -> syn::Result<Expr> {
+    pub(super) fn scalar(&mut self, e: &'a syn::Expr) -> syn::Result<Expr> {
         let value = self.value(e)?;
-        self.as_scalar(value, e.span())
+        self.as_scalar(value, e)
     }
 
-    pub(super) fn as_scalar(&self, value: Value, at: Span) -> syn::Result<Expr> {
+    pub(super) fn as_scalar(&self, value: Value, at: &syn::Expr) -> syn::Result<Expr> {
         match value {
             Value::Scalar(e) => Ok(e),
             other => Err(wrong(at, "a scalar", &other)),
         }
     }
 
-    pub(super) fn vector(&mut self, e: &syn::Expr) -> syn::Result<Vector> {
+    pub(super) fn vector(&mut self, e: &'a syn::Expr) -> syn::Result<Vector> {
         match self.value(e)? {
             Value::Vector(v) => Ok(v),
-            other => Err(wrong(e.span(), "a vector", &other)),
+            other => Err(wrong(e, "a vector", &other)),
         }
     }
 
-    /// Scalars of a list of scalars and vectors, vectors as their global components.
-    pub(super) fn rows(&mut self, value: Value, at: Span) -> syn::Result<Vec<Expr>> {
+    /// Scalars of a value, vectors as their global components.
+    pub(super) fn components(&mut self, value: Value, at: &syn::Expr) -> syn::Result<Vec<Expr>> {
         match value {
             Value::Scalar(e) => Ok(vec![e]),
             Value::Vector(v) => Ok(v.to_ground(&mut self.model.g, &self.model.turns).to_vec()),
             Value::List(values) => {
                 let mut rows = Vec::new();
                 for v in values {
-                    rows.extend(self.rows(v, at)?);
+                    rows.extend(self.components(v, at)?);
                 }
                 Ok(rows)
             }
@@ -151,47 +139,50 @@ impl Scope<'_> {
         }
     }
 
-    pub(super) fn condition(&mut self, e: &syn::Expr) -> syn::Result<Condition> {
-        let expected = || {
-            syn::Error::new_spanned(
-                e,
-                "expected a comparison: `==`, `!=`, `>`, `<`, joined by `&&`, `||`",
-            )
-        };
-        match e {
-            syn::Expr::Paren(inner) => self.condition(&inner.expr),
-            syn::Expr::Binary(b) => {
-                let comparison = match b.op {
-                    BinOp::And(_) => {
-                        let (l, r) = (self.condition(&b.left)?, self.condition(&b.right)?);
-                        return Ok(Condition::And(Box::new(l), Box::new(r)));
-                    }
-                    BinOp::Or(_) => {
-                        let (l, r) = (self.condition(&b.left)?, self.condition(&b.right)?);
-                        return Ok(Condition::Or(Box::new(l), Box::new(r)));
-                    }
-                    BinOp::Eq(_) => Comparison::Equal,
-                    BinOp::Ne(_) => Comparison::NotEqual,
-                    BinOp::Gt(_) => Comparison::Greater,
-                    BinOp::Lt(_) => Comparison::Less,
-                    _ => return Err(expected()),
-                };
-                Ok(Condition::Compare(
-                    comparison,
-                    self.scalar(&b.left)?,
-                    self.scalar(&b.right)?,
-                ))
-            }
-            _ => Err(expected()),
+    /// Components in the frame of the body in a slot.
+    pub(super) fn pair_in(
+        &self,
+        slot: usize,
+        value: Value,
+        at: &syn::Expr,
+    ) -> syn::Result<[Expr; 2]> {
+        match value {
+            Value::Pair { slot: own, pair } if own == slot => Ok(pair),
+            Value::Pair { slot: own, .. } => Err(self.wrong_frame(at, own, slot)),
+            other => Err(wrong(
+                at,
+                &format!(
+                    "components in a frame, `local({}, …)`",
+                    self.definition.slots[slot]
+                ),
+                &other,
+            )),
         }
     }
 
+    pub(super) fn wrong_frame(&self, at: &syn::Expr, own: usize, used: usize) -> syn::Error {
+        let slots = &self.definition.slots;
+        syn::Error::new_spanned(
+            at,
+            format!(
+                "this is given in the frame of body `{}`, and used in the frame of body `{}`",
+                slots[own], slots[used]
+            ),
+        )
+    }
+
     fn number(&mut self, literal: &Lit) -> syn::Result<Value> {
-        let x = match literal {
-            Lit::Float(f) => f.base10_parse::<f64>()?,
-            Lit::Int(i) => i.base10_parse::<f64>()?,
+        let (x, suffix) = match literal {
+            Lit::Float(f) => (f.base10_parse::<f64>()?, f.suffix()),
+            Lit::Int(i) => (i.base10_parse::<f64>()?, i.suffix()),
             other => return Err(syn::Error::new_spanned(other, "expected a number")),
         };
+        if !suffix.is_empty() {
+            return Err(syn::Error::new_spanned(
+                literal,
+                format!("numbers have no suffix: leave `{suffix}` out"),
+            ));
+        }
         Ok(Value::Scalar(self.model.g.number(x)))
     }
 
@@ -202,10 +193,47 @@ impl Scope<'_> {
             return Ok(value.clone());
         }
         let known: Vec<&str> = self.values.keys().map(String::as_str).collect();
-        Err(unknown(name, "name", &known))
+        let mut message = format!("unknown name `{key}`");
+        match self.definition.slots.contains(name) {
+            true => message.push_str(": it is a body slot, write `origin(…)` or `angle(…)` of it"),
+            false => message.push_str(&hint(&key, &known)),
+        }
+        Err(syn::Error::new_spanned(name, message))
     }
 
-    fn binary(&mut self, b: &syn::ExprBinary) -> syn::Result<Value> {
+    /// Why the coefficients or the powers of a value are not accepted.
+    fn out_of_bounds(&self, value: &Value) -> Option<String> {
+        let scalars = match value {
+            Value::Scalar(e) => vec![*e],
+            Value::Vector(v) => v.components().collect(),
+            _ => return None,
+        };
+        scalars.into_iter().find_map(|e| {
+            let (numbers, power) = match self.model.g.node(e) {
+                Node::Number(x) => (vec![*x], 0),
+                Node::Product(x, factors) => {
+                    let power = factors.iter().map(|f| f.1.unsigned_abs()).max();
+                    (vec![*x], power.unwrap_or(0))
+                }
+                Node::Sum(terms) => (terms.iter().map(|t| t.0).collect(), 0),
+                Node::Symbol(_) | Node::Call(..) => return None,
+            };
+            let bad = |x: &f64| *x != 0.0 && !NUMBERS.contains(&x.abs());
+            match numbers.into_iter().find(bad) {
+                Some(x) => Some(format!(
+                    "the number {x:e} is out of bounds: magnitudes are 0 or from {:e} to {:e}",
+                    NUMBERS.start(),
+                    NUMBERS.end()
+                )),
+                None if power > POWER => Some(format!(
+                    "the power {power} is too high: up to {POWER} are accepted"
+                )),
+                None => None,
+            }
+        })
+    }
+
+    fn binary(&mut self, b: &'a syn::ExprBinary) -> syn::Result<Value> {
         let (left, right) = (self.value(&b.left)?, self.value(&b.right)?);
         let g = &mut self.model.g;
         match (b.op, left, right) {
@@ -216,6 +244,14 @@ impl Scope<'_> {
                 Err(syn::Error::new_spanned(&b.right, "division by zero"))
             }
             (BinOp::Div(_), Value::Scalar(x), Value::Scalar(y)) => Ok(Value::Scalar(g.div(x, y))),
+            (BinOp::Div(_), Value::Vector(_), Value::Scalar(y)) if g.is_zero(y) => {
+                Err(syn::Error::new_spanned(&b.right, "division by zero"))
+            }
+            (BinOp::Div(_), Value::Vector(v), Value::Scalar(y)) => {
+                let one = g.number(1.0);
+                let inverse = g.div(one, y);
+                Ok(Value::Vector(v.scale(g, inverse)))
+            }
             (BinOp::Add(_), Value::Vector(x), Value::Vector(y)) => {
                 Ok(Value::Vector(x.combine(g, 1.0, &y, 1.0)))
             }
@@ -226,206 +262,63 @@ impl Scope<'_> {
             | (BinOp::Mul(_), Value::Vector(v), Value::Scalar(x)) => {
                 Ok(Value::Vector(v.scale(g, x)))
             }
-            (op, left, right) => Err(syn::Error::new_spanned(
-                b,
-                format!(
-                    "`{}` does not apply to {} and {}",
-                    quote::quote!(#op),
-                    left.shape(),
-                    right.shape()
-                ),
-            )),
+            (op, left, right) => Err(no_operator(b, &op, &left, &right)),
         }
     }
 
-    fn index(&mut self, e: &syn::ExprIndex) -> syn::Result<Value> {
+    fn index(&mut self, e: &'a syn::ExprIndex) -> syn::Result<Value> {
         let at = match &*e.index {
             syn::Expr::Lit(syn::ExprLit {
                 lit: Lit::Int(i), ..
             }) => i.base10_parse::<usize>()?,
-            other => return Err(syn::Error::new_spanned(other, "expected 0, 1, …")),
+            other => return Err(syn::Error::new_spanned(other, "expected an index: 0, 1, …")),
         };
         let list = match self.value(&e.expr)? {
             Value::List(list) => list,
-            Value::Pair(pair) => pair.map(Value::Scalar).to_vec(),
+            Value::Pair { pair, .. } => pair.map(Value::Scalar).to_vec(),
             Value::Vector(v) => v
                 .to_ground(&mut self.model.g, &self.model.turns)
                 .map(Value::Scalar)
                 .to_vec(),
-            other => return Err(wrong(e.expr.span(), "a list, a vector or a pair", &other)),
+            other => return Err(wrong(&e.expr, "a list, a vector or a pair", &other)),
         };
         let n = list.len();
         list.into_iter().nth(at).ok_or_else(|| {
             syn::Error::new_spanned(&e.index, format!("there are {n} entries, counted from 0"))
         })
     }
-
-    fn call(&mut self, call: &syn::ExprCall) -> syn::Result<Value> {
-        let name = match &*call.func {
-            syn::Expr::Path(p) if p.path.get_ident().is_some() => p.path.get_ident().cloned(),
-            _ => None,
-        };
-        let Some(name) = name else {
-            return Err(syn::Error::new_spanned(
-                &call.func,
-                "expected the name of a function",
-            ));
-        };
-        let Some(&(function, arity)) = FUNCTIONS.iter().find(|(f, _)| name == f) else {
-            let known: Vec<&str> = FUNCTIONS.iter().map(|f| f.0).collect();
-            return Err(unknown(&name, "function", &known));
-        };
-        let args: Vec<&syn::Expr> = call.args.iter().collect();
-        if args.len() != arity {
-            return Err(syn::Error::new_spanned(
-                call,
-                format!(
-                    "`{function}` takes {arity} argument(s), found {}",
-                    args.len()
-                ),
-            ));
-        }
-        match function {
-            "point" | "direction" | "vector" => self.placed(function, args[0], args[1]),
-            "local" => {
-                let slot = self.slot_argument(args[0])?;
-                let v = self.vector(args[1])?;
-                let Self { model, .. } = self;
-                Ok(Value::Pair(v.in_body(&mut model.g, slot, &model.turns)))
-            }
-            "origin" => {
-                let slot = self.slot_argument(args[0])?;
-                Ok(Value::Vector(self.origin(slot)))
-            }
-            "angle" => {
-                let slot = self.slot_argument(args[0])?;
-                Ok(Value::Scalar(self.model.inputs.slots[slot].pose[2]))
-            }
-            "start" | "along" => match self.value(args[0])? {
-                Value::Line { start, along } => {
-                    let pair = if function == "start" { start } else { along };
-                    Ok(Value::Vector(Vector::new(Frame::Ground, pair)))
-                }
-                other => Err(wrong(args[0].span(), "a line", &other)),
-            },
-            "perp" => {
-                let v = self.vector(args[0])?;
-                Ok(Value::Vector(v.perp(&mut self.model.g)))
-            }
-            "dot" => {
-                let (a, b) = (self.vector(args[0])?, self.vector(args[1])?);
-                let model = &mut self.model;
-                Ok(Value::Scalar(a.dot(&mut model.g, &b, &model.turns)))
-            }
-            "norm" => {
-                let v = self.vector(args[0])?;
-                let model = &mut self.model;
-                let square = v.dot(&mut model.g, &v, &model.turns);
-                Ok(Value::Scalar(model.g.call(Function::Sqrt, square)))
-            }
-            // "velocity" | "rate"
-            _ => {
-                let value = self.value(args[0])?;
-                let model = &mut self.model;
-                match value {
-                    Value::Vector(v) => Ok(Value::Vector(v.rate(
-                        &mut model.g,
-                        &model.turns,
-                        &model.time,
-                    ))),
-                    Value::Scalar(e) if function == "rate" => {
-                        Ok(Value::Scalar(model.time.apply(&mut model.g, e)))
-                    }
-                    other => Err(wrong(args[0].span(), "a vector", &other)),
-                }
-            }
-        }
-    }
-
-    /// `r_i`, or `r_i + R_i·s`, or `R_i·s`.
-    fn placed(&mut self, function: &str, slot: &syn::Expr, what: &syn::Expr) -> syn::Result<Value> {
-        let at = self.slot_argument(slot)?;
-        let pair = match (function, self.value(what)?) {
-            ("point", Value::Point { slot: own, pair })
-            | ("direction", Value::Direction { slot: own, pair }) => {
-                if own != at {
-                    return Err(syn::Error::new_spanned(
-                        slot,
-                        format!(
-                            "declared in the frame of `{}`, used in the frame of `{}`",
-                            self.definition.slots[own], self.definition.slots[at]
-                        ),
-                    ));
-                }
-                pair
-            }
-            ("vector", Value::Pair(pair)) => pair,
-            ("vector", Value::List(list)) => match list.as_slice() {
-                [Value::Scalar(x), Value::Scalar(y)] => [*x, *y],
-                _ => return Err(wrong(what.span(), "two components", &Value::List(list))),
-            },
-            ("point", other) => return Err(wrong(what.span(), "a `Point` parameter", &other)),
-            ("direction", other) => {
-                return Err(wrong(what.span(), "a `Direction` parameter", &other));
-            }
-            (_, other) => return Err(wrong(what.span(), "two components", &other)),
-        };
-        let turned = Vector::new(Frame::Body(at), pair);
-        Ok(Value::Vector(match function {
-            "point" => self
-                .origin(at)
-                .combine(&mut self.model.g, 1.0, &turned, 1.0),
-            _ => turned,
-        }))
-    }
-
-    fn origin(&self, slot: usize) -> Vector {
-        let [x, y, ..] = self.model.inputs.slots[slot].pose;
-        Vector::new(Frame::Ground, [x, y])
-    }
-
-    fn slot_argument(&self, e: &syn::Expr) -> syn::Result<usize> {
-        match e {
-            syn::Expr::Path(p) => match p.path.get_ident() {
-                Some(name) => self.slot(name),
-                None => Err(syn::Error::new_spanned(e, "expected a body slot")),
-            },
-            _ => Err(syn::Error::new_spanned(e, "expected a body slot")),
-        }
-    }
 }
 
-fn wrong(at: Span, expected: &str, found: &Value) -> syn::Error {
-    syn::Error::new(at, format!("expected {expected}, found {}", found.shape()))
+pub(super) fn wrong(at: &syn::Expr, expected: &str, found: &Value) -> syn::Error {
+    syn::Error::new_spanned(at, format!("expected {expected}, found {}", found.shape()))
 }
 
-fn unknown(name: &Ident, what: &str, known: &[&str]) -> syn::Error {
-    let text = name.to_string();
-    let nearest = known
-        .iter()
-        .map(|k| (distance(&text, k), *k))
-        .min()
-        .filter(|(d, _)| *d <= 2);
-    let hint = match nearest {
-        Some((_, k)) => format!("; did you mean `{k}`?"),
-        None if known.is_empty() => String::new(),
-        None => format!("; known are {}", known.join(", ")),
-    };
-    syn::Error::new_spanned(name, format!("unknown {what} `{text}`{hint}"))
-}
-
-/// Levenshtein distance.
-fn distance(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let substitution = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = substitution.min(row[j] + 1).min(diagonal + 1);
-        }
+fn no_operator(b: &syn::ExprBinary, op: &BinOp, left: &Value, right: &Value) -> syn::Error {
+    let refused = format!(
+        "`{}` does not apply to {} and {}",
+        quote::quote!(#op),
+        left.shape(),
+        right.shape()
+    );
+    for (value, at) in [(left, &b.left), (right, &b.right)] {
+        let hint = match value {
+            Value::Point { .. } => {
+                "the point of body i that a parameter `s` gives is `point(i, s)`"
+            }
+            Value::Direction { .. } => "the vector that a parameter `n` gives is `direction(i, n)`",
+            Value::Pair { .. } => {
+                "the vector with components `c` in the frame of body i is `vector(i, c)`"
+            }
+            Value::Line { .. } => "a line has a point `start(line)` and a direction `along(line)`",
+            _ => continue,
+        };
+        return syn::Error::new_spanned(at, format!("{refused}: {hint}"));
     }
-    row[b.len()]
+    match (op, left, right) {
+        (BinOp::Mul(_), Value::Vector(_), Value::Vector(_)) => syn::Error::new_spanned(
+            b,
+            format!("{refused}: the product of two vectors is `dot(a, b)`"),
+        ),
+        _ => syn::Error::new_spanned(b, refused),
+    }
 }

@@ -1,7 +1,7 @@
 //! The inputs of kernels: which symbol stands for which argument. Symbols are made in a fixed order, because
 //! the canonical order of terms follows it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use proc_macro2::{Literal, TokenStream};
 use quote::{format_ident, quote};
@@ -71,7 +71,9 @@ pub(crate) struct Slot {
 /// All inputs of the kernels of one definition.
 pub(crate) struct Inputs {
     sources: BTreeMap<Symbol, Source>,
-    by_name: BTreeMap<String, Expr>,
+    /// Values of each parameter, in the order of its components.
+    params: BTreeMap<String, Vec<Expr>>,
+    taken: BTreeSet<String>,
     pub(crate) slots: Vec<Slot>,
     /// Jets of the functions of time.
     pub(crate) functions: Vec<[Expr; 3]>,
@@ -81,6 +83,9 @@ pub(crate) struct Inputs {
     pub(crate) lambda: Vec<Expr>,
 }
 
+/// Arguments of kernels: an input of the same name gets another one.
+pub(crate) const ARGUMENTS: [&str; 7] = ["x", "v", "a", "f", "k", "lambda", "out"];
+
 const POSE: [&str; 5] = ["x", "y", "angle", "cos", "sin"];
 const TWIST: [&str; 3] = ["x", "y", "omega"];
 
@@ -88,7 +93,8 @@ impl Inputs {
     pub(crate) fn new(g: &mut Graph, d: &Definition) -> Self {
         let mut inputs = Self {
             sources: BTreeMap::new(),
-            by_name: BTreeMap::new(),
+            params: BTreeMap::new(),
+            taken: ARGUMENTS.map(str::to_owned).into(),
             slots: Vec::new(),
             functions: Vec::new(),
             motion: [g.number(0.0); 3],
@@ -141,57 +147,61 @@ impl Inputs {
     }
 
     fn add_param(&mut self, g: &mut Graph, name: &str, kind: &ParamKind, optional: bool) {
-        let parameter = |access: String| Source::Parameter { access };
-        match kind {
-            ParamKind::Point(_) => {
-                for (k, c) in ["x", "y"].into_iter().enumerate() {
-                    self.add(
-                        g,
-                        &format!("{name}_{c}"),
-                        parameter(format!("self.{name}[{k}]")),
-                    );
-                }
-            }
-            ParamKind::Direction(_) => {
-                for (k, c) in ["x", "y"].into_iter().enumerate() {
-                    let access = format!("self.{name}.xy()[{k}]");
-                    self.add(g, &format!("{name}_local_{c}"), parameter(access));
-                }
-            }
-            ParamKind::GroundLine => {
-                for (k, c) in ["x", "y"].into_iter().enumerate() {
-                    let start = format!("self.{name}.start()[{k}]");
-                    self.add(g, &format!("{name}_start_{c}"), parameter(start));
-                    let along = format!("self.{name}.along().xy()[{k}]");
-                    self.add(g, &format!("{name}_along_{c}"), parameter(along));
-                }
-            }
-            ParamKind::Number(_) if optional => {}
-            ParamKind::Number(_) => {
-                self.add(g, name, parameter(format!("self.{name}")));
-            }
+        let values = match kind {
+            ParamKind::Point(_) => self.add_numbers(
+                g,
+                &[
+                    (format!("{name}_x"), format!("{name}[0]")),
+                    (format!("{name}_y"), format!("{name}[1]")),
+                ],
+            ),
+            ParamKind::Direction(_) => self.add_numbers(
+                g,
+                &[
+                    (format!("{name}_local_x"), format!("{name}.xy()[0]")),
+                    (format!("{name}_local_y"), format!("{name}.xy()[1]")),
+                ],
+            ),
+            ParamKind::GroundLine => self.add_numbers(
+                g,
+                &[
+                    (format!("{name}_start_x"), format!("{name}.start()[0]")),
+                    (format!("{name}_along_x"), format!("{name}.along().xy()[0]")),
+                    (format!("{name}_start_y"), format!("{name}.start()[1]")),
+                    (format!("{name}_along_y"), format!("{name}.along().xy()[1]")),
+                ],
+            ),
+            ParamKind::Number(_) if optional => Vec::new(),
+            ParamKind::Number(_) => self.add_numbers(g, &[(name.to_owned(), name.to_owned())]),
             ParamKind::Numbers(units) => {
-                for k in 0..units.len() {
-                    self.add(
-                        g,
-                        &format!("{name}_{k}"),
-                        parameter(format!("self.{name}[{k}]")),
-                    );
-                }
+                let components: Vec<_> = (0..units.len())
+                    .map(|k| (format!("{name}_{k}"), format!("{name}[{k}]")))
+                    .collect();
+                self.add_numbers(g, &components)
             }
-            ParamKind::Function(_) => {
-                let index = self.functions.len();
-                let jet = self.add_jet(g, name, index);
-                self.functions.push(jet);
-            }
-            ParamKind::Functions(units) => {
-                for k in 0..units.len() {
-                    let index = self.functions.len();
-                    let jet = self.add_jet(g, &format!("{name}_{k}"), index);
-                    self.functions.push(jet);
-                }
-            }
-        }
+            ParamKind::Function(_) => vec![self.add_function(g, name)],
+            ParamKind::Functions(units) => (0..units.len())
+                .map(|k| self.add_function(g, &format!("{name}_{k}")))
+                .collect(),
+        };
+        self.params.insert(name.to_owned(), values);
+    }
+
+    /// Inputs for pairs of a name and the field that holds the value.
+    fn add_numbers(&mut self, g: &mut Graph, components: &[(String, String)]) -> Vec<Expr> {
+        components
+            .iter()
+            .map(|(name, field)| {
+                let access = format!("self.{field}");
+                self.add(g, name, Source::Parameter { access })
+            })
+            .collect()
+    }
+
+    fn add_function(&mut self, g: &mut Graph, name: &str) -> Expr {
+        let jet = self.add_jet(g, name, self.functions.len());
+        self.functions.push(jet);
+        jet[0]
     }
 
     fn add_jet(&mut self, g: &mut Graph, name: &str, index: usize) -> [Expr; 3] {
@@ -209,59 +219,52 @@ impl Inputs {
         })
     }
 
+    /// A new input. Different inputs have different names, whatever the author called them: the point `s_i`
+    /// and a length `s_i_x` are told apart by an underscore.
     fn add(&mut self, g: &mut Graph, name: &str, source: Source) -> Expr {
-        let e = g.symbol(name);
+        let mut name = name.to_owned();
+        while !self.taken.insert(name.clone()) {
+            name.push('_');
+        }
+        let e = g.symbol(&name);
         let symbol = g.as_symbol(e).expect("just made");
         self.sources.insert(symbol, source);
-        self.by_name.insert(name.to_owned(), e);
         e
     }
 
     /// Symbols of a kept value.
-    pub(crate) fn kept(&mut self, g: &mut Graph, field: &str, kind: Kept) -> Vec<Expr> {
-        match kind {
-            Kept::Number => {
-                let access = format!("self.{field}");
-                vec![self.add(
-                    g,
-                    field,
-                    Source::Kept {
-                        field: field.to_owned(),
-                        access,
-                    },
-                )]
-            }
-            Kept::Vector => ["x", "y"]
-                .into_iter()
-                .enumerate()
-                .map(|(k, c)| {
-                    let access = format!("self.{field}[{k}]");
-                    let source = Source::Kept {
-                        field: field.to_owned(),
-                        access,
-                    };
-                    self.add(g, &format!("{field}_{c}"), source)
-                })
-                .collect(),
-        }
+    pub(crate) fn kept(&mut self, g: &mut Graph, field: &str, kind: &Kept) -> Vec<Expr> {
+        let components = match kind {
+            Kept::Number => vec![(field.to_owned(), format!("self.{field}"))],
+            Kept::Vector(_) => vec![
+                (format!("{field}_x"), format!("self.{field}[0]")),
+                (format!("{field}_y"), format!("self.{field}[1]")),
+            ],
+        };
+        components
+            .into_iter()
+            .map(|(name, access)| {
+                let field = field.to_owned();
+                self.add(g, &name, Source::Kept { field, access })
+            })
+            .collect()
     }
 
-    pub(crate) fn scalar(&self, name: &str) -> Expr {
-        self.by_name[name]
+    /// Values of a parameter: one number each, two components of a point or a direction.
+    pub(crate) fn values(&self, name: &str) -> &[Expr] {
+        &self.params[name]
     }
 
     /// Components of a point or a direction.
     pub(crate) fn pair(&self, name: &str) -> [Expr; 2] {
-        ["x", "y"].map(|c| match self.by_name.get(&format!("{name}_local_{c}")) {
-            Some(&e) => e,
-            None => self.by_name[&format!("{name}_{c}")],
-        })
+        let values = self.values(name);
+        [values[0], values[1]]
     }
 
     /// Start and direction of a line.
     pub(crate) fn line(&self, name: &str) -> ([Expr; 2], [Expr; 2]) {
-        let pair = |part: &str| ["x", "y"].map(|c| self.by_name[&format!("{name}_{part}_{c}")]);
-        (pair("start"), pair("along"))
+        let values = self.values(name);
+        ([values[0], values[2]], [values[1], values[3]])
     }
 
     pub(crate) fn source(&self, s: Symbol) -> &Source {

@@ -81,7 +81,7 @@ pub(super) fn structure(
         let name = format_ident!("{}", k.field);
         let ty = match k.kind {
             Kept::Number => quote!(f64),
-            Kept::Vector => quote!([f64; 2]),
+            Kept::Vector(_) => quote!([f64; 2]),
         };
         let doc = match &k.overridden_by {
             Some(p) => format!(" `{p}`, or its value at the assembled start; set by `initialise`."),
@@ -175,7 +175,7 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: bool) -> Tok
         let name = format_ident!("{}", k.field);
         match k.kind {
             Kept::Number => quote!(#name: 0.0,),
-            Kept::Vector => quote!(#name: [0.0; 2],),
+            Kept::Vector(_) => quote!(#name: [0.0; 2],),
         }
     });
     let measure = driven.then(|| quote!(measure_0: 0.0,));
@@ -201,7 +201,7 @@ pub(super) fn initialise(model: &Model, measure: Option<Expr>) -> TokenStream {
         let (statements, outputs) = (&printed.statements, &printed.outputs);
         let value = match k.kind {
             Kept::Number => quote!(#(#outputs)*),
-            Kept::Vector => quote!([#(#outputs),*]),
+            Kept::Vector(_) => quote!([#(#outputs),*]),
         };
         match &k.overridden_by {
             Some(p) => quote! {
@@ -267,7 +267,15 @@ fn print_condition<'a>(
             }
         }
         Condition::And(a, b) => {
-            let (a, b) = (print_condition(a, scalars), print_condition(b, scalars));
+            // `&&` binds tighter than `||`.
+            let mut operand = |c: &Condition| {
+                let printed = print_condition(c, scalars);
+                match c {
+                    Condition::Or(..) => quote!((#printed)),
+                    _ => printed,
+                }
+            };
+            let (a, b) = (operand(a), operand(b));
             quote!(#a && #b)
         }
         Condition::Or(a, b) => {

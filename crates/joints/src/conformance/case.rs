@@ -3,6 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
 
+use super::block::Block;
 use crate::arguments::Argument;
 use crate::plane::{N_DOF, Pose, Twist};
 use crate::spec::{Parameter, Shape, Spec, Unit};
@@ -132,6 +133,11 @@ impl Case {
                 .collect(),
             ..self.clone()
         }
+    }
+
+    /// The blocks of all motions, side by side.
+    pub(super) fn for_each_motion(&self, block: impl Fn(&Motion) -> Block) -> Block {
+        Block::beside(&self.motions.iter().map(block).collect::<Vec<_>>())
     }
 
     /// The largest coordinate of poses, start and parameters, at least 1: round-off of 1 ε in it moves Φ by

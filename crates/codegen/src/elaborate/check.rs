@@ -1,0 +1,237 @@
+//! What each part of a definition may depend on. A refusal points at the smallest part of the expression that is
+//! at fault, also where it hides behind a `let`.
+
+use symbolic::{Derivation, Expr, Node};
+
+use super::expression::Value;
+use super::{Model, Scope, Source};
+
+/// What is refused, and why.
+pub(super) struct Refusal {
+    bad: fn(&mut Model, Expr) -> bool,
+    why: &'static str,
+}
+
+/// Values kept from the start, and conditions on it.
+pub(super) const START: &[Refusal] = &[
+    Refusal {
+        bad: moves,
+        why: "a value of the start depends on positions and parameters: velocities are not known yet",
+    },
+    Refusal {
+        bad: of_time,
+        why: "a value of the start depends on positions and parameters, not on functions of time",
+    },
+];
+
+/// Rows of Φ.
+pub(super) const PHI: &[Refusal] = &[
+    NO_QUOTIENT,
+    Refusal {
+        bad: moves,
+        why: "`phi` depends on a velocity: a constraint on the level of velocities is `psi`",
+    },
+    Refusal {
+        bad: uses_rate,
+        why: "`phi` takes a function of time, not its rate: of a function two derivatives are given, and Γ needs both",
+    },
+];
+
+/// Rows of Ψ·q̇ + ψ.
+pub(super) const PSI: &[Refusal] = &[
+    NO_QUOTIENT,
+    Refusal {
+        bad: not_linear,
+        why: "`psi` is not linear in the velocities: its form is Ψ·q̇ + ψ with Ψ and ψ free of velocities",
+    },
+    Refusal {
+        bad: uses_second_rate,
+        why: "`psi` takes a function of time and its rate: of a function two derivatives are given, and Γ needs one more",
+    },
+];
+
+/// The place of a reaction.
+pub(super) const PLACE: &[Refusal] = &[
+    NO_QUOTIENT,
+    Refusal {
+        bad: moves,
+        why: "a place depends on positions and parameters, not on velocities",
+    },
+    Refusal {
+        bad: of_time,
+        why: "a place depends on positions and parameters, not on functions of time",
+    },
+];
+
+/// The direction of a named component of a reaction.
+pub(super) const COMPONENT: &[Refusal] = &[
+    NO_QUOTIENT,
+    Refusal {
+        bad: moves,
+        why: "the direction of a component depends on positions and parameters, not on velocities",
+    },
+    Refusal {
+        bad: uses_second_rate,
+        why: "the direction of a component takes no second rates of functions of time",
+    },
+];
+
+/// What a drive prescribes.
+pub(super) const MEASURE: &[Refusal] = &[
+    NO_QUOTIENT,
+    Refusal {
+        bad: moves,
+        why: "a measure is a relative position or angle, not a velocity",
+    },
+    Refusal {
+        bad: of_time,
+        why: "a measure depends on positions and parameters, not on functions of time",
+    },
+];
+
+/// What a force does work on.
+pub(super) const COORDINATE: &[Refusal] = &[Refusal {
+    bad: moves,
+    why: "a force acts on a relative position or angle, not on a velocity: write `force: law on coordinate;` and put \
+          the velocity into the law",
+}];
+
+/// What `rate` and `velocity` take.
+pub(super) const DIFFERENTIABLE: &[Refusal] = &[
+    Refusal {
+        bad: moves,
+        why: "this contains a velocity already, and accelerations are not known to a definition",
+    },
+    Refusal {
+        bad: uses_second_rate,
+        why: "of a function of time two derivatives are given, not a third",
+    },
+];
+
+const NO_QUOTIENT: Refusal = Refusal {
+    bad: not_polynomial,
+    why: "constraint kernels are polynomials: no quotient and no `norm` here; put what depends on parameters and the \
+          start only into `initial`, and write a distance as `dot(d, d) - length * length`",
+};
+
+/// Whether an expression contains a velocity.
+pub(super) fn moves(model: &mut Model, e: Expr) -> bool {
+    model.depends_on(e, |s| matches!(s, Source::Twist { .. }))
+}
+
+fn of_time(model: &mut Model, e: Expr) -> bool {
+    model.depends_on(e, |s| matches!(s, Source::Function { .. }))
+}
+
+fn uses_rate(model: &mut Model, e: Expr) -> bool {
+    model.depends_on(e, |s| matches!(s, Source::Function { order: 1.., .. }))
+}
+
+fn uses_second_rate(model: &mut Model, e: Expr) -> bool {
+    model.depends_on(e, |s| matches!(s, Source::Function { order: 2.., .. }))
+}
+
+fn not_linear(model: &mut Model, e: Expr) -> bool {
+    let twists: Vec<Expr> = model.inputs.slots.iter().flat_map(|s| s.twist).collect();
+    twists.into_iter().any(|v| {
+        let slope = Derivation::partial(&mut model.g, v).apply(&mut model.g, e);
+        moves(model, slope)
+    })
+}
+
+fn not_polynomial(model: &mut Model, e: Expr) -> bool {
+    let mut seen = std::collections::BTreeSet::new();
+    let mut stack = vec![e];
+    while let Some(e) = stack.pop() {
+        if !seen.insert(e) {
+            continue;
+        }
+        let polynomial = match model.g.node(e) {
+            Node::Call(..) => false,
+            Node::Product(_, factors) => factors.iter().all(|f| f.1 > 0),
+            _ => true,
+        };
+        if !polynomial {
+            return true;
+        }
+        stack.extend(model.g.children(e));
+    }
+    false
+}
+
+impl<'a> Scope<'a> {
+    /// Applies refusals to the value of `e`.
+    pub(super) fn refuse_all(&mut self, e: &'a syn::Expr, refusals: &[Refusal]) -> syn::Result<()> {
+        let value = self.value(e)?;
+        self.refuse(e, &value, refusals)
+    }
+
+    /// Applies refusals to `value`, which is that of `e`.
+    pub(super) fn refuse(
+        &mut self,
+        e: &'a syn::Expr,
+        value: &Value,
+        refusals: &[Refusal],
+    ) -> syn::Result<()> {
+        for r in refusals {
+            let mut scalars = value.scalars().into_iter();
+            if scalars.any(|s| (r.bad)(&mut self.model, s)) {
+                let at = self.culprit(e, r);
+                return Err(syn::Error::new_spanned(at, r.why));
+            }
+        }
+        Ok(())
+    }
+
+    fn is_bad(&mut self, e: &'a syn::Expr, r: &Refusal) -> bool {
+        match self.value(e) {
+            Ok(value) => value
+                .scalars()
+                .into_iter()
+                .any(|s| (r.bad)(&mut self.model, s)),
+            Err(_) => false,
+        }
+    }
+
+    /// The smallest part of `e` that is bad.
+    fn culprit(&mut self, e: &'a syn::Expr, r: &Refusal) -> &'a syn::Expr {
+        match self.parts(e).into_iter().find(|part| self.is_bad(part, r)) {
+            Some(part) => self.culprit(part, r),
+            None => e,
+        }
+    }
+
+    /// What an expression is made of; for the name of a `let`, what the name stands for.
+    fn parts(&self, e: &'a syn::Expr) -> Vec<&'a syn::Expr> {
+        match e {
+            syn::Expr::Paren(inner) => vec![&inner.expr],
+            syn::Expr::Group(inner) => vec![&inner.expr],
+            syn::Expr::Unary(unary) => vec![&unary.expr],
+            syn::Expr::Binary(binary) => vec![&binary.left, &binary.right],
+            syn::Expr::Call(call) => call.args.iter().collect(),
+            syn::Expr::Index(index) => vec![&index.expr],
+            syn::Expr::Array(array) => array.elems.iter().collect(),
+            syn::Expr::Path(path) => {
+                let lets = self.definition.bindings.iter();
+                lets.filter(|b| b.kept.is_none() && path.path.is_ident(&b.name))
+                    .map(|b| &b.value)
+                    .collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
+impl Value {
+    fn scalars(&self) -> Vec<Expr> {
+        match self {
+            Self::Scalar(e) => vec![*e],
+            Self::Vector(v) => v.components().collect(),
+            Self::Pair { pair, .. } | Self::Point { pair, .. } | Self::Direction { pair, .. } => {
+                pair.to_vec()
+            }
+            Self::Line { start, along } => start.iter().chain(along).copied().collect(),
+            Self::List(values) => values.iter().flat_map(Self::scalars).collect(),
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! Hints for misspelt names.
+
+/// Most edits between a name and a hint.
+const EDITS: usize = 2;
+
+/// `; did you mean …?` or the list of what is known.
+pub(crate) fn hint(text: &str, known: &[&str]) -> String {
+    let nearest = known
+        .iter()
+        .map(|k| (distance(text, k), *k))
+        .min()
+        // All letters changed is no likeness.
+        .filter(|(d, k)| *d <= EDITS && *d < k.chars().count().min(text.chars().count()));
+    match nearest {
+        Some((_, k)) => format!("; did you mean `{k}`?"),
+        None if known.is_empty() => String::new(),
+        None => format!("; known are {}", list(known)),
+    }
+}
+
+/// `a`, `b`, `c`
+pub(crate) fn list(words: &[&str]) -> String {
+    let quoted: Vec<String> = words.iter().map(|w| format!("`{w}`")).collect();
+    quoted.join(", ")
+}
+
+/// Levenshtein distance.
+fn distance(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let substitution = diagonal + usize::from(x != *y);
+            diagonal = row[j + 1];
+            row[j + 1] = substitution.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{distance, hint};
+
+    #[test]
+    fn distances_of_the_textbook() {
+        assert_eq!(distance("kitten", "sitting"), 3);
+        assert_eq!(distance("", "abc"), 3);
+        assert_eq!(distance("phi", "phi"), 0);
+    }
+
+    #[test]
+    fn a_near_name_is_proposed_and_a_far_one_is_not() {
+        assert_eq!(hint("phy", &["rows", "phi"]), "; did you mean `phi`?");
+        assert_eq!(hint("q", &["a", "b"]), "; known are `a`, `b`");
+        assert_eq!(hint("q", &[]), "");
+    }
+}

@@ -1,0 +1,253 @@
+//! The definition with its items, `word … ;` one after the other.
+
+use syn::ext::IdentExt;
+use syn::parse::ParseStream;
+use syn::punctuated::Punctuated;
+use syn::{Attribute, Ident, Token, braced, bracketed, parenthesized};
+
+use super::kind::{Initial, doc_lines};
+use super::{Binding, Definition, Kind, Param, name};
+use crate::nearest::hint;
+
+mod kw {
+    syn::custom_keyword!(apart);
+    syn::custom_keyword!(default);
+    syn::custom_keyword!(on);
+    syn::custom_keyword!(plane);
+}
+
+/// First words of items.
+const COMMON: [&str; 7] = [
+    "params", "points", "let", "initial", "require", "scene", "variant",
+];
+const CONSTRAINT: [&str; 6] = ["rows", "phi", "psi", "measure", "place", "component"];
+const FORCE: [&str; 1] = ["force"];
+
+/// `plane Name(slot, …) { … }`
+pub(super) fn definition(kind: Kind, input: ParseStream<'_>) -> syn::Result<Definition> {
+    if !input.peek(kw::plane) {
+        return Err(input.error(
+            "expected `plane Name(i, j) { … }`: the space of the definition, its name, its body slots",
+        ));
+    }
+    input.parse::<kw::plane>()?;
+    let own_name = name(input)?;
+    let slots;
+    parenthesized!(slots in input);
+    let slots = names(&slots)?;
+    distinct(&slots, "body slot")?;
+    if slots.is_empty() {
+        return Err(syn::Error::new_spanned(
+            &own_name,
+            format!("`{own_name}` has no body slot: write `{own_name}(i)` or `{own_name}(i, j)`"),
+        ));
+    }
+    let items;
+    braced!(items in input);
+    if !input.is_empty() {
+        return Err(input.error("nothing may follow the definition"));
+    }
+    let mut d = Definition {
+        doc: doc_lines(&items.call(Attribute::parse_outer)?)?,
+        name: own_name,
+        slots,
+        params: Vec::new(),
+        points_apart: false,
+        bindings: Vec::new(),
+        requirements: Vec::new(),
+        rows: Vec::new(),
+        phi: None,
+        psi: None,
+        measures: Vec::new(),
+        place: None,
+        component: None,
+        forces: Vec::new(),
+        scene: None,
+        variant: None,
+    };
+    while !items.is_empty() {
+        item(kind, &items, &mut d)?;
+    }
+    check_presence(kind, &d)?;
+    let params: Vec<Ident> = d.params.iter().map(|p| p.name.clone()).collect();
+    distinct(&params, "parameter")?;
+    Ok(d)
+}
+
+fn check_presence(kind: Kind, d: &Definition) -> syn::Result<()> {
+    let missing = |what: &str| {
+        Err(syn::Error::new_spanned(
+            &d.name,
+            format!("`{}` has no {what}", d.name),
+        ))
+    };
+    if d.doc.is_empty() {
+        return missing("doc comment: say in `///` at the start of its body what it does");
+    }
+    match kind {
+        Kind::Constraint if d.phi.is_none() && d.psi.is_none() => missing(
+            "equation: write `phi: …;` on the level of positions or `psi: …;` on the level of velocities",
+        ),
+        Kind::Constraint if d.rows.is_empty() => {
+            missing("names for its rows: write `rows: [x, y];`, one name for each")
+        }
+        Kind::Constraint if d.place.is_none() => missing(
+            "place: write `place: point(i, s_i);`, the point at which its reaction is reported",
+        ),
+        Kind::Force if d.forces.is_empty() => missing("law: write `force: law on coordinate;`"),
+        _ => Ok(()),
+    }
+}
+
+fn item(kind: Kind, input: ParseStream<'_>, d: &mut Definition) -> syn::Result<()> {
+    let word = input.call(Ident::parse_any)?;
+    match (kind, word.to_string().as_str()) {
+        (_, "params") => {
+            let list;
+            braced!(list in input);
+            d.params
+                .extend(Punctuated::<Param, Token![,]>::parse_terminated(&list)?);
+            return Ok(());
+        }
+        (_, "initial") => {
+            let list;
+            braced!(list in input);
+            let list = Punctuated::<Initial, Token![,]>::parse_terminated(&list)?;
+            d.bindings.extend(list.into_iter().map(|i| i.0));
+            return Ok(());
+        }
+        (_, "let") => {
+            let name = name(input)?;
+            input.parse::<Token![=]>()?;
+            d.bindings.push(Binding {
+                name,
+                value: input.parse()?,
+                kept: None,
+            });
+        }
+        (_, "require") => {
+            let words = input.parse()?;
+            input.parse::<Token![:]>()?;
+            d.requirements.push((words, input.parse()?));
+        }
+        (_, "points") => {
+            input.parse::<kw::apart>()?;
+            once(&word, d.points_apart.then_some(()))?;
+            d.points_apart = true;
+        }
+        (_, "scene") => once(&word, d.scene.replace(input.parse()?))?,
+        (_, "variant") => {
+            let key = name(input)?;
+            input.parse::<Token![=]>()?;
+            let value = input.parse()?;
+            let default = input.parse::<Option<Token![,]>>()?.is_some();
+            if default {
+                input.parse::<kw::default>()?;
+            }
+            once(&word, d.variant.replace((key, value, default)))?;
+        }
+        (Kind::Force, "force") => {
+            input.parse::<Token![:]>()?;
+            let law = input.parse()?;
+            input.parse::<kw::on>()?;
+            d.forces.push((law, input.parse()?));
+        }
+        (Kind::Constraint, known) if CONSTRAINT.contains(&known) => {
+            constraint_item(&word, input, d)?;
+        }
+        (_, other) => return Err(unknown_item(kind, &word, other)),
+    }
+    input.parse::<Token![;]>()?;
+    Ok(())
+}
+
+fn constraint_item(word: &Ident, input: ParseStream<'_>, d: &mut Definition) -> syn::Result<()> {
+    match word.to_string().as_str() {
+        "rows" => {
+            input.parse::<Token![:]>()?;
+            let list;
+            bracketed!(list in input);
+            once(word, (!d.rows.is_empty()).then_some(()))?;
+            d.rows = names(&list)?;
+            distinct(&d.rows, "row")?;
+        }
+        "phi" => {
+            input.parse::<Token![:]>()?;
+            once(word, d.phi.replace(input.parse()?))?;
+            one_level(word, d)?;
+        }
+        "psi" => {
+            input.parse::<Token![:]>()?;
+            once(word, d.psi.replace(input.parse()?))?;
+            one_level(word, d)?;
+        }
+        "measure" => {
+            let name = name(input)?;
+            input.parse::<Token![:]>()?;
+            d.measures.push((name, input.parse()?));
+        }
+        "place" => {
+            input.parse::<Token![:]>()?;
+            once(word, d.place.replace(input.parse()?))?;
+        }
+        _ => {
+            let name = name(input)?;
+            input.parse::<Token![:]>()?;
+            once(word, d.component.replace((name, input.parse()?)))?;
+        }
+    }
+    Ok(())
+}
+
+fn unknown_item(kind: Kind, word: &Ident, text: &str) -> syn::Error {
+    let (own, what, other_words, other) = match kind {
+        Kind::Constraint => (&CONSTRAINT[..], "joint!", &FORCE[..], "force!"),
+        Kind::Force => (&FORCE[..], "force!", &CONSTRAINT[..], "joint!"),
+    };
+    let message = match other_words.contains(&text) {
+        true => format!("`{text}` belongs into a `{other}`, this is a `{what}`"),
+        false => {
+            let known: Vec<&str> = COMMON.iter().chain(own).copied().collect();
+            format!("unknown item `{text}`{}", hint(text, &known))
+        }
+    };
+    syn::Error::new_spanned(word, message)
+}
+
+/// `name, …`
+fn names(input: ParseStream<'_>) -> syn::Result<Vec<Ident>> {
+    let list = Punctuated::<Ident, Token![,]>::parse_terminated_with(input, name)?;
+    Ok(list.into_iter().collect())
+}
+
+fn distinct(names: &[Ident], what: &str) -> syn::Result<()> {
+    for (k, name) in names.iter().enumerate() {
+        if names[..k].contains(name) {
+            return Err(syn::Error::new_spanned(
+                name,
+                format!("two {what}s are called `{name}`"),
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn once<T>(at: &Ident, previous: Option<T>) -> syn::Result<()> {
+    match previous {
+        Some(_) => Err(syn::Error::new_spanned(
+            at,
+            format!("`{at}` is given twice"),
+        )),
+        None => Ok(()),
+    }
+}
+
+fn one_level(at: &Ident, d: &Definition) -> syn::Result<()> {
+    match d.phi.is_some() && d.psi.is_some() {
+        true => Err(syn::Error::new_spanned(
+            at,
+            "a definition is either holonomic (`phi`) or nonholonomic (`psi`), not both: make it two definitions",
+        )),
+        false => Ok(()),
+    }
+}

@@ -1,0 +1,165 @@
+//! Why a motion stops, or does not begin.
+
+use integrators::IntegrationError;
+use linalg::{Doubt, KeptRowsError, SaddleError};
+use model::{RowLabel, StartError};
+use solvability::{AnalysisError, Contradiction};
+
+/// Why the equations cannot be solved at one instant. A shorter step may avoid it.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Trip {
+    /// The kept rows became dependent.
+    #[error(
+        "at t = {time} s the kept rows are no longer independent at row {row}: pivot {pivot:.3e} of {scale:.3e}; \
+         the mechanism passes a singular configuration"
+    )]
+    RankLost {
+        /// When.
+        time: f64,
+        /// The row whose pivot vanished.
+        row: RowLabel,
+        /// The pivot.
+        pivot: f64,
+        /// What it is compared with.
+        scale: f64,
+    },
+    /// A motion that moves no mass.
+    #[error(
+        "at t = {time} s a motion without mass or inertia is possible: body `{body}` can move its {coordinate} freely; \
+         give it mass or inertia, or constrain it"
+    )]
+    Massless {
+        /// When.
+        time: f64,
+        /// The body that moves most.
+        body: String,
+        /// Its coordinate.
+        coordinate: &'static str,
+    },
+    /// A value is NaN or infinite.
+    #[error("at t = {time} s {what} is not finite")]
+    NotFinite {
+        /// When.
+        time: f64,
+        /// Which value.
+        what: String,
+    },
+    /// Positions could not be brought back onto the constraints.
+    #[error(
+        "at t = {time} s row {row} misses by {residual:.3e} after {iterations} corrections, more than {tolerance:.3e}"
+    )]
+    OffConstraints {
+        /// When.
+        time: f64,
+        /// The row that misses most.
+        row: RowLabel,
+        /// By how much.
+        residual: f64,
+        /// What is allowed.
+        tolerance: f64,
+        /// Corrections made.
+        iterations: usize,
+    },
+    /// A dropped row is no longer implied by the kept ones.
+    #[error(
+        "at t = {time} s the dropped row {row} is violated by {residual:.3e} ({level}), more than {tolerance:.3e}: it \
+         contradicts the kept rows; it was redundant only at the start, or drives contradict each other"
+    )]
+    DroppedRow {
+        /// When.
+        time: f64,
+        /// The row.
+        row: RowLabel,
+        /// Positions or velocities.
+        level: &'static str,
+        /// Its residual.
+        residual: f64,
+        /// What is allowed.
+        tolerance: f64,
+    },
+    /// The kept rows became dependent and no others can be chosen.
+    #[error(
+        "at t = {time} s the kept rows are nearly dependent and no others can be chosen: {what}"
+    )]
+    NoRows {
+        /// When.
+        time: f64,
+        /// Why.
+        what: String,
+    },
+    /// The saddle equations were refused for another reason.
+    #[error("at t = {time} s: {source}")]
+    Saddle {
+        /// When.
+        time: f64,
+        /// Why.
+        source: SaddleError,
+    },
+}
+
+/// Why there is no motion, or only a part of it.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum MotionError {
+    /// The options of the run are no options.
+    #[error("{name} is {value}, need {expected}")]
+    Option {
+        /// Which number.
+        name: &'static str,
+        /// The number.
+        value: f64,
+        /// What is needed.
+        expected: &'static str,
+    },
+    /// No consistent start.
+    #[error(transparent)]
+    Start(#[from] StartError),
+    /// The constraint matrix of the start cannot be judged.
+    #[error(transparent)]
+    Analysis(#[from] AnalysisError),
+    /// Redundant rows ask for different motions.
+    #[error(transparent)]
+    Contradiction(#[from] Contradiction),
+    /// The rank of the start is undecided.
+    #[error("the rank of the start is undecided, so no rows can be chosen: {0}")]
+    RankUndecided(Doubt),
+    /// The rows asked to be dropped cannot be.
+    #[error("{0}")]
+    Rows(String),
+    /// The equations could not be solved at the start.
+    #[error(transparent)]
+    Trip(#[from] Trip),
+    /// The integration stopped.
+    #[error("{0}")]
+    Integration(Box<IntegrationError<Trip>>),
+}
+
+impl MotionError {
+    /// An inadmissible choice of dropped rows, with rows counted from 1.
+    pub(crate) fn rows(error: &KeptRowsError, labels: &[RowLabel], redundancy: usize) -> Self {
+        let label = |row: usize| {
+            labels
+                .get(row)
+                .map_or_else(|| (row + 1).to_string(), RowLabel::to_string)
+        };
+        Self::Rows(match error {
+            KeptRowsError::WrongCount { dropped, .. } => format!(
+                "{dropped} rows are dropped, but the degree of redundancy is {redundancy}: drop exactly {redundancy}"
+            ),
+            KeptRowsError::RowOutOfRange { row, rows } => {
+                format!("row {} cannot be dropped: rows are 1 to {rows}", row + 1)
+            }
+            KeptRowsError::Duplicate { row } => format!("row {} is listed twice", label(*row)),
+            KeptRowsError::Dependent {
+                smallest_singular_value,
+                required,
+            } => format!(
+                "these rows cannot be dropped: what is kept is dependent (smallest singular value \
+                 {smallest_singular_value:.3e}, need {required:.3e}). `pfaff analyze` lists the dependent sets; drop \
+                 one row of each"
+            ),
+            other => other.to_string(),
+        })
+    }
+}

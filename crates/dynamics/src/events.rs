@@ -1,0 +1,34 @@
+//! What happened during a run that the reader should know.
+
+/// One event.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// When (s).
+    pub time: f64,
+    /// What.
+    pub kind: EventKind,
+    /// Degree of redundancy before.
+    pub redundancy_before: usize,
+    /// Degree of redundancy after.
+    pub redundancy_after: usize,
+    /// In words.
+    pub text: String,
+}
+
+/// Kinds of events.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum EventKind {
+    /// Other rows are kept; the rank is the same.
+    RowsExchanged,
+}
+
+impl EventKind {
+    /// Its name in results.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::RowsExchanged => "rows-exchanged",
+        }
+    }
+}

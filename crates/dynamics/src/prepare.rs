@@ -1,0 +1,74 @@
+//! From an assembled mechanism to one that can move: a consistent start, a decided rank, kept rows. The rank is
+//! decided here, at a polished point, and nowhere else during a run.
+
+use linalg::{RankDecision, RankStatus};
+use model::start::{assemble, consistent_velocity};
+use model::{Assembly, Mechanism, StartOptions, System};
+use solvability::{ConstraintLevel, certify, contradiction};
+
+use crate::error::MotionError;
+use crate::options::RowChoice;
+
+/// A mechanism with a consistent start and kept rows.
+#[derive(Clone)]
+pub struct Prepared {
+    /// The mechanism, with initial values taken from the start.
+    pub mechanism: Mechanism,
+    /// Coordinates at t = 0.
+    pub q: Vec<f64>,
+    /// Velocities at t = 0.
+    pub v: Vec<f64>,
+    /// Rank and kept rows.
+    pub decision: RankDecision,
+    /// How the configuration was assembled.
+    pub assembly: Assembly,
+    /// Velocities at the start minus the described ones.
+    pub velocity_correction: Vec<f64>,
+}
+
+/// Assembles the start, decides the rank there, chooses rows, and makes the velocities consistent.
+///
+/// # Errors
+/// - [`MotionError::Start`]: no consistent configuration or velocities.
+/// - [`MotionError::Contradiction`]: redundant rows ask for different velocities.
+/// - [`MotionError::RankUndecided`], [`MotionError::Rows`]: no rows can be chosen, or not the ones asked for.
+pub fn prepare(
+    mut mechanism: Mechanism,
+    start: &StartOptions,
+    rows: &RowChoice,
+) -> Result<Prepared, MotionError> {
+    let assembly = assemble(&mut mechanism, start)?;
+    let layout = mechanism.layout();
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, &assembly.q, &mut s);
+    mechanism.phi(&mut s);
+    mechanism.c(&mut s);
+    mechanism.b(&mut s);
+    let automatic = certify(&mechanism, &s)?;
+    if let RankStatus::Undecided(doubt) = automatic.status {
+        return Err(MotionError::RankUndecided(doubt));
+    }
+    let level = ConstraintLevel::Velocity;
+    if let Some(found) = contradiction(&automatic, &layout.labels, &s.b, level, 0.0) {
+        return Err(found.into());
+    }
+    let decision = match rows {
+        RowChoice::Automatic => automatic,
+        RowChoice::Drop(dropped) => {
+            let residual = automatic.evidence.constraint_residual;
+            linalg::decide_dropping(&layout.dense(&s), residual, dropped)
+                .map_err(|e| MotionError::rows(&e, &layout.labels, automatic.redundancy))?
+        }
+    };
+    let v = consistent_velocity(&mechanism, start, &assembly.q, &assembly.v, &decision.kept)?;
+    let velocity_correction = v.iter().zip(&assembly.v).map(|(a, b)| a - b).collect();
+    let q = assembly.q.clone();
+    Ok(Prepared {
+        mechanism,
+        q,
+        v,
+        decision,
+        assembly,
+        velocity_correction,
+    })
+}

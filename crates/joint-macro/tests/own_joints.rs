@@ -1,0 +1,221 @@
+//! Definitions that are not shipped, checked against numbers found by hand, and names that are awkward on purpose.
+
+#![deny(warnings)]
+
+mod pfaff {
+    //! A facade as its users see it: the crate `joints` under another path, the macro wrapped.
+    pub(crate) use joints;
+
+    /// `joint!` with the path of the facade.
+    #[macro_export]
+    macro_rules! facade_joint {
+        ($($definition:tt)*) => {
+            joint_macro::joint! { #![runtime = $crate::pfaff::joints] $($definition)* }
+        };
+    }
+}
+
+use joint_macro::{force, joint};
+use joints::{Constraint, Element, Force, Pose, Twist};
+
+joint! { plane EqualDistance(i, j, k) {
+    /// The origin of body k is as far from the origin of body i as from the origin of body j: `a·a − b·b = 0`.
+    params {}
+    let a = origin(k) - origin(i);
+    let b = origin(k) - origin(j);
+    rows: [distance];
+    phi: dot(a, a) - dot(b, b);
+    place: origin(k);
+} }
+
+/// The values of a row at r_i = (0, 0), r_j = (4, 0), r_k = (1, 2): a = (1, 2), b = (−3, 2).
+#[test]
+fn equal_distance_by_hand() {
+    let joint = EqualDistance {};
+    let x = [
+        Pose::GROUND,
+        Pose::new(4.0, 0.0, 0.3),
+        Pose::new(1.0, 2.0, -0.7),
+    ];
+    let v = [
+        Twist {
+            x: 0.0,
+            y: 0.0,
+            omega: 0.0,
+        },
+        Twist {
+            x: 1.0,
+            y: 1.0,
+            omega: 5.0,
+        },
+        Twist {
+            x: 2.0,
+            y: 0.0,
+            omega: 9.0,
+        },
+    ];
+    let mut phi = [0.0];
+    Element::phi(&joint, &x, &[], &mut phi);
+    // 5 − 13
+    assert_eq!(phi, [-8.0]);
+
+    // d(a·a)/dr_i = −2a, d(−b·b)/dr_j = 2b, d(a·a − b·b)/dr_k = 2(a − b) = (8, 0); no rotations.
+    let pattern: Vec<_> = EqualDistance::SPEC
+        .c
+        .iter()
+        .map(|e| (e.slot, e.dof))
+        .collect();
+    assert_eq!(pattern, [(0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 1)]);
+    let mut c = [f64::NAN; 6];
+    Constraint::c_constant(&joint, &mut c);
+    Constraint::c(&joint, &x, &[], &mut c);
+    assert_eq!(c, [-2.0, -4.0, -6.0, 4.0, 8.0, 0.0]);
+
+    // Γ = −2(ȧ·ȧ − ḃ·ḃ), ȧ = (2, 0), ḃ = (1, −1): −2(4 − 2).
+    let mut gamma = [0.0];
+    Element::gamma(&joint, &x, &v, &[], &mut gamma);
+    assert_eq!(gamma, [-4.0]);
+    assert_eq!(Element::<f64>::place(&joint, &x), [1.0, 2.0]);
+}
+
+facade_joint! { plane ScaledPin(i) {
+    /// Point `s` of the body stays at `scale·(1, 2)` of the ground, through a facade.
+    params { s: Point in i, scale: Ratio }
+    rows: [x, y];
+    phi: [point(i, s)[0] - scale, point(i, s)[1] - 2.0 * scale];
+    place: point(i, s);
+} }
+
+#[test]
+fn the_facade_path_is_used() {
+    let pin = ScaledPin {
+        s: [3.0, 1.0],
+        scale: 2.0,
+    };
+    let mut phi = [0.0; 2];
+    Element::phi(&pin, &[Pose::GROUND], &[], &mut phi);
+    assert_eq!(phi, [1.0, -3.0]);
+}
+
+// Every parameter here is called like something that generated code computes.
+joint! { plane Awkward(i, s) {
+    /// A point of body i has prescribed coordinates in body s; the names are chosen to collide.
+    params {
+        s_i: Point in i,
+        s_i_x: Length,
+        s_i_y: Length,
+        s_i_local: Length,
+        n: Direction in i,
+        n_x: Length,
+        n_local_x: Length,
+        arm_i_x: Length,
+        cos_i: Length,
+        r_i_x: Length,
+        t0: Length,
+        x: Length,
+        k: Length,
+        out: Length,
+        f: [Function<Length>, Function<Length>],
+        f_0: Length,
+        f_0_t: Length,
+    }
+    let a = s_i_x + s_i_y + s_i_local + n_x + n_local_x + arm_i_x + cos_i + r_i_x + t0 + x + k + out + f_0 + f_0_t;
+    let lambda = point(i, s_i) - origin(s);
+    rows: [x, y];
+    phi: [dot(direction(i, n), lambda) - a - f[0], dot(perp(direction(i, n)), lambda) - f[1]];
+    place: point(i, s_i);
+} }
+
+#[test]
+fn names_that_collide_are_told_apart() {
+    let direction = joints::Direction::new([0.0, 1.0]).expect("not zero");
+    let joint = Awkward {
+        s_i: [10.0, 20.0],
+        s_i_x: 1.0,
+        s_i_y: 2.0,
+        s_i_local: 3.0,
+        n: direction,
+        n_x: 4.0,
+        n_local_x: 5.0,
+        arm_i_x: 6.0,
+        cos_i: 7.0,
+        r_i_x: 8.0,
+        t0: 9.0,
+        x: 10.0,
+        k: 11.0,
+        out: 12.0,
+        f_0: 13.0,
+        f_0_t: 14.0,
+    };
+    // Body i turned by a right angle: its point is at r_i + (−20, 10), its n is (−1, 0), perp(n) is (0, −1).
+    let x = [
+        Pose {
+            x: 100.0,
+            y: 200.0,
+            angle: 0.0,
+            cos: 0.0,
+            sin: 1.0,
+        },
+        Pose::new(1.0, 2.0, 0.0),
+    ];
+    let f = [[0.25, 0.0, 0.0], [0.5, 0.0, 0.0]];
+    let mut phi = [0.0; 2];
+    Element::phi(&joint, &x, &f, &mut phi);
+    // lambda = (79, 208); −79 − (1 + 2 + … + 14) − 0.25 and −208 − 0.5.
+    assert_eq!(phi, [-184.25, -208.5]);
+}
+
+force! { plane Magnet(i, j) {
+    /// Attraction `strength/l²` between two origins; at the start they are apart, or there is none.
+    params { strength: Ratio, off: Ratio }
+    let l = norm(origin(j) - origin(i));
+    require "apart and nearer than ten, or switched off": (l > 0.0 || off == 1.0) && (l < 10.0 || off == 1.0);
+    force: -(1.0 - off) * strength / (l * l) on l;
+} }
+
+/// At distance 5 along (3, 4): 100/25 = 4 N, on body j −4·(0.6, 0.8).
+#[test]
+fn magnet_by_hand() {
+    let magnet = Magnet {
+        strength: 100.0,
+        off: 0.0,
+    };
+    let x = [Pose::GROUND, Pose::new(3.0, 4.0, 0.0)];
+    let mut q = [0.0; 4];
+    assert_eq!(Magnet::SPEC.q, [0, 1, 3, 4]);
+    Force::q(&magnet, &x, &[Twist::zero(); 2], &[], &mut q);
+    for (found, expected) in q.into_iter().zip([2.4, 3.2, -2.4, -3.2]) {
+        // A handful of roundings of numbers of order 1 to 100.
+        assert!((found - expected).abs() < 1e-13, "{found} {expected}");
+    }
+}
+
+/// `(A || B) && (C || D)` keeps its parentheses: at l = 20 and switched on, C and D are both false.
+#[test]
+fn conditions_keep_their_parentheses() {
+    let far = [Pose::GROUND, Pose::new(12.0, 16.0, 0.0)];
+    let near = [Pose::GROUND, Pose::new(3.0, 4.0, 0.0)];
+    let on = Magnet {
+        strength: 1.0,
+        off: 0.0,
+    };
+    let off = Magnet {
+        strength: 1.0,
+        off: 1.0,
+    };
+    assert!(!Force::requirement(&on, 0, &far));
+    assert!(Force::requirement(&on, 0, &near));
+    assert!(Force::requirement(&off, 0, &far));
+    assert!(!Force::requirement(&on, 0, &[Pose::GROUND; 2]));
+    assert!(Force::requirement(&off, 0, &[Pose::GROUND; 2]));
+}
+
+#[test]
+fn the_text_is_what_its_author_wrote() {
+    let text = EqualDistance::SPEC.common.text;
+    assert!(
+        text.starts_with("joint! { plane EqualDistance(i, j, k) {\n    /// The origin of body k"),
+        "{text}"
+    );
+    assert!(text.ends_with("place: origin(k);\n} }"), "{text}");
+}

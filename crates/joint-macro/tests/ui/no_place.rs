@@ -1,0 +1,10 @@
+use joint_macro::joint;
+
+joint! { plane Wrong(i, j) {
+    /// One wrong thing.
+    params { s_i: Point in i, s_j: Point in j }
+    rows: [x, y];
+    phi: point(i, s_i) - point(j, s_j);
+} }
+
+fn main() {}

@@ -1,0 +1,11 @@
+use joint_macro::joint;
+
+joint! { plane Wrong(i) {
+    /// One wrong thing.
+    params { s: Point in i, n: Direction in i }
+    rows: [n];
+    psi: dot(direction(i, n), point(i, s));
+    place: point(i, s);
+} }
+
+fn main() {}

@@ -1,0 +1,239 @@
+//! What a check reports: the definition, the property, the entry, both values, and the case to repeat it.
+
+use std::fmt;
+
+use super::block::Block;
+use super::case::Case;
+
+/// A property that each definition has.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Property {
+    /// Parameters drawn from the spec are accepted.
+    Arguments,
+    /// The requirements hold at some start, and a number beyond them always holds.
+    Requirements,
+    /// Entries of a pattern lie in the block, once each, and vanish not everywhere.
+    Pattern,
+    /// `c_constant` writes the constant entries and `c` the others; `b` writes only if rheonomic.
+    Writes,
+    /// `C = ∂Φ/∂x` along the degrees of freedom.
+    C,
+    /// `b = −∂Φ/∂t`
+    B,
+    /// `C·v − b = Φ̇`
+    Velocity,
+    /// `Γ = −Φ̈` along `x + τv`.
+    GammaFromPhi,
+    /// `Γ = −d(C·v − b)/dτ` along `x + τv`.
+    Gamma,
+    /// `∂(Cᵀλ)/∂x`
+    DForceDx,
+    /// `∂(C·a − Γ)/∂x`
+    DResidualDx,
+    /// `∂Γ/∂v`
+    DGammaDv,
+    /// The wrench is −C of the first body, moved to the place.
+    Wrench,
+    /// The place is fixed in the first body.
+    Place,
+    /// The named component is the force along a unit vector, or the torque.
+    Component,
+    /// Forces on the bodies add up to no force, and to no moment.
+    Balance,
+    /// Moving all bodies as one rigid body leaves the norm of each block unchanged.
+    RigidMotion,
+    /// Rows that keep the start are zero there, and rows that restrict it are not always.
+    Start,
+    /// `∂Q/∂x`
+    DqDx,
+    /// `∂Q/∂v`
+    DqDv,
+    /// The velocity terms of a force never add energy.
+    Dissipation,
+}
+
+impl fmt::Display for Property {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Arguments => "parameters drawn from the spec are accepted",
+            Self::Requirements => "the requirements hold at some start",
+            Self::Pattern => "the pattern names each entry that does not vanish, once, and no other",
+            Self::Writes => "kernels write exactly the entries that are theirs",
+            Self::C => "C = ∂Φ/∂x",
+            Self::B => "b = −∂Φ/∂t",
+            Self::Velocity => "C·v − b = dΦ/dt",
+            Self::GammaFromPhi => "Γ = −d²Φ/dτ² along x + τv",
+            Self::Gamma => "Γ = −d(C·v − b)/dτ along x + τv",
+            Self::DForceDx => "d_force_dx = ∂(Cᵀλ)/∂x",
+            Self::DResidualDx => "d_residual_dx = ∂(C·a − Γ)/∂x",
+            Self::DGammaDv => "d_gamma_dv = ∂Γ/∂v",
+            Self::Wrench => "the wrench is −C of the first body, moved to the place",
+            Self::Place => "the place is fixed in the first body",
+            Self::Component => "the named component is not larger than the reaction",
+            Self::Balance => "forces and moments on all bodies add up to zero",
+            Self::RigidMotion => "moving all bodies as one leaves the norm of each block unchanged",
+            Self::Start => "rows that keep the start, and only these, are zero there",
+            Self::DqDx => "dq_dx = ∂Q/∂x",
+            Self::DqDv => "dq_dv = ∂Q/∂v",
+            Self::Dissipation => "velocity terms never add energy",
+        })
+    }
+}
+
+/// Where the expected value comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Reference {
+    /// A derivative by dual numbers.
+    DualNumbers,
+    /// A derivative by central differences, extrapolated.
+    Differences,
+    /// An identity between kernels, or a fact of the spec.
+    Identity,
+}
+
+/// A property that a definition lacks.
+#[derive(Clone, Debug)]
+pub struct Failure {
+    /// Name of the definition.
+    pub definition: &'static str,
+    /// The property.
+    pub property: Property,
+    /// Where the expected value comes from.
+    pub reference: Reference,
+    /// The worst entry, in words.
+    pub entry: String,
+    /// Row of the worst entry.
+    pub row: usize,
+    /// Column of the worst entry.
+    pub column: usize,
+    /// Value of the kernel.
+    pub found: f64,
+    /// Value by the reference.
+    pub expected: f64,
+    /// What the difference is compared with: usually the largest entry of the block.
+    pub scale: f64,
+    /// The largest difference allowed, relative to the scale.
+    pub tolerance: f64,
+    /// The case, where the property is one of single cases.
+    pub case: Option<Box<Case>>,
+}
+
+impl Failure {
+    /// The difference relative to the scale.
+    #[must_use]
+    pub fn relative_error(&self) -> f64 {
+        (self.found - self.expected).abs() / self.scale
+    }
+}
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "`{}`: violated: {}", self.definition, self.property)?;
+        writeln!(f, "  at {}", self.entry)?;
+        writeln!(
+            f,
+            "  found {:?}, expected {:?} by {}: relative error {:.1e}, at most {:.1e} of {:.3e}",
+            self.found,
+            self.expected,
+            match self.reference {
+                Reference::DualNumbers => "dual numbers",
+                Reference::Differences => "differences",
+                Reference::Identity => "identity",
+            },
+            self.relative_error(),
+            self.tolerance,
+            self.scale,
+        )?;
+        match &self.case {
+            Some(case) => write!(f, "{case}"),
+            None => write!(f, "  over all cases"),
+        }
+    }
+}
+
+impl std::error::Error for Failure {}
+
+/// Compares blocks for one case of one definition.
+pub(super) struct Judge<'a> {
+    pub(super) definition: &'static str,
+    pub(super) case: &'a Case,
+}
+
+/// A claim: two blocks are equal up to the tolerance, relative to their largest entry.
+pub(super) struct Claim<'a> {
+    pub(super) property: Property,
+    pub(super) reference: Reference,
+    pub(super) found: &'a Block,
+    pub(super) expected: &'a Block,
+    pub(super) tolerance: f64,
+    /// What the difference is compared with where the largest entry is smaller: the size that the terms had
+    /// before they cancelled.
+    pub(super) floor: f64,
+}
+
+impl Judge<'_> {
+    /// Nothing if the claim holds, else the worst entry, named by `entry`.
+    pub(super) fn decide(
+        &self,
+        claim: &Claim<'_>,
+        entry: impl Fn(usize, usize) -> String,
+    ) -> Result<(), Failure> {
+        let equal = approx::relative_eq!(
+            claim.found,
+            claim.expected,
+            epsilon = claim.tolerance * claim.floor,
+            max_relative = claim.tolerance
+        );
+        match equal {
+            true => Ok(()),
+            false => Err(self.failure(claim, entry)),
+        }
+    }
+
+    fn failure(
+        &self,
+        claim: &Claim<'_>,
+        entry: impl Fn(usize, usize) -> String,
+    ) -> Failure {
+        let scale = claim.found.largest().max(claim.expected.largest()).max(claim.floor);
+        let (row, column) = claim.found.worst(claim.expected).unwrap_or((0, 0));
+        Failure {
+            definition: self.definition,
+            property: claim.property,
+            reference: claim.reference,
+            entry: entry(row, column),
+            row,
+            column,
+            found: claim.found.get(row, column),
+            expected: claim.expected.get(row, column),
+            scale,
+            tolerance: claim.tolerance,
+            case: Some(Box::new(self.case.clone())),
+        }
+    }
+}
+
+/// A failure of a fact that is no comparison of blocks: `found` of something where `expected` was due.
+pub(super) fn fact(
+    definition: &'static str,
+    property: Property,
+    entry: String,
+    [found, expected]: [f64; 2],
+    case: Option<&Case>,
+) -> Failure {
+    Failure {
+        definition,
+        property,
+        reference: Reference::Identity,
+        entry,
+        row: 0,
+        column: 0,
+        found,
+        expected,
+        scale: 1.0,
+        tolerance: 0.0,
+        case: case.map(|c| Box::new(c.clone())),
+    }
+}

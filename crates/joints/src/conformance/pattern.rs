@@ -1,0 +1,65 @@
+//! Sparsity patterns: entries in range, once each, and each of them alive in some case.
+
+use super::block::Block;
+use super::failure::{Failure, Property, fact};
+
+/// An entry is alive where it exceeds this part of its block: round-off of a sum that is identically zero stays
+/// below.
+const ALIVE: f64 = 1e-10;
+
+/// Which entries of a pattern were seen different from zero.
+pub(super) struct Pattern {
+    block: &'static str,
+    entries: Vec<[usize; 2]>,
+    alive: Vec<bool>,
+}
+
+impl Pattern {
+    /// The pattern of a block of this shape.
+    ///
+    /// # Errors
+    /// If an entry is outside the block, or occurs twice.
+    pub(super) fn new(
+        definition: &'static str,
+        block: &'static str,
+        shape: [usize; 2],
+        entries: Vec<[usize; 2]>,
+    ) -> Result<Self, Failure> {
+        for (k, &[row, column]) in entries.iter().enumerate() {
+            let entry = || format!("entry ({row}, {column}) of the pattern of {block}");
+            if row >= shape[0] || column >= shape[1] {
+                let entry = format!("{}, outside {} × {}", entry(), shape[0], shape[1]);
+                return Err(fact(definition, Property::Pattern, entry, [1.0, 0.0], None));
+            }
+            let times = entries[..=k].iter().filter(|e| **e == [row, column]).count();
+            if times > 1 {
+                let counts = [times as f64, 1.0];
+                return Err(fact(definition, Property::Pattern, entry(), counts, None));
+            }
+        }
+        Ok(Self { block, alive: vec![false; entries.len()], entries })
+    }
+
+    /// Takes note of the entries of one block that are not zero.
+    pub(super) fn see(&mut self, block: &Block) {
+        let least = ALIVE * block.largest();
+        for (&[row, column], alive) in self.entries.iter().zip(&mut self.alive) {
+            *alive |= block.get(row, column).abs() > least;
+        }
+    }
+
+    /// No entry was zero in all cases.
+    pub(super) fn all_alive(&self, definition: &'static str) -> Result<(), Failure> {
+        match self.alive.iter().position(|alive| !alive) {
+            Some(k) => {
+                let [row, column] = self.entries[k];
+                let entry = format!(
+                    "entry ({row}, {column}) of the pattern of {}, zero in every case",
+                    self.block
+                );
+                Err(fact(definition, Property::Pattern, entry, [0.0, 1.0], None))
+            }
+            None => Ok(()),
+        }
+    }
+}

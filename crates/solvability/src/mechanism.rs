@@ -1,0 +1,232 @@
+//! Solvability of a mechanism at one configuration: ranks, and a verdict for every joint, drive, row and direction.
+
+use linalg::{Matrix, RankDecision, RankError};
+use model::reaction::COMPONENTS;
+use model::{ConstraintId, Mechanism, Scratch, System};
+
+use crate::matrices::Solvability;
+use crate::verdict::{Judgement, Verdict};
+use crate::words;
+
+/// The verdicts of one configuration.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// Time of the configuration (s).
+    pub time: f64,
+    /// Number of bodies.
+    pub bodies: usize,
+    /// Number of coordinates n_q.
+    pub coordinates: usize,
+    /// Number of velocities n_v.
+    pub velocities: usize,
+    /// Number of holonomic rows m.
+    pub holonomic_rows: usize,
+    /// Number of nonholonomic rows h.
+    pub nonholonomic_rows: usize,
+    /// Rank of Φq alone.
+    pub rank_holonomic: usize,
+    /// Rank of Ψ alone.
+    pub rank_nonholonomic: usize,
+    /// Rank, redundancy, kept rows and evidence of C.
+    pub decision: RankDecision,
+    /// Joints and drives in the order of their rows.
+    pub reactions: Vec<ReactionVerdict>,
+    /// One for each dropped row.
+    pub dependencies: Vec<Dependency>,
+    /// What else the reader should know.
+    pub warnings: Vec<String>,
+}
+
+impl Analysis {
+    /// Freedoms of motion: n_v − r.
+    #[must_use]
+    pub fn mobility(&self) -> usize {
+        self.velocities - self.decision.rank
+    }
+}
+
+/// The verdict of a joint or drive.
+#[derive(Clone, Debug)]
+pub struct ReactionVerdict {
+    /// Which one.
+    pub id: ConstraintId,
+    /// Its name.
+    pub name: String,
+    /// Its scene type.
+    pub kind: &'static str,
+    /// The wrench: unique iff `B_X = 0`.
+    pub wrench: Judgement,
+    /// All its multipliers: unique iff `Z_X = 0`.
+    pub multipliers: Judgement,
+    /// Each of its rows.
+    pub rows: Vec<RowVerdict>,
+    /// Each component of the reaction that is not identically zero.
+    pub components: Vec<ComponentVerdict>,
+    /// Basis of the unique directions, in these components.
+    pub unique_directions: Vec<Vec<f64>>,
+}
+
+/// The verdict of one row.
+#[derive(Clone, Debug)]
+pub struct RowVerdict {
+    /// Row of C, from 0.
+    pub row: usize,
+    /// Its multiplier.
+    pub judgement: Judgement,
+}
+
+/// The verdict of one component of a reaction.
+#[derive(Clone, Debug)]
+pub struct ComponentVerdict {
+    /// `Fx`, `Fy` or `T`.
+    pub name: &'static str,
+    /// Its verdict.
+    pub judgement: Judgement,
+}
+
+/// A minimal set of dependent rows.
+#[derive(Clone, Debug)]
+pub struct Dependency {
+    /// Rows of C, from 0.
+    pub rows: Vec<usize>,
+    /// `Σ coefficient·row = 0`, the largest coefficient 1.
+    pub coefficients: Vec<f64>,
+    /// What it means.
+    pub text: String,
+}
+
+/// Why no analysis can be made.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AnalysisError {
+    /// The constraint matrix cannot be judged.
+    #[error("at t = {time} s: {source}")]
+    Rank {
+        /// When.
+        time: f64,
+        /// Why.
+        source: RankError,
+    },
+}
+
+/// Decides the rank of C at the pose of the scratch, where Φ and C have been evaluated.
+///
+/// # Errors
+/// If C is not finite.
+pub fn certify(mechanism: &Mechanism, s: &Scratch) -> Result<RankDecision, AnalysisError> {
+    let c = mechanism.layout().dense(s);
+    linalg::decide(&c, relative_residual(mechanism, s))
+        .map_err(|source| AnalysisError::Rank { time: s.t, source })
+}
+
+/// Largest |Φ| relative to the largest coordinate: what the entries of the equilibrated C may be wrong by.
+pub(crate) fn relative_residual(mechanism: &Mechanism, s: &Scratch) -> f64 {
+    let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0_f64, |a, x| a.max(x.abs()));
+    let size = largest(&mut s.poses.iter().flat_map(|p| [p.x, p.y, 1.0]));
+    let residual = largest(&mut s.phi[..mechanism.layout().m].iter().copied());
+    if size > 0.0 {
+        residual / size
+    } else {
+        residual
+    }
+}
+
+/// Verdicts at time t and coordinates q, which must satisfy the constraints; allocates.
+///
+/// # Errors
+/// If C is not finite.
+pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
+    let layout = mechanism.layout();
+    let mut s = mechanism.scratch();
+    mechanism.pose(t, q, &mut s);
+    mechanism.phi(&mut s);
+    mechanism.c(&mut s);
+    let c = layout.dense(&s);
+    let decision = certify(mechanism, &s)?;
+    let solvability = Solvability::from_decision(&c, decision);
+    let residual = relative_residual(mechanism, &s);
+    let rank_of = |rows: std::ops::Range<usize>| {
+        let part = c.select_rows(&rows.collect::<Vec<_>>());
+        linalg::decide(&part, residual)
+            .map(|d| d.rank)
+            .map_err(|source| AnalysisError::Rank { time: t, source })
+    };
+    let rank_holonomic = rank_of(0..layout.m)?;
+    let rank_nonholonomic = rank_of(layout.m..layout.rows())?;
+    let reactions = mechanism
+        .constraint_ids()
+        .map(|id| reaction(mechanism, id, &s, &solvability))
+        .collect();
+    let dependencies = linalg::circuits(solvability.decision())
+        .into_iter()
+        .map(|circuit| Dependency {
+            text: words::describe(&circuit, layout),
+            rows: circuit.rows,
+            coefficients: circuit.coefficients,
+        })
+        .collect();
+    let decision = solvability.decision().clone();
+    let mut warnings = Vec::new();
+    if let linalg::RankStatus::Undecided(doubt) = &decision.status {
+        warnings.push(format!(
+            "the rank is undecided, and with it every verdict: {doubt}"
+        ));
+    }
+    Ok(Analysis {
+        time: t,
+        bodies: mechanism.bodies().len(),
+        coordinates: layout.n_q,
+        velocities: layout.n_v,
+        holonomic_rows: layout.m,
+        nonholonomic_rows: layout.h,
+        rank_holonomic,
+        rank_nonholonomic,
+        decision,
+        reactions,
+        dependencies,
+        warnings,
+    })
+}
+
+fn reaction(
+    mechanism: &Mechanism,
+    id: ConstraintId,
+    s: &Scratch,
+    solvability: &Solvability,
+) -> ReactionVerdict {
+    let group = &mechanism.layout().groups[id.0];
+    let rows = group.rows.clone();
+    let components = group.components();
+    let full = mechanism.wrench_map(id, s);
+    let map = Matrix::from_fn(components.len(), rows.len(), |i, j| {
+        full[(components[i], j)]
+    });
+    let judged = components
+        .iter()
+        .enumerate()
+        .map(|(i, &c)| ComponentVerdict {
+            name: COMPONENTS[c],
+            judgement: solvability.component(map.row(i), rows.clone()),
+        });
+    let wrench = solvability.group(rows.clone());
+    let unique_directions = match wrench.verdict {
+        Verdict::Undecided { .. } => Vec::new(),
+        _ => solvability.unique_directions(&map, rows.clone()),
+    };
+    ReactionVerdict {
+        id,
+        name: group.name.clone(),
+        kind: group.spec.common.scene_type,
+        multipliers: solvability.multipliers(rows.clone()),
+        rows: rows
+            .clone()
+            .map(|row| RowVerdict {
+                row,
+                judgement: solvability.row(row),
+            })
+            .collect(),
+        components: judged.collect(),
+        unique_directions,
+        wrench,
+    }
+}

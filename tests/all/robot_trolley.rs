@@ -1,0 +1,327 @@
+//! Published facts of the robot with its trolley (Wojtyra, Frączek 2013, section 4) at the reconstructed dimensions:
+//! ranks, verdicts, motion, reactions, elimination variants.
+
+use std::ops::ControlFlow;
+
+use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
+use model::{Function, Mechanism, Reaction, StartOptions, System};
+use serde::Deserialize;
+use solvability::{Analysis, analyse};
+use tests::robot::{robot, steering};
+
+/// Reference motion, derived twice independently; see the file.
+const REFERENCE: &str = include_str!("../reference/robot_trolley.json");
+
+#[derive(Deserialize)]
+struct Reference {
+    rows: Vec<ReferenceRow>,
+}
+
+#[derive(Deserialize)]
+struct ReferenceRow {
+    t: f64,
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    qdd: Vec<f64>,
+    unique_reactions: std::collections::BTreeMap<String, Vec<f64>>,
+}
+
+/// One written row of a run.
+struct Row {
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    a: Vec<f64>,
+    reactions: Vec<Reaction>,
+}
+
+fn prepared(rows: &RowChoice) -> Prepared {
+    let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
+    prepare(mechanism, &StartOptions::default(), rows).expect("the robot starts")
+}
+
+fn run(prepared: &Prepared, options: &MotionOptions) -> (Vec<Row>, dynamics::Summary) {
+    let mut rows = Vec::new();
+    let summary = simulate(prepared, options, |sample| {
+        let (a, reactions) = (sample.acceleration()?, sample.reactions()?);
+        rows.push(Row {
+            t: sample.t,
+            q: sample.q.to_vec(),
+            v: sample.v.to_vec(),
+            a,
+            reactions,
+        });
+        Ok(ControlFlow::Continue(()))
+    })
+    .expect("the robot moves");
+    (rows, summary)
+}
+
+fn tight() -> MotionOptions {
+    MotionOptions {
+        rtol: 1e-11,
+        atol: 1e-11,
+        ..MotionOptions::to(10.0)
+    }
+}
+
+fn largest(x: impl Iterator<Item = f64>) -> f64 {
+    x.fold(0.0, |a: f64, x| a.max(x.abs()))
+}
+
+#[test]
+fn the_start_needs_no_correction() {
+    let p = prepared(&RowChoice::Automatic);
+    assert!(largest(p.assembly.correction.iter().copied()) < 1e-15);
+    assert!(largest(p.velocity_correction.iter().copied()) < 1e-15);
+}
+
+#[test]
+fn motion_agrees_with_the_reference() {
+    let reference: Reference = serde_json::from_str(REFERENCE).expect("the reference is JSON");
+    let p = prepared(&RowChoice::Automatic);
+    let (rows, summary) = run(&p, &tight());
+    eprintln!("{summary:?}");
+    let groups = &p.mechanism.layout().groups;
+    let scale_a = largest(reference.rows.iter().flat_map(|r| r.qdd.iter().copied()));
+    let mut worst = [0.0_f64; 4];
+    for r in &reference.rows {
+        let row = rows
+            .iter()
+            .find(|row| (row.t - r.t).abs() < 1e-9)
+            .expect("a row at each listed time");
+        let gap = |a: &[f64], b: &[f64]| largest(a.iter().zip(b).map(|(a, b)| a - b));
+        worst[0] = worst[0].max(gap(&row.q, &r.q));
+        worst[1] = worst[1].max(gap(&row.v, &r.qd));
+        worst[2] = worst[2].max(gap(&row.a, &r.qdd) / scale_a);
+        for (name, expected) in &r.unique_reactions {
+            let at = groups
+                .iter()
+                .position(|g| g.name == *name)
+                .expect("the joint exists");
+            let found = &row.reactions[at];
+            let scale = largest(
+                reference
+                    .rows
+                    .iter()
+                    .flat_map(|r| r.unique_reactions[name].iter().copied()),
+            );
+            let mut values = vec![found.force[0], found.force[1], found.torque];
+            values.extend(found.component);
+            values.truncate(expected.len());
+            worst[3] = worst[3].max(gap(&values, expected) / scale);
+        }
+    }
+    eprintln!("{worst:?}");
+    assert!(worst[0] <= 1e-9 && worst[1] <= 1e-9, "state: {worst:?}");
+    assert!(worst[2] <= 1e-7, "accelerations: {worst:?}");
+    assert!(worst[3] <= 1e-7, "unique reactions: {worst:?}");
+    let limit = 1e-12;
+    assert!(summary.max_position_residual <= limit && summary.max_velocity_residual <= limit);
+}
+
+#[test]
+fn variants_differ_in_non_unique_reactions_only() {
+    let drops = [[6, 21], [18, 21], [19, 21]];
+    let runs: Vec<(Prepared, Vec<Row>)> = drops
+        .iter()
+        .map(|d| {
+            let choice = RowChoice::Drop(d.iter().map(|r| r - 1).collect());
+            let p = prepared(&choice);
+            let (rows, summary) = run(&p, &MotionOptions { rows: choice, ..tight() });
+            eprintln!("{summary:?}");
+            (p, rows)
+        })
+        .collect();
+    let groups = &runs[0].0.mechanism.layout().groups;
+    for pair in [(0, 1), (0, 2), (1, 2)] {
+        let (a, b) = (&runs[pair.0].1, &runs[pair.1].1);
+        let mut motion = 0.0_f64;
+        let mut differences = vec![0.0_f64; groups.len()];
+        for (x, y) in a.iter().zip(b) {
+            motion = motion.max(largest(x.q.iter().zip(&y.q).map(|(x, y)| x - y)));
+            motion = motion.max(largest(x.v.iter().zip(&y.v).map(|(x, y)| x - y)));
+            for (d, (r, s)) in differences
+                .iter_mut()
+                .zip(x.reactions.iter().zip(&y.reactions))
+            {
+                let parts = [
+                    r.force[0] - s.force[0],
+                    r.force[1] - s.force[1],
+                    r.torque - s.torque,
+                ];
+                *d = d.max(largest(parts.into_iter()));
+            }
+        }
+        eprintln!("{pair:?}: {motion:.1e} {differences:?}");
+        assert!(motion <= 1e-10, "variants {pair:?}: {motion:e}");
+        for (group, d) in groups.iter().zip(&differences) {
+            let differs = ["B", "C", "W1", "W2", "W3", "W4"].contains(&group.name.as_str());
+            if !differs {
+                assert!(
+                    *d <= 1e-8,
+                    "{} differs by {d:e} between {pair:?}",
+                    group.name
+                );
+            }
+        }
+    }
+}
+
+/// Facts that hold at every configuration of the motion.
+fn assert_facts(analysis: &Analysis) {
+    assert_eq!(analysis.rank_holonomic, 17);
+    assert_eq!(analysis.rank_nonholonomic, 4);
+    assert_eq!(analysis.decision.rank, 20);
+    assert_eq!(analysis.decision.redundancy, 2);
+    assert_eq!(analysis.mobility(), 1);
+    for r in &analysis.reactions {
+        let not_unique = ["B", "C", "W1", "W2", "W3", "W4"].contains(&r.name.as_str());
+        let expected = if not_unique { "not_unique" } else { "unique" };
+        assert_eq!(
+            r.wrench.verdict.word(),
+            expected,
+            "{} at t = {}: {:?}",
+            r.name,
+            analysis.time,
+            r.wrench
+        );
+    }
+}
+
+#[test]
+fn ranks_and_verdicts_hold_along_the_motion() {
+    let p = prepared(&RowChoice::Automatic);
+    let (rows, _) = run(
+        &p,
+        &MotionOptions {
+            output_step: 0.05,
+            ..tight()
+        },
+    );
+    assert_eq!(rows.len(), 201);
+    for row in &rows {
+        assert_facts(&analyse(&p.mechanism, row.t, &row.q).expect("C is finite"));
+    }
+}
+
+/// Pairs of rows (from 1) whose deletion keeps the motion.
+fn admissible_pairs(p: &Prepared, t: f64, q: &[f64]) -> Vec<[usize; 2]> {
+    let mut s = p.mechanism.scratch();
+    p.mechanism.pose(t, q, &mut s);
+    p.mechanism.c(&mut s);
+    let c = p.mechanism.layout().dense(&s);
+    let mut pairs = Vec::new();
+    for a in 0..22 {
+        for b in a + 1..22 {
+            if linalg::decide_dropping(&c, 0.0, &[a, b]).is_ok() {
+                pairs.push([a + 1, b + 1]);
+            }
+        }
+    }
+    pairs
+}
+
+fn product(left: &[usize]) -> Vec<[usize; 2]> {
+    let mut pairs: Vec<[usize; 2]> = left.iter().flat_map(|&a| [[a, 20], [a, 21]]).collect();
+    pairs.push([20, 21]);
+    pairs.sort_unstable();
+    pairs
+}
+
+fn non_unique_rows(analysis: &Analysis) -> Vec<usize> {
+    let rows = analysis.reactions.iter().flat_map(|r| &r.rows);
+    let mut found: Vec<usize> = rows
+        .filter(|r| !r.judgement.verdict.is_unique())
+        .map(|r| r.row + 1)
+        .collect();
+    found.sort_unstable();
+    found
+}
+
+#[test]
+fn rows_and_admissible_pairs_depend_on_the_angle_of_the_edges() {
+    let p = prepared(&RowChoice::Automatic);
+    let (rows, _) = run(&p, &tight());
+    let at = |t: f64| {
+        rows.iter()
+            .find(|r| (r.t - t).abs() < 1e-9)
+            .expect("a row at this time")
+    };
+    for t in [0.0, 0.5, 1.0] {
+        let row = at(t);
+        let analysis = analyse(&p.mechanism, t, &row.q).expect("C is finite");
+        assert_eq!(
+            non_unique_rows(&analysis),
+            [4, 6, 18, 19, 20, 21],
+            "t = {t}"
+        );
+        assert_eq!(
+            admissible_pairs(&p, t, &row.q),
+            product(&[4, 6, 18, 19]),
+            "t = {t}"
+        );
+    }
+    for t in [1.5, 2.5, 5.0, 7.0, 9.5] {
+        let row = at(t);
+        let analysis = analyse(&p.mechanism, t, &row.q).expect("C is finite");
+        assert_eq!(
+            non_unique_rows(&analysis),
+            [3, 4, 5, 6, 18, 19, 20, 21],
+            "t = {t}"
+        );
+        assert_eq!(
+            admissible_pairs(&p, t, &row.q),
+            product(&[3, 4, 5, 6, 18, 19]),
+            "t = {t}"
+        );
+    }
+}
+
+#[test]
+fn steered_edges_at_a_right_angle_split_the_circuits() {
+    for displacement in [-0.135_153_013_442_6, 0.089_750_156_055_0] {
+        // The drive moves the slider at rest: no velocity, so that the platform stays where it is.
+        let ramp = Function::steps(0.0, &[[0.0, 1.0, displacement]]).expect("a step");
+        let mut description = robot(ramp);
+        for body in &mut description.bodies {
+            body.velocity = [0.0, 0.0];
+        }
+        let mechanism = Mechanism::build(&description).expect("the robot builds");
+        let p =
+            prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts");
+        let mut q = Vec::new();
+        let options = MotionOptions {
+            output_step: 1.0,
+            rtol: 1e-12,
+            atol: 1e-12,
+            ..MotionOptions::to(1.0)
+        };
+        simulate(&p, &options, |s| {
+            q = s.q.to_vec();
+            Ok(ControlFlow::Continue(()))
+        })
+        .expect("the robot steers at rest");
+        let analysis = analyse(&p.mechanism, 1.0, &q).expect("C is finite");
+        eprintln!("{displacement}: heading {} front {}", q[2], q[5]);
+        for r in &analysis.reactions {
+            eprintln!(
+                "{} {:?}",
+                r.name,
+                r.rows
+                    .iter()
+                    .map(|r| r.judgement.margin)
+                    .collect::<Vec<_>>()
+            );
+        }
+        assert_eq!(non_unique_rows(&analysis), [3, 5, 18, 19, 20, 21]);
+        assert_eq!(analysis.decision.rank, 20);
+        let components = linalg::components(&analysis.decision);
+        assert_eq!(components.coupled, [vec![2, 4, 17, 18], vec![19, 20]]);
+        assert_eq!(admissible_pairs(&p, 1.0, &q), {
+            let mut pairs = product(&[3, 5, 18, 19]);
+            pairs.retain(|p| *p != [20, 21]);
+            pairs
+        });
+    }
+}

@@ -1,0 +1,118 @@
+//! The robot with its trolley, written out by hand: the same mechanism as `scenes/robot-trolley.toml`, from the
+//! same dimensions, but by another way.
+
+use joints::plane::Direction;
+use joints::{KnifeEdge, Pose, Revolute, Translational, TranslationalDisplacementDrive};
+use model::{Body, BodyRef, Description, Drive, Function, Joint};
+
+/// Names, masses, inertias and positions of the seven bodies.
+const BODIES: [(&str, f64, f64, [f64; 2]); 7] = [
+    ("platform", 20.0, 1.2, [0.0, 0.0]),
+    ("front-knuckle", 0.5, 0.002, [0.255, 0.025]),
+    ("rear-knuckle", 0.5, 0.002, [-0.255, 0.025]),
+    ("front-link", 0.3, 0.0016, [0.205, -0.075]),
+    ("rear-link", 0.3, 0.0016, [-0.205, -0.075]),
+    ("slider", 1.0, 0.02, [0.0, -0.2]),
+    ("trolley", 8.0, 0.5, [-0.75, 0.0]),
+];
+
+/// Name, bodies and place of the revolute joints.
+const REVOLUTES: [(&str, usize, usize, [f64; 2]); 7] = [
+    ("A", 0, 6, [-0.4, 0.0]),
+    ("B", 0, 1, [0.3, 0.0]),
+    ("C", 0, 2, [-0.3, 0.0]),
+    ("D", 1, 3, [0.21, 0.05]),
+    ("E", 2, 4, [-0.21, 0.05]),
+    ("F", 3, 5, [0.2, -0.2]),
+    ("G", 4, 5, [-0.2, -0.2]),
+];
+
+/// Name, body and contact point of the knife edges; all normals are the y-axes of their bodies.
+const EDGES: [(&str, usize, [f64; 2]); 5] = [
+    ("W1", 1, [0.3, 0.0]),
+    ("W2", 2, [-0.3, 0.0]),
+    ("W3", 0, [0.0, -0.2]),
+    ("W4", 0, [0.0, 0.2]),
+    ("W5", 6, [-0.8, 0.0]),
+];
+
+/// The published drive: right turn, straight, left turn, straight.
+pub fn steering() -> Function {
+    let steps = [
+        [1.0, 2.0, 0.02],
+        [3.0, 4.0, -0.02],
+        [6.0, 7.0, -0.021876],
+        [8.0, 9.0, 0.021876],
+    ];
+    Function::steps(0.0, &steps).expect("the steps are ordered")
+}
+
+/// The robot with its trolley, steered by `motion`.
+pub fn robot(motion: Function) -> Description {
+    let bodies: Vec<Body> = BODIES
+        .iter()
+        .map(|&(name, mass, inertia, position)| Body {
+            name: name.into(),
+            mass,
+            inertia,
+            position,
+            velocity: [1.0, 0.0],
+            ..Body::default()
+        })
+        .collect();
+    let local = |body: usize, p: [f64; 2]| {
+        let [x, y] = BODIES[body].3;
+        Pose::new(x, y, 0.0).to_local(p)
+    };
+    let body = BodyRef::Body;
+    let mut joints: Vec<Joint> = REVOLUTES
+        .iter()
+        .map(|&(name, i, j, at)| {
+            let element = Revolute {
+                s_i: local(i, at),
+                s_j: local(j, at),
+            };
+            Joint::new(name, &[body(i), body(j)], element)
+        })
+        .collect();
+    let (platform, slider) = (0, 5);
+    let (s_i, s_j) = (local(platform, [0.0, -0.2]), local(slider, [0.0, -0.2]));
+    let pair = [body(platform), body(slider)];
+    let element = Translational {
+        s_i,
+        s_j,
+        axis: Direction::Y,
+        angle_0: 0.0,
+    };
+    joints.push(Joint::new("H", &pair, element));
+    for (name, i, at) in EDGES {
+        joints.push(Joint::new(
+            name,
+            &[body(i)],
+            KnifeEdge {
+                s: local(i, at),
+                normal: Direction::Y,
+            },
+        ));
+    }
+    let element = TranslationalDisplacementDrive {
+        s_i,
+        s_j,
+        axis: Direction::Y,
+        angle_0: 0.0,
+        measure_0: 0.0,
+    };
+    let drive = Drive {
+        name: "steering".into(),
+        bodies: pair.to_vec(),
+        element: Box::new(element),
+        motion,
+    };
+    Description {
+        name: "robot-trolley".into(),
+        bodies,
+        joints,
+        drives: vec![drive],
+        ..Description::default()
+    }
+}
