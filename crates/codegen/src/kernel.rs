@@ -52,3 +52,6 @@ impl Kernel {
         quote!(#(#statements)* #(#assignments)*)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -22,6 +22,8 @@ mod invocation;
 mod kernel;
 mod nearest;
 pub mod parse;
+#[cfg(test)]
+mod testing;
 mod vector;
 
 use proc_macro2::TokenStream;

@@ -4,7 +4,7 @@
 use linalg::{RankDecision, RankStatus};
 use model::start::{assemble, consistent_velocity};
 use model::{Assembly, Mechanism, StartOptions, System};
-use solvability::{ConstraintLevel, certify, contradiction};
+use solvability::{ConstraintLevel, certify, certify_holonomic, contradiction};
 
 use crate::error::MotionError;
 use crate::options::RowChoice;
@@ -18,8 +18,10 @@ pub struct Prepared {
     pub q: Vec<f64>,
     /// Velocities at t = 0.
     pub v: Vec<f64>,
-    /// Rank and kept rows.
+    /// Rank and kept rows of C.
     pub decision: RankDecision,
+    /// Rank and kept rows of Φq alone: what holds the configuration.
+    pub position_decision: RankDecision,
     /// How the configuration was assembled.
     pub assembly: Assembly,
     /// Velocities at the start minus the described ones.
@@ -48,6 +50,10 @@ pub fn prepare(
     if let RankStatus::Undecided(doubt) = automatic.status {
         return Err(MotionError::RankUndecided(doubt));
     }
+    let position_decision = certify_holonomic(&mechanism, &s)?;
+    if let RankStatus::Undecided(doubt) = position_decision.status {
+        return Err(MotionError::RankUndecided(doubt));
+    }
     let level = ConstraintLevel::Velocity;
     if let Some(found) = contradiction(&automatic, &layout.labels, &s.b, level, 0.0) {
         return Err(found.into());
@@ -68,6 +74,7 @@ pub fn prepare(
         q,
         v,
         decision,
+        position_decision,
         assembly,
         velocity_correction,
     })

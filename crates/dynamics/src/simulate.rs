@@ -8,12 +8,12 @@ use integrators::{
     Cause, IntegrationError, Interval, Ode, Options, OutputTimes, StepEnd, StepInfo, Tolerance,
     sample,
 };
-use model::{Mechanism, Reaction, System};
+use model::{Reaction, System};
 
 use crate::error::{MotionError, Trip};
 use crate::events::Event;
 use crate::motion::{Correction, KeptRowMotion, Motion};
-use crate::options::{Method, MotionOptions, RowChoice};
+use crate::options::{Method, MotionOptions};
 use crate::prepare::Prepared;
 
 /// Numbers of a run.
@@ -119,8 +119,8 @@ pub fn simulate(
         })
     };
     check(options).map_err(fail)?;
-    let motion = KeptRowMotion::new(mechanism, &prepared.decision).map_err(|e| fail(e.into()))?;
-    let mut equations = Equations::new(motion, prepared, options);
+    let motion = KeptRowMotion::new(prepared, &options.rows).map_err(|e| fail(e.into()))?;
+    let mut equations = Equations::new(motion, prepared);
     let y0 = equations.initial_state(&prepared.q, &prepared.v);
     let layout = mechanism.layout();
     let interval = Interval {
@@ -231,7 +231,6 @@ struct Equations<'m> {
     max_position_residual: f64,
     max_velocity_residual: f64,
     min_pivot_ratio: f64,
-    rows: RowChoice,
     events: Vec<Event>,
     /// The state before a projection.
     before: Vec<f64>,
@@ -245,7 +244,7 @@ struct EnergyBalance {
 }
 
 impl<'m> Equations<'m> {
-    fn new(motion: KeptRowMotion<'m>, prepared: &Prepared, options: &MotionOptions) -> Self {
+    fn new(motion: KeptRowMotion<'m>, prepared: &Prepared) -> Self {
         let (q, v) = (&prepared.q, &prepared.v);
         let mechanism = motion.mechanism();
         let layout = mechanism.layout();
@@ -263,7 +262,6 @@ impl<'m> Equations<'m> {
             max_position_residual: 0.0,
             max_velocity_residual: 0.0,
             min_pivot_ratio: f64::INFINITY,
-            rows: options.rows.clone(),
             events: Vec::new(),
             before: Vec::new(),
             motion,
@@ -315,9 +313,7 @@ impl<'m> Equations<'m> {
     /// Projects an accepted step.
     fn project_step(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trip> {
         let (q, rest) = y.split_at_mut(self.n_q);
-        let (found, event) = self
-            .motion
-            .project_step(t, q, &mut rest[..self.n_v], &self.rows)?;
+        let (found, event) = self.motion.project_step(t, q, &mut rest[..self.n_v])?;
         self.events.extend(event);
         self.min_pivot_ratio = self.min_pivot_ratio.min(self.motion.pivot_ratio());
         self.note(y, found);
@@ -403,19 +399,4 @@ impl Ode for Equations<'_> {
             evaluations: 1,
         })
     }
-}
-
-impl KeptRowMotion<'_> {
-    /// Power of drives and applied forces at the last evaluated acceleration; the weight has a potential and is not counted.
-    fn power(&mut self, v: &[f64]) -> f64 {
-        self.evaluate_b();
-        let applied = self.mechanism().applied_power(&self.scratch().force, v);
-        applied - self.mechanism().weight_power(v) + self.constraint_power()
-    }
-}
-
-/// Energy of a mechanism at a state (J): kinetic, and potential of the weight.
-#[must_use]
-pub fn energy(mechanism: &Mechanism, q: &[f64], v: &[f64]) -> f64 {
-    mechanism.kinetic_energy(v) + mechanism.potential_energy(q)
 }

@@ -8,8 +8,11 @@ force! { plane SpringDamper(i, j) {
         free_length: Length = norm(point(j, s_j) - point(i, s_i)),
     }
     points apart;
-    let length = norm(point(j, s_j) - point(i, s_i));
+    let d = point(j, s_j) - point(i, s_i);
+    let length = norm(d);
     require "the two points are apart, or the free length is zero":
         free_length == 0.0 || length > 0.0;
-    force: -(stiffness * (length - free_length) + damping * rate(length)) on length;
+    // −k·l on l is −k on d·d/2, which needs no direction: where the points meet, the derivative is right.
+    force: -stiffness on 0.5 * dot(d, d);
+    force: stiffness * free_length - damping * rate(length) on length;
 } }

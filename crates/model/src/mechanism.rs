@@ -150,16 +150,20 @@ impl Mechanism {
         self.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum()
     }
 
-    /// Power of the weight and the applied forces (W), after `force` has been evaluated.
+    /// Power of the applied forces Q without the weight (W).
     #[must_use]
     pub fn applied_power(&self, force: &[f64], v: &[f64]) -> f64 {
-        force.iter().zip(v).map(|(q, v)| q * v).sum()
+        let terms = force.iter().zip(&self.weight).zip(v);
+        terms.map(|((q, w), v)| (q - w) * v).sum()
     }
 
-    /// Power of the weight alone (W).
+    /// Name of the body and of its coordinate behind a column of C.
     #[must_use]
-    pub fn weight_power(&self, v: &[f64]) -> f64 {
-        self.weight.iter().zip(v).map(|(w, v)| w * v).sum()
+    pub fn coordinate(&self, column: usize) -> (&str, &'static str) {
+        (
+            &self.bodies[column / N_BODY].name,
+            ["x", "y", "angle"][column % N_BODY],
+        )
     }
 
     /// Potential energy of the weight (J).

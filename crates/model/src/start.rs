@@ -356,16 +356,16 @@ fn check_correction(
     correction: &[f64],
     size: f64,
 ) -> Result<(), StartError> {
-    let names = ["x", "y", "angle"];
     let limits = [size, size, 1.0].map(|unit| SMALL_CORRECTION * unit);
     let excess = |k: usize| correction[k].abs() / limits[k % N_BODY];
     let worst = (0..correction.len()).fold(0, |a, b| if excess(b) > excess(a) { b } else { a });
     if correction.is_empty() || excess(worst) <= 1.0 {
         return Ok(());
     }
+    let (body, coordinate) = mechanism.coordinate(worst);
     Err(StartError::LargeCorrection {
-        body: mechanism.bodies()[worst / N_BODY].name.clone(),
-        coordinate: names[worst % N_BODY],
+        body: body.to_owned(),
+        coordinate,
         correction: correction[worst].abs(),
         limit: limits[worst % N_BODY],
     })

@@ -119,6 +119,20 @@ pub fn certify(mechanism: &Mechanism, s: &Scratch) -> Result<RankDecision, Analy
         .map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
+/// The same for the holonomic rows alone: which rows of Φ hold the configuration.
+///
+/// # Errors
+/// If C is not finite.
+pub fn certify_holonomic(
+    mechanism: &Mechanism,
+    s: &Scratch,
+) -> Result<RankDecision, AnalysisError> {
+    let rows: Vec<usize> = (0..mechanism.layout().m).collect();
+    let phi_q = mechanism.layout().dense(s).select_rows(&rows);
+    linalg::decide(&phi_q, relative_residual(mechanism, s))
+        .map_err(|source| AnalysisError::Rank { time: s.t, source })
+}
+
 /// Largest |Φ| relative to the largest coordinate: what the entries of the equilibrated C may be wrong by.
 pub(crate) fn relative_residual(mechanism: &Mechanism, s: &Scratch) -> f64 {
     let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0_f64, |a, x| a.max(x.abs()));

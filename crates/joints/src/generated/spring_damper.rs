@@ -32,7 +32,7 @@ impl Force for SpringDamper {
             scene_type: "spring-damper",
             variant: None,
             doc: "Tension `k(l − l0) + c·l\u{307}` between point `s_i` of body i and point `s_j` of body j.",
-            text: "force! { plane SpringDamper(i, j) {\n    /// Tension `k(l − l0) + c·l\u{307}` between point `s_i` of body i and point `s_j` of body j.\n    params {\n        s_i: Point in i,\n        s_j: Point in j,\n        stiffness: Stiffness,\n        damping: Damping,\n        free_length: Length = norm(point(j, s_j) - point(i, s_i)),\n    }\n    points apart;\n    let length = norm(point(j, s_j) - point(i, s_i));\n    require \"the two points are apart, or the free length is zero\":\n        free_length == 0.0 || length > 0.0;\n    force: -(stiffness * (length - free_length) + damping * rate(length)) on length;\n} }",
+            text: "force! { plane SpringDamper(i, j) {\n    /// Tension `k(l − l0) + c·l\u{307}` between point `s_i` of body i and point `s_j` of body j.\n    params {\n        s_i: Point in i,\n        s_j: Point in j,\n        stiffness: Stiffness,\n        damping: Damping,\n        free_length: Length = norm(point(j, s_j) - point(i, s_i)),\n    }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    let length = norm(d);\n    require \"the two points are apart, or the free length is zero\":\n        free_length == 0.0 || length > 0.0;\n    // −k·l on l is −k on d·d/2, which needs no direction: where the points meet, the derivative is right.\n    force: -stiffness on 0.5 * dot(d, d);\n    force: stiffness * free_length - damping * rate(length) on length;\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required("s_i", Shape::Point { slot: 0 }, ""),
@@ -224,22 +224,23 @@ impl Force for SpringDamper {
         let t1 = r_i_y - r_j_y + arm_i_y - arm_j_y;
         let length = (t0 * t0 + t1 * t1).sqrt();
         let t2 = length.recip_or_zero();
-        let t3 = t2
-            * (stiffness * (free_length_0 - length)
-                - damping * t2
-                    * ((omega_i * arm_i_x - omega_j * arm_j_x + (v_i_y - v_j_y)) * t1
-                        - (omega_i * arm_i_y - omega_j * arm_j_y - (v_i_x - v_j_x))
-                            * t0));
+        let t3 = stiffness
+            - t2
+                * (stiffness * free_length_0
+                    - damping * t2
+                        * ((omega_i * arm_i_x - omega_j * arm_j_x + (v_i_y - v_j_y)) * t1
+                            - (omega_i * arm_i_y - omega_j * arm_j_y - (v_i_x - v_j_x))
+                                * t0));
         let t4 = t3 * t0;
         let t5 = t3 * t1;
-        out[0] = t4;
-        out[1] = t5;
-        out[2] = t3 * (arm_i_x * t1 - arm_i_y * t0);
-        out[3] = -t4;
-        out[4] = -t5;
-        out[5] = -(t3 * (arm_j_x * t1 - arm_j_y * t0));
+        out[0] = -t4;
+        out[1] = -t5;
+        out[2] = -(t3 * (arm_i_x * t1 - arm_i_y * t0));
+        out[3] = t4;
+        out[4] = t5;
+        out[5] = t3 * (arm_j_x * t1 - arm_j_y * t0);
     }
-    /// ∂Q/∂x. Operations: 116 mul, 73 add, 14 neg, 2 call.
+    /// ∂Q/∂x. Operations: 84 mul, 57 add, 14 neg, 2 call.
     fn dq_dx<T: Real>(
         &self,
         x: &[Pose<T>],
@@ -271,113 +272,97 @@ impl Force for SpringDamper {
         let arm_i_x = cos_i * s_i_x - sin_i * s_i_y;
         let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
         let t0 = r_i_x - r_j_x + arm_i_x - arm_j_x;
-        let t1 = t0 * t0;
         let arm_i_y = cos_i * s_i_y + sin_i * s_i_x;
         let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
-        let t2 = r_i_y - r_j_y + arm_i_y - arm_j_y;
+        let t1 = r_i_y - r_j_y + arm_i_y - arm_j_y;
+        let length = (t0 * t0 + t1 * t1).sqrt();
+        let t2 = length.recip_or_zero();
         let t3 = t2 * t2;
-        let length = (t1 + t3).sqrt();
-        let t4 = length.recip_or_zero();
-        let t5 = t4 * t4;
-        let t6 = omega_i * arm_i_x;
-        let t7 = omega_j * arm_j_x;
-        let t8 = t6 - t7 + (v_i_y - v_j_y);
-        let t9 = omega_i * arm_i_y;
-        let t10 = omega_j * arm_j_y;
-        let t11 = t9 - t10 - (v_i_x - v_j_x);
-        let t12 = t8 * t2 - t11 * t0;
-        let t13 = t5 * t12;
-        let t14 = stiffness * t0 - damping * (t13 * t0 + t11);
-        let t15 = t4 * t14;
-        let t16 = stiffness * (free_length_0 - length) - damping * t4 * t12;
-        let t17 = t5 * t16;
-        let t18 = t4 * (t15 * t0 + t17 * t1 - t16);
-        let t19 = -t18;
-        let t20 = t4 * t16;
-        let t21 = stiffness * t2 - damping * (t13 * t2 - t8);
-        let t22 = t5 * (t20 * t2 + t21) * t0;
-        let t23 = -t22;
-        let t24 = arm_i_x * t2 - arm_i_y * t0;
-        let t25 = t4
-            * (stiffness * t24
-                - damping
-                    * (t5 * t24 * t12
-                        + (t6 * t0 - arm_i_y * t11 + (t9 * t2 - arm_i_x * t8))));
-        let t26 = t17 * t24;
-        let t27 = t26 * t0;
-        let t28 = arm_i_y * t16;
-        let t29 = t4 * (t25 * t0 + t27 + t28);
-        let t30 = arm_j_x * t2 - arm_j_y * t0;
-        let t31 = t4
-            * (stiffness * t30
-                - damping
-                    * (t13 * t30
-                        + (t7 * t0 - t11 * arm_j_y + (t10 * t2 - t8 * arm_j_x))));
-        let t32 = t17 * t30;
-        let t33 = t32 * t0;
-        let t34 = arm_j_y * t16;
-        let t35 = t4 * (t31 * t0 + t33 + t34);
-        let t36 = t5 * (t20 * t0 + t14) * t2;
-        let t37 = -t36;
-        let t38 = t4 * t21;
-        let t39 = t4 * (t38 * t2 + t17 * t3 - t16);
-        let t40 = -t39;
-        let t41 = t26 * t2;
-        let t42 = arm_i_x * t16;
-        let t43 = t4 * (t25 * t2 + t41 - t42);
-        let t44 = t32 * t2;
-        let t45 = arm_j_x * t16;
-        let t46 = t4 * (t31 * t2 + t44 - t45);
-        let t47 = t4 * (t15 * t24 + t27 + t28);
-        let t48 = t4 * (t38 * t24 + t41 - t42);
-        let t49 = t26 * t30;
-        let t50 = t16 * (arm_i_x * arm_j_x + arm_i_y * arm_j_y);
-        let t51 = t4 * (t15 * t30 + t33 + t34);
-        let t52 = t4 * (t38 * t30 + t44 - t45);
-        out[0] = t19;
-        out[1] = t23;
-        out[2] = -t29;
-        out[3] = t18;
-        out[4] = t22;
-        out[5] = t35;
-        out[6] = t37;
-        out[7] = t40;
-        out[8] = -t43;
-        out[9] = t36;
-        out[10] = t39;
-        out[11] = t46;
-        out[12] = -t47;
-        out[13] = -t48;
-        out[14] = -(t4
-            * (t25 * t24 + t17 * (t24 * t24)
-                + t16
-                    * (arm_i_x * t0 - arm_i_y * arm_i_y
-                        - (arm_i_x * arm_i_x - arm_i_y * t2))));
-        out[15] = t47;
-        out[16] = t48;
-        out[17] = t4 * (t31 * t24 + t49 - t50);
-        out[18] = t18;
-        out[19] = t22;
-        out[20] = t29;
-        out[21] = t19;
-        out[22] = t23;
-        out[23] = -t35;
-        out[24] = t36;
-        out[25] = t39;
-        out[26] = t43;
-        out[27] = t37;
-        out[28] = t40;
-        out[29] = -t46;
-        out[30] = t51;
-        out[31] = t52;
-        out[32] = t4 * (t25 * t30 + t49 - t50);
-        out[33] = -t51;
-        out[34] = -t52;
-        out[35] = -(t4
-            * (t31 * t30 + t17 * (t30 * t30)
-                - t16
-                    * (arm_j_x * t0 + arm_j_y * arm_j_y
-                        + (arm_j_x * arm_j_x + arm_j_y * t2))));
+        let t4 = omega_i * arm_i_x;
+        let t5 = omega_j * arm_j_x;
+        let t6 = t4 - t5 + (v_i_y - v_j_y);
+        let t7 = omega_i * arm_i_y;
+        let t8 = omega_j * arm_j_y;
+        let t9 = t7 - t8 - (v_i_x - v_j_x);
+        let t10 = t6 * t1 - t9 * t0;
+        let t11 = t3 * t10;
+        let t12 = t2 * (stiffness * free_length_0 - damping * t2 * t10);
+        let t13 = t3 * (damping * (t11 * t0 + t9) - t12 * t0);
+        let t14 = stiffness - t12;
+        let t15 = t13 * t0 - t14;
+        let t16 = t3 * (damping * (t11 * t1 - t6) - t12 * t1);
+        let t17 = t16 * t0;
+        let t18 = arm_i_x * t1 - arm_i_y * t0;
+        let t19 = t3
+            * (damping
+                * (t3 * t18 * t10 + (t4 * t0 - arm_i_y * t9 + (t7 * t1 - arm_i_x * t6)))
+                - t12 * t18);
+        let t20 = t14 * arm_i_y;
+        let t21 = t19 * t0 + t20;
+        let t22 = -t15;
+        let t23 = -t17;
+        let t24 = arm_j_x * t1 - arm_j_y * t0;
+        let t25 = t3
+            * (damping
+                * (t11 * t24 + (t5 * t0 - t9 * arm_j_y + (t8 * t1 - t6 * arm_j_x)))
+                - t12 * t24);
+        let t26 = t14 * arm_j_y;
+        let t27 = t25 * t0 + t26;
+        let t28 = t13 * t1;
+        let t29 = t16 * t1 - t14;
+        let t30 = t14 * arm_i_x;
+        let t31 = t19 * t1 - t30;
+        let t32 = -t28;
+        let t33 = -t29;
+        let t34 = t14 * arm_j_x;
+        let t35 = t25 * t1 - t34;
+        let t36 = t13 * t18 + t20;
+        let t37 = t16 * t18 - t30;
+        let t38 = t14 * (arm_i_x * arm_j_x + arm_i_y * arm_j_y);
+        let t39 = t13 * t24 + t26;
+        let t40 = t16 * t24 - t34;
+        out[0] = t15;
+        out[1] = t17;
+        out[2] = t21;
+        out[3] = t22;
+        out[4] = t23;
+        out[5] = -t27;
+        out[6] = t28;
+        out[7] = t29;
+        out[8] = t31;
+        out[9] = t32;
+        out[10] = t33;
+        out[11] = -t35;
+        out[12] = t36;
+        out[13] = t37;
+        out[14] = t19 * t18
+            + t14
+                * (arm_i_x * t0 - arm_i_y * arm_i_y
+                    - (arm_i_x * arm_i_x - arm_i_y * t1));
+        out[15] = -t36;
+        out[16] = -t37;
+        out[17] = -(t25 * t18 - t38);
+        out[18] = t22;
+        out[19] = t23;
+        out[20] = -t21;
+        out[21] = t15;
+        out[22] = t17;
+        out[23] = t27;
+        out[24] = t32;
+        out[25] = t33;
+        out[26] = -t31;
+        out[27] = t28;
+        out[28] = t29;
+        out[29] = t35;
+        out[30] = -t39;
+        out[31] = -t40;
+        out[32] = -(t19 * t24 - t38);
+        out[33] = t39;
+        out[34] = t40;
+        out[35] = t25 * t24
+            - t14
+                * (arm_j_x * t0 + arm_j_y * arm_j_y
+                    + (arm_j_x * arm_j_x + arm_j_y * t1));
     }
     /// ∂Q/∂v. Operations: 31 mul, 13 add, 9 neg, 2 call.
     fn dq_dv<T: Real>(

@@ -1,0 +1,107 @@
+//! Exchange of kept rows that have become nearly dependent, at accepted and polished points only.
+
+use linalg::RankStatus;
+use model::System;
+use solvability::{certify, certify_holonomic};
+
+use super::{KeptRowMotion, KeptRows};
+use crate::error::Trip;
+use crate::events::{Event, EventKind};
+use crate::options::RowChoice;
+
+impl KeptRowMotion<'_> {
+    /// Looks at the pivots of a settled position.
+    pub(super) fn review(&mut self) -> Result<Option<Event>, Trip> {
+        if self.position.are_lost() {
+            self.choose_position_rows()?;
+        }
+        if self.aside.is_some() && self.chosen_rows_recovered() {
+            self.swap_aside();
+            self.aside = None;
+            self.velocity.factor(self.mechanism, &self.s)?;
+            return Ok(Some(
+                self.event("the rows asked for are independent again and kept again"),
+            ));
+        }
+        if !self.velocity.are_lost() {
+            return Ok(None);
+        }
+        let kept = self.velocity.kept.len();
+        let mut rows = self.decided(certify(self.mechanism, &self.s), kept)?;
+        if rows.kept == self.velocity.kept {
+            return Ok(None);
+        }
+        rows.factor(self.mechanism, &self.s)?;
+        let lost = std::mem::replace(&mut self.velocity, rows);
+        if let (RowChoice::Drop(_), None) = (&self.choice, &self.aside) {
+            self.aside = Some(lost);
+        }
+        Ok(Some(self.event("the kept rows became nearly dependent")))
+    }
+
+    /// Exchanges the kept rows and the ones set aside, if there are any.
+    pub(super) fn swap_aside(&mut self) {
+        if let Some(aside) = &mut self.aside {
+            std::mem::swap(aside, &mut self.velocity);
+        }
+    }
+
+    fn chosen_rows_recovered(&mut self) -> bool {
+        let Some(aside) = &mut self.aside else {
+            return false;
+        };
+        aside.factor(self.mechanism, &self.s).is_ok() && aside.are_recovered()
+    }
+
+    fn choose_position_rows(&mut self) -> Result<(), Trip> {
+        let kept = self.position.kept.len();
+        self.position = self.decided(certify_holonomic(self.mechanism, &self.s), kept)?;
+        Ok(())
+    }
+
+    /// Kept rows of a new decision, which must have the old rank.
+    fn decided(
+        &self,
+        decision: Result<linalg::RankDecision, solvability::AnalysisError>,
+        rank: usize,
+    ) -> Result<KeptRows, Trip> {
+        let time = self.s.t;
+        let none = |what: String| Trip::NoRows { time, what };
+        let decision = decision.map_err(|e| none(e.to_string()))?;
+        if let RankStatus::Undecided(doubt) = decision.status {
+            return Err(none(doubt.to_string()));
+        }
+        if decision.rank != rank {
+            return Err(none(format!(
+                "the rank changes from {rank} to {}",
+                decision.rank
+            )));
+        }
+        KeptRows::new(
+            self.mechanism.layout().n_v,
+            &decision.kept,
+            &decision.dropped,
+        )
+        .map_err(|source| Trip::Saddle { time, source })
+    }
+
+    fn event(&self, why: &str) -> Event {
+        let dropped: Vec<String> = self
+            .velocity
+            .dropped
+            .iter()
+            .map(|i| (i + 1).to_string())
+            .collect();
+        let redundancy = dropped.len();
+        Event {
+            time: self.s.t,
+            kind: EventKind::RowsExchanged,
+            redundancy_before: redundancy,
+            redundancy_after: redundancy,
+            text: format!(
+                "{why}; now dropped: {}. The motion is the same.",
+                dropped.join(", ")
+            ),
+        }
+    }
+}

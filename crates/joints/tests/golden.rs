@@ -1,0 +1,159 @@
+//! Φ, velocity rows and forces against tables worked out by hand, one file for each definition in `tests/golden`: no
+//! derivative can see a wrong sign, a wrong axis or a missing row.
+//!
+//! A file has at least three poses with `phi`, `velocity` (C·v − b) or `q`; the way to the numbers is in its comments.
+
+mod table;
+
+use std::collections::BTreeSet;
+
+use approx::assert_abs_diff_eq;
+use joints::conformance::Block;
+use joints::spec::Level;
+use joints::{Constraint, Force, Visitor};
+use table::{Golden, read};
+
+/// Least number of poses that pin Φ, a velocity row or a force.
+const POSES: usize = 3;
+
+/// Numbers in the tables are of the order of 100 at most and pass through about ten roundings.
+const TOLERANCE: f64 = 1e-13;
+
+#[test]
+fn every_definition_agrees_with_its_table() {
+    let mut tables = Tables::default();
+    joints::plane_constraints(&mut tables);
+    joints::plane_forces(&mut tables);
+    assert_eq!(tables.seen, table::files(), "files without a definition, or the other way round");
+}
+
+#[derive(Default)]
+struct Tables {
+    seen: BTreeSet<String>,
+}
+
+impl Visitor for Tables {
+    fn constraint<K: Constraint>(&mut self) {
+        self.drive::<K>();
+        K::visit_drives(self);
+    }
+
+    fn drive<K: Constraint>(&mut self) {
+        let name = K::SPEC.common.name;
+        let poses = read(name);
+        let pinned = |g: &&Golden| match K::SPEC.level {
+            Level::Holonomic => g.phi.is_some(),
+            Level::Nonholonomic => g.velocity.is_some(),
+        };
+        assert!(poses.iter().filter(pinned).count() >= POSES, "{name}: fewer than {POSES} poses");
+        for (number, golden) in poses.iter().enumerate() {
+            constraint::<K>(golden, &format!("{name}, pose {}", number + 1));
+        }
+        self.seen.insert(table::file_name(name));
+    }
+
+    fn force<K: Force>(&mut self) {
+        let name = K::SPEC.common.name;
+        let poses = read(name);
+        let pinned = poses.iter().filter(|g| g.q.is_some()).count();
+        assert!(pinned >= POSES, "{name}: fewer than {POSES} poses");
+        for (number, golden) in poses.iter().enumerate() {
+            force::<K>(golden, &format!("{name}, pose {}", number + 1));
+        }
+        self.seen.insert(table::file_name(name));
+    }
+}
+
+fn constraint<K: Constraint>(golden: &Golden, place: &str) {
+    assert!(golden.q.is_none(), "{place}: `q` is for forces");
+    let mut k = K::from_arguments(&golden.arguments(&K::SPEC.common)).expect(place);
+    let (x, v, f) = (golden.x(), golden.v(), golden.f());
+    k.initialise(&golden.start());
+    requirements(golden, place, |r| k.requirement(r, &golden.start()));
+    let m = K::SPEC.rows.len();
+    let mut out = vec![0.0; m];
+    if K::SPEC.level == Level::Holonomic {
+        k.phi(&x, &f, &mut out);
+        compare(golden.phi.as_ref(), &out, place, "Φ");
+    }
+    let mut c = vec![0.0; K::SPEC.c.len()];
+    k.c_constant(&mut c);
+    k.c(&x, &f, &mut c);
+    let mut b = vec![0.0; m];
+    k.b(&x, &f, &mut b);
+    let mut velocity: Vec<f64> = b.iter().map(|b| -b).collect();
+    for (entry, c) in K::SPEC.c.iter().zip(&c) {
+        let twist = &v[entry.slot];
+        velocity[entry.row] += c * [twist.x, twist.y, twist.omega][entry.dof];
+    }
+    compare(golden.velocity.as_ref(), &velocity, place, "C·v − b");
+    k.gamma(&x, &v, &f, &mut out);
+    compare(golden.gamma.as_ref(), &out, place, "Γ");
+    let mut map = vec![0.0; K::SPEC.wrench.len()];
+    k.wrench(&x, &f, &mut map);
+    let mut wrench = vec![0.0; 3];
+    let lambda = golden.lambda();
+    if golden.wrench.is_some() {
+        assert_eq!(lambda.len(), m, "{place}: `wrench` needs one `lambda` for each row");
+        for (&[component, row], w) in K::SPEC.wrench.iter().zip(&map) {
+            wrench[component] += w * lambda[row];
+        }
+    }
+    compare(golden.wrench.as_ref(), &wrench, place, "the wrench");
+    let mut component = vec![0.0; if K::SPEC.component.is_some() { m } else { 0 }];
+    k.component(&x, &f, &mut component);
+    compare(golden.component.as_ref(), &component, place, "the component");
+    compare(golden.place.as_ref(), &k.place(&x), place, "the place");
+}
+
+fn force<K: Force>(golden: &Golden, place: &str) {
+    assert!(golden.only_force(), "{place}: only `q` and `requirements` are for forces");
+    let mut k = K::from_arguments(&golden.arguments(&K::SPEC.common)).expect(place);
+    k.initialise(&golden.start());
+    requirements(golden, place, |r| k.requirement(r, &golden.start()));
+    let mut out = vec![0.0; K::SPEC.q.len()];
+    k.q(&golden.x(), &golden.v(), &golden.f(), &mut out);
+    let mut q = vec![0.0; 3 * K::SPEC.common.slots.len()];
+    for (&at, value) in K::SPEC.q.iter().zip(&out) {
+        q[at] = *value;
+    }
+    compare(golden.q.as_ref(), &q, place, "Q");
+}
+
+fn compare(expected: Option<&Vec<table::Scalar>>, found: &[f64], place: &str, what: &str) {
+    let Some(expected) = expected else { return };
+    let expected: Vec<f64> = expected.iter().map(table::Scalar::value).collect();
+    println!("{place}: {what} = {found:?}, by hand {expected:?}");
+    let (found, expected) = (Block::column(found.to_vec()), Block::column(expected));
+    assert_abs_diff_eq!(found, expected, epsilon = TOLERANCE);
+}
+
+fn requirements(golden: &Golden, place: &str, holds: impl Fn(usize) -> bool) {
+    if let Some(expected) = &golden.requirements {
+        let found: Vec<bool> = (0..expected.len()).map(holds).collect();
+        assert_eq!(&found, expected, "{place}: requirements");
+    }
+}
+
+/// A spring of free length zero is linear in d, also where its points meet: ∂Q/∂x is the stiffness there,
+/// though d has no direction.
+#[test]
+fn a_spring_of_free_length_zero_keeps_its_stiffness_at_length_zero() {
+    use joints::generated::SpringDamper;
+    use joints::{Argument, Pose, Twist};
+    let number = |n| Argument::Numbers(vec![n]);
+    let origin = Argument::Pair([0.0, 0.0]);
+    let arguments = [origin.clone(), origin, number(3.0), number(0.0), number(0.0)];
+    let mut spring = SpringDamper::from_arguments(&arguments).expect("all values are in range");
+    let x = [Pose::new(1.0, 2.0, 0.0); 2];
+    spring.initialise(&x);
+    let mut out = vec![0.0; SpringDamper::SPEC.dq_dx.len()];
+    spring.dq_dx(&x, &[Twist::zero(); 2], &[], &mut out);
+    let entry = |at: [usize; 2]| {
+        let k = SpringDamper::SPEC.dq_dx.iter().position(|e| *e == at);
+        k.map_or(0.0, |k| out[k])
+    };
+    let found = Block::from_rows(&[0, 1].map(|r| [0, 1, 3, 4].map(|c| entry([r, c]))));
+    let stiffness = Block::from_rows(&[[-3.0, 0.0, 3.0, 0.0], [0.0, -3.0, 0.0, 3.0]]);
+    assert_abs_diff_eq!(found, stiffness, epsilon = TOLERANCE);
+}

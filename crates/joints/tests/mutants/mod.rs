@@ -1,0 +1,256 @@
+//! Definitions with one wrong entry: the harness has to find each of them, and to name what is wrong.
+
+use joints::conformance::{Failure, Property, check_constraint, check_force};
+use joints::generated::{Fixed, PinInSlotDisplacementDrive, SpringDamper, Velocity};
+use joints::spec::{ConstraintSpec, ForceSpec};
+use joints::{Argument, ArgumentError, Constraint, Force, Pose, Real, Ring, Twist, Visitor};
+
+use crate::SEED;
+
+/// The kernel that is wrong, as a constant of the mutant's type.
+mod wrong {
+    pub(super) const PHI: u8 = 0;
+    pub(super) const C_CONSTANT: u8 = 1;
+    pub(super) const C: u8 = 2;
+    pub(super) const B: u8 = 3;
+    pub(super) const GAMMA: u8 = 4;
+    pub(super) const WRENCH: u8 = 5;
+    pub(super) const COMPONENT: u8 = 6;
+    pub(super) const PLACE: u8 = 7;
+    pub(super) const D_FORCE_DX: u8 = 8;
+    pub(super) const D_RESIDUAL_DX: u8 = 9;
+    pub(super) const D_GAMMA_DV: u8 = 10;
+    pub(super) const INITIALISE: u8 = 11;
+    pub(super) const REQUIREMENT: u8 = 12;
+    pub(super) const C_UNWRITTEN: u8 = 13;
+    pub(super) const PATTERN: u8 = 14;
+    pub(super) const RHEONOMIC: u8 = 15;
+}
+
+/// `K` with kernel `WRONG` changed in its first entry.
+#[derive(Clone)]
+struct Mutant<K, const WRONG: u8>(K);
+
+/// The first entry with the wrong sign, or another number where it is zero.
+fn change<T: Ring>(out: &mut [T], here: bool) {
+    if let (true, Some(first)) = (here, out.first_mut()) {
+        *first = T::from(0.125) - *first;
+    }
+}
+
+impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
+    const SPEC: ConstraintSpec = {
+        let mut spec = K::SPEC;
+        if WRONG == wrong::PATTERN {
+            // One entry fewer: the derivative does not vanish there.
+            let (_, rest) = spec.d_residual_dx.split_at(1);
+            spec.d_residual_dx = rest;
+        }
+        if WRONG == wrong::RHEONOMIC {
+            spec.rheonomic = !spec.rheonomic;
+        }
+        spec
+    };
+
+    fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
+        K::from_arguments(arguments).map(Self)
+    }
+    fn visit_drives<V: Visitor>(_: &mut V) {}
+    fn initialise(&mut self, x: &[Pose]) {
+        if WRONG != wrong::INITIALISE {
+            self.0.initialise(x);
+        }
+    }
+    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
+        WRONG != wrong::REQUIREMENT && self.0.requirement(k, x)
+    }
+    fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.phi(x, f, out);
+        change(out, WRONG == wrong::PHI);
+    }
+    fn c_constant(&self, out: &mut [f64]) {
+        self.0.c_constant(out);
+        change(out, WRONG == wrong::C_CONSTANT);
+    }
+    fn c<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        if WRONG != wrong::C_UNWRITTEN {
+            self.0.c(x, f, out);
+        }
+        change(out, WRONG == wrong::C);
+    }
+    fn b<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.b(x, f, out);
+        change(out, WRONG == wrong::B);
+    }
+    fn gamma<T: Ring>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.gamma(x, v, f, out);
+        change(out, WRONG == wrong::GAMMA);
+    }
+    fn wrench<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.wrench(x, f, out);
+        change(out, WRONG == wrong::WRENCH);
+    }
+    fn component<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.component(x, f, out);
+        if WRONG == wrong::COMPONENT {
+            out.iter_mut().for_each(|e| *e = *e + *e);
+        }
+    }
+    fn place<T: Ring>(&self, x: &[Pose<T>]) -> [T; 2] {
+        let [x_p, y_p] = self.0.place(x);
+        if WRONG == wrong::PLACE { [y_p, x_p] } else { [x_p, y_p] }
+    }
+    fn d_force_dx<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        self.0.d_force_dx(x, f, lambda, out);
+        change(out, WRONG == wrong::D_FORCE_DX);
+    }
+    fn d_residual_dx<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        out: &mut [T],
+    ) {
+        let mut all = vec![T::from(0.0); K::SPEC.d_residual_dx.len()];
+        self.0.d_residual_dx(x, v, a, f, &mut all);
+        out.copy_from_slice(&all[all.len() - out.len()..]);
+        change(out, WRONG == wrong::D_RESIDUAL_DX);
+    }
+    fn d_gamma_dv<T: Ring>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.d_gamma_dv(x, v, f, out);
+        change(out, WRONG == wrong::D_GAMMA_DV);
+    }
+}
+
+/// `K` with Q or a derivative changed in its first entry, or all of it with the opposite sign.
+#[derive(Clone)]
+struct ForceMutant<K, const WRONG: u8>(K);
+
+mod wrong_force {
+    pub(super) const Q: u8 = 0;
+    pub(super) const DQ_DX: u8 = 1;
+    pub(super) const DQ_DV: u8 = 2;
+    pub(super) const SIGN: u8 = 3;
+    pub(super) const FLAG: u8 = 4;
+}
+
+impl<K: Force, const WRONG: u8> ForceMutant<K, WRONG> {
+    fn change<T: Real>(out: &mut [T], kernel: u8) {
+        change(out, WRONG == kernel);
+        if WRONG == wrong_force::SIGN {
+            out.iter_mut().for_each(|e| *e = -*e);
+        }
+    }
+}
+
+impl<K: Force, const WRONG: u8> Force for ForceMutant<K, WRONG> {
+    const SPEC: ForceSpec = {
+        let mut spec = K::SPEC;
+        spec.dissipative = spec.dissipative != (WRONG == wrong_force::FLAG);
+        spec
+    };
+
+    fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
+        K::from_arguments(arguments).map(Self)
+    }
+    fn initialise(&mut self, x: &[Pose]) {
+        self.0.initialise(x);
+    }
+    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
+        self.0.requirement(k, x)
+    }
+    fn q<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.q(x, v, f, out);
+        if WRONG == wrong_force::Q {
+            // A constant load that nothing balances: no derivative sees it.
+            out[0] = out[0] + T::from(1.0);
+        }
+        Self::change(out, u8::MAX);
+    }
+    fn dq_dx<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.dq_dx(x, v, f, out);
+        Self::change(out, wrong_force::DQ_DX);
+    }
+    fn dq_dv<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.dq_dv(x, v, f, out);
+        Self::change(out, wrong_force::DQ_DV);
+    }
+}
+
+fn found(result: Result<(), Failure>) -> Property {
+    let failure = result.expect_err("the mutant is wrong");
+    println!("{failure}\n");
+    failure.property
+}
+
+type Drive<const WRONG: u8> = Mutant<PinInSlotDisplacementDrive, WRONG>;
+
+#[test]
+fn a_definition_without_a_change_passes() {
+    const NONE: u8 = u8::MAX;
+    assert!(check_constraint::<Drive<NONE>>(SEED).is_ok());
+    assert!(check_force::<ForceMutant<SpringDamper, NONE>>(SEED).is_ok());
+}
+
+#[test]
+fn a_wrong_entry_of_any_constraint_kernel_is_named() {
+    use Property as P;
+    let cases = [
+        (found(check_constraint::<Drive<{ wrong::PHI }>>(SEED)), P::C),
+        (found(check_constraint::<Mutant<Fixed, { wrong::C_CONSTANT }>>(SEED)), P::C),
+        (found(check_constraint::<Drive<{ wrong::C }>>(SEED)), P::C),
+        (found(check_constraint::<Drive<{ wrong::B }>>(SEED)), P::B),
+        (found(check_constraint::<Drive<{ wrong::GAMMA }>>(SEED)), P::GammaFromPhi),
+        (found(check_constraint::<Drive<{ wrong::WRENCH }>>(SEED)), P::Wrench),
+        (found(check_constraint::<Drive<{ wrong::COMPONENT }>>(SEED)), P::Component),
+        (found(check_constraint::<Drive<{ wrong::D_FORCE_DX }>>(SEED)), P::DForceDx),
+        (found(check_constraint::<Drive<{ wrong::D_RESIDUAL_DX }>>(SEED)), P::DResidualDx),
+        (found(check_constraint::<Drive<{ wrong::D_GAMMA_DV }>>(SEED)), P::DGammaDv),
+        (found(check_constraint::<Drive<{ wrong::INITIALISE }>>(SEED)), P::Start),
+        (found(check_constraint::<Drive<{ wrong::REQUIREMENT }>>(SEED)), P::Requirements),
+        (found(check_constraint::<Drive<{ wrong::C_UNWRITTEN }>>(SEED)), P::Writes),
+        (found(check_constraint::<Drive<{ wrong::PATTERN }>>(SEED)), P::DResidualDx),
+        (found(check_constraint::<Drive<{ wrong::RHEONOMIC }>>(SEED)), P::Writes),
+    ];
+    for (found, expected) in cases {
+        assert_eq!(found, expected);
+    }
+    // The wrench about another point fails before the point itself.
+    let place = found(check_constraint::<Drive<{ wrong::PLACE }>>(SEED));
+    assert!(matches!(place, P::Wrench | P::Place), "{place:?}");
+}
+
+#[test]
+fn a_wrong_entry_of_a_velocity_row_is_named() {
+    // Γ is derived from C and b, so it sees what either of them lacks.
+    for found in [
+        found(check_constraint::<Mutant<Velocity, { wrong::C }>>(SEED)),
+        found(check_constraint::<Mutant<Velocity, { wrong::B }>>(SEED)),
+        found(check_constraint::<Mutant<Velocity, { wrong::GAMMA }>>(SEED)),
+    ] {
+        assert_eq!(found, Property::Gamma);
+    }
+}
+
+#[test]
+fn a_wrong_entry_of_any_force_kernel_is_named() {
+    use wrong_force::{DQ_DV, DQ_DX, FLAG, Q, SIGN};
+    type Spring<const WRONG: u8> = ForceMutant<SpringDamper, WRONG>;
+    assert_eq!(found(check_force::<Spring<Q>>(SEED)), Property::Balance);
+    assert_eq!(found(check_force::<Spring<DQ_DX>>(SEED)), Property::DqDx);
+    assert_eq!(found(check_force::<Spring<DQ_DV>>(SEED)), Property::DqDv);
+    assert_eq!(found(check_force::<Spring<SIGN>>(SEED)), Property::Dissipation);
+    assert_eq!(found(check_force::<Spring<FLAG>>(SEED)), Property::DqDv);
+}
+
+#[test]
+fn a_failure_says_what_a_joint_author_needs() {
+    let failure = check_constraint::<Drive<{ wrong::C }>>(SEED).expect_err("C is wrong");
+    assert_eq!(failure.definition, "PinInSlotDisplacementDrive");
+    assert!(failure.relative_error() > failure.tolerance);
+    let text = failure.to_string();
+    for part in ["violated: C = ∂Φ/∂x", "row `displacement`, column i.x", "pose (x ", "dual numbers"] {
+        assert!(text.contains(part), "`{part}` is not in\n{text}");
+    }
+}
