@@ -128,7 +128,13 @@ fn variants_differ_in_non_unique_reactions_only() {
         .map(|d| {
             let choice = RowChoice::Drop(d.iter().map(|r| r - 1).collect());
             let p = prepared(&choice);
-            let (rows, summary) = run(&p, &MotionOptions { rows: choice, ..tight() });
+            let (rows, summary) = run(
+                &p,
+                &MotionOptions {
+                    rows: choice,
+                    ..tight()
+                },
+            );
             eprintln!("{summary:?}");
             (p, rows)
         })

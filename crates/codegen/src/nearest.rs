@@ -9,8 +9,8 @@ pub(crate) fn hint(text: &str, known: &[&str]) -> String {
         .iter()
         .map(|k| (distance(text, k), *k))
         .min()
-        // All letters changed is no likeness.
-        .filter(|(d, k)| *d <= EDITS && *d < k.chars().count().min(text.chars().count()));
+        // More than half of the letters changed is no likeness.
+        .filter(|(d, k)| *d <= EDITS && 2 * *d <= k.chars().count());
     match nearest {
         Some((_, k)) => format!("; did you mean `{k}`?"),
         None if known.is_empty() => String::new(),

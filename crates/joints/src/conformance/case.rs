@@ -83,6 +83,7 @@ pub struct Case {
     /// The functions of time, as jets.
     pub f: Vec<[f64; 3]>,
     pub(super) motions: Vec<Motion>,
+    pub(super) spec: &'static Spec,
 }
 
 impl Case {
@@ -101,6 +102,7 @@ impl Case {
             motions: (0..MOTIONS)
                 .map(|_| motion(spec.slots.len(), rows, kind, &mut random))
                 .collect(),
+            spec,
         })
     }
 
@@ -158,7 +160,9 @@ impl Case {
 impl fmt::Display for Case {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "  case {} ({:?})", self.index, self.kind)?;
-        writeln!(f, "  parameters {:?}", self.arguments)?;
+        for (parameter, argument) in self.spec.parameters.iter().zip(&self.arguments) {
+            writeln!(f, "  {} = {argument:?}", parameter.name)?;
+        }
         for (name, poses) in [("start", &self.start), ("pose", &self.x)] {
             write!(f, "  {name}")?;
             for p in poses {
@@ -166,7 +170,7 @@ impl fmt::Display for Case {
             }
             writeln!(f)?;
         }
-        write!(f, "  functions of time {:?}", self.f)
+        write!(f, "  functions of time, with two derivatives {:?}", self.f)
     }
 }
 
