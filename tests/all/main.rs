@@ -1,5 +1,7 @@
 //! All tests that need more than one crate, in one binary.
 
+mod allocations;
 mod robot_trolley;
 mod three_cranks;
+mod tidy;
 mod verdict_catalogue;

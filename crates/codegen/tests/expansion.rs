@@ -34,7 +34,7 @@ fn kernels_read_as_one_would_write_them() {
         "pub normal: Direction,",
         "level: Level::Nonholonomic,",
         "rows: &[Row::restricting_start(\"normal\")],",
-        "Entry::varying(0, 0, 0), Entry::varying(0, 0, 1), Entry::constant(0, 0, 2),",
+        "Entry::constant(0, 0, 2)",
         "wrench: &[[0, 0], [1, 0]],",
         "component: Some(\"N\"),",
         "let normal_x = cos_i * normal_local_x - sin_i * normal_local_y;",

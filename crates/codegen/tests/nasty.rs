@@ -105,7 +105,7 @@ fn inputs_from_bad_dreams() {
 #[test]
 fn long_and_deep_expressions() {
     on_a_compiler_stack(|| {
-        for n in [10, 30, 100, 500, 5000, 100_000] {
+        for n in [10, 30, 100, 500, 5000] {
             for (head, piece, tail) in [
                 ("angle(i)", " + angle(i)", ""),
                 ("angle(i)", " * angle(j)", ""),
@@ -133,6 +133,8 @@ fn long_and_deep_expressions() {
                 ("a", "::a", ""),
                 ("a", "::<a", ""),
                 ("1 as ", "&", "a"),
+                ("1 < ", "a < ", "1"),
+                ("", "a { b : ", "1"),
                 ("1 as ", "fn() -> ", "a"),
             ] {
                 expand_any(&phi(&format!("{head}{}{tail}", piece.repeat(n))));
@@ -222,7 +224,7 @@ fn flat(tokens: TokenStream, out: &mut Vec<String>) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 30_000, ..ProptestConfig::default() })]
 
     /// Correct definitions with some tokens removed, doubled or replaced by others of any definition.
     #[test]

@@ -4,13 +4,13 @@
 
 mod pfaff {
     //! A facade as its users see it: the crate `joints` under another path, the macro wrapped.
-    pub(crate) use joints;
+    pub(crate) use joints as kernels;
 
     /// `joint!` with the path of the facade.
     #[macro_export]
     macro_rules! facade_joint {
         ($($definition:tt)*) => {
-            joint_macro::joint! { #![runtime = $crate::pfaff::joints] $($definition)* }
+            joint_macro::joint! { #![runtime = $crate::pfaff::kernels] $($definition)* }
         };
     }
 }
@@ -163,6 +163,33 @@ fn names_that_collide_are_told_apart() {
     Element::phi(&joint, &x, &f, &mut phi);
     // lambda = (79, 208); −79 − (1 + 2 + … + 14) − 0.25 and −208 − 0.5.
     assert_eq!(phi, [-184.25, -208.5]);
+}
+
+// Values and pieces called like arguments of kernels, or like a pattern of Rust.
+joint! { plane Shadows(i) {
+    /// `N² + N + angle = lambda·x_0` with `N = d² + d`, `d = x − x_0`.
+    params { lambda: Ratio }
+    initial { x: Length = origin(i)[0], v: Length = lambda * x }
+    let out = origin(i)[0] - x;
+    let None = out * out + out;
+    rows: [out];
+    phi: None * None + None + angle(i) - v;
+    measure out: out;
+    place: origin(i);
+} }
+
+#[test]
+fn names_of_arguments_hide_nothing() {
+    let mut joint = Shadows {
+        lambda: 3.0,
+        x: 0.0,
+        v: 0.0,
+    };
+    Element::<f64>::initialise(&mut joint, &[Pose::new(2.0, 0.0, 0.0)]);
+    let mut phi = [0.0];
+    Element::phi(&joint, &[Pose::new(3.0, 0.0, 0.5)], &[], &mut phi);
+    // out = 1, None = 2: 4 + 2 + 0.5 − 3·2
+    assert_eq!(phi, [0.5]);
 }
 
 force! { plane Magnet(i, j) {

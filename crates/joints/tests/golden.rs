@@ -24,7 +24,11 @@ fn every_definition_agrees_with_its_table() {
     let mut tables = Tables::default();
     joints::plane_constraints(&mut tables);
     joints::plane_forces(&mut tables);
-    assert_eq!(tables.seen, table::files(), "files without a definition, or the other way round");
+    assert_eq!(
+        tables.seen,
+        table::files(),
+        "files without a definition, or the other way round"
+    );
 }
 
 #[derive(Default)]
@@ -45,7 +49,10 @@ impl Visitor for Tables {
             Level::Holonomic => g.phi.is_some(),
             Level::Nonholonomic => g.velocity.is_some(),
         };
-        assert!(poses.iter().filter(pinned).count() >= POSES, "{name}: fewer than {POSES} poses");
+        assert!(
+            poses.iter().filter(pinned).count() >= POSES,
+            "{name}: fewer than {POSES} poses"
+        );
         for (number, golden) in poses.iter().enumerate() {
             constraint::<K>(golden, &format!("{name}, pose {}", number + 1));
         }
@@ -94,7 +101,11 @@ fn constraint<K: Constraint>(golden: &Golden, place: &str) {
     let mut wrench = vec![0.0; 3];
     let lambda = golden.lambda();
     if golden.wrench.is_some() {
-        assert_eq!(lambda.len(), m, "{place}: `wrench` needs one `lambda` for each row");
+        assert_eq!(
+            lambda.len(),
+            m,
+            "{place}: `wrench` needs one `lambda` for each row"
+        );
         for (&[component, row], w) in K::SPEC.wrench.iter().zip(&map) {
             wrench[component] += w * lambda[row];
         }
@@ -102,12 +113,20 @@ fn constraint<K: Constraint>(golden: &Golden, place: &str) {
     compare(golden.wrench.as_ref(), &wrench, place, "the wrench");
     let mut component = vec![0.0; if K::SPEC.component.is_some() { m } else { 0 }];
     k.component(&x, &f, &mut component);
-    compare(golden.component.as_ref(), &component, place, "the component");
+    compare(
+        golden.component.as_ref(),
+        &component,
+        place,
+        "the component",
+    );
     compare(golden.place.as_ref(), &k.place(&x), place, "the place");
 }
 
 fn force<K: Force>(golden: &Golden, place: &str) {
-    assert!(golden.only_force(), "{place}: only `q` and `requirements` are for forces");
+    assert!(
+        golden.only_force(),
+        "{place}: only `q` and `requirements` are for forces"
+    );
     let mut k = K::from_arguments(&golden.arguments(&K::SPEC.common)).expect(place);
     k.initialise(&golden.start());
     requirements(golden, place, |r| k.requirement(r, &golden.start()));
@@ -143,7 +162,13 @@ fn a_spring_of_free_length_zero_keeps_its_stiffness_at_length_zero() {
     use joints::{Argument, Pose, Twist};
     let number = |n| Argument::Numbers(vec![n]);
     let origin = Argument::Pair([0.0, 0.0]);
-    let arguments = [origin.clone(), origin, number(3.0), number(0.0), number(0.0)];
+    let arguments = [
+        origin.clone(),
+        origin,
+        number(3.0),
+        number(0.0),
+        number(0.0),
+    ];
     let mut spring = SpringDamper::from_arguments(&arguments).expect("all values are in range");
     let x = [Pose::new(1.0, 2.0, 0.0); 2];
     spring.initialise(&x);

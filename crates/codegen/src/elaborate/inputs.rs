@@ -84,7 +84,7 @@ pub(crate) struct Inputs {
 }
 
 /// Arguments of kernels: an input of the same name gets another one.
-pub(crate) const ARGUMENTS: [&str; 7] = ["x", "v", "a", "f", "k", "lambda", "out"];
+pub(crate) const ARGUMENTS: [&str; 6] = ["x", "v", "a", "f", "lambda", "out"];
 
 const POSE: [&str; 5] = ["x", "y", "angle", "cos", "sin"];
 const TWIST: [&str; 3] = ["x", "y", "omega"];

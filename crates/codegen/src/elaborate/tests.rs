@@ -177,8 +177,10 @@ fn shapes_are_checked() {
         ("1e999", "out of bounds"),
         ("1e-300", "out of bounds"),
         ("1e40 * 1e40", "out of bounds"),
-        ("if l { 1 } else { 2 }", "expected an expression of numbers"),
-        ("std::f64::consts::PI", "expected a name"),
+        ("if l { 1 } else { 2 }", "`if` is a word of Rust"),
+        ("std::f64::consts::PI", "names have no `::`"),
+        ("(l; l)", "expected"),
+        ("(l, l)", "expected an expression of numbers"),
     ];
     for (expression, message) in cases {
         let found = error(Kind::Constraint, &with_phi(expression));

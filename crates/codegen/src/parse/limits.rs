@@ -1,7 +1,8 @@
 //! Bounds on what is handed to the recursive parts of the pipeline: a definition that is absurdly long or deep is
-//! refused with an error, because a compiler that runs out of stack cannot say why.
+//! refused with an error, because a compiler that runs out of stack cannot say why. Words of Rust that are no words of
+//! this language, and paths, are refused here for the same reason: the parser of Rust would follow them to any depth.
 
-use proc_macro2::{TokenStream, TokenTree};
+use proc_macro2::{Ident, Spacing, TokenStream, TokenTree};
 
 /// Tokens of a definition; the longest that is shipped has about 250.
 const TOKENS: usize = 2048;
@@ -11,6 +12,9 @@ const DEPTH: usize = 32;
 
 /// Operators in a row, as in `- - x`.
 const OPERATORS: usize = 4;
+
+/// The keywords of Rust that are words of this language.
+const KEYWORDS: [&str; 2] = ["let", "in"];
 
 /// Checks all bounds.
 pub(super) fn check(tokens: &TokenStream) -> syn::Result<()> {
@@ -37,6 +41,15 @@ fn walk(tokens: &TokenStream, depth: usize, left: &mut usize) -> syn::Result<()>
         if operators > OPERATORS {
             return refuse(format!("more than {OPERATORS} operators in a row"));
         }
+        match &token {
+            TokenTree::Ident(word) if is_foreign(word) => {
+                return refuse(format!("`{word}` is a word of Rust, not of this language"));
+            }
+            TokenTree::Punct(p) if p.as_char() == ':' && p.spacing() == Spacing::Joint => {
+                return refuse("a path is no part of this language: names have no `::`".to_owned());
+            }
+            _ => {}
+        }
         if let TokenTree::Group(group) = &token {
             match depth.checked_sub(1) {
                 Some(depth) => walk(&group.stream(), depth, left)?,
@@ -49,4 +62,9 @@ fn walk(tokens: &TokenStream, depth: usize, left: &mut usize) -> syn::Result<()>
         }
     }
     Ok(())
+}
+
+fn is_foreign(word: &Ident) -> bool {
+    let is_name = syn::parse2::<Ident>(TokenTree::Ident(word.clone()).into()).is_ok();
+    !is_name && !KEYWORDS.iter().any(|k| word == k)
 }

@@ -129,7 +129,7 @@ fn what_is_wrong_is_named() {
             "plane A(i) { #[inline] }",
             "only doc comments may stand here",
         ),
-        ("plane A(fn) {}", "keyword `fn`"),
+        ("plane A(fn) {}", "`fn` is a word of Rust"),
         ("plane r#fn(i) {}", "`fn` is a keyword of Rust"),
     ];
     for (text, message) in cases {

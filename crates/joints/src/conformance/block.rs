@@ -25,19 +25,31 @@ impl<T: Copy> Block<T> {
     /// A block with the same value everywhere.
     #[must_use]
     pub fn filled(rows: usize, columns: usize, value: T) -> Self {
-        Self { rows, columns, entries: vec![value; rows * columns] }
+        Self {
+            rows,
+            columns,
+            entries: vec![value; rows * columns],
+        }
     }
 
     /// One column.
     #[must_use]
     pub fn column(entries: Vec<T>) -> Self {
-        Self { rows: entries.len(), columns: 1, entries }
+        Self {
+            rows: entries.len(),
+            columns: 1,
+            entries,
+        }
     }
 
     /// The block of these rows.
     #[must_use]
     pub fn from_rows<const N: usize>(rows: &[[T; N]]) -> Self {
-        Self { rows: rows.len(), columns: N, entries: rows.iter().flatten().copied().collect() }
+        Self {
+            rows: rows.len(),
+            columns: N,
+            entries: rows.iter().flatten().copied().collect(),
+        }
     }
 
     /// These blocks, all with the same number of rows, side by side.
@@ -47,12 +59,19 @@ impl<T: Copy> Block<T> {
     #[must_use]
     pub fn beside(blocks: &[Self]) -> Self {
         let rows = blocks.first().map_or(0, |b| b.rows);
-        assert!(blocks.iter().all(|b| b.rows == rows), "blocks side by side need equal heights");
+        assert!(
+            blocks.iter().all(|b| b.rows == rows),
+            "blocks side by side need equal heights"
+        );
         let columns = blocks.iter().map(|b| b.columns).sum();
         let entries = (0..rows)
             .flat_map(|r| blocks.iter().flat_map(move |b| b.row(r).iter().copied()))
             .collect();
-        Self { rows, columns, entries }
+        Self {
+            rows,
+            columns,
+            entries,
+        }
     }
 
     /// Number of rows.
@@ -121,8 +140,17 @@ impl<T: Copy> Block<T> {
             (other.rows, other.columns),
             "blocks entry by entry need equal shapes"
         );
-        let entries = self.entries.iter().zip(&other.entries).map(|(&a, &b)| f(a, b)).collect();
-        Self { rows: self.rows, columns: self.columns, entries }
+        let entries = self
+            .entries
+            .iter()
+            .zip(&other.entries)
+            .map(|(&a, &b)| f(a, b))
+            .collect();
+        Self {
+            rows: self.rows,
+            columns: self.columns,
+            entries,
+        }
     }
 }
 
@@ -130,7 +158,9 @@ impl Block {
     /// The largest magnitude of an entry; NaN if there is one.
     #[must_use]
     pub fn largest(&self) -> f64 {
-        self.entries.iter().fold(0.0, |m, e| if e.is_nan() { *e } else { m.max(e.abs()) })
+        self.entries
+            .iter()
+            .fold(0.0, |m, e| if e.is_nan() { *e } else { m.max(e.abs()) })
     }
 
     /// The Frobenius norm.
@@ -155,11 +185,17 @@ impl Block {
 
     fn difference(&self, other: &Self) -> f64 {
         match (self.rows, self.columns) == (other.rows, other.columns) {
-            true => {
-                self.zip(other, |a, b| a - b).entries.iter().fold(0.0, |m: f64, e| {
-                    if e.is_nan() || m.is_nan() { f64::NAN } else { m.max(e.abs()) }
-                })
-            }
+            true => self
+                .zip(other, |a, b| a - b)
+                .entries
+                .iter()
+                .fold(0.0, |m: f64, e| {
+                    if e.is_nan() || m.is_nan() {
+                        f64::NAN
+                    } else {
+                        m.max(e.abs())
+                    }
+                }),
             false => f64::NAN,
         }
     }
@@ -208,7 +244,11 @@ mod tests {
         assert!(!relative_eq!(a, a, max_relative = 1.0));
         assert!(!abs_diff_eq!(a, a, epsilon = 1.0));
         let narrow = Block::from_rows(&[[0.0]]);
-        assert!(!abs_diff_eq!(narrow, Block::from_rows(&[[0.0, 0.0]]), epsilon = 1.0));
+        assert!(!abs_diff_eq!(
+            narrow,
+            Block::from_rows(&[[0.0, 0.0]]),
+            epsilon = 1.0
+        ));
         assert_eq!(a.worst(&Block::from_rows(&[[0.0, 9.0]])), Some((0, 0)));
     }
 

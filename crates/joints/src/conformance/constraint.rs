@@ -9,7 +9,8 @@ use super::number::Number;
 use super::pattern::Pattern;
 use super::state::{Along, State};
 use super::{
-    DIFFERENCES, DUAL_NUMBERS, DUAL_TOLERANCE, Oracle, assembled, column_name, is_internal, moves_with_bodies,
+    DIFFERENCES, DUAL_NUMBERS, DUAL_TOLERANCE, Oracle, assembled, column_name, is_internal,
+    moves_with_bodies,
 };
 use crate::constraint::Constraint;
 use crate::plane::{N_DOF, Pose, Twist};
@@ -31,7 +32,10 @@ pub(super) fn check<K: Constraint>(seed: u64) -> Result<(), Failure> {
     let mut depends_on_time = false;
     for case in Case::all(seed, &K::SPEC.common, m) {
         let (constraint, case) = assembled::<K>(&case)?;
-        let check = Check { constraint: &constraint, case: &case };
+        let check = Check {
+            constraint: &constraint,
+            case: &case,
+        };
         check.all()?;
         for (pattern, block) in patterns.iter_mut().zip(check.sparse_blocks()) {
             pattern.see(&block);
@@ -49,7 +53,12 @@ pub(super) fn check<K: Constraint>(seed: u64) -> Result<(), Failure> {
         return Err(fact(definition, Property::B, entry, facts, None));
     }
     let idle = |(row, seen): (&crate::spec::Row, &bool)| row.restricts_start && !seen;
-    match K::SPEC.rows.iter().zip(&restricts).find(|(row, seen)| idle((row, seen))) {
+    match K::SPEC
+        .rows
+        .iter()
+        .zip(&restricts)
+        .find(|(row, seen)| idle((row, seen)))
+    {
         Some((row, _)) if K::SPEC.level == Level::Holonomic => {
             let entry = format!("row `{}`, zero at every start", row.name);
             Err(fact(definition, Property::Start, entry, [0.0, 1.0], None))
@@ -86,9 +95,8 @@ impl<K: Constraint> Curve for Path<'_, K> {
     fn at<D: Number>(&self, tau: D) -> Block<D> {
         let State { x, v, f } = self.along.state(self.check.case, self.motion, tau);
         let k = self.check.constraint;
-        let stack = |t: &[Twist<D>]| -> Vec<D> {
-            t.iter().flat_map(|t| [t.x, t.y, t.omega]).collect()
-        };
+        let stack =
+            |t: &[Twist<D>]| -> Vec<D> { t.iter().flat_map(|t| [t.x, t.y, t.omega]).collect() };
         match self.quantity {
             Quantity::Phi => kernels::phi(k, &x, &f),
             Quantity::Velocity => {
@@ -112,7 +120,12 @@ impl<K: Constraint> Curve for Path<'_, K> {
 }
 
 fn times<D: Number>(c: &Block<D>, v: &[D]) -> Block<D> {
-    let row = |r| c.row(r).iter().zip(v).fold(D::from(0.0), |sum, (&c, &v)| sum + c * v);
+    let row = |r| {
+        c.row(r)
+            .iter()
+            .zip(v)
+            .fold(D::from(0.0), |sum, (&c, &v)| sum + c * v)
+    };
     Block::column((0..c.rows()).map(row).collect())
 }
 
@@ -127,6 +140,9 @@ fn closed<K: Constraint>(k: &K, case: &Case) -> Case {
     const SWEEPS: usize = 100;
     let mut case = case.clone();
     for _ in 0..SWEEPS {
+        if kernels::phi(k, &case.x, &case.f).largest() <= f64::EPSILON * case.size() {
+            break;
+        }
         for row in 0..K::SPEC.rows.len() {
             let phi = kernels::phi(k, &case.x, &case.f).get(row, 0);
             let c = kernels::c(k, &case.x, &case.f);
@@ -153,7 +169,7 @@ impl<K: Constraint> Check<'_, K> {
     fn all(&self) -> Result<(), Failure> {
         self.writes()?;
         self.derivatives::<DualNumbers>(DUAL_NUMBERS)?;
-        if self.case.kind == Kind::Ordinary {
+        if self.case.has_differences() {
             self.derivatives::<Differences>(DIFFERENCES)?;
         }
         self.wrench()?;
@@ -169,7 +185,11 @@ impl<K: Constraint> Check<'_, K> {
 
     fn derivatives<O: Differentiate>(
         &self,
-        Oracle { reference, tolerance, floor }: Oracle,
+        Oracle {
+            reference,
+            tolerance,
+            floor,
+        }: Oracle,
     ) -> Result<(), Failure> {
         use Quantity as Q;
         let (k, x, f) = (self.constraint, &self.case.x, &self.case.f);
@@ -178,12 +198,23 @@ impl<K: Constraint> Check<'_, K> {
         let claim = |property, found: Block, expected: Block| {
             let (found, expected) = (&found, &expected);
             self.judge().decide(
-                &Claim { property, reference, found, expected, tolerance, floor },
+                &Claim {
+                    property,
+                    reference,
+                    found,
+                    expected,
+                    tolerance,
+                    floor,
+                },
                 |row, column| self.entry(property, row, column),
             )
         };
         if K::SPEC.level == Level::Holonomic {
-            claim(Property::C, kernels::c(k, x, f), self.jacobian::<O>(Q::Phi, Along::Pose, one))?;
+            claim(
+                Property::C,
+                kernels::c(k, x, f),
+                self.jacobian::<O>(Q::Phi, Along::Pose, one),
+            )?;
             let phi_t = O::first(&self.curve(Q::Phi, Along::Time, one));
             claim(Property::B, kernels::b(k, x, f), phi_t.map(|e| -e))?;
             claim(
@@ -220,7 +251,12 @@ impl<K: Constraint> Check<'_, K> {
     }
 
     fn curve<'s>(&'s self, quantity: Quantity, along: Along, motion: &'s Motion) -> Path<'s, K> {
-        Path { check: self, motion, along, quantity }
+        Path {
+            check: self,
+            motion,
+            along,
+            quantity,
+        }
     }
 
     /// Derivatives along each degree of freedom, side by side.
@@ -231,11 +267,18 @@ impl<K: Constraint> Check<'_, K> {
         motion: &Motion,
     ) -> Block {
         let column = |c| O::first(&self.curve(quantity, along(c), motion));
-        Block::beside(&(0..kernels::shape::<K>()[1]).map(column).collect::<Vec<_>>())
+        Block::beside(
+            &(0..kernels::shape::<K>()[1])
+                .map(column)
+                .collect::<Vec<_>>(),
+        )
     }
 
     fn judge(&self) -> Judge<'_> {
-        Judge { definition: K::SPEC.common.name, case: self.case }
+        Judge {
+            definition: K::SPEC.common.name,
+            case: self.case,
+        }
     }
 
     /// The entry in words.
@@ -246,10 +289,20 @@ impl<K: Constraint> Check<'_, K> {
         match property {
             Property::C => format!("{}, column {}", row_name(row), dof(column)),
             Property::DForceDx => {
-                format!("row {}, column {}, multipliers {}", dof(row), dof(column), column / n)
+                format!(
+                    "row {}, column {}, multipliers {}",
+                    dof(row),
+                    dof(column),
+                    column / n
+                )
             }
             Property::DResidualDx | Property::DGammaDv => {
-                format!("{}, column {}, motion {}", row_name(row), dof(column), column / n)
+                format!(
+                    "{}, column {}, motion {}",
+                    row_name(row),
+                    dof(column),
+                    column / n
+                )
             }
             Property::Velocity | Property::Gamma | Property::GammaFromPhi => {
                 format!("{}, motion {column}", row_name(row))
@@ -280,12 +333,22 @@ impl<K: Constraint> Check<'_, K> {
             ]
         });
         let b = b.iter().enumerate().map(|(row, b)| {
-            (format!("b, {}", self.entry(Property::B, row, 0)), !b.is_nan(), K::SPEC.rheonomic)
+            (
+                format!("b, {}", self.entry(Property::B, row, 0)),
+                !b.is_nan(),
+                K::SPEC.rheonomic,
+            )
         });
         match c.chain(b).find(|(_, written, due)| written != due) {
             Some((entry, written, due)) => {
                 let facts = [written, due].map(f64::from);
-                Err(fact(K::SPEC.common.name, Property::Writes, entry, facts, Some(self.case)))
+                Err(fact(
+                    K::SPEC.common.name,
+                    Property::Writes,
+                    entry,
+                    facts,
+                    Some(self.case),
+                ))
             }
             None => Ok(()),
         }
@@ -309,12 +372,7 @@ impl<K: Constraint> Check<'_, K> {
     }
 
     /// Equality up to what an error of the coordinates can do.
-    fn identity(
-        &self,
-        property: Property,
-        found: &Block,
-        expected: &Block,
-    ) -> Result<(), Failure> {
+    fn identity(&self, property: Property, found: &Block, expected: &Block) -> Result<(), Failure> {
         let claim = Claim {
             property,
             reference: Reference::Identity,
@@ -323,7 +381,8 @@ impl<K: Constraint> Check<'_, K> {
             tolerance: DUAL_TOLERANCE,
             floor: self.scale(),
         };
-        self.judge().decide(&claim, |row, column| self.entry(property, row, column))
+        self.judge()
+            .decide(&claim, |row, column| self.entry(property, row, column))
     }
 
     /// What a relative error of 1 in the coordinates does to Φ and, the rows of C having a size of about one length, to C.
@@ -347,7 +406,11 @@ impl<K: Constraint> Check<'_, K> {
         // Equal where within the bound, else the bound: what exceeds it is the error.
         let within = |row| {
             let (value, bound): (f64, f64) = (found.get(row, 0), bound(row));
-            if value.is_nan() { 0.0 } else { value.clamp(-bound, bound) }
+            if value.is_nan() {
+                0.0
+            } else {
+                value.clamp(-bound, bound)
+            }
         };
         let expected = Block::column((0..found.rows()).map(within).collect());
         self.identity(Property::Component, &found, &expected)
@@ -383,8 +446,13 @@ impl<K: Constraint> Check<'_, K> {
             tolerance: DUAL_TOLERANCE,
             floor: c.largest().max(1.0) * case.size() + left / DUAL_TOLERANCE,
         };
-        Judge { case: &case, ..self.judge() }
-            .decide(&claim, |row, column| self.entry(Property::Balance, row, column))
+        Judge {
+            case: &case,
+            ..self.judge()
+        }
+        .decide(&claim, |row, column| {
+            self.entry(Property::Balance, row, column)
+        })
     }
 
     fn rigid_motion(&self) -> Result<(), Failure> {
@@ -392,7 +460,10 @@ impl<K: Constraint> Check<'_, K> {
             return Ok(());
         }
         let (moved, moved_case) = assembled::<K>(&self.case.moved())?;
-        let there = Check { constraint: &moved, case: &moved_case };
+        let there = Check {
+            constraint: &moved,
+            case: &moved_case,
+        };
         let names = ["Φ", "C", "Γ", "the wrench map", "the component"];
         let norms = |check: &Check<'_, K>| check.invariant_blocks().map(|b| b.norm());
         let (here, there) = (norms(self), norms(&there));
@@ -406,7 +477,8 @@ impl<K: Constraint> Check<'_, K> {
                 tolerance: DUAL_TOLERANCE,
                 floor: self.scale(),
             };
-            self.judge().decide(&claim, |_, _| format!("norm of {name}"))?;
+            self.judge()
+                .decide(&claim, |_, _| format!("norm of {name}"))?;
         }
         Ok(())
     }
@@ -417,7 +489,11 @@ impl<K: Constraint> Check<'_, K> {
             Level::Holonomic => kernels::phi(k, x, f),
             Level::Nonholonomic => Block::column(Vec::new()),
         };
-        let gamma = self.case.motions.iter().map(|m| kernels::gamma(k, x, &m.v, f));
+        let gamma = self
+            .case
+            .motions
+            .iter()
+            .map(|m| kernels::gamma(k, x, &m.v, f));
         [
             phi,
             kernels::c(k, x, f),

@@ -58,7 +58,9 @@ impl fmt::Display for Property {
         f.write_str(match self {
             Self::Arguments => "parameters drawn from the spec are accepted",
             Self::Requirements => "the requirements hold at some start",
-            Self::Pattern => "the pattern names each entry that does not vanish, once, and no other",
+            Self::Pattern => {
+                "the pattern names each entry that does not vanish, once, and no other"
+            }
             Self::Writes => "kernels write exactly the entries that are theirs",
             Self::C => "C = ∂Φ/∂x",
             Self::B => "b = −∂Φ/∂t",
@@ -192,12 +194,12 @@ impl Judge<'_> {
         }
     }
 
-    fn failure(
-        &self,
-        claim: &Claim<'_>,
-        entry: impl Fn(usize, usize) -> String,
-    ) -> Failure {
-        let scale = claim.found.largest().max(claim.expected.largest()).max(claim.floor);
+    fn failure(&self, claim: &Claim<'_>, entry: impl Fn(usize, usize) -> String) -> Failure {
+        let scale = claim
+            .found
+            .largest()
+            .max(claim.expected.largest())
+            .max(claim.floor);
         let (row, column) = claim.found.worst(claim.expected).unwrap_or((0, 0));
         Failure {
             definition: self.definition,

@@ -9,8 +9,8 @@ use super::number::Number;
 use super::pattern::Pattern;
 use super::state::{Along, State};
 use super::{
-    DIFFERENCES, DUAL_NUMBERS, DUAL_TOLERANCE, Oracle, assembled_force, column_name, moves_with_bodies,
-    resultant,
+    DIFFERENCES, DUAL_NUMBERS, DUAL_TOLERANCE, Oracle, assembled_force, column_name,
+    moves_with_bodies, resultant,
 };
 use crate::force::Force;
 use crate::plane::{N_DOF, Twist};
@@ -33,7 +33,10 @@ pub(super) fn check<K: Force>(seed: u64) -> Result<(), Failure> {
     }
     for case in Case::all(seed, &spec.common, 0) {
         let (force, case) = assembled_force::<K>(&case)?;
-        let check = Check { force: &force, case: &case };
+        let check = Check {
+            force: &force,
+            case: &case,
+        };
         check.all()?;
         let m = &case.motions[0];
         patterns[0].see(&kernels::q(&force, &case.x, &m.v, &case.f));
@@ -66,7 +69,7 @@ struct Check<'a, K> {
 impl<K: Force> Check<'_, K> {
     fn all(&self) -> Result<(), Failure> {
         self.derivatives::<DualNumbers>(DUAL_NUMBERS)?;
-        if self.case.kind == Kind::Ordinary {
+        if self.case.has_differences() {
             self.derivatives::<Differences>(DIFFERENCES)?;
         }
         if moves_with_bodies(&K::SPEC.common) {
@@ -80,7 +83,11 @@ impl<K: Force> Check<'_, K> {
 
     fn derivatives<O: Differentiate>(
         &self,
-        Oracle { reference, tolerance, floor }: Oracle,
+        Oracle {
+            reference,
+            tolerance,
+            floor,
+        }: Oracle,
     ) -> Result<(), Failure> {
         let (k, x, f) = (self.force, &self.case.x, &self.case.f);
         let n = N_DOF * K::SPEC.common.slots.len();
@@ -88,9 +95,17 @@ impl<K: Force> Check<'_, K> {
         let claim = |property, found: Block, expected: Block| {
             let (found, expected) = (&found, &expected);
             self.judge().decide(
-                &Claim { property, reference, found, expected, tolerance, floor },
+                &Claim {
+                    property,
+                    reference,
+                    found,
+                    expected,
+                    tolerance,
+                    floor,
+                },
                 |row, column| {
-                    let [row, dof] = [row, column % n].map(|c| column_name(K::SPEC.common.slots, c));
+                    let [row, dof] =
+                        [row, column % n].map(|c| column_name(K::SPEC.common.slots, c));
                     format!("row {row}, column {dof}, motion {}", column / n)
                 },
             )
@@ -109,13 +124,22 @@ impl<K: Force> Check<'_, K> {
 
     /// Derivatives of Q along each degree of freedom, side by side.
     fn jacobian<O: Differentiate>(&self, along: fn(usize) -> Along, motion: &Motion) -> Block {
-        let column = |c| O::first(&Path { check: self, motion, along: along(c) });
+        let column = |c| {
+            O::first(&Path {
+                check: self,
+                motion,
+                along: along(c),
+            })
+        };
         let n = N_DOF * K::SPEC.common.slots.len();
         Block::beside(&(0..n).map(column).collect::<Vec<_>>())
     }
 
     fn judge(&self) -> Judge<'_> {
-        Judge { definition: K::SPEC.common.name, case: self.case }
+        Judge {
+            definition: K::SPEC.common.name,
+            case: self.case,
+        }
     }
 
     fn balance(&self) -> Result<(), Failure> {
@@ -130,7 +154,9 @@ impl<K: Force> Check<'_, K> {
                 tolerance: DUAL_TOLERANCE,
                 floor: q.largest() * self.case.size(),
             };
-            self.judge().decide(&claim, |row, _| format!("sum of {}", ["Fx", "Fy", "T"][row]))?;
+            self.judge().decide(&claim, |row, _| {
+                format!("sum of {}", ["Fx", "Fy", "T"][row])
+            })?;
         }
         Ok(())
     }
@@ -143,7 +169,12 @@ impl<K: Force> Check<'_, K> {
         };
         let (here, there) = (norms(self.force, self.case), norms(&moved, &case));
         // An error of the coordinates changes Q by ∂Q/∂x.
-        let slope = kernels::dq_dx(self.force, &self.case.x, &self.case.motions[0].v, &self.case.f);
+        let slope = kernels::dq_dx(
+            self.force,
+            &self.case.x,
+            &self.case.motions[0].v,
+            &self.case.f,
+        );
         let claim = Claim {
             property: Property::RigidMotion,
             reference: Reference::Identity,
@@ -152,7 +183,8 @@ impl<K: Force> Check<'_, K> {
             tolerance: DUAL_TOLERANCE,
             floor: slope.largest().max(1.0) * self.case.size(),
         };
-        self.judge().decide(&claim, |row, _| format!("norm of Q, motion {row}"))
+        self.judge()
+            .decide(&claim, |row, _| format!("norm of Q, motion {row}"))
     }
 
     /// `(Q(v) − Q(0))·v ≤ 0`, and `wᵀ·∂Q/∂v·w ≤ 0`.
@@ -179,7 +211,8 @@ impl<K: Force> Check<'_, K> {
                 floor: forces * (dot(&v, &v) + dot(&a, &a) + 1.0),
             };
             let names = ["power of the velocity terms", "curvature of the power"];
-            self.judge().decide(&claim, |row, _| names[row].to_owned())?;
+            self.judge()
+                .decide(&claim, |row, _| names[row].to_owned())?;
         }
         Ok(())
     }

@@ -26,7 +26,11 @@ pub(super) fn shape<K: Constraint>() -> [usize; 2] {
 
 /// Row and column of each entry of C.
 pub(super) fn c_pattern<K: Constraint>() -> Vec<[usize; 2]> {
-    K::SPEC.c.iter().map(|e| [e.row, N_DOF * e.slot + e.dof]).collect()
+    K::SPEC
+        .c
+        .iter()
+        .map(|e| [e.row, N_DOF * e.slot + e.dof])
+        .collect()
 }
 
 pub(super) fn phi<T: Ring>(k: &impl Constraint, x: &[Pose<T>], f: &[[T; 3]]) -> Block<T> {
@@ -46,7 +50,8 @@ pub(super) fn c_entries<T: Ring, K: Constraint>(k: &K, x: &[Pose<T>], f: &[[T; 3
     let mut varying = unwritten(K::SPEC.c.len());
     k.c(x, f, &mut varying);
     let both = K::SPEC.c.iter().zip(constant.iter().zip(&varying));
-    both.map(|(e, (&c, &v))| if e.constant { T::from(c) } else { v }).collect()
+    both.map(|(e, (&c, &v))| if e.constant { T::from(c) } else { v })
+        .collect()
 }
 
 pub(super) fn c<T: Ring, K: Constraint>(k: &K, x: &[Pose<T>], f: &[[T; 3]]) -> Block<T> {
@@ -80,7 +85,11 @@ pub(super) fn wrench<K: Constraint>(k: &K, x: &[Pose], f: &[[f64; 3]]) -> Block 
 }
 
 pub(super) fn component<K: Constraint>(k: &K, x: &[Pose], f: &[[f64; 3]]) -> Block {
-    let mut out = unwritten(if K::SPEC.component.is_some() { rows(k) } else { 0 });
+    let mut out = unwritten(if K::SPEC.component.is_some() {
+        rows(k)
+    } else {
+        0
+    });
     k.component(x, f, &mut out);
     Block::column(out)
 }
@@ -109,24 +118,14 @@ pub(super) fn d_residual_dx<K: Constraint>(
     scatter(shape::<K>(), K::SPEC.d_residual_dx, &out)
 }
 
-pub(super) fn d_gamma_dv<K: Constraint>(
-    k: &K,
-    x: &[Pose],
-    v: &[Twist],
-    f: &[[f64; 3]],
-) -> Block {
+pub(super) fn d_gamma_dv<K: Constraint>(k: &K, x: &[Pose], v: &[Twist], f: &[[f64; 3]]) -> Block {
     let mut out = unwritten(K::SPEC.d_gamma_dv.len());
     k.d_gamma_dv(x, v, f, &mut out);
     scatter(shape::<K>(), K::SPEC.d_gamma_dv, &out)
 }
 
 /// The generalised force, all degrees of freedom of all slots.
-pub(super) fn q<T: Real, K: Force>(
-    k: &K,
-    x: &[Pose<T>],
-    v: &[Twist<T>],
-    f: &[[T; 3]],
-) -> Block<T> {
+pub(super) fn q<T: Real, K: Force>(k: &K, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]]) -> Block<T> {
     let mut out = unwritten(K::SPEC.q.len());
     k.q(x, v, f, &mut out);
     let pattern: Vec<[usize; 2]> = K::SPEC.q.iter().map(|&row| [row, 0]).collect();

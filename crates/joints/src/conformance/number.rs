@@ -36,7 +36,11 @@ impl Real for Dual64 {
     }
 
     fn recip_or_zero(self) -> Self {
-        if self.re == 0.0 { zero() } else { DualNum::recip(&self) }
+        if self.re == 0.0 {
+            zero()
+        } else {
+            DualNum::recip(&self)
+        }
     }
 }
 
@@ -46,11 +50,19 @@ impl Real for Dual2_64 {
         let root = self.re.sqrt();
         let first = 0.5 * root.recip_or_zero();
         let second = -0.5 * first * self.re.recip_or_zero();
-        Self::new(root, self.v1 * first, self.v2 * first + self.v1 * self.v1 * second)
+        Self::new(
+            root,
+            self.v1 * first,
+            self.v2 * first + self.v1 * self.v1 * second,
+        )
     }
 
     fn recip_or_zero(self) -> Self {
-        if self.re == 0.0 { zero() } else { DualNum::recip(&self) }
+        if self.re == 0.0 {
+            zero()
+        } else {
+            DualNum::recip(&self)
+        }
     }
 }
 

@@ -31,13 +31,20 @@ impl Pattern {
                 let entry = format!("{}, outside {} × {}", entry(), shape[0], shape[1]);
                 return Err(fact(definition, Property::Pattern, entry, [1.0, 0.0], None));
             }
-            let times = entries[..=k].iter().filter(|e| **e == [row, column]).count();
+            let times = entries[..=k]
+                .iter()
+                .filter(|e| **e == [row, column])
+                .count();
             if times > 1 {
                 let counts = [times as f64, 1.0];
                 return Err(fact(definition, Property::Pattern, entry(), counts, None));
             }
         }
-        Ok(Self { block, alive: vec![false; entries.len()], entries })
+        Ok(Self {
+            block,
+            alive: vec![false; entries.len()],
+            entries,
+        })
     }
 
     /// Takes note of the entries of one block that are not zero.

@@ -29,16 +29,27 @@ impl Along {
     pub(super) fn state<D: Number>(self, case: &Case, motion: &Motion, tau: D) -> State<D> {
         let line = |start: f64, rate: f64| D::from(start) + D::from(rate) * tau;
         let unit = |column: usize, k: usize| if column == k { 1.0 } else { 0.0 };
-        let x = case.x.iter().zip(&motion.v).enumerate().map(|(slot, (x, v))| {
-            let rate = |dof: usize| match self {
-                Self::Pose(column) => unit(column, N_DOF * slot + dof),
-                Self::Motion => [v.x, v.y, v.omega][dof],
-                Self::Twist(_) | Self::Time => 0.0,
-            };
-            let angle = line(x.angle, rate(2));
-            let (sin, cos) = angle.sin_cos();
-            Pose { x: line(x.x, rate(0)), y: line(x.y, rate(1)), angle, cos, sin }
-        });
+        let x = case
+            .x
+            .iter()
+            .zip(&motion.v)
+            .enumerate()
+            .map(|(slot, (x, v))| {
+                let rate = |dof: usize| match self {
+                    Self::Pose(column) => unit(column, N_DOF * slot + dof),
+                    Self::Motion => [v.x, v.y, v.omega][dof],
+                    Self::Twist(_) | Self::Time => 0.0,
+                };
+                let angle = line(x.angle, rate(2));
+                let (sin, cos) = angle.sin_cos();
+                Pose {
+                    x: line(x.x, rate(0)),
+                    y: line(x.y, rate(1)),
+                    angle,
+                    cos,
+                    sin,
+                }
+            });
         let v = motion.v.iter().enumerate().map(|(slot, v)| {
             let rate = |dof: usize| match self {
                 Self::Twist(column) => unit(column, N_DOF * slot + dof),
@@ -58,6 +69,10 @@ impl Along {
             ],
             _ => [f, f_t, f_tt].map(D::from),
         });
-        State { x: x.collect(), v: v.collect(), f: f.collect() }
+        State {
+            x: x.collect(),
+            v: v.collect(),
+            f: f.collect(),
+        }
     }
 }

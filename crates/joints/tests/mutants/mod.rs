@@ -98,7 +98,11 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
     }
     fn place<T: Ring>(&self, x: &[Pose<T>]) -> [T; 2] {
         let [x_p, y_p] = self.0.place(x);
-        if WRONG == wrong::PLACE { [y_p, x_p] } else { [x_p, y_p] }
+        if WRONG == wrong::PLACE {
+            [y_p, x_p]
+        } else {
+            [x_p, y_p]
+        }
     }
     fn d_force_dx<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
         self.0.d_force_dx(x, f, lambda, out);
@@ -138,6 +142,10 @@ mod wrong_force {
 impl<K: Force, const WRONG: u8> ForceMutant<K, WRONG> {
     fn change<T: Real>(out: &mut [T], kernel: u8) {
         change(out, WRONG == kernel);
+        Self::turn_round(out);
+    }
+
+    fn turn_round<T: Real>(out: &mut [T]) {
         if WRONG == wrong_force::SIGN {
             out.iter_mut().for_each(|e| *e = -*e);
         }
@@ -166,7 +174,7 @@ impl<K: Force, const WRONG: u8> Force for ForceMutant<K, WRONG> {
             // A constant load that nothing balances: no derivative sees it.
             out[0] = out[0] + T::from(1.0);
         }
-        Self::change(out, u8::MAX);
+        Self::turn_round(out);
     }
     fn dq_dx<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         self.0.dq_dx(x, v, f, out);
@@ -198,20 +206,58 @@ fn a_wrong_entry_of_any_constraint_kernel_is_named() {
     use Property as P;
     let cases = [
         (found(check_constraint::<Drive<{ wrong::PHI }>>(SEED)), P::C),
-        (found(check_constraint::<Mutant<Fixed, { wrong::C_CONSTANT }>>(SEED)), P::C),
+        (
+            found(check_constraint::<Mutant<Fixed, { wrong::C_CONSTANT }>>(
+                SEED,
+            )),
+            P::C,
+        ),
         (found(check_constraint::<Drive<{ wrong::C }>>(SEED)), P::C),
         (found(check_constraint::<Drive<{ wrong::B }>>(SEED)), P::B),
-        (found(check_constraint::<Drive<{ wrong::GAMMA }>>(SEED)), P::GammaFromPhi),
-        (found(check_constraint::<Drive<{ wrong::WRENCH }>>(SEED)), P::Wrench),
-        (found(check_constraint::<Drive<{ wrong::COMPONENT }>>(SEED)), P::Component),
-        (found(check_constraint::<Drive<{ wrong::D_FORCE_DX }>>(SEED)), P::DForceDx),
-        (found(check_constraint::<Drive<{ wrong::D_RESIDUAL_DX }>>(SEED)), P::DResidualDx),
-        (found(check_constraint::<Drive<{ wrong::D_GAMMA_DV }>>(SEED)), P::DGammaDv),
-        (found(check_constraint::<Drive<{ wrong::INITIALISE }>>(SEED)), P::Start),
-        (found(check_constraint::<Drive<{ wrong::REQUIREMENT }>>(SEED)), P::Requirements),
-        (found(check_constraint::<Drive<{ wrong::C_UNWRITTEN }>>(SEED)), P::Writes),
-        (found(check_constraint::<Drive<{ wrong::PATTERN }>>(SEED)), P::DResidualDx),
-        (found(check_constraint::<Drive<{ wrong::RHEONOMIC }>>(SEED)), P::Writes),
+        (
+            found(check_constraint::<Drive<{ wrong::GAMMA }>>(SEED)),
+            P::GammaFromPhi,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::WRENCH }>>(SEED)),
+            P::Wrench,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::COMPONENT }>>(SEED)),
+            P::Component,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::D_FORCE_DX }>>(SEED)),
+            P::DForceDx,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::D_RESIDUAL_DX }>>(SEED)),
+            P::DResidualDx,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::D_GAMMA_DV }>>(SEED)),
+            P::DGammaDv,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::INITIALISE }>>(SEED)),
+            P::Start,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::REQUIREMENT }>>(SEED)),
+            P::Requirements,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::C_UNWRITTEN }>>(SEED)),
+            P::Writes,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::PATTERN }>>(SEED)),
+            P::DResidualDx,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::RHEONOMIC }>>(SEED)),
+            P::Writes,
+        ),
     ];
     for (found, expected) in cases {
         assert_eq!(found, expected);
@@ -240,7 +286,10 @@ fn a_wrong_entry_of_any_force_kernel_is_named() {
     assert_eq!(found(check_force::<Spring<Q>>(SEED)), Property::Balance);
     assert_eq!(found(check_force::<Spring<DQ_DX>>(SEED)), Property::DqDx);
     assert_eq!(found(check_force::<Spring<DQ_DV>>(SEED)), Property::DqDv);
-    assert_eq!(found(check_force::<Spring<SIGN>>(SEED)), Property::Dissipation);
+    assert_eq!(
+        found(check_force::<Spring<SIGN>>(SEED)),
+        Property::Dissipation
+    );
     assert_eq!(found(check_force::<Spring<FLAG>>(SEED)), Property::DqDv);
 }
 
@@ -250,7 +299,12 @@ fn a_failure_says_what_a_joint_author_needs() {
     assert_eq!(failure.definition, "PinInSlotDisplacementDrive");
     assert!(failure.relative_error() > failure.tolerance);
     let text = failure.to_string();
-    for part in ["violated: C = ∂Φ/∂x", "row `displacement`, column i.x", "pose (x ", "dual numbers"] {
+    for part in [
+        "violated: C = ∂Φ/∂x",
+        "row `displacement`, column i.x",
+        "pose (x ",
+        "dual numbers",
+    ] {
         assert!(text.contains(part), "`{part}` is not in\n{text}");
     }
 }

@@ -74,7 +74,14 @@ pub(crate) fn file_name(definition: &str) -> String {
 /// All files there are.
 pub(crate) fn files() -> BTreeSet<String> {
     let entries = fs::read_dir(directory()).expect("tests/golden exists");
-    entries.map(|e| e.expect("readable").file_name().to_string_lossy().into_owned()).collect()
+    entries
+        .map(|e| {
+            e.expect("readable")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect()
 }
 
 /// The poses of a definition.
@@ -127,7 +134,10 @@ impl Golden {
     }
 
     pub(crate) fn f(&self) -> Vec<[f64; 3]> {
-        self.f.iter().map(|f| f.each_ref().map(Scalar::value)).collect()
+        self.f
+            .iter()
+            .map(|f| f.each_ref().map(Scalar::value))
+            .collect()
     }
 
     pub(crate) fn lambda(&self) -> Vec<f64> {
@@ -136,9 +146,16 @@ impl Golden {
 
     /// Whether nothing is stated that forces do not have.
     pub(crate) fn only_force(&self) -> bool {
-        [&self.phi, &self.velocity, &self.gamma, &self.wrench, &self.component, &self.place]
-            .iter()
-            .all(|entry| entry.is_none())
+        [
+            &self.phi,
+            &self.velocity,
+            &self.gamma,
+            &self.wrench,
+            &self.component,
+            &self.place,
+        ]
+        .iter()
+        .all(|entry| entry.is_none())
     }
 }
 
@@ -161,7 +178,10 @@ impl Scalar {
 }
 
 fn parse(text: &str) -> Option<f64> {
-    if let Some(list) = text.strip_prefix("atan2(").and_then(|t| t.strip_suffix(')')) {
+    if let Some(list) = text
+        .strip_prefix("atan2(")
+        .and_then(|t| t.strip_suffix(')'))
+    {
         let (y, x) = list.split_once(',')?;
         let (y, x): (f64, f64) = (y.trim().parse().ok()?, x.trim().parse().ok()?);
         return Some(y.atan2(x));

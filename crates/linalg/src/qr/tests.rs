@@ -1,3 +1,4 @@
+//! Factors against products of known matrices; pivots against norms.
 use proptest::prelude::*;
 
 use super::*;

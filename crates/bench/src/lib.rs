@@ -1,0 +1,1 @@
+//! Nothing to use here: see `benches/`.

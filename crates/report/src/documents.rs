@@ -1,0 +1,74 @@
+//! Results as JSON documents: plain structs whose fields are the keys, in their order. Rows are counted from 1, as
+//! everywhere a user sees them. JSON knows no NaN and no infinity: such numbers are `null`.
+
+mod analysis;
+mod run;
+#[cfg(test)]
+mod tests;
+
+use std::io::{self, Write};
+
+use serde::Serialize;
+use serde::ser::{SerializeMap, Serializer};
+use solvability::{Judgement, Verdict};
+
+pub use analysis::{
+    AnalysisDocument, ComponentDocument, DependencyDocument, EvidenceDocument, GroupDocument,
+    Proof, ReactionDocument, RowDocument,
+};
+pub use run::{ChoiceDocument, Ending, EventDocument, Run, RunDocument, RunReactionDocument};
+
+/// Writes a document, indented, with a line feed at the end.
+///
+/// # Errors
+/// If the writer fails.
+pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<()> {
+    serde_json::to_writer_pretty(&mut out, document)?;
+    out.write_all(b"\n")?;
+    out.flush()
+}
+
+/// A verdict with its number: `verdict`, `margin`, and a `reason` where it is undecided.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct VerdictDocument {
+    /// `unique`, `not_unique` or `undecided`.
+    pub verdict: &'static str,
+    /// Why it is undecided.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// How far the reaction is from unique; 0 is unique.
+    pub margin: f64,
+}
+
+impl From<&Judgement> for VerdictDocument {
+    fn from(judgement: &Judgement) -> Self {
+        let reason = match &judgement.verdict {
+            Verdict::Undecided { reason } => Some(reason.clone()),
+            _ => None,
+        };
+        Self {
+            verdict: judgement.verdict.word(),
+            reason,
+            margin: judgement.margin,
+        }
+    }
+}
+
+/// An object whose keys are names, in this order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Named<T>(pub Vec<(String, T)>);
+
+impl<T: Serialize> Serialize for Named<T> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(self.0.len()))?;
+        for (name, value) in &self.0 {
+            map.serialize_entry(name, value)?;
+        }
+        map.end()
+    }
+}
+
+/// Rows as users count them.
+fn from_one(rows: &[usize]) -> Vec<usize> {
+    rows.iter().map(|row| row + 1).collect()
+}

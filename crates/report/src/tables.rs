@@ -1,0 +1,109 @@
+//! Tables of a run as CSV: one header, then one line per instant, written as they come. Numbers have the shortest
+//! text that reads back to the same bits; a value that does not exist is `NaN`.
+//!
+//! Not here: which instants are written, and where to.
+
+mod reactions;
+#[cfg(test)]
+mod tests;
+mod trajectory;
+
+use std::io::Write;
+
+pub use reactions::{ReactionTable, Selection};
+pub use trajectory::TrajectoryTable;
+
+/// Why a table or a row cannot be written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TableError {
+    /// The writer behind the table failed.
+    #[error("{table}: {source}")]
+    Write {
+        /// The table.
+        table: &'static str,
+        /// What the writer said.
+        source: std::io::Error,
+    },
+    /// A row of another mechanism.
+    #[error("{table}: {found} {what} at t = {t} s, the mechanism has {expected}")]
+    Length {
+        /// The table.
+        table: &'static str,
+        /// Coordinates, velocities or reactions.
+        what: &'static str,
+        /// Time of the row (s).
+        t: f64,
+        /// How many came.
+        found: usize,
+        /// How many it has.
+        expected: usize,
+    },
+    /// A name that no joint or drive has.
+    #[error("no joint or drive is called `{name}`; there are: {known}")]
+    UnknownReaction {
+        /// The name.
+        name: String,
+        /// All names.
+        known: String,
+    },
+}
+
+/// A CSV writer with a fixed number of columns.
+struct Table<W: Write> {
+    name: &'static str,
+    csv: csv::Writer<W>,
+}
+
+impl<W: Write> Table<W> {
+    /// Writes the header.
+    fn new(name: &'static str, out: W, header: &[String]) -> Result<Self, TableError> {
+        let csv = csv::WriterBuilder::new()
+            .has_headers(false)
+            .from_writer(out);
+        let mut table = Self { name, csv };
+        let written = table.csv.write_record(header);
+        table.checked(written)?;
+        Ok(table)
+    }
+
+    fn row(&mut self, values: &[f64]) -> Result<(), TableError> {
+        let written = self.csv.serialize(values);
+        self.checked(written)
+    }
+
+    /// Everything written, the writer back.
+    fn finish(self) -> Result<W, TableError> {
+        let table = self.name;
+        self.csv.into_inner().map_err(|e| TableError::Write {
+            table,
+            source: e.into_error(),
+        })
+    }
+
+    fn checked(&self, written: csv::Result<()>) -> Result<(), TableError> {
+        written.map_err(|e| TableError::Write {
+            table: self.name,
+            source: e.into(),
+        })
+    }
+
+    fn check_length(
+        &self,
+        t: f64,
+        what: &'static str,
+        found: usize,
+        expected: usize,
+    ) -> Result<(), TableError> {
+        if found == expected {
+            return Ok(());
+        }
+        Err(TableError::Length {
+            table: self.name,
+            what,
+            t,
+            found,
+            expected,
+        })
+    }
+}

@@ -1,0 +1,106 @@
+//! `reactions.csv`: force and torque on the first body of joints and drives.
+
+use std::io::Write;
+
+use model::reaction::COMPONENTS;
+use model::{Mechanism, Reaction, System};
+
+use super::{Table, TableError};
+
+/// Which joints and drives are written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Selection {
+    /// Every one.
+    #[default]
+    All,
+    /// These, in the order of the rows of C whatever the order of the names.
+    Names(Vec<String>),
+}
+
+impl Selection {
+    /// Places of the selected ones among all.
+    fn places(&self, mechanism: &Mechanism) -> Result<Vec<usize>, TableError> {
+        let groups = &mechanism.layout().groups;
+        let Self::Names(names) = self else {
+            return Ok((0..groups.len()).collect());
+        };
+        if let Some(name) = names.iter().find(|n| groups.iter().all(|g| g.name != **n)) {
+            let known: Vec<&str> = groups.iter().map(|g| g.name.as_str()).collect();
+            return Err(TableError::UnknownReaction {
+                name: name.clone(),
+                known: known.join(", "),
+            });
+        }
+        Ok((0..groups.len())
+            .filter(|&k| names.contains(&groups[k].name))
+            .collect())
+    }
+}
+
+/// `t`, then per joint and drive `<name>.Fx, .Fy, .T` and the named component of its definition, if it has one:
+/// `.N` of a knife edge, `.drive` of a drive (s, N, N·m).
+///
+/// Numbers of non-unique reactions belong to the choice that `summary.json` states.
+pub struct ReactionTable<W: Write> {
+    table: Table<W>,
+    n_reactions: usize,
+    /// Place of each written one among all, and whether it has a named component.
+    selected: Vec<(usize, bool)>,
+    /// One row, reused.
+    values: Vec<f64>,
+}
+
+impl<W: Write> ReactionTable<W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    /// - [`TableError::UnknownReaction`]: a selected name does not exist; nothing is written.
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn new(out: W, mechanism: &Mechanism, selection: &Selection) -> Result<Self, TableError> {
+        let groups = &mechanism.layout().groups;
+        let places = selection.places(mechanism)?;
+        let mut header = vec!["t".to_owned()];
+        for &k in &places {
+            let columns = COMPONENTS.into_iter().chain(groups[k].spec.component);
+            header.extend(columns.map(|c| format!("{}.{c}", groups[k].name)));
+        }
+        Ok(Self {
+            table: Table::new("reactions.csv", out, &header)?,
+            n_reactions: groups.len(),
+            selected: places
+                .into_iter()
+                .map(|k| (k, groups[k].spec.component.is_some()))
+                .collect(),
+            values: Vec::with_capacity(header.len()),
+        })
+    }
+
+    /// Writes the reactions at time t: those of **all** joints and drives, in the order of their rows; the table takes
+    /// the selected ones.
+    ///
+    /// # Errors
+    /// - [`TableError::Length`]: these are reactions of another mechanism; nothing is written.
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn row(&mut self, t: f64, reactions: &[Reaction]) -> Result<(), TableError> {
+        self.table
+            .check_length(t, "reactions", reactions.len(), self.n_reactions)?;
+        self.values.clear();
+        self.values.push(t);
+        for &(k, has_component) in &self.selected {
+            let r = &reactions[k];
+            self.values.extend([r.force[0], r.force[1], r.torque]);
+            if has_component {
+                self.values.push(r.component.unwrap_or(f64::NAN));
+            }
+        }
+        self.table.row(&self.values)
+    }
+
+    /// Writes what is still buffered and gives the writer back.
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn finish(self) -> Result<W, TableError> {
+        self.table.finish()
+    }
+}

@@ -1,0 +1,63 @@
+//! `trajectory.csv`: coordinates and velocities of all bodies.
+
+use std::io::Write;
+
+use model::{Mechanism, System};
+
+use super::{Table, TableError};
+
+/// Coordinates of a planar body; as many velocities.
+const N_BODY: usize = 3;
+
+/// `t`, then per body `<body>.x, .y, .angle, .vx, .vy, .omega` (s, m, rad, m/s, rad/s).
+pub struct TrajectoryTable<W: Write> {
+    table: Table<W>,
+    n_bodies: usize,
+    /// One row, reused.
+    values: Vec<f64>,
+}
+
+impl<W: Write> TrajectoryTable<W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn new(out: W, mechanism: &Mechanism) -> Result<Self, TableError> {
+        let mut header = vec!["t".to_owned()];
+        for body in mechanism.bodies() {
+            let columns = ["x", "y", "angle", "vx", "vy", "omega"];
+            header.extend(columns.map(|c| format!("{}.{c}", body.name)));
+        }
+        Ok(Self {
+            table: Table::new("trajectory.csv", out, &header)?,
+            n_bodies: mechanism.layout().n_q / N_BODY,
+            values: Vec::with_capacity(header.len()),
+        })
+    }
+
+    /// Writes the state (q, v) at time t.
+    ///
+    /// # Errors
+    /// - [`TableError::Length`]: q or v belong to another mechanism; nothing is written.
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn row(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), TableError> {
+        let n = N_BODY * self.n_bodies;
+        self.table.check_length(t, "coordinates", q.len(), n)?;
+        self.table.check_length(t, "velocities", v.len(), n)?;
+        self.values.clear();
+        self.values.push(t);
+        for (q, v) in q.chunks_exact(N_BODY).zip(v.chunks_exact(N_BODY)) {
+            self.values.extend_from_slice(q);
+            self.values.extend_from_slice(v);
+        }
+        self.table.row(&self.values)
+    }
+
+    /// Writes what is still buffered and gives the writer back.
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn finish(self) -> Result<W, TableError> {
+        self.table.finish()
+    }
+}

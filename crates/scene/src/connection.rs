@@ -1,0 +1,168 @@
+//! Which bodies a joint or force connects: `body`, `bodies`, and keys of further slots. Their number chooses among
+//! the definitions that share a scene type, and so does the key of a variant.
+
+use joints::spec::Spec;
+use model::BodyRef;
+
+use crate::body::Bodies;
+use crate::findings::Findings;
+use crate::nearest::{did_you_mean, list};
+use crate::source_map::PLACE_KEYS;
+use crate::table::Table;
+
+/// Slots that `body` or `bodies` fill; further ones have keys of their own.
+pub(crate) fn listed(spec: &Spec) -> usize {
+    spec.slots.len().min(2)
+}
+
+/// The bodies of the slots `body` or `bodies`, as far as they are known.
+pub(crate) type Named = Vec<Option<BodyRef>>;
+
+/// Reads `body` or `bodies`. `None`, reported, if they are missing or not what any of the definitions takes.
+pub(crate) fn named(
+    table: &mut Table,
+    specs: &[&'static Spec],
+    bodies: &Bodies,
+    findings: &mut Findings,
+) -> Option<Named> {
+    let takes = |n: usize| specs.iter().any(|spec| listed(spec) == n);
+    let expected = match (takes(1), takes(2)) {
+        (true, true) => "`body = …` or `bodies = [first, second]`",
+        (true, false) => "`body = …`",
+        _ => "`bodies = [first, second]`",
+    };
+    let one = table.optional("body");
+    let two = table.optional("bodies");
+    let wrong = |key: &str| format!("{} takes {expected}, not `{key}`", table.subject);
+    match (one, two) {
+        (Some(one), Some(two)) => {
+            findings.collision(
+                two.span(),
+                format!("{} takes {expected}, not both", table.subject),
+                "and here two bodies are given",
+                one.span(),
+                "here one body is given",
+            );
+            None
+        }
+        (Some(one), None) if takes(1) => Some(vec![bodies.find(&one, findings)]),
+        (Some(one), None) => {
+            findings.error(one.span(), wrong("body"), format!("expected {expected}"));
+            None
+        }
+        (None, Some(two)) if takes(2) => {
+            let items = two.items("two bodies [first, second]", findings)?;
+            if items.len() != 2 {
+                two.mismatch("two bodies [first, second]", findings);
+                return None;
+            }
+            Some(items.iter().map(|item| bodies.find(item, findings)).collect())
+        }
+        (None, Some(two)) => {
+            findings.error(two.span(), wrong("bodies"), format!("expected {expected}"));
+            None
+        }
+        (None, None) => {
+            findings.error(
+                table.header.clone(),
+                format!("{} needs {expected}", table.subject),
+                "the bodies are missing here",
+            );
+            None
+        }
+    }
+}
+
+/// The bodies of all slots of the definition: those that are named, then one key for each further slot, the ground
+/// where it is not given.
+pub(crate) fn slots(
+    table: &mut Table,
+    spec: &'static Spec,
+    mut named: Named,
+    bodies: &Bodies,
+    findings: &mut Findings,
+) -> Named {
+    for slot in &spec.slots[listed(spec)..] {
+        named.push(match table.optional(slot) {
+            Some(field) => bodies.find(&field, findings),
+            None => Some(BodyRef::Ground),
+        });
+    }
+    named
+}
+
+/// The definition that is meant, by the number of bodies and the key of the variant; its place in `specs`.
+pub(crate) fn choose(
+    table: &mut Table,
+    specs: &[&'static Spec],
+    n_named: usize,
+    findings: &mut Findings,
+) -> Option<usize> {
+    let fitting: Vec<usize> = (0..specs.len())
+        .filter(|&k| listed(specs[k]) == n_named)
+        .collect();
+    if let [only] = fitting[..] {
+        // A variant without an alternative has nothing to choose, but its key may be written.
+        if specs[only].variant.is_none() {
+            return Some(only);
+        }
+    }
+    let variants = || {
+        let variant = |&k: &usize| specs[k].variant.map(|variant| (k, variant));
+        fitting.iter().filter_map(variant)
+    };
+    let Some((_, first)) = variants().next() else {
+        let names: Vec<_> = fitting.iter().map(|&k| specs[k].name).collect();
+        findings.error(
+            table.header.clone(),
+            format!(
+                "{}: nothing tells apart the definitions {} that are registered under this type",
+                table.subject,
+                list(names)
+            ),
+            "the type is ambiguous",
+        );
+        return None;
+    };
+    let values = || variants().map(|(_, variant)| variant.value);
+    let expected = list(values());
+    let Some(field) = table.optional(first.key) else {
+        let default = variants().find(|(_, variant)| variant.default);
+        if default.is_none() {
+            table.required(first.key, &expected, findings);
+        }
+        return default.map(|(k, _)| k);
+    };
+    let value = field.text(&expected, findings)?;
+    let chosen = variants().find(|(_, variant)| variant.value == value);
+    if chosen.is_none() {
+        findings.error_with_help(
+            field.span(),
+            format!(
+                "{}: `{}` must be one of {expected}, found `{value}`",
+                field.subject, field.key
+            ),
+            "no such choice",
+            did_you_mean(value, values()),
+        );
+    }
+    chosen.map(|(k, _)| k)
+}
+
+/// Marks the keys as known that depend on a choice which could not be made.
+pub(crate) fn forgive(table: &mut Table, specs: &[&'static Spec]) {
+    for key in PLACE_KEYS {
+        table.optional(key);
+    }
+    for spec in specs {
+        for key in spec.slots.iter().skip(listed(spec)) {
+            table.optional(key);
+        }
+        for parameter in spec.parameters {
+            table.optional(parameter.name);
+        }
+        if let Some(variant) = spec.variant {
+            table.optional(variant.key);
+        }
+    }
+}

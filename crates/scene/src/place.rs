@@ -1,0 +1,186 @@
+//! Where a joint or force acts: `at`, a global point of the described configuration, or points in the frames of the
+//! bodies.
+
+use std::ops::Range;
+
+use joints::spec::{Shape, Spec};
+use model::BodyRef;
+
+use crate::body::Bodies;
+use crate::connection::listed;
+use crate::field::Field;
+use crate::findings::Findings;
+use crate::nearest::list;
+use crate::table::Table;
+
+/// Points in the frames of their bodies, in the order of the point parameters, `None` where not readable; and where
+/// they are written.
+pub(crate) struct Place {
+    pub(crate) points: Vec<Option<[f64; 2]>>,
+    pub(crate) span: Range<usize>,
+}
+
+const POINT: &str = "a point [x, y]";
+
+/// Reads the place of a definition whose slots hold `slots`.
+pub(crate) fn read(
+    table: &mut Table,
+    spec: &'static Spec,
+    slots: &[Option<BodyRef>],
+    bodies: &Bodies,
+    findings: &mut Findings,
+) -> Place {
+    let of: Vec<usize> = spec
+        .parameters
+        .iter()
+        .filter_map(|parameter| match parameter.shape {
+            Shape::Point { slot } => Some(slot),
+            _ => None,
+        })
+        .collect();
+    let missing = |span| Place {
+        points: vec![None; of.len()],
+        span,
+    };
+    if of.is_empty() {
+        return missing(table.header.clone());
+    }
+    let local_key = match listed(spec) {
+        1 => "point",
+        _ => "points",
+    };
+    let (at, local) = (table.optional("at"), table.optional(local_key));
+    match (at, local) {
+        (Some(at), Some(local)) => {
+            findings.collision(
+                local.span(),
+                format!(
+                    "{} takes `at` or `{local_key}`, not both",
+                    table.subject
+                ),
+                "and here in the frames of the bodies",
+                at.span(),
+                "the place is given here",
+            );
+            missing(local.span())
+        }
+        (Some(at), None) => Place {
+            points: global(&at, spec, &of, slots, bodies, findings),
+            span: at.span(),
+        },
+        (None, Some(local)) => Place {
+            points: match local_key {
+                "point" => same_body(&local, of.len(), findings),
+                _ => by_body(&local, &of, slots, bodies, findings),
+            },
+            span: local.span(),
+        },
+        (None, None) => {
+            let form = match spec.points_apart {
+                true => "[[x, y], …]",
+                false => "[x, y]",
+            };
+            findings.error(
+                table.header.clone(),
+                format!(
+                    "{} needs a place: `at = {form}` in global coordinates, or `{local_key}` in the frames of the bodies",
+                    table.subject
+                ),
+                "the place is missing here",
+            );
+            missing(table.header.clone())
+        }
+    }
+}
+
+/// `at`: one common point, or one for each parameter.
+fn global(
+    at: &Field,
+    spec: &Spec,
+    of: &[usize],
+    slots: &[Option<BodyRef>],
+    bodies: &Bodies,
+    findings: &mut Findings,
+) -> Vec<Option<[f64; 2]>> {
+    let points = match spec.points_apart {
+        true => {
+            let expected = format!("{} global points [[x, y], …]", of.len());
+            at.pairs(of.len(), &expected, findings)
+        }
+        false => at
+            .pair("a global point [x, y]", findings)
+            .map(|point| vec![point; of.len()]),
+    };
+    let Some(points) = points else {
+        return vec![None; of.len()];
+    };
+    let local = |(&slot, point): (&usize, [f64; 2])| {
+        let body = slots.get(slot).copied().flatten()?;
+        Some(bodies.to_local(body, point))
+    };
+    of.iter().zip(points).map(local).collect()
+}
+
+/// `point`: in the frame of the only body, a list where there are several.
+fn same_body(field: &Field, n: usize, findings: &mut Findings) -> Vec<Option<[f64; 2]>> {
+    let points = match n {
+        1 => field.pair(POINT, findings).map(|point| vec![point]),
+        _ => field.pairs(n, &format!("{n} points [[x, y], …]"), findings),
+    };
+    match points {
+        Some(points) => points.into_iter().map(Some).collect(),
+        None => vec![None; n],
+    }
+}
+
+/// `points`: a table whose keys are the names of the bodies that have points.
+fn by_body(
+    field: &Field,
+    of: &[usize],
+    slots: &[Option<BodyRef>],
+    bodies: &Bodies,
+    findings: &mut Findings,
+) -> Vec<Option<[f64; 2]>> {
+    let mut points = vec![None; of.len()];
+    let Some(table) = field.table("a table { body = [x, y], … }", findings) else {
+        return points;
+    };
+    // Without all names there is no telling which keys are right.
+    let Some(owners) = of
+        .iter()
+        .map(|&slot| slots.get(slot).copied().flatten())
+        .collect::<Option<Vec<_>>>()
+    else {
+        return points;
+    };
+    let mut names: Vec<&str> = owners.iter().map(|&body| bodies.name(body)).collect();
+    names.dedup();
+    let given = table.all();
+    for (key, value) in &given {
+        let mine: Vec<usize> = (0..of.len())
+            .filter(|&k| bodies.name(owners[k]) == value.key)
+            .collect();
+        if mine.is_empty() {
+            findings.error_with_help(
+                key.clone(),
+                format!("{} names `{}`, which has no point here", table.subject, value.key),
+                "not a body with a point here",
+                Some(format!("its keys are {}", list(names.iter().copied()))),
+            );
+            continue;
+        }
+        for (k, point) in mine.iter().zip(same_body(value, mine.len(), findings)) {
+            points[*k] = point;
+        }
+    }
+    for name in names {
+        if !given.iter().any(|(_, value)| value.key == name) {
+            findings.error(
+                table.header.clone(),
+                format!("{} needs the point of `{name}`", table.subject),
+                format!("`{name} = [x, y]` is missing here"),
+            );
+        }
+    }
+    points
+}

@@ -1,0 +1,106 @@
+//! Where everything stands in the file, for problems that show only later.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use crate::table::Table;
+use crate::text::SourceText;
+
+/// Places of a table and of its values.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Entry {
+    /// The name of what the table describes; of a section, its own name.
+    pub name: String,
+    /// The header, as `[[body]]`.
+    pub header: Range<usize>,
+    /// The values by key.
+    pub keys: BTreeMap<String, Range<usize>>,
+}
+
+impl Entry {
+    pub(crate) fn of(name: &str, table: &Table) -> Self {
+        Self {
+            name: name.to_owned(),
+            header: table.header.clone(),
+            keys: table.spans().collect(),
+        }
+    }
+
+    /// The value of `name`, or the header where the table has no name.
+    #[must_use]
+    pub fn name_span(&self) -> Range<usize> {
+        self.keys
+            .get("name")
+            .map_or_else(|| self.header.clone(), Range::clone)
+    }
+
+    /// The value of a key, or the name where the key is not given.
+    #[must_use]
+    pub fn span(&self, key: &str) -> Range<usize> {
+        self.keys
+            .get(key)
+            .map_or_else(|| self.name_span(), Range::clone)
+    }
+
+    /// The value of the first of these keys that is given, or the name.
+    #[must_use]
+    pub fn first_of(&self, keys: &[&str]) -> Range<usize> {
+        let given = keys.iter().find(|key| self.keys.contains_key(**key));
+        given.map_or_else(|| self.name_span(), |key| self.span(key))
+    }
+}
+
+/// Keys that say where something acts.
+pub(crate) const PLACE_KEYS: [&str; 3] = ["at", "points", "point"];
+/// Keys that say on which bodies.
+pub(crate) const BODY_KEYS: [&str; 2] = ["bodies", "body"];
+
+/// The places of a scene, in the order of its lists.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SourceMap {
+    /// The text.
+    pub text: SourceText,
+    /// As the bodies of the description.
+    pub bodies: Vec<Entry>,
+    /// As its joints.
+    pub joints: Vec<Entry>,
+    /// As its drives.
+    pub drives: Vec<Entry>,
+    /// As its forces.
+    pub forces: Vec<Entry>,
+    /// As the groups of the scene.
+    pub groups: Vec<Entry>,
+    /// `scene`, `start`, `simulate` and `output`, where they are given.
+    pub sections: BTreeMap<String, Entry>,
+}
+
+impl SourceMap {
+    /// Joints, drives and forces: they share one space of names.
+    pub fn elements(&self) -> impl Iterator<Item = &Entry> {
+        self.joints.iter().chain(&self.drives).chain(&self.forces)
+    }
+
+    /// The body of this name.
+    #[must_use]
+    pub fn body(&self, name: &str) -> Option<&Entry> {
+        self.bodies.iter().find(|entry| entry.name == name)
+    }
+
+    /// The joint, drive or force of this name.
+    #[must_use]
+    pub fn element(&self, name: &str) -> Option<&Entry> {
+        self.elements().find(|entry| entry.name == name)
+    }
+
+    /// The value of a key of a section; its header, or that of `[scene]`, where it is not given.
+    #[must_use]
+    pub fn section(&self, section: &str, key: &str) -> Range<usize> {
+        self.sections
+            .get(section)
+            .or_else(|| self.sections.get("scene"))
+            .map_or(0..0, |entry| match entry.keys.get(key) {
+                Some(span) => span.clone(),
+                None => entry.header.clone(),
+            })
+    }
+}

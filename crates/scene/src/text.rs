@@ -1,0 +1,89 @@
+//! The text of a scene file: from byte offsets to lines and columns.
+
+use std::ops::Range;
+
+use crate::diagnostic::Label;
+
+/// The text of a file with its name and the beginnings of its lines.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SourceText {
+    name: String,
+    text: String,
+    line_starts: Vec<usize>,
+}
+
+impl SourceText {
+    /// A text under the name that diagnostics give it.
+    #[must_use]
+    pub fn new(name: &str, text: &str) -> Self {
+        let after_breaks = text.match_indices('\n').map(|(at, _)| at + 1);
+        Self {
+            name: name.to_owned(),
+            text: text.to_owned(),
+            line_starts: std::iter::once(0).chain(after_breaks).collect(),
+        }
+    }
+
+    /// Its name, usually a path.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The text.
+    #[must_use]
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
+    /// Line and column of a byte offset, both from 1; columns count characters.
+    #[must_use]
+    pub fn position(&self, offset: usize) -> (usize, usize) {
+        let offset = self.boundary(offset);
+        let line = self.line_starts.partition_point(|&start| start <= offset);
+        let start = line.checked_sub(1).map_or(0, |k| self.line_starts[k]);
+        (line.max(1), self.text[start..offset].chars().count() + 1)
+    }
+
+    /// A label on a range of bytes. A range that leaves the text or cuts a character is shortened.
+    #[must_use]
+    pub fn label(&self, span: Range<usize>, text: impl Into<String>) -> Label {
+        let start = self.boundary(span.start);
+        let end = self.boundary(span.end).max(start);
+        let (line, column) = self.position(start);
+        Label {
+            span: start..end,
+            line,
+            column,
+            text: text.into(),
+        }
+    }
+
+    /// The nearest beginning of a character at or before the offset.
+    fn boundary(&self, offset: usize) -> usize {
+        self.text.floor_char_boundary(offset)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_count_characters() {
+        let text = SourceText::new("a.toml", "φ = 1\r\nname = \"ü\" # x\n");
+        assert_eq!(text.position(0), (1, 1));
+        assert_eq!(text.position(3), (1, 3)); // φ has two bytes
+        assert_eq!(text.position(8), (2, 1));
+        assert_eq!(text.position(text.text().len()), (3, 1));
+        assert_eq!(text.position(usize::MAX), (3, 1));
+    }
+
+    #[test]
+    fn labels_stay_inside_the_text() {
+        let text = SourceText::new("a.toml", "φ = 1");
+        assert_eq!(text.label(1..2, "").span, 0..2);
+        assert_eq!(text.label(5..90, "").span, 5..6);
+        assert_eq!(SourceText::new("", "").label(3..1, "").span, 0..0);
+    }
+}

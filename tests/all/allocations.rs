@@ -1,0 +1,29 @@
+//! An evaluation of the right-hand side allocates nothing.
+
+use dynamics::{KeptRowMotion, Motion, RowChoice, prepare};
+use model::{Mechanism, StartOptions};
+use tests::robot::{robot, steering};
+
+#[test]
+fn evaluations_and_projections_allocate_nothing() {
+    let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
+    let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts");
+    let mut motion = KeptRowMotion::new(&p, &RowChoice::Automatic).expect("moves");
+    let (mut q, mut v) = (p.q.clone(), p.v.clone());
+    let mut a = vec![0.0; v.len()];
+    let mut lambda = vec![0.0; 22];
+    motion.acceleration(0.0, &q, &v, &mut a).expect("regular");
+    // A little off the constraints, so that the projection has work to do.
+    q[4] += 1e-6;
+    v[7] += 1e-6;
+    let counted = allocation_counter::measure(|| {
+        for step in 0..10 {
+            let t = 1e-3 * f64::from(step);
+            motion.acceleration(t, &q, &v, &mut a).expect("regular");
+            motion.multipliers(t, &q, &v, &mut lambda).expect("regular");
+        }
+        let correction = motion.project(0.0, &mut q, &mut v).expect("projects");
+        assert!(correction.iterations > 0);
+    });
+    assert_eq!(counted.count_total, 0, "{counted:?}");
+}

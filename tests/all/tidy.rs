@@ -1,0 +1,87 @@
+//! Rules of the house that a compiler does not check; see ARCHITECTURE.md.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the root")
+}
+
+fn read(path: impl AsRef<Path>) -> String {
+    let path = root().join(path);
+    fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+fn crates() -> BTreeSet<String> {
+    let entries = fs::read_dir(root().join("crates")).expect("crates/ exists");
+    entries.map(|e| e.expect("readable").file_name().to_string_lossy().into_owned()).collect()
+}
+
+/// Workspace crates that a crate depends on outside of tests.
+fn dependencies(name: &str) -> BTreeSet<String> {
+    let manifest = read(format!("crates/{name}/Cargo.toml"));
+    let section = manifest.split("\n[dependencies]").nth(1).unwrap_or_default();
+    let section = section.split("\n[").next().unwrap_or_default();
+    let names = section.lines().filter_map(|line| line.split(['.', ' ', '=']).next());
+    names.filter(|n| crates().contains(*n)).map(str::to_owned).collect()
+}
+
+/// Rust files of ours that are not generated.
+fn sources(folder: &Path, out: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("readable").flatten() {
+        let path = entry.path();
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if path.is_dir() && !["target", "generated", "definitions", "ui"].contains(&name.as_str()) {
+            sources(&path, out);
+        } else if name.ends_with(".rs") {
+            out.push(path);
+        }
+    }
+}
+
+#[test]
+fn architecture_lists_the_crates_and_their_dependencies() {
+    let text = read("ARCHITECTURE.md");
+    let mut listed = BTreeSet::new();
+    for line in text.lines().filter(|l| l.starts_with("| `")) {
+        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+        let (name, uses) = (cells[0].trim_matches('`').to_owned(), cells[2]);
+        if uses != "all of the above" && !name.contains('<') && crates().contains(&name) {
+            let uses: BTreeSet<String> =
+                uses.split(", ").filter(|u| *u != "–").map(str::to_owned).collect();
+            assert_eq!(dependencies(&name), uses, "dependencies of `{name}` in ARCHITECTURE.md");
+        }
+        listed.insert(name);
+    }
+    let missing: Vec<_> = crates().into_iter().filter(|c| !listed.contains(c)).collect();
+    assert!(missing.is_empty(), "not in ARCHITECTURE.md: {missing:?}");
+}
+
+#[test]
+fn nothing_at_run_time_depends_on_the_generator() {
+    for name in crates().iter().filter(|n| !["codegen", "joint-macro"].contains(&n.as_str())) {
+        let uses = dependencies(name);
+        assert!(!uses.contains("symbolic") && !uses.contains("codegen"), "{name}: {uses:?}");
+    }
+}
+
+#[test]
+fn every_crate_has_a_readme_and_a_licence() {
+    for name in crates() {
+        assert!(root().join(format!("crates/{name}/README.md")).exists(), "{name} has no README.md");
+        assert!(read(format!("crates/{name}/Cargo.toml")).contains("license.workspace = true"));
+    }
+}
+
+#[test]
+fn every_module_says_what_it_is_for() {
+    let mut files = Vec::new();
+    sources(root(), &mut files);
+    for path in files {
+        let text = fs::read_to_string(&path).expect("readable");
+        let described = text.starts_with("//!") || text.starts_with("#![doc");
+        assert!(described, "{} does not begin with `//!`", path.display());
+        assert!(!text.contains("todo!("), "{} has something left to do", path.display());
+    }
+}
