@@ -5,7 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 fn root() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("tests/ lies in the root")
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .expect("tests/ lies in the root")
 }
 
 fn read(path: impl AsRef<Path>) -> String {
@@ -15,16 +17,31 @@ fn read(path: impl AsRef<Path>) -> String {
 
 fn crates() -> BTreeSet<String> {
     let entries = fs::read_dir(root().join("crates")).expect("crates/ exists");
-    entries.map(|e| e.expect("readable").file_name().to_string_lossy().into_owned()).collect()
+    entries
+        .map(|e| {
+            e.expect("readable")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .collect()
 }
 
 /// Workspace crates that a crate depends on outside of tests.
 fn dependencies(name: &str) -> BTreeSet<String> {
     let manifest = read(format!("crates/{name}/Cargo.toml"));
-    let section = manifest.split("\n[dependencies]").nth(1).unwrap_or_default();
+    let section = manifest
+        .split("\n[dependencies]")
+        .nth(1)
+        .unwrap_or_default();
     let section = section.split("\n[").next().unwrap_or_default();
-    let names = section.lines().filter_map(|line| line.split(['.', ' ', '=']).next());
-    names.filter(|n| crates().contains(*n)).map(str::to_owned).collect()
+    let names = section
+        .lines()
+        .filter_map(|line| line.split(['.', ' ', '=']).next());
+    names
+        .filter(|n| crates().contains(*n))
+        .map(str::to_owned)
+        .collect()
 }
 
 /// Rust files of ours that are not generated.
@@ -48,28 +65,47 @@ fn architecture_lists_the_crates_and_their_dependencies() {
         let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
         let (name, uses) = (cells[0].trim_matches('`').to_owned(), cells[2]);
         if uses != "all of the above" && !name.contains('<') && crates().contains(&name) {
-            let uses: BTreeSet<String> =
-                uses.split(", ").filter(|u| *u != "–").map(str::to_owned).collect();
-            assert_eq!(dependencies(&name), uses, "dependencies of `{name}` in ARCHITECTURE.md");
+            let uses: BTreeSet<String> = uses
+                .split(", ")
+                .filter(|u| *u != "–")
+                .map(str::to_owned)
+                .collect();
+            assert_eq!(
+                dependencies(&name),
+                uses,
+                "dependencies of `{name}` in ARCHITECTURE.md"
+            );
         }
         listed.insert(name);
     }
-    let missing: Vec<_> = crates().into_iter().filter(|c| !listed.contains(c)).collect();
+    let missing: Vec<_> = crates()
+        .into_iter()
+        .filter(|c| !listed.contains(c))
+        .collect();
     assert!(missing.is_empty(), "not in ARCHITECTURE.md: {missing:?}");
 }
 
 #[test]
 fn nothing_at_run_time_depends_on_the_generator() {
-    for name in crates().iter().filter(|n| !["codegen", "joint-macro"].contains(&n.as_str())) {
+    for name in crates()
+        .iter()
+        .filter(|n| !["codegen", "joint-macro"].contains(&n.as_str()))
+    {
         let uses = dependencies(name);
-        assert!(!uses.contains("symbolic") && !uses.contains("codegen"), "{name}: {uses:?}");
+        assert!(
+            !uses.contains("symbolic") && !uses.contains("codegen"),
+            "{name}: {uses:?}"
+        );
     }
 }
 
 #[test]
 fn every_crate_has_a_readme_and_a_licence() {
     for name in crates() {
-        assert!(root().join(format!("crates/{name}/README.md")).exists(), "{name} has no README.md");
+        assert!(
+            root().join(format!("crates/{name}/README.md")).exists(),
+            "{name} has no README.md"
+        );
         assert!(read(format!("crates/{name}/Cargo.toml")).contains("license.workspace = true"));
     }
 }
@@ -82,6 +118,10 @@ fn every_module_says_what_it_is_for() {
         let text = fs::read_to_string(&path).expect("readable");
         let described = text.starts_with("//!") || text.starts_with("#![doc");
         assert!(described, "{} does not begin with `//!`", path.display());
-        assert!(!text.contains("todo!("), "{} has something left to do", path.display());
+        assert!(
+            !text.contains("todo!("),
+            "{} has something left to do",
+            path.display()
+        );
     }
 }

@@ -224,7 +224,7 @@ fn flat(tokens: TokenStream, out: &mut Vec<String>) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 30_000, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
     /// Correct definitions with some tokens removed, doubled or replaced by others of any definition.
     #[test]

@@ -153,11 +153,6 @@ fn is_internal(spec: &Spec) -> bool {
     spec.slots.len() > 1 && !spec.parameters.iter().any(|p| p.shape == Shape::GroundLine)
 }
 
-/// Whether nothing of a definition stays behind when all its bodies move.
-fn moves_with_bodies(spec: &Spec) -> bool {
-    is_internal(spec)
-}
-
 /// `x`, `y` and rotation of a slot, by its name.
 fn column_name(slots: &[&str], column: usize) -> String {
     format!(

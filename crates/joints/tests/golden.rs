@@ -7,7 +7,7 @@ mod table;
 
 use std::collections::BTreeSet;
 
-use approx::assert_abs_diff_eq;
+use approx::{abs_diff_eq, assert_abs_diff_eq};
 use joints::conformance::Block;
 use joints::spec::Level;
 use joints::{Constraint, Force, Visitor};
@@ -142,9 +142,13 @@ fn force<K: Force>(golden: &Golden, place: &str) {
 fn compare(expected: Option<&Vec<table::Scalar>>, found: &[f64], place: &str, what: &str) {
     let Some(expected) = expected else { return };
     let expected: Vec<f64> = expected.iter().map(table::Scalar::value).collect();
-    println!("{place}: {what} = {found:?}, by hand {expected:?}");
     let (found, expected) = (Block::column(found.to_vec()), Block::column(expected));
-    assert_abs_diff_eq!(found, expected, epsilon = TOLERANCE);
+    assert!(
+        abs_diff_eq!(found, expected, epsilon = TOLERANCE),
+        "{place}: {what} = {:?}, by hand {:?}",
+        found.entries(),
+        expected.entries()
+    );
 }
 
 fn requirements(golden: &Golden, place: &str, holds: impl Fn(usize) -> bool) {

@@ -10,7 +10,6 @@ use super::pattern::Pattern;
 use super::state::{Along, State};
 use super::{
     DIFFERENCES, DUAL_NUMBERS, DUAL_TOLERANCE, Oracle, assembled, column_name, is_internal,
-    moves_with_bodies,
 };
 use crate::constraint::Constraint;
 use crate::plane::{N_DOF, Pose, Twist};
@@ -456,7 +455,7 @@ impl<K: Constraint> Check<'_, K> {
     }
 
     fn rigid_motion(&self) -> Result<(), Failure> {
-        if !moves_with_bodies(&K::SPEC.common) {
+        if !is_internal(&K::SPEC.common) {
             return Ok(());
         }
         let (moved, moved_case) = assembled::<K>(&self.case.moved())?;

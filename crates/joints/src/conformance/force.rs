@@ -9,8 +9,8 @@ use super::number::Number;
 use super::pattern::Pattern;
 use super::state::{Along, State};
 use super::{
-    DIFFERENCES, DUAL_NUMBERS, DUAL_TOLERANCE, Oracle, assembled_force, column_name,
-    moves_with_bodies, resultant,
+    DIFFERENCES, DUAL_NUMBERS, DUAL_TOLERANCE, Oracle, assembled_force, column_name, is_internal,
+    resultant,
 };
 use crate::force::Force;
 use crate::plane::{N_DOF, Twist};
@@ -72,7 +72,7 @@ impl<K: Force> Check<'_, K> {
         if self.case.has_differences() {
             self.derivatives::<Differences>(DIFFERENCES)?;
         }
-        if moves_with_bodies(&K::SPEC.common) {
+        if is_internal(&K::SPEC.common) {
             self.balance()?;
             if self.case.kind == Kind::Ordinary {
                 self.rigid_motion()?;

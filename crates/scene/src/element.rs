@@ -1,0 +1,124 @@
+//! What joints and forces have in common: a type from the registry, bodies, a place and parameters. No joint and no
+//! force is known here by name.
+
+use joints::ArgumentError;
+use joints::spec::Spec;
+use model::registry::{ConstraintDefinition, ForceDefinition};
+use model::{BodyRef, PlaneConstraint, PlaneForce};
+
+use crate::arguments::Arguments;
+use crate::body::Bodies;
+use crate::connection;
+use crate::findings::Findings;
+use crate::function::Domain;
+use crate::nearest::{list, nearest};
+use crate::place;
+use crate::table::Table;
+
+/// A definition of the registry.
+pub(crate) trait Definition {
+    /// What it builds.
+    type Element;
+    /// Its facts.
+    fn spec(&self) -> &'static Spec;
+    /// Its constructor.
+    fn constructor(&self) -> fn(&[joints::Argument]) -> Result<Self::Element, ArgumentError>;
+}
+
+impl Definition for ConstraintDefinition {
+    type Element = Box<dyn PlaneConstraint>;
+    fn spec(&self) -> &'static Spec {
+        &self.spec.common
+    }
+    fn constructor(&self) -> fn(&[joints::Argument]) -> Result<Self::Element, ArgumentError> {
+        self.build
+    }
+}
+
+impl Definition for ForceDefinition {
+    type Element = Box<dyn PlaneForce>;
+    fn spec(&self) -> &'static Spec {
+        &self.spec.common
+    }
+    fn constructor(&self) -> fn(&[joints::Argument]) -> Result<Self::Element, ArgumentError> {
+        self.build
+    }
+}
+
+/// An element whose definition is known, complete or not.
+pub(crate) struct Read<'r, D: Definition> {
+    pub(crate) definition: &'r D,
+    /// Its bodies and the element, if everything could be read.
+    pub(crate) element: Option<(Vec<BodyRef>, D::Element)>,
+    pub(crate) arguments: Arguments,
+}
+
+/// Scene types of the registry.
+pub(crate) struct Types {
+    /// What the section holds, for messages.
+    pub(crate) kind: &'static str,
+    pub(crate) known: Vec<&'static str>,
+    /// The other section, its kind and its types.
+    pub(crate) other: (&'static str, &'static str, Vec<&'static str>),
+}
+
+/// Reads `type`. `None`, reported, if it is missing or no definition has it.
+pub(crate) fn scene_type<'t>(
+    table: &mut Table<'t>,
+    types: &Types,
+    findings: &mut Findings,
+) -> Option<&'t str> {
+    let field = table.required("type", &list(types.known.iter().copied()), findings)?;
+    let name = field.text("the name of a type", findings)?;
+    if types.known.contains(&name) {
+        return Some(name);
+    }
+    let (section, kind, others) = &types.other;
+    let (label, help) = match nearest(name, types.known.iter().copied()) {
+        Some(near) => (format!("did you mean `{near}`?"), None),
+        None if others.contains(&name) => (
+            format!("`{name}` is a {kind}"),
+            Some(format!("write it under `[[{section}]]`")),
+        ),
+        None => ("unknown type".to_owned(), None),
+    };
+    let all = || format!("the types of a {} are {}", types.kind, list(types.known.iter().copied()));
+    findings.error_with_help(
+        field.span(),
+        format!("{} has the unknown type `{name}`", table.subject),
+        label,
+        help.or_else(|| Some(all())),
+    );
+    None
+}
+
+/// Reads everything that the definitions of one scene type take. `None`, reported, if none of them can be meant.
+pub(crate) fn read<'r, D: Definition>(
+    table: &mut Table,
+    definitions: &[&'r D],
+    bodies: &Bodies,
+    domains: &mut Vec<Domain>,
+    findings: &mut Findings,
+) -> Option<Read<'r, D>> {
+    let specs: Vec<&'static Spec> = definitions.iter().map(|d| d.spec()).collect();
+    let chosen = connection::named(table, &specs, bodies, findings).and_then(|named| {
+        let at = connection::choose(table, &specs, named.len(), findings)?;
+        Some((at, named))
+    });
+    let Some((at, named)) = chosen else {
+        connection::forgive(table, &specs);
+        return None;
+    };
+    let (spec, definition) = (specs[at], definitions[at]);
+    let slots = connection::slots(table, spec, named, bodies, findings);
+    let place = place::read(table, spec, &slots, bodies, findings);
+    let mut arguments = Arguments::read(table, spec, place, domains, findings);
+    let subject = table.subject.clone();
+    let built = arguments.build(spec, &subject, definition.constructor(), findings);
+    let slots: Option<Vec<BodyRef>> = slots.into_iter().collect();
+    Some(Read {
+        definition,
+        element: slots.zip(built),
+        arguments,
+    })
+}

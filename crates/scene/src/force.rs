@@ -1,0 +1,55 @@
+//! `[[force]]`: applied forces of the registry.
+
+use model::{Force, Registry};
+
+use crate::body::Bodies;
+use crate::element::{self, Types};
+use crate::findings::Findings;
+use crate::function::Domain;
+use crate::joint::types;
+use crate::source_map::Entry;
+use crate::table::Table;
+
+/// The forces that were read.
+#[derive(Default)]
+pub(crate) struct Forces {
+    pub(crate) list: Vec<Force>,
+    pub(crate) entries: Vec<Entry>,
+}
+
+impl Forces {
+    /// Reads one force.
+    pub(crate) fn read(
+        &mut self,
+        mut table: Table,
+        name: &str,
+        registry: &Registry,
+        bodies: &Bodies,
+        domains: &mut Vec<Domain>,
+        findings: &mut Findings,
+    ) {
+        let entry = Entry::of(name, &table);
+        let types = Types {
+            kind: "force",
+            known: types(registry.force_specs()),
+            other: ("joint", "joint", types(registry.constraint_specs())),
+        };
+        let Some(scene_type) = element::scene_type(&mut table, &types, findings) else {
+            return;
+        };
+        let definitions: Vec<_> = registry.forces(scene_type).collect();
+        let read = element::read(&mut table, &definitions, bodies, domains, findings);
+        table.close(findings);
+        if let Some(read) = read
+            && let Some((bodies, element)) = read.element
+        {
+            self.list.push(Force {
+                name: name.to_owned(),
+                bodies,
+                element,
+                functions: read.arguments.functions,
+            });
+            self.entries.push(entry);
+        }
+    }
+}

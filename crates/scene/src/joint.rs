@@ -1,0 +1,199 @@
+//! `[[joint]]` and `[[drive]]`: constraints of the registry, and prescribed measures of joints.
+
+use joints::Argument;
+use model::registry::ConstraintDefinition;
+use model::{BodyRef, Drive, Joint, Registry};
+
+use crate::body::Bodies;
+use crate::element::{self, Types};
+use crate::findings::Findings;
+use crate::function::{self, Domain};
+use crate::nearest::{list, nearest};
+use crate::source_map::Entry;
+use crate::table::Table;
+
+/// What is known of a joint, for drives and groups that refer to it.
+pub(crate) struct Known<'r> {
+    pub(crate) entry: Entry,
+    /// Its definition, if its type could be told.
+    pub(crate) definition: Option<&'r ConstraintDefinition>,
+    /// Its bodies and arguments, if all could be read.
+    complete: Option<(Vec<BodyRef>, Vec<Argument>)>,
+}
+
+/// The joints that were read.
+#[derive(Default)]
+pub(crate) struct Joints<'r> {
+    pub(crate) list: Vec<Joint>,
+    pub(crate) entries: Vec<Entry>,
+    pub(crate) known: Vec<Known<'r>>,
+}
+
+impl<'r> Joints<'r> {
+    /// Reads one joint.
+    pub(crate) fn read(
+        &mut self,
+        mut table: Table,
+        name: &str,
+        registry: &'r Registry,
+        bodies: &Bodies,
+        domains: &mut Vec<Domain>,
+        findings: &mut Findings,
+    ) {
+        let entry = Entry::of(name, &table);
+        let types = Types {
+            kind: "joint",
+            known: types(registry.constraint_specs()),
+            other: ("force", "force", types(registry.force_specs())),
+        };
+        let Some(scene_type) = element::scene_type(&mut table, &types, findings) else {
+            self.known.push(Known {
+                entry,
+                definition: None,
+                complete: None,
+            });
+            return;
+        };
+        let definitions: Vec<_> = registry.constraints(scene_type).collect();
+        let read = element::read(&mut table, &definitions, bodies, domains, findings);
+        table.close(findings);
+        let mut known = Known {
+            entry: entry.clone(),
+            definition: read.as_ref().map(|read| read.definition),
+            complete: None,
+        };
+        if let Some(read) = read
+            && let Some((bodies, element)) = read.element
+        {
+            known.complete = Some((bodies.clone(), read.arguments.values));
+            self.list.push(Joint {
+                name: name.to_owned(),
+                bodies,
+                element,
+                functions: read.arguments.functions,
+            });
+            self.entries.push(entry);
+        }
+        self.known.push(known);
+    }
+}
+
+/// Scene types, each once.
+pub(crate) fn types(
+    specs: impl Iterator<Item = &'static joints::spec::Spec>,
+) -> Vec<&'static str> {
+    let mut types: Vec<_> = specs.map(|spec| spec.scene_type).collect();
+    types.sort_unstable();
+    types.dedup();
+    types
+}
+
+/// The drives that were read.
+#[derive(Default)]
+pub(crate) struct Drives {
+    pub(crate) list: Vec<Drive>,
+    pub(crate) entries: Vec<Entry>,
+}
+
+impl Drives {
+    /// Reads one drive. Two drives of one measure are redundant, not wrong.
+    pub(crate) fn read(
+        &mut self,
+        mut table: Table,
+        name: &str,
+        joints: &Joints,
+        domains: &mut Vec<Domain>,
+        findings: &mut Findings,
+    ) {
+        let entry = Entry::of(name, &table);
+        let joint = joint(&mut table, joints, findings);
+        let measure = table.required("type", "a measure of the joint", findings);
+        let motion = table.required("motion", "a function of time", findings);
+        let motion = motion.and_then(|field| function::read(&field, domains, findings));
+        let measure = measure
+            .and_then(|field| Some((field.text("a measure of the joint", findings)?, field.span())));
+        table.close(findings);
+        let (Some(joint), Some((measure, span))) = (joint, measure) else {
+            return;
+        };
+        let Some(definition) = joint.definition else {
+            return;
+        };
+        let measures = || definition.spec.measures.iter().map(|m| m.name);
+        let Some(at) = measures().position(|m| m == measure) else {
+            let help = match measures().next() {
+                Some(_) => format!("its measures are {}", list(measures())),
+                None => "joints of this type cannot be driven".to_owned(),
+            };
+            let label = match nearest(measure, measures()) {
+                Some(near) => format!("did you mean `{near}`?"),
+                None => "no such measure".to_owned(),
+            };
+            findings.error_with_help(
+                span,
+                format!(
+                    "drive `{name}`: joint `{}` (`{}`) has no measure `{measure}`",
+                    joint.entry.name, definition.spec.common.scene_type
+                ),
+                label,
+                Some(help),
+            );
+            return;
+        };
+        let (Some((bodies, arguments)), Some(motion)) = (&joint.complete, motion) else {
+            return;
+        };
+        let mut arguments = arguments.clone();
+        arguments.push(Argument::Absent);
+        // The joint took these arguments, and its drive differs in nothing but the motion.
+        match definition.drives.get(at).map(|drive| (drive.build)(&arguments)) {
+            Some(Ok(element)) => {
+                self.list.push(Drive {
+                    name: name.to_owned(),
+                    bodies: bodies.clone(),
+                    element,
+                    motion,
+                });
+                self.entries.push(entry);
+            }
+            Some(Err(error)) => {
+                findings.error(span, format!("drive `{name}`: {error}"), "not possible");
+            }
+            None => findings.error(
+                span,
+                format!("drive `{name}`: the definition of the drive of `{measure}` is not registered"),
+                "no such definition",
+            ),
+        }
+    }
+}
+
+/// The joint that a drive names.
+fn joint<'j, 'r>(
+    table: &mut Table,
+    joints: &'j Joints<'r>,
+    findings: &mut Findings,
+) -> Option<&'j Known<'r>> {
+    let field = table.required("joint", "the name of a joint", findings)?;
+    let name = field.text("the name of a joint", findings)?;
+    let found = joints.known.iter().find(|joint| joint.entry.name == name);
+    if found.is_none() {
+        let near = nearest(name, joints.known.iter().map(|j| j.entry.name.as_str()));
+        let near = near.and_then(|near| joints.known.iter().find(|j| j.entry.name == near));
+        let label = match near {
+            Some(near) => format!(
+                "no such joint; `{}` is defined on line {}",
+                near.entry.name,
+                findings.line(near.entry.name_span().start)
+            ),
+            None => "no such joint".to_owned(),
+        };
+        findings.error_with_help(
+            field.span(),
+            format!("{} refers to the unknown joint `{name}`", table.subject),
+            label,
+            near.map(|near| format!("did you mean `{}`?", near.entry.name)),
+        );
+    }
+    found
+}

@@ -1,0 +1,94 @@
+//! `[start]`: what a start may and may not do.
+
+use model::StartOptions;
+use model::start::{Coordinate, CorrectionLimit, KeepLevel};
+
+use crate::body::{Bodies, GROUND};
+use crate::field::Field;
+use crate::findings::Findings;
+use crate::nearest::{did_you_mean, list};
+use crate::table::Table;
+
+/// Coordinates and velocities of a planar body by name.
+const COORDINATES: [(&str, usize, KeepLevel); 6] = [
+    ("x", 0, KeepLevel::Position),
+    ("y", 1, KeepLevel::Position),
+    ("angle", 2, KeepLevel::Position),
+    ("vx", 0, KeepLevel::Velocity),
+    ("vy", 1, KeepLevel::Velocity),
+    ("omega", 2, KeepLevel::Velocity),
+];
+
+/// Reads the section.
+pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -> StartOptions {
+    const KEEP: &str = "a list of coordinates [\"body.angle\", …]";
+    let mut kept: Vec<(Coordinate, Field)> = Vec::new();
+    let items = table
+        .optional("keep")
+        .and_then(|field| field.items(KEEP, findings))
+        .unwrap_or_default();
+    for item in items {
+        let Some(coordinate) = coordinate(&item, bodies, findings) else {
+            continue;
+        };
+        match kept.iter().find(|(earlier, _)| *earlier == coordinate) {
+            Some((_, first)) => findings.collision(
+                item.span(),
+                "`[start]`: `keep` names a coordinate twice",
+                "named again here",
+                first.span(),
+                "first named here",
+            ),
+            None => kept.push((coordinate, item)),
+        }
+    }
+    let allowed = table
+        .optional("allow_correction")
+        .and_then(|field| field.boolean(findings));
+    table.close(findings);
+    StartOptions {
+        keep: kept.into_iter().map(|(coordinate, _)| coordinate).collect(),
+        correction: match allowed {
+            Some(true) => CorrectionLimit::Any,
+            _ => CorrectionLimit::Small,
+        },
+    }
+}
+
+/// A coordinate as `body.angle`.
+fn coordinate(item: &Field, bodies: &Bodies, findings: &mut Findings) -> Option<Coordinate> {
+    const EXPECTED: &str = "a coordinate of a body, as \"crank.angle\"";
+    let text = item.text(EXPECTED, findings)?;
+    let Some((body, name)) = text.rsplit_once('.') else {
+        item.mismatch(EXPECTED, findings);
+        return None;
+    };
+    if body == GROUND {
+        findings.error(
+            item.span(),
+            "`[start]`: `keep` names the ground, which has no coordinates",
+            "the ground does not move",
+        );
+        return None;
+    }
+    let at = bodies.list.iter().position(|b| b.name == body);
+    if at.is_none() {
+        bodies.unknown(item.span(), "`[start]`", body, findings);
+    }
+    let found = COORDINATES.iter().find(|(known, ..)| *known == name);
+    if found.is_none() {
+        let names = || COORDINATES.iter().map(|(known, ..)| *known);
+        findings.error_with_help(
+            item.span(),
+            format!("`[start]`: `keep` names the unknown coordinate `{name}`"),
+            "no such coordinate",
+            did_you_mean(name, names()).or(Some(format!("there are {}", list(names())))),
+        );
+    }
+    let &(_, dof, level) = found?;
+    Some(Coordinate {
+        body: at?,
+        dof,
+        level,
+    })
+}
