@@ -20,6 +20,6 @@ pub use existence::{ConstraintLevel, Contradiction, contradiction};
 pub use matrices::Solvability;
 pub use mechanism::{
     Analysis, AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, analyse,
-    certify, certify_holonomic,
+    analyse_dropping, certify, certify_holonomic,
 };
 pub use verdict::{Judgement, Verdict};

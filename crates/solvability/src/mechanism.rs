@@ -1,6 +1,6 @@
 //! Solvability of a mechanism at one configuration: ranks, and a verdict for every joint, drive, row and direction.
 
-use linalg::{Matrix, RankDecision, RankError};
+use linalg::{KeptRowsError, Matrix, RankDecision, RankError};
 use model::reaction::COMPONENTS;
 use model::{ConstraintId, Mechanism, Scratch, System};
 
@@ -107,6 +107,14 @@ pub enum AnalysisError {
         /// Why.
         source: RankError,
     },
+    /// The rows asked to be dropped cannot be.
+    #[error("at t = {time} s these rows cannot be dropped: {source}")]
+    Rows {
+        /// When.
+        time: f64,
+        /// Why; rows are counted from 0 here.
+        source: KeptRowsError,
+    },
 }
 
 /// Decides the rank of C at the pose of the scratch, where Φ and C have been evaluated.
@@ -150,15 +158,47 @@ pub(crate) fn relative_residual(mechanism: &Mechanism, s: &Scratch) -> f64 {
 /// # Errors
 /// If C is not finite.
 pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
-    let layout = mechanism.layout();
+    let s = evaluated(mechanism, t, q);
+    let decision = certify(mechanism, &s)?;
+    judge(mechanism, &s, decision)
+}
+
+/// The same with dependencies told by the dropped rows that the caller chooses (from 0). Verdicts do not depend on them.
+///
+/// # Errors
+/// If C is not finite, or the rows cannot be dropped without changing the motion.
+pub fn analyse_dropping(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    dropped: &[usize],
+) -> Result<Analysis, AnalysisError> {
+    let s = evaluated(mechanism, t, q);
+    let c = mechanism.layout().dense(&s);
+    let decision = linalg::decide_dropping(&c, relative_residual(mechanism, &s), dropped)
+        .map_err(|source| AnalysisError::Rows { time: t, source })?;
+    judge(mechanism, &s, decision)
+}
+
+/// Φ and C at a configuration.
+fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
-    let c = layout.dense(&s);
-    let decision = certify(mechanism, &s)?;
+    s
+}
+
+fn judge(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    decision: RankDecision,
+) -> Result<Analysis, AnalysisError> {
+    let layout = mechanism.layout();
+    let c = layout.dense(s);
+    let t = s.t;
     let solvability = Solvability::from_decision(&c, decision);
-    let residual = relative_residual(mechanism, &s);
+    let residual = relative_residual(mechanism, s);
     let rank_of = |rows: std::ops::Range<usize>| {
         let part = c.select_rows(&rows.collect::<Vec<_>>());
         linalg::decide(&part, residual)
@@ -169,7 +209,7 @@ pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, Ana
     let rank_nonholonomic = rank_of(layout.m..layout.rows())?;
     let reactions = mechanism
         .constraint_ids()
-        .map(|id| reaction(mechanism, id, &s, &solvability))
+        .map(|id| reaction(mechanism, id, s, &solvability))
         .collect();
     let dependencies = linalg::circuits(solvability.decision())
         .into_iter()
