@@ -1,2 +1,34 @@
-//! Placeholder.
-fn main() {}
+//! The command `pfaff`: reads scenes, says which reactions are determined, moves mechanisms. It prints; everything else is
+//! done by the library.
+//!
+//! Exit codes: 0 done (also when standard output is closed early), 1 the computation stopped or was interrupted, 2 the
+//! input is wrong.
+
+mod analyze;
+mod args;
+mod check;
+mod input;
+mod output;
+mod simulate;
+
+use std::process::ExitCode;
+
+use args::{Arguments, Command};
+use clap::Parser;
+use output::Failure;
+
+fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let outcome = match &arguments.command {
+        Command::Analyze(a) => analyze::run(a),
+        Command::Simulate(a) => simulate::run(a),
+        Command::Check(a) => check::run(a),
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => failure.report(),
+    }
+}
+
+/// What every command ends with.
+type Outcome = Result<(), Failure>;

@@ -55,7 +55,8 @@ impl Arguments {
             };
             let value = match parameter.shape {
                 Shape::Functions(units) => {
-                    let functions = functions(&field, units.len(), parameter.shape, domains, findings);
+                    let functions =
+                        functions(&field, units.len(), parameter.shape, domains, findings);
                     arguments.complete &= functions.is_some();
                     arguments.functions.extend(functions.unwrap_or_default());
                     Some(Argument::Absent)

@@ -56,7 +56,12 @@ pub(crate) fn named(
                 two.mismatch("two bodies [first, second]", findings);
                 return None;
             }
-            Some(items.iter().map(|item| bodies.find(item, findings)).collect())
+            Some(
+                items
+                    .iter()
+                    .map(|item| bodies.find(item, findings))
+                    .collect(),
+            )
         }
         (None, Some(two)) => {
             findings.error(two.span(), wrong("bodies"), format!("expected {expected}"));

@@ -63,15 +63,15 @@ pub(crate) struct Types {
 }
 
 /// Reads `type`. `None`, reported, if it is missing or no definition has it.
-pub(crate) fn scene_type<'t>(
-    table: &mut Table<'t>,
+pub(crate) fn scene_type(
+    table: &mut Table,
     types: &Types,
     findings: &mut Findings,
-) -> Option<&'t str> {
+) -> Option<&'static str> {
     let field = table.required("type", &list(types.known.iter().copied()), findings)?;
     let name = field.text("the name of a type", findings)?;
-    if types.known.contains(&name) {
-        return Some(name);
+    if let Some(known) = types.known.iter().find(|known| **known == name) {
+        return Some(known);
     }
     let (section, kind, others) = &types.other;
     let (label, help) = match nearest(name, types.known.iter().copied()) {
@@ -82,7 +82,13 @@ pub(crate) fn scene_type<'t>(
         ),
         None => ("unknown type".to_owned(), None),
     };
-    let all = || format!("the types of a {} are {}", types.kind, list(types.known.iter().copied()));
+    let all = || {
+        format!(
+            "the types of a {} are {}",
+            types.kind,
+            list(types.known.iter().copied())
+        )
+    };
     findings.error_with_help(
         field.span(),
         format!("{} has the unknown type `{name}`", table.subject),

@@ -176,7 +176,10 @@ pub(crate) fn as_number(value: &DeValue) -> Option<f64> {
 
 /// An integer of another base, as long as a float holds it.
 fn whole(n: &DeInteger) -> Option<f64> {
-    #[expect(clippy::cast_precision_loss, reason = "TOML numbers are decimal fractions here")]
+    #[expect(
+        clippy::cast_precision_loss,
+        reason = "TOML numbers are decimal fractions here"
+    )]
     u64::from_str_radix(n.as_str(), n.radix())
         .ok()
         .map(|n| n as f64)

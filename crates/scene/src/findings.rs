@@ -59,6 +59,11 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(self.source, span, message, label).and(first));
     }
 
+    /// Whether nothing was found so far.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
     /// The line of an offset, for texts that refer to another place.
     pub(crate) fn line(&self, offset: usize) -> usize {
         self.source.position(offset).0
@@ -70,7 +75,10 @@ impl<'s> Findings<'s> {
         let mut unique: Vec<Diagnostic> = Vec::with_capacity(self.list.len());
         for diagnostic in self.list {
             let start = diagnostic.primary.span.start;
-            let mut here = unique.iter().rev().take_while(|d| d.primary.span.start == start);
+            let mut here = unique
+                .iter()
+                .rev()
+                .take_while(|d| d.primary.span.start == start);
             if here.all(|d| *d != diagnostic) {
                 unique.push(diagnostic);
             }

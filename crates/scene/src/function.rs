@@ -10,13 +10,7 @@ use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
 /// Values of `type`.
-const TYPES: [&str; 5] = [
-    "steps",
-    "constant-rate",
-    "polynomial",
-    "harmonic",
-    "table",
-];
+const TYPES: [&str; 5] = ["steps", "constant-rate", "polynomial", "harmonic", "table"];
 
 /// The times of a table: the run must not leave them.
 pub(crate) struct Domain {

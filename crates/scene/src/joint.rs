@@ -79,9 +79,7 @@ impl<'r> Joints<'r> {
 }
 
 /// Scene types, each once.
-pub(crate) fn types(
-    specs: impl Iterator<Item = &'static joints::spec::Spec>,
-) -> Vec<&'static str> {
+pub(crate) fn types(specs: impl Iterator<Item = &'static joints::spec::Spec>) -> Vec<&'static str> {
     let mut types: Vec<_> = specs.map(|spec| spec.scene_type).collect();
     types.sort_unstable();
     types.dedup();
@@ -110,8 +108,12 @@ impl Drives {
         let measure = table.required("type", "a measure of the joint", findings);
         let motion = table.required("motion", "a function of time", findings);
         let motion = motion.and_then(|field| function::read(&field, domains, findings));
-        let measure = measure
-            .and_then(|field| Some((field.text("a measure of the joint", findings)?, field.span())));
+        let measure = measure.and_then(|field| {
+            Some((
+                field.text("a measure of the joint", findings)?,
+                field.span(),
+            ))
+        });
         table.close(findings);
         let (Some(joint), Some((measure, span))) = (joint, measure) else {
             return;
@@ -146,7 +148,11 @@ impl Drives {
         let mut arguments = arguments.clone();
         arguments.push(Argument::Absent);
         // The joint took these arguments, and its drive differs in nothing but the motion.
-        match definition.drives.get(at).map(|drive| (drive.build)(&arguments)) {
+        match definition
+            .drives
+            .get(at)
+            .map(|drive| (drive.build)(&arguments))
+        {
             Some(Ok(element)) => {
                 self.list.push(Drive {
                     name: name.to_owned(),
@@ -161,7 +167,9 @@ impl Drives {
             }
             None => findings.error(
                 span,
-                format!("drive `{name}`: the definition of the drive of `{measure}` is not registered"),
+                format!(
+                    "drive `{name}`: the definition of the drive of `{measure}` is not registered"
+                ),
                 "no such definition",
             ),
         }

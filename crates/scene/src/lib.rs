@@ -1,1 +1,46 @@
-//! Placeholder.
+#![doc = include_str!("../README.md")]
+//!
+//! # Code map, in the order of the data
+//!
+//! | module | content |
+//! | --- | --- |
+//! | `read` | the whole file: sections, names, what the mechanism refuses |
+//! | `table`, `field` | a table that knows its keys; a value read as what is expected |
+//! | `body` | bodies, and their names elsewhere |
+//! | `element` | what joints and forces share: type, `connection`, `place`, `arguments` |
+//! | `joint`, `force` | joints and their drives; forces |
+//! | `function` | functions of time |
+//! | `start`, `simulate`, `reactions`, `combination` | what is to be done |
+//! | `scene`, `source_map`, `locate` | the result, its places, and errors that come later |
+//! | `diagnostic`, `text`, `findings`, `nearest` | problems, lines and columns, names that were meant |
+
+mod arguments;
+mod body;
+mod combination;
+mod connection;
+mod diagnostic;
+mod element;
+mod field;
+mod findings;
+mod force;
+mod function;
+mod joint;
+mod locate;
+mod nearest;
+mod place;
+mod reactions;
+mod read;
+mod scene;
+mod simulate;
+mod source_map;
+mod start;
+mod table;
+mod text;
+
+pub use combination::{Combination, CombinationError, CombinationProblem, Term};
+pub use diagnostic::{Diagnostic, Label, Severity};
+pub use reactions::{GroupContent, GroupRequest, Output, WantedReactions};
+pub use read::read;
+pub use scene::Scene;
+pub use source_map::{Entry, SourceMap};
+pub use text::SourceText;

@@ -13,7 +13,9 @@ pub(crate) fn nearest<'a>(
         .into_iter()
         .filter(|candidate| letters.max(candidate.len()) <= LONGEST)
         .map(|candidate| (distance(name, candidate), candidate))
-        .filter(|(distance, candidate)| *distance <= letters.max(candidate.chars().count()).div_ceil(3))
+        .filter(|(distance, candidate)| {
+            *distance <= letters.max(candidate.chars().count()).div_ceil(3)
+        })
         .min_by_key(|(distance, _)| *distance)
         .map(|(_, candidate)| candidate)
 }

@@ -54,10 +54,7 @@ pub(crate) fn read(
         (Some(at), Some(local)) => {
             findings.collision(
                 local.span(),
-                format!(
-                    "{} takes `at` or `{local_key}`, not both",
-                    table.subject
-                ),
+                format!("{} takes `at` or `{local_key}`, not both", table.subject),
                 "and here in the frames of the bodies",
                 at.span(),
                 "the place is given here",
@@ -163,7 +160,10 @@ fn by_body(
         if mine.is_empty() {
             findings.error_with_help(
                 key.clone(),
-                format!("{} names `{}`, which has no point here", table.subject, value.key),
+                format!(
+                    "{} names `{}`, which has no point here",
+                    table.subject, value.key
+                ),
                 "not a body with a point here",
                 Some(format!("its keys are {}", list(names.iter().copied()))),
             );

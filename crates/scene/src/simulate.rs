@@ -1,9 +1,12 @@
 //! `[simulate]`: what a run is asked to do.
 
+use std::ops::Range;
+
 use dynamics::{Formulation, Method, MotionError, MotionOptions, RowChoice, Stabilisation};
 
 use crate::field::Field;
 use crate::findings::Findings;
+use crate::function::Domain;
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
@@ -44,16 +47,25 @@ const STABILISATIONS: Choice<Stabilisation> = Choice {
     available: &[("projection", Stabilisation::Projection)],
 };
 
+/// The section with the places that later checks need.
+pub(crate) struct Simulate {
+    pub(crate) options: MotionOptions,
+    pub(crate) t_end: Range<usize>,
+    /// Rows to drop, from 0, with their places.
+    drop: Vec<(usize, Range<usize>)>,
+}
+
 /// Reads the section. `None` if the end of the run could not be read.
-pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<MotionOptions> {
-    let t_end = table
-        .required("t_end", "the last time in s", findings)
-        .and_then(|field| bounded(&field, |t| t >= 0.0, "a finite time ≥ 0", findings));
+pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate> {
+    let end = table.required("t_end", "the last time in s", findings);
+    let t_end = end
+        .as_ref()
+        .and_then(|field| bounded(field, "t_end", |t| t >= 0.0, "a finite time ≥ 0", findings));
     let mut options = MotionOptions::to(t_end.unwrap_or(1.0));
-    let mut positive = |key: &str, expected: &'static str, value: &mut f64| {
+    let mut positive = |name: &'static str, expected: &'static str, value: &mut f64| {
         let read = table
-            .optional(key)
-            .and_then(|field| bounded(&field, |x| x > 0.0, expected, findings));
+            .optional(name)
+            .and_then(|field| bounded(&field, name, |x| x > 0.0, expected, findings));
         *value = read.unwrap_or(*value);
     };
     positive("output_step", "a time > 0", &mut options.output_step);
@@ -62,16 +74,22 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<MotionOp
     options.method = choose(&mut table, &METHODS, findings).unwrap_or_default();
     options.formulation = choose(&mut table, &FORMULATIONS, findings).unwrap_or_default();
     options.stabilisation = choose(&mut table, &STABILISATIONS, findings).unwrap_or_default();
-    if let Some(field) = table.optional("drop") {
-        options.rows = RowChoice::Drop(rows(&field, findings));
-    }
+    let drop = table.optional("drop").map(|field| rows(&field, findings));
     table.close(findings);
-    t_end.map(|_| options)
+    if let Some(drop) = &drop {
+        options.rows = RowChoice::Drop(drop.iter().map(|(row, _)| *row).collect());
+    }
+    t_end.and(end).map(|end| Simulate {
+        options,
+        t_end: end.span(),
+        drop: drop.unwrap_or_default(),
+    })
 }
 
 /// A number within its bounds, refused in the words of `dynamics`.
 fn bounded(
     field: &Field,
+    name: &'static str,
     within: impl Fn(f64) -> bool,
     expected: &'static str,
     findings: &mut Findings,
@@ -80,12 +98,6 @@ fn bounded(
     if within(value) {
         return Some(value);
     }
-    let name = match field.key.as_str() {
-        "t_end" => "t_end",
-        "output_step" => "output_step",
-        "rtol" => "rtol",
-        _ => "atol",
-    };
     let error = MotionError::Option {
         name,
         value,
@@ -121,19 +133,20 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
 
 /// Rows to drop, counted from 1 in the file and from 0 in the result. That they exist is checked when the mechanism
 /// is built.
-fn rows(field: &Field, findings: &mut Findings) -> Vec<usize> {
-    let mut rows: Vec<(usize, Field)> = Vec::new();
-    for item in field
-        .items("a list of rows, counted from 1", findings)
-        .unwrap_or_default()
-    {
-        let Some(number) = item.integer("a list of rows, counted from 1", findings) else {
+fn rows(field: &Field, findings: &mut Findings) -> Vec<(usize, Range<usize>)> {
+    const EXPECTED: &str = "a list of rows, counted from 1";
+    let mut rows: Vec<(usize, Range<usize>)> = Vec::new();
+    for item in field.items(EXPECTED, findings).unwrap_or_default() {
+        let Some(number) = item.integer(EXPECTED, findings) else {
             continue;
         };
         let Some(row) = usize::try_from(number).ok().and_then(|n| n.checked_sub(1)) else {
             findings.error(
                 item.span(),
-                format!("{}: `drop` names row {number}; rows are counted from 1", field.subject),
+                format!(
+                    "{}: `drop` names row {number}; rows are counted from 1",
+                    field.subject
+                ),
                 "no such row",
             );
             continue;
@@ -143,31 +156,47 @@ fn rows(field: &Field, findings: &mut Findings) -> Vec<usize> {
                 item.span(),
                 format!("{}: `drop` names row {number} twice", field.subject),
                 "named again here",
-                first.span(),
+                first.clone(),
                 "first named here",
             ),
-            None => rows.push((row, item)),
+            None => rows.push((row, item.span())),
         }
     }
-    rows.into_iter().map(|(row, _)| row).collect()
+    rows
 }
 
-/// Reports dropped rows that the mechanism does not have.
-pub(crate) fn check_rows(field: &Field, n_rows: usize, findings: &mut Findings) {
-    let Some(items) = field.value.get_ref().as_array() else {
-        return;
-    };
-    for item in items {
-        let item = Field {
-            value: item,
-            ..field.clone()
-        };
-        let number = crate::field::as_number(item.value.get_ref()).unwrap_or_default();
-        if number > n_rows as f64 {
+impl Simulate {
+    /// Reports dropped rows that the mechanism does not have.
+    pub(crate) fn check_rows(&self, n_rows: usize, findings: &mut Findings) {
+        for (row, span) in self.drop.iter().filter(|(row, _)| *row >= n_rows) {
             findings.error(
-                item.span(),
-                format!("{}: `drop` names row {number}; rows are 1 to {n_rows}", field.subject),
+                span.clone(),
+                format!(
+                    "`[simulate]`: `drop` names row {}; rows are 1 to {n_rows}",
+                    row + 1
+                ),
                 "no such row",
+            );
+        }
+    }
+
+    /// Reports tables of functions that end before the run does.
+    pub(crate) fn check_domains(&self, domains: &[Domain], findings: &mut Findings) {
+        let t_end = self.options.t_end;
+        for domain in domains {
+            let Domain { first, last, .. } = *domain;
+            if first <= 0.0 && last >= t_end {
+                continue;
+            }
+            findings.collision(
+                domain.span.clone(),
+                format!(
+                    "{}: the table runs from t = {first} to t = {last}, the run from t = 0 to t = {t_end}",
+                    domain.subject
+                ),
+                "must cover the whole run",
+                self.t_end.clone(),
+                "the run ends here",
             );
         }
     }

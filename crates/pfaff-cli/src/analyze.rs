@@ -1,0 +1,107 @@
+//! `pfaff analyze`: the verdict of every reaction, for people or as JSON.
+
+use pfaff::Overrides;
+use pfaff::report::{AnalysisDocument, Proof, write_json};
+use pfaff::solvability::{Analysis, ReactionVerdict, Verdict};
+
+use crate::Outcome;
+use crate::args::Analyze;
+use crate::input::{Source, rows_from_zero};
+use crate::output::{Failure, columns, print};
+
+/// Neither a proof nor a test at other configurations is made yet.
+const PROOF: Proof = Proof { permanent: None, certified: false };
+
+pub(crate) fn run(arguments: &Analyze) -> Outcome {
+    if !(arguments.at_time >= 0.0 && arguments.at_time.is_finite()) {
+        return Err(Failure::input(format!("--at-time is {}, need a time ≥ 0", arguments.at_time)));
+    }
+    let drop = rows_from_zero(arguments.drop.as_deref())?;
+    let source = Source::read(&arguments.scene)?;
+    let study = source.study(&Overrides { drop: drop.clone(), ..Overrides::default() })?;
+    let analysis = study
+        .analyse_at(arguments.at_time, drop.as_deref())
+        .map_err(|e| source.failure(e))?;
+    let name = &study.scene.description.name;
+    if arguments.json {
+        let mut out = Vec::new();
+        write_json(&mut out, &AnalysisDocument::new(name, &analysis, PROOF))
+            .map_err(|e| Failure::stopped(e.to_string()))?;
+        return print(&String::from_utf8_lossy(&out));
+    }
+    print(&describe(name, &analysis))
+}
+
+/// The analysis in words and columns.
+fn describe(name: &str, a: &Analysis) -> String {
+    let d = &a.decision;
+    let e = &d.evidence;
+    let mut out = format!(
+        "{name} at t = {} s\n\
+         {} bodies, {} coordinates, {} rows: {} holonomic, {} nonholonomic\n\
+         rank {} (Φq alone {}, Ψ alone {}), redundancy {}, mobility {}\n\
+         evidence: σ_r = {:.3e}, σ_r+1 = {:.1e}, tolerance {:.1e}, |Φ| = {:.1e}: {}\n\n",
+        a.time,
+        a.bodies,
+        a.coordinates,
+        a.holonomic_rows + a.nonholonomic_rows,
+        a.holonomic_rows,
+        a.nonholonomic_rows,
+        d.rank,
+        a.rank_holonomic,
+        a.rank_nonholonomic,
+        d.redundancy,
+        a.mobility(),
+        e.sigma_r,
+        e.sigma_next,
+        e.tolerance,
+        e.constraint_residual,
+        if d.is_decided() { "decided" } else { "UNDECIDED" },
+    );
+    let header = ["reaction", "type", "rows", "verdict", "margin", "components"];
+    let mut table = vec![header.map(str::to_owned).to_vec()];
+    table.extend(a.reactions.iter().map(line));
+    out.push_str(&columns(&table));
+    if !a.dependencies.is_empty() {
+        out.push_str("\nDependencies:\n");
+        for dependency in &a.dependencies {
+            out.push_str(&format!("- {}\n", dependency.text));
+        }
+    }
+    for warning in &a.warnings {
+        out.push_str(&format!("\nwarning: {warning}\n"));
+    }
+    out
+}
+
+fn line(r: &ReactionVerdict) -> Vec<String> {
+    let rows = match (r.rows.first(), r.rows.last()) {
+        (Some(a), Some(b)) if a.row != b.row => format!("{}–{}", a.row + 1, b.row + 1),
+        (Some(a), _) => (a.row + 1).to_string(),
+        _ => String::new(),
+    };
+    let components: Vec<String> = match r.wrench.verdict {
+        Verdict::Unique => Vec::new(),
+        _ => r
+            .components
+            .iter()
+            .map(|c| format!("{} {}", c.name, words(&c.judgement.verdict)))
+            .collect(),
+    };
+    vec![
+        r.name.clone(),
+        r.kind.to_owned(),
+        rows,
+        words(&r.wrench.verdict).to_owned(),
+        format!("{:.1e}", r.wrench.margin),
+        components.join(", "),
+    ]
+}
+
+fn words(verdict: &Verdict) -> &'static str {
+    match verdict {
+        Verdict::Unique => "unique",
+        Verdict::NotUnique => "not unique",
+        _ => "undecided",
+    }
+}

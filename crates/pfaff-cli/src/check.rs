@@ -1,0 +1,62 @@
+//! `pfaff check`: read and assemble, and say everything that is wrong.
+
+use pfaff::model::System;
+use pfaff::{Overrides, Study};
+use serde_json::json;
+
+use crate::Outcome;
+use crate::args::Check;
+use crate::input::Source;
+use crate::output::{Failure, print};
+
+pub(crate) fn run(arguments: &Check) -> Outcome {
+    let source = Source::read(&arguments.scene)?;
+    match source.study(&Overrides::default()) {
+        Ok(study) if arguments.json => print(&format!("{:#}\n", facts(&study))),
+        Ok(study) => print(&describe(&study)),
+        Err(Failure::Scene { diagnostics, .. }) if arguments.json => {
+            print(&format!("{:#}\n", json!({ "ok": false, "problems": diagnostics })))?;
+            Err(Failure::Said(2))
+        }
+        Err(Failure::Input(message) | Failure::Stopped(message)) if arguments.json => {
+            print(&format!("{:#}\n", json!({ "ok": false, "problems": [{ "message": message }] })))?;
+            Err(Failure::Said(2))
+        }
+        Err(failure) => Err(failure),
+    }
+}
+
+fn facts(study: &Study) -> serde_json::Value {
+    let layout = study.prepared.mechanism.layout();
+    json!({
+        "ok": true,
+        "scene": study.scene.description.name,
+        "bodies": study.prepared.mechanism.bodies().len(),
+        "coordinates": layout.n_q,
+        "holonomic_rows": layout.m,
+        "nonholonomic_rows": layout.h,
+        "start_correction": correction(&study.prepared.assembly.correction),
+        "start_velocity_correction": correction(&study.prepared.velocity_correction),
+        "problems": [],
+    })
+}
+
+fn describe(study: &Study) -> String {
+    let layout = study.prepared.mechanism.layout();
+    format!(
+        "{}: {} bodies, {} joints and drives, {} rows ({} holonomic, {} nonholonomic)\n\
+         assembled; the start was corrected by {:.1e} in position and {:.1e} in velocity\n",
+        study.scene.description.name,
+        study.prepared.mechanism.bodies().len(),
+        layout.groups.len(),
+        layout.rows(),
+        layout.m,
+        layout.h,
+        correction(&study.prepared.assembly.correction),
+        correction(&study.prepared.velocity_correction),
+    )
+}
+
+fn correction(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |a: f64, x| a.max(x.abs()))
+}

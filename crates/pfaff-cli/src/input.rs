@@ -1,0 +1,62 @@
+//! A scene file from the command line, or standard input.
+
+use std::io::Read;
+use std::path::Path;
+
+use pfaff::model::Registry;
+use pfaff::{Overrides, Study, StudyError};
+
+use crate::output::Failure;
+
+/// The text of a scene with the name that messages call it by.
+pub(crate) struct Source {
+    pub(crate) name: String,
+    pub(crate) text: String,
+}
+
+impl Source {
+    /// Reads a file, or standard input for `-`.
+    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+        let standard_input = path.as_os_str() == "-";
+        let name = if standard_input { "<stdin>".to_owned() } else { path.display().to_string() };
+        let bytes = if standard_input {
+            let mut bytes = Vec::new();
+            std::io::stdin().read_to_end(&mut bytes).map(|_| bytes)
+        } else {
+            std::fs::read(path)
+        };
+        let bytes = bytes.map_err(|e| Failure::input(format!("cannot read `{name}`: {e}")))?;
+        let text = String::from_utf8(bytes).map_err(|e| {
+            let at = e.utf8_error().valid_up_to();
+            Failure::input(format!("`{name}` is no text: byte {at} is not UTF-8"))
+        })?;
+        Ok(Self { name, text })
+    }
+
+    /// Reads and assembles the scene.
+    pub(crate) fn study(&self, overrides: &Overrides) -> Result<Study, Failure> {
+        Study::read(&self.name, &self.text, &Registry::planar(), overrides)
+            .map_err(|e| self.failure(e))
+    }
+
+    /// An error with the places of this text.
+    pub(crate) fn failure(&self, error: StudyError) -> Failure {
+        match error {
+            StudyError::Scene(diagnostics) => {
+                Failure::Scene { name: self.name.clone(), text: self.text.clone(), diagnostics }
+            }
+            other if other.is_input() => Failure::input(other.to_string()),
+            other => Failure::stopped(other.to_string()),
+        }
+    }
+}
+
+/// Rows as the user counts them, from 0.
+pub(crate) fn rows_from_zero(rows: Option<&[usize]>) -> Result<Option<Vec<usize>>, Failure> {
+    let Some(rows) = rows else { return Ok(None) };
+    let from_zero: Option<Vec<usize>> = rows.iter().map(|r| r.checked_sub(1)).collect();
+    match from_zero {
+        Some(rows) => Ok(Some(rows)),
+        None => Err(Failure::input("rows are counted from 1; there is no row 0".to_owned())),
+    }
+}

@@ -1,0 +1,107 @@
+//! Everything that is printed. A closed standard output ends the program quietly.
+
+use std::io::{self, IsTerminal, Write};
+use std::process::ExitCode;
+
+use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, Source};
+use pfaff::scene::{Diagnostic, Severity};
+
+/// Why a command did not do all it was asked.
+pub(crate) enum Failure {
+    /// The scene is wrong.
+    Scene { name: String, text: String, diagnostics: Vec<Diagnostic> },
+    /// Another input is wrong.
+    Input(String),
+    /// The computation stopped.
+    Stopped(String),
+    /// Nobody listens any more.
+    Closed,
+    /// Everything has been said already.
+    Said(u8),
+}
+
+impl Failure {
+    pub(crate) fn input(message: String) -> Self {
+        Self::Input(message)
+    }
+
+    pub(crate) fn stopped(message: String) -> Self {
+        Self::Stopped(message)
+    }
+
+    /// Prints it on standard error and gives the exit code.
+    pub(crate) fn report(self) -> ExitCode {
+        let (message, code) = match self {
+            Self::Closed => return ExitCode::SUCCESS,
+            Self::Said(code) => return ExitCode::from(code),
+            Self::Scene { name, text, diagnostics } => (render(&name, &text, &diagnostics), 2),
+            Self::Input(message) => (format!("error: {message}\n"), 2),
+            Self::Stopped(message) => (format!("error: {message}\n"), 1),
+        };
+        // Nothing can be said about an error of standard error.
+        let _ = io::stderr().write_all(message.as_bytes());
+        ExitCode::from(code)
+    }
+}
+
+/// Writes to standard output.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = io::stdout().lock();
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    written.map_err(|e| match e.kind() {
+        io::ErrorKind::BrokenPipe => Failure::Closed,
+        _ => Failure::Stopped(format!("cannot write to standard output: {e}")),
+    })
+}
+
+/// Problems of a scene with its lines and carets.
+pub(crate) fn render(name: &str, text: &str, diagnostics: &[Diagnostic]) -> String {
+    let color = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+    let mut out = Vec::new();
+    for d in diagnostics {
+        let (kind, tint) = match d.severity {
+            Severity::Warning => (ReportKind::Warning, Color::Yellow),
+            _ => (ReportKind::Error, Color::Red),
+        };
+        let config = Config::default().with_color(color).with_index_type(IndexType::Byte);
+        let mut report = Report::build(kind, (name, d.primary.span.clone()))
+            .with_config(config)
+            .with_message(&d.message)
+            .with_label(label(name, &d.primary).with_color(tint));
+        for other in &d.secondary {
+            report = report.with_label(label(name, other).with_color(Color::Blue));
+        }
+        if let Some(help) = &d.help {
+            report = report.with_help(help);
+        }
+        let written = report.finish().write((name, Source::from(text)), &mut out);
+        if written.is_err() {
+            out.extend(format!("{d}\n").bytes());
+        }
+    }
+    let mut rendered = String::from_utf8_lossy(&out).into_owned();
+    if diagnostics.len() > 1 {
+        rendered.push_str(&format!("{} problems in `{name}`\n", diagnostics.len()));
+    }
+    rendered
+}
+
+fn label<'a>(name: &'a str, l: &pfaff::scene::Label) -> Label<(&'a str, std::ops::Range<usize>)> {
+    let label = Label::new((name, l.span.clone()));
+    if l.text.is_empty() { label } else { label.with_message(&l.text) }
+}
+
+/// Lines of cells in columns, the first line a header.
+pub(crate) fn columns(rows: &[Vec<String>]) -> String {
+    let n = rows.iter().map(Vec::len).max().unwrap_or(0);
+    let width = |k: usize| rows.iter().filter_map(|r| r.get(k)).map(|c| c.chars().count()).max();
+    let widths: Vec<usize> = (0..n).map(|k| width(k).unwrap_or(0)).collect();
+    let mut out = String::new();
+    for row in rows {
+        let cells: Vec<String> =
+            row.iter().zip(&widths).map(|(cell, &w)| format!("{cell:<w$}")).collect();
+        out.push_str(cells.join("  ").trim_end());
+        out.push('\n');
+    }
+    out
+}

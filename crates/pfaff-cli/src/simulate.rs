@@ -1,0 +1,124 @@
+//! `pfaff simulate`: motion and reactions into a directory, with progress on a terminal.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use pfaff::dynamics::Method;
+use pfaff::report::{OutputDirectory, RunDocument, write_json};
+use pfaff::{Overrides, StudyError};
+
+use crate::Outcome;
+use crate::args::{FormulationName, MethodName, Simulate};
+use crate::input::{Source, rows_from_zero};
+use crate::output::{Failure, print};
+
+/// Ticks of the progress bar over the whole run.
+const TICKS: u64 = 1000;
+
+pub(crate) fn run(arguments: &Simulate) -> Outcome {
+    let source = Source::read(&arguments.scene)?;
+    let overrides = overrides(arguments)?;
+    let study = source.study(&overrides)?;
+    let Some(options) = &study.options else {
+        return Err(source.failure(StudyError::NoEnd));
+    };
+    let directory =
+        OutputDirectory::create(&arguments.out).map_err(|e| Failure::stopped(e.to_string()))?;
+    let interrupted = Arc::new(AtomicBool::new(false));
+    let flag = Arc::clone(&interrupted);
+    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
+        .map_err(|e| Failure::stopped(format!("cannot listen for interrupts: {e}")))?;
+    // Hidden by itself where standard error is no terminal.
+    let bar = ProgressBar::new(TICKS);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} t = {msg} s, {eta} left") {
+        bar.set_style(style);
+    }
+    let t_end = options.t_end;
+    let outcome = study.simulate_into(&directory, |t| {
+        bar.set_position((t / t_end * TICKS as f64) as u64);
+        bar.set_message(format!("{t:.3}"));
+        match interrupted.load(Ordering::Relaxed) {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    });
+    bar.finish_and_clear();
+    let document = outcome.map_err(|e| source.failure(e))?;
+    if arguments.json {
+        let mut out = Vec::new();
+        write_json(&mut out, &document).map_err(|e| Failure::stopped(e.to_string()))?;
+        print(&String::from_utf8_lossy(&out))?;
+    } else {
+        print(&describe(&study.scene.description.name, &document, &arguments.out.display().to_string()))?;
+    }
+    match document.partial {
+        true => Err(Failure::Said(1)),
+        false => Ok(()),
+    }
+}
+
+fn overrides(arguments: &Simulate) -> Result<Overrides, Failure> {
+    let method = arguments.method.map(|m| match m {
+        MethodName::Auto | MethodName::Dopri5 => Method::Dopri5,
+    });
+    // The only one there is; named so that scripts may say it.
+    let _: Option<FormulationName> = arguments.formulation;
+    Ok(Overrides {
+        t_end: arguments.t_end,
+        rtol: arguments.rtol,
+        atol: arguments.atol,
+        method,
+        drop: rows_from_zero(arguments.drop.as_deref())?,
+    })
+}
+
+/// The summary in words.
+fn describe(name: &str, d: &RunDocument, out: &str) -> String {
+    let mut text = format!(
+        "{name}: {} to t = {} s with {} ({})\n\
+         {} steps, {} rejected, {} evaluations in {:.2} ms\n\
+         |Φ| ≤ {:.1e}, |C·v − b| ≤ {:.1e}, energy balance {:.1e}\n",
+        if d.partial { "interrupted, partial" } else { "done" },
+        d.t_end,
+        d.method,
+        d.formulation,
+        d.steps,
+        d.rejected,
+        d.evaluations,
+        1e3 * d.wall_seconds,
+        d.max_position_residual,
+        d.max_velocity_residual,
+        d.energy_balance,
+    );
+    if d.start_correction > 0.0 || d.start_velocity_correction > 0.0 {
+        text.push_str(&format!(
+            "the start was corrected by {:.1e} in position and {:.1e} in velocity\n",
+            d.start_correction, d.start_velocity_correction
+        ));
+    }
+    for event in &d.events {
+        text.push_str(&format!("t = {:.6} s: {}\n", event.time, event.text));
+    }
+    let choice = d.reactions.0.iter().find_map(|(_, r)| r.choice.as_ref());
+    if let Some(choice) = choice {
+        let names: Vec<&str> = d
+            .reactions
+            .0
+            .iter()
+            .filter(|(_, r)| r.choice.is_some())
+            .map(|(name, _)| name.as_str())
+            .collect();
+        let rows: Vec<String> = choice.deleted_rows.iter().map(usize::to_string).collect();
+        text.push_str(&format!(
+            "not determined by the model: {}. Their columns in reactions.csv belong to one choice ({}, rows {} deleted), \
+             not to the mechanism.\n",
+            names.join(", "),
+            choice.method,
+            rows.join(", ")
+        ));
+    }
+    text.push_str(&format!("written to {out}\n"));
+    text
+}

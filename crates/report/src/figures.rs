@@ -1,0 +1,77 @@
+//! Figures as SVG text: light background, system fonts, no external resources, and readable without colour. Values
+//! that are NaN or infinite are gaps.
+//!
+//! | function | shows |
+//! | --- | --- |
+//! | [`mechanism()`] | a mechanism to scale, its joints marked by the verdict of their reactions |
+//! | [`history()`], [`histories`] | quantities over time |
+//! | [`paths()`] | paths in the plane, with equal axes |
+//!
+//! Not here: which quantities are worth a figure, and pages around them.
+
+mod axis;
+mod geometry;
+mod history;
+mod label;
+mod mechanism;
+mod outline;
+mod paths;
+mod plot;
+mod style;
+mod svg;
+mod symbol;
+#[cfg(test)]
+mod tests;
+
+pub use history::{Panel, Series, histories, history};
+pub use mechanism::{Marking, mechanism};
+pub use paths::{Path, PathRecorder, paths};
+pub use style::{Pattern, Style};
+
+/// Why a figure cannot be drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FigureError {
+    /// Coordinates of another mechanism.
+    #[error("{found} coordinates, the mechanism `{mechanism}` has {expected}")]
+    Coordinates {
+        /// Name of the mechanism.
+        mechanism: String,
+        /// How many came.
+        found: usize,
+        /// How many it has.
+        expected: usize,
+    },
+    /// A coordinate is NaN or infinite, or too large to draw.
+    #[error("coordinate {number} of `{mechanism}` is {value}, need a finite number up to {limit:e}")]
+    Coordinate {
+        /// Name of the mechanism.
+        mechanism: String,
+        /// Which one, from 1.
+        number: usize,
+        /// Its value.
+        value: f64,
+        /// The largest that can be drawn.
+        limit: f64,
+    },
+    /// Verdicts of another mechanism.
+    #[error("{found} verdicts, the mechanism `{mechanism}` has {expected} joints and drives")]
+    Verdicts {
+        /// Name of the mechanism.
+        mechanism: String,
+        /// How many came.
+        found: usize,
+        /// How many joints and drives it has.
+        expected: usize,
+    },
+    /// A body that does not exist.
+    #[error("body {index} of `{mechanism}` does not exist: it has {bodies}, counted from 0")]
+    Body {
+        /// Name of the mechanism.
+        mechanism: String,
+        /// Which one was meant.
+        index: usize,
+        /// How many there are.
+        bodies: usize,
+    },
+}

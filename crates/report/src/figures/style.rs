@@ -1,0 +1,130 @@
+//! Colours, strokes and sizes. Colours are those of Okabe and Ito (2008), which remain apart for colour-blind readers;
+//! nothing is told by colour alone.
+
+use solvability::Verdict;
+
+/// Text and frames.
+pub(super) const INK: &str = "#222222";
+/// Axes, leaders, secondary text.
+pub(super) const GREY: &str = "#5f6870";
+/// Grid lines.
+pub(super) const GRID: &str = "#e3e6e9";
+/// Size of titles (px).
+pub(super) const TITLE_SIZE: f64 = 14.0;
+/// Size of all other text (px).
+pub(super) const TEXT_SIZE: f64 = 12.0;
+
+/// Colours of curves.
+const CURVES: [&str; 7] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000",
+];
+
+/// How a curve is stroked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pattern {
+    /// One line.
+    #[default]
+    Solid,
+    /// Dashes.
+    Dashed,
+    /// Dots.
+    Dotted,
+}
+
+impl Pattern {
+    const ALL: [Self; 3] = [Self::Solid, Self::Dashed, Self::Dotted];
+
+    pub(super) fn dashes(self) -> &'static str {
+        match self {
+            Self::Solid => "none",
+            Self::Dashed => "7 4",
+            Self::Dotted => "1.5 3.5",
+        }
+    }
+}
+
+/// How a curve looks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Style {
+    /// Place in the palette of seven colours, which repeats.
+    pub colour: usize,
+    /// Its stroke.
+    pub pattern: Pattern,
+}
+
+impl Style {
+    /// The style of the curve with this place: colours and strokes both change, so that curves that coincide are all
+    /// seen.
+    #[must_use]
+    pub fn nth(place: usize) -> Self {
+        Self {
+            colour: place,
+            pattern: Pattern::ALL[place % Pattern::ALL.len()],
+        }
+    }
+
+    pub(super) fn colour(self) -> &'static str {
+        CURVES[self.colour % CURVES.len()]
+    }
+}
+
+/// How a symbol is filled, by the verdict of its reaction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mark {
+    Plain,
+    Unique,
+    NotUnique,
+    Undecided,
+}
+
+impl Mark {
+    /// Marks with a meaning, for the legend.
+    pub(super) const VERDICTS: [Self; 3] = [Self::Unique, Self::NotUnique, Self::Undecided];
+
+    pub(super) fn of(verdict: &Verdict) -> Self {
+        match verdict {
+            Verdict::Unique => Self::Unique,
+            Verdict::NotUnique => Self::NotUnique,
+            _ => Self::Undecided,
+        }
+    }
+
+    pub(super) fn words(self) -> &'static str {
+        match self {
+            Self::Plain => "",
+            Self::Unique => "unique",
+            Self::NotUnique => "not unique",
+            Self::Undecided => "undecided",
+        }
+    }
+
+    pub(super) fn stroke(self) -> &'static str {
+        match self {
+            Self::Plain => "#3b434a",
+            Self::Unique => "#0072b2",
+            Self::NotUnique => "#c44f00",
+            Self::Undecided => "#a3487c",
+        }
+    }
+
+    /// A colour, or the pattern that [`HATCH`] defines.
+    pub(super) fn fill(self) -> &'static str {
+        match self {
+            Self::Plain | Self::Undecided => "#ffffff",
+            Self::Unique => "#4fa3d6",
+            Self::NotUnique => "url(#hatch)",
+        }
+    }
+
+    pub(super) fn dashes(self) -> &'static str {
+        match self {
+            Self::Undecided => "2.5 2",
+            _ => "none",
+        }
+    }
+}
+
+/// Id of the hatch of non-unique reactions.
+pub(super) const HATCH: &str = "hatch";
+/// Distance of its lines (px).
+pub(super) const HATCH_PITCH: f64 = 3.6;

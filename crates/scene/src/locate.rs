@@ -1,0 +1,188 @@
+//! From errors that name bodies, joints and rows to places in the file.
+
+use std::ops::Range;
+
+use dynamics::{MotionError, Trip};
+use model::{Body, BodyRef, BuildError, Description, RowLabel, StartError};
+
+use crate::diagnostic::Diagnostic;
+use crate::source_map::{BODY_KEYS, Entry, PLACE_KEYS, SourceMap};
+
+/// The place of an error of [`model::Mechanism::build`].
+pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Diagnostic {
+    let (span, label) = match error {
+        BuildError::NoBodies => (map.section("scene", ""), "no `[[body]]` in this scene"),
+        BuildError::Gravity { .. } => (map.section("scene", "gravity"), "not finite"),
+        BuildError::DuplicateName { name } => {
+            let uses = uses(map, name);
+            let mut diagnostics = duplicates(map, &uses[0], error);
+            diagnostics.extend(duplicates(map, &uses[1], error));
+            return diagnostics
+                .into_iter()
+                .next()
+                .unwrap_or_else(|| at(map, map.section("scene", ""), error, "in this scene"));
+        }
+        BuildError::Ground => {
+            let named = map.bodies.iter().chain(map.elements());
+            let found = named.into_iter().find(|entry| entry.name == "ground");
+            let span = found.map_or_else(|| map.section("scene", ""), Entry::name_span);
+            (span, "choose another name")
+        }
+        BuildError::NotFinite { body, field, .. } => (
+            body_key(map, d, body, field, |x| !x.is_finite()),
+            "not finite",
+        ),
+        BuildError::Negative { body, field, .. } => (
+            body_key(map, d, body, field, |x| x < 0.0),
+            "may not be negative",
+        ),
+        BuildError::BodyCount { name, .. } | BuildError::UnknownBody { name, .. } => {
+            (element_key(map, name, &BODY_KEYS), "these bodies")
+        }
+        BuildError::SameBody { name, .. } => (
+            connection(map, d, name, |bodies| {
+                (1..bodies.len()).any(|k| bodies[..k].contains(&bodies[k]))
+            }),
+            "give two different bodies",
+        ),
+        BuildError::GroundOnly { name } => (
+            connection(map, d, name, |bodies| {
+                bodies.iter().all(|body| *body == BodyRef::Ground)
+            }),
+            "at least one body must be able to move",
+        ),
+        BuildError::FunctionCount { name, .. } => (element_key(map, name, &[]), "defined here"),
+        _ => (map.section("scene", ""), "in this scene"),
+    };
+    at(map, span, error, label)
+}
+
+/// The place of an error of [`model::start`].
+pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
+    let (span, label) = match error {
+        StartError::NoAssembly { worst, .. } => (row(map, worst), "misses most"),
+        StartError::NoVelocity { worst, .. } => (row(map, worst), "misses most"),
+        StartError::LargeCorrection { body, .. } => {
+            let entry = map.body(body);
+            let span = entry.map(|entry| entry.first_of(&["position", "angle"]));
+            (span.unwrap_or(0..0), "moves most")
+        }
+        StartError::Requirement { name, .. } => {
+            (element_key(map, name, &PLACE_KEYS), "required here")
+        }
+        _ => (map.section("start", ""), "of this scene"),
+    };
+    at(map, span, error, label)
+}
+
+/// The place of an error of a run.
+pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
+    let (span, label) = match error {
+        MotionError::Start(error) => return start(map, error),
+        MotionError::Option { name, .. } => (map.section("simulate", name), "not possible"),
+        MotionError::Rows(_) => (map.section("simulate", "drop"), "of this run"),
+        MotionError::Trip(trip) => match trip {
+            Trip::RankLost { row: label, .. } => (row(map, label), "becomes dependent"),
+            Trip::OffConstraints { row: label, .. } => (row(map, label), "misses most"),
+            Trip::DroppedRow { row: label, .. } => (row(map, label), "is violated"),
+            Trip::Massless { body, .. } => {
+                let entry = map.body(body);
+                let span = entry.map(|entry| entry.first_of(&["mass"]));
+                (span.unwrap_or(0..0), "can move freely")
+            }
+            _ => (map.section("simulate", ""), "in this run"),
+        },
+        _ => (map.section("simulate", ""), "in this run"),
+    };
+    at(map, span, error, label)
+}
+
+fn at(
+    map: &SourceMap,
+    span: Range<usize>,
+    error: &impl std::error::Error,
+    label: &str,
+) -> Diagnostic {
+    Diagnostic::error(&map.text, span, error.to_string(), label)
+}
+
+/// The joint or drive of a row.
+fn row(map: &SourceMap, label: &RowLabel) -> Range<usize> {
+    element_key(map, &label.joint, &[])
+}
+
+/// The first of these keys of a joint, drive or force that is given, or its name.
+fn element_key(map: &SourceMap, name: &str, keys: &[&str]) -> Range<usize> {
+    let entry = map.element(name);
+    entry.map_or_else(|| map.section("scene", ""), |entry| entry.first_of(keys))
+}
+
+/// Spans of a name in the two spaces of names: bodies; joints, drives and forces.
+fn uses(map: &SourceMap, name: &str) -> [Vec<Range<usize>>; 2] {
+    let of = |entries: &mut dyn Iterator<Item = &Entry>| {
+        let same = entries.filter(|entry| entry.name == name);
+        same.map(Entry::name_span).collect()
+    };
+    [of(&mut map.bodies.iter()), of(&mut map.elements())]
+}
+
+/// One diagnostic for each use of a name after the first, in the order of the file.
+pub(crate) fn duplicates(
+    map: &SourceMap,
+    uses: &[Range<usize>],
+    error: &BuildError,
+) -> Vec<Diagnostic> {
+    let mut uses = uses.to_vec();
+    uses.sort_by_key(|span| span.start);
+    let Some((first, later)) = uses.split_first() else {
+        return Vec::new();
+    };
+    let first = map.text.label(first.clone(), "first used here");
+    let again =
+        |span: &Range<usize>| at(map, span.clone(), error, "used again here").and(first.clone());
+    later.iter().map(again).collect()
+}
+
+/// A number of a body of this name that is at fault.
+fn body_key(
+    map: &SourceMap,
+    d: &Description,
+    name: &str,
+    field: &str,
+    fault: impl Fn(f64) -> bool,
+) -> Range<usize> {
+    let numbers = |body: &Body| match field {
+        "mass" => vec![body.mass],
+        "inertia" => vec![body.inertia],
+        "position" => body.position.to_vec(),
+        "angle" => vec![body.angle],
+        "velocity" => body.velocity.to_vec(),
+        _ => vec![body.angular_velocity],
+    };
+    let of_name = d.bodies.iter().zip(&map.bodies);
+    let found = of_name
+        .filter(|(body, _)| body.name == name)
+        .find(|(body, _)| numbers(body).into_iter().any(&fault));
+    let key = field.replace(' ', "_");
+    found.map_or(0..0, |(_, entry)| entry.span(&key))
+}
+
+/// The bodies of an element of this name that are at fault. A drive has those of its joint.
+fn connection(
+    map: &SourceMap,
+    d: &Description,
+    name: &str,
+    fault: impl Fn(&[BodyRef]) -> bool,
+) -> Range<usize> {
+    let joints = d.joints.iter().map(|j| (&j.name, &j.bodies));
+    let drives = d.drives.iter().map(|x| (&x.name, &x.bodies));
+    let forces = d.forces.iter().map(|f| (&f.name, &f.bodies));
+    let found = joints
+        .chain(drives)
+        .chain(forces)
+        .zip(map.elements())
+        .find(|((of, bodies), _)| *of == name && fault(bodies));
+    found.map_or(0..0, |(_, entry)| {
+        entry.first_of(&["bodies", "body", "joint"])
+    })
+}

@@ -1,0 +1,209 @@
+//! `[[group]]` and `[output]`: which reactions are wanted, and which combinations of them.
+
+use std::ops::Range;
+
+use joints::spec::ConstraintSpec;
+use model::reaction::COMPONENTS;
+
+use crate::combination::{self, Combination, ReactionNames};
+use crate::field::Field;
+use crate::findings::Findings;
+use crate::nearest::did_you_mean;
+use crate::table::Table;
+
+/// A combination of reactions whose verdict is wanted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GroupRequest {
+    /// Its name.
+    pub name: String,
+    /// What is combined.
+    pub content: GroupContent,
+}
+
+/// What a group combines.
+#[derive(Clone, Debug, PartialEq)]
+pub enum GroupContent {
+    /// The reactions of these joints and drives together.
+    Members(Vec<String>),
+    /// One number.
+    Combination(Combination),
+}
+
+/// What is written. What is not wanted is not computed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Output {
+    /// `trajectory.csv`
+    pub trajectory: bool,
+    /// `reactions.csv`
+    pub reactions: WantedReactions,
+    /// `report.html`
+    pub report: bool,
+}
+
+impl Default for Output {
+    fn default() -> Self {
+        Self {
+            trajectory: true,
+            reactions: WantedReactions::All,
+            report: true,
+        }
+    }
+}
+
+/// Which reactions are written.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum WantedReactions {
+    /// Those of all joints and drives.
+    #[default]
+    All,
+    /// None.
+    None,
+    /// Those of these joints and drives.
+    Of(Vec<String>),
+}
+
+/// Components of a reaction that are not identically zero.
+pub(crate) fn components(spec: &ConstraintSpec) -> Vec<&'static str> {
+    let occurs = |k: &usize| spec.wrench.iter().any(|[component, _]| component == k);
+    let of_wrench = (0..COMPONENTS.len()).filter(occurs).map(|k| COMPONENTS[k]);
+    of_wrench.chain(spec.component).collect()
+}
+
+/// Reads one group.
+pub(crate) fn group(
+    mut table: Table,
+    name: &str,
+    names: &[ReactionNames],
+    findings: &mut Findings,
+) -> Option<GroupRequest> {
+    let members = table.optional("members");
+    let combine = table.optional("combine");
+    let content = match (members, combine) {
+        (Some(members), None) => {
+            self::members(&members, names, findings).map(GroupContent::Members)
+        }
+        (None, Some(combine)) => {
+            self::combine(&combine, names, findings).map(GroupContent::Combination)
+        }
+        (Some(members), Some(combine)) => {
+            findings.collision(
+                combine.span(),
+                format!("{} takes `members` or `combine`, not both", table.subject),
+                "and a combination here",
+                members.span(),
+                "members are given here",
+            );
+            None
+        }
+        (None, None) => {
+            findings.error(
+                table.header.clone(),
+                format!(
+                    "{} needs `members = [\"A\", …]` or `combine = \"A.Fx + …\"`",
+                    table.subject
+                ),
+                "its content is missing here",
+            );
+            None
+        }
+    };
+    table.close(findings);
+    content.map(|content| GroupRequest {
+        name: name.to_owned(),
+        content,
+    })
+}
+
+/// Reads the section `[output]`.
+pub(crate) fn output(mut table: Table, names: &[ReactionNames], findings: &mut Findings) -> Output {
+    let defaults = Output::default();
+    let trajectory = table
+        .optional("trajectory")
+        .and_then(|field| field.boolean(findings));
+    let report = table
+        .optional("report")
+        .and_then(|field| field.boolean(findings));
+    let reactions =
+        table
+            .optional("reactions")
+            .and_then(|field| match field.value.get_ref().as_bool() {
+                Some(true) => Some(WantedReactions::All),
+                Some(false) => Some(WantedReactions::None),
+                None => members(&field, names, findings).map(WantedReactions::Of),
+            });
+    table.close(findings);
+    Output {
+        trajectory: trajectory.unwrap_or(defaults.trajectory),
+        reactions: reactions.unwrap_or_default(),
+        report: report.unwrap_or(defaults.report),
+    }
+}
+
+/// A list of joints and drives, each once.
+fn members(field: &Field, names: &[ReactionNames], findings: &mut Findings) -> Option<Vec<String>> {
+    let expected = match field.key.as_str() {
+        "reactions" => "true, false, or a list of joints and drives",
+        _ => "a list of joints and drives",
+    };
+    let mut members: Vec<(&str, Range<usize>)> = Vec::new();
+    let mut right = true;
+    for item in field.items(expected, findings)? {
+        let Some(name) = item.text("the name of a joint or drive", findings) else {
+            right = false;
+            continue;
+        };
+        if !names.iter().any(|known| known.name == name) {
+            right = false;
+            findings.error_with_help(
+                item.span(),
+                format!(
+                    "{} refers to the unknown joint or drive `{name}`",
+                    item.subject
+                ),
+                "no such joint or drive",
+                did_you_mean(name, names.iter().map(|known| known.name)),
+            );
+        } else if let Some((_, first)) = members.iter().find(|(known, _)| *known == name) {
+            right = false;
+            findings.collision(
+                item.span(),
+                format!("{}: `{}` names `{name}` twice", item.subject, item.key),
+                "named again here",
+                first.clone(),
+                "first named here",
+            );
+        } else {
+            members.push((name, item.span()));
+        }
+    }
+    let names = members.into_iter().map(|(name, _)| name.to_owned());
+    right.then(|| names.collect())
+}
+
+fn combine(field: &Field, names: &[ReactionNames], findings: &mut Findings) -> Option<Combination> {
+    let text = field.text("a combination as \"A.Fx + B.Fx\"", findings)?;
+    combination::parse(text, names)
+        .map_err(|error| {
+            let span = inside(field, text, error.span, findings);
+            findings.error(
+                span,
+                format!("{}: `combine`: {}", field.subject, error.problem),
+                "here",
+            );
+        })
+        .ok()
+}
+
+/// The place of a part of a text in the file; the whole text where it is written with escapes.
+fn inside(field: &Field, text: &str, part: Range<usize>, findings: &Findings) -> Range<usize> {
+    let whole = field.span();
+    let written = findings
+        .source
+        .text()
+        .get(whole.clone())
+        .unwrap_or_default();
+    match written.find(text) {
+        Some(at) if !text.is_empty() => whole.start + at + part.start..whole.start + at + part.end,
+        _ => whole,
+    }
+}
