@@ -1,4 +1,4 @@
-//! The robot with its trolley, written out by hand: the same mechanism as `scenes/robot-trolley.toml`, from the
+//! The robot with its trolley, written out by hand: the same mechanism as `crates/robot-trolley/robot-trolley.toml`, from the
 //! same dimensions, but by another way.
 
 use joints::plane::Direction;

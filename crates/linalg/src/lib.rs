@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![forbid(unsafe_code)]
 
+mod circuits;
 mod equilibrate;
 mod kernels;
 #[cfg(feature = "faer")]
@@ -16,12 +17,11 @@ mod strong_basis;
 
 pub mod double_double;
 
+pub use circuits::{Circuit, circuits, short_circuits};
 pub use double_double::Dd;
 pub use equilibrate::{Scaling, equilibrate};
 pub use matrix::{Matrix, ShapeError};
-pub use null_space::{
-    Circuit, Components, circuits, components, dependencies, orthonormal, support_tolerance,
-};
+pub use null_space::{Components, components, dependencies, orthonormal, support_tolerance};
 pub use qr::PivotedQr;
 pub use rank::{
     Doubt, Evidence, KeptRowsError, RankDecision, RankError, RankStatus, decide, decide_dropping,

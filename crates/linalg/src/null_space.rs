@@ -1,10 +1,10 @@
 //! The left null space of a constraint matrix, read from a rank decision, and what it says in
-//! words: which rows depend on which (circuits), and which groups of rows mix (components).
+//! words: which groups of rows mix (components). Minimal dependent sets are in `circuits`.
 //!
 //! Columns z with `Cᵀ·z = 0` are the self-stresses: multipliers may change by them without any
 //! force on any body. Not here: verdicts on joints and reactions, which need the grouping of rows.
 
-use crate::{Matrix, PivotedQr, RankDecision, equilibrate::scale};
+use crate::{Matrix, PivotedQr, RankDecision};
 
 /// Coefficients are zero below this multiple of τ/σ_r, the rounding noise of T: τ already contains
 /// a factor 10 over the noise of the singular values, another 10 is for the triangular solves.
@@ -12,17 +12,6 @@ const SUPPORT_FACTOR: f64 = 10.0;
 
 /// Never call a coefficient zero above this, however poor the evidence.
 const SUPPORT_MAX: f64 = 1e-3;
-
-/// One minimal dependent set of rows: `Σ coefficients[l] · row rows[l] = 0`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Circuit {
-    /// The dropped row whose fundamental circuit this is; it is among `rows`.
-    pub dropped: usize,
-    /// Rows with a non-zero coefficient, ascending.
-    pub rows: Vec<usize>,
-    /// Coefficients for the rows of C as given, the first largest of them normalised to +1.
-    pub coefficients: Vec<f64>,
-}
 
 /// Partition of the rows by common dependencies.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -61,40 +50,6 @@ pub fn orthonormal(decision: &RankDecision) -> Matrix {
 pub fn support_tolerance(decision: &RankDecision) -> f64 {
     let evidence = &decision.evidence;
     (SUPPORT_FACTOR * evidence.tolerance / evidence.sigma_r).min(SUPPORT_MAX)
-}
-
-/// The fundamental circuit of each dropped row, in the order of `dropped`.
-///
-/// The support is decided on equilibrated coefficients relative to the largest of the circuit,
-/// against [`support_tolerance`]. A row of zeros is a circuit by itself.
-pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
-    let support = Support::new(decision);
-    let exponents = &decision.scaling.rows;
-    (0..decision.redundancy)
-        .map(|j| {
-            let dropped = decision.dropped[j];
-            let mut terms: Vec<(usize, f64)> = (0..decision.rank)
-                .filter(|&i| support.contains(j, i))
-                .map(|i| (decision.kept[i], -support.t[(j, i)]))
-                .chain([(dropped, 1.0)])
-                .collect();
-            terms.sort_unstable_by_key(|&(row, _)| row);
-            // z̃ᵀ·D_r·C·D_c = 0: the coefficient of row i of C is z̃_i·2^rows[i]. Exponents relative
-            // to that of the dropped row keep the numbers in range.
-            for (row, z) in &mut terms {
-                *z = scale(*z, exponents[*row] - exponents[dropped]);
-            }
-            let largest = terms
-                .iter()
-                .map(|&(_, z)| z)
-                .fold(0.0_f64, |a, b| if b.abs() > a.abs() { b } else { a });
-            Circuit {
-                dropped,
-                rows: terms.iter().map(|&(row, _)| row).collect(),
-                coefficients: terms.iter().map(|&(_, z)| z / largest).collect(),
-            }
-        })
-        .collect()
 }
 
 /// Connected components of the graph "kept row i – dropped row j where T_ji ≠ 0".
@@ -140,14 +95,15 @@ pub fn components(decision: &RankDecision) -> Components {
 }
 
 /// Which equilibrated coefficients count as non-zero.
-struct Support {
-    t: Matrix,
+pub(crate) struct Support {
+    /// T of the equilibrated rows.
+    pub(crate) t: Matrix,
     /// Absolute threshold for each dropped row.
     threshold: Vec<f64>,
 }
 
 impl Support {
-    fn new(decision: &RankDecision) -> Self {
+    pub(crate) fn new(decision: &RankDecision) -> Self {
         let t = decision.equilibrated_dependence();
         let relative = support_tolerance(decision);
         let threshold = (0..t.nrows())
@@ -156,7 +112,8 @@ impl Support {
         Self { t, threshold }
     }
 
-    fn contains(&self, j: usize, i: usize) -> bool {
+    /// Whether kept row i is in the circuit of dropped row j.
+    pub(crate) fn contains(&self, j: usize, i: usize) -> bool {
         self.t[(j, i)].abs() > self.threshold[j]
     }
 }
@@ -182,7 +139,7 @@ fn root(label: &[usize], mut row: usize) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::decide;
+    use crate::{circuits, decide};
 
     /// Rows: two independent groups {0, 1, 2} and {3, 4}, a coloop 5, a row of zeros 6.
     fn grouped() -> Matrix {

@@ -78,18 +78,38 @@ impl Mechanism {
         map
     }
 
+    /// Coefficients of a component of a reaction, `Σ coefficient·λ` over the rows of the joint or drive: `Fx`, `Fy`, `T`, or the
+    /// named component of its definition. `None` if it has no such component; allocates.
+    #[must_use]
+    pub fn component_coefficients(
+        &self,
+        id: ConstraintId,
+        name: &str,
+        s: &Scratch,
+    ) -> Option<Vec<f64>> {
+        if let Some(k) = COMPONENTS.iter().position(|c| *c == name) {
+            return Some(self.wrench_map(id, s).row(k).to_vec());
+        }
+        let c = &self.constraints()[id.0];
+        let element = c.element.element();
+        (element.spec().component == Some(name)).then(|| {
+            let mut coefficients = vec![0.0; c.rows.len()];
+            let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
+            element.component(x, f, &mut coefficients);
+            coefficients
+        })
+    }
+
     /// The reaction of a joint or drive for multipliers λ (all rows) at the poses of the scratch; allocates.
     #[must_use]
     pub fn reaction(&self, id: ConstraintId, s: &Scratch, lambda: &[f64]) -> Reaction {
         let c = &self.constraints()[id.0];
         let lambda = &lambda[c.rows.clone()];
         let wrench = self.wrench_map(id, s).times(lambda);
-        let component = c.element.element().spec().component.map(|_| {
-            let mut coefficients = vec![0.0; lambda.len()];
-            let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
-            c.element.element().component(x, f, &mut coefficients);
-            coefficients.iter().zip(lambda).map(|(k, l)| k * l).sum()
-        });
+        let named = c.element.element().spec().component;
+        let component = named
+            .and_then(|name| self.component_coefficients(id, name, s))
+            .map(|coefficients| coefficients.iter().zip(lambda).map(|(k, l)| k * l).sum());
         Reaction {
             force: [wrench[0], wrench[1]],
             torque: wrench[2],

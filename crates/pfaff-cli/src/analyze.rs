@@ -1,8 +1,9 @@
 //! `pfaff analyze`: the verdict of every reaction, for people or as JSON.
 
-use pfaff::Overrides;
+use pfaff::report::documents::GroupDocument;
 use pfaff::report::{AnalysisDocument, Proof, write_json};
-use pfaff::solvability::{Analysis, ReactionVerdict, Verdict};
+use pfaff::solvability::{ReactionVerdict, Verdict};
+use pfaff::{Findings, Overrides};
 
 use crate::Outcome;
 use crate::args::Analyze;
@@ -10,30 +11,48 @@ use crate::input::{Source, rows_from_zero};
 use crate::output::{Failure, columns, print};
 
 /// Neither a proof nor a test at other configurations is made yet.
-const PROOF: Proof = Proof { permanent: None, certified: false };
+const PROOF: Proof = Proof {
+    permanent: None,
+    certified: false,
+};
 
 pub(crate) fn run(arguments: &Analyze) -> Outcome {
     if !(arguments.at_time >= 0.0 && arguments.at_time.is_finite()) {
-        return Err(Failure::input(format!("--at-time is {}, need a time ≥ 0", arguments.at_time)));
+        return Err(Failure::input(format!(
+            "--at-time is {}, need a time ≥ 0",
+            arguments.at_time
+        )));
     }
     let drop = rows_from_zero(arguments.drop.as_deref())?;
     let source = Source::read(&arguments.scene)?;
-    let study = source.study(&Overrides { drop: drop.clone(), ..Overrides::default() })?;
-    let analysis = study
-        .analyse_at(arguments.at_time, drop.as_deref())
+    let study = source.study(&Overrides {
+        drop: drop.clone(),
+        ..Overrides::default()
+    })?;
+    let findings = study
+        .analyse_at(arguments.at_time, drop.as_deref(), &arguments.combine)
         .map_err(|e| source.failure(e))?;
     let name = &study.scene.description.name;
     if arguments.json {
         let mut out = Vec::new();
-        write_json(&mut out, &AnalysisDocument::new(name, &analysis, PROOF))
-            .map_err(|e| Failure::stopped(e.to_string()))?;
+        let mut document = AnalysisDocument::new(name, &findings.analysis, PROOF);
+        document.groups = findings
+            .groups
+            .iter()
+            .map(|(name, judgement)| GroupDocument {
+                name: name.clone(),
+                verdict: judgement.into(),
+            })
+            .collect();
+        write_json(&mut out, &document).map_err(|e| Failure::stopped(e.to_string()))?;
         return print(&String::from_utf8_lossy(&out));
     }
-    print(&describe(name, &analysis))
+    print(&describe(name, &findings))
 }
 
 /// The analysis in words and columns.
-fn describe(name: &str, a: &Analysis) -> String {
+fn describe(name: &str, findings: &Findings) -> String {
+    let a = &findings.analysis;
     let d = &a.decision;
     let e = &d.evidence;
     let mut out = format!(
@@ -56,12 +75,27 @@ fn describe(name: &str, a: &Analysis) -> String {
         e.sigma_next,
         e.tolerance,
         e.constraint_residual,
-        if d.is_decided() { "decided" } else { "UNDECIDED" },
+        if d.is_decided() {
+            "decided"
+        } else {
+            "UNDECIDED"
+        },
     );
-    let header = ["reaction", "type", "rows", "verdict", "margin", "components"];
+    let header = [
+        "reaction",
+        "type",
+        "rows",
+        "verdict",
+        "margin",
+        "components",
+    ];
     let mut table = vec![header.map(str::to_owned).to_vec()];
     table.extend(a.reactions.iter().map(line));
     out.push_str(&columns(&table));
+    for (name, judgement) in &findings.groups {
+        let (word, margin) = (words(&judgement.verdict), judgement.margin);
+        out.push_str(&format!("\n{name}: {word} (margin {margin:.1e})\n"));
+    }
     if !a.dependencies.is_empty() {
         out.push_str("\nDependencies:\n");
         for dependency in &a.dependencies {

@@ -6,7 +6,12 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// Mechanisms with redundant constraints: how they move, and which of their joint reactions may be believed.
 #[derive(Parser)]
-#[command(name = "pfaff", version, about, after_help = "Exit codes: 0 done, 1 the computation stopped, 2 the input is wrong.")]
+#[command(
+    name = "pfaff",
+    version,
+    about,
+    after_help = "Exit codes: 0 done, 1 the computation stopped, 2 the input is wrong."
+)]
 pub(crate) struct Arguments {
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -35,6 +40,9 @@ pub(crate) struct Analyze {
     /// Rows that carry the dependencies, counted from 1
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
     pub(crate) drop: Option<Vec<usize>>,
+    /// A sum of components whose verdict is wanted, as "W3.N + W4.N"; may be given several times
+    #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
+    pub(crate) combine: Vec<String>,
     /// One JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,

@@ -15,11 +15,17 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
         Ok(study) if arguments.json => print(&format!("{:#}\n", facts(&study))),
         Ok(study) => print(&describe(&study)),
         Err(Failure::Scene { diagnostics, .. }) if arguments.json => {
-            print(&format!("{:#}\n", json!({ "ok": false, "problems": diagnostics })))?;
+            print(&format!(
+                "{:#}\n",
+                json!({ "ok": false, "problems": diagnostics })
+            ))?;
             Err(Failure::Said(2))
         }
         Err(Failure::Input(message) | Failure::Stopped(message)) if arguments.json => {
-            print(&format!("{:#}\n", json!({ "ok": false, "problems": [{ "message": message }] })))?;
+            print(&format!(
+                "{:#}\n",
+                json!({ "ok": false, "problems": [{ "message": message }] })
+            ))?;
             Err(Failure::Said(2))
         }
         Err(failure) => Err(failure),

@@ -18,7 +18,11 @@ impl Source {
     /// Reads a file, or standard input for `-`.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let standard_input = path.as_os_str() == "-";
-        let name = if standard_input { "<stdin>".to_owned() } else { path.display().to_string() };
+        let name = if standard_input {
+            "<stdin>".to_owned()
+        } else {
+            path.display().to_string()
+        };
         let bytes = if standard_input {
             let mut bytes = Vec::new();
             std::io::stdin().read_to_end(&mut bytes).map(|_| bytes)
@@ -42,9 +46,11 @@ impl Source {
     /// An error with the places of this text.
     pub(crate) fn failure(&self, error: StudyError) -> Failure {
         match error {
-            StudyError::Scene(diagnostics) => {
-                Failure::Scene { name: self.name.clone(), text: self.text.clone(), diagnostics }
-            }
+            StudyError::Scene(diagnostics) => Failure::Scene {
+                name: self.name.clone(),
+                text: self.text.clone(),
+                diagnostics,
+            },
             other if other.is_input() => Failure::input(other.to_string()),
             other => Failure::stopped(other.to_string()),
         }
@@ -57,6 +63,8 @@ pub(crate) fn rows_from_zero(rows: Option<&[usize]>) -> Result<Option<Vec<usize>
     let from_zero: Option<Vec<usize>> = rows.iter().map(|r| r.checked_sub(1)).collect();
     match from_zero {
         Some(rows) => Ok(Some(rows)),
-        None => Err(Failure::input("rows are counted from 1; there is no row 0".to_owned())),
+        None => Err(Failure::input(
+            "rows are counted from 1; there is no row 0".to_owned(),
+        )),
     }
 }

@@ -9,7 +9,11 @@ use pfaff::scene::{Diagnostic, Severity};
 /// Why a command did not do all it was asked.
 pub(crate) enum Failure {
     /// The scene is wrong.
-    Scene { name: String, text: String, diagnostics: Vec<Diagnostic> },
+    Scene {
+        name: String,
+        text: String,
+        diagnostics: Vec<Diagnostic>,
+    },
     /// Another input is wrong.
     Input(String),
     /// The computation stopped.
@@ -34,7 +38,11 @@ impl Failure {
         let (message, code) = match self {
             Self::Closed => return ExitCode::SUCCESS,
             Self::Said(code) => return ExitCode::from(code),
-            Self::Scene { name, text, diagnostics } => (render(&name, &text, &diagnostics), 2),
+            Self::Scene {
+                name,
+                text,
+                diagnostics,
+            } => (render(&name, &text, &diagnostics), 2),
             Self::Input(message) => (format!("error: {message}\n"), 2),
             Self::Stopped(message) => (format!("error: {message}\n"), 1),
         };
@@ -63,7 +71,9 @@ pub(crate) fn render(name: &str, text: &str, diagnostics: &[Diagnostic]) -> Stri
             Severity::Warning => (ReportKind::Warning, Color::Yellow),
             _ => (ReportKind::Error, Color::Red),
         };
-        let config = Config::default().with_color(color).with_index_type(IndexType::Byte);
+        let config = Config::default()
+            .with_color(color)
+            .with_index_type(IndexType::Byte);
         let mut report = Report::build(kind, (name, d.primary.span.clone()))
             .with_config(config)
             .with_message(&d.message)
@@ -88,18 +98,30 @@ pub(crate) fn render(name: &str, text: &str, diagnostics: &[Diagnostic]) -> Stri
 
 fn label<'a>(name: &'a str, l: &pfaff::scene::Label) -> Label<(&'a str, std::ops::Range<usize>)> {
     let label = Label::new((name, l.span.clone()));
-    if l.text.is_empty() { label } else { label.with_message(&l.text) }
+    if l.text.is_empty() {
+        label
+    } else {
+        label.with_message(&l.text)
+    }
 }
 
 /// Lines of cells in columns, the first line a header.
 pub(crate) fn columns(rows: &[Vec<String>]) -> String {
     let n = rows.iter().map(Vec::len).max().unwrap_or(0);
-    let width = |k: usize| rows.iter().filter_map(|r| r.get(k)).map(|c| c.chars().count()).max();
+    let width = |k: usize| {
+        rows.iter()
+            .filter_map(|r| r.get(k))
+            .map(|c| c.chars().count())
+            .max()
+    };
     let widths: Vec<usize> = (0..n).map(|k| width(k).unwrap_or(0)).collect();
     let mut out = String::new();
     for row in rows {
-        let cells: Vec<String> =
-            row.iter().zip(&widths).map(|(cell, &w)| format!("{cell:<w$}")).collect();
+        let cells: Vec<String> = row
+            .iter()
+            .zip(&widths)
+            .map(|(cell, &w)| format!("{cell:<w$}"))
+            .collect();
         out.push_str(cells.join("  ").trim_end());
         out.push('\n');
     }

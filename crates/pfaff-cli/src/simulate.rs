@@ -51,7 +51,11 @@ pub(crate) fn run(arguments: &Simulate) -> Outcome {
         write_json(&mut out, &document).map_err(|e| Failure::stopped(e.to_string()))?;
         print(&String::from_utf8_lossy(&out))?;
     } else {
-        print(&describe(&study.scene.description.name, &document, &arguments.out.display().to_string()))?;
+        print(&describe(
+            &study.scene.description.name,
+            &document,
+            &arguments.out.display().to_string(),
+        ))?;
     }
     match document.partial {
         true => Err(Failure::Said(1)),
@@ -80,7 +84,11 @@ fn describe(name: &str, d: &RunDocument, out: &str) -> String {
         "{name}: {} to t = {} s with {} ({})\n\
          {} steps, {} rejected, {} evaluations in {:.2} ms\n\
          |Φ| ≤ {:.1e}, |C·v − b| ≤ {:.1e}, energy balance {:.1e}\n",
-        if d.partial { "interrupted, partial" } else { "done" },
+        if d.partial {
+            "interrupted, partial"
+        } else {
+            "done"
+        },
         d.t_end,
         d.method,
         d.formulation,

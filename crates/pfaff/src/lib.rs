@@ -15,7 +15,7 @@ pub use report;
 pub use scene;
 pub use solvability;
 
-pub use study::{Overrides, Study, StudyError};
+pub use study::{Findings, Overrides, Study, StudyError};
 
 #[doc(hidden)]
 pub use joint_macro as __macros;

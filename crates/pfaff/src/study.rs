@@ -4,14 +4,18 @@
 use std::ops::ControlFlow;
 
 use dynamics::{
-    Failure, Method, MotionError, MotionOptions, Prepared, RowChoice, Sample, Summary, Trip, prepare, simulate,
+    Failure, Method, MotionError, MotionOptions, Prepared, RowChoice, Sample, Summary, Trip,
+    prepare, simulate,
 };
-use model::{Mechanism, Registry, StartError};
+use model::{ConstraintId, Mechanism, Registry, StartError, System};
 use report::{
-    Ending, FileError, OutputDirectory, ReactionTable, Run, RunDocument, TableError, TrajectoryTable, write_json,
+    Ending, FileError, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
+    TrajectoryTable, write_json,
 };
-use scene::{Diagnostic, Scene};
-use solvability::{Analysis, AnalysisError, analyse, analyse_dropping};
+use scene::{Combination, CombinationError, Diagnostic, GroupContent, Scene, WantedReactions};
+use solvability::{
+    Analysis, AnalysisError, Group, Judgement, Term, analyse, analyse_dropping, judge_groups,
+};
 
 /// A scene that has been assembled and can move.
 pub struct Study {
@@ -21,6 +25,15 @@ pub struct Study {
     pub prepared: Prepared,
     /// What a run is asked to do; nothing where neither the scene nor the caller says how long it takes.
     pub options: Option<MotionOptions>,
+}
+
+/// What an analysis found.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    /// Ranks, verdicts and dependencies.
+    pub analysis: Analysis,
+    /// Verdicts of groups and combinations, by name.
+    pub groups: Vec<(String, Judgement)>,
 }
 
 /// What the caller wants otherwise than the scene.
@@ -48,6 +61,14 @@ pub enum StudyError {
     /// Nobody says how long the run takes.
     #[error("the scene has no `[simulate]` with `t_end`, and no last time was given")]
     NoEnd,
+    /// A combination that cannot be read.
+    #[error("`{text}`: {error}")]
+    Combination {
+        /// The combination.
+        text: String,
+        /// What is wrong.
+        error: CombinationError,
+    },
     /// A motion could not begin or go on.
     #[error(transparent)]
     Motion(#[from] MotionError),
@@ -67,7 +88,7 @@ impl StudyError {
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {
-            Self::Scene(_) | Self::NoEnd => true,
+            Self::Scene(_) | Self::NoEnd | Self::Combination { .. } => true,
             Self::Motion(e) => matches!(
                 e,
                 MotionError::Start(_)
@@ -107,26 +128,95 @@ impl Study {
             Err(MotionError::Start(e)) => return Err(located(&scene, &e)),
             Err(e) => return Err(e.into()),
         };
-        Ok(Self { scene, prepared, options })
+        Ok(Self {
+            scene,
+            prepared,
+            options,
+        })
     }
 
-    /// Verdicts at a time of the motion; at t = 0 nothing has to move.
+    /// Verdicts at a time of the motion; at t = 0 nothing has to move. Groups are those of the scene, then `combine`: sums of
+    /// components as `W3.N + W4.N`.
     ///
     /// # Errors
-    /// If the motion does not reach that time, or C cannot be judged there.
-    pub fn analyse_at(&self, t: f64, drop: Option<&[usize]>) -> Result<Analysis, StudyError> {
-        let q = if t == 0.0 { self.prepared.q.clone() } else { self.configuration_at(t)? };
+    /// If the motion does not reach that time, C cannot be judged there, or a combination names something unknown.
+    pub fn analyse_at(
+        &self,
+        t: f64,
+        drop: Option<&[usize]>,
+        combine: &[String],
+    ) -> Result<Findings, StudyError> {
+        let requests = self.requests(combine)?;
+        let q = if t == 0.0 {
+            self.prepared.q.clone()
+        } else {
+            self.configuration_at(t)?
+        };
         let mechanism = &self.prepared.mechanism;
-        Ok(match drop {
+        let analysis = match drop {
             Some(rows) => analyse_dropping(mechanism, t, &q, rows)?,
             None => analyse(mechanism, t, &q)?,
-        })
+        };
+        let (names, groups): (Vec<String>, Vec<Group>) = requests.into_iter().unzip();
+        let judged = judge_groups(mechanism, t, &q, &analysis.decision, &groups);
+        let groups = names
+            .into_iter()
+            .zip(judged)
+            .filter_map(|(name, j)| Some((name, j?)))
+            .collect();
+        Ok(Findings { analysis, groups })
+    }
+
+    /// Groups by name: those of the scene, then the combinations asked for.
+    fn requests(&self, combine: &[String]) -> Result<Vec<(String, Group)>, StudyError> {
+        let group = |content: &GroupContent| match content {
+            GroupContent::Members(names) => {
+                Group::Members(names.iter().filter_map(|n| self.constraint(n)).collect())
+            }
+            GroupContent::Combination(combination) => self.combination(combination),
+        };
+        let mut requests: Vec<(String, Group)> = self
+            .scene
+            .groups
+            .iter()
+            .map(|g| (g.name.clone(), group(&g.content)))
+            .collect();
+        for text in combine {
+            let read = self.scene.combination(text);
+            let combination = read.map_err(|error| StudyError::Combination {
+                text: text.clone(),
+                error,
+            })?;
+            requests.push((text.clone(), self.combination(&combination)));
+        }
+        Ok(requests)
+    }
+
+    fn combination(&self, combination: &Combination) -> Group {
+        let terms = combination.terms.iter().filter_map(|term| {
+            Some(Term {
+                reaction: self.constraint(&term.reaction)?,
+                component: term.component.clone(),
+                coefficient: term.coefficient,
+            })
+        });
+        Group::Combination(terms.collect())
+    }
+
+    fn constraint(&self, name: &str) -> Option<ConstraintId> {
+        let groups = &self.prepared.mechanism.layout().groups;
+        groups.iter().position(|g| g.name == name).map(ConstraintId)
     }
 
     fn configuration_at(&self, t: f64) -> Result<Vec<f64>, StudyError> {
         let base = self.options.clone().unwrap_or_else(|| MotionOptions::to(t));
         // Verdicts need the configuration on the constraints, not a reaction: any kept rows will do.
-        let options = MotionOptions { t_end: t, output_step: t, rows: RowChoice::Automatic, ..base };
+        let options = MotionOptions {
+            t_end: t,
+            output_step: t,
+            rows: RowChoice::Automatic,
+            ..base
+        };
         let mut q = Vec::new();
         self.run(&options, |sample| {
             q = sample.q.to_vec();
@@ -166,13 +256,18 @@ impl Study {
         let output = &self.scene.output;
         let analysis = analyse(mechanism, 0.0, &self.prepared.q)?;
         let mut trajectory = match output.trajectory {
-            true => Some(TrajectoryTable::new(directory.file("trajectory.csv")?, mechanism)?),
+            true => Some(TrajectoryTable::new(
+                directory.file("trajectory.csv")?,
+                mechanism,
+            )?),
             false => None,
         };
-        let mut reactions = match output.reactions.selection() {
-            Some(selection) => {
-                Some(ReactionTable::new(directory.file("reactions.csv")?, mechanism, &selection)?)
-            }
+        let mut reactions = match selection(&output.reactions) {
+            Some(selection) => Some(ReactionTable::new(
+                directory.file("reactions.csv")?,
+                mechanism,
+                &selection,
+            )?),
             None => None,
         };
         let (mut unwritten, mut interrupted) = (None, false);
@@ -194,10 +289,19 @@ impl Study {
             (None, true) => Ending::Interrupted,
             (None, false) => Ending::Complete,
         };
-        let run = Run { prepared: &self.prepared, options, analysis: &analysis, summary: &summary, ending };
+        let run = Run {
+            prepared: &self.prepared,
+            options,
+            analysis: &analysis,
+            summary: &summary,
+            ending,
+        };
         let document = RunDocument::new(&run);
         let whole = matches!(ending, Ending::Complete) && unwritten.is_none();
-        for file in [trajectory.map(TrajectoryTable::finish), reactions.map(ReactionTable::finish)] {
+        for file in [
+            trajectory.map(TrajectoryTable::finish),
+            reactions.map(ReactionTable::finish),
+        ] {
             match file {
                 Some(file) if whole => drop(file?.finish()?),
                 Some(file) => drop(file?.finish_partial()?),
@@ -205,8 +309,10 @@ impl Study {
             }
         }
         let mut text = Vec::new();
-        write_json(&mut text, &document)
-            .map_err(|source| TableError::Write { table: "summary.json", source })?;
+        write_json(&mut text, &document).map_err(|source| TableError::Write {
+            table: "summary.json",
+            source,
+        })?;
         directory.write("summary.json", &text)?;
         match (unwritten, error) {
             (Some(e), _) => Err(e.into()),
@@ -232,6 +338,15 @@ fn write_row(
     }
 }
 
+/// Which reactions a table has; nothing where no table is wanted.
+fn selection(wanted: &WantedReactions) -> Option<Selection> {
+    match wanted {
+        WantedReactions::All => Some(Selection::All),
+        WantedReactions::Of(names) => Some(Selection::Names(names.clone())),
+        WantedReactions::None => None,
+    }
+}
+
 /// The scene's wishes with those of the caller on top.
 fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
     let mut options = match (&scene.simulate, overrides.t_end) {
@@ -241,7 +356,11 @@ fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
     };
     if let Some(t_end) = overrides.t_end {
         options.t_end = t_end;
-        options.output_step = options.output_step.min(if t_end > 0.0 { t_end } else { options.output_step });
+        options.output_step = options.output_step.min(if t_end > 0.0 {
+            t_end
+        } else {
+            options.output_step
+        });
     }
     options.rtol = overrides.rtol.unwrap_or(options.rtol);
     options.atol = overrides.atol.unwrap_or(options.atol);

@@ -1,2 +1,66 @@
-//! Placeholder.
-fn main() {}
+//! The robot with its trolley of Wojtyra and Frączek (2013), section 4: prints what the paper publishes and draws its figures,
+//! for the dimensions of `robot-trolley.toml`.
+#![allow(clippy::print_stdout, clippy::print_stderr)]
+
+mod figures;
+mod text;
+mod variants;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::Parser;
+use pfaff::model::Registry;
+use pfaff::report::OutputDirectory;
+use pfaff::solvability::analyse;
+use pfaff::{Overrides, Study, StudyError};
+
+/// The scene that is built in.
+const SCENE: &str = include_str!("../robot-trolley.toml");
+
+/// The published results for the robot with its trolley: ranks, verdicts, three elimination variants, figures
+#[derive(Parser)]
+#[command(version, about)]
+struct Arguments {
+    /// Directory for the figures
+    #[arg(long, value_name = "DIR", default_value = "figures")]
+    out: PathBuf,
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(e) => {
+            eprintln!("error: {e}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
+    let study = read(&Overrides::default())?;
+    let mechanism = &study.prepared.mechanism;
+    let start = analyse(mechanism, 0.0, &study.prepared.q)?;
+    println!("{}", text::structure(&start));
+
+    let variants = variants::run()?;
+    let mut agreeing = 0;
+    for instant in &variants[0].rows {
+        let analysis = analyse(mechanism, instant.t, &instant.q)?;
+        agreeing += usize::from(text::same_verdicts(&start, &analysis));
+    }
+    let instants = variants[0].rows.len();
+    println!("{}", text::verdicts(&start, agreeing, instants));
+    println!("{}", text::variants(mechanism, &variants));
+
+    let directory = OutputDirectory::create(&arguments.out)?;
+    for path in figures::write(mechanism, &start, &variants, &directory)? {
+        println!("written: {}", path.display());
+    }
+    Ok(())
+}
+
+/// The scene with some rows chosen to be dropped.
+fn read(overrides: &Overrides) -> Result<Study, StudyError> {
+    Study::read("robot-trolley.toml", SCENE, &Registry::planar(), overrides)
+}

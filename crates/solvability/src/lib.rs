@@ -7,16 +7,19 @@
 //! | [`verdict`] | unique, not unique, undecided: with the number behind it |
 //! | [`matrices`] | solvability of a plain constraint matrix |
 //! | [`existence`] | do the rows contradict each other? |
+//! | [`groups`] | combinations of reactions |
 //! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
 //! | `words` | dependencies as sentences |
 
 pub mod existence;
+pub mod groups;
 pub mod matrices;
 pub mod mechanism;
 pub mod verdict;
 mod words;
 
 pub use existence::{ConstraintLevel, Contradiction, contradiction};
+pub use groups::{Group, Term, judge_groups};
 pub use matrices::Solvability;
 pub use mechanism::{
     Analysis, AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, analyse,

@@ -31,7 +31,7 @@ pub struct Analysis {
     pub decision: RankDecision,
     /// Joints and drives in the order of their rows.
     pub reactions: Vec<ReactionVerdict>,
-    /// One for each dropped row.
+    /// As many as the degree of redundancy, short ones first.
     pub dependencies: Vec<Dependency>,
     /// What else the reader should know.
     pub warnings: Vec<String>,
@@ -211,7 +211,7 @@ fn judge(
         .constraint_ids()
         .map(|id| reaction(mechanism, id, s, &solvability))
         .collect();
-    let dependencies = linalg::circuits(solvability.decision())
+    let dependencies = linalg::short_circuits(solvability.decision())
         .into_iter()
         .map(|circuit| Dependency {
             text: words::describe(&circuit, layout),

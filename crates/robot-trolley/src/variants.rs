@@ -1,0 +1,98 @@
+//! Three ways to eliminate the two redundant rows, run one after the other.
+
+use std::ops::ControlFlow;
+
+use pfaff::dynamics::{MotionOptions, RowChoice, Summary};
+use pfaff::model::Reaction;
+use pfaff::{Overrides, StudyError};
+
+/// The published variants: rows to delete, counted from 1.
+pub(crate) const DELETED: [[usize; 2]; 3] = [[6, 21], [18, 21], [19, 21]];
+
+/// Tolerance of the runs; differences between them are compared with it.
+pub(crate) const TOLERANCE: f64 = 1e-11;
+
+/// Time between compared instants (s).
+const OUTPUT_STEP: f64 = 0.05;
+
+/// One run.
+pub(crate) struct Variant {
+    /// Rows deleted, from 1.
+    pub(crate) deleted: [usize; 2],
+    pub(crate) rows: Vec<Instant>,
+    pub(crate) summary: Summary,
+}
+
+/// The mechanism at one instant.
+pub(crate) struct Instant {
+    pub(crate) t: f64,
+    pub(crate) q: Vec<f64>,
+    pub(crate) v: Vec<f64>,
+    /// Reactions of all joints and drives in the order of their rows.
+    pub(crate) reactions: Vec<Reaction>,
+}
+
+/// Runs all variants.
+pub(crate) fn run() -> Result<Vec<Variant>, StudyError> {
+    DELETED.iter().map(|&deleted| run_one(deleted)).collect()
+}
+
+fn run_one(deleted: [usize; 2]) -> Result<Variant, StudyError> {
+    let drop = deleted.map(|row| row - 1).to_vec();
+    let study = crate::read(&Overrides {
+        drop: Some(drop.clone()),
+        ..Overrides::default()
+    })?;
+    let base = study.options.clone().ok_or(StudyError::NoEnd)?;
+    let options = MotionOptions {
+        rtol: TOLERANCE,
+        atol: TOLERANCE,
+        output_step: OUTPUT_STEP,
+        rows: RowChoice::Drop(drop),
+        ..base
+    };
+    let mut rows = Vec::new();
+    let summary = study
+        .run(&options, |sample| {
+            let reactions = sample.reactions()?;
+            rows.push(Instant {
+                t: sample.t,
+                q: sample.q.to_vec(),
+                v: sample.v.to_vec(),
+                reactions,
+            });
+            Ok(ControlFlow::Continue(()))
+        })
+        .map_err(|f| f.error)?;
+    Ok(Variant {
+        deleted,
+        rows,
+        summary,
+    })
+}
+
+/// Largest difference of coordinates and velocities between two runs.
+pub(crate) fn motion_difference(a: &Variant, b: &Variant) -> f64 {
+    let states = a.rows.iter().zip(&b.rows).flat_map(|(x, y)| {
+        let positions = x.q.iter().zip(&y.q);
+        positions.chain(x.v.iter().zip(&y.v)).map(|(x, y)| x - y)
+    });
+    largest(states)
+}
+
+/// Largest difference of a reaction's components between two runs.
+pub(crate) fn reaction_difference(a: &Variant, b: &Variant, joint: usize) -> f64 {
+    let parts = a.rows.iter().zip(&b.rows).flat_map(|(x, y)| {
+        let (r, s) = (&x.reactions[joint], &y.reactions[joint]);
+        [
+            r.force[0] - s.force[0],
+            r.force[1] - s.force[1],
+            r.torque - s.torque,
+        ]
+    });
+    largest(parts)
+}
+
+fn largest(x: impl Iterator<Item = f64>) -> f64 {
+    x.fold(0.0, |a: f64, x| a.max(x.abs()))
+}
