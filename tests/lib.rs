@@ -4,6 +4,15 @@
 pub mod cranks;
 pub mod robot;
 
+/// Examples of pages that belong to no library, compiled as doc tests.
+#[cfg(doctest)]
+mod pages {
+    #[doc = include_str!("../README.md")]
+    mod readme {}
+    #[doc = include_str!("../crates/pfaff-cli/README.md")]
+    mod command {}
+}
+
 use joints::{Pose, Revolute};
 use model::{Body, BodyRef, Joint};
 

@@ -154,7 +154,7 @@ fn variants_differ_in_non_unique_reactions_only() {
                     r.force[1] - s.force[1],
                     r.torque - s.torque,
                 ];
-                *d = d.max(largest(parts.into_iter()));
+                *d = d.max(largest(parts));
             }
         }
         assert!(motion <= 1e-10, "variants {pair:?}: {motion:e}");

@@ -11,6 +11,8 @@ pub struct Event {
     pub redundancy_before: usize,
     /// Degree of redundancy after.
     pub redundancy_after: usize,
+    /// Rows dropped from now on, from 0.
+    pub dropped: Vec<usize>,
     /// In words.
     pub text: String,
 }

@@ -69,14 +69,13 @@ pub struct Assembly {
 pub enum StartError {
     /// The constraints cannot be satisfied from the described configuration.
     #[error(
-        "the constraints cannot be assembled: after {iterations} iterations row {worst} still misses by {residual:.3e}; \
-         check the places of the joints, or give a start nearer to an assembled one"
+        "the constraints cannot be assembled: after {iterations} iterations these rows still miss: {}; \
+         they contradict each other, or the start is too far from an assembled one",
+        list(rows)
     )]
     NoAssembly {
-        /// The row that misses most.
-        worst: RowLabel,
-        /// By how much.
-        residual: f64,
+        /// The rows that cannot be reconciled, the worst first.
+        rows: Vec<Misfit>,
         /// Iterations made.
         iterations: usize,
     },
@@ -118,6 +117,26 @@ pub enum StartError {
     #[error("the start cannot be corrected: {0}")]
     Step(#[from] StepError),
 }
+
+/// A row that is not satisfied.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Misfit {
+    /// The row.
+    pub row: RowLabel,
+    /// Its residual.
+    pub residual: f64,
+}
+
+fn list(rows: &[Misfit]) -> String {
+    let parts: Vec<String> = rows
+        .iter()
+        .map(|m| format!("{} by {:.3e}", m.row, m.residual))
+        .collect();
+    parts.join(", ")
+}
+
+/// Rows that miss by less than this share of the worst one are not named.
+const NAMED_MISFIT: f64 = 1e-2;
 
 /// Iterations of the assembly; each gains digits linearly with the size of the correction.
 const ITERATIONS: usize = 60;
@@ -302,13 +321,7 @@ fn nearest(
         mechanism.pose(0.0, &q, s);
         mechanism.phi(s);
         mechanism.c(s);
-        let (worst, residual) = rows
-            .iter()
-            .map(|&r| (r, s.phi[r].abs()))
-            .fold(
-                (0, 0.0),
-                |a, b| if b.1 > a.1 || b.1.is_nan() { b } else { a },
-            );
+        let (_, residual) = largest(rows.iter().map(|&r| (r, s.phi[r].abs())));
         let scale = q.iter().fold(1.0_f64, |a, x| a.max(x.abs()));
         let tolerance = ROUNDINGS * f64::EPSILON * scale;
         stalled = if residual < best { 0 } else { stalled + 1 };
@@ -318,10 +331,9 @@ fn nearest(
             return Ok(q);
         }
         if iteration == ITERATIONS || !residual.is_finite() {
-            let worst = mechanism.layout().labels[worst].clone();
+            let rows = misfits(mechanism, s, rows, residual);
             return Err(StartError::NoAssembly {
-                worst,
-                residual,
+                rows,
                 iterations: iteration,
             });
         }
@@ -349,6 +361,25 @@ fn nearest(
         }
     }
     unreachable!("the last iteration returns")
+}
+
+/// Rows that miss, the worst first. What a least-squares solution leaves is orthogonal to all motions, so
+/// these rows are the ones that cannot hold together.
+fn misfits(mechanism: &Mechanism, s: &Scratch, rows: &[usize], worst: f64) -> Vec<Misfit> {
+    let missing = |r: &&usize| {
+        let residual = s.phi[**r].abs();
+        residual.is_nan() || residual >= NAMED_MISFIT * worst
+    };
+    let mut found: Vec<Misfit> = rows
+        .iter()
+        .filter(missing)
+        .map(|&r| Misfit {
+            row: mechanism.layout().labels[r].clone(),
+            residual: s.phi[r],
+        })
+        .collect();
+    found.sort_by(|a, b| b.residual.abs().total_cmp(&a.residual.abs()));
+    found
 }
 
 fn check_correction(

@@ -7,7 +7,7 @@ use dynamics::{
     Failure, Method, MotionError, MotionOptions, Prepared, RowChoice, Sample, Summary, Trip,
     prepare, simulate,
 };
-use model::{ConstraintId, Mechanism, Registry, StartError, System};
+use model::{ConstraintId, Mechanism, Registry, System};
 use report::{
     Ending, FileError, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
     TrajectoryTable, write_json,
@@ -125,7 +125,10 @@ impl Study {
             .map_err(|e| StudyError::Scene(e.iter().map(|e| scene.locate_build(e)).collect()))?;
         let prepared = match prepare(mechanism, &scene.start, &rows) {
             Ok(prepared) => prepared,
-            Err(MotionError::Start(e)) => return Err(located(&scene, &e)),
+            // Faults of the text have a place in it; rows may come from the caller.
+            Err(e @ (MotionError::Start(_) | MotionError::Contradiction(_))) => {
+                return Err(StudyError::Scene(vec![scene.locate_motion(&e)]));
+            }
             Err(e) => return Err(e.into()),
         };
         Ok(Self {
@@ -369,8 +372,4 @@ fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
         options.rows = RowChoice::Drop(drop.clone());
     }
     Some(options)
-}
-
-fn located(scene: &Scene, error: &StartError) -> StudyError {
-    StudyError::Scene(vec![scene.locate_start(error)])
 }

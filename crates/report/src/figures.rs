@@ -20,8 +20,6 @@ mod plot;
 mod style;
 mod svg;
 mod symbol;
-#[cfg(test)]
-mod tests;
 
 pub use history::{Panel, Series, histories, history};
 pub use mechanism::{Marking, mechanism};
@@ -43,7 +41,9 @@ pub enum FigureError {
         expected: usize,
     },
     /// A coordinate is NaN or infinite, or too large to draw.
-    #[error("coordinate {number} of `{mechanism}` is {value}, need a finite number up to {limit:e}")]
+    #[error(
+        "coordinate {number} of `{mechanism}` is {value}, need a finite number up to {limit:e}"
+    )]
     Coordinate {
         /// Name of the mechanism.
         mechanism: String,

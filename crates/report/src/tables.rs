@@ -84,7 +84,11 @@ impl<W: Write> Table<W> {
     fn checked(&self, written: csv::Result<()>) -> Result<(), TableError> {
         written.map_err(|e| TableError::Write {
             table: self.name,
-            source: e.into(),
+            // Kept as it is, so that callers can tell a closed pipe from a full disk.
+            source: match e.into_kind() {
+                csv::ErrorKind::Io(source) => source,
+                other => std::io::Error::other(format!("{other:?}")),
+            },
         })
     }
 

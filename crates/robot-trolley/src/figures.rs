@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use pfaff::model::{Mechanism, Reaction, System};
-use pfaff::report::figures::{self, PathRecorder, Style};
+use pfaff::report::figures::{self, Marking, PathRecorder, Style};
 use pfaff::report::{OutputDirectory, Panel, Series};
-use pfaff::solvability::{Analysis, Verdict};
+use pfaff::solvability::Analysis;
 
 use crate::variants::Variant;
 
@@ -22,13 +22,8 @@ pub(crate) fn write(
     directory: &OutputDirectory,
 ) -> Written {
     let instants = &variants[0].rows;
-    let verdicts: Vec<Verdict> = start
-        .reactions
-        .iter()
-        .map(|r| r.wrench.verdict.clone())
-        .collect();
     let q = &instants[0].q;
-    let drawing = figures::mechanism(mechanism, 0.0, q, &verdicts)?;
+    let drawing = figures::mechanism(mechanism, 0.0, q, Marking::Verdicts(&start.reactions))?;
 
     let platform = 0;
     let mut recorder = PathRecorder::new(mechanism, &[platform])?;

@@ -1,12 +1,12 @@
 //! `[[body]]`, and the names of bodies elsewhere in the file.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 
 use model::{Body, BodyRef};
 
 use crate::field::Field;
 use crate::findings::Findings;
-use crate::nearest::nearest;
 use crate::source_map::Entry;
 use crate::table::Table;
 
@@ -15,6 +15,8 @@ use crate::table::Table;
 pub(crate) struct Bodies {
     pub(crate) list: Vec<Body>,
     pub(crate) entries: Vec<Entry>,
+    /// Places in the list; of a name that is used twice, the first.
+    by_name: BTreeMap<String, usize>,
 }
 
 impl Bodies {
@@ -41,6 +43,8 @@ impl Bodies {
                 .unwrap_or_default()
         };
         let (angle, angular_velocity) = (number("angle"), number("angular_velocity"));
+        let at = self.list.len();
+        self.by_name.entry(name.to_owned()).or_insert(at);
         self.list.push(Body {
             name: name.to_owned(),
             mass,
@@ -60,11 +64,16 @@ impl Bodies {
         if name == GROUND {
             return Some(BodyRef::Ground);
         }
-        let at = self.list.iter().position(|body| body.name == name);
+        let at = self.position(name);
         if at.is_none() {
             self.unknown(field.span(), &field.subject, name, findings);
         }
         at.map(BodyRef::Body)
+    }
+
+    /// The place of a body in the list.
+    pub(crate) fn position(&self, name: &str) -> Option<usize> {
+        self.by_name.get(name).copied()
     }
 
     /// Reports a body that does not exist.
@@ -75,8 +84,8 @@ impl Bodies {
         name: &str,
         findings: &mut Findings,
     ) {
-        let near = nearest(name, self.list.iter().map(|body| body.name.as_str()));
-        let label = match near.and_then(|near| self.entries.iter().find(|e| e.name == near)) {
+        let near = findings.suggest(name, self.list.iter().map(|body| body.name.as_str()));
+        let label = match near.and_then(|near| self.entries.get(self.position(near)?)) {
             Some(entry) => format!(
                 "no such body; `{}` is defined on line {}",
                 entry.name,

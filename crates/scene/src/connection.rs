@@ -78,6 +78,21 @@ pub(crate) fn named(
     }
 }
 
+/// Looks only whether the bodies exist, where nothing is known of the definition.
+pub(crate) fn check_names(table: &mut Table, bodies: &Bodies, findings: &mut Findings) {
+    if let Some(one) = table.optional("body") {
+        bodies.find(&one, findings);
+    }
+    let two = table.optional("bodies");
+    for item in two
+        .and_then(|two| two.items("two bodies [first, second]", findings))
+        .iter()
+        .flatten()
+    {
+        bodies.find(item, findings);
+    }
+}
+
 /// The bodies of all slots of the definition: those that are named, then one key for each further slot, the ground
 /// where it is not given.
 pub(crate) fn slots(

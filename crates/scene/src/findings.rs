@@ -3,7 +3,12 @@
 use std::ops::Range;
 
 use crate::diagnostic::Diagnostic;
+use crate::nearest::nearest;
 use crate::text::SourceText;
+
+/// Problems that come with suggested names. Comparing every unknown name with all known ones would take minutes where
+/// thousands are wrong.
+const SUGGESTIONS: usize = 100;
 
 /// The problems of a file, as they are found.
 pub(crate) struct Findings<'s> {
@@ -59,9 +64,16 @@ impl<'s> Findings<'s> {
         self.report(Diagnostic::error(self.source, span, message, label).and(first));
     }
 
-    /// Whether nothing was found so far.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.list.is_empty()
+    /// The known name that was probably meant, as long as there are few problems.
+    pub(crate) fn suggest<'a>(
+        &self,
+        name: &str,
+        known: impl IntoIterator<Item = &'a str>,
+    ) -> Option<&'a str> {
+        match self.list.len() < SUGGESTIONS {
+            true => nearest(name, known),
+            false => None,
+        }
     }
 
     /// The line of an offset, for texts that refer to another place.

@@ -3,6 +3,7 @@
 use model::{Force, Registry};
 
 use crate::body::Bodies;
+use crate::connection;
 use crate::element::{self, Types};
 use crate::findings::Findings;
 use crate::function::Domain;
@@ -35,6 +36,7 @@ impl Forces {
             other: ("joint", "joint", types(registry.constraint_specs())),
         };
         let Some(scene_type) = element::scene_type(&mut table, &types, findings) else {
+            connection::check_names(&mut table, bodies, findings);
             return;
         };
         let definitions: Vec<_> = registry.forces(scene_type).collect();

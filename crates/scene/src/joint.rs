@@ -5,6 +5,7 @@ use model::registry::ConstraintDefinition;
 use model::{BodyRef, Drive, Joint, Registry};
 
 use crate::body::Bodies;
+use crate::connection;
 use crate::element::{self, Types};
 use crate::findings::Findings;
 use crate::function::{self, Domain};
@@ -47,6 +48,7 @@ impl<'r> Joints<'r> {
             other: ("force", "force", types(registry.force_specs())),
         };
         let Some(scene_type) = element::scene_type(&mut table, &types, findings) else {
+            connection::check_names(&mut table, bodies, findings);
             self.known.push(Known {
                 entry,
                 definition: None,
@@ -186,7 +188,7 @@ fn joint<'j, 'r>(
     let name = field.text("the name of a joint", findings)?;
     let found = joints.known.iter().find(|joint| joint.entry.name == name);
     if found.is_none() {
-        let near = nearest(name, joints.known.iter().map(|j| j.entry.name.as_str()));
+        let near = findings.suggest(name, joints.known.iter().map(|j| j.entry.name.as_str()));
         let near = near.and_then(|near| joints.known.iter().find(|j| j.entry.name == near));
         let label = match near {
             Some(near) => format!(

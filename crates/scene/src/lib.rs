@@ -4,7 +4,8 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | `read` | the whole file: sections, names, what the mechanism refuses |
+//! | `read` | the whole file, and what the mechanism refuses |
+//! | `section`, `names` | tables of the first level; names that may occur only once |
 //! | `table`, `field` | a table that knows its keys; a value read as what is expected |
 //! | `body` | bodies, and their names elsewhere |
 //! | `element` | what joints and forces share: type, `connection`, `place`, `arguments` |
@@ -26,11 +27,13 @@ mod force;
 mod function;
 mod joint;
 mod locate;
+mod names;
 mod nearest;
 mod place;
 mod reactions;
 mod read;
 mod scene;
+mod section;
 mod simulate;
 mod source_map;
 mod start;

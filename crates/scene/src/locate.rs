@@ -60,7 +60,15 @@ pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Dia
 /// The place of an error of [`model::start`].
 pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
     let (span, label) = match error {
-        StartError::NoAssembly { worst, .. } => (row(map, worst), "misses most"),
+        StartError::NoAssembly { rows, .. } => {
+            let mut joints: Vec<_> = rows.iter().map(|r| &r.row).collect();
+            joints.dedup_by(|a, b| a.joint == b.joint);
+            let span = joints.first().map_or(0..0, |label| row(map, label));
+            let first = at(map, span, error, "cannot hold together with the others");
+            return joints.iter().skip(1).fold(first, |d, label| {
+                d.and(map.text.label(row(map, label), "misses too"))
+            });
+        }
         StartError::NoVelocity { worst, .. } => (row(map, worst), "misses most"),
         StartError::LargeCorrection { body, .. } => {
             let entry = map.body(body);

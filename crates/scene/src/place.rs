@@ -111,11 +111,24 @@ fn global(
     let Some(points) = points else {
         return vec![None; of.len()];
     };
-    let local = |(&slot, point): (&usize, [f64; 2])| {
+    let mut local = |(&slot, point): (&usize, [f64; 2])| {
         let body = slots.get(slot).copied().flatten()?;
-        Some(bodies.to_local(body, point))
+        let local = bodies.to_local(body, point);
+        if local.iter().any(|x| !x.is_finite()) {
+            findings.error(
+                at.span(),
+                format!(
+                    "{}: `at` and the position of `{}` are too far apart: their difference is not a finite number",
+                    at.subject,
+                    bodies.name(body)
+                ),
+                "too far away",
+            );
+            return None;
+        }
+        Some(local)
     };
-    of.iter().zip(points).map(local).collect()
+    of.iter().zip(points).map(&mut local).collect()
 }
 
 /// `point`: in the frame of the only body, a list where there are several.

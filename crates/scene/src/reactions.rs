@@ -8,7 +8,6 @@ use model::reaction::COMPONENTS;
 use crate::combination::{self, Combination, ReactionNames};
 use crate::field::Field;
 use crate::findings::Findings;
-use crate::nearest::did_you_mean;
 use crate::table::Table;
 
 /// A combination of reactions whose verdict is wanted.
@@ -154,6 +153,7 @@ fn members(field: &Field, names: &[ReactionNames], findings: &mut Findings) -> O
         };
         if !names.iter().any(|known| known.name == name) {
             right = false;
+            let near = findings.suggest(name, names.iter().map(|known| known.name));
             findings.error_with_help(
                 item.span(),
                 format!(
@@ -161,7 +161,7 @@ fn members(field: &Field, names: &[ReactionNames], findings: &mut Findings) -> O
                     item.subject
                 ),
                 "no such joint or drive",
-                did_you_mean(name, names.iter().map(|known| known.name)),
+                near.map(|near| format!("did you mean `{near}`?")),
             );
         } else if let Some((_, first)) = members.iter().find(|(known, _)| *known == name) {
             right = false;

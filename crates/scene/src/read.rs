@@ -1,22 +1,23 @@
 //! From a text to a scene, or to everything that is wrong with it.
 
 use std::collections::BTreeMap;
-use std::ops::Range;
 
-use model::{BuildError, Description, Mechanism, Registry, StartOptions, System};
+use model::{BuildError, Description, Mechanism, Registry};
 use toml::de::DeTable;
 
-use crate::body::{Bodies, GROUND};
+use crate::body::Bodies;
 use crate::combination::ReactionNames;
 use crate::diagnostic::Diagnostic;
-use crate::field::Field;
 use crate::findings::Findings;
 use crate::force::Forces;
+use crate::function::Domain;
 use crate::joint::{Drives, Joints};
 use crate::locate;
-use crate::reactions::{self, Output, components};
+use crate::names::Names;
+use crate::reactions::{self, GroupRequest, components};
 use crate::scene::Scene;
-use crate::simulate::{self, Simulate};
+use crate::section::{list, section};
+use crate::simulate;
 use crate::source_map::{Entry, SourceMap};
 use crate::start;
 use crate::table::Table;
@@ -46,24 +47,39 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     let source = SourceText::new(source_name, text);
     let mut findings = Findings::new(&source);
     let (root, errors) = DeTable::parse_recoverable(text);
-    for error in &errors {
-        let span = error.span().unwrap_or(0..0);
-        findings.error(span, error.message(), "not valid TOML");
-    }
+    syntax(&errors, &mut findings);
     if !errors.is_empty() {
         return Err(findings.sorted());
     }
     let whole = Table::new("the scene".to_owned(), 0..0, root.get_ref());
     let scene = document(whole, registry, &mut findings);
     let problems = findings.sorted();
-    match scene {
-        Some(scene) if problems.is_empty() => Ok(scene),
-        _ => Err(problems),
+    match problems.is_empty() {
+        true => Ok(scene),
+        false => Err(problems),
+    }
+}
+
+/// Reports what is not TOML, one error for each line. An error at the end of the text means that a bracket was never
+/// closed: then only the first error tells where, and those between are its consequences.
+fn syntax(errors: &[toml::de::Error], findings: &mut Findings) {
+    let end = findings.source.text().trim_end().len();
+    let start = |error: &toml::de::Error| error.span().map_or(0, |span| span.start);
+    let never_closed = errors.iter().any(|error| start(error) >= end);
+    let mut line = 0;
+    for (k, error) in errors.iter().enumerate() {
+        let here = findings.line(start(error));
+        if (never_closed && k > 0 && start(error) < end) || here == line {
+            continue;
+        }
+        line = here;
+        let span = error.span().unwrap_or(0..0);
+        findings.error(span, error.message(), "not valid TOML");
     }
 }
 
 /// Reads all sections. The result is to be used only if nothing was found.
-fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Option<Scene> {
+fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Scene {
     let mut sections = BTreeMap::new();
     let head = section(&mut root, "scene", &mut sections, findings);
     if head.is_none() && root.optional("scene").is_none() {
@@ -71,87 +87,134 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Op
         findings.error(0..0, message, "`[scene]` is missing in this file");
     }
     let (name, gravity) = head.map_or((String::new(), [0.0; 2]), |head| heading(head, findings));
-
-    let mut names = Names::default();
-    let mut domains = Vec::new();
-    let mut bodies = Bodies::default();
-    for (table, name) in list(&mut root, "body", findings) {
-        names.bodies.push(Entry::of(&name, &table));
-        bodies.read(table, &name, findings);
-    }
-    let mut joints = Joints::default();
-    for (table, name) in list(&mut root, "joint", findings) {
-        names.elements.push(Entry::of(&name, &table));
-        joints.read(table, &name, registry, &bodies, &mut domains, findings);
-    }
-    let mut drives = Drives::default();
-    let mut reactions = reaction_names(&joints);
-    let drive_tables = list(&mut root, "drive", findings);
-    let drive_names: Vec<String> = drive_tables.iter().map(|(_, name)| name.clone()).collect();
-    for (table, name) in drive_tables {
-        names.elements.push(Entry::of(&name, &table));
-        drives.read(table, &name, &joints, &mut domains, findings);
-    }
-    reactions.extend(drive_names.iter().map(|name| {
-        let drive = drives.list.iter().find(|drive| drive.name == *name);
-        let components = drive.map(|drive| components(drive.element.element().spec()));
-        ReactionNames { name, components }
-    }));
-    let mut forces = Forces::default();
-    for (table, name) in list(&mut root, "force", findings) {
-        names.elements.push(Entry::of(&name, &table));
-        forces.read(table, &name, registry, &bodies, &mut domains, findings);
-    }
-
-    let (mut groups, mut group_entries) = (Vec::new(), Vec::new());
-    for (table, name) in list(&mut root, "group", findings) {
-        names.groups.push(Entry::of(&name, &table));
-        let entry = Entry::of(&name, &table);
-        if let Some(group) = reactions::group(table, &name, &reactions, findings) {
-            groups.push(group);
-            group_entries.push(entry);
+    let mut parts = Parts::read(&mut root, registry, findings);
+    let (groups, group_entries) = groups(&mut root, &mut parts, findings);
+    let reactions = parts.reactions();
+    let start = section(&mut root, "start", &mut sections, findings)
+        .map(|table| start::read(table, &parts.bodies, findings));
+    let output = section(&mut root, "output", &mut sections, findings)
+        .map(|table| reactions::output(table, &reactions, findings));
+    let simulate = section(&mut root, "simulate", &mut sections, findings)
+        .and_then(|table| simulate::read(table, findings));
+    root.close(findings);
+    if let Some(simulate) = &simulate {
+        simulate.check_domains(&parts.domains, findings);
+        if let Some(rows) = parts.rows() {
+            simulate.check_rows(rows, findings);
         }
     }
-    let start = section(&mut root, "start", &mut sections, findings)
-        .map_or_else(StartOptions::default, |t| start::read(t, &bodies, findings));
-    let output = section(&mut root, "output", &mut sections, findings)
-        .map_or_else(Output::default, |t| {
-            reactions::output(t, &reactions, findings)
-        });
-    let simulate = section(&mut root, "simulate", &mut sections, findings)
-        .and_then(|t| simulate::read(t, findings));
-    root.close(findings);
-
     let description = Description {
         name,
         gravity,
-        bodies: bodies.list,
-        joints: joints.list,
-        drives: drives.list,
-        forces: forces.list,
+        bodies: parts.bodies.list,
+        joints: parts.joints.list,
+        drives: parts.drives.list,
+        forces: parts.forces.list,
     };
     let source = SourceMap {
         text: findings.source.clone(),
-        bodies: bodies.entries,
-        joints: joints.entries,
-        drives: drives.entries,
-        forces: forces.entries,
+        bodies: parts.bodies.entries,
+        joints: parts.joints.entries,
+        drives: parts.drives.entries,
+        forces: parts.forces.entries,
         groups: group_entries,
         sections,
     };
-    names.check(&source, findings);
-    check(&description, &source, simulate.as_ref(), findings);
-    if let Some(simulate) = &simulate {
-        simulate.check_domains(&domains, findings);
-    }
-    Some(Scene {
+    parts.names.check(&source, findings);
+    check(&description, &source, findings);
+    Scene {
         description,
-        start,
+        start: start.unwrap_or_default(),
         simulate: simulate.map(|simulate| simulate.options),
-        output,
+        output: output.unwrap_or_default(),
         groups,
         source,
-    })
+    }
+}
+
+/// What the mechanism consists of.
+#[derive(Default)]
+struct Parts<'r> {
+    bodies: Bodies,
+    joints: Joints<'r>,
+    drives: Drives,
+    /// Of all drives, complete or not.
+    drive_names: Vec<String>,
+    forces: Forces,
+    names: Names,
+    domains: Vec<Domain>,
+}
+
+impl<'r> Parts<'r> {
+    fn read(root: &mut Table, registry: &'r Registry, findings: &mut Findings) -> Self {
+        let mut parts = Self::default();
+        let Self {
+            bodies,
+            joints,
+            drives,
+            drive_names,
+            forces,
+            names,
+            domains,
+        } = &mut parts;
+        for (table, name) in list(root, "body", findings) {
+            names.bodies.push(Entry::of(&name, &table));
+            bodies.read(table, &name, findings);
+        }
+        for (table, name) in list(root, "joint", findings) {
+            names.elements.push(Entry::of(&name, &table));
+            joints.read(table, &name, registry, bodies, domains, findings);
+        }
+        for (table, name) in list(root, "drive", findings) {
+            names.elements.push(Entry::of(&name, &table));
+            drives.read(table, &name, joints, domains, findings);
+            drive_names.push(name);
+        }
+        for (table, name) in list(root, "force", findings) {
+            names.elements.push(Entry::of(&name, &table));
+            forces.read(table, &name, registry, bodies, domains, findings);
+        }
+        parts
+    }
+
+    /// Joints and drives by name, also those that could not be read.
+    fn reactions(&self) -> Vec<ReactionNames<'_>> {
+        let joints = self.joints.known.iter().map(|joint| ReactionNames {
+            name: &joint.entry.name,
+            components: joint.definition.map(|d| components(d.spec)),
+        });
+        let drives = self.drive_names.iter().map(|name| {
+            let drive = self.drives.list.iter().find(|drive| drive.name == *name);
+            let components = drive.map(|drive| components(drive.element.element().spec()));
+            ReactionNames { name, components }
+        });
+        joints.chain(drives).collect()
+    }
+
+    /// Number of rows, if all joints and drives could be read.
+    fn rows(&self) -> Option<usize> {
+        let complete = self.joints.list.len() == self.joints.known.len()
+            && self.drives.list.len() == self.drive_names.len();
+        let joints = self.joints.list.iter().map(|joint| &joint.element);
+        let elements = joints.chain(self.drives.list.iter().map(|drive| &drive.element));
+        complete.then(|| elements.map(|e| e.element().spec().rows.len()).sum())
+    }
+}
+
+/// Groups with their places.
+fn groups(
+    root: &mut Table,
+    parts: &mut Parts,
+    findings: &mut Findings,
+) -> (Vec<GroupRequest>, Vec<Entry>) {
+    let tables = list(root, "group", findings);
+    let entries: Vec<_> = tables.iter().map(|(t, name)| Entry::of(name, t)).collect();
+    parts.names.groups.clone_from(&entries);
+    let reactions = parts.reactions();
+    let groups = tables
+        .into_iter()
+        .filter_map(|(table, name)| reactions::group(table, &name, &reactions, findings));
+    (groups.collect(), entries)
 }
 
 /// `[scene]`: name and gravity.
@@ -181,133 +244,9 @@ fn heading(mut table: Table, findings: &mut Findings) -> (String, [f64; 2]) {
     )
 }
 
-/// A table that occurs once, if it is given.
-fn section<'t>(
-    root: &mut Table<'t>,
-    name: &str,
-    sections: &mut BTreeMap<String, Entry>,
-    findings: &mut Findings,
-) -> Option<Table<'t>> {
-    let field = root.optional(name)?;
-    let mut table = field.table(&format!("one table `[{name}]`"), findings)?;
-    table.subject = format!("`[{name}]`");
-    sections.insert(name.to_owned(), Entry::of(name, &table));
-    Some(table)
-}
-
-/// Tables that may occur many times, with the names of what they describe.
-fn list<'t>(root: &mut Table<'t>, kind: &str, findings: &mut Findings) -> Vec<(Table<'t>, String)> {
-    let expected = format!("a list of tables `[[{kind}]]`");
-    let Some(field) = root.optional(kind) else {
-        return Vec::new();
-    };
-    let items = match field.value.get_ref().is_table() {
-        // One pair of brackets too few: say so, and read on.
-        true => {
-            field.mismatch(&expected, findings);
-            vec![field]
-        }
-        false => field.items(&expected, findings).unwrap_or_default(),
-    };
-    let numbered = items.iter().enumerate();
-    numbered
-        .filter_map(|(k, item)| named(item, kind, k + 1, findings))
-        .collect()
-}
-
-/// A table with its name, or with its number where it has none.
-fn named<'t>(
-    item: &Field<'t>,
-    kind: &str,
-    number: usize,
-    findings: &mut Findings,
-) -> Option<(Table<'t>, String)> {
-    let mut table = item.table(&format!("a list of tables `[[{kind}]]`"), findings)?;
-    table.subject = format!("{kind} number {number}");
-    let name = table
-        .required("name", "a text", findings)
-        .and_then(|field| {
-            let name = field.text("a text", findings)?;
-            if name.trim().is_empty() {
-                let message = format!("{}: `name` is empty", table.subject);
-                findings.error(field.span(), message, "expected a name");
-                return None;
-            }
-            Some(name)
-        });
-    let name = match name {
-        Some(name) => {
-            table.subject = format!("{kind} `{name}`");
-            name.to_owned()
-        }
-        None => table.subject.clone(),
-    };
-    Some((table, name))
-}
-
-fn reaction_names<'a>(joints: &'a Joints) -> Vec<ReactionNames<'a>> {
-    let name = |joint: &'a crate::joint::Known| ReactionNames {
-        name: &joint.entry.name,
-        components: joint.definition.map(|d| components(d.spec)),
-    };
-    joints.known.iter().map(name).collect()
-}
-
-/// Names of everything, complete or not, in their spaces.
-#[derive(Default)]
-struct Names {
-    bodies: Vec<Entry>,
-    elements: Vec<Entry>,
-    groups: Vec<Entry>,
-}
-
-impl Names {
-    /// Reports names that are used twice, and `ground`.
-    fn check(&self, map: &SourceMap, findings: &mut Findings) {
-        for entry in self.bodies.iter().chain(&self.elements) {
-            if entry.name == GROUND {
-                findings.error(
-                    entry.name_span(),
-                    BuildError::Ground.to_string(),
-                    "choose another name",
-                );
-            }
-        }
-        for space in [&self.bodies, &self.elements, &self.groups] {
-            let mut uses: BTreeMap<&str, Vec<Range<usize>>> = BTreeMap::new();
-            for entry in space.iter().filter(|entry| entry.name != GROUND) {
-                uses.entry(&entry.name).or_default().push(entry.name_span());
-            }
-            for (name, uses) in uses {
-                let name = name.to_owned();
-                let error = BuildError::DuplicateName { name };
-                for diagnostic in locate::duplicates(map, &uses, &error) {
-                    findings.report(diagnostic);
-                }
-            }
-        }
-    }
-}
-
 /// Reports what the mechanism refuses. Names have been checked, also those of what could not be read.
-fn check(
-    description: &Description,
-    source: &SourceMap,
-    simulate: Option<&Simulate>,
-    findings: &mut Findings,
-) {
-    let errors = match Mechanism::build(description) {
-        Ok(mechanism) => {
-            // With a joint missing the rows are not those of the file.
-            if let Some(simulate) = simulate
-                && findings.is_empty()
-            {
-                simulate.check_rows(mechanism.layout().rows(), findings);
-            }
-            return;
-        }
-        Err(errors) => errors,
-    };
+fn check(description: &Description, source: &SourceMap, findings: &mut Findings) {
+    let errors = Mechanism::build(description).err().unwrap_or_default();
     let of_drive = |of: &str| description.drives.iter().any(|drive| drive.name == of);
     for error in errors {
         match &error {

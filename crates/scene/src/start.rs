@@ -71,7 +71,7 @@ fn coordinate(item: &Field, bodies: &Bodies, findings: &mut Findings) -> Option<
         );
         return None;
     }
-    let at = bodies.list.iter().position(|b| b.name == body);
+    let at = bodies.position(body);
     if at.is_none() {
         bodies.unknown(item.span(), "`[start]`", body, findings);
     }

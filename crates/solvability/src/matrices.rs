@@ -137,7 +137,7 @@ impl Solvability {
             .map(|j| {
                 // Back from components of equal size to the units of the map.
                 let direction = (0..k).map(|i| basis[(i, j)] / sizes[i]).collect();
-                normalised(direction)
+                normalised(direction, self.tolerance)
             })
             .collect()
     }
@@ -178,13 +178,17 @@ fn unit(n: usize, i: usize) -> Vec<f64> {
     (0..n).map(|k| if k == i { 1.0 } else { 0.0 }).collect()
 }
 
-fn normalised(mut x: Vec<f64>) -> Vec<f64> {
+/// The unit vector along x, the largest entry positive, rounding set to zero.
+fn normalised(mut x: Vec<f64>, rounding: f64) -> Vec<f64> {
     let largest = x
         .iter()
         .fold(0.0_f64, |a, &b| if b.abs() > a.abs() { b } else { a });
     let size = norm(&x) * largest.signum();
     for x in &mut x {
         *x /= size;
+        if x.abs() <= rounding {
+            *x = 0.0;
+        }
     }
     x
 }

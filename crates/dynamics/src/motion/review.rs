@@ -98,6 +98,7 @@ impl KeptRowMotion<'_> {
             kind: EventKind::RowsExchanged,
             redundancy_before: redundancy,
             redundancy_after: redundancy,
+            dropped: self.velocity.dropped.clone(),
             text: format!(
                 "{why}; now dropped: {}. The motion is the same.",
                 dropped.join(", ")

@@ -1,6 +1,6 @@
 //! `summary.json` of a run.
 
-use dynamics::{Event, EventKind, MotionError, MotionOptions, Prepared, Summary};
+use dynamics::{Event, EventKind, MotionError, MotionOptions, Prepared, RowChoice, Summary};
 use serde::Serialize;
 use solvability::Analysis;
 
@@ -82,6 +82,8 @@ pub struct EventDocument {
     pub redundancy_before: usize,
     /// Degree of redundancy after.
     pub redundancy_after: usize,
+    /// Rows deleted from now on.
+    pub deleted_rows: Vec<usize>,
     /// In words.
     pub text: String,
 }
@@ -119,7 +121,9 @@ impl RunDocument {
             Ending::Interrupted => (true, None),
             Ending::Stopped(error) => (true, Some(error.to_string())),
         };
-        let exchange = |e: &&Event| e.kind == EventKind::RowsExchanged;
+        // Rows that the user asked for stay those of the reactions, whatever is kept for the motion.
+        let automatic = run.options.rows == RowChoice::Automatic;
+        let exchange = |e: &&Event| automatic && e.kind == EventKind::RowsExchanged;
         let choice = ChoiceDocument {
             method: run.options.formulation.name(),
             deleted_rows: from_one(&prepared.decision.dropped),
@@ -161,6 +165,7 @@ impl From<&Event> for EventDocument {
             kind: event.kind.name(),
             redundancy_before: event.redundancy_before,
             redundancy_after: event.redundancy_after,
+            deleted_rows: from_one(&event.dropped),
             text: event.text.clone(),
         }
     }

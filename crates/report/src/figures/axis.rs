@@ -33,10 +33,13 @@ pub(super) fn drawable(value: f64) -> bool {
 
 /// Smallest and largest drawable value.
 pub(super) fn range(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
-    values.into_iter().filter(|v| drawable(*v)).fold(None, |range, v| {
-        let [min, max] = range.unwrap_or([v, v]);
-        Some([min.min(v), max.max(v)])
-    })
+    values
+        .into_iter()
+        .filter(|v| drawable(*v))
+        .fold(None, |range, v| {
+            let [min, max] = range.unwrap_or([v, v]);
+            Some([min.min(v), max.max(v)])
+        })
 }
 
 impl Axis {
@@ -85,8 +88,11 @@ impl Axis {
         if self.exponent == 0 {
             return unit.to_owned();
         }
-        let digits = self.exponent.to_string().chars().map(superscript);
-        let power: String = "10".chars().chain(digits).collect();
+        let exponent = self.exponent.to_string();
+        let power: String = "10"
+            .chars()
+            .chain(exponent.chars().map(superscript))
+            .collect();
         if unit.is_empty() || unit == "1" {
             power
         } else {
@@ -152,7 +158,10 @@ mod tests {
 
     #[test]
     fn ticks_are_round() {
-        assert_eq!(labels(&Axis::over([0.0, 10.0], 5)), ["0", "2", "4", "6", "8", "10"]);
+        assert_eq!(
+            labels(&Axis::over([0.0, 10.0], 5)),
+            ["0", "2", "4", "6", "8", "10"]
+        );
         assert_eq!(labels(&Axis::over([-0.3, 0.25], 4)), ["−0.2", "0.0", "0.2"]);
         assert_eq!(labels(&Axis::over([0.0, 1.0], 4)), ["0.0", "0.5", "1.0"]);
     }
@@ -180,7 +189,10 @@ mod tests {
         ];
         for r in ranges {
             let axis = Axis::around(r, 5);
-            assert!(axis.max > axis.min && (1..12).contains(&axis.ticks.len()), "{r:?}: {axis:?}");
+            assert!(
+                axis.max > axis.min && (1..12).contains(&axis.ticks.len()),
+                "{r:?}: {axis:?}"
+            );
             assert!((0.0..=1.0).contains(&axis.position(r[0])), "{r:?}");
         }
     }

@@ -1,7 +1,7 @@
 //! Quantities over time, one panel for each.
 
 use super::axis::{Axis, drawable, range};
-use super::plot::{Frame, Labels, legend, legend_height};
+use super::plot::{Entry, Frame, Labels, legend, legend_height};
 use super::style::{GREY, INK, Style, TEXT_SIZE, TITLE_SIZE};
 use super::svg::{Svg, text_width};
 
@@ -34,6 +34,13 @@ pub struct Panel<'a> {
     pub unit: &'a str,
     /// Its curves.
     pub series: &'a [Series<'a>],
+}
+
+impl<'a> Panel<'a> {
+    fn entries(&self) -> Vec<Entry<'a>> {
+        let labelled = self.series.iter().filter(|s| !s.label.is_empty());
+        labelled.map(|s| (s.label, s.style)).collect()
+    }
 }
 
 /// Width of a figure (px).
@@ -86,7 +93,7 @@ fn draw(panels: &[Panel<'_>], columns: usize, frame_height: f64) -> String {
         .iter()
         .map(|p| {
             let values = range(p.series.iter().flat_map(Series::points).map(|p| p.1));
-            Axis::around(values.unwrap_or([0.0, 1.0]), 4)
+            Axis::around(values.unwrap_or([0.0, 1.0]), (frame_height / 30.0) as usize)
         })
         .collect();
     let labels = y_axes.iter().flat_map(|a| &a.ticks);
@@ -95,25 +102,16 @@ fn draw(panels: &[Panel<'_>], columns: usize, frame_height: f64) -> String {
     let width = (cell - label_width).max(80.0);
 
     let shared = shared_legend(panels);
-    let entries = |p: &Panel<'_>| -> Vec<_> {
-        let labelled = p.series.iter().filter(|s| !s.label.is_empty());
-        labelled.map(|s| (s.label, s.style)).collect()
-    };
-    let names = |e: &[(&str, Style)]| e.iter().map(|e| e.0.to_owned()).collect::<Vec<_>>();
-    let height_of = |e: &[(&str, Style)], w: f64| {
-        let names = names(e);
-        let labels: Vec<&str> = names.iter().map(String::as_str).collect();
-        legend_height(&labels, w)
-    };
+    let legend_width = WIDTH - 2.0 * MARGIN - label_width;
     let shared_entries = match panels {
-        [first, ..] if shared => entries(first),
+        [first, ..] if shared => first.entries(),
         _ => Vec::new(),
     };
-    let head = MARGIN + height_of(&shared_entries, WIDTH - 2.0 * MARGIN - label_width);
+    let head = MARGIN + legend_height(&shared_entries, legend_width);
     let own = if shared {
         0.0
     } else {
-        let heights = panels.iter().map(|p| height_of(&entries(p), width));
+        let heights = panels.iter().map(|p| legend_height(&p.entries(), width));
         heights.fold(0.0, f64::max)
     };
     let row_height = TITLE + own + frame_height + 10.0;
@@ -125,7 +123,7 @@ fn draw(panels: &[Panel<'_>], columns: usize, frame_height: f64) -> String {
     legend(
         &mut svg,
         [MARGIN + label_width, MARGIN],
-        WIDTH - 2.0 * MARGIN - label_width,
+        legend_width,
         &shared_entries,
     );
     for (k, (panel, y)) in panels.iter().zip(y_axes).enumerate() {
@@ -142,10 +140,14 @@ fn draw(panels: &[Panel<'_>], columns: usize, frame_height: f64) -> String {
         };
         title(&mut svg, [left, top + 17.0], panel, &frame.y);
         if !shared {
-            legend(&mut svg, [left, top + TITLE - 2.0], width, &entries(panel));
+            legend(&mut svg, [left, top + TITLE - 2.0], width, &panel.entries());
         }
         let lowest = k + columns >= panels.len();
-        let x_labels = if lowest { Labels::Shown } else { Labels::Hidden };
+        let x_labels = if lowest {
+            Labels::Shown
+        } else {
+            Labels::Hidden
+        };
         frame.draw(&mut svg, x_labels);
         if lowest {
             time_label(&mut svg, &frame);
@@ -174,9 +176,10 @@ fn title(svg: &mut Svg, [x, y]: [f64; 2], panel: &Panel<'_>, axis: &Axis) {
     svg.element("text")
         .at([("x", x), ("y", y), ("font-size", TITLE_SIZE)])
         .with("fill", INK)
-        .with("xml:space", "preserve")
         .open();
-    svg.element("tspan").with("font-weight", "bold").text(panel.title);
+    svg.element("tspan")
+        .with("font-weight", "bold")
+        .text(panel.title);
     if !unit.is_empty() {
         svg.element("tspan")
             .with("fill", GREY)

@@ -1,14 +1,13 @@
 //! Paths of points in the plane: both axes have one scale.
 
-use joints::spec::Level;
-use model::{ConstraintId, Mechanism, Scratch, System};
+mod recorder;
 
-use super::FigureError;
 use super::axis::{Axis, drawable, range};
-use super::geometry::posed;
-use super::plot::{Frame, Labels, legend, legend_height};
-use super::style::{INK, Style, TEXT_SIZE, TITLE_SIZE};
+use super::plot::{Entry, Frame, Labels, legend, legend_height};
+use super::style::{GREY, INK, Style, TEXT_SIZE, TITLE_SIZE};
 use super::svg::{Svg, text_width};
+
+pub use recorder::PathRecorder;
 
 /// The path of a point.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,8 +49,8 @@ pub fn paths(title: &str, paths: &[Path]) -> String {
     let labels = y.ticks.iter().map(|t| text_width(&t.label, TEXT_SIZE));
     let left = MARGIN + labels.fold(30.0, f64::max) + 30.0;
     let width = left + size[0] + MARGIN;
-    let names: Vec<&str> = paths.iter().map(|p| p.label.as_str()).collect();
-    let top = MARGIN + 26.0 + legend_height(&names, size[0]) + 6.0;
+    let entries: Vec<Entry<'_>> = paths.iter().map(|p| (p.label.as_str(), p.style)).collect();
+    let top = MARGIN + 26.0 + legend_height(&entries, size[0]) + 6.0;
 
     let mut svg = Svg::new(width, top + size[1] + 46.0, title);
     svg.element("text")
@@ -59,7 +58,6 @@ pub fn paths(title: &str, paths: &[Path]) -> String {
         .with("font-weight", "bold")
         .with("fill", INK)
         .text(title);
-    let entries: Vec<(&str, Style)> = paths.iter().map(|p| (p.label.as_str(), p.style)).collect();
     legend(&mut svg, [left, MARGIN + 24.0], size[0], &entries);
     let frame = Frame {
         left,
@@ -85,7 +83,6 @@ pub fn paths(title: &str, paths: &[Path]) -> String {
 
 /// Axes of one scale around two ranges, and the size of their frame (px).
 fn equal(x: [f64; 2], y: [f64; 2]) -> (Axis, Axis, [f64; 2]) {
-    // Halves first: the difference of two drawable values may be twice as large.
     let span = |r: [f64; 2]| r[1] - r[0];
     let largest = span(x).max(span(y));
     let least = largest / SLENDER;
@@ -98,7 +95,7 @@ fn equal(x: [f64; 2], y: [f64; 2]) -> (Axis, Axis, [f64; 2]) {
     let (x, y) = (room(x), room(y));
     let scale = (LARGEST[0] / span(x)).min(LARGEST[1] / span(y));
     let size = [(scale * span(x)).max(1.0), (scale * span(y)).max(1.0)];
-    let ticks = |pixels: f64| ((pixels / 90.0) as usize).max(2);
+    let ticks = |pixels: f64| ((pixels / 60.0) as usize).max(2);
     (
         Axis::over(x, ticks(size[0])),
         Axis::over(y, ticks(size[1])),
@@ -116,6 +113,15 @@ fn axis_labels(svg: &mut Svg, frame: &Frame) {
         .with("text-anchor", "middle")
         .with("fill", INK)
         .text(&format!("x ({})", frame.x.unit("m")));
+    svg.element("text")
+        .at([
+            ("x", frame.left + frame.width),
+            ("y", frame.top + frame.height + 34.0),
+            ("font-size", TEXT_SIZE),
+        ])
+        .with("text-anchor", "end")
+        .with("fill", GREY)
+        .text("○ start  ● end");
     let (x, y) = (MARGIN + 10.0, frame.top + 0.5 * frame.height);
     svg.element("text")
         .at([("x", x), ("y", y), ("font-size", TEXT_SIZE)])
@@ -136,103 +142,5 @@ fn ends(svg: &mut Svg, frame: &Frame, path: &Path) {
             .with("stroke", path.style.colour())
             .with("stroke-width", "1.5")
             .empty();
-    }
-}
-
-/// Collects the paths of chosen bodies' centres and of all points that have a nonholonomic constraint: the wheels.
-///
-/// ```
-/// use model::{Body, BodyRef, Description, Joint, Mechanism};
-/// use joints::{Direction, KnifeEdge};
-/// use report::figures::{PathRecorder, paths};
-/// let sledge = Description {
-///     bodies: vec![Body { name: "sledge".into(), mass: 1.0, inertia: 1.0, ..Body::default() }],
-///     joints: vec![Joint::new(
-///         "blade",
-///         &[BodyRef::Body(0)],
-///         KnifeEdge { s: [0.5, 0.0], normal: Direction::Y },
-///     )],
-///     ..Description::default()
-/// };
-/// let mechanism = Mechanism::build(&sledge).unwrap();
-/// let mut recorder = PathRecorder::new(&mechanism, &[0]).unwrap();
-/// recorder.record(0.0, &[0.0, 0.0, 0.0]).unwrap();
-/// recorder.record(1.0, &[1.0, 0.0, 0.0]).unwrap();
-/// let [centre, blade] = recorder.finish().try_into().unwrap();
-/// assert_eq!((centre.x, blade.x), (vec![0.0, 1.0], vec![0.5, 1.5]));
-/// ```
-pub struct PathRecorder<'m> {
-    mechanism: &'m Mechanism,
-    scratch: Scratch,
-    points: Vec<Point>,
-    paths: Vec<Path>,
-}
-
-/// A point of the mechanism.
-enum Point {
-    Centre(usize),
-    Place(ConstraintId),
-}
-
-impl<'m> PathRecorder<'m> {
-    /// Nothing recorded yet; `bodies` are counted from 0.
-    ///
-    /// # Errors
-    /// - [`FigureError::Body`]: there is no such body.
-    pub fn new(mechanism: &'m Mechanism, bodies: &[usize]) -> Result<Self, FigureError> {
-        let all = mechanism.bodies();
-        if let Some(&index) = bodies.iter().find(|&&k| k >= all.len()) {
-            return Err(FigureError::Body {
-                mechanism: mechanism.name().to_owned(),
-                index,
-                bodies: all.len(),
-            });
-        }
-        let groups = &mechanism.layout().groups;
-        let touches = |id: &ConstraintId| groups[id.0].spec.level == Level::Nonholonomic;
-        let centres = bodies
-            .iter()
-            .map(|&k| (Point::Centre(k), all[k].name.clone()));
-        let contacts = mechanism
-            .constraint_ids()
-            .filter(touches)
-            .map(|id| (Point::Place(id), groups[id.0].name.clone()));
-        let (points, names): (Vec<_>, Vec<_>) = centres.chain(contacts).unzip();
-        let paths = names.into_iter().enumerate().map(|(k, label)| Path {
-            label,
-            x: Vec::new(),
-            y: Vec::new(),
-            style: Style::nth(k),
-        });
-        Ok(Self {
-            mechanism,
-            scratch: mechanism.scratch(),
-            points,
-            paths: paths.collect(),
-        })
-    }
-
-    /// Takes the configuration q at time t.
-    ///
-    /// # Errors
-    /// - [`FigureError::Coordinates`], [`FigureError::Coordinate`]: q is no configuration of the mechanism.
-    pub fn record(&mut self, t: f64, q: &[f64]) -> Result<(), FigureError> {
-        let s = &mut self.scratch;
-        posed(self.mechanism, t, q, s)?;
-        for (point, path) in self.points.iter().zip(&mut self.paths) {
-            let [x, y] = match *point {
-                Point::Centre(k) => [s.poses[k].x, s.poses[k].y],
-                Point::Place(id) => self.mechanism.place(id, s),
-            };
-            path.x.push(x);
-            path.y.push(y);
-        }
-        Ok(())
-    }
-
-    /// The paths: bodies first, then contact points in the order of their rows.
-    #[must_use]
-    pub fn finish(self) -> Vec<Path> {
-        self.paths
     }
 }

@@ -147,11 +147,14 @@ pub(super) const LEGEND_LINE: f64 = 18.0;
 /// Length of the sample of a curve (px).
 const SAMPLE: f64 = 28.0;
 
+/// A name and its curve.
+pub(super) type Entry<'a> = (&'a str, Style);
+
 /// Places of the entries of a legend, relative to its corner, and the number of its lines.
-fn legend_layout(labels: &[&str], width: f64) -> (Vec<[f64; 2]>, usize) {
+fn legend_layout(entries: &[Entry<'_>], width: f64) -> (Vec<[f64; 2]>, usize) {
     let (mut x, mut row) = (0.0, 0);
-    let mut places = Vec::with_capacity(labels.len());
-    for label in labels {
+    let mut places = Vec::with_capacity(entries.len());
+    for (label, _) in entries {
         let w = SAMPLE + 6.0 + text_width(label, TEXT_SIZE) + 18.0;
         if x > 0.0 && x + w > width {
             (x, row) = (0.0, row + 1);
@@ -159,22 +162,25 @@ fn legend_layout(labels: &[&str], width: f64) -> (Vec<[f64; 2]>, usize) {
         places.push([x, row as f64 * LEGEND_LINE]);
         x += w;
     }
-    (places, if labels.is_empty() { 0 } else { row + 1 })
+    (places, if entries.is_empty() { 0 } else { row + 1 })
 }
 
 /// Height of a legend (px).
-pub(super) fn legend_height(labels: &[&str], width: f64) -> f64 {
-    legend_layout(labels, width).1 as f64 * LEGEND_LINE
+pub(super) fn legend_height(entries: &[Entry<'_>], width: f64) -> f64 {
+    legend_layout(entries, width).1 as f64 * LEGEND_LINE
 }
 
 /// Draws a legend from its upper left corner.
-pub(super) fn legend(svg: &mut Svg, corner: [f64; 2], width: f64, entries: &[(&str, Style)]) {
-    let labels: Vec<&str> = entries.iter().map(|e| e.0).collect();
-    for ([x, y], (label, style)) in legend_layout(&labels, width).0.into_iter().zip(entries) {
+pub(super) fn legend(svg: &mut Svg, corner: [f64; 2], width: f64, entries: &[Entry<'_>]) {
+    for ([x, y], (label, style)) in legend_layout(entries, width).0.into_iter().zip(entries) {
         let (x, y) = (corner[0] + x, corner[1] + y + 0.5 * LEGEND_LINE);
         stroke(svg, &[[x, y], [x + SAMPLE, y]], *style);
         svg.element("text")
-            .at([("x", x + SAMPLE + 6.0), ("y", y + 4.0), ("font-size", TEXT_SIZE)])
+            .at([
+                ("x", x + SAMPLE + 6.0),
+                ("y", y + 4.0),
+                ("font-size", TEXT_SIZE),
+            ])
             .with("fill", INK)
             .text(label);
     }

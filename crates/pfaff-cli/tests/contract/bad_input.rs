@@ -1,0 +1,283 @@
+//! Every wrong input gets one clear message that names the thing and the numbers, and the right exit code.
+
+use super::{Folder, ROBOT, pfaff, stderr, with_scene};
+
+/// A pendulum; cases change one thing.
+const PENDULUM: &str = r#"
+[scene]
+name = "pendulum"
+space = "plane"
+gravity = [0.0, -9.81]
+
+[[body]]
+name = "bob"
+mass = 1.0
+inertia = 0.1
+position = [1.0, 0.0]
+
+[[joint]]
+name = "pivot"
+type = "revolute"
+bodies = ["ground", "bob"]
+at = [0.0, 0.0]
+
+[simulate]
+t_end = 1.0
+"#;
+
+/// Checks a changed pendulum: exit code and pieces of the message.
+fn check(change: impl FnOnce(&str) -> String, code: i32, pieces: &[&str]) {
+    let scene = change(PENDULUM);
+    assert_ne!(scene, PENDULUM, "the case changes nothing");
+    let output = with_scene(&["check", "-"], &scene);
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(code), "{text}");
+    for piece in pieces {
+        assert!(text.contains(piece), "`{piece}` is not in:\n{text}");
+    }
+    assert!(!text.contains("panicked"), "{text}");
+}
+
+fn replaced<'a>(from: &'a str, to: &'a str) -> impl FnOnce(&str) -> String + 'a {
+    move |scene| scene.replace(from, to)
+}
+
+fn added(text: &str) -> impl FnOnce(&str) -> String + '_ {
+    move |scene| format!("{scene}{text}")
+}
+
+#[test]
+fn the_pendulum_itself_is_right() {
+    let output = with_scene(&["check", "-"], PENDULUM);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+#[test]
+fn wrong_toml() {
+    check(replaced("mass = 1.0", "mass = = 1.0"), 2, &["<stdin>:9:"]);
+}
+
+#[test]
+fn unknown_key() {
+    check(
+        replaced("inertia", "inertja"),
+        2,
+        &["inertja", "did you mean `inertia`", "<stdin>:10:1"],
+    );
+}
+
+#[test]
+fn unknown_body_and_joint() {
+    check(
+        replaced("\"ground\", \"bob\"", "\"ground\", \"bib\""),
+        2,
+        &["bib", "did you mean `bob`"],
+    );
+    let drive = "[[drive]]\nname = \"m\"\njoint = \"pivto\"\ntype = \"angle\"\nmotion = { type = \"constant-rate\", rate = 1.0 }\n";
+    check(added(drive), 2, &["pivto", "did you mean `pivot`"]);
+}
+
+#[test]
+fn unknown_type_does_not_hide_an_unknown_body() {
+    let both = |scene: &str| {
+        scene
+            .replace("revolute", "revolut")
+            .replace("\"bob\"]", "\"bib\"]")
+    };
+    check(both, 2, &["did you mean `revolute`", "did you mean `bob`"]);
+}
+
+#[test]
+fn duplicate_names() {
+    check(
+        added("[[body]]\nname = \"bob\"\nmass = 1.0\ninertia = 1.0\n"),
+        2,
+        &["`bob` is used twice", "first used"],
+    );
+}
+
+#[test]
+fn masses_that_are_none() {
+    check(
+        replaced("mass = 1.0", "mass = nan"),
+        2,
+        &["bob", "mass", "NaN"],
+    );
+    check(
+        replaced("mass = 1.0", "mass = inf"),
+        2,
+        &["bob", "mass", "inf"],
+    );
+    check(
+        replaced("mass = 1.0", "mass = -2.5"),
+        2,
+        &["bob", "mass is -2.5", "≥ 0"],
+    );
+}
+
+#[test]
+fn a_direction_without_length() {
+    let edge = "[[joint]]\nname = \"edge\"\ntype = \"knife-edge\"\nbody = \"bob\"\nat = [0.0, 0.0]\nnormal = [0.0, 0.0]\n";
+    check(added(edge), 2, &["edge", "normal", "length zero"]);
+}
+
+#[test]
+fn constraints_that_cannot_be_assembled() {
+    // A rigid bob cannot hang on two pivots whose distance is not its own.
+    let second = "[[joint]]\nname = \"other\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bob\"]\npoints = { ground = [5.0, 0.0], bob = [0.0, 0.0] }\n";
+    check(
+        added(second),
+        2,
+        &["cannot be assembled", "other", "misses by"],
+    );
+}
+
+#[test]
+fn a_start_that_needs_a_large_correction() {
+    let apart = "points = { ground = [0.0, 0.0], bob = [-1.2, 0.0] }";
+    check(
+        replaced("at = [0.0, 0.0]", apart),
+        2,
+        &["corrected by", "bob", "allow_correction"],
+    );
+    let allowed = PENDULUM.replace("at = [0.0, 0.0]", apart) + "[start]\nallow_correction = true\n";
+    let output = with_scene(&["check", "-"], &allowed);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+#[test]
+fn no_bodies() {
+    let output = with_scene(
+        &["check", "-"],
+        "[scene]\nname = \"nothing\"\nspace = \"plane\"\n",
+    );
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("at least one body"),
+        "{}",
+        stderr(&output)
+    );
+}
+
+#[test]
+fn redundant_drives_that_contradict_each_other() {
+    let drives = "
+[[drive]]
+name = \"slow\"
+joint = \"pivot\"
+type = \"angle\"
+motion = { type = \"constant-rate\", rate = 1.0 }
+
+[[drive]]
+name = \"fast\"
+joint = \"pivot\"
+type = \"angle\"
+motion = { type = \"constant-rate\", rate = 2.0 }
+";
+    check(added(drives), 2, &["slow", "fast", "differ by", "t = 0"]);
+}
+
+#[test]
+fn drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows() {
+    let folder = Folder::new("contradiction");
+    let drives = "
+[[drive]]
+name = \"one\"
+joint = \"pivot\"
+type = \"angle\"
+motion = { type = \"steps\", steps = [{ from = 0.5, to = 1.0, by = 1.0 }] }
+
+[[drive]]
+name = \"other\"
+joint = \"pivot\"
+type = \"angle\"
+motion = { type = \"steps\", steps = [{ from = 0.5, to = 1.0, by = 1.1 }] }
+";
+    let scene = format!("{PENDULUM}{drives}");
+    let output = with_scene(&["simulate", "-", "--out", folder.text()], &scene);
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(
+        text.contains("contradict") && (text.contains("one") || text.contains("other")),
+        "{text}"
+    );
+    let rows = folder.read("trajectory.csv").lines().count();
+    assert!(rows > 100, "{rows} rows up to t = 0.5 are kept");
+    let summary: serde_json::Value =
+        serde_json::from_str(&folder.read("summary.json")).expect("JSON");
+    assert_eq!(summary["partial"], true);
+    assert!(
+        summary["error"]
+            .as_str()
+            .is_some_and(|e| e.contains("t = 0.5")),
+        "{summary}"
+    );
+}
+
+#[test]
+fn rows_that_cannot_be_dropped() {
+    let folder = Folder::new("drop");
+    for (drop, piece) in [
+        ("1,21", "what is kept is dependent"),
+        ("6", "drop exactly 2"),
+        ("6,6", "listed twice"),
+        ("6,99", "rows are 1 to 22"),
+        ("0,6", "counted from 1"),
+    ] {
+        let output = pfaff(&["simulate", ROBOT, "--out", folder.text(), "--drop", drop]);
+        let text = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{drop}: {text}");
+        assert!(text.contains(piece), "{drop}: {text}");
+    }
+}
+
+#[test]
+fn a_scene_that_does_not_say_how_long() {
+    let folder = Folder::new("no-end");
+    let scene = PENDULUM.replace("[simulate]\nt_end = 1.0\n", "");
+    let output = with_scene(&["simulate", "-", "--out", folder.text()], &scene);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("t_end"));
+    let output = with_scene(
+        &["simulate", "-", "--out", folder.text(), "--t-end", "0.5"],
+        &scene,
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+}
+
+#[test]
+fn files_that_cannot_be_read() {
+    let output = pfaff(&["check", "no-such-file.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(stderr(&output).contains("no-such-file.toml"));
+    let output = pfaff(&["analyze"]);
+    assert_eq!(output.status.code(), Some(2));
+}
+
+#[test]
+fn numbers_of_the_command_line() {
+    for arguments in [
+        vec!["analyze", ROBOT, "--at-time", "-1"],
+        vec!["analyze", ROBOT, "--at-time=-1"],
+        vec!["analyze", ROBOT, "--combine", "W9.N"],
+        vec!["analyze", ROBOT, "--combine", "W3"],
+    ] {
+        let output = pfaff(&arguments);
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{arguments:?}: {}",
+            stderr(&output)
+        );
+    }
+    let folder = Folder::new("numbers");
+    for (option, value) in [("--rtol", "0"), ("--atol", "nan"), ("--t-end", "inf")] {
+        let output = pfaff(&["simulate", ROBOT, "--out", folder.text(), option, value]);
+        assert_eq!(
+            output.status.code(),
+            Some(2),
+            "{option} {value}: {}",
+            stderr(&output)
+        );
+    }
+}

@@ -1,0 +1,179 @@
+//! Documents and files of the published mechanism.
+
+use std::process::{Command, Stdio};
+
+use serde_json::Value;
+
+use super::{Folder, ROBOT, pfaff, stdout, with_scene};
+
+fn json(text: &str) -> Value {
+    serde_json::from_str(text).expect("one JSON document and nothing else")
+}
+
+#[test]
+fn analyze_writes_the_document_of_the_contract() {
+    let output = pfaff(&["analyze", ROBOT, "--json"]);
+    assert_eq!(output.status.code(), Some(0));
+    let d = json(&stdout(&output));
+    for (key, expected) in [
+        ("bodies", 7),
+        ("coordinates", 21),
+        ("rows", 22),
+        ("holonomic_rows", 17),
+        ("nonholonomic_rows", 5),
+        ("rank", 20),
+        ("rank_holonomic", 17),
+        ("rank_nonholonomic", 4),
+        ("redundancy", 2),
+        ("mobility", 1),
+    ] {
+        assert_eq!(d[key], expected, "{key}");
+    }
+    let evidence = d["evidence"].as_object().expect("an object");
+    for key in [
+        "sigma_r",
+        "sigma_next",
+        "gap",
+        "tolerance",
+        "constraint_residual",
+        "permanent",
+        "certified",
+    ] {
+        assert!(evidence.contains_key(key), "{key}");
+    }
+    let reactions = d["reactions"].as_array().expect("a list");
+    let names: Vec<&str> = reactions
+        .iter()
+        .filter_map(|r| r["name"].as_str())
+        .collect();
+    let expected = [
+        "A", "B", "C", "D", "E", "F", "G", "H", "steering", "W1", "W2", "W3", "W4", "W5",
+    ];
+    assert_eq!(names, expected);
+    let b = &reactions[1];
+    assert_eq!(b["type"], "revolute");
+    assert_eq!(b["rows"], serde_json::json!([3, 4]));
+    assert_eq!(b["verdict"], "not_unique");
+    assert_eq!(b["components"][0]["name"], "Fx");
+    assert_eq!(b["components"][0]["verdict"], "unique");
+    assert_eq!(b["components"][1]["verdict"], "not_unique");
+    assert_eq!(b["unique_directions"], serde_json::json!([[1.0, 0.0]]));
+    let pair = &d["dependencies"][0];
+    assert_eq!(pair["rows"], serde_json::json!([20, 21]));
+    assert_eq!(pair["joints"], serde_json::json!(["W3", "W4"]));
+    let coefficients: Vec<f64> = pair["coefficients"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(Value::as_f64)
+        .collect();
+    assert!((coefficients[0] - 1.0).abs() < 1e-12 && (coefficients[1] + 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn analyze_looks_at_any_time_of_the_motion() {
+    let output = pfaff(&[
+        "analyze",
+        ROBOT,
+        "--at-time",
+        "1.5",
+        "--json",
+        "--combine",
+        "W3.N + W4.N",
+    ]);
+    let d = json(&stdout(&output));
+    assert_eq!(d["time"], 1.5);
+    assert_eq!(d["rank"], 20);
+    let b = &d["reactions"][1];
+    assert_eq!(b["components"][0]["verdict"], "not_unique");
+    assert_eq!(b["unique_directions"].as_array().map(Vec::len), Some(1));
+    assert_eq!(d["groups"][0]["verdict"], "not_unique");
+}
+
+#[test]
+fn simulate_writes_the_files_of_the_contract() {
+    let folder = Folder::new("simulate");
+    let output = pfaff(&["simulate", ROBOT, "--out", folder.text()]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(stdout(&output).contains("not determined by the model: B, C, W1, W2, W3, W4"));
+
+    let trajectory = folder.read("trajectory.csv");
+    let lines: Vec<&str> = trajectory.lines().collect();
+    assert!(lines[0].starts_with(
+        "t,platform.x,platform.y,platform.angle,platform.vx,platform.vy,platform.omega,"
+    ));
+    assert_eq!(lines.len(), 202);
+    assert!(lines[1].starts_with("0,") || lines[1].starts_with("0.0,"));
+    let last: f64 = lines[201]
+        .split(',')
+        .next()
+        .expect("a cell")
+        .parse()
+        .expect("a number");
+    assert_eq!(last, 10.0);
+
+    let reactions = folder.read("reactions.csv");
+    let header = reactions.lines().next().expect("a header");
+    assert!(header.starts_with("t,A.Fx,A.Fy,A.T,B.Fx"));
+    assert!(header.contains("steering.Fx,steering.Fy,steering.T,steering.drive"));
+    assert!(header.ends_with("W5.Fx,W5.Fy,W5.T,W5.N"));
+
+    let summary = json(&folder.read("summary.json"));
+    for key in [
+        "method",
+        "formulation",
+        "steps",
+        "evaluations",
+        "projections",
+        "wall_seconds",
+        "max_position_residual",
+        "max_velocity_residual",
+        "energy_balance",
+        "start_correction",
+        "events",
+        "reactions",
+    ] {
+        assert!(summary.get(key).is_some(), "{key}");
+    }
+    assert!(summary["max_position_residual"].as_f64().expect("a number") <= 1e-12);
+    assert!(summary["energy_balance"].as_f64().expect("a number") <= 1e-7);
+    assert_eq!(summary["reactions"]["A"]["verdict"], "unique");
+    assert!(summary["reactions"]["A"].get("choice").is_none());
+    assert_eq!(
+        summary["reactions"]["B"]["choice"]["deleted_rows"],
+        serde_json::json!([20, 21])
+    );
+}
+
+#[test]
+fn a_scene_may_come_from_standard_input() {
+    let scene = std::fs::read_to_string(ROBOT).expect("the scene exists");
+    let output = with_scene(&["analyze", "-", "--json"], &scene);
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(json(&stdout(&output))["scene"], "robot-trolley");
+}
+
+#[test]
+fn a_closed_standard_output_ends_quietly() {
+    let mut child = Command::new(env!("CARGO_BIN_EXE_pfaff"))
+        .args(["analyze", ROBOT, "--json"])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("the command starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("the command ends");
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stderr.is_empty(), "{output:?}");
+}
+
+#[test]
+fn results_that_cannot_be_written_are_named() {
+    let folder = Folder::new("occupied");
+    std::fs::create_dir_all(&folder.0).expect("writable");
+    let file = folder.0.join("file");
+    std::fs::write(&file, "here first").expect("writable");
+    let output = pfaff(&["simulate", ROBOT, "--out", file.to_str().expect("UTF-8")]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(super::stderr(&output).contains("file"), "{output:?}");
+}

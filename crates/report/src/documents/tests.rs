@@ -1,0 +1,266 @@
+use dynamics::{
+    Event, EventKind, MotionError, MotionOptions, Prepared, RowChoice, Summary, prepare,
+};
+use joints::Revolute;
+use linalg::{Doubt, Evidence, Matrix, RankDecision, RankStatus};
+use model::{Body, BodyRef, ConstraintId, Description, Joint, Mechanism, StartOptions};
+use serde_json::Value;
+use solvability::{
+    Analysis, ComponentVerdict, Dependency, Judgement, ReactionVerdict, RowVerdict, Verdict,
+};
+
+use super::{AnalysisDocument, Ending, Proof, Run, RunDocument, write_json};
+
+fn judged(verdict: Verdict, margin: f64) -> Judgement {
+    Judgement { verdict, margin }
+}
+
+/// A door on two hinges, with round numbers for the evidence.
+fn analysis() -> Analysis {
+    let c = Matrix::from_rows(&[
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, 0.0, 1.0],
+        [0.0, 1.0, 0.0],
+    ]);
+    let decision = RankDecision {
+        kept: vec![0, 1, 2],
+        dropped: vec![3],
+        evidence: Evidence {
+            singular_values: vec![2.0, 1.0, 0.5, 0.0],
+            sigma_r: 0.5,
+            sigma_next: 0.0,
+            gap: f64::INFINITY,
+            tolerance: 0.25,
+            constraint_residual: 0.0,
+            dependence_residual: 0.0,
+        },
+        ..linalg::decide(&c, 0.0).expect("finite")
+    };
+    Analysis {
+        time: 0.5,
+        bodies: 1,
+        coordinates: 3,
+        velocities: 3,
+        holonomic_rows: 4,
+        nonholonomic_rows: 0,
+        rank_holonomic: 3,
+        rank_nonholonomic: 0,
+        decision,
+        reactions: vec![reaction("upper", 0), reaction("lower \"2\"", 2)],
+        dependencies: vec![Dependency {
+            rows: vec![1, 3],
+            coefficients: vec![1.0, -1.0],
+            text: "both hold the height".into(),
+        }],
+        warnings: Vec::new(),
+    }
+}
+
+fn reaction(name: &str, row: usize) -> ReactionVerdict {
+    let both = [
+        judged(Verdict::Unique, 0.0),
+        judged(Verdict::NotUnique, 0.5),
+    ];
+    let rows = both.iter().enumerate().map(|(k, j)| RowVerdict {
+        row: row + k,
+        judgement: j.clone(),
+    });
+    let components = ["Fx", "Fy"].into_iter().zip(&both);
+    ReactionVerdict {
+        id: ConstraintId(row / 2),
+        name: name.into(),
+        kind: "revolute",
+        wrench: both[1].clone(),
+        multipliers: both[1].clone(),
+        rows: rows.collect(),
+        components: components
+            .map(|(name, j)| ComponentVerdict {
+                name,
+                judgement: j.clone(),
+            })
+            .collect(),
+        unique_directions: vec![vec![1.0, 0.0]],
+    }
+}
+
+fn json(document: &impl serde::Serialize) -> String {
+    let mut bytes = Vec::new();
+    write_json(&mut bytes, document).expect("memory takes everything");
+    String::from_utf8(bytes).expect("JSON is UTF-8")
+}
+
+/// The golden text without the white space of indentation, which keeps it readable here.
+fn squeezed(text: &str) -> String {
+    let value: Value = serde_json::from_str(text).expect("valid JSON");
+    value.to_string()
+}
+
+#[test]
+fn analysis_has_the_keys_of_the_contract() {
+    let found = json(&AnalysisDocument::new(
+        "door",
+        &analysis(),
+        Proof::default(),
+    ));
+    let expected = r#"{
+        "scene": "door", "time": 0.5, "bodies": 1, "coordinates": 3, "rows": 4,
+        "holonomic_rows": 4, "nonholonomic_rows": 0,
+        "rank": 3, "rank_holonomic": 3, "rank_nonholonomic": 0, "redundancy": 1, "mobility": 0,
+        "kept_rows": [1, 2, 3], "dropped_rows": [4],
+        "evidence": { "status": "decided", "sigma_r": 0.5, "sigma_next": 0.0, "gap": null,
+            "tolerance": 0.25, "constraint_residual": 0.0, "permanent": null, "certified": false },
+        "reactions": [
+            { "name": "upper", "type": "revolute", "rows": [1, 2],
+              "verdict": "not_unique", "margin": 0.5, "multipliers": "not_unique",
+              "row_verdicts": [ { "row": 1, "verdict": "unique", "margin": 0.0 },
+                                { "row": 2, "verdict": "not_unique", "margin": 0.5 } ],
+              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0 },
+                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5 } ],
+              "unique_directions": [[1.0, 0.0]] },
+            { "name": "lower \"2\"", "type": "revolute", "rows": [3, 4],
+              "verdict": "not_unique", "margin": 0.5, "multipliers": "not_unique",
+              "row_verdicts": [ { "row": 3, "verdict": "unique", "margin": 0.0 },
+                                { "row": 4, "verdict": "not_unique", "margin": 0.5 } ],
+              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0 },
+                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5 } ],
+              "unique_directions": [[1.0, 0.0]] } ],
+        "groups": [],
+        "dependencies": [ { "rows": [2, 4], "joints": ["upper", "lower \"2\""],
+            "coefficients": [1.0, -1.0], "text": "both hold the height" } ],
+        "warnings": [] }"#;
+    assert_eq!(squeezed(&found), squeezed(expected));
+    assert!(found.starts_with("{\n  \"scene\": \"door\",\n  \"time\": 0.5,"));
+    assert!(found.ends_with("}\n"));
+}
+
+#[test]
+fn an_undecided_rank_says_why() {
+    let doubt = Doubt::NotPolished {
+        sigma_max: 1.0,
+        tolerance: 2.0,
+    };
+    let mut analysis = analysis();
+    analysis.decision.status = RankStatus::Undecided(doubt);
+    let reason = "the numbers do not decide".to_owned();
+    analysis.reactions[0].wrench = judged(Verdict::Undecided { reason }, f64::NAN);
+    let proof = Proof {
+        permanent: Some(true),
+        certified: true,
+    };
+    let document: Value =
+        serde_json::from_str(&json(&AnalysisDocument::new("door", &analysis, proof)))
+            .expect("valid JSON in spite of NaN");
+    let evidence = &document["evidence"];
+    assert_eq!(evidence["status"], "undecided");
+    assert_eq!(evidence["reason"], doubt.to_string());
+    assert_eq!(
+        (&evidence["permanent"], &evidence["certified"]),
+        (&true.into(), &true.into())
+    );
+    let upper = &document["reactions"][0];
+    assert_eq!(upper["verdict"], "undecided");
+    assert_eq!(upper["reason"], "the numbers do not decide");
+    assert_eq!(upper["margin"], Value::Null);
+}
+
+/// The same door as a mechanism at rest.
+fn prepared() -> Prepared {
+    let hinge = |name: &str, y: f64| {
+        let element = Revolute {
+            s_i: [0.0, y],
+            s_j: [-0.5, y],
+        };
+        Joint::new(name, &[BodyRef::Ground, BodyRef::Body(0)], element)
+    };
+    let door = Description {
+        name: "door".into(),
+        bodies: vec![Body {
+            name: "leaf".into(),
+            mass: 1.0,
+            inertia: 1.0,
+            position: [0.5, 0.0],
+            ..Body::default()
+        }],
+        joints: vec![hinge("upper", 1.0), hinge("lower", -1.0)],
+        ..Description::default()
+    };
+    let mechanism = Mechanism::build(&door).expect("the door builds");
+    let rows = RowChoice::Drop(vec![3]);
+    prepare(mechanism, &StartOptions::default(), &rows).expect("the door hangs")
+}
+
+#[test]
+fn summary_has_the_keys_of_the_contract() {
+    let mut analysis = analysis();
+    analysis.reactions[0].wrench = judged(Verdict::Unique, 0.0);
+    let summary = Summary {
+        t: 2.0,
+        steps: 10,
+        rejected: 1,
+        evaluations: 70,
+        projections: 10,
+        wall_seconds: 0.125,
+        max_position_residual: 0.0,
+        max_velocity_residual: f64::NAN,
+        energy_balance: 0.0,
+        min_pivot_ratio: 1.0,
+        events: Vec::new(),
+    };
+    let (prepared, options) = (prepared(), MotionOptions::to(2.0));
+    let run = Run {
+        prepared: &prepared,
+        options: &options,
+        analysis: &analysis,
+        summary: &summary,
+        ending: Ending::Complete,
+    };
+    let found = json(&RunDocument::new(&run));
+    let expected = r#"{
+        "method": "dopri5", "formulation": "kept-rows", "partial": false, "error": null,
+        "t_end": 2.0, "steps": 10, "rejected": 1, "evaluations": 70, "projections": 10,
+        "wall_seconds": 0.125, "max_position_residual": 0.0, "max_velocity_residual": null,
+        "energy_balance": 0.0, "start_correction": 0.0, "start_velocity_correction": 0.0,
+        "events": [],
+        "reactions": {
+            "upper": { "verdict": "unique", "margin": 0.0 },
+            "lower \"2\"": { "verdict": "not_unique", "margin": 0.5,
+                "choice": { "method": "kept-rows", "deleted_rows": [4] } } } }"#;
+    assert_eq!(squeezed(&found), squeezed(expected));
+}
+
+#[test]
+fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
+    let (prepared, options, analysis) = (prepared(), MotionOptions::to(2.0), analysis());
+    let summary = Summary {
+        t: 1.5,
+        events: vec![Event {
+            time: 1.25,
+            kind: EventKind::RowsExchanged,
+            redundancy_before: 1,
+            redundancy_after: 1,
+            dropped: vec![1],
+            text: "row 2 for row 4".into(),
+        }],
+        ..Summary::default()
+    };
+    let error = MotionError::Rows("no rows".into());
+    let run = |ending| Run {
+        prepared: &prepared,
+        options: &options,
+        analysis: &analysis,
+        summary: &summary,
+        ending,
+    };
+    let document = RunDocument::new(&run(Ending::Stopped(&error)));
+    assert!(document.partial);
+    assert_eq!(document.error.as_deref(), Some("no rows"));
+    assert_eq!(document.t_end, 1.5);
+    assert_eq!(document.events[0].kind, "rows-exchanged");
+    for (name, reaction) in &document.reactions.0 {
+        let choice = reaction.choice.as_ref();
+        assert_eq!(choice.and_then(|c| c.valid_until), Some(1.25), "{name}");
+    }
+    let interrupted = RunDocument::new(&run(Ending::Interrupted));
+    assert!(interrupted.partial && interrupted.error.is_none());
+}

@@ -1,0 +1,229 @@
+//! Where the joints of a mechanism are and what kind of freedom they leave, found from their rows, wrenches and
+//! places: no joint is known by name.
+
+#[cfg(test)]
+mod tests;
+
+use joints::spec::{ConstraintSpec, Level};
+use linalg::Matrix;
+use model::reaction::ConstraintGroup;
+use model::{BodyRef, ConstraintId, ConstraintKind, Mechanism, Scratch, System};
+
+use super::FigureError;
+use super::symbol::Symbol;
+
+/// Coordinates beyond cannot be drawn: their squares would overflow.
+const LIMIT: f64 = 1e150;
+
+/// Coordinates of a planar body.
+const N_BODY: usize = 3;
+
+/// Evaluates poses, if q is a configuration that can be drawn.
+pub(super) fn posed(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    s: &mut Scratch,
+) -> Result<(), FigureError> {
+    let expected = mechanism.layout().n_q;
+    if q.len() != expected {
+        return Err(FigureError::Coordinates {
+            mechanism: mechanism.name().to_owned(),
+            found: q.len(),
+            expected,
+        });
+    }
+    if let Some(k) = q.iter().position(|x| !within(*x, LIMIT)) {
+        return Err(FigureError::Coordinate {
+            mechanism: mechanism.name().to_owned(),
+            number: k + 1,
+            value: q[k],
+            limit: LIMIT,
+        });
+    }
+    mechanism.pose(t, q, s);
+    Ok(())
+}
+
+/// A joint or drive in its place (global components, m).
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Site {
+    pub(super) place: [f64; 2],
+    pub(super) symbol: Symbol,
+    /// Where its only force acts on the other body; its place if there is no such point.
+    pub(super) end: [f64; 2],
+    /// Points of its bodies, the ground included.
+    pub(super) attachments: Vec<(BodyRef, [f64; 2])>,
+    /// Whether it holds a body to the ground.
+    pub(super) grounded: bool,
+}
+
+/// All joints and drives, in the order of their rows. The scratch has poses; C and Γ are overwritten.
+pub(super) fn sites(mechanism: &Mechanism, s: &mut Scratch) -> Vec<Site> {
+    mechanism.c(s);
+    mechanism
+        .constraint_ids()
+        .map(|id| site(mechanism, id, s))
+        .collect()
+}
+
+fn site(mechanism: &Mechanism, id: ConstraintId, s: &mut Scratch) -> Site {
+    let group = &mechanism.layout().groups[id.0];
+    let spec = group.spec;
+    let place = finite_or(mechanism.place(id, s), [0.0, 0.0]);
+    let map = mechanism.wrench_map(id, s);
+    let rows = Rows::of(spec);
+    // The line along which the only force acts.
+    let force = rows.only_force().map(|row| Force::of(&map, row));
+    let end = match rows.only_force() {
+        Some(row) if spec.common.points_apart => other_end(mechanism, group, row, &map, place, s),
+        _ => force.map_or(place, |f| f.point_nearest(place)),
+    };
+    let symbol = match (group.kind, spec.level, force) {
+        (ConstraintKind::Drive, ..) => Symbol::Drive {
+            axis: force.map(|f| f.direction),
+        },
+        (_, Level::Nonholonomic, Some(f)) => Symbol::Edge {
+            along: f.perpendicular(),
+        },
+        (_, Level::Holonomic, Some(_)) if spec.common.points_apart => Symbol::Rod,
+        (_, Level::Holonomic, Some(f)) if rows.torques > 0 => Symbol::Block {
+            axis: f.perpendicular(),
+        },
+        (_, Level::Holonomic, Some(f)) => Symbol::Slot {
+            axis: f.perpendicular(),
+        },
+        (_, _, None) if rows.forces.is_empty() => Symbol::Rotation,
+        _ if rows.torques > 0 => Symbol::Weld,
+        _ => Symbol::Pin,
+    };
+    Site {
+        place,
+        symbol,
+        end,
+        attachments: attachments(group, place, end, s),
+        grounded: spec.level == Level::Holonomic
+            && group.kind == ConstraintKind::Joint
+            && symbol != Symbol::Rotation
+            && (group.bodies.len() == 1 || group.bodies.contains(&BodyRef::Ground)),
+    }
+}
+
+/// A point of each body: of the first its place, of others where the force acts on them, or their centres if none does.
+fn attachments(
+    group: &ConstraintGroup,
+    place: [f64; 2],
+    end: [f64; 2],
+    s: &Scratch,
+) -> Vec<(BodyRef, [f64; 2])> {
+    let pushed = |slot: usize| group.spec.c.iter().any(|e| e.slot == slot && e.dof < 2);
+    let points = group.bodies.iter().enumerate().map(|(slot, &body)| {
+        let point = match body {
+            _ if slot == 0 => place,
+            BodyRef::Body(k) if !pushed(slot) => [s.poses[k].x, s.poses[k].y],
+            _ => end,
+        };
+        (body, point)
+    });
+    points.collect()
+}
+
+/// Rows by what they transmit.
+struct Rows {
+    forces: Vec<usize>,
+    /// Number of rows that transmit a torque alone.
+    torques: usize,
+}
+
+impl Rows {
+    fn of(spec: &ConstraintSpec) -> Self {
+        let pushes = |row: usize| spec.wrench.iter().any(|[c, r]| *r == row && *c < 2);
+        let forces: Vec<usize> = (0..spec.rows.len()).filter(|&r| pushes(r)).collect();
+        Self {
+            torques: spec.rows.len() - forces.len(),
+            forces,
+        }
+    }
+
+    fn only_force(&self) -> Option<usize> {
+        match self.forces[..] {
+            [row] => Some(row),
+            _ => None,
+        }
+    }
+}
+
+/// A force and its lever arm about the place.
+#[derive(Clone, Copy)]
+struct Force {
+    direction: [f64; 2],
+    arm: f64,
+}
+
+impl Force {
+    fn of(map: &Matrix, row: usize) -> Self {
+        let (x, y, torque) = (map[(0, row)], map[(1, row)], map[(2, row)]);
+        let size = x.hypot(y);
+        if !(size > 0.0 && size.is_finite()) {
+            return Self {
+                direction: [1.0, 0.0],
+                arm: 0.0,
+            };
+        }
+        Self {
+            direction: [x / size, y / size],
+            arm: torque / size,
+        }
+    }
+
+    fn perpendicular(&self) -> [f64; 2] {
+        [-self.direction[1], self.direction[0]]
+    }
+
+    /// The point of the line of action nearest to the place: offset × direction = arm.
+    fn point_nearest(&self, place: [f64; 2]) -> [f64; 2] {
+        let [x, y] = self.perpendicular();
+        finite_or([place[0] - self.arm * x, place[1] - self.arm * y], place)
+    }
+}
+
+/// The other end of a rod. A unit velocity across it needs the acceleration `−1/L` towards it, so that Γ of that
+/// velocity tells L: `end − place = −C_j/Γ`, and `C_j` is the force on the first body.
+fn other_end(
+    mechanism: &Mechanism,
+    group: &ConstraintGroup,
+    row: usize,
+    map: &Matrix,
+    place: [f64; 2],
+    s: &mut Scratch,
+) -> [f64; 2] {
+    let moving = group.bodies.iter().find_map(|b| match b {
+        BodyRef::Body(k) => Some(*k),
+        BodyRef::Ground => None,
+    });
+    let Some(k) = moving else { return place };
+    let across = Force::of(map, row).perpendicular();
+    let mut v = vec![0.0; mechanism.layout().n_v];
+    v[N_BODY * k..N_BODY * k + 2].copy_from_slice(&across);
+    mechanism.twist(&v, s);
+    mechanism.gamma(s);
+    let gamma = s.gamma[group.rows.start + row];
+    let end = [
+        place[0] - map[(0, row)] / gamma,
+        place[1] - map[(1, row)] / gamma,
+    ];
+    finite_or(end, place)
+}
+
+fn finite_or(point: [f64; 2], otherwise: [f64; 2]) -> [f64; 2] {
+    if point.iter().all(|x| within(*x, 2.0 * LIMIT)) {
+        point
+    } else {
+        otherwise
+    }
+}
+
+/// Whether a number is finite and not too large; NaN is not.
+fn within(x: f64, limit: f64) -> bool {
+    x.abs() <= limit
+}

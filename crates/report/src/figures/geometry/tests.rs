@@ -1,0 +1,177 @@
+//! The points of joints, against the points that were put into them.
+
+use joints::{
+    Angle, Direction, Distance, Fixed, Gear, KnifeEdge, Line, PinInSlot, PointOnLine, Revolute,
+    RevoluteAngleDrive, Rolling, Translational, TranslationalDisplacementDrive,
+};
+use model::start::assemble;
+use model::{
+    Body, BodyRef, Description, Drive, Function, Joint, Mechanism, PlaneConstraint, StartOptions,
+    System,
+};
+
+use super::{posed, sites};
+use crate::figures::symbol::Symbol;
+
+/// Points are found by divisions of numbers of order one.
+const ROUNDING: f64 = 1e-14;
+
+/// Two bodies at odd poses: where their parts of one joint are found.
+fn site(element: impl PlaneConstraint + 'static, drives: bool) -> super::Site {
+    let body = |name: &str, position, angle| Body {
+        name: name.into(),
+        mass: 1.0,
+        inertia: 1.0,
+        position,
+        angle,
+        ..Body::default()
+    };
+    let mut description = Description {
+        bodies: vec![
+            body("first", [0.0, 0.0], 0.5),
+            body("second", [2.0, 1.0], -0.7),
+        ],
+        ..Description::default()
+    };
+    let slots = element.element().spec().common.slots.len();
+    let bodies = [BodyRef::Body(0), BodyRef::Body(1), BodyRef::Ground][..slots].to_vec();
+    if drives {
+        description.drives.push(Drive {
+            name: "drive".into(),
+            bodies,
+            element: Box::new(element),
+            motion: Function::steps(0.0, &[]).expect("no step"),
+        });
+    } else {
+        description
+            .joints
+            .push(Joint::new("joint", &bodies, element));
+    }
+    let mut mechanism = Mechanism::build(&description).expect("builds");
+    // Only to set initial values: the start may be off the constraint, the picture is drawn all the same.
+    let _ = assemble(&mut mechanism, &StartOptions::default());
+    let mut s = mechanism.scratch();
+    posed(&mechanism, 0.0, &mechanism.described_state().0, &mut s).expect("finite");
+    sites(&mechanism, &mut s).remove(0)
+}
+
+/// Global points of the bodies above.
+fn first([x, y]: [f64; 2]) -> [f64; 2] {
+    joints::Pose::new(0.0, 0.0, 0.5).to_global([x, y])
+}
+fn second([x, y]: [f64; 2]) -> [f64; 2] {
+    joints::Pose::new(2.0, 1.0, -0.7).to_global([x, y])
+}
+
+fn near(a: [f64; 2], b: [f64; 2]) -> bool {
+    (a[0] - b[0]).hypot(a[1] - b[1]) <= ROUNDING
+}
+
+/// Same line, whatever the sense.
+fn parallel(a: [f64; 2], b: [f64; 2]) -> bool {
+    (a[0] * b[1] - a[1] * b[0]).abs() <= ROUNDING && (a[0].hypot(a[1]) - 1.0).abs() <= ROUNDING
+}
+
+const S_I: [f64; 2] = [0.3, -0.2];
+
+#[test]
+fn symbols_follow_from_rows() {
+    let fixed = Fixed {
+        s_i: S_I,
+        s_j: [0.0, 0.1],
+        offset: [0.0; 2],
+        angle_0: 0.0,
+    };
+    let gear = Gear {
+        ratio: -2.0,
+        phase: 0.0,
+    };
+    let turn = RevoluteAngleDrive {
+        s_i: S_I,
+        s_j: [0.0; 2],
+        measure_0: 0.0,
+    };
+    let pin = Revolute {
+        s_i: S_I,
+        s_j: [0.0; 2],
+    };
+    assert_eq!(site(pin, false).symbol, Symbol::Pin);
+    assert_eq!(site(fixed, false).symbol, Symbol::Weld);
+    assert_eq!(site(gear, false).symbol, Symbol::Rotation);
+    assert_eq!(site(Angle { angle_0: 0.0 }, false).symbol, Symbol::Rotation);
+    assert_eq!(site(turn, true).symbol, Symbol::Drive { axis: None });
+}
+
+#[test]
+fn the_far_end_of_a_rod_is_found_from_gamma() {
+    let s_j = [-0.4, 0.25];
+    let rod = Distance {
+        s_i: S_I,
+        s_j,
+        length: 0.0,
+        half_inverse: 0.0,
+    };
+    let found = site(rod, false);
+    assert_eq!(found.symbol, Symbol::Rod);
+    assert!(near(found.place, first(S_I)));
+    assert!(near(found.end, second(s_j)), "{found:?}");
+    assert!(near(found.attachments[1].1, second(s_j)));
+}
+
+#[test]
+fn a_slider_holds_the_second_body_on_its_axis() {
+    // The second point is put on the axis of the first body.
+    let axis = first([0.6, 0.8]);
+    let on_axis = [0, 1].map(|k| first(S_I)[k] + 1.7 * axis[k]);
+    let s_j = joints::Pose::new(2.0, 1.0, -0.7).to_local(on_axis);
+    let local = Direction::new([0.6, 0.8]).expect("a direction");
+    let slider = Translational {
+        s_i: S_I,
+        s_j,
+        axis: local,
+        angle_0: 0.0,
+    };
+    let slot = PinInSlot {
+        s_i: S_I,
+        s_j,
+        axis: local,
+    };
+    let drive = TranslationalDisplacementDrive {
+        s_i: S_I,
+        s_j,
+        axis: local,
+        angle_0: 0.0,
+        measure_0: 0.0,
+    };
+    let found = site(slider, false);
+    assert!(matches!(found.symbol, Symbol::Block { axis: a } if parallel(a, axis)));
+    assert!(near(found.end, on_axis), "{found:?}");
+    let found = site(slot, false);
+    assert!(matches!(found.symbol, Symbol::Slot { axis: a } if parallel(a, axis)));
+    assert!(near(found.end, on_axis), "{found:?}");
+    let found = site(drive, true);
+    assert!(matches!(found.symbol, Symbol::Drive { axis: Some(a) } if parallel(a, axis)));
+}
+
+#[test]
+fn edges_lie_across_their_normals_and_lines_along_themselves() {
+    let normal = Direction::new([0.6, 0.8]).expect("a direction");
+    let found = site(KnifeEdge { s: S_I, normal }, false);
+    assert!(matches!(found.symbol, Symbol::Edge { along } if parallel(along, first([-0.8, 0.6]))));
+    assert!(!found.grounded && near(found.place, first(S_I)));
+    let rolling = Rolling {
+        s: S_I,
+        direction: normal,
+        radius: 0.1,
+    };
+    let found = site(rolling, false);
+    assert!(matches!(found.symbol, Symbol::Edge { .. }));
+    assert!(
+        near(found.attachments[1].1, [2.0, 1.0]),
+        "the spinner by its centre"
+    );
+    let line = Line::new([0.0, 0.0], [3.0, 4.0]).expect("a line");
+    let found = site(PointOnLine { s: S_I, line }, false);
+    assert!(matches!(found.symbol, Symbol::Slot { axis } if parallel(axis, [0.6, 0.8])));
+    assert!(found.grounded);
+}

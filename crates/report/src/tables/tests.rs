@@ -1,0 +1,183 @@
+use joints::plane::Direction;
+use joints::{KnifeEdge, Revolute, RevoluteAngleDrive};
+use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, Reaction};
+
+use super::{ReactionTable, Selection, TableError, TrajectoryTable};
+
+/// A driven wheel carrier with a blade, and names that need quotes.
+fn carrier() -> Mechanism {
+    let body = |name: &str| Body {
+        name: name.into(),
+        mass: 1.0,
+        inertia: 1.0,
+        ..Body::default()
+    };
+    let pair = [BodyRef::Body(0), BodyRef::Body(1)];
+    let at = [0.0, 0.0];
+    let drive = RevoluteAngleDrive {
+        s_i: at,
+        s_j: at,
+        measure_0: 0.0,
+    };
+    let blade = KnifeEdge {
+        s: at,
+        normal: Direction::Y,
+    };
+    let description = Description {
+        bodies: vec![body("base"), body("arm, left")],
+        joints: vec![
+            Joint::new("pin", &pair, Revolute { s_i: at, s_j: at }),
+            Joint::new("blade", &pair[..1], blade),
+        ],
+        drives: vec![Drive {
+            name: "motor".into(),
+            bodies: pair.to_vec(),
+            element: Box::new(drive),
+            motion: Function::steps(0.0, &[]).expect("no step at all"),
+        }],
+        ..Description::default()
+    };
+    Mechanism::build(&description).expect("the carrier builds")
+}
+
+fn text(bytes: Vec<u8>) -> String {
+    String::from_utf8(bytes).expect("CSV is UTF-8")
+}
+
+#[test]
+fn trajectory_has_the_header_of_the_contract() {
+    let mut table = TrajectoryTable::new(Vec::new(), &carrier()).expect("writes");
+    let (q, v) = ([0.0, 1.0, 2.0, 3.0, 4.0, 5.0], [0.5; 6]);
+    table.row(0.1, &q, &v).expect("writes");
+    let expected = "t,base.x,base.y,base.angle,base.vx,base.vy,base.omega,\
+                    \"arm, left.x\",\"arm, left.y\",\"arm, left.angle\",\
+                    \"arm, left.vx\",\"arm, left.vy\",\"arm, left.omega\"\n\
+                    0.1,0.0,1.0,2.0,0.5,0.5,0.5,3.0,4.0,5.0,0.5,0.5,0.5\n";
+    assert_eq!(text(table.finish().expect("writes")), expected);
+}
+
+/// Reactions of pin, motor, blade: the order of their rows.
+fn reactions() -> [Reaction; 3] {
+    let with = |x: f64, component| Reaction {
+        force: [x, 0.5],
+        torque: -x,
+        component,
+    };
+    [with(1.0, None), with(2.0, Some(7.0)), with(3.0, Some(8.0))]
+}
+
+#[test]
+fn reactions_have_the_header_of_the_contract() {
+    let mut table = ReactionTable::new(Vec::new(), &carrier(), &Selection::All).expect("writes");
+    table.row(0.25, &reactions()).expect("writes");
+    let expected = "t,pin.Fx,pin.Fy,pin.T,motor.Fx,motor.Fy,motor.T,motor.drive,\
+                    blade.Fx,blade.Fy,blade.T,blade.N\n\
+                    0.25,1.0,0.5,-1.0,2.0,0.5,-2.0,7.0,3.0,0.5,-3.0,8.0\n";
+    assert_eq!(text(table.finish().expect("writes")), expected);
+}
+
+#[test]
+fn selected_reactions_keep_the_order_of_rows() {
+    let names = Selection::Names(vec!["blade".into(), "pin".into(), "pin".into()]);
+    let mut table = ReactionTable::new(Vec::new(), &carrier(), &names).expect("writes");
+    table.row(0.0, &reactions()).expect("writes");
+    let expected = "t,pin.Fx,pin.Fy,pin.T,blade.Fx,blade.Fy,blade.T,blade.N\n\
+                    0.0,1.0,0.5,-1.0,3.0,0.5,-3.0,8.0\n";
+    assert_eq!(text(table.finish().expect("writes")), expected);
+}
+
+#[test]
+fn unknown_names_and_foreign_rows_are_refused() {
+    let names = Selection::Names(vec!["pin".into(), "wheel".into()]);
+    let Err(error) = ReactionTable::new(Vec::new(), &carrier(), &names) else {
+        panic!("there is no `wheel`");
+    };
+    assert_eq!(
+        error.to_string(),
+        "no joint or drive is called `wheel`; there are: pin, motor, blade"
+    );
+    let mut table = TrajectoryTable::new(Vec::new(), &carrier()).expect("writes");
+    let error = table.row(2.5, &[0.0; 3], &[0.0; 6]).expect_err("too few");
+    assert_eq!(
+        error.to_string(),
+        "trajectory.csv: 3 coordinates at t = 2.5 s, the mechanism has 6"
+    );
+    let lines = text(table.finish().expect("writes")).lines().count();
+    assert_eq!(lines, 1, "a refused row leaves no trace");
+}
+
+#[test]
+fn numbers_read_back_to_the_same_bits() {
+    let values = [
+        0.1,
+        -0.0,
+        1.0 / 3.0,
+        f64::MIN_POSITIVE,
+        5e-324,
+        f64::MAX,
+        1e300,
+        -1e-300,
+        123_456_789.123_456_79,
+        std::f64::consts::PI,
+        f64::EPSILON,
+        1e22,
+    ];
+    let mut table = TrajectoryTable::new(Vec::new(), &carrier()).expect("writes");
+    table.row(9.0, &values[..6], &values[6..]).expect("writes");
+    let written = text(table.finish().expect("writes"));
+    let mut reader = csv::Reader::from_reader(written.as_bytes());
+    let row: Vec<f64> = reader
+        .deserialize()
+        .next()
+        .expect("one row")
+        .expect("numbers");
+    let [q0, v0, q1, v1] = [0, 6, 3, 9].map(|k| &values[k..k + 3]);
+    let expected: Vec<u64> = [&[9.0], q0, v0, q1, v1]
+        .concat()
+        .iter()
+        .map(|x| x.to_bits())
+        .collect();
+    let found: Vec<u64> = row.iter().map(|x| x.to_bits()).collect();
+    assert_eq!(found, expected);
+    assert!(written.len() < 600, "extremes are short: {written}");
+}
+
+#[test]
+fn what_does_not_exist_is_nan() {
+    let mut table = TrajectoryTable::new(Vec::new(), &carrier()).expect("writes");
+    table.row(0.0, &[f64::NAN; 6], &[0.0; 6]).expect("writes");
+    let written = text(table.finish().expect("writes"));
+    let row = written.lines().nth(1).expect("one row");
+    assert!(row.starts_with("0.0,NaN,NaN,NaN,0.0,"), "{row}");
+}
+
+/// Fails as a full disk does.
+struct Full;
+
+impl std::io::Write for Full {
+    fn write(&mut self, _: &[u8]) -> std::io::Result<usize> {
+        Err(std::io::ErrorKind::StorageFull.into())
+    }
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_full_disk_is_an_error_of_the_table() {
+    let mut table = TrajectoryTable::new(Full, &carrier()).expect("still in the buffer");
+    let mut written = Ok(());
+    for k in 0..10_000 {
+        written = table.row(f64::from(k), &[0.1; 6], &[0.1; 6]);
+        if written.is_err() {
+            break;
+        }
+    }
+    let error = written.expect_err("the buffer is smaller than that");
+    assert!(matches!(
+        &error,
+        TableError::Write { source, .. } if source.kind() == std::io::ErrorKind::StorageFull
+    ));
+    assert!(error.to_string().starts_with("trajectory.csv: "));
+    assert!(table.finish().is_err());
+}

@@ -1,0 +1,769 @@
+//! The texts and places of diagnostics: one broken thing per case, and one file with many.
+
+use scene::Diagnostic;
+
+use crate::read;
+
+/// A small scene without faults. Cases replace one part of it.
+const SCENE: &str = r#"[scene]
+name = "small"
+space = "plane"
+gravity = [0.0, -9.81]
+
+[[body]]
+name = "frame"
+mass = 1.0
+inertia = 0.1
+
+[[body]]
+name = "crank"
+mass = 2.0
+inertia = 0.2
+position = [1.0, 2.0]
+
+[[joint]]
+name = "A"
+type = "revolute"
+bodies = ["frame", "crank"]
+at = [1.0, 0.0]
+
+[[joint]]
+name = "W"
+type = "knife-edge"
+body = "crank"
+at = [1.0, 2.0]
+normal = [0.0, 1.0]
+
+[[drive]]
+name = "motor"
+joint = "A"
+type = "angle"
+motion = { type = "constant-rate", rate = 2.0 }
+
+[[force]]
+name = "spring"
+type = "spring-damper"
+bodies = ["ground", "crank"]
+at = [[0.0, 0.0], [1.0, 2.0]]
+stiffness = 10.0
+damping = 0.5
+
+[simulate]
+t_end = 2.0
+drop = [1]
+"#;
+
+/// A fault: a part of the scene, what stands there instead with «» around the place that must be marked, the message,
+/// and the label.
+type Case = (&'static str, &'static str, &'static str, &'static str);
+
+fn check(cases: &[Case]) {
+    assert!(read(SCENE).is_ok(), "{:#?}", read(SCENE));
+    for &(part, fault, message, label) in cases {
+        assert_eq!(SCENE.matches(part).count(), 1, "{part}");
+        let marked = SCENE.replace(part, fault);
+        let start = marked.find('«').expect("a mark");
+        let text = marked.replace(['«', '»'], "");
+        let end = marked.replace('«', "").find('»').expect("a mark");
+        let problems = read(&text).expect_err(fault);
+        let [d] = &problems[..] else {
+            panic!("{fault}: {problems:#?}");
+        };
+        let before = &marked[..start];
+        let line = before.matches('\n').count() + 1;
+        let column = before.chars().rev().take_while(|&c| c != '\n').count() + 1;
+        assert_eq!(
+            d.to_string(),
+            format!("x.toml:{line}:{column}: error: {message}")
+        );
+        assert_eq!(
+            (&d.primary.text[..], &d.primary.span),
+            (label, &(start..end)),
+            "{fault}"
+        );
+    }
+}
+
+#[test]
+fn tables_and_keys() {
+    check(&[
+        (
+            "mass = 1.0",
+            "«mas» = 1.0\nmass = 1.0",
+            "body `frame` has no key `mas`",
+            "did you mean `mass`?",
+        ),
+        (
+            "[[body]]\nname = \"frame\"\nmass = 1.0",
+            "«[[body]]»\nname = \"frame\"",
+            "body `frame` needs the key `mass`: a number ≥ 0",
+            "`mass` is missing here",
+        ),
+        (
+            "[simulate]",
+            "[«simulation»]\nt_end = 2.0\n[simulate]",
+            "the scene has no key `simulation`",
+            "did you mean `simulate`?",
+        ),
+        (
+            "[simulate]",
+            "«[[simulate]]»",
+            "the scene: `simulate` must be one table `[simulate]`, found a list of 1 value",
+            "expected one table `[simulate]`",
+        ),
+        (
+            "[[force]]",
+            "«[force]»",
+            "the scene: `force` must be a list of tables `[[force]]`, found a table",
+            "expected a list of tables `[[force]]`",
+        ),
+        (
+            "mass = 1.0",
+            "mass = 1.0\n«mass» = 2.0",
+            "duplicate key",
+            "not valid TOML",
+        ),
+    ]);
+}
+
+#[test]
+fn values() {
+    check(&[
+        (
+            "mass = 1.0",
+            "mass = «\"heavy\"»",
+            "body `frame`: `mass` must be a number, found the text \"heavy\"",
+            "expected a number",
+        ),
+        (
+            "mass = 1.0",
+            "mass = «0x»",
+            "body `frame`: `mass` must be a number, found a number that cannot be read",
+            "expected a number",
+        ),
+        (
+            "mass = 1.0",
+            "mass = «nan»",
+            "body `frame`: `mass` is NaN, need finite numbers",
+            "not a finite number",
+        ),
+        (
+            "mass = 1.0",
+            "mass = «1e999»",
+            "body `frame`: `mass` is inf, need finite numbers",
+            "not a finite number",
+        ),
+        (
+            "mass = 1.0",
+            "mass = «-1»",
+            "body `frame`: mass is -1, need a number ≥ 0",
+            "may not be negative",
+        ),
+        (
+            "position = [1.0, 2.0]",
+            "position = [1.0, «-inf»]",
+            "body `crank`: `position` is -inf, need finite numbers",
+            "not a finite number",
+        ),
+        (
+            "position = [1.0, 2.0]",
+            "position = «[1.0]»",
+            "body `crank`: `position` must be a pair [x, y], found a list of 1 value",
+            "expected a pair [x, y]",
+        ),
+        (
+            "[0.0, -9.81]",
+            "«9.81»",
+            "`[scene]`: `gravity` must be an acceleration [gx, gy], found the number 9.81",
+            "expected an acceleration [gx, gy]",
+        ),
+        (
+            "\"plane\"",
+            "«\"room\"»",
+            "`[scene]`: `space` is \"room\", only \"plane\" is available",
+            "not available",
+        ),
+    ]);
+}
+
+#[test]
+fn names() {
+    check(&[
+        (
+            "[[force]]\nname = \"spring\"",
+            "[[force]]\nname = «\" \"»",
+            "force number 1: `name` is empty",
+            "expected a name",
+        ),
+        (
+            "\"spring\"",
+            "«\"W\"»",
+            "the name `W` is used twice",
+            "used again here",
+        ),
+        (
+            "[[drive]]",
+            "[[body]]\nname = «\"frame\"»\nmass = 0\ninertia = 0\n[[drive]]",
+            "the name `frame` is used twice",
+            "used again here",
+        ),
+        (
+            "\"spring\"",
+            "«\"ground\"»",
+            "`ground` is the name of the ground and is always there",
+            "choose another name",
+        ),
+        (
+            "bodies = [\"frame\", \"crank\"]",
+            "bodies = [«\"fraem\"», \"crank\"]",
+            "joint `A` refers to the unknown body `fraem`",
+            "no such body; `frame` is defined on line 7",
+        ),
+        (
+            "joint = \"A\"",
+            "joint = «\"B\"»",
+            "drive `motor` refers to the unknown joint `B`",
+            "no such joint; `A` is defined on line 18",
+        ),
+        (
+            "joint = \"A\"",
+            "joint = «\"elbow\"»",
+            "drive `motor` refers to the unknown joint `elbow`",
+            "no such joint",
+        ),
+    ]);
+}
+
+#[test]
+fn types_and_bodies() {
+    check(&[
+        (
+            "\"revolute\"\nbodies = [\"frame\", \"crank\"]\nat = [1.0, 0.0]\n",
+            "«\"revolut\"»\n",
+            "joint `A` has the unknown type `revolut`",
+            "did you mean `revolute`?",
+        ),
+        (
+            "\"knife-edge\"",
+            "«\"bushing\"»",
+            "joint `W` has the unknown type `bushing`",
+            "`bushing` is a force",
+        ),
+        (
+            "bodies = [\"frame\", \"crank\"]",
+            "bodies = «[\"frame\", \"crank\", \"ground\"]»",
+            "joint `A`: `bodies` must be two bodies [first, second], found a list of 3 values",
+            "expected two bodies [first, second]",
+        ),
+        (
+            "bodies = [\"frame\", \"crank\"]",
+            "body = «\"frame\"»",
+            "joint `A` takes `bodies = [first, second]`, not `body`",
+            "expected `bodies = [first, second]`",
+        ),
+        (
+            "body = \"crank\"",
+            "bodies = «[\"crank\", \"frame\"]»",
+            "joint `W` takes `body = …`, not `bodies`",
+            "expected `body = …`",
+        ),
+        (
+            "[[joint]]\nname = \"W\"\ntype = \"knife-edge\"\nbody = \"crank\"",
+            "«[[joint]]»\nname = \"W\"\ntype = \"knife-edge\"",
+            "joint `W` needs `body = …`",
+            "the bodies are missing here",
+        ),
+        (
+            "bodies = [\"ground\", \"crank\"]",
+            "bodies = «[\"crank\", \"crank\"]»",
+            "`spring` connects `crank` with itself",
+            "give two different bodies",
+        ),
+        (
+            "bodies = [\"frame\", \"crank\"]",
+            "bodies = «[\"ground\", \"ground\"]»",
+            "`A` connects the ground with itself",
+            "at least one body must be able to move",
+        ),
+        (
+            "type = \"spring-damper\"\nbodies = [\"ground\", \"crank\"]\nat = [[0.0, 0.0], [1.0, 2.0]]\nstiffness = 10.0\ndamping = 0.5",
+            "type = \"point-force\"\nbody = \"crank\"\nat = [0, 0]\nforce = [0, 0]\nframe = «\"local\"»",
+            "force `spring`: `frame` must be one of `body`, `global`, found `local`",
+            "no such choice",
+        ),
+        (
+            "type = \"spring-damper\"\nbodies = [\"ground\", \"crank\"]\nat = [[0.0, 0.0], [1.0, 2.0]]\nstiffness = 10.0\ndamping = 0.5",
+            "type = \"torque\"\nbody = \"crank\"\nbodies = «[\"frame\", \"crank\"]»\ntorque = 1",
+            "force `spring` takes `body = …` or `bodies = [first, second]`, not both",
+            "and here two bodies are given",
+        ),
+    ]);
+}
+
+#[test]
+fn places_and_parameters() {
+    check(&[
+        (
+            "[[joint]]\nname = \"W\"\ntype = \"knife-edge\"\nbody = \"crank\"\nat = [1.0, 2.0]",
+            "«[[joint]]»\nname = \"W\"\ntype = \"knife-edge\"\nbody = \"crank\"",
+            "joint `W` needs a place: `at = [x, y]` in global coordinates, or `point` in the frames of the bodies",
+            "the place is missing here",
+        ),
+        (
+            "at = [1.0, 0.0]",
+            "at = [1.0, 0.0]\npoints = «{ frame = [0, 0], crank = [0, 0] }»",
+            "joint `A` takes `at` or `points`, not both",
+            "and here in the frames of the bodies",
+        ),
+        (
+            "at = [1.0, 0.0]",
+            "points = { frame = [0, 0], crank = [0, 0], «W» = [0, 0] }",
+            "joint `A`: `points` names `W`, which has no point here",
+            "not a body with a point here",
+        ),
+        (
+            "at = [1.0, 0.0]",
+            "points = «{ frame = [0, 0] }»",
+            "joint `A`: `points` needs the point of `crank`",
+            "`crank = [x, y]` is missing here",
+        ),
+        (
+            "at = [[0.0, 0.0], [1.0, 2.0]]",
+            "at = «[0.0, 1.0]»",
+            "force `spring`: `at` must be 2 global points [[x, y], …], found a list of 2 values",
+            "expected 2 global points [[x, y], …]",
+        ),
+        (
+            "normal = [0.0, 1.0]",
+            "normal = «[0.0, 0.0]»",
+            "joint `W`: `normal` has no direction: the vector is (0, 0), of length zero",
+            "has no direction",
+        ),
+        (
+            "type = \"knife-edge\"\nbody = \"crank\"\nat = [1.0, 2.0]\nnormal = [0.0, 1.0]",
+            "type = \"point-on-line\"\nbody = \"crank\"\nat = [1.0, 2.0]\nline = «[[1, 1], [1, 1]]»",
+            "joint `W`: `line` has no direction: the vector is (0, 0), of length zero",
+            "has no direction",
+        ),
+        (
+            "stiffness = 10.0",
+            "stiffness = «-10.0»",
+            "force `spring`: `stiffness` is -10, need a number ≥ 0",
+            "may not be negative",
+        ),
+        (
+            "stiffness = 10.0",
+            "stiffness = «[10.0]»",
+            "force `spring`: `stiffness` must be a number (N/m), found a list of 1 value",
+            "expected a number (N/m)",
+        ),
+        (
+            "[[force]]\nname = \"spring\"\ntype = \"spring-damper\"\nbodies = [\"ground\", \"crank\"]\nat = [[0.0, 0.0], [1.0, 2.0]]\nstiffness = 10.0",
+            "«[[force]]»\nname = \"spring\"\ntype = \"spring-damper\"\nbodies = [\"ground\", \"crank\"]\nat = [[0.0, 0.0], [1.0, 2.0]]",
+            "force `spring` needs the key `stiffness`: a number (N/m)",
+            "`stiffness` is missing here",
+        ),
+        (
+            "damping = 0.5",
+            "damping = 0.5\n«freelength» = 1.0",
+            "force `spring` has no key `freelength`",
+            "did you mean `free_length`?",
+        ),
+    ]);
+}
+
+#[test]
+fn drives_and_functions() {
+    const MOTION: &str = "{ type = \"constant-rate\", rate = 2.0 }";
+    check(&[
+        (
+            "type = \"angle\"",
+            "type = «\"angel\"»",
+            "drive `motor`: joint `A` (`revolute`) has no measure `angel`",
+            "did you mean `angle`?",
+        ),
+        (
+            "joint = \"A\"\ntype = \"angle\"",
+            "joint = \"W\"\ntype = «\"angle\"»",
+            "drive `motor`: joint `W` (`knife-edge`) has no measure `angle`",
+            "no such measure",
+        ),
+        (
+            MOTION,
+            "«true»",
+            "drive `motor`: `motion` must be a number or a function of time { type = … }, found `true`",
+            "expected a number or a function of time { type = … }",
+        ),
+        (
+            MOTION,
+            "{ type = «\"step\"» }",
+            "drive `motor`: `motion` has the unknown type `step`",
+            "no such function of time",
+        ),
+        (
+            MOTION,
+            "«{ type = \"constant-rate\" }»",
+            "drive `motor`: `motion` needs the key `rate`: a number",
+            "`rate` is missing here",
+        ),
+        (
+            MOTION,
+            "{ type = \"harmonic\", amplitude = 1, omega = 1, «fase» = 0 }",
+            "drive `motor`: `motion` has no key `fase`",
+            "did you mean `phase`?",
+        ),
+        (
+            MOTION,
+            "{ type = \"steps\", steps = [{ from = 0, to = 1, by = 1 }, «{ from = 1, to = 1, by = 1 }»] }",
+            "drive `motor`: `motion`: `steps`: step 2 runs from t = 1 to t = 1; `to` must be later than `from`",
+            "ends before it begins",
+        ),
+        (
+            MOTION,
+            "{ type = \"table\", times = [0, 1, «1», 2], values = [0, 0, 0, 0] }",
+            "drive `motor`: `motion`: `times`: times must grow: times[2] = 1 follows 1",
+            "not later than the time before it",
+        ),
+        (
+            MOTION,
+            "{ type = \"table\", times = [0, 1, 2], values = «[0, 0]» }",
+            "drive `motor`: `motion`: `values`: 3 times and 2 values; a table needs as many of both",
+            "expected as many as `times`",
+        ),
+        (
+            MOTION,
+            "{ type = \"table\", times = «[0, 1.5]», values = [0, 0] }",
+            "drive `motor`: `motion`: the table runs from t = 0 to t = 1.5, the run from t = 0 to t = 2",
+            "must cover the whole run",
+        ),
+    ]);
+}
+
+#[test]
+fn runs_starts_and_groups() {
+    check(&[
+        (
+            "t_end = 2.0",
+            "t_end = «-2.0»",
+            "`[simulate]`: t_end is -2, need a finite time ≥ 0",
+            "expected a finite time ≥ 0",
+        ),
+        (
+            "t_end = 2.0",
+            "t_end = 2.0\noutput_step = «0»",
+            "`[simulate]`: output_step is 0, need a time > 0",
+            "expected a time > 0",
+        ),
+        (
+            "t_end = 2.0",
+            "t_end = 2.0\nrtol = «0.0»",
+            "`[simulate]`: rtol is 0, need a number > 0",
+            "expected a number > 0",
+        ),
+        (
+            "t_end = 2.0",
+            "t_end = 2.0\nmethod = «\"hem4\"»",
+            "`[simulate]`: `method` `hem4` is not available yet",
+            "not available yet",
+        ),
+        (
+            "t_end = 2.0",
+            "t_end = 2.0\nmethod = «\"euler\"»",
+            "`[simulate]`: `method` `euler` is unknown",
+            "no such choice",
+        ),
+        (
+            "drop = [1]",
+            "drop = [1, «0»]",
+            "`[simulate]`: `drop` names row 0; rows are counted from 1",
+            "no such row",
+        ),
+        (
+            "drop = [1]",
+            "drop = [2, 1, «2»]",
+            "`[simulate]`: `drop` names row 2 twice",
+            "named again here",
+        ),
+        (
+            "drop = [1]",
+            "drop = [«5»]",
+            "`[simulate]`: `drop` names row 5; rows are 1 to 4",
+            "no such row",
+        ),
+        (
+            "drop = [1]",
+            "drop = [«1.0»]",
+            "`[simulate]`: `drop` must be a list of rows, counted from 1, found the number 1",
+            "expected a list of rows, counted from 1",
+        ),
+        (
+            "[simulate]",
+            "[start]\nkeep = [«\"crnk.angle\"»]\n[simulate]",
+            "`[start]` refers to the unknown body `crnk`",
+            "no such body; `crank` is defined on line 12",
+        ),
+        (
+            "[simulate]",
+            "[start]\nkeep = [\"crank.x\", «\"crank.vz\"»]\n[simulate]",
+            "`[start]`: `keep` names the unknown coordinate `vz`",
+            "no such coordinate",
+        ),
+        (
+            "[simulate]",
+            "[start]\nkeep = [«\"ground.x\"»]\n[simulate]",
+            "`[start]`: `keep` names the ground, which has no coordinates",
+            "the ground does not move",
+        ),
+        (
+            "[simulate]",
+            "[start]\nallow_correction = «\"yes\"»\n[simulate]",
+            "`[start]`: `allow_correction` must be true or false, found the text \"yes\"",
+            "expected true or false",
+        ),
+        (
+            "[simulate]",
+            "[[group]]\nname = \"g\"\nmembers = [\"A\", «\"spring\"»]\n[simulate]",
+            "group `g` refers to the unknown joint or drive `spring`",
+            "no such joint or drive",
+        ),
+        (
+            "[simulate]",
+            "[[group]]\nname = \"g\"\ncombine = \"W.N - 2*«W.Fz»\"\n[simulate]",
+            "group `g`: `combine`: the reaction of `W` has no component `Fz`; it has `Fx`, `Fy`, `N`",
+            "here",
+        ),
+        (
+            "[simulate]",
+            "«[[group]]»\nname = \"g\"\n[simulate]",
+            "group `g` needs `members = [\"A\", …]` or `combine = \"A.Fx + …\"`",
+            "its content is missing here",
+        ),
+        (
+            "[simulate]",
+            "[output]\nreactions = [\"A\", «\"A\"»]\n[simulate]",
+            "`[output]`: `reactions` names `A` twice",
+            "named again here",
+        ),
+    ]);
+}
+
+fn lines(problems: &[Diagnostic]) -> Vec<String> {
+    problems.iter().map(ToString::to_string).collect()
+}
+
+#[test]
+fn collisions_mark_the_first_use_as_well() {
+    let text = SCENE.replace("\"spring\"", "\"W\"");
+    let problems = read(&text).expect_err("a name twice");
+    let first = &problems[0].secondary[0];
+    assert_eq!((first.line, first.column), (24, 8));
+    assert_eq!(first.text, "first used here");
+}
+
+#[test]
+fn help_lists_what_there_is() {
+    for (part, fault, help) in [
+        (
+            "joint = \"A\"\ntype = \"angle\"",
+            "joint = \"A\"\ntype = \"displacement\"",
+            "its measures are `angle`",
+        ),
+        (
+            "joint = \"A\"",
+            "joint = \"W\"",
+            "joints of this type cannot be driven",
+        ),
+        (
+            "t_end = 2.0",
+            "t_end = 2.0\nmethod = \"radau5\"",
+            "available are `auto`, `dopri5`",
+        ),
+        (
+            "t_end = 2.0",
+            "t_end = 2.0\nmethod = \"dorpi5\"",
+            "did you mean `dopri5`?",
+        ),
+        ("\"knife-edge\"", "\"torque\"", "write it under `[[force]]`"),
+        (
+            "at = [1.0, 0.0]",
+            "at = [1.0, 0.0]\naxle = [1, 0]",
+            "its keys are `name`, `type`, `body`, `bodies`, `at`, `points`",
+        ),
+    ] {
+        let problems = read(&SCENE.replace(part, fault)).expect_err(fault);
+        assert_eq!(problems[0].help.as_deref(), Some(help), "{problems:#?}");
+    }
+}
+
+/// Faults of all kinds in one file: all are reported, none twice, and none that is only a consequence of another.
+#[test]
+fn a_file_with_many_faults_reports_all_of_them() {
+    let text = r#"
+[scene]
+nme = "wreck"
+space = "plane"
+
+[[body]]
+name = "a"
+mass = -1.0
+inertia = nan
+
+[[body]]
+name = "a"
+mass = 1.0
+inertia = 1.0
+colour = "red"
+
+[[body]]
+mass = 1.0
+inertia = 1.0
+
+[[joint]]
+name = "J"
+type = "revolute"
+bodies = ["a", "chasis"]
+at = [0.0, "left"]
+axis = [1.0, 0.0]
+
+[[joint]]
+name = "K"
+type = "hinge"
+bodies = ["a", "ground"]
+
+[[drive]]
+name = "J"
+joint = "K"
+type = "angle"
+motion = { type = "steps", steps = [{ from = 2, to = 1, by = 1 }, { from = 3, to = 3, by = 1 }] }
+
+[[force]]
+name = "F"
+type = "spring-damper"
+bodies = ["a", "a"]
+at = [[0.0, 0.0], [1.0, 0.0]]
+stiffness = -1.0
+damping = -2.0
+
+[simulate]
+method = "radau5"
+drop = [0]
+
+[[group]]
+name = "G"
+members = ["J", "K", "L"]
+"#;
+    let problems = read(text).expect_err("a wreck");
+    assert_eq!(
+        lines(&problems),
+        [
+            "x.toml:2:1: error: `[scene]` needs the key `name`: the name of the scene",
+            "x.toml:3:1: error: `[scene]` has no key `nme`",
+            "x.toml:8:8: error: body `a`: mass is -1, need a number ≥ 0",
+            "x.toml:9:11: error: body `a`: `inertia` is NaN, need finite numbers",
+            "x.toml:12:8: error: the name `a` is used twice",
+            "x.toml:15:1: error: body `a` has no key `colour`",
+            "x.toml:17:1: error: body number 3 needs the key `name`: a text",
+            "x.toml:24:16: error: joint `J` refers to the unknown body `chasis`",
+            "x.toml:25:12: error: joint `J`: `at` must be a number, found the text \"left\"",
+            "x.toml:26:1: error: joint `J` has no key `axis`",
+            "x.toml:30:8: error: joint `K` has the unknown type `hinge`",
+            "x.toml:34:8: error: the name `J` is used twice",
+            "x.toml:37:37: error: drive `J`: `motion`: `steps`: step 1 runs from t = 2 to t = 1; `to` must be later than `from`",
+            "x.toml:37:67: error: drive `J`: `motion`: `steps`: step 2 runs from t = 3 to t = 3; `to` must be later than `from`",
+            "x.toml:44:13: error: force `F`: `stiffness` is -1, need a number ≥ 0",
+            "x.toml:45:11: error: force `F`: `damping` is -2, need a number ≥ 0",
+            "x.toml:47:1: error: `[simulate]` needs the key `t_end`: the last time in s",
+            "x.toml:48:10: error: `[simulate]`: `method` `radau5` is not available yet",
+            "x.toml:49:9: error: `[simulate]`: `drop` names row 0; rows are counted from 1",
+            "x.toml:53:22: error: group `G` refers to the unknown joint or drive `L`",
+        ]
+    );
+}
+
+#[test]
+fn a_text_that_is_not_toml_is_judged_line_by_line() {
+    let text = SCENE
+        .replace("mass = 1.0", "mass = heavy")
+        .replace("damping = 0.5", "damping = 0.5 N");
+    assert_eq!(
+        lines(&read(&text).expect_err("no TOML")),
+        [
+            "x.toml:8:8: error: string values must be quoted, expected literal string",
+            "x.toml:42:11: error: string values must be quoted, expected literal string",
+        ]
+    );
+}
+
+/// What follows a bracket that is never closed is not a list of faults of its own.
+#[test]
+fn a_bracket_that_is_never_closed_hides_its_consequences() {
+    let text = SCENE.replace("\"crank\"]\nat = [1.0, 0.0]", "\"crank\"\nat = [1.0, 0.0]");
+    assert_eq!(
+        lines(&read(&text).expect_err("no TOML")),
+        [
+            "x.toml:21:1: error: missing comma between array elements, expected `,`",
+            "x.toml:46:11: error: unclosed array, expected `]`",
+        ]
+    );
+}
+
+/// Rows are counted as soon as all joints and drives can be read, whatever else is wrong.
+#[test]
+fn dropped_rows_are_checked_beside_other_faults() {
+    let text = SCENE
+        .replace("mass = 1.0", "mass = -1.0")
+        .replace("drop = [1]", "drop = [5]");
+    assert_eq!(
+        lines(&read(&text).expect_err("two faults")),
+        [
+            "x.toml:8:8: error: body `frame`: mass is -1, need a number ≥ 0",
+            "x.toml:46:9: error: `[simulate]`: `drop` names row 5; rows are 1 to 4",
+        ]
+    );
+}
+
+/// Finite numbers whose difference is not.
+#[test]
+fn places_too_far_away_are_refused() {
+    let text = SCENE
+        .replace("position = [1.0, 2.0]", "position = [1.7e308, 2.0]")
+        .replace("at = [1.0, 2.0]", "at = [-1.7e308, 2.0]");
+    assert_eq!(
+        lines(&read(&text).expect_err("infinitely far")),
+        [
+            "x.toml:27:6: error: joint `W`: `at` and the position of `crank` are too far apart: \
+             their difference is not a finite number"
+        ]
+    );
+}
+
+/// Every one of thousands is reported, also the joints that refer to bodies which are not there, and soon.
+#[test]
+fn thousands_of_problems_are_reported() {
+    let body = |k| format!("[[body]]\nname = \"b{k}\"\nmass = 1\ninertia = 1\n");
+    let joint = |k| {
+        format!("[[joint]]\nname = \"j{k}\"\ntype = \"angle\"\nbodies = [\"ground\", \"c{k}\"]\n")
+    };
+    let head = "[scene]\nname = \"large\"\nspace = \"plane\"\n".to_owned();
+    let text = (0..5000).fold(head, |text, k| text + &body(k) + &joint(k));
+    let problems = read(&text).expect_err("no body has that name");
+    assert_eq!(problems.len(), 5000);
+    assert_eq!(
+        problems[17].primary.text,
+        "no such body; `b17` is defined on line 141"
+    );
+    assert_eq!(problems[4999].primary.text, "no such body");
+}
+
+/// Nothing at all.
+#[test]
+fn an_empty_file_says_what_a_scene_needs() {
+    let problems = read("").expect_err("nothing");
+    assert_eq!(
+        lines(&problems),
+        [
+            "x.toml:1:1: error: the scene needs the section `[scene]`",
+            "x.toml:1:1: error: a mechanism needs at least one body",
+        ]
+    );
+}

@@ -1,0 +1,126 @@
+//! Errors that come after reading, turned into places.
+
+use dynamics::{MotionError, Trip};
+use model::{BuildError, Mechanism, StartError};
+use scene::Scene;
+
+use crate::{BODIES, read, read_more};
+
+fn scene() -> Scene {
+    read_more(
+        "[[joint]]\nname = \"A\"\ntype = \"distance\"\nbodies = [\"a\", \"b\"]\nat = [[1, 1], [1, 1]]\n\
+         [simulate]\nt_end = 1.0\ndrop = [1]\n",
+    )
+}
+
+/// The last line of the bodies.
+fn lines_before() -> usize {
+    BODIES.matches('\n').count()
+}
+
+#[test]
+fn a_requirement_points_at_the_place_of_the_joint() {
+    let scene = scene();
+    let mut mechanism = Mechanism::build(&scene.description).expect("a mechanism");
+    let error = model::start::assemble(&mut mechanism, &scene.start).expect_err("L = 0");
+    let d = scene.locate_start(&error);
+    let line = lines_before() + 5;
+    assert_eq!(
+        d.to_string(),
+        format!(
+            "x.toml:{line}:6: error: `A` requires at the start: the two points are apart (L > 0)"
+        )
+    );
+    assert_eq!(scene.locate_motion(&MotionError::Start(error)), d);
+}
+
+#[test]
+fn a_large_correction_points_at_the_position_of_the_body() {
+    let text = "[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"b\"]\n\
+                points = { ground = [0, 0], b = [0, 0] }\n";
+    let scene = read_more(text);
+    let mut mechanism = Mechanism::build(&scene.description).expect("a mechanism");
+    let error = model::start::assemble(&mut mechanism, &scene.start).expect_err("far away");
+    assert!(
+        matches!(error, StartError::LargeCorrection { .. }),
+        "{error}"
+    );
+    let d = scene.locate_start(&error);
+    assert_eq!(
+        &scene.source.text.text()[d.primary.span.clone()],
+        "[3.0, 2.0]"
+    );
+}
+
+#[test]
+fn errors_of_a_run_point_at_rows_bodies_and_options() {
+    let scene = scene();
+    let mechanism = Mechanism::build(&scene.description).expect("a mechanism");
+    let row = model::System::layout(&mechanism).labels[0].clone();
+    let marked = |error: &MotionError| {
+        let d = scene.locate_motion(error);
+        scene.source.text.text()[d.primary.span].to_owned()
+    };
+    let lost = MotionError::Trip(Trip::RankLost {
+        time: 0.0,
+        row,
+        pivot: 0.0,
+        scale: 1.0,
+    });
+    assert_eq!(marked(&lost), "\"A\"");
+    assert_eq!(marked(&MotionError::Rows("…".into())), "[1]");
+    let massless = MotionError::Trip(Trip::Massless {
+        time: 0.0,
+        body: "b".into(),
+        coordinate: "x",
+    });
+    assert_eq!(marked(&massless), "1.0");
+    let option = MotionError::Option {
+        name: "rtol",
+        value: 0.0,
+        expected: "a number > 0",
+    };
+    assert_eq!(marked(&option), "[simulate]");
+}
+
+/// A description that was changed after reading, as a sweep does.
+#[test]
+fn changed_numbers_point_at_their_keys() {
+    let mut scene = scene();
+    scene.description.bodies[1].mass = -1.0;
+    scene.description.bodies[2].angular_velocity = f64::NAN;
+    let errors = Mechanism::build(&scene.description).err().expect("refused");
+    let places: Vec<_> = errors
+        .iter()
+        .map(|error| {
+            let d = scene.locate_build(error);
+            scene.source.text.text()[d.primary.span].to_owned()
+        })
+        .collect();
+    // Body c gives no angular velocity: its name is marked.
+    assert_eq!(places, ["1.0", "\"c\""]);
+    let unknown = BuildError::GroundOnly {
+        name: "nobody".into(),
+    };
+    assert_eq!(scene.locate_build(&unknown).primary.line, 1);
+}
+
+#[test]
+fn diagnostics_are_data() {
+    let problems = read("x = 1").expect_err("no scene");
+    let json = serde_json::to_value(&problems[1]).expect("JSON");
+    let expected = serde_json::json!({
+        "severity": "error",
+        "file": "x.toml",
+        "message": "the scene has no key `x`",
+        "primary": { "span": { "start": 0, "end": 1 }, "line": 1, "column": 1, "text": "unknown key" },
+        "secondary": [],
+        "help": "its keys are `scene`, `body`, `joint`, `drive`, `force`, `group`, `start`, `output`, `simulate`",
+    });
+    assert!(
+        problems
+            .iter()
+            .any(|d| serde_json::to_value(d).ok().as_ref() == Some(&expected)),
+        "{json:#}"
+    );
+}

@@ -1,0 +1,62 @@
+//! Tests of the scene reader through its public functions.
+
+mod diagnostics;
+mod elements;
+mod locate;
+mod mutations;
+mod own_joint;
+mod robot_trolley;
+
+use model::Registry;
+use scene::{Diagnostic, Scene};
+
+/// The mechanism of the published paper.
+const ROBOT: &str = include_str!("../../../robot-trolley/robot-trolley.toml");
+
+/// Bodies a, b and c: a at (1, 2), turned by a right angle, b at (3, 2), c at (0, 0).
+const BODIES: &str = r#"[scene]
+name = "small"
+space = "plane"
+
+[[body]]
+name = "a"
+mass = 1.0
+inertia = 1.0
+position = [1.0, 2.0]
+angle = 1.5707963267948966
+
+[[body]]
+name = "b"
+mass = 1.0
+inertia = 1.0
+position = [3.0, 2.0]
+
+[[body]]
+name = "c"
+mass = 1.0
+inertia = 1.0
+
+"#;
+
+/// Reads a text with the shipped joints and forces.
+fn read(text: &str) -> Result<Scene, Vec<Diagnostic>> {
+    scene::read("x.toml", text, &Registry::planar())
+}
+
+/// Reads the three bodies and more.
+fn read_more(text: &str) -> Scene {
+    read(&format!("{BODIES}{text}")).unwrap_or_else(|problems| panic!("{text}\n{problems:#?}"))
+}
+
+/// Rounding of a handful of operations on numbers of size one.
+const ROUNDING: f64 = 1e-14;
+
+/// Compares with numbers found by hand.
+#[track_caller]
+fn assert_close(found: &[f64], expected: &[f64]) {
+    let near = |(a, b): (&f64, &f64)| (a - b).abs() <= ROUNDING;
+    assert!(
+        found.len() == expected.len() && found.iter().zip(expected).all(near),
+        "found {found:?}, expected {expected:?}"
+    );
+}
