@@ -61,8 +61,12 @@ pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Dia
 pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
     let (span, label) = match error {
         StartError::NoAssembly { rows, .. } => {
-            let mut joints: Vec<_> = rows.iter().map(|r| &r.row).collect();
-            joints.dedup_by(|a, b| a.joint == b.joint);
+            let mut joints: Vec<&RowLabel> = Vec::new();
+            for label in rows.iter().map(|r| &r.row) {
+                if joints.iter().all(|known| known.joint != label.joint) {
+                    joints.push(label);
+                }
+            }
             let span = joints.first().map_or(0..0, |label| row(map, label));
             let first = at(map, span, error, "cannot hold together with the others");
             return joints.iter().skip(1).fold(first, |d, label| {

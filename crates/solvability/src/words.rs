@@ -3,61 +3,50 @@
 use linalg::Circuit;
 use model::Layout;
 
-/// What a circuit means for the one who reads it.
+/// What a circuit means for the one who reads it. Nothing is said of sums that would be unique: rows may take part in other
+/// circuits too.
 pub(crate) fn describe(circuit: &Circuit, layout: &Layout) -> String {
-    let label = |i: usize| {
-        let label = &layout.labels[i];
-        format!("{} of {}", label.row, label.joint)
-    };
-    match circuit.rows.as_slice() {
-        [row] => format!(
-            "row {} ({}) constrains nothing here: its multiplier is not determined.",
-            row + 1,
-            label(*row)
-        ),
+    let labels: Vec<String> = circuit
+        .rows
+        .iter()
+        .map(|&i| layout.labels[i].to_string())
+        .collect();
+    match labels.as_slice() {
+        [row] => format!("row {row} constrains nothing here: its multiplier is not determined"),
         [a, b] => format!(
-            "rows {} ({}) and {} ({}) forbid the same motion: only the combination {} of their forces is \
-             determined, not each of them.",
-            a + 1,
-            label(*a),
-            b + 1,
-            label(*b),
-            determined(circuit, layout)
+            "rows {a} and {b} forbid the same motion: how a load is shared between them is not determined \
+             (forces in the ratio {} cancel out)",
+            ratio(circuit)
         ),
-        rows => {
-            let list: Vec<String> = rows
-                .iter()
-                .map(|&i| format!("{} ({})", i + 1, label(i)))
-                .collect();
-            format!(
-                "any {} of the rows {} imply the remaining one: forces on them in the ratio {} cancel out and move \
-                 nothing, so none of these rows has a force of its own that the model determines.",
-                rows.len() - 1,
-                list.join(", "),
-                ratio(circuit)
-            )
-        }
+        rows => format!(
+            "of the rows {}, any {} imply the remaining one: how a load is shared among them is not determined \
+             (forces in the ratio {} cancel out)",
+            rows.join(", "),
+            rows.len() - 1,
+            ratio(circuit)
+        ),
     }
 }
 
-/// The combination of two rows that stays the same: orthogonal to (c₁, c₂).
-fn determined(circuit: &Circuit, layout: &Layout) -> String {
-    let [a, b] = [circuit.rows[0], circuit.rows[1]];
-    let [ca, cb] = [circuit.coefficients[0], circuit.coefficients[1]];
-    let (ja, jb) = (&layout.labels[a].joint, &layout.labels[b].joint);
-    let factor = -ca / cb;
-    let sign = if factor < 0.0 { '−' } else { '+' };
-    match (factor.abs() - 1.0).abs() < 1e-9 {
-        true => format!("{ja} {sign} {jb}"),
-        false => format!("{ja} {sign} {:.4}·{jb}", factor.abs()),
-    }
-}
-
+/// Coefficients with the signs that are mostly positive, without trailing zeros.
 fn ratio(circuit: &Circuit) -> String {
+    let negative = circuit.coefficients.iter().filter(|c| **c < 0.0).count();
+    let sign = if 2 * negative > circuit.coefficients.len() {
+        -1.0
+    } else {
+        1.0
+    };
     let parts: Vec<String> = circuit
         .coefficients
         .iter()
-        .map(|c| format!("{c:.4}"))
+        .map(|c| short(sign * c))
         .collect();
     parts.join(" : ")
+}
+
+/// Four significant digits, a true minus sign.
+fn short(x: f64) -> String {
+    let text = format!("{x:.4}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    text.replace('-', "−")
 }

@@ -128,7 +128,12 @@ fn constraints_that_cannot_be_assembled() {
     check(
         added(second),
         2,
-        &["cannot be assembled", "other", "misses by"],
+        &[
+            "cannot be assembled",
+            "still miss",
+            "(`pivot`, x) by",
+            "(`other`, x) by",
+        ],
     );
 }
 
