@@ -392,3 +392,51 @@ fn near_the_axis_the_margin_is_the_sine_of_the_angle() {
         "{x} {y} {front}"
     );
 }
+
+/// Rows between steps come from dense output, then projected: they must be as good as the steps themselves.
+#[test]
+fn written_rows_are_as_accurate_as_steps() {
+    let p = prepared(&RowChoice::Automatic);
+    let every = 0.01;
+    let (exact, _) = run(
+        &p,
+        &MotionOptions {
+            output_step: every,
+            ..tight()
+        },
+    );
+    let coarse = MotionOptions {
+        rtol: 1e-6,
+        atol: 1e-6,
+        output_step: every,
+        ..MotionOptions::to(10.0)
+    };
+    let (rows, summary) = run(&p, &coarse);
+    assert!(
+        summary.steps < 200,
+        "about ten rows in each step: {}",
+        summary.steps
+    );
+    let error = |k: usize| {
+        let (a, b) = (&rows[k], &exact[k]);
+        largest(
+            a.q.iter()
+                .zip(&b.q)
+                .chain(a.v.iter().zip(&b.v))
+                .map(|(a, b)| a - b),
+        )
+    };
+    // Steps end at the break times of the drive, and at the last time.
+    let steps = [1.0, 2.0, 3.0, 4.0, 6.0, 7.0, 8.0, 9.0, 10.0];
+    let at_steps = steps.map(|t: f64| error((t / every).round() as usize));
+    let worst_step = largest(at_steps);
+    let worst_row = largest((0..rows.len()).map(error));
+    assert!(
+        worst_step > 1e-9,
+        "the run is coarse enough to compare: {worst_step:e}"
+    );
+    assert!(
+        worst_row <= 2.0 * worst_step,
+        "rows {worst_row:e}, steps {worst_step:e}"
+    );
+}

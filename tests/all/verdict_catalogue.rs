@@ -3,7 +3,7 @@
 use joints::plane::Direction;
 use joints::{KnifeEdge, RevoluteAngleDrive};
 use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, System};
-use solvability::{Analysis, Solvability, analyse};
+use solvability::{Analysis, Solvability, analyse, is_permanent};
 use tests::cranks::cranks;
 use tests::{revolute, rod};
 
@@ -241,5 +241,27 @@ fn parallel_steered_edges() {
     assert_eq!(
         s.combination(&[0.0, 0.0, 1.0, 1.0]).verdict.word(),
         "unique"
+    );
+}
+
+/// The flat poses are singular, the third crank is redundant everywhere.
+#[test]
+fn permanent_and_transient_redundancy() {
+    let permanent = |d: &Description| {
+        let mechanism = Mechanism::build(d).expect("the mechanism builds");
+        let (q, _) = mechanism.described_state();
+        let a = analyse(&mechanism, 0.0, &q).expect("C is finite");
+        is_permanent(&mechanism, 0.0, &q, &a.decision)
+    };
+    assert_eq!(permanent(&driven_cranks(&[0.0, 1.0], 1.0)), Some(true));
+    assert_eq!(permanent(&driven_cranks(&[0.0, 1.0], 0.0)), Some(false));
+    assert_eq!(permanent(&driven_cranks(&[0.0, 1.0, 1.7], 1.0)), Some(true));
+    assert_eq!(
+        permanent(&driven_cranks(&[0.0, 1.0, 1.7], 0.0)),
+        Some(false)
+    );
+    assert_eq!(
+        permanent(&four_bar(&[BodyRef::Body(0), BodyRef::Body(2)])),
+        Some(true)
     );
 }

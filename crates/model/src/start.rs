@@ -167,7 +167,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     let rows = restricting_rows(mechanism);
     let weights = weights(mechanism, options, KeepLevel::Position);
     let mut s = mechanism.scratch();
-    let q = nearest(mechanism, &mut s, &rows, &weights, &described)?;
+    let q = nearest(mechanism, &mut s, 0.0, &rows, &weights, &described)?;
     mechanism.initialise(&q);
     if let Some((name, requirement)) = mechanism.unmet_requirement(&q) {
         return Err(StartError::Requirement { name, requirement });
@@ -249,8 +249,9 @@ fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
     )
 }
 
-/// Largest distance of a body from the middle of all bodies, or 1 m where there is one place only.
-fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
+/// Diagonal of the box around all bodies and joints, or 1 m where there is one place only.
+#[must_use]
+pub fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, q, &mut s);
     let bodies = s.poses.iter().map(|p| [p.x, p.y]);
@@ -263,6 +264,20 @@ fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
     };
     let size = span(0).hypot(span(1));
     if size > 0.0 { size } else { 1.0 }
+}
+
+/// The configuration nearest to q, in the mass metric, on the given rows of Φ at time t; allocates.
+///
+/// # Errors
+/// - [`StartError::NoAssembly`]: there is none near q.
+pub fn nearest_configuration(
+    mechanism: &Mechanism,
+    t: f64,
+    rows: &[usize],
+    q: &[f64],
+) -> Result<Vec<f64>, StartError> {
+    let weights = weights(mechanism, &StartOptions::default(), KeepLevel::Position);
+    nearest(mechanism, &mut mechanism.scratch(), t, rows, &weights, q)
 }
 
 /// Rows of Φ that restrict the start.
@@ -310,6 +325,7 @@ fn weights(mechanism: &Mechanism, options: &StartOptions, level: KeepLevel) -> V
 fn nearest(
     mechanism: &Mechanism,
     s: &mut Scratch,
+    t: f64,
     rows: &[usize],
     weights: &[f64],
     described: &[f64],
@@ -318,7 +334,7 @@ fn nearest(
     let mut best = f64::INFINITY;
     let mut stalled = 0;
     for iteration in 0..=ITERATIONS {
-        mechanism.pose(0.0, &q, s);
+        mechanism.pose(t, &q, s);
         mechanism.phi(s);
         mechanism.c(s);
         let (_, residual) = largest(rows.iter().map(|&r| (r, s.phi[r].abs())));

@@ -10,12 +10,6 @@ use crate::args::Analyze;
 use crate::input::{Source, rows_from_zero};
 use crate::output::{Failure, columns, print};
 
-/// Neither a proof nor a test at other configurations is made yet.
-const PROOF: Proof = Proof {
-    permanent: None,
-    certified: false,
-};
-
 pub(crate) fn run(arguments: &Analyze) -> Outcome {
     if !(arguments.at_time >= 0.0 && arguments.at_time.is_finite()) {
         return Err(Failure::input(format!(
@@ -35,7 +29,12 @@ pub(crate) fn run(arguments: &Analyze) -> Outcome {
     let name = &study.scene.description.name;
     if arguments.json {
         let mut out = Vec::new();
-        let mut document = AnalysisDocument::new(name, &findings.analysis, PROOF);
+        // The rank has a clear gap; it is not proved.
+        let proof = Proof {
+            permanent: findings.permanent,
+            certified: false,
+        };
+        let mut document = AnalysisDocument::new(name, &findings.analysis, proof);
         document.groups = findings
             .groups
             .iter()
@@ -59,7 +58,7 @@ fn describe(name: &str, findings: &Findings) -> String {
         "{name} at t = {} s\n\
          {} bodies, {} coordinates, {} rows: {} holonomic, {} nonholonomic\n\
          rank {} (Φq alone {}, Ψ alone {}), redundancy {}, mobility {}\n\
-         evidence: σ_r = {:.3e}, σ_r+1 = {:.1e}, tolerance {:.1e}, |Φ| = {:.1e}: {}\n\n",
+         evidence: σ_r = {:.3e}, σ_r+1 = {:.1e}, tolerance {:.1e}, |Φ| = {:.1e}: {}, {}\n\n",
         a.time,
         a.bodies,
         a.coordinates,
@@ -79,6 +78,11 @@ fn describe(name: &str, findings: &Findings) -> String {
             "decided"
         } else {
             "UNDECIDED"
+        },
+        match findings.permanent {
+            Some(true) => "the same redundancy at other configurations",
+            Some(false) => "a singular configuration: the redundancy is another one elsewhere",
+            None => "not compared with other configurations",
         },
     );
     let header = [

@@ -14,7 +14,8 @@ use report::{
 };
 use scene::{Combination, CombinationError, Diagnostic, GroupContent, Scene, WantedReactions};
 use solvability::{
-    Analysis, AnalysisError, Group, Judgement, Term, analyse, analyse_dropping, judge_groups,
+    Analysis, AnalysisError, Group, Judgement, Term, analyse, analyse_dropping, is_permanent,
+    judge_groups,
 };
 
 /// A scene that has been assembled and can move.
@@ -32,6 +33,8 @@ pub struct Study {
 pub struct Findings {
     /// Ranks, verdicts and dependencies.
     pub analysis: Analysis,
+    /// Whether the redundancy is the same at other configurations; nothing if that could not be told.
+    pub permanent: Option<bool>,
     /// Verdicts of groups and combinations, by name.
     pub groups: Vec<(String, Judgement)>,
 }
@@ -167,7 +170,12 @@ impl Study {
             .zip(judged)
             .filter_map(|(name, j)| Some((name, j?)))
             .collect();
-        Ok(Findings { analysis, groups })
+        let permanent = is_permanent(mechanism, t, &q, &analysis.decision);
+        Ok(Findings {
+            analysis,
+            permanent,
+            groups,
+        })
     }
 
     /// Groups by name: those of the scene, then the combinations asked for.

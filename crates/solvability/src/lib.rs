@@ -7,11 +7,13 @@
 //! | [`verdict`] | unique, not unique, undecided: with the number behind it |
 //! | [`matrices`] | solvability of a plain constraint matrix |
 //! | [`existence`] | do the rows contradict each other? |
+//! | [`generic`] | permanent, or only of this configuration? |
 //! | [`groups`] | combinations of reactions |
 //! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
 //! | `words` | dependencies as sentences |
 
 pub mod existence;
+pub mod generic;
 pub mod groups;
 pub mod matrices;
 pub mod mechanism;
@@ -19,6 +21,7 @@ pub mod verdict;
 mod words;
 
 pub use existence::{ConstraintLevel, Contradiction, contradiction};
+pub use generic::is_permanent;
 pub use groups::{Group, Term, judge_groups};
 pub use matrices::Solvability;
 pub use mechanism::{

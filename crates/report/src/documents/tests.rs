@@ -1,3 +1,5 @@
+//! Whole documents of small runs, byte for byte.
+
 use dynamics::{
     Event, EventKind, MotionError, MotionOptions, Prepared, RowChoice, Summary, prepare,
 };

@@ -1,3 +1,5 @@
+//! Golden headers and rows, bits that survive, rows of another mechanism.
+
 use joints::plane::Direction;
 use joints::{KnifeEdge, Revolute, RevoluteAngleDrive};
 use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, Reaction};
