@@ -5,10 +5,10 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`options`] | what a run is asked to do |
-//! | [`prepare`] | consistent start, decided rank, kept rows |
+//! | [`mod@prepare`] | consistent start, decided rank, kept rows |
 //! | [`motion`] | the solved equations on kept rows: acceleration, projection, reactions, monitors |
 //! | [`events`] | what happened on the way |
-//! | [`simulate`] | a run: integration, projected output, energy balance |
+//! | [`mod@simulate`] | a run: integration, projected output, energy balance |
 
 mod error;
 pub mod events;

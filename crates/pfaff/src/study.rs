@@ -237,7 +237,7 @@ impl Study {
         Ok(q)
     }
 
-    /// Runs the scene and shows projected rows of output; see [`dynamics::simulate`].
+    /// Runs the scene and shows projected rows of output; see [`dynamics::simulate()`].
     ///
     /// # Errors
     /// With what was reached.
