@@ -38,31 +38,42 @@ const EDGES: [(&str, usize, [f64; 2]); 5] = [
 
 /// The published drive: right turn, straight, left turn, straight.
 pub fn steering() -> Function {
+    steering_of_size(1.0)
+}
+
+/// The same for a robot whose lengths are multiplied by `size`.
+pub fn steering_of_size(size: f64) -> Function {
     let steps = [
-        [1.0, 2.0, 0.02],
-        [3.0, 4.0, -0.02],
-        [6.0, 7.0, -0.021876],
-        [8.0, 9.0, 0.021876],
+        [1.0, 2.0, 0.02 * size],
+        [3.0, 4.0, -0.02 * size],
+        [6.0, 7.0, -0.021876 * size],
+        [8.0, 9.0, 0.021876 * size],
     ];
     Function::steps(0.0, &steps).expect("the steps are ordered")
 }
 
 /// The robot with its trolley, steered by `motion`.
 pub fn robot(motion: Function) -> Description {
+    robot_of_size(1.0, motion)
+}
+
+/// The same with all lengths multiplied by `size`, speeds included.
+pub fn robot_of_size(size: f64, motion: Function) -> Description {
+    let by = |p: [f64; 2]| p.map(|x| x * size);
     let bodies: Vec<Body> = BODIES
         .iter()
         .map(|&(name, mass, inertia, position)| Body {
             name: name.into(),
             mass,
-            inertia,
-            position,
-            velocity: [1.0, 0.0],
+            inertia: inertia * size * size,
+            position: by(position),
+            velocity: by([1.0, 0.0]),
             ..Body::default()
         })
         .collect();
     let local = |body: usize, p: [f64; 2]| {
         let [x, y] = BODIES[body].3;
-        Pose::new(x, y, 0.0).to_local(p)
+        by(Pose::new(x, y, 0.0).to_local(p))
     };
     let body = BodyRef::Body;
     let mut joints: Vec<Joint> = REVOLUTES

@@ -8,7 +8,7 @@ use tests::robot::{robot, steering};
 fn evaluations_and_projections_allocate_nothing() {
     let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
     let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts");
-    let mut motion = KeptRowMotion::new(&p, &RowChoice::Automatic).expect("moves");
+    let mut motion = KeptRowMotion::new(&p).expect("moves");
     let (mut q, mut v) = (p.q.clone(), p.v.clone());
     let mut a = vec![0.0; v.len()];
     let mut lambda = vec![0.0; 22];

@@ -2,6 +2,7 @@
 
 mod allocations;
 mod robot_trolley;
+mod singular_passages;
 mod three_cranks;
 mod tidy;
 mod verdict_catalogue;

@@ -350,13 +350,14 @@ fn directions_and_sums_that_are_unique() {
     let front = row.q[5];
     let (edge, normal) = ([front.cos(), front.sin()], [-front.sin(), front.cos()]);
     let (b, w1, w3, w4) = (2..4, 17, 19, 20);
+    let frame = linalg::Matrix::from_rows(&[edge, normal]);
     assert_eq!(
-        s.component(&edge, b.clone()).verdict.word(),
+        s.component(&frame, 0, b.clone()).verdict.word(),
         "unique",
         "B along the edge of W1"
     );
     assert_eq!(
-        s.component(&normal, b).verdict.word(),
+        s.component(&frame, 1, b).verdict.word(),
         "not_unique",
         "B across the edge of W1"
     );

@@ -46,7 +46,7 @@ fn every_number_of_the_case() {
     assert_eq!(p.decision.redundancy, 1);
     assert!(largest(p.velocity_correction.iter().copied()) < 1e-14);
 
-    let mut motion = KeptRowMotion::new(&p, &RowChoice::Automatic).expect("moves");
+    let mut motion = KeptRowMotion::new(&p).expect("moves");
     let (mut a, mut lambda) = (vec![0.0; 12], vec![0.0; 12]);
     motion
         .acceleration(0.0, &p.q, &p.v, &mut a)

@@ -90,7 +90,7 @@ fn analysis(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn right_hand_side(bencher: Bencher<'_, '_>) {
     let p = prepared();
-    let mut motion = KeptRowMotion::new(&p, &RowChoice::Automatic).expect("moves");
+    let mut motion = KeptRowMotion::new(&p).expect("moves");
     let mut a = vec![0.0; p.v.len()];
     bencher.bench_local(|| motion.acceleration(black_box(1.5), &p.q, &p.v, black_box(&mut a)));
 }

@@ -78,6 +78,17 @@ pub enum Trip {
         /// What is allowed.
         tolerance: f64,
     },
+    /// A step went over a singular configuration.
+    #[error(
+        "between t = {from} s and t = {to} s the mechanism passes a singular configuration: the constraints do not determine \
+         on which branch it goes on"
+    )]
+    SingularPassage {
+        /// The last time before it.
+        from: f64,
+        /// The first time after it.
+        to: f64,
+    },
     /// The kept rows became dependent and no others can be chosen.
     #[error(
         "at t = {time} s the kept rows are nearly dependent and no others can be chosen: {what}"

@@ -12,13 +12,16 @@
 mod project;
 mod review;
 mod rows;
+mod side;
 
 use model::{Mechanism, Scratch, System};
 
 use crate::error::Trip;
+use crate::events::Event;
 use crate::options::RowChoice;
 use crate::prepare::Prepared;
 use rows::KeptRows;
+use side::Side;
 
 /// Equations solved for what moves.
 pub trait Motion {
@@ -58,6 +61,8 @@ pub struct Correction {
 pub struct KeptRowMotion<'a> {
     mechanism: &'a Mechanism,
     s: Scratch,
+    /// Length by which positions are measured (m).
+    size: f64,
     choice: RowChoice,
     /// Independent rows of C.
     velocity: KeptRows,
@@ -65,6 +70,10 @@ pub struct KeptRowMotion<'a> {
     aside: Option<KeptRows>,
     /// Independent rows of Φq.
     position: KeptRows,
+    /// On which side of its singular configurations the mechanism is.
+    side: Side,
+    /// What happened at the last accepted steps and has not been told.
+    pending: Option<Event>,
     /// A correction, n_v.
     delta: Vec<f64>,
     /// No force, n_v.
@@ -72,11 +81,11 @@ pub struct KeptRowMotion<'a> {
 }
 
 impl<'a> KeptRowMotion<'a> {
-    /// The motion of a prepared mechanism. `choice` says whether its kept rows may be exchanged for good.
+    /// The motion of a prepared mechanism.
     ///
     /// # Errors
     /// If more rows are kept than there are velocities.
-    pub fn new(prepared: &'a Prepared, choice: &RowChoice) -> Result<Self, Trip> {
+    pub fn new(prepared: &'a Prepared) -> Result<Self, Trip> {
         let n = prepared.mechanism.layout().n_v;
         let rows = |d: &linalg::RankDecision| {
             KeptRows::new(n, &d.kept, &d.dropped)
@@ -85,10 +94,13 @@ impl<'a> KeptRowMotion<'a> {
         Ok(Self {
             mechanism: &prepared.mechanism,
             s: prepared.mechanism.scratch(),
-            choice: choice.clone(),
+            size: prepared.assembly.size,
+            choice: prepared.choice.clone(),
             velocity: rows(&prepared.decision)?,
             aside: None,
             position: rows(&prepared.position_decision)?,
+            side: Side::default(),
+            pending: None,
             delta: vec![0.0; n],
             zero: vec![0.0; n],
         })

@@ -84,7 +84,7 @@ pub struct MotionOptions {
     pub formulation: Formulation,
     /// Treatment of drift.
     pub stabilisation: Stabilisation,
-    /// Rows to keep.
+    /// Rows to keep: what [`crate::prepare()`] is given. A run has the rows of its [`crate::Prepared`].
     pub rows: RowChoice,
 }
 

@@ -4,7 +4,7 @@
 use linalg::{RankDecision, RankStatus};
 use model::start::{assemble, consistent_velocity};
 use model::{Assembly, Mechanism, StartOptions, System};
-use solvability::{ConstraintLevel, certify, certify_holonomic, contradiction};
+use solvability::{ConstraintLevel, certify, certify_dropping, certify_holonomic, contradiction};
 
 use crate::error::MotionError;
 use crate::options::RowChoice;
@@ -18,6 +18,8 @@ pub struct Prepared {
     pub q: Vec<f64>,
     /// Velocities at t = 0.
     pub v: Vec<f64>,
+    /// What was asked of the rows.
+    pub choice: RowChoice,
     /// Rank and kept rows of C.
     pub decision: RankDecision,
     /// Rank and kept rows of Φq alone: what holds the configuration.
@@ -46,25 +48,23 @@ pub fn prepare(
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
     mechanism.b(&mut s);
-    let automatic = certify(&mechanism, &s)?;
+    let automatic = certify(&mechanism, &s, &assembly.q)?;
     if let RankStatus::Undecided(doubt) = automatic.status {
         return Err(MotionError::RankUndecided(doubt));
     }
-    let position_decision = certify_holonomic(&mechanism, &s)?;
+    let position_decision = certify_holonomic(&mechanism, &s, &assembly.q)?;
     if let RankStatus::Undecided(doubt) = position_decision.status {
         return Err(MotionError::RankUndecided(doubt));
     }
     let level = ConstraintLevel::Velocity;
-    if let Some(found) = contradiction(&automatic, &layout.labels, &s.b, level, 0.0) {
+    let scale = mechanism.prescribed_scale(&s);
+    if let Some(found) = contradiction(&automatic, &layout.labels, &s.b, scale, level, 0.0) {
         return Err(found.into());
     }
     let decision = match rows {
         RowChoice::Automatic => automatic,
-        RowChoice::Drop(dropped) => {
-            let residual = automatic.evidence.constraint_residual;
-            linalg::decide_dropping(&layout.dense(&s), residual, dropped)
-                .map_err(|e| MotionError::rows(&e, &layout.labels, automatic.redundancy))?
-        }
+        RowChoice::Drop(dropped) => certify_dropping(&mechanism, &s, &assembly.q, dropped)
+            .map_err(|e| MotionError::rows(&e, &layout.labels, automatic.redundancy))?,
     };
     let v = consistent_velocity(&mechanism, start, &assembly.q, &assembly.v, &decision.kept)?;
     let velocity_correction = v.iter().zip(&assembly.v).map(|(a, b)| a - b).collect();
@@ -73,6 +73,7 @@ pub fn prepare(
         mechanism,
         q,
         v,
+        choice: rows.clone(),
         decision,
         position_decision,
         assembly,

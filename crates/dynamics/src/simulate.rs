@@ -119,8 +119,12 @@ pub fn simulate(
         })
     };
     check(options).map_err(fail)?;
-    let motion = KeptRowMotion::new(prepared, &options.rows).map_err(|e| fail(e.into()))?;
+    let motion = KeptRowMotion::new(prepared).map_err(|e| fail(e.into()))?;
     let mut equations = Equations::new(motion, prepared);
+    equations
+        .motion
+        .begin(0.0, &mut prepared.q.clone())
+        .map_err(|e| fail(e.into()))?;
     let y0 = equations.initial_state(&prepared.q, &prepared.v);
     let layout = mechanism.layout();
     let interval = Interval {
@@ -135,7 +139,11 @@ pub fn simulate(
     let method = match options.method {
         Method::Dopri5 => integrators::Method::Dopri5,
     };
-    let times = OutputTimes::Every(options.output_step);
+    // A run that takes no time has one row.
+    let times = match options.t_end > 0.0 {
+        true => OutputTimes::Every(options.output_step),
+        false => OutputTimes::At(vec![0.0]),
+    };
     let mut tripped = None;
     let clock = Instant::now();
     let outcome = sample(
@@ -184,6 +192,10 @@ pub fn simulate(
 fn named(error: IntegrationError<Trip>) -> MotionError {
     match error {
         IntegrationError::StepSizeCollapsed {
+            cause: Cause::Problem(trip),
+            ..
+        }
+        | IntegrationError::StartFailed {
             cause: Cause::Problem(trip),
             ..
         } => MotionError::Trip(trip),
@@ -296,6 +308,7 @@ impl<'m> Equations<'m> {
         let (a, work) = rest.split_at_mut(self.n_v);
         self.motion.mechanism().rate(q, v, qd);
         self.motion.acceleration(t, q, v, a)?;
+        self.motion.same_side(t)?;
         if let Some(work) = work.first_mut() {
             *work = self.motion.power(v);
         }
@@ -306,16 +319,6 @@ impl<'m> Equations<'m> {
     fn project_row(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trip> {
         let (q, rest) = y.split_at_mut(self.n_q);
         let found = self.motion.project(t, q, &mut rest[..self.n_v])?;
-        self.note(y, found);
-        Ok(())
-    }
-
-    /// Projects an accepted step.
-    fn project_step(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trip> {
-        let (q, rest) = y.split_at_mut(self.n_q);
-        let (found, event) = self.motion.project_step(t, q, &mut rest[..self.n_v])?;
-        self.events.extend(event);
-        self.min_pivot_ratio = self.min_pivot_ratio.min(self.motion.pivot_ratio());
         self.note(y, found);
         Ok(())
     }
@@ -388,12 +391,18 @@ impl Ode for Equations<'_> {
         dy: &mut [f64],
     ) -> Result<StepEnd, Trip> {
         self.before.copy_from_slice(y);
-        self.project_step(step.t, y)?;
+        let (q, rest) = y.split_at_mut(self.n_q);
+        let found = self.motion.project_step(step.t, q, &mut rest[..self.n_v])?;
+        let pivot_ratio = self.motion.pivot_ratio();
         for (before, y) in self.before.iter_mut().zip(&*y) {
             *before -= y;
         }
         let correction = step.norm(&self.before);
         self.derivative(step.t_rhs, y, dy)?;
+        // From here on the step stands.
+        self.note(y, found);
+        self.events.extend(self.motion.accept());
+        self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
         Ok(StepEnd::Projected {
             correction,
             evaluations: 1,

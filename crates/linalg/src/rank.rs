@@ -9,7 +9,7 @@
 //!
 //! The rule, with singular values σ of `D_r·C·D_c` (maxima of rows and columns near one):
 //! `τ = 10·max(eps·√(m·n), constraint residual)`, rank r is decided iff `σ_{r+1} ≤ τ` and
-//! `σ_r ≥ 10³·τ`.
+//! `σ_r ≥ max(10³·τ, 10⁻⁷)`.
 
 mod explicit;
 #[cfg(test)]
@@ -26,6 +26,10 @@ const NOISE_FACTOR: f64 = 10.0;
 
 /// The smallest non-zero singular value must clear τ by this factor, or the rank is undecided.
 const CLEARANCE: f64 = 1e3;
+
+/// A configuration is known to about √eps near a singular one, whatever its residual: Newton's method stops there as at a
+/// double root. A smallest singular value below this may be zero at the true configuration.
+const NEARLY_SINGULAR: f64 = 1e-7;
 
 /// Rank of a constraint matrix C (m×n), with the rows to keep and the evidence for it.
 #[derive(Debug, Clone, PartialEq)]
@@ -193,7 +197,7 @@ fn read(c: &Matrix, constraint_residual: f64) -> Result<(Scaling, Matrix, Readin
 impl Reading {
     fn new(singular_values: Vec<f64>, tolerance: f64, constraint_residual: f64) -> Self {
         let above = |limit: f64| singular_values.partition_point(|&sigma| sigma > limit);
-        let required = CLEARANCE * tolerance;
+        let required = (CLEARANCE * tolerance).max(NEARLY_SINGULAR);
         let upper = above(tolerance);
         let lower = singular_values.partition_point(|&sigma| sigma >= required);
         let lower = lower.min(upper);

@@ -20,6 +20,7 @@
 //! solution of saddle point problems, Acta Numerica 14 (2005) 1–137, section 6.
 
 mod factor;
+mod orientation;
 mod solve;
 #[cfg(test)]
 mod tests;
@@ -52,6 +53,8 @@ pub struct KeptRowSaddle {
     /// L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. k×k, row-major.
     reduced_mass: Vec<f64>,
     pivot_ratio: f64,
+    /// Scratch of `orientation`: Nᵀ·B, k×k.
+    bordered: Vec<f64>,
     state: State,
     /// Scratch of `solve`: P·a and P·(f − M·a), both n.
     y: Vec<f64>,
@@ -154,6 +157,7 @@ impl KeptRowSaddle {
             mass: vec![0.0; n],
             reduced_mass: vec![0.0; k * k],
             pivot_ratio: f64::INFINITY,
+            bordered: vec![0.0; k * k],
             state: State::Empty,
             y: vec![0.0; n],
             g: vec![0.0; n],

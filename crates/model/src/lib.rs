@@ -23,6 +23,7 @@
 //! | [`description`] | bodies, joints, drives and forces as plain data |
 //! | [`mechanism`] | the assembled equations |
 //! | [`system`] | what a solver sees of them |
+//! | `scale` | what residuals are compared with |
 //! | [`start`] | a consistent start |
 //! | [`reaction`] | multipliers to forces and torques |
 
@@ -31,6 +32,7 @@ pub mod function;
 pub mod mechanism;
 pub mod reaction;
 pub mod registry;
+mod scale;
 pub mod start;
 pub mod system;
 

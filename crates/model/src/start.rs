@@ -148,7 +148,7 @@ const DAMPING: f64 = 1e-10;
 /// Share of the scene's size (and of a radian) that a start may be corrected without being asked.
 const SMALL_CORRECTION: f64 = 1e-3;
 
-/// Φ of a configuration counts as zero below this many roundings of the largest coordinate.
+/// A row counts as satisfied below this many roundings of its terms.
 const ROUNDINGS: f64 = 10.0;
 
 /// Finds a consistent configuration and takes the initial values of joints, drives and forces from it.
@@ -209,36 +209,41 @@ pub fn consistent_velocity(
     let c = layout.dense(&s).select_rows(kept);
     let mut v = v.to_vec();
     let mut best = f64::INFINITY;
-    for _ in 0..ITERATIONS {
+    loop {
         let residual: Vec<f64> = kept
             .iter()
             .map(|&i| layout.velocity_residual(&s, i, &v))
             .collect();
+        let scale = kept
+            .iter()
+            .map(|&i| mechanism.velocity_scale(&s, i, &v))
+            .fold(0.0, f64::max);
         let (worst, size) = largest(kept.iter().copied().zip(residual.iter().map(|r| r.abs())));
-        let scale = v.iter().fold(0.0_f64, |a, x| a.max(x.abs())).max(1.0);
         let tolerance = ROUNDINGS * f64::EPSILON * scale;
         // Rounding may leave a little more than the tolerance.
         if size <= tolerance || (size >= best && size <= ROUNDINGS * tolerance) {
             return Ok(v);
         }
+        let missing = || StartError::NoVelocity {
+            worst: layout.labels[worst].clone(),
+            residual: size,
+        };
         if size >= best || !size.is_finite() {
-            let worst = layout.labels[worst].clone();
-            return Err(StartError::NoVelocity {
-                worst,
-                residual: size,
-            });
+            return Err(missing());
         }
         best = size;
-        let step = least_squares_step(&c, &residual, &weights, DAMPING)?;
+        // The kept rows are independent; they need no damping unless velocities are held.
+        let step = match least_squares_step(&c, &residual, &weights, 0.0) {
+            Ok(step) => step,
+            Err(StepError::Dependent { .. }) => {
+                least_squares_step(&c, &residual, &weights, DAMPING)?
+            }
+            Err(e) => return Err(e.into()),
+        };
         for (v, dv) in v.iter_mut().zip(step) {
             *v += dv;
         }
     }
-    let worst = layout.labels[kept.first().copied().unwrap_or(0)].clone();
-    Err(StartError::NoVelocity {
-        worst,
-        residual: best,
-    })
 }
 
 /// The row with the largest value, NaN above all.
@@ -337,9 +342,11 @@ fn nearest(
         mechanism.pose(t, &q, s);
         mechanism.phi(s);
         mechanism.c(s);
-        let (_, residual) = largest(rows.iter().map(|&r| (r, s.phi[r].abs())));
-        let scale = q.iter().fold(1.0_f64, |a, x| a.max(x.abs()));
-        let tolerance = ROUNDINGS * f64::EPSILON * scale;
+        let ratio = |r: usize| s.phi[r].abs() / mechanism.position_scale(s, r, &q);
+        // A row without any term is satisfied or not a number.
+        let misses = |r: usize| if s.phi[r] == 0.0 { 0.0 } else { ratio(r) };
+        let (_, residual) = largest(rows.iter().map(|&r| (r, misses(r))));
+        let tolerance = ROUNDINGS * f64::EPSILON;
         stalled = if residual < best { 0 } else { stalled + 1 };
         best = best.min(residual);
         // Rounding may leave a little more than the tolerance: a stalled iteration near it is done.
@@ -347,7 +354,7 @@ fn nearest(
             return Ok(q);
         }
         if iteration == ITERATIONS || !residual.is_finite() {
-            let rows = misfits(mechanism, s, rows, residual);
+            let rows = misfits(mechanism, s, rows);
             return Err(StartError::NoAssembly {
                 rows,
                 iterations: iteration,
@@ -381,7 +388,8 @@ fn nearest(
 
 /// Rows that miss, the worst first. What a least-squares solution leaves is orthogonal to all motions, so
 /// these rows are the ones that cannot hold together.
-fn misfits(mechanism: &Mechanism, s: &Scratch, rows: &[usize], worst: f64) -> Vec<Misfit> {
+fn misfits(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<Misfit> {
+    let worst = rows.iter().fold(0.0_f64, |a, &r| a.max(s.phi[r].abs()));
     let missing = |r: &&usize| {
         let residual = s.phi[**r].abs();
         residual.is_nan() || residual >= NAMED_MISFIT * worst

@@ -8,7 +8,7 @@ use pfaff::{Findings, Overrides};
 use crate::Outcome;
 use crate::args::Analyze;
 use crate::input::{Source, rows_from_zero};
-use crate::output::{Failure, columns, print};
+use crate::output::{Failure, columns, count, print};
 
 pub(crate) fn run(arguments: &Analyze) -> Outcome {
     if !(arguments.at_time >= 0.0 && arguments.at_time.is_finite()) {
@@ -56,13 +56,13 @@ fn describe(name: &str, findings: &Findings) -> String {
     let e = &d.evidence;
     let mut out = format!(
         "{name} at t = {} s\n\
-         {} bodies, {} coordinates, {} rows: {} holonomic, {} nonholonomic\n\
+         {}, {}, {}: {} holonomic, {} nonholonomic\n\
          rank {} (Φq alone {}, Ψ alone {}), redundancy {}, mobility {}\n\
          evidence: σ_r = {:.3e}, σ_r+1 = {:.1e}, tolerance {:.1e}, |Φ| = {:.1e}: {}, {}\n\n",
         a.time,
-        a.bodies,
-        a.coordinates,
-        a.holonomic_rows + a.nonholonomic_rows,
+        count(a.bodies, "body", "bodies"),
+        count(a.coordinates, "coordinate", "coordinates"),
+        count(a.holonomic_rows + a.nonholonomic_rows, "row", "rows"),
         a.holonomic_rows,
         a.nonholonomic_rows,
         d.rank,

@@ -30,12 +30,39 @@ pub(crate) enum Command {
     Check(Check),
 }
 
+impl Command {
+    /// How it answers.
+    pub(crate) fn answer(&self) -> Answer {
+        let (Self::Analyze(Analyze { json, .. })
+        | Self::Simulate(Simulate { json, .. })
+        | Self::Check(Check { json, .. })) = self;
+        match json {
+            true => Answer::Json,
+            false => Answer::Words,
+        }
+    }
+}
+
+/// For whom a command answers.
+#[derive(Clone, Copy)]
+pub(crate) enum Answer {
+    /// For people
+    Words,
+    /// For programs: one document, and nothing else
+    Json,
+}
+
 #[derive(Args)]
 pub(crate) struct Analyze {
     /// Scene file, or - for standard input
     pub(crate) scene: PathBuf,
     /// Time of the motion at which to look (s)
-    #[arg(long, value_name = "T", default_value_t = 0.0)]
+    #[arg(
+        long,
+        value_name = "T",
+        default_value_t = 0.0,
+        allow_negative_numbers = true
+    )]
     pub(crate) at_time: f64,
     /// Rows that carry the dependencies, counted from 1
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
@@ -56,13 +83,13 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
     /// Last time (s)
-    #[arg(long, value_name = "T")]
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
     pub(crate) t_end: Option<f64>,
     /// Relative tolerance
-    #[arg(long, value_name = "R")]
+    #[arg(long, value_name = "R", allow_negative_numbers = true)]
     pub(crate) rtol: Option<f64>,
     /// Absolute tolerance
-    #[arg(long, value_name = "A")]
+    #[arg(long, value_name = "A", allow_negative_numbers = true)]
     pub(crate) atol: Option<f64>,
     /// Integrator
     #[arg(long, value_name = "M")]

@@ -7,28 +7,14 @@ use serde_json::json;
 use crate::Outcome;
 use crate::args::Check;
 use crate::input::Source;
-use crate::output::{Failure, print};
+use crate::output::{count, print};
 
 pub(crate) fn run(arguments: &Check) -> Outcome {
     let source = Source::read(&arguments.scene)?;
-    match source.study(&Overrides::default()) {
-        Ok(study) if arguments.json => print(&format!("{:#}\n", facts(&study))),
-        Ok(study) => print(&describe(&study)),
-        Err(Failure::Scene { diagnostics, .. }) if arguments.json => {
-            print(&format!(
-                "{:#}\n",
-                json!({ "ok": false, "problems": diagnostics })
-            ))?;
-            Err(Failure::Said(2))
-        }
-        Err(Failure::Input(message) | Failure::Stopped(message)) if arguments.json => {
-            print(&format!(
-                "{:#}\n",
-                json!({ "ok": false, "problems": [{ "message": message }] })
-            ))?;
-            Err(Failure::Said(2))
-        }
-        Err(failure) => Err(failure),
+    let study = source.study(&Overrides::default())?;
+    match arguments.json {
+        true => print(&format!("{:#}\n", facts(&study))),
+        false => print(&describe(&study)),
     }
 }
 
@@ -50,12 +36,12 @@ fn facts(study: &Study) -> serde_json::Value {
 fn describe(study: &Study) -> String {
     let layout = study.prepared.mechanism.layout();
     format!(
-        "{}: {} bodies, {} joints and drives, {} rows ({} holonomic, {} nonholonomic)\n\
+        "{}: {}, {}, {} ({} holonomic, {} nonholonomic)\n\
          assembled; the start was corrected by {:.1e} in position and {:.1e} in velocity\n",
         study.scene.description.name,
-        study.prepared.mechanism.bodies().len(),
-        layout.groups.len(),
-        layout.rows(),
+        count(study.prepared.mechanism.bodies().len(), "body", "bodies"),
+        count(layout.groups.len(), "joint or drive", "joints and drives"),
+        count(layout.rows(), "row", "rows"),
         layout.m,
         layout.h,
         correction(&study.prepared.assembly.correction),

@@ -2,7 +2,7 @@
 //! done by the library.
 //!
 //! Exit codes: 0 done (also when standard output is closed early), 1 the computation stopped or was interrupted, 2 the
-//! input is wrong.
+//! input is wrong. With `--json` standard output has one document, whichever it is.
 
 mod analyze;
 mod args;
@@ -26,7 +26,7 @@ fn main() -> ExitCode {
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => failure.report(),
+        Err(failure) => failure.report(arguments.command.answer()),
     }
 }
 

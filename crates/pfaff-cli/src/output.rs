@@ -5,6 +5,9 @@ use std::process::ExitCode;
 
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, Source};
 use pfaff::scene::{Diagnostic, Severity};
+use serde_json::{Value, json};
+
+use crate::args::Answer;
 
 /// Why a command did not do all it was asked.
 pub(crate) enum Failure {
@@ -20,8 +23,8 @@ pub(crate) enum Failure {
     Stopped(String),
     /// Nobody listens any more.
     Closed,
-    /// Everything has been said already.
-    Said(u8),
+    /// The user stopped it; what was reached has been said already.
+    Interrupted,
 }
 
 impl Failure {
@@ -33,23 +36,61 @@ impl Failure {
         Self::Stopped(message)
     }
 
-    /// Prints it on standard error and gives the exit code.
-    pub(crate) fn report(self) -> ExitCode {
-        let (message, code) = match self {
+    /// Says why, and gives the exit code: in words on standard error, or as a document on standard output.
+    pub(crate) fn report(self, answer: Answer) -> ExitCode {
+        let code = match self {
             Self::Closed => return ExitCode::SUCCESS,
-            Self::Said(code) => return ExitCode::from(code),
+            Self::Interrupted => return ExitCode::from(1),
+            Self::Scene { .. } | Self::Input(_) => 2,
+            Self::Stopped(_) => 1,
+        };
+        let unsaid = match answer {
+            Answer::Json => print(&format!("{:#}\n", self.document())).err(),
+            Answer::Words => Some(self),
+        };
+        if let Some(failure) = unsaid {
+            // Nothing can be said about an error of standard error.
+            let _ = io::stderr().write_all(failure.words().as_bytes());
+        }
+        ExitCode::from(code)
+    }
+
+    /// For people.
+    fn words(&self) -> String {
+        match self {
             Self::Scene {
                 name,
                 text,
                 diagnostics,
-            } => (render(&name, &text, &diagnostics), 2),
-            Self::Input(message) => (format!("error: {message}\n"), 2),
-            Self::Stopped(message) => (format!("error: {message}\n"), 1),
-        };
-        // Nothing can be said about an error of standard error.
-        let _ = io::stderr().write_all(message.as_bytes());
-        ExitCode::from(code)
+            } => render(name, text, diagnostics),
+            Self::Input(message) | Self::Stopped(message) => format!("error: {message}\n"),
+            Self::Closed | Self::Interrupted => String::new(),
+        }
     }
+
+    /// For programs: `error` is one line, `problems` are the places of a scene that are at fault, if any are.
+    fn document(&self) -> Value {
+        let (error, problems) = match self {
+            Self::Scene { diagnostics, .. } => (in_one_line(diagnostics), diagnostics.as_slice()),
+            Self::Input(message) | Self::Stopped(message) => (message.clone(), [].as_slice()),
+            Self::Closed | Self::Interrupted => (String::new(), [].as_slice()),
+        };
+        json!({ "ok": false, "error": error, "problems": problems })
+    }
+}
+
+/// The first problem, and how many more there are.
+fn in_one_line(diagnostics: &[Diagnostic]) -> String {
+    match diagnostics {
+        [] => String::new(),
+        [only] => only.to_string(),
+        [first, more @ ..] => format!("{first} (and {} more)", more.len()),
+    }
+}
+
+/// A number of things, as `1 body` or `7 bodies`.
+pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
+    format!("{n} {}", if n == 1 { one } else { many })
 }
 
 /// Writes to standard output.

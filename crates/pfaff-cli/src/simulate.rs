@@ -14,6 +14,10 @@ use crate::args::{FormulationName, MethodName, Simulate};
 use crate::input::{Source, rows_from_zero};
 use crate::output::{Failure, print};
 
+/// Share of the largest kinetic energy by which a run may miss its energy balance without a warning. Default tolerances
+/// stay below a thousandth of this; what is above shows in a plot.
+const TRUSTED_BALANCE: f64 = 1e-3;
+
 /// Ticks of the progress bar over the whole run.
 const TICKS: u64 = 1000;
 
@@ -58,7 +62,7 @@ pub(crate) fn run(arguments: &Simulate) -> Outcome {
         ))?;
     }
     match document.partial {
-        true => Err(Failure::Said(1)),
+        true => Err(Failure::Interrupted),
         false => Ok(()),
     }
 }
@@ -100,6 +104,13 @@ fn describe(name: &str, d: &RunDocument, out: &str) -> String {
         d.max_velocity_residual,
         d.energy_balance,
     );
+    if d.energy_balance.is_nan() || d.energy_balance > TRUSTED_BALANCE {
+        text.push_str(&format!(
+            "warning: the energy balance is off by {:.1e} of the largest kinetic energy: do not trust this run; try \
+             tighter tolerances\n",
+            d.energy_balance
+        ));
+    }
     if d.start_correction > 0.0 || d.start_velocity_correction > 0.0 {
         text.push_str(&format!(
             "the start was corrected by {:.1e} in position and {:.1e} in velocity\n",

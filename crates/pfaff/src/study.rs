@@ -221,11 +221,9 @@ impl Study {
 
     fn configuration_at(&self, t: f64) -> Result<Vec<f64>, StudyError> {
         let base = self.options.clone().unwrap_or_else(|| MotionOptions::to(t));
-        // Verdicts need the configuration on the constraints, not a reaction: any kept rows will do.
         let options = MotionOptions {
             t_end: t,
             output_step: t,
-            rows: RowChoice::Automatic,
             ..base
         };
         let mut q = Vec::new();

@@ -61,17 +61,9 @@ pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Dia
 pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
     let (span, label) = match error {
         StartError::NoAssembly { rows, .. } => {
-            let mut joints: Vec<&RowLabel> = Vec::new();
-            for label in rows.iter().map(|r| &r.row) {
-                if joints.iter().all(|known| known.joint != label.joint) {
-                    joints.push(label);
-                }
-            }
-            let span = joints.first().map_or(0..0, |label| row(map, label));
-            let first = at(map, span, error, "cannot hold together with the others");
-            return joints.iter().skip(1).fold(first, |d, label| {
-                d.and(map.text.label(row(map, label), "misses too"))
-            });
+            let labels = rows.iter().map(|r| &r.row);
+            let marks = ["cannot hold together with the others", "misses too"];
+            return at_rows(map, labels, error, marks);
         }
         StartError::NoVelocity { worst, .. } => (row(map, worst), "misses most"),
         StartError::LargeCorrection { body, .. } => {
@@ -91,6 +83,10 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
 pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
     let (span, label) = match error {
         MotionError::Start(error) => return start(map, error),
+        MotionError::Contradiction(error) => {
+            let marks = ["contradicts the others", "contradicts too"];
+            return at_rows(map, &error.rows, error, marks);
+        }
         MotionError::Option { name, .. } => (map.section("simulate", name), "not possible"),
         MotionError::Rows(_) => (map.section("simulate", "drop"), "of this run"),
         MotionError::Trip(trip) => match trip {
@@ -116,6 +112,26 @@ fn at(
     label: &str,
 ) -> Diagnostic {
     Diagnostic::error(&map.text, span, error.to_string(), label)
+}
+
+/// An error of several rows at their joints and drives, each once. The first mark is that of the first one.
+fn at_rows<'a>(
+    map: &SourceMap,
+    labels: impl IntoIterator<Item = &'a RowLabel>,
+    error: &impl std::error::Error,
+    [first_mark, mark]: [&str; 2],
+) -> Diagnostic {
+    let mut joints: Vec<&RowLabel> = Vec::new();
+    for label in labels {
+        if joints.iter().all(|known| known.joint != label.joint) {
+            joints.push(label);
+        }
+    }
+    let mut spans = joints.into_iter().map(|label| row(map, label));
+    let first = spans.next().unwrap_or_else(|| map.section("scene", ""));
+    spans.fold(at(map, first, error, first_mark), |d, span| {
+        d.and(map.text.label(span, mark))
+    })
 }
 
 /// The joint or drive of a row.

@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use dynamics::{Formulation, Method, MotionError, MotionOptions, RowChoice, Stabilisation};
 
+use crate::diagnostic::Diagnostic;
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::function::Domain;
@@ -47,6 +48,12 @@ const STABILISATIONS: Choice<Stabilisation> = Choice {
     available: &[("projection", Stabilisation::Projection)],
 };
 
+/// Most rows that a run may be asked to write: a hundred bodies of six numbers then take some 100 GB.
+const MOST_ROWS: f64 = 1e7;
+
+/// Rows of the step that a refusal proposes.
+const USEFUL_ROWS: f64 = 1e4;
+
 /// The section with the places that later checks need.
 pub(crate) struct Simulate {
     pub(crate) options: MotionOptions,
@@ -62,13 +69,20 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate
         .as_ref()
         .and_then(|field| bounded(field, "t_end", |t| t >= 0.0, "a finite time ≥ 0", findings));
     let mut options = MotionOptions::to(t_end.unwrap_or(1.0));
+    let step = table.optional("output_step");
+    let output_step = step
+        .as_ref()
+        .and_then(|field| bounded(field, "output_step", |x| x > 0.0, "a time > 0", findings));
+    options.output_step = output_step.unwrap_or(options.output_step);
+    if let (Some(_), Some(end), Some(step)) = (t_end, &end, &step) {
+        check_length(&options, step, end, findings);
+    }
     let mut positive = |name: &'static str, expected: &'static str, value: &mut f64| {
         let read = table
             .optional(name)
             .and_then(|field| bounded(&field, name, |x| x > 0.0, expected, findings));
         *value = read.unwrap_or(*value);
     };
-    positive("output_step", "a time > 0", &mut options.output_step);
     positive("rtol", "a number > 0", &mut options.rtol);
     positive("atol", "a number > 0", &mut options.atol);
     options.method = choose(&mut table, &METHODS, findings).unwrap_or_default();
@@ -84,6 +98,30 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate
         t_end: end.span(),
         drop: drop.unwrap_or_default(),
     })
+}
+
+/// Reports an output of more rows than a disk should hold.
+fn check_length(options: &MotionOptions, step: &Field, end: &Field, findings: &mut Findings) {
+    let MotionOptions {
+        t_end, output_step, ..
+    } = *options;
+    let rows = t_end / output_step;
+    if rows <= MOST_ROWS {
+        return;
+    }
+    let message = format!(
+        "{}: output_step is {output_step} s: up to t = {t_end} s this would write {rows:.3e} rows, more than {MOST_ROWS:e}",
+        step.subject
+    );
+    let source = findings.source;
+    let too_small = Diagnostic::error(source, step.span(), message, "too small for this run")
+        .and(source.label(end.span(), "the run ends here"))
+        .help(format!(
+            "`output_step = {:e}` gives {USEFUL_ROWS:e} rows; without the key there are {}",
+            t_end / USEFUL_ROWS,
+            MotionOptions::OUTPUT_STEPS + 1.0
+        ));
+    findings.report(too_small);
 }
 
 /// A number within its bounds, refused in the words of `dynamics`.

@@ -50,18 +50,29 @@ fn list(rows: &[RowLabel]) -> String {
         .join(", ")
 }
 
-/// Redundant right-hand sides agree to this share of their size: rounding of a sum, with room.
+/// Redundant right-hand sides agree to this share of their scale: the noise of the coefficients, with room.
 const AGREEMENT: f64 = 1e-9;
 
-/// The worst contradiction among the circuits of a rank decision for a right-hand side (b or Γ), if there is one.
+/// The worst contradiction among the circuits of a rank decision for a right-hand side (b or Γ), if there is one. `scale` is
+/// the size of a right-hand side that matters: that of the terms it is made of, or of the velocities of the mechanism.
+///
+/// # Panics
+/// If `labels` and `rhs` have not one entry for each row.
 #[must_use]
 pub fn contradiction(
     decision: &RankDecision,
     labels: &[RowLabel],
     rhs: &[f64],
+    scale: f64,
     level: ConstraintLevel,
     time: f64,
 ) -> Option<Contradiction> {
+    assert!(
+        labels.len() == rhs.len(),
+        "{} labels, {} values",
+        labels.len(),
+        rhs.len()
+    );
     linalg::circuits(decision)
         .into_iter()
         .filter_map(|circuit| {
@@ -70,15 +81,12 @@ pub fn contradiction(
                 .iter()
                 .zip(&circuit.coefficients)
                 .map(|(&i, c)| c * rhs[i]);
-            let (sum, size) = terms.fold((0.0, 0.0), |(sum, size): (f64, f64), x| {
-                (sum + x, size.max(x.abs()))
-            });
-            let worst = sum.abs();
-            (worst > AGREEMENT * size.max(f64::MIN_POSITIVE)).then(|| Contradiction {
+            let size = terms.sum::<f64>().abs();
+            (size.is_nan() || size > AGREEMENT * scale).then(|| Contradiction {
                 time,
                 rows: circuit.rows.iter().map(|&i| labels[i].clone()).collect(),
                 level,
-                size: worst,
+                size,
             })
         })
         .max_by(|a, b| a.size.total_cmp(&b.size))

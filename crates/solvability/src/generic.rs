@@ -49,8 +49,13 @@ pub fn is_permanent(
         })?;
         let mut s = mechanism.scratch();
         mechanism.pose(t, &other, &mut s);
+        mechanism.phi(&mut s);
         mechanism.c(&mut s);
-        let there = certify(mechanism, &s).ok()?;
+        // Drives were left free: their rows say nothing of this configuration.
+        for i in (0..layout.m).filter(|i| !rows.contains(i)) {
+            s.phi[i] = 0.0;
+        }
+        let there = certify(mechanism, &s, &other).ok()?;
         if !(decision.is_decided() && there.is_decided()) {
             return None;
         }

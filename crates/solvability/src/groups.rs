@@ -1,9 +1,11 @@
 //! Verdicts of combinations: several reactions together, or one number made of their components.
 
 use linalg::RankDecision;
+use model::start::scene_size;
 use model::{ConstraintId, Mechanism, System};
 
 use crate::matrices::Solvability;
+use crate::mechanism::dimensionless;
 use crate::verdict::Judgement;
 
 /// What is to be judged.
@@ -39,7 +41,10 @@ pub fn judge_groups(
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);
     mechanism.c(&mut s);
-    let solvability = Solvability::from_decision(&layout.dense(&s), decision.clone());
+    let solvability = Solvability::from_decision(
+        &dimensionless(mechanism, &s, scene_size(mechanism, q)),
+        decision.clone(),
+    );
     let judge = |group: &Group| match group {
         Group::Members(members) => {
             let rows = members.iter().map(|id| layout.groups[id.0].rows.clone());

@@ -11,6 +11,10 @@ use linalg::{Matrix, PivotedQr, RankDecision, RankError, RankStatus};
 
 use crate::verdict::Judgement;
 
+/// Entries of the map from multipliers to a reaction are products of a few numbers near one; below this share of the
+/// largest row a row is their rounding.
+const ROUNDING_OF_MAP: f64 = 1e-14;
+
 /// What can be said of the multipliers of a constraint matrix.
 ///
 /// ```
@@ -111,10 +115,17 @@ impl Solvability {
         self.judge(norm(&self.scaled_row(l, 0..l.len()).0))
     }
 
-    /// A component `wᵀ·λ_X` of a reaction: unique iff `wᵀ·Z_X = 0`.
+    /// Component `k` of a reaction `W·λ_X`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest row of W.
+    /// A row that is rounding beside the others is zero.
     #[must_use]
-    pub fn component(&self, w: &[f64], rows: Range<usize>) -> Judgement {
-        self.judge(norm(&self.scaled_row(w, rows).0))
+    pub fn component(&self, map: &Matrix, k: usize, rows: Range<usize>) -> Judgement {
+        let size = |i: usize| self.scaled_norm(map.row(i), rows.clone());
+        let largest = (0..map.nrows()).map(size).fold(0.0, f64::max);
+        if size(k) <= ROUNDING_OF_MAP * largest {
+            return self.judge(0.0);
+        }
+        let (image, own) = self.scaled_row(map.row(k), rows);
+        self.judge(norm(&image) * own / largest)
     }
 
     /// Directions in which a reaction is unique: a basis of the left null space of `W·Z_X` for the map W
@@ -122,8 +133,15 @@ impl Solvability {
     #[must_use]
     pub fn unique_directions(&self, map: &Matrix, rows: Range<usize>) -> Vec<Vec<f64>> {
         let k = map.nrows();
+        let largest = (0..k)
+            .map(|i| self.scaled_norm(map.row(i), rows.clone()))
+            .fold(0.0, f64::max);
         let (images, sizes): (Vec<_>, Vec<_>) = (0..k)
-            .map(|i| self.scaled_row(map.row(i), rows.clone()))
+            .map(|i| match self.scaled_row(map.row(i), rows.clone()) {
+                // Rounding beside the other components is zero.
+                (image, size) if size <= ROUNDING_OF_MAP * largest => (vec![0.0; image.len()], 1.0),
+                row => row,
+            })
             .unzip();
         let p = self.z.ncols();
         let image = Matrix::from_fn(k, p, |i, j| images[i][j]);
@@ -140,6 +158,15 @@ impl Solvability {
                 normalised(direction, self.tolerance)
             })
             .collect()
+    }
+
+    fn scaled_norm(&self, w: &[f64], rows: Range<usize>) -> f64 {
+        norm(
+            &rows
+                .zip(w)
+                .map(|(i, w)| w * self.decision.scaling.row_factor(i))
+                .collect::<Vec<_>>(),
+        )
     }
 
     /// `wᵀ·D_r·Z_X / ‖wᵀ·D_r‖` and the norm that was divided by (1 for w = 0).

@@ -2,6 +2,7 @@
 
 use linalg::{KeptRowsError, Matrix, RankDecision, RankError};
 use model::reaction::COMPONENTS;
+use model::start::scene_size;
 use model::{ConstraintId, Mechanism, Scratch, System};
 
 use crate::matrices::Solvability;
@@ -117,14 +118,34 @@ pub enum AnalysisError {
     },
 }
 
-/// Decides the rank of C at the pose of the scratch, where Φ and C have been evaluated.
+/// C without dimensions: columns of rotations divided by the size of the mechanism, rounded to a power of two. Ranks,
+/// dependencies and verdicts are those of C; margins do not depend on units.
+pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
+    let mut c = mechanism.layout().dense(s);
+    let factor = size.log2().round().exp2().recip();
+    for i in 0..c.nrows() {
+        for entry in c.row_mut(i).iter_mut().skip(2).step_by(3) {
+            *entry *= factor;
+        }
+    }
+    c
+}
+
+/// Decides the rank of C at the pose of the scratch, where Φ and C have been evaluated at coordinates q.
 ///
 /// # Errors
 /// If C is not finite.
-pub fn certify(mechanism: &Mechanism, s: &Scratch) -> Result<RankDecision, AnalysisError> {
-    let c = mechanism.layout().dense(s);
-    linalg::decide(&c, relative_residual(mechanism, s))
-        .map_err(|source| AnalysisError::Rank { time: s.t, source })
+pub fn certify(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+) -> Result<RankDecision, AnalysisError> {
+    let size = scene_size(mechanism, q);
+    linalg::decide(
+        &dimensionless(mechanism, s, size),
+        mechanism.relative_residual(s, q, size),
+    )
+    .map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
 /// The same for the holonomic rows alone: which rows of Φ hold the configuration.
@@ -134,23 +155,28 @@ pub fn certify(mechanism: &Mechanism, s: &Scratch) -> Result<RankDecision, Analy
 pub fn certify_holonomic(
     mechanism: &Mechanism,
     s: &Scratch,
+    q: &[f64],
 ) -> Result<RankDecision, AnalysisError> {
+    let size = scene_size(mechanism, q);
     let rows: Vec<usize> = (0..mechanism.layout().m).collect();
-    let phi_q = mechanism.layout().dense(s).select_rows(&rows);
-    linalg::decide(&phi_q, relative_residual(mechanism, s))
+    let phi_q = dimensionless(mechanism, s, size).select_rows(&rows);
+    linalg::decide(&phi_q, mechanism.relative_residual(s, q, size))
         .map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
-/// Largest |Φ| relative to the largest coordinate: what the entries of the equilibrated C may be wrong by.
-pub(crate) fn relative_residual(mechanism: &Mechanism, s: &Scratch) -> f64 {
-    let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0_f64, |a, x| a.max(x.abs()));
-    let size = largest(&mut s.poses.iter().flat_map(|p| [p.x, p.y, 1.0]));
-    let residual = largest(&mut s.phi[..mechanism.layout().m].iter().copied());
-    if size > 0.0 {
-        residual / size
-    } else {
-        residual
-    }
+/// The same with the dropped rows given (from 0): they must be as many as the redundancy, and the others independent.
+///
+/// # Errors
+/// If they are not, or C is not finite.
+pub fn certify_dropping(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+    dropped: &[usize],
+) -> Result<RankDecision, KeptRowsError> {
+    let size = scene_size(mechanism, q);
+    let c = dimensionless(mechanism, s, size);
+    linalg::decide_dropping(&c, mechanism.relative_residual(s, q, size), dropped)
 }
 
 /// Verdicts at time t and coordinates q, which must satisfy the constraints; allocates.
@@ -159,8 +185,8 @@ pub(crate) fn relative_residual(mechanism: &Mechanism, s: &Scratch) -> f64 {
 /// If C is not finite.
 pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
     let s = evaluated(mechanism, t, q);
-    let decision = certify(mechanism, &s)?;
-    judge(mechanism, &s, decision)
+    let decision = certify(mechanism, &s, q)?;
+    judge(mechanism, &s, q, decision)
 }
 
 /// The same with dependencies told by the dropped rows that the caller chooses (from 0). Verdicts do not depend on them.
@@ -174,10 +200,9 @@ pub fn analyse_dropping(
     dropped: &[usize],
 ) -> Result<Analysis, AnalysisError> {
     let s = evaluated(mechanism, t, q);
-    let c = mechanism.layout().dense(&s);
-    let decision = linalg::decide_dropping(&c, relative_residual(mechanism, &s), dropped)
+    let decision = certify_dropping(mechanism, &s, q, dropped)
         .map_err(|source| AnalysisError::Rows { time: t, source })?;
-    judge(mechanism, &s, decision)
+    judge(mechanism, &s, q, decision)
 }
 
 /// Φ and C at a configuration.
@@ -192,21 +217,27 @@ fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
 fn judge(
     mechanism: &Mechanism,
     s: &Scratch,
+    q: &[f64],
     decision: RankDecision,
 ) -> Result<Analysis, AnalysisError> {
     let layout = mechanism.layout();
-    let c = layout.dense(s);
+    let size = scene_size(mechanism, q);
+    let c = dimensionless(mechanism, s, size);
     let t = s.t;
     let solvability = Solvability::from_decision(&c, decision);
-    let residual = relative_residual(mechanism, s);
-    let rank_of = |rows: std::ops::Range<usize>| {
+    let residual = mechanism.relative_residual(s, q, size);
+    let mut warnings = Vec::new();
+    let mut rank_of = |what: &str, rows: std::ops::Range<usize>| {
         let part = c.select_rows(&rows.collect::<Vec<_>>());
-        linalg::decide(&part, residual)
-            .map(|d| d.rank)
-            .map_err(|source| AnalysisError::Rank { time: t, source })
+        let decision = linalg::decide(&part, residual)
+            .map_err(|source| AnalysisError::Rank { time: t, source })?;
+        if let linalg::RankStatus::Undecided(doubt) = &decision.status {
+            warnings.push(format!("the rank of {what} alone is undecided: {doubt}"));
+        }
+        Ok(decision.rank)
     };
-    let rank_holonomic = rank_of(0..layout.m)?;
-    let rank_nonholonomic = rank_of(layout.m..layout.rows())?;
+    let rank_holonomic = rank_of("Φq", 0..layout.m)?;
+    let rank_nonholonomic = rank_of("Ψ", layout.m..layout.rows())?;
     let reactions = mechanism
         .constraint_ids()
         .map(|id| reaction(mechanism, id, s, &solvability))
@@ -220,7 +251,6 @@ fn judge(
         })
         .collect();
     let decision = solvability.decision().clone();
-    let mut warnings = Vec::new();
     if let linalg::RankStatus::Undecided(doubt) = &decision.status {
         warnings.push(format!(
             "the rank is undecided, and with it every verdict: {doubt}"
@@ -260,7 +290,7 @@ fn reaction(
         .enumerate()
         .map(|(i, &c)| ComponentVerdict {
             name: COMPONENTS[c],
-            judgement: solvability.component(map.row(i), rows.clone()),
+            judgement: solvability.component(&map, i, rows.clone()),
         });
     let wrench = solvability.group(rows.clone());
     let unique_directions = match wrench.verdict {

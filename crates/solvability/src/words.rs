@@ -46,7 +46,17 @@ fn ratio(circuit: &Circuit) -> String {
 
 /// Four significant digits, a true minus sign.
 fn short(x: f64) -> String {
-    let text = format!("{x:.4}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
+    let size = x.abs();
+    let text = match size {
+        1e-3..1e4 => {
+            let digits = (3.0 - size.log10().floor()).max(0.0) as usize;
+            let text = format!("{x:.digits$}");
+            match text.contains('.') {
+                true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+                false => text,
+            }
+        }
+        _ => format!("{x:.3e}"),
+    };
     text.replace('-', "−")
 }

@@ -10,33 +10,58 @@ use crate::events::Event;
 /// Corrections of the position per projection; one or two are the rule.
 const CORRECTIONS: usize = 6;
 
-/// |Φ| and |C·v − b| of kept rows count as zero below this many roundings of the largest term.
+/// Kept rows count as satisfied below this many roundings of their terms.
 const ROUNDINGS: f64 = 10.0;
 
-/// Residuals allowed after a projection: `max(1e-12, 50·eps·largest |coordinate|)`.
-const RESIDUAL_FLOOR: f64 = 1e-12;
-const RESIDUAL_ROUNDINGS: f64 = 50.0;
+/// The same where a further correction does not help.
+const STALLED_ROUNDINGS: f64 = 50.0;
+
+/// Dropped rows count as implied by the kept ones below this share of the largest row. Rounding of the kept rows, 1e-15,
+/// reaches them through coefficients of up to some hundreds.
+const DROPPED_MISFIT: f64 = 1e-11;
 
 impl KeptRowMotion<'_> {
-    /// Projects an accepted step, and keeps other rows if the present ones have become nearly dependent there.
+    /// Projects an accepted step, and keeps other rows if the present ones have become nearly dependent there. What happened
+    /// is told by [`KeptRowMotion::accept`], once the step stands.
     ///
     /// # Errors
-    /// As [`super::Motion::project`]; also if the rank itself changes here, or cannot be decided.
+    /// As [`super::Motion::project`]; also if the step passed a singular configuration, or the rank itself changes here.
     pub(crate) fn project_step(
         &mut self,
         t: f64,
         q: &mut [f64],
         v: &mut [f64],
-    ) -> Result<(Correction, Option<Event>), Trip> {
+    ) -> Result<Correction, Trip> {
         let iterations = self.settle(t, q)?;
-        let event = self.review()?;
-        Ok((self.finish(q, v, iterations)?, event))
+        self.side.check(&mut self.velocity, t)?;
+        if let Some(event) = self.review(q)? {
+            self.pending = Some(event);
+        }
+        let found = self.finish(q, v, iterations)?;
+        self.side.take(&mut self.velocity, t);
+        Ok(found)
+    }
+
+    /// What happened since the last accepted step.
+    pub(crate) fn accept(&mut self) -> Option<Event> {
+        self.pending.take()
+    }
+
+    /// Takes the start as the side of singular configurations on which the motion begins.
+    pub(crate) fn begin(&mut self, t: f64, q: &mut [f64]) -> Result<(), Trip> {
+        self.settle(t, q)?;
+        self.side.take(&mut self.velocity, t);
+        Ok(())
+    }
+
+    /// Whether the last evaluated acceleration lies on the side of the last accepted step.
+    pub(crate) fn same_side(&mut self, t: f64) -> Result<(), Trip> {
+        self.side.check(&mut self.velocity, t)
     }
 
     /// Moves q onto the constraints and factors there.
     pub(super) fn settle(&mut self, t: f64, q: &mut [f64]) -> Result<usize, Trip> {
         let iterations = self.project_position(t, q)?;
-        self.mechanism.c(&mut self.s);
         self.velocity.factor(self.mechanism, &self.s)?;
         Ok(iterations)
     }
@@ -62,40 +87,42 @@ impl KeptRowMotion<'_> {
             ..
         } = self;
         let mut best = f64::INFINITY;
-        for iteration in 0..=CORRECTIONS {
+        let mut iteration = 0;
+        loop {
             mechanism.pose(t, q, s);
             mechanism.phi(s);
+            mechanism.c(s);
+            // The row that misses most, in roundings of its terms.
             let mut worst = (0, 0.0_f64);
             for (rhs, &i) in position.rhs.iter_mut().zip(&position.kept) {
                 *rhs = -s.phi[i];
-                if rhs.abs() > worst.1 || rhs.is_nan() {
-                    worst = (i, rhs.abs());
+                let roundings = rhs.abs() / (f64::EPSILON * mechanism.position_scale(s, i, q));
+                if *rhs != 0.0 && (roundings > worst.1 || roundings.is_nan()) {
+                    worst = (i, roundings);
                 }
             }
-            let tolerance = ROUNDINGS * f64::EPSILON * largest(q).max(1.0);
             // Rounding may leave a little more: a stalled iteration close to it is done too.
-            let stalled = worst.1 >= 0.5 * best && worst.1 <= residual_limit(q);
-            if worst.1 <= tolerance || stalled {
+            let stalled = worst.1 >= 0.5 * best && worst.1 <= STALLED_ROUNDINGS;
+            if worst.1 <= ROUNDINGS || stalled {
                 return Ok(iteration);
             }
             if iteration == CORRECTIONS || worst.1.is_nan() {
                 return Err(Trip::OffConstraints {
                     time: t,
                     row: mechanism.layout().labels[worst.0].clone(),
-                    residual: worst.1,
-                    tolerance,
+                    residual: s.phi[worst.0].abs(),
+                    tolerance: ROUNDINGS * f64::EPSILON * mechanism.position_scale(s, worst.0, q),
                     iterations: iteration,
                 });
             }
             best = best.min(worst.1);
-            mechanism.c(s);
+            iteration += 1;
             position.factor(mechanism, s)?;
             position.solve(mechanism, s, zero, delta)?;
             for (q, d) in q.iter_mut().zip(&*delta) {
                 *q += d;
             }
         }
-        unreachable!("the last iteration returns")
     }
 
     /// Needs the factorisation of the projected position.
@@ -115,7 +142,9 @@ impl KeptRowMotion<'_> {
             for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
                 *rhs = -layout.velocity_residual(s, i, v);
             }
-            if largest(&velocity.rhs) <= ROUNDINGS * f64::EPSILON * largest(v).max(1.0) {
+            let scale = |&i: &usize| mechanism.velocity_scale(s, i, v);
+            let scale = velocity.kept.iter().map(scale).fold(0.0, f64::max);
+            if largest(&velocity.rhs) <= ROUNDINGS * f64::EPSILON * scale {
                 break;
             }
             velocity.solve(mechanism, s, zero, delta)?;
@@ -140,14 +169,20 @@ impl KeptRowMotion<'_> {
                 found.position_residual = found.position_residual.max(self.s.phi[i].abs());
             }
         }
-        let limit = residual_limit(q);
+        let rows = 0..layout.rows();
+        let position = |i: usize| self.mechanism.position_scale(&self.s, i, q);
+        let velocity = |i: usize| self.mechanism.velocity_scale(&self.s, i, v);
+        let limit = DROPPED_MISFIT * (0..layout.m).map(position).fold(0.0, f64::max);
         for &i in &self.position.dropped {
             self.check_dropped(i, "position", self.s.phi[i].abs(), limit)?;
         }
-        let limit = limit.max(residual_limit(v));
+        // Off the constraints by rounding of its coordinates, the rows agree to the same share.
+        let rounding = self.mechanism.relative_residual(&self.s, q, self.size);
+        let share = DROPPED_MISFIT.max(STALLED_ROUNDINGS * rounding);
+        let limit = share * rows.map(velocity).fold(0.0, f64::max);
         for &i in &self.velocity.dropped {
-            let velocity = layout.velocity_residual(&self.s, i, v).abs();
-            self.check_dropped(i, "velocity", velocity, limit)?;
+            let residual = layout.velocity_residual(&self.s, i, v).abs();
+            self.check_dropped(i, "velocity", residual, limit)?;
         }
         Ok(found)
     }
@@ -175,9 +210,4 @@ impl KeptRowMotion<'_> {
 
 fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a: f64, x| a.max(x.abs()))
-}
-
-/// What a residual may be after a projection.
-fn residual_limit(x: &[f64]) -> f64 {
-    (RESIDUAL_ROUNDINGS * f64::EPSILON * largest(x)).max(RESIDUAL_FLOOR)
 }

@@ -10,10 +10,12 @@ use crate::events::{Event, EventKind};
 use crate::options::RowChoice;
 
 impl KeptRowMotion<'_> {
-    /// Looks at the pivots of a settled position.
-    pub(super) fn review(&mut self) -> Result<Option<Event>, Trip> {
-        if self.position.are_lost() {
-            self.choose_position_rows()?;
+    /// Looks at the pivots of a settled position at coordinates q.
+    pub(super) fn review(&mut self, q: &[f64]) -> Result<Option<Event>, Trip> {
+        if self.position.are_lost() && !self.position.dropped.is_empty() {
+            let kept = self.position.kept.len();
+            let decision = certify_holonomic(self.mechanism, &self.s, q);
+            self.position = self.decided(decision, kept)?;
         }
         if self.aside.is_some() && self.chosen_rows_recovered() {
             self.swap_aside();
@@ -23,12 +25,14 @@ impl KeptRowMotion<'_> {
                 self.event("the rows asked for are independent again and kept again"),
             ));
         }
-        if !self.velocity.are_lost() {
+        // Without dropped rows there is nothing to choose.
+        if !self.velocity.are_lost() || self.velocity.dropped.is_empty() {
             return Ok(None);
         }
         let kept = self.velocity.kept.len();
-        let mut rows = self.decided(certify(self.mechanism, &self.s), kept)?;
+        let mut rows = self.decided(certify(self.mechanism, &self.s, q), kept)?;
         if rows.kept == self.velocity.kept {
+            self.velocity.confirm();
             return Ok(None);
         }
         rows.factor(self.mechanism, &self.s)?;
@@ -51,12 +55,6 @@ impl KeptRowMotion<'_> {
             return false;
         };
         aside.factor(self.mechanism, &self.s).is_ok() && aside.are_recovered()
-    }
-
-    fn choose_position_rows(&mut self) -> Result<(), Trip> {
-        let kept = self.position.kept.len();
-        self.position = self.decided(certify_holonomic(self.mechanism, &self.s), kept)?;
-        Ok(())
     }
 
     /// Kept rows of a new decision, which must have the old rank.

@@ -25,6 +25,9 @@ pub(super) struct KeptRows {
 /// rows reaches the dropped ones through the inverse of the pivots.
 const PIVOT_LOSS: f64 = 0.1;
 
+/// Below this share the side of a singular configuration is not known: some √eps.
+const PIVOT_SINGULAR: f64 = 1e-6;
+
 /// Rows set aside come back above this share.
 const PIVOT_RECOVERY: f64 = 0.2;
 
@@ -78,10 +81,38 @@ impl KeptRows {
         self.saddle.pivot_ratio()
     }
 
+    /// Writes a frame of the motions that the factored rows allow.
+    pub(super) fn null_frame(&self, frame: &mut Vec<f64>) {
+        let n = self.saddle.n_coordinates();
+        frame.resize((n - self.saddle.n_rows()) * n, 0.0);
+        self.saddle.null_frame(frame);
+    }
+
+    /// Sign of the determinant of the factored rows bordered by a frame, 0 for a frame of another size.
+    pub(super) fn orientation(&mut self, frame: &[f64]) -> f64 {
+        let n = self.saddle.n_coordinates();
+        match frame.len() == (n - self.saddle.n_rows()) * n {
+            true => self.saddle.orientation(frame),
+            false => 0.0,
+        }
+    }
+
+    /// The present pivots are those that later ones are compared with.
+    pub(super) fn confirm(&mut self) {
+        self.reference_pivot = Some(self.pivot_ratio());
+    }
+
     /// Whether the rows have become nearly dependent since they were chosen.
     pub(super) fn are_lost(&self) -> bool {
         self.reference_pivot
             .is_some_and(|r| self.pivot_ratio() <= PIVOT_LOSS * r)
+    }
+
+    /// Whether the rows are as good as dependent: so near to a singular configuration that its position, known to √eps, does
+    /// not tell the side.
+    pub(super) fn are_singular(&self) -> bool {
+        self.reference_pivot
+            .is_some_and(|r| self.pivot_ratio() <= PIVOT_SINGULAR * r)
     }
 
     /// Whether rows that were lost are as independent as before.

@@ -3,7 +3,7 @@
 use super::{Folder, ROBOT, pfaff, stderr, with_scene};
 
 /// A pendulum; cases change one thing.
-const PENDULUM: &str = r#"
+pub(super) const PENDULUM: &str = r#"
 [scene]
 name = "pendulum"
 space = "plane"
@@ -180,11 +180,12 @@ type = \"angle\"
 motion = { type = \"constant-rate\", rate = 2.0 }
 ";
     check(added(drives), 2, &["slow", "fast", "differ by", "t = 0"]);
+    // Marked where the drives stand, not at the run.
+    check(added(drives), 2, &["<stdin>:23:8", "contradicts too"]);
 }
 
-#[test]
-fn drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows() {
-    let folder = Folder::new("contradiction");
+/// Two drives that agree up to t = 0.5 s.
+pub(super) fn contradiction_at_half_a_second() -> String {
     let drives = "
 [[drive]]
 name = \"one\"
@@ -198,7 +199,13 @@ joint = \"pivot\"
 type = \"angle\"
 motion = { type = \"steps\", steps = [{ from = 0.5, to = 1.0, by = 1.1 }] }
 ";
-    let scene = format!("{PENDULUM}{drives}");
+    format!("{PENDULUM}{drives}")
+}
+
+#[test]
+fn drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows() {
+    let folder = Folder::new("contradiction");
+    let scene = contradiction_at_half_a_second();
     let output = with_scene(&["simulate", "-", "--out", folder.text()], &scene);
     let text = stderr(&output);
     assert_eq!(output.status.code(), Some(1), "{text}");
@@ -285,4 +292,26 @@ fn numbers_of_the_command_line() {
             stderr(&output)
         );
     }
+}
+
+#[test]
+fn negative_numbers_of_the_command_line_are_values() {
+    let folder = Folder::new("negative");
+    for (option, value, message) in [
+        ("--rtol", "-1", "rtol is -1, need a number > 0"),
+        ("--atol", "-1e-3", "atol is -0.001, need a number > 0"),
+        ("--t-end", "-3", "t_end is -3, need a finite time ≥ 0"),
+    ] {
+        let output = pfaff(&["simulate", ROBOT, "--out", folder.text(), option, value]);
+        let text = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{option}: {text}");
+        assert!(text.contains(message), "{option}: {text}");
+    }
+    let output = pfaff(&["analyze", ROBOT, "--at-time", "-1"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        stderr(&output).contains("--at-time is -1, need a time ≥ 0"),
+        "{}",
+        stderr(&output)
+    );
 }

@@ -4,6 +4,7 @@ use std::process::{Command, Stdio};
 
 use serde_json::Value;
 
+use super::bad_input::PENDULUM;
 use super::{Folder, ROBOT, pfaff, stdout, with_scene};
 
 fn json(text: &str) -> Value {
@@ -176,4 +177,32 @@ fn results_that_cannot_be_written_are_named() {
     let output = pfaff(&["simulate", ROBOT, "--out", file.to_str().expect("UTF-8")]);
     assert_eq!(output.status.code(), Some(1));
     assert!(super::stderr(&output).contains("file"), "{output:?}");
+}
+
+#[test]
+fn one_body_is_no_bodies() {
+    let text = stdout(&with_scene(&["check", "-"], PENDULUM));
+    let expected = "pendulum: 1 body, 1 joint or drive, 2 rows (2 holonomic, 0 nonholonomic)\n";
+    assert!(text.starts_with(expected), "{text}");
+    let text = stdout(&with_scene(&["analyze", "-"], PENDULUM));
+    assert!(text.contains("\n1 body, 3 coordinates, 2 rows: "), "{text}");
+    let text = stdout(&pfaff(&["check", ROBOT]));
+    assert!(
+        text.contains(": 7 bodies, 14 joints and drives, 22 rows "),
+        "{text}"
+    );
+}
+
+#[test]
+fn a_run_that_loses_energy_warns() {
+    let folder = Folder::new("energy");
+    let simulate = ["simulate", "-", "--out", folder.text(), "--t-end", "10"];
+    let warning = "warning: the energy balance is off by ";
+    let text = stdout(&with_scene(&simulate, PENDULUM));
+    assert!(!text.contains(warning), "{text}");
+    let loose = [&simulate[..], &["--rtol", "0.5", "--atol", "0.5"]].concat();
+    let text = stdout(&with_scene(&loose, PENDULUM));
+    assert!(text.contains(warning), "{text}");
+    let balance = json(&folder.read("summary.json"))["energy_balance"].as_f64();
+    assert!(balance.is_some_and(|x| x > 1e-3), "{text}");
 }

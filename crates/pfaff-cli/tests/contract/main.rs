@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod documents;
+mod failures;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

@@ -122,7 +122,7 @@ impl RunDocument {
             Ending::Stopped(error) => (true, Some(error.to_string())),
         };
         // Rows that the user asked for stay those of the reactions, whatever is kept for the motion.
-        let automatic = run.options.rows == RowChoice::Automatic;
+        let automatic = prepared.choice == RowChoice::Automatic;
         let exchange = |e: &&Event| automatic && e.kind == EventKind::RowsExchanged;
         let choice = ChoiceDocument {
             method: run.options.formulation.name(),

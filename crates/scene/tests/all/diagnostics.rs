@@ -456,6 +456,12 @@ fn runs_starts_and_groups() {
         ),
         (
             "t_end = 2.0",
+            "t_end = 2.0\noutput_step = «1e-7»",
+            "`[simulate]`: output_step is 0.0000001 s: up to t = 2 s this would write 2.000e7 rows, more than 1e7",
+            "too small for this run",
+        ),
+        (
+            "t_end = 2.0",
             "t_end = 2.0\nrtol = «0.0»",
             "`[simulate]`: rtol is 0, need a number > 0",
             "expected a number > 0",
@@ -766,4 +772,24 @@ fn an_empty_file_says_what_a_scene_needs() {
             "x.toml:1:1: error: a mechanism needs at least one body",
         ]
     );
+}
+
+#[test]
+fn the_longest_table_is_allowed_and_a_longer_one_gets_advice() {
+    let with_step = |step: &str| {
+        read(&SCENE.replace("t_end = 2.0", &format!("t_end = 2.0\noutput_step = {step}")))
+    };
+    assert!(with_step("2e-7").is_ok());
+    for step in ["1.99e-7", "1e-300", "5e-324"] {
+        let problems = with_step(step).expect_err(step);
+        let [d] = &problems[..] else {
+            panic!("{step}: {problems:#?}");
+        };
+        assert_eq!(d.secondary[0].text, "the run ends here");
+        assert_eq!(
+            d.help.as_deref(),
+            Some("`output_step = 2e-4` gives 1e4 rows; without the key there are 201")
+        );
+    }
+    assert!(with_step("2e-4").is_ok());
 }

@@ -1,8 +1,9 @@
 //! Errors that come after reading, turned into places.
 
 use dynamics::{MotionError, Trip};
-use model::{BuildError, Mechanism, StartError};
-use scene::Scene;
+use model::{BuildError, Mechanism, RowLabel, StartError};
+use scene::{Label, Scene};
+use solvability::{ConstraintLevel, Contradiction};
 
 use crate::{BODIES, read, read_more};
 
@@ -81,6 +82,54 @@ fn errors_of_a_run_point_at_rows_bodies_and_options() {
         expected: "a number > 0",
     };
     assert_eq!(marked(&option), "[simulate]");
+}
+
+/// Two drives of one joint, and what is marked first and besides.
+fn marks_of_drives(error: impl FnOnce(Vec<RowLabel>) -> MotionError) -> (String, Vec<String>) {
+    let drive = |name: &str| {
+        format!(
+            "[[drive]]\nname = \"{name}\"\njoint = \"A\"\ntype = \"angle\"\n\
+             motion = {{ type = \"constant-rate\", rate = 1.0 }}\n"
+        )
+    };
+    let scene = read_more(&format!(
+        "[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"c\"]\nat = [0, 0]\n{}{}\
+         [simulate]\nt_end = 1.0\n",
+        drive("slow"),
+        drive("fast"),
+    ));
+    let mechanism = Mechanism::build(&scene.description).expect("a mechanism");
+    let labels = model::System::layout(&mechanism).labels.clone();
+    let d = scene.locate_motion(&error(labels));
+    let text = |label: &Label| scene.source.text.text()[label.span.clone()].to_owned();
+    (text(&d.primary), d.secondary.iter().map(text).collect())
+}
+
+#[test]
+fn a_contradiction_points_at_each_joint_and_drive_once() {
+    let (first, others) = marks_of_drives(|rows| {
+        MotionError::Contradiction(Contradiction {
+            time: 0.0,
+            rows,
+            level: ConstraintLevel::Velocity,
+            size: 1.0,
+        })
+    });
+    // The joint has two rows.
+    assert_eq!(first, "\"A\"");
+    assert_eq!(others, ["\"slow\"", "\"fast\""]);
+}
+
+#[test]
+fn velocities_that_do_not_exist_point_at_the_drive() {
+    let (first, others) = marks_of_drives(|rows| {
+        MotionError::Start(StartError::NoVelocity {
+            worst: rows[3].clone(),
+            residual: 1.0,
+        })
+    });
+    assert_eq!(first, "\"fast\"");
+    assert!(others.is_empty());
 }
 
 /// A description that was changed after reading, as a sweep does.

@@ -1,0 +1,51 @@
+//! What residuals are compared with. Each row has a size of its own, made of the terms that cancel in it, so that nothing
+//! depends on units, on the size of a mechanism or on where it stands.
+
+use crate::mechanism::{Mechanism, N_BODY};
+use crate::system::{Scratch, System};
+
+impl Mechanism {
+    /// Size of the terms of row `i` of Φ: `Σ |C_ij|·|q_j|`, an angle counting at least one radian, because arms turn with
+    /// it. Needs C at the pose of the scratch.
+    #[must_use]
+    pub fn position_scale(&self, s: &Scratch, i: usize, q: &[f64]) -> f64 {
+        let term = |(j, c): (usize, f64)| {
+            let q = q[j].abs();
+            c.abs() * if j % N_BODY == 2 { q.max(1.0) } else { q }
+        };
+        self.layout().row(s, i).map(term).sum()
+    }
+
+    /// Size of the terms of row `i` of `C·v − b`. Needs C and b at the pose of the scratch.
+    #[must_use]
+    pub fn velocity_scale(&self, s: &Scratch, i: usize, v: &[f64]) -> f64 {
+        let terms = self.layout().row(s, i).map(|(j, c)| (c * v[j]).abs());
+        terms.sum::<f64>() + s.b[i].abs()
+    }
+
+    /// Size of what the functions of time prescribe at the time of the scratch: the largest `|f| + |ḟ| + |f̈|`. A rate that is
+    /// rounding beside it is zero.
+    #[must_use]
+    pub fn prescribed_scale(&self, s: &Scratch) -> f64 {
+        s.jets
+            .iter()
+            .map(|jet| jet.iter().map(|x| x.abs()).sum())
+            .fold(0.0, f64::max)
+    }
+
+    /// What the entries of a dimensionless C may be wrong by at a configuration: the largest |Φ_i|, and at least the rounding of
+    /// its terms, relative to what row `i` changes by when the mechanism moves by its own size. Needs Φ and C.
+    #[must_use]
+    pub fn relative_residual(&self, s: &Scratch, q: &[f64], size: f64) -> f64 {
+        let layout = self.layout();
+        let of_row = |i: usize| {
+            let reach = |(j, c): (usize, f64)| c.abs() * if j % N_BODY == 2 { 1.0 } else { size };
+            let reach: f64 = layout.row(s, i).map(reach).sum();
+            let wrong = s.phi[i]
+                .abs()
+                .max(f64::EPSILON * self.position_scale(s, i, q));
+            if reach > 0.0 { wrong / reach } else { wrong }
+        };
+        (0..layout.m).map(of_row).fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,111 @@
+//! What fails says so in one JSON document where one was asked for, with the same exit code as in words.
+
+use serde_json::{Value, json};
+
+use super::bad_input::{PENDULUM, contradiction_at_half_a_second};
+use super::{Folder, ROBOT, pfaff, stderr, with_scene};
+
+/// The document of a failure; nothing else may be said.
+#[track_caller]
+fn failure(output: &std::process::Output, code: i32) -> Value {
+    assert_eq!(output.status.code(), Some(code), "{output:?}");
+    assert_eq!(stderr(output), "");
+    let d: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+    assert_eq!(d["ok"], false, "{d:#}");
+    assert!(d["error"].as_str().is_some_and(|e| !e.is_empty()), "{d:#}");
+    d
+}
+
+#[test]
+fn every_command_says_what_is_wrong_with_a_scene() {
+    let folder = Folder::new("json-scene");
+    let scene = PENDULUM
+        .replace("inertia", "inertja")
+        .replace("\"bob\"]", "\"bib\"]");
+    for command in [
+        vec!["check", "-", "--json"],
+        vec!["analyze", "-", "--json"],
+        vec!["simulate", "-", "--json", "--out", folder.text()],
+    ] {
+        let d = failure(&with_scene(&command, &scene), 2);
+        let problems = d["problems"].as_array().expect("a list");
+        assert_eq!(problems.len(), 3, "{command:?}: {d:#}");
+        let error = d["error"].as_str().expect("a text");
+        assert!(error.starts_with("<stdin>:7:1: error: "), "{error}");
+        assert!(error.ends_with("(and 2 more)"), "{error}");
+        assert_eq!(problems[1]["primary"]["line"], 10);
+        assert_eq!(problems[1]["severity"], "error");
+    }
+}
+
+#[test]
+fn a_start_that_does_not_exist_is_a_problem_of_the_scene() {
+    let second = "[[joint]]\nname = \"other\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bob\"]\npoints = { ground = [5.0, 0.0], bob = [0.0, 0.0] }\n";
+    let scene = format!("{PENDULUM}{second}");
+    let d = failure(&with_scene(&["analyze", "-", "--json"], &scene), 2);
+    let message = d["problems"][0]["message"].as_str().expect("a text");
+    assert!(message.contains("cannot be assembled"), "{d:#}");
+}
+
+#[test]
+fn what_has_no_place_in_the_scene_has_no_problems() {
+    let folder = Folder::new("json-rows");
+    let simulate = ["simulate", ROBOT, "--json", "--out", folder.text()];
+    for (more, piece) in [
+        (["--drop", "6"], "drop exactly 2"),
+        (["--rtol", "-1"], "rtol is -1"),
+    ] {
+        let d = failure(&pfaff(&[&simulate[..], &more[..]].concat()), 2);
+        assert_eq!(d["problems"], json!([]));
+        assert!(d["error"].as_str().is_some_and(|e| e.contains(piece)));
+    }
+    let d = failure(&pfaff(&["check", "no-such-file.toml", "--json"]), 2);
+    assert!(
+        d["error"]
+            .as_str()
+            .is_some_and(|e| e.contains("no-such-file.toml"))
+    );
+}
+
+#[test]
+fn a_run_that_stops_has_code_1() {
+    let folder = Folder::new("json-stop");
+    let scene = contradiction_at_half_a_second();
+    for command in [
+        vec!["simulate", "-", "--json", "--out", folder.text()],
+        vec!["analyze", "-", "--json", "--at-time", "0.9"],
+    ] {
+        let d = failure(&with_scene(&command, &scene), 1);
+        assert!(
+            d["error"].as_str().is_some_and(|e| e.contains("t = 0.5")),
+            "{d:#}"
+        );
+    }
+}
+
+#[test]
+fn a_check_that_stops_has_code_1_in_json_as_in_words() {
+    let scene = UNDECIDED;
+    let words = with_scene(&["check", "-"], &scene);
+    assert_eq!(words.status.code(), Some(1), "{words:?}");
+    let d = failure(&with_scene(&["check", "-", "--json"], &scene), 1);
+    let text = stderr(&words);
+    assert_eq!(
+        Some(text.trim()),
+        d["error"]
+            .as_str()
+            .map(|e| format!("error: {e}"))
+            .as_deref()
+    );
+}
+
+#[test]
+fn results_that_cannot_be_written_have_code_1() {
+    let folder = Folder::new("json-occupied");
+    std::fs::create_dir_all(&folder.0).expect("writable");
+    let file = folder.0.join("file");
+    std::fs::write(&file, "here first").expect("writable");
+    let out = file.to_str().expect("UTF-8");
+    let d = failure(&pfaff(&["simulate", ROBOT, "--json", "--out", out]), 1);
+    assert_eq!(d["problems"], json!([]));
+}

@@ -1,0 +1,118 @@
+//! Change points of linkages: refused by name, never passed silently onto another branch. And rows that become nearly
+//! dependent although the rank stays: exchanged, and told.
+
+use std::ops::ControlFlow;
+
+use dynamics::{EventKind, MotionError, MotionOptions, RowChoice, Trip, prepare, simulate};
+use joints::RevoluteAngleDrive;
+use model::start::CorrectionLimit;
+use model::{BodyRef, Drive, Function, Mechanism, StartOptions};
+use tests::cranks::cranks;
+use tests::robot::{robot, robot_of_size, steering, steering_of_size};
+
+/// A parallelogram driven through its flat pose at θ = 0 has two ways to go on.
+#[test]
+fn a_driven_parallelogram_stops_at_its_change_point() {
+    for (start, rtol) in [(-0.05, 1e-8), (-0.05, 1e-4), (-0.5, 1e-8), (-0.3, 1e-6)] {
+        let mut d = cranks(&[0.0, 1.0], 0.5, start);
+        let element = RevoluteAngleDrive {
+            s_i: [0.0; 2],
+            s_j: [0.0; 2],
+            measure_0: 0.0,
+        };
+        d.drives.push(Drive {
+            name: "motor".into(),
+            bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
+            element: Box::new(element),
+            motion: Function::constant_rate(1.0).expect("finite"),
+        });
+        let options = StartOptions {
+            correction: CorrectionLimit::Any,
+            ..StartOptions::default()
+        };
+        let mechanism = Mechanism::build(&d).expect("builds");
+        let p = prepare(mechanism, &options, &RowChoice::Automatic).expect("starts");
+        let run = MotionOptions {
+            rtol,
+            atol: rtol,
+            ..MotionOptions::to(1.0)
+        };
+        let failure = simulate(&p, &run, |_| Ok(ControlFlow::Continue(())))
+            .expect_err("the branch is not determined");
+        let MotionError::Trip(Trip::SingularPassage { from, .. }) = failure.error else {
+            panic!("from {start}, rtol {rtol}: {failure}");
+        };
+        assert!(
+            (from + start).abs() < 1e-2,
+            "from {start}: stopped at {from}"
+        );
+    }
+}
+
+/// The rear edge becomes parallel to the global y-axis twice between t = 6 and t = 7: row 6 carries nothing there.
+#[test]
+fn rows_that_lose_their_independence_are_exchanged_and_come_back() {
+    let run = |choice: &RowChoice| {
+        let mechanism = Mechanism::build(&robot(steering())).expect("builds");
+        let p = prepare(mechanism, &StartOptions::default(), choice).expect("starts");
+        simulate(&p, &MotionOptions::to(10.0), |_| {
+            Ok(ControlFlow::Continue(()))
+        })
+        .expect("moves")
+    };
+    let events = run(&RowChoice::Drop(vec![5, 20])).events;
+    assert_eq!(events.len(), 2, "{events:?}");
+    assert!(events.iter().all(|e| e.kind == EventKind::RowsExchanged));
+    assert!(
+        events.iter().all(|e| (6.0..7.0).contains(&e.time)),
+        "{events:?}"
+    );
+    assert_ne!(events[0].dropped, [5, 20]);
+    assert_eq!(events[1].dropped, [5, 20]);
+    assert!(run(&RowChoice::Automatic).events.is_empty());
+}
+
+/// Verdicts do not depend on the size of a mechanism or on its place.
+#[test]
+fn size_and_place_do_not_matter() {
+    for size in [1e-6, 1.0, 1e4] {
+        for offset in [0.0, 1e3 * size] {
+            let mut d = robot_of_size(size, steering_of_size(size));
+            for body in &mut d.bodies {
+                body.position = body.position.map(|x| x + offset);
+            }
+            let mechanism = Mechanism::build(&d).expect("builds");
+            let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic);
+            let p = p.unwrap_or_else(|e| panic!("size {size}, offset {offset}: {e}"));
+            let mut q = Vec::new();
+            let run = MotionOptions {
+                atol: 1e-10 * size,
+                output_step: 1.5,
+                ..MotionOptions::to(1.5)
+            };
+            simulate(&p, &run, |s| {
+                q = s.q.to_vec();
+                Ok(ControlFlow::Continue(()))
+            })
+            .unwrap_or_else(|e| panic!("size {size}, offset {offset}: {e}"));
+            let a = solvability::analyse(&p.mechanism, 1.5, &q).expect("finite");
+            assert!(a.decision.is_decided(), "size {size}, offset {offset}");
+            assert_eq!(
+                (a.decision.rank, a.decision.redundancy),
+                (20, 2),
+                "size {size}, offset {offset}"
+            );
+            let not_unique: Vec<&str> = a
+                .reactions
+                .iter()
+                .filter(|r| r.wrench.verdict.word() == "not_unique")
+                .map(|r| r.name.as_str())
+                .collect();
+            assert_eq!(
+                not_unique,
+                ["B", "C", "W1", "W2", "W3", "W4"],
+                "size {size}, offset {offset}"
+            );
+        }
+    }
+}
