@@ -72,7 +72,7 @@ pub(crate) struct ConstraintBody {
 const RESERVED: [&str; 5] = ["motion", "measure_0", "reader", "arguments", "None"];
 
 /// Names of types and traits in the generated module: no definition can have them.
-const RESERVED_TYPES: [&str; 30] = [
+const RESERVED_TYPES: [&str; 31] = [
     "Argument",
     "ArgumentError",
     "Constraint",
@@ -94,6 +94,7 @@ const RESERVED_TYPES: [&str; 30] = [
     "Real",
     "Result",
     "Ring",
+    "Role",
     "Row",
     "Shape",
     "Some",

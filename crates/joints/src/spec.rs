@@ -198,6 +198,8 @@ impl fmt::Display for Unit {
 pub struct ConstraintSpec {
     /// What it shares with forces.
     pub common: Spec,
+    /// Joint, or drive of a measure of a joint.
+    pub role: Role,
     /// Position or velocity level.
     pub level: Level,
     /// Its rows, in order.
@@ -219,6 +221,15 @@ pub struct ConstraintSpec {
     pub d_residual_dx: &'static [[usize; 2]],
     /// Pattern (row, column of the block) of `∂Γ/∂v`.
     pub d_gamma_dv: &'static [[usize; 2]],
+}
+
+/// What a constraint is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// Connects bodies.
+    Joint,
+    /// Prescribes a measure of a joint.
+    Drive,
 }
 
 /// Where a constraint is stated.

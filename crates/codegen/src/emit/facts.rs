@@ -24,6 +24,10 @@ pub(super) fn constraint_spec(
             false => quote!(Length),
         });
     let common = common(d, &t.name.to_string(), &t.scene_type, &t.doc, motion, text);
+    let role = match t.driven {
+        true => quote!(Role::Drive),
+        false => quote!(Role::Joint),
+    };
     let level = match body.holonomic {
         true => quote!(Level::Holonomic),
         false => quote!(Level::Nonholonomic),
@@ -59,6 +63,7 @@ pub(super) fn constraint_spec(
     quote! {
         const SPEC: ConstraintSpec = ConstraintSpec {
             common: #common,
+            role: #role,
             level: #level,
             rows: &[#(#rows),*],
             c: &[#(#c),*],

@@ -39,6 +39,7 @@ pub(super) fn uses(runtime: &TokenStream, constraint: bool) -> TokenStream {
                 Level,
                 Measure,
                 Parameter,
+                Role,
                 Row,
                 Shape,
                 Spec,

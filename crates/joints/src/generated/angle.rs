@@ -8,7 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Row, Shape, Spec, Unit, Variant,
+    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
+    Variant,
 };
 /// The relative angle of two bodies keeps its initial value.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,6 +32,7 @@ impl Constraint for Angle {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Joint,
         level: Level::Holonomic,
         rows: &[Row::keeping_start("angle")],
         c: &[Entry::constant(0, 0, 2), Entry::constant(0, 1, 2)],

@@ -8,7 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Row, Shape, Spec, Unit, Variant,
+    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
+    Variant,
 };
 /// The distance of point `s_i` of body i and point `s_j` of body j keeps its initial value L, in the form
 /// `(d·d − L²)/(2L) = 0`, whose multiplier is a force.
@@ -41,6 +42,7 @@ impl Constraint for Distance {
             points_apart: true,
             requirements: &["the two points are apart (L > 0)"],
         },
+        role: Role::Joint,
         level: Level::Holonomic,
         rows: &[Row::keeping_start("distance")],
         c: &[

@@ -8,7 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Row, Shape, Spec, Unit, Variant,
+    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
+    Variant,
 };
 /// Point `s_j` of body j keeps its initial place in body i, and the relative angle keeps its initial value.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +41,7 @@ impl Constraint for Fixed {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Joint,
         level: Level::Holonomic,
         rows: &[
             Row::keeping_start("x"),

@@ -8,7 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Row, Shape, Spec, Unit, Variant,
+    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
+    Variant,
 };
 /// Point `s` has no velocity along `normal` (a wheel or a blade): `(R·n)·v_s = 0`.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +37,7 @@ impl Constraint for KnifeEdge {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Joint,
         level: Level::Nonholonomic,
         rows: &[Row::restricting_start("normal")],
         c: &[Entry::varying(0, 0, 0), Entry::varying(0, 0, 1), Entry::constant(0, 0, 2)],

@@ -8,7 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Row, Shape, Spec, Unit, Variant,
+    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
+    Variant,
 };
 /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +40,7 @@ impl Constraint for PinInSlot {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Joint,
         level: Level::Holonomic,
         rows: &[Row::restricting_start("normal")],
         c: &[
@@ -413,6 +415,7 @@ impl Constraint for PinInSlotDisplacementDrive {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Drive,
         level: Level::Holonomic,
         rows: &[Row::keeping_start("displacement")],
         c: &[
@@ -823,6 +826,7 @@ impl Constraint for PinInSlotAngleDrive {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Drive,
         level: Level::Holonomic,
         rows: &[Row::keeping_start("angle")],
         c: &[Entry::constant(0, 0, 2), Entry::constant(0, 1, 2)],

@@ -8,7 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Row, Shape, Spec, Unit, Variant,
+    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
+    Variant,
 };
 /// Point `s` of the body stays on a straight line of the ground.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +37,7 @@ impl Constraint for PointOnLine {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Joint,
         level: Level::Holonomic,
         rows: &[Row::restricting_start("normal")],
         c: &[

@@ -8,7 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Row, Shape, Spec, Unit, Variant,
+    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
+    Variant,
 };
 /// Point `s_i` of body i and point `s_j` of body j coincide.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,6 +37,7 @@ impl Constraint for Revolute {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Joint,
         level: Level::Holonomic,
         rows: &[Row::restricting_start("x"), Row::restricting_start("y")],
         c: &[
@@ -280,6 +282,7 @@ impl Constraint for RevoluteAngleDrive {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Drive,
         level: Level::Holonomic,
         rows: &[Row::keeping_start("angle")],
         c: &[Entry::constant(0, 0, 2), Entry::constant(0, 1, 2)],

@@ -8,7 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Row, Shape, Spec, Unit, Variant,
+    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
+    Variant,
 };
 /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:
 /// `(R·d)·v_s − radius·ω_j = 0`.
@@ -40,6 +41,7 @@ impl Constraint for Rolling {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Joint,
         level: Level::Nonholonomic,
         rows: &[Row::restricting_start("along")],
         c: &[

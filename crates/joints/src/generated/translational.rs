@@ -8,7 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Row, Shape, Spec, Unit, Variant,
+    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
+    Variant,
 };
 /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`; the relative angle keeps its
 /// initial value.
@@ -42,6 +43,7 @@ impl Constraint for Translational {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Joint,
         level: Level::Holonomic,
         rows: &[Row::restricting_start("normal"), Row::keeping_start("angle")],
         c: &[
@@ -436,6 +438,7 @@ impl Constraint for TranslationalDisplacementDrive {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Drive,
         level: Level::Holonomic,
         rows: &[Row::keeping_start("displacement")],
         c: &[

@@ -8,7 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Row, Shape, Spec, Unit, Variant,
+    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
+    Variant,
 };
 /// The velocity of point `s` along `direction` is a given function of time: `(R·d)·v_s = rate(t)`.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +38,7 @@ impl Constraint for Velocity {
             points_apart: false,
             requirements: &[],
         },
+        role: Role::Joint,
         level: Level::Nonholonomic,
         rows: &[Row::restricting_start("along")],
         c: &[Entry::varying(0, 0, 0), Entry::varying(0, 0, 1), Entry::constant(0, 0, 2)],

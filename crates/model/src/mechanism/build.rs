@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use joints::spec::{Level, Spec};
+use joints::spec::{Level, Role, Spec};
 
 use super::{Mechanism, N_BODY, PlacedConstraint, PlacedForce, TimeFunction};
 use crate::description::{Body, BodyRef, Description};
@@ -91,6 +91,16 @@ pub enum BuildError {
     GroundOnly {
         /// The joint, drive or force.
         name: String,
+    },
+    /// A drive in the list of joints, or a joint in the list of drives.
+    #[error("`{name}` stands among the {list}, but `{definition}` is none")]
+    Role {
+        /// The joint or drive.
+        name: String,
+        /// Its definition.
+        definition: &'static str,
+        /// The list it stands in.
+        list: &'static str,
     },
     /// Another number of functions of time than the definition has.
     #[error("`{name}` has {found} functions of time, `{definition}` needs {expected}")]
@@ -213,6 +223,24 @@ fn check_names(d: &Description, errors: &mut Vec<BuildError>) {
 }
 
 fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
+    let joints = d
+        .joints
+        .iter()
+        .map(|j| (&j.name, j.element.element().spec(), Role::Joint, "joints"));
+    let drives = d
+        .drives
+        .iter()
+        .map(|x| (&x.name, x.element.element().spec(), Role::Drive, "drives"));
+    for (name, spec, role, list) in joints.chain(drives) {
+        if spec.role != role {
+            let (name, definition) = (name.clone(), spec.common.name);
+            errors.push(BuildError::Role {
+                name,
+                definition,
+                list,
+            });
+        }
+    }
     for j in &d.joints {
         let spec = &j.element.element().spec().common;
         check_place(
@@ -459,5 +487,87 @@ impl Builder {
         let (q, _) = mechanism.described_state();
         mechanism.initialise(&q);
         mechanism
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use joints::{Revolute, RevoluteAngleDrive};
+
+    use super::*;
+    use crate::description::{Drive, Joint};
+
+    fn body(name: &str) -> Body {
+        Body {
+            name: name.into(),
+            mass: 1.0,
+            inertia: 1.0,
+            ..Body::default()
+        }
+    }
+
+    const PAIR: [BodyRef; 2] = [BodyRef::Ground, BodyRef::Body(0)];
+
+    #[test]
+    fn joints_and_drives_stand_in_their_own_lists() {
+        let pivot = Revolute {
+            s_i: [0.0; 2],
+            s_j: [0.0; 2],
+        };
+        let motor = RevoluteAngleDrive {
+            s_i: [0.0; 2],
+            s_j: [0.0; 2],
+            measure_0: 0.0,
+        };
+        let motion = Function::constant(0.0).expect("finite");
+        let mut joint = Joint::new("motor", &PAIR, motor);
+        joint.functions.push(motion.clone());
+        let drive = Drive {
+            name: "pivot".into(),
+            bodies: PAIR.to_vec(),
+            element: Box::new(pivot),
+            motion,
+        };
+        let d = Description {
+            bodies: vec![body("crank")],
+            joints: vec![joint],
+            drives: vec![drive],
+            ..Description::default()
+        };
+        let errors = Mechanism::build(&d)
+            .err()
+            .expect("both are in the wrong list");
+        let text: Vec<String> = errors.iter().map(ToString::to_string).collect();
+        assert!(
+            text.iter()
+                .any(|e| e == "`motor` stands among the joints, but `RevoluteAngleDrive` is none"),
+            "{text:?}"
+        );
+        assert!(
+            text.iter()
+                .any(|e| e == "`pivot` stands among the drives, but `Revolute` is none"),
+            "{text:?}"
+        );
+    }
+
+    #[test]
+    fn all_faults_of_a_description_come_together() {
+        let mut crank = body("crank");
+        crank.mass = -1.0;
+        let d = Description {
+            gravity: [f64::NAN, 0.0],
+            bodies: vec![crank, body("crank")],
+            joints: vec![Joint::new(
+                "pivot",
+                &[BodyRef::Body(1), BodyRef::Body(7)],
+                Revolute {
+                    s_i: [0.0; 2],
+                    s_j: [0.0; 2],
+                },
+            )],
+            ..Description::default()
+        };
+        let errors = Mechanism::build(&d).err().expect("four faults");
+        assert_eq!(errors.len(), 4, "{errors:?}");
     }
 }

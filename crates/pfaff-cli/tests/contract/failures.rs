@@ -85,7 +85,9 @@ fn a_run_that_stops_has_code_1() {
 
 #[test]
 fn a_check_that_stops_has_code_1_in_json_as_in_words() {
-    let scene = UNDECIDED;
+    // Two pivots 10⁻¹² m apart: one constraint too many, or a bar that cannot turn. The rank is undecided.
+    let twin = "[[joint]]\nname = \"twin\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bob\"]\nat = [1e-12, 0.0]\n";
+    let scene = format!("{PENDULUM}{twin}");
     let words = with_scene(&["check", "-"], &scene);
     assert_eq!(words.status.code(), Some(1), "{words:?}");
     let d = failure(&with_scene(&["check", "-", "--json"], &scene), 1);

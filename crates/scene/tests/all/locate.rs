@@ -1,9 +1,9 @@
 //! Errors that come after reading, turned into places.
 
-use dynamics::{MotionError, Trip};
-use model::{BuildError, Mechanism, RowLabel, StartError};
+use dynamics::{MotionError, RowChoice, Trip, prepare};
+use model::start::Misfit;
+use model::{BuildError, Mechanism, StartError};
 use scene::{Label, Scene};
-use solvability::{ConstraintLevel, Contradiction};
 
 use crate::{BODIES, read, read_more};
 
@@ -84,51 +84,78 @@ fn errors_of_a_run_point_at_rows_bodies_and_options() {
     assert_eq!(marked(&option), "[simulate]");
 }
 
-/// Two drives of one joint, and what is marked first and besides.
-fn marks_of_drives(error: impl FnOnce(Vec<RowLabel>) -> MotionError) -> (String, Vec<String>) {
-    let drive = |name: &str| {
-        format!(
-            "[[drive]]\nname = \"{name}\"\njoint = \"A\"\ntype = \"angle\"\n\
-             motion = {{ type = \"constant-rate\", rate = 1.0 }}\n"
-        )
-    };
-    let scene = read_more(&format!(
-        "[[joint]]\nname = \"A\"\ntype = \"revolute\"\nbodies = [\"ground\", \"c\"]\nat = [0, 0]\n{}{}\
-         [simulate]\nt_end = 1.0\n",
-        drive("slow"),
-        drive("fast"),
-    ));
-    let mechanism = Mechanism::build(&scene.description).expect("a mechanism");
-    let labels = model::System::layout(&mechanism).labels.clone();
-    let d = scene.locate_motion(&error(labels));
+/// Body c turns about the origin, with two drives that disagree.
+const TWO_DRIVES: &str = r#"[[joint]]
+name = "A"
+type = "revolute"
+bodies = ["ground", "c"]
+at = [0, 0]
+[[drive]]
+name = "slow"
+joint = "A"
+type = "angle"
+motion = { type = "constant-rate", rate = 1.0 }
+[[drive]]
+name = "fast"
+joint = "A"
+type = "angle"
+motion = { type = "constant-rate", rate = 2.0 }
+[simulate]
+t_end = 1.0
+"#;
+
+/// What is marked, first and besides.
+fn marks(scene: &Scene, error: &MotionError) -> (String, Vec<String>) {
+    let d = scene.locate_motion(error);
     let text = |label: &Label| scene.source.text.text()[label.span.clone()].to_owned();
     (text(&d.primary), d.secondary.iter().map(text).collect())
 }
 
 #[test]
-fn a_contradiction_points_at_each_joint_and_drive_once() {
-    let (first, others) = marks_of_drives(|rows| {
-        MotionError::Contradiction(Contradiction {
-            time: 0.0,
-            rows,
-            level: ConstraintLevel::Velocity,
-            size: 1.0,
-        })
+fn a_contradiction_points_at_all_its_drives() {
+    let scene = read_more(TWO_DRIVES);
+    let mechanism = Mechanism::build(&scene.description).expect("a mechanism");
+    let error = prepare(mechanism, &scene.start, &RowChoice::Automatic)
+        .err()
+        .expect("1 rad/s or 2 rad/s");
+    assert!(matches!(error, MotionError::Contradiction(_)), "{error}");
+    let (first, others) = marks(&scene, &error);
+    assert_eq!(first, "\"slow\"");
+    assert_eq!(others, ["\"fast\""]);
+}
+
+#[test]
+fn rows_that_miss_together_point_at_each_joint_once() {
+    let scene = read_more(TWO_DRIVES);
+    let mechanism = Mechanism::build(&scene.description).expect("a mechanism");
+    let labels = model::System::layout(&mechanism).labels.iter();
+    let rows = labels.map(|row| Misfit {
+        row: row.clone(),
+        residual: 1.0,
+    });
+    let error = MotionError::Start(StartError::NoAssembly {
+        rows: rows.collect(),
+        iterations: 1,
     });
     // The joint has two rows.
+    let (first, others) = marks(&scene, &error);
     assert_eq!(first, "\"A\"");
     assert_eq!(others, ["\"slow\"", "\"fast\""]);
 }
 
 #[test]
 fn velocities_that_do_not_exist_point_at_the_drive() {
-    let (first, others) = marks_of_drives(|rows| {
-        MotionError::Start(StartError::NoVelocity {
-            worst: rows[3].clone(),
-            residual: 1.0,
-        })
-    });
-    assert_eq!(first, "\"fast\"");
+    let scene = read_more(
+        &format!("{TWO_DRIVES}[start]\nkeep = [\"c.omega\"]\n").replace("rate = 2.0", "rate = 1.0"),
+    );
+    let mechanism = Mechanism::build(&scene.description).expect("a mechanism");
+    let error = prepare(mechanism, &scene.start, &RowChoice::Automatic)
+        .err()
+        .expect("ω is kept at 0");
+    let no_velocity = matches!(error, MotionError::Start(StartError::NoVelocity { .. }));
+    assert!(no_velocity, "{error}");
+    let (first, others) = marks(&scene, &error);
+    assert!(["\"slow\"", "\"fast\""].contains(&&first[..]), "{first}");
     assert!(others.is_empty());
 }
 
