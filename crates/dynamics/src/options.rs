@@ -1,5 +1,7 @@
 //! What a run is asked to do.
 
+use crate::error::MotionError;
+
 /// How the equations of motion are integrated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
@@ -109,5 +111,33 @@ impl MotionOptions {
             stabilisation: Stabilisation::default(),
             rows: RowChoice::default(),
         }
+    }
+
+    /// Whether these numbers can be those of a run.
+    ///
+    /// # Errors
+    /// [`MotionError::Option`]: one is not finite or out of range.
+    pub fn check(&self) -> Result<(), MotionError> {
+        let numbers = [
+            ("t_end", self.t_end, self.t_end >= 0.0, "a finite time ≥ 0"),
+            (
+                "output_step",
+                self.output_step,
+                self.output_step > 0.0 || self.t_end == 0.0,
+                "a time > 0",
+            ),
+            ("rtol", self.rtol, self.rtol > 0.0, "a number > 0"),
+            ("atol", self.atol, self.atol > 0.0, "a number > 0"),
+        ];
+        for (name, value, right, expected) in numbers {
+            if !(right && value.is_finite()) {
+                return Err(MotionError::Option {
+                    name,
+                    value,
+                    expected,
+                });
+            }
+        }
+        Ok(())
     }
 }

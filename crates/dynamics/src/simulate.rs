@@ -118,7 +118,7 @@ pub fn simulate(
             summary: Summary::default(),
         })
     };
-    check(options).map_err(fail)?;
+    options.check().map_err(fail)?;
     let motion = KeptRowMotion::new(prepared).map_err(|e| fail(e.into()))?;
     let mut equations = Equations::new(motion, prepared);
     equations
@@ -201,35 +201,6 @@ fn named(error: IntegrationError<Trip>) -> MotionError {
         } => MotionError::Trip(trip),
         other => MotionError::Integration(Box::new(other)),
     }
-}
-
-fn check(options: &MotionOptions) -> Result<(), MotionError> {
-    let numbers = [
-        (
-            "t_end",
-            options.t_end,
-            options.t_end >= 0.0,
-            "a finite time ≥ 0",
-        ),
-        (
-            "output_step",
-            options.output_step,
-            options.output_step > 0.0 || options.t_end == 0.0,
-            "a time > 0",
-        ),
-        ("rtol", options.rtol, options.rtol > 0.0, "a number > 0"),
-        ("atol", options.atol, options.atol > 0.0, "a number > 0"),
-    ];
-    for (name, value, right, expected) in numbers {
-        if !(right && value.is_finite()) {
-            return Err(MotionError::Option {
-                name,
-                value,
-                expected,
-            });
-        }
-    }
-    Ok(())
 }
 
 /// The differential equation of a run: y = [q; v], and the work of drives and applied forces where there are any.

@@ -61,7 +61,7 @@ pub(crate) struct Analyze {
         long,
         value_name = "T",
         default_value_t = 0.0,
-        allow_negative_numbers = true
+        allow_hyphen_values = true
     )]
     pub(crate) at_time: f64,
     /// Rows that carry the dependencies, counted from 1
@@ -83,13 +83,13 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "DIR")]
     pub(crate) out: PathBuf,
     /// Last time (s)
-    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) t_end: Option<f64>,
     /// Relative tolerance
-    #[arg(long, value_name = "R", allow_negative_numbers = true)]
+    #[arg(long, value_name = "R", allow_hyphen_values = true)]
     pub(crate) rtol: Option<f64>,
     /// Absolute tolerance
-    #[arg(long, value_name = "A", allow_negative_numbers = true)]
+    #[arg(long, value_name = "A", allow_hyphen_values = true)]
     pub(crate) atol: Option<f64>,
     /// Integrator
     #[arg(long, value_name = "M")]

@@ -261,6 +261,8 @@ impl Study {
         mut progress: impl FnMut(f64) -> ControlFlow<()>,
     ) -> Result<RunDocument, StudyError> {
         let options = self.options.as_ref().ok_or(StudyError::NoEnd)?;
+        // Before anything of an earlier run is touched.
+        options.check()?;
         let mechanism = &self.prepared.mechanism;
         let output = &self.scene.output;
         let analysis = analyse(mechanism, 0.0, &self.prepared.q)?;

@@ -7,8 +7,8 @@ use super::{Correction, KeptRowMotion};
 use crate::error::Trip;
 use crate::events::Event;
 
-/// Corrections of the position per projection; one or two are the rule.
-const CORRECTIONS: usize = 6;
+/// Corrections of the position per projection; one or two are the rule, more where a tolerance is very loose.
+const CORRECTIONS: usize = 20;
 
 /// Kept rows count as satisfied below this many roundings of their terms.
 const ROUNDINGS: f64 = 10.0;

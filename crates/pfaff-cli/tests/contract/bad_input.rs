@@ -300,6 +300,7 @@ fn negative_numbers_of_the_command_line_are_values() {
     for (option, value, message) in [
         ("--rtol", "-1", "rtol is -1, need a number > 0"),
         ("--atol", "-1e-3", "atol is -0.001, need a number > 0"),
+        ("--rtol", "-inf", "rtol is -inf, need a number > 0"),
         ("--t-end", "-3", "t_end is -3, need a finite time ≥ 0"),
     ] {
         let output = pfaff(&["simulate", ROBOT, "--out", folder.text(), option, value]);

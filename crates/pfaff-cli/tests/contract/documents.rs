@@ -200,7 +200,7 @@ fn a_run_that_loses_energy_warns() {
     let warning = "warning: the energy balance is off by ";
     let text = stdout(&with_scene(&simulate, PENDULUM));
     assert!(!text.contains(warning), "{text}");
-    let loose = [&simulate[..], &["--rtol", "0.5", "--atol", "0.5"]].concat();
+    let loose = [&simulate[..], &["--rtol", "1e-3", "--atol", "1e-3"]].concat();
     let text = stdout(&with_scene(&loose, PENDULUM));
     assert!(text.contains(warning), "{text}");
     let balance = json(&folder.read("summary.json"))["energy_balance"].as_f64();
