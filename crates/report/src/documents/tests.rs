@@ -233,7 +233,11 @@ fn summary_has_the_keys_of_the_contract() {
 
 #[test]
 fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
-    let (prepared, options, analysis) = (prepared(), MotionOptions::to(2.0), analysis());
+    let (options, analysis) = (MotionOptions::to(2.0), analysis());
+    let prepared = Prepared {
+        choice: RowChoice::Automatic,
+        ..prepared()
+    };
     let summary = Summary {
         t: 1.5,
         events: vec![Event {
@@ -263,6 +267,21 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
         let choice = reaction.choice.as_ref();
         assert_eq!(choice.and_then(|c| c.valid_until), Some(1.25), "{name}");
     }
+    // Rows that were asked for stay those of the reactions.
+    let asked = Prepared {
+        choice: RowChoice::Drop(vec![3]),
+        ..prepared.clone()
+    };
+    let explicit = RunDocument::new(&Run {
+        prepared: &asked,
+        ..run(Ending::Complete)
+    });
+    let choices = explicit
+        .reactions
+        .0
+        .iter()
+        .filter_map(|(_, r)| r.choice.as_ref());
+    assert!(choices.into_iter().all(|c| c.valid_until.is_none()));
     let interrupted = RunDocument::new(&run(Ending::Interrupted));
     assert!(interrupted.partial && interrupted.error.is_none());
 }
