@@ -11,6 +11,8 @@ mod pages {
     mod readme {}
     #[doc = include_str!("../crates/pfaff-cli/README.md")]
     mod command {}
+    #[doc = include_str!("../crates/robot-trolley/README.md")]
+    mod robot_trolley {}
 }
 
 use joints::{Pose, Revolute};
