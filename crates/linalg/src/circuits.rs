@@ -26,8 +26,8 @@ pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
         .collect()
 }
 
-/// p independent circuits as short as pairwise exchange makes them: two circuits that share a row give a third
-/// without it, which replaces the longer of the two if it is shorter.
+/// p independent dependencies as short as pairwise exchange makes them: two that share a row give a third without it, which
+/// replaces the first if it is shorter. For p ≤ 2 they are circuits; for more, one of them may still contain a shorter one.
 ///
 /// ```
 /// use linalg::{Matrix, decide_dropping, short_circuits};
