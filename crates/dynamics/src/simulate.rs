@@ -258,7 +258,8 @@ impl<'m> Equations<'m> {
         y
     }
 
-    /// The work is measured, not controlled: it must not change the steps.
+    /// The work is measured, not controlled: its error has no weight. It still counts as a component of the mean, which makes the
+    /// control looser by the factor √((n + 1)/n).
     fn tolerance(&self, options: &MotionOptions) -> Tolerance {
         if !self.works {
             return Tolerance::Uniform {

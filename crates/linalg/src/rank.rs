@@ -76,7 +76,7 @@ pub struct Evidence {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RankStatus {
-    /// `σ_{r+1} ≤ τ` and `σ_r ≥ 10³·τ`.
+    /// `σ_{r+1} ≤ τ` and `σ_r ≥ max(10³·τ, 10⁻⁷)`.
     Decided,
     /// Two ranks can be read from the singular values; do not build on either.
     Undecided(Doubt),
@@ -100,7 +100,7 @@ pub enum Doubt {
         sigma: f64,
         /// τ.
         tolerance: f64,
-        /// 10³·τ.
+        /// max(10³·τ, 10⁻⁷).
         required: f64,
     },
     /// The tolerance swallows every singular value of a matrix that is not zero.

@@ -232,19 +232,6 @@ impl Function {
         times.dedup();
         times
     }
-
-    /// Whether the value is the same at all times.
-    #[must_use]
-    pub fn is_constant(&self) -> bool {
-        match &self.0 {
-            Law::Polynomial(c) => c.iter().skip(1).all(|&c| c == 0.0),
-            Law::Harmonic {
-                amplitude, omega, ..
-            } => *amplitude == 0.0 || *omega == 0.0,
-            Law::Steps { steps, .. } => steps.iter().all(|s| s.by == 0.0),
-            Law::Table(_) => false,
-        }
-    }
 }
 
 impl Step {
