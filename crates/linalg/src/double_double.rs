@@ -211,5 +211,7 @@ impl PartialOrd for Dd {
     }
 }
 
+mod trigonometry;
+
 #[cfg(test)]
 mod tests;
