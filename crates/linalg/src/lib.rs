@@ -2,6 +2,7 @@
 #![forbid(unsafe_code)]
 
 mod circuits;
+mod dd_matrix;
 mod equilibrate;
 mod kernels;
 #[cfg(feature = "faer")]
@@ -18,6 +19,7 @@ mod strong_basis;
 pub mod double_double;
 
 pub use circuits::{Circuit, circuits, short_circuits};
+pub use dd_matrix::DdMatrix;
 pub use double_double::Dd;
 pub use equilibrate::{Scaling, equilibrate};
 pub use matrix::{Matrix, ShapeError};

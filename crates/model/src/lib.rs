@@ -23,11 +23,13 @@
 //! | [`description`] | bodies, joints, drives and forces as plain data |
 //! | [`mechanism`] | the assembled equations |
 //! | [`system`] | what a solver sees of them |
+//! | [`extended`] | constraints in double-double, for certificates |
 //! | `scale` | what residuals are compared with |
 //! | [`start`] | a consistent start |
 //! | [`reaction`] | multipliers to forces and torques |
 
 pub mod description;
+pub mod extended;
 pub mod function;
 pub mod mechanism;
 pub mod reaction;
@@ -37,6 +39,7 @@ pub mod start;
 pub mod system;
 
 pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
+pub use extended::Polished;
 pub use function::{Function, FunctionError};
 pub use mechanism::{BuildError, Mechanism};
 pub use reaction::{ConstraintId, ConstraintKind, Reaction};

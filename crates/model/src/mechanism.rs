@@ -103,7 +103,7 @@ pub(crate) struct TimeFunction {
 }
 
 impl TimeFunction {
-    fn jet(&self, t: f64) -> [f64; 3] {
+    pub(crate) fn jet(&self, t: f64) -> [f64; 3] {
         let [f, d, dd] = self.function.jet(t);
         [f - self.offset, d, dd]
     }
@@ -219,6 +219,16 @@ impl Mechanism {
 
     pub(crate) fn constraints(&self) -> &[PlacedConstraint] {
         &self.constraints
+    }
+
+    /// Functions of time that a constraint takes.
+    pub(crate) fn functions_of(&self, c: &PlacedConstraint) -> &[TimeFunction] {
+        &self.functions[c.functions.clone()]
+    }
+
+    /// Entries of C: the constant ones, zero elsewhere.
+    pub(crate) fn constant_entries(&self) -> &[f64] {
+        &self.entries
     }
 }
 

@@ -1,0 +1,224 @@
+//! Constraints in double-double at a configuration polished beyond `f64`: what a certificate of the rank is made from.
+//!
+//! At a configuration stored in `f64` a singular value that is zero is about 1e-16, like one that is merely tiny. Here Φ is
+//! driven to 1e-32 in the kept rows; then a true zero falls to 1e-32 as well, and a misalignment of the data stays what it
+//! is. Not for motion: this allocates and is a hundred times slower than the kernels in `f64`.
+
+use joints::Pose;
+use linalg::{Dd, DdMatrix, StepError, least_squares_step};
+
+use crate::description::BodyRef;
+use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint};
+use crate::system::System;
+
+/// A configuration that satisfies the kept holonomic rows to double-double, and what the others miss there.
+#[derive(Clone, Debug)]
+pub struct Polished {
+    /// Time (s).
+    pub t: f64,
+    /// Coordinates, n_q.
+    pub q: Vec<Dd>,
+    /// Φ, m values: rounding in the kept rows, in the others what the data leave open.
+    pub phi: Vec<Dd>,
+    /// C, (m+h) × n_v.
+    pub c: DdMatrix,
+}
+
+/// Corrections at most. Each gains the digits of a factorisation in `f64`; near a singular configuration fewer.
+const CORRECTIONS: usize = 6;
+
+/// Below this many roundings of double-double there is nothing left to correct.
+const ROUNDINGS: f64 = 16.0;
+
+impl Mechanism {
+    /// Polishes the coordinates q, which satisfy Φ = 0 to `f64`, in the rows `kept` of Φ, which are independent. The correction
+    /// is the smallest one; it ends when it no longer shrinks.
+    ///
+    /// | argument | shape | meaning |
+    /// | --- | --- | --- |
+    /// | `q` | n_q | coordinates on the constraints |
+    /// | `kept` | ≤ m | independent holonomic rows, from 0; rows that do not exist are left out |
+    ///
+    /// # Errors
+    /// If the kept rows are dependent or an entry is not finite.
+    pub fn polish(&self, t: f64, q: &[f64], kept: &[usize]) -> Result<Polished, StepError> {
+        let m = self.layout().m;
+        let kept: Vec<usize> = kept.iter().copied().filter(|&i| i < m).collect();
+        let mut s = self.scratch();
+        self.pose(t, q, &mut s);
+        self.c(&mut s);
+        let c = self.layout().dense(&s).select_rows(&kept);
+        let scale: Vec<f64> = kept
+            .iter()
+            .map(|&i| self.position_scale(&s, i, q))
+            .collect();
+        let weights = vec![1.0; q.len()];
+        let mut q: Vec<Dd> = q.iter().map(|&q| Dd::from(q)).collect();
+        let residual = |phi: &[Dd]| {
+            let miss = |(&row, &scale): (&usize, &f64)| match phi[row].abs().to_f64() {
+                0.0 => 0.0,
+                phi => phi / scale,
+            };
+            kept.iter().zip(&scale).map(miss).fold(0.0, f64::max)
+        };
+        let mut phi = self.extended_phi(t, &q);
+        for _ in 0..CORRECTIONS {
+            let least = residual(&phi);
+            if least <= ROUNDINGS * Dd::EPSILON {
+                break;
+            }
+            let missing: Vec<f64> = kept.iter().map(|&i| phi[i].to_f64()).collect();
+            let step = least_squares_step(&c, &missing, &weights, 0.0)?;
+            let moved: Vec<Dd> = q.iter().zip(step).map(|(&q, d)| q + Dd::from(d)).collect();
+            let phi_moved = self.extended_phi(t, &moved);
+            if residual(&phi_moved) >= least {
+                break;
+            }
+            (q, phi) = (moved, phi_moved);
+        }
+        let c = self.extended_c(t, &q);
+        Ok(Polished { t, q, phi, c })
+    }
+
+    /// Φ in double-double, m values.
+    fn extended_phi(&self, t: f64, q: &[Dd]) -> Vec<Dd> {
+        let mut phi = vec![Dd::ZERO; self.layout().m];
+        let poses = extended_poses(q);
+        for c in self.constraints() {
+            if c.rows.start < phi.len() {
+                let (x, f) = (slots(c, &poses), self.extended_jets(c, t));
+                c.element.extended().phi(&x, &f, &mut phi[c.rows.clone()]);
+            }
+        }
+        phi
+    }
+
+    /// C in double-double.
+    fn extended_c(&self, t: f64, q: &[Dd]) -> DdMatrix {
+        let layout = self.layout();
+        let poses = extended_poses(q);
+        let mut entries: Vec<Dd> = self
+            .constant_entries()
+            .iter()
+            .map(|&e| Dd::from(e))
+            .collect();
+        for c in self.constraints().iter().filter(|c| !c.varying.is_empty()) {
+            let (x, f) = (slots(c, &poses), self.extended_jets(c, t));
+            c.element
+                .extended()
+                .c(&x, &f, &mut entries[c.entries.clone()]);
+        }
+        let mut dense = DdMatrix::zeros(layout.rows(), layout.n_v);
+        for i in 0..layout.rows() {
+            for k in layout.pattern.start[i]..layout.pattern.start[i + 1] {
+                dense[(i, layout.pattern.column[k])] += entries[layout.pattern.entry[k]];
+            }
+        }
+        dense
+    }
+
+    fn extended_jets(&self, c: &PlacedConstraint, t: f64) -> Vec<[Dd; 3]> {
+        let jets = self.functions_of(c).iter().map(|f| f.jet(t));
+        jets.map(|jet| jet.map(Dd::from)).collect()
+    }
+}
+
+/// Poses of all bodies.
+fn extended_poses(q: &[Dd]) -> Vec<Pose<Dd>> {
+    let pose = |q: &[Dd]| {
+        let (sin, cos) = q[2].sin_cos();
+        Pose {
+            x: q[0],
+            y: q[1],
+            angle: q[2],
+            cos,
+            sin,
+        }
+    };
+    q.chunks_exact(N_BODY).map(pose).collect()
+}
+
+/// Poses of the bodies of one constraint.
+fn slots(c: &PlacedConstraint, poses: &[Pose<Dd>]) -> Vec<Pose<Dd>> {
+    let pose = |body: &BodyRef| match *body {
+        BodyRef::Ground => Pose::GROUND.cast(),
+        BodyRef::Body(k) => poses[k],
+    };
+    c.bodies.iter().map(pose).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use joints::Revolute;
+
+    use super::*;
+    use crate::{Body, Description, Joint};
+
+    /// Two bars in a row on one pivot, at angles that are no numbers of the format.
+    fn chain() -> Mechanism {
+        let bar = |name: &str| Body {
+            name: name.into(),
+            mass: 1.0,
+            inertia: 1.0,
+            ..Body::default()
+        };
+        let pin = |name: &str, bodies: &[BodyRef], s_i, s_j| {
+            Joint::new(name, bodies, Revolute { s_i, s_j })
+        };
+        let description = Description {
+            bodies: vec![bar("a"), bar("b")],
+            joints: vec![
+                pin(
+                    "P",
+                    &[BodyRef::Ground, BodyRef::Body(0)],
+                    [0.1, 0.2],
+                    [-0.7, 0.0],
+                ),
+                pin(
+                    "Q",
+                    &[BodyRef::Body(0), BodyRef::Body(1)],
+                    [0.7, 0.0],
+                    [0.0, 0.3],
+                ),
+            ],
+            ..Description::default()
+        };
+        Mechanism::build(&description).expect("the chain builds")
+    }
+
+    #[test]
+    fn kept_rows_are_met_to_double_double() {
+        let mechanism = chain();
+        let (a, b) = (0.7_f64, -1.9_f64);
+        let tip = [0.1 + 1.4 * a.cos(), 0.2 + 1.4 * a.sin()];
+        let q = [
+            0.1 + 0.7 * a.cos(),
+            0.2 + 0.7 * a.sin(),
+            a,
+            tip[0] + 0.3 * b.sin(),
+            tip[1] - 0.3 * b.cos(),
+            b,
+        ];
+        let polished = mechanism
+            .polish(0.0, &q, &[0, 1, 2, 3, 99])
+            .expect("independent rows");
+        for phi in &polished.phi {
+            assert!(phi.abs() < Dd::from(1e-30), "{phi:?}");
+        }
+        for (p, q) in polished.q.iter().zip(q) {
+            assert!((p.to_f64() - q).abs() < 1e-15);
+        }
+        // C against the kernels in f64, and its entry −(R·s)_y = 0.7·sin a of the first row beyond f64.
+        let mut s = mechanism.scratch();
+        mechanism.pose(0.0, &q, &mut s);
+        mechanism.c(&mut s);
+        let c = mechanism.layout().dense(&s);
+        for i in 0..4 {
+            for j in 0..6 {
+                assert!((polished.c[(i, j)].to_f64() - c[(i, j)]).abs() < 1e-15);
+            }
+        }
+        let (sin, _) = polished.q[2].sin_cos();
+        assert!((polished.c[(0, 2)].abs() - Dd::from(0.7) * sin).abs() < Dd::from(1e-31));
+    }
+}
