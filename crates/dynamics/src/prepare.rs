@@ -4,7 +4,7 @@
 use linalg::{RankDecision, RankStatus};
 use model::start::{assemble, consistent_velocity};
 use model::{Assembly, Mechanism, StartOptions, System};
-use solvability::{ConstraintLevel, certify, certify_dropping, certify_holonomic, contradiction};
+use solvability::{ConstraintLevel, contradiction, decide, decide_dropping, decide_holonomic};
 
 use crate::error::MotionError;
 use crate::options::RowChoice;
@@ -48,11 +48,11 @@ pub fn prepare(
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
     mechanism.b(&mut s);
-    let automatic = certify(&mechanism, &s, &assembly.q)?;
+    let automatic = decide(&mechanism, &s, &assembly.q)?;
     if let RankStatus::Undecided(doubt) = automatic.status {
         return Err(MotionError::RankUndecided(doubt));
     }
-    let position_decision = certify_holonomic(&mechanism, &s, &assembly.q)?;
+    let position_decision = decide_holonomic(&mechanism, &s, &assembly.q)?;
     if let RankStatus::Undecided(doubt) = position_decision.status {
         return Err(MotionError::RankUndecided(doubt));
     }
@@ -63,7 +63,7 @@ pub fn prepare(
     }
     let decision = match rows {
         RowChoice::Automatic => automatic,
-        RowChoice::Drop(dropped) => certify_dropping(&mechanism, &s, &assembly.q, dropped)
+        RowChoice::Drop(dropped) => decide_dropping(&mechanism, &s, &assembly.q, dropped)
             .map_err(|e| MotionError::rows(&e, &layout.labels, automatic.redundancy))?,
     };
     let v = consistent_velocity(&mechanism, start, &assembly.q, &assembly.v, &decision.kept)?;

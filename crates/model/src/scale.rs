@@ -1,6 +1,8 @@
 //! What residuals are compared with. Each row has a size of its own, made of the terms that cancel in it, so that nothing
 //! depends on units, on the size of a mechanism or on where it stands.
 
+use linalg::Scaling;
+
 use crate::mechanism::{Mechanism, N_BODY};
 use crate::system::{Scratch, System};
 
@@ -31,6 +33,21 @@ impl Mechanism {
             .iter()
             .map(|jet| jet.iter().map(|x| x.abs()).sum())
             .fold(0.0, f64::max)
+    }
+
+    /// The scaling that makes C dimensionless for a mechanism of this size: columns of rotations divided by the size, rounded to a
+    /// power of two. Ranks, dependencies and verdicts of the scaled C are those of C; margins do not depend on units.
+    #[must_use]
+    pub fn dimension_scaling(&self, size: f64) -> Scaling {
+        let exponent = size.log2().round();
+        let layout = self.layout();
+        let mut scaling = Scaling::identity(layout.rows(), layout.n_v);
+        if exponent.is_finite() {
+            for e in scaling.cols.iter_mut().skip(2).step_by(N_BODY) {
+                *e = -(exponent as i32);
+            }
+        }
+        scaling
     }
 
     /// What the entries of a dimensionless C may be wrong by at a configuration: the largest |Φ_i|, and at least the rounding of

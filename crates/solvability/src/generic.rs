@@ -7,7 +7,7 @@ use linalg::{Matrix, PivotedQr, RankDecision};
 use model::start::{nearest_configuration, scene_size};
 use model::{Mechanism, System};
 
-use crate::mechanism::certify;
+use crate::mechanism::decide;
 
 /// Points tried.
 const POINTS: usize = 2;
@@ -55,7 +55,7 @@ pub fn is_permanent(
         for i in (0..layout.m).filter(|i| !rows.contains(i)) {
             s.phi[i] = 0.0;
         }
-        let there = certify(mechanism, &s, &other).ok()?;
+        let there = decide(mechanism, &s, &other).ok()?;
         if !(decision.is_decided() && there.is_decided()) {
             return None;
         }

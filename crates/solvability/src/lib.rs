@@ -26,6 +26,6 @@ pub use groups::{Group, Term, judge_groups};
 pub use matrices::Solvability;
 pub use mechanism::{
     Analysis, AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, analyse,
-    analyse_dropping, certify, certify_dropping, certify_holonomic,
+    analyse_dropping, decide, decide_dropping, decide_holonomic,
 };
 pub use verdict::{Judgement, Verdict};

@@ -118,24 +118,18 @@ pub enum AnalysisError {
     },
 }
 
-/// C without dimensions: columns of rotations divided by the size of the mechanism, rounded to a power of two. Ranks,
-/// dependencies and verdicts are those of C; margins do not depend on units.
+/// C without dimensions, for a mechanism of this size.
 pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
-    let mut c = mechanism.layout().dense(s);
-    let factor = size.log2().round().exp2().recip();
-    for i in 0..c.nrows() {
-        for entry in c.row_mut(i).iter_mut().skip(2).step_by(3) {
-            *entry *= factor;
-        }
-    }
-    c
+    mechanism
+        .dimension_scaling(size)
+        .apply(&mechanism.layout().dense(s))
 }
 
 /// Decides the rank of C at the pose of the scratch, where Φ and C have been evaluated at coordinates q.
 ///
 /// # Errors
 /// If C is not finite.
-pub fn certify(
+pub fn decide(
     mechanism: &Mechanism,
     s: &Scratch,
     q: &[f64],
@@ -152,7 +146,7 @@ pub fn certify(
 ///
 /// # Errors
 /// If C is not finite.
-pub fn certify_holonomic(
+pub fn decide_holonomic(
     mechanism: &Mechanism,
     s: &Scratch,
     q: &[f64],
@@ -168,7 +162,7 @@ pub fn certify_holonomic(
 ///
 /// # Errors
 /// If they are not, or C is not finite.
-pub fn certify_dropping(
+pub fn decide_dropping(
     mechanism: &Mechanism,
     s: &Scratch,
     q: &[f64],
@@ -185,7 +179,7 @@ pub fn certify_dropping(
 /// If C is not finite.
 pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
     let s = evaluated(mechanism, t, q);
-    let decision = certify(mechanism, &s, q)?;
+    let decision = decide(mechanism, &s, q)?;
     judge(mechanism, &s, q, decision)
 }
 
@@ -200,7 +194,7 @@ pub fn analyse_dropping(
     dropped: &[usize],
 ) -> Result<Analysis, AnalysisError> {
     let s = evaluated(mechanism, t, q);
-    let decision = certify_dropping(mechanism, &s, q, dropped)
+    let decision = decide_dropping(mechanism, &s, q, dropped)
         .map_err(|source| AnalysisError::Rows { time: t, source })?;
     judge(mechanism, &s, q, decision)
 }

@@ -2,7 +2,7 @@
 
 use linalg::RankStatus;
 use model::System;
-use solvability::{certify, certify_holonomic};
+use solvability::{decide, decide_holonomic};
 
 use super::{KeptRowMotion, KeptRows};
 use crate::error::Trip;
@@ -14,7 +14,7 @@ impl KeptRowMotion<'_> {
     pub(super) fn review(&mut self, q: &[f64]) -> Result<Option<Event>, Trip> {
         if self.position.are_lost() && !self.position.dropped.is_empty() {
             let kept = self.position.kept.len();
-            let decision = certify_holonomic(self.mechanism, &self.s, q);
+            let decision = decide_holonomic(self.mechanism, &self.s, q);
             self.position = self.decided(decision, kept)?;
         }
         if self.aside.is_some() && self.chosen_rows_recovered() {
@@ -30,7 +30,7 @@ impl KeptRowMotion<'_> {
             return Ok(None);
         }
         let kept = self.velocity.kept.len();
-        let mut rows = self.decided(certify(self.mechanism, &self.s, q), kept)?;
+        let mut rows = self.decided(decide(self.mechanism, &self.s, q), kept)?;
         if rows.kept == self.velocity.kept {
             self.velocity.confirm();
             return Ok(None);

@@ -7,7 +7,7 @@ use super::Dd;
 
 /// π/2 as a sum of three numbers: its first 159 bits.
 const HALF_PI: [f64; 3] = [
-    1.570_796_326_794_896_6,
+    std::f64::consts::FRAC_PI_2,
     6.123_233_995_736_766e-17,
     -1.497_384_904_859_169_8e-33,
 ];
@@ -33,8 +33,7 @@ impl Dd {
     /// ```
     #[must_use]
     pub fn sin_cos(self) -> (Self, Self) {
-        // NaN belongs here too.
-        if !(self.hi.abs() <= LARGEST) {
+        if self.hi.is_nan() || self.hi.abs() > LARGEST {
             let (s, c) = self.hi.sin_cos();
             return (Self::from(s), Self::from(c));
         }
