@@ -317,7 +317,7 @@ fn reaction(
         kind: group.spec.common.scene_type,
         wrench: solvability.group(rows.clone())?,
         multipliers: solvability.multipliers(rows.clone())?,
-        rows: rows.map(row_verdict).collect::<Result<_, _>>()?,
+        rows: rows.clone().map(row_verdict).collect::<Result<_, _>>()?,
         components: judged.collect::<Result<_, _>>()?,
         unique_directions,
     })

@@ -89,7 +89,7 @@ fn poor_evidence_calls_nothing_unique() {
         Verdict::Undecided { .. }
     ));
     assert_eq!(s.row(0).unwrap().verdict, Verdict::NotUnique);
-    let directions = s.unique_directions(&Matrix::identity(2), [0, 1]);
+    let directions = s.unique_directions(&Matrix::identity(1), [3]);
     assert!(
         matches!(directions, Err(QueryError::Directions { .. })),
         "{directions:?}"
