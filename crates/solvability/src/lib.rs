@@ -12,6 +12,7 @@
 //! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
 //! | `words` | dependencies as sentences |
 
+mod certificate;
 pub mod existence;
 pub mod generic;
 pub mod groups;
@@ -20,6 +21,7 @@ pub mod mechanism;
 pub mod verdict;
 mod words;
 
+pub use certificate::certify;
 pub use existence::{ConstraintLevel, Contradiction, contradiction};
 pub use generic::is_permanent;
 pub use groups::{Group, Term, judge_groups};

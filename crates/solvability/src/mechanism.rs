@@ -5,6 +5,7 @@ use model::reaction::COMPONENTS;
 use model::start::scene_size;
 use model::{ConstraintId, Mechanism, Scratch, System};
 
+use crate::certificate::CertifiedRows;
 use crate::matrices::{QueryError, Solvability};
 use crate::verdict::Judgement;
 use crate::words;
@@ -186,9 +187,9 @@ pub fn decide_dropping(
 /// # Errors
 /// If C is not finite.
 pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
-    let s = evaluated(mechanism, t, q);
-    let decision = decide(mechanism, &s, q)?;
-    judge(mechanism, &s, q, decision)
+    let rows = CertifiedRows::new(mechanism, t, q)?;
+    let decision = rows.decide()?;
+    judge(mechanism, t, q, &rows, decision)
 }
 
 /// The same with dependencies told by the dropped rows that the caller chooses (from 0). Verdicts do not depend on them.
@@ -201,14 +202,19 @@ pub fn analyse_dropping(
     q: &[f64],
     dropped: &[usize],
 ) -> Result<Analysis, AnalysisError> {
-    let s = evaluated(mechanism, t, q);
-    let decision = decide_dropping(mechanism, &s, q, dropped)
+    let decision = decide_dropping(mechanism, &evaluated(mechanism, t, q), q, dropped)
         .map_err(|source| AnalysisError::Rows { time: t, source })?;
-    judge(mechanism, &s, q, decision)
+    judge(
+        mechanism,
+        t,
+        q,
+        &CertifiedRows::new(mechanism, t, q)?,
+        decision,
+    )
 }
 
 /// Φ and C at a configuration.
-fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
+pub(crate) fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);
     mechanism.phi(&mut s);
@@ -218,21 +224,17 @@ fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
 
 fn judge(
     mechanism: &Mechanism,
-    s: &Scratch,
+    t: f64,
     q: &[f64],
+    rows: &CertifiedRows,
     decision: RankDecision,
 ) -> Result<Analysis, AnalysisError> {
     let layout = mechanism.layout();
-    let size = scene_size(mechanism, q);
-    let c = dimensionless(mechanism, s, size);
-    let t = s.t;
-    let solvability = Solvability::from_decision(&c, decision);
-    let residual = mechanism.relative_residual(s, q, size);
+    let s = evaluated(mechanism, t, q);
+    let solvability = Solvability::from_decision(&rows.matrix(), decision);
     let mut warnings = Vec::new();
-    let mut rank_of = |what: &str, rows: std::ops::Range<usize>| {
-        let part = c.select_rows(&rows.collect::<Vec<_>>());
-        let decision = linalg::decide(&part, residual)
-            .map_err(|source| AnalysisError::Rank { time: t, source })?;
+    let mut rank_of = |what: &str, part: std::ops::Range<usize>| {
+        let decision = rows.select(&part.collect::<Vec<_>>()).decide()?;
         if let linalg::RankStatus::Undecided(doubt) = &decision.status {
             warnings.push(format!("the rank of {what} alone is undecided: {doubt}"));
         }
@@ -242,7 +244,7 @@ fn judge(
     let rank_nonholonomic = rank_of("Ψ", layout.m..layout.rows())?;
     let reactions = mechanism
         .constraint_ids()
-        .map(|id| reaction(mechanism, id, s, &solvability))
+        .map(|id| reaction(mechanism, id, &s, &solvability))
         .collect::<Result<_, _>>()
         .map_err(|source| AnalysisError::Query { time: t, source })?;
     let dependencies = linalg::short_circuits(solvability.decision())

@@ -1,10 +1,17 @@
 //! Is a coefficient of the dependencies zero? The tolerance for T, Z and what is made of them, from the evidence of the rank.
 
 use super::certificate::NEARLY_REDUNDANT;
-use super::{CLEARANCE, NOISE_FACTOR, RankDecision};
+use super::{NOISE_FACTOR, RankDecision};
 
 /// Noise of coefficients over that of singular values: the triangular solves.
 const SOLVE_FACTOR: f64 = 10.0;
+
+/// Configurations are stated with so many digits at best: below this a coefficient of a model is zero for every purpose, since a
+/// self-stress that moves one reaction by itself moves the other by less than can be stated.
+const STATED: f64 = 1e-11;
+
+/// A coefficient above the tolerance by this factor is certainly not zero; the tolerance is itself a tenfold bound of the noise.
+const CLEARANCE: f64 = 10.0;
 
 /// Evidence that cannot tell a coefficient of this size from zero calls nothing zero.
 const TOLERANCE_MAX: f64 = 1e-6;
@@ -35,7 +42,8 @@ impl RankDecision {
             .is_some_and(|c| c.uncertainty == 0.0)
     }
 
-    /// How far a coefficient of T̃ or Z may be from its true value, absolute: `10·τ/σ_r`.
+    /// How far a coefficient of T̃ or Z may be from its true value, absolute: `10·τ/σ_r`, at least 10⁻¹¹, to which
+    /// configurations are stated.
     ///
     /// For exact entries, rounding alone. For a nearly redundant matrix, that of the matrix as it was read, `10·‖C_D − T·C_K‖/σ_r`: what the
     /// uncertainty of the data does there is told by [`RankDecision::nearly_redundant`].
@@ -47,10 +55,12 @@ impl RankDecision {
         if self.redundancy == 0 || self.is_exact() {
             return rounding;
         }
-        if e.certificate.is_some() && e.sigma_r < NEARLY_REDUNDANT {
-            return rounding.max(SOLVE_FACTOR * e.dependence_residual / e.sigma_r);
-        }
-        SOLVE_FACTOR * e.tolerance / e.sigma_r.min(1.0)
+        let noise = if e.certificate.is_some() && e.sigma_r < NEARLY_REDUNDANT {
+            rounding.max(SOLVE_FACTOR * e.dependence_residual / e.sigma_r)
+        } else {
+            SOLVE_FACTOR * e.tolerance / e.sigma_r.min(1.0)
+        };
+        noise.max(STATED)
     }
 
     /// Reads the size of a coefficient, or of a norm of some.

@@ -1,0 +1,97 @@
+//! The rank of a mechanism, as certain as it can be had: decided in double-double, at a configuration polished in double-double,
+//! for data known to the rounding with which a scene stores them.
+//!
+//! Not for motion: a run decides in `f64`, where a nearly redundant mechanism cannot be integrated anyway.
+
+use linalg::{DdMatrix, Matrix, RankDecision, certify_within};
+use model::start::scene_size;
+use model::{Mechanism, System};
+
+use crate::mechanism::{AnalysisError, decide_holonomic, dimensionless, evaluated};
+
+/// Rows up to which a rank is certified: the work grows with their cube.
+const ROWS_MAX: usize = 600;
+
+/// C of a mechanism without dimensions, with what its entries are known to.
+pub(crate) struct CertifiedRows {
+    time: f64,
+    c: Entries,
+    uncertainty: f64,
+}
+
+enum Entries {
+    /// At a configuration polished in double-double.
+    Extended(DdMatrix),
+    /// Where double-double is no help: too many rows, or kept rows dependent to the last digit of `f64`.
+    Double(Matrix),
+}
+
+impl CertifiedRows {
+    /// C at the configuration q, which satisfies the constraints to `f64`.
+    pub(crate) fn new(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Self, AnalysisError> {
+        let mut s = evaluated(mechanism, t, q);
+        let size = scene_size(mechanism, q);
+        let polished = match mechanism.layout().rows() {
+            ..=ROWS_MAX => mechanism
+                .polish(t, q, &decide_holonomic(mechanism, &s, q)?.kept)
+                .ok(),
+            _ => None,
+        };
+        let c = match polished {
+            Some(polished) => {
+                // What is left of Φ is what the data leave open; the rounding of q in f64 is gone.
+                for (phi, polished) in s.phi.iter_mut().zip(&polished.phi) {
+                    *phi = polished.to_f64();
+                }
+                Entries::Extended(polished.c.scaled(&mechanism.dimension_scaling(size)))
+            }
+            None => Entries::Double(dimensionless(mechanism, &s, size)),
+        };
+        Ok(Self {
+            time: t,
+            c,
+            uncertainty: mechanism.relative_residual(&s, q, size),
+        })
+    }
+
+    /// C rounded to `f64`.
+    pub(crate) fn matrix(&self) -> Matrix {
+        match &self.c {
+            Entries::Extended(c) => c.hi(),
+            Entries::Double(c) => c.clone(),
+        }
+    }
+
+    /// Rank, kept rows and evidence of all rows.
+    pub(crate) fn decide(&self) -> Result<RankDecision, AnalysisError> {
+        let decision = match &self.c {
+            Entries::Extended(c) => certify_within(c, self.uncertainty),
+            Entries::Double(c) => linalg::decide(c, self.uncertainty),
+        };
+        decision.map_err(|source| AnalysisError::Rank {
+            time: self.time,
+            source,
+        })
+    }
+
+    /// Some of the rows.
+    pub(crate) fn select(&self, rows: &[usize]) -> Self {
+        Self {
+            time: self.time,
+            c: match &self.c {
+                Entries::Extended(c) => Entries::Extended(c.select_rows(rows)),
+                Entries::Double(c) => Entries::Double(c.select_rows(rows)),
+            },
+            uncertainty: self.uncertainty,
+        }
+    }
+}
+
+/// Decides the rank of C at time t and coordinates q, which satisfy the constraints, in double-double where that is possible
+/// (up to 600 rows); the evidence then has a certificate. Allocates.
+///
+/// # Errors
+/// If C is not finite.
+pub fn certify(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<RankDecision, AnalysisError> {
+    CertifiedRows::new(mechanism, t, q)?.decide()
+}
