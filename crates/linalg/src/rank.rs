@@ -11,6 +11,7 @@
 //! `τ = 10·max(eps·√(m·n), constraint residual)`, rank r is decided iff `σ_{r+1} ≤ τ` and
 //! `σ_r ≥ max(10³·τ, 10⁻⁷)`.
 
+mod clear;
 mod explicit;
 #[cfg(test)]
 mod tests;
@@ -18,6 +19,7 @@ mod tests;
 use crate::strong_basis::{self, Basis};
 use crate::{Matrix, PivotedQr, Scaling, equilibrate, equilibrate::scale, singular_values};
 
+pub(crate) use clear::{Size, independent, size};
 pub use explicit::{KeptRowsError, decide_dropping, decide_keeping};
 
 /// Factor between the noise estimate and the tolerance τ: rounding of an equilibrated matrix and
