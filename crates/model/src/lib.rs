@@ -26,12 +26,14 @@
 //! | `scale` | what residuals are compared with |
 //! | [`start`] | a consistent start |
 //! | [`reaction`] | multipliers to forces and torques |
+//! | `rigid` | which constraints act against the ground |
 
 pub mod description;
 pub mod function;
 pub mod mechanism;
 pub mod reaction;
 pub mod registry;
+mod rigid;
 mod scale;
 pub mod start;
 pub mod system;
