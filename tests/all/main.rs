@@ -1,6 +1,7 @@
 //! All tests that need more than one crate, in one binary.
 
 mod allocations;
+mod deletions;
 mod robot_trolley;
 mod singular_passages;
 mod three_cranks;

@@ -1,9 +1,15 @@
 //! Circuits: minimal sets of rows that depend on each other, the explanation of a redundancy in its smallest pieces.
 //!
 //! Redundancy belongs to circuits, never to a row. The p fundamental circuits (one for each dropped row) depend on which rows
-//! were dropped and may be long; exchanging them pairwise gives short ones that say the same.
+//! were dropped and may be long. Every circuit is the support of a vector `Z·y` that vanishes on a hyperplane of the dual, so
+//! the hyperplanes list all circuits, and the short ones among them say the same in fewer rows.
 
-use crate::{RankDecision, equilibrate::scale, null_space::Support};
+use std::cmp::Ordering;
+
+use crate::dual::{Dual, binomial, eliminate, rank, subsets};
+use crate::null_space::Support;
+use crate::rank::{Size, size};
+use crate::{RankDecision, components, equilibrate::scale, kernels};
 
 /// One minimal dependent set of rows: `Σ coefficients[l] · row rows[l] = 0`.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,8 +32,12 @@ pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
         .collect()
 }
 
-/// p independent dependencies as short as pairwise exchange makes them: two that share a row give a third without it, which
-/// replaces the first if it is shorter. For p ≤ 2 they are circuits; for more, one of them may still contain a shorter one.
+/// p independent circuits, as short as possible: of all circuits the shortest, then the shortest independent of it, and so on, which
+/// makes the total length smallest. Shortest first, equal lengths by rows; they do not depend on the rows that were dropped.
+///
+/// A component (rows that mix) of redundancy p_c has at most as many circuits as subsets of p_c − 1 of its rows. Where that is more
+/// than 20 000, or where rounding hides which rows belong to one, the fundamental circuits of the component stand in: minimal and
+/// independent too, but perhaps longer.
 ///
 /// ```
 /// use linalg::{Matrix, decide_dropping, short_circuits};
@@ -35,32 +45,100 @@ pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
 /// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]]);
 /// let decision = decide_dropping(&c, 0.0, &[2, 3]).unwrap();
 /// let rows: Vec<_> = short_circuits(&decision).into_iter().map(|c| c.rows).collect();
-/// assert_eq!(rows, [vec![2, 3], vec![0, 1, 3]]);
+/// assert_eq!(rows, [vec![2, 3], vec![0, 1, 2]]);
 /// ```
 #[must_use]
 pub fn short_circuits(decision: &RankDecision) -> Vec<Circuit> {
-    let mut z = fundamental(decision);
-    if work(&z) <= EXCHANGE_WORK {
-        let noise = crate::support_tolerance(decision);
-        while let Some((i, shorter)) = exchange(&z, noise) {
-            z[i] = shorter;
+    let support = Support::new(decision);
+    let fundamental = fundamental(decision);
+    let mut found: Vec<Sparse> = Vec::with_capacity(decision.redundancy);
+    for rows in components(decision).coupled {
+        let dual = Dual::new(decision, &support, &rows);
+        match shortest(&dual) {
+            Some(circuits) => found.extend(circuits),
+            None => found.extend(
+                fundamental
+                    .iter()
+                    .filter(|z| rows.binary_search(&z[0].0).is_ok())
+                    .cloned(),
+            ),
         }
     }
-    let mut found: Vec<Circuit> = z.iter().map(|z| circuit(decision, z)).collect();
-    found.sort_by(|a, b| {
-        a.rows
-            .len()
-            .cmp(&b.rows.len())
-            .then_with(|| a.rows.cmp(&b.rows))
-    });
-    found
+    found.sort_by(by_length);
+    found.iter().map(|z| circuit(decision, z)).collect()
 }
 
-/// Multiplications that one round of exchanges may cost; above it the fundamental circuits stay.
-const EXCHANGE_WORK: usize = 10_000_000;
+/// Hyperplanes of one component that are tried at most.
+const HYPERPLANES_MAX: usize = 20_000;
 
 /// Equilibrated coefficients by row, zeros left out.
 type Sparse = Vec<(usize, f64)>;
+
+fn by_length(a: &Sparse, b: &Sparse) -> Ordering {
+    let rows = |z: &Sparse| z.iter().map(|t| t.0).collect::<Vec<_>>();
+    a.len().cmp(&b.len()).then_with(|| rows(a).cmp(&rows(b)))
+}
+
+/// The shortest independent circuits of one component, greedily, which is optimal in a matroid. `None` if they are too many or
+/// too noisy.
+fn shortest(dual: &Dual) -> Option<Vec<Sparse>> {
+    let p = dual.dimension();
+    let classes = dual.parallel_classes().ok()?;
+    if binomial(classes.len(), p - 1)? > HYPERPLANES_MAX {
+        return None;
+    }
+    let mut all: Vec<(Sparse, Vec<f64>)> = subsets(classes.len(), p - 1)
+        .filter_map(|chosen| {
+            let vectors = chosen.iter().map(|&k| &dual.vectors[classes[k][0]]);
+            vanishing_on(vectors.cloned().collect(), p, dual)
+        })
+        .collect();
+    all.sort_by(|a, b| by_length(&a.0, &b.0));
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let mut circuits = Vec::new();
+    for (circuit, y) in all {
+        let mut larger = basis.clone();
+        larger.push(y);
+        if rank(larger.clone(), dual.noise) == Ok(larger.len()) {
+            basis = larger;
+            circuits.push(circuit);
+        }
+        if circuits.len() == p {
+            return Some(circuits);
+        }
+    }
+    None
+}
+
+/// The circuit `Z̃·y` that vanishes on p − 1 independent vectors, with y. `None` if they are dependent or too noisy to say which other
+/// rows it contains.
+fn vanishing_on(vectors: Vec<Vec<f64>>, p: usize, dual: &Dual) -> Option<(Sparse, Vec<f64>)> {
+    let hyperplane = eliminate(vectors, dual.noise).ok()?;
+    if hyperplane.pivots.len() != p - 1 {
+        return None;
+    }
+    let free = (0..p).find(|c| !hyperplane.pivots.contains(c))?;
+    let mut y = vec![0.0; p];
+    y[free] = 1.0;
+    for (vector, &pivot) in hyperplane.vectors.iter().zip(&hyperplane.pivots).rev() {
+        let sum: f64 = vector.iter().zip(&y).map(|(v, y)| v * y).sum();
+        y[pivot] = -sum / vector[pivot];
+    }
+    let largest = kernels::max_abs(&y);
+    y.iter_mut().for_each(|y| *y /= largest);
+    // An error of the vectors moves y by the inverse of the smallest pivot as much.
+    let noise = dual.noise * p as f64 * (1.0 + hyperplane.smallest.recip());
+    let mut circuit = Sparse::new();
+    for (&row, vector) in dual.rows.iter().zip(&dual.vectors) {
+        let z = kernels::dot(vector, &y);
+        match size(z, noise) {
+            Size::Zero => {}
+            Size::Unclear => return None,
+            Size::NonZero => circuit.push((row, z)),
+        }
+    }
+    Some((circuit, y))
+}
 
 fn fundamental(decision: &RankDecision) -> Vec<Sparse> {
     let support = Support::new(decision);
@@ -75,47 +153,6 @@ fn fundamental(decision: &RankDecision) -> Vec<Sparse> {
             z
         })
         .collect()
-}
-
-fn work(z: &[Sparse]) -> usize {
-    let longest = z.iter().map(Vec::len).max().unwrap_or(0);
-    z.len()
-        .saturating_mul(z.len())
-        .saturating_mul(longest * longest)
-}
-
-/// The first circuit that another one can shorten, with what it becomes.
-fn exchange(z: &[Sparse], noise: f64) -> Option<(usize, Sparse)> {
-    for i in 0..z.len() {
-        for j in (0..z.len()).filter(|&j| j != i) {
-            for &(row, a) in &z[i] {
-                let Some(&(_, b)) = z[j].iter().find(|t| t.0 == row) else {
-                    continue;
-                };
-                let combined = combine(&z[i], &z[j], -a / b, row, noise);
-                if combined.len() < z[i].len() {
-                    return Some((i, combined));
-                }
-            }
-        }
-    }
-    None
-}
-
-/// `a + factor·b` without the row that cancels and without what is rounding.
-fn combine(a: &Sparse, b: &Sparse, factor: f64, cancelled: usize, noise: f64) -> Sparse {
-    let mut sum: Sparse = a.clone();
-    for &(row, z) in b {
-        match sum.iter_mut().find(|t| t.0 == row) {
-            Some(t) => t.1 += factor * z,
-            None => sum.push((row, factor * z)),
-        }
-    }
-    let size = |z: &Sparse| z.iter().fold(0.0_f64, |s, t| s.max(t.1.abs()));
-    let floor = noise * (size(a) + factor.abs() * size(b));
-    sum.retain(|&(row, z)| row != cancelled && z.abs() > floor);
-    sum.sort_unstable_by_key(|&(row, _)| row);
-    sum
 }
 
 /// Equilibrated coefficients in the scaling of C, normalised.
@@ -136,3 +173,6 @@ fn circuit(decision: &RankDecision, z: &Sparse) -> Circuit {
         coefficients: scaled.iter().map(|z| z / largest).collect(),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -3,6 +3,8 @@
 
 mod circuits;
 mod dd_matrix;
+mod deletions;
+mod dual;
 mod equilibrate;
 mod kernels;
 #[cfg(feature = "faer")]
@@ -16,11 +18,15 @@ mod regularized;
 mod saddle;
 mod singular_values;
 mod strong_basis;
+mod structure;
 
 pub mod double_double;
 
 pub use circuits::{Circuit, circuits, short_circuits};
 pub use dd_matrix::DdMatrix;
+pub use deletions::{
+    DeletionError, Limits, Substitutes, count_deletions, deletions, making_unique,
+};
 pub use double_double::Dd;
 pub use equilibrate::{Scaling, equilibrate};
 pub use matrix::{Matrix, ShapeError};
@@ -34,3 +40,4 @@ pub use rank::{
 pub use regularized::{StepError, least_squares_step};
 pub use saddle::{KeptRowSaddle, SaddleError};
 pub use singular_values::singular_values;
+pub use structure::{Part, RowGroup, Settled, Structure, structure};

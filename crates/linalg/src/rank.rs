@@ -16,6 +16,7 @@ mod bound;
 mod certificate;
 mod coefficient;
 mod exact;
+mod clear;
 mod explicit;
 mod graded;
 mod modular;
@@ -35,6 +36,7 @@ pub use exact::certify_exact;
 pub use modular::ExactNullSpace;
 pub use within::certify_within;
 
+pub(crate) use clear::{Size, independent, size};
 pub use explicit::{KeptRowsError, decide_dropping, decide_keeping};
 
 /// Factor between the noise estimate and the tolerance τ: rounding of an equilibrated matrix and

@@ -27,6 +27,7 @@
 //! | `scale` | what residuals are compared with |
 //! | [`start`] | a consistent start |
 //! | [`reaction`] | multipliers to forces and torques |
+//! | `rigid` | which constraints act against the ground |
 
 pub mod description;
 pub mod extended;
@@ -34,6 +35,7 @@ pub mod function;
 pub mod mechanism;
 pub mod reaction;
 pub mod registry;
+mod rigid;
 mod scale;
 pub mod start;
 pub mod system;

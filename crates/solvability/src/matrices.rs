@@ -163,6 +163,11 @@ impl Solvability {
         &self.z
     }
 
+    /// `D_r·C·D_c`, the matrix that verdicts are about.
+    pub(crate) fn equilibrated(&self) -> &Matrix {
+        &self.c
+    }
+
     /// The multiplier of one row: unique iff `Z_i = 0`.
     ///
     /// # Errors

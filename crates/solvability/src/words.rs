@@ -1,7 +1,134 @@
 //! Dependencies as sentences.
 
 use linalg::Circuit;
-use model::Layout;
+use model::{BodyRef, ConstraintId, ConstraintKind, Layout, Mechanism, System};
+
+use crate::explain::FreeDirection;
+use crate::matrices::Solvability;
+use crate::verdict::Verdict;
+
+/// "`a`, `b` and `c`" without the quotes.
+pub(crate) fn list(words: &[String]) -> String {
+    match words {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] => format!("{} and {last}", first.join(", ")),
+    }
+}
+
+/// Names of joints and drives, in quotes.
+pub(crate) fn names(layout: &Layout, ids: &[ConstraintId]) -> Vec<String> {
+    let name = |id: &ConstraintId| format!("`{}`", layout.groups[id.0].name);
+    ids.iter().map(name).collect()
+}
+
+/// A self-stress in the terms of joints and bodies, where its geometry allows; else in the terms of rows.
+pub(crate) fn of_stress(
+    mechanism: &Mechanism,
+    solvability: &Solvability,
+    circuit: &Circuit,
+    directions: &[FreeDirection],
+) -> String {
+    let layout = mechanism.layout();
+    let ids: Vec<ConstraintId> = directions.iter().map(|d| d.joint).collect();
+    let drives = ids
+        .iter()
+        .all(|id| layout.groups[id.0].kind == ConstraintKind::Drive);
+    let bodies: Vec<Vec<String>> = directions
+        .iter()
+        .map(|d| moving(mechanism, &d.bodies))
+        .collect();
+    match (ids.as_slice(), bodies.as_slice()) {
+        ([_, _], [a, b]) if a == b => {
+            let [i, j] = [0, 1].map(|k| format!("`{}`", layout.groups[ids[k].0].name));
+            let action = match (drives, directions[0].force) {
+                (true, _) => format!("{i} and {j} both prescribe the same motion of {}", list(a)),
+                (false, [0.0, 0.0]) => format!("{i} and {j} both stop {} from turning", against(a)),
+                (false, _) if slips(layout, &ids) => {
+                    format!(
+                        "{i} and {j} both stop {} from slipping sideways along the same line",
+                        against(a)
+                    )
+                }
+                (false, _) => format!("{i} and {j} both hold {} along the same line", against(a)),
+            };
+            format!(
+                "{action}; how the load is shared between them is not determined{}",
+                sum(solvability, circuit)
+            )
+        }
+        ([_, _, _, ..], _) => {
+            let rows: Vec<String> = circuit
+                .rows
+                .iter()
+                .map(|&i| layout.labels[i].to_string())
+                .collect();
+            format!(
+                "{} can press against each other without any load: of the rows {}, any {} imply the remaining one; how a load is \
+                 shared among them is not determined (forces in the ratio {} cancel out)",
+                list(&names(layout, &ids)),
+                rows.join(", "),
+                rows.len() - 1,
+                ratio(circuit)
+            )
+        }
+        _ => describe(circuit, layout),
+    }
+}
+
+/// Names of the bodies that move, in order.
+fn moving(mechanism: &Mechanism, bodies: &[BodyRef]) -> Vec<String> {
+    let mut bodies = bodies.to_vec();
+    bodies.sort_unstable();
+    let name = |b: &BodyRef| match *b {
+        BodyRef::Ground => None,
+        BodyRef::Body(k) => Some(format!("`{}`", mechanism.bodies()[k].name)),
+    };
+    bodies.iter().filter_map(name).collect()
+}
+
+fn against(bodies: &[String]) -> String {
+    match bodies {
+        [a, b] => format!("{a} against {b}"),
+        bodies => list(bodies),
+    }
+}
+
+/// Whether all are single velocity conditions on one body that do not depend on time: wheels and blades.
+fn slips(layout: &Layout, ids: &[ConstraintId]) -> bool {
+    ids.iter().all(|id| {
+        let group = &layout.groups[id.0];
+        group.bodies.len() == 1
+            && group.rows.len() == 1
+            && group.rows.start >= layout.m
+            && !group.spec.rheonomic
+    })
+}
+
+/// What two rows share: forces that cancel, and whether the combination that this circuit leaves alone is determined.
+fn sum(solvability: &Solvability, circuit: &Circuit) -> String {
+    let cancel = format!("; forces {} on them cancel", ratio(circuit));
+    let ([i, j], [a, b]) = (circuit.rows.as_slice(), circuit.coefficients.as_slice()) else {
+        return cancel;
+    };
+    let decision = solvability.decision();
+    let mut l = vec![0.0; decision.rank + decision.redundancy];
+    (l[*i], l[*j]) = (*b, -*a);
+    let combined = Circuit {
+        rows: circuit.rows.clone(),
+        coefficients: vec![*b, -*a],
+    };
+    match solvability.combination(&l).verdict {
+        Verdict::Unique => format!(
+            "{cancel}, their sum with weights {} is determined",
+            ratio(&combined)
+        ),
+        Verdict::NotUnique => {
+            format!("{cancel}, and their sum depends on other reactions that are not determined")
+        }
+        Verdict::Undecided { .. } => cancel,
+    }
+}
 
 /// What a circuit means for the one who reads it. Nothing is said of sums that would be unique: rows may take part in other
 /// circuits too.
@@ -45,7 +172,7 @@ fn ratio(circuit: &Circuit) -> String {
 }
 
 /// Four significant digits, a true minus sign.
-fn short(x: f64) -> String {
+pub(crate) fn short(x: f64) -> String {
     let size = x.abs();
     let text = match size {
         1e-3..1e4 => {

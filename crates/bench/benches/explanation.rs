@@ -1,0 +1,77 @@
+//! What an explanation of the robot costs beyond its rank decision: `cargo bench -p bench --bench explanation`.
+
+use std::hint::black_box;
+
+use divan::Bencher;
+use linalg::Limits;
+use model::{ConstraintId, Function, Mechanism, Scratch, System};
+use solvability::{Allowed, Solvability, certify, explain, make_unique};
+use tests::robot::robot;
+
+fn main() {
+    divan::main();
+}
+
+fn judged() -> (Mechanism, Vec<f64>, Scratch, Solvability) {
+    let motion = Function::constant(0.0).expect("finite");
+    let mechanism = Mechanism::build(&robot(motion)).expect("the robot builds");
+    let (q, _) = mechanism.described_state();
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, &q, &mut s);
+    mechanism.phi(&mut s);
+    mechanism.c(&mut s);
+    let decision = certify(&mechanism, &s, &q).expect("C is finite");
+    let solvability = Solvability::from_decision(&mechanism.layout().dense(&s), decision);
+    (mechanism, q, s, solvability)
+}
+
+/// Self-stresses, mixing, reactions in words, structure.
+#[divan::bench]
+fn explanation(bencher: Bencher<'_, '_>) {
+    let (m, q, s, solvability) = judged();
+    assert_eq!(
+        explain(&m, &s, &q, &solvability)
+            .expect("finite")
+            .stresses
+            .len(),
+        2
+    );
+    bencher.bench_local(|| explain(&m, &s, black_box(&q), &solvability));
+}
+
+/// The four ways to make W3 unique.
+#[divan::bench]
+fn making_w3_unique(bencher: Bencher<'_, '_>) {
+    let (m, _, _, solvability) = judged();
+    let w3 = m
+        .layout()
+        .groups
+        .iter()
+        .position(|g| g.name == "W3")
+        .expect("W3 exists");
+    let ask = || {
+        make_unique(
+            &m,
+            &solvability,
+            ConstraintId(w3),
+            &Allowed::Sensible,
+            Limits::default(),
+        )
+    };
+    assert_eq!(ask().expect("decided").ways.len(), 4);
+    bencher.bench_local(|| black_box(ask()));
+}
+
+/// Nine admissible pairs, counted and listed.
+#[divan::bench]
+fn admissible_deletions(bencher: Bencher<'_, '_>) {
+    let (_, _, _, solvability) = judged();
+    let decision = solvability.decision();
+    assert_eq!(linalg::count_deletions(decision), Ok(9));
+    bencher.bench_local(|| {
+        (
+            linalg::count_deletions(decision),
+            linalg::deletions(decision, 100),
+        )
+    });
+}

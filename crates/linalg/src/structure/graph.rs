@@ -1,0 +1,155 @@
+//! The graph of blocks, ground and groups: its parts without the ground, and its bridges with it.
+
+use super::{Incidence, Part};
+
+/// Parts of the remaining rows, the ground left out, by their first row. Rows of one group stay together.
+pub(super) fn parts(incidence: &Incidence) -> Vec<Part> {
+    let n_blocks = incidence.blocks.len();
+    // Vertices: blocks, then groups.
+    let mut label: Vec<usize> = (0..n_blocks + incidence.groups.len()).collect();
+    let remaining: Vec<Vec<usize>> = (0..incidence.groups.len())
+        .map(|g| incidence.remaining(g))
+        .collect();
+    for (g, rows) in remaining.iter().enumerate() {
+        for &b in rows.iter().flat_map(|&row| &incidence.touches[row]) {
+            let (x, y) = (root(&mut label, b), root(&mut label, n_blocks + g));
+            label[x.max(y)] = x.min(y);
+        }
+    }
+    let mut parts: Vec<Part> = vec![Part::default(); label.len()];
+    for (g, rows) in remaining
+        .iter()
+        .enumerate()
+        .filter(|(_, rows)| !rows.is_empty())
+    {
+        let part = &mut parts[root(&mut label, n_blocks + g)];
+        part.groups.push(g);
+        part.rows.extend(rows);
+        part.blocks
+            .extend(rows.iter().flat_map(|&row| &incidence.touches[row]));
+    }
+    parts.retain(|part| !part.rows.is_empty());
+    for part in &mut parts {
+        part.rows.sort_unstable();
+        part.blocks.sort_unstable();
+        part.blocks.dedup();
+    }
+    parts.sort_by_key(|part| part.rows[0]);
+    parts
+}
+
+/// The root of a vertex; paths are halved on the way.
+fn root(label: &mut [usize], mut vertex: usize) -> usize {
+    while label[vertex] != vertex {
+        label[vertex] = label[label[vertex]];
+        vertex = label[vertex];
+    }
+    vertex
+}
+
+/// Half an edge.
+#[derive(Clone, Copy)]
+struct End {
+    vertex: usize,
+    edge: usize,
+}
+
+/// Groups on exactly two vertices (blocks or the ground) that no other path connects.
+///
+/// Depth first with the earliest vertex that a subtree reaches: an edge is a bridge iff what lies behind it reaches nothing
+/// earlier. Groups on more vertices are stars around a vertex of their own and never bridges themselves.
+///
+/// Source: R. Tarjan, A note on finding the bridges of a graph, Inform. Process. Lett. 2 (1974) 160–161.
+pub(super) fn bridges(incidence: &Incidence) -> Vec<usize> {
+    let ground = incidence.blocks.len();
+    let mut ends: Vec<Vec<End>> = vec![Vec::new(); ground + 1];
+    // The group of each edge, nothing for the rays of a star.
+    let mut group_of: Vec<Option<usize>> = Vec::new();
+    for g in 0..incidence.groups.len() {
+        let mut vertices = incidence.blocks_of(g);
+        if vertices.is_empty() {
+            continue;
+        }
+        if incidence.groups[g].ground || vertices.len() == 1 {
+            vertices.push(ground);
+        }
+        let mut connect = |a: usize, b: usize, group: Option<usize>| {
+            let edge = group_of.len();
+            group_of.push(group);
+            ends[a].push(End { vertex: b, edge });
+            ends[b].push(End { vertex: a, edge });
+        };
+        if let [a, b] = vertices[..] {
+            connect(a, b, Some(g));
+        } else {
+            // Rays from the first vertex join all of them as well as a vertex of their own would.
+            vertices[1..]
+                .iter()
+                .for_each(|&v| connect(vertices[0], v, None));
+        }
+    }
+    bridge_edges(&ends)
+        .into_iter()
+        .filter_map(|edge| group_of[edge])
+        .collect()
+}
+
+/// A vertex on the current path of the search.
+struct Step {
+    vertex: usize,
+    /// The edge it was reached by.
+    through: Option<usize>,
+    /// Ends looked at so far.
+    next: usize,
+}
+
+fn bridge_edges(ends: &[Vec<End>]) -> Vec<usize> {
+    const NEW: usize = usize::MAX;
+    let mut order = vec![NEW; ends.len()];
+    let mut reach = vec![NEW; ends.len()];
+    let mut count = 0;
+    let mut found = Vec::new();
+    for start in 0..ends.len() {
+        if order[start] != NEW {
+            continue;
+        }
+        let mut path = vec![Step {
+            vertex: start,
+            through: None,
+            next: 0,
+        }];
+        while let Some(step) = path.last_mut() {
+            let v = step.vertex;
+            if step.next == 0 && order[v] == NEW {
+                (order[v], reach[v]) = (count, count);
+                count += 1;
+            }
+            if let Some(&End { vertex, edge }) = ends[v].get(step.next) {
+                step.next += 1;
+                if Some(edge) == step.through {
+                    continue;
+                }
+                if order[vertex] == NEW {
+                    path.push(Step {
+                        vertex,
+                        through: Some(edge),
+                        next: 0,
+                    });
+                } else {
+                    reach[v] = reach[v].min(order[vertex]);
+                }
+                continue;
+            }
+            let through = step.through;
+            path.pop();
+            if let (Some(before), Some(edge)) = (path.last(), through) {
+                let u = before.vertex;
+                reach[u] = reach[u].min(reach[v]);
+                if reach[v] > order[u] {
+                    found.push(edge);
+                }
+            }
+        }
+    }
+    found
+}

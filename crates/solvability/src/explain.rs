@@ -1,0 +1,299 @@
+//! Why reactions are not unique, in words and as directions that can be drawn: which joints mix, which loads they can put on each other
+//! without any effect, and what of a reaction is determined all the same.
+//!
+//! Nothing is claimed of a sum or a component that has not been tested against all dependencies.
+
+use linalg::{Circuit, Settled};
+use model::reaction::COMPONENTS;
+use model::start::scene_size;
+use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
+
+use crate::matrices::Solvability;
+use crate::verdict::Verdict;
+use crate::words::{self, list, names};
+
+/// A component of a self-stress is zero below this share of its largest one: rounding of the dependence, drawn or said.
+const VISIBLE: f64 = 1e-9;
+
+/// What there is to say about the redundancy of a configuration.
+#[derive(Clone, Debug)]
+pub struct Explanation {
+    /// One self-stress for each degree of redundancy, short ones first.
+    pub stresses: Vec<SelfStress>,
+    /// Joints and drives whose reactions mix, by their first row.
+    pub mixing: Vec<Mixing>,
+    /// The reactions that are not unique, in the order of their rows.
+    pub reactions: Vec<ReactionExplanation>,
+    /// Joints and drives that the structure alone settles as unique, with the reason.
+    pub settled: Vec<(ConstraintId, Settled)>,
+}
+
+/// Loads that joints can put on each other without any force on any body.
+#[derive(Clone, Debug)]
+pub struct SelfStress {
+    /// Rows of C, from 0: a minimal dependent set.
+    pub rows: Vec<usize>,
+    /// `Σ coefficient·row = 0`, the largest coefficient 1.
+    pub coefficients: Vec<f64>,
+    /// What each joint carries, in the order of rows; the largest force is 1 N, or the largest torque 1 N·m if there is no force.
+    pub directions: Vec<FreeDirection>,
+    /// What it means.
+    pub text: String,
+}
+
+/// What one joint or drive carries in a self-stress.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeDirection {
+    /// The joint or drive.
+    pub joint: ConstraintId,
+    /// Its bodies; the force acts on the first.
+    pub bodies: Vec<BodyRef>,
+    /// Where it acts (m), global components.
+    pub place: [f64; 2],
+    /// Fx, Fy (N), global components.
+    pub force: [f64; 2],
+    /// T (N·m) about the place.
+    pub torque: f64,
+}
+
+/// Joints and drives whose reactions mix in some dependency.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Mixing {
+    /// Which.
+    pub reactions: Vec<ConstraintId>,
+    /// Rows of C, from 0.
+    pub rows: Vec<usize>,
+    /// How many numbers are missing to tell all of them.
+    pub redundancy: usize,
+    /// The same in words.
+    pub text: String,
+}
+
+/// Why the reaction of one joint or drive is not unique.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReactionExplanation {
+    /// Which.
+    pub id: ConstraintId,
+    /// With whom it shares load, and what of it is determined.
+    pub text: String,
+}
+
+/// Why nothing can be explained.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExplanationError {
+    /// The constraint matrix cannot be judged.
+    #[error(transparent)]
+    Rank(#[from] linalg::RankError),
+    /// The rank is undecided, and every sentence would build on one of two readings.
+    #[error("nothing can be explained while the rank is undecided: {0}")]
+    Undecided(linalg::Doubt),
+}
+
+/// Explains the verdicts at the configuration q of the scratch, where Φ and C have been evaluated.
+///
+/// # Errors
+/// If C is not finite, or its rank is undecided.
+pub fn explain(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+    solvability: &Solvability,
+) -> Result<Explanation, ExplanationError> {
+    if let linalg::RankStatus::Undecided(doubt) = solvability.decision().status {
+        return Err(ExplanationError::Undecided(doubt));
+    }
+    let structure = crate::structure::structure(mechanism, s, q)?;
+    let mixing = mixing(mechanism, solvability);
+    let ids = mechanism.constraint_ids();
+    let reactions = ids
+        .filter_map(|id| reaction(mechanism, s, solvability, &mixing, id))
+        .collect();
+    let stresses = linalg::short_circuits(solvability.decision())
+        .into_iter()
+        .map(|circuit| stress(mechanism, s, q, solvability, circuit))
+        .collect();
+    let settled = mechanism
+        .constraint_ids()
+        .zip(structure.groups)
+        .filter(|(_, why)| !matches!(why, Settled::Open(_)));
+    Ok(Explanation {
+        stresses,
+        mixing,
+        reactions,
+        settled: settled.collect(),
+    })
+}
+
+/// Components of rows, joined where one joint has rows in several.
+fn mixing(mechanism: &Mechanism, solvability: &Solvability) -> Vec<Mixing> {
+    let layout = mechanism.layout();
+    let decision = solvability.decision();
+    let coupled = linalg::components(decision).coupled;
+    let of = |rows: Vec<usize>| {
+        let touched = |id: &ConstraintId| {
+            rows.iter()
+                .any(|row| layout.groups[id.0].rows.contains(row))
+        };
+        let reactions: Vec<ConstraintId> = mechanism.constraint_ids().filter(touched).collect();
+        let redundancy = decision
+            .dropped
+            .iter()
+            .filter(|row| rows.contains(row))
+            .count();
+        let missing = match redundancy {
+            1 => "one number is".to_owned(),
+            p => format!("{p} numbers are"),
+        };
+        let names = names(layout, &reactions);
+        let text = match names.as_slice() {
+            [one] => format!("inside {one} {missing} missing to tell its multipliers"),
+            several => format!(
+                "{} share loads: {missing} missing to tell all of them",
+                list(several)
+            ),
+        };
+        Mixing {
+            reactions,
+            rows,
+            redundancy,
+            text,
+        }
+    };
+    coupled.into_iter().map(of).collect()
+}
+
+fn reaction(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    solvability: &Solvability,
+    mixing: &[Mixing],
+    id: ConstraintId,
+) -> Option<ReactionExplanation> {
+    let layout = mechanism.layout();
+    let group = &layout.groups[id.0];
+    if solvability.group(group.rows.clone()).verdict != Verdict::NotUnique {
+        return None;
+    }
+    let mut others: Vec<ConstraintId> = mixing
+        .iter()
+        .filter(|m| m.reactions.contains(&id))
+        .flat_map(|m| m.reactions.iter().copied())
+        .filter(|other| *other != id)
+        .collect();
+    others.sort_unstable();
+    others.dedup();
+    let components = group.components();
+    let full = mechanism.wrench_map(id, s);
+    let map = linalg::Matrix::from_fn(components.len(), group.rows.len(), |i, j| {
+        full[(components[i], j)]
+    });
+    let directions = solvability.unique_directions(&map, group.rows.clone());
+    let combination = |direction: &Vec<f64>| {
+        let terms = direction
+            .iter()
+            .zip(&components)
+            .filter(|(x, _)| x.abs() > VISIBLE);
+        let terms: Vec<String> = terms
+            .map(|(x, &c)| match words::short(*x).as_str() {
+                "1" => COMPONENTS[c].to_owned(),
+                x => format!("{x}·{}", COMPONENTS[c]),
+            })
+            .collect();
+        terms.join(" + ").replace("+ −", "− ")
+    };
+    // A component that is zero for every load is no finding.
+    let told: Vec<String> = directions
+        .iter()
+        .filter(|d| {
+            map.transpose_times(d)
+                .iter()
+                .any(|x| x.abs() > VISIBLE * map.max_abs())
+        })
+        .map(combination)
+        .collect();
+    let determined = match told.as_slice() {
+        [] => "nothing of it is determined".to_owned(),
+        told => format!("determined is {}", list(told)),
+    };
+    let shared = match others.as_slice() {
+        [] => "its rows depend on each other".to_owned(),
+        others => format!("it shares loads with {}", list(&names(layout, others))),
+    };
+    Some(ReactionExplanation {
+        id,
+        text: format!(
+            "the reaction of `{}` is not determined: {shared}; {determined}",
+            group.name
+        ),
+    })
+}
+
+fn stress(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+    solvability: &Solvability,
+    circuit: Circuit,
+) -> SelfStress {
+    let layout = mechanism.layout();
+    let mut lambda = vec![0.0; layout.rows()];
+    for (&row, &coefficient) in circuit.rows.iter().zip(&circuit.coefficients) {
+        lambda[row] = coefficient;
+    }
+    let carries = |id: ConstraintId| {
+        let group = &layout.groups[id.0];
+        if !group.rows.clone().any(|row| lambda[row] != 0.0) {
+            return None;
+        }
+        let reaction = mechanism.reaction(id, s, &lambda);
+        Some(FreeDirection {
+            joint: id,
+            bodies: group.bodies.clone(),
+            place: mechanism.place(id, s),
+            force: reaction.force,
+            torque: reaction.torque,
+        })
+    };
+    let mut directions: Vec<FreeDirection> =
+        mechanism.constraint_ids().filter_map(carries).collect();
+    normalise(&mut directions, scene_size(mechanism, q));
+    SelfStress {
+        text: words::of_stress(mechanism, solvability, &circuit, &directions),
+        rows: circuit.rows,
+        coefficients: circuit.coefficients,
+        directions,
+    }
+}
+
+/// Largest force 1, or largest torque 1 where forces are rounding beside torques divided by the size; rounding set to zero.
+fn normalise(directions: &mut [FreeDirection], size: f64) {
+    let force = |d: &FreeDirection| d.force[0].hypot(d.force[1]);
+    let force = directions.iter().map(force).fold(0.0, f64::max);
+    let torque = directions
+        .iter()
+        .map(|d| d.torque.abs())
+        .fold(0.0, f64::max);
+    let unit = match force > VISIBLE * torque / size {
+        true => force,
+        false => torque,
+    };
+    if unit == 0.0 {
+        return;
+    }
+    let largest = force.max(torque / size);
+    for d in directions {
+        for (x, scale) in d
+            .force
+            .iter_mut()
+            .map(|x| (x, 1.0))
+            .chain([(&mut d.torque, size)])
+        {
+            *x = if x.abs() <= VISIBLE * largest * scale {
+                0.0
+            } else {
+                *x / unit
+            };
+        }
+    }
+}
