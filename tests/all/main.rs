@@ -1,7 +1,10 @@
 //! All tests that need more than one crate, in one binary.
 
 mod allocations;
+mod along_motion;
+mod existence;
 mod robot_trolley;
+mod second_order;
 mod singular_passages;
 mod three_cranks;
 mod tidy;

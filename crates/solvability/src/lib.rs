@@ -6,10 +6,12 @@
 //! | --- | --- |
 //! | [`verdict`] | unique, not unique, undecided: with the number behind it |
 //! | [`matrices`] | solvability of a plain constraint matrix |
+//! | [`state`] | a state that the caller gives |
 //! | [`existence`] | do the rows contradict each other? |
 //! | [`generic`] | permanent, or only of this configuration? |
 //! | [`groups`] | combinations of reactions |
 //! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
+//! | [`second_order`] | is the motion unique where the rank drops? |
 //! | `words` | dependencies as sentences |
 
 pub mod existence;
@@ -17,15 +19,19 @@ pub mod generic;
 pub mod groups;
 pub mod matrices;
 pub mod mechanism;
+pub mod second_order;
+pub mod state;
 pub mod verdict;
 mod words;
 
-pub use existence::{ConstraintLevel, Contradiction, contradiction};
-pub use generic::is_permanent;
+pub use existence::{ConstraintLevel, Contradiction, Ranks, contradictions};
+pub use generic::{Elsewhere, Generic, generic, is_permanent};
 pub use groups::{Group, Term, judge_groups};
 pub use matrices::Solvability;
 pub use mechanism::{
     Analysis, AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, analyse,
     analyse_dropping, certify, certify_dropping, certify_holonomic,
 };
+pub use second_order::{Continuation, Undetermined, second_order};
+pub use state::{State, StateError};
 pub use verdict::{Judgement, Verdict};

@@ -122,13 +122,22 @@ pub enum AnalysisError {
 /// dependencies and verdicts are those of C; margins do not depend on units.
 pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
     let mut c = mechanism.layout().dense(s);
-    let factor = size.log2().round().exp2().recip();
+    let units = velocity_units(mechanism, size);
     for i in 0..c.nrows() {
-        for entry in c.row_mut(i).iter_mut().skip(2).step_by(3) {
-            *entry *= factor;
+        for (entry, unit) in c.row_mut(i).iter_mut().zip(&units) {
+            *entry *= unit;
         }
     }
     c
+}
+
+/// The velocities that are one without dimensions: 1 m/s for translations, and for rotations what moves a point at the size of the
+/// mechanism by about as much, a power of two.
+pub(crate) fn velocity_units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+    let rotation = size.log2().round().exp2().recip();
+    (0..mechanism.layout().n_v)
+        .map(|k| if k % 3 == 2 { rotation } else { 1.0 })
+        .collect()
 }
 
 /// Decides the rank of C at the pose of the scratch, where Φ and C have been evaluated at coordinates q.
@@ -206,7 +215,7 @@ pub fn analyse_dropping(
 }
 
 /// Φ and C at a configuration.
-fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
+pub(crate) fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);
     mechanism.phi(&mut s);
@@ -214,7 +223,8 @@ fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
     s
 }
 
-fn judge(
+/// Verdicts at the pose of the scratch, where Φ and C have been evaluated and the rank has been decided.
+pub(crate) fn judge(
     mechanism: &Mechanism,
     s: &Scratch,
     q: &[f64],

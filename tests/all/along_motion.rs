@@ -1,0 +1,1 @@
+//! Verdicts along a motion.
