@@ -25,7 +25,7 @@ const STEP: f64 = 0.2;
 /// A step is tried at this many halved lengths, because not every displacement can be assembled again.
 const HALVINGS: i32 = 5;
 
-/// A point must be this far from where the walk began, in the same measure.
+/// Points must be this far from each other and from the given one, in the same measure.
 const APART: f64 = 0.1;
 
 /// Redundancy at other configurations of the same component.
@@ -50,27 +50,41 @@ pub struct Elsewhere {
     pub redundancy: usize,
 }
 
-/// Ranks at other configurations than (t, q), which must lie on the constraints; some were found at which the rank is decided, or
-/// there is nothing to compare: `None`, for a structure that cannot move.
+/// Ranks at other configurations than (t, q), which must lie on the constraints. `None` if none was found at which the rank is
+/// decided: for a structure that cannot move there is none.
 #[must_use]
 pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     let rows = lasting_rows(mechanism);
+    let size = scene_size(mechanism, q);
+    let units = velocity_units(mechanism, size);
     let mut points: Vec<Elsewhere> = Vec::new();
-    let mut from = (t, q.to_vec());
+    let mut visited = vec![(t, q.to_vec())];
     for walk in 0..WALKS {
-        let Some(there) = walk_from(mechanism, &from, &rows, walk) else {
+        let from = &visited[visited.len() - 1];
+        let Some(there) = walk_from(mechanism, from, &rows, &units, size, walk) else {
             continue;
         };
-        if let Some(point) = elsewhere(mechanism, &there, &rows) {
-            points.push(point);
-            from = there;
+        let is_new = |(t, q): &(f64, Vec<f64>)| {
+            let moved = there.1.iter().zip(q).map(|(a, b)| a - b);
+            there.0 != *t || length(moved, &units, size) >= APART
+        };
+        if visited.iter().all(is_new) {
+            points.extend(elsewhere(mechanism, &there, &rows));
         }
+        visited.push(there);
         if points.len() == POINTS {
             break;
         }
     }
     let redundancy = points.iter().map(|p| p.redundancy).min()?;
     Some(Generic { redundancy, points })
+}
+
+/// Largest part of a displacement: a share of the mechanism's size, or radians.
+fn length(d: impl Iterator<Item = f64>, units: &[f64], size: f64) -> f64 {
+    d.zip(units)
+        .map(|(d, unit)| (d / unit / size).abs())
+        .fold(0.0, f64::max)
 }
 
 /// Whether the degree of redundancy is the same at other configurations. `None` if no other configuration was found, or the rank
@@ -106,21 +120,17 @@ fn walk_from(
     mechanism: &Mechanism,
     from: &(f64, Vec<f64>),
     rows: &[usize],
+    units: &[f64],
+    size: f64,
     walk: usize,
 ) -> Option<(f64, Vec<f64>)> {
-    let size = scene_size(mechanism, &from.1);
-    let units = velocity_units(mechanism, size);
-    // Largest part of a displacement: a share of the size, or radians.
-    let length = |d: &mut dyn Iterator<Item = f64>| {
-        d.zip(&units)
-            .map(|(d, unit)| (d / unit / size).abs())
-            .fold(0.0, f64::max)
-    };
     let moves_time = has_lasting_function(mechanism);
+    // Walks of different lengths do not lead back.
+    let stride = STEP * (1.0 + 0.5 * spread(walk + 1));
     let (mut t, mut q) = from.clone();
     let mut heading: Option<Vec<f64>> = None;
     for _ in 0..STEPS {
-        let directions = free_directions(mechanism, t, &q, rows, &units)?;
+        let directions = free_directions(mechanism, t, &q, rows, units)?;
         if directions.nrows() == 0 && !moves_time {
             return None;
         }
@@ -130,15 +140,15 @@ fn walk_from(
             Some(last) => directions.transpose_times(&directions.times(last)),
         };
         heading = Some(step.clone());
-        step.iter_mut().zip(&units).for_each(|(d, unit)| *d *= unit);
-        let largest = length(&mut step.iter().copied());
+        step.iter_mut().zip(units).for_each(|(d, unit)| *d *= unit);
         let mut rate = vec![0.0; q.len()];
         mechanism.rate(&q, &step, &mut rate);
-        let time = if moves_time { STEP } else { 0.0 };
+        let largest = length(step.into_iter(), units, size);
+        let time = if moves_time { stride } else { 0.0 };
         let next = (0..HALVINGS).find_map(|halving| {
             let share = 0.5_f64.powi(halving);
             let factor = if largest > 0.0 {
-                STEP * share / largest
+                stride * share / largest
             } else {
                 0.0
             };
@@ -152,8 +162,7 @@ fn walk_from(
         };
         (t, q) = next;
     }
-    let moved = length(&mut q.iter().zip(&from.1).map(|(a, b)| a - b));
-    (t != from.0 || moved >= APART).then_some((t, q))
+    ((t, &q) != (from.0, &from.1)).then_some((t, q))
 }
 
 /// Whether a constraint that is not a drive depends on time.
@@ -204,11 +213,15 @@ fn free_directions(
     )
 }
 
-/// A combination of all directions with coefficients that do not repeat: the fractional parts of multiples of the golden ratio.
+/// A combination of all directions with coefficients that do not repeat.
 fn mixed(directions: &Matrix, walk: usize) -> Vec<f64> {
-    let golden = 0.618_033_988_749_894_9;
-    let coefficients: Vec<f64> = (0..directions.nrows())
-        .map(|i| (golden * (walk * directions.nrows() + i + 1) as f64).fract() - 0.5)
-        .collect();
+    let first = walk * directions.nrows() + 1;
+    let coefficients: Vec<f64> = (0..directions.nrows()).map(|i| spread(first + i)).collect();
     directions.transpose_times(&coefficients)
+}
+
+/// Numbers spread evenly between −½ and ½: the fractional parts of multiples of the golden ratio.
+fn spread(k: usize) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    (GOLDEN * k as f64).fract() - 0.5
 }
