@@ -3,6 +3,7 @@
 mod allocations;
 mod along_motion;
 mod existence;
+mod generic;
 mod robot_trolley;
 mod second_order;
 mod singular_passages;

@@ -197,8 +197,8 @@ impl Comparison<'_> {
             let group = layout.groups.iter().find(|g| g.rows.contains(&row));
             group.is_some_and(|g| g.spec.rheonomic)
         };
-        let driven = terms().filter(|&(i, _)| is_driven(i)).last();
-        let (row, z) = driven.or_else(|| terms().last())?;
+        let driven = terms().rfind(|&(i, _)| is_driven(i));
+        let (row, z) = driven.or_else(|| terms().next_back())?;
         Some(Contradiction {
             time,
             rows: terms().map(|(i, _)| layout.labels[i].clone()).collect(),

@@ -8,12 +8,14 @@
 //! | [`matrices`] | solvability of a plain constraint matrix |
 //! | [`state`] | a state that the caller gives |
 //! | [`existence`] | do the rows contradict each other? |
-//! | [`generic`] | permanent, or only of this configuration? |
+//! | [`mod@generic`] | permanent, or only of this configuration? |
 //! | [`groups`] | combinations of reactions |
 //! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
-//! | [`second_order`] | is the motion unique where the rank drops? |
+//! | [`mod@second_order`] | is the motion unique where the rank drops? |
+//! | [`along`] | verdicts along a motion: one, and where another holds |
 //! | `words` | dependencies as sentences |
 
+pub mod along;
 pub mod existence;
 pub mod generic;
 pub mod groups;
@@ -24,6 +26,7 @@ pub mod state;
 pub mod verdict;
 mod words;
 
+pub use along::{Along, AlongError, Difference, Part, Passage, PassageKind, Stretch, along_motion};
 pub use existence::{ConstraintLevel, Contradiction, Ranks, contradictions};
 pub use generic::{Elsewhere, Generic, generic, is_permanent};
 pub use groups::{Group, Term, judge_groups};
