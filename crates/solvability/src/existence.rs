@@ -8,6 +8,7 @@ use linalg::{Circuit, RankDecision};
 use model::start::scene_size;
 use model::{Mechanism, RowLabel, System};
 
+use crate::mechanism::velocity_units;
 use crate::state::{self, StateError};
 
 /// Where rows are compared.
@@ -103,7 +104,8 @@ pub struct Ranks<'a> {
 ///
 /// The sum over a circuit is compared with the size of the terms that cancel in it, times the noise of the coefficients,
 /// [`linalg::support_tolerance`]: near a singular configuration kept rows express the dropped ones with coefficients that are wrong
-/// by 1/σ_r roundings, and an agreement cannot be better than that.
+/// by 1/σ_r roundings, and an agreement cannot be better than that. Rows that mix with those of the circuit count, others do not, so
+/// that nothing elsewhere hides a contradiction; velocities count as known to the same share of the fastest one.
 ///
 /// # Errors
 /// If the state has not as many numbers as the mechanism, or one of them is not finite.
@@ -124,6 +126,13 @@ pub fn contradictions(
     mechanism.gamma(&mut s);
     let size = scene_size(mechanism, q);
     let prescribed = |i: usize| mechanism.prescribed_scale(&s, i);
+    // Velocities are known to rounding of the fastest, also those of slow bodies.
+    let noise = linalg::support_tolerance(ranks.all).max(f64::EPSILON);
+    let units = velocity_units(mechanism, size);
+    let fastest = v.iter().zip(&units).map(|(v, unit)| (v / unit).abs());
+    let blur = noise * fastest.fold(0.0, f64::max);
+    let blurred = v.iter().zip(&units).map(|(v, unit)| v.abs() + blur * unit);
+    let blurred: Vec<f64> = blurred.collect();
     let levels = [
         Comparison {
             level: ConstraintLevel::Position,
@@ -141,7 +150,11 @@ pub fn contradictions(
             level: ConstraintLevel::Acceleration,
             decision: ranks.all,
             values: &s.gamma,
-            scale: &|i| mechanism.acceleration_scale(&s, i, v, size) + prescribed(i),
+            scale: &|i| {
+                let [terms, blurred] =
+                    [v, &blurred].map(|v| mechanism.acceleration_scale(&s, i, v, size));
+                terms + (blurred - terms) / noise + prescribed(i)
+            },
         },
     ];
     let mut found: Vec<Contradiction> = levels
@@ -166,15 +179,28 @@ impl Comparison<'_> {
         if self.decision.redundancy == 0 {
             return Vec::new();
         }
-        // Equilibrated coefficients are wrong by the noise, those that count as zero too.
-        let factor = |i: usize| self.decision.scaling.row_factor(i);
-        let terms: f64 = (0..self.values.len())
-            .map(|i| factor(i) * (self.scale)(i))
-            .sum();
-        let noise = linalg::support_tolerance(self.decision) * terms;
+        let rows = linalg::components(self.decision);
+        let noise = linalg::support_tolerance(self.decision);
+        let term = |&i: &usize| self.decision.scaling.row_factor(i) * (self.scale)(i);
+        // Rows in no dependency: what is left of their coefficients is rounding.
+        let left = self.decision.equilibrated_dependence();
+        let coefficient = |i: &usize| {
+            let k = self.decision.kept.binary_search(i).ok();
+            let column = |k: usize| (0..left.nrows()).map(move |j| (j, k));
+            k.map_or(0.0, |k| {
+                column(k).map(|at| left[at].abs()).fold(0.0, f64::max)
+            })
+        };
+        let aside: f64 = rows.coloops.iter().map(|i| coefficient(i) * term(i)).sum();
         linalg::short_circuits(self.decision)
             .iter()
-            .filter_map(|circuit| self.contradiction(mechanism, time, circuit, noise))
+            .filter_map(|circuit| {
+                let first = circuit.rows.first()?;
+                // Coefficients of rows that mix with these may be wrong by the noise, also those that count as zero.
+                let component = rows.coupled.iter().find(|rows| rows.contains(first))?;
+                let terms: f64 = component.iter().map(term).sum();
+                self.contradiction(mechanism, time, circuit, noise * terms + aside)
+            })
             .collect()
     }
 
