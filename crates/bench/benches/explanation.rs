@@ -20,7 +20,7 @@ fn judged() -> (Mechanism, Vec<f64>, Scratch, Solvability) {
     mechanism.pose(0.0, &q, &mut s);
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
-    let decision = certify(&mechanism, &s, &q).expect("C is finite");
+    let decision = certify(&mechanism, 0.0, &q).expect("C is finite");
     let solvability = Solvability::from_decision(&mechanism.layout().dense(&s), decision);
     (mechanism, q, s, solvability)
 }

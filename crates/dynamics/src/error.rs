@@ -3,7 +3,7 @@
 use integrators::IntegrationError;
 use linalg::{Doubt, KeptRowsError, SaddleError};
 use model::{RowLabel, StartError};
-use solvability::{AnalysisError, Contradiction};
+use solvability::{AnalysisError, Contradiction, StateError};
 
 /// Why the equations cannot be solved at one instant. A shorter step may avoid it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -129,6 +129,9 @@ pub enum MotionError {
     /// The constraint matrix of the start cannot be judged.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
+    /// The start is no state of the mechanism.
+    #[error(transparent)]
+    State(#[from] StateError),
     /// Redundant rows ask for different motions.
     #[error(transparent)]
     Contradiction(#[from] Contradiction),

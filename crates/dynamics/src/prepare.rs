@@ -4,7 +4,7 @@
 use linalg::{RankDecision, RankStatus};
 use model::start::{assemble, consistent_velocity};
 use model::{Assembly, Mechanism, StartOptions, System};
-use solvability::{ConstraintLevel, contradiction, decide, decide_dropping, decide_holonomic};
+use solvability::{Ranks, contradictions, decide, decide_dropping, decide_holonomic};
 
 use crate::error::MotionError;
 use crate::options::RowChoice;
@@ -34,7 +34,7 @@ pub struct Prepared {
 ///
 /// # Errors
 /// - [`MotionError::Start`]: no consistent configuration or velocities.
-/// - [`MotionError::Contradiction`]: redundant rows ask for different velocities.
+/// - [`MotionError::Contradiction`]: redundant rows ask for different positions, velocities or accelerations.
 /// - [`MotionError::RankUndecided`], [`MotionError::Rows`]: no rows can be chosen, or not the ones asked for.
 pub fn prepare(
     mut mechanism: Mechanism,
@@ -47,7 +47,6 @@ pub fn prepare(
     mechanism.pose(0.0, &assembly.q, &mut s);
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
-    mechanism.b(&mut s);
     let automatic = decide(&mechanism, &s, &assembly.q)?;
     if let RankStatus::Undecided(doubt) = automatic.status {
         return Err(MotionError::RankUndecided(doubt));
@@ -56,17 +55,20 @@ pub fn prepare(
     if let RankStatus::Undecided(doubt) = position_decision.status {
         return Err(MotionError::RankUndecided(doubt));
     }
-    let level = ConstraintLevel::Velocity;
-    let scale = mechanism.prescribed_scale(&s);
-    if let Some(found) = contradiction(&automatic, &layout.labels, &s.b, scale, level, 0.0) {
-        return Err(found.into());
-    }
     let decision = match rows {
-        RowChoice::Automatic => automatic,
+        RowChoice::Automatic => automatic.clone(),
         RowChoice::Drop(dropped) => decide_dropping(&mechanism, &s, &assembly.q, dropped)
             .map_err(|e| MotionError::rows(&e, &layout.labels, automatic.redundancy))?,
     };
     let v = consistent_velocity(&mechanism, start, &assembly.q, &assembly.v, &decision.kept)?;
+    let ranks = Ranks {
+        all: &automatic,
+        holonomic: &position_decision,
+    };
+    let found = contradictions(&mechanism, 0.0, &assembly.q, &v, ranks)?;
+    if let Some(worst) = found.into_iter().next() {
+        return Err(worst.into());
+    }
     let velocity_correction = v.iter().zip(&assembly.v).map(|(a, b)| a - b).collect();
     let q = assembly.q.clone();
     Ok(Prepared {

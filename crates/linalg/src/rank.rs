@@ -14,9 +14,9 @@
 mod again;
 mod bound;
 mod certificate;
+mod clear;
 mod coefficient;
 mod exact;
-mod clear;
 mod explicit;
 mod graded;
 mod modular;

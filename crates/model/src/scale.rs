@@ -25,14 +25,40 @@ impl Mechanism {
         terms.sum::<f64>() + s.b[i].abs()
     }
 
-    /// Size of what the functions of time prescribe at the time of the scratch: the largest `|f| + |ḟ| + |f̈|`. A rate that is
-    /// rounding beside it is zero.
+    /// Size of the terms of row `i` of `C·v̇ − Γ` at velocities v: `|Γ_i|` and what the row makes of the centripetal terms of its
+    /// bodies, `|C_ij|·(|v_j|·ω + size·ω²)` for translations and `|C_ij|·ω²` for rotations, with the largest |ω| of the
+    /// row. Needs C and Γ.
     #[must_use]
-    pub fn prescribed_scale(&self, s: &Scratch) -> f64 {
-        s.jets
-            .iter()
-            .map(|jet| jet.iter().map(|x| x.abs()).sum())
-            .fold(0.0, f64::max)
+    pub fn acceleration_scale(&self, s: &Scratch, i: usize, v: &[f64], size: f64) -> f64 {
+        let row = || self.layout().row(s, i);
+        let rotations = row().map(|(j, _)| v[j - j % N_BODY + 2].abs());
+        let omega = rotations.fold(0.0, f64::max);
+        let term = |(j, c): (usize, f64)| {
+            let rate = if j % N_BODY == 2 {
+                omega
+            } else {
+                v[j].abs() + size * omega
+            };
+            c.abs() * rate * omega
+        };
+        row().map(term).sum::<f64>() + s.gamma[i].abs()
+    }
+
+    /// Size of what the functions of time prescribe in row `i` at the time of the scratch: the sum of `|f| + |ḟ| + |f̈|`. A rate
+    /// that is rounding beside it is zero.
+    #[must_use]
+    pub fn prescribed_scale(&self, s: &Scratch, i: usize) -> f64 {
+        let of_row = self.constraints().iter().find(|c| c.rows.contains(&i));
+        let jets = of_row.map_or(&[][..], |c| &s.jets[c.functions.clone()]);
+        jets.iter().flatten().map(|x| x.abs()).sum()
+    }
+
+    /// Whether row `i` compares angles: no translation takes part in it.
+    #[must_use]
+    pub fn is_angular(&self, i: usize) -> bool {
+        let pattern = &self.layout().pattern;
+        let columns = &pattern.column[pattern.start[i]..pattern.start[i + 1]];
+        columns.iter().all(|j| j % N_BODY == 2)
     }
 
     /// The scaling that makes C dimensionless for a mechanism of this size: columns of rotations divided by the size, rounded to a

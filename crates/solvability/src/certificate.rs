@@ -5,7 +5,7 @@
 
 use linalg::{DdMatrix, Matrix, RankDecision, certify_within};
 use model::start::scene_size;
-use model::{Mechanism, System};
+use model::{Mechanism, Scratch, System};
 
 use crate::mechanism::{AnalysisError, decide_holonomic, dimensionless, evaluated};
 
@@ -13,7 +13,7 @@ use crate::mechanism::{AnalysisError, decide_holonomic, dimensionless, evaluated
 const ROWS_MAX: usize = 600;
 
 /// C of a mechanism without dimensions, with what its entries are known to.
-pub(crate) struct CertifiedRows {
+pub(crate) struct Rows {
     time: f64,
     c: Entries,
     uncertainty: f64,
@@ -26,30 +26,35 @@ enum Entries {
     Double(Matrix),
 }
 
-impl CertifiedRows {
+impl Rows {
+    /// C at the pose of the scratch, in `f64`; q are its coordinates.
+    pub(crate) fn in_double(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Self {
+        let size = scene_size(mechanism, q);
+        Self {
+            time: s.t,
+            c: Entries::Double(dimensionless(mechanism, s, size)),
+            uncertainty: mechanism.relative_residual(s, q, size),
+        }
+    }
+
     /// C at the configuration q, which satisfies the constraints to `f64`.
     pub(crate) fn new(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Self, AnalysisError> {
         let mut s = evaluated(mechanism, t, q);
+        if mechanism.layout().rows() > ROWS_MAX {
+            return Ok(Self::in_double(mechanism, &s, q));
+        }
+        let kept = decide_holonomic(mechanism, &s, q)?.kept;
+        let Ok(polished) = mechanism.polish(t, q, &kept) else {
+            return Ok(Self::in_double(mechanism, &s, q));
+        };
+        // What is left of Φ is what the data leave open; the rounding of q in f64 is gone.
+        for (phi, polished) in s.phi.iter_mut().zip(&polished.phi) {
+            *phi = polished.to_f64();
+        }
         let size = scene_size(mechanism, q);
-        let polished = match mechanism.layout().rows() {
-            ..=ROWS_MAX => mechanism
-                .polish(t, q, &decide_holonomic(mechanism, &s, q)?.kept)
-                .ok(),
-            _ => None,
-        };
-        let c = match polished {
-            Some(polished) => {
-                // What is left of Φ is what the data leave open; the rounding of q in f64 is gone.
-                for (phi, polished) in s.phi.iter_mut().zip(&polished.phi) {
-                    *phi = polished.to_f64();
-                }
-                Entries::Extended(polished.c.scaled(&mechanism.dimension_scaling(size)))
-            }
-            None => Entries::Double(dimensionless(mechanism, &s, size)),
-        };
         Ok(Self {
             time: t,
-            c,
+            c: Entries::Extended(polished.c.scaled(&mechanism.dimension_scaling(size))),
             uncertainty: mechanism.relative_residual(&s, q, size),
         })
     }
@@ -93,5 +98,5 @@ impl CertifiedRows {
 /// # Errors
 /// If C is not finite.
 pub fn certify(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<RankDecision, AnalysisError> {
-    CertifiedRows::new(mechanism, t, q)?.decide()
+    Rows::new(mechanism, t, q)?.decide()
 }

@@ -1,8 +1,15 @@
-//! Existence before uniqueness: redundant rows must agree. `C·v = b` has a solution iff `Zᵀ·b = 0`, and
-//! `C·a = Γ` iff `Zᵀ·Γ = 0`; each circuit is one such condition.
+//! Existence before uniqueness: redundant rows must agree. Of each circuit `Σ z_i·row_i = 0` the right-hand sides must satisfy
+//! the same sum: `Σ z_i·b_i = 0` or no velocity exists, `Σ z_i·Γ_i = 0` or no acceleration does. At position level the residuals
+//! of Φ take their place: that of a circuit does not vanish where a row was redundant only elsewhere.
+//!
+//! Nothing is decided here about the rank: contradictions are those of the circuits of decided ranks.
 
-use linalg::RankDecision;
-use model::RowLabel;
+use linalg::{Circuit, RankDecision};
+use model::start::scene_size;
+use model::{Mechanism, RowLabel, System};
+
+use crate::mechanism::velocity_units;
+use crate::state::{self, StateError};
 
 /// Where rows are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +20,20 @@ pub enum ConstraintLevel {
     Velocity,
     /// C·a = Γ
     Acceleration,
+}
+
+impl ConstraintLevel {
+    /// Unit of a row of lengths or of angles.
+    fn unit(self, angular: bool) -> &'static str {
+        match (self, angular) {
+            (Self::Position, false) => "m",
+            (Self::Velocity, false) => "m/s",
+            (Self::Acceleration, false) => "m/s²",
+            (Self::Position, true) => "rad",
+            (Self::Velocity, true) => "rad/s",
+            (Self::Acceleration, true) => "rad/s²",
+        }
+    }
 }
 
 impl std::fmt::Display for ConstraintLevel {
@@ -28,9 +49,9 @@ impl std::fmt::Display for ConstraintLevel {
 /// Redundant rows that cannot hold together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "at t = {time} s rows {} depend on each other but ask for different {level}: they differ by {size:.3e}. \
-     Redundant drives must follow the same motion; delete or correct one of them",
-    list(rows)
+    "at t = {time} s rows {} depend on each other but ask for different {level}: they differ by {size:.3e} {unit}. {}",
+    list(rows),
+    advice(*driven, *level)
 )]
 pub struct Contradiction {
     /// When.
@@ -39,8 +60,15 @@ pub struct Contradiction {
     pub rows: Vec<RowLabel>,
     /// Position, velocity or acceleration.
     pub level: ConstraintLevel,
-    /// `|Σ coefficient·right-hand side|`, the largest coefficient 1.
+    /// What one row would have to change by to agree with the others: the last one that depends on time, or else the last one. At position
+    /// level to first order.
     pub size: f64,
+    /// Unit of `size`.
+    pub unit: &'static str,
+    /// Up to here `size` would be rounding.
+    pub tolerance: f64,
+    /// Whether functions of time take part.
+    pub driven: bool,
 }
 
 fn list(rows: &[RowLabel]) -> String {
@@ -50,44 +78,161 @@ fn list(rows: &[RowLabel]) -> String {
         .join(", ")
 }
 
-/// Redundant right-hand sides agree to this share of their scale: the noise of the coefficients, with room.
-const AGREEMENT: f64 = 1e-9;
+fn advice(driven: bool, level: ConstraintLevel) -> &'static str {
+    match (driven, level) {
+        (true, _) => "Redundant drives must follow the same motion; delete or correct one of them",
+        (false, ConstraintLevel::Position) => {
+            "They are redundant here but not elsewhere: correct the dimensions, or delete one of them"
+        }
+        (false, _) => {
+            "The configuration is singular and cannot be left with these velocities: change the velocities or the start"
+        }
+    }
+}
 
-/// The worst contradiction among the circuits of a rank decision for a right-hand side (b or Γ), if there is one. `scale` is
-/// the size of a right-hand side that matters: that of the terms it is made of, or of the velocities of the mechanism.
+/// Rank decisions at one configuration.
+#[derive(Clone, Copy, Debug)]
+pub struct Ranks<'a> {
+    /// Of all rows of C.
+    pub all: &'a RankDecision,
+    /// Of the rows of Φq alone.
+    pub holonomic: &'a RankDecision,
+}
+
+/// Contradictions between redundant rows at time t, coordinates q and velocities v, at all three levels; the one that exceeds its
+/// tolerance most comes first. Kept rows must hold: `Φ_K = 0` and `C_K·v = b_K` to rounding.
 ///
-/// # Panics
-/// If `labels` and `rhs` have not one entry for each row.
-#[must_use]
-pub fn contradiction(
-    decision: &RankDecision,
-    labels: &[RowLabel],
-    rhs: &[f64],
-    scale: f64,
+/// The sum over a circuit is compared with the size of the terms that cancel in it, times the noise of the coefficients,
+/// [`linalg::support_tolerance`]: near a singular configuration kept rows express the dropped ones with coefficients that are wrong
+/// by 1/σ_r roundings, and an agreement cannot be better than that. Rows that mix with those of the circuit count, others do not, so
+/// that nothing elsewhere hides a contradiction; velocities count as known to the same share of the fastest one.
+///
+/// # Errors
+/// If the state has not as many numbers as the mechanism, or one of them is not finite.
+pub fn contradictions(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    v: &[f64],
+    ranks: Ranks<'_>,
+) -> Result<Vec<Contradiction>, StateError> {
+    state::check(mechanism, t, q, v)?;
+    let mut s = mechanism.scratch();
+    mechanism.pose(t, q, &mut s);
+    mechanism.phi(&mut s);
+    mechanism.c(&mut s);
+    mechanism.b(&mut s);
+    mechanism.twist(v, &mut s);
+    mechanism.gamma(&mut s);
+    let size = scene_size(mechanism, q);
+    let prescribed = |i: usize| mechanism.prescribed_scale(&s, i);
+    // Velocities are known to rounding of the fastest, also those of slow bodies.
+    let noise = linalg::support_tolerance(ranks.all).max(f64::EPSILON);
+    let units = velocity_units(mechanism, size);
+    let fastest = v.iter().zip(&units).map(|(v, unit)| (v / unit).abs());
+    let blur = noise * fastest.fold(0.0, f64::max);
+    let blurred = v.iter().zip(&units).map(|(v, unit)| v.abs() + blur * unit);
+    let blurred: Vec<f64> = blurred.collect();
+    let levels = [
+        Comparison {
+            level: ConstraintLevel::Position,
+            decision: ranks.holonomic,
+            values: &s.phi,
+            scale: &|i| mechanism.position_scale(&s, i, q),
+        },
+        Comparison {
+            level: ConstraintLevel::Velocity,
+            decision: ranks.all,
+            values: &s.b,
+            scale: &|i| mechanism.velocity_scale(&s, i, v) + prescribed(i),
+        },
+        Comparison {
+            level: ConstraintLevel::Acceleration,
+            decision: ranks.all,
+            values: &s.gamma,
+            scale: &|i| {
+                let [terms, blurred] =
+                    [v, &blurred].map(|v| mechanism.acceleration_scale(&s, i, v, size));
+                terms + (blurred - terms) / noise + prescribed(i)
+            },
+        },
+    ];
+    let mut found: Vec<Contradiction> = levels
+        .iter()
+        .flat_map(|level| level.contradictions(mechanism, t))
+        .collect();
+    let excess = |c: &Contradiction| c.size / c.tolerance;
+    found.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
+    Ok(found)
+}
+
+/// Values of all rows at one level, and the size of their terms.
+struct Comparison<'a> {
     level: ConstraintLevel,
-    time: f64,
-) -> Option<Contradiction> {
-    assert!(
-        labels.len() == rhs.len(),
-        "{} labels, {} values",
-        labels.len(),
-        rhs.len()
-    );
-    linalg::circuits(decision)
-        .into_iter()
-        .filter_map(|circuit| {
-            let terms = circuit
-                .rows
-                .iter()
-                .zip(&circuit.coefficients)
-                .map(|(&i, c)| c * rhs[i]);
-            let size = terms.sum::<f64>().abs();
-            (size.is_nan() || size > AGREEMENT * scale).then(|| Contradiction {
-                time,
-                rows: circuit.rows.iter().map(|&i| labels[i].clone()).collect(),
-                level,
-                size,
+    decision: &'a RankDecision,
+    values: &'a [f64],
+    scale: &'a dyn Fn(usize) -> f64,
+}
+
+impl Comparison<'_> {
+    fn contradictions(&self, mechanism: &Mechanism, time: f64) -> Vec<Contradiction> {
+        if self.decision.redundancy == 0 {
+            return Vec::new();
+        }
+        let rows = linalg::components(self.decision);
+        let noise = linalg::support_tolerance(self.decision);
+        let term = |&i: &usize| self.decision.scaling.row_factor(i) * (self.scale)(i);
+        // Rows in no dependency: what is left of their coefficients is rounding.
+        let left = self.decision.equilibrated_dependence();
+        let coefficient = |i: &usize| {
+            let k = self.decision.kept.binary_search(i).ok();
+            let column = |k: usize| (0..left.nrows()).map(move |j| (j, k));
+            k.map_or(0.0, |k| {
+                column(k).map(|at| left[at].abs()).fold(0.0, f64::max)
             })
+        };
+        let aside: f64 = rows.coloops.iter().map(|i| coefficient(i) * term(i)).sum();
+        linalg::short_circuits(self.decision)
+            .iter()
+            .filter_map(|circuit| {
+                let first = circuit.rows.first()?;
+                // Coefficients of rows that mix with these may be wrong by the noise, also those that count as zero.
+                let component = rows.coupled.iter().find(|rows| rows.contains(first))?;
+                let terms: f64 = component.iter().map(term).sum();
+                self.contradiction(mechanism, time, circuit, noise * terms + aside)
+            })
+            .collect()
+    }
+
+    fn contradiction(
+        &self,
+        mechanism: &Mechanism,
+        time: f64,
+        circuit: &Circuit,
+        noise: f64,
+    ) -> Option<Contradiction> {
+        let terms = || circuit.rows.iter().copied().zip(&circuit.coefficients);
+        let sum: f64 = terms().map(|(i, z)| z * self.values[i]).sum();
+        let equilibrated = terms().map(|(i, z)| z.abs() / self.decision.scaling.row_factor(i));
+        let tolerance = noise * equilibrated.fold(0.0, f64::max);
+        if sum.abs() <= tolerance {
+            return None;
+        }
+        let layout = mechanism.layout();
+        let is_driven = |row: usize| {
+            let group = layout.groups.iter().find(|g| g.rows.contains(&row));
+            group.is_some_and(|g| g.spec.rheonomic)
+        };
+        let driven = terms().rfind(|&(i, _)| is_driven(i));
+        let (row, z) = driven.or_else(|| terms().next_back())?;
+        Some(Contradiction {
+            time,
+            rows: terms().map(|(i, _)| layout.labels[i].clone()).collect(),
+            level: self.level,
+            size: (sum / z).abs(),
+            unit: self.level.unit(mechanism.is_angular(row)),
+            tolerance: tolerance / z.abs(),
+            driven: driven.is_some(),
         })
-        .max_by(|a, b| a.size.total_cmp(&b.size))
+    }
 }

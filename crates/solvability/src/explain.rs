@@ -8,7 +8,7 @@ use model::reaction::COMPONENTS;
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 
-use crate::matrices::Solvability;
+use crate::matrices::{QueryError, Solvability};
 use crate::verdict::Verdict;
 use crate::words::{self, list, names};
 
@@ -88,6 +88,9 @@ pub enum ExplanationError {
     /// The rank is undecided, and every sentence would build on one of two readings.
     #[error("nothing can be explained while the rank is undecided: {0}")]
     Undecided(linalg::Doubt),
+    /// The solvability is of another constraint matrix.
+    #[error(transparent)]
+    Query(#[from] QueryError),
 }
 
 /// Explains the verdicts at the configuration q of the scratch, where Φ and C have been evaluated.
@@ -107,8 +110,8 @@ pub fn explain(
     let mixing = mixing(mechanism, solvability);
     let ids = mechanism.constraint_ids();
     let reactions = ids
-        .filter_map(|id| reaction(mechanism, s, solvability, &mixing, id))
-        .collect();
+        .filter_map(|id| reaction(mechanism, s, solvability, &mixing, id).transpose())
+        .collect::<Result<_, _>>()?;
     let stresses = linalg::short_circuits(solvability.decision())
         .into_iter()
         .map(|circuit| stress(mechanism, s, q, solvability, circuit))
@@ -169,11 +172,11 @@ fn reaction(
     solvability: &Solvability,
     mixing: &[Mixing],
     id: ConstraintId,
-) -> Option<ReactionExplanation> {
+) -> Result<Option<ReactionExplanation>, QueryError> {
     let layout = mechanism.layout();
     let group = &layout.groups[id.0];
-    if solvability.group(group.rows.clone()).verdict != Verdict::NotUnique {
-        return None;
+    if solvability.group(group.rows.clone())?.verdict != Verdict::NotUnique {
+        return Ok(None);
     }
     let mut others: Vec<ConstraintId> = mixing
         .iter()
@@ -188,7 +191,7 @@ fn reaction(
     let map = linalg::Matrix::from_fn(components.len(), group.rows.len(), |i, j| {
         full[(components[i], j)]
     });
-    let directions = solvability.unique_directions(&map, group.rows.clone());
+    let directions = solvability.unique_directions(&map, group.rows.clone())?;
     let combination = |direction: &Vec<f64>| {
         let terms = direction
             .iter()
@@ -220,13 +223,13 @@ fn reaction(
         [] => "its rows depend on each other".to_owned(),
         others => format!("it shares loads with {}", list(&names(layout, others))),
     };
-    Some(ReactionExplanation {
+    Ok(Some(ReactionExplanation {
         id,
         text: format!(
             "the reaction of `{}` is not determined: {shared}; {determined}",
             group.name
         ),
-    })
+    }))
 }
 
 fn stress(

@@ -1,25 +1,94 @@
 //! Is a redundancy permanent, or only of this configuration? The rank is constant on each connected component of the
 //! configuration set except on a nowhere dense part of it, so a few other points of the same component tell.
 //!
-//! Drives are left free while the mechanism is moved to these points: what they prescribe changes with time.
+//! The mechanism walks there on its constraints, by steps along its free directions. Drives are left free: what they prescribe
+//! changes with time. Where other constraints depend on time, time moves too.
 
 use linalg::{Matrix, PivotedQr, RankDecision};
 use model::start::{nearest_configuration, scene_size};
 use model::{Mechanism, System};
 
-use crate::mechanism::decide;
+use crate::mechanism::{decide, velocity_units};
 
-/// Points tried.
-const POINTS: usize = 2;
+/// Points compared.
+const POINTS: usize = 4;
 
-/// How far they are: a share of the scene's size, or as many radians.
-const DISTANCE: f64 = 0.15;
+/// Walks at most, also those that lead nowhere.
+const WALKS: usize = 12;
 
-/// Each point is tried at this many halved distances, because not every displacement can be assembled again.
+/// Steps from one point to the next.
+const STEPS: usize = 4;
+
+/// Length of a step: a share of the mechanism's size, or as many radians.
+const STEP: f64 = 0.2;
+
+/// A step is tried at this many halved lengths, because not every displacement can be assembled again.
 const HALVINGS: i32 = 5;
 
-/// Whether the degree of redundancy is the same at other configurations. `None` if no other configuration was found, or a rank is
-/// undecided.
+/// Points must be this far from each other and from the given one, in the same measure.
+const APART: f64 = 0.1;
+
+/// Redundancy at other configurations of the same component.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Generic {
+    /// The smallest redundancy found: that of almost all configurations.
+    pub redundancy: usize,
+    /// What was compared.
+    pub points: Vec<Elsewhere>,
+}
+
+/// Another configuration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Elsewhere {
+    /// Its time (s).
+    pub time: f64,
+    /// Its coordinates.
+    pub q: Vec<f64>,
+    /// Rank of C.
+    pub rank: usize,
+    /// Degree of redundancy.
+    pub redundancy: usize,
+}
+
+/// Ranks at other configurations than (t, q), which must lie on the constraints. `None` if none was found at which the rank is
+/// decided: for a structure that cannot move there is none.
+#[must_use]
+pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
+    let rows = lasting_rows(mechanism);
+    let size = scene_size(mechanism, q);
+    let units = velocity_units(mechanism, size);
+    let mut points: Vec<Elsewhere> = Vec::new();
+    let mut visited = vec![(t, q.to_vec())];
+    for walk in 0..WALKS {
+        let from = &visited[visited.len() - 1];
+        let Some(there) = walk_from(mechanism, from, &rows, &units, size, walk) else {
+            continue;
+        };
+        let is_new = |(t, q): &(f64, Vec<f64>)| {
+            let moved = there.1.iter().zip(q).map(|(a, b)| a - b);
+            there.0 != *t || length(moved, &units, size) >= APART
+        };
+        if visited.iter().all(is_new) {
+            points.extend(elsewhere(mechanism, &there, &rows));
+        }
+        visited.push(there);
+        if points.len() == POINTS {
+            break;
+        }
+    }
+    let redundancy = points.iter().map(|p| p.redundancy).min()?;
+    Some(Generic { redundancy, points })
+}
+
+/// Largest part of a displacement: a share of the mechanism's size, or radians.
+fn length(d: impl Iterator<Item = f64>, units: &[f64], size: f64) -> f64 {
+    d.zip(units)
+        .map(|(d, unit)| (d / unit / size).abs())
+        .fold(0.0, f64::max)
+}
+
+/// Whether the degree of redundancy is the same at other configurations. `None` if no other configuration was found, or the rank
+/// here is undecided.
 #[must_use]
 pub fn is_permanent(
     mechanism: &Mechanism,
@@ -27,67 +96,132 @@ pub fn is_permanent(
     q: &[f64],
     decision: &RankDecision,
 ) -> Option<bool> {
-    let layout = mechanism.layout();
-    let rows: Vec<usize> = layout
-        .groups
-        .iter()
-        .filter(|g| !g.spec.rheonomic)
-        .flat_map(|g| g.rows.clone())
-        .filter(|row| *row < layout.m)
-        .collect();
-    let directions = free_directions(mechanism, t, q, &rows)?;
-    let size = scene_size(mechanism, q);
-    for point in 0..POINTS {
-        let step = mixed(&directions, point);
-        let largest = (0..step.len())
-            .map(|k| step[k].abs() / if k % 3 == 2 { 1.0 } else { size })
-            .fold(0.0, f64::max);
-        let other = (0..HALVINGS).find_map(|halving| {
-            let length = DISTANCE * 0.5_f64.powi(halving) / largest;
-            let moved: Vec<f64> = q.iter().zip(&step).map(|(q, d)| q + length * d).collect();
-            nearest_configuration(mechanism, t, &rows, &moved).ok()
-        })?;
-        let mut s = mechanism.scratch();
-        mechanism.pose(t, &other, &mut s);
-        mechanism.phi(&mut s);
-        mechanism.c(&mut s);
-        // Drives were left free: their rows say nothing of this configuration.
-        for i in (0..layout.m).filter(|i| !rows.contains(i)) {
-            s.phi[i] = 0.0;
-        }
-        let there = decide(mechanism, &s, &other).ok()?;
-        if !(decision.is_decided() && there.is_decided()) {
-            return None;
-        }
-        if there.redundancy != decision.redundancy {
-            return Some(false);
-        }
-    }
-    Some(true)
+    let found = generic(mechanism, t, q).filter(|_| decision.is_decided())?;
+    Some(found.redundancy == decision.redundancy)
 }
 
-/// Basis of the velocities that these rows of Φq allow, one in each row; `None` if there are none.
-fn free_directions(mechanism: &Mechanism, t: f64, q: &[f64], rows: &[usize]) -> Option<Matrix> {
+/// Rows of Φ that hold wherever the drives are.
+fn lasting_rows(mechanism: &Mechanism) -> Vec<usize> {
+    let layout = mechanism.layout();
+    let lasting = layout.groups.iter().filter(|g| !is_free(g));
+    lasting
+        .flat_map(|g| g.rows.clone())
+        .filter(|row| *row < layout.m)
+        .collect()
+}
+
+/// Whether a constraint only prescribes a motion.
+fn is_free(group: &model::reaction::ConstraintGroup) -> bool {
+    group.kind == model::ConstraintKind::Drive
+}
+
+/// The end of one walk, if it led away.
+fn walk_from(
+    mechanism: &Mechanism,
+    from: &(f64, Vec<f64>),
+    rows: &[usize],
+    units: &[f64],
+    size: f64,
+    walk: usize,
+) -> Option<(f64, Vec<f64>)> {
+    let moves_time = has_lasting_function(mechanism);
+    // Walks of different lengths do not lead back.
+    let stride = STEP * (1.0 + 0.5 * spread(walk + 1));
+    let (mut t, mut q) = from.clone();
+    let mut heading: Option<Vec<f64>> = None;
+    for _ in 0..STEPS {
+        let directions = free_directions(mechanism, t, &q, rows, units)?;
+        if directions.nrows() == 0 && !moves_time {
+            return None;
+        }
+        let mut step = match &heading {
+            None => mixed(&directions, walk),
+            // What is free of the last step.
+            Some(last) => directions.transpose_times(&directions.times(last)),
+        };
+        heading = Some(step.clone());
+        step.iter_mut().zip(units).for_each(|(d, unit)| *d *= unit);
+        let mut rate = vec![0.0; q.len()];
+        mechanism.rate(&q, &step, &mut rate);
+        let largest = length(step.into_iter(), units, size);
+        let time = if moves_time { stride } else { 0.0 };
+        let next = (0..HALVINGS).find_map(|halving| {
+            let share = 0.5_f64.powi(halving);
+            let factor = if largest > 0.0 {
+                stride * share / largest
+            } else {
+                0.0
+            };
+            let moved: Vec<f64> = q.iter().zip(&rate).map(|(q, d)| q + factor * d).collect();
+            let later = t + time * share;
+            let there = nearest_configuration(mechanism, later, rows, &moved).ok()?;
+            Some((later, there))
+        });
+        let Some(next) = next else {
+            break;
+        };
+        (t, q) = next;
+    }
+    ((t, &q) != (from.0, &from.1)).then_some((t, q))
+}
+
+/// Whether a constraint that is not a drive depends on time.
+fn has_lasting_function(mechanism: &Mechanism) -> bool {
+    let mut groups = mechanism.layout().groups.iter();
+    groups.any(|g| g.spec.rheonomic && !is_free(g))
+}
+
+/// The rank at a point, if it is decided there.
+fn elsewhere(mechanism: &Mechanism, (t, q): &(f64, Vec<f64>), rows: &[usize]) -> Option<Elsewhere> {
+    let mut s = crate::mechanism::evaluated(mechanism, *t, q);
+    // Drives were left free: their rows say nothing of this configuration.
+    for i in (0..mechanism.layout().m).filter(|i| !rows.contains(i)) {
+        s.phi[i] = 0.0;
+    }
+    let decision = decide(mechanism, &s, q).ok()?;
+    decision.is_decided().then(|| Elsewhere {
+        time: *t,
+        q: q.clone(),
+        rank: decision.rank,
+        redundancy: decision.redundancy,
+    })
+}
+
+/// Basis of the dimensionless velocities that these rows of Φq allow, one in each row.
+fn free_directions(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    rows: &[usize],
+    units: &[f64],
+) -> Option<Matrix> {
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);
     mechanism.c(&mut s);
-    let phi_q = mechanism.layout().dense(&s).select_rows(rows);
+    let mut phi_q = mechanism.layout().dense(&s).select_rows(rows);
+    for i in 0..phi_q.nrows() {
+        let row = phi_q.row_mut(i).iter_mut();
+        row.zip(units).for_each(|(entry, unit)| *entry *= unit);
+    }
     let n = phi_q.ncols();
-    let rank = linalg::decide(&phi_q, 0.0).ok()?.rank;
-    let basis = PivotedQr::of_rows(phi_q).q_columns(rank..n);
-    (rank < n).then(|| basis.transpose())
+    let decision = linalg::decide(&phi_q, 0.0).ok()?;
+    let kept = phi_q.select_rows(&decision.kept);
+    Some(
+        PivotedQr::of_rows(kept)
+            .q_columns(decision.rank..n)
+            .transpose(),
+    )
 }
 
-/// A combination of all directions with coefficients that do not repeat: the fractional parts of multiples of the golden ratio.
-fn mixed(directions: &Matrix, point: usize) -> Vec<f64> {
-    let golden = 0.618_033_988_749_894_9;
-    let mut sum = vec![0.0; directions.ncols()];
-    for i in 0..directions.nrows() {
-        let place = (point * directions.nrows() + i + 1) as f64;
-        let coefficient = (golden * place).fract() - 0.5;
-        for (s, d) in sum.iter_mut().zip(directions.row(i)) {
-            *s += coefficient * d;
-        }
-    }
-    sum
+/// A combination of all directions with coefficients that do not repeat.
+fn mixed(directions: &Matrix, walk: usize) -> Vec<f64> {
+    let first = walk * directions.nrows() + 1;
+    let coefficients: Vec<f64> = (0..directions.nrows()).map(|i| spread(first + i)).collect();
+    directions.transpose_times(&coefficients)
+}
+
+/// Numbers spread evenly between −½ and ½: the fractional parts of multiples of the golden ratio.
+fn spread(k: usize) -> f64 {
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    (GOLDEN * k as f64).fract() - 0.5
 }

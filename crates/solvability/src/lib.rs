@@ -6,15 +6,19 @@
 //! | --- | --- |
 //! | [`verdict`] | unique, not unique, undecided: with the number behind it |
 //! | [`matrices`] | solvability of a plain constraint matrix |
+//! | [`state`] | a state that the caller gives |
 //! | [`existence`] | do the rows contradict each other? |
-//! | [`generic`] | permanent, or only of this configuration? |
+//! | [`mod@generic`] | permanent, or only of this configuration? |
 //! | [`groups`] | combinations of reactions |
 //! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
 //! | [`structure`] | what the shape settles before any rank |
 //! | [`explain`] | mixing, free directions and sentences |
 //! | [`make_unique`] | what to delete so that a reaction becomes unique |
+//! | [`mod@second_order`] | is the motion unique where the rank drops? |
+//! | [`along`] | verdicts along a motion: one, and where another holds |
 //! | `words` | dependencies as sentences |
 
+pub mod along;
 mod certificate;
 pub mod existence;
 pub mod explain;
@@ -23,16 +27,19 @@ pub mod groups;
 pub mod make_unique;
 pub mod matrices;
 pub mod mechanism;
+pub mod second_order;
+pub mod state;
 pub mod structure;
 pub mod verdict;
 mod words;
 
+pub use along::{Along, AlongError, Difference, Part, Passage, PassageKind, Stretch, along_motion};
 pub use certificate::certify;
-pub use existence::{ConstraintLevel, Contradiction, contradiction};
+pub use existence::{ConstraintLevel, Contradiction, Ranks, contradictions};
 pub use explain::{
     Explanation, ExplanationError, FreeDirection, Mixing, ReactionExplanation, SelfStress, explain,
 };
-pub use generic::is_permanent;
+pub use generic::{Elsewhere, Generic, generic, is_permanent};
 pub use groups::{Group, Term, judge_groups};
 pub use make_unique::{Allowed, Proposal, Proposals, make_unique};
 pub use matrices::{QueryError, Solvability};
@@ -40,5 +47,7 @@ pub use mechanism::{
     Analysis, AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, analyse,
     analyse_dropping, decide, decide_dropping, decide_holonomic,
 };
+pub use second_order::{Continuation, Undetermined, second_order};
+pub use state::{State, StateError};
 pub use structure::{judge_parts, structure};
 pub use verdict::{Judgement, Verdict};

@@ -5,7 +5,7 @@ use model::reaction::COMPONENTS;
 use model::start::scene_size;
 use model::{ConstraintId, Mechanism, Scratch, System};
 
-use crate::certificate::CertifiedRows;
+use crate::certificate::Rows;
 use crate::matrices::{QueryError, Solvability};
 use crate::verdict::Judgement;
 use crate::words;
@@ -134,6 +134,13 @@ pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Ma
         .apply(&mechanism.layout().dense(s))
 }
 
+/// The velocities that are one without dimensions: 1 m/s for translations, and for rotations what moves a point at the size of the
+/// mechanism by about as much, a power of two.
+pub(crate) fn velocity_units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+    let scaling = mechanism.dimension_scaling(size);
+    scaling.cols.iter().map(|&e| f64::from(e).exp2()).collect()
+}
+
 /// Decides the rank of C at the pose of the scratch, where Φ and C have been evaluated at coordinates q.
 ///
 /// # Errors
@@ -187,9 +194,9 @@ pub fn decide_dropping(
 /// # Errors
 /// If C is not finite.
 pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
-    let rows = CertifiedRows::new(mechanism, t, q)?;
+    let rows = Rows::new(mechanism, t, q)?;
     let decision = rows.decide()?;
-    judge(mechanism, t, q, &rows, decision)
+    judge(mechanism, &evaluated(mechanism, t, q), &rows, decision)
 }
 
 /// The same with dependencies told by the dropped rows that the caller chooses (from 0). Verdicts do not depend on them.
@@ -202,15 +209,10 @@ pub fn analyse_dropping(
     q: &[f64],
     dropped: &[usize],
 ) -> Result<Analysis, AnalysisError> {
-    let decision = decide_dropping(mechanism, &evaluated(mechanism, t, q), q, dropped)
+    let s = evaluated(mechanism, t, q);
+    let decision = decide_dropping(mechanism, &s, q, dropped)
         .map_err(|source| AnalysisError::Rows { time: t, source })?;
-    judge(
-        mechanism,
-        t,
-        q,
-        &CertifiedRows::new(mechanism, t, q)?,
-        decision,
-    )
+    judge(mechanism, &s, &Rows::new(mechanism, t, q)?, decision)
 }
 
 /// Φ and C at a configuration.
@@ -222,15 +224,15 @@ pub(crate) fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
     s
 }
 
-fn judge(
+/// Verdicts at the pose of the scratch, where Φ and C have been evaluated and the rank has been decided.
+pub(crate) fn judge(
     mechanism: &Mechanism,
-    t: f64,
-    q: &[f64],
-    rows: &CertifiedRows,
+    s: &Scratch,
+    rows: &Rows,
     decision: RankDecision,
 ) -> Result<Analysis, AnalysisError> {
     let layout = mechanism.layout();
-    let s = evaluated(mechanism, t, q);
+    let t = s.t;
     let solvability = Solvability::from_decision(&rows.matrix(), decision);
     let mut warnings = Vec::new();
     let mut rank_of = |what: &str, part: std::ops::Range<usize>| {
@@ -244,7 +246,7 @@ fn judge(
     let rank_nonholonomic = rank_of("Ψ", layout.m..layout.rows())?;
     let reactions = mechanism
         .constraint_ids()
-        .map(|id| reaction(mechanism, id, &s, &solvability))
+        .map(|id| reaction(mechanism, id, s, &solvability))
         .collect::<Result<_, _>>()
         .map_err(|source| AnalysisError::Query { time: t, source })?;
     let dependencies = linalg::short_circuits(solvability.decision())

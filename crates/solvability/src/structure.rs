@@ -5,7 +5,8 @@ use linalg::{RankError, RowGroup, Settled, Structure};
 use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
 
-use crate::matrices::Solvability;
+use crate::explain::ExplanationError;
+use crate::matrices::{QueryError, Solvability};
 use crate::mechanism::dimensionless;
 use crate::verdict::Judgement;
 
@@ -42,7 +43,7 @@ pub fn judge_parts(
     s: &Scratch,
     q: &[f64],
     structure: &Structure,
-) -> Result<Vec<Option<Judgement>>, RankError> {
+) -> Result<Vec<Option<Judgement>>, ExplanationError> {
     let size = scene_size(mechanism, q);
     let c = dimensionless(mechanism, s, size);
     let residual = mechanism.relative_residual(s, q, size);
@@ -50,7 +51,7 @@ pub fn judge_parts(
         .open
         .iter()
         .map(|part| Solvability::of(&c.select_rows(&part.rows), residual))
-        .collect::<Result<_, _>>()?;
+        .collect::<Result<_, RankError>>()?;
     let judge = |group: usize| match structure.groups[group] {
         Settled::Open(k) => {
             let rows = &structure.open[k].rows;
@@ -58,9 +59,10 @@ pub fn judge_parts(
             // Rows of a part ascend, so those of one group stand together.
             let first = rows.partition_point(|row| *row < own.start);
             let end = rows.partition_point(|row| *row < own.end);
-            Some(parts[k].group(first..end))
+            parts[k].group(first..end).map(Some)
         }
-        Settled::Peeled | Settled::Bridge => None,
+        Settled::Peeled | Settled::Bridge => Ok(None),
     };
-    Ok((0..structure.groups.len()).map(judge).collect())
+    let judged = (0..structure.groups.len()).map(judge);
+    Ok(judged.collect::<Result<_, QueryError>>()?)
 }

@@ -118,15 +118,15 @@ fn sum(solvability: &Solvability, circuit: &Circuit) -> String {
         rows: circuit.rows.clone(),
         coefficients: vec![*b, -*a],
     };
-    match solvability.combination(&l).verdict {
-        Verdict::Unique => format!(
+    match solvability.combination(&l).map(|judged| judged.verdict) {
+        Ok(Verdict::Unique) => format!(
             "{cancel}, their sum with weights {} is determined",
             ratio(&combined)
         ),
-        Verdict::NotUnique => {
+        Ok(Verdict::NotUnique) => {
             format!("{cancel}, and their sum depends on other reactions that are not determined")
         }
-        Verdict::Undecided { .. } => cancel,
+        _ => cancel,
     }
 }
 

@@ -1,0 +1,73 @@
+//! Instants at which a reaction is unique that is not unique almost always, at the same rank: its margin falls to zero and rises
+//! again.
+
+use super::passages::local_minima;
+use super::path::{Path, Sample};
+use super::{AlongError, Passage, PassageKind, Stretch, differences, parts, search, words};
+use crate::mechanism::Analysis;
+use crate::state::State;
+use crate::verdict::Verdict;
+
+/// Isolated instants outside the stretches that have verdicts of their own, and outside nearly singular intervals.
+pub(super) fn instants<F: FnMut(f64) -> State>(
+    path: &mut Path<'_, F>,
+    generic: &Analysis,
+    stretches: &[Stretch],
+    passages: &[Passage],
+) -> Result<Vec<Passage>, AlongError> {
+    let mechanism = path.mechanism;
+    let is_special = |t: f64| {
+        let mut stretches = stretches.iter().map(|e| [e.from, e.to]);
+        let mut intervals = passages.iter().filter_map(|p| p.nearly_singular);
+        let contains = |[from, to]: [f64; 2]| from <= t && t <= to;
+        stretches.any(contains) || intervals.any(contains)
+    };
+    // Margins of what is generically not unique, sample by sample; nothing where another verdict is known to hold.
+    let is_known = |s: &Sample| s.regular && !is_special(s.t);
+    let known: Vec<bool> = path.samples.iter().map(is_known).collect();
+    let not_unique: Vec<usize> = parts(mechanism, generic)
+        .iter()
+        .enumerate()
+        .filter(|(_, p)| p.2.verdict == Verdict::NotUnique)
+        .map(|(k, _)| k)
+        .collect();
+    let margin = |analysis: &Analysis, part: usize| parts(mechanism, analysis)[part].2.margin;
+    let mut found: Vec<(f64, Analysis)> = Vec::new();
+    for part in not_unique {
+        let margins: Vec<Option<f64>> = path
+            .samples
+            .iter()
+            .zip(&known)
+            .map(|(s, known)| known.then(|| margin(&s.analysis, part)))
+            .collect();
+        let times: Vec<f64> = path.samples.iter().map(|s| s.t).collect();
+        for bracket in local_minima(&times, &margins) {
+            let is_unique = |a: &Analysis| parts(mechanism, a)[part].2.verdict.is_unique();
+            let inside = |t: f64| bracket[0] <= t && t <= bracket[1];
+            if found.iter().any(|(t, a)| inside(*t) && is_unique(a)) {
+                continue;
+            }
+            let (t, _) = search::minimum(bracket, |t| {
+                Ok::<_, AlongError>(margin(&path.analysis(t)?, part))
+            })?;
+            let there = path.analysis(t)?;
+            if is_unique(&there) && !is_special(t) {
+                found.push((t, there));
+            }
+        }
+    }
+    Ok(found
+        .into_iter()
+        .map(|(time, analysis)| {
+            let mut passage = Passage {
+                time,
+                kind: PassageKind::Verdicts,
+                nearly_singular: None,
+                differences: differences(mechanism, generic, &analysis),
+                text: String::new(),
+            };
+            passage.text = words::passage(&passage, generic);
+            passage
+        })
+        .collect())
+}

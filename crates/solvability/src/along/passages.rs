@@ -1,0 +1,270 @@
+//! Instants at which the rank drops, or nearly does.
+
+use linalg::{Matrix, PivotedQr, RankStatus, least_squares_step};
+use model::{Mechanism, System};
+
+use super::border::Border;
+use super::path::{NEARLY_SINGULAR, Path, Point, Sample};
+use super::{AlongError, Passage, PassageKind, Stretch, differences, search, words};
+use crate::certificate::Rows;
+use crate::mechanism::{Analysis, judge, velocity_units};
+use crate::second_order::second_order;
+use crate::state::State;
+
+/// A sign change belongs to a singular configuration if σ_r is below this there; otherwise rows or frame have turned.
+const SINGULAR: f64 = 1e-6;
+
+/// A frame has turned too far to compare signs if its overlap is below this.
+const OVERLAP: f64 = 0.5;
+
+/// A determinant that has fallen to this share may have passed zero twice.
+const SMALL: f64 = 0.1;
+
+/// An interval between samples is halved as often at most.
+const HALVINGS: usize = 8;
+
+/// Directions of the regular motion are those at this share of the nearly singular interval beside the instant.
+const BESIDE: f64 = 1e-2;
+
+/// An instant where σ_r is smallest.
+#[derive(Clone, Copy)]
+struct Candidate {
+    t: f64,
+    sigma: f64,
+    /// Whether a sign change proves that σ_r is zero there.
+    proved: bool,
+}
+
+/// Singular and nearly singular instants, but not those of stretches that are singular throughout.
+pub(super) fn passages<F: FnMut(f64) -> State>(
+    path: &mut Path<'_, F>,
+    generic: &Analysis,
+    stretches: &[Stretch],
+) -> Result<Vec<Passage>, AlongError> {
+    let mut found = sign_changes(path)?;
+    let times: Vec<f64> = path.samples.iter().map(|s| s.t).collect();
+    let sigma: Vec<Option<f64>> = path.samples.iter().map(|s| Some(s.sigma)).collect();
+    for bracket in local_minima(&times, &sigma) {
+        let [a, b] = bracket;
+        if found.iter().any(|c| a <= c.t && c.t <= b) {
+            continue;
+        }
+        let (t, sigma) = search::minimum(bracket, |t| path.sigma(t))?;
+        if sigma < NEARLY_SINGULAR {
+            let proved = false;
+            found.push(Candidate { t, sigma, proved });
+        }
+    }
+    let redundancy = generic.decision.redundancy;
+    let is_apart = |c: &Candidate| {
+        let mut singular = stretches.iter().filter(|s| s.redundancy > redundancy);
+        singular.all(|s| !(s.from..=s.to).contains(&c.t))
+    };
+    found.retain(is_apart);
+    found
+        .into_iter()
+        .map(|candidate| passage(path, candidate, generic))
+        .collect()
+}
+
+/// Brackets of the minima of a sampled function, at its ends too; none where it is constant, and none beside times at which it is not
+/// known, because it may fall on towards these.
+pub(super) fn local_minima(times: &[f64], values: &[Option<f64>]) -> Vec<[f64; 2]> {
+    /// What a minimum must be lower than the larger neighbour by.
+    const LOWER: f64 = 0.99;
+    let last = times.len().saturating_sub(1);
+    (0..times.len())
+        .filter_map(|k| {
+            let (first, last) = (k.saturating_sub(1), last.min(k + 1));
+            let (before, here, after) = (values[first]?, values[k]?, values[last]?);
+            let lowest = here <= before && here <= after;
+            let falls = here < LOWER * before.max(after);
+            (lowest && falls).then(|| [times[first], times[last]])
+        })
+        .collect()
+}
+
+/// Roots of the bordered determinant between regular samples.
+fn sign_changes<F: FnMut(f64) -> State>(
+    path: &mut Path<'_, F>,
+) -> Result<Vec<Candidate>, AlongError> {
+    /// An end of an interval: time, equilibrated C and kept rows.
+    type End = (f64, Matrix, Vec<usize>);
+    let ends: Vec<End> = path
+        .samples
+        .iter()
+        .filter(|s| s.regular)
+        .map(|s| (s.t, s.c.clone(), s.decision.kept.clone()))
+        .collect();
+    let mut found: Vec<Candidate> = Vec::new();
+    let mut intervals: Vec<(End, End, usize)> = ends
+        .windows(2)
+        .map(|w| (w[0].clone(), w[1].clone(), HALVINGS))
+        .collect();
+    while let Some((a, b, halvings)) = intervals.pop() {
+        let border = Border::new(&a.1, &a.2);
+        let value = border.value(&b.1);
+        if value < 0.0 {
+            let at = |t: f64| -> Result<f64, AlongError> {
+                let point = path.at(t)?;
+                Ok(border.value(&path.equilibrated(&point)))
+            };
+            let t = search::root([a.0, b.0], [1.0, value], at)?;
+            let sigma = path.sigma(t)?;
+            if sigma < SINGULAR {
+                let proved = true;
+                found.push(Candidate { t, sigma, proved });
+                continue;
+            }
+        }
+        // The same the other way round: rows and frame of b.
+        let back = Border::new(&b.1, &b.2);
+        let doubtful = value < SMALL
+            || back.value(&a.1) < SMALL
+            || border.overlap(&b.1).min(back.overlap(&a.1)) < OVERLAP;
+        if halvings > 0 && doubtful {
+            let t = 0.5 * (a.0 + b.0);
+            let point = path.at(t)?;
+            let decision = path.decide(&point, 0.0)?;
+            if decision.is_decided() && decision.rank == path.rank {
+                let middle = (t, path.equilibrated(&point), decision.kept);
+                intervals.push((a, middle.clone(), halvings - 1));
+                intervals.push((middle, b, halvings - 1));
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// What happens at a candidate.
+fn passage<F: FnMut(f64) -> State>(
+    path: &mut Path<'_, F>,
+    candidate: Candidate,
+    generic: &Analysis,
+) -> Result<Passage, AlongError> {
+    let (time, sigma) = (candidate.t, candidate.sigma);
+    let point = path.at(time)?;
+    // A sign change proves that a matrix of lower rank is as near as σ_r.
+    let distance = if candidate.proved { sigma } else { 0.0 };
+    let decision = path.decide(&point, distance)?;
+    let analysis = judge(
+        path.mechanism,
+        &point.s,
+        &Rows::in_double(path.mechanism, &point.s, &point.q),
+        decision.clone(),
+    )?;
+    let interval = nearly_singular(path, time)?;
+    let kind = match decision.status {
+        RankStatus::Undecided(doubt) => PassageKind::Undecided { doubt },
+        _ if decision.rank == path.rank => PassageKind::NearlySingular { sigma },
+        _ => {
+            let v = consistent(path.mechanism, &point, &decision.kept);
+            let regular = regular_motions(path, time, interval, &v)?;
+            PassageKind::RankDrops {
+                redundancy: decision.redundancy,
+                continuation: second_order(
+                    path.mechanism,
+                    time,
+                    &point.q,
+                    &v,
+                    &decision,
+                    &regular,
+                )?,
+            }
+        }
+    };
+    let mut passage = Passage {
+        time,
+        kind,
+        nearly_singular: Some(interval),
+        differences: differences(path.mechanism, generic, &analysis),
+        text: String::new(),
+    };
+    passage.text = words::passage(&passage, generic);
+    Ok(passage)
+}
+
+/// The interval around t on which σ_r is below the limit, as far as the motion is known.
+fn nearly_singular<F: FnMut(f64) -> State>(
+    path: &mut Path<'_, F>,
+    t: f64,
+) -> Result<[f64; 2], AlongError> {
+    let samples = &path.samples;
+    let ends = [samples[0].t, samples[samples.len() - 1].t];
+    let before: Vec<&Sample> = samples.iter().rev().filter(|s| s.t < t).collect();
+    let after: Vec<&Sample> = samples.iter().filter(|s| s.t > t).collect();
+    // The first sample outside, and the last one inside.
+    let edges = [before, after].map(|side| {
+        let outside = side.iter().position(|s| s.sigma >= NEARLY_SINGULAR)?;
+        let inside = outside.checked_sub(1).map_or(t, |k| side[k].t);
+        Some([side[outside].t, inside])
+    });
+    let mut found = ends;
+    for (found, edge) in found.iter_mut().zip(edges) {
+        if let Some(edge) = edge {
+            *found = search::edge(edge, |t| {
+                Ok::<_, AlongError>(path.sigma(t)? < NEARLY_SINGULAR)
+            })?;
+        }
+    }
+    Ok(found)
+}
+
+/// Velocities of the motion, moved onto `C·v = b` in the kept rows.
+fn consistent(mechanism: &Mechanism, p: &Point, kept: &[usize]) -> Vec<f64> {
+    let layout = mechanism.layout();
+    let mut s = p.s.clone();
+    mechanism.b(&mut s);
+    let c = layout.dense(&s).select_rows(kept);
+    let residual: Vec<f64> = kept
+        .iter()
+        .map(|&i| layout.velocity_residual(&s, i, &p.v))
+        .collect();
+    let weights = vec![1.0; p.v.len()];
+    match least_squares_step(&c, &residual, &weights, 0.0) {
+        Ok(step) => p.v.iter().zip(step).map(|(v, d)| v + d).collect(),
+        Err(_) => p.v.clone(),
+    }
+}
+
+/// Velocities that the mechanism has also beside the instant, n_v × (n_v − r).
+fn regular_motions<F: FnMut(f64) -> State>(
+    path: &mut Path<'_, F>,
+    t: f64,
+    [from, to]: [f64; 2],
+    v: &[f64],
+) -> Result<Matrix, AlongError> {
+    let n = v.len();
+    let freedoms = n - path.rank;
+    let moves = v.iter().any(|v| *v != 0.0);
+    if freedoms == 1 && moves && !path.mechanism.layout().rheonomic {
+        return Ok(Matrix::from_fn(n, 1, |i, _| v[i]));
+    }
+    if freedoms == 0 {
+        return Ok(Matrix::zeros(n, 0));
+    }
+    // The mean of both sides is wrong by the square of their distance only.
+    let distance = BESIDE * (to - t).min(t - from);
+    let sides = match distance > 0.0 {
+        true => vec![t - distance, t + distance],
+        false if to > t => vec![t + BESIDE * (to - t)],
+        false => vec![t + BESIDE * (from - t)],
+    };
+    let mut frames = Vec::new();
+    for t in sides {
+        let point = path.at(t)?;
+        let kept = path.decide(&point, 0.0)?.kept;
+        let rows = point.c.select_rows(&kept[..path.rank.min(kept.len())]);
+        frames.push(PivotedQr::of_rows(rows).q_columns(n - freedoms..n));
+    }
+    let first = &frames[0];
+    let mut sum = first.clone();
+    for other in &frames[1..] {
+        // The other frame, turned into the first.
+        let turned = other.product(&other.transpose().product(first));
+        let entries = sum.as_mut_slice().iter_mut().zip(turned.as_slice());
+        entries.for_each(|(sum, x)| *sum += x);
+    }
+    let units = velocity_units(path.mechanism, path.size());
+    Ok(Matrix::from_fn(n, freedoms, |i, j| sum[(i, j)] * units[i]))
+}

@@ -1,0 +1,183 @@
+//! States of a motion on the constraints, and the samples that were taken of it.
+
+use linalg::{Matrix, RankDecision, Scaling};
+use model::start::{nearest_configuration, scene_size};
+use model::{Mechanism, Scratch, System};
+
+use super::AlongError;
+use crate::certificate::Rows;
+use crate::mechanism::{Analysis, AnalysisError, dimensionless, evaluated, judge};
+use crate::state::{self, State};
+
+/// The smallest singular value below which a configuration is called nearly singular.
+pub(super) const NEARLY_SINGULAR: f64 = 1e-3;
+
+/// A sample that is singular beside the best one of the motion is not regular, whatever its value.
+const REGULAR: f64 = 0.1;
+
+/// A motion of a mechanism.
+pub(super) struct Path<'a, F> {
+    pub(super) mechanism: &'a Mechanism,
+    motion: F,
+    /// Rows of Φ.
+    holonomic: Vec<usize>,
+    /// Length that makes C dimensionless, the same along the motion.
+    size: f64,
+    /// Almost everywhere.
+    pub(super) rank: usize,
+    /// The equilibration of the best sample, used for all.
+    scaling: Scaling,
+    /// In the order of time.
+    pub(super) samples: Vec<Sample>,
+}
+
+/// The motion at one instant.
+pub(super) struct Point {
+    pub(super) t: f64,
+    pub(super) q: Vec<f64>,
+    pub(super) v: Vec<f64>,
+    pub(super) s: Scratch,
+    /// C without dimensions.
+    pub(super) c: Matrix,
+}
+
+/// A point where the rank was asked for.
+pub(super) struct Sample {
+    pub(super) t: f64,
+    /// The r-th singular value of the equilibrated C; r is the rank almost everywhere.
+    pub(super) sigma: f64,
+    /// Whether the rank is r, decided, and the configuration not nearly singular.
+    pub(super) regular: bool,
+    /// Equilibrated as all samples.
+    pub(super) c: Matrix,
+    pub(super) decision: RankDecision,
+    /// Its verdicts.
+    pub(super) analysis: Analysis,
+}
+
+impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
+    /// Samples a motion and reads the rank that it has almost everywhere: the largest one.
+    pub(super) fn new(
+        mechanism: &'a Mechanism,
+        mut motion: F,
+        times: &[f64],
+    ) -> Result<Self, AlongError> {
+        let layout = mechanism.layout();
+        let first = motion(times[0]);
+        state::check(mechanism, times[0], &first.q, &first.v)?;
+        let mut path = Self {
+            mechanism,
+            motion,
+            holonomic: (0..layout.m).collect(),
+            size: scene_size(mechanism, &first.q),
+            rank: 0,
+            scaling: Scaling::identity(layout.rows(), layout.n_v),
+            samples: Vec::new(),
+        };
+        for &t in times {
+            let point = path.at(t)?;
+            let decision = path.decide(&point, 0.0)?;
+            let analysis = judge(
+                mechanism,
+                &point.s,
+                &Rows::in_double(mechanism, &point.s, &point.q),
+                decision.clone(),
+            )?;
+            path.samples.push(Sample {
+                t,
+                sigma: 0.0,
+                regular: false,
+                c: point.c,
+                decision,
+                analysis,
+            });
+        }
+        path.settle_rank()?;
+        Ok(path)
+    }
+
+    /// Takes rank and equilibration from the samples and measures all of them by these.
+    fn settle_rank(&mut self) -> Result<(), AlongError> {
+        let sigma = |s: &Sample| s.decision.evidence.sigma_r;
+        let decided = self.samples.iter().filter(|s| s.decision.is_decided());
+        let best = decided.max_by(|a, b| {
+            let ranks = a.decision.rank.cmp(&b.decision.rank);
+            ranks.then(sigma(a).total_cmp(&sigma(b)))
+        });
+        let Some(best) = best else {
+            let Sample { t, decision, .. } = &self.samples[self.samples.len() - 1];
+            return Err(AlongError::Undecided {
+                time: *t,
+                sigma_r: decision.evidence.sigma_r,
+                sigma_next: decision.evidence.sigma_next,
+                tolerance: decision.evidence.tolerance,
+            });
+        };
+        self.rank = best.decision.rank;
+        self.scaling = best.decision.scaling.clone();
+        for sample in &mut self.samples {
+            sample.c = self.scaling.apply(&sample.c);
+            sample.sigma = singular_value(&sample.c, self.rank);
+        }
+        let largest = self.samples.iter().map(|s| s.sigma).fold(0.0, f64::max);
+        let limit = NEARLY_SINGULAR.min(REGULAR * largest);
+        for s in &mut self.samples {
+            s.regular = s.decision.is_decided() && s.decision.rank == self.rank && s.sigma >= limit;
+        }
+        Ok(())
+    }
+
+    /// The state at time t, moved onto the constraints.
+    pub(super) fn at(&mut self, t: f64) -> Result<Point, AlongError> {
+        let State { q, v } = (self.motion)(t);
+        state::check(self.mechanism, t, &q, &v)?;
+        let q = nearest_configuration(self.mechanism, t, &self.holonomic, &q)
+            .map_err(|source| AlongError::OffConstraints { time: t, source })?;
+        let s = evaluated(self.mechanism, t, &q);
+        let c = dimensionless(self.mechanism, &s, self.size);
+        Ok(Point { t, q, v, s, c })
+    }
+
+    /// Length that makes C dimensionless.
+    pub(super) fn size(&self) -> f64 {
+        self.size
+    }
+
+    /// The rank at a point; `distance` is how far its C may be from the matrix that is asked for.
+    pub(super) fn decide(&self, p: &Point, distance: f64) -> Result<RankDecision, AlongError> {
+        let residual = self.mechanism.relative_residual(&p.s, &p.q, self.size);
+        linalg::decide(&p.c, residual.max(distance))
+            .map_err(|source| AnalysisError::Rank { time: p.t, source }.into())
+    }
+
+    /// C at a point, equilibrated as all samples.
+    pub(super) fn equilibrated(&self, p: &Point) -> Matrix {
+        self.scaling.apply(&p.c)
+    }
+
+    /// The r-th singular value at time t.
+    pub(super) fn sigma(&mut self, t: f64) -> Result<f64, AlongError> {
+        let point = self.at(t)?;
+        Ok(singular_value(&self.equilibrated(&point), self.rank))
+    }
+
+    /// The verdicts at time t.
+    pub(super) fn analysis(&mut self, t: f64) -> Result<Analysis, AlongError> {
+        let point = self.at(t)?;
+        let decision = self.decide(&point, 0.0)?;
+        Ok(judge(
+            self.mechanism,
+            &point.s,
+            &Rows::in_double(self.mechanism, &point.s, &point.q),
+            decision,
+        )?)
+    }
+}
+
+/// σ_r, infinite for rank 0.
+fn singular_value(c: &Matrix, rank: usize) -> f64 {
+    match rank {
+        0 => f64::INFINITY,
+        r => linalg::singular_values(c)[r - 1],
+    }
+}

@@ -1,0 +1,132 @@
+//! Where a function of time changes its sign, where a condition begins to hold, and where a function is smallest. All may fail.
+
+/// Halvings that bring any interval to rounding, and more.
+const ITERATIONS: usize = 120;
+
+/// Intervals are not divided below this share of their times.
+const RESOLUTION: f64 = 2.0 * f64::EPSILON;
+
+/// A root of `f` between a and b, where `f(a) > 0 > f(b)`: secant steps with the Illinois modification, halvings where these gain
+/// too little.
+pub(super) fn root<E>(
+    [a, b]: [f64; 2],
+    [f_a, f_b]: [f64; 2],
+    mut f: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<f64, E> {
+    let (mut low, mut high) = ((a, f_a), (b, f_b));
+    // Values for the secant; halved at an end that stays.
+    let (mut w_low, mut w_high) = (f_a, f_b);
+    let mut width = b - a;
+    let mut slow = 0;
+    for _ in 0..ITERATIONS {
+        let secant = low.0 + (high.0 - low.0) * w_low / (w_low - w_high);
+        let middle = 0.5 * (low.0 + high.0);
+        let inside = secant > low.0 && secant < high.0;
+        let t = if inside && slow < 3 { secant } else { middle };
+        if high.0 - low.0 <= RESOLUTION * low.0.abs().max(high.0.abs()) || t <= low.0 || t >= high.0
+        {
+            break;
+        }
+        let value = f(t)?;
+        if value == 0.0 {
+            return Ok(t);
+        }
+        if value > 0.0 {
+            w_high *= 0.5;
+            (low, w_low) = ((t, value), value);
+        } else {
+            w_low *= 0.5;
+            (high, w_high) = ((t, value), value);
+        }
+        slow = if high.0 - low.0 > 0.5 * width {
+            slow + 1
+        } else {
+            0
+        };
+        width = high.0 - low.0;
+    }
+    Ok(if low.1.abs() < high.1.abs() {
+        low.0
+    } else {
+        high.0
+    })
+}
+
+/// Halvings of an interval whose end needs no more digits than one reads.
+const EDGE_HALVINGS: usize = 40;
+
+/// The time between `outside` and `inside` at which a condition begins to hold: not outside, but inside.
+pub(super) fn edge<E>(
+    [mut outside, mut inside]: [f64; 2],
+    mut holds: impl FnMut(f64) -> Result<bool, E>,
+) -> Result<f64, E> {
+    for _ in 0..EDGE_HALVINGS {
+        let middle = 0.5 * (outside + inside);
+        if holds(middle)? {
+            inside = middle;
+        } else {
+            outside = middle;
+        }
+    }
+    Ok(inside)
+}
+
+/// Where `f` is smallest between a and b, if it has one minimum there, and its value: golden sections, which find the corner of an
+/// absolute value to rounding.
+pub(super) fn minimum<E>(
+    [mut a, mut b]: [f64; 2],
+    mut f: impl FnMut(f64) -> Result<f64, E>,
+) -> Result<(f64, f64), E> {
+    let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
+    let mut best = [(a, f(a)?), (b, f(b)?)]
+        .into_iter()
+        .fold((a, f64::INFINITY), lower);
+    let (mut x, mut y) = (b - golden * (b - a), a + golden * (b - a));
+    let (mut f_x, mut f_y) = (f(x)?, f(y)?);
+    for _ in 0..ITERATIONS {
+        best = lower(lower(best, (x, f_x)), (y, f_y));
+        if b - a <= RESOLUTION * a.abs().max(b.abs()) || best.1 == 0.0 {
+            break;
+        }
+        if f_x <= f_y {
+            (b, y, f_y) = (y, x, f_x);
+            x = b - golden * (b - a);
+            f_x = f(x)?;
+        } else {
+            (a, x, f_x) = (x, y, f_y);
+            y = a + golden * (b - a);
+            f_y = f(y)?;
+        }
+    }
+    Ok(best)
+}
+
+fn lower(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
+    if b.1 < a.1 { b } else { a }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::convert::Infallible;
+
+    use super::*;
+
+    #[test]
+    fn roots_to_rounding_also_multiple_ones() {
+        let found = |f: &dyn Fn(f64) -> f64| {
+            root([0.0, 2.0], [f(0.0), f(2.0)], |t| Ok::<_, Infallible>(f(t))).unwrap()
+        };
+        assert!((found(&|t| 2.0 - t * t) - 2f64.sqrt()).abs() < 1e-15);
+        assert!((found(&|t| (0.3 - t).powi(3)) - 0.3).abs() < 1e-14);
+        assert!((found(&|t| if t < 1.7 { 1e-9 } else { -1.0 }) - 1.7).abs() < 1e-14);
+    }
+
+    #[test]
+    fn minima_of_corners_and_parabolas() {
+        let found =
+            |f: &dyn Fn(f64) -> f64| minimum([-1.0, 2.0], |t| Ok::<_, Infallible>(f(t))).unwrap();
+        assert!((found(&|t| (t - 0.3).abs()).0 - 0.3).abs() < 1e-15);
+        assert!((found(&|t| (t - 0.3).powi(2)).0 - 0.3).abs() < 1e-8);
+        assert_eq!(found(&|t| t).0, -1.0);
+    }
+}

@@ -1,0 +1,80 @@
+//! The generic verdict of a motion, and the stretches between break times on which another one holds.
+//!
+//! At constant rank a reaction that is not unique at one instant is not unique at almost all: margins that are not zero stay so
+//! nearby. So of several verdicts the one with the most reactions that are not unique is generic.
+
+use model::Mechanism;
+
+use super::path::{Path, Sample};
+use super::{Stretch, differences, ends_of_pieces, parts, words};
+use crate::mechanism::Analysis;
+use crate::verdict::Verdict;
+
+/// The generic verdict, and stretches in the order of time; neighbouring ones with the same verdicts are one.
+pub(super) fn stretches<F>(path: &Path<'_, F>) -> (Analysis, Vec<Stretch>) {
+    let (mechanism, samples) = (path.mechanism, &path.samples);
+    let (first, last) = (samples[0].t, samples[samples.len() - 1].t);
+    let ends = ends_of_pieces(mechanism, first, last);
+    // A piece on which no rank is decided has no verdict of its own.
+    let typical: Vec<([f64; 2], &Sample)> = ends
+        .windows(2)
+        .filter_map(|e| {
+            let inside = samples.iter().filter(|s| e[0] < s.t && s.t < e[1]);
+            Some(([e[0], e[1]], most_generic(mechanism, inside)?))
+        })
+        .collect();
+    let all = typical.iter().map(|piece| piece.1);
+    let generic = most_generic(mechanism, all)
+        .or_else(|| most_generic(mechanism, samples.iter()))
+        .unwrap_or(&samples[0])
+        .analysis
+        .clone();
+    let mut found: Vec<Stretch> = Vec::new();
+    for ([from, to], sample) in typical {
+        let differences = differences(mechanism, &generic, &sample.analysis);
+        let redundancy = sample.decision.redundancy;
+        if differences.is_empty() && redundancy == generic.decision.redundancy {
+            continue;
+        }
+        match found.last_mut() {
+            Some(last)
+                if last.to == from
+                    && last.differences == differences
+                    && last.redundancy == redundancy =>
+            {
+                last.to = to;
+            }
+            _ => found.push(Stretch {
+                from,
+                to,
+                redundancy,
+                differences,
+                text: String::new(),
+            }),
+        }
+    }
+    for stretch in &mut found {
+        stretch.text = words::stretch(stretch, &generic);
+    }
+    (generic, found)
+}
+
+/// The sample with the largest rank, of these the one with the most verdicts "not unique" and the fewest "undecided", of these the one
+/// that is farthest from singular.
+fn most_generic<'a>(
+    mechanism: &Mechanism,
+    samples: impl Iterator<Item = &'a Sample>,
+) -> Option<&'a Sample> {
+    let standing = |s: &Sample| {
+        let parts = parts(mechanism, &s.analysis);
+        let count = |is: fn(&Verdict) -> bool| parts.iter().filter(|p| is(&p.2.verdict)).count();
+        let not_unique = count(|v| *v == Verdict::NotUnique);
+        let undecided = count(|v| matches!(v, Verdict::Undecided { .. }));
+        (s.decision.rank, not_unique, std::cmp::Reverse(undecided))
+    };
+    samples
+        .filter(|s| s.decision.is_decided())
+        .map(|s| (standing(s), s))
+        .max_by(|(a, s), (b, t)| a.cmp(b).then(s.sigma.total_cmp(&t.sigma)))
+        .map(|(_, s)| s)
+}

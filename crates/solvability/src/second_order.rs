@@ -1,0 +1,105 @@
+//! Is the motion unique where the rank drops? There more velocities satisfy `C·v = b` than elsewhere, but a velocity can go on only
+//! if accelerations exist: `z·Γ(v) = 0` for every z of the left null space, old self-stresses and new ones. These are quadratic
+//! equations in the velocities; the motion through the point solves them.
+//!
+//! If nothing else does, the new motions are blocked at second order. If something does, there are branches. Where
+//! second order does not tell, that is said.
+//!
+//! Source: S. Pellegrino, C. R. Calladine, Matrix analysis of statically and kinematically indeterminate frameworks, Int. J. Solids
+//! Structures 22 (1986) 409–428, here with velocities of the motion and drives.
+
+mod blocked;
+mod branches;
+mod forms;
+
+use linalg::{Matrix, RankDecision};
+use model::Mechanism;
+
+use crate::state::{self, StateError};
+use forms::Forms;
+
+/// How a motion goes on at a configuration where the rank drops.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Continuation {
+    /// No other velocity is compatible: the new motions are blocked at second order.
+    Unique,
+    /// Other velocities are compatible to second order: the constraints do not determine on which branch the mechanism goes on.
+    Bifurcation {
+        /// Velocities of other branches, n_v each. Without drives they are as fast as the motion, and may be reversed. Where a branch
+        /// has several freedoms these are examples.
+        branches: Vec<Vec<f64>>,
+    },
+    /// Second order does not decide.
+    Undetermined(Undetermined),
+}
+
+/// Why second order does not decide.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Undetermined {
+    /// More new motions than are examined.
+    #[error("{found} new motions at once, more than the {most} that are examined")]
+    Kernel {
+        /// New motions.
+        found: usize,
+        /// As many are examined.
+        most: usize,
+    },
+    /// The quadratic equations are empty.
+    #[error("all motions are compatible to second order; terms of third order would decide")]
+    NoTerms,
+    /// What was given as the motion does not solve the equations.
+    #[error(
+        "the given motion itself misses the second-order equations by {residual:.3e} (relative), more than {tolerance:.1e}"
+    )]
+    Irregular {
+        /// Largest value of an equation, relative to its largest coefficient.
+        residual: f64,
+        /// What is allowed.
+        tolerance: f64,
+    },
+    /// Neither a proof that there are no others nor another velocity.
+    #[error("no other velocity was found, and no combination of self-stresses excludes one")]
+    Open,
+}
+
+/// New motions that are examined at once.
+const KERNEL_MAX: usize = 4;
+
+/// The given motion may miss the equations by this share of their coefficients: its directions may come from
+/// neighbouring configurations.
+const REGULAR: f64 = 1e-6;
+
+/// Second-order test at time t, coordinates q on the constraints and velocities v with `C·v = b`, where `decision` is the rank there.
+///
+/// `regular` (n_v × k) holds the velocities `w` with `C·w = 0` that the mechanism has also at neighbouring configurations: for a
+/// mechanism with one freedom and without drives the column v, for a driven one without freedom no column.
+///
+/// # Errors
+/// If the state has not as many numbers as the mechanism, or one of them is not finite.
+pub fn second_order(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    v: &[f64],
+    decision: &RankDecision,
+    regular: &Matrix,
+) -> Result<Continuation, StateError> {
+    state::check(mechanism, t, q, v)?;
+    for k in 0..regular.ncols() {
+        let column: Vec<f64> = (0..regular.nrows()).map(|i| regular[(i, k)]).collect();
+        state::check(mechanism, t, q, &column)?;
+    }
+    let forms = Forms::new(mechanism, t, q, v, decision, regular);
+    Ok(match forms {
+        Err(reason) => Continuation::Undetermined(reason),
+        Ok(forms) if forms.y() == 0 || blocked::is_blocked(&forms) => Continuation::Unique,
+        Ok(forms) => match branches::others(&forms) {
+            found if found.is_empty() => Continuation::Undetermined(Undetermined::Open),
+            found => Continuation::Bifurcation {
+                branches: found.iter().map(|a| forms.velocity(a)).collect(),
+            },
+        },
+    })
+}

@@ -1,0 +1,102 @@
+//! Other solutions of the quadratic equations, by Gauss–Newton iterations on the unit sphere from many starts.
+
+use linalg::{Matrix, least_squares_step};
+
+use super::forms::Forms;
+
+/// Iterations from one start; convergence to a simple solution is quadratic.
+const ITERATIONS: usize = 60;
+
+/// A solution meets the equations to this.
+const RESIDUAL: f64 = 1e-12;
+
+/// A solution belongs to another branch if its new motions (and, driven, its rate of time) exceed this.
+const APART: f64 = 1e-3;
+
+/// Starts for each expected branch.
+const STARTS: usize = 40;
+
+/// Solutions nearer to each other than this are one.
+const SAME: f64 = 1e-6;
+
+/// Branches listed at most: as many as there are for simple solutions.
+fn most(forms: &Forms) -> usize {
+    (1 << forms.y()) - 1
+}
+
+/// Unit vectors a with `aᵀ·M_s·a = 0` for all forms that are not the motion itself, up to sign.
+pub(super) fn others(forms: &Forms) -> Vec<Vec<f64>> {
+    let mut found: Vec<Vec<f64>> = Vec::new();
+    for start in 0..STARTS * most(forms) {
+        let Some(a) = solve(forms, starting_point(forms.len(), start)) else {
+            continue;
+        };
+        let is_new = |b: &Vec<f64>| {
+            let overlap: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
+            1.0 - overlap.abs() > SAME
+        };
+        let y = a[forms.x()..].iter().map(|y| y * y).sum::<f64>().sqrt();
+        let possible = !forms.is_driven() || a[0].abs() > APART;
+        if y > APART && possible && found.iter().all(is_new) {
+            found.push(a);
+            if found.len() == most(forms) {
+                break;
+            }
+        }
+    }
+    found
+}
+
+/// A unit vector; the starts do not repeat.
+fn starting_point(n: usize, start: usize) -> Vec<f64> {
+    // Square roots of primes: their multiples are spread evenly in all directions together.
+    const PRIMES: [f64; 8] = [2.0, 3.0, 5.0, 7.0, 11.0, 13.0, 17.0, 19.0];
+    let place = (start + 1) as f64;
+    unit(
+        (0..n)
+            .map(|k| {
+                let prime = PRIMES[k % PRIMES.len()] + (k / PRIMES.len()) as f64;
+                (place * prime.sqrt()).fract() - 0.5
+            })
+            .collect(),
+    )
+}
+
+fn unit(mut a: Vec<f64>) -> Vec<f64> {
+    let size = a.iter().map(|a| a * a).sum::<f64>().sqrt();
+    // The first entry that matters is positive.
+    let sign = a
+        .iter()
+        .find(|a| a.abs() > APART * size)
+        .map_or(1.0, |a| a.signum());
+    a.iter_mut().for_each(|a| *a *= sign / size);
+    a
+}
+
+/// The solution that the iteration reaches from a.
+fn solve(forms: &Forms, mut a: Vec<f64>) -> Option<Vec<f64>> {
+    let (n, equations) = (forms.len(), forms.matrices.len() + 1);
+    let weights = vec![1.0; n];
+    for _ in 0..ITERATIONS {
+        let mut jacobian = Matrix::zeros(equations, n);
+        let mut residual = vec![0.0; equations];
+        for (s, form) in forms.matrices.iter().enumerate() {
+            let image = form.times(&a);
+            residual[s] = a.iter().zip(&image).map(|(a, m)| a * m).sum();
+            for (j, m) in jacobian.row_mut(s).iter_mut().zip(&image) {
+                *j = 2.0 * m;
+            }
+        }
+        let met = residual.iter().all(|r| r.abs() <= RESIDUAL);
+        // The last row keeps the length.
+        jacobian.row_mut(equations - 1).copy_from_slice(&a);
+        let step = least_squares_step(&jacobian, &residual, &weights, f64::EPSILON).ok()?;
+        a.iter_mut().zip(&step).for_each(|(a, d)| *a += d);
+        a = unit(a);
+        // The step after a residual of rounding makes the solution one.
+        if met {
+            return Some(a);
+        }
+    }
+    None
+}

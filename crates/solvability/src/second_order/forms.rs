@@ -1,0 +1,235 @@
+//! The second-order equations as quadratic forms `aᵀ·M_s·a = 0`, one for each self-stress.
+//!
+//! Γ is quadratic in the velocities and in the rate of time, 1. With `v = x₀·v_in + N·(x₁, y)` it becomes homogeneous: `a = (x₀, x₁, y)`,
+//! x₀ the rate of time (only where something is driven), x₁ the regular motions and y the new ones. Both are orthonormal in
+//! dimensionless velocities.
+
+use linalg::{Matrix, PivotedQr, RankDecision};
+use model::start::scene_size;
+use model::{Mechanism, Scratch, System};
+
+use super::{KERNEL_MAX, REGULAR, Undetermined};
+use crate::mechanism::{dimensionless, evaluated, velocity_units};
+
+/// Coefficients below this share of the terms that they are sums of are rounding.
+const ROUNDING: f64 = 1e-10;
+
+/// The forms, divided by their largest coefficient.
+pub(super) struct Forms {
+    /// Number of x, the motion itself.
+    x: usize,
+    /// Symmetric, (x + y) × (x + y), with zeros in the block of x.
+    pub(super) matrices: Vec<Matrix>,
+    /// Rows: the velocity of each coordinate of a.
+    basis: Vec<Vec<f64>>,
+    /// Whether the first coordinate is the rate of time.
+    driven: bool,
+}
+
+impl Forms {
+    /// The forms at a state; `regular` may be any velocities that span the regular motions.
+    pub(super) fn new(
+        mechanism: &Mechanism,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        decision: &RankDecision,
+        regular: &Matrix,
+    ) -> Result<Self, Undetermined> {
+        let mut s = evaluated(mechanism, t, q);
+        let size = scene_size(mechanism, q);
+        let driven = mechanism.layout().rheonomic;
+        let units = velocity_units(mechanism, size);
+        let c = dimensionless(mechanism, &s, size);
+        let n = c.ncols();
+        // Velocities without dimensions that satisfy C·w = 0, one in each row.
+        let kept = decision.scaling.apply(&c).select_rows(&decision.kept);
+        let mut null = PivotedQr::of_rows(kept).q_columns(decision.rank..n);
+        for k in 0..n {
+            let factor = 2.0_f64.powi(decision.scaling.cols[k]);
+            null.row_mut(k).iter_mut().for_each(|w| *w *= factor);
+        }
+        let null = PivotedQr::of_columns(&null).q_columns(0..n - decision.rank);
+        let speed = norm(v.iter().zip(&units).map(|(v, u)| v / u));
+        let speed = if speed > 0.0 { speed } else { 1.0 };
+        let own = Matrix::from_fn(n, regular.ncols(), |k, j| {
+            regular[(k, j)] / units[k] / speed
+        });
+        let (coordinates, x_1) = split(&null.transpose().product(&own));
+        let y = coordinates.ncols() - x_1;
+        if y > KERNEL_MAX {
+            return Err(Undetermined::Kernel {
+                found: y,
+                most: KERNEL_MAX,
+            });
+        }
+        let motions = null.product(&coordinates).transpose();
+        let velocity = |row: &[f64]| row.iter().zip(&units).map(|(w, u)| w * u * speed).collect();
+        let basis: Vec<Vec<f64>> = driven
+            .then(|| v.to_vec())
+            .into_iter()
+            .chain((0..motions.nrows()).map(|i| velocity(motions.row(i))))
+            .collect();
+        let mut found = Self {
+            x: usize::from(driven) + x_1,
+            matrices: Vec::new(),
+            basis,
+            driven,
+        };
+        let stresses = self_stresses(decision);
+        let terms = found.evaluate(mechanism, &mut s, &stresses, size);
+        found.normalise(terms)?;
+        Ok(found)
+    }
+
+    /// Number of coordinates.
+    pub(super) fn len(&self) -> usize {
+        self.basis.len()
+    }
+
+    /// Number of x.
+    pub(super) fn x(&self) -> usize {
+        self.x
+    }
+
+    /// Number of y.
+    pub(super) fn y(&self) -> usize {
+        self.len() - self.x
+    }
+
+    /// Whether the first coordinate is the rate of time, which is not zero.
+    pub(super) fn is_driven(&self) -> bool {
+        self.driven
+    }
+
+    /// The velocity of a solution: with the true rate of time, or as fast as the motion.
+    pub(super) fn velocity(&self, a: &[f64]) -> Vec<f64> {
+        let scale = if self.driven { 1.0 / a[0] } else { 1.0 };
+        let mut sum = vec![0.0; self.basis[0].len()];
+        for (a, row) in a.iter().zip(&self.basis) {
+            for (s, w) in sum.iter_mut().zip(row) {
+                *s += scale * a * w;
+            }
+        }
+        sum
+    }
+
+    /// Extracts the forms from values of Γ; returns the size of the terms they are sums of.
+    fn evaluate(
+        &mut self,
+        mechanism: &Mechanism,
+        s: &mut Scratch,
+        stresses: &[Vec<f64>],
+        size: f64,
+    ) -> f64 {
+        let n = self.basis[0].len();
+        let origin = if self.driven {
+            self.basis[0].clone()
+        } else {
+            vec![0.0; n]
+        };
+        let first = usize::from(self.driven);
+        let mut terms = 0.0_f64;
+        // z·Γ at the origin plus a sum of motions.
+        let mut values = |motions: &[(usize, f64)]| -> Vec<f64> {
+            let mut v = origin.clone();
+            for &(i, sign) in motions {
+                for (v, w) in v.iter_mut().zip(&self.basis[first + i]) {
+                    *v += sign * w;
+                }
+            }
+            mechanism.twist(&v, s);
+            mechanism.gamma(s);
+            let sum = |z: &Vec<f64>| z.iter().zip(&s.gamma).map(|(z, g)| z * g).sum();
+            for z in stresses {
+                let scale =
+                    |(i, z): (usize, &f64)| z.abs() * mechanism.acceleration_scale(s, i, &v, size);
+                terms = terms.max(z.iter().enumerate().map(scale).sum());
+            }
+            stresses.iter().map(sum).collect()
+        };
+        let (d, count) = (self.basis.len() - first, self.basis.len());
+        let zero = values(&[]);
+        let plus: Vec<_> = (0..d).map(|i| values(&[(i, 1.0)])).collect();
+        let minus: Vec<_> = (0..d).map(|i| values(&[(i, -1.0)])).collect();
+        let mut matrices = vec![Matrix::zeros(count, count); stresses.len()];
+        for (m, form) in matrices.iter_mut().enumerate() {
+            if self.driven {
+                form[(0, 0)] = zero[m];
+            }
+            for i in 0..d {
+                form[(first + i, first + i)] = 0.5 * (plus[i][m] + minus[i][m]) - zero[m];
+                if self.driven {
+                    let slope = 0.25 * (plus[i][m] - minus[i][m]);
+                    (form[(0, 1 + i)], form[(1 + i, 0)]) = (slope, slope);
+                }
+            }
+        }
+        for i in 0..d {
+            for j in 0..i {
+                let both = values(&[(i, 1.0), (j, 1.0)]);
+                for (m, form) in matrices.iter_mut().enumerate() {
+                    let mixed = 0.5 * (both[m] - plus[i][m] - plus[j][m] + zero[m]);
+                    (form[(first + i, first + j)], form[(first + j, first + i)]) = (mixed, mixed);
+                }
+            }
+        }
+        self.matrices = matrices;
+        terms
+    }
+
+    /// Divides by the largest coefficient, and checks that the motion itself is a solution.
+    fn normalise(&mut self, terms: f64) -> Result<(), Undetermined> {
+        let largest = self
+            .matrices
+            .iter()
+            .map(Matrix::max_abs)
+            .fold(0.0, f64::max);
+        if self.y() > 0 && largest <= ROUNDING * terms {
+            return Err(Undetermined::NoTerms);
+        }
+        let mut residual = 0.0_f64;
+        for form in &mut self.matrices {
+            for entry in form.as_mut_slice() {
+                *entry /= largest;
+            }
+            for i in 0..self.x {
+                for entry in &mut form.row_mut(i)[..self.x] {
+                    residual = residual.max(entry.abs());
+                    *entry = 0.0;
+                }
+            }
+        }
+        match self.y() > 0 && residual > REGULAR {
+            true => Err(Undetermined::Irregular {
+                residual,
+                tolerance: REGULAR,
+            }),
+            false => Ok(()),
+        }
+    }
+}
+
+/// Orthonormal coordinates of which the first ones span the columns, and how many these are.
+fn split(columns: &Matrix) -> (Matrix, usize) {
+    let d = columns.nrows();
+    let rank = linalg::decide(columns, REGULAR).map_or(0, |d| d.rank);
+    (PivotedQr::of_columns(columns).q_columns(0..d), rank)
+}
+
+/// Basis of the left null space, for the rows of C as they stand.
+fn self_stresses(decision: &RankDecision) -> Vec<Vec<f64>> {
+    let z = linalg::orthonormal(decision);
+    let of = |j: usize| (0..z.nrows()).map(move |i| (i, j));
+    (0..z.ncols())
+        .map(|j| {
+            of(j)
+                .map(|(i, j)| z[(i, j)] * decision.scaling.row_factor(i))
+                .collect()
+        })
+        .collect()
+}
+
+fn norm(x: impl Iterator<Item = f64>) -> f64 {
+    x.map(|x| x * x).sum::<f64>().sqrt()
+}

@@ -1,0 +1,420 @@
+//! Verdicts along a motion: one generic verdict, and what differs when. Parallel cranks in closed form: every crank stands at θ(t),
+//! the coupler translates; θ = 0 is flat.
+
+use std::cell::RefCell;
+use std::f64::consts::FRAC_PI_2;
+use std::ops::ControlFlow;
+
+use dynamics::{MotionOptions, RowChoice, prepare, simulate};
+use joints::RevoluteAngleDrive;
+use model::{BodyRef, Drive, Function, Mechanism, StartOptions};
+use solvability::{
+    Along, AlongError, Continuation, Part, Passage, PassageKind, State, Verdict, along_motion,
+};
+use tests::cranks::cranks;
+use tests::robot::{robot, steering};
+
+const LENGTH: f64 = 0.5;
+const TWO: [f64; 2] = [0.0, 1.0];
+const THREE: [f64; 3] = [0.0, 1.0, 1.7];
+
+/// The state of cranks at angle θ with rate ω.
+fn parallel(pivots: &[f64], theta: f64, omega: f64) -> State {
+    let (sin, cos) = theta.sin_cos();
+    let half = 0.5 * LENGTH;
+    let (mut q, mut v) = (Vec::new(), Vec::new());
+    for x in pivots {
+        q.extend([x + half * cos, half * sin, theta]);
+        v.extend([-half * omega * sin, half * omega * cos, omega]);
+    }
+    let middle = 0.5 * (pivots[0] + pivots[pivots.len() - 1]);
+    q.extend([middle + LENGTH * cos, LENGTH * sin, 0.0]);
+    v.extend([-LENGTH * omega * sin, LENGTH * omega * cos, 0.0]);
+    State { q, v }
+}
+
+fn times(from: f64, to: f64, intervals: usize) -> Vec<f64> {
+    let step = (to - from) / intervals as f64;
+    (0..=intervals).map(|k| from + step * k as f64).collect()
+}
+
+fn free(pivots: &[f64]) -> Mechanism {
+    Mechanism::build(&cranks(pivots, LENGTH, 1.0)).expect("builds")
+}
+
+fn motor(pair: [BodyRef; 2], motion: Function) -> Drive {
+    let element = RevoluteAngleDrive {
+        s_i: [0.0; 2],
+        s_j: [0.0; 2],
+        measure_0: 0.0,
+    };
+    Drive {
+        name: "motor".into(),
+        bodies: pair.to_vec(),
+        element: Box::new(element),
+        motion,
+    }
+}
+
+/// θ = θ₀ + f(t) − f(0) for the first crank.
+fn driven(pivots: &[f64], start: f64, motion: Function) -> Mechanism {
+    let mut d = cranks(pivots, LENGTH, start);
+    d.drives
+        .push(motor([BodyRef::Ground, BodyRef::Body(0)], motion));
+    let mechanism = Mechanism::build(&d).expect("builds");
+    let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic);
+    p.expect("starts").mechanism
+}
+
+/// The one passage of a motion, where the rank drops: time, redundancy there, how it goes on, words.
+fn one_drop(along: &Along) -> (f64, usize, Continuation, String) {
+    let [passage] = along.passages.as_slice() else {
+        panic!("one passage: {:?}", along.passages);
+    };
+    let PassageKind::RankDrops {
+        redundancy,
+        continuation,
+    } = passage.kind.clone()
+    else {
+        panic!("the rank drops: {passage:?}");
+    };
+    (passage.time, redundancy, continuation, passage.text.clone())
+}
+
+/// Small numbers without a pattern, of size one.
+fn noise(t: f64, k: usize) -> f64 {
+    let mut x = t.to_bits() ^ (k as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+    for _ in 0..3 {
+        x ^= x >> 31;
+        x = x.wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    }
+    (x >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
+#[test]
+fn three_cranks_pass_their_flat_pose_on_one_way() {
+    let (start, omega) = (-0.5, 1.3);
+    let exact = -start / omega;
+    let motion = |t: f64| parallel(&THREE, start + omega * t, omega);
+    let by_hand = free(&THREE);
+    let by_drive = driven(
+        &THREE,
+        start,
+        Function::constant_rate(omega).expect("finite"),
+    );
+    for (mechanism, intervals) in [
+        (&by_hand, 40),
+        (&by_drive, 40),
+        (&by_hand, 3),
+        (&by_drive, 2),
+    ] {
+        let along = along_motion(mechanism, motion, &times(0.0, 1.0, intervals)).expect("judged");
+        assert_eq!(along.generic.decision.redundancy, 1);
+        assert!(along.stretches.is_empty());
+        let (time, redundancy, continuation, text) = one_drop(&along);
+        assert!((time - exact).abs() < 1e-10, "{time}");
+        assert_eq!((redundancy, continuation), (2, Continuation::Unique));
+        for part in [
+            "rises from 1 to 2",
+            "the motion stays unique (second order)",
+            "nearly singular from",
+        ] {
+            assert!(text.contains(part), "{text}");
+        }
+        let [from, to] = along.passages[0].nearly_singular.expect("an interval");
+        // σ is about 0.4·θ.
+        assert!(0.3e-3 < exact - from && exact - from < 10e-3, "{from}");
+        assert!(((to - exact) / (exact - from) - 1.0).abs() < 1e-2, "{to}");
+    }
+}
+
+#[test]
+fn noise_in_the_states_blurs_the_time_by_as_much() {
+    let (start, omega) = (-0.5, 1.3);
+    let noisy = |t: f64| {
+        let mut state = parallel(&THREE, start + omega * t, omega);
+        let numbers = state.q.iter_mut().chain(&mut state.v).enumerate();
+        numbers.for_each(|(k, x)| *x += 1e-9 * noise(t, k));
+        state
+    };
+    let along = along_motion(&free(&THREE), noisy, &times(0.0, 1.0, 40)).expect("judged");
+    let (time, redundancy, continuation, _) = one_drop(&along);
+    assert!((time + start / omega).abs() < 1e-7, "{time}");
+    assert_eq!((redundancy, continuation), (2, Continuation::Unique));
+}
+
+#[test]
+fn two_cranks_bifurcate_also_where_a_sample_hits() {
+    let motion = |t: f64| parallel(&TWO, t - 0.5, 1.0);
+    let drive = driven(&TWO, -0.5, Function::constant_rate(1.0).expect("finite"));
+    for mechanism in [free(&TWO), drive] {
+        let along = along_motion(&mechanism, motion, &times(0.0, 1.0, 20)).expect("judged");
+        assert_eq!(along.generic.decision.redundancy, 0);
+        let (time, redundancy, continuation, text) = one_drop(&along);
+        assert!((time - 0.5).abs() < 1e-10, "{time}");
+        assert_eq!(redundancy, 1);
+        let Continuation::Bifurcation { branches } = continuation else {
+            panic!("{continuation:?}");
+        };
+        assert_eq!(branches.len(), 1);
+        // (v2 − v1)·[(v2 + v1)/L − (v2 − v1)/d] = 0 with L = 0.5, d = 1: v2 = −3·v1.
+        assert!(
+            (branches[0][5] / branches[0][2] + 3.0).abs() < 1e-8,
+            "{branches:?}"
+        );
+        assert!(
+            text.contains("bifurcation") && text.contains("`pivot 1`"),
+            "{text}"
+        );
+        let became: Vec<_> = along.passages[0]
+            .differences
+            .iter()
+            .filter(|d| d.part == Part::Wrench)
+            .map(|d| (d.reaction.as_str(), d.here.clone()))
+            .collect();
+        let expected = ["pivot 1", "tip 1", "pivot 2", "tip 2"].map(|j| (j, Verdict::NotUnique));
+        assert_eq!(became, expected);
+    }
+}
+
+/// θ = (t − 0.4)² touches the flat pose and turns back: no sign changes.
+#[test]
+fn a_flat_pose_that_is_only_touched_is_found() {
+    let law = |t: f64| (t - 0.4) * (t - 0.4);
+    let motion = |t: f64| parallel(&THREE, law(t), 2.0 * (t - 0.4));
+    for intervals in [7, 50] {
+        let along =
+            along_motion(&free(&THREE), motion, &times(0.0, 1.0, intervals)).expect("judged");
+        let (time, redundancy, _, _) = one_drop(&along);
+        assert!((time - 0.4).abs() < 1e-6, "{time}");
+        assert_eq!(redundancy, 2);
+    }
+}
+
+/// Turning back before the flat pose: nearly singular, at 1e-9 rad so nearly that the rank cannot be told.
+#[test]
+fn a_flat_pose_that_is_nearly_reached_is_told_with_its_singular_value() {
+    let nearest = |offset: f64| {
+        let motion = |t: f64| parallel(&THREE, offset + (t - 0.4) * (t - 0.4), 2.0 * (t - 0.4));
+        let along = along_motion(&free(&THREE), motion, &times(0.0, 1.0, 50)).expect("judged");
+        assert_eq!(along.generic.decision.redundancy, 1);
+        let [passage] = along.passages.as_slice() else {
+            panic!("{:?}", along.passages);
+        };
+        assert!((passage.time - 0.4).abs() < 1e-5, "{}", passage.text);
+        passage.kind.clone()
+    };
+    let sigma = |offset: f64| match nearest(offset) {
+        PassageKind::NearlySingular { sigma } => sigma,
+        other => panic!("{other:?}"),
+    };
+    // σ is proportional to θ.
+    assert!((sigma(1e-4) / sigma(1e-5) - 10.0).abs() < 1e-3);
+    assert!(matches!(nearest(1e-9), PassageKind::Undecided { .. }));
+}
+
+/// Turning three times round, the cranks are flat six times, and upright six times: there all forces along them are vertical.
+#[test]
+fn every_flat_pose_and_every_upright_one_of_several_turns() {
+    let motion = |t: f64| parallel(&THREE, 0.3 + t, 1.0);
+    let drops = |p: &Passage| matches!(p.kind, PassageKind::RankDrops { .. });
+    for intervals in [60, 20] {
+        let times = times(0.0, 19.0, intervals);
+        let along = along_motion(&free(&THREE), motion, &times).expect("judged");
+        assert_eq!(along.passages.len(), 12, "{intervals}");
+        for (k, p) in along.passages.iter().enumerate() {
+            let exact = FRAC_PI_2 * (k + 1) as f64 - 0.3;
+            assert!((p.time - exact).abs() < 1e-10, "{}", p.text);
+            assert_eq!(drops(p), k % 2 == 1, "{}", p.text);
+            let mut differences = p.differences.iter();
+            let difference = differences
+                .find(|d| d.reaction == "tip 2")
+                .expect("differs");
+            assert_eq!(difference.part, Part::Component(["Fx", "Fy"][k % 2]));
+            assert_eq!(difference.here, Verdict::Unique);
+        }
+    }
+    // Samples more than a quarter turn apart hide upright poses, but no change of the rank.
+    let along = along_motion(&free(&THREE), motion, &times(0.0, 19.0, 11)).expect("judged");
+    assert_eq!(along.passages.iter().filter(|p| drops(p)).count(), 6);
+}
+
+/// Freedoms that have nothing to do with the cranks do not change how these go on.
+#[test]
+fn a_pendulum_beside_the_cranks() {
+    for (pivots, drive) in [
+        (&TWO[..], None),
+        (&THREE[..], None),
+        (&THREE[..], Some(2.0)),
+    ] {
+        let mut d = cranks(pivots, LENGTH, 1.0);
+        let rod = tests::rod("pendulum", 1.0, [5.0, 0.0], [5.0, -1.0]);
+        let pendulum = BodyRef::Body(d.bodies.len());
+        d.bodies.push(rod);
+        let pair = [BodyRef::Ground, pendulum];
+        d.joints
+            .push(tests::revolute("hinge", &d.bodies, pair, [5.0, 0.0]));
+        if let Some(rate) = drive {
+            // The pendulum is driven, the cranks turn freely.
+            let motion = Function::constant_rate(rate).expect("finite");
+            d.drives.push(motor(pair, motion));
+        }
+        let mechanism = Mechanism::build(&d).expect("builds");
+        let (turn, initial) = (drive.unwrap_or(2.0), -FRAC_PI_2);
+        let motion = |t: f64| {
+            let mut state = parallel(pivots, t - 0.5, 1.0);
+            // From the hinge to the centre of mass at the described angle −π/2 + 2t.
+            let (sin, cos) = (initial + turn * t).sin_cos();
+            state
+                .q
+                .extend([5.0 + 0.5 * cos, 0.5 * sin, initial + turn * t]);
+            state.v.extend([-0.5 * turn * sin, 0.5 * turn * cos, turn]);
+            state
+        };
+        let mechanism = match drive {
+            None => mechanism,
+            Some(_) => {
+                let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic);
+                p.expect("starts").mechanism
+            }
+        };
+        let along = along_motion(&mechanism, motion, &times(0.0, 0.9, 20)).expect("judged");
+        let mut drops = along
+            .passages
+            .iter()
+            .filter(|p| p.kind != PassageKind::Verdicts);
+        let (Some(p), None) = (drops.next(), drops.next()) else {
+            panic!("{:?}", along.passages);
+        };
+        let PassageKind::RankDrops { continuation, .. } = &p.kind else {
+            panic!("{}", p.text);
+        };
+        let unique = *continuation == Continuation::Unique;
+        assert_eq!(unique, pivots.len() == 3, "{}", p.text);
+        assert_eq!(
+            p.text.contains("bifurcation"),
+            pivots.len() == 2,
+            "{}",
+            p.text
+        );
+    }
+}
+
+/// A drive that rests in the flat pose: singular on a stretch, which ends at its break time.
+#[test]
+fn a_rest_in_a_singular_pose_is_a_stretch() {
+    let law = Function::steps(0.0, &[[1.0, 2.0, 0.5]]).expect("ordered");
+    let mechanism = driven(&THREE, 0.0, law.clone());
+    let motion = |t: f64| {
+        let [theta, omega, _] = law.jet(t);
+        parallel(&THREE, theta, omega)
+    };
+    let along = along_motion(&mechanism, motion, &times(0.0, 3.0, 15)).expect("judged");
+    assert_eq!(along.generic.decision.redundancy, 1);
+    let [rest] = along.stretches.as_slice() else {
+        panic!("{:?}", along.stretches);
+    };
+    assert_eq!((rest.from, rest.to, rest.redundancy), (0.0, 1.0, 2));
+    assert!(along.passages.is_empty(), "{:?}", along.passages);
+}
+
+/// The robot: rank 20 throughout. While it drives straight along the x-axis, the x-rows of B and C are unique; when an edge becomes
+/// parallel to the global y-axis, the y-row of its joint is, for an instant.
+#[test]
+fn the_robot_has_one_verdict_and_one_stretch_with_another() {
+    let mechanism = Mechanism::build(&robot(steering())).expect("builds");
+    let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts");
+    let rows = RefCell::new(Vec::new());
+    let run = MotionOptions {
+        output_step: 0.01,
+        ..MotionOptions::to(10.0)
+    };
+    simulate(&p, &run, |s| {
+        let state = State {
+            q: s.q.to_vec(),
+            v: s.v.to_vec(),
+        };
+        rows.borrow_mut().push((s.t, state));
+        Ok(ControlFlow::Continue(()))
+    })
+    .expect("moves");
+    let rows = rows.into_inner();
+    // Cubic Hermite interpolation between rows.
+    let motion = |t: f64| {
+        let k = rows.partition_point(|r| r.0 <= t).clamp(1, rows.len() - 1);
+        let ((a, x), (b, y)) = (&rows[k - 1], &rows[k]);
+        let (h, u) = (b - a, (t - a) / (b - a));
+        let at = |i: usize| {
+            let (d, f, g) = (y.q[i] - x.q[i], h * x.v[i], h * y.v[i]);
+            let (c_2, c_3) = (3.0 * d - 2.0 * f - g, f + g - 2.0 * d);
+            let q = x.q[i] + u * (f + u * (c_2 + u * c_3));
+            (q, (f + u * (2.0 * c_2 + 3.0 * u * c_3)) / h)
+        };
+        let (q, v) = (0..x.q.len()).map(at).unzip();
+        State { q, v }
+    };
+    let along = along_motion(&p.mechanism, motion, &times(0.0, 10.0, 200)).expect("judged");
+    let names = |word: &str| -> Vec<&str> {
+        let found = along
+            .generic
+            .reactions
+            .iter()
+            .filter(|r| r.wrench.verdict.word() == word);
+        found.map(|r| r.name.as_str()).collect()
+    };
+    assert_eq!(along.generic.decision.rank, 20);
+    assert_eq!(names("not_unique"), ["B", "C", "W1", "W2", "W3", "W4"]);
+    let [straight] = along.stretches.as_slice() else {
+        panic!("{:?}", along.stretches);
+    };
+    assert_eq!((straight.from, straight.to), (0.0, 1.0));
+    let rows: Vec<usize> = straight
+        .differences
+        .iter()
+        .filter_map(|d| match &d.part {
+            Part::Row(label) => Some(label.number),
+            _ => None,
+        })
+        .collect();
+    assert_eq!(rows, [3, 5]);
+    assert!(
+        along
+            .passages
+            .iter()
+            .all(|p| p.kind == PassageKind::Verdicts)
+    );
+}
+
+#[test]
+fn bad_input_is_named() {
+    let motion = |t: f64| parallel(&TWO, t, 1.0);
+    let with = |times: &[f64]| along_motion(&free(&TWO), motion, times).unwrap_err();
+    for (times, wrong) in [
+        (&[][..], 0),
+        (&[0.0], 1),
+        (&[0.0, 0.0], 1),
+        (&[0.0, f64::NAN], 1),
+        (&[f64::INFINITY, 1.0], 0),
+    ] {
+        let error = with(times);
+        assert!(
+            matches!(error, AlongError::Times { index, .. } if index == wrong),
+            "{error}"
+        );
+    }
+    let short = |_| State {
+        q: vec![0.0],
+        v: vec![],
+    };
+    let error = along_motion(&free(&TWO), short, &[0.0, 1.0]).unwrap_err();
+    assert!(matches!(error, AlongError::State(_)), "{error}");
+    let apart = |_| State {
+        q: vec![1e9; 9],
+        v: vec![0.0; 9],
+    };
+    let error = along_motion(&free(&TWO), apart, &[0.0, 1.0]).unwrap_err();
+    assert!(
+        matches!(error, AlongError::OffConstraints { .. }),
+        "{error}"
+    );
+}
