@@ -8,11 +8,13 @@
 //! | [`matrices`] | solvability of a plain constraint matrix |
 //! | [`existence`] | do the rows contradict each other? |
 //! | [`generic`] | permanent, or only of this configuration? |
-//! | [`groups`] | combinations of reactions |
+//! | [`groups`] | combinations of reactions, resultants |
+//! | [`frames`] | components in global, body and edge frames |
 //! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
 //! | `words` | dependencies as sentences |
 
 pub mod existence;
+pub mod frames;
 pub mod generic;
 pub mod groups;
 pub mod matrices;
@@ -21,8 +23,11 @@ pub mod verdict;
 mod words;
 
 pub use existence::{ConstraintLevel, Contradiction, contradiction};
+pub use frames::{FrameForms, FrameVerdict, judge_frames};
 pub use generic::is_permanent;
-pub use groups::{Group, Term, judge_groups};
+pub use groups::{
+    Configuration, Group, GroupVerdict, LinearForm, RequestError, Term, judge_groups,
+};
 pub use matrices::Solvability;
 pub use mechanism::{
     Analysis, AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, analyse,
