@@ -2,7 +2,7 @@
 
 use linalg::{Limits, Settled};
 use model::{Description, Function, Mechanism, Scratch, StartOptions, System};
-use solvability::{Allowed, Solvability, certify, explain, judge_parts, make_unique, structure};
+use solvability::{Allowed, Solvability, decide, explain, judge_parts, make_unique, structure};
 use tests::cranks::cranks;
 use tests::robot::robot;
 
@@ -19,7 +19,7 @@ fn case(mechanism: Mechanism, t: f64, q: Vec<f64>) -> Case {
     mechanism.pose(t, &q, &mut s);
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
-    let decision = certify(&mechanism, &s, &q).expect("C is finite");
+    let decision = decide(&mechanism, &s, &q).expect("C is finite");
     let c = mechanism.layout().dense(&s);
     // Metres and radians compare within a factor of two here.
     let solvability = Solvability::from_decision(&c, decision);
@@ -180,7 +180,11 @@ fn structure_settles_the_trolley_and_parts_agree_with_the_whole() {
         let found = structure(&c.mechanism, &c.s, &c.q).expect("C is finite");
         let parts = judge_parts(&c.mechanism, &c.s, &c.q, &found).expect("C is finite");
         for (group, part) in c.mechanism.layout().groups.iter().zip(parts) {
-            let whole = c.solvability.group(group.rows.clone()).verdict;
+            let whole = c
+                .solvability
+                .group(group.rows.clone())
+                .expect("rows exist")
+                .verdict;
             let word = part.map_or("unique", |p| p.verdict.word());
             assert_eq!(word, whole.word(), "{}", group.name);
         }

@@ -7,7 +7,7 @@ use joints::RevoluteAngleDrive;
 use model::start::nearest_configuration;
 use model::{BodyRef, Description, Drive, Function, Mechanism, StartOptions, System};
 use solvability::{
-    ConstraintLevel, Contradiction, Ranks, StateError, certify, certify_holonomic, contradictions,
+    ConstraintLevel, Contradiction, Ranks, StateError, contradictions, decide, decide_holonomic,
 };
 use tests::cranks::cranks;
 
@@ -142,8 +142,8 @@ fn positions_contradict_later() {
         m.c(&mut s);
         // The rank is that of C; the dropped row's residual does not blur it.
         s.phi.fill(0.0);
-        let all = certify(m, &s, &q).expect("finite");
-        let holonomic = certify_holonomic(m, &s, &q).expect("finite");
+        let all = decide(m, &s, &q).expect("finite");
+        let holonomic = decide_holonomic(m, &s, &q).expect("finite");
         let ranks = Ranks {
             all: &all,
             holonomic: &holonomic,
@@ -170,7 +170,7 @@ fn velocities_that_cannot_leave_a_flat_pose() {
     mechanism.pose(0.0, &q, &mut s);
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
-    let decision = certify(&mechanism, &s, &q).expect("finite");
+    let decision = decide(&mechanism, &s, &q).expect("finite");
     let ranks = Ranks {
         all: &decision,
         holonomic: &decision,
@@ -207,7 +207,7 @@ fn a_state_of_another_mechanism_is_refused() {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, &q, &mut s);
     mechanism.c(&mut s);
-    let decision = certify(&mechanism, &s, &q).expect("finite");
+    let decision = decide(&mechanism, &s, &q).expect("finite");
     let ranks = Ranks {
         all: &decision,
         holonomic: &decision,

@@ -2,9 +2,11 @@
 
 mod allocations;
 mod along_motion;
+mod choices;
 mod deletions;
 mod existence;
 mod generic;
+mod granularity;
 mod robot_trolley;
 mod second_order;
 mod singular_passages;

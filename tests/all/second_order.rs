@@ -4,7 +4,7 @@
 use joints::RevoluteAngleDrive;
 use linalg::Matrix;
 use model::{BodyRef, Description, Drive, Function, Mechanism, System};
-use solvability::{Continuation, Undetermined, certify, second_order};
+use solvability::{Continuation, Undetermined, decide, second_order};
 use tests::cranks::cranks;
 use tests::{largest, revolute, rod};
 
@@ -84,7 +84,7 @@ fn at_flat(d: &Description, n_cranks: usize, regular: &[Vec<f64>]) -> (usize, Co
     mechanism.pose(0.0, &q, &mut s);
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
-    let decision = certify(&mechanism, &s, &q).expect("finite");
+    let decision = decide(&mechanism, &s, &q).expect("finite");
     assert!(decision.is_decided());
     let v = parallel(d, n_cranks, 2.0);
     let columns = Matrix::from_fn(q.len(), regular.len(), |i, j| regular[j][i]);

@@ -44,7 +44,7 @@ pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
 pub use extended::Polished;
 pub use function::{Function, FunctionError};
 pub use mechanism::{BuildError, Mechanism};
-pub use reaction::{ConstraintId, ConstraintKind, Reaction};
+pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction};
 pub use registry::{ConstraintDefinition, ForceDefinition, PlaneConstraint, PlaneForce, Registry};
 pub use start::{Assembly, Coordinate, StartError, StartOptions};
 pub use system::{Layout, RowLabel, Scratch, System};

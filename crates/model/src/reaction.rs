@@ -3,11 +3,12 @@
 
 use std::ops::Range;
 
+use joints::Direction;
 use joints::spec::ConstraintSpec;
 use linalg::Matrix;
 
 use crate::description::BodyRef;
-use crate::mechanism::Mechanism;
+use crate::mechanism::{Mechanism, N_BODY};
 use crate::system::{Scratch, System};
 
 /// Place of a joint or drive in [`crate::Layout::groups`].
@@ -51,6 +52,42 @@ impl ConstraintGroup {
     }
 }
 
+/// Axes along which the force of a reaction is taken apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frame {
+    /// The global x and y.
+    Global,
+    /// The x and y of the first body of the joint; those of the ground are global.
+    FirstBody,
+    /// Along the one direction in which the joint can push, then across it (that turned by +90°): normal and along for a knife edge, across
+    /// and along the axis for a slot. Joints with no row or several rows that push have no such frame.
+    Edge,
+}
+
+impl Frame {
+    /// All frames.
+    pub const ALL: [Self; 3] = [Self::Global, Self::FirstBody, Self::Edge];
+
+    /// Names of the components in this frame.
+    #[must_use]
+    pub fn components(self) -> [&'static str; 3] {
+        match self {
+            Self::Global => COMPONENTS,
+            Self::FirstBody => ["Fx'", "Fy'", "T"],
+            Self::Edge => ["Fn", "Ft", "T"],
+        }
+    }
+}
+
+/// What a column of C belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColumnKind {
+    /// A velocity in m/s; the generalised force is a force.
+    Translation,
+    /// An angular velocity in rad/s; the generalised force is a torque.
+    Rotation,
+}
+
 /// A reaction: force (global components, N) and torque about the place (N·m), on the first body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reaction {
@@ -64,6 +101,9 @@ pub struct Reaction {
 
 impl Mechanism {
     /// The map `W` (3 × rows) with `[Fx, Fy, T] = W·λ` at the poses of the scratch; allocates.
+    ///
+    /// # Panics
+    /// If the mechanism has no such joint or drive.
     #[must_use]
     pub fn wrench_map(&self, id: ConstraintId, s: &Scratch) -> Matrix {
         let c = &self.constraints()[id.0];
@@ -78,8 +118,94 @@ impl Mechanism {
         map
     }
 
+    /// The same map with the torque about a global point: `T + (place − about) × F`.
+    ///
+    /// # Panics
+    /// If the mechanism has no such joint or drive.
+    #[must_use]
+    pub fn wrench_map_about(&self, id: ConstraintId, about: [f64; 2], s: &Scratch) -> Matrix {
+        let mut map = self.wrench_map(id, s);
+        let [x, y] = self.place(id, s);
+        let arm = [x - about[0], y - about[1]];
+        for j in 0..map.ncols() {
+            map[(2, j)] += arm[0] * map[(1, j)] - arm[1] * map[(0, j)];
+        }
+        map
+    }
+
+    /// The map (3 × m + h) from all multipliers to the total of the reactions on one body, `−Cᵀ·λ`: force, and torque about a
+    /// global point. `None` if there is no such body. Needs C at the pose of the scratch; allocates.
+    #[must_use]
+    pub fn body_wrench_map(&self, body: usize, about: [f64; 2], s: &Scratch) -> Option<Matrix> {
+        let pose = s.poses.get(body)?;
+        let arm = [pose.x - about[0], pose.y - about[1]];
+        let layout = self.layout();
+        let mut map = Matrix::zeros(COMPONENTS.len(), layout.rows());
+        for i in 0..layout.rows() {
+            for (column, c) in layout.row(s, i).filter(|(k, _)| k / N_BODY == body) {
+                map[(column % N_BODY, i)] -= c;
+            }
+            map[(2, i)] += arm[0] * map[(1, i)] - arm[1] * map[(0, i)];
+        }
+        Some(map)
+    }
+
+    /// Unit vectors (global components) of the axes in which the force of a reaction is taken apart. The first axis of
+    /// [`Frame::Edge`] has the sign for which the named component of the definition, or else the multiplier, is positive. `None`
+    /// if the reaction has no such frame.
+    ///
+    /// # Panics
+    /// If the mechanism has no such joint or drive.
+    #[must_use]
+    pub fn axes(&self, id: ConstraintId, frame: Frame, s: &Scratch) -> Option<[[f64; 2]; 2]> {
+        let group = &self.layout().groups[id.0];
+        let first = match frame {
+            Frame::Global => [1.0, 0.0],
+            Frame::FirstBody => match group.bodies.first() {
+                Some(BodyRef::Body(k)) => [s.poses[*k].cos, s.poses[*k].sin],
+                Some(BodyRef::Ground) | None => [1.0, 0.0],
+            },
+            Frame::Edge => self.push(id, s)?,
+        };
+        Some([first, [-first[1], first[0]]])
+    }
+
+    /// The direction of the only row of a joint or drive that has a force.
+    fn push(&self, id: ConstraintId, s: &Scratch) -> Option<[f64; 2]> {
+        let spec = self.layout().groups[id.0].spec;
+        let mut rows: Vec<usize> = spec
+            .wrench
+            .iter()
+            .filter(|[component, _]| *component < 2)
+            .map(|[_, row]| *row)
+            .collect();
+        rows.sort_unstable();
+        rows.dedup();
+        let [row] = rows[..] else { return None };
+        let map = self.wrench_map(id, s);
+        let named = spec
+            .component
+            .and_then(|name| self.component_coefficients(id, name, s));
+        let sign = named.map_or(1.0, |coefficients| coefficients[row].signum());
+        let push = Direction::new([map[(0, row)], map[(1, row)]])?.xy();
+        Some(push.map(|x| sign * x))
+    }
+
+    /// What each column of C belongs to, n_v entries.
+    #[must_use]
+    pub fn column_kinds(&self) -> Vec<ColumnKind> {
+        let kind = |k| match k % N_BODY {
+            2 => ColumnKind::Rotation,
+            _ => ColumnKind::Translation,
+        };
+        (0..self.layout().n_v).map(kind).collect()
+    }
+
     /// Coefficients of a component of a reaction, `Σ coefficient·λ` over the rows of the joint or drive: `Fx`, `Fy`, `T`, or the
     /// named component of its definition. `None` if it has no such component; allocates.
+    ///
+    /// # Panics
+    /// If the mechanism has no such joint or drive.
     #[must_use]
     pub fn component_coefficients(
         &self,
@@ -101,6 +227,9 @@ impl Mechanism {
     }
 
     /// The reaction of a joint or drive for multipliers λ (all rows) at the poses of the scratch; allocates.
+    ///
+    /// # Panics
+    /// If the mechanism has no such joint or drive, or λ is too short.
     #[must_use]
     pub fn reaction(&self, id: ConstraintId, s: &Scratch, lambda: &[f64]) -> Reaction {
         let c = &self.constraints()[id.0];
@@ -118,6 +247,9 @@ impl Mechanism {
     }
 
     /// The point where the reaction of a joint or drive is reported, global components.
+    ///
+    /// # Panics
+    /// If the mechanism has no such joint or drive.
     #[must_use]
     pub fn place(&self, id: ConstraintId, s: &Scratch) -> [f64; 2] {
         let c = &self.constraints()[id.0];

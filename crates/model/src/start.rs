@@ -102,6 +102,18 @@ pub enum StartError {
         /// What is required.
         requirement: &'static str,
     },
+    /// A coordinate that does not exist is to be kept.
+    #[error(
+        "`keep` names coordinate {dof} of body {body}; bodies are 0..{bodies}, coordinates 0 x, 1 y, 2 angle"
+    )]
+    NoCoordinate {
+        /// The body asked for.
+        body: usize,
+        /// The coordinate asked for.
+        dof: usize,
+        /// Number of bodies.
+        bodies: usize,
+    },
     /// The velocity constraints cannot be satisfied with the velocities that are kept.
     #[error(
         "no velocities satisfy the constraints: row {worst} still misses by {residual:.3e}; \
@@ -160,12 +172,13 @@ const ROUNDINGS: f64 = 10.0;
 /// - [`StartError::NoAssembly`]: the constraints contradict each other or the start is too far off.
 /// - [`StartError::LargeCorrection`]: the correction exceeds what `options` allow.
 /// - [`StartError::Requirement`]: a definition's requirement does not hold.
+/// - [`StartError::NoCoordinate`]: a coordinate that `options` keep does not exist.
 pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Assembly, StartError> {
     let (described, v) = mechanism.described_state();
     mechanism.initialise(&described);
     let size = scene_size(mechanism, &described);
     let rows = restricting_rows(mechanism);
-    let weights = weights(mechanism, options, KeepLevel::Position);
+    let weights = weights(mechanism, options, KeepLevel::Position)?;
     let mut s = mechanism.scratch();
     let q = nearest(mechanism, &mut s, 0.0, &rows, &weights, &described)?;
     mechanism.initialise(&q);
@@ -193,6 +206,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
 ///
 /// # Errors
 /// - [`StartError::NoVelocity`]: the kept velocities leave no freedom for the constraints.
+/// - [`StartError::NoCoordinate`]: a velocity that `options` keep does not exist.
 pub fn consistent_velocity(
     mechanism: &Mechanism,
     options: &StartOptions,
@@ -201,7 +215,7 @@ pub fn consistent_velocity(
     kept: &[usize],
 ) -> Result<Vec<f64>, StartError> {
     let layout = mechanism.layout();
-    let weights = weights(mechanism, options, KeepLevel::Velocity);
+    let weights = weights(mechanism, options, KeepLevel::Velocity)?;
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, q, &mut s);
     mechanism.c(&mut s);
@@ -281,7 +295,7 @@ pub fn nearest_configuration(
     rows: &[usize],
     q: &[f64],
 ) -> Result<Vec<f64>, StartError> {
-    let weights = weights(mechanism, &StartOptions::default(), KeepLevel::Position);
+    let weights = weights(mechanism, &StartOptions::default(), KeepLevel::Position)?;
     nearest(mechanism, &mut mechanism.scratch(), t, rows, &weights, q)
 }
 
@@ -298,7 +312,11 @@ fn restricting_rows(mechanism: &Mechanism) -> Vec<usize> {
 }
 
 /// Inverse weights of the coordinates in the mass metric, zero for those that are kept.
-fn weights(mechanism: &Mechanism, options: &StartOptions, level: KeepLevel) -> Vec<f64> {
+fn weights(
+    mechanism: &Mechanism,
+    options: &StartOptions,
+    level: KeepLevel,
+) -> Result<Vec<f64>, StartError> {
     let mass = mechanism.mass();
     let smallest = |angles: bool| {
         let of_kind = mass
@@ -320,10 +338,14 @@ fn weights(mechanism: &Mechanism, options: &StartOptions, level: KeepLevel) -> V
             }
         })
         .collect();
-    for kept in options.keep.iter().filter(|c| c.level == level) {
-        weights[N_BODY * kept.body + kept.dof] = 0.0;
+    let bodies = mechanism.bodies().len();
+    for &Coordinate { body, dof, .. } in options.keep.iter().filter(|c| c.level == level) {
+        if body >= bodies || dof >= N_BODY {
+            return Err(StartError::NoCoordinate { body, dof, bodies });
+        }
+        weights[N_BODY * body + dof] = 0.0;
     }
-    weights
+    Ok(weights)
 }
 
 /// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, until Φ is zero to rounding.

@@ -12,10 +12,12 @@ use report::{
     Ending, FileError, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
     TrajectoryTable, write_json,
 };
-use scene::{Combination, CombinationError, Diagnostic, GroupContent, Scene, WantedReactions};
+use scene::{
+    Combination, CombinationError, Diagnostic, GroupContent, Scene, WantedReactions, WrenchTerm,
+};
 use solvability::{
-    Analysis, AnalysisError, Group, Judgement, Term, analyse, analyse_dropping, is_permanent,
-    judge_groups,
+    Analysis, AnalysisError, Group, Judgement, RequestError, Term, analyse, analyse_dropping,
+    is_permanent, judge_groups,
 };
 
 /// A scene that has been assembled and can move.
@@ -72,6 +74,15 @@ pub enum StudyError {
         /// What is wrong.
         error: CombinationError,
     },
+    /// A group names a joint or drive that the mechanism does not have.
+    #[error("there is no joint or drive `{name}`")]
+    UnknownReaction {
+        /// The name.
+        name: String,
+    },
+    /// A group cannot be judged.
+    #[error(transparent)]
+    Request(#[from] RequestError),
     /// A motion could not begin or go on.
     #[error(transparent)]
     Motion(#[from] MotionError),
@@ -91,7 +102,11 @@ impl StudyError {
     #[must_use]
     pub fn is_input(&self) -> bool {
         match self {
-            Self::Scene(_) | Self::NoEnd | Self::Combination { .. } => true,
+            Self::Scene(_)
+            | Self::NoEnd
+            | Self::Combination { .. }
+            | Self::UnknownReaction { .. }
+            | Self::Request(_) => true,
             Self::Motion(e) => matches!(
                 e,
                 MotionError::Start(_)
@@ -142,7 +157,7 @@ impl Study {
     }
 
     /// Verdicts at a time of the motion; at t = 0 nothing has to move. Groups are those of the scene, then `combine`: sums of
-    /// components as `W3.N + W4.N`.
+    /// components as `W3.N + W4.N`, or of whole wrenches as `W3 + W4`.
     ///
     /// # Errors
     /// If the motion does not reach that time, C cannot be judged there, or a combination names something unknown.
@@ -164,12 +179,9 @@ impl Study {
             None => analyse(mechanism, t, &q)?,
         };
         let (names, groups): (Vec<String>, Vec<Group>) = requests.into_iter().unzip();
-        let judged = judge_groups(mechanism, t, &q, &analysis.decision, &groups);
-        let groups = names
-            .into_iter()
-            .zip(judged)
-            .filter_map(|(name, j)| Some((name, j?)))
-            .collect();
+        let judged = judge_groups(mechanism, t, &q, &analysis.decision, &groups)?;
+        let judgements = judged.into_iter().map(|verdict| verdict.judgement);
+        let groups = names.into_iter().zip(judgements).collect();
         let permanent = is_permanent(mechanism, t, &q, &analysis.decision);
         Ok(Findings {
             analysis,
@@ -180,43 +192,60 @@ impl Study {
 
     /// Groups by name: those of the scene, then the combinations asked for.
     fn requests(&self, combine: &[String]) -> Result<Vec<(String, Group)>, StudyError> {
-        let group = |content: &GroupContent| match content {
-            GroupContent::Members(names) => {
-                Group::Members(names.iter().filter_map(|n| self.constraint(n)).collect())
-            }
-            GroupContent::Combination(combination) => self.combination(combination),
-        };
-        let mut requests: Vec<(String, Group)> = self
-            .scene
-            .groups
-            .iter()
-            .map(|g| (g.name.clone(), group(&g.content)))
-            .collect();
+        let mut requests = Vec::new();
+        for group in &self.scene.groups {
+            let content = match &group.content {
+                GroupContent::Members(names) => Group::Members(
+                    names
+                        .iter()
+                        .map(|n| self.constraint(n))
+                        .collect::<Result<_, _>>()?,
+                ),
+                GroupContent::Combination(combination) => self.combination(combination)?,
+            };
+            requests.push((group.name.clone(), content));
+        }
         for text in combine {
             let read = self.scene.combination(text);
             let combination = read.map_err(|error| StudyError::Combination {
                 text: text.clone(),
                 error,
             })?;
-            requests.push((text.clone(), self.combination(&combination)));
+            requests.push((text.clone(), self.combination(&combination)?));
         }
         Ok(requests)
     }
 
-    fn combination(&self, combination: &Combination) -> Group {
-        let terms = combination.terms.iter().filter_map(|term| {
-            Some(Term {
-                reaction: self.constraint(&term.reaction)?,
-                component: term.component.clone(),
-                coefficient: term.coefficient,
-            })
-        });
-        Group::Combination(terms.collect())
+    fn combination(&self, combination: &Combination) -> Result<Group, StudyError> {
+        match combination {
+            Combination::Components(terms) => {
+                let term = |term: &scene::Term| {
+                    Ok(Term {
+                        reaction: self.constraint(&term.reaction)?,
+                        component: term.component.clone(),
+                        coefficient: term.coefficient,
+                    })
+                };
+                let terms: Result<_, StudyError> = terms.iter().map(term).collect();
+                Ok(Group::Combination(terms?))
+            }
+            Combination::Wrenches(terms) => {
+                let term =
+                    |term: &WrenchTerm| Ok((term.coefficient, self.constraint(&term.reaction)?));
+                let terms: Result<_, StudyError> = terms.iter().map(term).collect();
+                Ok(Group::WrenchSum(terms?))
+            }
+        }
     }
 
-    fn constraint(&self, name: &str) -> Option<ConstraintId> {
+    fn constraint(&self, name: &str) -> Result<ConstraintId, StudyError> {
         let groups = &self.prepared.mechanism.layout().groups;
-        groups.iter().position(|g| g.name == name).map(ConstraintId)
+        let place = groups.iter().position(|g| g.name == name);
+        place
+            .map(ConstraintId)
+            .ok_or_else(|| StudyError::UnknownReaction {
+                name: name.to_owned(),
+            })
     }
 
     fn configuration_at(&self, t: f64) -> Result<Vec<f64>, StudyError> {

@@ -1,14 +1,16 @@
-//! Linear combinations of reaction components, as `W3.N + W4.N` or `2*A.Fx - B.T`.
+//! Linear combinations of reactions: of components, as `W3.N + W4.N` or `2*A.Fx - B.T`, or of whole wrenches, as `W3 + W4`.
 
 use std::ops::Range;
 
 use crate::nearest::{list, nearest};
 
-/// `Σ coefficient·component`
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Combination {
-    /// Its terms, at least one.
-    pub terms: Vec<Term>,
+/// What is added up; at least one term.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Combination {
+    /// `Σ coefficient·component`: one number.
+    Components(Vec<Term>),
+    /// `Σ coefficient·wrench`: force and torque, the torque about the place of the first joint or drive.
+    Wrenches(Vec<WrenchTerm>),
 }
 
 /// One component of the reaction of a joint or drive, times a number.
@@ -20,6 +22,15 @@ pub struct Term {
     pub reaction: String,
     /// `Fx`, `Fy`, `T`, or a named component, as `N`.
     pub component: String,
+}
+
+/// The wrench of the reaction of a joint or drive, times a number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WrenchTerm {
+    /// The factor, 1 where none is written.
+    pub coefficient: f64,
+    /// Name of the joint or drive.
+    pub reaction: String,
 }
 
 /// Why a text is no combination.
@@ -37,7 +48,7 @@ pub struct CombinationError {
 #[non_exhaustive]
 pub enum CombinationProblem {
     /// A term is missing.
-    #[error("expected a term as `A.Fx` or `2*A.Fx`")]
+    #[error("expected a term as `A`, `A.Fx` or `2*A.Fx`")]
     NoTerm,
     /// Two terms without a sign between them.
     #[error("expected `+` or `-` between terms, found `{found}`")]
@@ -45,11 +56,13 @@ pub enum CombinationProblem {
         /// What stands there.
         found: char,
     },
-    /// A name without a component.
-    #[error("`{text}` names no component: write `name.component`")]
-    NoComponent {
-        /// What stands there.
+    /// A whole reaction among components, or the other way round.
+    #[error("`{text}` is {}; write all terms with a component, or none", mixed(.whole))]
+    Mixed {
+        /// The term.
         text: String,
+        /// Whether it is the whole reaction.
+        whole: bool,
     },
     /// A joint or drive that does not exist.
     #[error("there is no joint or drive `{name}`{}", suggestion(.nearest.as_deref()))]
@@ -81,6 +94,13 @@ fn suggestion(nearest: Option<&str>) -> String {
     nearest.map_or_else(String::new, |near| format!("; did you mean `{near}`?"))
 }
 
+fn mixed(whole: &bool) -> &'static str {
+    match whole {
+        true => "a whole reaction, but the first term is a component",
+        false => "a component, but the first term is a whole reaction",
+    }
+}
+
 /// A joint or drive with the components of its reaction, if its definition is known.
 pub(crate) struct ReactionNames<'a> {
     pub(crate) name: &'a str,
@@ -93,20 +113,56 @@ pub(crate) fn parse(
     reactions: &[ReactionNames],
 ) -> Result<Combination, CombinationError> {
     let mut scanner = Scanner { text, at: 0 };
-    let mut terms = Vec::new();
     scanner.skip_space();
-    let mut sign = scanner.sign().unwrap_or(1.0);
+    let sign = scanner.sign().unwrap_or(1.0);
+    scanner.skip_space();
+    let mut sum = Combination::of(scanner.term(sign, reactions)?);
     loop {
         scanner.skip_space();
-        terms.push(scanner.term(sign, reactions)?);
-        scanner.skip_space();
         let Some(found) = scanner.rest().chars().next() else {
-            return Ok(Combination { terms });
+            return Ok(sum);
         };
-        sign = scanner.sign().ok_or_else(|| CombinationError {
+        let sign = scanner.sign().ok_or_else(|| CombinationError {
             problem: CombinationProblem::NoSign { found },
             span: scanner.at..scanner.at + found.len_utf8(),
         })?;
+        scanner.skip_space();
+        let start = scanner.at;
+        let term = scanner.term(sign, reactions)?;
+        let span = start..scanner.at;
+        sum.push(term).map_err(|whole| CombinationError {
+            problem: CombinationProblem::Mixed {
+                text: text[span.clone()].to_owned(),
+                whole,
+            },
+            span,
+        })?;
+    }
+}
+
+/// A term as it is read.
+enum Read {
+    Component(Term),
+    Wrench(WrenchTerm),
+}
+
+impl Combination {
+    fn of(term: Read) -> Self {
+        match term {
+            Read::Component(term) => Self::Components(vec![term]),
+            Read::Wrench(term) => Self::Wrenches(vec![term]),
+        }
+    }
+
+    /// Adds a term of the same kind; otherwise tells whether it was a whole wrench.
+    fn push(&mut self, term: Read) -> Result<(), bool> {
+        match (self, term) {
+            (Self::Components(terms), Read::Component(term)) => terms.push(term),
+            (Self::Wrenches(terms), Read::Wrench(term)) => terms.push(term),
+            (Self::Components(_), Read::Wrench(_)) => return Err(true),
+            (Self::Wrenches(_), Read::Component(_)) => return Err(false),
+        }
+        Ok(())
     }
 }
 
@@ -134,25 +190,32 @@ impl<'a> Scanner<'a> {
         Some(sign)
     }
 
-    fn term(&mut self, sign: f64, all: &[ReactionNames]) -> Result<Term, CombinationError> {
-        let factor = self.factor()?;
+    fn term(&mut self, sign: f64, all: &[ReactionNames]) -> Result<Read, CombinationError> {
+        let coefficient = sign * self.factor()?;
         let start = self.at;
-        let fault = |problem, end| CombinationError {
-            problem,
-            span: start..end,
-        };
         // Names may contain anything, so the longest known one that fits is meant.
         let known = all
             .iter()
             .filter(|r| {
                 let rest = self.rest().strip_prefix(r.name);
-                rest.is_some_and(|rest| rest.starts_with('.'))
+                rest.is_some_and(|rest| match rest.chars().next() {
+                    Some(next) => next.is_whitespace() || ['.', '+', '-'].contains(&next),
+                    None => true,
+                })
             })
             .max_by_key(|r| r.name.len());
         let Some(known) = known else {
             return Err(self.unknown(all));
         };
-        self.at += known.name.len() + 1;
+        let reaction = known.name.to_owned();
+        self.at += known.name.len();
+        if !self.rest().starts_with('.') {
+            return Ok(Read::Wrench(WrenchTerm {
+                coefficient,
+                reaction,
+            }));
+        }
+        self.at += 1;
         let word = |c: char| c.is_alphanumeric() || c == '_';
         let length = self.rest().find(|c| !word(c)).unwrap_or(self.rest().len());
         let component = &self.rest()[..length];
@@ -160,18 +223,20 @@ impl<'a> Scanner<'a> {
         if let Some(components) = &known.components
             && !components.contains(&component)
         {
-            let problem = CombinationProblem::UnknownComponent {
-                reaction: known.name.to_owned(),
-                component: component.to_owned(),
-                available: list(components.iter().copied()),
-            };
-            return Err(fault(problem, self.at));
+            return Err(CombinationError {
+                problem: CombinationProblem::UnknownComponent {
+                    reaction,
+                    component: component.to_owned(),
+                    available: list(components.iter().copied()),
+                },
+                span: start..self.at,
+            });
         }
-        Ok(Term {
-            coefficient: sign * factor,
-            reaction: known.name.to_owned(),
+        Ok(Read::Component(Term {
+            coefficient,
+            reaction,
             component: component.to_owned(),
-        })
+        }))
     }
 
     /// A number before `*`, or 1.
@@ -202,13 +267,12 @@ impl<'a> Scanner<'a> {
     /// What to say of a term that begins with no known name.
     fn unknown(&self, all: &[ReactionNames]) -> CombinationError {
         let rest = self.rest();
-        let token = rest.split(char::is_whitespace).next().unwrap_or(rest);
-        let problem = match token.rsplit_once('.') {
-            _ if token.is_empty() => CombinationProblem::NoTerm,
-            None => CombinationProblem::NoComponent {
-                text: token.to_owned(),
-            },
-            Some((name, _)) => CombinationProblem::UnknownReaction {
+        let end = |c: char| c.is_whitespace() || c == '+';
+        let token = rest.split(end).next().unwrap_or(rest);
+        let name = token.rsplit_once('.').map_or(token, |(name, _)| name);
+        let problem = match token {
+            "" => CombinationProblem::NoTerm,
+            _ => CombinationProblem::UnknownReaction {
                 name: name.to_owned(),
                 nearest: nearest(name, all.iter().map(|r| r.name)).map(str::to_owned),
             },
@@ -230,42 +294,69 @@ mod tests {
             components: Some(vec!["Fx", "Fy", "N"]),
         });
         parse(text, &names)
-            .map(|c| {
-                let term = |t: Term| (t.coefficient, format!("{}|{}", t.reaction, t.component));
-                c.terms.into_iter().map(term).collect()
+            .map(|c| match c {
+                Combination::Components(terms) => {
+                    let term = |t: Term| (t.coefficient, format!("{}|{}", t.reaction, t.component));
+                    terms.into_iter().map(term).collect()
+                }
+                Combination::Wrenches(terms) => {
+                    let term = |t: WrenchTerm| (t.coefficient, t.reaction);
+                    terms.into_iter().map(term).collect()
+                }
             })
             .map_err(|e| format!("{:?}: {e}", e.span))
     }
 
     #[test]
     fn terms_are_read_with_signs_and_factors() {
-        let term = |k: f64, s: &str| (k, s.to_owned());
-        assert_eq!(
-            read("W3.N + W4.N"),
-            Ok(vec![term(1.0, "W3|N"), term(1.0, "W4|N")])
-        );
-        assert_eq!(
-            read(" -2*W4-left.N-0.5 * a.b.Fx+W4.Fy "),
-            Ok(vec![
-                term(-2.0, "W4-left|N"),
-                term(-0.5, "a.b|Fx"),
-                term(1.0, "W4|Fy")
-            ])
-        );
+        let terms = |terms: &[(f64, &str)]| -> Result<Vec<(f64, String)>, String> {
+            Ok(terms.iter().map(|&(k, s)| (k, s.to_owned())).collect())
+        };
+        for (text, expected) in [
+            ("W3.N + W4.N", terms(&[(1.0, "W3|N"), (1.0, "W4|N")])),
+            (
+                " -2*W4-left.N-0.5 * a.b.Fx+W4.Fy ",
+                terms(&[(-2.0, "W4-left|N"), (-0.5, "a.b|Fx"), (1.0, "W4|Fy")]),
+            ),
+            ("W3+W4", terms(&[(1.0, "W3"), (1.0, "W4")])),
+            ("W3", terms(&[(1.0, "W3")])),
+            // The longest name that fits.
+            (
+                "-W3-W4-left - 2*a.b",
+                terms(&[(-1.0, "W3"), (-1.0, "W4-left"), (-2.0, "a.b")]),
+            ),
+            ("W4-W3", terms(&[(1.0, "W4"), (-1.0, "W3")])),
+        ] {
+            assert_eq!(read(text), expected, "{text}");
+        }
     }
 
     #[test]
     fn faults_are_named_with_their_place() {
         for (text, expected) in [
-            ("", "0..0: expected a term as `A.Fx` or `2*A.Fx`"),
-            ("W3.N +", "6..6: expected a term as `A.Fx` or `2*A.Fx`"),
+            ("", "0..0: expected a term as `A`, `A.Fx` or `2*A.Fx`"),
+            ("W3.N +", "6..6: expected a term as `A`, `A.Fx` or `2*A.Fx`"),
             (
                 "W3.N W4.N",
                 "5..6: expected `+` or `-` between terms, found `W`",
             ),
             (
-                "W3",
-                "0..2: `W3` names no component: write `name.component`",
+                "W3 + 2*W4.N",
+                "5..11: `2*W4.N` is a component, but the first term is a whole reaction; \
+                 write all terms with a component, or none",
+            ),
+            (
+                "W3.N - W4",
+                "7..9: `W4` is a whole reaction, but the first term is a component; \
+                 write all terms with a component, or none",
+            ),
+            (
+                "W5+W4",
+                "0..2: there is no joint or drive `W5`; did you mean `W3`?",
+            ),
+            (
+                "W3*2",
+                "0..4: there is no joint or drive `W3*2`; did you mean `W3`?",
             ),
             (
                 "W3.N + W5.N",

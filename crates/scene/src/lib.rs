@@ -40,7 +40,7 @@ mod start;
 mod table;
 mod text;
 
-pub use combination::{Combination, CombinationError, CombinationProblem, Term};
+pub use combination::{Combination, CombinationError, CombinationProblem, Term, WrenchTerm};
 pub use diagnostic::{Diagnostic, Label, Severity};
 pub use reactions::{GroupContent, GroupRequest, Output, WantedReactions};
 pub use read::read;

@@ -24,7 +24,7 @@ pub struct GroupRequest {
 pub enum GroupContent {
     /// The reactions of these joints and drives together.
     Members(Vec<String>),
-    /// One number.
+    /// A sum.
     Combination(Combination),
 }
 
@@ -61,11 +61,9 @@ pub enum WantedReactions {
     Of(Vec<String>),
 }
 
-/// Components of a reaction that are not identically zero.
+/// Components that can be asked for: force and torque, also where they are identically zero, and the named one.
 pub(crate) fn components(spec: &ConstraintSpec) -> Vec<&'static str> {
-    let occurs = |k: &usize| spec.wrench.iter().any(|[component, _]| component == k);
-    let of_wrench = (0..COMPONENTS.len()).filter(occurs).map(|k| COMPONENTS[k]);
-    of_wrench.chain(spec.component).collect()
+    COMPONENTS.into_iter().chain(spec.component).collect()
 }
 
 /// Reads one group.
@@ -75,12 +73,20 @@ pub(crate) fn group(
     names: &[ReactionNames],
     findings: &mut Findings,
 ) -> Option<GroupRequest> {
-    let members = table.optional("members");
+    let of = table.optional("members");
     let combine = table.optional("combine");
-    let content = match (members, combine) {
-        (Some(members), None) => {
-            self::members(&members, names, findings).map(GroupContent::Members)
-        }
+    let content = match (of, combine) {
+        (Some(field), None) => match members(&field, names, findings) {
+            Some(none) if none.is_empty() => {
+                findings.error(
+                    field.span(),
+                    format!("{}: `members` is empty", table.subject),
+                    "needs at least one joint or drive",
+                );
+                None
+            }
+            members => members.map(GroupContent::Members),
+        },
         (None, Some(combine)) => {
             self::combine(&combine, names, findings).map(GroupContent::Combination)
         }

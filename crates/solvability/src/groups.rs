@@ -1,11 +1,20 @@
-//! Verdicts of combinations: several reactions together, or one number made of their components.
+//! Verdicts of what a user puts together: several reactions, one number made of their components, a sum of wrenches, everything that acts
+//! on a set of bodies. The grouping is a decision of the one who asks, so each kind says what it means.
+
+mod configuration;
+mod error;
+mod form;
 
 use linalg::RankDecision;
-use model::start::scene_size;
+use model::reaction::COMPONENTS;
 use model::{ConstraintId, Mechanism, System};
 
-use crate::matrices::Solvability;
-use crate::mechanism::dimensionless;
+pub use configuration::Configuration;
+pub use error::RequestError;
+pub(crate) use error::{check, check_finite};
+pub use form::LinearForm;
+
+use crate::mechanism::ComponentVerdict;
 use crate::verdict::Judgement;
 
 /// What is to be judged.
@@ -13,8 +22,14 @@ use crate::verdict::Judgement;
 pub enum Group {
     /// The reactions of these joints and drives together: unique iff each is.
     Members(Vec<ConstraintId>),
-    /// `Σ coefficient · component`
+    /// These joints and drives as if they were one: unique iff their total force on each body is.
+    OneJoint(Vec<ConstraintId>),
+    /// `Σ coefficient · component`: one number.
     Combination(Vec<Term>),
+    /// `Σ coefficient · wrench`, each wrench as it acts on the first body of its joint, torques about the place of the first one.
+    WrenchSum(Vec<(f64, ConstraintId)>),
+    /// Everything that acts on these bodies from joints and drives, torques about the origin of the first. Newton and Euler make it unique.
+    Resultant(Vec<usize>),
 }
 
 /// One component of a reaction, times a number.
@@ -28,41 +43,164 @@ pub struct Term {
     pub coefficient: f64,
 }
 
-/// Judges groups at time t and coordinates q, where the rank has been decided. `None` for a component that does not exist.
-#[must_use]
+/// The verdict of a group.
+#[derive(Clone, Debug)]
+pub struct GroupVerdict {
+    /// Of the whole: where it has parts, that of the part farthest from unique.
+    pub judgement: Judgement,
+    /// `Fx`, `Fy` and `T` of a sum of wrenches or a resultant; empty for other groups.
+    pub components: Vec<ComponentVerdict>,
+}
+
+/// Judges groups at time t and coordinates q, where the rank has been decided.
+///
+/// # Errors
+/// - [`RequestError::UnknownReaction`], [`RequestError::UnknownComponent`], [`RequestError::UnknownBody`]: a group names what does not exist.
+/// - [`RequestError::Empty`]: a group of nothing.
+/// - [`RequestError::NotFinite`], [`RequestError::Length`]: a coefficient is no number, or t, q and the decision do not fit the mechanism.
 pub fn judge_groups(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],
     decision: &RankDecision,
     groups: &[Group],
-) -> Vec<Option<Judgement>> {
-    let layout = mechanism.layout();
-    let mut s = mechanism.scratch();
-    mechanism.pose(t, q, &mut s);
-    mechanism.c(&mut s);
-    let solvability = Solvability::from_decision(
-        &dimensionless(mechanism, &s, scene_size(mechanism, q)),
-        decision.clone(),
-    );
-    let judge = |group: &Group| match group {
-        Group::Members(members) => {
-            let rows = members.iter().map(|id| layout.groups[id.0].rows.clone());
-            rows.filter_map(|rows| solvability.group(rows).ok())
-                .max_by(|a, b| a.margin.total_cmp(&b.margin))
-        }
-        Group::Combination(terms) => {
-            let mut l = vec![0.0; layout.rows()];
-            for term in terms {
-                let rows = layout.groups[term.reaction.0].rows.clone();
-                let coefficients =
-                    mechanism.component_coefficients(term.reaction, &term.component, &s)?;
-                for (l, c) in l[rows].iter_mut().zip(coefficients) {
-                    *l += term.coefficient * c;
-                }
+) -> Result<Vec<GroupVerdict>, RequestError> {
+    let configuration = Configuration::new(mechanism, t, q, decision)?;
+    groups.iter().map(|g| configuration.group(g)).collect()
+}
+
+impl Configuration<'_> {
+    /// The verdict of a group.
+    ///
+    /// # Errors
+    /// As [`judge_groups`].
+    pub fn group(&self, group: &Group) -> Result<GroupVerdict, RequestError> {
+        match group {
+            Group::Members(members) => {
+                let each = self.rows_of(members)?.into_iter();
+                let judged = each.map(|rows| self.solvability.group(rows));
+                worst(judged.collect::<Result<Vec<_>, _>>()?.into_iter())
+                    .map(whole)
+                    .ok_or(NO_REACTION)
             }
-            solvability.combination(&l).ok()
+            Group::OneJoint(members) => self.one_joint(members),
+            Group::Combination(terms) => Ok(whole(self.judge(&self.combination(terms)?)?)),
+            Group::WrenchSum(terms) => self.by_components(&self.wrench_sum(terms)?),
+            Group::Resultant(bodies) => {
+                let about = match bodies.first() {
+                    Some(&body) => self.origin(body)?,
+                    None => [0.0; 2],
+                };
+                self.by_components(&self.resultant(bodies, about)?)
+            }
         }
-    };
-    groups.iter().map(judge).collect()
+    }
+
+    /// `Σ coefficient · component`
+    ///
+    /// # Errors
+    /// As [`judge_groups`].
+    pub fn combination(&self, terms: &[Term]) -> Result<LinearForm, RequestError> {
+        if terms.is_empty() {
+            return Err(RequestError::Empty { of: "term" });
+        }
+        let factors: Vec<f64> = terms.iter().map(|t| t.coefficient).collect();
+        check_finite("coefficients", &factors)?;
+        let mut sum = self.zero();
+        for term in terms {
+            sum.add_scaled(
+                &self.component(term.reaction, &term.component)?,
+                term.coefficient,
+            );
+        }
+        Ok(sum)
+    }
+
+    /// `[Fx, Fy, T]` of `Σ coefficient · wrench`, T about the place of the first reaction.
+    ///
+    /// # Errors
+    /// As [`judge_groups`].
+    pub fn wrench_sum(
+        &self,
+        terms: &[(f64, ConstraintId)],
+    ) -> Result<[LinearForm; 3], RequestError> {
+        let Some(&(_, first)) = terms.first() else {
+            return Err(NO_REACTION);
+        };
+        let factors: Vec<f64> = terms.iter().map(|(factor, _)| *factor).collect();
+        check_finite("coefficients", &factors)?;
+        let about = self.place(first)?;
+        let mut sum = [(); 3].map(|()| self.zero());
+        for &(coefficient, id) in terms {
+            self.check_id(id)?;
+            self.add_reaction(&mut sum, id, coefficient, about);
+        }
+        Ok(sum)
+    }
+
+    /// The total of the reactions of several joints on each body: `Σ C_Xᵀ·λ_X`, each joint counted once.
+    fn one_joint(&self, members: &[ConstraintId]) -> Result<GroupVerdict, RequestError> {
+        let mut rows: Vec<usize> = self.rows_of(members)?.into_iter().flatten().collect();
+        rows.sort_unstable();
+        rows.dedup();
+        let mut judgements = Vec::new();
+        for body in 0..self.mechanism.bodies().len() {
+            for form in self.resultant(&[body], self.origin(body)?)? {
+                judgements.push(self.judge(&form.only(&rows))?);
+            }
+        }
+        worst(judgements.into_iter())
+            .map(whole)
+            .ok_or(RequestError::Empty { of: "body" })
+    }
+
+    fn rows_of(
+        &self,
+        members: &[ConstraintId],
+    ) -> Result<Vec<std::ops::Range<usize>>, RequestError> {
+        let groups = &self.mechanism.layout().groups;
+        if members.is_empty() {
+            return Err(NO_REACTION);
+        }
+        members
+            .iter()
+            .map(|&id| self.check_id(id).map(|()| groups[id.0].rows.clone()))
+            .collect()
+    }
+
+    fn by_components(&self, forms: &[LinearForm; 3]) -> Result<GroupVerdict, RequestError> {
+        let [x, y, t] = forms;
+        let judgements = [self.judge(x)?, self.judge(y)?, self.judge(t)?];
+        let judgement = worst(judgements.iter().cloned()).ok_or(NO_REACTION)?;
+        let component = |(name, judgement)| ComponentVerdict { name, judgement };
+        Ok(GroupVerdict {
+            judgement,
+            components: COMPONENTS
+                .into_iter()
+                .zip(judgements)
+                .map(component)
+                .collect(),
+        })
+    }
+}
+
+/// A group without members.
+const NO_REACTION: RequestError = RequestError::Empty {
+    of: "joint or drive",
+};
+
+fn whole(judgement: Judgement) -> GroupVerdict {
+    GroupVerdict {
+        judgement,
+        components: Vec::new(),
+    }
+}
+
+/// The judgement farthest from unique, NaN above all.
+fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judgement> {
+    judgements.reduce(|a, b| if farther(&b, &a) { b } else { a })
+}
+
+fn farther(a: &Judgement, b: &Judgement) -> bool {
+    a.margin.is_nan() || a.margin > b.margin
 }

@@ -9,7 +9,10 @@
 //! | [`state`] | a state that the caller gives |
 //! | [`existence`] | do the rows contradict each other? |
 //! | [`mod@generic`] | permanent, or only of this configuration? |
-//! | [`groups`] | combinations of reactions |
+//! | [`groups`] | combinations of reactions, resultants |
+//! | [`frames`] | components in global, body and edge frames |
+//! | [`choices`] | one solution among many, labelled |
+//! | [`units`] | facts and choices told apart by a change of units |
 //! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
 //! | [`structure`] | what the shape settles before any rank |
 //! | [`explain`] | mixing, free directions and sentences |
@@ -20,8 +23,10 @@
 
 pub mod along;
 mod certificate;
+pub mod choices;
 pub mod existence;
 pub mod explain;
+pub mod frames;
 pub mod generic;
 pub mod groups;
 pub mod make_unique;
@@ -30,17 +35,25 @@ pub mod mechanism;
 pub mod second_order;
 pub mod state;
 pub mod structure;
+pub mod units;
 pub mod verdict;
 mod words;
 
 pub use along::{Along, AlongError, Difference, Part, Passage, PassageKind, Stretch, along_motion};
 pub use certificate::certify;
+pub use choices::{
+    Choice, ChoiceError, Compliance, Distribution, Equations, Label, NormWeights, ReactionValues,
+    Value, minimise,
+};
 pub use existence::{ConstraintLevel, Contradiction, Ranks, contradictions};
 pub use explain::{
     Explanation, ExplanationError, FreeDirection, Mixing, ReactionExplanation, SelfStress, explain,
 };
+pub use frames::{FrameForms, FrameVerdict, judge_frames};
 pub use generic::{Elsewhere, Generic, generic, is_permanent};
-pub use groups::{Group, Term, judge_groups};
+pub use groups::{
+    Configuration, Group, GroupVerdict, LinearForm, RequestError, Term, judge_groups,
+};
 pub use make_unique::{Allowed, Proposal, Proposals, make_unique};
 pub use matrices::{QueryError, Solvability};
 pub use mechanism::{
@@ -50,4 +63,5 @@ pub use mechanism::{
 pub use second_order::{Continuation, Undetermined, second_order};
 pub use state::{State, StateError};
 pub use structure::{judge_parts, structure};
+pub use units::{Nature, UnitCheck, UnitError, Units, check_units};
 pub use verdict::{Judgement, Verdict};

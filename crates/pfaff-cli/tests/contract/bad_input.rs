@@ -272,7 +272,7 @@ fn numbers_of_the_command_line() {
         vec!["analyze", ROBOT, "--at-time", "-1"],
         vec!["analyze", ROBOT, "--at-time=-1"],
         vec!["analyze", ROBOT, "--combine", "W9.N"],
-        vec!["analyze", ROBOT, "--combine", "W3"],
+        vec!["analyze", ROBOT, "--combine", "W3 + W4.N"],
     ] {
         let output = pfaff(&arguments);
         assert_eq!(

@@ -534,8 +534,20 @@ fn runs_starts_and_groups() {
         ),
         (
             "[simulate]",
+            "[[group]]\nname = \"g\"\nmembers = «[]»\n[simulate]",
+            "group `g`: `members` is empty",
+            "needs at least one joint or drive",
+        ),
+        (
+            "[simulate]",
+            "[[group]]\nname = \"g\"\ncombine = \"W.N + «W»\"\n[simulate]",
+            "group `g`: `combine`: `W` is a whole reaction, but the first term is a component; write all terms with a component, or none",
+            "here",
+        ),
+        (
+            "[simulate]",
             "[[group]]\nname = \"g\"\ncombine = \"W.N - 2*«W.Fz»\"\n[simulate]",
-            "group `g`: `combine`: the reaction of `W` has no component `Fz`; it has `Fx`, `Fy`, `N`",
+            "group `g`: `combine`: the reaction of `W` has no component `Fz`; it has `Fx`, `Fy`, `T`, `N`",
             "here",
         ),
         (

@@ -2,7 +2,7 @@
 
 use dynamics::{MotionOptions, RowChoice};
 use model::{Mechanism, StartOptions, System};
-use scene::Output;
+use scene::{Combination, Output};
 
 use crate::{ROBOT, read};
 
@@ -121,11 +121,11 @@ combine = "W3.N + 2*W4.N - steering.drive"
         scene.groups[0].content,
         scene::GroupContent::Members(vec!["W3".into(), "W4".into()])
     );
-    let scene::GroupContent::Combination(sum) = &scene.groups[1].content else {
+    let scene::GroupContent::Combination(Combination::Components(sum)) = &scene.groups[1].content
+    else {
         panic!("{:?}", scene.groups[1]);
     };
     let terms: Vec<_> = sum
-        .terms
         .iter()
         .map(|t| (t.coefficient, t.reaction.as_str(), t.component.as_str()))
         .collect();
@@ -142,12 +142,16 @@ combine = "W3.N + 2*W4.N - steering.drive"
 #[test]
 fn combinations_of_the_command_line_are_read_with_the_names_of_the_scene() {
     let scene = read(ROBOT).expect("a scene");
-    assert_eq!(
-        scene.combination("W3.N + W4.N").expect("known").terms.len(),
-        2
-    );
+    let terms = |text: &str| match scene.combination(text).expect("known") {
+        Combination::Components(terms) => ("components", terms.len()),
+        Combination::Wrenches(terms) => ("wrenches", terms.len()),
+    };
+    assert_eq!(terms("W3.N + W4.N"), ("components", 2));
+    assert_eq!(terms("W3 + W4"), ("wrenches", 2));
+    // Identically zero, and a question all the same.
+    assert_eq!(terms("W3.T"), ("components", 1));
     assert_eq!(
         scene.combination("A.N").expect_err("unknown").to_string(),
-        "the reaction of `A` has no component `N`; it has `Fx`, `Fy`"
+        "the reaction of `A` has no component `N`; it has `Fx`, `Fy`, `T`"
     );
 }

@@ -1,0 +1,428 @@
+//! Choices among the solutions `λ₀ + Z·y` where the model leaves one. None of them is *the* reaction: what is not unique is given with the
+//! choice that was made, and a number that depends on it cannot be taken without its label.
+
+mod equations;
+mod minimise;
+
+use std::fmt;
+use std::sync::Arc;
+
+use linalg::{Doubt, KeptRowsError, RankStatus, SaddleError};
+use model::reaction::COMPONENTS;
+use model::{ConstraintId, RowLabel, System};
+
+pub use equations::Equations;
+pub use minimise::minimise;
+
+use crate::groups::{Configuration, LinearForm, RequestError, check};
+use crate::mechanism::dimensionless;
+use crate::verdict::Verdict;
+use minimise::independent_columns;
+
+/// A way to choose one of the solutions.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Choice {
+    /// The least `Σ (force·F)² + (torque·T)²` over all joints and drives, wrenches on the first body at its place.
+    MinimumNorm(NormWeights),
+    /// What elastic supports of these compliances would carry, in the limit of stiff ones: the least complementary energy
+    /// `½·Σ (x·Fx² + y·Fy² + rotation·T²)`. Joints and drives that are not listed are rigid.
+    Compliance(Vec<Compliance>),
+    /// No reaction in these rows (from 0).
+    Elimination(Vec<usize>),
+}
+
+/// What forces and torques are divided by before they are added up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormWeights {
+    /// 1/N
+    pub force: f64,
+    /// 1/(N·m)
+    pub torque: f64,
+}
+
+impl NormWeights {
+    /// The norm of the numbers in N and N·m.
+    pub const NEWTON_METRE: Self = Self {
+        force: 1.0,
+        torque: 1.0,
+    };
+
+    /// The norm of the numbers in N and N·mm.
+    pub const NEWTON_MILLIMETRE: Self = Self {
+        force: 1.0,
+        torque: 1e3,
+    };
+
+    /// Torques count as forces at this arm (m).
+    #[must_use]
+    pub fn with_arm(length: f64) -> Self {
+        Self {
+            force: 1.0,
+            torque: length.recip(),
+        }
+    }
+}
+
+/// How a joint or drive gives way, in global components at its place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Compliance {
+    /// The joint or drive.
+    pub reaction: ConstraintId,
+    /// Along x (m/N).
+    pub x: f64,
+    /// Along y (m/N).
+    pub y: f64,
+    /// In rotation (rad/(N·m)).
+    pub rotation: f64,
+}
+
+/// Names the choice that a number depends on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label(Arc<str>);
+
+impl fmt::Display for Label {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// A number of a distribution.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// The same in every solution: a fact of the model.
+    Unique(f64),
+    /// One of many. A number whose verdict is undecided is given like this too.
+    Chosen {
+        /// The number.
+        value: f64,
+        /// Who says so.
+        by: Label,
+    },
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unique(value) => fmt::Display::fmt(value, f),
+            Self::Chosen { value, by } => {
+                fmt::Display::fmt(value, f)?;
+                write!(f, " ({by})")
+            }
+        }
+    }
+}
+
+/// One solution, with what of it is a fact and what a choice.
+#[derive(Clone, Debug)]
+pub struct Distribution {
+    /// The choice.
+    pub label: Label,
+    /// Joints and drives in the order of their rows.
+    pub reactions: Vec<ReactionValues>,
+    /// The multiplier of each row.
+    pub multipliers: Vec<Value>,
+    lambda_0: Vec<f64>,
+    lambda: Vec<f64>,
+}
+
+/// A reaction on the first body, at its place.
+#[derive(Clone, Debug)]
+pub struct ReactionValues {
+    /// The joint or drive.
+    pub id: ConstraintId,
+    /// Its name.
+    pub name: String,
+    /// Components (N, N·m) that are not identically zero, by name.
+    pub components: Vec<(&'static str, Value)>,
+}
+
+/// Why there is no such distribution.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ChoiceError {
+    /// The rank is undecided: what is a choice is not known.
+    #[error("the rank is undecided, and with it what may be chosen: {0}")]
+    Undecided(Doubt),
+    /// An argument is wrong.
+    #[error(transparent)]
+    Request(#[from] RequestError),
+    /// The equations cannot be solved on the kept rows.
+    #[error(transparent)]
+    Saddle(#[from] SaddleError),
+    /// Redundant rows ask for different accelerations: there are no reactions at all.
+    #[error(
+        "row {} asks for an acceleration that differs by {by:.3e} from what the kept rows give (rounding: {allowed:.3e}): \
+         there are no reactions that satisfy both",
+        row + 1
+    )]
+    Contradiction {
+        /// The dropped row, from 0.
+        row: usize,
+        /// By how much.
+        by: f64,
+        /// What rounding explains.
+        allowed: f64,
+    },
+    /// A weight or compliance is negative or no number.
+    #[error("a weight is {value:.3e}, need a finite number ≥ 0")]
+    Weight {
+        /// What it is.
+        value: f64,
+    },
+    /// A weight of a norm is not positive.
+    #[error("the norm has the weight {value:.3e}, need a finite number > 0")]
+    NormWeight {
+        /// What it is.
+        value: f64,
+    },
+    /// Rigid supports share a load in no particular way.
+    #[error(
+        "{free} shares are left open: what has weight zero (a rigid joint) stays undetermined among its like; \
+         give a compliance to one more of the joints that mix"
+    )]
+    Indeterminate {
+        /// Directions that nothing determines.
+        free: usize,
+    },
+    /// The wrench on the first body does not show all that a joint does.
+    #[error(
+        "the reaction of `{reaction}` on its first body does not tell those on its other bodies, which are not unique"
+    )]
+    Hidden {
+        /// The joint or drive.
+        reaction: String,
+    },
+    /// These rows cannot be without reaction.
+    #[error(
+        "no solution has zero reactions in the rows {}: {}",
+        list(rows),
+        cause(unique, source)
+    )]
+    Rows {
+        /// The rows asked for that exist.
+        rows: Vec<RowLabel>,
+        /// Those of them whose multiplier is unique.
+        unique: Vec<RowLabel>,
+        /// Why; rows are counted from 0 here.
+        source: KeptRowsError,
+    },
+}
+
+fn list(rows: &[RowLabel]) -> String {
+    let names: Vec<String> = rows.iter().map(RowLabel::to_string).collect();
+    names.join(", ")
+}
+
+fn cause(unique: &[RowLabel], source: &KeptRowsError) -> String {
+    match unique {
+        [] => source.to_string(),
+        [row] => format!("that of {row} is unique"),
+        rows => format!("those of {} are unique", list(rows)),
+    }
+}
+
+impl Distribution {
+    /// Any other number of the same solution.
+    ///
+    /// # Errors
+    /// [`RequestError::Length`]: the form belongs to another mechanism.
+    pub fn value(
+        &self,
+        configuration: &Configuration,
+        form: &LinearForm,
+    ) -> Result<Value, RequestError> {
+        check("multipliers", &self.lambda, form.coefficients().len())?;
+        Ok(match configuration.judge(form)?.verdict {
+            // From the best rows there are, whatever the choice.
+            Verdict::Unique => Value::Unique(form.value(&self.lambda_0)),
+            _ => Value::Chosen {
+                value: form.value(&self.lambda),
+                by: self.label.clone(),
+            },
+        })
+    }
+}
+
+impl Configuration<'_> {
+    /// The distribution that a choice makes of one solution λ₀, as [`Equations::multipliers`] gives it.
+    ///
+    /// # Errors
+    /// - [`ChoiceError::Undecided`]: the rank is.
+    /// - [`ChoiceError::Rows`]: rows that cannot be eliminated.
+    /// - [`ChoiceError::Indeterminate`], [`ChoiceError::Hidden`]: the choice leaves something open.
+    /// - [`ChoiceError::Weight`], [`ChoiceError::NormWeight`], [`ChoiceError::Request`]: wrong numbers.
+    pub fn distribute(
+        &self,
+        lambda_0: &[f64],
+        choice: &Choice,
+    ) -> Result<Distribution, ChoiceError> {
+        let layout = self.mechanism.layout();
+        check("multipliers", lambda_0, layout.rows())?;
+        if let RankStatus::Undecided(doubt) = self.solvability.decision().status {
+            return Err(ChoiceError::Undecided(doubt));
+        }
+        let lambda = match choice {
+            Choice::MinimumNorm(weights) => self.minimum_norm(lambda_0, *weights)?,
+            Choice::Compliance(joints) => self.elastic(lambda_0, joints)?,
+            Choice::Elimination(rows) => self.without(lambda_0, rows)?,
+        };
+        let mut distribution = Distribution {
+            label: self.label(choice),
+            reactions: Vec::new(),
+            multipliers: Vec::new(),
+            lambda_0: lambda_0.to_vec(),
+            lambda,
+        };
+        for (k, group) in layout.groups.iter().enumerate() {
+            let id = ConstraintId(k);
+            let mut components = Vec::new();
+            for c in group.components() {
+                let form = self.component(id, COMPONENTS[c])?;
+                components.push((COMPONENTS[c], distribution.value(self, &form)?));
+            }
+            distribution.reactions.push(ReactionValues {
+                id,
+                name: group.name.clone(),
+                components,
+            });
+        }
+        for row in 0..layout.rows() {
+            let mut form = LinearForm::zero(layout.rows());
+            form.add(&[(row, 1.0)])?;
+            let value = distribution.value(self, &form)?;
+            distribution.multipliers.push(value);
+        }
+        Ok(distribution)
+    }
+
+    fn minimum_norm(&self, lambda_0: &[f64], w: NormWeights) -> Result<Vec<f64>, ChoiceError> {
+        for value in [w.force, w.torque] {
+            if !(value.is_finite() && value > 0.0) {
+                return Err(ChoiceError::NormWeight { value });
+            }
+        }
+        self.least(lambda_0, |_| [w.force, w.force, w.torque].map(|w| w * w))
+    }
+
+    fn elastic(&self, lambda_0: &[f64], joints: &[Compliance]) -> Result<Vec<f64>, ChoiceError> {
+        let mut of_joint = vec![[0.0; 3]; self.mechanism.layout().groups.len()];
+        for joint in joints {
+            self.check_id(joint.reaction)?;
+            let total = &mut of_joint[joint.reaction.0];
+            for (total, compliance) in total.iter_mut().zip([joint.x, joint.y, joint.rotation]) {
+                if !(compliance.is_finite() && compliance >= 0.0) {
+                    return Err(ChoiceError::Weight { value: compliance });
+                }
+                // Springs in series give way one after the other.
+                *total += compliance;
+            }
+        }
+        self.least(lambda_0, |id| of_joint[id.0])
+    }
+
+    /// The least weighted sum of squares of all wrenches.
+    fn least(
+        &self,
+        lambda_0: &[f64],
+        weights: impl Fn(ConstraintId) -> [f64; 3],
+    ) -> Result<Vec<f64>, ChoiceError> {
+        let groups = &self.mechanism.layout().groups;
+        let mut terms = Vec::new();
+        for (k, group) in groups.iter().enumerate() {
+            let id = ConstraintId(k);
+            for c in group.components() {
+                terms.push((self.component(id, COMPONENTS[c])?, weights(id)[c]));
+            }
+        }
+        self.check_visible(&terms)?;
+        minimise(&self.solvability, lambda_0, &terms)
+    }
+
+    /// Checks that whatever is free to change can be seen in the wrenches.
+    fn check_visible(&self, terms: &[(LinearForm, f64)]) -> Result<(), ChoiceError> {
+        let p = self.solvability.null_space().ncols();
+        let tolerance = linalg::support_tolerance(self.solvability.decision());
+        let images: Vec<Vec<f64>> = terms
+            .iter()
+            .map(|(form, _)| form.image(&self.solvability).0)
+            .collect();
+        let rows: Vec<&[f64]> = images.iter().map(Vec::as_slice).collect();
+        let visible = independent_columns(&rows, p, tolerance).len();
+        if visible == p {
+            return Ok(());
+        }
+        for group in &self.mechanism.layout().groups {
+            let b_x = self
+                .solvability
+                .b_x(group.rows.clone())
+                .map_err(RequestError::from)?;
+            let of_bodies = (0..b_x.nrows()).map(|i| b_x.row(i));
+            let all: Vec<&[f64]> = rows.iter().copied().chain(of_bodies).collect();
+            if independent_columns(&all, p, tolerance).len() > visible {
+                return Err(ChoiceError::Hidden {
+                    reaction: group.name.clone(),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// `λ₀ − Z·(Z_D)⁻¹·λ₀_D` with Z from the dependence of the rows D on the others, for which Z_D = I: exactly zero on D.
+    fn without(&self, lambda_0: &[f64], rows: &[usize]) -> Result<Vec<f64>, ChoiceError> {
+        let c = dimensionless(self.mechanism, &self.s, self.size);
+        let residual = self.solvability.decision().evidence.constraint_residual;
+        let decision = linalg::decide_dropping(&c, residual, rows)
+            .map_err(|source| self.refused(rows, source))?;
+        let z = linalg::dependencies(&decision);
+        let mut lambda = lambda_0.to_vec();
+        for (j, &row) in decision.dropped.iter().enumerate() {
+            for (i, l) in lambda.iter_mut().enumerate() {
+                *l -= z[(i, j)] * lambda_0[row];
+            }
+        }
+        Ok(lambda)
+    }
+
+    fn refused(&self, rows: &[usize], source: KeptRowsError) -> ChoiceError {
+        let labels = &self.mechanism.layout().labels;
+        let known: Vec<usize> = rows.iter().copied().filter(|&i| i < labels.len()).collect();
+        let is_unique =
+            |i: &&usize| matches!(self.solvability.row(**i), Ok(row) if row.verdict.is_unique());
+        ChoiceError::Rows {
+            rows: known.iter().map(|&i| labels[i].clone()).collect(),
+            unique: known
+                .iter()
+                .filter(is_unique)
+                .map(|&i| labels[i].clone())
+                .collect(),
+            source,
+        }
+    }
+
+    fn label(&self, choice: &Choice) -> Label {
+        let layout = self.mechanism.layout();
+        let text = match choice {
+            Choice::MinimumNorm(w) => format!(
+                "minimum norm, forces weighted by {}/N and torques by {}/(N·m)",
+                w.force, w.torque
+            ),
+            Choice::Compliance(joints) => {
+                let joint = |j: &Compliance| {
+                    let name = &layout.groups[j.reaction.0].name;
+                    format!(
+                        "`{name}` {} m/N, {} m/N, {} rad/(N·m)",
+                        j.x, j.y, j.rotation
+                    )
+                };
+                let joints: Vec<String> = joints.iter().map(joint).collect();
+                format!("elastic supports: {}", joints.join("; "))
+            }
+            Choice::Elimination(rows) => {
+                let labels: Vec<RowLabel> =
+                    rows.iter().map(|&i| layout.labels[i].clone()).collect();
+                format!("no reaction in the rows {}", list(&labels))
+            }
+        };
+        Label(text.into())
+    }
+}

@@ -1,0 +1,103 @@
+//! The solution with the least sum of weighted squares: minimum norms and elastic supports are both of this kind.
+
+use linalg::{Matrix, PivotedQr};
+
+use super::ChoiceError;
+use crate::groups::{LinearForm, check, check_finite};
+use crate::matrices::Solvability;
+
+/// The first solve leaves its own rounding; the second removes what of it matters.
+const SOLVES: usize = 2;
+
+/// The λ that minimises `Σ weight·(ℓᵀ·λ)²` over all solutions `λ₀ + Z·y`: with the rows `√weight·ℓᵀ` in L,
+/// `Zᵀ·Lᵀ·L·Z·y = −Zᵀ·Lᵀ·L·λ₀`, solved by QR of L·Z. Directions of y that change none of the numbers ℓᵀ·λ are left alone.
+///
+/// ```
+/// use linalg::Matrix;
+/// use solvability::{LinearForm, Solvability, minimise};
+/// // Three equal springs side by side under a load of 6, then the first one half as stiff.
+/// let c = Matrix::from_rows(&[[1.0], [1.0], [1.0]]);
+/// let s = Solvability::of(&c, 0.0)?;
+/// let of_row = |i| {
+///     let mut form = LinearForm::zero(3);
+///     form.add(&[(i, 1.0)]).map(|()| form)
+/// };
+/// let forces = [of_row(0)?, of_row(1)?, of_row(2)?];
+/// let equal = forces.clone().map(|f| (f, 1.0));
+/// let shares = minimise(&s, &[6.0, 0.0, 0.0], &equal)?;
+/// assert!(shares.iter().all(|x| (x - 2.0).abs() < 1e-14));
+/// let mut softer = equal;
+/// softer[0].1 = 2.0;
+/// let shares = minimise(&s, &[6.0, 0.0, 0.0], &softer)?;
+/// assert!((shares[0] - 1.2).abs() < 1e-14 && (shares[1] - 2.4).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// - [`ChoiceError::Indeterminate`]: numbers with weight zero are free to change.
+/// - [`ChoiceError::Weight`]: a weight is negative or no number.
+/// - [`ChoiceError::Request`]: sizes do not fit.
+pub fn minimise(
+    solvability: &Solvability,
+    lambda_0: &[f64],
+    terms: &[(LinearForm, f64)],
+) -> Result<Vec<f64>, ChoiceError> {
+    let z = solvability.null_space();
+    check("multipliers", lambda_0, z.nrows())?;
+    for (form, weight) in terms {
+        check("linear form", form.coefficients(), z.nrows())?;
+        if !(weight.is_finite() && *weight >= 0.0) {
+            return Err(ChoiceError::Weight { value: *weight });
+        }
+    }
+    let images: Vec<(Vec<f64>, f64)> = terms
+        .iter()
+        .map(|(form, _)| form.image(solvability))
+        .collect();
+    let rows: Vec<&[f64]> = images.iter().map(|(image, _)| &image[..]).collect();
+    let tolerance = linalg::support_tolerance(solvability.decision());
+    let visible = independent_columns(&rows, z.ncols(), tolerance);
+
+    let roots: Vec<f64> = terms.iter().map(|(_, weight)| weight.sqrt()).collect();
+    let scales: Vec<f64> = roots.iter().zip(&images).map(|(r, i)| r * i.1).collect();
+    let largest = scales.iter().fold(0.0, |a: f64, &b| a.max(b));
+    let weighted = Matrix::from_fn(terms.len(), visible.len(), |i, j| {
+        scales[i] * rows[i][visible[j]]
+    });
+    check_finite("weighted forms", weighted.as_slice())?;
+    let qr = PivotedQr::of_columns(&weighted);
+    let determined = count(&qr, tolerance * largest);
+    if determined < visible.len() {
+        return Err(ChoiceError::Indeterminate {
+            free: visible.len() - determined,
+        });
+    }
+    let mut lambda = lambda_0.to_vec();
+    for _ in 0..SOLVES {
+        let pairs = terms.iter().zip(&roots);
+        let mut y: Vec<f64> = pairs
+            .map(|((form, _), r)| r * form.value(&lambda))
+            .collect();
+        qr.q_transpose_mul(&mut y);
+        y.truncate(visible.len());
+        qr.solve_r(&mut y);
+        for (i, l) in lambda.iter_mut().enumerate() {
+            let columns = qr.permutation().iter().map(|&k| z[(i, visible[k])]);
+            let change: f64 = columns.zip(&y).map(|(z, y)| z * y).sum();
+            *l -= solvability.decision().scaling.row_factor(i) * change;
+        }
+    }
+    Ok(lambda)
+}
+
+/// Columns of a matrix of images (rows of size one or less) that are independent; the others depend on them.
+pub(super) fn independent_columns(rows: &[&[f64]], columns: usize, tolerance: f64) -> Vec<usize> {
+    let matrix = Matrix::from_fn(rows.len(), columns, |i, j| rows[i][j]);
+    let qr = PivotedQr::of_columns(&matrix);
+    qr.permutation()[..count(&qr, tolerance)].to_vec()
+}
+
+/// Pivots above a tolerance.
+fn count(qr: &PivotedQr, tolerance: f64) -> usize {
+    qr.r_diagonal().filter(|r| r.abs() > tolerance).count()
+}

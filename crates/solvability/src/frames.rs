@@ -1,0 +1,112 @@
+//! Components of reactions in the frames in which engineers think: global, of the first body, along and across an edge. What is mixed in one
+//! frame may be separate in another: of a crank's bearing force the part across the crank is unique, whatever the global components say.
+
+use linalg::RankDecision;
+use model::{ConstraintId, Frame, Mechanism};
+
+use crate::groups::{Configuration, LinearForm, RequestError};
+use crate::verdict::Judgement;
+
+/// A reaction in one frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameVerdict {
+    /// The frame.
+    pub frame: Frame,
+    /// Unit vectors of its axes, global components.
+    pub axes: [[f64; 2]; 2],
+    /// Along the first axis, along the second, torque about the place of the joint; names as [`Frame::components`] has them. A component that is
+    /// identically zero is unique.
+    pub components: [Judgement; 3],
+}
+
+/// The components of a reaction in one frame, as numbers linear in the multipliers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrameForms {
+    /// Unit vectors of the axes, global components.
+    pub axes: [[f64; 2]; 2],
+    /// As in [`FrameVerdict`].
+    pub components: [LinearForm; 3],
+}
+
+/// Judges the reaction of a joint or drive at time t and coordinates q in all frames that it has.
+///
+/// ```
+/// use joints::Revolute;
+/// use model::{Body, BodyRef, ConstraintId, Description, Frame, Joint, Mechanism};
+/// use solvability::{analyse, judge_frames};
+/// // A beam on two hinges, turned by 30°: the pull along the beam is not determined.
+/// let hinge = |name: &str, x: f64, angle: f64| {
+///     let at = [x * angle.cos(), x * angle.sin()];
+///     let pair = [BodyRef::Body(0), BodyRef::Ground];
+///     Joint::new(name, &pair, Revolute { s_i: [x, 0.0], s_j: at })
+/// };
+/// let angle = 30_f64.to_radians();
+/// let beam = Description {
+///     bodies: vec![Body { name: "beam".into(), mass: 1.0, inertia: 1.0, angle, ..Body::default() }],
+///     joints: vec![hinge("left", -1.0, angle), hinge("right", 1.0, angle)],
+///     ..Description::default()
+/// };
+/// let mechanism = Mechanism::build(&beam).unwrap();
+/// let q = [0.0, 0.0, angle];
+/// let decision = analyse(&mechanism, 0.0, &q).unwrap().decision;
+/// let verdicts = judge_frames(&mechanism, 0.0, &q, &decision, ConstraintId(0)).unwrap();
+/// let words = |k: usize| verdicts[k].components.each_ref().map(|j| j.verdict.word());
+/// assert_eq!((verdicts[0].frame, words(0)), (Frame::Global, ["not_unique", "not_unique", "unique"]));
+/// assert_eq!((verdicts[1].frame, words(1)), (Frame::FirstBody, ["not_unique", "unique", "unique"]));
+/// ```
+///
+/// # Errors
+/// As [`Configuration::new`], and [`RequestError::UnknownReaction`].
+pub fn judge_frames(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    decision: &RankDecision,
+    id: ConstraintId,
+) -> Result<Vec<FrameVerdict>, RequestError> {
+    Configuration::new(mechanism, t, q, decision)?.frames(id)
+}
+
+impl Configuration<'_> {
+    /// The verdicts of a reaction in all frames that it has.
+    ///
+    /// # Errors
+    /// [`RequestError::UnknownReaction`]
+    pub fn frames(&self, id: ConstraintId) -> Result<Vec<FrameVerdict>, RequestError> {
+        let mut verdicts = Vec::new();
+        for frame in Frame::ALL {
+            let Some(FrameForms { axes, components }) = self.in_frame(id, frame)? else {
+                continue;
+            };
+            let [along, across, torque] = &components;
+            verdicts.push(FrameVerdict {
+                frame,
+                axes,
+                components: [self.judge(along)?, self.judge(across)?, self.judge(torque)?],
+            });
+        }
+        Ok(verdicts)
+    }
+
+    /// The components of a reaction in a frame; nothing if the reaction has no such frame.
+    ///
+    /// # Errors
+    /// [`RequestError::UnknownReaction`]
+    pub fn in_frame(
+        &self,
+        id: ConstraintId,
+        frame: Frame,
+    ) -> Result<Option<FrameForms>, RequestError> {
+        let place = self.place(id)?;
+        let Some(axes) = self.mechanism.axes(id, frame, &self.s) else {
+            return Ok(None);
+        };
+        let [along, across] = axes;
+        let components = [
+            self.force(id, along)?,
+            self.force(id, across)?,
+            self.torque(id, place)?,
+        ];
+        Ok(Some(FrameForms { axes, components }))
+    }
+}

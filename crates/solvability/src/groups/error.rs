@@ -1,0 +1,100 @@
+//! What can be wrong with a question about reactions.
+
+use crate::matrices::QueryError;
+
+/// Why a question has no answer.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RequestError {
+    /// A joint or drive that does not exist.
+    #[error("there is no joint or drive {id}; the mechanism has {reactions}, counted from 0")]
+    UnknownReaction {
+        /// Its place, from 0.
+        id: usize,
+        /// How many there are.
+        reactions: usize,
+    },
+    /// A component that the reaction does not have.
+    #[error("the reaction of `{reaction}` has no component `{component}`; it has {available}")]
+    UnknownComponent {
+        /// The joint or drive.
+        reaction: String,
+        /// What was asked for.
+        component: String,
+        /// What it has.
+        available: String,
+    },
+    /// A body that does not exist.
+    #[error("there is no body {body}; the mechanism has {bodies}, counted from 0")]
+    UnknownBody {
+        /// Its place, from 0.
+        body: usize,
+        /// How many there are.
+        bodies: usize,
+    },
+    /// A row that does not exist.
+    #[error("there is no row {row}; the matrix has {rows}, counted from 0")]
+    UnknownRow {
+        /// Its place, from 0.
+        row: usize,
+        /// How many there are.
+        rows: usize,
+    },
+    /// The solvability is of another constraint matrix.
+    #[error(transparent)]
+    Query(#[from] QueryError),
+    /// A group of nothing.
+    #[error("a group needs at least one {of}")]
+    Empty {
+        /// Of what.
+        of: &'static str,
+    },
+    /// NaN or infinite.
+    #[error("{argument} contains {value} at {index}, need finite numbers")]
+    NotFinite {
+        /// Which argument.
+        argument: &'static str,
+        /// Which entry.
+        index: usize,
+        /// What it is.
+        value: f64,
+    },
+    /// An argument of another length.
+    #[error("{argument} has {found} entries, need {expected}")]
+    Length {
+        /// Which argument.
+        argument: &'static str,
+        /// Its length.
+        found: usize,
+        /// The length it must have.
+        expected: usize,
+    },
+}
+
+/// Checks the length of an argument and that its entries are finite.
+pub(crate) fn check(
+    argument: &'static str,
+    x: &[f64],
+    expected: usize,
+) -> Result<(), RequestError> {
+    if x.len() != expected {
+        return Err(RequestError::Length {
+            argument,
+            found: x.len(),
+            expected,
+        });
+    }
+    check_finite(argument, x)
+}
+
+/// Checks that all entries are finite.
+pub(crate) fn check_finite(argument: &'static str, x: &[f64]) -> Result<(), RequestError> {
+    match x.iter().position(|x| !x.is_finite()) {
+        Some(index) => Err(RequestError::NotFinite {
+            argument,
+            index,
+            value: x[index],
+        }),
+        None => Ok(()),
+    }
+}

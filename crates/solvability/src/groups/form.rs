@@ -1,0 +1,167 @@
+//! A number linear in the multipliers, with the size of the terms it is summed from. Everything an engineer asks for is one: a component, a sum
+//! of components, a moment about a point, a resultant.
+
+use linalg::Matrix;
+
+use super::error::{RequestError, check_finite};
+use crate::matrices::Solvability;
+use crate::verdict::Judgement;
+
+/// `ℓᵀ·λ` over all rows, summed from terms.
+///
+/// The sizes decide what is rounding: where terms cancel, what they leave behind is compared with the terms and not with itself.
+/// So a total that vanishes identically is unique, whatever its digits.
+///
+/// ```
+/// use linalg::Matrix;
+/// use solvability::{LinearForm, Solvability, Verdict};
+/// // Rows 0 and 1 are the same: only the sum of their multipliers is determined.
+/// let c = Matrix::from_rows(&[[0.1, 0.0], [0.1, 0.0], [0.0, 1.0]]);
+/// let s = Solvability::of(&c, 0.0)?;
+/// let mut sum = LinearForm::zero(3);
+/// sum.add(&[(0, 1.0), (1, 1.0)])?;
+/// assert_eq!(sum.judge(&s)?.verdict, Verdict::Unique);
+/// // λ₁ comes in and goes out again: 0.3 − 0.1 − 0.2 is not zero in floating point, but it is nothing.
+/// let mut nothing = LinearForm::zero(3);
+/// nothing.add(&[(1, 0.3), (1, -0.1), (1, -0.2)])?;
+/// assert!(nothing.coefficients()[1] != 0.0);
+/// assert_eq!(nothing.judge(&s)?.verdict, Verdict::Unique);
+/// nothing.add(&[(1, 1e-9)])?;
+/// assert_eq!(nothing.judge(&s)?.verdict, Verdict::NotUnique);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearForm {
+    coefficients: Vec<f64>,
+    sizes: Vec<f64>,
+}
+
+impl LinearForm {
+    /// The form that is zero, for a matrix with this many rows.
+    #[must_use]
+    pub fn zero(rows: usize) -> Self {
+        Self {
+            coefficients: vec![0.0; rows],
+            sizes: vec![0.0; rows],
+        }
+    }
+
+    /// Adds `coefficient·λ_row` for each pair.
+    ///
+    /// # Errors
+    /// [`RequestError::UnknownRow`], [`RequestError::NotFinite`]; nothing is added then.
+    pub fn add(&mut self, terms: &[(usize, f64)]) -> Result<(), RequestError> {
+        let rows = self.coefficients.len();
+        let coefficients: Vec<f64> = terms.iter().map(|(_, c)| *c).collect();
+        check_finite("coefficients", &coefficients)?;
+        if let Some(&(row, _)) = terms.iter().find(|(row, _)| *row >= rows) {
+            return Err(RequestError::UnknownRow { row, rows });
+        }
+        for &(row, coefficient) in terms {
+            self.add_term(row, coefficient, coefficient.abs());
+        }
+        Ok(())
+    }
+
+    /// Adds a multiple of another form.
+    pub(super) fn add_scaled(&mut self, other: &Self, factor: f64) {
+        for (i, (l, size)) in other.coefficients.iter().zip(&other.sizes).enumerate() {
+            self.add_term(i, factor * l, factor.abs() * size);
+        }
+    }
+
+    /// The part of the form that belongs to these rows.
+    pub(super) fn only(&self, rows: &[usize]) -> Self {
+        let mut part = Self::zero(self.coefficients.len());
+        for &i in rows {
+            part.add_term(i, self.coefficients[i], self.sizes[i]);
+        }
+        part
+    }
+
+    /// Adds `coefficient·λ_row`, computed from terms of this size.
+    pub(crate) fn add_term(&mut self, row: usize, coefficient: f64, size: f64) {
+        self.coefficients[row] += coefficient;
+        self.sizes[row] += size;
+    }
+
+    /// ℓ, one coefficient for each row.
+    #[must_use]
+    pub fn coefficients(&self) -> &[f64] {
+        &self.coefficients
+    }
+
+    /// `ℓᵀ·λ`
+    ///
+    /// # Panics
+    /// If there is not one multiplier for each row.
+    #[must_use]
+    pub fn value(&self, lambda: &[f64]) -> f64 {
+        let rows = self.coefficients.len();
+        assert!(
+            lambda.len() == rows,
+            "{} multipliers, {rows} rows",
+            lambda.len()
+        );
+        self.coefficients
+            .iter()
+            .zip(lambda)
+            .map(|(l, x)| l * x)
+            .sum()
+    }
+
+    /// Unique iff `ℓᵀ·Z = 0`; the margin is relative to the size of the terms, both for equilibrated rows.
+    ///
+    /// # Errors
+    /// [`RequestError::Length`]: the matrix has another number of rows.
+    pub fn judge(&self, solvability: &Solvability) -> Result<Judgement, RequestError> {
+        let (found, m) = (self.sizes.len(), solvability.null_space().nrows());
+        if found != m {
+            return Err(RequestError::Length {
+                argument: "linear form",
+                found,
+                expected: m,
+            });
+        }
+        let largest = match self.sizes.iter().fold(0.0, |a: f64, &b| a.max(b)) {
+            0.0 => 1.0,
+            largest => largest,
+        };
+        // A component is judged relative to the largest row of its map: here that of the sizes.
+        let rows = [&self.coefficients, &self.sizes];
+        let map = Matrix::from_fn(rows.len(), m, |k, i| rows[k][i] / largest);
+        Ok(solvability.component(&map, 0, 0..m)?)
+    }
+
+    /// `ℓᵀ·Ẑ / ‖sizes‖` for an orthonormal basis Ẑ of the left null space of the equilibrated matrix, and the norm that was divided
+    /// by (1 for a form without terms): the margin as a vector.
+    pub(crate) fn image(&self, solvability: &Solvability) -> (Vec<f64>, f64) {
+        let (scaling, z) = (&solvability.decision().scaling, solvability.null_space());
+        let scaled = |x: &[f64]| -> Vec<f64> {
+            x.iter()
+                .enumerate()
+                .map(|(i, x)| x * scaling.row_factor(i))
+                .collect()
+        };
+        let size = match scaled(&self.sizes)
+            .iter()
+            .map(|x| x * x)
+            .sum::<f64>()
+            .sqrt()
+        {
+            0.0 => 1.0,
+            size => size,
+        };
+        let image = z.transpose_times(&scaled(&self.coefficients));
+        (image.iter().map(|x| x / size).collect(), size)
+    }
+
+    /// The form with the coefficients of each row multiplied by a positive factor.
+    pub(crate) fn times(&self, factors: &[f64]) -> Self {
+        let times = |x: &[f64]| x.iter().zip(factors).map(|(x, f)| x * f).collect();
+        Self {
+            coefficients: times(&self.coefficients),
+            sizes: times(&self.sizes),
+        }
+    }
+}

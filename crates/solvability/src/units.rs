@@ -1,0 +1,276 @@
+//! Facts and choices told apart by a change of units. A least norm adds newtons to newton metres, so it depends on the units in which the
+//! model is written; what the model determines does not. The distribution is made again from scratch in other units, and each number is
+//! converted back and compared.
+//!
+//! Where only forces mix, millimetres change nothing; so each joint in turn gets units of its own, too. And where no load acts, every least norm
+//! is zero; so the same is done under a load on all coordinates that has no symmetry. The test knows nothing of Z and its tolerances, so
+//! it checks the verdicts.
+
+mod rewrite;
+
+use linalg::{RankDecision, RankError};
+use model::reaction::COMPONENTS;
+use model::{ColumnKind, ConstraintId, Frame, Mechanism, System};
+
+pub use rewrite::{Dimension, Units};
+
+use crate::choices::{ChoiceError, Equations, minimise};
+use crate::groups::{Configuration, LinearForm, RequestError, check_finite};
+use crate::matrices::Solvability;
+use rewrite::Rewriting;
+
+/// What a change of units shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Nature {
+    /// The same in all units, to rounding.
+    Fact,
+    /// It depends on the units.
+    Choice,
+}
+
+/// A number under a change of units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnitCheck {
+    /// The joint or drive.
+    pub id: ConstraintId,
+    /// The frame.
+    pub frame: Frame,
+    /// The component in this frame: 0 and 1 forces, 2 the torque; names as [`Frame::components`] has them.
+    pub component: usize,
+    /// Its number in the least norm of N and N·m.
+    pub value: f64,
+    /// Its largest change, relative to the largest force or torque of the whole mechanism.
+    pub change: f64,
+    /// What that means.
+    pub nature: Nature,
+}
+
+/// Why numbers cannot be compared.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum UnitError {
+    /// There is no distribution to compare.
+    #[error(transparent)]
+    Choice(#[from] ChoiceError),
+    /// An argument is wrong.
+    #[error(transparent)]
+    Request(#[from] RequestError),
+    /// The matrix cannot be judged in other units.
+    #[error(transparent)]
+    Rank(#[from] RankError),
+    /// The rank depends on the units: no verdict can be trusted.
+    #[error("the rank was decided as {rank}, but reads {other} where lengths are multiplied by {}, masses by {}, times by {}",
+        units.length, units.mass, units.time)]
+    RankChanges {
+        /// As decided.
+        rank: usize,
+        /// In other units.
+        other: usize,
+        /// The units.
+        units: Units,
+    },
+}
+
+/// A change below this share of the largest force or torque is rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The unit of one joint alone is this much smaller than that of the others.
+const OF_ONE_JOINT: f64 = 1e3;
+
+/// The components of all reactions in all frames, at a state whose rank has been decided: which of them are facts, and which depend on the choice
+/// that a least norm makes. Of the decision only the rank and the residual of the constraints are used. Torques stand with the global frame.
+///
+/// # Errors
+/// - [`UnitError::Choice`]: there is no least norm.
+/// - [`UnitError::RankChanges`]: a reason to trust nothing.
+/// - [`UnitError::Request`], [`UnitError::Rank`]: t, q or v do not fit the mechanism or are not finite.
+pub fn check_units(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    v: &[f64],
+    decision: &RankDecision,
+) -> Result<Vec<UnitCheck>, UnitError> {
+    let configuration = Configuration::new(mechanism, t, q, decision)?;
+    let numbers = Numbers::of(&configuration)?;
+    let real = Equations::of(mechanism, t, q, v)?;
+    let mut checks = numbers.checks.clone();
+    for (is_real, equations) in [(true, &real), (false, &numbers.probing_load(&real))] {
+        let reference = numbers.least(equations, Units::SI, None)?;
+        let scale = numbers.scale(equations, &reference);
+        let uniform = [Units::MILLIMETRE, Units::GRAM, Units::MILLISECOND].map(|u| (u, None));
+        let each = mechanism.constraint_ids().map(|id| (Units::SI, Some(id)));
+        for (units, alone) in uniform.into_iter().chain(each) {
+            let other = numbers.least(equations, units, alone)?;
+            for (k, check) in checks.iter_mut().enumerate() {
+                let unit = numbers.unit(check, scale);
+                check.change = check.change.max((other[k] - reference[k]).abs() / unit);
+            }
+        }
+        if is_real {
+            for (check, value) in checks.iter_mut().zip(reference) {
+                check.value = value;
+            }
+        }
+    }
+    for check in &mut checks {
+        check.nature = match check.change <= ROUNDING {
+            true => Nature::Fact,
+            false => Nature::Choice,
+        };
+    }
+    Ok(checks)
+}
+
+/// The numbers that are compared, and the wrenches whose norm is least.
+struct Numbers<'a> {
+    configuration: &'a Configuration<'a>,
+    checks: Vec<UnitCheck>,
+    /// For each check.
+    forms: Vec<LinearForm>,
+    wrenches: Vec<(ConstraintId, Dimension, LinearForm)>,
+}
+
+impl<'a> Numbers<'a> {
+    fn of(configuration: &'a Configuration<'a>) -> Result<Self, RequestError> {
+        let (mut checks, mut forms, mut wrenches) = (Vec::new(), Vec::new(), Vec::new());
+        let layout = configuration.mechanism.layout();
+        for (k, group) in layout.groups.iter().enumerate() {
+            let id = ConstraintId(k);
+            for component in group.components() {
+                let form = configuration.component(id, COMPONENTS[component])?;
+                wrenches.push((id, dimension(component), form));
+            }
+            for frame in Frame::ALL {
+                let found = configuration.in_frame(id, frame)?;
+                let forces_only = frame != Frame::Global;
+                let components = found.map_or(Vec::new(), |f| f.components.to_vec());
+                for (component, form) in components.into_iter().enumerate() {
+                    if forces_only && dimension(component) == Dimension::Torque {
+                        continue;
+                    }
+                    forms.push(form);
+                    checks.push(UnitCheck {
+                        id,
+                        frame,
+                        component,
+                        value: 0.0,
+                        change: 0.0,
+                        nature: Nature::Fact,
+                    });
+                }
+            }
+        }
+        Ok(Self {
+            configuration,
+            checks,
+            forms,
+            wrenches,
+        })
+    }
+
+    /// The numbers in SI units that the least norm in other units gives; the reaction `alone` counts in units of its own.
+    fn least(
+        &self,
+        equations: &Equations,
+        units: Units,
+        alone: Option<ConstraintId>,
+    ) -> Result<Vec<f64>, UnitError> {
+        let decided = self.configuration.solvability.decision();
+        let rewriting = Rewriting::new(
+            equations,
+            units,
+            &self.configuration.mechanism.column_kinds(),
+        );
+        let equations = rewriting.equations(equations);
+        let decision = linalg::decide(&equations.c, decided.evidence.constraint_residual)?;
+        if decision.rank != decided.rank {
+            return Err(UnitError::RankChanges {
+                rank: decided.rank,
+                other: decision.rank,
+                units,
+            });
+        }
+        let lambda_0 = equations.multipliers(&decision)?;
+        let solvability = Solvability::from_decision(&equations.c, decision);
+        let wrench = |(id, dimension, form): &(ConstraintId, Dimension, LinearForm)| {
+            let own = if alone == Some(*id) {
+                OF_ONE_JOINT
+            } else {
+                1.0
+            };
+            (rewriting.form(form, own * units.of(*dimension)), 1.0)
+        };
+        let wrenches: Vec<_> = self.wrenches.iter().map(wrench).collect();
+        let lambda = minimise(&solvability, &lambda_0, &wrenches)?;
+        // Divided by their own unit, numbers are in SI again.
+        let numbers: Vec<f64> = self
+            .forms
+            .iter()
+            .map(|form| rewriting.form(form, 1.0).value(&lambda))
+            .collect();
+        check_finite("least norm", &numbers)?;
+        Ok(numbers)
+    }
+
+    /// The same mechanism under a load on every coordinate, without symmetry, and at rest: golden fractions of 1 N, of 1 N at the arm of the
+    /// mechanism's size for rotations.
+    fn probing_load(&self, equations: &Equations) -> Equations {
+        let golden = 0.618_033_988_749_894_9;
+        let kinds = self.configuration.mechanism.column_kinds();
+        let load = |(k, kind): (usize, &ColumnKind)| {
+            let arm = match kind {
+                ColumnKind::Translation => 1.0,
+                ColumnKind::Rotation => self.configuration.size,
+            };
+            arm * ((golden * (k + 1) as f64).fract() - 0.5)
+        };
+        let rows = equations.gamma.len();
+        Equations {
+            force: kinds.iter().enumerate().map(load).collect(),
+            gamma: vec![0.0; rows],
+            gamma_terms: vec![0.0; rows],
+            ..equations.clone()
+        }
+    }
+
+    /// The largest force: of the numbers, of the loads, and of inertia at these velocities, which is what reactions are rounded against.
+    fn scale(&self, equations: &Equations, numbers: &[f64]) -> f64 {
+        let largest = |x: &[f64]| x.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let size = self.configuration.size;
+        let forces = self
+            .checks
+            .iter()
+            .zip(numbers)
+            .map(|(check, x)| x.abs() / self.unit(check, 1.0));
+        let kinds = self.configuration.mechanism.column_kinds();
+        let loads = kinds
+            .iter()
+            .zip(&equations.force)
+            .map(|(kind, x)| match kind {
+                ColumnKind::Translation => x.abs(),
+                ColumnKind::Rotation => x.abs() / size,
+            });
+        let inertia = largest(&equations.mass) * largest(&equations.gamma_terms);
+        match forces.chain(loads).fold(inertia, f64::max) {
+            0.0 => 1.0,
+            scale => scale,
+        }
+    }
+
+    /// A force of this size, or its torque at the arm of the mechanism's size.
+    fn unit(&self, check: &UnitCheck, force: f64) -> f64 {
+        match dimension(check.component) {
+            Dimension::Force => force,
+            Dimension::Torque => force * self.configuration.size,
+        }
+    }
+}
+
+/// Of a component of a wrench.
+fn dimension(component: usize) -> Dimension {
+    match COMPONENTS[component] {
+        "T" => Dimension::Torque,
+        _ => Dimension::Force,
+    }
+}

@@ -1,0 +1,500 @@
+//! Choices among the reactions that a model leaves open: closed forms, published numbers, and runs on other kept rows.
+
+use std::ops::ControlFlow;
+
+use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
+use joints::plane::{Direction, Line};
+use joints::{BodyPointForce, Fixed, PointForce, PointOnLine, Revolute, Velocity};
+use model::{
+    Body, BodyRef, ConstraintId, Description, Force, Function, Joint, Mechanism, Reaction,
+    StartOptions,
+};
+use serde_json::Value as Json;
+use solvability::{
+    Choice, ChoiceError, Compliance, Configuration, Distribution, Equations, Nature, NormWeights,
+    Value, analyse, check_units,
+};
+use tests::cranks::cranks;
+use tests::robot::{robot, steering};
+use tests::{largest, rod};
+
+const THREE_CRANKS: &str = include_str!("../reference/redundant_three_cranks.json");
+
+/// A mechanism at a state.
+struct State {
+    mechanism: Mechanism,
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+}
+
+impl State {
+    fn at_start(d: &Description) -> Self {
+        let p = started(d, &RowChoice::Automatic);
+        Self {
+            mechanism: p.mechanism,
+            t: 0.0,
+            q: p.q,
+            v: p.v,
+        }
+    }
+
+    fn configuration(&self) -> Configuration<'_> {
+        let analysis = analyse(&self.mechanism, self.t, &self.q).expect("C is finite");
+        Configuration::new(&self.mechanism, self.t, &self.q, &analysis.decision).expect("fits")
+    }
+
+    fn lambda_0(&self) -> Result<Vec<f64>, ChoiceError> {
+        let decision = self.configuration().solvability().decision().clone();
+        Equations::of(&self.mechanism, self.t, &self.q, &self.v)?.multipliers(&decision)
+    }
+
+    fn distribute(&self, choice: &Choice) -> Result<Distribution, ChoiceError> {
+        self.configuration().distribute(&self.lambda_0()?, choice)
+    }
+}
+
+fn started(d: &Description, rows: &RowChoice) -> Prepared {
+    let mechanism = Mechanism::build(d).expect("builds");
+    prepare(mechanism, &StartOptions::default(), rows).expect("starts")
+}
+
+/// The number, and whether it is a choice.
+fn number(value: &Value) -> (f64, bool) {
+    match value {
+        Value::Unique(x) => (*x, false),
+        Value::Chosen { value, by } => {
+            assert!(!by.to_string().is_empty());
+            (*value, true)
+        }
+    }
+}
+
+fn component(d: &Distribution, joint: &str, name: &str) -> (f64, bool) {
+    let reaction = d.reactions.iter().find(|r| r.name == joint).expect("joint");
+    let found = reaction.components.iter().find(|(n, _)| *n == name);
+    number(&found.expect("component").1)
+}
+
+fn assert_close(found: f64, expected: f64, tolerance: f64, what: &str) {
+    let size = expected.abs().max(1.0);
+    assert!(
+        (found - expected).abs() <= tolerance * size,
+        "{what}: {found} instead of {expected}"
+    );
+}
+
+/// A force on the body with number 0.
+fn load(force: [f64; 2], s: [f64; 2]) -> Force {
+    Force {
+        name: "load".into(),
+        bodies: vec![BodyRef::Body(0)],
+        element: Box::new(PointForce { s }),
+        functions: force
+            .map(|x| Function::constant(x).expect("finite"))
+            .to_vec(),
+    }
+}
+
+fn bar(joints: Vec<Joint>, loads: Vec<Force>) -> Description {
+    Description {
+        name: "bar".into(),
+        bodies: vec![Body {
+            name: "bar".into(),
+            mass: 1.0,
+            inertia: 1.0,
+            ..Body::default()
+        }],
+        joints,
+        forces: loads,
+        ..Description::default()
+    }
+}
+
+/// A support that holds a point of the bar in height.
+fn roller(name: &str, x: f64) -> Joint {
+    let line = Line::new([x, 0.0], [x + 1.0, 0.0]).expect("two points");
+    Joint::new(name, &[BodyRef::Body(0)], PointOnLine { s: [x, 0.0], line })
+}
+
+/// A bar of 1 m clamped at the left, pinned at the right, unit load at a quarter. With R on the right the rest is `1 − R` and the moment
+/// `1/4 − R`, so in units of length u (per metre) the least norm has `R = (1 + u²/4)/(2 + u²)`.
+#[test]
+fn clamped_and_pinned_bar() {
+    let pair = [BodyRef::Ground, BodyRef::Body(0)];
+    let ends = |x: f64| ([x, 0.0], [x, 0.0]);
+    let ((s_i, s_j), (p_i, p_j)) = (ends(0.0), ends(1.0));
+    let clamp = Fixed {
+        s_i,
+        s_j,
+        offset: [0.0; 2],
+        angle_0: 0.0,
+    };
+    let joints = vec![
+        Joint::new("clamp", &pair, clamp),
+        Joint::new("pin", &pair, Revolute { s_i: p_i, s_j: p_j }),
+    ];
+    let state = State::at_start(&bar(joints, vec![load([0.0, -1.0], [0.25, 0.0])]));
+    let right = |weights| {
+        let d = state
+            .distribute(&Choice::MinimumNorm(weights))
+            .expect("a norm");
+        let (force, chosen) = component(&d, "pin", "Fy");
+        assert!(chosen);
+        // The ground carries the load downwards.
+        -force
+    };
+    assert_close(
+        right(NormWeights::NEWTON_METRE),
+        1.25 / 3.0,
+        1e-14,
+        "N and N·m",
+    );
+    let millimetres = (1.0 + 0.25e6) / (2.0 + 1e6);
+    assert_close(
+        right(NormWeights::NEWTON_MILLIMETRE),
+        millimetres,
+        1e-12,
+        "N and N·mm",
+    );
+    assert_eq!(format!("{:.4}", right(NormWeights::NEWTON_METRE)), "0.4167");
+    assert_eq!(
+        format!("{:.4}", right(NormWeights::NEWTON_MILLIMETRE)),
+        "0.2500"
+    );
+    // A pin that gives way by 1/k, a clamp that turns by c: R·(1/k + c) = c/4.
+    let compliance = |joint, y, rotation| Compliance {
+        reaction: ConstraintId(joint),
+        x: 1e-9,
+        y,
+        rotation,
+    };
+    let elastic = Choice::Compliance(vec![compliance(0, 0.0, 3e-4), compliance(1, 1e-4, 0.0)]);
+    let d = state.distribute(&elastic).expect("determined");
+    assert_close(
+        -component(&d, "pin", "Fy").0,
+        0.25 * 3.0 / 4.0,
+        1e-14,
+        "elastic",
+    );
+}
+
+/// A rigid beam on three springs at −1, 0, 1: `force·compliance` is linear along the beam.
+#[test]
+fn beam_on_three_springs() {
+    let supports = [("left", -1.0), ("middle", 0.0), ("right", 1.0)];
+    let joints: Vec<Joint> = supports.map(|(name, x)| roller(name, x)).to_vec();
+    let (load_size, at) = (10.0, 0.3);
+    let state = State::at_start(&bar(joints, vec![load([0.0, -load_size], [at, 0.0])]));
+    let elastic = |compliances: [f64; 3]| {
+        let joint = |(k, y): (usize, f64)| Compliance {
+            reaction: ConstraintId(k),
+            x: 0.0,
+            y,
+            rotation: 0.0,
+        };
+        state.distribute(&Choice::Compliance(
+            compliances.into_iter().enumerate().map(joint).collect(),
+        ))
+    };
+    let forces = |d: &Distribution| supports.map(|(name, _)| component(d, name, "Fy").0);
+    let expect = |found: [f64; 3], expected: [f64; 3]| {
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert_close(found, expected, 1e-13, "support");
+        }
+    };
+    // The ground pushes up.
+    let arm = at * load_size / 2.0;
+    let third = load_size / 3.0;
+    expect(
+        forces(&elastic([1e-6; 3]).expect("determined")),
+        [third - arm, third, third + arm],
+    );
+    let share = 0.4 * load_size;
+    expect(
+        forces(&elastic([1e-6, 2e-6, 1e-6]).expect("determined")),
+        [share - arm, 0.5 * share, share + arm],
+    );
+    // Between rigid supports a soft one carries nothing.
+    expect(
+        forces(&elastic([0.0, 1e-6, 0.0]).expect("determined")),
+        [0.5 * load_size - arm, 0.0, 0.5 * load_size + arm],
+    );
+    assert!(matches!(
+        elastic([0.0; 3]),
+        Err(ChoiceError::Indeterminate { free: 1 })
+    ));
+    assert!(matches!(
+        elastic([1.0, -1.0, 1.0]),
+        Err(ChoiceError::Weight { .. })
+    ));
+    let norm =
+        |force, torque| state.distribute(&Choice::MinimumNorm(NormWeights { force, torque }));
+    assert!(matches!(
+        norm(0.0, 1.0),
+        Err(ChoiceError::NormWeight { .. })
+    ));
+    assert!(matches!(
+        norm(1.0, f64::NAN),
+        Err(ChoiceError::NormWeight { .. })
+    ));
+}
+
+/// Numbers of `reference/redundant_three_cranks.json` (worked out there in closed form): 13 digits.
+#[test]
+fn three_cranks_with_least_norm() {
+    let case: Json = serde_json::from_str(THREE_CRANKS).expect("the case is JSON");
+    let list = |key: &str| -> Vec<f64> {
+        let list = case["reference"][key].as_array().expect("a list");
+        list.iter().filter_map(Json::as_f64).collect()
+    };
+    let theta = std::f64::consts::FRAC_PI_6;
+    let state = State::at_start(&three_cranks(theta, 1.5));
+    let d = state
+        .distribute(&Choice::MinimumNorm(NormWeights::NEWTON_METRE))
+        .expect("a norm");
+    let configuration = state.configuration();
+    let (radial, tangential) = ([theta.sin(), -theta.cos()], [theta.cos(), theta.sin()]);
+    for (names, offset) in [("tip", 1), ("ground", 0)] {
+        let norm = list(match names {
+            "tip" => "radial_tip_forces_minimum_norm",
+            _ => "ground_radial_minimum_norm",
+        });
+        for k in 0..3 {
+            let id = ConstraintId(2 * k + offset);
+            let along = |direction| {
+                let form = configuration.force(id, direction).expect("exists");
+                number(&d.value(&configuration, &form).expect("fits"))
+            };
+            // Reported on the first body, the reference has the second.
+            let (force, chosen) = along(radial);
+            assert!(chosen);
+            assert_close(-force, norm[k], 1e-12, "radial");
+            let unique = match names {
+                "tip" => case["reference"]["tangential_tip_force_on_coupler_each_crank (unique)"]
+                    .as_f64()
+                    .expect("a number"),
+                _ => list("ground_tangential (unique)")[k],
+            };
+            let (force, chosen) = along(tangential);
+            assert!(!chosen);
+            assert_close(-force, unique, 1e-12, "tangential");
+        }
+    }
+}
+
+/// The case of the reference: θ from the downward vertical is θ − π/2 from the x-axis.
+fn three_cranks(theta: f64, rate: f64) -> Description {
+    let (length, half_span) = (0.5, 0.8);
+    let mut d = cranks(
+        &[-0.8, 0.0, 0.8],
+        length,
+        theta - std::f64::consts::FRAC_PI_2,
+    );
+    d.gravity = [0.0, -9.81];
+    let tangent = [theta.cos(), theta.sin()];
+    for crank in &mut d.bodies[..3] {
+        let inertia = 1.2 * length * length / 12.0;
+        (crank.mass, crank.inertia, crank.angular_velocity) = (1.2, inertia, rate);
+        crank.velocity = tangent.map(|t| 0.5 * length * rate * t);
+    }
+    let coupler = rod("coupler", 3.0, [-half_span, 0.0], [half_span, 0.0]);
+    (d.bodies[3].mass, d.bodies[3].inertia) = (coupler.mass, coupler.inertia);
+    d.bodies[3].velocity = tangent.map(|t| length * rate * t);
+    d
+}
+
+/// The robot at t = 0, pushed sideways and turned at the platform so that there is something to share.
+fn pushed_robot() -> Description {
+    let mut d = robot(steering());
+    d.forces.push(Force {
+        name: "push".into(),
+        bodies: vec![BodyRef::Body(0)],
+        element: Box::new(BodyPointForce { s: [0.1, 0.07] }),
+        functions: [3.0, 50.0]
+            .map(|x| Function::constant(x).expect("finite"))
+            .to_vec(),
+    });
+    d
+}
+
+/// Reactions of a run on other kept rows, at its start or at t > 0.
+fn run_without(d: &Description, rows: &[usize], t: f64) -> (State, Vec<Reaction>) {
+    let rows = RowChoice::Drop(rows.to_vec());
+    let p = started(d, &rows);
+    let (mut last, mut reactions) = ((0.0, Vec::new(), Vec::new()), Vec::new());
+    let options = MotionOptions {
+        rows,
+        output_step: t.max(1.0),
+        ..MotionOptions::to(t)
+    };
+    simulate(&p, &options, |sample| {
+        last = (sample.t, sample.q.to_vec(), sample.v.to_vec());
+        reactions = sample.reactions()?;
+        Ok(ControlFlow::Continue(()))
+    })
+    .expect("moves");
+    let (t, q, v) = last;
+    let state = State {
+        mechanism: p.mechanism,
+        t,
+        q,
+        v,
+    };
+    (state, reactions)
+}
+
+/// Eliminations against the dynamics on just those kept rows, and what all choices have in common.
+#[test]
+fn eliminations_of_the_robot_are_runs_without_these_rows() {
+    for (t, rows) in [
+        (0.0, [6, 21]),
+        (0.0, [18, 21]),
+        (0.0, [19, 21]),
+        (1.5, [6, 21]),
+        (1.5, [18, 21]),
+    ] {
+        let rows = rows.map(|r| r - 1);
+        let (state, expected) = run_without(&pushed_robot(), &rows, t);
+        assert_eq!(state.t, t);
+        let size = largest(expected.iter().flat_map(|r| r.force));
+        assert!(size > 10.0, "something to share");
+        let d = state
+            .distribute(&Choice::Elimination(rows.to_vec()))
+            .expect("admissible");
+        for row in rows {
+            assert_eq!(number(&d.multipliers[row]), (0.0, true));
+        }
+        for (found, expected) in d.reactions.iter().zip(&expected) {
+            for (name, value) in &found.components {
+                let wrench = [expected.force[0], expected.force[1], expected.torque];
+                let k = ["Fx", "Fy", "T"]
+                    .iter()
+                    .position(|n| n == name)
+                    .expect("one");
+                assert_close(number(value).0, wrench[k], 1e-10 * size, &found.name);
+            }
+        }
+        // Unique numbers are those of any other choice; here from rows that the run did not keep.
+        let norm = state
+            .distribute(&Choice::MinimumNorm(NormWeights::NEWTON_METRE))
+            .expect("a norm");
+        let mut chosen = Vec::new();
+        for (a, (b, run)) in norm.reactions.iter().zip(d.reactions.iter().zip(&expected)) {
+            for ((name, x), (_, y)) in a.components.iter().zip(&b.components) {
+                let ((x, x_chosen), (y, y_chosen)) = (number(x), number(y));
+                assert_eq!(x_chosen, y_chosen);
+                if x_chosen {
+                    chosen.push(format!("{}.{name}", a.name));
+                } else {
+                    assert_eq!(x, y);
+                    let wrench = [run.force[0], run.force[1], run.torque];
+                    let k = ["Fx", "Fy", "T"]
+                        .iter()
+                        .position(|n| n == name)
+                        .expect("one");
+                    assert_close(x, wrench[k], 1e-10 * size, &a.name);
+                }
+            }
+        }
+        chosen.retain(|name| !name.starts_with('W'));
+        match t {
+            0.0 => assert_eq!(chosen, ["B.Fy", "C.Fy"]),
+            _ => assert_eq!(chosen, ["B.Fx", "B.Fy", "C.Fx", "C.Fy"]),
+        }
+        assert!(norm.label.to_string().starts_with("minimum norm"));
+        let shown = d.label.to_string();
+        assert!(shown.contains("`W4`") && shown.contains("21"), "{shown}");
+    }
+}
+
+#[test]
+fn inadmissible_eliminations_are_refused_by_name() {
+    let state = State::at_start(&robot(steering()));
+    let refused = |rows: &[usize]| {
+        let choice = Choice::Elimination(rows.iter().map(|r| r - 1).collect());
+        state
+            .distribute(&choice)
+            .expect_err("not admissible")
+            .to_string()
+    };
+    assert_eq!(
+        refused(&[1, 21]),
+        "no solution has zero reactions in the rows 1 (`A`, x), 21 (`W4`, normal): that of 1 (`A`, x) is unique"
+    );
+    // Rows that mix, but not with each other.
+    let text = refused(&[6, 18]);
+    assert!(
+        text.contains("6 (`C`, y)") && text.contains("dependent"),
+        "{text}"
+    );
+    assert!(refused(&[21]).contains("drop exactly 2"));
+    assert!(refused(&[21, 21]).contains("twice"));
+    assert!(refused(&[21, 99]).contains("does not exist"));
+}
+
+/// Two drives of one velocity: the same speed is shared, another acceleration is none.
+#[test]
+fn contradicting_drives_have_no_reactions() {
+    let drive = |name: &str, rate: [f64; 2]| {
+        let element = Velocity {
+            s: [0.0, 0.0],
+            direction: Direction::X,
+        };
+        Joint {
+            functions: vec![Function::polynomial(&rate).expect("finite")],
+            ..Joint::new(name, &[BodyRef::Body(0)], element)
+        }
+    };
+    let with = |rates: [[f64; 2]; 2]| {
+        let joints = vec![drive("first", rates[0]), drive("second", rates[1])];
+        let mut d = bar(joints, vec![load([10.0, 0.0], [0.0, 0.0])]);
+        d.bodies[0].velocity = [2.0, 0.0];
+        State::at_start(&d)
+    };
+    let d = with([[2.0, 1.0]; 2])
+        .distribute(&Choice::MinimumNorm(NormWeights::NEWTON_METRE))
+        .expect("they agree");
+    // 1 kg at 1 m/s² takes 1 N of 10 N; the drives take 4.5 N each, on the bar −4.5 N.
+    assert_close(component(&d, "first", "Fx").0, -4.5, 1e-15, "half");
+    assert_close(component(&d, "second", "Fx").0, -4.5, 1e-15, "half");
+    let error = with([[2.0, 1.0], [2.0, 1.1]])
+        .lambda_0()
+        .expect_err("they do not");
+    assert!(matches!(error, ChoiceError::Contradiction { by, .. } if (by - 0.1).abs() < 1e-12));
+}
+
+/// A change of units shows exactly what the verdicts say.
+#[test]
+fn facts_do_not_depend_on_units() {
+    let robot_turning = run_without(&pushed_robot(), &[20, 19], 1.5).0;
+    let robot_straight = State::at_start(&robot(steering()));
+    let cranks = State::at_start(&three_cranks(0.5, 1.5));
+    // Of the robot 14 reactions have 3 + 2 components, 7 of them 2 more along and across their edge. B and C are open in both frames, W1 to W4
+    // across their edges, which is all of their global components while they turn. Of the cranks' 6 bearings only those at
+    // the tips are reported in the frame of a crank, where the force across it is a fact.
+    for (name, state, facts, choices) in [
+        ("turning", robot_turning, 60, 24),
+        ("straight, without load", robot_straight, 68, 16),
+        ("cranks", cranks, 9, 21),
+    ] {
+        let configuration = state.configuration();
+        let decision = configuration.solvability().decision();
+        let checks = check_units(&state.mechanism, state.t, &state.q, &state.v, decision)
+            .expect("comparable");
+        let mut counts = [0, 0];
+        for check in &checks {
+            let frames = configuration.frames(check.id).expect("exists");
+            let frame = frames.iter().find(|f| f.frame == check.frame).expect("one");
+            let unique = frame.components[check.component].verdict.is_unique();
+            assert_eq!(
+                check.nature == Nature::Fact,
+                unique,
+                "{name}: {check:?} {frame:?}"
+            );
+            counts[usize::from(!unique)] += 1;
+        }
+        assert_eq!(counts, [facts, choices], "{name}");
+        assert_eq!(checks.len(), counts.iter().sum::<usize>());
+    }
+}

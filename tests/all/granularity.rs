@@ -1,0 +1,600 @@
+//! Verdicts at every granularity: frames, sums of wrenches, groups, resultants; with drives, affine and rheonomic rows.
+
+use joints::plane::{Direction, Line};
+use joints::{
+    Angle, Distance, Fixed, Gear, KnifeEdge, PinInSlot, PointOnLine, RackAndPinion, Revolute,
+    RevoluteAngleDrive, Rolling, Translational, Velocity,
+};
+use model::start::{Coordinate, KeepLevel, assemble, consistent_velocity, nearest_configuration};
+use model::{
+    Body, BodyRef, ConstraintId, Description, Drive, Frame, Function, Joint, Mechanism, StartError,
+    StartOptions, System,
+};
+use pfaff::{Overrides, Study, StudyError};
+use solvability::{
+    Choice, Configuration, Equations, Group, GroupVerdict, LinearForm, NormWeights, RequestError,
+    Term, Value, analyse, judge_frames, judge_groups,
+};
+use tests::largest;
+use tests::robot::{robot, steering};
+
+/// Margins of numbers that are unique: rounding.
+const ROUNDING: f64 = 1e-14;
+
+fn body(name: &str, x: f64, y: f64, angle: f64) -> Body {
+    Body {
+        name: name.into(),
+        mass: 2.0,
+        inertia: 0.5,
+        position: [x, y],
+        angle,
+        ..Body::default()
+    }
+}
+
+fn described(bodies: Vec<Body>, joints: Vec<Joint>) -> Mechanism {
+    let d = Description {
+        bodies,
+        joints,
+        ..Description::default()
+    };
+    Mechanism::build(&d).expect("builds")
+}
+
+fn groups(m: &Mechanism, q: &[f64], groups: &[Group]) -> Result<Vec<GroupVerdict>, RequestError> {
+    // The robot is steered at t = 1; other mechanisms here stand where they are at any time.
+    let decision = analyse(m, 1.0, q).expect("C is finite").decision;
+    judge_groups(m, 1.0, q, &decision, groups)
+}
+
+fn words(m: &Mechanism, q: &[f64], asked: &[Group]) -> Vec<&'static str> {
+    let verdicts = groups(m, q, asked).expect("can be judged");
+    verdicts
+        .iter()
+        .map(|v| v.judgement.verdict.word())
+        .collect()
+}
+
+fn id(m: &Mechanism, name: &str) -> ConstraintId {
+    let groups = &m.layout().groups;
+    ConstraintId(groups.iter().position(|g| g.name == name).expect("exists"))
+}
+
+/// The robot at t = 1 with its slider moved, on its constraints.
+fn robot_steered(displacement: f64) -> (Mechanism, Vec<f64>) {
+    let ramp = Function::steps(0.0, &[[0.0, 1.0, displacement]]).expect("a step");
+    let mut m = Mechanism::build(&robot(ramp)).expect("builds");
+    let mut q = assemble(&mut m, &StartOptions::default())
+        .expect("assembles")
+        .q;
+    let rows: Vec<usize> = (0..m.layout().m).collect();
+    for k in 1..=10 {
+        q = nearest_configuration(&m, 0.1 * f64::from(k), &rows, &q).expect("near");
+    }
+    (m, q)
+}
+
+#[test]
+fn frames_of_the_robot() {
+    let (m, q) = robot_steered(0.02);
+    let decision = analyse(&m, 1.0, &q).expect("C is finite").decision;
+    assert_eq!((decision.rank, decision.redundancy), (20, 2));
+    let frames = |name| judge_frames(&m, 1.0, &q, &decision, id(&m, name)).expect("judged");
+    let w1 = frames("W1");
+    assert_eq!(w1.iter().map(|f| f.frame).collect::<Vec<_>>(), Frame::ALL);
+    let words = |k: usize| w1[k].components.each_ref().map(|j| j.verdict.word());
+    assert_eq!(words(0), ["not_unique", "not_unique", "unique"]);
+    assert_eq!(words(1), ["unique", "not_unique", "unique"]);
+    assert_eq!(words(2), ["not_unique", "unique", "unique"]);
+    let knuckle = q[5];
+    for (found, expected) in w1[2].axes[0].iter().zip([-knuckle.sin(), knuckle.cos()]) {
+        assert!((found - expected).abs() < 1e-15);
+    }
+    // B is reported in no edge frame; along the edge of W1 it is unique all the same.
+    let b = frames("B");
+    assert_eq!(b.len(), 2);
+    let configuration = Configuration::new(&m, 1.0, &q, &decision).expect("fits");
+    let along = configuration
+        .force(id(&m, "B"), w1[2].axes[1])
+        .expect("exists");
+    let across = configuration
+        .force(id(&m, "B"), w1[2].axes[0])
+        .expect("exists");
+    let judged = |form: &LinearForm| configuration.judge(form).expect("fits");
+    assert_eq!(judged(&along).verdict.word(), "unique");
+    assert!(judged(&along).margin < ROUNDING);
+    assert_eq!(judged(&across).verdict.word(), "not_unique");
+    // The drive pushes along the axis of the slider.
+    let drive = frames("steering");
+    assert!(
+        drive
+            .iter()
+            .all(|f| f.components.iter().all(|c| c.verdict.is_unique()))
+    );
+    assert_eq!(drive[2].frame, Frame::Edge);
+}
+
+#[test]
+fn sums_of_wrenches_of_the_robot() {
+    let (m, q) = robot_steered(0.02);
+    let sum = |terms: &[(f64, &str)]| {
+        Group::WrenchSum(terms.iter().map(|&(k, name)| (k, id(&m, name))).collect())
+    };
+    let asked = [
+        sum(&[(1.0, "W3"), (1.0, "W4")]),
+        // On the knuckle B acts with the opposite sign.
+        sum(&[(1.0, "W1"), (-1.0, "B")]),
+        sum(&[(1.0, "W1"), (1.0, "B")]),
+        sum(&[(2.5, "A"), (-1.0, "steering")]),
+        sum(&[(1.0, "W3"), (-1.0, "W3")]),
+    ];
+    assert_eq!(
+        words(&m, &q, &asked),
+        ["not_unique", "unique", "not_unique", "unique", "unique"]
+    );
+    let parts = &groups(&m, &q, &asked[..1]).expect("judged")[0].components;
+    // W3 and W4 lie on one line across the platform, which stands askew: the torque about W3 vanishes.
+    let parts: Vec<_> = parts
+        .iter()
+        .map(|c| (c.name, c.judgement.verdict.word()))
+        .collect();
+    assert_eq!(
+        parts,
+        [("Fx", "not_unique"), ("Fy", "not_unique"), ("T", "unique")]
+    );
+    // With the edges at ±90° the circuits split, and W3 and W4 only mix with each other.
+    let (m, q) = robot_steered(-0.135_153_013_442_6);
+    let pair = Group::WrenchSum(vec![(1.0, id(&m, "W3")), (1.0, id(&m, "W4"))]);
+    let each = Group::Members(vec![id(&m, "W3"), id(&m, "W4")]);
+    let joint = Group::OneJoint(vec![id(&m, "W4"), id(&m, "W3"), id(&m, "W4")]);
+    assert_eq!(
+        words(&m, &q, &[pair, each, joint]),
+        ["unique", "not_unique", "unique"]
+    );
+}
+
+/// Newton and Euler: the resultant on any set of bodies is `M·a − Q`, in every solution.
+#[test]
+fn resultants_are_unique_and_are_those_of_newton_and_euler() {
+    let mut d = robot(steering());
+    d.gravity = [3.0, -4.0];
+    let m = Mechanism::build(&d).expect("builds");
+    let (q, v) = m.described_state();
+    let decision = analyse(&m, 0.0, &q).expect("C is finite").decision;
+    let c = Configuration::new(&m, 0.0, &q, &decision).expect("fits");
+    let equations = Equations::of(&m, 0.0, &q, &v).expect("fits");
+    let lambda = equations.multipliers(&decision).expect("solved");
+    let norm = c
+        .distribute(&lambda, &Choice::MinimumNorm(NormWeights::NEWTON_METRE))
+        .expect("a norm");
+    // Straight ahead the edges hold the robot sideways; along x it falls with 3 m/s².
+    let masses: Vec<f64> = d.bodies.iter().map(|b| b.mass).collect();
+    for set in [
+        vec![0],
+        vec![6],
+        vec![0, 1, 2],
+        vec![1, 3],
+        (0..7).collect(),
+    ] {
+        let forms = c
+            .resultant(&set, c.origin(set[0]).expect("exists"))
+            .expect("exists");
+        for form in &forms {
+            let judgement = c.judge(form).expect("fits");
+            assert!(
+                judgement.verdict.is_unique() && judgement.margin < ROUNDING,
+                "{judgement:?}"
+            );
+        }
+        let [fx, fy, _] = forms.map(|form| match norm.value(&c, &form).expect("fits") {
+            Value::Unique(x) => x,
+            chosen => panic!("{chosen}"),
+        });
+        let mass: f64 = set.iter().map(|&k| masses[k]).sum();
+        assert!(
+            fx.abs() < 1e-12 && (fy - 4.0 * mass).abs() < 1e-11,
+            "{set:?}: {fx} {fy}"
+        );
+    }
+    assert!(largest(lambda) > 10.0);
+    // Two pieces that only hold each other, twice: nothing acts on both together, to the last digit or not.
+    let hinge = |name: &str| {
+        let element = Revolute {
+            s_i: [0.1, 0.2],
+            s_j: [-0.3, 0.7],
+        };
+        Joint::new(name, &[BodyRef::Body(0), BodyRef::Body(1)], element)
+    };
+    let m = described(
+        vec![body("a", 0.3, 0.1, 0.7), body("b", 0.0, 0.0, 0.0)],
+        vec![hinge("once"), hinge("again")],
+    );
+    let mut q = m.described_state().0;
+    let at = d.bodies[0].pose().to_global([0.0; 2]);
+    let [x, y] = model::Body {
+        position: [q[0], q[1]],
+        angle: q[2],
+        ..Body::default()
+    }
+    .pose()
+    .to_global([0.1, 0.2]);
+    (q[3], q[4]) = (x + 0.3 + at[0], y - 0.7 + at[1]);
+    let both = Group::Resultant(vec![0, 1, 0]);
+    let one = Group::Resultant(vec![1]);
+    let each = Group::Members(vec![ConstraintId(0), ConstraintId(1)]);
+    let as_one = Group::OneJoint(vec![ConstraintId(0), ConstraintId(1)]);
+    assert_eq!(
+        words(&m, &q, &[both, one, each, as_one]),
+        ["unique", "unique", "not_unique", "unique"]
+    );
+}
+
+/// The direction in which each definition pushes, from its wrench map alone.
+#[test]
+fn edge_frames_come_from_the_definitions() {
+    let (angle, axis) = (0.4_f64, Direction::new([3.0, 4.0]).expect("a direction"));
+    let turned = |[x, y]: [f64; 2]| {
+        [
+            angle.cos() * x - angle.sin() * y,
+            angle.sin() * x + angle.cos() * y,
+        ]
+    };
+    let (along, normal) = (turned([0.6, 0.8]), turned([-0.8, 0.6]));
+    let pair = [BodyRef::Body(0), BodyRef::Body(1)];
+    let (s_i, s_j) = ([0.1, 0.0], [0.0, 0.2]);
+    let one = [BodyRef::Body(0)];
+    let line = Line::new([0.0, 0.0], [0.0, 2.0]).expect("two points");
+    let origin = |k: usize| [[0.0, 0.0], [1.0, 2.0]][k];
+    let cases: Vec<(Joint, Option<[f64; 2]>)> = vec![
+        (
+            Joint::new(
+                "j",
+                &one,
+                KnifeEdge {
+                    s: s_i,
+                    normal: axis,
+                },
+            ),
+            Some(along),
+        ),
+        (
+            Joint::new("j", &one, PointOnLine { s: s_i, line }),
+            Some([1.0, 0.0]),
+        ),
+        (
+            Joint::new(
+                "j",
+                &pair,
+                Rolling {
+                    s: s_i,
+                    direction: axis,
+                    radius: 0.3,
+                },
+            ),
+            Some(along),
+        ),
+        (
+            Joint::new("j", &pair, PinInSlot { s_i, s_j, axis }),
+            Some(normal),
+        ),
+        (
+            Joint::new(
+                "j",
+                &pair,
+                Translational {
+                    s_i,
+                    s_j,
+                    axis,
+                    angle_0: 0.0,
+                },
+            ),
+            Some(normal),
+        ),
+        (
+            Joint::new(
+                "j",
+                &pair,
+                RackAndPinion {
+                    s_j,
+                    axis,
+                    radius: 0.3,
+                    phase: 0.0,
+                },
+            ),
+            Some(along),
+        ),
+        (
+            Joint::new(
+                "j",
+                &pair,
+                Distance {
+                    s_i: [0.0; 2],
+                    s_j: [0.0; 2],
+                    length: 5_f64.sqrt(),
+                    half_inverse: 0.5 / 5_f64.sqrt(),
+                },
+            ),
+            Some([origin(1)[0] / 5_f64.sqrt(), origin(1)[1] / 5_f64.sqrt()]),
+        ),
+        (Joint::new("j", &pair, Revolute { s_i, s_j }), None),
+        (
+            Joint::new(
+                "j",
+                &pair,
+                Fixed {
+                    s_i,
+                    s_j,
+                    offset: [0.0; 2],
+                    angle_0: 0.0,
+                },
+            ),
+            None,
+        ),
+        (Joint::new("j", &pair, Angle { angle_0: 0.0 }), None),
+        (
+            Joint::new(
+                "j",
+                &[pair[0], pair[1], BodyRef::Ground],
+                Gear {
+                    ratio: -2.0,
+                    phase: 0.0,
+                },
+            ),
+            None,
+        ),
+    ];
+    for (joint, expected) in cases {
+        let name = joint.element.element().spec().common.name;
+        let m = described(
+            vec![body("a", 0.0, 0.0, angle), body("b", 1.0, 2.0, 0.0)],
+            vec![joint],
+        );
+        let mut s = m.scratch();
+        m.pose(0.0, &m.described_state().0, &mut s);
+        let found = m.axes(ConstraintId(0), Frame::Edge, &s);
+        match (found, expected) {
+            (None, None) => {}
+            // Up to the sign: that of the multiplier.
+            (Some([[x, y], across]), Some([ex, ey])) => {
+                assert!((x * ey - y * ex).abs() < 1e-15, "{name}: {x} {y}");
+                assert_eq!(across, [-y, x]);
+            }
+            other => panic!("{name}: {other:?}"),
+        }
+    }
+}
+
+/// Affine ψ and rheonomic Φ: rows that prescribe a motion are judged like any others.
+#[test]
+fn affine_and_rheonomic_rows() {
+    let speed = |name: &str, s: [f64; 2]| Joint {
+        functions: vec![Function::polynomial(&[1.0, 2.0]).expect("finite")],
+        ..Joint::new(
+            name,
+            &[BodyRef::Body(0)],
+            Velocity {
+                s,
+                direction: Direction::X,
+            },
+        )
+    };
+    // Both push the same body forward along one line; a third one beside it is alone.
+    let joints = vec![
+        speed("a", [0.0, 0.5]),
+        speed("b", [2.0, 0.5]),
+        speed("c", [0.0, -1.0]),
+    ];
+    let m = described(vec![body("cart", 0.0, 0.0, 0.0)], joints);
+    let term = |k: usize, component: &str, coefficient| Term {
+        reaction: ConstraintId(k),
+        component: component.into(),
+        coefficient,
+    };
+    let wrench = |terms: &[(f64, usize)]| {
+        Group::WrenchSum(terms.iter().map(|&(k, i)| (k, ConstraintId(i))).collect())
+    };
+    let asked = [
+        Group::Combination(vec![term(0, "Fx", 1.0)]),
+        Group::Combination(vec![term(0, "Fx", 1.0), term(1, "Fx", 1.0)]),
+        Group::Combination(vec![term(0, "Fx", 1e-200), term(1, "Fx", -1e-200)]),
+        Group::Combination(vec![term(0, "Fx", 1e200), term(1, "Fx", 1e200)]),
+        // Identically zero: across the row, about the place, with a coefficient of zero, in and out again.
+        Group::Combination(vec![
+            term(0, "Fy", 1.0),
+            term(1, "T", 3.0),
+            term(0, "Fx", 0.0),
+        ]),
+        Group::Combination(vec![
+            term(0, "Fx", 0.3),
+            term(0, "Fx", -0.1),
+            term(0, "Fx", -0.2),
+        ]),
+        wrench(&[(1.0, 0), (1.0, 1)]),
+        wrench(&[(1.0, 0), (2.0, 1)]),
+        Group::Members(vec![ConstraintId(2), ConstraintId(2)]),
+    ];
+    let expected = [
+        "not_unique",
+        "unique",
+        "not_unique",
+        "unique",
+        "unique",
+        "unique",
+        "unique",
+        "not_unique",
+        "unique",
+    ];
+    assert_eq!(words(&m, &[0.0; 3], &asked), expected);
+
+    // Two motors on one shaft.
+    let motor = |name: &str| Drive {
+        name: name.into(),
+        bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
+        element: Box::new(RevoluteAngleDrive {
+            s_i: [0.0; 2],
+            s_j: [0.0; 2],
+            measure_0: 0.0,
+        }),
+        motion: Function::constant_rate(1.0).expect("finite"),
+    };
+    let d = Description {
+        bodies: vec![body("shaft", 0.0, 0.0, 0.0)],
+        drives: vec![motor("left"), motor("right")],
+        ..Description::default()
+    };
+    let m = Mechanism::build(&d).expect("builds");
+    let asked = [
+        wrench(&[(1.0, 0)]),
+        wrench(&[(1.0, 0), (1.0, 1)]),
+        Group::Combination(vec![term(0, "drive", 1.0)]),
+        Group::Combination(vec![term(0, "drive", 1.0), term(1, "drive", 1.0)]),
+    ];
+    assert_eq!(
+        words(&m, &[0.0, 0.0, 1.0], &asked),
+        ["not_unique", "unique", "not_unique", "unique"]
+    );
+}
+
+#[test]
+fn questions_without_an_answer_are_refused() {
+    let (m, q) = robot_steered(0.02);
+    let error = |group: Group| groups(&m, &q, &[group]).expect_err("refused").to_string();
+    let no_joint = "there is no joint or drive 14; the mechanism has 14, counted from 0";
+    let beyond = ConstraintId(14);
+    let term = |reaction, component: &str, coefficient| {
+        Group::Combination(vec![Term {
+            reaction,
+            component: component.into(),
+            coefficient,
+        }])
+    };
+    assert_eq!(error(Group::Members(vec![beyond])), no_joint);
+    assert_eq!(
+        error(Group::OneJoint(vec![ConstraintId(0), beyond])),
+        no_joint
+    );
+    assert_eq!(
+        error(Group::WrenchSum(vec![
+            (1.0, ConstraintId(0)),
+            (1.0, beyond)
+        ])),
+        no_joint
+    );
+    assert_eq!(error(Group::WrenchSum(vec![(1.0, beyond)])), no_joint);
+    assert_eq!(error(term(beyond, "Fx", 1.0)), no_joint);
+    assert_eq!(error(term(beyond, "N", 1.0)), no_joint);
+    assert_eq!(
+        error(term(id(&m, "W3"), "M", 1.0)),
+        "the reaction of `W3` has no component `M`; it has `Fx`, `Fy`, `T`, `N`"
+    );
+    assert_eq!(
+        error(term(id(&m, "W3"), "N", f64::NAN)),
+        "coefficients contains NaN at 0, need finite numbers"
+    );
+    for empty in [
+        Group::Members(vec![]),
+        Group::OneJoint(vec![]),
+        Group::WrenchSum(vec![]),
+    ] {
+        assert_eq!(error(empty), "a group needs at least one joint or drive");
+    }
+    assert_eq!(
+        error(Group::Combination(vec![])),
+        "a group needs at least one term"
+    );
+    assert_eq!(
+        error(Group::Resultant(vec![])),
+        "a group needs at least one body"
+    );
+    assert_eq!(
+        error(Group::Resultant(vec![0, 7])),
+        "there is no body 7; the mechanism has 7, counted from 0"
+    );
+    let decision = analyse(&m, 0.0, &q).expect("C is finite").decision;
+    let frames = judge_frames(&m, 0.0, &q, &decision, beyond);
+    assert_eq!(frames.expect_err("refused").to_string(), no_joint);
+    let wrong = [
+        judge_groups(&m, 0.0, &q[1..], &decision, &[]),
+        judge_groups(&m, f64::NAN, &q, &decision, &[]),
+        judge_groups(
+            &described(vec![body("a", 0.0, 0.0, 0.0)], vec![]),
+            0.0,
+            &[0.0; 3],
+            &decision,
+            &[],
+        ),
+    ];
+    let texts = wrong.map(|e| e.expect_err("refused").to_string());
+    assert_eq!(
+        texts,
+        [
+            "q has 20 entries, need 21",
+            "t contains NaN at 0, need finite numbers",
+            "the rank decision, by rows, has 22 entries, need 0",
+        ]
+    );
+}
+
+#[test]
+fn coordinates_to_keep_must_exist() {
+    let mut m = Mechanism::build(&robot(steering())).expect("builds");
+    let (q, v) = m.described_state();
+    for (body, dof) in [(7, 0), (0, 3), (usize::MAX, 0)] {
+        let keep = |level| StartOptions {
+            keep: vec![Coordinate { body, dof, level }],
+            ..StartOptions::default()
+        };
+        let expected = StartError::NoCoordinate {
+            body,
+            dof,
+            bodies: 7,
+        };
+        assert_eq!(
+            assemble(&mut m, &keep(KeepLevel::Position)),
+            Err(expected.clone())
+        );
+        let velocity = consistent_velocity(&m, &keep(KeepLevel::Velocity), &q, &v, &[0]);
+        assert_eq!(velocity, Err(expected));
+    }
+}
+
+/// Groups of a scene and sums from the command line, by name.
+#[test]
+fn groups_of_a_study() {
+    let mut text = include_str!("../../crates/robot-trolley/robot-trolley.toml").to_owned();
+    // Overlapping groups, one with the name of a joint.
+    for (name, members) in [
+        ("pair", "[\"W3\", \"W4\"]"),
+        ("A", "[\"W4\"]"),
+        ("driven", "[\"A\", \"steering\"]"),
+    ] {
+        text += &format!("\n[[group]]\nname = \"{name}\"\nmembers = {members}\n");
+    }
+    let registry = model::Registry::planar();
+    let mut study = Study::read("robot", &text, &registry, &Overrides::default()).expect("a scene");
+    let combine = ["W3+W4", "W3.N + W4.N", "W3.T", "2*A - steering"].map(str::to_owned);
+    let findings = study.analyse_at(0.0, None, &combine).expect("judged");
+    let first = findings.groups.len() - 7;
+    let found: Vec<_> = findings.groups[first..]
+        .iter()
+        .map(|(name, j)| (name.as_str(), j.verdict.word()))
+        .collect();
+    assert_eq!(
+        found,
+        [
+            ("pair", "not_unique"),
+            ("A", "not_unique"),
+            ("driven", "unique"),
+            ("W3+W4", "not_unique"),
+            ("W3.N + W4.N", "not_unique"),
+            ("W3.T", "unique"),
+            ("2*A - steering", "unique"),
+        ]
+    );
+    // A name that the mechanism does not have is an error, not left out.
+    study.scene.groups[0].content = pfaff::scene::GroupContent::Members(vec!["W9".into()]);
+    let error = study.analyse_at(0.0, None, &[]).expect_err("unknown");
+    assert!(
+        matches!(&error, StudyError::UnknownReaction { name } if name == "W9") && error.is_input()
+    );
+}
