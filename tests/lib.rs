@@ -2,6 +2,8 @@
 //! are in `all/`.
 
 pub mod cranks;
+pub mod exact;
+pub mod numbers;
 pub mod robot;
 
 /// Examples of pages that belong to no library, compiled as doc tests.

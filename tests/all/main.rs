@@ -1,8 +1,11 @@
 //! All tests that need more than one crate, in one binary.
 
 mod allocations;
+mod exact_oracle;
+mod planted_matrices;
 mod robot_trolley;
 mod singular_passages;
+mod tally;
 mod three_cranks;
 mod tidy;
 mod verdict_catalogue;

@@ -1,0 +1,118 @@
+//! Ten thousand matrices with planted redundancy, judged by `solvability` and by exact arithmetic. What counts are the data as
+//! read: a matrix whose rows depend on each other but for one part in 10¹⁰⁰ has full rank.
+//!
+//! `PFAFF_CASES=200000 cargo test -p tests planted_matrices -- --nocapture` makes a longer run.
+
+mod generate;
+
+use std::ops::Range;
+
+use linalg::Matrix;
+use solvability::Solvability;
+use tests::exact::Exact;
+use tests::numbers::Numbers;
+
+use crate::tally::{Tally, cases};
+use generate::Kind;
+
+const SEED: u64 = 20_130_909;
+
+const CASES: usize = 10_000;
+
+/// Of the exactly planted cases less than one in so many may be undecided.
+const UNDECIDED: usize = 1000;
+
+/// Combinations of multipliers for each case.
+const COMBINATIONS: usize = 4;
+
+/// The function under test.
+fn judged(c: &Matrix) -> Solvability {
+    Solvability::of(c, 0.0).expect("C is finite")
+}
+
+#[test]
+fn no_verdict_is_wrong() {
+    let mut numbers = Numbers::new(SEED);
+    let mut tally = Tally::default();
+    for case in 0..cases(CASES) {
+        let kind = Kind::ALL[case % Kind::ALL.len()];
+        tally.case(kind.name());
+        judge(
+            &generate::rows(kind, &mut numbers),
+            &mut numbers,
+            &mut tally,
+        );
+    }
+    tally.conclude("matrices", SEED);
+    let planted = Kind::ALL.into_iter().filter(|k| k.is_exactly_planted());
+    let planted = tally.of(planted.map(Kind::name));
+    assert!(planted.undecided * UNDECIDED < planted.cases);
+}
+
+/// Compares every verdict of one case.
+fn judge(rows: &[Vec<f64>], numbers: &mut Numbers, tally: &mut Tally) {
+    let (m, n) = (rows.len(), rows[0].len());
+    let exact = Exact::of(rows);
+    let solvability = judged(&Matrix::from_fn(m, n, |i, k| rows[i][k]));
+    let decision = solvability.decision();
+    if !decision.is_decided() {
+        return tally.undecided();
+    }
+    tally.number(decision.rank, exact.rank(), || format!("rank of {rows:?}"));
+    if numbers.once_in(8) {
+        let kept: Vec<&Vec<f64>> = decision.kept.iter().map(|&i| &rows[i]).collect();
+        let rank = Exact::of(&kept).rank();
+        tally.number(rank, exact.rank(), || {
+            format!("rank of the kept rows {kept:?}")
+        });
+    }
+    for i in 0..m {
+        let unique = exact.row_is_unique(i);
+        tally.judgement(&solvability.row(i), unique, || {
+            format!("row {i} of {rows:?}")
+        });
+    }
+    for group in partition(m, numbers) {
+        let members: Vec<usize> = group.clone().collect();
+        let unique = exact.freedom(&members) == 0;
+        let found = solvability.group(group.clone());
+        tally.judgement(&found, unique, || format!("wrench {members:?} of {rows:?}"));
+        let unique = members.iter().all(|&i| exact.row_is_unique(i));
+        let found = solvability.multipliers(group);
+        tally.judgement(&found, unique, || {
+            format!("multipliers {members:?} of {rows:?}")
+        });
+    }
+    for _ in 0..COMBINATIONS {
+        let l = combination(rows, numbers);
+        let unique = exact.combination_is_unique(&l);
+        let found = solvability.combination(&l);
+        tally.judgement(&found, unique, || format!("{l:?} of {rows:?}"));
+    }
+}
+
+/// The rows in groups of one to three.
+fn partition(m: usize, numbers: &mut Numbers) -> Vec<Range<usize>> {
+    let mut groups = Vec::new();
+    let mut start = 0;
+    while start < m {
+        let end = (start + 1 + numbers.below(3)).min(m);
+        groups.push(start..end);
+        start = end;
+    }
+    groups
+}
+
+/// A column of C, the difference of two, or a few random coefficients. The first is unique always, the second but for rounding.
+fn combination(rows: &[Vec<f64>], numbers: &mut Numbers) -> Vec<f64> {
+    let n = rows[0].len();
+    let (j, k) = (numbers.below(n), numbers.below(n));
+    match numbers.below(3) {
+        0 => rows.iter().map(|row| row[j]).collect(),
+        1 => rows.iter().map(|row| row[j] - row[k]).collect(),
+        _ => {
+            let mut coefficient = || f64::from(numbers.between(-1, 1) * numbers.between(0, 1));
+            rows.iter().map(|_| coefficient()).collect()
+        }
+    }
+}
