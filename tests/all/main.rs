@@ -3,6 +3,7 @@
 mod allocations;
 mod exact_oracle;
 mod planted_matrices;
+mod planted_mechanisms;
 mod robot_trolley;
 mod singular_passages;
 mod tally;

@@ -4,8 +4,11 @@ use std::collections::BTreeMap;
 
 use solvability::{Judgement, Verdict};
 
-/// Wrong verdicts that are written out.
+/// Cases with wrong verdicts that are written out.
 const SHOWN: usize = 5;
+
+/// Of the cases that are to be decided less than one in so many may be undecided.
+const UNDECIDED: usize = 1000;
 
 /// The number of cases that the environment variable `PFAFF_CASES` asks for, or the default.
 pub(crate) fn cases(default: usize) -> usize {
@@ -17,9 +20,9 @@ pub(crate) fn cases(default: usize) -> usize {
 
 /// Cases of one kind.
 #[derive(Clone, Copy, Default)]
-pub(crate) struct Count {
-    pub(crate) cases: usize,
-    pub(crate) undecided: usize,
+struct Count {
+    cases: usize,
+    undecided: usize,
     /// Wrong verdicts.
     wrong: usize,
 }
@@ -30,8 +33,10 @@ pub(crate) struct Tally {
     kinds: BTreeMap<&'static str, Count>,
     kind: &'static str,
     case_is_undecided: bool,
+    case_is_wrong: bool,
     verdicts: usize,
     examples: Vec<String>,
+    doubts: Vec<String>,
 }
 
 impl Tally {
@@ -39,13 +44,18 @@ impl Tally {
     pub(crate) fn case(&mut self, kind: &'static str) {
         self.kind = kind;
         self.case_is_undecided = false;
+        self.case_is_wrong = false;
         self.count().cases += 1;
     }
 
     /// Something of the case is undecided.
-    pub(crate) fn undecided(&mut self) {
-        if !std::mem::replace(&mut self.case_is_undecided, true) {
-            self.count().undecided += 1;
+    pub(crate) fn undecided(&mut self, what: impl FnOnce() -> String) {
+        if std::mem::replace(&mut self.case_is_undecided, true) {
+            return;
+        }
+        self.count().undecided += 1;
+        if self.doubts.len() < SHOWN {
+            self.doubts.push(format!("{}: {}", self.kind, what()));
         }
     }
 
@@ -66,7 +76,7 @@ impl Tally {
         let right = match found.verdict {
             Verdict::Unique => unique,
             Verdict::NotUnique => !unique,
-            _ => return self.undecided(),
+            _ => return self.undecided(|| format!("{}: {found:?}", what())),
         };
         self.verdict(right, || {
             format!("{}: {found:?}, but unique is {unique}", what())
@@ -79,7 +89,8 @@ impl Tally {
             return;
         }
         self.count().wrong += 1;
-        if self.examples.len() < SHOWN {
+        let first = !std::mem::replace(&mut self.case_is_wrong, true);
+        if first && self.examples.len() < SHOWN {
             self.examples.push(format!("{}: {}", self.kind, what()));
         }
     }
@@ -89,7 +100,7 @@ impl Tally {
     }
 
     /// Cases of the given kinds.
-    pub(crate) fn of(&self, kinds: impl IntoIterator<Item = &'static str>) -> Count {
+    fn of(&self, kinds: impl IntoIterator<Item = &'static str>) -> Count {
         let counts = kinds.into_iter().filter_map(|kind| self.kinds.get(kind));
         counts.fold(Count::default(), |sum, c| Count {
             cases: sum.cases + c.cases,
@@ -98,12 +109,17 @@ impl Tally {
         })
     }
 
-    /// Prints the counts and fails if a verdict is wrong.
+    /// Prints the counts; fails if a verdict is wrong, or if one case in so many of these kinds is undecided.
     #[expect(
         clippy::print_stdout,
         reason = "the count and the seed are part of the result"
     )]
-    pub(crate) fn conclude(&self, what: &str, seed: u64) {
+    pub(crate) fn conclude(
+        &self,
+        what: &str,
+        seed: u64,
+        decided: impl IntoIterator<Item = &'static str>,
+    ) {
         let all = self.of(self.kinds.keys().copied());
         println!(
             "{} {what}, seed {seed}: {} verdicts, {} wrong, {} cases undecided",
@@ -116,5 +132,13 @@ impl Tally {
             );
         }
         assert_eq!(all.wrong, 0, "for example\n{}", self.examples.join("\n"));
+        let planted = self.of(decided);
+        assert!(
+            planted.undecided * UNDECIDED < planted.cases,
+            "{} of {} undecided, for example\n{}",
+            planted.undecided,
+            planted.cases,
+            self.doubts.join("\n")
+        );
     }
 }
