@@ -16,6 +16,8 @@
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
+use crate::equilibrate::scale;
+
 /// A double-double number.
 ///
 /// ```
@@ -112,6 +114,12 @@ impl Dd {
         let root = self.hi.sqrt();
         let left = self - Self::from_product(root, root);
         Self::from_pair(fast_two_sum(root, left.hi / (2.0 * root)))
+    }
+
+    /// `x·2^e`, exact unless a part leaves the range of normal numbers.
+    #[must_use]
+    pub fn scaled(self, e: i32) -> Self {
+        Self::from_pair((scale(self.hi, e), scale(self.lo, e)))
     }
 
     fn from_pair((hi, lo): (f64, f64)) -> Self {

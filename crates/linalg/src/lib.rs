@@ -2,12 +2,14 @@
 #![forbid(unsafe_code)]
 
 mod circuits;
+mod dd_matrix;
 mod equilibrate;
 mod kernels;
 #[cfg(feature = "faer")]
 mod large;
 mod matrix;
 mod null_space;
+mod prime_field;
 mod qr;
 mod rank;
 mod regularized;
@@ -18,14 +20,16 @@ mod strong_basis;
 pub mod double_double;
 
 pub use circuits::{Circuit, circuits, short_circuits};
+pub use dd_matrix::DdMatrix;
 pub use double_double::Dd;
 pub use equilibrate::{Scaling, equilibrate};
 pub use matrix::{Matrix, ShapeError};
 pub use null_space::{Components, components, dependencies, orthonormal, support_tolerance};
 pub use qr::PivotedQr;
 pub use rank::{
-    Doubt, Evidence, KeptRowsError, RankDecision, RankError, RankStatus, decide, decide_dropping,
-    decide_keeping,
+    Certificate, CoefficientReading, Doubt, Evidence, ExactNullSpace, Grounds, KeptRowsError,
+    NearlyRedundant, RankDecision, RankError, RankStatus, certify_exact, certify_within, decide,
+    decide_dropping, decide_keeping,
 };
 pub use regularized::{StepError, least_squares_step};
 pub use saddle::{KeptRowSaddle, SaddleError};

@@ -6,13 +6,6 @@
 
 use crate::{Matrix, PivotedQr, RankDecision};
 
-/// Coefficients are zero below this multiple of τ/σ_r, the rounding noise of T: τ already contains
-/// a factor 10 over the noise of the singular values, another 10 is for the triangular solves.
-const SUPPORT_FACTOR: f64 = 10.0;
-
-/// Never call a coefficient zero above this, however poor the evidence.
-const SUPPORT_MAX: f64 = 1e-3;
-
 /// Partition of the rows by common dependencies.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Components {
@@ -33,7 +26,7 @@ pub struct Components {
 /// # Ok::<(), linalg::RankError>(())
 /// ```
 pub fn dependencies(decision: &RankDecision) -> Matrix {
-    scatter(decision, &decision.dependence)
+    scatter(decision, &decision.dependence())
 }
 
 /// Orthonormal basis (m×p) of the left null space of the *equilibrated* rows `D_r·C·D_c`.
@@ -46,10 +39,9 @@ pub fn orthonormal(decision: &RankDecision) -> Matrix {
     PivotedQr::of_columns(&z).q_columns(0..p)
 }
 
-/// Largest equilibrated coefficient that counts as zero: `min(10·τ/σ_r, 10⁻³)`.
+/// Largest equilibrated coefficient that counts as zero: [`RankDecision::coefficient_tolerance`].
 pub fn support_tolerance(decision: &RankDecision) -> f64 {
-    let evidence = &decision.evidence;
-    (SUPPORT_FACTOR * evidence.tolerance / evidence.sigma_r).min(SUPPORT_MAX)
+    decision.coefficient_tolerance()
 }
 
 /// Connected components of the graph "kept row i – dropped row j where T_ji ≠ 0".
@@ -105,7 +97,11 @@ pub(crate) struct Support {
 impl Support {
     pub(crate) fn new(decision: &RankDecision) -> Self {
         let t = decision.equilibrated_dependence();
-        let relative = support_tolerance(decision);
+        let relative = if decision.is_exact() {
+            0.0
+        } else {
+            support_tolerance(decision)
+        };
         let threshold = (0..t.nrows())
             .map(|j| relative * t.row(j).iter().fold(1.0_f64, |a, b| a.max(b.abs())))
             .collect();

@@ -11,12 +11,27 @@
 //! `τ = 10·max(eps·√(m·n), constraint residual)`, rank r is decided iff `σ_{r+1} ≤ τ` and
 //! `σ_r ≥ max(10³·τ, 10⁻⁷)`.
 
+mod bound;
+mod certificate;
+mod coefficient;
+mod exact;
 mod explicit;
+mod graded;
+mod modular;
 #[cfg(test)]
 mod tests;
+mod within;
 
 use crate::strong_basis::{self, Basis};
-use crate::{Matrix, PivotedQr, Scaling, equilibrate, equilibrate::scale, singular_values};
+use crate::{
+    Matrix, PivotedQr, Scaling, equilibrate, equilibrate::scale, kernels, singular_values,
+};
+
+pub use certificate::{Certificate, Grounds, NearlyRedundant};
+pub use coefficient::CoefficientReading;
+pub use exact::certify_exact;
+pub use modular::ExactNullSpace;
+pub use within::certify_within;
 
 pub use explicit::{KeptRowsError, decide_dropping, decide_keeping};
 
@@ -42,9 +57,9 @@ pub struct RankDecision {
     pub kept: Vec<usize>,
     /// The other p rows D, ascending.
     pub dropped: Vec<usize>,
-    /// T = C_D·C_K⁺ (p×r) in the row scaling of C: row `dropped[j]` = Σ T_ji · row `kept[i]`.
-    /// Equilibrated, its entries are at most 2 when [`decide`] chose the rows.
-    pub dependence: Matrix,
+    /// T̃ = C̃_D·C̃_K⁺ (p×r) between the equilibrated rows: row `dropped[j]` = Σ T̃_ji · row `kept[i]`. Its entries are at most
+    /// 2 unless the caller chose the rows.
+    pub coefficients: Matrix,
     /// The scaling under which the rank was decided.
     pub scaling: Scaling,
     /// The numbers behind the decision.
@@ -70,6 +85,8 @@ pub struct Evidence {
     pub constraint_residual: f64,
     /// Largest `‖row of C_D − T·C_K‖₂`: how far the dependencies are from exact.
     pub dependence_residual: f64,
+    /// The proof, where one was asked for.
+    pub certificate: Option<Certificate>,
 }
 
 /// Whether the singular values leave room for another rank.
@@ -103,6 +120,23 @@ pub enum Doubt {
         /// max(10³·τ, 10⁻⁷).
         required: f64,
     },
+    /// A singular value that stays at every precision, about as large as what the data are known to.
+    #[error(
+        "singular value {sigma:.3e} is the same at every precision and lies between {tolerance:.3e} and {required:.3e}, what \
+         the uncertainty of the data explains: rank {lower} or {upper}; know the data better, or change them by more than that"
+    )]
+    NearUncertainty {
+        /// Singular values that are larger than the data explain.
+        lower: usize,
+        /// Singular values above the tolerance.
+        upper: usize,
+        /// The smallest one above the tolerance.
+        sigma: f64,
+        /// τ.
+        tolerance: f64,
+        /// 4·τ.
+        required: f64,
+    },
     /// The tolerance swallows every singular value of a matrix that is not zero.
     #[error(
         "tolerance {tolerance:.3e} exceeds the largest singular value {sigma_max:.3e} of a non-zero \
@@ -128,6 +162,12 @@ pub enum RankError {
         /// Column of the entry.
         col: usize,
         /// The entry.
+        value: f64,
+    },
+    /// The stated uncertainty is none.
+    #[error("uncertainty is {value}, need a finite number that is not negative")]
+    Uncertainty {
+        /// What was given.
         value: f64,
     },
     /// The stated residual is no residual.
@@ -178,9 +218,7 @@ struct Reading {
 
 /// Checks the input, equilibrates, and reads the rank.
 fn read(c: &Matrix, constraint_residual: f64) -> Result<(Scaling, Matrix, Reading), RankError> {
-    if let Some((row, col, value)) = c.first_non_finite() {
-        return Err(RankError::NonFinite { row, col, value });
-    }
+    check_finite(c)?;
     if !(constraint_residual.is_finite() && constraint_residual >= 0.0) {
         return Err(RankError::Residual {
             value: constraint_residual,
@@ -192,6 +230,25 @@ fn read(c: &Matrix, constraint_residual: f64) -> Result<(Scaling, Matrix, Readin
     let tolerance = NOISE_FACTOR * noise.max(constraint_residual);
     let reading = Reading::new(singular_values(&scaled), tolerance, constraint_residual);
     Ok((scaling, scaled, reading))
+}
+
+fn check_finite(c: &Matrix) -> Result<(), RankError> {
+    match c.first_non_finite() {
+        Some((row, col, value)) => Err(RankError::NonFinite { row, col, value }),
+        None => Ok(()),
+    }
+}
+
+/// A combination of rows without its part in the left null space, of unit norm.
+fn projected(decision: &RankDecision, mut direction: Vec<f64>) -> Vec<f64> {
+    let z = crate::orthonormal(decision);
+    let part = z.transpose_times(&direction);
+    for (d, z) in direction.iter_mut().zip(z.times(&part)) {
+        *d -= z;
+    }
+    let size = kernels::norm(&direction);
+    direction.iter_mut().for_each(|d| *d /= size);
+    direction
 }
 
 impl Reading {
@@ -247,6 +304,7 @@ impl Reading {
                 constraint_residual,
                 dependence_residual: 0.0,
                 singular_values,
+                certificate: None,
             },
             status,
         }
@@ -259,16 +317,12 @@ impl Reading {
             t,
             residual,
         } = basis;
-        // D_r,D·C_D = T̃·D_r,K·C_K, hence T = D_r,D⁻¹·T̃·D_r,K.
-        let dependence = Matrix::from_fn(t.nrows(), t.ncols(), |j, i| {
-            scale(t[(j, i)], scaling.rows[kept[i]] - scaling.rows[dropped[j]])
-        });
         RankDecision {
             rank: self.rank,
             redundancy: dropped.len(),
             kept,
             dropped,
-            dependence,
+            coefficients: t,
             scaling,
             evidence: Evidence {
                 dependence_residual: residual,
@@ -280,13 +334,22 @@ impl Reading {
 }
 
 impl RankDecision {
-    /// T̃ = D_r,D·T·D_r,K⁻¹ (p×r), the dependence between equilibrated rows.
-    pub fn equilibrated_dependence(&self) -> Matrix {
-        let t = &self.dependence;
+    /// T = C_D·C_K⁺ (p×r) in the row scaling of C: row `dropped[j]` = Σ T_ji · row `kept[i]`. Leaves the range of `f64` where
+    /// rows differ by more than that; [`RankDecision::coefficients`] does not.
+    pub fn dependence(&self) -> Matrix {
+        // D_r,D·C_D = T̃·D_r,K·C_K, hence T = D_r,D⁻¹·T̃·D_r,K.
         let rows = &self.scaling.rows;
-        Matrix::from_fn(t.nrows(), t.ncols(), |j, i| {
-            scale(t[(j, i)], rows[self.dropped[j]] - rows[self.kept[i]])
+        Matrix::from_fn(self.redundancy, self.rank, |j, i| {
+            scale(
+                self.coefficients[(j, i)],
+                rows[self.kept[i]] - rows[self.dropped[j]],
+            )
         })
+    }
+
+    /// T̃, the dependence between equilibrated rows; copies [`RankDecision::coefficients`].
+    pub fn equilibrated_dependence(&self) -> Matrix {
+        self.coefficients.clone()
     }
 
     /// Whether the rank is decided.

@@ -18,7 +18,7 @@ pub(crate) const COEFFICIENT_BOUND: f64 = 2.0;
 
 /// Rounds of "factor, then exchange". Exchanges within a round work on an updated T; a further
 /// round is needed only if its rounding errors mattered.
-const ROUNDS_MAX: usize = 8;
+pub(crate) const ROUNDS_MAX: usize = 8;
 
 /// A partition of the rows into a basis K and the rest D.
 pub(crate) struct Basis {
@@ -32,25 +32,48 @@ pub(crate) struct Basis {
     pub(crate) residual: f64,
 }
 
+impl Basis {
+    /// From lists in any order, with T in the order of the lists.
+    pub(crate) fn sorted(kept: &[usize], dropped: &[usize], t: &Matrix, residual: f64) -> Self {
+        let ascending = |rows: &[usize]| {
+            let mut order: Vec<usize> = (0..rows.len()).collect();
+            order.sort_unstable_by_key(|&k| rows[k]);
+            order
+        };
+        let (k, d) = (ascending(kept), ascending(dropped));
+        Self {
+            kept: k.iter().map(|&i| kept[i]).collect(),
+            dropped: d.iter().map(|&j| dropped[j]).collect(),
+            t: Matrix::from_fn(d.len(), k.len(), |j, i| t[(d[j], k[i])]),
+            residual,
+        }
+    }
+}
+
 /// Improves the basis `kept` of `c` by exchanges until `|T_ji| ≤ 2`.
 pub(crate) fn bounded(c: &Matrix, mut kept: Vec<usize>) -> Basis {
-    let exchanges_max = 10 * c.nrows();
     let mut basis = express(c, kept);
     for _ in 0..ROUNDS_MAX {
         if basis.t.max_abs() <= COEFFICIENT_BOUND {
             break;
         }
-        for _ in 0..exchanges_max {
-            let Some((j, i)) = largest_above_bound(&basis.t) else {
-                break;
-            };
-            exchange(&mut basis.t, j, i);
-            std::mem::swap(&mut basis.kept[i], &mut basis.dropped[j]);
-        }
+        exchange_all(&mut basis.t, &mut basis.kept, &mut basis.dropped);
         kept = basis.kept;
         basis = express(c, kept);
     }
     basis
+}
+
+/// Exchanges rows until `|T_ji| ≤ 2`; T is updated, not computed afresh, and the lists are no longer ascending.
+pub(crate) fn exchange_all(t: &mut Matrix, kept: &mut [usize], dropped: &mut [usize]) {
+    let exchanges_max = 10 * (kept.len() + dropped.len());
+    for _ in 0..exchanges_max {
+        let Some((j, i)) = largest_above_bound(t) else {
+            break;
+        };
+        exchange(t, j, i);
+        std::mem::swap(&mut kept[i], &mut dropped[j]);
+    }
 }
 
 /// Expresses all other rows by the rows `kept`, which are independent: `Tᵀ = R₁₁⁻¹·R₁₂`.
@@ -64,13 +87,7 @@ pub(crate) fn express(c: &Matrix, mut kept: Vec<usize>) -> Basis {
     let mut y = vec![0.0; c.ncols()];
     for (j, &row) in dropped.iter().enumerate() {
         y.copy_from_slice(c.row(row));
-        qr.q_transpose_mul(&mut y);
-        let (x, outside) = y.split_at_mut(rank);
-        residual = residual.max(kernels::norm(outside));
-        qr.solve_r(x);
-        for (&x_k, &i) in x.iter().zip(qr.permutation()) {
-            t[(j, i)] = x_k;
-        }
+        residual = residual.max(coefficients(&qr, &mut y, t.row_mut(j)));
     }
     Basis {
         kept,
@@ -78,6 +95,17 @@ pub(crate) fn express(c: &Matrix, mut kept: Vec<usize>) -> Basis {
         t,
         residual,
     }
+}
+
+/// Coefficients of the row y in the rows that were factored, and the norm of what y has outside their span; y is overwritten.
+pub(crate) fn coefficients(qr: &PivotedQr, y: &mut [f64], t: &mut [f64]) -> f64 {
+    qr.q_transpose_mul(y);
+    let (x, outside) = y.split_at_mut(t.len());
+    qr.solve_r(x);
+    for (&x_k, &i) in x.iter().zip(qr.permutation()) {
+        t[i] = x_k;
+    }
+    kernels::norm(outside)
 }
 
 /// All of `0..m` that are not in the ascending list `rows`.

@@ -9,7 +9,7 @@ use crate::strong_basis::COEFFICIENT_BOUND;
 use crate::{components, singular_values::by_jacobi};
 
 /// SplitMix64 (Steele, Lea, Flood 2014): a seeded stream of test numbers.
-struct Numbers(u64);
+pub(super) struct Numbers(pub(super) u64);
 
 impl Numbers {
     fn bits(&mut self) -> u64 {
@@ -20,15 +20,15 @@ impl Numbers {
     }
 
     /// In [−1, 1).
-    fn unit(&mut self) -> f64 {
+    pub(super) fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
     }
 
-    fn below(&mut self, n: usize) -> usize {
+    pub(super) fn below(&mut self, n: usize) -> usize {
         (self.bits() % n as u64) as usize
     }
 
-    fn matrix(&mut self, m: usize, n: usize) -> Matrix {
+    pub(super) fn matrix(&mut self, m: usize, n: usize) -> Matrix {
         Matrix::from_fn(m, n, |_, _| self.unit())
     }
 }
@@ -42,7 +42,7 @@ fn planted(numbers: &mut Numbers, m: usize, n: usize, r: usize) -> Matrix {
 }
 
 /// Three parallel cranks of length `l`, pitch `l`, angle θ on one coupler: 12×12, rank 11 unless flat.
-fn parallel_cranks(l: f64, theta: f64) -> Matrix {
+pub(super) fn parallel_cranks(l: f64, theta: f64) -> Matrix {
     let (s, c) = theta.sin_cos();
     let half = 0.5 * l;
     let mut rows = Matrix::zeros(12, 12);
@@ -231,18 +231,23 @@ fn admissible_pairs_by_brute_force() {
     }
 }
 
-/// Pivoted QR alone would keep the row order of Kahan's matrix and hide the small singular value.
-#[test]
-fn kahan_is_read_from_singular_values() {
-    let (s, c) = 1.2_f64.sin_cos();
-    let kahan = Matrix::from_fn(90, 90, |i, j| {
+/// Kahan's matrix: pivoted QR does not see how small its smallest singular value is.
+pub(super) fn kahan(n: usize, angle: f64) -> Matrix {
+    let (s, c) = angle.sin_cos();
+    Matrix::from_fn(n, n, |i, j| {
         s.powi(i as i32)
             * match i.cmp(&j) {
                 std::cmp::Ordering::Equal => 1.0,
                 std::cmp::Ordering::Less => -c,
                 std::cmp::Ordering::Greater => 0.0,
             }
-    });
+    })
+}
+
+/// Pivoted QR alone would keep the row order of Kahan's matrix and hide the small singular value.
+#[test]
+fn kahan_is_read_from_singular_values() {
+    let kahan = kahan(90, 1.2);
     let decision = decide(&kahan, 0.0).unwrap();
     let scaled = decision.scaling.apply(&kahan);
     let oracle = DMatrix::from_row_slice(90, 90, scaled.as_slice()).singular_values();
@@ -323,6 +328,7 @@ proptest! {
                 Err(RankError::Residual { value }) => {
                     prop_assert!(!(value.is_finite() && value >= 0.0));
                 }
+                Err(error) => prop_assert!(false, "{}", error),
             }
         }
     }

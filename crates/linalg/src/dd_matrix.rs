@@ -1,0 +1,126 @@
+//! `DdMatrix`: a dense, row-major matrix of double-double numbers, for residuals and certificates.
+//!
+//! A constraint matrix evaluated in double-double at a point polished in double-double has singular values that are zero to 1e-30
+//! where they are zero. Not here: factorisations; those are done in `f64` and corrected by residuals of this type.
+
+use std::ops::{Index, IndexMut};
+
+use crate::{Dd, Matrix, Scaling};
+
+/// A dense row-major matrix of [`Dd`].
+///
+/// ```
+/// use linalg::{Dd, DdMatrix, Matrix};
+/// let mut c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 2.0], [3.0, 4.0]]));
+/// c[(1, 0)] += Dd::from(1e-25);
+/// assert_eq!((c.nrows(), c.ncols()), (2, 2));
+/// assert_eq!(c.hi(), Matrix::from_rows(&[[1.0, 2.0], [3.0, 4.0]]));
+/// assert!((c[(1, 0)] - Dd::from(3.0)).to_f64() > 0.0);
+/// ```
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct DdMatrix {
+    nrows: usize,
+    ncols: usize,
+    data: Vec<Dd>,
+}
+
+impl DdMatrix {
+    /// All entries zero.
+    #[must_use]
+    pub fn zeros(nrows: usize, ncols: usize) -> Self {
+        Self::from_fn(nrows, ncols, |_, _| Dd::ZERO)
+    }
+
+    /// Entry (i, j) is `f(i, j)`; called row by row.
+    pub fn from_fn(nrows: usize, ncols: usize, mut f: impl FnMut(usize, usize) -> Dd) -> Self {
+        let mut data = Vec::with_capacity(nrows * ncols);
+        for i in 0..nrows {
+            for j in 0..ncols {
+                data.push(f(i, j));
+            }
+        }
+        Self { nrows, ncols, data }
+    }
+
+    /// Number of rows.
+    #[must_use]
+    pub fn nrows(&self) -> usize {
+        self.nrows
+    }
+
+    /// Number of columns.
+    #[must_use]
+    pub fn ncols(&self) -> usize {
+        self.ncols
+    }
+
+    /// Row `i` as a slice of length `ncols`.
+    ///
+    /// # Panics
+    /// If `i` is not below `nrows`.
+    #[must_use]
+    pub fn row(&self, i: usize) -> &[Dd] {
+        assert!(i < self.nrows, "row {i} of {} rows", self.nrows);
+        &self.data[i * self.ncols..(i + 1) * self.ncols]
+    }
+
+    /// Row `i`, writable.
+    ///
+    /// # Panics
+    /// If `i` is not below `nrows`.
+    pub fn row_mut(&mut self, i: usize) -> &mut [Dd] {
+        assert!(i < self.nrows, "row {i} of {} rows", self.nrows);
+        &mut self.data[i * self.ncols..(i + 1) * self.ncols]
+    }
+
+    /// The rows named by `rows`, in that order.
+    ///
+    /// # Panics
+    /// If an index is not below `nrows`.
+    #[must_use]
+    pub fn select_rows(&self, rows: &[usize]) -> Self {
+        Self::from_fn(rows.len(), self.ncols, |i, j| self[(rows[i], j)])
+    }
+
+    /// The entries rounded to `f64`.
+    #[must_use]
+    pub fn hi(&self) -> Matrix {
+        Matrix::from_fn(self.nrows, self.ncols, |i, j| self[(i, j)].to_f64())
+    }
+
+    /// `D_r·C·D_c`, exact unless an entry leaves the range.
+    ///
+    /// # Panics
+    /// If the shape of the scaling is another.
+    #[must_use]
+    pub fn scaled(&self, scaling: &Scaling) -> Self {
+        assert_eq!(
+            (self.nrows, self.ncols),
+            (scaling.rows.len(), scaling.cols.len()),
+            "scaling and matrix differ in shape"
+        );
+        Self::from_fn(self.nrows, self.ncols, |i, j| {
+            self[(i, j)].scaled(scaling.rows[i] + scaling.cols[j])
+        })
+    }
+}
+
+impl From<&Matrix> for DdMatrix {
+    fn from(a: &Matrix) -> Self {
+        Self::from_fn(a.nrows(), a.ncols(), |i, j| Dd::from(a[(i, j)]))
+    }
+}
+
+impl Index<(usize, usize)> for DdMatrix {
+    type Output = Dd;
+
+    fn index(&self, (i, j): (usize, usize)) -> &Dd {
+        &self.row(i)[j]
+    }
+}
+
+impl IndexMut<(usize, usize)> for DdMatrix {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut Dd {
+        &mut self.row_mut(i)[j]
+    }
+}

@@ -1,0 +1,61 @@
+//! What a certificate of a rank says: a proof that the rank is at least r, and the grounds on which it is not more.
+
+use crate::RankDecision;
+
+/// Below this smallest singular value the rank as read stands, but the reactions it determines are large: of size 1/σ_r per unit of
+/// load, and anything known only to σ_r moves them by their own size.
+pub(super) const NEARLY_REDUNDANT: f64 = 1e-6;
+
+/// The proof behind a rank, beside the numbers in [`Evidence`](crate::Evidence).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Certificate {
+    /// Proved: the rank is at least this, for every matrix within the uncertainty.
+    pub rank_at_least: usize,
+    /// Proved lower bound of σ_r of the equilibrated matrix; 0 if only arithmetic modulo primes proves the rank.
+    pub sigma_bound: f64,
+    /// σ_{r+1} in double-double precision: the residual of the dependencies (0 if there are none).
+    pub sigma_next: f64,
+    /// Why the rank is not larger.
+    pub grounds: Grounds,
+    /// What the entries of the equilibrated matrix are known to, absolute; 0 if they are meant exactly as they stand.
+    pub uncertainty: f64,
+    /// The direction in which the kept rows nearly cancel, if they do.
+    pub nearly_redundant: Option<NearlyRedundant>,
+}
+
+/// Why a rank is not larger than it was read.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Grounds {
+    /// There are no more rows or no more columns.
+    FullRank,
+    /// Proved for the entries as they stand: all larger minors vanish modulo primes whose product exceeds Hadamard's bound.
+    Exact,
+    /// σ_{r+1} falls with the precision of the arithmetic, to 1e-26 and below.
+    Vanishes,
+    /// σ_{r+1} stays, but is less than what the data are known to.
+    WithinData,
+}
+
+/// Rows that are independent, but only just.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearlyRedundant {
+    /// σ_r of the equilibrated matrix; below 1e-28 it is an upper estimate.
+    pub sigma: f64,
+    /// Left singular vector of σ_r: weights (unit norm, length m) with which the equilibrated rows sum to a row of norm σ_r.
+    pub direction: Vec<f64>,
+}
+
+impl RankDecision {
+    /// The warning that belongs to a decided rank with σ_r below 1e-6: as read the rank is r and the verdicts hold, but reactions are of
+    /// size 1/σ_r. Known for certified ranks only.
+    #[must_use]
+    pub fn nearly_redundant(&self) -> Option<&NearlyRedundant> {
+        self.evidence
+            .certificate
+            .as_ref()?
+            .nearly_redundant
+            .as_ref()
+            .filter(|_| self.is_decided())
+    }
+}

@@ -1,0 +1,72 @@
+//! Is a coefficient of the dependencies zero? The tolerance for T, Z and what is made of them, from the evidence of the rank.
+
+use super::certificate::NEARLY_REDUNDANT;
+use super::{CLEARANCE, NOISE_FACTOR, RankDecision};
+
+/// Noise of coefficients over that of singular values: the triangular solves.
+const SOLVE_FACTOR: f64 = 10.0;
+
+/// Evidence that cannot tell a coefficient of this size from zero calls nothing zero.
+const TOLERANCE_MAX: f64 = 1e-6;
+
+/// How a coefficient of the equilibrated dependencies reads.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum CoefficientReading {
+    /// Certainly zero.
+    Zero,
+    /// Certainly not zero.
+    NonZero,
+    /// The evidence does not tell.
+    Unclear {
+        /// Rounding and uncertainty reach up to here.
+        tolerance: f64,
+        /// Above this it would certainly not be zero.
+        required: f64,
+    },
+}
+
+impl RankDecision {
+    /// Whether the entries of the matrix are meant exactly as they stand, so that T is zero exactly where it is zero.
+    #[must_use]
+    pub fn is_exact(&self) -> bool {
+        self.evidence
+            .certificate
+            .as_ref()
+            .is_some_and(|c| c.uncertainty == 0.0)
+    }
+
+    /// How far a coefficient of T̃ or Z may be from its true value, absolute: `10·τ/σ_r`.
+    ///
+    /// For exact entries, rounding alone. For a nearly redundant matrix, that of the matrix as it was read, `10·‖C_D − T·C_K‖/σ_r`: what the
+    /// uncertainty of the data does there is told by [`RankDecision::nearly_redundant`].
+    #[must_use]
+    pub fn coefficient_tolerance(&self) -> f64 {
+        let e = &self.evidence;
+        let (m, n) = (self.scaling.rows.len(), self.scaling.cols.len());
+        let rounding = NOISE_FACTOR * f64::EPSILON * (m as f64 * n as f64).sqrt();
+        if self.redundancy == 0 || self.is_exact() {
+            return rounding;
+        }
+        if e.certificate.is_some() && e.sigma_r < NEARLY_REDUNDANT {
+            return rounding.max(SOLVE_FACTOR * e.dependence_residual / e.sigma_r);
+        }
+        SOLVE_FACTOR * e.tolerance / e.sigma_r.min(1.0)
+    }
+
+    /// Reads the size of a coefficient, or of a norm of some.
+    #[must_use]
+    pub fn read_coefficient(&self, size: f64) -> CoefficientReading {
+        let tolerance = self.coefficient_tolerance();
+        let required = CLEARANCE * tolerance;
+        if size <= tolerance && tolerance <= TOLERANCE_MAX {
+            CoefficientReading::Zero
+        } else if size > required {
+            CoefficientReading::NonZero
+        } else {
+            CoefficientReading::Unclear {
+                tolerance,
+                required,
+            }
+        }
+    }
+}
