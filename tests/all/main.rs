@@ -1,7 +1,11 @@
 //! All tests that need more than one crate, in one binary.
 
 mod allocations;
+mod bad_matrices;
 mod exact_oracle;
+mod invariance;
+mod nearly_redundant;
+mod plain;
 mod planted_matrices;
 mod planted_mechanisms;
 mod robot_trolley;

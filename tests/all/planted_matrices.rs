@@ -7,11 +7,10 @@ mod generate;
 
 use std::ops::Range;
 
-use linalg::Matrix;
-use solvability::Solvability;
 use tests::exact::Exact;
 use tests::numbers::Numbers;
 
+use crate::plain::Plain;
 use crate::tally::{Tally, cases};
 use generate::Kind;
 
@@ -21,11 +20,6 @@ const CASES: usize = 10_000;
 
 /// Combinations of multipliers for each case.
 const COMBINATIONS: usize = 4;
-
-/// The function under test.
-fn judged(c: &Matrix) -> Solvability {
-    Solvability::of(c, 0.0).expect("C is finite")
-}
 
 #[test]
 fn no_verdict_is_wrong() {
@@ -46,9 +40,9 @@ fn no_verdict_is_wrong() {
 
 /// Compares every verdict of one case.
 fn judge(rows: &[Vec<f64>], numbers: &mut Numbers, tally: &mut Tally) {
-    let (m, n) = (rows.len(), rows[0].len());
+    let m = rows.len();
     let exact = Exact::of(rows);
-    let solvability = judged(&Matrix::from_fn(m, n, |i, k| rows[i][k]));
+    let solvability = Plain::of_rows(rows);
     let decision = solvability.decision();
     if !decision.is_decided() {
         return tally.undecided(|| format!("{:?} of {rows:?}", decision.status));
