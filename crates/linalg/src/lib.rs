@@ -27,9 +27,9 @@ pub use matrix::{Matrix, ShapeError};
 pub use null_space::{Components, components, dependencies, orthonormal, support_tolerance};
 pub use qr::PivotedQr;
 pub use rank::{
-    Certificate, CoefficientReading, Doubt, Evidence, ExactNullSpace, Grounds, KeptRowsError,
-    NearlyRedundant, RankDecision, RankError, RankStatus, certify_exact, certify_within, decide,
-    decide_dropping, decide_keeping,
+    Certificate, CoefficientReading, Degraded, Doubt, Evidence, ExactNullSpace, Grounds,
+    KeptRowsError, NearlyRedundant, RankDecision, RankError, RankStatus, certify_exact,
+    certify_within, decide, decide_dropping, decide_keeping,
 };
 pub use regularized::{StepError, least_squares_step};
 pub use saddle::{KeptRowSaddle, SaddleError};

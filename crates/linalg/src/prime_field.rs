@@ -222,7 +222,12 @@ mod tests {
 
     #[test]
     fn primes_by_trial_division() {
-        let prime = |n: u64| n > 1 && (2..n).take_while(|d| d * d <= n).all(|d| n % d != 0);
+        let prime = |n: u64| {
+            n > 1
+                && (2..n)
+                    .take_while(|d| d * d <= n)
+                    .all(|d| !n.is_multiple_of(d))
+        };
         assert!((0..2000).all(|n| is_prime(n) == prime(n)));
         // Carmichael, strong pseudoprime to 2, 3, 5 and 7, the Mersenne prime, its neighbour.
         assert!(!is_prime(561) && !is_prime(3_215_031_751));

@@ -11,6 +11,7 @@
 //! `τ = 10·max(eps·√(m·n), constraint residual)`, rank r is decided iff `σ_{r+1} ≤ τ` and
 //! `σ_r ≥ max(10³·τ, 10⁻⁷)`.
 
+mod again;
 mod bound;
 mod certificate;
 mod coefficient;
@@ -27,6 +28,7 @@ use crate::{
     Matrix, PivotedQr, Scaling, equilibrate, equilibrate::scale, kernels, singular_values,
 };
 
+pub use again::Degraded;
 pub use certificate::{Certificate, Grounds, NearlyRedundant};
 pub use coefficient::CoefficientReading;
 pub use exact::certify_exact;
@@ -71,7 +73,7 @@ pub struct RankDecision {
 /// The numbers behind a rank decision; all of them belong to the equilibrated matrix.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evidence {
-    /// All `min(m, n)` singular values, largest first.
+    /// All `min(m, n)` singular values, largest first; none after [`RankDecision::at`], which reads no others than σ_r.
     pub singular_values: Vec<f64>,
     /// σ_r, infinite for rank 0.
     pub sigma_r: f64,

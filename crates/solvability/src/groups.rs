@@ -48,7 +48,7 @@ pub fn judge_groups(
     let judge = |group: &Group| match group {
         Group::Members(members) => {
             let rows = members.iter().map(|id| layout.groups[id.0].rows.clone());
-            rows.map(|rows| solvability.group(rows))
+            rows.filter_map(|rows| solvability.group(rows).ok())
                 .max_by(|a, b| a.margin.total_cmp(&b.margin))
         }
         Group::Combination(terms) => {
@@ -61,7 +61,7 @@ pub fn judge_groups(
                     *l += term.coefficient * c;
                 }
             }
-            Some(solvability.combination(&l))
+            solvability.combination(&l).ok()
         }
     };
     groups.iter().map(judge).collect()

@@ -23,7 +23,7 @@ mod words;
 pub use existence::{ConstraintLevel, Contradiction, contradiction};
 pub use generic::is_permanent;
 pub use groups::{Group, Term, judge_groups};
-pub use matrices::Solvability;
+pub use matrices::{QueryError, Solvability};
 pub use mechanism::{
     Analysis, AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, analyse,
     analyse_dropping, certify, certify_dropping, certify_holonomic,

@@ -1,13 +1,17 @@
 //! Solvability of a plain constraint matrix: which combinations of multipliers are the same in all solutions
 //! `λ = λ₀ + Z·y` of `M·a + Cᵀ·λ = Q`.
 //!
+//! Rows may be grouped in any way; groups may overlap. A row named twice in a group counts once; a group without rows has no reaction,
+//! which is unique with margin 0. Not here: what rows and groups mean (`mechanism`), and how the rank is decided (`linalg`).
+//!
 //! Source: Wojtyra, Frączek (2013), doi 10.1007/s11044-013-9352-0: with `C·P = Q·R` and the last p columns
 //! of Q as Z, the reaction of a joint with rows X is unique iff `B_X = C_Xᵀ·Z_X = 0` (27). Here Z is an orthonormal
 //! basis of the left null space of the equilibrated C; it spans the same space, up to the scaling of rows.
 
-use std::ops::Range;
-
-use linalg::{Matrix, PivotedQr, RankDecision, RankError, RankStatus};
+use linalg::{
+    CoefficientReading, Degraded, ExactNullSpace, Matrix, PivotedQr, RankDecision, RankError,
+    RankStatus,
+};
 
 use crate::verdict::Judgement;
 
@@ -24,11 +28,11 @@ const ROUNDING_OF_MAP: f64 = 1e-14;
 /// let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 1.0]]);
 /// let s = Solvability::of(&c, 0.0)?;
 /// assert_eq!((s.decision().rank, s.decision().redundancy), (2, 1));
-/// assert_eq!(s.row(0).verdict, Verdict::NotUnique);
-/// assert_eq!(s.row(2).verdict, Verdict::Unique);
+/// assert_eq!(s.row(0)?.verdict, Verdict::NotUnique);
+/// assert_eq!(s.row(2)?.verdict, Verdict::Unique);
 /// // λ₀ + 2·λ₁ is the total force along x: unique.
-/// assert_eq!(s.combination(&[1.0, 2.0, 0.0]).verdict, Verdict::Unique);
-/// # Ok::<(), linalg::RankError>(())
+/// assert_eq!(s.combination(&[1.0, 2.0, 0.0])?.verdict, Verdict::Unique);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Solvability {
@@ -37,7 +41,61 @@ pub struct Solvability {
     c: Matrix,
     /// Orthonormal basis of its left null space, m × p.
     z: Matrix,
-    tolerance: f64,
+    /// The left null space modulo primes, if the entries are meant exactly.
+    exact: Option<ExactNullSpace>,
+}
+
+/// A question that cannot be answered.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum QueryError {
+    /// A row that does not exist.
+    #[error("row {row} does not exist, rows are 0..{rows}")]
+    RowOutOfRange {
+        /// The row asked for.
+        row: usize,
+        /// Rows of the matrix.
+        rows: usize,
+    },
+    /// Coefficients that do not fit the rows.
+    #[error("{found} coefficients for {expected} rows")]
+    Length {
+        /// Coefficients given.
+        found: usize,
+        /// Rows they are for.
+        expected: usize,
+    },
+    /// A component that the map does not have.
+    #[error("component {component} does not exist, the map has {components}")]
+    ComponentOutOfRange {
+        /// The component asked for.
+        component: usize,
+        /// Rows of the map.
+        components: usize,
+    },
+    /// A coefficient that is no number.
+    #[error("coefficient {index} is {value}, need a finite number")]
+    NonFinite {
+        /// Which one.
+        index: usize,
+        /// Its value.
+        value: f64,
+    },
+    /// The rank of the matrix is undecided.
+    #[error("rank undecided: {0}")]
+    Rank(linalg::Doubt),
+    /// The number of unique directions is.
+    #[error(
+        "unique directions: a margin of {margin:.3e} lies between {tolerance:.3e} (rounding) and {required:.3e} (certainly not zero)"
+    )]
+    Directions {
+        /// The margin in doubt.
+        margin: f64,
+        /// Rounding and uncertainty reach up to here.
+        tolerance: f64,
+        /// Above this it would certainly not be zero.
+        required: f64,
+    },
 }
 
 impl Solvability {
@@ -50,17 +108,47 @@ impl Solvability {
         Ok(Self::from_decision(c, linalg::decide(c, residual)?))
     }
 
-    /// The same for a rank that has been decided already.
+    /// The same for a matrix whose entries are meant exactly as they stand: every verdict is exact, none is undecided.
+    ///
+    /// Zero tests are done modulo primes; margins are computed in `f64` and are upper estimates below 1e-15.
+    ///
+    /// # Errors
+    /// If an entry is not finite.
+    pub fn of_exact(c: &Matrix) -> Result<Self, RankError> {
+        Ok(Self::from_decision(c, linalg::certify_exact(c)?))
+    }
+
+    /// The same for a rank that has been decided already for this matrix, or for the double-double matrix that was rounded to it.
+    ///
+    /// # Panics
+    /// If the decision is that of a matrix of another shape.
     #[must_use]
     pub fn from_decision(c: &Matrix, decision: RankDecision) -> Self {
-        let z = linalg::orthonormal(&decision);
-        let tolerance = linalg::support_tolerance(&decision);
         Self {
             c: decision.scaling.apply(c),
-            z,
-            tolerance,
+            z: linalg::orthonormal(&decision),
+            // An exact decision is that of a finite matrix.
+            exact: decision
+                .is_exact()
+                .then(|| ExactNullSpace::new(c).ok())
+                .flatten(),
             decision,
         }
+    }
+
+    /// The verdicts at another point of the same regime, where the matrix is `c`: rank and kept rows stay, nothing is decided anew. Much
+    /// faster than [`Solvability::of`]; for entries with rounding errors.
+    ///
+    /// # Errors
+    /// Where the rank must be decided anew, as [`RankDecision::at`].
+    pub fn at(&self, c: &Matrix, residual: f64) -> Result<Self, Degraded> {
+        let decision = self.decision.at(c, residual)?;
+        Ok(Self {
+            c: decision.scaling.apply(c),
+            z: linalg::orthonormal(&decision),
+            exact: None,
+            decision,
+        })
     }
 
     /// The rank and its evidence.
@@ -76,23 +164,183 @@ impl Solvability {
     }
 
     /// The multiplier of one row: unique iff `Z_i = 0`.
-    #[must_use]
-    pub fn row(&self, i: usize) -> Judgement {
-        self.judge(norm(self.z.row(i)))
+    ///
+    /// # Errors
+    /// If there is no such row.
+    pub fn row(&self, i: usize) -> Result<Judgement, QueryError> {
+        self.multipliers([i])
     }
 
     /// All multipliers of a group of rows: unique iff `Z_X = 0`. Stronger than [`Solvability::group`] where the rows
     /// depend on each other.
-    #[must_use]
-    pub fn multipliers(&self, rows: Range<usize>) -> Judgement {
-        self.judge(rows.map(|i| norm(self.z.row(i))).fold(0.0, f64::hypot))
+    ///
+    /// # Errors
+    /// If a row does not exist.
+    pub fn multipliers(
+        &self,
+        rows: impl IntoIterator<Item = usize>,
+    ) -> Result<Judgement, QueryError> {
+        let rows = self.set(rows)?;
+        let margin = rows
+            .iter()
+            .map(|&i| norm(self.z.row(i)))
+            .fold(0.0, f64::hypot);
+        Ok(self.judge(margin, 1.0, |z| {
+            rows.iter().all(|&i| z.annihilates([(i, 1.0)]))
+        }))
     }
 
     /// `B_X = C_Xᵀ·Z_X` (n × p) of a group of rows, equilibrated.
-    #[must_use]
-    pub fn b_x(&self, rows: Range<usize>) -> Matrix {
+    ///
+    /// # Errors
+    /// If a row does not exist.
+    pub fn b_x(&self, rows: impl IntoIterator<Item = usize>) -> Result<Matrix, QueryError> {
+        Ok(self.product(&self.set(rows)?))
+    }
+
+    /// The reaction of a group of rows: unique iff `B_X = 0`; the margin is ‖B_X‖ (Frobenius).
+    ///
+    /// # Errors
+    /// If a row does not exist.
+    pub fn group(&self, rows: impl IntoIterator<Item = usize>) -> Result<Judgement, QueryError> {
+        let rows = self.set(rows)?;
+        let size = rows
+            .iter()
+            .map(|&i| norm(self.c.row(i)))
+            .fold(0.0, f64::hypot);
+        let margin = self.product(&rows).frobenius_norm();
+        Ok(self.judge(margin, size, |z| z.wrench_vanishes(&rows)))
+    }
+
+    /// A linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin is relative to ‖ℓ‖, both
+    /// for equilibrated rows.
+    ///
+    /// # Errors
+    /// If there are not m coefficients, or one is not finite.
+    pub fn combination(&self, l: &[f64]) -> Result<Judgement, QueryError> {
+        let rows: Vec<usize> = (0..self.c.nrows()).collect();
+        check_coefficients(l, rows.len())?;
+        let margin = norm(&self.scaled_row(l, &rows).0);
+        Ok(self.judge(margin, 1.0, |z| z.annihilates(combination(l, &rows))))
+    }
+
+    /// Component `k` of a reaction `W·λ_X`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest row of W.
+    /// A row that is rounding beside the others is zero, unless the entries are meant exactly. Column l of W belongs to row l of the list.
+    ///
+    /// # Errors
+    /// If a row or the component does not exist, or W does not have a column for each row, or is not finite.
+    pub fn component(
+        &self,
+        map: &Matrix,
+        k: usize,
+        rows: impl IntoIterator<Item = usize>,
+    ) -> Result<Judgement, QueryError> {
+        let rows = self.list(rows)?;
+        check_map(map, &rows)?;
+        if k >= map.nrows() {
+            return Err(QueryError::ComponentOutOfRange {
+                component: k,
+                components: map.nrows(),
+            });
+        }
+        let (images, sizes) = self.images(map, &rows);
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        // Zero over zero: a map of zeros has no reaction.
+        let share = if largest == 0.0 {
+            0.0
+        } else {
+            sizes[k] / largest
+        };
+        let margin = norm(images.row(k)) * share;
+        Ok(self.judge(margin, 1.0, |z| {
+            z.annihilates(combination(map.row(k), &rows))
+        }))
+    }
+
+    /// Directions in which a reaction is unique: a basis of the left null space of `W·Z_X` for the map W
+    /// (k × |X|) from multipliers to components. Unit vectors with k entries; the largest entry is positive.
+    ///
+    /// # Errors
+    /// As [`Solvability::component`], and where the numbers do not decide how many there are.
+    pub fn unique_directions(
+        &self,
+        map: &Matrix,
+        rows: impl IntoIterator<Item = usize>,
+    ) -> Result<Vec<Vec<f64>>, QueryError> {
+        let rows = self.list(rows)?;
+        check_map(map, &rows)?;
+        if let RankStatus::Undecided(doubt) = self.decision.status {
+            return Err(QueryError::Rank(doubt));
+        }
+        let k = map.nrows();
+        let (images, sizes) = self.images(map, &rows);
+        let qr = PivotedQr::of_columns(&images);
+        let rank = match &self.exact {
+            Some(z) => z.rank_of(
+                &(0..k)
+                    .map(|i| combination(map.row(i), &rows))
+                    .collect::<Vec<_>>(),
+            ),
+            None => self.clear_rank(&qr)?,
+        };
+        if rank == 0 {
+            return Ok((0..k).map(|i| unit(k, i)).collect());
+        }
+        let basis = qr.q_columns(rank..k);
+        Ok((0..k - rank)
+            .map(|j| {
+                // Back from components of equal size to the units of the map.
+                let scaled = |i: usize| if sizes[i] == 0.0 { 1.0 } else { sizes[i] };
+                let direction = (0..k).map(|i| basis[(i, j)] / scaled(i)).collect();
+                normalised(direction, self.decision.coefficient_tolerance())
+            })
+            .collect())
+    }
+
+    /// How many pivots are certainly not zero, if the others certainly are.
+    fn clear_rank(&self, qr: &PivotedQr) -> Result<usize, QueryError> {
+        let mut rank = 0;
+        for pivot in qr.r_diagonal().map(f64::abs) {
+            match self.decision.read_coefficient(pivot) {
+                CoefficientReading::NonZero => rank += 1,
+                CoefficientReading::Zero => {}
+                CoefficientReading::Unclear {
+                    tolerance,
+                    required,
+                } => {
+                    return Err(QueryError::Directions {
+                        margin: pivot,
+                        tolerance,
+                        required,
+                    });
+                }
+            }
+        }
+        Ok(rank)
+    }
+
+    /// Rows in the order given, all of which exist.
+    fn list(&self, rows: impl IntoIterator<Item = usize>) -> Result<Vec<usize>, QueryError> {
+        let m = self.c.nrows();
+        rows.into_iter()
+            .map(|row| match row < m {
+                true => Ok(row),
+                false => Err(QueryError::RowOutOfRange { row, rows: m }),
+            })
+            .collect()
+    }
+
+    /// The same, each row once.
+    fn set(&self, rows: impl IntoIterator<Item = usize>) -> Result<Vec<usize>, QueryError> {
+        let mut rows = self.list(rows)?;
+        rows.sort_unstable();
+        rows.dedup();
+        Ok(rows)
+    }
+
+    fn product(&self, rows: &[usize]) -> Matrix {
         let mut b = Matrix::zeros(self.c.ncols(), self.z.ncols());
-        for i in rows {
+        for &i in rows {
             for (k, &c) in self.c.row(i).iter().enumerate().filter(|(_, c)| **c != 0.0) {
                 for (b, z) in b.row_mut(k).iter_mut().zip(self.z.row(i)) {
                     *b += c * z;
@@ -102,99 +350,83 @@ impl Solvability {
         b
     }
 
-    /// The reaction of a group of rows: unique iff `B_X = 0`; the margin is ‖B_X‖ (Frobenius).
-    #[must_use]
-    pub fn group(&self, rows: Range<usize>) -> Judgement {
-        self.judge(self.b_x(rows).frobenius_norm())
-    }
-
-    /// A linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin is relative to ‖ℓ‖, both
-    /// for equilibrated rows.
-    #[must_use]
-    pub fn combination(&self, l: &[f64]) -> Judgement {
-        self.judge(norm(&self.scaled_row(l, 0..l.len()).0))
-    }
-
-    /// Component `k` of a reaction `W·λ_X`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest row of W.
-    /// A row that is rounding beside the others is zero.
-    #[must_use]
-    pub fn component(&self, map: &Matrix, k: usize, rows: Range<usize>) -> Judgement {
-        let size = |i: usize| self.scaled_norm(map.row(i), rows.clone());
-        let largest = (0..map.nrows()).map(size).fold(0.0, f64::max);
-        if size(k) <= ROUNDING_OF_MAP * largest {
-            return self.judge(0.0);
-        }
-        let (image, own) = self.scaled_row(map.row(k), rows);
-        self.judge(norm(&image) * own / largest)
-    }
-
-    /// Directions in which a reaction is unique: a basis of the left null space of `W·Z_X` for the map W
-    /// (k × |X|) from multipliers to components. Unit vectors with k entries; the largest entry is positive.
-    #[must_use]
-    pub fn unique_directions(&self, map: &Matrix, rows: Range<usize>) -> Vec<Vec<f64>> {
-        let k = map.nrows();
-        let largest = (0..k)
-            .map(|i| self.scaled_norm(map.row(i), rows.clone()))
-            .fold(0.0, f64::max);
-        let (images, sizes): (Vec<_>, Vec<_>) = (0..k)
-            .map(|i| match self.scaled_row(map.row(i), rows.clone()) {
-                // Rounding beside the other components is zero.
-                (image, size) if size <= ROUNDING_OF_MAP * largest => (vec![0.0; image.len()], 1.0),
-                row => row,
-            })
+    /// `W·Z_X` with rows divided by the norms of those of `W·D_r⁻¹`, and these norms; zero where a row is rounding beside the others.
+    fn images(&self, map: &Matrix, rows: &[usize]) -> (Matrix, Vec<f64>) {
+        let (mut images, mut sizes): (Vec<_>, Vec<_>) = (0..map.nrows())
+            .map(|i| self.scaled_row(map.row(i), rows))
             .unzip();
-        let p = self.z.ncols();
-        let image = Matrix::from_fn(k, p, |i, j| images[i][j]);
-        let qr = PivotedQr::of_columns(&image);
-        let rank = qr.r_diagonal().filter(|r| r.abs() > self.tolerance).count();
-        if rank == 0 {
-            return (0..k).map(|i| unit(k, i)).collect();
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        if self.exact.is_none() {
+            for (image, size) in images.iter_mut().zip(&mut sizes) {
+                if *size <= ROUNDING_OF_MAP * largest {
+                    image.fill(0.0);
+                    *size = 0.0;
+                }
+            }
         }
-        let basis = qr.q_columns(rank..k);
-        (0..k - rank)
-            .map(|j| {
-                // Back from components of equal size to the units of the map.
-                let direction = (0..k).map(|i| basis[(i, j)] / sizes[i]).collect();
-                normalised(direction, self.tolerance)
-            })
-            .collect()
+        let images = Matrix::from_fn(map.nrows(), self.z.ncols(), |i, j| images[i][j]);
+        (images, sizes)
     }
 
-    fn scaled_norm(&self, w: &[f64], rows: Range<usize>) -> f64 {
-        norm(
-            &rows
-                .zip(w)
-                .map(|(i, w)| w * self.decision.scaling.row_factor(i))
-                .collect::<Vec<_>>(),
-        )
-    }
-
-    /// `wᵀ·D_r·Z_X / ‖wᵀ·D_r‖` and the norm that was divided by (1 for w = 0).
-    fn scaled_row(&self, w: &[f64], rows: Range<usize>) -> (Vec<f64>, f64) {
+    /// `wᵀ·D_r·Z_X / ‖wᵀ·D_r‖` and the norm that was divided by; zeros for w = 0.
+    fn scaled_row(&self, w: &[f64], rows: &[usize]) -> (Vec<f64>, f64) {
         let scaled: Vec<f64> = rows
-            .clone()
+            .iter()
             .zip(w)
-            .map(|(i, w)| w * self.decision.scaling.row_factor(i))
+            .map(|(&i, w)| w * self.decision.scaling.row_factor(i))
             .collect();
-        let size = match norm(&scaled) {
-            0.0 => 1.0,
-            size => size,
-        };
+        let size = norm(&scaled);
         let mut out = vec![0.0; self.z.ncols()];
-        for (i, w) in rows.zip(&scaled) {
-            for (o, z) in out.iter_mut().zip(self.z.row(i)) {
-                *o += w / size * z;
+        if size > 0.0 {
+            for (&i, w) in rows.iter().zip(&scaled) {
+                for (o, z) in out.iter_mut().zip(self.z.row(i)) {
+                    *o += w / size * z;
+                }
             }
         }
         (out, size)
     }
 
-    fn judge(&self, margin: f64) -> Judgement {
-        match &self.decision.status {
-            RankStatus::Undecided(doubt) => Judgement::without_rank(margin, doubt),
-            _ => Judgement::of(margin, self.tolerance),
+    /// Judges a margin made of coefficients of Z with weights of the given size.
+    fn judge(
+        &self,
+        margin: f64,
+        size: f64,
+        vanishes: impl FnOnce(&ExactNullSpace) -> bool,
+    ) -> Judgement {
+        match (&self.exact, &self.decision.status) {
+            (Some(z), _) => Judgement::exact(margin, vanishes(z)),
+            (None, RankStatus::Undecided(doubt)) => Judgement::without_rank(margin, doubt),
+            (None, _) => Judgement::of(
+                margin,
+                self.decision.read_coefficient(margin / size.max(1.0)),
+            ),
         }
     }
+}
+
+fn check_coefficients(l: &[f64], expected: usize) -> Result<(), QueryError> {
+    if l.len() != expected {
+        return Err(QueryError::Length {
+            found: l.len(),
+            expected,
+        });
+    }
+    match l.iter().position(|x| !x.is_finite()) {
+        Some(index) => Err(QueryError::NonFinite {
+            index,
+            value: l[index],
+        }),
+        None => Ok(()),
+    }
+}
+
+fn check_map(map: &Matrix, rows: &[usize]) -> Result<(), QueryError> {
+    (0..map.nrows()).try_for_each(|i| check_coefficients(map.row(i), rows.len()))
+}
+
+fn combination(w: &[f64], rows: &[usize]) -> Vec<(usize, f64)> {
+    rows.iter().copied().zip(w.iter().copied()).collect()
 }
 
 fn norm(x: &[f64]) -> f64 {
@@ -219,3 +451,6 @@ fn normalised(mut x: Vec<f64>, rounding: f64) -> Vec<f64> {
     }
     x
 }
+
+#[cfg(test)]
+mod tests;

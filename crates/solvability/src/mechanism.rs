@@ -5,8 +5,8 @@ use model::reaction::COMPONENTS;
 use model::start::scene_size;
 use model::{ConstraintId, Mechanism, Scratch, System};
 
-use crate::matrices::Solvability;
-use crate::verdict::{Judgement, Verdict};
+use crate::matrices::{QueryError, Solvability};
+use crate::verdict::Judgement;
 use crate::words;
 
 /// The verdicts of one configuration.
@@ -107,6 +107,14 @@ pub enum AnalysisError {
         time: f64,
         /// Why.
         source: RankError,
+    },
+    /// A verdict cannot be asked for.
+    #[error("at t = {time} s: {source}")]
+    Query {
+        /// When.
+        time: f64,
+        /// Why.
+        source: QueryError,
     },
     /// The rows asked to be dropped cannot be.
     #[error("at t = {time} s these rows cannot be dropped: {source}")]
@@ -241,7 +249,8 @@ fn judge(
     let reactions = mechanism
         .constraint_ids()
         .map(|id| reaction(mechanism, id, s, &solvability))
-        .collect();
+        .collect::<Result<_, _>>()
+        .map_err(|source| AnalysisError::Query { time: t, source })?;
     let dependencies = linalg::short_circuits(solvability.decision())
         .into_iter()
         .map(|circuit| Dependency {
@@ -277,7 +286,7 @@ fn reaction(
     id: ConstraintId,
     s: &Scratch,
     solvability: &Solvability,
-) -> ReactionVerdict {
+) -> Result<ReactionVerdict, QueryError> {
     let group = &mechanism.layout().groups[id.0];
     let rows = group.rows.clone();
     let components = group.components();
@@ -285,32 +294,31 @@ fn reaction(
     let map = Matrix::from_fn(components.len(), rows.len(), |i, j| {
         full[(components[i], j)]
     });
-    let judged = components
-        .iter()
-        .enumerate()
-        .map(|(i, &c)| ComponentVerdict {
+    let judged = components.iter().enumerate().map(|(i, &c)| {
+        Ok(ComponentVerdict {
             name: COMPONENTS[c],
-            judgement: solvability.component(&map, i, rows.clone()),
-        });
-    let wrench = solvability.group(rows.clone());
-    let unique_directions = match wrench.verdict {
-        Verdict::Undecided { .. } => Vec::new(),
-        _ => solvability.unique_directions(&map, rows.clone()),
+            judgement: solvability.component(&map, i, rows.clone())?,
+        })
+    });
+    // Where their number is undecided there are none to show; the verdicts above say so.
+    let unique_directions = match solvability.unique_directions(&map, rows.clone()) {
+        Err(QueryError::Rank(_) | QueryError::Directions { .. }) => Vec::new(),
+        known => known?,
     };
-    ReactionVerdict {
+    let row_verdict = |row| {
+        Ok(RowVerdict {
+            row,
+            judgement: solvability.row(row)?,
+        })
+    };
+    Ok(ReactionVerdict {
         id,
         name: group.name.clone(),
         kind: group.spec.common.scene_type,
-        multipliers: solvability.multipliers(rows.clone()),
-        rows: rows
-            .clone()
-            .map(|row| RowVerdict {
-                row,
-                judgement: solvability.row(row),
-            })
-            .collect(),
-        components: judged.collect(),
+        wrench: solvability.group(rows.clone())?,
+        multipliers: solvability.multipliers(rows.clone())?,
+        rows: rows.clone().map(row_verdict).collect::<Result<_, _>>()?,
+        components: judged.collect::<Result<_, _>>()?,
         unique_directions,
-        wrench,
-    }
+    })
 }

@@ -1,5 +1,7 @@
 //! Verdicts and the numbers behind them.
 
+use linalg::CoefficientReading;
+
 /// Whether a reaction is determined by the model.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -42,23 +44,37 @@ pub struct Judgement {
     pub margin: f64,
 }
 
-/// A margin is certainly not rounding above this multiple of the tolerance, the clearance of rank decisions.
-const CLEARANCE: f64 = 1e3;
-
 impl Judgement {
-    /// Judges a margin against the rounding noise of margins.
-    pub(crate) fn of(margin: f64, tolerance: f64) -> Self {
-        let verdict = match margin {
-            m if m <= tolerance => Verdict::Unique,
-            m if m > CLEARANCE * tolerance => Verdict::NotUnique,
-            _ => Verdict::Undecided {
+    /// Judges a margin as [`linalg::RankDecision::read_coefficient`] reads it.
+    pub(crate) fn of(margin: f64, reading: CoefficientReading) -> Self {
+        let verdict = match reading {
+            CoefficientReading::Zero => Verdict::Unique,
+            CoefficientReading::NonZero => Verdict::NotUnique,
+            CoefficientReading::Unclear {
+                tolerance,
+                required,
+            } => Verdict::Undecided {
                 reason: format!(
-                    "margin {margin:.3e} lies between {tolerance:.3e} (rounding) and {:.3e} (certainly not zero)",
-                    CLEARANCE * tolerance
+                    "margin {margin:.3e}: rounding and uncertainty reach up to {tolerance:.3e}, certainly not zero is {required:.3e}"
                 ),
             },
         };
         Self { verdict, margin }
+    }
+
+    /// The judgement of data that are meant exactly: what vanishes has no margin, what does not has one, however small.
+    pub(crate) fn exact(margin: f64, vanishes: bool) -> Self {
+        if vanishes {
+            Self {
+                verdict: Verdict::Unique,
+                margin: 0.0,
+            }
+        } else {
+            Self {
+                verdict: Verdict::NotUnique,
+                margin: margin.max(f64::MIN_POSITIVE),
+            }
+        }
     }
 
     /// The judgement where the rank itself is undecided.

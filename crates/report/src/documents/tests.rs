@@ -36,6 +36,7 @@ fn analysis() -> Analysis {
             tolerance: 0.25,
             constraint_residual: 0.0,
             dependence_residual: 0.0,
+            certificate: None,
         },
         ..linalg::decide(&c, 0.0).expect("finite")
     };

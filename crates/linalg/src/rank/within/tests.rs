@@ -40,29 +40,35 @@ fn exact_redundancy_falls_with_the_precision_and_misalignment_stays() {
     assert_eq!(certificate.rank_at_least, 11);
     assert!(certificate.sigma_bound > 1e-3 * decision.evidence.sigma_r);
 
-    let mut ratio = None;
+    let reading = |epsilon: f64| {
+        let decision = certify_within(&cranks(epsilon), DATA).unwrap();
+        decision.evidence.singular_values[11] / epsilon
+    };
+    let reference = reading(1e-12);
     for k in 3..=20 {
         let epsilon = 10f64.powi(-k);
         let decision = certify_within(&cranks(epsilon), DATA).unwrap();
-        let sigma = decision.evidence.singular_values[11] / epsilon;
         // σ₁₂ is proportional to ε as long as ε is small.
-        let reference = *ratio.get_or_insert(sigma);
+        let deviation = reading(epsilon) / reference - 1.0;
         assert!(
-            (sigma / reference - 1.0).abs() < 1e-3,
-            "ε = 1e-{k}: {sigma}"
+            deviation.abs() < 100.0 * epsilon + 1e-6,
+            "ε = 1e-{k}: {deviation:e}"
         );
         let sigma = epsilon * reference;
         let tolerance = decision.evidence.tolerance;
         if sigma > 4.01 * tolerance {
             assert!(decision.is_decided() && decision.rank == 12, "ε = 1e-{k}");
-            assert_eq!(decision.nearly_redundant().is_some(), sigma < 1e-6);
-            let certificate = decision.evidence.certificate.as_ref().unwrap();
             assert_eq!(
-                certificate.rank_at_least, 12,
-                "ε = 1e-{k}, bound {:e}",
-                certificate.sigma_bound
+                decision.nearly_redundant().is_some(),
+                decision.evidence.sigma_r < 1e-6
             );
-            assert!(certificate.sigma_bound <= sigma);
+            let certificate = decision.evidence.certificate.as_ref().unwrap();
+            // The proof costs a factor of about ten.
+            assert!(certificate.sigma_bound > 0.05 * sigma, "{certificate:?}");
+            if sigma > 20.0 * 12.0 * DATA {
+                assert_eq!(certificate.rank_at_least, 12, "ε = 1e-{k}");
+            }
+            assert!(certificate.sigma_bound <= sigma * (1.0 + 100.0 * epsilon));
         } else if sigma < 0.99 * tolerance {
             assert_eq!(
                 (decision.rank, grounds(&decision)),

@@ -1,0 +1,77 @@
+//! The 22 × 21 matrix of the robot as a library user sees it: certificates, and verdicts at a point that is certified already.
+//! Each benchmark asserts its result before it is timed: `cargo bench -p bench --bench verdicts`.
+
+use std::hint::black_box;
+use std::ops::Range;
+
+use divan::Bencher;
+use dynamics::{RowChoice, prepare};
+use linalg::{DdMatrix, Matrix};
+use model::{Mechanism, StartOptions, System};
+use solvability::Solvability;
+use tests::robot::{robot, steering};
+
+fn main() {
+    divan::main();
+}
+
+/// C of the robot at its start, and the rows of its fourteen reactions.
+fn matrix() -> (Matrix, Vec<Range<usize>>) {
+    let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
+    let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)
+        .expect("the robot starts");
+    let mut s = p.mechanism.scratch();
+    p.mechanism.pose(0.0, &p.q, &mut s);
+    p.mechanism.c(&mut s);
+    let layout = p.mechanism.layout();
+    let groups = layout.groups.iter().map(|g| g.rows.clone()).collect();
+    (layout.dense(&s), groups)
+}
+
+/// How many of all rows and groups are unique.
+fn unique(s: &Solvability, groups: &[Range<usize>]) -> usize {
+    let judged =
+        |verdict: Result<solvability::Judgement, _>| verdict.is_ok_and(|j| j.verdict.is_unique());
+    let rows = groups
+        .iter()
+        .flat_map(Clone::clone)
+        .filter(|&i| judged(s.row(i)))
+        .count();
+    rows + groups
+        .iter()
+        .filter(|rows| judged(s.group((*rows).clone())))
+        .count()
+}
+
+/// Rank, dependencies and proof for the entries as they stand.
+#[divan::bench]
+fn certify_exact(bencher: Bencher<'_, '_>) {
+    let (c, _) = matrix();
+    assert!(linalg::certify_exact(&c).is_ok_and(|d| d.rank >= 20));
+    bencher.bench_local(|| linalg::certify_exact(black_box(&c)));
+}
+
+/// Rank, dependencies and bounds within what the data are known to.
+#[divan::bench]
+fn certify_within(bencher: Bencher<'_, '_>) {
+    let c = DdMatrix::from(&matrix().0);
+    assert!(linalg::certify_within(&c, 1e-15).is_ok_and(|d| d.rank == 20 && d.is_decided()));
+    bencher.bench_local(|| linalg::certify_within(black_box(&c), 1e-15));
+}
+
+/// Verdicts of all rows and groups at a point of the same regime.
+#[divan::bench]
+fn verdicts_at_a_certified_point(bencher: Bencher<'_, '_>) {
+    let (c, groups) = matrix();
+    let first = Solvability::of(&c, 0.0).expect("finite");
+    let again = |c: &Matrix| first.at(c, 0.0).map_or(0, |s| unique(&s, &groups));
+    assert_eq!(again(&c), unique(&first, &groups));
+    bencher.bench_local(|| again(black_box(&c)));
+}
+
+/// The same verdicts from nothing but the matrix.
+#[divan::bench]
+fn verdicts_from_the_matrix(bencher: Bencher<'_, '_>) {
+    let (c, groups) = matrix();
+    bencher.bench_local(|| Solvability::of(black_box(&c), 0.0).map(|s| unique(&s, &groups)));
+}

@@ -1,0 +1,197 @@
+//! Verdicts by hand, exact verdicts where numbers cannot tell, and questions that cannot be answered.
+
+use super::*;
+use crate::verdict::Verdict;
+
+/// Rows 0 and 1 hold the left end of a bar (x, y, φ), rows 2 and 3 the right end, 2 further on; the last row is `x = y·ε`.
+fn bar(epsilon: f64) -> Matrix {
+    Matrix::from_rows(&[
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [1.0, epsilon, 0.0],
+        [0.0, 1.0, 2.0],
+    ])
+}
+
+/// However small ε, rows 0, 1 and 2 depend on each other: row 2 = row 0 + ε·row 1.
+#[test]
+fn exact_verdicts_have_no_smallest_number() {
+    for epsilon in [1e-6, 1e-12, 1e-18, 1e-100, 1e-300, 5e-324] {
+        let s = Solvability::of_exact(&bar(epsilon)).unwrap();
+        assert_eq!((s.decision().rank, s.decision().redundancy), (3, 1));
+        for (row, verdict) in [
+            (0, Verdict::NotUnique),
+            (1, Verdict::NotUnique),
+            (2, Verdict::NotUnique),
+            (3, Verdict::Unique),
+        ] {
+            assert_eq!(
+                s.row(row).unwrap().verdict,
+                verdict,
+                "ε = {epsilon:e}, row {row}"
+            );
+        }
+        // Forces along x and y: λ₀ + λ₂ and λ₁ + ε·λ₂.
+        assert_eq!(
+            s.combination(&[1.0, 0.0, 1.0, 0.0]).unwrap().verdict,
+            Verdict::Unique
+        );
+        assert_eq!(
+            s.combination(&[0.0, 1.0, epsilon, 0.0]).unwrap().verdict,
+            Verdict::Unique
+        );
+        assert_eq!(
+            s.combination(&[0.0, 1.0, 2.0 * epsilon, 0.0])
+                .unwrap()
+                .verdict,
+            Verdict::NotUnique
+        );
+        assert_eq!(s.group([0, 1, 2]).unwrap().verdict, Verdict::Unique);
+        assert_eq!(s.group([1]).unwrap().verdict, Verdict::NotUnique);
+        // Of (λ₀, λ₁) the direction in which the self-stress (1, ε) does nothing.
+        let directions = s.unique_directions(&Matrix::identity(2), [0, 1]).unwrap();
+        assert_eq!(directions.len(), 1);
+        assert!((directions[0][1] - 1.0).abs() < 1e-6, "{directions:?}");
+    }
+    let s = Solvability::of_exact(&bar(0.0)).unwrap();
+    assert_eq!(
+        s.row(1).unwrap(),
+        Judgement {
+            verdict: Verdict::Unique,
+            margin: 0.0
+        }
+    );
+}
+
+/// Entries with rounding cannot tell ε = 1e-14 from zero, and say so.
+#[test]
+fn rounded_verdicts_are_undecided_near_zero() {
+    let verdict = |epsilon: f64| {
+        Solvability::of(&bar(epsilon), 0.0)
+            .unwrap()
+            .row(1)
+            .unwrap()
+            .verdict
+    };
+    assert_eq!(verdict(0.0), Verdict::Unique);
+    assert_eq!(verdict(1e-18), Verdict::Unique);
+    assert!(matches!(verdict(1e-12), Verdict::Undecided { .. }));
+    assert_eq!(verdict(1e-8), Verdict::NotUnique);
+}
+
+/// A residual of 1e-6 blurs the coefficients to 1e-4: nothing is called unique on such evidence.
+#[test]
+fn poor_evidence_calls_nothing_unique() {
+    let s = Solvability::of(&bar(0.0), 1e-6).unwrap();
+    assert!(s.decision().is_decided());
+    assert!(matches!(
+        s.row(3).unwrap().verdict,
+        Verdict::Undecided { .. }
+    ));
+    assert_eq!(s.row(0).unwrap().verdict, Verdict::NotUnique);
+    let directions = s.unique_directions(&Matrix::identity(1), [3]);
+    assert!(
+        matches!(directions, Err(QueryError::Directions { .. })),
+        "{directions:?}"
+    );
+}
+
+#[test]
+fn groups_overlap_repeat_and_may_be_empty() {
+    for s in [
+        Solvability::of(&bar(0.0), 0.0).unwrap(),
+        Solvability::of_exact(&bar(0.0)).unwrap(),
+    ] {
+        assert_eq!(
+            s.group([]).unwrap(),
+            Judgement {
+                verdict: Verdict::Unique,
+                margin: 0.0
+            }
+        );
+        assert_eq!(s.multipliers([]).unwrap().verdict, Verdict::Unique);
+        assert_eq!(s.group([0, 1, 0]).unwrap(), s.group([1, 0]).unwrap());
+        assert_eq!(s.group([0, 2]).unwrap().verdict, Verdict::Unique);
+        assert_eq!(s.multipliers([0, 2]).unwrap().verdict, Verdict::NotUnique);
+        assert_eq!(
+            s.unique_directions(&Matrix::zeros(0, 0), []).unwrap(),
+            Vec::<Vec<f64>>::new()
+        );
+    }
+}
+
+#[test]
+fn questions_that_cannot_be_answered_are_named() {
+    let s = Solvability::of(&bar(0.0), 0.0).unwrap();
+    assert_eq!(
+        s.row(4).unwrap_err().to_string(),
+        "row 4 does not exist, rows are 0..4"
+    );
+    assert!(matches!(
+        s.group([0, 9]),
+        Err(QueryError::RowOutOfRange { row: 9, rows: 4 })
+    ));
+    assert_eq!(
+        s.combination(&[1.0]).unwrap_err().to_string(),
+        "1 coefficients for 4 rows"
+    );
+    assert!(matches!(
+        s.combination(&[1.0, f64::NAN, 0.0, 0.0]),
+        Err(QueryError::NonFinite { index: 1, .. })
+    ));
+    let map = Matrix::identity(2);
+    assert!(matches!(
+        s.component(&map, 2, [0, 1]),
+        Err(QueryError::ComponentOutOfRange {
+            component: 2,
+            components: 2
+        })
+    ));
+    assert!(matches!(
+        s.component(&map, 0, [0]),
+        Err(QueryError::Length {
+            found: 2,
+            expected: 1
+        })
+    ));
+    assert!(s.unique_directions(&map, [0, 1, 2]).is_err());
+}
+
+#[test]
+fn verdicts_at_another_point_are_those_of_a_new_decision() {
+    let first = Solvability::of(&bar(0.0), 0.0).unwrap();
+    for epsilon in [0.0, 0.3, 1.0] {
+        let (again, fresh) = (
+            first.at(&bar(epsilon), 0.0).unwrap(),
+            Solvability::of(&bar(epsilon), 0.0).unwrap(),
+        );
+        for i in 0..4 {
+            let (a, b) = (again.row(i).unwrap(), fresh.row(i).unwrap());
+            assert_eq!(a.verdict, b.verdict, "row {i}");
+            assert!((a.margin - b.margin).abs() < 1e-14);
+        }
+    }
+    // Both ends in one place: another rank.
+    let mut folded = bar(0.0);
+    folded[(3, 2)] = 0.0;
+    assert!(matches!(
+        first.at(&folded, 0.0),
+        Err(Degraded::KeptRows { .. })
+    ));
+    assert!(matches!(
+        first.at(&Matrix::identity(3), 0.0),
+        Err(Degraded::Shape { .. })
+    ));
+}
+
+#[test]
+fn empty_matrices() {
+    for (m, n) in [(0, 0), (0, 3), (3, 0), (2, 2)] {
+        let s = Solvability::of_exact(&Matrix::zeros(m, n)).unwrap();
+        // A row of zeros: its multiplier is anything, its reaction is nothing.
+        for i in 0..m {
+            assert_eq!(s.row(i).unwrap().verdict, Verdict::NotUnique);
+            assert_eq!(s.group([i]).unwrap().verdict, Verdict::Unique);
+        }
+    }
+}
