@@ -86,6 +86,13 @@ impl Exact {
         eliminate(self.z.iter().map(b_x).collect(), n).0
     }
 
+    /// Rank of `Z_X`: in so many directions the multipliers of the rows X are not unique.
+    #[must_use]
+    pub fn multiplier_freedom(&self, rows: &[usize]) -> usize {
+        let z_x = |z: &Vec<BigInt>| rows.iter().map(|&i| z[i].clone()).collect();
+        eliminate(self.z.iter().map(z_x).collect(), rows.len()).0
+    }
+
     /// Whether `ℓᵀ·λ` is unique: `ℓᵀ·Z = 0`.
     ///
     /// # Panics

@@ -1,7 +1,7 @@
 //! Input that a user can give by mistake: named errors or right answers, never a panic.
 
 use linalg::{Matrix, RankError};
-use solvability::{Solvability, Verdict};
+use solvability::{QueryError, Solvability, Verdict};
 use tests::exact::Exact;
 use tests::numbers::Numbers;
 
@@ -13,7 +13,7 @@ const SEED: u64 = 5;
 fn both(c: &Matrix) -> [Result<(), RankError>; 2] {
     [
         Solvability::of(c, 0.0).map(|_| ()),
-        linalg::certify_exact(c).map(|_| ()),
+        Solvability::of_exact(c).map(|_| ()),
     ]
 }
 
@@ -50,7 +50,7 @@ fn empty_rows_and_columns() {
         assert_eq!((s.decision().rank, s.decision().redundancy), (0, m));
         for i in 0..m {
             assert_eq!(s.row(i).verdict, Verdict::NotUnique);
-            assert_eq!(s.group(i..i + 1).verdict, Verdict::Unique);
+            assert_eq!(s.group(&[i]).verdict, Verdict::Unique);
         }
         assert_eq!(s.combination(&vec![0.0; m]).verdict, Verdict::Unique);
     }
@@ -68,26 +68,70 @@ fn many_more_rows_than_columns() {
     let s = Plain::of_rows(&rows);
     assert_eq!((s.decision().rank, s.decision().redundancy), (2, 98));
     assert!((0..100).all(|i| s.row(i).verdict == Verdict::NotUnique));
-    assert_eq!(s.group(0..100).verdict, Verdict::Unique);
+    assert_eq!(
+        s.group(&(0..100).collect::<Vec<_>>()).verdict,
+        Verdict::Unique
+    );
     assert_eq!(s.combination(&[1.0; 100]).verdict, Verdict::Unique);
 }
 
-/// An empty group has no reaction that could be free; groups may overlap, each is judged by itself.
+/// A group without rows has no reaction that could be free; groups may overlap, each is judged by itself; a row counts once.
 #[test]
 fn empty_and_overlapping_groups() {
     let rows = [[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|r| r.to_vec());
     let s = Plain::of_rows(&rows);
     let exact = Exact::of(&rows);
-    for group in [0..2, 1..3, 0..3, 2..3, 0..1] {
-        let unique = exact.freedom(&group.clone().collect::<Vec<_>>()) == 0;
+    let groups: [&[usize]; 6] = [&[], &[0, 1], &[2, 1], &[2, 0, 1], &[2], &[0]];
+    for group in groups {
+        let unique = exact.freedom(group) == 0;
+        assert_eq!(s.group(group).verdict.is_unique(), unique, "{group:?}");
+        let unique = exact.multiplier_freedom(group) == 0;
         assert_eq!(
-            s.group(group.clone()).verdict.is_unique(),
+            s.multipliers(group).verdict.is_unique(),
             unique,
             "{group:?}"
         );
     }
-    assert_eq!(s.multipliers(2..3).verdict, Verdict::Unique);
-    assert_eq!(s.multipliers(1..3).verdict, Verdict::NotUnique);
+    assert_eq!(s.group(&[0, 1, 1, 0]).verdict, Verdict::Unique);
+    assert_eq!(s.unique_directions(&[]), 0);
+}
+
+#[test]
+fn questions_that_cannot_be_answered_are_named() {
+    let c = Matrix::identity(2);
+    for s in [Solvability::of(&c, 0.0), Solvability::of_exact(&c)] {
+        let s = s.expect("C is finite");
+        let missing = QueryError::RowOutOfRange { row: 2, rows: 2 };
+        assert_eq!(s.row(2), Err(missing.clone()));
+        assert_eq!(s.group([0, 2]), Err(missing.clone()));
+        assert_eq!(s.multipliers([2, 0]), Err(missing.clone()));
+        assert_eq!(s.b_x([2]), Err(missing.clone()));
+        let map = Matrix::identity(1);
+        assert_eq!(s.component(&map, 0, [2]), Err(missing.clone()));
+        assert_eq!(s.unique_directions(&map, [2]), Err(missing));
+        assert!(matches!(
+            s.component(&map, 1, [0]),
+            Err(QueryError::ComponentOutOfRange { .. })
+        ));
+        assert!(matches!(
+            s.component(&map, 0, [0, 1]),
+            Err(QueryError::Length { .. })
+        ));
+        assert!(matches!(
+            s.unique_directions(&map, [0, 1]),
+            Err(QueryError::Length { .. })
+        ));
+        for l in [vec![], vec![1.0], vec![1.0; 3]] {
+            assert!(matches!(s.combination(&l), Err(QueryError::Length { .. })));
+        }
+        for bad in [f64::NAN, f64::INFINITY] {
+            let found = s.combination(&[1.0, bad]);
+            assert!(matches!(found, Err(QueryError::NonFinite { index: 1, .. })));
+        }
+        let bad = Matrix::from_rows(&[[f64::NAN]]);
+        assert!(s.component(&bad, 0, [0]).is_err());
+        assert!(s.unique_directions(&bad, [0]).is_err());
+    }
 }
 
 /// Any bits: an error, or the rank of exact arithmetic.

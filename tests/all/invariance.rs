@@ -147,16 +147,14 @@ fn rows() {
             .collect();
         // Rounding as large as that of recombined rows is noise in both.
         let noise = 1e-14;
-        let judged = |c: &Matrix, groups: &[Vec<usize>]| {
+        let judged = |c: &Matrix, groups: &[Vec<usize>]| -> Vec<&str> {
             let solvability = Solvability::of(c, noise).expect("C is finite");
             assert!(solvability.decision().is_decided());
             let word = |rows: &Vec<usize>| {
-                solvability
-                    .group(rows[0]..rows[rows.len() - 1] + 1)
-                    .verdict
-                    .word()
+                let judgement = solvability.group(rows.iter().copied());
+                judgement.expect("the rows exist").verdict.word()
             };
-            groups.iter().map(word).collect::<Vec<_>>()
+            groups.iter().map(word).collect()
         };
         let expected = judged(&c, &groups);
 

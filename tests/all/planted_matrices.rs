@@ -5,8 +5,7 @@
 
 mod generate;
 
-use std::ops::Range;
-
+use linalg::Matrix;
 use tests::exact::Exact;
 use tests::numbers::Numbers;
 
@@ -42,8 +41,8 @@ fn no_verdict_is_wrong() {
 fn judge(rows: &[Vec<f64>], numbers: &mut Numbers, tally: &mut Tally) {
     let m = rows.len();
     let exact = Exact::of(rows);
-    let solvability = Plain::of_rows(rows);
-    let decision = solvability.decision();
+    let plain = Plain::of_rows(rows);
+    let decision = plain.decision();
     if !decision.is_decided() {
         return tally.undecided(|| format!("{:?} of {rows:?}", decision.status));
     }
@@ -57,37 +56,46 @@ fn judge(rows: &[Vec<f64>], numbers: &mut Numbers, tally: &mut Tally) {
     }
     for i in 0..m {
         let unique = exact.row_is_unique(i);
-        tally.judgement(&solvability.row(i), unique, || {
-            format!("row {i} of {rows:?}")
-        });
+        tally.judgement(&plain.row(i), unique, || format!("row {i} of {rows:?}"));
     }
     for group in partition(m, numbers) {
-        let members: Vec<usize> = group.clone().collect();
-        let unique = exact.freedom(&members) == 0;
-        let found = solvability.group(group.clone());
-        tally.judgement(&found, unique, || format!("wrench {members:?} of {rows:?}"));
-        let unique = members.iter().all(|&i| exact.row_is_unique(i));
-        let found = solvability.multipliers(group);
-        tally.judgement(&found, unique, || {
-            format!("multipliers {members:?} of {rows:?}")
+        let unique = exact.freedom(&group) == 0;
+        tally.judgement(&plain.group(&group), unique, || {
+            format!("wrench {group:?} of {rows:?}")
+        });
+        let freedom = exact.multiplier_freedom(&group);
+        tally.judgement(&plain.multipliers(&group), freedom == 0, || {
+            format!("multipliers {group:?} of {rows:?}")
+        });
+        let directions = plain.unique_directions(&group);
+        tally.number(directions, group.len() - freedom, || {
+            format!("unique directions of {group:?} of {rows:?}")
         });
     }
     for _ in 0..COMBINATIONS {
         let l = combination(rows, numbers);
         let unique = exact.combination_is_unique(&l);
-        let found = solvability.combination(&l);
-        tally.judgement(&found, unique, || format!("{l:?} of {rows:?}"));
+        tally.judgement(&plain.combination(&l), unique, || {
+            format!("{l:?} of {rows:?}")
+        });
+        // The same as a component of all rows.
+        let map = Matrix::from_fn(1, m, |_, i| l[i]);
+        let all: Vec<usize> = (0..m).collect();
+        tally.judgement(&plain.component(&map, 0, &all), unique, || {
+            format!("component {l:?} of {rows:?}")
+        });
     }
 }
 
-/// The rows in groups of one to three.
-fn partition(m: usize, numbers: &mut Numbers) -> Vec<Range<usize>> {
+/// The rows, in any order, in groups of one to three.
+fn partition(m: usize, numbers: &mut Numbers) -> Vec<Vec<usize>> {
+    let order = numbers.order(m);
+    let mut rest = order.as_slice();
     let mut groups = Vec::new();
-    let mut start = 0;
-    while start < m {
-        let end = (start + 1 + numbers.below(3)).min(m);
-        groups.push(start..end);
-        start = end;
+    while !rest.is_empty() {
+        let (group, others) = rest.split_at(rest.len().min(1 + numbers.below(3)));
+        groups.push(group.to_vec());
+        rest = others;
     }
     groups
 }

@@ -51,13 +51,18 @@ fn judge(drawn: &Drawn, tally: &mut Tally) {
     tally.number(analysis.decision.rank, exact.rank(), || {
         format!("rank of {sketch:?}")
     });
-    let (holonomic, nonholonomic) = ranks_apart(sketch);
-    tally.number(analysis.rank_holonomic, holonomic, || {
-        format!("rank of Φq of {sketch:?}")
-    });
-    tally.number(analysis.rank_nonholonomic, nonholonomic, || {
-        format!("rank of Ψ of {sketch:?}")
-    });
+    if analysis.warnings.is_empty() {
+        let (holonomic, nonholonomic) = ranks_apart(sketch);
+        tally.number(analysis.rank_holonomic, holonomic, || {
+            format!("rank of Φq of {sketch:?}")
+        });
+        tally.number(analysis.rank_nonholonomic, nonholonomic, || {
+            format!("rank of Ψ of {sketch:?}")
+        });
+    } else {
+        // The rank of Φq or of Ψ alone.
+        tally.undecided(|| format!("{:?} of {sketch:?}", analysis.warnings));
+    }
 
     let mut first = 0;
     for block in &blocks {
