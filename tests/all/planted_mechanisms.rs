@@ -9,7 +9,7 @@ use model::Mechanism;
 use solvability::analyse;
 use tests::exact::{Dyadic, Exact};
 use tests::numbers::Numbers;
-use tests::sketch::Sketch;
+use tests::sketch::{Sketch, Tie};
 
 use crate::tally::{Tally, cases};
 use generate::{Drawn, Kind};
@@ -89,6 +89,11 @@ fn judge(drawn: &Drawn, tally: &mut Tally) {
             });
         }
         let directions = found.components.len() - freedom;
+        if directions > 0 && found.unique_directions.is_empty() {
+            // Empty also where their number is in doubt.
+            tally.undecided(|| format!("unique directions of {name} of {sketch:?}"));
+            continue;
+        }
         tally.number(found.unique_directions.len(), directions, || {
             format!("unique directions of {name} of {sketch:?}")
         });
@@ -103,4 +108,32 @@ fn ranks_apart(sketch: &Sketch) -> (usize, usize) {
         Exact::of_dyadic(&own.flat_map(|(block, _)| block.rows).collect::<Vec<_>>()).rank()
     };
     (rank_where(false), rank_where(true))
+}
+
+/// One body on three parallel edges, at many headings. Where a heading makes the normals those of an axis but for rounding, a column
+/// of C holds nothing but that rounding: it must not count.
+#[test]
+fn parallel_edges_at_any_heading() {
+    let mut numbers = Numbers::new(SEED);
+    let wrong: Vec<f64> = (0..2000)
+        .map(|_| 3.0 * numbers.unit())
+        .filter(|&angle| {
+            let mut sketch = Sketch::default();
+            let cart = sketch.body([0.0; 2], angle);
+            // The same normal, rounded in three ways.
+            for (at, length) in [([-1.0, 1.5], 1.0), ([0.5, -2.0], 3.0), ([2.0, 1.0], 7.0)] {
+                let normal = [0.0, length];
+                sketch.link(&[cart], Tie::KnifeEdge { at, normal });
+            }
+            let mechanism = Mechanism::build(&sketch.description()).expect("the cart builds");
+            let (q, _) = mechanism.described_state();
+            let decision = analyse(&mechanism, 0.0, &q).expect("finite").decision;
+            decision.is_decided() && decision.rank != 2
+        })
+        .collect();
+    assert!(
+        wrong.is_empty(),
+        "rank 3 at {} headings: {wrong:?}",
+        wrong.len()
+    );
 }

@@ -255,7 +255,7 @@ impl Pen<'_> {
         if self.numbers.once_in(2) {
             let (wheel, at) = (self.body(), self.point());
             self.sketch.link(&[bodies[0], wheel], Tie::Revolute { at });
-            let (direction, radius) = ([0.6, 0.8], self.size);
+            let (direction, radius) = ([0.0, 1.0], self.size);
             self.sketch.link(
                 &[bodies[0], wheel],
                 Tie::Rolling {
