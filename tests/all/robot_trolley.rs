@@ -319,7 +319,7 @@ fn steered_edges_at_a_right_angle_split_the_circuits() {
         let (w3, w4) = (19, 20);
         let others: Vec<usize> = (0..22).filter(|&i| i != w4).collect();
         let without_w4 = Solvability::of(&c.select_rows(&others), 0.0).expect("C is finite");
-        assert_eq!(without_w4.row(w3).verdict.word(), "unique");
+        assert_eq!(without_w4.row(w3).expect("a row").verdict.word(), "unique");
         assert_eq!(admissible_pairs(&p, 1.0, &q), {
             let mut pairs = product(&[3, 5, 18, 19]);
             pairs.retain(|p| *p != [20, 21]);
@@ -352,12 +352,18 @@ fn directions_and_sums_that_are_unique() {
     let (b, w1, w3, w4) = (2..4, 17, 19, 20);
     let frame = linalg::Matrix::from_rows(&[edge, normal]);
     assert_eq!(
-        s.component(&frame, 0, b.clone()).verdict.word(),
+        s.component(&frame, 0, b.clone())
+            .expect("rows exist")
+            .verdict
+            .word(),
         "unique",
         "B along the edge of W1"
     );
     assert_eq!(
-        s.component(&frame, 1, b).verdict.word(),
+        s.component(&frame, 1, b)
+            .expect("rows exist")
+            .verdict
+            .word(),
         "not_unique",
         "B across the edge of W1"
     );
@@ -366,14 +372,18 @@ fn directions_and_sums_that_are_unique() {
         let mut sum = vec![0.0; 22];
         (sum[2 + k], sum[w1]) = (1.0, -normal[k]);
         assert_eq!(
-            s.combination(&sum).verdict.word(),
+            s.combination(&sum).expect("rows exist").verdict.word(),
             "unique",
             "B + W1, component {k}"
         );
     }
     let mut sum = vec![0.0; 22];
     (sum[w3], sum[w4]) = (1.0, 1.0);
-    assert_eq!(s.combination(&sum).verdict.word(), "not_unique", "W3 + W4");
+    assert_eq!(
+        s.combination(&sum).expect("rows exist").verdict.word(),
+        "not_unique",
+        "W3 + W4"
+    );
 }
 
 #[test]
@@ -385,7 +395,10 @@ fn near_the_axis_the_margin_is_the_sine_of_the_angle() {
         .find(|r| (r.t - 1.1).abs() < 1e-9)
         .expect("a row at this time");
     let (_, s) = solvability_at(&p, row.t, &row.q);
-    let (x, y) = (s.row(2).margin, s.row(3).margin);
+    let (x, y) = (
+        s.row(2).expect("row 2").margin,
+        s.row(3).expect("row 3").margin,
+    );
     let front = row.q[5];
     assert!(front.abs() < 0.01, "{front}");
     assert!(

@@ -217,7 +217,7 @@ fn four_parallel_edges() {
     let (a, s) = four_edges(0.0);
     assert_ranks(&a, 4, 2);
     assert!(words(&a).iter().all(|(_, word)| *word == "not_unique"));
-    let word = |l: [f64; 4]| s.combination(&l).verdict.word();
+    let word = |l: [f64; 4]| s.combination(&l).expect("four rows").verdict.word();
     assert_eq!(word([1.0, 1.0, 0.0, 0.0]), "unique", "front pair");
     assert_eq!(word([0.0, 0.0, 1.0, 1.0]), "unique", "rear pair");
     assert_eq!(word([1.0, 0.0, 1.0, 0.0]), "not_unique", "left pair");
@@ -239,7 +239,10 @@ fn parallel_steered_edges() {
         words(&a)
     );
     assert_eq!(
-        s.combination(&[0.0, 0.0, 1.0, 1.0]).verdict.word(),
+        s.combination(&[0.0, 0.0, 1.0, 1.0])
+            .expect("rows exist")
+            .verdict
+            .word(),
         "unique"
     );
 }
