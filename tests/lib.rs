@@ -2,7 +2,10 @@
 //! are in `all/`.
 
 pub mod cranks;
+pub mod exact;
+pub mod numbers;
 pub mod robot;
+pub mod sketch;
 
 /// Examples of pages that belong to no library, compiled as doc tests.
 #[cfg(doctest)]

@@ -2,14 +2,22 @@
 
 mod allocations;
 mod along_motion;
+mod bad_matrices;
 mod choices;
 mod deletions;
+mod exact_oracle;
 mod existence;
 mod generic;
 mod granularity;
+mod invariance;
+mod nearly_redundant;
+mod plain;
+mod planted_matrices;
+mod planted_mechanisms;
 mod robot_trolley;
 mod second_order;
 mod singular_passages;
+mod tally;
 mod three_cranks;
 mod tidy;
 mod verdict_catalogue;

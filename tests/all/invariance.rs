@@ -1,0 +1,224 @@
+//! Verdicts do not depend on how a mechanism is written down: order, scaling and recombination of rows, order of bodies, units, place,
+//! frame, masses, loads, speed.
+
+use linalg::Matrix;
+use model::{BodyRef, Description, Mechanism, System};
+use solvability::{Analysis, Solvability, analyse};
+use tests::cranks::cranks;
+use tests::numbers::Numbers;
+use tests::robot::{robot_of_size, steering_of_size};
+use tests::sketch::Sketch;
+
+use crate::planted_mechanisms::generate::{Kind, draw};
+
+const SEED: u64 = 18_112_026;
+
+/// Random mechanisms of each kind.
+const EACH: usize = 50;
+
+/// What is said of a reaction whatever the frame: the words for its wrench and its multipliers, and the number of its unique directions.
+type Said = (String, &'static str, &'static str, usize);
+
+/// The verdicts of a configuration, by name: ranks, then every reaction.
+fn said(a: &Analysis) -> ([usize; 4], Vec<Said>) {
+    assert!(a.decision.is_decided(), "{:?}", a.decision.status);
+    let mut reactions: Vec<Said> = a
+        .reactions
+        .iter()
+        .map(|r| {
+            let (wrench, multipliers) = (r.wrench.verdict.word(), r.multipliers.verdict.word());
+            (
+                r.name.clone(),
+                wrench,
+                multipliers,
+                r.unique_directions.len(),
+            )
+        })
+        .collect();
+    reactions.sort();
+    let ranks = [
+        a.rank_holonomic,
+        a.rank_nonholonomic,
+        a.decision.rank,
+        a.decision.redundancy,
+    ];
+    (ranks, reactions)
+}
+
+fn analysed(d: &Description) -> Analysis {
+    let mechanism = Mechanism::build(d).expect("the mechanism builds");
+    let (q, _) = mechanism.described_state();
+    analyse(&mechanism, 0.0, &q).expect("C is finite")
+}
+
+/// Three cranks, and mechanisms of every kind that is not many sizes at once.
+fn sketches(numbers: &mut Numbers) -> Vec<Sketch> {
+    let kinds = Kind::ALL.into_iter().filter(|k| *k != Kind::Sizes);
+    kinds
+        .flat_map(|kind| [kind; EACH])
+        .map(|kind| draw(kind, numbers).sketch)
+        .collect()
+}
+
+fn assert_same(what: &str, changes: impl Fn(&Sketch, &mut Numbers) -> Vec<Sketch>) {
+    let mut numbers = Numbers::new(SEED);
+    for sketch in sketches(&mut numbers) {
+        let expected = said(&analysed(&sketch.description()));
+        for changed in changes(&sketch, &mut numbers) {
+            assert_eq!(
+                said(&analysed(&changed.description())),
+                expected,
+                "{what}: {sketch:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn order_of_bodies_and_joints() {
+    assert_same("order", |sketch, numbers| {
+        let bodies = numbers.order(sketch.bodies.len());
+        let links = numbers.order(sketch.links.len());
+        vec![sketch.with_bodies(&bodies).with_links(&links)]
+    });
+}
+
+/// Metres or millimetres, micrometres, megametres: sizes of mechanisms as well.
+#[test]
+fn units_of_length() {
+    assert_same("length", |sketch, _| {
+        [1e-6, 1e3, 1e6].map(|f| sketch.scaled(f)).to_vec()
+    });
+}
+
+#[test]
+fn place() {
+    assert_same("place", |sketch, _| {
+        vec![sketch.moved([1e6, -3e5]), sketch.moved([-0.3, 1e3])]
+    });
+}
+
+#[test]
+fn frame() {
+    assert_same("frame", |sketch, _| {
+        [0.3, 1.0, -2.5].map(|a| sketch.turned(a)).to_vec()
+    });
+}
+
+/// Kilograms or grams, seconds or milliseconds; any masses, loads and speeds.
+#[test]
+fn masses_loads_and_speed() {
+    let mut numbers = Numbers::new(SEED);
+    for sketch in sketches(&mut numbers) {
+        let mut d = sketch.description();
+        let expected = said(&analysed(&d));
+        for _ in 0..2 {
+            d.gravity = [10.0 * numbers.unit(), -9.81e-3];
+            for body in &mut d.bodies {
+                body.mass = 10_f64.powi(numbers.between(-9, 9));
+                body.inertia = 10_f64.powi(numbers.between(-9, 9));
+                body.velocity = [1e3 * numbers.unit(), numbers.unit()];
+                body.angular_velocity = 100.0 * numbers.unit();
+            }
+            assert_eq!(said(&analysed(&d)), expected);
+        }
+    }
+}
+
+/// Order, scaling, and recombination inside a joint, of the rows of the robot, the cranks and random mechanisms.
+#[test]
+fn rows() {
+    let mut numbers = Numbers::new(SEED);
+    let robot = robot_of_size(1.0, steering_of_size(1.0));
+    let three = cranks(&[0.0, 1.0, 1.7], 0.5, 1.0);
+    let random = sketches(&mut numbers).into_iter().map(|s| s.description());
+    for d in [robot, three].into_iter().chain(random) {
+        let mechanism = Mechanism::build(&d).expect("the mechanism builds");
+        let (q, _) = mechanism.described_state();
+        let mut s = mechanism.scratch();
+        mechanism.pose(0.0, &q, &mut s);
+        mechanism.c(&mut s);
+        let c = mechanism.layout().dense(&s);
+        let groups: Vec<Vec<usize>> = mechanism
+            .layout()
+            .groups
+            .iter()
+            .map(|g| g.rows.clone().collect())
+            .collect();
+        // Rounding as large as that of recombined rows is noise in both.
+        let noise = 1e-14;
+        let judged = |c: &Matrix, groups: &[Vec<usize>]| -> Vec<&str> {
+            let solvability = Solvability::of(c, noise).expect("C is finite");
+            assert!(solvability.decision().is_decided());
+            let word = |rows: &Vec<usize>| {
+                let judgement = solvability.group(rows.iter().copied());
+                judgement.expect("the rows exist").verdict.word()
+            };
+            groups.iter().map(word).collect()
+        };
+        let expected = judged(&c, &groups);
+
+        // Joints in another order, the rows of each mixed and scaled.
+        let order = numbers.order(groups.len());
+        let (mut rows, mut changed) = (Vec::new(), vec![Vec::new(); groups.len()]);
+        for &g in &order {
+            changed[g] = (rows.len()..rows.len() + groups[g].len()).collect();
+            rows.extend(mixed(&c, &groups[g], &mut numbers));
+        }
+        let other = Matrix::from_fn(rows.len(), c.ncols(), |i, k| rows[i][k]);
+        assert_eq!(judged(&other, &changed), expected, "{}", d.name);
+    }
+}
+
+/// Some rows times a matrix with a strong diagonal, scaled over 1e±6.
+fn mixed(c: &Matrix, rows: &[usize], numbers: &mut Numbers) -> Vec<Vec<f64>> {
+    let mut out = Vec::new();
+    for &i in rows {
+        let scale = 10_f64.powi(numbers.between(-6, 6));
+        let mut row: Vec<f64> = c.row(i).iter().map(|x| 4.0 * scale * x).collect();
+        for &l in rows {
+            let factor = scale * numbers.unit();
+            for (x, y) in row.iter_mut().zip(c.row(l)) {
+                *x += factor * y;
+            }
+        }
+        out.push(row);
+    }
+    out
+}
+
+/// The robot at any heading and place, in any size: it touches no ground, so it may be moved as a whole.
+#[test]
+fn robot_anywhere() {
+    let facts = |size: f64, by: [f64; 2], angle: f64| {
+        let mut d = robot_of_size(size, steering_of_size(size));
+        let (sin, cos) = f64::sin_cos(angle);
+        for body in &mut d.bodies {
+            let [x, y] = body.position;
+            body.position = [by[0] + cos * x - sin * y, by[1] + sin * x + cos * y];
+            body.angle += angle;
+        }
+        assert!(
+            d.joints
+                .iter()
+                .all(|j| !j.bodies.contains(&BodyRef::Ground))
+        );
+        said(&analysed(&d))
+    };
+    let expected = facts(1.0, [0.0; 2], 0.0);
+    assert_eq!(expected.0, [17, 4, 20, 2]);
+    for (size, by, angle) in [
+        (1.0, [1e6, -2e6], 0.0),
+        (1.0, [0.0; 2], 0.7),
+        (1.0, [0.0; 2], std::f64::consts::FRAC_PI_2),
+        (1e3, [3e3, 1e4], -2.0),
+        (1e-6, [0.0; 2], 1e-9),
+        (1e-3, [1.0, 1.0], 3.0),
+    ] {
+        assert_eq!(
+            facts(size, by, angle),
+            expected,
+            "size {size}, at {by:?}, turned {angle}"
+        );
+    }
+}

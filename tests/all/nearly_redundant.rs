@@ -1,0 +1,218 @@
+//! The third of three parallel cranks misaligned by ε, from 1e-3 to 1e-20: full rank in exact arithmetic for every ε, with reactions of
+//! size 1/ε, until ε is less than what the data are known to. No answer in between may be wrong.
+//!
+//! ε stands in place of a zero in the frames of the crank and of the coupler, and their axes are those of the ground, so that the
+//! constraint matrix holds it whatever its size.
+
+use joints::Revolute;
+use linalg::{Grounds, Matrix};
+use model::{Body, BodyRef, Description, Joint, Mechanism, System};
+use solvability::{Analysis, Verdict, analyse};
+use tests::exact::Exact;
+
+use crate::plain::Plain;
+
+/// Length of the cranks and distance of their pivots (m).
+const LENGTH: f64 = 1.0;
+
+/// Some thousand roundings of numbers of size one: σ₁₂ is about ε/10, and the noise of 12 × 12 entries about 10⁻¹⁴. Above it no
+/// misalignment may be taken for rounding.
+const ROUNDING: f64 = 1e-12;
+
+/// Misalignments that may stay undecided where the rank is certified: between what the data are known to and four times as much.
+const UNDECIDED: usize = 2;
+
+/// Vertical cranks under a coupler whose frame is at the tip of the third crank. That tip misses by ε on both bodies, so
+/// all points coincide but the crank is not parallel to the others.
+fn misaligned(error: f64) -> Mechanism {
+    let body = |name: String, position: [f64; 2]| Body {
+        name,
+        mass: 1.0,
+        inertia: 0.1,
+        position,
+        ..Body::default()
+    };
+    let pivots = [-2.0 * LENGTH, -LENGTH, 0.0];
+    let (half, coupler) = (0.5 * LENGTH, BodyRef::Body(3));
+    let mut d = Description {
+        name: "misaligned cranks".into(),
+        ..Description::default()
+    };
+    for (k, x) in pivots.into_iter().enumerate() {
+        let (crank, miss) = (BodyRef::Body(k), if k == 2 { error } else { 0.0 });
+        d.bodies.push(body(format!("crank {k}"), [x, half]));
+        let (s_i, s_j) = ([x, 0.0], [0.0, -half]);
+        let pivot = Revolute { s_i, s_j };
+        d.joints.push(Joint::new(
+            &format!("pivot {k}"),
+            &[BodyRef::Ground, crank],
+            pivot,
+        ));
+        let (s_i, s_j) = ([miss, half], [x + miss, 0.0]);
+        let tip = Revolute { s_i, s_j };
+        d.joints
+            .push(Joint::new(&format!("tip {k}"), &[crank, coupler], tip));
+    }
+    d.bodies.push(body("coupler".into(), [0.0, LENGTH]));
+    Mechanism::build(&d).expect("the cranks build")
+}
+
+/// C of the mechanism at its described configuration.
+fn constraint_matrix(mechanism: &Mechanism) -> Matrix {
+    let (q, _) = mechanism.described_state();
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, &q, &mut s);
+    mechanism.phi(&mut s);
+    assert!(s.phi.iter().all(|phi| *phi == 0.0), "{:?}", s.phi);
+    mechanism.c(&mut s);
+    mechanism.layout().dense(&s)
+}
+
+fn exact_rank(c: &Matrix) -> usize {
+    let rows: Vec<&[f64]> = (0..c.nrows()).map(|i| c.row(i)).collect();
+    Exact::of(&rows).rank()
+}
+
+fn analysed(mechanism: &Mechanism) -> Analysis {
+    let (q, _) = mechanism.described_state();
+    analyse(mechanism, 0.0, &q).expect("C is finite")
+}
+
+/// 1e-3, 3e-4, … 1e-20.
+fn misalignments() -> impl Iterator<Item = f64> {
+    (3..=20).flat_map(|k| [10_f64.powi(-k), 3.0 * 10_f64.powi(-k - 1)])
+}
+
+/// The judge: one part in 10²⁰, or in 10³⁰⁰, is full rank; none is not.
+#[test]
+fn the_matrix_holds_the_misalignment() {
+    for error in misalignments().chain([1e-100, 1e-300]) {
+        assert_eq!(
+            exact_rank(&constraint_matrix(&misaligned(error))),
+            12,
+            "ε = {error:e}"
+        );
+    }
+    assert_eq!(exact_rank(&constraint_matrix(&misaligned(0.0))), 11);
+}
+
+/// A plain matrix means what it says.
+#[test]
+fn plain_matrices_have_full_rank_for_any_misalignment() {
+    for error in misalignments().chain([1e-100, 1e-300]) {
+        let c = constraint_matrix(&misaligned(error));
+        let s = Plain::of(&c);
+        assert!(s.decision().is_decided(), "ε = {error:e}");
+        assert_eq!(s.decision().rank, 12, "ε = {error:e}");
+        assert!(
+            (0..12).all(|i| s.row(i).verdict.is_unique()),
+            "ε = {error:e}"
+        );
+    }
+    let s = Plain::of(&constraint_matrix(&misaligned(0.0)));
+    assert_eq!(s.decision().rank, 11);
+    // Vertical cranks: forces along them are free, across them not.
+    let found: Vec<bool> = (0..12).map(|i| s.row(i).verdict.is_unique()).collect();
+    assert_eq!(found, [true, false].repeat(6));
+}
+
+/// What the tool says of a mechanism: redundant, of full rank, or neither.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Said {
+    Redundant,
+    FullRank,
+    Undecided,
+}
+
+fn said(analysis: &Analysis) -> Said {
+    match analysis.decision.redundancy {
+        _ if !analysis.decision.is_decided() => Said::Undecided,
+        0 => Said::FullRank,
+        _ => Said::Redundant,
+    }
+}
+
+/// The data of a mechanism are known to their rounding at best: there, and only there, a misaligned crank may be called redundant.
+#[test]
+fn mechanisms_are_redundant_only_within_what_their_data_are_known_to() {
+    let (mut before, mut undecided) = (Said::FullRank, 0);
+    for error in misalignments() {
+        let analysis = analysed(&misaligned(error));
+        let found = said(&analysis);
+        match found {
+            Said::FullRank => assert!(
+                analysis
+                    .reactions
+                    .iter()
+                    .all(|r| r.wrench.verdict.is_unique())
+            ),
+            Said::Redundant => {
+                assert!(error < ROUNDING, "ε = {error:e} is no rounding");
+                assert_eq!(analysis.decision.redundancy, 1);
+                assert!(
+                    analysis
+                        .reactions
+                        .iter()
+                        .all(|r| r.wrench.verdict == Verdict::NotUnique)
+                );
+            }
+            Said::Undecided => {
+                undecided += 1;
+                assert!(
+                    analysis
+                        .reactions
+                        .iter()
+                        .all(|r| !r.wrench.verdict.is_unique())
+                );
+            }
+        }
+        check_certificate(&analysis, found, error);
+        if error >= 1e-6 {
+            assert_eq!(found, Said::FullRank, "ε = {error:e}");
+        }
+        if error <= 1e-17 {
+            assert_eq!(found, Said::Redundant, "ε = {error:e}");
+        }
+        // As ε falls: full rank, undecided, redundant.
+        let order = |said: Said| {
+            [Said::FullRank, Said::Undecided, Said::Redundant]
+                .iter()
+                .position(|s| *s == said)
+        };
+        assert!(
+            order(found) >= order(before),
+            "ε = {error:e}: {found:?} after {before:?}"
+        );
+        before = found;
+    }
+    let aligned = analysed(&misaligned(0.0));
+    assert_eq!(said(&aligned), Said::Redundant);
+    assert_eq!(aligned.decision.rank, 11);
+    if let Some(certificate) = &aligned.decision.evidence.certificate {
+        assert_eq!(certificate.grounds, Grounds::Vanishes);
+        assert!(undecided <= UNDECIDED, "{undecided} undecided");
+    }
+}
+
+/// What a certificate must say, where the rank is certified: on which grounds a misaligned crank is redundant, and how large the
+/// reactions are where it is not.
+fn check_certificate(analysis: &Analysis, found: Said, error: f64) {
+    let decision = &analysis.decision;
+    let Some(certificate) = &decision.evidence.certificate else {
+        return;
+    };
+    match found {
+        Said::Redundant => assert_eq!(certificate.grounds, Grounds::WithinData, "ε = {error:e}"),
+        Said::FullRank => {
+            assert_eq!(certificate.grounds, Grounds::FullRank, "ε = {error:e}");
+            assert_eq!(certificate.rank_at_least, 12, "ε = {error:e}");
+            // σ₁₂ is about ε/10.
+            let near = decision.nearly_redundant();
+            assert!(near.is_some() || error > 1e-6, "ε = {error:e}");
+            if let Some(near) = near {
+                assert!((0.01..1.0).contains(&(near.sigma / error)), "{near:?}");
+            }
+        }
+        Said::Undecided => {}
+    }
+}

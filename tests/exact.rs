@@ -1,0 +1,152 @@
+//! The judge of the suites: verdicts in exact arithmetic. An `f64` is a whole number times a power of two, so a matrix of them
+//! has one rank, one left null space and one verdict for each of its rows. Shares no code and no idea with the crates it judges:
+//! no floating point, no prime field, no singular value.
+
+mod dyadic;
+mod elimination;
+
+pub use dyadic::Dyadic;
+
+use num_bigint::BigInt;
+use num_traits::Zero;
+
+use elimination::eliminate;
+
+/// Rank and left null space of a matrix, exactly.
+///
+/// ```
+/// use tests::exact::Exact;
+/// // Rows 0 and 1 say the same but for one part in 2⁶⁶⁴; row 2 is their sum.
+/// let tiny = 2_f64.powi(-664);
+/// let exact = Exact::of(&[[1.0, 0.0], [1.0, tiny], [2.0, tiny]]);
+/// assert_eq!(exact.rank(), 2);
+/// assert!(!exact.row_is_unique(0));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Exact {
+    /// Whole numbers: row i of the matrix is row i of these times `2^row_exponents[i]` times a power of two for each column.
+    rows: Vec<Vec<BigInt>>,
+    row_exponents: Vec<i64>,
+    rank: usize,
+    /// Basis of the vectors z with `zᵀ·rows = 0`, one in each row.
+    z: Vec<Vec<BigInt>>,
+}
+
+impl Exact {
+    /// The matrix with these rows, all of one length.
+    ///
+    /// # Panics
+    /// If an entry is not finite.
+    pub fn of<R: AsRef<[f64]>>(rows: &[R]) -> Self {
+        let dyadic = |row: &R| row.as_ref().iter().map(|&x| Dyadic::from(x)).collect();
+        Self::of_dyadic(&rows.iter().map(dyadic).collect::<Vec<_>>())
+    }
+
+    /// The same for dyadic entries.
+    #[must_use]
+    pub fn of_dyadic(matrix: &[Vec<Dyadic>]) -> Self {
+        let (rows, row_exponents) = whole(matrix);
+        let m = rows.len();
+        let n = rows.first().map_or(0, Vec::len);
+        // What turns the left part to zero stands in the right part.
+        let with_identity = rows.iter().enumerate().map(|(i, row)| {
+            let identity = (0..m).map(|l| BigInt::from(u8::from(l == i)));
+            row.iter().cloned().chain(identity).collect()
+        });
+        let (rank, reduced) = eliminate(with_identity.collect(), n);
+        let z = reduced[rank..].iter().map(|row| row[n..].to_vec());
+        Self {
+            rank,
+            z: z.collect(),
+            rows,
+            row_exponents,
+        }
+    }
+
+    /// r
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        self.rank
+    }
+
+    /// Whether row `i` is in no dependency: `Z_i = 0`.
+    #[must_use]
+    pub fn row_is_unique(&self, i: usize) -> bool {
+        self.z.iter().all(|z| z[i].is_zero())
+    }
+
+    /// Rank of `B_X = C_Xᵀ·Z_X`: in so many directions the reaction of the rows X is not unique.
+    #[must_use]
+    pub fn freedom(&self, rows: &[usize]) -> usize {
+        let n = self.rows.first().map_or(0, Vec::len);
+        let b_x = |z: &Vec<BigInt>| {
+            let entry = |k: usize| rows.iter().map(|&i| &self.rows[i][k] * &z[i]).sum();
+            (0..n).map(entry).collect()
+        };
+        eliminate(self.z.iter().map(b_x).collect(), n).0
+    }
+
+    /// Rank of `Z_X`: in so many directions the multipliers of the rows X are not unique.
+    #[must_use]
+    pub fn multiplier_freedom(&self, rows: &[usize]) -> usize {
+        let z_x = |z: &Vec<BigInt>| rows.iter().map(|&i| z[i].clone()).collect();
+        eliminate(self.z.iter().map(z_x).collect(), rows.len()).0
+    }
+
+    /// Whether `ℓᵀ·λ` is unique: `ℓᵀ·Z = 0`.
+    ///
+    /// # Panics
+    /// If a coefficient is not finite.
+    #[must_use]
+    pub fn combination_is_unique(&self, l: &[f64]) -> bool {
+        // `2^−row_exponents` times z annihilates the rows as they were given.
+        let term = |(i, z): (usize, &BigInt)| {
+            Dyadic::from(l[i]).times(&Dyadic::new(z.clone(), -self.row_exponents[i]))
+        };
+        let sum = |z: &Vec<BigInt>| {
+            let terms = z.iter().enumerate().map(term);
+            terms.fold(Dyadic::from(0.0), |a, b| a.plus(&b))
+        };
+        self.z.iter().all(|z| sum(z).is_zero())
+    }
+}
+
+/// Whole numbers made small by powers of two for rows and columns, and the exponents of the rows.
+fn whole(matrix: &[Vec<Dyadic>]) -> (Vec<Vec<BigInt>>, Vec<i64>) {
+    let n = matrix.first().map_or(0, Vec::len);
+    let entries: Vec<(usize, usize, i64)> = matrix
+        .iter()
+        .enumerate()
+        .flat_map(|(i, row)| row.iter().enumerate().map(move |(k, x)| (i, k, x)))
+        .filter_map(|(i, k, x)| Some((i, k, x.exponent()?)))
+        .collect();
+    let (mut down, mut across) = (vec![0; matrix.len()], vec![0; n]);
+    for _ in 0..SWEEPS {
+        let above = entries.iter().map(|&(i, k, e)| (i, e - across[k]));
+        down = means(matrix.len(), above);
+        let above = entries.iter().map(|&(i, k, e)| (k, e - down[i]));
+        across = means(n, above);
+    }
+    // No exponent may stay negative.
+    for (i, e) in down.iter_mut().enumerate() {
+        let own = entries.iter().filter(|entry| entry.0 == i);
+        *e = own.map(|&(_, k, e)| e - across[k]).min().unwrap_or(0);
+    }
+    let rows = matrix.iter().zip(&down).map(|(row, down)| {
+        let entries = row.iter().zip(&across);
+        entries.map(|(x, k)| x.over_power(down + k)).collect()
+    });
+    (rows.collect(), down)
+}
+
+/// Sweeps that bring the powers of two of rows and columns near their least-squares values; more would only save time.
+const SWEEPS: usize = 12;
+
+/// The mean of the values at each place.
+fn means(n: usize, values: impl Iterator<Item = (usize, i64)>) -> Vec<i64> {
+    let mut sums = vec![(0, 0); n];
+    for (place, value) in values {
+        sums[place] = (sums[place].0 + value, sums[place].1 + 1);
+    }
+    sums.iter().map(|&(sum, n)| sum / n.max(1)).collect()
+}

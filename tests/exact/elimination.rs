@@ -1,0 +1,51 @@
+//! Elimination without fractions.
+
+use num_bigint::BigInt;
+use num_traits::{One, Zero};
+
+/// Brings the first `columns` columns to echelon form by exchanging rows and adding multiples of rows to others; returns the
+/// rank r of these columns and the rows. The first r rows are the pivot rows, in the others these columns are zero.
+///
+/// Source: E. H. Bareiss, Sylvester's identity and multistep integer-preserving Gaussian elimination, Math. Comp. 22 (1968): all
+/// entries stay minors of the matrix, `row ← (d_k·row − b·pivot row)/d_{k−1}`. Here a row is left alone while its b is zero: after ℓ
+/// steps it is divided by `d_ℓ`, and a pivot row is brought to `d_{k−1}` first. Sparse matrices stay sparse and small.
+pub(super) fn eliminate(mut rows: Vec<Vec<BigInt>>, columns: usize) -> (usize, Vec<Vec<BigInt>>) {
+    let mut determinants = vec![BigInt::one()];
+    let mut steps = vec![0; rows.len()];
+    for k in 0..columns {
+        let r = determinants.len() - 1;
+        let candidates = (r..rows.len()).filter(|&i| !rows[i][k].is_zero());
+        let Some(best) =
+            candidates.min_by_key(|&i| rows[i].iter().filter(|x| !x.is_zero()).count())
+        else {
+            continue;
+        };
+        rows.swap(r, best);
+        steps.swap(r, best);
+        if steps[r] != r {
+            for x in rows[r].iter_mut().filter(|x| !x.is_zero()) {
+                *x = &*x * &determinants[r] / &determinants[steps[r]];
+            }
+        }
+        let (pivots, others) = rows.split_at_mut(r + 1);
+        let pivot_row = &pivots[r];
+        for (row, done) in others.iter_mut().zip(&mut steps[r + 1..]) {
+            if row[k].is_zero() {
+                continue;
+            }
+            let b = row[k].clone();
+            for (x, y) in row[k..].iter_mut().zip(&pivot_row[k..]) {
+                match (x.is_zero(), y.is_zero()) {
+                    (true, true) => continue,
+                    (false, true) => *x *= &pivot_row[k],
+                    (true, false) => *x = -(&b * y),
+                    (false, false) => *x = &*x * &pivot_row[k] - &b * y,
+                }
+                *x /= &determinants[*done];
+            }
+            *done = r + 1;
+        }
+        determinants.push(pivot_row[k].clone());
+    }
+    (determinants.len() - 1, rows)
+}

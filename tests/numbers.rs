@@ -1,0 +1,61 @@
+//! A seeded stream of test numbers, the same on every machine.
+
+/// SplitMix64 (Steele, Lea, Flood 2014, doi 10.1145/2714064.2660195).
+#[derive(Clone, Debug)]
+pub struct Numbers(u64);
+
+impl Numbers {
+    /// The stream of a seed.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next 64 bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// In [−1, 1).
+    pub fn unit(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    /// In 0..n.
+    ///
+    /// # Panics
+    /// If n is 0.
+    pub fn below(&mut self, n: usize) -> usize {
+        assert!(n > 0, "nothing is below 0");
+        (self.bits() % n as u64) as usize
+    }
+
+    /// In low..=high.
+    ///
+    /// # Panics
+    /// If low > high.
+    pub fn between(&mut self, low: i32, high: i32) -> i32 {
+        assert!(low <= high, "nothing lies between {low} and {high}");
+        low + self.below((high - low + 1) as usize) as i32
+    }
+
+    /// True once in n times.
+    ///
+    /// # Panics
+    /// If n is 0.
+    pub fn once_in(&mut self, n: usize) -> bool {
+        self.below(n) == 0
+    }
+
+    /// 0..n in a random order.
+    pub fn order(&mut self, n: usize) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..n).collect();
+        for i in (1..n).rev() {
+            order.swap(i, self.below(i + 1));
+        }
+        order
+    }
+}

@@ -1,0 +1,272 @@
+//! Mechanisms drawn at one configuration: joints are given by global points and directions there, so that the same drawing gives
+//! a mechanism of the `model`, its constraint matrix in exact arithmetic by another way, and the same mechanism in other
+//! units, at another place, turned, or in another order.
+
+mod change;
+mod rows;
+
+pub use rows::ExactRows;
+
+use joints::{
+    Angle, Direction, Distance, Fixed, Gear, KnifeEdge, PinInSlot, Pose, RackAndPinion, Revolute,
+    RevoluteAngleDrive, Rolling, Translational, TranslationalDisplacementDrive,
+};
+use model::{Body, BodyRef, Description, Drive, Function, Joint, PlaneConstraint};
+
+/// A point or vector, global.
+pub type Vector = [f64; 2];
+
+/// A mechanism at one configuration.
+#[derive(Clone, Debug, Default)]
+pub struct Sketch {
+    /// Bodies at this configuration.
+    pub bodies: Vec<Body>,
+    /// Joints and drives.
+    pub links: Vec<Link>,
+}
+
+/// A joint or drive.
+#[derive(Clone, Debug)]
+pub struct Link {
+    /// Its name.
+    pub name: String,
+    /// One body for each slot.
+    pub bodies: Vec<BodyRef>,
+    /// What it is, and where.
+    pub tie: Tie,
+}
+
+/// What a joint or drive does, at global points `at` (on the first body `from`), along global directions of any length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Tie {
+    /// Both bodies share a point.
+    Revolute {
+        /// The point.
+        at: Vector,
+    },
+    /// A slider of the second body on a line of the first.
+    Translational {
+        /// A point of the line.
+        from: Vector,
+        /// The slider.
+        at: Vector,
+        /// The line.
+        axis: Vector,
+    },
+    /// A weld.
+    Fixed {
+        /// The place.
+        at: Vector,
+    },
+    /// A pin of the second body in a slot of the first.
+    PinInSlot {
+        /// A point of the slot.
+        from: Vector,
+        /// The pin.
+        at: Vector,
+        /// The slot.
+        axis: Vector,
+    },
+    /// A massless rod.
+    Distance {
+        /// Its end on the first body.
+        from: Vector,
+        /// Its end on the second body.
+        at: Vector,
+    },
+    /// Equal rotations.
+    Angle,
+    /// Rotations in a ratio, relative to the third body.
+    Gear {
+        /// The ratio.
+        ratio: f64,
+    },
+    /// A pinion, the second body, on a rack.
+    RackAndPinion {
+        /// Centre of the pinion.
+        at: Vector,
+        /// The rack.
+        axis: Vector,
+        /// Radius of the pinion.
+        radius: f64,
+    },
+    /// No velocity along the normal.
+    KnifeEdge {
+        /// The point of contact.
+        at: Vector,
+        /// The normal.
+        normal: Vector,
+    },
+    /// Rolling of the second body, carried by the first.
+    Rolling {
+        /// The centre, on the carrier.
+        at: Vector,
+        /// Direction of rolling, a unit vector.
+        direction: Vector,
+        /// Radius.
+        radius: f64,
+    },
+    /// A drive of the relative angle.
+    AngleDrive,
+    /// A drive along the line of a slider.
+    DisplacementDrive {
+        /// A point of the line.
+        from: Vector,
+        /// The slider.
+        at: Vector,
+        /// The line.
+        axis: Vector,
+    },
+}
+
+impl Sketch {
+    /// Adds a body of unit mass and inertia, and returns it.
+    pub fn body(&mut self, position: Vector, angle: f64) -> BodyRef {
+        self.bodies.push(Body {
+            name: format!("body {}", self.bodies.len()),
+            mass: 1.0,
+            inertia: 1.0,
+            position,
+            angle,
+            ..Body::default()
+        });
+        BodyRef::Body(self.bodies.len() - 1)
+    }
+
+    /// Adds a joint or drive.
+    pub fn link(&mut self, bodies: &[BodyRef], tie: Tie) {
+        self.links.push(Link {
+            name: format!("link {}", self.links.len()),
+            bodies: bodies.to_vec(),
+            tie,
+        });
+    }
+
+    /// The mechanism for the `model`. Drives come after the joints, each in their order.
+    ///
+    /// # Panics
+    /// If a direction is zero or not finite.
+    #[must_use]
+    pub fn description(&self) -> Description {
+        let joints = self.links.iter().filter(|l| !l.tie.is_drive());
+        let drives = self.links.iter().filter(|l| l.tie.is_drive());
+        Description {
+            name: "sketch".into(),
+            bodies: self.bodies.clone(),
+            joints: joints.map(|l| self.joint(l)).collect(),
+            drives: drives.map(|l| self.drive(l)).collect(),
+            ..Description::default()
+        }
+    }
+
+    fn joint(&self, link: &Link) -> Joint {
+        Joint {
+            name: link.name.clone(),
+            bodies: link.bodies.clone(),
+            element: self.element(link),
+            functions: Vec::new(),
+        }
+    }
+
+    fn drive(&self, link: &Link) -> Drive {
+        Drive {
+            name: link.name.clone(),
+            bodies: link.bodies.clone(),
+            element: self.element(link),
+            motion: Function::constant_rate(1.0).expect("finite"),
+        }
+    }
+
+    fn element(&self, link: &Link) -> Box<dyn PlaneConstraint> {
+        let pose = |slot: usize| match link.bodies[slot] {
+            BodyRef::Ground => Pose::GROUND,
+            BodyRef::Body(k) => self.bodies[k].pose(),
+        };
+        let point = |slot: usize, p: Vector| pose(slot).to_local(p);
+        let direction = |slot: usize, v: Vector| {
+            let turned = Pose {
+                x: 0.0,
+                y: 0.0,
+                ..pose(slot)
+            };
+            Direction::new(turned.to_local(v)).expect("a direction")
+        };
+        // Initial values are taken by the mechanism.
+        match link.tie {
+            Tie::Revolute { at } => Box::new(Revolute {
+                s_i: point(0, at),
+                s_j: point(1, at),
+            }),
+            Tie::Translational { from, at, axis } => Box::new(Translational {
+                s_i: point(0, from),
+                s_j: point(1, at),
+                axis: direction(0, axis),
+                angle_0: 0.0,
+            }),
+            Tie::Fixed { at } => Box::new(Fixed {
+                s_i: point(0, at),
+                s_j: point(1, at),
+                offset: [0.0; 2],
+                angle_0: 0.0,
+            }),
+            Tie::PinInSlot { from, at, axis } => Box::new(PinInSlot {
+                s_i: point(0, from),
+                s_j: point(1, at),
+                axis: direction(0, axis),
+            }),
+            Tie::Distance { from, at } => Box::new(Distance {
+                s_i: point(0, from),
+                s_j: point(1, at),
+                length: 0.0,
+                half_inverse: 0.0,
+            }),
+            Tie::Angle => Box::new(Angle { angle_0: 0.0 }),
+            Tie::Gear { ratio } => Box::new(Gear { ratio, phase: 0.0 }),
+            Tie::RackAndPinion { at, axis, radius } => Box::new(RackAndPinion {
+                s_j: point(1, at),
+                axis: direction(0, axis),
+                radius,
+                phase: 0.0,
+            }),
+            Tie::KnifeEdge { at, normal } => Box::new(KnifeEdge {
+                s: point(0, at),
+                normal: direction(0, normal),
+            }),
+            Tie::Rolling {
+                at,
+                direction: along,
+                radius,
+            } => Box::new(Rolling {
+                s: point(0, at),
+                direction: direction(0, along),
+                radius,
+            }),
+            Tie::AngleDrive => Box::new(RevoluteAngleDrive {
+                s_i: [0.0; 2],
+                s_j: [0.0; 2],
+                measure_0: 0.0,
+            }),
+            Tie::DisplacementDrive { from, at, axis } => Box::new(TranslationalDisplacementDrive {
+                s_i: point(0, from),
+                s_j: point(1, at),
+                axis: direction(0, axis),
+                angle_0: 0.0,
+                measure_0: 0.0,
+            }),
+        }
+    }
+}
+
+impl Tie {
+    /// Whether it prescribes a motion.
+    #[must_use]
+    pub fn is_drive(self) -> bool {
+        matches!(self, Self::AngleDrive | Self::DisplacementDrive { .. })
+    }
+
+    /// Whether it restricts velocities only.
+    #[must_use]
+    pub fn is_nonholonomic(self) -> bool {
+        matches!(self, Self::KnifeEdge { .. } | Self::Rolling { .. })
+    }
+}
