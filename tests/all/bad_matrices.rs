@@ -38,7 +38,7 @@ fn entries_that_are_no_numbers_are_named() {
 fn residuals_that_are_none_are_named() {
     for bad in [f64::NAN, f64::INFINITY, -1.0] {
         let error = Solvability::of(&Matrix::identity(2), bad).expect_err("no residual");
-        assert!(matches!(error, RankError::Residual { .. }), "{error}");
+        assert!(matches!(error, RankError::Uncertainty { .. }), "{error}");
     }
 }
 

@@ -450,7 +450,15 @@ fn contradicting_drives_have_no_reactions() {
         let joints = vec![drive("first", rates[0]), drive("second", rates[1])];
         let mut d = bar(joints, vec![load([10.0, 0.0], [0.0, 0.0])]);
         d.bodies[0].velocity = [2.0, 0.0];
-        State::at_start(&d)
+        // Not by `prepare`, which refuses such drives itself.
+        let mechanism = Mechanism::build(&d).expect("builds");
+        let (q, v) = mechanism.described_state();
+        State {
+            mechanism,
+            t: 0.0,
+            q,
+            v,
+        }
     };
     let d = with([[2.0, 1.0]; 2])
         .distribute(&Choice::MinimumNorm(NormWeights::NEWTON_METRE))

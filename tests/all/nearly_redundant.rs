@@ -205,7 +205,11 @@ fn check_certificate(analysis: &Analysis, found: Said, error: f64) {
         Said::Redundant => assert_eq!(certificate.grounds, Grounds::WithinData, "ε = {error:e}"),
         Said::FullRank => {
             assert_eq!(certificate.grounds, Grounds::FullRank, "ε = {error:e}");
-            assert_eq!(certificate.rank_at_least, 12, "ε = {error:e}");
+            // The proof takes ten times more room than the decision.
+            assert!(
+                certificate.rank_at_least == 12 || error < 1e-11,
+                "ε = {error:e}"
+            );
             // σ₁₂ is about ε/10.
             let near = decision.nearly_redundant();
             assert!(near.is_some() || error > 1e-6, "ε = {error:e}");

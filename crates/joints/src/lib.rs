@@ -30,6 +30,6 @@ pub use constraint::{Constraint, Element};
 pub use force::{Force, ForceElement};
 pub use generated::*;
 pub use plane::{Direction, Line, Pose, Twist};
-pub use ring::{Real, Ring};
+pub use ring::{Magnitude, Real, Ring};
 pub use spec::{ConstraintSpec, ForceSpec};
 pub use visitor::Visitor;

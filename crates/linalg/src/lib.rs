@@ -34,8 +34,8 @@ pub use null_space::{Components, components, dependencies, orthonormal, support_
 pub use qr::PivotedQr;
 pub use rank::{
     Certificate, CoefficientReading, Degraded, Doubt, Evidence, ExactNullSpace, Grounds,
-    KeptRowsError, NearlyRedundant, RankDecision, RankError, RankStatus, certify_exact,
-    certify_within, decide, decide_dropping, decide_keeping,
+    KeptRowsError, NearlyRedundant, RankDecision, RankError, RankStatus, Uncertainty,
+    certify_exact, certify_within, decide, decide_dropping, decide_keeping,
 };
 pub use regularized::{StepError, least_squares_step};
 pub use saddle::{KeptRowSaddle, SaddleError};

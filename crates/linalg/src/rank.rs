@@ -8,7 +8,7 @@
 //! singular values.
 //!
 //! The rule, with singular values σ of `D_r·C·D_c` (maxima of rows and columns near one):
-//! `τ = 10·max(eps·√(m·n), constraint residual)`, rank r is decided iff `σ_{r+1} ≤ τ` and
+//! `τ = 10·max(eps·√(m·n), uncertainty)`, rank r is decided iff `σ_{r+1} ≤ τ` and
 //! `σ_r ≥ max(10³·τ, 10⁻⁷)`.
 
 mod again;
@@ -22,18 +22,18 @@ mod graded;
 mod modular;
 #[cfg(test)]
 mod tests;
+mod uncertainty;
 mod within;
 
 use crate::strong_basis::{self, Basis};
-use crate::{
-    Matrix, PivotedQr, Scaling, equilibrate, equilibrate::scale, kernels, singular_values,
-};
+use crate::{Matrix, PivotedQr, Scaling, equilibrate::scale, kernels, singular_values};
 
 pub use again::Degraded;
 pub use certificate::{Certificate, Grounds, NearlyRedundant};
 pub use coefficient::CoefficientReading;
 pub use exact::certify_exact;
 pub use modular::ExactNullSpace;
+pub use uncertainty::Uncertainty;
 pub use within::certify_within;
 
 pub(crate) use clear::{Size, independent, size};
@@ -85,7 +85,7 @@ pub struct Evidence {
     pub gap: f64,
     /// τ: below it a singular value counts as zero.
     pub tolerance: f64,
-    /// The residual of the constraints that the caller stated.
+    /// The largest uncertainty of an equilibrated entry that the caller stated.
     pub constraint_residual: f64,
     /// Largest `‖row of C_D − T·C_K‖₂`: how far the dependencies are from exact.
     pub dependence_residual: f64,
@@ -174,11 +174,17 @@ pub enum RankError {
         /// What was given.
         value: f64,
     },
-    /// The stated residual is no residual.
-    #[error("constraint residual is {value}, need a finite number that is not negative")]
-    Residual {
-        /// What was given.
-        value: f64,
+    /// The stated uncertainty is that of another matrix.
+    #[error("uncertainty of {rows}×{cols} entries for a matrix of {expected_rows}×{expected_cols}")]
+    UncertaintyShape {
+        /// Rows given.
+        rows: usize,
+        /// Columns given.
+        cols: usize,
+        /// Rows of the matrix.
+        expected_rows: usize,
+        /// Columns of the matrix.
+        expected_cols: usize,
     },
 }
 
@@ -187,7 +193,7 @@ pub enum RankError {
 /// | argument | shape | meaning |
 /// | --- | --- | --- |
 /// | `c` | m×n | constraint matrix; `0×n` and `m×0` have rank 0 |
-/// | `constraint_residual` | – | `‖Φ‖∞` of the point where C was evaluated, relative to the lengths of the model, so that it compares with entries of the equilibrated matrix; 0 for an exact point |
+/// | `uncertainty` | – or m×n | what the entries are known to beyond rounding; see [`Uncertainty`] |
 ///
 /// ```
 /// use linalg::{Matrix, RankStatus, decide};
@@ -202,12 +208,15 @@ pub enum RankError {
 ///
 /// # Errors
 /// - [`RankError::NonFinite`]: an entry is NaN or infinite.
-/// - [`RankError::Residual`]: the residual is negative, NaN or infinite.
+/// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN, infinite or of another matrix.
 ///
 /// Source: rank rule and scaling as in the module docs; rows by pivoted QR of `(D_r·C·D_c)ᵀ` and
 /// strong exchanges (Gu and Eisenstat 1996).
-pub fn decide(c: &Matrix, constraint_residual: f64) -> Result<RankDecision, RankError> {
-    let (scaling, scaled, reading) = read(c, constraint_residual)?;
+pub fn decide<'a>(
+    c: &Matrix,
+    uncertainty: impl Into<Uncertainty<'a>>,
+) -> Result<RankDecision, RankError> {
+    let (scaling, scaled, reading) = read(c, uncertainty.into())?;
     let qr = PivotedQr::of_rows(scaled.clone());
     let basis = strong_basis::bounded(&scaled, qr.permutation()[..reading.rank].to_vec());
     Ok(reading.with_basis(scaling, basis))
@@ -221,19 +230,20 @@ struct Reading {
 }
 
 /// Checks the input, equilibrates, and reads the rank.
-fn read(c: &Matrix, constraint_residual: f64) -> Result<(Scaling, Matrix, Reading), RankError> {
+fn read(c: &Matrix, uncertainty: Uncertainty<'_>) -> Result<(Scaling, Matrix, Reading), RankError> {
     check_finite(c)?;
-    if !(constraint_residual.is_finite() && constraint_residual >= 0.0) {
-        return Err(RankError::Residual {
-            value: constraint_residual,
-        });
-    }
-    let scaling = equilibrate(c);
+    let (scaling, spread) = uncertainty.equilibrate(c)?;
+    let uncertainty = spread.largest;
     let scaled = scaling.apply(c);
-    let noise = f64::EPSILON * (c.nrows() as f64 * c.ncols() as f64).sqrt();
-    let tolerance = NOISE_FACTOR * noise.max(constraint_residual);
-    let reading = Reading::new(singular_values(&scaled), tolerance, constraint_residual);
+    let tolerance = tolerance(c, uncertainty);
+    let reading = Reading::new(singular_values(&scaled), tolerance, uncertainty);
     Ok((scaling, scaled, reading))
+}
+
+/// τ of a matrix whose equilibrated entries are known to `uncertainty`.
+fn tolerance(c: &Matrix, uncertainty: f64) -> f64 {
+    let rounding = f64::EPSILON * (c.nrows() as f64 * c.ncols() as f64).sqrt();
+    NOISE_FACTOR * rounding.max(uncertainty)
 }
 
 fn check_finite(c: &Matrix) -> Result<(), RankError> {

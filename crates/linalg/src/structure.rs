@@ -20,7 +20,7 @@ mod tests;
 
 use std::ops::Range;
 
-use crate::{Matrix, RankError, equilibrate};
+use crate::{Matrix, RankError, Uncertainty};
 
 /// Rows that belong together, as those of a joint.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -91,25 +91,22 @@ pub struct Structure {
 ///
 /// # Errors
 /// - [`RankError::NonFinite`]: an entry is NaN or infinite.
-/// - [`RankError::Residual`]: the residual is negative, NaN or infinite.
-pub fn structure(
+/// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN, infinite or of another matrix.
+pub fn structure<'a>(
     c: &Matrix,
-    constraint_residual: f64,
+    uncertainty: impl Into<Uncertainty<'a>>,
     groups: &[RowGroup],
     blocks: &[Range<usize>],
 ) -> Result<Structure, RankError> {
     if let Some((row, col, value)) = c.first_non_finite() {
         return Err(RankError::NonFinite { row, col, value });
     }
-    if !(constraint_residual.is_finite() && constraint_residual >= 0.0) {
-        let value = constraint_residual;
-        return Err(RankError::Residual { value });
-    }
-    let mut incidence = Incidence::new(c, groups, blocks);
+    let (scaling, spread) = uncertainty.into().equilibrate(c)?;
+    let mut incidence = Incidence::new(scaling.apply(c), groups, blocks);
     let parts = graph::parts(&incidence);
     let mut rows = vec![Settled::Peeled; c.nrows()];
     loop {
-        peel::peel(&mut incidence, constraint_residual);
+        peel::peel(&mut incidence, spread.largest);
         let bridges = graph::bridges(&incidence);
         if bridges.is_empty() {
             break;
@@ -164,7 +161,7 @@ struct Group {
 }
 
 impl Incidence {
-    fn new(c: &Matrix, groups: &[RowGroup], blocks: &[Range<usize>]) -> Self {
+    fn new(c: Matrix, groups: &[RowGroup], blocks: &[Range<usize>]) -> Self {
         let grouped = groups.iter().map(|g| &g.rows);
         let rows_of = partition(c.nrows(), grouped);
         let ground = |k: usize| groups.get(k).is_none_or(|g| g.ground);
@@ -183,8 +180,10 @@ impl Incidence {
             touched.dedup();
             touched
         };
+        let touches = (0..c.nrows()).map(touches).collect();
         Self {
-            c: equilibrate(c).apply(c),
+            active: vec![true; c.nrows()],
+            c,
             blocks,
             groups: rows_of
                 .into_iter()
@@ -194,8 +193,7 @@ impl Incidence {
                     ground: ground(k),
                 })
                 .collect(),
-            touches: (0..c.nrows()).map(touches).collect(),
-            active: vec![true; c.nrows()],
+            touches,
         }
     }
 

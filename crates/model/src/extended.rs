@@ -9,6 +9,7 @@ use linalg::{Dd, DdMatrix, StepError, least_squares_step};
 
 use crate::description::BodyRef;
 use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint};
+use crate::start::scene_size;
 use crate::system::System;
 
 /// A configuration that satisfies the kept holonomic rows to double-double, and what the others miss there.
@@ -52,7 +53,11 @@ impl Mechanism {
             .iter()
             .map(|&i| self.position_scale(&s, i, q))
             .collect();
-        let weights = vec![1.0; q.len()];
+        // A correction is small beside the mechanism; counted in radians alone it would turn large bodies first.
+        let rotation = scene_size(self, q).powi(-2);
+        let weights: Vec<f64> = (0..q.len())
+            .map(|k| if k % N_BODY == 2 { rotation } else { 1.0 })
+            .collect();
         let mut q: Vec<Dd> = q.iter().map(|&q| Dd::from(q)).collect();
         let residual = |phi: &[Dd]| {
             let miss = |(&row, &scale): (&usize, &f64)| match phi[row].abs().to_f64() {

@@ -25,6 +25,7 @@
 //! | [`system`] | what a solver sees of them |
 //! | [`extended`] | constraints in double-double, for certificates |
 //! | `scale` | what residuals are compared with |
+//! | `uncertainty` | what the entries of C are known to |
 //! | [`start`] | a consistent start |
 //! | [`reaction`] | multipliers to forces and torques |
 //! | `rigid` | which constraints act against the ground |
@@ -39,6 +40,7 @@ mod rigid;
 mod scale;
 pub mod start;
 pub mod system;
+mod uncertainty;
 
 pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
 pub use extended::Polished;
@@ -48,3 +50,4 @@ pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction};
 pub use registry::{ConstraintDefinition, ForceDefinition, PlaneConstraint, PlaneForce, Registry};
 pub use start::{Assembly, Coordinate, StartError, StartOptions};
 pub use system::{Layout, RowLabel, Scratch, System};
+pub use uncertainty::Known;

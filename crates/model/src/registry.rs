@@ -1,10 +1,12 @@
 //! Definitions by their scene type: what lets a scene reader build joints and forces that it does not know.
 
 use joints::spec::{ConstraintSpec, ForceSpec, Spec};
-use joints::{Argument, ArgumentError, Constraint, Element, Force, ForceElement, Visitor};
+use joints::{
+    Argument, ArgumentError, Constraint, Element, Force, ForceElement, Magnitude, Visitor,
+};
 use linalg::Dd;
 
-/// A planar constraint as an object: kernels in `f64` and in double-double.
+/// A planar constraint as an object: kernels in `f64`, in double-double and on magnitudes.
 pub trait PlaneConstraint: Send + Sync {
     /// Kernels for motion.
     fn element(&self) -> &dyn Element<f64>;
@@ -12,6 +14,8 @@ pub trait PlaneConstraint: Send + Sync {
     fn element_mut(&mut self) -> &mut dyn Element<f64>;
     /// Kernels for certificates.
     fn extended(&self) -> &dyn Element<Dd>;
+    /// Kernels for bounds of the rounding of data.
+    fn magnitude(&self) -> &dyn Element<Magnitude>;
     /// A copy.
     fn boxed(&self) -> Box<dyn PlaneConstraint>;
 }
@@ -24,6 +28,9 @@ impl<K: Constraint> PlaneConstraint for K {
         self
     }
     fn extended(&self) -> &dyn Element<Dd> {
+        self
+    }
+    fn magnitude(&self) -> &dyn Element<Magnitude> {
         self
     }
     fn boxed(&self) -> Box<dyn PlaneConstraint> {

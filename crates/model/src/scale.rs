@@ -82,13 +82,24 @@ impl Mechanism {
     pub fn relative_residual(&self, s: &Scratch, q: &[f64], size: f64) -> f64 {
         let layout = self.layout();
         let of_row = |i: usize| {
-            let reach = |(j, c): (usize, f64)| c.abs() * if j % N_BODY == 2 { 1.0 } else { size };
-            let reach: f64 = layout.row(s, i).map(reach).sum();
-            let wrong = s.phi[i]
-                .abs()
-                .max(f64::EPSILON * self.position_scale(s, i, q));
-            if reach > 0.0 { wrong / reach } else { wrong }
+            let rounding = f64::EPSILON * self.position_scale(s, i, q);
+            self.relative_to_reach(s, i, size, s.phi[i].abs().max(rounding))
         };
         (0..layout.m).map(of_row).fold(0.0, f64::max)
+    }
+
+    /// How far the constraints are open: the largest |Φ_i| relative to what row `i` changes by when the mechanism moves by its own
+    /// size. Needs Φ and C.
+    #[must_use]
+    pub fn relative_opening(&self, s: &Scratch, size: f64) -> f64 {
+        (0..self.layout().m)
+            .map(|i| self.relative_to_reach(s, i, size, s.phi[i].abs()))
+            .fold(0.0, f64::max)
+    }
+
+    fn relative_to_reach(&self, s: &Scratch, i: usize, size: f64, x: f64) -> f64 {
+        let reach = |(j, c): (usize, f64)| c.abs() * if j % N_BODY == 2 { 1.0 } else { size };
+        let reach: f64 = self.layout().row(s, i).map(reach).sum();
+        if reach > 0.0 { x / reach } else { x }
     }
 }

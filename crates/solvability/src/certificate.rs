@@ -5,9 +5,9 @@
 
 use linalg::{DdMatrix, Matrix, RankDecision, certify_within};
 use model::start::scene_size;
-use model::{Mechanism, Scratch, System};
+use model::{Known, Mechanism, Scratch, System};
 
-use crate::mechanism::{AnalysisError, decide_holonomic, dimensionless, evaluated};
+use crate::mechanism::{AnalysisError, decide_holonomic, dimensionless, evaluated, uncertainty};
 
 /// Rows up to which a rank is certified: the work grows with their cube.
 const ROWS_MAX: usize = 600;
@@ -16,7 +16,8 @@ const ROWS_MAX: usize = 600;
 pub(crate) struct Rows {
     time: f64,
     c: Entries,
-    uncertainty: f64,
+    /// Entry by entry.
+    uncertainty: Matrix,
 }
 
 enum Entries {
@@ -33,12 +34,17 @@ impl Rows {
         Self {
             time: s.t,
             c: Entries::Double(dimensionless(mechanism, s, size)),
-            uncertainty: mechanism.relative_residual(s, q, size),
+            uncertainty: uncertainty(mechanism, s, q, size, Known::AsStored),
         }
     }
 
     /// C at the configuration q, which satisfies the constraints to `f64`.
-    pub(crate) fn new(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Self, AnalysisError> {
+    pub(crate) fn new(
+        mechanism: &Mechanism,
+        t: f64,
+        q: &[f64],
+        known: Known,
+    ) -> Result<Self, AnalysisError> {
         let mut s = evaluated(mechanism, t, q);
         if mechanism.layout().rows() > ROWS_MAX {
             return Ok(Self::in_double(mechanism, &s, q));
@@ -55,7 +61,7 @@ impl Rows {
         Ok(Self {
             time: t,
             c: Entries::Extended(polished.c.scaled(&mechanism.dimension_scaling(size))),
-            uncertainty: mechanism.relative_residual(&s, q, size),
+            uncertainty: uncertainty(mechanism, &s, q, size, known),
         })
     }
 
@@ -70,8 +76,8 @@ impl Rows {
     /// Rank, kept rows and evidence of all rows.
     pub(crate) fn decide(&self) -> Result<RankDecision, AnalysisError> {
         let decision = match &self.c {
-            Entries::Extended(c) => certify_within(c, self.uncertainty),
-            Entries::Double(c) => linalg::decide(c, self.uncertainty),
+            Entries::Extended(c) => certify_within(c, &self.uncertainty),
+            Entries::Double(c) => linalg::decide(c, &self.uncertainty),
         };
         decision.map_err(|source| AnalysisError::Rank {
             time: self.time,
@@ -87,7 +93,7 @@ impl Rows {
                 Entries::Extended(c) => Entries::Extended(c.select_rows(rows)),
                 Entries::Double(c) => Entries::Double(c.select_rows(rows)),
             },
-            uncertainty: self.uncertainty,
+            uncertainty: self.uncertainty.select_rows(rows),
         }
     }
 }
@@ -98,5 +104,5 @@ impl Rows {
 /// # Errors
 /// If C is not finite.
 pub fn certify(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<RankDecision, AnalysisError> {
-    Rows::new(mechanism, t, q)?.decide()
+    Rows::new(mechanism, t, q, Known::AsStored)?.decide()
 }

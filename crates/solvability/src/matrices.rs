@@ -10,7 +10,7 @@
 
 use linalg::{
     CoefficientReading, Degraded, ExactNullSpace, Matrix, PivotedQr, RankDecision, RankError,
-    RankStatus,
+    RankStatus, Uncertainty,
 };
 
 use crate::verdict::Judgement;
@@ -99,13 +99,12 @@ pub enum QueryError {
 }
 
 impl Solvability {
-    /// Decides the rank of `c` (m × n) and keeps what verdicts need. `residual` is that of the constraints at the point where `c`
-    /// was evaluated, relative to the lengths of the model.
+    /// Decides the rank of `c` (m × n) and keeps what verdicts need; `uncertainty` is what its entries are known to beyond rounding.
     ///
     /// # Errors
-    /// If an entry or the residual is not finite.
-    pub fn of(c: &Matrix, residual: f64) -> Result<Self, RankError> {
-        Ok(Self::from_decision(c, linalg::decide(c, residual)?))
+    /// If an entry or the uncertainty is not finite.
+    pub fn of<'a>(c: &Matrix, uncertainty: impl Into<Uncertainty<'a>>) -> Result<Self, RankError> {
+        Ok(Self::from_decision(c, linalg::decide(c, uncertainty)?))
     }
 
     /// The same for a matrix whose entries are meant exactly as they stand: every verdict is exact, none is undecided.
@@ -141,8 +140,12 @@ impl Solvability {
     ///
     /// # Errors
     /// Where the rank must be decided anew, as [`RankDecision::at`].
-    pub fn at(&self, c: &Matrix, residual: f64) -> Result<Self, Degraded> {
-        let decision = self.decision.at(c, residual)?;
+    pub fn at<'a>(
+        &self,
+        c: &Matrix,
+        uncertainty: impl Into<Uncertainty<'a>>,
+    ) -> Result<Self, Degraded> {
+        let decision = self.decision.at(c, uncertainty)?;
         Ok(Self {
             c: decision.scaling.apply(c),
             z: linalg::orthonormal(&decision),

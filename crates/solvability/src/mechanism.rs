@@ -3,7 +3,7 @@
 use linalg::{KeptRowsError, Matrix, RankDecision, RankError};
 use model::reaction::COMPONENTS;
 use model::start::scene_size;
-use model::{ConstraintId, Mechanism, Scratch, System};
+use model::{ConstraintId, Known, Mechanism, Scratch, System};
 
 use crate::certificate::Rows;
 use crate::matrices::{QueryError, Solvability};
@@ -134,6 +134,19 @@ pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Ma
         .apply(&mechanism.layout().dense(s))
 }
 
+/// What the entries of [`dimensionless`] C are known to.
+pub(crate) fn uncertainty(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+    size: f64,
+    known: Known,
+) -> Matrix {
+    mechanism
+        .dimension_scaling(size)
+        .apply(&mechanism.uncertainty(s, q, size, known))
+}
+
 /// The velocities that are one without dimensions: 1 m/s for translations, and for rotations what moves a point at the size of the
 /// mechanism by about as much, a power of two.
 pub(crate) fn velocity_units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
@@ -153,7 +166,7 @@ pub fn decide(
     let size = scene_size(mechanism, q);
     linalg::decide(
         &dimensionless(mechanism, s, size),
-        mechanism.relative_residual(s, q, size),
+        &uncertainty(mechanism, s, q, size, Known::AsStored),
     )
     .map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
@@ -170,8 +183,8 @@ pub fn decide_holonomic(
     let size = scene_size(mechanism, q);
     let rows: Vec<usize> = (0..mechanism.layout().m).collect();
     let phi_q = dimensionless(mechanism, s, size).select_rows(&rows);
-    linalg::decide(&phi_q, mechanism.relative_residual(s, q, size))
-        .map_err(|source| AnalysisError::Rank { time: s.t, source })
+    let known = uncertainty(mechanism, s, q, size, Known::AsStored).select_rows(&rows);
+    linalg::decide(&phi_q, &known).map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
 /// The same with the dropped rows given (from 0): they must be as many as the redundancy, and the others independent.
@@ -186,7 +199,8 @@ pub fn decide_dropping(
 ) -> Result<RankDecision, KeptRowsError> {
     let size = scene_size(mechanism, q);
     let c = dimensionless(mechanism, s, size);
-    linalg::decide_dropping(&c, mechanism.relative_residual(s, q, size), dropped)
+    let known = uncertainty(mechanism, s, q, size, Known::AsStored);
+    linalg::decide_dropping(&c, &known, dropped)
 }
 
 /// Verdicts at time t and coordinates q, which must satisfy the constraints; allocates.
@@ -194,7 +208,28 @@ pub fn decide_dropping(
 /// # Errors
 /// If C is not finite.
 pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
-    let rows = Rows::new(mechanism, t, q)?;
+    analyse_known(mechanism, t, q, Known::AsStored)
+}
+
+/// The same at a configuration that a motion has reached: it is known less well, and what is zero to that is zero.
+///
+/// # Errors
+/// If C is not finite.
+pub fn analyse_reached(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+) -> Result<Analysis, AnalysisError> {
+    analyse_known(mechanism, t, q, Known::ByMotion)
+}
+
+fn analyse_known(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    known: Known,
+) -> Result<Analysis, AnalysisError> {
+    let rows = Rows::new(mechanism, t, q, known)?;
     let decision = rows.decide()?;
     judge(mechanism, &evaluated(mechanism, t, q), &rows, decision)
 }
@@ -212,7 +247,12 @@ pub fn analyse_dropping(
     let s = evaluated(mechanism, t, q);
     let decision = decide_dropping(mechanism, &s, q, dropped)
         .map_err(|source| AnalysisError::Rows { time: t, source })?;
-    judge(mechanism, &s, &Rows::new(mechanism, t, q)?, decision)
+    judge(
+        mechanism,
+        &s,
+        &Rows::new(mechanism, t, q, Known::AsStored)?,
+        decision,
+    )
 }
 
 /// Φ and C at a configuration.

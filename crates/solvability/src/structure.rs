@@ -3,11 +3,11 @@
 
 use linalg::{RankError, RowGroup, Settled, Structure};
 use model::start::scene_size;
-use model::{Mechanism, Scratch, System};
+use model::{Known, Mechanism, Scratch, System};
 
 use crate::explain::ExplanationError;
 use crate::matrices::{QueryError, Solvability};
-use crate::mechanism::dimensionless;
+use crate::mechanism::{dimensionless, uncertainty};
 use crate::verdict::Judgement;
 
 /// Groups of the structure are joints and drives in the order of their rows, blocks are bodies. The scratch must hold Φ and C at
@@ -25,10 +25,9 @@ pub fn structure(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Struct
     let groups: Vec<RowGroup> = mechanism.constraint_ids().map(group).collect();
     let bodies = 0..mechanism.bodies().len();
     let blocks: Vec<_> = bodies.map(|b| layout.columns(b)).collect();
-    let residual = mechanism.relative_residual(s, q, size);
     linalg::structure(
         &dimensionless(mechanism, s, size),
-        residual,
+        &uncertainty(mechanism, s, q, size, Known::AsStored),
         &groups,
         &blocks,
     )
@@ -46,11 +45,11 @@ pub fn judge_parts(
 ) -> Result<Vec<Option<Judgement>>, ExplanationError> {
     let size = scene_size(mechanism, q);
     let c = dimensionless(mechanism, s, size);
-    let residual = mechanism.relative_residual(s, q, size);
+    let known = uncertainty(mechanism, s, q, size, Known::AsStored);
     let parts: Vec<Solvability> = structure
         .open
         .iter()
-        .map(|part| Solvability::of(&c.select_rows(&part.rows), residual))
+        .map(|part| Solvability::of(&c.select_rows(&part.rows), &known.select_rows(&part.rows)))
         .collect::<Result<_, RankError>>()?;
     let judge = |group: usize| match structure.groups[group] {
         Settled::Open(k) => {

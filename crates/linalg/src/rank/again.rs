@@ -4,8 +4,8 @@
 //! refuses where a decision is due.
 
 use super::{
-    CLEARANCE, Evidence, NEARLY_SINGULAR, NOISE_FACTOR, RankDecision, RankError, RankStatus,
-    check_finite,
+    CLEARANCE, Evidence, NEARLY_SINGULAR, RankDecision, RankError, RankStatus, Uncertainty,
+    check_finite, tolerance,
 };
 use crate::strong_basis;
 use crate::{Matrix, PivotedQr, kernels};
@@ -79,14 +79,12 @@ impl RankDecision {
     /// - [`Degraded::Undecided`]: the rank was undecided.
     /// - [`Degraded::KeptRows`]: σ_r fell below a hundredth of what it was at the decision, or below 1e-7.
     /// - [`Degraded::DroppedRows`]: the dependencies do not hold.
-    pub fn at(&self, c: &Matrix, constraint_residual: f64) -> Result<Self, Degraded> {
+    pub fn at<'a>(
+        &self,
+        c: &Matrix,
+        uncertainty: impl Into<Uncertainty<'a>>,
+    ) -> Result<Self, Degraded> {
         check_finite(c)?;
-        if !(constraint_residual.is_finite() && constraint_residual >= 0.0) {
-            return Err(RankError::Residual {
-                value: constraint_residual,
-            }
-            .into());
-        }
         let (expected_rows, expected_cols) = (self.scaling.rows.len(), self.scaling.cols.len());
         if (c.nrows(), c.ncols()) != (expected_rows, expected_cols) {
             return Err(Degraded::Shape {
@@ -100,8 +98,8 @@ impl RankDecision {
             return Err(Degraded::Undecided);
         }
         let scaled = self.scaling.apply(c);
-        let noise = f64::EPSILON * (c.nrows() as f64 * c.ncols() as f64).sqrt();
-        let tolerance = NOISE_FACTOR * noise.max(constraint_residual);
+        let constraint_residual = uncertainty.into().equilibrated(c, &self.scaling)?.largest;
+        let tolerance = tolerance(c, constraint_residual);
         let qr = PivotedQr::of_rows(scaled.select_rows(&self.kept));
         let sigma = smallest_singular_value(&qr, self.rank);
         let required = (DEGRADED * self.evidence.sigma_r)

@@ -19,6 +19,8 @@ pub struct Certificate {
     pub grounds: Grounds,
     /// What the entries of the equilibrated matrix are known to, absolute; 0 if they are meant exactly as they stand.
     pub uncertainty: f64,
+    /// How far the equilibrated matrix may be from the one that is meant (Frobenius norm); 0 for exact entries.
+    pub spread: f64,
     /// The direction in which the kept rows nearly cancel, if they do.
     pub nearly_redundant: Option<NearlyRedundant>,
 }

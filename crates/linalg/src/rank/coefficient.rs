@@ -6,10 +6,6 @@ use super::{NOISE_FACTOR, RankDecision};
 /// Noise of coefficients over that of singular values: the triangular solves.
 const SOLVE_FACTOR: f64 = 10.0;
 
-/// Configurations are stated with so many digits at best: below this a coefficient of a model is zero for every purpose, since a
-/// self-stress that moves one reaction by itself moves the other by less than can be stated.
-const STATED: f64 = 1e-11;
-
 /// A coefficient above the tolerance by this factor is certainly not zero; the tolerance is itself a tenfold bound of the noise.
 const CLEARANCE: f64 = 10.0;
 
@@ -42,8 +38,8 @@ impl RankDecision {
             .is_some_and(|c| c.uncertainty == 0.0)
     }
 
-    /// How far a coefficient of T̃ or Z may be from its true value, absolute: `10·τ/σ_r`, at least 10⁻¹¹, to which
-    /// configurations are stated.
+    /// How far a coefficient of T̃ or Z may be from its true value, absolute: `10·τ/σ_r`, or, for a
+    /// certified rank of a matrix known to s (Frobenius norm), `s/σ_r`.
     ///
     /// For exact entries, rounding alone. For a nearly redundant matrix, that of the matrix as it was read, `10·‖C_D − T·C_K‖/σ_r`: what the
     /// uncertainty of the data does there is told by [`RankDecision::nearly_redundant`].
@@ -55,12 +51,14 @@ impl RankDecision {
         if self.redundancy == 0 || self.is_exact() {
             return rounding;
         }
-        let noise = if e.certificate.is_some() && e.sigma_r < NEARLY_REDUNDANT {
-            rounding.max(SOLVE_FACTOR * e.dependence_residual / e.sigma_r)
-        } else {
-            SOLVE_FACTOR * e.tolerance / e.sigma_r.min(1.0)
-        };
-        noise.max(STATED)
+        match &e.certificate {
+            Some(_) if e.sigma_r < NEARLY_REDUNDANT => {
+                rounding.max(SOLVE_FACTOR * e.dependence_residual / e.sigma_r)
+            }
+            // T is right to double-double; what remains is the data: ‖δT‖ ≤ ‖δC‖·‖[T, I]‖/σ_r.
+            Some(certificate) => rounding.max(certificate.spread / e.sigma_r.min(1.0)),
+            None => SOLVE_FACTOR * e.tolerance / e.sigma_r.min(1.0),
+        }
     }
 
     /// Reads the size of a coefficient, or of a norm of some.

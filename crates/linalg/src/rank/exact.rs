@@ -120,6 +120,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
             Grounds::Exact
         },
         uncertainty: 0.0,
+        spread: 0.0,
         nearly_redundant,
     });
     Ok(decision)

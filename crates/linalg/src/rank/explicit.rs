@@ -3,7 +3,7 @@
 //! A list D of dropped rows is admissible iff `|D| = p` and the other rows have full rank r;
 //! equivalently the rows D of a left null space basis Z form a nonsingular block.
 
-use super::{CLEARANCE, NEARLY_SINGULAR, RankDecision, RankError, read};
+use super::{CLEARANCE, NEARLY_SINGULAR, RankDecision, RankError, Uncertainty, read};
 use crate::strong_basis::{self, complement};
 use crate::{Matrix, singular_values};
 
@@ -74,34 +74,34 @@ pub enum KeptRowsError {
 /// - [`KeptRowsError::RowOutOfRange`], [`KeptRowsError::Duplicate`]: the list is malformed.
 /// - [`KeptRowsError::WrongCount`]: the list does not have m − r rows.
 /// - [`KeptRowsError::Dependent`]: the remaining rows do not have full rank.
-pub fn decide_dropping(
+pub fn decide_dropping<'a>(
     c: &Matrix,
-    constraint_residual: f64,
+    uncertainty: impl Into<Uncertainty<'a>>,
     dropped: &[usize],
 ) -> Result<RankDecision, KeptRowsError> {
     let dropped = ascending(dropped, c.nrows())?;
-    decide_partition(c, constraint_residual, complement(c.nrows(), &dropped))
+    decide_partition(c, uncertainty.into(), complement(c.nrows(), &dropped))
 }
 
 /// [`decide`](super::decide) with the kept rows given; `|T̃_ji| ≤ 2` is then not promised.
 ///
 /// # Errors
 /// As [`decide_dropping`].
-pub fn decide_keeping(
+pub fn decide_keeping<'a>(
     c: &Matrix,
-    constraint_residual: f64,
+    uncertainty: impl Into<Uncertainty<'a>>,
     kept: &[usize],
 ) -> Result<RankDecision, KeptRowsError> {
     let kept = ascending(kept, c.nrows())?;
-    decide_partition(c, constraint_residual, kept)
+    decide_partition(c, uncertainty.into(), kept)
 }
 
 fn decide_partition(
     c: &Matrix,
-    constraint_residual: f64,
+    uncertainty: Uncertainty<'_>,
     kept: Vec<usize>,
 ) -> Result<RankDecision, KeptRowsError> {
-    let (scaling, scaled, reading) = read(c, constraint_residual)?;
+    let (scaling, scaled, reading) = read(c, uncertainty)?;
     if kept.len() != reading.rank {
         return Err(KeptRowsError::WrongCount {
             dropped: c.nrows() - kept.len(),

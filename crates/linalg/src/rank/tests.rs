@@ -325,7 +325,7 @@ proptest! {
                 Err(RankError::NonFinite { row, col, .. }) => {
                     prop_assert!(!c[(row, col)].is_finite());
                 }
-                Err(RankError::Residual { value }) => {
+                Err(RankError::Uncertainty { value }) => {
                     prop_assert!(!(value.is_finite() && value >= 0.0));
                 }
                 Err(error) => prop_assert!(false, "{}", error),
@@ -344,7 +344,7 @@ fn bad_input_is_named() {
     );
     assert!(matches!(
         decide(&Matrix::identity(1), -1.0),
-        Err(RankError::Residual { value: -1.0 })
+        Err(RankError::Uncertainty { value: -1.0 })
     ));
     let c = Matrix::from_rows(&[[1.0], [2.0], [3.0]]);
     let message = |rows: &[usize]| decide_dropping(&c, 0.0, rows).unwrap_err().to_string();

@@ -6,11 +6,11 @@
 use super::certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant};
 use super::graded::Graded;
 use super::{
-    Doubt, Evidence, NOISE_FACTOR, RankDecision, RankError, RankStatus, Reading, check_finite,
-    projected,
+    Doubt, Evidence, NOISE_FACTOR, RankDecision, RankError, RankStatus, Reading, Uncertainty,
+    check_finite, projected,
 };
 use crate::strong_basis::{self, Basis};
-use crate::{Dd, DdMatrix, equilibrate};
+use crate::{Dd, DdMatrix};
 
 /// σ_{r+1} vanishes if it falls by ten digits below the 1e-16 of `f64`; what remains is the polishing of the point in double-double.
 const VANISHES: f64 = 1e-26;
@@ -23,9 +23,9 @@ const CLEAR_OF_DATA: f64 = 4.0;
 /// | argument | meaning |
 /// | --- | --- |
 /// | `c` | constraint matrix; its entries carry errors of double-double only |
-/// | `uncertainty` | how far each entry of the equilibrated matrix may be from that of the model meant, absolute: 2e-16 or so for data read from decimal numbers; near a singular configuration the entries move with the root of the data |
+/// | `uncertainty` | how far the entries may be from those of the model meant; see [`Uncertainty`]. Near a singular configuration they move with the root of the data |
 ///
-/// With `τ = uncertainty·max(10, √(m·n))`: a singular value below τ is zero for some matrix within the uncertainty, one above 4·τ is not zero for any. Then:
+/// With u, the largest uncertainty of an equilibrated entry, s, the Frobenius norm of all, and `τ = max(10·u, s)`: a singular value below τ is zero for some matrix within the uncertainty, one above 4·τ is not zero for any. Then:
 /// redundant exactly (σ_{r+1} ≤ 1e-26, [`Grounds::Vanishes`]); redundant within the data ([`Grounds::WithinData`]); of full rank although
 /// [nearly redundant](RankDecision::nearly_redundant); or undecided between τ and 4·τ.
 ///
@@ -44,19 +44,23 @@ const CLEAR_OF_DATA: f64 = 4.0;
 ///
 /// # Errors
 /// - [`RankError::NonFinite`]: an entry is NaN or infinite.
-/// - [`RankError::Uncertainty`]: the uncertainty is negative, NaN or infinite.
-pub fn certify_within(c: &DdMatrix, uncertainty: f64) -> Result<RankDecision, RankError> {
+/// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN, infinite or of another matrix.
+pub fn certify_within<'a>(
+    c: &DdMatrix,
+    uncertainty: impl Into<Uncertainty<'a>>,
+) -> Result<RankDecision, RankError> {
     let leading = c.hi();
     check_finite(&leading)?;
-    if !(uncertainty.is_finite() && uncertainty >= 0.0) {
-        return Err(RankError::Uncertainty { value: uncertainty });
-    }
     let (m, n) = (c.nrows(), c.ncols());
-    let scaling = equilibrate(&leading);
+    let (scaling, spread) = uncertainty.into().equilibrate(&leading)?;
     let root = (m as f64 * n as f64).sqrt();
     // Entries in double-double are no better than this, whatever the caller knows.
-    let uncertainty = uncertainty.max(4.0 * root.max(1.0) * Dd::EPSILON);
-    let tolerance = uncertainty * NOISE_FACTOR.max(root);
+    let rounding = 4.0 * root.max(1.0) * Dd::EPSILON;
+    let (uncertainty, spread) = (
+        spread.largest.max(rounding),
+        spread.norm.max(rounding * root),
+    );
+    let tolerance = spread.max(NOISE_FACTOR * uncertainty);
     let required = CLEAR_OF_DATA * tolerance;
     let graded = Graded::new(&c.scaled(&scaling), tolerance);
 
@@ -84,7 +88,6 @@ pub fn certify_within(c: &DdMatrix, uncertainty: f64) -> Result<RankDecision, Ra
     };
 
     let bounds = graded.bounds();
-    let spread = uncertainty * root;
     let rank_at_least = bounds
         .iter()
         .rev()
@@ -133,6 +136,7 @@ pub fn certify_within(c: &DdMatrix, uncertainty: f64) -> Result<RankDecision, Ra
             Grounds::WithinData
         },
         uncertainty,
+        spread,
         nearly_redundant,
     });
     Ok(decision)

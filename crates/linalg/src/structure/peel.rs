@@ -8,7 +8,7 @@ use crate::rank::independent;
 
 /// Takes rows out of play until no block can leave. Every row leaves at most once, so each block is looked at at most once more
 /// than rows leave it.
-pub(super) fn peel(incidence: &mut Incidence, constraint_residual: f64) {
+pub(super) fn peel(incidence: &mut Incidence, uncertainty: f64) {
     let mut rows_of: Vec<Vec<usize>> = vec![Vec::new(); incidence.blocks.len()];
     for (row, touched) in incidence.touches.iter().enumerate() {
         if incidence.active[row] {
@@ -27,7 +27,7 @@ pub(super) fn peel(incidence: &mut Incidence, constraint_residual: f64) {
         let own = Matrix::from_fn(rows.len(), columns.len(), |i, j| {
             incidence.c[(rows[i], columns[j])]
         });
-        if !independent(&own, constraint_residual) {
+        if !independent(&own, uncertainty) {
             continue;
         }
         for &row in rows {

@@ -2,11 +2,11 @@
 
 use linalg::{Matrix, RankDecision, Scaling};
 use model::start::{nearest_configuration, scene_size};
-use model::{Mechanism, Scratch, System};
+use model::{Known, Mechanism, Scratch, System};
 
 use super::AlongError;
 use crate::certificate::Rows;
-use crate::mechanism::{Analysis, AnalysisError, dimensionless, evaluated, judge};
+use crate::mechanism::{Analysis, AnalysisError, dimensionless, evaluated, judge, uncertainty};
 use crate::state::{self, State};
 
 /// The smallest singular value below which a configuration is called nearly singular.
@@ -145,8 +145,11 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
 
     /// The rank at a point; `distance` is how far its C may be from the matrix that is asked for.
     pub(super) fn decide(&self, p: &Point, distance: f64) -> Result<RankDecision, AlongError> {
-        let residual = self.mechanism.relative_residual(&p.s, &p.q, self.size);
-        linalg::decide(&p.c, residual.max(distance))
+        let known = uncertainty(self.mechanism, &p.s, &p.q, self.size, Known::ByMotion);
+        let known = Matrix::from_fn(known.nrows(), known.ncols(), |i, j| {
+            known[(i, j)] + distance
+        });
+        linalg::decide(&p.c, &known)
             .map_err(|source| AnalysisError::Rank { time: p.t, source }.into())
     }
 
