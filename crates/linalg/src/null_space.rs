@@ -90,27 +90,29 @@ pub fn components(decision: &RankDecision) -> Components {
 pub(crate) struct Support {
     /// T of the equilibrated rows.
     pub(crate) t: Matrix,
-    /// Absolute threshold for each dropped row.
-    threshold: Vec<f64>,
+    /// Largest coefficient for each dropped row, at least one.
+    size: Vec<f64>,
+    /// Noise of the coefficients of each kept row, relative to it.
+    noise: Vec<f64>,
 }
 
 impl Support {
     pub(crate) fn new(decision: &RankDecision) -> Self {
         let t = decision.equilibrated_dependence();
-        let relative = if decision.is_exact() {
-            0.0
-        } else {
-            support_tolerance(decision)
+        let noise = |&i: &usize| match decision.is_exact() {
+            true => 0.0,
+            false => decision.row_noise(i),
         };
-        let threshold = (0..t.nrows())
-            .map(|j| relative * t.row(j).iter().fold(1.0_f64, |a, b| a.max(b.abs())))
+        let noise = decision.kept.iter().map(noise).collect();
+        let size = (0..t.nrows())
+            .map(|j| t.row(j).iter().fold(1.0_f64, |a, b| a.max(b.abs())))
             .collect();
-        Self { t, threshold }
+        Self { t, size, noise }
     }
 
     /// Whether kept row i is in the circuit of dropped row j.
     pub(crate) fn contains(&self, j: usize, i: usize) -> bool {
-        self.t[(j, i)].abs() > self.threshold[j]
+        self.t[(j, i)].abs() > self.size[j] * self.noise[i]
     }
 }
 

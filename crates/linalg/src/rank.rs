@@ -20,6 +20,7 @@ mod exact;
 mod explicit;
 mod graded;
 mod modular;
+mod perturbation;
 #[cfg(test)]
 mod tests;
 mod uncertainty;

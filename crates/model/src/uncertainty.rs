@@ -34,17 +34,31 @@ impl Mechanism {
     /// How far each entry of C may be from that of the mechanism meant, (m+h) × n_v, in the units of C; allocates.
     ///
     /// An entry is known to the relative error of the data times the size of the terms it adds up, which its kernel on magnitudes
-    /// gives, plus what the constraints leave open, |Φ_i|. Arms are known to the rounding of the positions of their bodies, because
-    /// points of bodies are often read from global ones. Needs Φ and C at the pose of the scratch.
+    /// gives. Points of bodies are known to the rounding of the positions of the bodies, because they are often read from global
+    /// ones, and to what the constraints leave open, |Φ_i|. `size` is that of the mechanism. Needs Φ and C at the pose of the
+    /// scratch.
     #[must_use]
     pub fn uncertainty(&self, s: &Scratch, q: &[f64], size: f64, known: Known) -> Matrix {
         let layout = self.layout();
+        let entries = self.magnitudes(s);
         let relative = known.relative() + self.relative_opening(s, size);
-        let mut entries: Vec<Magnitude> = self
-            .constant_entries()
-            .iter()
-            .map(|&e| Magnitude::from(e))
-            .collect();
+        let mut u = Matrix::zeros(layout.rows(), layout.n_v);
+        for i in 0..layout.rows() {
+            for k in layout.pattern.start[i]..layout.pattern.start[i + 1] {
+                let (column, entry) = (layout.pattern.column[k], layout.pattern.entry[k]);
+                u[(i, column)] += relative * entries[entry].value();
+                if column % N_BODY == 2 {
+                    u[(i, column)] += self.shift(s, i, q);
+                }
+            }
+        }
+        u
+    }
+
+    /// Sizes of the terms of all entries of C.
+    fn magnitudes(&self, s: &Scratch) -> Vec<Magnitude> {
+        let constant = self.constant_entries().iter();
+        let mut entries: Vec<Magnitude> = constant.map(|&e| Magnitude::from(e)).collect();
         for c in self.constraints().iter().filter(|c| !c.varying.is_empty()) {
             // Between bodies only relative positions count, wherever they are.
             let origin = match (c.bodies.contains(&BodyRef::Ground), c.bodies.first()) {
@@ -62,25 +76,14 @@ impl Mechanism {
                 .magnitude()
                 .c(&x, &f, &mut entries[c.entries.clone()]);
         }
-        let mut u = Matrix::zeros(layout.rows(), layout.n_v);
-        for i in 0..layout.rows() {
-            let open = s.phi.get(i).map_or(0.0, |phi| phi.abs());
-            for k in layout.pattern.start[i]..layout.pattern.start[i + 1] {
-                let (column, entry) = (layout.pattern.column[k], layout.pattern.entry[k]);
-                u[(i, column)] += relative * entries[entry].value();
-                if column % N_BODY == 2 {
-                    let of_body = layout
-                        .row(s, i)
-                        .filter(|(j, _)| j / N_BODY == column / N_BODY);
-                    let arm = |(j, c): (usize, f64)| match j == column {
-                        true => 0.0,
-                        false => c.abs() * q[j].abs(),
-                    };
-                    u[(i, column)] += open + UNIT_ROUNDOFF * of_body.map(arm).sum::<f64>();
-                }
-            }
-        }
-        u
+        entries
+    }
+
+    /// How far the points of row `i` may be from where they are meant: rounding of positions, and |Φ_i|.
+    fn shift(&self, s: &Scratch, i: usize, q: &[f64]) -> f64 {
+        let translations = self.layout().row(s, i).filter(|(j, _)| j % N_BODY != 2);
+        let rounding = translations.map(|(j, c)| c.abs() * q[j].abs()).sum::<f64>();
+        UNIT_ROUNDOFF * rounding + s.phi.get(i).map_or(0.0, |phi| phi.abs())
     }
 }
 

@@ -34,7 +34,7 @@ impl Rows {
         Self {
             time: s.t,
             c: Entries::Double(dimensionless(mechanism, s, size)),
-            uncertainty: uncertainty(mechanism, s, q, size, Known::AsStored),
+            uncertainty: uncertainty(mechanism, s, q, size),
         }
     }
 
@@ -61,7 +61,9 @@ impl Rows {
         Ok(Self {
             time: t,
             c: Entries::Extended(polished.c.scaled(&mechanism.dimension_scaling(size))),
-            uncertainty: uncertainty(mechanism, &s, q, size, known),
+            uncertainty: mechanism
+                .dimension_scaling(size)
+                .apply(&mechanism.uncertainty(&s, q, size, known)),
         })
     }
 

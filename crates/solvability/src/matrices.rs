@@ -193,7 +193,8 @@ impl Solvability {
             .iter()
             .map(|&i| norm(self.z.row(i)))
             .fold(0.0, f64::hypot);
-        Ok(self.judge(margin, 1.0, |z| {
+        let noise = self.noise(rows.iter().map(|&i| (i, 1.0)));
+        Ok(self.judge(margin, noise, |z| {
             rows.iter().all(|&i| z.annihilates([(i, 1.0)]))
         }))
     }
@@ -212,12 +213,15 @@ impl Solvability {
     /// If a row does not exist.
     pub fn group(&self, rows: impl IntoIterator<Item = usize>) -> Result<Judgement, QueryError> {
         let rows = self.set(rows)?;
-        let size = rows
-            .iter()
-            .map(|&i| norm(self.c.row(i)))
-            .fold(0.0, f64::hypot);
+        // Rows that cancel in C do so to what its entries are known to.
+        let spread = self.decision.evidence.certificate.as_ref();
+        let spread = spread.map_or(0.0, |certificate| certificate.spread);
+        let cancelled = rows.iter().map(|&i| norm(self.z.row(i)));
+        let noise = self
+            .noise(rows.iter().map(|&i| (i, norm(self.c.row(i)))))
+            .hypot(spread * cancelled.fold(0.0, f64::hypot));
         let margin = self.product(&rows).frobenius_norm();
-        Ok(self.judge(margin, size, |z| z.wrench_vanishes(&rows)))
+        Ok(self.judge(margin, noise, |z| z.wrench_vanishes(&rows)))
     }
 
     /// A linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin is relative to ‖ℓ‖, both
@@ -228,8 +232,11 @@ impl Solvability {
     pub fn combination(&self, l: &[f64]) -> Result<Judgement, QueryError> {
         let rows: Vec<usize> = (0..self.c.nrows()).collect();
         check_coefficients(l, rows.len())?;
-        let margin = norm(&self.scaled_row(l, &rows).0);
-        Ok(self.judge(margin, 1.0, |z| z.annihilates(combination(l, &rows))))
+        let (image, size) = self.scaled_row(l, &rows);
+        let noise = self.noise_of_row(l, &rows, size);
+        Ok(self.judge(norm(&image), noise, |z| {
+            z.annihilates(combination(l, &rows))
+        }))
     }
 
     /// Component `k` of a reaction `W·λ_X`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest row of W.
@@ -260,7 +267,8 @@ impl Solvability {
             sizes[k] / largest
         };
         let margin = norm(images.row(k)) * share;
-        Ok(self.judge(margin, 1.0, |z| {
+        let noise = self.noise_of_row(map.row(k), &rows, largest);
+        Ok(self.judge(margin, noise, |z| {
             z.annihilates(combination(map.row(k), &rows))
         }))
     }
@@ -289,7 +297,12 @@ impl Solvability {
                     .map(|i| combination(map.row(i), &rows))
                     .collect::<Vec<_>>(),
             ),
-            None => self.clear_rank(&qr)?,
+            None => {
+                let noise = (0..k)
+                    .map(|i| self.noise_of_row(map.row(i), &rows, sizes[i]))
+                    .fold(0.0, f64::max);
+                self.clear_rank(&qr, noise)?
+            }
         };
         if rank == 0 {
             return Ok((0..k).map(|i| unit(k, i)).collect());
@@ -306,10 +319,10 @@ impl Solvability {
     }
 
     /// How many pivots are certainly not zero, if the others certainly are.
-    fn clear_rank(&self, qr: &PivotedQr) -> Result<usize, QueryError> {
+    fn clear_rank(&self, qr: &PivotedQr, noise: f64) -> Result<usize, QueryError> {
         let mut rank = 0;
         for pivot in qr.r_diagonal().map(f64::abs) {
-            match self.decision.read_coefficient(pivot) {
+            match self.decision.read_coefficient(pivot, noise) {
                 CoefficientReading::NonZero => rank += 1,
                 CoefficientReading::Zero => {}
                 CoefficientReading::Unclear {
@@ -395,20 +408,32 @@ impl Solvability {
         (out, size)
     }
 
-    /// Judges a margin made of coefficients of Z with weights of the given size.
+    /// Noise of a combination of rows of Z with these weights; Z is `[−T̃, I]` in a basis that makes no row longer.
+    fn noise(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
+        let term = |(i, weight): (usize, f64)| self.decision.row_noise(i) * weight.abs();
+        weights.map(term).fold(0.0, f64::hypot)
+    }
+
+    /// Noise of `wᵀ·D_r·Z_X / size`.
+    fn noise_of_row(&self, w: &[f64], rows: &[usize], size: f64) -> f64 {
+        if size == 0.0 {
+            return 0.0;
+        }
+        let scaled = |(&i, w): (&usize, &f64)| (i, w * self.decision.scaling.row_factor(i) / size);
+        self.noise(rows.iter().zip(w).map(scaled))
+    }
+
+    /// Judges a margin made of coefficients of Z with this noise.
     fn judge(
         &self,
         margin: f64,
-        size: f64,
+        noise: f64,
         vanishes: impl FnOnce(&ExactNullSpace) -> bool,
     ) -> Judgement {
         match (&self.exact, &self.decision.status) {
             (Some(z), _) => Judgement::exact(margin, vanishes(z)),
             (None, RankStatus::Undecided(doubt)) => Judgement::without_rank(margin, doubt),
-            (None, _) => Judgement::of(
-                margin,
-                self.decision.read_coefficient(margin / size.max(1.0)),
-            ),
+            (None, _) => Judgement::of(margin, self.decision.read_coefficient(margin, noise)),
         }
     }
 }

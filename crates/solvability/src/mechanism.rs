@@ -134,17 +134,11 @@ pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Ma
         .apply(&mechanism.layout().dense(s))
 }
 
-/// What the entries of [`dimensionless`] C are known to.
-pub(crate) fn uncertainty(
-    mechanism: &Mechanism,
-    s: &Scratch,
-    q: &[f64],
-    size: f64,
-    known: Known,
-) -> Matrix {
+/// What the entries of [`dimensionless`] C are known to in `f64`.
+pub(crate) fn uncertainty(mechanism: &Mechanism, s: &Scratch, q: &[f64], size: f64) -> Matrix {
     mechanism
         .dimension_scaling(size)
-        .apply(&mechanism.uncertainty(s, q, size, known))
+        .apply(&mechanism.uncertainty(s, q, size, Known::AsStored))
 }
 
 /// The velocities that are one without dimensions: 1 m/s for translations, and for rotations what moves a point at the size of the
@@ -166,7 +160,7 @@ pub fn decide(
     let size = scene_size(mechanism, q);
     linalg::decide(
         &dimensionless(mechanism, s, size),
-        &uncertainty(mechanism, s, q, size, Known::AsStored),
+        &uncertainty(mechanism, s, q, size),
     )
     .map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
@@ -183,7 +177,7 @@ pub fn decide_holonomic(
     let size = scene_size(mechanism, q);
     let rows: Vec<usize> = (0..mechanism.layout().m).collect();
     let phi_q = dimensionless(mechanism, s, size).select_rows(&rows);
-    let known = uncertainty(mechanism, s, q, size, Known::AsStored).select_rows(&rows);
+    let known = uncertainty(mechanism, s, q, size).select_rows(&rows);
     linalg::decide(&phi_q, &known).map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
@@ -199,7 +193,7 @@ pub fn decide_dropping(
 ) -> Result<RankDecision, KeptRowsError> {
     let size = scene_size(mechanism, q);
     let c = dimensionless(mechanism, s, size);
-    let known = uncertainty(mechanism, s, q, size, Known::AsStored);
+    let known = uncertainty(mechanism, s, q, size);
     linalg::decide_dropping(&c, &known, dropped)
 }
 

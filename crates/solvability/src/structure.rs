@@ -3,7 +3,7 @@
 
 use linalg::{RankError, RowGroup, Settled, Structure};
 use model::start::scene_size;
-use model::{Known, Mechanism, Scratch, System};
+use model::{Mechanism, Scratch, System};
 
 use crate::explain::ExplanationError;
 use crate::matrices::{QueryError, Solvability};
@@ -27,7 +27,7 @@ pub fn structure(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Struct
     let blocks: Vec<_> = bodies.map(|b| layout.columns(b)).collect();
     linalg::structure(
         &dimensionless(mechanism, s, size),
-        &uncertainty(mechanism, s, q, size, Known::AsStored),
+        &uncertainty(mechanism, s, q, size),
         &groups,
         &blocks,
     )
@@ -45,7 +45,7 @@ pub fn judge_parts(
 ) -> Result<Vec<Option<Judgement>>, ExplanationError> {
     let size = scene_size(mechanism, q);
     let c = dimensionless(mechanism, s, size);
-    let known = uncertainty(mechanism, s, q, size, Known::AsStored);
+    let known = uncertainty(mechanism, s, q, size);
     let parts: Vec<Solvability> = structure
         .open
         .iter()

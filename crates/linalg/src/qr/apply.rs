@@ -85,4 +85,29 @@ impl PivotedQr {
             self.steps()
         );
     }
+
+    /// `C⁺` (n×r) of independent rows C (r×n, r ≤ n) factored by [`PivotedQr::of_rows`]: `C⁺ = Q·R⁻ᵀ·Pᵀ`, so that `C⁺·b` is the
+    /// smallest solution of `C·x = b`.
+    ///
+    /// ```
+    /// use linalg::{Matrix, PivotedQr};
+    /// let inverse = PivotedQr::of_rows(Matrix::from_rows(&[[3.0, 4.0]])).pseudo_inverse();
+    /// assert!((inverse[(0, 0)] - 0.12).abs() < 1e-16 && (inverse[(1, 0)] - 0.16).abs() < 1e-16);
+    /// ```
+    #[must_use]
+    pub fn pseudo_inverse(&self) -> Matrix {
+        let (n, r) = (self.dimension(), self.steps());
+        let mut inverse = Matrix::zeros(n, r);
+        let mut x = vec![0.0; n];
+        for (k, &row) in self.permutation().iter().take(r).enumerate() {
+            x.fill(0.0);
+            x[k] = 1.0;
+            self.solve_r_transpose(&mut x[..r]);
+            self.q_mul(&mut x);
+            for (i, x) in x.iter().enumerate() {
+                inverse[(i, row)] = *x;
+            }
+        }
+        inverse
+    }
 }

@@ -21,6 +21,8 @@ pub struct Certificate {
     pub uncertainty: f64,
     /// How far the equilibrated matrix may be from the one that is meant (Frobenius norm); 0 for exact entries.
     pub spread: f64,
+    /// How far row i of the dependencies `[−T̃, I]` may be from that of the matrix meant (norm), m values; none for exact entries.
+    pub row_noise: Vec<f64>,
     /// The direction in which the kept rows nearly cancel, if they do.
     pub nearly_redundant: Option<NearlyRedundant>,
 }

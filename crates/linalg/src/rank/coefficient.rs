@@ -61,10 +61,24 @@ impl RankDecision {
         }
     }
 
-    /// Reads the size of a coefficient, or of a norm of some.
+    /// How far row i of `[−T̃, I]` may be from its true value (norm): that of the entries it depends on, and rounding. At most about
+    /// [`RankDecision::coefficient_tolerance`], in a matrix of mixed sizes much less.
     #[must_use]
-    pub fn read_coefficient(&self, size: f64) -> CoefficientReading {
+    pub fn row_noise(&self, i: usize) -> f64 {
         let tolerance = self.coefficient_tolerance();
+        let certificate = self.evidence.certificate.as_ref();
+        match certificate.and_then(|c| c.row_noise.get(i)) {
+            Some(noise) if self.evidence.sigma_r >= NEARLY_REDUNDANT => {
+                (NOISE_FACTOR * (f64::EPSILON + noise)).min(tolerance)
+            }
+            _ => tolerance,
+        }
+    }
+
+    /// Reads the size of a coefficient, or of a norm of some, of which the noise is known.
+    #[must_use]
+    pub fn read_coefficient(&self, size: f64, noise: f64) -> CoefficientReading {
+        let tolerance = noise;
         let required = CLEARANCE * tolerance;
         if size <= tolerance && tolerance <= TOLERANCE_MAX {
             CoefficientReading::Zero

@@ -121,6 +121,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
         },
         uncertainty: 0.0,
         spread: 0.0,
+        row_noise: Vec::new(),
         nearly_redundant,
     });
     Ok(decision)

@@ -88,6 +88,16 @@ impl Uncertainty<'_> {
         }
     }
 
+    /// The uncertainty of each entry in an equilibration, which this one has made.
+    pub(crate) fn of_entries(self, scaling: &Scaling) -> Matrix {
+        match self {
+            Self::Equilibrated(value) => {
+                Matrix::from_fn(scaling.rows.len(), scaling.cols.len(), |_, _| value)
+            }
+            Self::Entries(u) => scaling.apply(u),
+        }
+    }
+
     fn check(self, c: &Matrix) -> Result<(), RankError> {
         let Self::Entries(u) = self else {
             return Ok(());

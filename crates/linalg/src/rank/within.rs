@@ -5,6 +5,7 @@
 
 use super::certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant};
 use super::graded::Graded;
+use super::perturbation;
 use super::{
     Doubt, Evidence, NOISE_FACTOR, RankDecision, RankError, RankStatus, Reading, Uncertainty,
     check_finite, projected,
@@ -52,7 +53,8 @@ pub fn certify_within<'a>(
     let leading = c.hi();
     check_finite(&leading)?;
     let (m, n) = (c.nrows(), c.ncols());
-    let (scaling, spread) = uncertainty.into().equilibrate(&leading)?;
+    let known = uncertainty.into();
+    let (scaling, spread) = known.equilibrate(&leading)?;
     let root = (m as f64 * n as f64).sqrt();
     // Entries in double-double are no better than this, whatever the caller knows.
     let rounding = 4.0 * root.max(1.0) * Dd::EPSILON;
@@ -124,6 +126,7 @@ pub fn certify_within<'a>(
         sigma: sigma_r,
         direction: projected(&decision, graded.smallest_direction().unwrap_or_default()),
     });
+    let row_noise = perturbation::row_noise(&decision, &leading, known);
     decision.evidence.certificate = Some(Certificate {
         rank_at_least,
         sigma_bound,
@@ -137,6 +140,7 @@ pub fn certify_within<'a>(
         },
         uncertainty,
         spread,
+        row_noise,
         nearly_redundant,
     });
     Ok(decision)

@@ -2,7 +2,7 @@
 
 use linalg::{Matrix, RankDecision, Scaling};
 use model::start::{nearest_configuration, scene_size};
-use model::{Known, Mechanism, Scratch, System};
+use model::{Mechanism, Scratch, System};
 
 use super::AlongError;
 use crate::certificate::Rows;
@@ -145,7 +145,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
 
     /// The rank at a point; `distance` is how far its C may be from the matrix that is asked for.
     pub(super) fn decide(&self, p: &Point, distance: f64) -> Result<RankDecision, AlongError> {
-        let known = uncertainty(self.mechanism, &p.s, &p.q, self.size, Known::ByMotion);
+        let known = uncertainty(self.mechanism, &p.s, &p.q, self.size);
         let known = Matrix::from_fn(known.nrows(), known.ncols(), |i, j| {
             known[(i, j)] + distance
         });
