@@ -1,0 +1,210 @@
+//! The verdicts along the motion of a scene: it is run, recorded as densely as it moves, and judged.
+
+use std::ops::ControlFlow;
+
+use dynamics::{MotionError, MotionOptions};
+use model::start::scene_size;
+use model::{ColumnKind, Mechanism, System};
+use solvability::{Along, AlongError, State, along_motion};
+
+use crate::error::StudyError;
+use crate::study::Study;
+
+/// Judged states at least, evenly in time.
+const INTERVALS: usize = 200;
+
+/// Recorded rows between two judged states: what lies between rows is interpolated.
+const ROWS: usize = 4;
+
+/// Between judged states no body moves by more than this share of the mechanism's size, or as many radians.
+const REACH: f64 = 0.1;
+
+/// Judged states at most.
+const INTERVALS_MAX: usize = 4_000;
+
+/// Verdicts along a motion.
+#[derive(Debug)]
+pub struct Journey {
+    /// One verdict for almost all of it, and where another holds.
+    pub along: Along,
+    /// Last time that was judged (s).
+    pub to: f64,
+    /// Number of judged states.
+    pub samples: usize,
+    /// How far a body moves between two of them: a share of the mechanism's size, or as many radians.
+    pub reach: f64,
+    /// Why the motion stopped there, if it did.
+    pub stopped: Option<MotionError>,
+}
+
+/// How far a journey is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Progress {
+    /// The motion has reached this time (s).
+    Moving(f64),
+    /// Verdicts are asked for at this time (s); searches go to and fro.
+    Judging(f64),
+}
+
+impl Study {
+    /// Runs the scene up to `t_end`, or as long as it says itself, and judges the motion. Where the run stops, what was computed
+    /// is judged.
+    ///
+    /// # Errors
+    /// - [`StudyError::NoEnd`]: nobody says how long the run takes.
+    /// - [`StudyError::Motion`]: it cannot begin, or stops before anything can be judged.
+    /// - [`StudyError::Along`]: the motion cannot be judged.
+    pub fn journey(
+        &self,
+        t_end: Option<f64>,
+        mut progress: impl FnMut(Progress),
+    ) -> Result<Journey, StudyError> {
+        let options = match (&self.options, t_end) {
+            (Some(options), t_end) => MotionOptions {
+                t_end: t_end.unwrap_or(options.t_end),
+                ..options.clone()
+            },
+            (None, Some(t_end)) => MotionOptions::to(t_end),
+            (None, None) => return Err(StudyError::NoEnd),
+        };
+        let mut intervals = INTERVALS;
+        let mut record = self.record(&options, intervals, &mut progress)?;
+        let needed = (intervals as f64 * record.reach / REACH).ceil();
+        if needed > intervals as f64 {
+            intervals = (needed as usize).min(INTERVALS_MAX);
+            let again = MotionOptions {
+                t_end: record.last(),
+                ..options
+            };
+            let stopped = record.stopped;
+            record = self.record(&again, intervals, &mut progress)?;
+            record.stopped = record.stopped.or(stopped);
+        }
+        let to = record.last();
+        let times: Vec<f64> = (0..=intervals)
+            .map(|k| to * (k as f64 / intervals as f64))
+            .collect();
+        let motion = |t: f64| {
+            progress(Progress::Judging(t));
+            record.state(t)
+        };
+        let along = along_motion(&self.prepared.mechanism, motion, &times)?;
+        Ok(Journey {
+            along,
+            to,
+            samples: times.len(),
+            reach: record.reach,
+            stopped: record.stopped,
+        })
+    }
+
+    /// Runs the scene and keeps its rows.
+    fn record(
+        &self,
+        options: &MotionOptions,
+        intervals: usize,
+        progress: &mut impl FnMut(Progress),
+    ) -> Result<Record, StudyError> {
+        let rows_wanted = (ROWS * intervals) as f64;
+        let options = MotionOptions {
+            output_step: options.t_end / rows_wanted,
+            ..options.clone()
+        };
+        let mechanism = &self.prepared.mechanism;
+        let mut rows: Vec<Row> = Vec::new();
+        let outcome = self.run(&options, |sample| {
+            progress(Progress::Moving(sample.t));
+            let mut qd = vec![0.0; sample.q.len()];
+            mechanism.rate(sample.q, sample.v, &mut qd);
+            rows.push(Row {
+                t: sample.t,
+                q: sample.q.to_vec(),
+                qd,
+                v: sample.v.to_vec(),
+                a: sample.acceleration()?,
+            });
+            Ok(ControlFlow::Continue(()))
+        });
+        let stopped = outcome.err().map(|failure| failure.error);
+        match (rows.len(), stopped) {
+            (0 | 1, Some(error)) => Err(error.into()),
+            (0 | 1, None) => Err(StudyError::Along(AlongError::Times {
+                index: rows.len(),
+                found: f64::NAN,
+            })),
+            (_, stopped) => Ok(Record::new(mechanism, rows, stopped)),
+        }
+    }
+}
+
+/// One recorded state with its rates.
+struct Row {
+    t: f64,
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    v: Vec<f64>,
+    a: Vec<f64>,
+}
+
+/// The rows of a run, two at least.
+struct Record {
+    rows: Vec<Row>,
+    reach: f64,
+    stopped: Option<MotionError>,
+}
+
+impl Record {
+    fn new(mechanism: &Mechanism, rows: Vec<Row>, stopped: Option<MotionError>) -> Self {
+        let size = scene_size(mechanism, &rows[0].q);
+        let unit = |kind: &ColumnKind| match kind {
+            ColumnKind::Translation => size,
+            ColumnKind::Rotation => 1.0,
+        };
+        let units: Vec<f64> = mechanism.column_kinds().iter().map(unit).collect();
+        // By velocities, because coordinates need not be as many.
+        let fastest = |row: &Row| {
+            let rates = row.v.iter().zip(&units).map(|(v, unit)| (v / unit).abs());
+            rates.fold(0.0, f64::max)
+        };
+        let moved =
+            |pair: &[Row]| (pair[1].t - pair[0].t) * fastest(&pair[0]).max(fastest(&pair[1]));
+        let reach = ROWS as f64 * rows.windows(2).map(moved).fold(0.0, f64::max);
+        Self {
+            rows,
+            reach,
+            stopped,
+        }
+    }
+
+    fn last(&self) -> f64 {
+        self.rows[self.rows.len() - 1].t
+    }
+
+    /// The motion at a time between the first row and the last.
+    fn state(&self, t: f64) -> State {
+        let next = self.rows.partition_point(|row| row.t <= t);
+        let k = next.clamp(1, self.rows.len() - 1);
+        let (x, y) = (&self.rows[k - 1], &self.rows[k]);
+        let h = y.t - x.t;
+        let u = (t - x.t) / h;
+        let between = |from: [&[f64]; 2], to: [&[f64]; 2]| {
+            (0..from[0].len())
+                .map(|i| hermite(u, [from[0][i], h * from[1][i]], [to[0][i], h * to[1][i]]))
+                .collect()
+        };
+        State {
+            q: between([&x.q, &x.qd], [&y.q, &y.qd]),
+            v: between([&x.v, &x.a], [&y.v, &y.a]),
+        }
+    }
+}
+
+/// The cubic with these values and slopes at u = 0 and u = 1.
+fn hermite(u: f64, [x, slope_x]: [f64; 2], [y, slope_y]: [f64; 2]) -> f64 {
+    let d = y - x;
+    let (c_2, c_3) = (
+        3.0 * d - 2.0 * slope_x - slope_y,
+        slope_x + slope_y - 2.0 * d,
+    );
+    x + u * (slope_x + u * (c_2 + u * c_3))
+}
