@@ -146,6 +146,33 @@ fn label<'a>(name: &'a str, l: &pfaff::scene::Label) -> Label<(&'a str, std::ops
     }
 }
 
+/// Letters in a line of text for people.
+const WIDTH: usize = 100;
+
+/// A text in lines of at most 100 letters where words allow it; the first begins with `lead`, the others are indented as far.
+pub(crate) fn wrapped(lead: &str, text: &str) -> String {
+    let indent = " ".repeat(lead.chars().count());
+    let (mut out, mut line) = (String::new(), lead.to_owned());
+    let mut is_empty = true;
+    for word in text.split_whitespace() {
+        let width = line.chars().count() + word.chars().count();
+        if !is_empty && width >= WIDTH {
+            out.push_str(line.trim_end());
+            out.push('\n');
+            line.clone_from(&indent);
+            is_empty = true;
+        }
+        if !is_empty {
+            line.push(' ');
+        }
+        line.push_str(word);
+        is_empty = false;
+    }
+    out.push_str(line.trim_end());
+    out.push('\n');
+    out
+}
+
 /// Lines of cells in columns, the first line a header.
 pub(crate) fn columns(rows: &[Vec<String>]) -> String {
     let n = rows.iter().map(Vec::len).max().unwrap_or(0);

@@ -18,6 +18,7 @@ use crate::error::StudyError;
 /// A configuration whose rank has been decided, with its verdicts.
 ///
 /// ```
+/// use pfaff::linalg::Limits;
 /// use pfaff::model::Registry;
 /// use pfaff::solvability::Allowed;
 /// use pfaff::{Overrides, Study};
@@ -35,7 +36,7 @@ use crate::error::StudyError;
 /// let start = study.inquire(0.0, None)?;
 /// assert_eq!(start.eliminations()?, 2);
 /// let left = start.reaction("left")?;
-/// let ways = start.make_unique(left, &Allowed::Sensible)?.ways;
+/// let ways = start.make_unique(left, &Allowed::Sensible, Limits::default())?.ways;
 /// assert_eq!(ways[0].text, "delete `right`");
 /// # Ok::<(), pfaff::StudyError>(())
 /// ```
@@ -157,9 +158,10 @@ impl<'a> Inquiry<'a> {
         &self,
         id: ConstraintId,
         allowed: &Allowed,
+        limits: Limits,
     ) -> Result<Proposals, DeletionError> {
         let solvability = self.configuration.solvability();
-        make_unique(self.mechanism, solvability, id, allowed, Limits::default())
+        make_unique(self.mechanism, solvability, id, allowed, limits)
     }
 
     /// The verdicts of a reaction in all frames that it has.
