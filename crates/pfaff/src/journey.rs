@@ -59,57 +59,83 @@ impl Study {
         t_end: Option<f64>,
         mut progress: impl FnMut(Progress),
     ) -> Result<Journey, StudyError> {
-        let options = match (&self.options, t_end) {
-            (Some(options), t_end) => MotionOptions {
-                t_end: t_end.unwrap_or(options.t_end),
-                ..options.clone()
-            },
-            (None, Some(t_end)) => MotionOptions::to(t_end),
-            (None, None) => return Err(StudyError::NoEnd),
-        };
-        let mut intervals = INTERVALS;
-        let mut record = self.record(&options, intervals, &mut progress)?;
-        let needed = (intervals as f64 * record.reach / REACH).ceil();
-        if needed > intervals as f64 {
-            intervals = (needed as usize).min(INTERVALS_MAX);
-            let again = MotionOptions {
-                t_end: record.last(),
-                ..options
-            };
-            let stopped = record.stopped;
-            record = self.record(&again, intervals, &mut progress)?;
-            record.stopped = record.stopped.or(stopped);
+        let own = self.options.as_ref().map(|options| options.t_end);
+        let t_end = t_end.or(own).ok_or(StudyError::NoEnd)?;
+        if !(t_end.is_finite() && t_end > 0.0) {
+            return Err(StudyError::Motion(MotionError::Option {
+                name: "t_end",
+                value: t_end,
+                expected: "a finite time > 0",
+            }));
         }
-        let to = record.last();
+        let run = self.record(t_end, INTERVALS, &mut progress)?;
+        let needed = INTERVALS as f64 * run.reach(&self.prepared.mechanism) / REACH;
+        let intervals = INTERVALS.max(needed.min(INTERVALS_MAX as f64).ceil() as usize);
+        if run.stopped.is_none() && intervals == INTERVALS {
+            return self.judge(run, intervals, &mut progress);
+        }
+        // Once more, where the motion is too fast for these rows, or up to the last state before it stopped. That one may be too
+        // near to a singular configuration to be brought onto the constraints; then the last row before it has to do.
+        let again = self.record(run.reached, intervals, &mut progress)?;
+        let stopped = again.stopped.is_some();
+        match self.judge(again, intervals, &mut progress) {
+            Err(StudyError::Along(AlongError::OffConstraints { .. }))
+                if run.stopped.is_some() || stopped =>
+            {
+                self.judge(run, INTERVALS, &mut progress)
+            }
+            Ok(journey) => Ok(Journey {
+                stopped: journey.stopped.or(run.stopped),
+                ..journey
+            }),
+            failed => failed,
+        }
+    }
+
+    fn judge(
+        &self,
+        run: Record,
+        intervals: usize,
+        progress: &mut impl FnMut(Progress),
+    ) -> Result<Journey, StudyError> {
+        let mechanism = &self.prepared.mechanism;
+        let Some(to) = run.rows.last().map(|row| row.t).filter(|t| *t > 0.0) else {
+            return Err(match run.stopped {
+                Some(error) => error.into(),
+                None => StudyError::NoEnd,
+            });
+        };
         let times: Vec<f64> = (0..=intervals)
             .map(|k| to * (k as f64 / intervals as f64))
             .collect();
         let motion = |t: f64| {
             progress(Progress::Judging(t));
-            record.state(t)
+            run.state(t)
         };
-        let along = along_motion(&self.prepared.mechanism, motion, &times)?;
+        let along = along_motion(mechanism, motion, &times)?;
         Ok(Journey {
             along,
             to,
             samples: times.len(),
-            reach: record.reach,
-            stopped: record.stopped,
+            reach: run.reach(mechanism),
+            stopped: run.stopped,
         })
     }
 
     /// Runs the scene and keeps its rows.
     fn record(
         &self,
-        options: &MotionOptions,
+        t_end: f64,
         intervals: usize,
         progress: &mut impl FnMut(Progress),
     ) -> Result<Record, StudyError> {
-        let rows_wanted = (ROWS * intervals) as f64;
+        let base = self.options.clone();
         let options = MotionOptions {
-            output_step: options.t_end / rows_wanted,
-            ..options.clone()
+            t_end,
+            output_step: t_end / (ROWS * intervals) as f64,
+            ..base.unwrap_or_else(|| MotionOptions::to(t_end))
         };
+        options.check()?;
         let mechanism = &self.prepared.mechanism;
         let mut rows: Vec<Row> = Vec::new();
         let outcome = self.run(&options, |sample| {
@@ -125,15 +151,16 @@ impl Study {
             });
             Ok(ControlFlow::Continue(()))
         });
-        let stopped = outcome.err().map(|failure| failure.error);
-        match (rows.len(), stopped) {
-            (0 | 1, Some(error)) => Err(error.into()),
-            (0 | 1, None) => Err(StudyError::Along(AlongError::Times {
-                index: rows.len(),
-                found: f64::NAN,
-            })),
-            (_, stopped) => Ok(Record::new(mechanism, rows, stopped)),
-        }
+        let (reached, stopped) = match outcome {
+            Ok(summary) => (summary.t, None),
+            Err(failure) if failure.summary.t > 0.0 => (failure.summary.t, Some(failure.error)),
+            Err(failure) => return Err(failure.error.into()),
+        };
+        Ok(Record {
+            rows,
+            reached,
+            stopped,
+        })
     }
 }
 
@@ -146,16 +173,21 @@ struct Row {
     a: Vec<f64>,
 }
 
-/// The rows of a run, two at least.
+/// The rows of a run.
 struct Record {
     rows: Vec<Row>,
-    reach: f64,
+    /// The last accepted time (s), at or after the last row.
+    reached: f64,
     stopped: Option<MotionError>,
 }
 
 impl Record {
-    fn new(mechanism: &Mechanism, rows: Vec<Row>, stopped: Option<MotionError>) -> Self {
-        let size = scene_size(mechanism, &rows[0].q);
+    /// How far anything moves between judged states.
+    fn reach(&self, mechanism: &Mechanism) -> f64 {
+        let Some(first) = self.rows.first() else {
+            return 0.0;
+        };
+        let size = scene_size(mechanism, &first.q);
         let unit = |kind: &ColumnKind| match kind {
             ColumnKind::Translation => size,
             ColumnKind::Rotation => 1.0,
@@ -168,19 +200,10 @@ impl Record {
         };
         let moved =
             |pair: &[Row]| (pair[1].t - pair[0].t) * fastest(&pair[0]).max(fastest(&pair[1]));
-        let reach = ROWS as f64 * rows.windows(2).map(moved).fold(0.0, f64::max);
-        Self {
-            rows,
-            reach,
-            stopped,
-        }
+        ROWS as f64 * self.rows.windows(2).map(moved).fold(0.0, f64::max)
     }
 
-    fn last(&self) -> f64 {
-        self.rows[self.rows.len() - 1].t
-    }
-
-    /// The motion at a time between the first row and the last.
+    /// The motion at a time between the first row and the last; there must be two.
     fn state(&self, t: f64) -> State {
         let next = self.rows.partition_point(|row| row.t <= t);
         let k = next.clamp(1, self.rows.len() - 1);

@@ -10,6 +10,9 @@ use crate::output::{Failure, count, wrapped};
 /// Ticks of the progress bar over the whole motion.
 const TICKS: u64 = 1000;
 
+/// Judged states farther apart than this may miss something: a share of the mechanism's size, or radians.
+const COARSE: f64 = 0.2;
+
 /// Runs and judges the motion.
 pub(super) fn judge(
     source: &Source,
@@ -44,7 +47,7 @@ pub(super) fn judge(
     Ok(AlongDocument::new(
         &journey.along,
         journey.to,
-        journey.samples,
+        (journey.samples, journey.reach),
         stopped,
     ))
 }
@@ -53,7 +56,7 @@ pub(super) fn judge(
 pub(super) fn describe(along: &AlongDocument) -> String {
     let mut out = format!(
         "\nAlong the motion, t = 0 to {} s ({}):\n",
-        along.to,
+        seconds(along.to),
         count(along.samples, "state judged", "states judged"),
     );
     let generic = &along.generic;
@@ -91,6 +94,13 @@ pub(super) fn describe(along: &AlongDocument) -> String {
     if along.stretches.is_empty() && along.passages.is_empty() {
         out.push_str("- nothing else holds at any time\n");
     }
+    if along.reach > COARSE {
+        let between = format!(
+            "warning: between judged states bodies move by up to {:.1} of the mechanism's size or radians: short events may be missed",
+            along.reach
+        );
+        out.push_str(&wrapped("- ", &between));
+    }
     if let Some(reason) = &along.stopped {
         out.push_str(&wrapped(
             "- ",
@@ -98,4 +108,10 @@ pub(super) fn describe(along: &AlongDocument) -> String {
         ));
     }
     out
+}
+
+/// A time to the nanosecond, without trailing zeros.
+fn seconds(t: f64) -> String {
+    let text = format!("{t:.9}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

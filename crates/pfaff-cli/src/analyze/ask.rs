@@ -9,15 +9,13 @@ use pfaff::solvability::{Allowed, Verdict};
 use pfaff::{Inquiry, StudyError};
 
 use super::choice;
+use super::text::HINTS;
 use crate::args::Analyze;
 use crate::input::Source;
 use crate::output::Failure;
 
 /// Sets tried for a hint that nobody asked for.
 const HINT_TRIALS: usize = 5_000;
-
-/// Hints are given for as many reactions.
-const HINTS: usize = 40;
 
 /// All answers but those along the motion.
 pub(super) fn document(
@@ -85,7 +83,8 @@ pub(super) fn hints(inquiry: &Inquiry<'_>) -> Result<Vec<MakeUniqueDocument>, Fa
     };
     let reactions = inquiry.analysis.reactions.iter();
     let open = reactions.filter(|r| r.wrench.verdict == Verdict::NotUnique);
-    open.take(HINTS)
+    // One more than is told, so that it is known that there are more.
+    open.take(HINTS + 1)
         .map(
             |r| match inquiry.make_unique(r.id, &Allowed::Sensible, limits) {
                 Err(e @ (DeletionError::TargetShape { .. } | DeletionError::NonFinite { .. })) => {

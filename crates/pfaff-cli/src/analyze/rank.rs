@@ -57,10 +57,10 @@ fn proof(d: &AnalysisDocument) -> String {
             r + 1
         ),
         _ => format!(
-            "rank {r} proved; σ_{} = {next:.1e} stays in doubled precision, but the data are only known to {:.1e}: {others} \
-             redundant to within the rounding of the data",
+            "rank {r} proved; σ_{} = {next:.1e} stays in doubled precision, but is below the {:.1e} that the rounding of the data \
+             leaves open: {others} redundant to within the rounding of the data",
             r + 1,
-            e.uncertainty.unwrap_or(f64::NAN)
+            e.tolerance
         ),
     }
 }
@@ -82,8 +82,8 @@ fn nearly(d: &AnalysisDocument) -> Option<String> {
         .map(|r| r.name.as_str())
         .collect();
     Some(format!(
-        "NEARLY REDUNDANT, not redundant: σ_{} = {:.1e}, the rows of {} almost depend on each other. Reactions are as read, but of size \
-         1/σ = {:.0e} per unit of load; data changed by {:.0e} change them by their own size",
+        "NEARLY REDUNDANT: σ_{} = {:.1e} is not zero, but the rows of {} almost depend on each other. The verdicts hold, but reactions \
+         are of size 1/σ = {:.0e} per unit of load; data changed by {:.0e} change them by their own size",
         d.rank,
         nearly.sigma,
         names.join(", "),

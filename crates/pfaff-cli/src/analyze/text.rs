@@ -2,7 +2,8 @@
 
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
-    ComponentDocument, DistributionDocument, MakeUniqueDocument, ReactionDocument, ValueDocument,
+    ComponentDocument, DistributionDocument, MakeUniqueDocument, MixingDocument, ReactionDocument,
+    ValueDocument,
 };
 
 use super::{along, rank};
@@ -10,6 +11,9 @@ use crate::output::{columns, count, wrapped};
 
 /// Ways that are listed for a reaction nobody asked about.
 const WAYS: usize = 1;
+
+/// Reactions for which they are listed.
+pub(super) const HINTS: usize = 8;
 
 pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
     let mut out = format!(
@@ -158,7 +162,13 @@ fn why(d: &AnalysisDocument) -> String {
         return String::new();
     }
     let mut out = "\nWhy:\n".to_owned();
-    let mixing = d.mixing.iter().map(|m| &m.text);
+    // One dependency among all that mix says it all.
+    let is_told = |m: &&MixingDocument| d.dependencies.iter().any(|x| x.joints == m.reactions);
+    let mixing = d
+        .mixing
+        .iter()
+        .filter(|m| m.redundancy > 1 || !is_told(m))
+        .map(|m| &m.text);
     for text in mixing.chain(d.dependencies.iter().map(|x| &x.text)) {
         out.push_str(&wrapped("- ", text));
     }
@@ -169,12 +179,15 @@ fn deletions(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
     let mut out = String::new();
     if !hints.is_empty() && d.make_unique.is_empty() {
         out.push_str("\nWhat would make it unique (a decision of the designer, not a finding):\n");
-        for hint in hints {
+        for hint in hints.iter().take(HINTS) {
             out.push_str(&wrapped(
                 &format!("- {}: ", hint.reaction),
                 &ways(hint, WAYS),
             ));
         }
+    }
+    if hints.len() > HINTS && d.make_unique.is_empty() {
+        out.push_str("- others: `--make-unique NAME`\n");
     }
     for wanted in &d.make_unique {
         out.push_str(&format!(
@@ -238,7 +251,7 @@ fn ways(found: &MakeUniqueDocument, most: usize) -> String {
         ([], false) => "nothing was found in the sets that were tried".to_owned(),
         (texts, _) if more == 0 => texts.join("; or "),
         (texts, _) => format!(
-            "{}; or {more} other {} (`--make-unique {}`)",
+            "{}; or {more} other {} (`--make-unique \"{}\"`)",
             texts.join("; or "),
             if more == 1 { "way" } else { "ways" },
             found.reaction

@@ -12,6 +12,8 @@ pub struct AlongDocument {
     pub to: f64,
     /// Number of judged states.
     pub samples: usize,
+    /// How far a body moves between two of them: a share of the mechanism's size, or as many radians.
+    pub reach: f64,
     /// Why the motion stopped there, if it did.
     pub stopped: Option<String>,
     /// The verdicts that hold almost always.
@@ -102,9 +104,14 @@ pub struct DifferenceDocument {
 }
 
 impl AlongDocument {
-    /// The document of a motion that was judged up to a time, and stopped there if a reason is given.
+    /// The document of a motion that was judged up to a time, at so many samples so far apart, and stopped there if a reason is given.
     #[must_use]
-    pub fn new(along: &Along, to: f64, samples: usize, stopped: Option<String>) -> Self {
+    pub fn new(
+        along: &Along,
+        to: f64,
+        (samples, reach): (usize, f64),
+        stopped: Option<String>,
+    ) -> Self {
         let analysis = &along.generic;
         let reactions = analysis.reactions.iter().map(|r| NamedVerdictDocument {
             name: r.name.clone(),
@@ -113,6 +120,7 @@ impl AlongDocument {
         Self {
             to,
             samples,
+            reach,
             stopped,
             generic: GenericVerdictsDocument {
                 time: analysis.time,
