@@ -3,7 +3,7 @@
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
     ComponentDocument, DistributionDocument, MakeUniqueDocument, MixingDocument, ReactionDocument,
-    ValueDocument,
+    ValueDocument, VerdictDocument,
 };
 
 use super::{along, rank};
@@ -92,9 +92,17 @@ fn line(r: &ReactionDocument) -> Vec<String> {
         r.kind.to_owned(),
         rows,
         spoken(r.wrench.verdict),
-        format!("{:.1e}", r.wrench.margin),
+        margin(&r.wrench),
         components,
     ]
+}
+
+/// What is left of a margin by rounding is no number for people; the document has it.
+fn margin(v: &VerdictDocument) -> String {
+    match v.verdict {
+        "unique" => "~0".to_owned(),
+        _ => format!("{:.1e}", v.margin),
+    }
 }
 
 fn each(components: &[ComponentDocument]) -> String {
@@ -120,9 +128,9 @@ fn groups(d: &AnalysisDocument) -> String {
     let mut out = String::new();
     for g in &d.groups {
         let mut text = format!(
-            "{} (margin {:.1e})",
+            "{} (margin {})",
             spoken(g.verdict.verdict),
-            g.verdict.margin
+            margin(&g.verdict)
         );
         if !g.components.is_empty() {
             text.push_str(&format!(": {}", each(&g.components)));
