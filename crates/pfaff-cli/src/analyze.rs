@@ -3,6 +3,8 @@
 mod along;
 mod ask;
 mod choice;
+mod deletions;
+mod numbers;
 mod rank;
 mod text;
 
@@ -57,7 +59,7 @@ fn of_study(
     answer(arguments, &inquiry, &document)?;
     match document.along.is_some_and(|along| along.stopped.is_some()) {
         // Said above, with what was computed.
-        true => Err(Failure::Interrupted),
+        true => Err(Failure::Incomplete),
         false => Ok(()),
     }
 }

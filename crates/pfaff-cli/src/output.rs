@@ -23,8 +23,8 @@ pub(crate) enum Failure {
     Stopped(String),
     /// Nobody listens any more.
     Closed,
-    /// The user stopped it; what was reached has been said already.
-    Interrupted,
+    /// It stopped or was interrupted; what was reached has been said already.
+    Incomplete,
 }
 
 impl Failure {
@@ -40,7 +40,7 @@ impl Failure {
     pub(crate) fn report(self, answer: Answer) -> ExitCode {
         let code = match self {
             Self::Closed => return ExitCode::SUCCESS,
-            Self::Interrupted => return ExitCode::from(1),
+            Self::Incomplete => return ExitCode::from(1),
             Self::Scene { .. } | Self::Input(_) => 2,
             Self::Stopped(_) => 1,
         };
@@ -64,7 +64,7 @@ impl Failure {
                 diagnostics,
             } => render(name, text, diagnostics),
             Self::Input(message) | Self::Stopped(message) => format!("error: {message}\n"),
-            Self::Closed | Self::Interrupted => String::new(),
+            Self::Closed | Self::Incomplete => String::new(),
         }
     }
 
@@ -73,7 +73,7 @@ impl Failure {
         let (error, problems) = match self {
             Self::Scene { diagnostics, .. } => (in_one_line(diagnostics), diagnostics.as_slice()),
             Self::Input(message) | Self::Stopped(message) => (message.clone(), [].as_slice()),
-            Self::Closed | Self::Interrupted => (String::new(), [].as_slice()),
+            Self::Closed | Self::Incomplete => (String::new(), [].as_slice()),
         };
         json!({ "ok": false, "error": error, "problems": problems })
     }

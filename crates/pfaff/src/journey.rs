@@ -50,6 +50,24 @@ impl Study {
     /// Runs the scene up to `t_end`, or as long as it says itself, and judges the motion. Where the run stops, what was computed
     /// is judged.
     ///
+    /// ```
+    /// use pfaff::model::Registry;
+    /// use pfaff::{Overrides, Study};
+    ///
+    /// // A pendulum that falls has nothing singular on its way.
+    /// let scene = r#"
+    /// scene = { name = "pendulum", space = "plane", gravity = [0.0, -9.81] }
+    /// body = [{ name = "bob", mass = 1.0, inertia = 0.1, position = [1.0, 0.0] }]
+    /// joint = [{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [0.0, 0.0] }]
+    /// "#;
+    /// let study = Study::read("pendulum.toml", scene, &Registry::planar(), &Overrides::default())?;
+    /// let journey = study.journey(Some(1.0), |_| {})?;
+    /// assert_eq!((journey.to, journey.stopped.is_none()), (1.0, true));
+    /// assert_eq!(journey.along.generic.decision.redundancy, 0);
+    /// assert!(journey.along.stretches.is_empty() && journey.along.passages.is_empty());
+    /// # Ok::<(), pfaff::StudyError>(())
+    /// ```
+    ///
     /// # Errors
     /// - [`StudyError::NoEnd`]: nobody says how long the run takes.
     /// - [`StudyError::Motion`]: it cannot begin, or stops before anything can be judged.

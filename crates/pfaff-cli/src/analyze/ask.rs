@@ -5,11 +5,11 @@ use pfaff::report::documents::{
     DistributionDocument, EliminationsDocument, GroupDocument, MakeUniqueDocument,
 };
 use pfaff::report::{AnalysisDocument, Proof};
-use pfaff::solvability::{Allowed, Verdict};
+use pfaff::solvability::{Allowed, UnitError, Verdict};
 use pfaff::{Inquiry, StudyError};
 
 use super::choice;
-use super::text::HINTS;
+use super::deletions::HINTS;
 use crate::args::Analyze;
 use crate::input::Source;
 use crate::output::Failure;
@@ -65,7 +65,17 @@ pub(super) fn document(
         document.add_frames(&frames.map_err(failure)?);
     }
     if !choices.is_empty() {
-        let facts = inquiry.facts().map_err(failure)?;
+        let facts = match inquiry.facts() {
+            Ok(facts) => facts,
+            // Units are compared in double precision, choices are made by the proved rank.
+            Err(StudyError::Units(e @ UnitError::RankChanges { .. })) => {
+                document.warnings.push(format!(
+                    "a change of units does not tell facts from choices: {e}"
+                ));
+                Vec::new()
+            }
+            Err(e) => return Err(failure(e)),
+        };
         for choice in &choices {
             let distribution = inquiry.distribution(choice).map_err(failure)?;
             let made = DistributionDocument::new(&distribution, &facts);

@@ -2,18 +2,14 @@
 
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
-    ComponentDocument, DistributionDocument, MakeUniqueDocument, MixingDocument, ReactionDocument,
-    ValueDocument, VerdictDocument,
+    ComponentDocument, MakeUniqueDocument, MixingDocument, ReactionDocument, VerdictDocument,
 };
 
-use super::{along, rank};
+use super::{along, deletions, numbers, rank};
 use crate::output::{columns, count, wrapped};
 
-/// Ways that are listed for a reaction nobody asked about.
-const WAYS: usize = 1;
-
-/// Reactions for which they are listed.
-pub(super) const HINTS: usize = 8;
+/// Reasons that are listed.
+const REASONS: usize = 10;
 
 pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
     let mut out = format!(
@@ -31,8 +27,8 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
     out.push_str(&groups(d));
     out.push_str(&frames(d));
     out.push_str(&why(d));
-    out.push_str(&deletions(d, hints));
-    out.push_str(&choices(&d.choices));
+    out.push_str(&deletions::describe(d, hints));
+    out.push_str(&numbers::describe(&d.choices));
     out.extend(d.along.as_ref().map(along::describe));
     let told = |warning: &&String| {
         let reason = d.evidence.reason.as_ref();
@@ -172,143 +168,15 @@ fn why(d: &AnalysisDocument) -> String {
     let mut out = "\nWhy:\n".to_owned();
     // One dependency among all that mix says it all.
     let is_told = |m: &&MixingDocument| d.dependencies.iter().any(|x| x.joints == m.reactions);
-    let mixing = d
-        .mixing
-        .iter()
-        .filter(|m| m.redundancy > 1 || !is_told(m))
-        .map(|m| &m.text);
-    for text in mixing.chain(d.dependencies.iter().map(|x| &x.text)) {
+    let mixing = d.mixing.iter().filter(|m| m.redundancy > 1 || !is_told(m));
+    let dependencies = d.dependencies.iter().map(|x| &x.text);
+    let reasons: Vec<&String> = mixing.map(|m| &m.text).chain(dependencies).collect();
+    for text in reasons.iter().take(REASONS) {
         out.push_str(&wrapped("- ", text));
     }
-    out
-}
-
-fn deletions(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
-    let mut out = String::new();
-    if !hints.is_empty() && d.make_unique.is_empty() {
-        out.push_str("\nWhat would make it unique (a decision of the designer, not a finding):\n");
-        for hint in hints.iter().take(HINTS) {
-            out.push_str(&wrapped(
-                &format!("- {}: ", hint.reaction),
-                &ways(hint, WAYS),
-            ));
-        }
+    if reasons.len() > REASONS {
+        let more = reasons.len() - REASONS;
+        out.push_str(&format!("- and {more} more (`--json` has all)\n"));
     }
-    if hints.len() > HINTS && d.make_unique.is_empty() {
-        out.push_str("- others: `--make-unique NAME`\n");
-    }
-    for wanted in &d.make_unique {
-        out.push_str(&format!(
-            "\nTo make {} unique, with the motion as it is ({}):\n",
-            wanted.reaction,
-            match wanted.allowed {
-                "sensible" => "no joint of several rows loses all of them",
-                "whole" => "joints and drives as a whole",
-                _ => "of the rows allowed",
-            }
-        ));
-        match wanted.ways.as_slice() {
-            [] => out.push_str(&wrapped("- ", &ways(wanted, 0))),
-            all => all
-                .iter()
-                .for_each(|way| out.push_str(&wrapped("- ", &way.text))),
-        }
-        if !wanted.complete && wanted.reason.is_none() {
-            out.push_str("- and others: the search was not finished\n");
-        }
-    }
-    let Some(eliminations) = d.eliminations.as_ref().filter(|_| d.redundancy > 0) else {
-        return out;
-    };
-    let number = eliminations.count.map(|n| n.to_string());
-    let reason = eliminations.reason.clone().unwrap_or_default();
-    let sets = match &eliminations.sets {
-        None => " (`--eliminations` lists them)".to_owned(),
-        Some(sets) => {
-            let sets = sets.iter().map(|set| {
-                let rows: Vec<String> = set.iter().map(usize::to_string).collect();
-                format!("{{{}}}", rows.join(","))
-            });
-            format!(": {}", sets.collect::<Vec<_>>().join(" "))
-        }
-    };
-    let rows = count(d.redundancy, "row", "rows");
-    let sentence = match number {
-        Some(n) => format!("{n} sets of {rows} can be eliminated without a change of motion{sets}"),
-        None => format!("sets of {rows} that can be eliminated are not counted: {reason}{sets}"),
-    };
-    out.push('\n');
-    out.push_str(&wrapped("", &sentence));
-    out
-}
-
-/// The first ways in words, and how many more there are.
-fn ways(found: &MakeUniqueDocument, most: usize) -> String {
-    if let Some(reason) = &found.reason {
-        return format!("not known: {reason}");
-    }
-    let texts: Vec<&str> = found
-        .ways
-        .iter()
-        .take(most)
-        .map(|w| w.text.as_str())
-        .collect();
-    let more = found.ways.len() - texts.len();
-    match (texts.as_slice(), found.complete) {
-        ([], true) => "nothing that is allowed to be deleted makes it so".to_owned(),
-        ([], false) => "nothing was found in the sets that were tried".to_owned(),
-        (texts, _) if more == 0 => texts.join("; or "),
-        (texts, _) => format!(
-            "{}; or {more} other {} (`--make-unique \"{}\"`)",
-            texts.join("; or "),
-            if more == 1 { "way" } else { "ways" },
-            found.reaction
-        ),
-    }
-}
-
-/// Facts once; what depends on a choice in the column of the choice.
-fn choices(choices: &[DistributionDocument]) -> String {
-    let Some(first) = choices.first() else {
-        return String::new();
-    };
-    let mut header = ["reaction", "component", "determined"]
-        .map(str::to_owned)
-        .to_vec();
-    header.extend((1..=choices.len()).map(|k| format!("choice {k}")));
-    let mut table = vec![header];
-    let mut suspicious = Vec::new();
-    for (i, reaction) in first.reactions.iter().enumerate() {
-        for (j, component) in reaction.components.iter().enumerate() {
-            let name = component.name.unwrap_or_default();
-            let mut cells = vec![reaction.name.clone(), name.to_owned()];
-            let number = |v: &ValueDocument| format!("{:>12.6e}", v.value);
-            let is_fact = component.choice.is_none();
-            match is_fact {
-                true => cells.push(number(component)),
-                false => {
-                    cells.push(String::new());
-                    let all = choices.iter();
-                    cells.extend(all.map(|d| number(&d.reactions[i].components[j])));
-                }
-            }
-            if component.nature == Some(if is_fact { "choice" } else { "fact" }) {
-                suspicious.push(format!("{name} of {}", reaction.name));
-            }
-            table.push(cells);
-        }
-    }
-    let mut out = format!(
-        "\nReactions on the first body (N, N·m):\n{}",
-        columns(&table)
-    );
-    for (k, choice) in choices.iter().enumerate() {
-        out.push_str(&wrapped(&format!("choice {}: ", k + 1), &choice.label));
-    }
-    let sentence = match suspicious.as_slice() {
-        [] => "A change of units leaves what is determined as it is, and changes the rest, as it must.".to_owned(),
-        names => format!("warning: under a change of units {} behave otherwise than their verdicts say: do not trust them", names.join(", ")),
-    };
-    out.push_str(&wrapped("", &sentence));
     out
 }
