@@ -17,10 +17,20 @@ pub(crate) struct Arguments {
     pub(crate) command: Command,
 }
 
+const ANALYZE_EXAMPLES: &str = "Examples:
+  pfaff analyze robot.toml --at-time 1.5           verdicts at 1.5 s of the motion
+  pfaff analyze robot.toml --make-unique W3        what to delete so that W3 is determined
+  pfaff analyze robot.toml --combine \"W3.N + W4.N\"
+  pfaff analyze robot.toml --along                 one verdict for the whole motion, and where another holds
+  pfaff analyze robot.toml --choose minimum-norm --choose compliance:W3=1e-6,W4=2e-6 --choose drop:6,21
+  pfaff analyze robot.toml --json
+
+Reactions that are not unique are never given a number without the choice it depends on.";
+
 #[derive(Subcommand)]
 pub(crate) enum Command {
     /// Rank, redundancy, and the verdict of every reaction
-    #[command(after_help = "Example: pfaff analyze robot-trolley.toml --at-time 1.5 --json")]
+    #[command(after_help = ANALYZE_EXAMPLES)]
     Analyze(Analyze),
     /// Motion and reactions, written into a directory
     #[command(after_help = "Example: pfaff simulate robot-trolley.toml --out run --drop 6,21")]
@@ -70,6 +80,26 @@ pub(crate) struct Analyze {
     /// A sum of components whose verdict is wanted, as "W3.N + W4.N"; may be given several times
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub(crate) combine: Vec<String>,
+    /// What to delete so that this reaction becomes unique, the smallest sets; may be given several times
+    #[arg(long, value_name = "NAME")]
+    pub(crate) make_unique: Vec<String>,
+    /// What may be deleted for it: sensible (no joint of several rows loses all of them), whole (joints and drives as a whole),
+    /// rows (any), or rows:4,6,21 (these)
+    #[arg(long, value_name = "WHAT", default_value = "sensible")]
+    pub(crate) allow: String,
+    /// List the sets of rows that can be eliminated without a change of motion, N at most
+    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "100")]
+    pub(crate) eliminations: Option<usize>,
+    /// Verdicts in the frames of the first body and of the edge, too
+    #[arg(long)]
+    pub(crate) frames: bool,
+    /// Run the motion, as long as the scene says or to T_END (s): one verdict, and where another holds
+    #[arg(long, value_name = "T_END", num_args = 0..=1, allow_negative_numbers = true)]
+    pub(crate) along: Option<Option<f64>>,
+    /// Reactions by a choice: minimum-norm, minimum-norm:length=L (torques count as forces at this arm),
+    /// compliance:W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds rad/(N·m)), drop:6,21; may be given several times
+    #[arg(long, value_name = "CHOICE")]
+    pub(crate) choose: Vec<String>,
     /// One JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,

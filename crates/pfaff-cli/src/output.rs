@@ -23,8 +23,8 @@ pub(crate) enum Failure {
     Stopped(String),
     /// Nobody listens any more.
     Closed,
-    /// The user stopped it; what was reached has been said already.
-    Interrupted,
+    /// It stopped or was interrupted; what was reached has been said already.
+    Incomplete,
 }
 
 impl Failure {
@@ -40,7 +40,7 @@ impl Failure {
     pub(crate) fn report(self, answer: Answer) -> ExitCode {
         let code = match self {
             Self::Closed => return ExitCode::SUCCESS,
-            Self::Interrupted => return ExitCode::from(1),
+            Self::Incomplete => return ExitCode::from(1),
             Self::Scene { .. } | Self::Input(_) => 2,
             Self::Stopped(_) => 1,
         };
@@ -64,7 +64,7 @@ impl Failure {
                 diagnostics,
             } => render(name, text, diagnostics),
             Self::Input(message) | Self::Stopped(message) => format!("error: {message}\n"),
-            Self::Closed | Self::Interrupted => String::new(),
+            Self::Closed | Self::Incomplete => String::new(),
         }
     }
 
@@ -73,7 +73,7 @@ impl Failure {
         let (error, problems) = match self {
             Self::Scene { diagnostics, .. } => (in_one_line(diagnostics), diagnostics.as_slice()),
             Self::Input(message) | Self::Stopped(message) => (message.clone(), [].as_slice()),
-            Self::Closed | Self::Interrupted => (String::new(), [].as_slice()),
+            Self::Closed | Self::Incomplete => (String::new(), [].as_slice()),
         };
         json!({ "ok": false, "error": error, "problems": problems })
     }
@@ -144,6 +144,33 @@ fn label<'a>(name: &'a str, l: &pfaff::scene::Label) -> Label<(&'a str, std::ops
     } else {
         label.with_message(&l.text)
     }
+}
+
+/// Letters in a line of text for people.
+const WIDTH: usize = 100;
+
+/// A text in lines of at most 100 letters where words allow it; the first begins with `lead`, the others are indented as far.
+pub(crate) fn wrapped(lead: &str, text: &str) -> String {
+    let indent = " ".repeat(lead.chars().count());
+    let (mut out, mut line) = (String::new(), lead.to_owned());
+    let mut is_empty = true;
+    for word in text.split_whitespace() {
+        let width = line.chars().count() + word.chars().count();
+        if !is_empty && width >= WIDTH {
+            out.push_str(line.trim_end());
+            out.push('\n');
+            line.clone_from(&indent);
+            is_empty = true;
+        }
+        if !is_empty {
+            line.push(' ');
+        }
+        line.push_str(word);
+        is_empty = false;
+    }
+    out.push_str(line.trim_end());
+    out.push('\n');
+    out
 }
 
 /// Lines of cells in columns, the first line a header.

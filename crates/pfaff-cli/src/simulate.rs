@@ -62,7 +62,7 @@ pub(crate) fn run(arguments: &Simulate) -> Outcome {
         ))?;
     }
     match document.partial {
-        true => Err(Failure::Interrupted),
+        true => Err(Failure::Incomplete),
         false => Ok(()),
     }
 }

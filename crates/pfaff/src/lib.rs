@@ -2,8 +2,20 @@
 //!
 //! # Code map
 //!
-//! All crates of the house under one roof, by their own names, and [`study`]: a scene from its text to its results.
+//! All crates of the house under one roof, by their own names, and a scene from its text to its results:
+//!
+//! | module | content |
+//! | --- | --- |
+//! | [`blueprint`] | a scene with its mechanism |
+//! | [`study`] | its consistent start, its motion, its files |
+//! | [`inquiry`] | one configuration, and everything that can be asked of its reactions |
+//! | [`journey`] | the verdicts along its motion |
+//! | [`error`] | why there are no results |
 
+pub mod blueprint;
+pub mod error;
+pub mod inquiry;
+pub mod journey;
 pub mod study;
 
 pub use dynamics;
@@ -15,7 +27,11 @@ pub use report;
 pub use scene;
 pub use solvability;
 
-pub use study::{Findings, Overrides, Study, StudyError};
+pub use blueprint::Blueprint;
+pub use error::StudyError;
+pub use inquiry::Inquiry;
+pub use journey::{Journey, Progress};
+pub use study::{Findings, Overrides, Study};
 
 #[doc(hidden)]
 pub use joint_macro as __macros;

@@ -3,22 +3,18 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{
-    Failure, Method, MotionError, MotionOptions, Prepared, RowChoice, Sample, Summary, Trip,
-    prepare, simulate,
-};
-use model::{ConstraintId, Mechanism, Registry, System};
+use dynamics::{Failure, Method, MotionOptions, Prepared, Sample, Summary, Trip, simulate};
+use model::Registry;
 use report::{
-    Ending, FileError, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
+    Ending, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
     TrajectoryTable, write_json,
 };
-use scene::{
-    Combination, CombinationError, Diagnostic, GroupContent, Scene, WantedReactions, WrenchTerm,
-};
-use solvability::{
-    Analysis, AnalysisError, Group, Judgement, RequestError, Term, analyse, analyse_dropping,
-    is_permanent, judge_groups,
-};
+use scene::{Scene, WantedReactions};
+use solvability::{Analysis, Judgement, State, analyse, is_permanent};
+
+use crate::blueprint::Blueprint;
+use crate::error::StudyError;
+use crate::inquiry::Inquiry;
 
 /// A scene that has been assembled and can move.
 pub struct Study {
@@ -56,70 +52,6 @@ pub struct Overrides {
     pub drop: Option<Vec<usize>>,
 }
 
-/// Why there are no results, or only a part of them.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum StudyError {
-    /// The scene is wrong, with all places.
-    #[error("{} problem(s) in the scene, the first: {}", .0.len(), .0.first().map_or(String::new(), ToString::to_string))]
-    Scene(Vec<Diagnostic>),
-    /// Nobody says how long the run takes.
-    #[error("the scene has no `[simulate]` with `t_end`, and no last time was given")]
-    NoEnd,
-    /// A combination that cannot be read.
-    #[error("`{text}`: {error}")]
-    Combination {
-        /// The combination.
-        text: String,
-        /// What is wrong.
-        error: CombinationError,
-    },
-    /// A group names a joint or drive that the mechanism does not have.
-    #[error("there is no joint or drive `{name}`")]
-    UnknownReaction {
-        /// The name.
-        name: String,
-    },
-    /// A group cannot be judged.
-    #[error(transparent)]
-    Request(#[from] RequestError),
-    /// A motion could not begin or go on.
-    #[error(transparent)]
-    Motion(#[from] MotionError),
-    /// A configuration could not be judged.
-    #[error(transparent)]
-    Analysis(#[from] AnalysisError),
-    /// A file could not be written.
-    #[error(transparent)]
-    File(#[from] FileError),
-    /// A table could not be written.
-    #[error(transparent)]
-    Table(#[from] TableError),
-}
-
-impl StudyError {
-    /// Whether the input is wrong; otherwise the computation stopped.
-    #[must_use]
-    pub fn is_input(&self) -> bool {
-        match self {
-            Self::Scene(_)
-            | Self::NoEnd
-            | Self::Combination { .. }
-            | Self::UnknownReaction { .. }
-            | Self::Request(_) => true,
-            Self::Motion(e) => matches!(
-                e,
-                MotionError::Start(_)
-                    | MotionError::Contradiction(_)
-                    | MotionError::Rows(_)
-                    | MotionError::Option { .. }
-            ),
-            Self::Analysis(e) => matches!(e, AnalysisError::Rows { .. }),
-            Self::File(_) | Self::Table(_) => false,
-        }
-    }
-}
-
 impl Study {
     /// Reads a scene, finds its consistent start and chooses rows. `name` is the file's name in messages.
     ///
@@ -132,136 +64,72 @@ impl Study {
         registry: &Registry,
         overrides: &Overrides,
     ) -> Result<Self, StudyError> {
-        let scene = scene::read(name, text, registry).map_err(StudyError::Scene)?;
-        let options = options(&scene, overrides);
-        let rows = match (&overrides.drop, &options) {
-            (Some(drop), _) => RowChoice::Drop(drop.clone()),
-            (None, Some(options)) => options.rows.clone(),
-            (None, None) => RowChoice::Automatic,
-        };
-        let mechanism = Mechanism::build(&scene.description)
-            .map_err(|e| StudyError::Scene(e.iter().map(|e| scene.locate_build(e)).collect()))?;
-        let prepared = match prepare(mechanism, &scene.start, &rows) {
-            Ok(prepared) => prepared,
-            // Faults of the text have a place in it; rows may come from the caller.
-            Err(e @ (MotionError::Start(_) | MotionError::Contradiction(_))) => {
-                return Err(StudyError::Scene(vec![scene.locate_motion(&e)]));
-            }
-            Err(e) => return Err(e.into()),
-        };
-        Ok(Self {
-            scene,
-            prepared,
-            options,
-        })
+        Blueprint::read(name, text, registry)?.prepare(overrides)
     }
 
-    /// Verdicts at a time of the motion; at t = 0 nothing has to move. Groups are those of the scene, then `combine`: sums of
-    /// components as `W3.N + W4.N`, or of whole wrenches as `W3 + W4`.
+    /// A configuration at a time of the motion, to be asked about its reactions; at t = 0 nothing has to move. `drop` (rows from
+    /// 0) says which rows carry the dependencies; no verdict depends on them.
     ///
     /// # Errors
-    /// If the motion does not reach that time, C cannot be judged there, or a combination names something unknown.
+    /// If the motion does not reach that time, C cannot be judged there, redundant rows contradict each other there, or
+    /// the rows cannot be dropped.
+    pub fn inquire(&self, t: f64, drop: Option<&[usize]>) -> Result<Inquiry<'_>, StudyError> {
+        let mechanism = &self.prepared.mechanism;
+        let state = self.state_at(t)?;
+        let inquiry = Inquiry::new(&self.scene, mechanism, t, state, drop)?;
+        // Those of the start have been looked for when it was prepared.
+        let found = match t == 0.0 {
+            true => Vec::new(),
+            false => inquiry.contradictions()?,
+        };
+        match found.into_iter().next() {
+            Some(worst) => Err(worst.into()),
+            None => Ok(inquiry),
+        }
+    }
+
+    /// Verdicts at a time of the motion, with those of groups: those of the scene, then `combine`. In short what
+    /// [`Study::inquire`] tells.
+    ///
+    /// # Errors
+    /// As [`Study::inquire`], and if a combination names something unknown.
     pub fn analyse_at(
         &self,
         t: f64,
         drop: Option<&[usize]>,
         combine: &[String],
     ) -> Result<Findings, StudyError> {
-        let requests = self.requests(combine)?;
-        let q = if t == 0.0 {
-            self.prepared.q.clone()
-        } else {
-            self.configuration_at(t)?
-        };
-        let mechanism = &self.prepared.mechanism;
-        let analysis = match drop {
-            Some(rows) => analyse_dropping(mechanism, t, &q, rows)?,
-            None => analyse(mechanism, t, &q)?,
-        };
-        let (names, groups): (Vec<String>, Vec<Group>) = requests.into_iter().unzip();
-        let judged = judge_groups(mechanism, t, &q, &analysis.decision, &groups)?;
-        let judgements = judged.into_iter().map(|verdict| verdict.judgement);
-        let groups = names.into_iter().zip(judgements).collect();
-        let permanent = is_permanent(mechanism, t, &q, &analysis.decision);
+        let inquiry = self.inquire(t, drop)?;
+        let groups = inquiry.groups(combine)?.into_iter();
+        let q = &inquiry.state.q;
         Ok(Findings {
-            analysis,
-            permanent,
-            groups,
+            permanent: is_permanent(inquiry.mechanism, t, q, &inquiry.analysis.decision),
+            groups: groups.map(|(name, g)| (name, g.judgement)).collect(),
+            analysis: inquiry.analysis,
         })
     }
 
-    /// Groups by name: those of the scene, then the combinations asked for.
-    fn requests(&self, combine: &[String]) -> Result<Vec<(String, Group)>, StudyError> {
-        let mut requests = Vec::new();
-        for group in &self.scene.groups {
-            let content = match &group.content {
-                GroupContent::Members(names) => Group::Members(
-                    names
-                        .iter()
-                        .map(|n| self.constraint(n))
-                        .collect::<Result<_, _>>()?,
-                ),
-                GroupContent::Combination(combination) => self.combination(combination)?,
-            };
-            requests.push((group.name.clone(), content));
+    fn state_at(&self, t: f64) -> Result<State, StudyError> {
+        let mut state = State {
+            q: self.prepared.q.clone(),
+            v: self.prepared.v.clone(),
+        };
+        if t == 0.0 {
+            return Ok(state);
         }
-        for text in combine {
-            let read = self.scene.combination(text);
-            let combination = read.map_err(|error| StudyError::Combination {
-                text: text.clone(),
-                error,
-            })?;
-            requests.push((text.clone(), self.combination(&combination)?));
-        }
-        Ok(requests)
-    }
-
-    fn combination(&self, combination: &Combination) -> Result<Group, StudyError> {
-        match combination {
-            Combination::Components(terms) => {
-                let term = |term: &scene::Term| {
-                    Ok(Term {
-                        reaction: self.constraint(&term.reaction)?,
-                        component: term.component.clone(),
-                        coefficient: term.coefficient,
-                    })
-                };
-                let terms: Result<_, StudyError> = terms.iter().map(term).collect();
-                Ok(Group::Combination(terms?))
-            }
-            Combination::Wrenches(terms) => {
-                let term =
-                    |term: &WrenchTerm| Ok((term.coefficient, self.constraint(&term.reaction)?));
-                let terms: Result<_, StudyError> = terms.iter().map(term).collect();
-                Ok(Group::WrenchSum(terms?))
-            }
-        }
-    }
-
-    fn constraint(&self, name: &str) -> Result<ConstraintId, StudyError> {
-        let groups = &self.prepared.mechanism.layout().groups;
-        let place = groups.iter().position(|g| g.name == name);
-        place
-            .map(ConstraintId)
-            .ok_or_else(|| StudyError::UnknownReaction {
-                name: name.to_owned(),
-            })
-    }
-
-    fn configuration_at(&self, t: f64) -> Result<Vec<f64>, StudyError> {
         let base = self.options.clone().unwrap_or_else(|| MotionOptions::to(t));
         let options = MotionOptions {
             t_end: t,
             output_step: t,
             ..base
         };
-        let mut q = Vec::new();
         self.run(&options, |sample| {
-            q = sample.q.to_vec();
+            state.q.copy_from_slice(sample.q);
+            state.v.copy_from_slice(sample.v);
             Ok(ControlFlow::Continue(()))
         })
         .map_err(|f| f.error)?;
-        Ok(q)
+        Ok(state)
     }
 
     /// Runs the scene and shows projected rows of output; see [`dynamics::simulate()`].
@@ -385,28 +253,4 @@ fn selection(wanted: &WantedReactions) -> Option<Selection> {
         WantedReactions::Of(names) => Some(Selection::Names(names.clone())),
         WantedReactions::None => None,
     }
-}
-
-/// The scene's wishes with those of the caller on top.
-fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
-    let mut options = match (&scene.simulate, overrides.t_end) {
-        (Some(options), _) => options.clone(),
-        (None, Some(t_end)) => MotionOptions::to(t_end),
-        (None, None) => return None,
-    };
-    if let Some(t_end) = overrides.t_end {
-        options.t_end = t_end;
-        options.output_step = options.output_step.min(if t_end > 0.0 {
-            t_end
-        } else {
-            options.output_step
-        });
-    }
-    options.rtol = overrides.rtol.unwrap_or(options.rtol);
-    options.atol = overrides.atol.unwrap_or(options.atol);
-    options.method = overrides.method.unwrap_or(options.method);
-    if let Some(drop) = &overrides.drop {
-        options.rows = RowChoice::Drop(drop.clone());
-    }
-    Some(options)
 }

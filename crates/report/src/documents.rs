@@ -13,8 +13,12 @@ use serde::ser::{SerializeMap, Serializer};
 use solvability::{Judgement, Verdict};
 
 pub use analysis::{
-    AnalysisDocument, ComponentDocument, DependencyDocument, EvidenceDocument, GroupDocument,
-    Proof, ReactionDocument, RowDocument,
+    AlongDocument, AnalysisDocument, ComponentDocument, DependencyDocument, DifferenceDocument,
+    DistributionDocument, EliminationsDocument, EvidenceDocument, FrameDocument,
+    FreeDirectionDocument, GenericDocument, GenericVerdictsDocument, GroupDocument,
+    MakeUniqueDocument, MixingDocument, NamedVerdictDocument, NearlyRedundantDocument,
+    PassageDocument, PointDocument, Proof, ReactionDocument, RowDocument, StretchDocument,
+    ValueDocument, ValuesDocument, WayDocument,
 };
 pub use run::{ChoiceDocument, Ending, EventDocument, Run, RunDocument, RunReactionDocument};
 

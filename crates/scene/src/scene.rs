@@ -6,6 +6,7 @@ use model::{BuildError, Description, StartError, StartOptions};
 use crate::combination::{self, Combination, CombinationError, ReactionNames};
 use crate::diagnostic::Diagnostic;
 use crate::locate;
+use crate::nearest::nearest;
 use crate::reactions::{GroupRequest, Output, components};
 use crate::source_map::SourceMap;
 
@@ -65,6 +66,14 @@ impl Scene {
             components: Some(components(spec)),
         });
         combination::parse(text, &names.collect::<Vec<_>>())
+    }
+
+    /// The joint or drive whose name is nearest to a name that does not exist, if one is near.
+    #[must_use]
+    pub fn nearest_reaction(&self, name: &str) -> Option<&str> {
+        let joints = self.description.joints.iter().map(|j| j.name.as_str());
+        let drives = self.description.drives.iter().map(|d| d.name.as_str());
+        nearest(name, joints.chain(drives))
     }
 }
 

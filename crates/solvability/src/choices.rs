@@ -177,7 +177,7 @@ pub enum ChoiceError {
     },
     /// Rigid supports share a load in no particular way.
     #[error(
-        "{free} shares are left open: what has weight zero (a rigid joint) stays undetermined among its like; \
+        "the choice leaves open how loads are shared ({free} missing): what has weight zero (a rigid joint) stays undetermined among its like; \
          give a compliance to one more of the joints that mix"
     )]
     Indeterminate {
@@ -409,10 +409,14 @@ impl Configuration<'_> {
             Choice::Compliance(joints) => {
                 let joint = |j: &Compliance| {
                     let name = &layout.groups[j.reaction.0].name;
-                    format!(
-                        "`{name}` {} m/N, {} m/N, {} rad/(N·m)",
-                        j.x, j.y, j.rotation
-                    )
+                    let along = match j.x == j.y {
+                        true => format!("{:e} m/N", j.x),
+                        false => format!("{:e} m/N along x, {:e} m/N along y", j.x, j.y),
+                    };
+                    match j.rotation == 0.0 {
+                        true => format!("`{name}` {along}"),
+                        false => format!("`{name}` {along}, {:e} rad/(N·m)", j.rotation),
+                    }
                 };
                 let joints: Vec<String> = joints.iter().map(joint).collect();
                 format!("elastic supports: {}", joints.join("; "))

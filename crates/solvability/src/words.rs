@@ -7,6 +7,9 @@ use crate::explain::FreeDirection;
 use crate::matrices::Solvability;
 use crate::verdict::Verdict;
 
+/// More rows than this are not listed in a sentence.
+const TELLABLE: usize = 8;
+
 /// "`a`, `b` and `c`" without the quotes.
 pub(crate) fn list(words: &[String]) -> String {
     match words {
@@ -57,6 +60,12 @@ pub(crate) fn of_stress(
                 sum(solvability, circuit)
             )
         }
+        ([_, _, _, ..], _) if circuit.rows.len() > TELLABLE => format!(
+            "{} can press against each other without any load, in one way that involves {} rows; how a load is shared among \
+             them is not determined",
+            list(&names(layout, &ids)),
+            circuit.rows.len()
+        ),
         ([_, _, _, ..], _) => {
             let rows: Vec<String> = circuit
                 .rows

@@ -1,19 +1,30 @@
-//! The document of `analyze --json`.
+//! The document of `analyze --json`. What was not asked for is absent; keys of the first day keep their meaning.
 
-use linalg::RankStatus;
+mod along;
+mod choices;
+mod deletions;
+mod evidence;
+mod reaction;
+
+use model::{ConstraintId, Layout};
 use serde::Serialize;
-use solvability::{Analysis, Dependency, ReactionVerdict};
+use solvability::{Analysis, Dependency, Explanation, FrameVerdict, Mixing};
+
+pub use along::{
+    AlongDocument, DifferenceDocument, GenericVerdictsDocument, NamedVerdictDocument,
+    PassageDocument, StretchDocument,
+};
+pub use choices::{DistributionDocument, ValueDocument, ValuesDocument};
+pub use deletions::{EliminationsDocument, MakeUniqueDocument, WayDocument};
+pub use evidence::{
+    EvidenceDocument, GenericDocument, NearlyRedundantDocument, PointDocument, Proof,
+};
+pub use reaction::{
+    ComponentDocument, FrameDocument, FreeDirectionDocument, GroupDocument, ReactionDocument,
+    RowDocument,
+};
 
 use super::{VerdictDocument, from_one};
-
-/// What is known of the rank beyond the decision at one configuration.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Proof {
-    /// Whether the rank is the same at every generic configuration; `None` if nobody asked.
-    pub permanent: Option<bool>,
-    /// Whether the rank was proved in exact or interval arithmetic.
-    pub certified: bool,
-}
 
 /// Ranks and verdicts of one configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -48,91 +59,30 @@ pub struct AnalysisDocument {
     pub dropped_rows: Vec<usize>,
     /// The numbers behind the rank.
     pub evidence: EvidenceDocument,
+    /// Ranks at other configurations; `null` if nobody asked, or none could be reached.
+    pub generic: Option<GenericDocument>,
     /// Joints and drives in the order of their rows.
     pub reactions: Vec<ReactionDocument>,
     /// Verdicts of combinations that were asked for; [`AnalysisDocument::new`] leaves it empty.
     pub groups: Vec<GroupDocument>,
     /// Minimal sets of dependent rows.
     pub dependencies: Vec<DependencyDocument>,
+    /// Joints and drives whose reactions mix.
+    pub mixing: Vec<MixingDocument>,
+    /// What may be deleted without a change of motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eliminations: Option<EliminationsDocument>,
+    /// What makes reactions unique.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub make_unique: Vec<MakeUniqueDocument>,
+    /// Reactions by different choices.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub choices: Vec<DistributionDocument>,
+    /// Verdicts along the motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub along: Option<AlongDocument>,
     /// What else the reader should know.
     pub warnings: Vec<String>,
-}
-
-/// The numbers behind a rank.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct EvidenceDocument {
-    /// `decided` or `undecided`.
-    pub status: &'static str,
-    /// Why it is undecided.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub reason: Option<String>,
-    /// σ_r of the equilibrated matrix; infinite (`null`) for rank 0.
-    pub sigma_r: f64,
-    /// σ_{r+1}
-    pub sigma_next: f64,
-    /// σ_r/σ_{r+1}; infinite (`null`) if σ_{r+1} = 0.
-    pub gap: f64,
-    /// Below it a singular value counts as zero.
-    pub tolerance: f64,
-    /// Relative residual of the constraints at the configuration.
-    pub constraint_residual: f64,
-    /// As in [`Proof`].
-    pub permanent: Option<bool>,
-    /// As in [`Proof`].
-    pub certified: bool,
-}
-
-/// The verdict of a joint or drive.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ReactionDocument {
-    /// Its name.
-    pub name: String,
-    /// Its scene type.
-    #[serde(rename = "type")]
-    pub kind: &'static str,
-    /// Its rows of C.
-    pub rows: Vec<usize>,
-    /// Verdict of force and torque, with ‖B_X‖ as margin.
-    #[serde(flatten)]
-    pub wrench: VerdictDocument,
-    /// Verdict of all its multipliers together.
-    pub multipliers: &'static str,
-    /// Verdict of the multiplier of each row.
-    pub row_verdicts: Vec<RowDocument>,
-    /// Verdicts of the components that are not identically zero.
-    pub components: Vec<ComponentDocument>,
-    /// Basis of the unique directions in these components.
-    pub unique_directions: Vec<Vec<f64>>,
-}
-
-/// The verdict of a multiplier.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct RowDocument {
-    /// Row of C.
-    pub row: usize,
-    /// Its verdict.
-    #[serde(flatten)]
-    pub verdict: VerdictDocument,
-}
-
-/// The verdict of a component of a reaction.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ComponentDocument {
-    /// `Fx`, `Fy` or `T`.
-    pub name: &'static str,
-    /// Its verdict.
-    #[serde(flatten)]
-    pub verdict: VerdictDocument,
-}
-
-/// The verdict of a combination of reactions.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct GroupDocument {
-    /// Its name or expression.
-    pub name: String,
-    /// Its verdict.
-    #[serde(flatten)]
-    pub verdict: VerdictDocument,
 }
 
 /// A minimal set of dependent rows.
@@ -148,10 +98,23 @@ pub struct DependencyDocument {
     pub text: String,
 }
 
+/// Joints and drives whose reactions mix.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct MixingDocument {
+    /// Their names.
+    pub reactions: Vec<String>,
+    /// Rows of C that take part.
+    pub rows: Vec<usize>,
+    /// How many numbers are missing to tell all of them.
+    pub redundancy: usize,
+    /// In words.
+    pub text: String,
+}
+
 impl AnalysisDocument {
     /// The document of an analysis.
     #[must_use]
-    pub fn new(scene: &str, analysis: &Analysis, proof: Proof) -> Self {
+    pub fn new(scene: &str, analysis: &Analysis, proof: Proof<'_>) -> Self {
         let decision = &analysis.decision;
         let dependencies = analysis.dependencies.iter();
         Self {
@@ -170,66 +133,66 @@ impl AnalysisDocument {
             kept_rows: from_one(&decision.kept),
             dropped_rows: from_one(&decision.dropped),
             evidence: EvidenceDocument::new(decision, proof),
+            generic: proof.generic.map(Into::into),
             reactions: analysis.reactions.iter().map(Into::into).collect(),
             groups: Vec::new(),
             dependencies: dependencies
-                .map(|d| DependencyDocument::new(d, &analysis.reactions))
+                .map(|d| DependencyDocument::new(d, analysis))
                 .collect(),
+            mixing: Vec::new(),
+            eliminations: None,
+            make_unique: Vec::new(),
+            choices: Vec::new(),
+            along: None,
             warnings: analysis.warnings.clone(),
         }
     }
-}
 
-impl EvidenceDocument {
-    fn new(decision: &linalg::RankDecision, proof: Proof) -> Self {
-        let evidence = &decision.evidence;
-        let (status, reason) = match decision.status {
-            RankStatus::Decided => ("decided", None),
-            RankStatus::Undecided(doubt) => ("undecided", Some(doubt.to_string())),
-            _ => ("undecided", None),
-        };
-        Self {
-            status,
-            reason,
-            sigma_r: evidence.sigma_r,
-            sigma_next: evidence.sigma_next,
-            gap: evidence.gap,
-            tolerance: evidence.tolerance,
-            constraint_residual: evidence.constraint_residual,
-            permanent: proof.permanent,
-            certified: proof.certified,
+    /// Adds why the reactions are not unique. The explanation must be that of the analysis.
+    pub fn explain(&mut self, explanation: &Explanation, layout: &Layout) {
+        for (k, reaction) in self.reactions.iter_mut().enumerate() {
+            reaction.explain(explanation, ConstraintId(k));
         }
+        let stress = |stress: &solvability::SelfStress| {
+            let joints = stress
+                .directions
+                .iter()
+                .map(|d| &layout.groups[d.joint.0].name);
+            DependencyDocument {
+                rows: from_one(&stress.rows),
+                joints: joints.cloned().collect(),
+                coefficients: stress.coefficients.clone(),
+                text: stress.text.clone(),
+            }
+        };
+        self.dependencies = explanation.stresses.iter().map(stress).collect();
+        let mixing = |mixing: &Mixing| {
+            let reactions = mixing.reactions.iter();
+            MixingDocument {
+                reactions: reactions
+                    .map(|id| layout.groups[id.0].name.clone())
+                    .collect(),
+                rows: from_one(&mixing.rows),
+                redundancy: mixing.redundancy,
+                text: mixing.text.clone(),
+            }
+        };
+        self.mixing = explanation.mixing.iter().map(mixing).collect();
     }
-}
 
-impl From<&ReactionVerdict> for ReactionDocument {
-    fn from(r: &ReactionVerdict) -> Self {
-        let rows = r.rows.iter().map(|row| RowDocument {
-            row: row.row + 1,
-            verdict: (&row.judgement).into(),
-        });
-        let components = r.components.iter().map(|c| ComponentDocument {
-            name: c.name,
-            verdict: (&c.judgement).into(),
-        });
-        Self {
-            name: r.name.clone(),
-            kind: r.kind,
-            rows: r.rows.iter().map(|row| row.row + 1).collect(),
-            wrench: (&r.wrench).into(),
-            multipliers: r.multipliers.verdict.word(),
-            row_verdicts: rows.collect(),
-            components: components.collect(),
-            unique_directions: r.unique_directions.clone(),
+    /// Adds the verdicts in other frames, joint by joint.
+    pub fn add_frames(&mut self, frames: &[Vec<FrameVerdict>]) {
+        for (reaction, frames) in self.reactions.iter_mut().zip(frames) {
+            reaction.frames = frames.iter().map(Into::into).collect();
         }
     }
 }
 
 impl DependencyDocument {
-    fn new(dependency: &Dependency, reactions: &[ReactionVerdict]) -> Self {
-        let concerned = reactions
-            .iter()
-            .filter(|r| r.rows.iter().any(|row| dependency.rows.contains(&row.row)));
+    fn new(dependency: &Dependency, analysis: &Analysis) -> Self {
+        let reactions = analysis.reactions.iter();
+        let concerned =
+            reactions.filter(|r| r.rows.iter().any(|row| dependency.rows.contains(&row.row)));
         Self {
             rows: from_one(&dependency.rows),
             joints: concerned.map(|r| r.name.clone()).collect(),

@@ -4,11 +4,14 @@ use dynamics::{
     Event, EventKind, MotionError, MotionOptions, Prepared, RowChoice, Summary, prepare,
 };
 use joints::Revolute;
-use linalg::{Doubt, Evidence, Matrix, RankDecision, RankStatus};
+use linalg::{
+    Certificate, Doubt, Evidence, Grounds, Matrix, NearlyRedundant, RankDecision, RankStatus,
+};
 use model::{Body, BodyRef, ConstraintId, Description, Joint, Mechanism, StartOptions};
 use serde_json::Value;
 use solvability::{
-    Analysis, ComponentVerdict, Dependency, Judgement, ReactionVerdict, RowVerdict, Verdict,
+    Analysis, ComponentVerdict, Dependency, Generic, Judgement, ReactionVerdict, RowVerdict,
+    Verdict,
 };
 
 use super::{AnalysisDocument, Ending, Proof, Run, RunDocument, write_json};
@@ -112,7 +115,10 @@ fn analysis_has_the_keys_of_the_contract() {
         "rank": 3, "rank_holonomic": 3, "rank_nonholonomic": 0, "redundancy": 1, "mobility": 0,
         "kept_rows": [1, 2, 3], "dropped_rows": [4],
         "evidence": { "status": "decided", "sigma_r": 0.5, "sigma_next": 0.0, "gap": null,
-            "tolerance": 0.25, "constraint_residual": 0.0, "permanent": null, "certified": false },
+            "tolerance": 0.25, "constraint_residual": 0.0, "permanent": null, "certified": false,
+            "rank_at_least": null, "sigma_bound": null, "sigma_next_extended": null, "grounds": null,
+            "uncertainty": null, "nearly_redundant": null },
+        "generic": null,
         "reactions": [
             { "name": "upper", "type": "revolute", "rows": [1, 2],
               "verdict": "not_unique", "margin": 0.5, "multipliers": "not_unique",
@@ -120,21 +126,83 @@ fn analysis_has_the_keys_of_the_contract() {
                                 { "row": 2, "verdict": "not_unique", "margin": 0.5 } ],
               "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0 },
                               { "name": "Fy", "verdict": "not_unique", "margin": 0.5 } ],
-              "unique_directions": [[1.0, 0.0]] },
+              "unique_directions": [[1.0, 0.0]],
+              "settled": null, "explanation": null, "free_directions": [] },
             { "name": "lower \"2\"", "type": "revolute", "rows": [3, 4],
               "verdict": "not_unique", "margin": 0.5, "multipliers": "not_unique",
               "row_verdicts": [ { "row": 3, "verdict": "unique", "margin": 0.0 },
                                 { "row": 4, "verdict": "not_unique", "margin": 0.5 } ],
               "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0 },
                               { "name": "Fy", "verdict": "not_unique", "margin": 0.5 } ],
-              "unique_directions": [[1.0, 0.0]] } ],
+              "unique_directions": [[1.0, 0.0]],
+              "settled": null, "explanation": null, "free_directions": [] } ],
         "groups": [],
         "dependencies": [ { "rows": [2, 4], "joints": ["upper", "lower \"2\""],
             "coefficients": [1.0, -1.0], "text": "both hold the height" } ],
+        "mixing": [],
         "warnings": [] }"#;
     assert_eq!(squeezed(&found), squeezed(expected));
     assert!(found.starts_with("{\n  \"scene\": \"door\",\n  \"time\": 0.5,"));
     assert!(found.ends_with("}\n"));
+}
+
+fn certificate(grounds: Grounds) -> Certificate {
+    Certificate {
+        rank_at_least: 3,
+        sigma_bound: 0.375,
+        sigma_next: 0.0,
+        grounds,
+        uncertainty: 0.0,
+        nearly_redundant: Some(NearlyRedundant {
+            sigma: 0.5,
+            direction: vec![0.0, 0.0, 1.0, 0.0],
+        }),
+    }
+}
+
+#[test]
+fn a_certificate_proves_a_decided_rank_that_it_reaches() {
+    let analysis = analysis();
+    let certified = |certificate: &Certificate| {
+        let proof = Proof {
+            certificate: Some(certificate),
+            ..Proof::default()
+        };
+        AnalysisDocument::new("door", &analysis, proof).evidence
+    };
+    for (grounds, word) in [
+        (Grounds::FullRank, "full_rank"),
+        (Grounds::Exact, "exact"),
+        (Grounds::Vanishes, "vanishes"),
+        (Grounds::WithinData, "within_data"),
+    ] {
+        let evidence = certified(&certificate(grounds));
+        assert!(evidence.certified);
+        assert_eq!(evidence.grounds, Some(word));
+        assert_eq!(evidence.sigma_bound, Some(0.375));
+        assert_eq!(evidence.nearly_redundant.map(|n| n.sigma), Some(0.5));
+    }
+    let weaker = Certificate {
+        rank_at_least: 2,
+        ..certificate(Grounds::Vanishes)
+    };
+    assert!(!certified(&weaker).certified);
+}
+
+#[test]
+fn permanent_means_the_same_redundancy_elsewhere() {
+    for (redundancy, permanent) in [(1, true), (0, false)] {
+        let generic = Generic {
+            redundancy,
+            points: Vec::new(),
+        };
+        let proof = Proof {
+            generic: Some(&generic),
+            certificate: None,
+        };
+        let document = AnalysisDocument::new("door", &analysis(), proof);
+        assert_eq!(document.evidence.permanent, Some(permanent));
+    }
 }
 
 #[test]
@@ -147,9 +215,14 @@ fn an_undecided_rank_says_why() {
     analysis.decision.status = RankStatus::Undecided(doubt);
     let reason = "the numbers do not decide".to_owned();
     analysis.reactions[0].wrench = judged(Verdict::Undecided { reason }, f64::NAN);
+    let generic = Generic {
+        redundancy: 1,
+        points: Vec::new(),
+    };
+    let proved = certificate(Grounds::Vanishes);
     let proof = Proof {
-        permanent: Some(true),
-        certified: true,
+        generic: Some(&generic),
+        certificate: Some(&proved),
     };
     let document: Value =
         serde_json::from_str(&json(&AnalysisDocument::new("door", &analysis, proof)))
@@ -157,10 +230,13 @@ fn an_undecided_rank_says_why() {
     let evidence = &document["evidence"];
     assert_eq!(evidence["status"], "undecided");
     assert_eq!(evidence["reason"], doubt.to_string());
+    // What is proved stays proved, but says nothing of an undecided rank.
+    assert_eq!(evidence["rank_at_least"], 3);
     assert_eq!(
         (&evidence["permanent"], &evidence["certified"]),
-        (&true.into(), &true.into())
+        (&Value::Null, &false.into())
     );
+    assert_eq!(evidence["grounds"], Value::Null);
     let upper = &document["reactions"][0];
     assert_eq!(upper["verdict"], "undecided");
     assert_eq!(upper["reason"], "the numbers do not decide");

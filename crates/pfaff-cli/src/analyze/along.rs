@@ -1,0 +1,117 @@
+//! Verdicts along the motion, with progress on a terminal, and in words.
+
+use indicatif::{ProgressBar, ProgressStyle};
+use pfaff::report::documents::AlongDocument;
+use pfaff::{Progress, Study, StudyError};
+
+use crate::input::Source;
+use crate::output::{Failure, count, wrapped};
+
+/// Ticks of the progress bar over the whole motion.
+const TICKS: u64 = 1000;
+
+/// Judged states farther apart than this may miss something: a share of the mechanism's size, or radians.
+const COARSE: f64 = 0.2;
+
+/// Runs and judges the motion.
+pub(super) fn judge(
+    source: &Source,
+    study: &Study,
+    t_end: Option<f64>,
+) -> Result<AlongDocument, Failure> {
+    let own = study.options.as_ref().map(|options| options.t_end);
+    let Some(end) = t_end.or(own) else {
+        return Err(source.failure(StudyError::NoEnd));
+    };
+    if !(end.is_finite() && end > 0.0) {
+        return Err(Failure::input(format!(
+            "--along goes to {end}, need a time > 0"
+        )));
+    }
+    // Hidden by itself where standard error is no terminal.
+    let bar = ProgressBar::new(TICKS);
+    if let Ok(style) = ProgressStyle::with_template("{msg} {bar:40}") {
+        bar.set_style(style);
+    }
+    let journey = study.journey(t_end, |progress| {
+        let (what, t) = match progress {
+            Progress::Moving(t) => ("moving ", t),
+            Progress::Judging(t) => ("judging", t),
+        };
+        bar.set_message(what);
+        bar.set_position((t / end * TICKS as f64) as u64);
+    });
+    bar.finish_and_clear();
+    let journey = journey.map_err(|e| source.failure(e))?;
+    let stopped = journey.stopped.map(|e| e.to_string());
+    Ok(AlongDocument::new(
+        &journey.along,
+        journey.to,
+        (journey.samples, journey.reach),
+        stopped,
+    ))
+}
+
+/// One verdict, then what differs.
+pub(super) fn describe(along: &AlongDocument) -> String {
+    let mut out = format!(
+        "\nAlong the motion, t = 0 to {} s ({}):\n",
+        seconds(along.to),
+        count(along.samples, "state judged", "states judged"),
+    );
+    let generic = &along.generic;
+    let named = |word: &str| {
+        let reactions = generic.reactions.iter();
+        let with: Vec<&str> = reactions
+            .filter(|r| r.verdict.verdict == word)
+            .map(|r| r.name.as_str())
+            .collect();
+        match with.as_slice() {
+            [] => "none".to_owned(),
+            names => names.join(", "),
+        }
+    };
+    let mut general = format!(
+        "almost always rank {}, redundancy {}; unique: {}; not unique: {}",
+        generic.rank,
+        generic.redundancy,
+        named("unique"),
+        named("not_unique"),
+    );
+    if generic
+        .reactions
+        .iter()
+        .any(|r| r.verdict.verdict == "undecided")
+    {
+        general.push_str(&format!("; undecided: {}", named("undecided")));
+    }
+    out.push_str(&wrapped("- ", &general));
+    let stretches = along.stretches.iter().map(|s| &s.text);
+    let passages = along.passages.iter().map(|p| &p.text);
+    for text in stretches.chain(passages) {
+        out.push_str(&wrapped("- ", text));
+    }
+    if along.stretches.is_empty() && along.passages.is_empty() {
+        out.push_str("- nothing else holds at any time\n");
+    }
+    if along.reach > COARSE {
+        let between = format!(
+            "warning: between judged states bodies move by up to {:.1} of the mechanism's size or radians: short events may be missed",
+            along.reach
+        );
+        out.push_str(&wrapped("- ", &between));
+    }
+    if let Some(reason) = &along.stopped {
+        out.push_str(&wrapped(
+            "- ",
+            &format!("the motion stopped, and was judged only so far: {reason}"),
+        ));
+    }
+    out
+}
+
+/// A time to the nanosecond, without trailing zeros.
+fn seconds(t: f64) -> String {
+    let text = format!("{t:.9}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

@@ -1,0 +1,107 @@
+//! The questions of the command line, put to one configuration.
+
+use pfaff::linalg::{DeletionError, Limits};
+use pfaff::report::documents::{
+    DistributionDocument, EliminationsDocument, GroupDocument, MakeUniqueDocument,
+};
+use pfaff::report::{AnalysisDocument, Proof};
+use pfaff::solvability::{Allowed, UnitError, Verdict};
+use pfaff::{Inquiry, StudyError};
+
+use super::choice;
+use super::deletions::HINTS;
+use crate::args::Analyze;
+use crate::input::Source;
+use crate::output::Failure;
+
+/// Sets tried for a hint that nobody asked for.
+const HINT_TRIALS: usize = 5_000;
+
+/// All answers but those along the motion.
+pub(super) fn document(
+    arguments: &Analyze,
+    source: &Source,
+    inquiry: &Inquiry<'_>,
+) -> Result<AnalysisDocument, Failure> {
+    let failure = |e: StudyError| source.failure(e);
+    let layout = pfaff::model::System::layout(inquiry.mechanism);
+    // Wrong names first: they cost nothing.
+    let allowed = choice::allowed(&arguments.allow, layout.rows())?;
+    let wanted = arguments.make_unique.iter();
+    let wanted: Result<Vec<_>, _> = wanted.map(|name| inquiry.reaction(name)).collect();
+    let wanted = wanted.map_err(failure)?;
+    let choices = arguments.choose.iter();
+    let choices: Result<Vec<_>, _> = choices
+        .map(|text| choice::choice(text, source, inquiry))
+        .collect();
+    let choices = choices?;
+    let groups = inquiry.groups(&arguments.combine).map_err(failure)?;
+
+    let generic = inquiry.generic();
+    let proof = Proof {
+        generic: generic.as_ref(),
+        certificate: inquiry.certificate.as_ref(),
+    };
+    let name = inquiry.scene.name();
+    let mut document = AnalysisDocument::new(name, &inquiry.analysis, proof);
+    document.groups = groups
+        .iter()
+        .map(|(name, verdict)| GroupDocument::new(name, verdict))
+        .collect();
+    if let Some(explanation) = inquiry.explanation().map_err(failure)? {
+        document.explain(&explanation, layout);
+    }
+    let sets = arguments.eliminations.map(|n| inquiry.elimination_sets(n));
+    document.eliminations = Some(EliminationsDocument::new(inquiry.eliminations(), sets));
+    for (name, id) in arguments.make_unique.iter().zip(wanted) {
+        let found = inquiry.make_unique(id, &allowed, Limits::default());
+        document
+            .make_unique
+            .push(MakeUniqueDocument::new(name, &allowed, found));
+    }
+    if arguments.frames {
+        let ids = inquiry.mechanism.constraint_ids();
+        let frames: Result<Vec<_>, _> = ids.map(|id| inquiry.frames(id)).collect();
+        document.add_frames(&frames.map_err(failure)?);
+    }
+    if !choices.is_empty() {
+        let facts = match inquiry.facts() {
+            Ok(facts) => facts,
+            // Units are compared in double precision, choices are made by the proved rank.
+            Err(StudyError::Units(e @ UnitError::RankChanges { .. })) => {
+                document.warnings.push(format!(
+                    "a change of units does not tell facts from choices: {e}"
+                ));
+                Vec::new()
+            }
+            Err(e) => return Err(failure(e)),
+        };
+        for choice in &choices {
+            let distribution = inquiry.distribution(choice).map_err(failure)?;
+            let made = DistributionDocument::new(&distribution, &facts);
+            document.choices.push(made);
+        }
+    }
+    Ok(document)
+}
+
+/// For each reaction that is not unique, what would make it so.
+pub(super) fn hints(inquiry: &Inquiry<'_>) -> Result<Vec<MakeUniqueDocument>, Failure> {
+    let limits = Limits {
+        trials: HINT_TRIALS,
+        ..Limits::default()
+    };
+    let reactions = inquiry.analysis.reactions.iter();
+    let open = reactions.filter(|r| r.wrench.verdict == Verdict::NotUnique);
+    // One more than is told, so that it is known that there are more.
+    open.take(HINTS + 1)
+        .map(
+            |r| match inquiry.make_unique(r.id, &Allowed::Sensible, limits) {
+                Err(e @ (DeletionError::TargetShape { .. } | DeletionError::NonFinite { .. })) => {
+                    Err(Failure::stopped(e.to_string()))
+                }
+                found => Ok(MakeUniqueDocument::new(&r.name, &Allowed::Sensible, found)),
+            },
+        )
+        .collect()
+}

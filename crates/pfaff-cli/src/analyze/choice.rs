@@ -1,0 +1,129 @@
+//! Choices and permissions as they are written on the command line.
+
+use pfaff::Inquiry;
+use pfaff::model::System;
+use pfaff::solvability::{Allowed, Choice, Compliance, NormWeights};
+
+use crate::input::{Source, rows_from_zero};
+use crate::output::Failure;
+
+/// What `--allow` permits to be deleted, in a mechanism of so many rows.
+pub(super) fn allowed(text: &str, rows: usize) -> Result<Allowed, Failure> {
+    match (text, text.strip_prefix("rows:")) {
+        ("sensible", _) => Ok(Allowed::Sensible),
+        ("whole", _) => Ok(Allowed::Whole),
+        ("rows", _) => Ok(Allowed::Rows((0..rows).collect())),
+        (_, Some(list)) => Ok(Allowed::Rows(row_list("--allow", list, rows)?)),
+        _ => Err(Failure::input(format!(
+            "--allow is `{text}`, need `sensible`, `whole`, `rows`, or a list as `rows:4,6,21`"
+        ))),
+    }
+}
+
+/// One choice of `--choose`.
+pub(super) fn choice(
+    text: &str,
+    source: &Source,
+    inquiry: &Inquiry<'_>,
+) -> Result<Choice, Failure> {
+    let (kind, rest) = match text.split_once(':') {
+        Some((kind, rest)) => (kind, Some(rest)),
+        None => (text, None),
+    };
+    match (kind, rest) {
+        ("minimum-norm", None) => Ok(Choice::MinimumNorm(NormWeights::NEWTON_METRE)),
+        ("minimum-norm", Some(rest)) => {
+            let length = rest
+                .strip_prefix("length=")
+                .and_then(|x| x.parse::<f64>().ok());
+            match length.filter(|x| x.is_finite() && *x > 0.0) {
+                Some(length) => Ok(Choice::MinimumNorm(NormWeights::with_arm(length))),
+                None => Err(wrong(
+                    text,
+                    "`length=` and an arm in m > 0, as `minimum-norm:length=0.5`",
+                )),
+            }
+        }
+        ("compliance", Some(rest)) => {
+            let joints = rest
+                .split(',')
+                .map(|term| compliance(text, term, source, inquiry));
+            Ok(Choice::Compliance(joints.collect::<Result<_, _>>()?))
+        }
+        ("drop", Some(rest)) => {
+            let rows = inquiry.mechanism.layout().rows();
+            Ok(Choice::Elimination(row_list("--choose drop", rest, rows)?))
+        }
+        ("compliance", None) => Err(wrong(
+            text,
+            "joints with compliances, as `compliance:W3=1e-6,W4=2e-6`",
+        )),
+        ("drop", None) => Err(wrong(text, "rows, as `drop:6,21`")),
+        _ => Err(wrong(
+            text,
+            "`minimum-norm`, `minimum-norm:length=L`, `compliance:…` or `drop:…`",
+        )),
+    }
+}
+
+fn wrong(text: &str, expected: &str) -> Failure {
+    Failure::input(format!("--choose is `{text}`, need {expected}"))
+}
+
+/// `W3=1e-6` (m/N in every direction), or `W3=1e-6/1e-3` with rad/(N·m).
+fn compliance(
+    text: &str,
+    term: &str,
+    source: &Source,
+    inquiry: &Inquiry<'_>,
+) -> Result<Compliance, Failure> {
+    let expected =
+        "NAME=COMPLIANCE in m/N, or NAME=COMPLIANCE/ROTATION with rad/(N·m), finite numbers ≥ 0";
+    let (name, numbers) = term.rsplit_once('=').ok_or_else(|| wrong(text, expected))?;
+    let reaction = inquiry
+        .reaction(name.trim())
+        .map_err(|e| source.failure(e))?;
+    let number = |word: &str| {
+        let x = word.trim().parse::<f64>().ok();
+        x.filter(|x| x.is_finite() && *x >= 0.0).ok_or_else(|| {
+            let found = word.trim();
+            Failure::input(format!(
+                "--choose compliance: that of `{}` is {found}, need {expected}",
+                name.trim()
+            ))
+        })
+    };
+    let (along, rotation) = match numbers.split_once('/') {
+        Some((along, rotation)) => (number(along)?, number(rotation)?),
+        None => (number(numbers)?, 0.0),
+    };
+    Ok(Compliance {
+        reaction,
+        x: along,
+        y: along,
+        rotation,
+    })
+}
+
+/// Rows from 0 that exist, each once.
+fn row_list(option: &str, list: &str, rows: usize) -> Result<Vec<usize>, Failure> {
+    let numbers: Result<Vec<usize>, _> = list.split(',').map(|x| x.trim().parse()).collect();
+    let Ok(numbers) = numbers else {
+        return Err(Failure::input(format!(
+            "{option}: `{list}` is no list of rows, as `6,21`"
+        )));
+    };
+    if let Some(row) = numbers.iter().find(|row| **row > rows) {
+        return Err(Failure::input(format!(
+            "{option}: there is no row {row}; rows are 1 to {rows}"
+        )));
+    }
+    let again = (1..numbers.len()).find(|&k| numbers[..k].contains(&numbers[k]));
+    if let Some(k) = again {
+        let row = numbers[k];
+        return Err(Failure::input(format!(
+            "{option}: row {row} is listed twice"
+        )));
+    }
+    Ok(rows_from_zero(Some(&numbers))?.unwrap_or_default())
+}

@@ -1,0 +1,59 @@
+//! Reactions in numbers, by the choices that were asked for.
+
+use pfaff::report::documents::{DistributionDocument, ValueDocument};
+
+use crate::output::{columns, wrapped};
+
+/// Facts once; what depends on a choice in the column of the choice.
+pub(super) fn describe(choices: &[DistributionDocument]) -> String {
+    let Some(first) = choices.first() else {
+        return String::new();
+    };
+    let mut header = ["reaction", "component", "determined"]
+        .map(str::to_owned)
+        .to_vec();
+    header.extend((1..=choices.len()).map(|k| format!("choice {k}")));
+    let mut table = vec![header];
+    let mut suspicious = Vec::new();
+    for (i, reaction) in first.reactions.iter().enumerate() {
+        for (j, component) in reaction.components.iter().enumerate() {
+            let name = component.name.unwrap_or_default();
+            let mut cells = vec![reaction.name.clone(), name.to_owned()];
+            let number = |v: &ValueDocument| match v.value {
+                0.0 => format!("{:>12}", 0),
+                value => format!("{value:>12.5e}"),
+            };
+            let is_fact = component.choice.is_none();
+            match is_fact {
+                true => cells.push(number(component)),
+                false => {
+                    cells.push(String::new());
+                    let all = choices.iter();
+                    cells.extend(all.map(|d| number(&d.reactions[i].components[j])));
+                }
+            }
+            if component.nature == Some(if is_fact { "choice" } else { "fact" }) {
+                suspicious.push(format!("{name} of {}", reaction.name));
+            }
+            table.push(cells);
+        }
+    }
+    let mut out = format!(
+        "\nReactions on the first body (N, N·m):\n{}",
+        columns(&table)
+    );
+    for (k, choice) in choices.iter().enumerate() {
+        out.push_str(&wrapped(&format!("choice {}: ", k + 1), &choice.label));
+    }
+    let mut components = first.reactions.iter().flat_map(|r| &r.components);
+    if components.any(|component| component.nature.is_none()) {
+        // A warning says why that could not be told.
+        return out;
+    }
+    let sentence = match suspicious.as_slice() {
+        [] => "A change of units leaves what is determined as it is, and changes the rest, as it must.".to_owned(),
+        names => format!("warning: under a change of units {} behave otherwise than their verdicts say: do not trust them", names.join(", ")),
+    };
+    out.push_str(&wrapped("", &sentence));
+    out
+}

@@ -1,0 +1,112 @@
+//! The rank and what is behind it, in sentences.
+
+use pfaff::report::AnalysisDocument;
+
+use crate::output::{count, wrapped};
+
+/// Rows of a near dependence are named if their weight is above this share of the largest.
+const NAMED: f64 = 0.1;
+
+/// Rank, proof, and whether it is so elsewhere.
+pub(super) fn describe(d: &AnalysisDocument) -> String {
+    let mut out = format!(
+        "rank {} (Φq alone {}, Ψ alone {}), redundancy {}, mobility {}\n",
+        d.rank, d.rank_holonomic, d.rank_nonholonomic, d.redundancy, d.mobility,
+    );
+    out.push_str(&wrapped("  ", &proof(d)));
+    if let Some(sentence) = nearly(d) {
+        out.push_str(&wrapped("  ", &sentence));
+    }
+    out.push_str(&wrapped("  ", &elsewhere(d)));
+    out
+}
+
+fn proof(d: &AnalysisDocument) -> String {
+    let e = &d.evidence;
+    let r = d.rank;
+    if let Some(reason) = &e.reason {
+        return format!("UNDECIDED: {reason}");
+    }
+    if !e.certified {
+        return format!(
+            "decided with a clear gap in double precision, not proved: σ_{r} = {:.1e}, σ_{} = {:.1e}, tolerance {:.1e}",
+            e.sigma_r,
+            r + 1,
+            e.sigma_next,
+            e.tolerance
+        );
+    }
+    let others = match d.redundancy {
+        1 => "the other row is".to_owned(),
+        p => format!("the {p} other rows are"),
+    };
+    let next = e.sigma_next_extended.unwrap_or(f64::NAN);
+    match e.grounds {
+        Some("full_rank") if d.redundancy == 0 => {
+            format!(
+                "proved: all {} are independent",
+                count(d.rows, "row", "rows")
+            )
+        }
+        Some("full_rank") => {
+            format!("proved: there are no more columns, so {others} redundant exactly")
+        }
+        Some("exact") => format!("proved in exact arithmetic: {others} redundant exactly"),
+        Some("vanishes") => format!(
+            "rank {r} proved; σ_{} falls to {next:.0e} in doubled precision: {others} redundant exactly",
+            r + 1
+        ),
+        _ => format!(
+            "rank {r} proved; σ_{} = {next:.1e} stays in doubled precision, but is below the {:.1e} that the rounding of the data \
+             leaves open: {others} redundant to within the rounding of the data",
+            r + 1,
+            e.tolerance
+        ),
+    }
+}
+
+fn nearly(d: &AnalysisDocument) -> Option<String> {
+    let nearly = d.evidence.nearly_redundant.as_ref()?;
+    let largest = nearly
+        .direction
+        .iter()
+        .fold(0.0, |a: f64, x| a.max(x.abs()));
+    let concerned = |r: &&pfaff::report::documents::ReactionDocument| {
+        let mut rows = r.rows.iter();
+        rows.any(|row| nearly.direction[row - 1].abs() > NAMED * largest)
+    };
+    let names: Vec<&str> = d
+        .reactions
+        .iter()
+        .filter(concerned)
+        .map(|r| r.name.as_str())
+        .collect();
+    Some(format!(
+        "NEARLY REDUNDANT: σ_{} = {:.1e} is not zero, but the rows of {} almost depend on each other. The verdicts hold, but reactions \
+         are of size 1/σ = {:.0e} per unit of load; data changed by {:.0e} change them by their own size",
+        d.rank,
+        nearly.sigma,
+        names.join(", "),
+        nearly.sigma.recip(),
+        nearly.sigma,
+    ))
+}
+
+fn elsewhere(d: &AnalysisDocument) -> String {
+    let compared = d.generic.as_ref().map(|g| {
+        let n = count(
+            g.points.len(),
+            "other configuration",
+            "other configurations",
+        );
+        (g.redundancy, n)
+    });
+    match (d.evidence.permanent, compared) {
+        (Some(true), Some((_, n))) => format!("permanent: the same redundancy at {n}"),
+        (_, Some((p, n))) if d.evidence.permanent == Some(false) => {
+            format!("ONLY HERE: at {n} the redundancy falls to {p}; this configuration is singular")
+        }
+        (_, Some((p, n))) => format!("at {n} the redundancy is {p}"),
+        (_, None) => "not compared with other configurations: none could be reached".to_owned(),
+    }
+}

@@ -1,0 +1,182 @@
+//! The document of an analysis in words and columns: what a designer wants to know first comes first.
+
+use pfaff::report::AnalysisDocument;
+use pfaff::report::documents::{
+    ComponentDocument, MakeUniqueDocument, MixingDocument, ReactionDocument, VerdictDocument,
+};
+
+use super::{along, deletions, numbers, rank};
+use crate::output::{columns, count, wrapped};
+
+/// Reasons that are listed.
+const REASONS: usize = 10;
+
+pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
+    let mut out = format!(
+        "{} at t = {} s\n{}, {}, {}: {} holonomic, {} nonholonomic\n",
+        d.scene,
+        d.time,
+        count(d.bodies, "body", "bodies"),
+        count(d.coordinates, "coordinate", "coordinates"),
+        count(d.rows, "row", "rows"),
+        d.holonomic_rows,
+        d.nonholonomic_rows,
+    );
+    out.push_str(&rank::describe(d));
+    out.push_str(&verdicts(d));
+    out.push_str(&groups(d));
+    out.push_str(&frames(d));
+    out.push_str(&why(d));
+    out.push_str(&deletions::describe(d, hints));
+    out.push_str(&numbers::describe(&d.choices));
+    out.extend(d.along.as_ref().map(along::describe));
+    let told = |warning: &&String| {
+        let reason = d.evidence.reason.as_ref();
+        !reason.is_some_and(|reason| warning.contains(reason.as_str()))
+    };
+    for warning in d.warnings.iter().filter(told) {
+        out.push('\n');
+        out.push_str(&wrapped("warning: ", warning));
+    }
+    out
+}
+
+/// `not_unique` as it is said.
+fn spoken(word: &str) -> String {
+    word.replace('_', " ")
+}
+
+fn verdicts(d: &AnalysisDocument) -> String {
+    let mut out = "\n".to_owned();
+    let words = ["unique", "not_unique", "undecided"];
+    let named = words.map(|word| {
+        let reactions = d.reactions.iter().filter(|r| r.wrench.verdict == word);
+        let names: Vec<&str> = reactions.map(|r| r.name.as_str()).collect();
+        (word, names)
+    });
+    for (word, names) in named.iter().filter(|(_, names)| !names.is_empty()) {
+        let lead = format!("{:<12}", format!("{}:", spoken(word)));
+        out.push_str(&wrapped(&lead, &names.join(", ")));
+    }
+    let header = [
+        "reaction",
+        "type",
+        "rows",
+        "verdict",
+        "margin",
+        "components",
+    ];
+    let mut table = vec![header.map(str::to_owned).to_vec()];
+    table.extend(d.reactions.iter().map(line));
+    out.push('\n');
+    out.push_str(&columns(&table));
+    out
+}
+
+fn line(r: &ReactionDocument) -> Vec<String> {
+    let rows = match r.rows.as_slice() {
+        [] => String::new(),
+        [row] => row.to_string(),
+        [first, .., last] => format!("{first}–{last}"),
+    };
+    let components = match r.wrench.verdict {
+        "unique" => String::new(),
+        _ => each(&r.components) + &oblique(r),
+    };
+    vec![
+        r.name.clone(),
+        r.kind.to_owned(),
+        rows,
+        spoken(r.wrench.verdict),
+        margin(&r.wrench),
+        components,
+    ]
+}
+
+/// What is left of a margin by rounding is no number for people; the document has it.
+fn margin(v: &VerdictDocument) -> String {
+    match v.verdict {
+        "unique" => "~0".to_owned(),
+        _ => format!("{:.1e}", v.margin),
+    }
+}
+
+fn each(components: &[ComponentDocument]) -> String {
+    let words = components.iter();
+    let words: Vec<String> = words
+        .map(|c| format!("{} {}", c.name, spoken(c.verdict.verdict)))
+        .collect();
+    words.join(", ")
+}
+
+/// Unique directions between the axes: the components do not show them.
+fn oblique(r: &ReactionDocument) -> String {
+    let is_oblique = |d: &&Vec<f64>| d.iter().filter(|x| **x != 0.0).count() > 1;
+    let told = r.unique_directions.iter().filter(is_oblique).map(|d| {
+        let terms = d.iter().zip(&r.components).filter(|(x, _)| **x != 0.0);
+        let terms: Vec<String> = terms.map(|(x, c)| format!("{x:.3}·{}", c.name)).collect();
+        format!("; {} unique", terms.join(" + ").replace("+ -", "− "))
+    });
+    told.collect()
+}
+
+fn groups(d: &AnalysisDocument) -> String {
+    let mut out = String::new();
+    for g in &d.groups {
+        let mut text = format!(
+            "{} (margin {})",
+            spoken(g.verdict.verdict),
+            margin(&g.verdict)
+        );
+        if !g.components.is_empty() {
+            text.push_str(&format!(": {}", each(&g.components)));
+        }
+        out.push_str(&wrapped(&format!("{}: ", g.name), &text));
+    }
+    match out.is_empty() {
+        true => out,
+        false => format!("\nSums and groups:\n{out}"),
+    }
+}
+
+/// Only of what is not unique: the rest is unique in every frame.
+fn frames(d: &AnalysisDocument) -> String {
+    let header = ["reaction", "frame", "first axis", "components"];
+    let mut table = vec![header.map(str::to_owned).to_vec()];
+    let open = d.reactions.iter().filter(|r| r.wrench.verdict != "unique");
+    for r in open {
+        for f in &r.frames {
+            let [x, y] = f.axes[0];
+            table.push(vec![
+                r.name.clone(),
+                spoken(f.frame),
+                format!("({x:.3}, {y:.3})"),
+                each(&f.components),
+            ]);
+        }
+    }
+    match table.len() {
+        1 => String::new(),
+        _ => format!("\nIn other frames:\n{}", columns(&table)),
+    }
+}
+
+fn why(d: &AnalysisDocument) -> String {
+    if d.dependencies.is_empty() {
+        return String::new();
+    }
+    let mut out = "\nWhy:\n".to_owned();
+    // One dependency among all that mix says it all.
+    let is_told = |m: &&MixingDocument| d.dependencies.iter().any(|x| x.joints == m.reactions);
+    let mixing = d.mixing.iter().filter(|m| m.redundancy > 1 || !is_told(m));
+    let dependencies = d.dependencies.iter().map(|x| &x.text);
+    let reasons: Vec<&String> = mixing.map(|m| &m.text).chain(dependencies).collect();
+    for text in reasons.iter().take(REASONS) {
+        out.push_str(&wrapped("- ", text));
+    }
+    if reasons.len() > REASONS {
+        let more = reasons.len() - REASONS;
+        out.push_str(&format!("- and {more} more (`--json` has all)\n"));
+    }
+    out
+}

@@ -1,0 +1,467 @@
+//! What `pfaff analyze` answers, in words and as a document: the published mechanism, and cases that can be checked by hand.
+
+use serde_json::{Value, json};
+
+use super::bad_input::PENDULUM;
+use super::{ROBOT, pfaff, stderr, stdout, with_scene};
+
+/// The analysis of the published mechanism, reviewed by eye; `PFAFF_BLESS=1` writes it anew.
+const GOLDEN: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/tests/contract/robot-trolley.txt"
+);
+
+/// A beam of 2 m on hinges, held along itself by both; loaded by its weight and a pull of 6 N along it.
+const BEAM: &str = r#"
+scene = { name = "beam", space = "plane", gravity = [0.0, -10.0] }
+body = [{ name = "beam", mass = 1.0, inertia = 1.0 }]
+joint = [
+    { name = "left", type = "revolute", bodies = ["ground", "beam"], at = [-1.0, 0.0] },
+    { name = "right", type = "revolute", bodies = ["ground", "beam"], at = [1.0, 0.0] },
+]
+force = [{ name = "pull", type = "point-force", body = "beam", at = [0.0, 0.0], force = [6.0, 0.0] }]
+"#;
+
+/// Parallel cranks of 0.5 m on a common coupler, the first one driven from −0.5 rad at 1 rad/s: flat at t = 0.5 s.
+fn cranks() -> String {
+    let (sin, cos) = (-0.5_f64).sin_cos();
+    let mut scene =
+        "scene = { name = \"cranks\", space = \"plane\" }\nsimulate = { t_end = 1.0 }\n".to_owned();
+    for (name, x) in [("one", 0.0), ("two", 1.0)] {
+        let (tip_x, tip_y) = (x + 0.5 * cos, 0.5 * sin);
+        scene += &format!(
+            "[[body]]\nname = \"crank {name}\"\nmass = 1.0\ninertia = 0.02\nposition = [{:?}, {:?}]\nangle = -0.5\n\
+             [[joint]]\nname = \"pivot {name}\"\ntype = \"revolute\"\nbodies = [\"ground\", \"crank {name}\"]\nat = [{x:?}, 0.0]\n\
+             [[joint]]\nname = \"tip {name}\"\ntype = \"revolute\"\nbodies = [\"crank {name}\", \"coupler\"]\nat = [{tip_x:?}, {tip_y:?}]\n",
+            x + 0.25 * cos,
+            0.25 * sin,
+        );
+    }
+    let (x, y) = (0.5 + 0.5 * cos, 0.5 * sin);
+    scene += &format!(
+        "[[body]]\nname = \"coupler\"\nmass = 2.0\ninertia = 0.2\nposition = [{x:?}, {y:?}]\n\
+         [[drive]]\nname = \"motor\"\njoint = \"pivot one\"\ntype = \"angle\"\nmotion = {{ type = \"constant-rate\", rate = 1.0 }}\n"
+    );
+    scene
+}
+
+/// A bob on two pivots that are so far apart (m).
+fn twin(apart: f64) -> String {
+    format!(
+        "{PENDULUM}[[joint]]\nname = \"twin\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bob\"]\nat = [{apart:e}, 0.0]\n"
+    )
+}
+
+#[track_caller]
+fn document(output: &std::process::Output) -> Value {
+    serde_json::from_slice(&output.stdout).unwrap_or_else(|e| panic!("{e}: {output:?}"))
+}
+
+#[track_caller]
+fn contains(text: &str, pieces: &[&str]) {
+    // Lines are wrapped anywhere.
+    let flat = text.split_whitespace().collect::<Vec<_>>().join(" ");
+    for piece in pieces {
+        assert!(flat.contains(piece), "`{piece}` is not in:\n{text}");
+    }
+}
+
+#[test]
+fn the_text_of_the_published_mechanism_is_the_reviewed_one() {
+    let output = pfaff(&["analyze", ROBOT]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let text = stdout(&output);
+    if std::env::var_os("PFAFF_BLESS").is_some() {
+        std::fs::write(GOLDEN, &text).expect("writable");
+    }
+    let golden = std::fs::read_to_string(GOLDEN).expect("the reviewed text");
+    assert!(text == golden, "found:\n{text}\nreviewed:\n{golden}");
+    assert!(text.lines().all(|line| line.chars().count() <= 100));
+}
+
+#[test]
+fn the_rank_comes_with_its_proof_and_what_it_was_compared_with() {
+    let d = document(&pfaff(&["analyze", ROBOT, "--json"]));
+    let e = &d["evidence"];
+    assert_eq!(
+        (&e["certified"], &e["permanent"]),
+        (&json!(true), &json!(true))
+    );
+    assert_eq!(
+        (&e["rank_at_least"], &e["grounds"]),
+        (&json!(20), &json!("vanishes"))
+    );
+    assert!(
+        e["sigma_bound"]
+            .as_f64()
+            .is_some_and(|x| 0.0 < x && x <= 0.187)
+    );
+    assert!(e["sigma_next_extended"].as_f64().is_some_and(|x| x < 1e-26));
+    assert_eq!(e["nearly_redundant"], Value::Null);
+    assert_eq!(d["generic"]["redundancy"], 2);
+    let points = d["generic"]["points"].as_array().expect("a list");
+    assert!(!points.is_empty() && points.iter().all(|p| p["rank"] == 20));
+    // The same proof, whichever rows carry the dependencies.
+    let dropped = document(&pfaff(&["analyze", ROBOT, "--json", "--drop", "6,21"]));
+    assert_eq!(dropped["evidence"]["certified"], true);
+    assert_eq!(dropped["dropped_rows"], json!([6, 21]));
+}
+
+#[test]
+fn nearly_redundant_rows_are_judged_although_they_cannot_move() {
+    for (apart, redundancy, piece) in [
+        (1e-3, 1, "proved: there are no more columns"),
+        (1e-9, 1, "NEARLY REDUNDANT: σ_3 = 5.0e-10 is not zero"),
+        (1e-18, 2, "the 2 other rows are redundant exactly"),
+    ] {
+        let output = with_scene(&["analyze", "-"], &twin(apart));
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        contains(
+            &stdout(&output),
+            &[piece, &format!("redundancy {redundancy},")],
+        );
+        let d = document(&with_scene(&["analyze", "-", "--json"], &twin(apart)));
+        assert_eq!(d["redundancy"], redundancy);
+        let sigma = d["evidence"]["nearly_redundant"]["sigma"].as_f64();
+        assert_eq!(sigma.is_some(), apart == 1e-9, "{d:#}");
+    }
+    // As small as the rounding of the data: both readings.
+    let output = with_scene(&["analyze", "-"], &twin(1e-14));
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    contains(
+        &stdout(&output),
+        &[
+            "UNDECIDED:",
+            "rank 2 or 3; know the data better",
+            "undecided: pivot, twin",
+        ],
+    );
+    let d = document(&with_scene(&["analyze", "-", "--json"], &twin(1e-14)));
+    assert_eq!(
+        (&d["evidence"]["certified"], &d["evidence"]["permanent"]),
+        (&json!(false), &Value::Null)
+    );
+    assert_eq!(d["mixing"], json!([]));
+}
+
+#[test]
+fn the_reasons_are_in_words_and_ready_to_be_drawn() {
+    let d = document(&with_scene(&["analyze", "-", "--json"], BEAM));
+    let left = &d["reactions"][0];
+    assert_eq!(
+        left["explanation"],
+        "the reaction of `left` is not determined: it shares loads with `right`; determined is Fy"
+    );
+    let of = |k: usize| &d["reactions"][k]["free_directions"][0];
+    assert_eq!(
+        (&of(0)["place"], &of(1)["place"]),
+        (&json!([-1.0, 0.0]), &json!([1.0, 0.0]))
+    );
+    // One newton along the beam in one hinge, minus one in the other.
+    let force = |k: usize| [0, 1].map(|i| of(k)["force"][i].as_f64().expect("a number"));
+    assert_eq!(force(0).map(f64::abs), [1.0, 0.0]);
+    assert_eq!(force(1), force(0).map(|x| if x == 0.0 { x } else { -x }));
+    assert_eq!(d["mixing"][0]["reactions"], json!(["left", "right"]));
+    contains(
+        &stdout(&with_scene(&["analyze", "-"], BEAM)),
+        &[
+            "Why:",
+            "`left` and `right` both hold `beam` along the same line",
+            "right: relax row 1 (`left`, x)",
+        ],
+    );
+}
+
+#[test]
+fn what_makes_a_reaction_unique() {
+    let ways = |time: &str, allow: &str| {
+        let make = [
+            "analyze",
+            ROBOT,
+            "--json",
+            "--at-time",
+            time,
+            "--make-unique",
+            "W3",
+            "--allow",
+            allow,
+        ];
+        let d = document(&pfaff(&make));
+        let found = &d["make_unique"][0];
+        assert_eq!(
+            (&found["reaction"], &found["complete"]),
+            (&json!("W3"), &json!(true))
+        );
+        let ways = found["ways"].as_array().expect("a list").iter();
+        ways.map(|w| w["rows"].to_string()).collect::<Vec<_>>()
+    };
+    // Published: W4 and one of these rows, of four while the edges are straight.
+    assert_eq!(
+        ways("0", "sensible"),
+        ["[4,21]", "[6,21]", "[18,21]", "[19,21]"]
+    );
+    let turned = ["[3,21]", "[4,21]", "[5,21]", "[6,21]", "[18,21]", "[19,21]"];
+    assert_eq!(ways("1.5", "sensible"), turned);
+    assert_eq!(ways("0", "rows:21,18,1"), ["[18,21]"]);
+    assert_eq!(ways("0", "rows:1,2"), [""; 0]);
+    let text = stdout(&pfaff(&[
+        "analyze",
+        ROBOT,
+        "--make-unique",
+        "W3",
+        "--allow",
+        "whole",
+    ]));
+    contains(&text, &["To make W3 unique", "delete `W1` and delete `W4`"]);
+}
+
+#[test]
+fn admissible_eliminations_are_counted_and_listed() {
+    let d = document(&pfaff(&["analyze", ROBOT, "--json"]));
+    assert_eq!(d["eliminations"], json!({ "count": 9 }));
+    let d = document(&pfaff(&[
+        "analyze",
+        ROBOT,
+        "--json",
+        "--at-time",
+        "1.5",
+        "--eliminations",
+    ]));
+    assert_eq!(d["eliminations"]["count"], 13);
+    let sets = d["eliminations"]["sets"].as_array().expect("a list");
+    assert_eq!((sets.len(), &sets[12]), (13, &json!([20, 21])));
+    let text = stdout(&pfaff(&["analyze", ROBOT, "--eliminations", "2"]));
+    contains(&text, &["9 sets of 2 rows", "{4,20} {4,21}"]);
+    assert!(!text.contains("{6,20}"), "{text}");
+}
+
+#[test]
+fn sums_have_components_and_frames_have_axes() {
+    let combine = [
+        "analyze",
+        "-",
+        "--json",
+        "--combine",
+        "left + right",
+        "--frames",
+    ];
+    let d = document(&with_scene(&combine, BEAM));
+    let sum = &d["groups"][0];
+    assert_eq!(
+        (&sum["name"], &sum["verdict"]),
+        (&json!("left + right"), &json!("unique"))
+    );
+    assert_eq!(sum["components"].as_array().map(Vec::len), Some(3));
+    let frames = d["reactions"][0]["frames"].as_array().expect("a list");
+    assert_eq!(frames[0]["frame"], "global");
+    assert_eq!(frames[0]["axes"], json!([[1.0, 0.0], [0.0, 1.0]]));
+    let text = stdout(&pfaff(&["analyze", ROBOT, "--at-time", "1.5", "--frames"]));
+    contains(
+        &text,
+        &["In other frames:", "Fn not unique, Ft unique, T unique"],
+    );
+    // Nobody asked.
+    let d = document(&pfaff(&["analyze", ROBOT, "--json"]));
+    assert!(d["reactions"][0].get("frames").is_none());
+}
+
+#[test]
+fn choices_are_labelled_and_facts_are_not() {
+    let all = [
+        "analyze",
+        "-",
+        "--json",
+        "--choose",
+        "minimum-norm",
+        "--choose",
+        "compliance:left=1e-6,right=2e-6",
+        "--choose",
+        "drop:3",
+        "--choose",
+        "minimum-norm:length=0.5",
+    ];
+    let d = document(&with_scene(&all, BEAM));
+    // The ground carries −6 N along the beam; half and half, two to one, all to the left.
+    for (k, left, right) in [(0, 3.0, 3.0), (1, 4.0, 2.0), (2, 6.0, 0.0), (3, 3.0, 3.0)] {
+        let choice = &d["choices"][k];
+        for (joint, along) in [(0, left), (1, right)] {
+            let [x, y] = [0, 1].map(|c| &choice["reactions"][joint]["components"][c]);
+            let value = x["value"].as_f64().expect("a number");
+            assert!((value.abs() - along).abs() < 1e-12, "{choice:#}");
+            assert_eq!(
+                (&x["choice"], &x["nature"]),
+                (&choice["label"], &json!("choice"))
+            );
+            // Half the weight, whatever is chosen.
+            assert!((y["value"].as_f64().expect("a number").abs() - 5.0).abs() < 1e-12);
+            assert_eq!((y.get("choice"), &y["nature"]), (None, &json!("fact")));
+        }
+    }
+    let text = stdout(&with_scene(&["analyze", "-", "--choose", "drop:3"], BEAM));
+    contains(
+        &text,
+        &[
+            "choice 1: no reaction in the rows 3 (`right`, x)",
+            "A change of units leaves what is determined",
+        ],
+    );
+}
+
+#[test]
+fn a_whole_motion_has_one_verdict_and_exceptions() {
+    let output = pfaff(&["analyze", ROBOT, "--json", "--along"]);
+    assert_eq!(
+        (output.status.code(), stderr(&output)),
+        (Some(0), String::new())
+    );
+    let along = &document(&output)["along"];
+    assert_eq!(
+        (&along["to"], &along["stopped"]),
+        (&json!(10.0), &Value::Null)
+    );
+    assert_eq!(along["generic"]["redundancy"], 2);
+    let stretches = along["stretches"].as_array().expect("a list");
+    assert_eq!(stretches.len(), 1);
+    assert_eq!(
+        (&stretches[0]["from"], &stretches[0]["to"]),
+        (&json!(0.0), &json!(1.0))
+    );
+    let passages = along["passages"].as_array().expect("a list");
+    assert!(
+        passages.iter().all(|p| p["kind"] == "verdicts"),
+        "{passages:#?}"
+    );
+    let text = stdout(&pfaff(&["analyze", ROBOT, "--along", "0.5"]));
+    contains(
+        &text,
+        &[
+            "Along the motion, t = 0 to 0.5 s",
+            "nothing else holds at any time",
+        ],
+    );
+}
+
+#[test]
+fn a_motion_that_stops_is_judged_as_far_as_it_goes() {
+    let output = with_scene(&["analyze", "-", "--along"], &cranks());
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    contains(
+        &stdout(&output),
+        &[
+            "the motion stopped, and was judged only so far",
+            "singular configuration",
+            "nearly singular from",
+        ],
+    );
+    let output = with_scene(&["analyze", "-", "--along", "--json"], &cranks());
+    assert_eq!(
+        (output.status.code(), stderr(&output)),
+        (Some(1), String::new())
+    );
+    let along = &document(&output)["along"];
+    let to = along["to"].as_f64().expect("a number");
+    assert!((0.49..0.5).contains(&to), "{to}");
+    assert!(along["stopped"].is_string());
+    // Before that there is nothing to say.
+    let output = with_scene(&["analyze", "-", "--along", "0.4"], &cranks());
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+}
+
+#[test]
+fn wrong_questions_have_clear_answers() {
+    for (option, value, piece) in [
+        (
+            "--make-unique",
+            "W33",
+            "there is no joint or drive `W33`; did you mean `W3`?",
+        ),
+        ("--allow", "all", "--allow is `all`, need `sensible`"),
+        (
+            "--allow",
+            "rows:4,99",
+            "there is no row 99; rows are 1 to 22",
+        ),
+        ("--along", "-1", "--along goes to -1, need a time > 0"),
+        ("--along", "nan", "--along goes to NaN, need a time > 0"),
+        ("--eliminations", "many", "invalid value 'many'"),
+        (
+            "--choose",
+            "best",
+            "--choose is `best`, need `minimum-norm`",
+        ),
+        ("--choose", "minimum-norm:length=0", "an arm in m > 0"),
+        (
+            "--choose",
+            "compliance:Q=1",
+            "there is no joint or drive `Q`",
+        ),
+        ("--choose", "compliance:W3=-1", "that of `W3` is -1, need"),
+        ("--choose", "compliance:W3", "need NAME=COMPLIANCE"),
+        (
+            "--choose",
+            "compliance:W3=1e-6",
+            "give a compliance to one more",
+        ),
+        (
+            "--choose",
+            "drop:1,2",
+            "those of 1 (`A`, x), 2 (`A`, y) are unique",
+        ),
+        ("--choose", "drop:6", "drop exactly 2"),
+        ("--choose", "drop:6,6", "row 6 is listed twice"),
+        ("--choose", "drop:0,6", "there is no row 0"),
+        (
+            "--choose",
+            "drop:6,99",
+            "there is no row 99; rows are 1 to 22",
+        ),
+        ("--drop", "1,2", "cannot be dropped"),
+    ] {
+        let output = pfaff(&["analyze", ROBOT, option, value]);
+        let text = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{option} {value}: {text}");
+        assert!(text.contains(piece), "{option} {value}: {text}");
+        assert!(output.stdout.is_empty(), "{option} {value}");
+    }
+    // Nobody says how long.
+    let output = with_scene(&["analyze", "-", "--along"], BEAM);
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+}
+
+#[test]
+fn contradictions_come_before_verdicts() {
+    let drive = |name: &str, rate: f64| {
+        format!(
+            "[[drive]]\nname = \"{name}\"\njoint = \"pivot\"\ntype = \"angle\"\nmotion = {{ type = \"constant-rate\", rate = {rate:?} }}\n"
+        )
+    };
+    let scene = format!("{PENDULUM}{}{}", drive("slow", 1.0), drive("fast", 2.5));
+    for command in ["analyze", "check"] {
+        let output = with_scene(&[command, "-"], &scene);
+        assert_eq!(output.status.code(), Some(2), "{output:?}");
+        let text = stderr(&output);
+        contains(
+            &text,
+            &[
+                "`slow`",
+                "`fast`",
+                "different velocities",
+                "differ by 1.500e0 rad/s",
+            ],
+        );
+    }
+}
+
+#[test]
+fn help_shows_examples() {
+    let text = stdout(&pfaff(&["analyze", "--help"]));
+    contains(
+        &text,
+        &[
+            "Examples:",
+            "--make-unique W3",
+            "--choose compliance:W3=1e-6,W4=2e-6",
+            "--along",
+        ],
+    );
+}

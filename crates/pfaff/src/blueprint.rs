@@ -1,0 +1,128 @@
+//! A scene with its mechanism, before anything is said of its rows: where a study begins, and all there is of a mechanism whose
+//! rank is too doubtful for a motion.
+
+use dynamics::{MotionError, MotionOptions, RowChoice, prepare};
+use model::start::{assemble, consistent_velocity};
+use model::{Mechanism, Registry};
+use scene::Scene;
+use solvability::State;
+
+use crate::error::StudyError;
+use crate::inquiry::Inquiry;
+use crate::study::{Overrides, Study};
+
+/// A scene that has been read and whose mechanism could be built.
+///
+/// ```
+/// use pfaff::Blueprint;
+/// use pfaff::model::Registry;
+///
+/// // Two pivots 10⁻⁹ m apart: such a bar can neither move nor be called redundant in double precision.
+/// let scene = r#"
+/// scene = { name = "bar", space = "plane" }
+/// body = [{ name = "bar", mass = 1.0, inertia = 1.0, position = [1.0, 0.0] }]
+/// joint = [
+///     { name = "pivot", type = "revolute", bodies = ["ground", "bar"], at = [0.0, 0.0] },
+///     { name = "twin", type = "revolute", bodies = ["ground", "bar"], at = [1e-9, 0.0] },
+/// ]
+/// "#;
+/// let mut blueprint = Blueprint::read("bar.toml", scene, &Registry::planar())?;
+/// let start = blueprint.inquire(None)?;
+/// assert_eq!((start.analysis.decision.rank, start.analysis.decision.redundancy), (3, 1));
+/// assert!(start.analysis.decision.nearly_redundant().is_some());
+/// # Ok::<(), pfaff::StudyError>(())
+/// ```
+pub struct Blueprint {
+    /// What was read.
+    pub scene: Scene,
+    /// Its mechanism; initial values are those of the described start until it is assembled.
+    pub mechanism: Mechanism,
+}
+
+impl Blueprint {
+    /// Reads a scene. `name` is the file's name in messages.
+    ///
+    /// # Errors
+    /// [`StudyError::Scene`]: everything that is wrong with the text.
+    pub fn read(name: &str, text: &str, registry: &Registry) -> Result<Self, StudyError> {
+        let scene = scene::read(name, text, registry).map_err(StudyError::Scene)?;
+        let mechanism = Mechanism::build(&scene.description)
+            .map_err(|e| StudyError::Scene(e.iter().map(|e| scene.locate_build(e)).collect()))?;
+        Ok(Self { scene, mechanism })
+    }
+
+    /// Finds a consistent start and chooses rows.
+    ///
+    /// # Errors
+    /// - [`StudyError::Scene`]: there is no such start.
+    /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen.
+    pub fn prepare(self, overrides: &Overrides) -> Result<Study, StudyError> {
+        let Self { scene, mechanism } = self;
+        let options = options(&scene, overrides);
+        let rows = match (&overrides.drop, &options) {
+            (Some(drop), _) => RowChoice::Drop(drop.clone()),
+            (None, Some(options)) => options.rows.clone(),
+            (None, None) => RowChoice::Automatic,
+        };
+        let prepared = match prepare(mechanism, &scene.start, &rows) {
+            Ok(prepared) => prepared,
+            // Faults of the text have a place in it; rows may come from the caller.
+            Err(e @ (MotionError::Start(_) | MotionError::Contradiction(_))) => {
+                return Err(StudyError::Scene(vec![scene.locate_motion(&e)]));
+            }
+            Err(e) => return Err(e.into()),
+        };
+        Ok(Study {
+            scene,
+            prepared,
+            options,
+        })
+    }
+
+    /// The start, to be asked about its reactions, also where [`Blueprint::prepare`] refuses to choose rows because their rank is
+    /// undecided in `f64`.
+    ///
+    /// # Errors
+    /// [`StudyError::Scene`], [`StudyError::Analysis`]: there is no consistent start, or C cannot be judged there.
+    pub fn inquire(&mut self, drop: Option<&[usize]>) -> Result<Inquiry<'_>, StudyError> {
+        let refused = |scene: &Scene, e| StudyError::Scene(vec![scene.locate_start(&e)]);
+        let start = &self.scene.start;
+        let assembly = assemble(&mut self.mechanism, start).map_err(|e| refused(&self.scene, e))?;
+        let state = State {
+            q: assembly.q,
+            v: Vec::new(),
+        };
+        let mut inquiry = Inquiry::new(&self.scene, &self.mechanism, 0.0, state, drop)?;
+        let decision = &inquiry.analysis.decision;
+        if decision.is_decided() {
+            let (q, kept) = (&inquiry.state.q, &decision.kept);
+            let v = consistent_velocity(&self.mechanism, start, q, &assembly.v, kept);
+            inquiry.state.v = v.map_err(|e| refused(&self.scene, e))?;
+        }
+        Ok(inquiry)
+    }
+}
+
+/// The scene's wishes with those of the caller on top.
+fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
+    let mut options = match (&scene.simulate, overrides.t_end) {
+        (Some(options), _) => options.clone(),
+        (None, Some(t_end)) => MotionOptions::to(t_end),
+        (None, None) => return None,
+    };
+    if let Some(t_end) = overrides.t_end {
+        options.t_end = t_end;
+        options.output_step = options.output_step.min(if t_end > 0.0 {
+            t_end
+        } else {
+            options.output_step
+        });
+    }
+    options.rtol = overrides.rtol.unwrap_or(options.rtol);
+    options.atol = overrides.atol.unwrap_or(options.atol);
+    options.method = overrides.method.unwrap_or(options.method);
+    if let Some(drop) = &overrides.drop {
+        options.rows = RowChoice::Drop(drop.clone());
+    }
+    Some(options)
+}

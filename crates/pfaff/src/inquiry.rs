@@ -1,0 +1,238 @@
+//! One configuration of a scene, and everything that can be asked of its reactions. Each method answers one question; what
+//! nobody asks is not computed.
+
+mod requests;
+
+use linalg::{Certificate, DeletionError, Limits, count_deletions, deletions};
+use model::{ConstraintId, Mechanism, Scratch, System};
+use scene::Scene;
+use solvability::{
+    Allowed, Analysis, Choice, ChoiceError, Configuration, Contradiction, Distribution, Equations,
+    Explanation, ExplanationError, FrameVerdict, Generic, GroupVerdict, Proposals, Ranks, State,
+    UnitCheck, analyse, analyse_dropping, certify, check_units, contradictions, explain, generic,
+    make_unique,
+};
+
+use crate::error::StudyError;
+
+/// A configuration whose rank has been decided, with its verdicts.
+///
+/// ```
+/// use pfaff::linalg::Limits;
+/// use pfaff::model::Registry;
+/// use pfaff::solvability::Allowed;
+/// use pfaff::{Overrides, Study};
+///
+/// // A cart on two wheels of one axle: each stops the same sideways motion.
+/// let scene = r#"
+/// scene = { name = "cart", space = "plane" }
+/// body = [{ name = "cart", mass = 10.0, inertia = 1.0 }]
+/// joint = [
+///     { name = "left", type = "knife-edge", body = "cart", point = [0.0, 0.5], normal = [0.0, 1.0] },
+///     { name = "right", type = "knife-edge", body = "cart", point = [0.0, -0.5], normal = [0.0, 1.0] },
+/// ]
+/// "#;
+/// let study = Study::read("cart.toml", scene, &Registry::planar(), &Overrides::default())?;
+/// let start = study.inquire(0.0, None)?;
+/// assert_eq!(start.eliminations()?, 2);
+/// let left = start.reaction("left")?;
+/// let ways = start.make_unique(left, &Allowed::Sensible, Limits::default())?.ways;
+/// assert_eq!(ways[0].text, "delete `right`");
+/// # Ok::<(), pfaff::StudyError>(())
+/// ```
+pub struct Inquiry<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
+    /// Its mechanism.
+    pub mechanism: &'a Mechanism,
+    /// Coordinates and velocities; the latter are empty where the rank is undecided, because none are known to be consistent.
+    pub state: State,
+    /// Ranks and verdicts.
+    pub analysis: Analysis,
+    /// The proof of the rank, also where the caller chose the dropped rows.
+    pub certificate: Option<Certificate>,
+    configuration: Configuration<'a>,
+    scratch: Scratch,
+}
+
+impl<'a> Inquiry<'a> {
+    /// A state that satisfies the constraints at time t.
+    pub(crate) fn new(
+        scene: &'a Scene,
+        mechanism: &'a Mechanism,
+        t: f64,
+        state: State,
+        drop: Option<&[usize]>,
+    ) -> Result<Self, StudyError> {
+        let q = &state.q;
+        let (analysis, certificate) = match drop {
+            None => {
+                let analysis = analyse(mechanism, t, q)?;
+                let certificate = analysis.decision.evidence.certificate.clone();
+                (analysis, certificate)
+            }
+            Some(rows) => {
+                let analysis = analyse_dropping(mechanism, t, q, rows)?;
+                let certified = certify(mechanism, t, q)?;
+                let same = certified.is_decided() && certified.rank == analysis.decision.rank;
+                let certificate = certified.evidence.certificate.filter(|_| same);
+                (analysis, certificate)
+            }
+        };
+        let configuration = Configuration::new(mechanism, t, q, &analysis.decision)?;
+        let mut scratch = mechanism.scratch();
+        mechanism.pose(t, q, &mut scratch);
+        mechanism.phi(&mut scratch);
+        mechanism.c(&mut scratch);
+        Ok(Self {
+            scene,
+            mechanism,
+            state,
+            analysis,
+            certificate,
+            configuration,
+            scratch,
+        })
+    }
+
+    /// The joint or drive of this name.
+    ///
+    /// # Errors
+    /// [`StudyError::UnknownReaction`], with the nearest name.
+    pub fn reaction(&self, name: &str) -> Result<ConstraintId, StudyError> {
+        requests::reaction(self.scene, self.mechanism, name)
+    }
+
+    /// Verdicts by name: the groups of the scene, then sums of components as `W3.N + W4.N`, or of whole wrenches as `W3 + W4`.
+    ///
+    /// # Errors
+    /// If a sum cannot be read or names something unknown.
+    pub fn groups(&self, combine: &[String]) -> Result<Vec<(String, GroupVerdict)>, StudyError> {
+        requests::groups(self.scene, self.mechanism, combine)?
+            .into_iter()
+            .map(|(name, group)| Ok((name, self.configuration.group(&group)?)))
+            .collect()
+    }
+
+    /// Ranks at other configurations of the same component; nothing if none could be reached.
+    #[must_use]
+    pub fn generic(&self) -> Option<Generic> {
+        generic(self.mechanism, self.analysis.time, &self.state.q)
+    }
+
+    /// Why the reactions are not unique; nothing while the rank is undecided, where every sentence would build on one of two
+    /// readings.
+    ///
+    /// # Errors
+    /// [`StudyError::Explanation`]
+    pub fn explanation(&self) -> Result<Option<Explanation>, StudyError> {
+        let (q, solvability) = (&self.state.q, self.configuration.solvability());
+        match explain(self.mechanism, &self.scratch, q, solvability) {
+            Ok(explanation) => Ok(Some(explanation)),
+            Err(ExplanationError::Undecided(_)) => Ok(None),
+            Err(e) => Err(e.into()),
+        }
+    }
+
+    /// The number of sets of rows that can be deleted without a change of motion, as many rows as the degree of redundancy.
+    ///
+    /// # Errors
+    /// [`DeletionError`]: the rank or one of the sets is undecided, or they are too many.
+    pub fn eliminations(&self) -> Result<u128, DeletionError> {
+        count_deletions(&self.analysis.decision)
+    }
+
+    /// The first of these sets, rows from 0.
+    ///
+    /// # Errors
+    /// [`DeletionError`]: the rank or one of the sets is undecided.
+    pub fn elimination_sets(&self, limit: usize) -> Result<Vec<Vec<usize>>, DeletionError> {
+        deletions(&self.analysis.decision, limit)
+    }
+
+    /// The smallest deletions that make a reaction unique without a change of motion.
+    ///
+    /// # Errors
+    /// [`DeletionError`]: the rank or an answer is undecided, or a row that is allowed does not exist.
+    pub fn make_unique(
+        &self,
+        id: ConstraintId,
+        allowed: &Allowed,
+        limits: Limits,
+    ) -> Result<Proposals, DeletionError> {
+        let solvability = self.configuration.solvability();
+        make_unique(self.mechanism, solvability, id, allowed, limits)
+    }
+
+    /// The verdicts of a reaction in all frames that it has.
+    ///
+    /// # Errors
+    /// [`StudyError::Request`]
+    pub fn frames(&self, id: ConstraintId) -> Result<Vec<FrameVerdict>, StudyError> {
+        Ok(self.configuration.frames(id)?)
+    }
+
+    /// The reactions that a choice gives at these velocities: what is unique, and one of many for the rest.
+    ///
+    /// # Errors
+    /// [`StudyError::Choice`]: there is no such distribution, or the rank is undecided.
+    pub fn distribution(&self, choice: &Choice) -> Result<Distribution, StudyError> {
+        let v = self.velocities()?;
+        if let Choice::Elimination(rows) = choice {
+            self.check_rows(rows)?;
+        }
+        let equations = Equations::of(self.mechanism, self.analysis.time, &self.state.q, v)?;
+        let lambda_0 = equations.multipliers(&self.analysis.decision)?;
+        Ok(self.configuration.distribute(&lambda_0, choice)?)
+    }
+
+    /// Which components are facts, and which depend on a choice: told by a change of units, without any verdict.
+    ///
+    /// # Errors
+    /// [`StudyError::Units`]: there is nothing to compare, or the rank depends on the units.
+    pub fn facts(&self) -> Result<Vec<UnitCheck>, StudyError> {
+        let v = self.velocities()?;
+        let (t, decision) = (self.analysis.time, &self.analysis.decision);
+        Ok(check_units(self.mechanism, t, &self.state.q, v, decision)?)
+    }
+
+    /// What redundant rows contradict each other in, the worst first; nothing is known of this where the rank is undecided
+    /// in `f64`.
+    ///
+    /// # Errors
+    /// If the configuration cannot be judged.
+    pub fn contradictions(&self) -> Result<Vec<Contradiction>, StudyError> {
+        let (s, q) = (&self.scratch, &self.state.q);
+        // Velocities are known to the rounding of `f64`, so they are compared by ranks decided in `f64`.
+        let all = solvability::decide(self.mechanism, s, q)?;
+        let holonomic = solvability::decide_holonomic(self.mechanism, s, q)?;
+        if !all.is_decided() || !holonomic.is_decided() || self.state.v.is_empty() {
+            return Ok(Vec::new());
+        }
+        let ranks = Ranks {
+            all: &all,
+            holonomic: &holonomic,
+        };
+        let t = self.analysis.time;
+        Ok(contradictions(self.mechanism, t, q, &self.state.v, ranks)?)
+    }
+
+    /// Checks that rows (from 0) exist.
+    ///
+    /// # Errors
+    /// [`StudyError::UnknownRow`]
+    pub fn check_rows(&self, rows: &[usize]) -> Result<(), StudyError> {
+        let n = self.mechanism.layout().rows();
+        match rows.iter().find(|row| **row >= n) {
+            Some(&row) => Err(StudyError::UnknownRow { row, rows: n }),
+            None => Ok(()),
+        }
+    }
+
+    fn velocities(&self) -> Result<&[f64], StudyError> {
+        match self.analysis.decision.status {
+            linalg::RankStatus::Undecided(doubt) => Err(ChoiceError::Undecided(doubt).into()),
+            _ => Ok(&self.state.v),
+        }
+    }
+}

@@ -1,0 +1,79 @@
+//! From the names of a scene to the joints and drives of its mechanism.
+
+use model::{ConstraintId, Mechanism, System};
+use scene::{Combination, GroupContent, Scene, WrenchTerm};
+use solvability::{Group, Term};
+
+use crate::error::StudyError;
+
+/// The joint or drive of this name.
+pub(super) fn reaction(
+    scene: &Scene,
+    mechanism: &Mechanism,
+    name: &str,
+) -> Result<ConstraintId, StudyError> {
+    let groups = &mechanism.layout().groups;
+    let place = groups.iter().position(|g| g.name == name);
+    place
+        .map(ConstraintId)
+        .ok_or_else(|| StudyError::UnknownReaction {
+            name: name.to_owned(),
+            nearest: scene.nearest_reaction(name).map(str::to_owned),
+        })
+}
+
+/// Groups by name: those of the scene, then the combinations asked for.
+pub(super) fn groups(
+    scene: &Scene,
+    mechanism: &Mechanism,
+    combine: &[String],
+) -> Result<Vec<(String, Group)>, StudyError> {
+    let of = |group: &scene::GroupRequest| {
+        let content = match &group.content {
+            GroupContent::Members(names) => {
+                let members = names.iter().map(|n| reaction(scene, mechanism, n));
+                Group::Members(members.collect::<Result<_, _>>()?)
+            }
+            GroupContent::Combination(sum) => combination(scene, mechanism, sum)?,
+        };
+        Ok((group.name.clone(), content))
+    };
+    let asked = |text: &String| {
+        let read = scene.combination(text);
+        let sum = read.map_err(|error| StudyError::Combination {
+            text: text.clone(),
+            error,
+        })?;
+        Ok((text.clone(), combination(scene, mechanism, &sum)?))
+    };
+    let of_scene = scene.groups.iter().map(of);
+    of_scene.chain(combine.iter().map(asked)).collect()
+}
+
+fn combination(
+    scene: &Scene,
+    mechanism: &Mechanism,
+    combination: &Combination,
+) -> Result<Group, StudyError> {
+    match combination {
+        Combination::Components(terms) => {
+            let term = |term: &scene::Term| {
+                Ok(Term {
+                    reaction: reaction(scene, mechanism, &term.reaction)?,
+                    component: term.component.clone(),
+                    coefficient: term.coefficient,
+                })
+            };
+            let terms: Result<_, StudyError> = terms.iter().map(term).collect();
+            Ok(Group::Combination(terms?))
+        }
+        Combination::Wrenches(terms) => {
+            let term = |term: &WrenchTerm| {
+                let id = reaction(scene, mechanism, &term.reaction)?;
+                Ok((term.coefficient, id))
+            };
+            let terms: Result<_, StudyError> = terms.iter().map(term).collect();
+            Ok(Group::WrenchSum(terms?))
+        }
+    }
+}

@@ -1,0 +1,251 @@
+//! The verdicts along the motion of a scene: it is run, recorded as densely as it moves, and judged.
+
+use std::ops::ControlFlow;
+
+use dynamics::{MotionError, MotionOptions};
+use model::start::scene_size;
+use model::{ColumnKind, Mechanism, System};
+use solvability::{Along, AlongError, State, along_motion};
+
+use crate::error::StudyError;
+use crate::study::Study;
+
+/// Judged states at least, evenly in time.
+const INTERVALS: usize = 200;
+
+/// Recorded rows between two judged states: what lies between rows is interpolated.
+const ROWS: usize = 4;
+
+/// Between judged states no body moves by more than this share of the mechanism's size, or as many radians.
+const REACH: f64 = 0.1;
+
+/// Judged states at most.
+const INTERVALS_MAX: usize = 4_000;
+
+/// Verdicts along a motion.
+#[derive(Debug)]
+pub struct Journey {
+    /// One verdict for almost all of it, and where another holds.
+    pub along: Along,
+    /// Last time that was judged (s).
+    pub to: f64,
+    /// Number of judged states.
+    pub samples: usize,
+    /// How far a body moves between two of them: a share of the mechanism's size, or as many radians.
+    pub reach: f64,
+    /// Why the motion stopped there, if it did.
+    pub stopped: Option<MotionError>,
+}
+
+/// How far a journey is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Progress {
+    /// The motion has reached this time (s).
+    Moving(f64),
+    /// Verdicts are asked for at this time (s); searches go to and fro.
+    Judging(f64),
+}
+
+impl Study {
+    /// Runs the scene up to `t_end`, or as long as it says itself, and judges the motion. Where the run stops, what was computed
+    /// is judged.
+    ///
+    /// ```
+    /// use pfaff::model::Registry;
+    /// use pfaff::{Overrides, Study};
+    ///
+    /// // A pendulum that falls has nothing singular on its way.
+    /// let scene = r#"
+    /// scene = { name = "pendulum", space = "plane", gravity = [0.0, -9.81] }
+    /// body = [{ name = "bob", mass = 1.0, inertia = 0.1, position = [1.0, 0.0] }]
+    /// joint = [{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [0.0, 0.0] }]
+    /// "#;
+    /// let study = Study::read("pendulum.toml", scene, &Registry::planar(), &Overrides::default())?;
+    /// let journey = study.journey(Some(1.0), |_| {})?;
+    /// assert_eq!((journey.to, journey.stopped.is_none()), (1.0, true));
+    /// assert_eq!(journey.along.generic.decision.redundancy, 0);
+    /// assert!(journey.along.stretches.is_empty() && journey.along.passages.is_empty());
+    /// # Ok::<(), pfaff::StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`StudyError::NoEnd`]: nobody says how long the run takes.
+    /// - [`StudyError::Motion`]: it cannot begin, or stops before anything can be judged.
+    /// - [`StudyError::Along`]: the motion cannot be judged.
+    pub fn journey(
+        &self,
+        t_end: Option<f64>,
+        mut progress: impl FnMut(Progress),
+    ) -> Result<Journey, StudyError> {
+        let own = self.options.as_ref().map(|options| options.t_end);
+        let t_end = t_end.or(own).ok_or(StudyError::NoEnd)?;
+        if !(t_end.is_finite() && t_end > 0.0) {
+            return Err(StudyError::Motion(MotionError::Option {
+                name: "t_end",
+                value: t_end,
+                expected: "a finite time > 0",
+            }));
+        }
+        let run = self.record(t_end, INTERVALS, &mut progress)?;
+        let needed = INTERVALS as f64 * run.reach(&self.prepared.mechanism) / REACH;
+        let intervals = INTERVALS.max(needed.min(INTERVALS_MAX as f64).ceil() as usize);
+        if run.stopped.is_none() && intervals == INTERVALS {
+            return self.judge(run, intervals, &mut progress);
+        }
+        // Once more, where the motion is too fast for these rows, or up to the last state before it stopped. That one may be too
+        // near to a singular configuration to be brought onto the constraints; then the last row before it has to do.
+        let again = self.record(run.reached, intervals, &mut progress)?;
+        let stopped = again.stopped.is_some();
+        match self.judge(again, intervals, &mut progress) {
+            Err(StudyError::Along(AlongError::OffConstraints { .. }))
+                if run.stopped.is_some() || stopped =>
+            {
+                self.judge(run, INTERVALS, &mut progress)
+            }
+            Ok(journey) => Ok(Journey {
+                stopped: journey.stopped.or(run.stopped),
+                ..journey
+            }),
+            failed => failed,
+        }
+    }
+
+    fn judge(
+        &self,
+        run: Record,
+        intervals: usize,
+        progress: &mut impl FnMut(Progress),
+    ) -> Result<Journey, StudyError> {
+        let mechanism = &self.prepared.mechanism;
+        let Some(to) = run.rows.last().map(|row| row.t).filter(|t| *t > 0.0) else {
+            return Err(match run.stopped {
+                Some(error) => error.into(),
+                None => StudyError::NoEnd,
+            });
+        };
+        let times: Vec<f64> = (0..=intervals)
+            .map(|k| to * (k as f64 / intervals as f64))
+            .collect();
+        let motion = |t: f64| {
+            progress(Progress::Judging(t));
+            run.state(t)
+        };
+        let along = along_motion(mechanism, motion, &times)?;
+        Ok(Journey {
+            along,
+            to,
+            samples: times.len(),
+            reach: run.reach(mechanism),
+            stopped: run.stopped,
+        })
+    }
+
+    /// Runs the scene and keeps its rows.
+    fn record(
+        &self,
+        t_end: f64,
+        intervals: usize,
+        progress: &mut impl FnMut(Progress),
+    ) -> Result<Record, StudyError> {
+        let base = self.options.clone();
+        let options = MotionOptions {
+            t_end,
+            output_step: t_end / (ROWS * intervals) as f64,
+            ..base.unwrap_or_else(|| MotionOptions::to(t_end))
+        };
+        options.check()?;
+        let mechanism = &self.prepared.mechanism;
+        let mut rows: Vec<Row> = Vec::new();
+        let outcome = self.run(&options, |sample| {
+            progress(Progress::Moving(sample.t));
+            let mut qd = vec![0.0; sample.q.len()];
+            mechanism.rate(sample.q, sample.v, &mut qd);
+            rows.push(Row {
+                t: sample.t,
+                q: sample.q.to_vec(),
+                qd,
+                v: sample.v.to_vec(),
+                a: sample.acceleration()?,
+            });
+            Ok(ControlFlow::Continue(()))
+        });
+        let (reached, stopped) = match outcome {
+            Ok(summary) => (summary.t, None),
+            Err(failure) if failure.summary.t > 0.0 => (failure.summary.t, Some(failure.error)),
+            Err(failure) => return Err(failure.error.into()),
+        };
+        Ok(Record {
+            rows,
+            reached,
+            stopped,
+        })
+    }
+}
+
+/// One recorded state with its rates.
+struct Row {
+    t: f64,
+    q: Vec<f64>,
+    qd: Vec<f64>,
+    v: Vec<f64>,
+    a: Vec<f64>,
+}
+
+/// The rows of a run.
+struct Record {
+    rows: Vec<Row>,
+    /// The last accepted time (s), at or after the last row.
+    reached: f64,
+    stopped: Option<MotionError>,
+}
+
+impl Record {
+    /// How far anything moves between judged states.
+    fn reach(&self, mechanism: &Mechanism) -> f64 {
+        let Some(first) = self.rows.first() else {
+            return 0.0;
+        };
+        let size = scene_size(mechanism, &first.q);
+        let unit = |kind: &ColumnKind| match kind {
+            ColumnKind::Translation => size,
+            ColumnKind::Rotation => 1.0,
+        };
+        let units: Vec<f64> = mechanism.column_kinds().iter().map(unit).collect();
+        // By velocities, because coordinates need not be as many.
+        let fastest = |row: &Row| {
+            let rates = row.v.iter().zip(&units).map(|(v, unit)| (v / unit).abs());
+            rates.fold(0.0, f64::max)
+        };
+        let moved =
+            |pair: &[Row]| (pair[1].t - pair[0].t) * fastest(&pair[0]).max(fastest(&pair[1]));
+        ROWS as f64 * self.rows.windows(2).map(moved).fold(0.0, f64::max)
+    }
+
+    /// The motion at a time between the first row and the last; there must be two.
+    fn state(&self, t: f64) -> State {
+        let next = self.rows.partition_point(|row| row.t <= t);
+        let k = next.clamp(1, self.rows.len() - 1);
+        let (x, y) = (&self.rows[k - 1], &self.rows[k]);
+        let h = y.t - x.t;
+        let u = (t - x.t) / h;
+        let between = |from: [&[f64]; 2], to: [&[f64]; 2]| {
+            (0..from[0].len())
+                .map(|i| hermite(u, [from[0][i], h * from[1][i]], [to[0][i], h * to[1][i]]))
+                .collect()
+        };
+        State {
+            q: between([&x.q, &x.qd], [&y.q, &y.qd]),
+            v: between([&x.v, &x.a], [&y.v, &y.a]),
+        }
+    }
+}
+
+/// The cubic with these values and slopes at u = 0 and u = 1.
+fn hermite(u: f64, [x, slope_x]: [f64; 2], [y, slope_y]: [f64; 2]) -> f64 {
+    let d = y - x;
+    let (c_2, c_3) = (
+        3.0 * d - 2.0 * slope_x - slope_y,
+        slope_x + slope_y - 2.0 * d,
+    );
+    x + u * (slope_x + u * (c_2 + u * c_3))
+}

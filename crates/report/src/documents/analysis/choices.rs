@@ -1,0 +1,92 @@
+//! Reactions by one choice or another: facts plain, all other numbers with the choice they depend on.
+
+use model::{ConstraintId, Frame};
+use serde::Serialize;
+use solvability::{Distribution, Nature, UnitCheck, Value};
+
+/// The reactions that one choice gives.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DistributionDocument {
+    /// The choice.
+    pub label: String,
+    /// Joints and drives in the order of their rows, on the first body at its place.
+    pub reactions: Vec<ValuesDocument>,
+    /// The multiplier of each row.
+    pub multipliers: Vec<ValueDocument>,
+}
+
+/// The reaction of a joint or drive.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ValuesDocument {
+    /// Its name.
+    pub name: String,
+    /// Components that are not identically zero (N, N·m).
+    pub components: Vec<ValueDocument>,
+}
+
+/// A number.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ValueDocument {
+    /// Name of the component; absent for multipliers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub name: Option<&'static str>,
+    /// The number.
+    pub value: f64,
+    /// What it depends on; absent for what is unique.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub choice: Option<String>,
+    /// What a change of units shows, without any verdict: `fact` or `choice`; absent where that was not asked.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub nature: Option<&'static str>,
+}
+
+impl DistributionDocument {
+    /// The reactions of a choice, with what a change of units shows of them.
+    #[must_use]
+    pub fn new(distribution: &Distribution, checks: &[UnitCheck]) -> Self {
+        let reaction = |r: &solvability::ReactionValues| {
+            let component = |(name, value): &(&'static str, Value)| {
+                let nature = nature(checks, r.id, name);
+                ValueDocument::new(Some(name), value, nature)
+            };
+            ValuesDocument {
+                name: r.name.clone(),
+                components: r.components.iter().map(component).collect(),
+            }
+        };
+        let multipliers = distribution.multipliers.iter();
+        Self {
+            label: distribution.label.to_string(),
+            reactions: distribution.reactions.iter().map(reaction).collect(),
+            multipliers: multipliers
+                .map(|value| ValueDocument::new(None, value, None))
+                .collect(),
+        }
+    }
+}
+
+fn nature(checks: &[UnitCheck], id: ConstraintId, name: &str) -> Option<&'static str> {
+    let names = Frame::Global.components();
+    let found = checks
+        .iter()
+        .find(|c| c.id == id && c.frame == Frame::Global && names[c.component] == name)?;
+    Some(match found.nature {
+        Nature::Fact => "fact",
+        Nature::Choice => "choice",
+    })
+}
+
+impl ValueDocument {
+    fn new(name: Option<&'static str>, value: &Value, nature: Option<&'static str>) -> Self {
+        let (value, choice) = match value {
+            Value::Unique(value) => (*value, None),
+            Value::Chosen { value, by } => (*value, Some(by.to_string())),
+        };
+        Self {
+            name,
+            value,
+            choice,
+            nature,
+        }
+    }
+}

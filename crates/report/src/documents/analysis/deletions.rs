@@ -1,0 +1,96 @@
+//! What may be deleted: admissible sets of rows, and the smallest ones that make a reaction unique.
+
+use linalg::DeletionError;
+use serde::Serialize;
+use solvability::{Allowed, Proposals};
+
+use crate::documents::from_one;
+
+/// Sets of rows that can be deleted without a change of motion.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EliminationsDocument {
+    /// How many there are; `None` if they could not be counted.
+    pub count: Option<u128>,
+    /// Why they could not be counted or listed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// The first of them, if they were asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sets: Option<Vec<Vec<usize>>>,
+}
+
+/// The smallest deletions that make a reaction unique.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MakeUniqueDocument {
+    /// Name of the joint or drive.
+    pub reaction: String,
+    /// What may be deleted: `sensible`, `whole` or `rows`.
+    pub allowed: &'static str,
+    /// Each is enough by itself, and no part of it is; one without rows if nothing needs to be deleted.
+    pub ways: Vec<WayDocument>,
+    /// Whether these are all of that size.
+    pub complete: bool,
+    /// Why it could not be told.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+}
+
+/// One way to make a reaction unique.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct WayDocument {
+    /// Rows to delete.
+    pub rows: Vec<usize>,
+    /// What that means.
+    pub text: String,
+}
+
+impl EliminationsDocument {
+    /// The number of sets, and the first of them if they were asked for (rows from 0).
+    #[must_use]
+    pub fn new(
+        count: Result<u128, DeletionError>,
+        sets: Option<Result<Vec<Vec<usize>>, DeletionError>>,
+    ) -> Self {
+        let mut reason = count.as_ref().err().map(ToString::to_string);
+        let sets = match sets {
+            Some(Ok(sets)) => Some(sets.iter().map(|set| from_one(set)).collect()),
+            Some(Err(e)) => {
+                reason.get_or_insert_with(|| e.to_string());
+                None
+            }
+            None => None,
+        };
+        Self {
+            count: count.ok(),
+            reason,
+            sets,
+        }
+    }
+}
+
+impl MakeUniqueDocument {
+    /// What makes this reaction unique.
+    #[must_use]
+    pub fn new(reaction: &str, allowed: &Allowed, found: Result<Proposals, DeletionError>) -> Self {
+        let allowed = match allowed {
+            Allowed::Sensible => "sensible",
+            Allowed::Whole => "whole",
+            Allowed::Rows(_) => "rows",
+        };
+        let (ways, complete, reason) = match found {
+            Ok(found) => (found.ways, found.complete, None),
+            Err(e) => (Vec::new(), false, Some(e.to_string())),
+        };
+        let way = |way: solvability::make_unique::Proposal| WayDocument {
+            rows: from_one(&way.rows),
+            text: way.text,
+        };
+        Self {
+            reaction: reaction.to_owned(),
+            allowed,
+            ways: ways.into_iter().map(way).collect(),
+            complete,
+            reason,
+        }
+    }
+}

@@ -1,0 +1,143 @@
+//! The numbers behind a rank: what was read, what was proved, what was compared.
+
+use linalg::{Certificate, Grounds, RankDecision, RankStatus};
+use serde::Serialize;
+use solvability::Generic;
+
+/// What is known of the rank beyond the decision at one configuration.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Proof<'a> {
+    /// Ranks at other configurations; `None` if nobody asked, or none could be reached.
+    pub generic: Option<&'a Generic>,
+    /// The proof of the rank, if there is one.
+    pub certificate: Option<&'a Certificate>,
+}
+
+/// The numbers behind a rank.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct EvidenceDocument {
+    /// `decided` or `undecided`.
+    pub status: &'static str,
+    /// Why it is undecided: both readings, and what would decide.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// σ_r of the equilibrated matrix; infinite (`null`) for rank 0.
+    pub sigma_r: f64,
+    /// σ_{r+1}
+    pub sigma_next: f64,
+    /// σ_r/σ_{r+1}; infinite (`null`) if σ_{r+1} = 0.
+    pub gap: f64,
+    /// Below it a singular value counts as zero.
+    pub tolerance: f64,
+    /// Relative residual of the constraints at the configuration.
+    pub constraint_residual: f64,
+    /// Whether the redundancy is the same at other configurations; `None` if that is not known.
+    pub permanent: Option<bool>,
+    /// Whether the rank is decided and a certificate proves that it is not less; `grounds` say why it is not more.
+    pub certified: bool,
+    /// Proved: the rank is at least this.
+    pub rank_at_least: Option<usize>,
+    /// Proved lower bound of σ_r; 0 if only arithmetic modulo primes proves the rank.
+    pub sigma_bound: Option<f64>,
+    /// σ_{r+1} in double-double precision.
+    pub sigma_next_extended: Option<f64>,
+    /// Why the rank is not larger: `full_rank`, `exact`, `vanishes` or `within_data`.
+    pub grounds: Option<&'static str>,
+    /// What the entries of the equilibrated matrix are known to; 0 if they are meant exactly.
+    pub uncertainty: Option<f64>,
+    /// Rows that are independent, but only just.
+    pub nearly_redundant: Option<NearlyRedundantDocument>,
+}
+
+/// A decided rank with σ_r below 1e-6: reactions are of size 1/σ_r per unit of load.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct NearlyRedundantDocument {
+    /// σ_r
+    pub sigma: f64,
+    /// Weights of all rows, equilibrated, with which they sum to a row of norm σ_r.
+    pub direction: Vec<f64>,
+}
+
+/// Ranks at other configurations of the same component.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GenericDocument {
+    /// Degree of redundancy at almost all configurations.
+    pub redundancy: usize,
+    /// What was compared.
+    pub points: Vec<PointDocument>,
+}
+
+/// Another configuration.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PointDocument {
+    /// Time (s).
+    pub time: f64,
+    /// Coordinates.
+    pub q: Vec<f64>,
+    /// Rank of C.
+    pub rank: usize,
+    /// Degree of redundancy.
+    pub redundancy: usize,
+}
+
+impl EvidenceDocument {
+    pub(super) fn new(decision: &RankDecision, proof: Proof<'_>) -> Self {
+        let evidence = &decision.evidence;
+        let (status, reason) = match decision.status {
+            RankStatus::Decided => ("decided", None),
+            RankStatus::Undecided(doubt) => ("undecided", Some(doubt.to_string())),
+            _ => ("undecided", None),
+        };
+        let certificate = proof.certificate;
+        let decided = decision.is_decided();
+        let nearly = certificate.and_then(|c| c.nearly_redundant.as_ref());
+        Self {
+            status,
+            reason,
+            sigma_r: evidence.sigma_r,
+            sigma_next: evidence.sigma_next,
+            gap: evidence.gap,
+            tolerance: evidence.tolerance,
+            constraint_residual: evidence.constraint_residual,
+            permanent: proof
+                .generic
+                .filter(|_| decided)
+                .map(|found| found.redundancy == decision.redundancy),
+            certified: decided && certificate.is_some_and(|c| c.rank_at_least == decision.rank),
+            rank_at_least: certificate.map(|c| c.rank_at_least),
+            sigma_bound: certificate.map(|c| c.sigma_bound),
+            sigma_next_extended: certificate.map(|c| c.sigma_next),
+            grounds: certificate.filter(|_| decided).map(|c| grounds(c.grounds)),
+            uncertainty: certificate.map(|c| c.uncertainty),
+            nearly_redundant: nearly.filter(|_| decided).map(|n| NearlyRedundantDocument {
+                sigma: n.sigma,
+                direction: n.direction.clone(),
+            }),
+        }
+    }
+}
+
+fn grounds(grounds: Grounds) -> &'static str {
+    match grounds {
+        Grounds::FullRank => "full_rank",
+        Grounds::Exact => "exact",
+        Grounds::Vanishes => "vanishes",
+        Grounds::WithinData => "within_data",
+        _ => "other",
+    }
+}
+
+impl From<&Generic> for GenericDocument {
+    fn from(generic: &Generic) -> Self {
+        let points = generic.points.iter().map(|p| PointDocument {
+            time: p.time,
+            q: p.q.clone(),
+            rank: p.rank,
+            redundancy: p.redundancy,
+        });
+        Self {
+            redundancy: generic.redundancy,
+            points: points.collect(),
+        }
+    }
+}

@@ -1,0 +1,194 @@
+//! The verdict of a joint or drive, with all that was asked of it.
+
+use linalg::Settled;
+use model::{ConstraintId, Frame};
+use serde::Serialize;
+use solvability::{
+    ComponentVerdict, Explanation, FrameVerdict, FreeDirection, GroupVerdict, ReactionVerdict,
+};
+
+use crate::documents::VerdictDocument;
+
+/// The verdict of a joint or drive.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ReactionDocument {
+    /// Its name.
+    pub name: String,
+    /// Its scene type.
+    #[serde(rename = "type")]
+    pub kind: &'static str,
+    /// Its rows of C.
+    pub rows: Vec<usize>,
+    /// Verdict of force and torque, with ‖B_X‖ as margin.
+    #[serde(flatten)]
+    pub wrench: VerdictDocument,
+    /// Verdict of all its multipliers together.
+    pub multipliers: &'static str,
+    /// Verdict of the multiplier of each row.
+    pub row_verdicts: Vec<RowDocument>,
+    /// Verdicts of the components that are not identically zero.
+    pub components: Vec<ComponentDocument>,
+    /// Basis of the unique directions in these components.
+    pub unique_directions: Vec<Vec<f64>>,
+    /// Why it is unique without any numbers: `peeled` or `bridge`.
+    pub settled: Option<&'static str>,
+    /// Why it is not unique.
+    pub explanation: Option<String>,
+    /// What it carries in each self-stress in which it takes part.
+    pub free_directions: Vec<FreeDirectionDocument>,
+    /// Its verdicts in other frames, if they were asked for.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub frames: Vec<FrameDocument>,
+}
+
+/// The verdict of a multiplier.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RowDocument {
+    /// Row of C.
+    pub row: usize,
+    /// Its verdict.
+    #[serde(flatten)]
+    pub verdict: VerdictDocument,
+}
+
+/// The verdict of a component of a reaction or of a sum.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ComponentDocument {
+    /// `Fx`, `Fy` or `T`.
+    pub name: &'static str,
+    /// Its verdict.
+    #[serde(flatten)]
+    pub verdict: VerdictDocument,
+}
+
+/// What a joint carries in a self-stress, ready to be drawn: the largest force of the self-stress is 1 N, or its largest torque
+/// 1 N·m if there is no force.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FreeDirectionDocument {
+    /// The self-stress, as a place in `dependencies`, from 0.
+    pub dependency: usize,
+    /// Where it acts on the first body (m), global components.
+    pub place: [f64; 2],
+    /// Fx, Fy
+    pub force: [f64; 2],
+    /// T about the place.
+    pub torque: f64,
+}
+
+/// The verdicts of a reaction in one frame.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FrameDocument {
+    /// `global`, `first_body` or `edge`.
+    pub frame: &'static str,
+    /// Unit vectors of the axes, global components.
+    pub axes: [[f64; 2]; 2],
+    /// Along the first axis, along the second, and the torque.
+    pub components: Vec<ComponentDocument>,
+}
+
+/// The verdict of a combination of reactions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct GroupDocument {
+    /// Its name or expression.
+    pub name: String,
+    /// Its verdict.
+    #[serde(flatten)]
+    pub verdict: VerdictDocument,
+    /// Those of force and torque, for a sum of wrenches.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub components: Vec<ComponentDocument>,
+}
+
+impl ReactionDocument {
+    /// Adds what is known of the reaction `id`.
+    pub(super) fn explain(&mut self, explanation: &Explanation, id: ConstraintId) {
+        let settled = explanation.settled.iter().find(|(other, _)| *other == id);
+        self.settled = settled.and_then(|(_, why)| match why {
+            Settled::Peeled => Some("peeled"),
+            Settled::Bridge => Some("bridge"),
+            Settled::Open(_) => None,
+        });
+        let told = explanation.reactions.iter().find(|told| told.id == id);
+        self.explanation = told.map(|told| told.text.clone());
+        for (dependency, stress) in explanation.stresses.iter().enumerate() {
+            let own = stress.directions.iter().filter(|d| d.joint == id);
+            self.free_directions
+                .extend(own.map(|d| FreeDirectionDocument::new(dependency, d)));
+        }
+    }
+}
+
+impl FreeDirectionDocument {
+    fn new(dependency: usize, direction: &FreeDirection) -> Self {
+        Self {
+            dependency,
+            place: direction.place,
+            force: direction.force,
+            torque: direction.torque,
+        }
+    }
+}
+
+impl From<&ReactionVerdict> for ReactionDocument {
+    fn from(r: &ReactionVerdict) -> Self {
+        let rows = r.rows.iter().map(|row| RowDocument {
+            row: row.row + 1,
+            verdict: (&row.judgement).into(),
+        });
+        Self {
+            name: r.name.clone(),
+            kind: r.kind,
+            rows: r.rows.iter().map(|row| row.row + 1).collect(),
+            wrench: (&r.wrench).into(),
+            multipliers: r.multipliers.verdict.word(),
+            row_verdicts: rows.collect(),
+            components: r.components.iter().map(Into::into).collect(),
+            unique_directions: r.unique_directions.clone(),
+            settled: None,
+            explanation: None,
+            free_directions: Vec::new(),
+            frames: Vec::new(),
+        }
+    }
+}
+
+impl From<&ComponentVerdict> for ComponentDocument {
+    fn from(component: &ComponentVerdict) -> Self {
+        Self {
+            name: component.name,
+            verdict: (&component.judgement).into(),
+        }
+    }
+}
+
+impl From<&FrameVerdict> for FrameDocument {
+    fn from(found: &FrameVerdict) -> Self {
+        let frame = match found.frame {
+            Frame::Global => "global",
+            Frame::FirstBody => "first_body",
+            Frame::Edge => "edge",
+        };
+        let named = found.frame.components().into_iter().zip(&found.components);
+        let component = |(name, judgement): (&'static str, _)| ComponentDocument {
+            name,
+            verdict: VerdictDocument::from(judgement),
+        };
+        Self {
+            frame,
+            axes: found.axes,
+            components: named.map(component).collect(),
+        }
+    }
+}
+
+impl GroupDocument {
+    /// The verdict of a group under its name.
+    #[must_use]
+    pub fn new(name: &str, verdict: &GroupVerdict) -> Self {
+        Self {
+            name: name.to_owned(),
+            verdict: (&verdict.judgement).into(),
+            components: verdict.components.iter().map(Into::into).collect(),
+        }
+    }
+}
