@@ -153,6 +153,8 @@ fn certificate(grounds: Grounds) -> Certificate {
         sigma_next: 0.0,
         grounds,
         uncertainty: 0.0,
+        spread: 0.0,
+        row_noise: Vec::new(),
         nearly_redundant: Some(NearlyRedundant {
             sigma: 0.5,
             direction: vec![0.0, 0.0, 1.0, 0.0],
