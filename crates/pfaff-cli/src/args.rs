@@ -22,7 +22,7 @@ const ANALYZE_EXAMPLES: &str = "Examples:
   pfaff analyze robot.toml --make-unique W3        what to delete so that W3 is determined
   pfaff analyze robot.toml --combine \"W3.N + W4.N\"
   pfaff analyze robot.toml --along                 one verdict for the whole motion, and where another holds
-  pfaff analyze robot.toml --choose minimum-norm --choose compliance:W3=1e-6,W4=2e-6 --choose drop:6,21
+  pfaff analyze robot.toml --choose minimum-norm --choose compliance:B=1e-6,W3=1e-6,W4=2e-6 --choose drop:6,21
   pfaff analyze robot.toml --json
 
 Reactions that are not unique are never given a number without the choice it depends on.";

@@ -14,9 +14,9 @@
 //! | [`choices`] | one solution among many, labelled |
 //! | [`units`] | facts and choices told apart by a change of units |
 //! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
-//! | [`structure`] | what the shape settles before any rank |
-//! | [`explain`] | mixing, free directions and sentences |
-//! | [`make_unique`] | what to delete so that a reaction becomes unique |
+//! | [`mod@structure`] | what the shape settles before any rank |
+//! | [`mod@explain`] | mixing, free directions and sentences |
+//! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |
 //! | [`mod@second_order`] | is the motion unique where the rank drops? |
 //! | [`along`] | verdicts along a motion: one, and where another holds |
 //! | `words` | dependencies as sentences |

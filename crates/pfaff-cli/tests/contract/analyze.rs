@@ -125,6 +125,22 @@ fn nearly_redundant_rows_are_judged_although_they_cannot_move() {
         let sigma = d["evidence"]["nearly_redundant"]["sigma"].as_f64();
         assert_eq!(sigma.is_some(), apart == 1e-9, "{d:#}");
     }
+    // Choices go by the proved rank, the comparison of units by that of double precision: said, not left out.
+    let output = with_scene(&["analyze", "-", "--choose", "minimum-norm"], &twin(1e-9));
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    contains(
+        &stdout(&output),
+        &[
+            "choice 1: minimum norm",
+            "does not tell facts from choices: the rank was decided as 3, but reads 2",
+        ],
+    );
+    let output = with_scene(&["analyze", "-", "--choose", "minimum-norm"], &twin(1e-14));
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    contains(
+        &stderr(&output),
+        &["the rank is undecided, and with it what may be chosen"],
+    );
     // As small as the rounding of the data: both readings.
     let output = with_scene(&["analyze", "-"], &twin(1e-14));
     assert_eq!(output.status.code(), Some(0), "{output:?}");
@@ -170,6 +186,52 @@ fn the_reasons_are_in_words_and_ready_to_be_drawn() {
             "right: relax row 1 (`left`, x)",
         ],
     );
+}
+
+#[test]
+fn exactly_the_reactions_that_are_not_unique_are_explained() {
+    for time in ["0", "1.5", "3.7", "9"] {
+        let d = document(&pfaff(&["analyze", ROBOT, "--json", "--at-time", time]));
+        for r in d["reactions"].as_array().expect("a list") {
+            let open = r["verdict"] == "not_unique";
+            assert_eq!(r["explanation"].is_string(), open, "{time}: {r:#}");
+            let drawn = r["free_directions"]
+                .as_array()
+                .is_some_and(|list| !list.is_empty());
+            assert_eq!(drawn, open, "{time}: {r:#}");
+            // What the structure settles the numbers confirm.
+            assert!(r["settled"].is_null() || r["verdict"] == "unique", "{r:#}");
+        }
+    }
+}
+
+#[test]
+fn many_reasons_are_cut_in_words_but_not_in_the_document() {
+    let mut scene = "scene = { name = \"doors\", space = \"plane\" }\n".to_owned();
+    for k in 0..12 {
+        let x = 3.0 * f64::from(k);
+        scene += &format!(
+            "[[body]]\nname = \"door {k}\"\nmass = 1.0\ninertia = 1.0\nposition = [{x:?}, 0.0]\n"
+        );
+        for (side, at) in [("left", x - 1.0), ("right", x + 1.0)] {
+            scene += &format!(
+                "[[joint]]\nname = \"{side} {k}\"\ntype = \"revolute\"\nbodies = [\"ground\", \"door {k}\"]\nat = [{at:?}, 0.0]\n"
+            );
+        }
+    }
+    let text = stdout(&with_scene(&["analyze", "-"], &scene));
+    // One of two rows of each door.
+    contains(
+        &text,
+        &[
+            "- and 2 more (`--json` has all)",
+            "4096 sets of 12 rows",
+            "- others: `--make-unique NAME`",
+        ],
+    );
+    let d = document(&with_scene(&["analyze", "-", "--json"], &scene));
+    assert_eq!(d["dependencies"].as_array().map(Vec::len), Some(12));
+    assert_eq!(d["eliminations"]["count"], 4096);
 }
 
 #[test]
@@ -460,7 +522,7 @@ fn help_shows_examples() {
         &[
             "Examples:",
             "--make-unique W3",
-            "--choose compliance:W3=1e-6,W4=2e-6",
+            "--choose compliance:B=1e-6,W3=1e-6,W4=2e-6",
             "--along",
         ],
     );
