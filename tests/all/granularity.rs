@@ -595,6 +595,7 @@ fn groups_of_a_study() {
     study.scene.groups[0].content = pfaff::scene::GroupContent::Members(vec!["W9".into()]);
     let error = study.analyse_at(0.0, None, &[]).expect_err("unknown");
     assert!(
-        matches!(&error, StudyError::UnknownReaction { name, .. } if name == "W9") && error.is_input()
+        matches!(&error, StudyError::UnknownReaction { name, .. } if name == "W9")
+            && error.is_input()
     );
 }

@@ -11,7 +11,7 @@ use joints::Pose;
 use crate::description::{Body, BodyRef};
 use crate::function::Function;
 use crate::registry::{PlaneConstraint, PlaneForce};
-use crate::system::Layout;
+use crate::system::{Layout, System};
 
 pub use build::BuildError;
 
@@ -61,6 +61,8 @@ pub struct Mechanism {
     weight: Vec<f64>,
     /// Constant entries of C, zero elsewhere.
     entries: Vec<f64>,
+    /// Longest arm of each body in the initial configuration (m).
+    reach: Vec<f64>,
     n_slots: usize,
     /// Largest number of values of one kernel.
     block: usize,
@@ -187,6 +189,25 @@ impl Mechanism {
         for f in &mut self.forces {
             f.element.element_mut().initialise(&of(&f.bodies));
         }
+        self.take_reach(q);
+    }
+
+    fn take_reach(&mut self, q: &[f64]) {
+        let mut s = self.scratch();
+        self.pose(0.0, q, &mut s);
+        self.c(&mut s);
+        let mut reach = vec![0.0_f64; self.bodies.len()];
+        for i in (0..self.layout.m).filter(|&i| !self.is_angular(i)) {
+            for (j, c) in self.layout.row(&s, i).filter(|(j, _)| j % N_BODY == 2) {
+                reach[j / N_BODY] = reach[j / N_BODY].max(c.abs());
+            }
+        }
+        self.reach = reach;
+    }
+
+    /// Longest arm of a body in the initial configuration (m): its position matters to about the rounding of this, wherever it is.
+    pub(crate) fn reach(&self, body: usize) -> f64 {
+        self.reach[body]
     }
 
     /// The first requirement of a definition that does not hold at a configuration: who, and what.

@@ -8,12 +8,16 @@ use crate::system::{Scratch, System};
 
 impl Mechanism {
     /// Size of the terms of row `i` of Φ: `Σ |C_ij|·|q_j|`, an angle counting at least one radian, because arms turn with
-    /// it. Needs C at the pose of the scratch.
+    /// it, and a position at least the longest arm of its body, because it is where the arms put it. Needs C at the pose of the scratch.
     #[must_use]
     pub fn position_scale(&self, s: &Scratch, i: usize, q: &[f64]) -> f64 {
         let term = |(j, c): (usize, f64)| {
-            let q = q[j].abs();
-            c.abs() * if j % N_BODY == 2 { q.max(1.0) } else { q }
+            let least = if j % N_BODY == 2 {
+                1.0
+            } else {
+                self.reach(j / N_BODY)
+            };
+            c.abs() * q[j].abs().max(least)
         };
         self.layout().row(s, i).map(term).sum()
     }

@@ -480,6 +480,7 @@ impl Builder {
                 .flat_map(|b| [b.mass * gx, b.mass * gy, 0.0])
                 .collect(),
             entries: self.entries,
+            reach: vec![0.0; d.bodies.len()],
             n_slots: self.n_slots,
             block: self.block,
             layout: self.layout,
