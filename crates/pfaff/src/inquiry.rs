@@ -9,8 +9,8 @@ use scene::Scene;
 use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Configuration, Contradiction, Distribution, Equations,
     Explanation, ExplanationError, FrameVerdict, Generic, GroupVerdict, Proposals, Ranks, State,
-    UnitCheck, analyse, analyse_dropping, certify, check_units, contradictions, explain, generic,
-    make_unique,
+    UnitCheck, analyse, analyse_dropping, analyse_reached, certify, check_units, contradictions,
+    explain, generic, make_unique,
 };
 
 use crate::error::StudyError;
@@ -67,7 +67,11 @@ impl<'a> Inquiry<'a> {
         let q = &state.q;
         let (analysis, certificate) = match drop {
             None => {
-                let analysis = analyse(mechanism, t, q)?;
+                // Later configurations are known only as well as the motion that has reached them.
+                let analysis = match t {
+                    0.0 => analyse(mechanism, t, q)?,
+                    _ => analyse_reached(mechanism, t, q)?,
+                };
                 let certificate = analysis.decision.evidence.certificate.clone();
                 (analysis, certificate)
             }

@@ -15,6 +15,7 @@ const ROWS_MAX: usize = 600;
 /// C of a mechanism without dimensions, with what its entries are known to.
 pub(crate) struct Rows {
     time: f64,
+    size: f64,
     c: Entries,
     /// Entry by entry.
     uncertainty: Matrix,
@@ -33,6 +34,7 @@ impl Rows {
         let size = scene_size(mechanism, q);
         Self {
             time: s.t,
+            size,
             c: Entries::Double(dimensionless(mechanism, s, size)),
             uncertainty: uncertainty(mechanism, s, q, size),
         }
@@ -60,11 +62,17 @@ impl Rows {
         let size = scene_size(mechanism, q);
         Ok(Self {
             time: t,
+            size,
             c: Entries::Extended(polished.c.scaled(&mechanism.dimension_scaling(size))),
             uncertainty: mechanism
                 .dimension_scaling(size)
                 .apply(&mechanism.uncertainty(&s, q, size, known)),
         })
+    }
+
+    /// Size of the mechanism (m).
+    pub(crate) fn size(&self) -> f64 {
+        self.size
     }
 
     /// C rounded to `f64`.
@@ -91,6 +99,7 @@ impl Rows {
     pub(crate) fn select(&self, rows: &[usize]) -> Self {
         Self {
             time: self.time,
+            size: self.size,
             c: match &self.c {
                 Entries::Extended(c) => Entries::Extended(c.select_rows(rows)),
                 Entries::Double(c) => Entries::Double(c.select_rows(rows)),

@@ -21,6 +21,8 @@ pub struct Analysis {
     pub coordinates: usize,
     /// Number of velocities n_v.
     pub velocities: usize,
+    /// Size of the mechanism (m): its lengths are dimensionless by this.
+    pub size: f64,
     /// Number of holonomic rows m.
     pub holonomic_rows: usize,
     /// Number of nonholonomic rows h.
@@ -302,6 +304,7 @@ pub(crate) fn judge(
         bodies: mechanism.bodies().len(),
         coordinates: layout.n_q,
         velocities: layout.n_v,
+        size: rows.size(),
         holonomic_rows: layout.m,
         nonholonomic_rows: layout.h,
         rank_holonomic,

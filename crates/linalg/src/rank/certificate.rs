@@ -4,7 +4,7 @@ use crate::RankDecision;
 
 /// Below this smallest singular value the rank as read stands, but the reactions it determines are large: of size 1/σ_r per unit of
 /// load, and anything known only to σ_r moves them by their own size.
-pub(super) const NEARLY_REDUNDANT: f64 = 1e-6;
+pub(super) const NEARLY_REDUNDANT: f64 = 1e-3;
 
 /// The proof behind a rank, beside the numbers in [`Evidence`](crate::Evidence).
 #[derive(Debug, Clone, PartialEq)]
@@ -51,7 +51,7 @@ pub struct NearlyRedundant {
 }
 
 impl RankDecision {
-    /// The warning that belongs to a decided rank with σ_r below 1e-6: as read the rank is r and the verdicts hold, but reactions are of
+    /// The warning that belongs to a decided rank with σ_r below 1e-3: as read the rank is r and the verdicts hold, but reactions are of
     /// size 1/σ_r. Known for certified ranks only.
     #[must_use]
     pub fn nearly_redundant(&self) -> Option<&NearlyRedundant> {

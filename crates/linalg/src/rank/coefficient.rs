@@ -1,10 +1,12 @@
 //! Is a coefficient of the dependencies zero? The tolerance for T, Z and what is made of them, from the evidence of the rank.
 
-use super::certificate::NEARLY_REDUNDANT;
 use super::{NOISE_FACTOR, RankDecision};
 
 /// Noise of coefficients over that of singular values: the triangular solves.
 const SOLVE_FACTOR: f64 = 10.0;
+
+/// Below this σ_r of a certified matrix the uncertainty of the data would hide all coefficients; they are those of the matrix as read.
+const AS_READ: f64 = 1e-6;
 
 /// A coefficient above the tolerance by this factor is certainly not zero; the tolerance is itself a tenfold bound of the noise.
 const CLEARANCE: f64 = 10.0;
@@ -52,7 +54,7 @@ impl RankDecision {
             return rounding;
         }
         match &e.certificate {
-            Some(_) if e.sigma_r < NEARLY_REDUNDANT => {
+            Some(_) if e.sigma_r < AS_READ => {
                 rounding.max(SOLVE_FACTOR * e.dependence_residual / e.sigma_r)
             }
             // T is right to double-double; what remains is the data: ‖δT‖ ≤ ‖δC‖·‖[T, I]‖/σ_r.
@@ -68,7 +70,7 @@ impl RankDecision {
         let tolerance = self.coefficient_tolerance();
         let certificate = self.evidence.certificate.as_ref();
         match certificate.and_then(|c| c.row_noise.get(i)) {
-            Some(noise) if self.evidence.sigma_r >= NEARLY_REDUNDANT => {
+            Some(noise) if self.evidence.sigma_r >= AS_READ => {
                 (NOISE_FACTOR * (f64::EPSILON + noise)).min(tolerance)
             }
             _ => tolerance,

@@ -53,7 +53,7 @@ fn proof(d: &AnalysisDocument) -> String {
         }
         Some("exact") => format!("proved in exact arithmetic: {others} redundant exactly"),
         Some("vanishes") => format!(
-            "rank {r} proved; σ_{} falls to {next:.0e} in doubled precision: {others} redundant exactly",
+            "rank {r} proved; σ_{} vanishes in doubled precision (below 1e-26): {others} redundant exactly",
             r + 1
         ),
         _ => format!(
@@ -81,14 +81,18 @@ fn nearly(d: &AnalysisDocument) -> Option<String> {
         .filter(concerned)
         .map(|r| r.name.as_str())
         .collect();
+    let change = match nearly.change_per_micrometre {
+        share if share < 0.5 => format!("by about {:.1} %", 100.0 * share),
+        times => format!("by about {times:.0e} times their own size"),
+    };
     Some(format!(
-        "NEARLY REDUNDANT: σ_{} = {:.1e} is not zero, but the rows of {} almost depend on each other. The verdicts hold, but reactions \
-         are of size 1/σ = {:.0e} per unit of load; data changed by {:.0e} change them by their own size",
+        "NEARLY REDUNDANT: σ_{} = {:.1e} is not zero, but the rows of {} almost depend on each other. The rank is that of the data as \
+         read, and so are the verdicts; but reactions are of size 1/σ = {:.0e} per unit of load, and a misalignment of 1e-6 m changes \
+         them {change}",
         d.rank,
         nearly.sigma,
         names.join(", "),
         nearly.sigma.recip(),
-        nearly.sigma,
     ))
 }
 

@@ -48,6 +48,7 @@ fn analysis() -> Analysis {
         bodies: 1,
         coordinates: 3,
         velocities: 3,
+        size: 2.0,
         holonomic_rows: 4,
         nonholonomic_rows: 0,
         rank_holonomic: 3,

@@ -49,14 +49,19 @@ pub struct EvidenceDocument {
     pub nearly_redundant: Option<NearlyRedundantDocument>,
 }
 
-/// A decided rank with σ_r below 1e-6: reactions are of size 1/σ_r per unit of load.
+/// A decided rank with σ_r below 1e-3: reactions are of size 1/σ_r per unit of load.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct NearlyRedundantDocument {
     /// σ_r
     pub sigma: f64,
+    /// Share by which reactions change if a point is off by 10⁻⁶ m: 1 is their own size. An estimate of the first order.
+    pub change_per_micrometre: f64,
     /// Weights of all rows, equilibrated, with which they sum to a row of norm σ_r.
     pub direction: Vec<f64>,
 }
+
+/// The misalignment of which the effect is told (m).
+const MICROMETRE: f64 = 1e-6;
 
 /// Ranks at other configurations of the same component.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -81,7 +86,7 @@ pub struct PointDocument {
 }
 
 impl EvidenceDocument {
-    pub(super) fn new(decision: &RankDecision, proof: Proof<'_>) -> Self {
+    pub(super) fn new(decision: &RankDecision, size: f64, proof: Proof<'_>) -> Self {
         let evidence = &decision.evidence;
         let (status, reason) = match decision.status {
             RankStatus::Decided => ("decided", None),
@@ -111,6 +116,7 @@ impl EvidenceDocument {
             uncertainty: certificate.map(|c| c.uncertainty),
             nearly_redundant: nearly.filter(|_| decided).map(|n| NearlyRedundantDocument {
                 sigma: n.sigma,
+                change_per_micrometre: MICROMETRE / size / n.sigma,
                 direction: n.direction.clone(),
             }),
         }
