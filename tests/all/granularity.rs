@@ -7,13 +7,13 @@ use joints::{
 };
 use model::start::{Coordinate, KeepLevel, assemble, consistent_velocity, nearest_configuration};
 use model::{
-    Body, BodyRef, ConstraintId, Description, Drive, Frame, Function, Joint, Mechanism, StartError,
-    StartOptions, System,
+    Body, BodyRef, ConstraintId, Description, Drive, Frame, Function, Joint, Known, Mechanism,
+    StartError, StartOptions, System,
 };
 use pfaff::{Overrides, Study, StudyError};
 use solvability::{
     Choice, Configuration, Equations, Group, GroupVerdict, LinearForm, NormWeights, RequestError,
-    Term, Value, analyse, analyse_reached, judge_frames, judge_groups,
+    Term, Value, analyse, analyse_known, judge_frames, judge_groups,
 };
 use tests::largest;
 use tests::robot::{robot, steering};
@@ -43,7 +43,9 @@ fn described(bodies: Vec<Body>, joints: Vec<Joint>) -> Mechanism {
 
 fn groups(m: &Mechanism, q: &[f64], groups: &[Group]) -> Result<Vec<GroupVerdict>, RequestError> {
     // The robot is steered at t = 1; other mechanisms here stand where they are at any time.
-    let decision = analyse_reached(m, 1.0, q).expect("C is finite").decision;
+    let decision = analyse_known(m, 1.0, q, Known::To(1e-12))
+        .expect("C is finite")
+        .decision;
     judge_groups(m, 1.0, q, &decision, groups)
 }
 
@@ -77,7 +79,9 @@ fn robot_steered(displacement: f64) -> (Mechanism, Vec<f64>) {
 #[test]
 fn frames_of_the_robot() {
     let (m, q) = robot_steered(0.02);
-    let decision = analyse_reached(&m, 1.0, &q).expect("C is finite").decision;
+    let decision = analyse_known(&m, 1.0, &q, Known::To(1e-12))
+        .expect("C is finite")
+        .decision;
     assert_eq!((decision.rank, decision.redundancy), (20, 2));
     let frames = |name| judge_frames(&m, 1.0, &q, &decision, id(&m, name)).expect("judged");
     let w1 = frames("W1");

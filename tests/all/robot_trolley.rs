@@ -4,9 +4,9 @@
 use std::ops::ControlFlow;
 
 use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
-use model::{Function, Mechanism, Reaction, StartOptions, System};
+use model::{Function, Known, Mechanism, Reaction, StartOptions, System};
 use serde::Deserialize;
-use solvability::{Analysis, Solvability, analyse, analyse_reached};
+use solvability::{Analysis, Solvability, analyse, analyse_known};
 use tests::largest;
 use tests::robot::{robot, steering};
 
@@ -311,7 +311,7 @@ fn steered_edges_at_a_right_angle_split_the_circuits() {
         })
         .expect("the robot steers at rest");
         // The displacement is known to 13 digits, and so are the angles of the edges.
-        let analysis = analyse_reached(&p.mechanism, 1.0, &q).expect("C is finite");
+        let analysis = analyse_known(&p.mechanism, 1.0, &q, Known::To(1e-12)).expect("C is finite");
         assert_eq!(non_unique_rows(&analysis), [3, 5, 18, 19, 20, 21]);
         assert_eq!(analysis.decision.rank, 20);
         let components = linalg::components(&analysis.decision);

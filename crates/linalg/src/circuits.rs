@@ -71,6 +71,9 @@ pub fn short_circuits(decision: &RankDecision) -> Vec<Circuit> {
 /// Hyperplanes of one component that are tried at most.
 const HYPERPLANES_MAX: usize = 20_000;
 
+/// Vectors that span a hyperplane by less than this do not say where it lies: small coefficients would drown in the noise.
+const PIVOT_MIN: f64 = 1e-4;
+
 /// Equilibrated coefficients by row, zeros left out.
 type Sparse = Vec<(usize, f64)>;
 
@@ -114,7 +117,7 @@ fn shortest(dual: &Dual) -> Option<Vec<Sparse>> {
 /// rows it contains.
 fn vanishing_on(vectors: Vec<Vec<f64>>, p: usize, dual: &Dual) -> Option<(Sparse, Vec<f64>)> {
     let hyperplane = eliminate(vectors, dual.noise).ok()?;
-    if hyperplane.pivots.len() != p - 1 {
+    if hyperplane.pivots.len() != p - 1 || hyperplane.smallest < PIVOT_MIN {
         return None;
     }
     let free = (0..p).find(|c| !hyperplane.pivots.contains(c))?;

@@ -12,12 +12,12 @@ use crate::system::{Scratch, System};
 const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
 /// How well a configuration is known along the motions that the constraints leave free.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Known {
     /// As stored: it is the one that is meant.
     AsStored,
-    /// Reached by a motion: to 10⁻¹³ of a radian and of the lengths of the mechanism, at best.
-    ByMotion,
+    /// To this share of a radian and of the lengths of the mechanism: what an integrator reached with about this tolerance.
+    To(f64),
 }
 
 impl Known {
@@ -25,7 +25,7 @@ impl Known {
     fn relative(self) -> f64 {
         match self {
             Self::AsStored => UNIT_ROUNDOFF,
-            Self::ByMotion => 1e-13,
+            Self::To(share) => share.abs().max(UNIT_ROUNDOFF),
         }
     }
 }

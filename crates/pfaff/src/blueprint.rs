@@ -3,7 +3,7 @@
 
 use dynamics::{MotionError, MotionOptions, RowChoice, prepare};
 use model::start::{assemble, consistent_velocity};
-use model::{Mechanism, Registry};
+use model::{Known, Mechanism, Registry};
 use scene::Scene;
 use solvability::State;
 
@@ -92,7 +92,14 @@ impl Blueprint {
             q: assembly.q,
             v: Vec::new(),
         };
-        let mut inquiry = Inquiry::new(&self.scene, &self.mechanism, 0.0, state, drop)?;
+        let mut inquiry = Inquiry::new(
+            &self.scene,
+            &self.mechanism,
+            0.0,
+            state,
+            Known::AsStored,
+            drop,
+        )?;
         let decision = &inquiry.analysis.decision;
         if decision.is_decided() {
             let (q, kept) = (&inquiry.state.q, &decision.kept);

@@ -4,13 +4,13 @@
 mod requests;
 
 use linalg::{Certificate, DeletionError, Limits, count_deletions, deletions};
-use model::{ConstraintId, Mechanism, Scratch, System};
+use model::{ConstraintId, Known, Mechanism, Scratch, System};
 use scene::Scene;
 use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Configuration, Contradiction, Distribution, Equations,
     Explanation, ExplanationError, FrameVerdict, Generic, GroupVerdict, Proposals, Ranks, State,
-    UnitCheck, analyse, analyse_dropping, analyse_reached, certify, check_units, contradictions,
-    explain, generic, make_unique,
+    UnitCheck, analyse_dropping, analyse_known, certify, check_units, contradictions, explain,
+    generic, make_unique,
 };
 
 use crate::error::StudyError;
@@ -56,22 +56,19 @@ pub struct Inquiry<'a> {
 }
 
 impl<'a> Inquiry<'a> {
-    /// A state that satisfies the constraints at time t.
+    /// A state that satisfies the constraints at time t, and how well its configuration is known.
     pub(crate) fn new(
         scene: &'a Scene,
         mechanism: &'a Mechanism,
         t: f64,
         state: State,
+        known: Known,
         drop: Option<&[usize]>,
     ) -> Result<Self, StudyError> {
         let q = &state.q;
         let (analysis, certificate) = match drop {
             None => {
-                // Later configurations are known only as well as the motion that has reached them.
-                let analysis = match t {
-                    0.0 => analyse(mechanism, t, q)?,
-                    _ => analyse_reached(mechanism, t, q)?,
-                };
+                let analysis = analyse_known(mechanism, t, q, known)?;
                 let certificate = analysis.decision.evidence.certificate.clone();
                 (analysis, certificate)
             }

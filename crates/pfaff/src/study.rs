@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use dynamics::{Failure, Method, MotionOptions, Prepared, Sample, Summary, Trip, simulate};
-use model::Registry;
+use model::{Known, Registry};
 use report::{
     Ending, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
     TrajectoryTable, write_json,
@@ -76,7 +76,12 @@ impl Study {
     pub fn inquire(&self, t: f64, drop: Option<&[usize]>) -> Result<Inquiry<'_>, StudyError> {
         let mechanism = &self.prepared.mechanism;
         let state = self.state_at(t)?;
-        let inquiry = Inquiry::new(&self.scene, mechanism, t, state, drop)?;
+        // Later configurations are known only as well as the motion that has reached them.
+        let known = match t {
+            0.0 => Known::AsStored,
+            _ => Known::To(self.motion_to(t).rtol),
+        };
+        let inquiry = Inquiry::new(&self.scene, mechanism, t, state, known, drop)?;
         // Those of the start have been looked for when it was prepared.
         let found = match t == 0.0 {
             true => Vec::new(),
@@ -117,19 +122,23 @@ impl Study {
         if t == 0.0 {
             return Ok(state);
         }
-        let base = self.options.clone().unwrap_or_else(|| MotionOptions::to(t));
-        let options = MotionOptions {
-            t_end: t,
-            output_step: t,
-            ..base
-        };
-        self.run(&options, |sample| {
+        self.run(&self.motion_to(t), |sample| {
             state.q.copy_from_slice(sample.q);
             state.v.copy_from_slice(sample.v);
             Ok(ControlFlow::Continue(()))
         })
         .map_err(|f| f.error)?;
         Ok(state)
+    }
+
+    /// How the state at a later time is reached.
+    fn motion_to(&self, t: f64) -> MotionOptions {
+        let base = self.options.clone().unwrap_or_else(|| MotionOptions::to(t));
+        MotionOptions {
+            t_end: t,
+            output_step: t,
+            ..base
+        }
     }
 
     /// Runs the scene and shows projected rows of output; see [`dynamics::simulate()`].

@@ -58,7 +58,7 @@ pub use make_unique::{Allowed, Proposal, Proposals, make_unique};
 pub use matrices::{QueryError, Solvability};
 pub use mechanism::{
     Analysis, AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, analyse,
-    analyse_dropping, analyse_reached, decide, decide_dropping, decide_holonomic,
+    analyse_dropping, analyse_known, decide, decide_dropping, decide_holonomic,
 };
 pub use second_order::{Continuation, Undetermined, second_order};
 pub use state::{State, StateError};

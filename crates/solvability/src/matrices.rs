@@ -19,6 +19,9 @@ use crate::verdict::Judgement;
 /// largest row a row is their rounding.
 const ROUNDING_OF_MAP: f64 = 1e-14;
 
+/// The same in multiples of what the entries of C are known to.
+const MAP_FACTOR: f64 = 10.0;
+
 /// What can be said of the multipliers of a constraint matrix.
 ///
 /// ```
@@ -378,8 +381,12 @@ impl Solvability {
             .unzip();
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         if self.exact.is_none() {
+            // A map is known as well as the entries of C, which stand at the same poses.
+            let certificate = self.decision.evidence.certificate.as_ref();
+            let rounding = certificate.map_or(0.0, |c| MAP_FACTOR * c.uncertainty);
+            let rounding = rounding.max(ROUNDING_OF_MAP);
             for (image, size) in images.iter_mut().zip(&mut sizes) {
-                if *size <= ROUNDING_OF_MAP * largest {
+                if *size <= rounding * largest {
                     image.fill(0.0);
                     *size = 0.0;
                 }

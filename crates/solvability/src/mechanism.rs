@@ -207,19 +207,11 @@ pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, Ana
     analyse_known(mechanism, t, q, Known::AsStored)
 }
 
-/// The same at a configuration that a motion has reached: it is known less well, and what is zero to that is zero.
+/// The same at a configuration that is known to less than it is stored with; what is zero to that is zero.
 ///
 /// # Errors
 /// If C is not finite.
-pub fn analyse_reached(
-    mechanism: &Mechanism,
-    t: f64,
-    q: &[f64],
-) -> Result<Analysis, AnalysisError> {
-    analyse_known(mechanism, t, q, Known::ByMotion)
-}
-
-fn analyse_known(
+pub fn analyse_known(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],

@@ -5,12 +5,12 @@ use super::{CLEARANCE, NEARLY_SINGULAR, tolerance};
 use crate::{Matrix, singular_values};
 
 /// Noise that reaches further hides numbers that matter: nothing is zero beside it.
-const NOISE_MAX: f64 = 1e-8;
+const NOISE_MAX: f64 = 1e-4;
 
 /// How a number reads against its noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Size {
-    /// At most the noise, and the noise at most 1e-8.
+    /// At most the noise, and the noise at most 1e-4.
     Zero,
     /// Between: neither may be built on.
     Unclear,

@@ -12,7 +12,7 @@ const AS_READ: f64 = 1e-6;
 const CLEARANCE: f64 = 10.0;
 
 /// Evidence that cannot tell a coefficient of this size from zero calls nothing zero.
-const TOLERANCE_MAX: f64 = 1e-6;
+const TOLERANCE_MAX: f64 = 1e-5;
 
 /// How a coefficient of the equilibrated dependencies reads.
 #[derive(Debug, Clone, Copy, PartialEq)]
