@@ -3,14 +3,14 @@
 
 mod requests;
 
-use linalg::{Certificate, DeletionError, Limits, count_deletions, deletions};
+use linalg::{Certificate, DeletionError, Limits, Matrix, count_deletions, deletions};
 use model::{ConstraintId, Known, Mechanism, Scratch, System};
 use scene::Scene;
 use solvability::{
-    Allowed, Analysis, Choice, ChoiceError, Configuration, Contradiction, Distribution, Equations,
-    Explanation, ExplanationError, FrameVerdict, Generic, GroupVerdict, Proposals, Ranks, State,
-    UnitCheck, analyse_dropping, analyse_known, certify, check_units, contradictions, explain,
-    generic, make_unique,
+    Allowed, Analysis, Choice, ChoiceError, Configuration, Continuation, Contradiction,
+    Distribution, Equations, Explanation, ExplanationError, FrameVerdict, Generic, GroupVerdict,
+    Proposals, Ranks, State, UnitCheck, analyse_dropping, analyse_known, certify, check_units,
+    contradictions, explain, generic, make_unique, second_order,
 };
 
 use crate::error::StudyError;
@@ -119,6 +119,27 @@ impl<'a> Inquiry<'a> {
     #[must_use]
     pub fn generic(&self) -> Option<Generic> {
         generic(self.mechanism, self.analysis.time, &self.state.q)
+    }
+
+    /// How the motion goes on at a singular configuration, where the redundancy is larger than elsewhere: along one branch only, or
+    /// not determined by the constraints. Nothing where the configuration is not singular, or where the velocities of the scene do
+    /// not say which motion is meant: it stands still, or has several freedoms.
+    ///
+    /// # Errors
+    /// [`StudyError::State`]
+    pub fn continuation(&self, generic: &Generic) -> Result<Option<Continuation>, StudyError> {
+        let (decision, State { q, v }) = (&self.analysis.decision, &self.state);
+        if generic.redundancy >= decision.redundancy || v.is_empty() {
+            return Ok(None);
+        }
+        let rank = decision.rank + decision.redundancy - generic.redundancy;
+        let regular = match self.analysis.velocities - rank {
+            0 => Matrix::zeros(v.len(), 0),
+            1 if v.iter().any(|v| *v != 0.0) => Matrix::from_fn(v.len(), 1, |i, _| v[i]),
+            _ => return Ok(None),
+        };
+        let found = second_order(self.mechanism, self.analysis.time, q, v, decision, &regular)?;
+        Ok(Some(found))
     }
 
     /// Why the reactions are not unique; nothing while the rank is undecided, where every sentence would build on one of two

@@ -13,9 +13,9 @@ use serde::ser::{SerializeMap, Serializer};
 use solvability::{Judgement, Verdict};
 
 pub use analysis::{
-    AlongDocument, AnalysisDocument, ComponentDocument, DependencyDocument, DifferenceDocument,
-    DistributionDocument, EliminationsDocument, EvidenceDocument, FrameDocument,
-    FreeDirectionDocument, GenericDocument, GenericVerdictsDocument, GroupDocument,
+    AlongDocument, AnalysisDocument, ComponentDocument, ContinuationDocument, DependencyDocument,
+    DifferenceDocument, DistributionDocument, EliminationsDocument, EvidenceDocument,
+    FrameDocument, FreeDirectionDocument, GenericDocument, GenericVerdictsDocument, GroupDocument,
     MakeUniqueDocument, MixingDocument, NamedVerdictDocument, NearlyRedundantDocument,
     PassageDocument, PointDocument, Proof, ReactionDocument, RowDocument, StretchDocument,
     ValueDocument, ValuesDocument, WayDocument,

@@ -34,6 +34,28 @@ pub enum Continuation {
     Undetermined(Undetermined),
 }
 
+impl std::fmt::Display for Continuation {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Unique => f.write_str("the motion stays unique (second order)"),
+            Self::Bifurcation { branches } => {
+                let others = match branches.len() {
+                    1 => "another branch is".to_owned(),
+                    n => format!("{n} other branches are"),
+                };
+                write!(
+                    f,
+                    "a bifurcation: {others} compatible with the constraints, which do not determine how the motion goes on"
+                )
+            }
+            Self::Undetermined(reason) => write!(
+                f,
+                "whether the motion stays unique is not decided at second order: {reason}"
+            ),
+        }
+    }
+}
+
 /// Why second order does not decide.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]

@@ -51,6 +51,10 @@ pub(super) fn document(
     if let Some(explanation) = inquiry.explanation().map_err(failure)? {
         document.explain(&explanation, layout);
     }
+    if let Some(generic) = &generic {
+        let continuation = inquiry.continuation(generic).map_err(failure)?;
+        document.continuation = continuation.as_ref().map(Into::into);
+    }
     let sets = arguments.eliminations.map(|n| inquiry.elimination_sets(n));
     document.eliminations = Some(EliminationsDocument::new(inquiry.eliminations(), sets));
     for (name, id) in arguments.make_unique.iter().zip(wanted) {

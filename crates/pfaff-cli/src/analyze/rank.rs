@@ -18,6 +18,9 @@ pub(super) fn describe(d: &AnalysisDocument) -> String {
         out.push_str(&wrapped("  ", &sentence));
     }
     out.push_str(&wrapped("  ", &elsewhere(d)));
+    if let Some(continuation) = &d.continuation {
+        out.push_str(&wrapped("  ", &continuation.text));
+    }
     out
 }
 

@@ -527,3 +527,51 @@ fn help_shows_examples() {
         ],
     );
 }
+
+/// Cranks of length 0.5 at these pivots, all flat and turning with 1 rad/s, under one coupler.
+fn flat_cranks(pivots: &[f64]) -> String {
+    let bodies = pivots.iter().enumerate().map(|(k, x)| {
+        let middle = x + 0.25;
+        format!(
+            r#"{{ name = "crank {k}", mass = 1.0, inertia = 0.1, position = [{middle}, 0.0], velocity = [0.0, 0.25], angular_velocity = 1.0 }},"#
+        )
+    });
+    let joints = pivots.iter().enumerate().map(|(k, x)| {
+        let tip = x + 0.5;
+        format!(
+            r#"{{ name = "pivot {k}", type = "revolute", bodies = ["ground", "crank {k}"], at = [{x}, 0.0] }},
+               {{ name = "tip {k}", type = "revolute", bodies = ["crank {k}", "coupler"], at = [{tip}, 0.0] }},"#
+        )
+    });
+    format!(
+        r#"scene = {{ name = "flat", space = "plane" }}
+        body = [ {} {{ name = "coupler", mass = 1.0, inertia = 0.1, position = [1.0, 0.0], velocity = [0.0, 0.5] }} ]
+        joint = [ {} ]"#,
+        bodies.collect::<String>(),
+        joints.collect::<String>()
+    )
+}
+
+/// Two flat cranks may go on in parallel or against each other; a third one forbids the latter at second order.
+#[test]
+fn a_singular_start_says_how_the_motion_goes_on() {
+    for (pivots, kind, piece) in [
+        (
+            &[0.0, 1.0][..],
+            "bifurcation",
+            "another branch is compatible",
+        ),
+        (
+            &[0.0, 1.0, 1.7],
+            "unique",
+            "the motion stays unique (second order)",
+        ),
+    ] {
+        let scene = flat_cranks(pivots);
+        let text = stdout(&with_scene(&["analyze", "-"], &scene));
+        contains(&text, &["ONLY HERE", piece]);
+        let d = document(&with_scene(&["analyze", "-", "--json"], &scene));
+        assert_eq!(d["continuation"]["kind"], kind, "{d:#}");
+        assert_eq!(d["evidence"]["permanent"], false);
+    }
+}

@@ -11,8 +11,8 @@ use serde::Serialize;
 use solvability::{Analysis, Dependency, Explanation, FrameVerdict, Mixing};
 
 pub use along::{
-    AlongDocument, DifferenceDocument, GenericVerdictsDocument, NamedVerdictDocument,
-    PassageDocument, StretchDocument,
+    AlongDocument, ContinuationDocument, DifferenceDocument, GenericVerdictsDocument,
+    NamedVerdictDocument, PassageDocument, StretchDocument,
 };
 pub use choices::{DistributionDocument, ValueDocument, ValuesDocument};
 pub use deletions::{EliminationsDocument, MakeUniqueDocument, WayDocument};
@@ -81,6 +81,9 @@ pub struct AnalysisDocument {
     /// Verdicts along the motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub along: Option<AlongDocument>,
+    /// How the motion goes on, where this configuration is singular and the velocities say which motion is meant.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub continuation: Option<ContinuationDocument>,
     /// What else the reader should know.
     pub warnings: Vec<String>,
 }
@@ -144,6 +147,7 @@ impl AnalysisDocument {
             make_unique: Vec::new(),
             choices: Vec::new(),
             along: None,
+            continuation: None,
             warnings: analysis.warnings.clone(),
         }
     }

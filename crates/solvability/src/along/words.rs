@@ -2,7 +2,6 @@
 
 use super::{Difference, Part, Passage, PassageKind, Stretch};
 use crate::mechanism::Analysis;
-use crate::second_order::Continuation;
 
 /// What happens at an instant.
 pub(super) fn passage(p: &Passage, generic: &Analysis) -> String {
@@ -20,8 +19,7 @@ pub(super) fn passage(p: &Passage, generic: &Analysis) -> String {
             continuation,
         } => format!(
             "{time} the configuration is singular: the redundancy rises from {} to {redundancy} for an instant{interval}; {}",
-            generic.decision.redundancy,
-            continued(continuation)
+            generic.decision.redundancy, continuation
         ),
         PassageKind::NearlySingular { sigma } => format!(
             "{time} the configuration is nearly singular: smallest singular value {sigma:.3e}{interval}; the rank stays, \
@@ -49,22 +47,6 @@ pub(super) fn stretch(s: &Stretch, generic: &Analysis) -> String {
         format!("from t = {from} s to t = {to} s other verdicts hold, {rank}"),
         &s.differences,
     )
-}
-
-fn continued(continuation: &Continuation) -> String {
-    match continuation {
-        Continuation::Unique => "the motion stays unique (second order)".into(),
-        Continuation::Bifurcation { branches } => format!(
-            "a bifurcation: {} compatible with the constraints, which do not determine how the motion goes on",
-            match branches.len() {
-                1 => "another branch is".to_owned(),
-                n => format!("{n} other branches are"),
-            }
-        ),
-        Continuation::Undetermined(reason) => {
-            format!("whether the motion stays unique is not decided at second order: {reason}")
-        }
-    }
 }
 
 /// The sentence, and what was unique and is not, and the other way round.

@@ -90,6 +90,17 @@ pub struct PassageDocument {
     pub text: String,
 }
 
+/// How a motion goes on at a singular configuration.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ContinuationDocument {
+    /// `unique`, `bifurcation` or `undetermined`.
+    pub kind: &'static str,
+    /// Velocities of other branches at a bifurcation.
+    pub branches: Vec<Vec<f64>>,
+    /// In words.
+    pub text: String,
+}
+
 /// One verdict that differs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct DifferenceDocument {
@@ -166,14 +177,9 @@ impl From<&Passage> for PassageDocument {
             } => {
                 document.kind = "rank_drops";
                 document.redundancy = Some(*redundancy);
-                document.continuation = Some(match continuation {
-                    Continuation::Unique => "unique",
-                    Continuation::Bifurcation { .. } => "bifurcation",
-                    _ => "undetermined",
-                });
-                if let Continuation::Bifurcation { branches } = continuation {
-                    document.branches.clone_from(branches);
-                }
+                let continuation = ContinuationDocument::from(continuation);
+                document.continuation = Some(continuation.kind);
+                document.branches = continuation.branches;
             }
             PassageKind::NearlySingular { sigma } => {
                 document.kind = "nearly_singular";
@@ -183,6 +189,21 @@ impl From<&Passage> for PassageDocument {
             _ => {}
         }
         document
+    }
+}
+
+impl From<&Continuation> for ContinuationDocument {
+    fn from(continuation: &Continuation) -> Self {
+        let (kind, branches) = match continuation {
+            Continuation::Unique => ("unique", Vec::new()),
+            Continuation::Bifurcation { branches } => ("bifurcation", branches.clone()),
+            _ => ("undetermined", Vec::new()),
+        };
+        Self {
+            kind,
+            branches,
+            text: continuation.to_string(),
+        }
     }
 }
 
