@@ -5,6 +5,10 @@ use super::{NOISE_FACTOR, RankDecision};
 /// Noise of coefficients over that of singular values: the triangular solves.
 const SOLVE_FACTOR: f64 = 10.0;
 
+/// No coefficient below this is certainly not zero: where a small part hangs on a large one, the rounding of the data of the large part
+/// reaches the small one amplified by the ratio of their sizes, which the first order does not show.
+const CERTAIN: f64 = 1e-9;
+
 /// Below this σ_r of a certified matrix the uncertainty of the data would hide all coefficients; they are those of the matrix as read.
 const AS_READ: f64 = 1e-6;
 
@@ -81,7 +85,7 @@ impl RankDecision {
     #[must_use]
     pub fn read_coefficient(&self, size: f64, noise: f64) -> CoefficientReading {
         let tolerance = noise;
-        let required = CLEARANCE * tolerance;
+        let required = (CLEARANCE * tolerance).max(CERTAIN);
         if size <= tolerance && tolerance <= TOLERANCE_MAX {
             CoefficientReading::Zero
         } else if size > required {
