@@ -19,6 +19,7 @@ mod saddle;
 mod singular_values;
 mod strong_basis;
 mod structure;
+mod weakest;
 
 pub mod double_double;
 
@@ -34,10 +35,11 @@ pub use null_space::{Components, components, dependencies, orthonormal, support_
 pub use qr::PivotedQr;
 pub use rank::{
     Certificate, CoefficientReading, Degraded, Doubt, Evidence, ExactNullSpace, Grounds,
-    KeptRowsError, NearlyRedundant, RankDecision, RankError, RankStatus, Uncertainty,
-    certify_exact, certify_within, decide, decide_dropping, decide_keeping,
+    KeptRowsError, NEARLY_REDUNDANT, NearlyRedundant, RankDecision, RankError, RankStatus,
+    Uncertainty, certify_exact, certify_within, decide, decide_dropping, decide_keeping,
 };
 pub use regularized::{StepError, least_squares_step};
 pub use saddle::{KeptRowSaddle, SaddleError};
 pub use singular_values::singular_values;
 pub use structure::{Part, RowGroup, Settled, Structure, structure};
+pub use weakest::{WeakestCombination, weakest_combination};

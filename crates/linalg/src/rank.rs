@@ -30,7 +30,7 @@ use crate::strong_basis::{self, Basis};
 use crate::{Matrix, PivotedQr, Scaling, equilibrate::scale, kernels, singular_values};
 
 pub use again::Degraded;
-pub use certificate::{Certificate, Grounds, NearlyRedundant};
+pub use certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant};
 pub use coefficient::CoefficientReading;
 pub use exact::certify_exact;
 pub use modular::ExactNullSpace;

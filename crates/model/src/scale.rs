@@ -65,6 +65,15 @@ impl Mechanism {
         columns.iter().all(|j| j % N_BODY == 2)
     }
 
+    /// Takes the column factors of translations out of a scaling: all lengths are then in one unit, rotations in that of their arms.
+    pub fn unscale_translations(&self, scaling: &mut Scaling) {
+        for (k, e) in scaling.cols.iter_mut().enumerate() {
+            if k % N_BODY != 2 {
+                *e = 0;
+            }
+        }
+    }
+
     /// The scaling that makes C dimensionless for a mechanism of this size: columns of rotations divided by the size, rounded to a
     /// power of two. Ranks, dependencies and verdicts of the scaled C are those of C; margins do not depend on units.
     #[must_use]

@@ -3,7 +3,7 @@
 //!
 //! Not for motion: a run decides in `f64`, where a nearly redundant mechanism cannot be integrated anyway.
 
-use linalg::{DdMatrix, Matrix, RankDecision, certify_within};
+use linalg::{DdMatrix, Matrix, NEARLY_REDUNDANT, NearlyRedundant, RankDecision, certify_within};
 use model::start::scene_size;
 use model::{Known, Mechanism, Scratch, System};
 
@@ -93,6 +93,40 @@ impl Rows {
             time: self.time,
             source,
         })
+    }
+
+    /// Whether the kept rows nearly depend on each other as bodies feel it: measured with all translations in one unit, because
+    /// equilibration may scale the only misaligned entry of a column up to size one.
+    pub(crate) fn nearly_redundant(
+        &self,
+        mechanism: &Mechanism,
+        decision: &RankDecision,
+    ) -> Option<NearlyRedundant> {
+        if !decision.is_decided() {
+            return None;
+        }
+        let mut scaling = decision.scaling.clone();
+        mechanism.unscale_translations(&mut scaling);
+        let kept = scaling.apply(&self.matrix()).select_rows(&decision.kept);
+        let weakest =
+            linalg::weakest_combination(&kept).filter(|weakest| weakest.sigma < NEARLY_REDUNDANT);
+        let whole = |w: linalg::WeakestCombination| {
+            let mut direction = vec![0.0; decision.rank + decision.redundancy];
+            for (&row, weight) in decision.kept.iter().zip(w.weights) {
+                direction[row] = weight;
+            }
+            NearlyRedundant {
+                sigma: w.sigma,
+                direction,
+            }
+        };
+        let physical = weakest.map(whole);
+        // Below the resolution of `f64` the certificate knows better.
+        let certified = decision.nearly_redundant().cloned();
+        [physical, certified]
+            .into_iter()
+            .flatten()
+            .min_by(|a, b| a.sigma.total_cmp(&b.sigma))
     }
 
     /// Some of the rows.

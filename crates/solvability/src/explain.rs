@@ -191,7 +191,10 @@ fn reaction(
     let map = linalg::Matrix::from_fn(components.len(), group.rows.len(), |i, j| {
         full[(components[i], j)]
     });
-    let directions = solvability.unique_directions(&map, group.rows.clone())?;
+    let directions = match solvability.unique_directions(&map, group.rows.clone()) {
+        Err(QueryError::Directions { .. }) => None,
+        known => Some(known?),
+    };
     let combination = |direction: &Vec<f64>| {
         let terms = direction
             .iter()
@@ -206,18 +209,17 @@ fn reaction(
         terms.join(" + ").replace("+ −", "− ")
     };
     // A component that is zero for every load is no finding.
-    let told: Vec<String> = directions
-        .iter()
-        .filter(|d| {
-            map.transpose_times(d)
-                .iter()
-                .any(|x| x.abs() > VISIBLE * map.max_abs())
-        })
-        .map(combination)
-        .collect();
-    let determined = match told.as_slice() {
-        [] => "nothing of it is determined".to_owned(),
-        told => format!("determined is {}", list(told)),
+    let told: Option<Vec<String>> = directions.map(|directions| {
+        let seen = directions.iter().filter(|d| {
+            let image = map.transpose_times(d);
+            image.iter().any(|x| x.abs() > VISIBLE * map.max_abs())
+        });
+        seen.map(combination).collect()
+    });
+    let determined = match told.as_deref() {
+        None => "what of it is determined is not decided".to_owned(),
+        Some([]) => "nothing of it is determined".to_owned(),
+        Some(told) => format!("determined is {}", list(told)),
     };
     let shared = match others.as_slice() {
         [] => "its rows depend on each other".to_owned(),

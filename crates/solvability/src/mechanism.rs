@@ -1,6 +1,6 @@
 //! Solvability of a mechanism at one configuration: ranks, and a verdict for every joint, drive, row and direction.
 
-use linalg::{KeptRowsError, Matrix, RankDecision, RankError};
+use linalg::{KeptRowsError, Matrix, NearlyRedundant, RankDecision, RankError};
 use model::reaction::COMPONENTS;
 use model::start::scene_size;
 use model::{ConstraintId, Known, Mechanism, Scratch, System};
@@ -33,6 +33,8 @@ pub struct Analysis {
     pub rank_nonholonomic: usize,
     /// Rank, redundancy, kept rows and evidence of C.
     pub decision: RankDecision,
+    /// Kept rows that are independent, but only just.
+    pub nearly_redundant: Option<NearlyRedundant>,
     /// Joints and drives in the order of their rows.
     pub reactions: Vec<ReactionVerdict>,
     /// As many as the degree of redundancy, short ones first.
@@ -301,6 +303,7 @@ pub(crate) fn judge(
         nonholonomic_rows: layout.h,
         rank_holonomic,
         rank_nonholonomic,
+        nearly_redundant: rows.nearly_redundant(mechanism, &decision),
         decision,
         reactions,
         dependencies,

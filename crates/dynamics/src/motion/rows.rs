@@ -105,14 +105,14 @@ impl KeptRows {
     /// Whether the rows have become nearly dependent since they were chosen.
     pub(super) fn are_lost(&self) -> bool {
         self.reference_pivot
-            .is_some_and(|r| self.pivot_ratio() <= PIVOT_LOSS * r)
+            .is_some_and(|r| self.pivot_ratio() < PIVOT_LOSS * r)
     }
 
     /// Whether the rows are as good as dependent: so near to a singular configuration that its position, known to √eps, does
-    /// not tell the side.
+    /// not tell the side. Without rows the ratio is infinite, and nothing is singular.
     pub(super) fn are_singular(&self) -> bool {
         self.reference_pivot
-            .is_some_and(|r| self.pivot_ratio() <= PIVOT_SINGULAR * r)
+            .is_some_and(|r| self.pivot_ratio() < PIVOT_SINGULAR * r)
     }
 
     /// Whether rows that were lost are as independent as before.

@@ -18,6 +18,9 @@ const CLEARANCE: f64 = 10.0;
 /// Evidence that cannot tell a coefficient of this size from zero calls nothing zero.
 const TOLERANCE_MAX: f64 = 1e-5;
 
+/// A coefficient that has come out as small as this in double-double is zero, whatever the data are known to.
+const VANISHED: f64 = 1e-13;
+
 /// How a coefficient of the equilibrated dependencies reads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CoefficientReading {
@@ -85,8 +88,9 @@ impl RankDecision {
     #[must_use]
     pub fn read_coefficient(&self, size: f64, noise: f64) -> CoefficientReading {
         let tolerance = noise;
+        let vanished = self.evidence.certificate.is_some() && size <= VANISHED;
         let required = (CLEARANCE * tolerance).max(CERTAIN);
-        if size <= tolerance && tolerance <= TOLERANCE_MAX {
+        if size <= tolerance && (tolerance <= TOLERANCE_MAX || vanished) {
             CoefficientReading::Zero
         } else if size > required {
             CoefficientReading::NonZero

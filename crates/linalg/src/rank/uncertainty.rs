@@ -42,8 +42,9 @@ pub(crate) struct Spread {
     pub(crate) norm: f64,
 }
 
-/// An entry is significant above this multiple of its uncertainty.
-const SIGNIFICANT: f64 = 8.0;
+/// An entry sets the scale of its row and column only above this multiple of its uncertainty. Not less: an entry that is what several
+/// roundings left of larger terms must never be scaled up to size one; and nothing is lost, since the rank does not depend on scales.
+const SIGNIFICANT: f64 = 1e5;
 
 impl Uncertainty<'_> {
     /// The equilibration of the significant entries of `c`, and the uncertainty of the equilibrated matrix.

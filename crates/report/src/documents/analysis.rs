@@ -135,7 +135,7 @@ impl AnalysisDocument {
             mobility: analysis.mobility(),
             kept_rows: from_one(&decision.kept),
             dropped_rows: from_one(&decision.dropped),
-            evidence: EvidenceDocument::new(decision, analysis.size, proof),
+            evidence: EvidenceDocument::new(analysis, proof),
             generic: proof.generic.map(Into::into),
             reactions: analysis.reactions.iter().map(Into::into).collect(),
             groups: Vec::new(),

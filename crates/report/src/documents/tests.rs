@@ -49,6 +49,7 @@ fn analysis() -> Analysis {
         coordinates: 3,
         velocities: 3,
         size: 2.0,
+        nearly_redundant: None,
         holonomic_rows: 4,
         nonholonomic_rows: 0,
         rank_holonomic: 3,

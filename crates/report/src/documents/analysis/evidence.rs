@@ -1,8 +1,8 @@
 //! The numbers behind a rank: what was read, what was proved, what was compared.
 
-use linalg::{Certificate, Grounds, RankDecision, RankStatus};
+use linalg::{Certificate, Grounds, RankStatus};
 use serde::Serialize;
-use solvability::Generic;
+use solvability::{Analysis, Generic};
 
 /// What is known of the rank beyond the decision at one configuration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -86,7 +86,8 @@ pub struct PointDocument {
 }
 
 impl EvidenceDocument {
-    pub(super) fn new(decision: &RankDecision, size: f64, proof: Proof<'_>) -> Self {
+    pub(super) fn new(analysis: &Analysis, proof: Proof<'_>) -> Self {
+        let decision = &analysis.decision;
         let evidence = &decision.evidence;
         let (status, reason) = match decision.status {
             RankStatus::Decided => ("decided", None),
@@ -95,7 +96,6 @@ impl EvidenceDocument {
         };
         let certificate = proof.certificate;
         let decided = decision.is_decided();
-        let nearly = certificate.and_then(|c| c.nearly_redundant.as_ref());
         Self {
             status,
             reason,
@@ -114,11 +114,14 @@ impl EvidenceDocument {
             sigma_next_extended: certificate.map(|c| c.sigma_next),
             grounds: certificate.filter(|_| decided).map(|c| grounds(c.grounds)),
             uncertainty: certificate.map(|c| c.uncertainty),
-            nearly_redundant: nearly.filter(|_| decided).map(|n| NearlyRedundantDocument {
-                sigma: n.sigma,
-                change_per_micrometre: MICROMETRE / size / n.sigma,
-                direction: n.direction.clone(),
-            }),
+            nearly_redundant: analysis
+                .nearly_redundant
+                .as_ref()
+                .map(|n| NearlyRedundantDocument {
+                    sigma: n.sigma,
+                    change_per_micrometre: MICROMETRE / analysis.size / n.sigma,
+                    direction: n.direction.clone(),
+                }),
         }
     }
 }

@@ -1,0 +1,52 @@
+//! The combination of rows that comes closest to zero: what nearly depends on each other, and by how much.
+
+use crate::{Matrix, PivotedQr, kernels};
+
+/// Weights of rows that nearly cancel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WeakestCombination {
+    /// Norm of the combination: about the smallest singular value of the rows.
+    pub sigma: f64,
+    /// Unit weights of the rows.
+    pub weights: Vec<f64>,
+}
+
+/// Inverse iterations; each gains the square of the gap between the two smallest singular values.
+const ITERATIONS: usize = 3;
+
+/// The smallest singular value of independent rows and its left singular vector, by inverse iteration with `C·Cᵀ = P·Rᵀ·R·Pᵀ`.
+/// `None` without rows, or where they are dependent to the last digit of `f64`.
+///
+/// ```
+/// use linalg::{Matrix, weakest_combination};
+/// let c = Matrix::from_rows(&[[0.0, 1.0], [1e-9, 1.0]]);
+/// let weakest = weakest_combination(&c).unwrap();
+/// assert!((weakest.sigma / (1e-9 / 2f64.sqrt()) - 1.0).abs() < 1e-6);
+/// assert!((weakest.weights[0] + weakest.weights[1]).abs() < 1e-6);
+/// ```
+#[must_use]
+pub fn weakest_combination(rows: &Matrix) -> Option<WeakestCombination> {
+    let r = rows.nrows();
+    let qr = PivotedQr::of_rows(rows.clone());
+    if r == 0 || r > qr.steps() || qr.r_diagonal().any(|d| d == 0.0) {
+        return None;
+    }
+    // Any start has a part along the weakest combination.
+    let mut y: Vec<f64> = (0..r).map(|i| 1.0 + i as f64 / 7.0).collect();
+    let mut growth = 0.0;
+    for _ in 0..ITERATIONS {
+        let size = kernels::norm(&y);
+        y.iter_mut().for_each(|y| *y /= size);
+        qr.solve_r_transpose(&mut y);
+        qr.solve_r(&mut y);
+        growth = kernels::norm(&y);
+    }
+    let mut weights = vec![0.0; r];
+    for (y, &row) in y.iter().zip(qr.permutation()) {
+        weights[row] = y / growth;
+    }
+    Some(WeakestCombination {
+        sigma: growth.sqrt().recip(),
+        weights,
+    })
+}
