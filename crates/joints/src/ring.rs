@@ -72,7 +72,7 @@ impl Sub for Magnitude {
     type Output = Self;
 
     fn sub(self, y: Self) -> Self {
-        Self(self.0 + y.0)
+        self.add(y)
     }
 }
 

@@ -9,7 +9,8 @@
 //!
 //! The rule, with singular values σ of `D_r·C·D_c` (maxima of rows and columns near one):
 //! `τ = 10·max(eps·√(m·n), uncertainty)`, rank r is decided iff `σ_{r+1} ≤ τ` and
-//! `σ_r ≥ max(10³·τ, 10⁻⁷)`.
+//! `σ_r ≥ max(10³·τ, 10⁻⁷)`. Two other rules give a certificate: `exact` reads the entries as they stand, `within` reads them in
+//! double-double and knows what the data are worth.
 
 mod again;
 mod bound;
@@ -98,7 +99,7 @@ pub struct Evidence {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RankStatus {
-    /// `σ_{r+1} ≤ τ` and `σ_r ≥ max(10³·τ, 10⁻⁷)`.
+    /// `σ_{r+1} ≤ τ` and `σ_r ≥ max(10³·τ, 10⁻⁷)`, or, with a certificate, what its [`Grounds`] say.
     Decided,
     /// Two ranks can be read from the singular values; do not build on either.
     Undecided(Doubt),
@@ -247,6 +248,14 @@ fn tolerance(c: &Matrix, uncertainty: f64) -> f64 {
     NOISE_FACTOR * rounding.max(uncertainty)
 }
 
+/// σ_r / σ_{r+1}, infinite if σ_{r+1} = 0.
+fn gap(sigma_r: f64, sigma_next: f64) -> f64 {
+    match sigma_next {
+        0.0 => f64::INFINITY,
+        _ => sigma_r / sigma_next,
+    }
+}
+
 fn check_finite(c: &Matrix) -> Result<(), RankError> {
     match c.first_non_finite() {
         Some((row, col, value)) => Err(RankError::NonFinite { row, col, value }),
@@ -310,11 +319,7 @@ impl Reading {
             evidence: Evidence {
                 sigma_r,
                 sigma_next,
-                gap: if sigma_next == 0.0 {
-                    f64::INFINITY
-                } else {
-                    sigma_r / sigma_next
-                },
+                gap: gap(sigma_r, sigma_next),
                 tolerance,
                 constraint_residual,
                 dependence_residual: 0.0,

@@ -8,6 +8,7 @@ use model::start::scene_size;
 use model::{Known, Mechanism, Scratch, System};
 
 use crate::mechanism::{AnalysisError, decide_holonomic, dimensionless, evaluated, uncertainty};
+use crate::state::check_configuration;
 
 /// Rows up to which a rank is certified: the work grows with their cube.
 const ROWS_MAX: usize = 600;
@@ -47,6 +48,7 @@ impl Rows {
         q: &[f64],
         known: Known,
     ) -> Result<Self, AnalysisError> {
+        check_configuration(mechanism, t, q)?;
         let mut s = evaluated(mechanism, t, q);
         if mechanism.layout().rows() > ROWS_MAX {
             return Ok(Self::in_double(mechanism, &s, q));
@@ -147,7 +149,8 @@ impl Rows {
 /// (up to 600 rows); the evidence then has a certificate. Allocates.
 ///
 /// # Errors
-/// If C is not finite.
+/// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
+/// - [`AnalysisError::Rank`]: C is not finite.
 pub fn certify(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<RankDecision, AnalysisError> {
     Rows::new(mechanism, t, q, Known::AsStored)?.decide()
 }

@@ -370,8 +370,7 @@ impl Configuration<'_> {
     /// `λ₀ − Z·(Z_D)⁻¹·λ₀_D` with Z from the dependence of the rows D on the others, for which Z_D = I: exactly zero on D.
     fn without(&self, lambda_0: &[f64], rows: &[usize]) -> Result<Vec<f64>, ChoiceError> {
         let c = dimensionless(self.mechanism, &self.s, self.size);
-        let residual = self.solvability.decision().evidence.constraint_residual;
-        let decision = linalg::decide_dropping(&c, residual, rows)
+        let decision = linalg::decide_dropping(&c, &self.uncertainty, rows)
             .map_err(|source| self.refused(rows, source))?;
         let z = linalg::dependencies(&decision);
         let mut lambda = lambda_0.to_vec();

@@ -51,9 +51,10 @@ pub struct Elsewhere {
 }
 
 /// Ranks at other configurations than (t, q), which must lie on the constraints. `None` if none was found at which the rank is
-/// decided: for a structure that cannot move there is none.
+/// decided (a structure that cannot move has none), or if t and q are no configuration of this mechanism.
 #[must_use]
 pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
+    crate::state::check_configuration(mechanism, t, q).ok()?;
     let rows = lasting_rows(mechanism);
     let size = scene_size(mechanism, q);
     let units = velocity_units(mechanism, size);

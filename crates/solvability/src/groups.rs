@@ -15,7 +15,7 @@ pub(crate) use error::{check, check_finite};
 pub use form::LinearForm;
 
 use crate::mechanism::ComponentVerdict;
-use crate::verdict::Judgement;
+use crate::verdict::{Judgement, Verdict};
 
 /// What is to be judged.
 #[derive(Clone, Debug, PartialEq)]
@@ -46,7 +46,7 @@ pub struct Term {
 /// The verdict of a group.
 #[derive(Clone, Debug)]
 pub struct GroupVerdict {
-    /// Of the whole: where it has parts, that of the part farthest from unique.
+    /// Of the whole: where it has parts, not unique if one is not, else undecided if one is.
     pub judgement: Judgement,
     /// `Fx`, `Fy` and `T` of a sum of wrenches or a resultant; empty for other groups.
     pub components: Vec<ComponentVerdict>,
@@ -196,11 +196,40 @@ fn whole(judgement: Judgement) -> GroupVerdict {
     }
 }
 
-/// The judgement farthest from unique, NaN above all.
+/// The judgement of all together: not unique if one is not, else undecided if one is. Of equal verdicts that with the largest margin,
+/// NaN above all; margins of different verdicts do not compare, because each was read against its own noise.
 fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judgement> {
-    judgements.reduce(|a, b| if farther(&b, &a) { b } else { a })
+    let severity = |j: &Judgement| match j.verdict {
+        Verdict::Unique => 0,
+        Verdict::Undecided { .. } => 1,
+        Verdict::NotUnique => 2,
+    };
+    judgements.max_by(|a, b| {
+        let margins = a.margin.total_cmp(&b.margin);
+        severity(a).cmp(&severity(b)).then(margins)
+    })
 }
 
-fn farther(a: &Judgement, b: &Judgement) -> bool {
-    a.margin.is_nan() || a.margin > b.margin
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Noise differs from row to row: a small margin may be certain where a larger one is rounding.
+    #[test]
+    fn one_part_that_is_not_unique_decides_whatever_the_margins() {
+        let judged = |verdict, margin| Judgement { verdict, margin };
+        let unclear = Verdict::Undecided {
+            reason: String::new(),
+        };
+        let parts = [
+            judged(Verdict::Unique, 1e-8),
+            judged(Verdict::NotUnique, 1e-12),
+            judged(unclear, 1e-7),
+        ];
+        let verdict = |parts: &[Judgement]| worst(parts.iter().cloned()).map(|j| j.verdict);
+        assert_eq!(verdict(&parts), Some(Verdict::NotUnique));
+        let rest = [parts[2].clone(), parts[0].clone()];
+        assert_eq!(verdict(&rest), Some(rest[0].verdict.clone()));
+        assert_eq!(verdict(&[]), None);
+    }
 }

@@ -14,6 +14,7 @@
 //! | [`choices`] | one solution among many, labelled |
 //! | [`units`] | facts and choices told apart by a change of units |
 //! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
+//! | `certificate` | the rank in double-double at a polished point |
 //! | [`mod@structure`] | what the shape settles before any rank |
 //! | [`mod@explain`] | mixing, free directions and sentences |
 //! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |

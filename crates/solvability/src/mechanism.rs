@@ -7,6 +7,7 @@ use model::{ConstraintId, Known, Mechanism, Scratch, System};
 
 use crate::certificate::Rows;
 use crate::matrices::{QueryError, Solvability};
+use crate::state::{StateError, check_configuration};
 use crate::verdict::Judgement;
 use crate::words;
 
@@ -105,6 +106,9 @@ pub struct Dependency {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AnalysisError {
+    /// Time or coordinates are none of this mechanism.
+    #[error(transparent)]
+    State(#[from] StateError),
     /// The constraint matrix cannot be judged.
     #[error("at t = {time} s: {source}")]
     Rank {
@@ -204,7 +208,8 @@ pub fn decide_dropping(
 /// Verdicts at time t and coordinates q, which must satisfy the constraints; allocates.
 ///
 /// # Errors
-/// If C is not finite.
+/// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
+/// - [`AnalysisError::Rank`]: C is not finite.
 pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
     analyse_known(mechanism, t, q, Known::AsStored)
 }
@@ -212,7 +217,7 @@ pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, Ana
 /// The same at a configuration that is known to less than it is stored with; what is zero to that is zero.
 ///
 /// # Errors
-/// If C is not finite.
+/// As [`analyse`].
 pub fn analyse_known(
     mechanism: &Mechanism,
     t: f64,
@@ -227,13 +232,14 @@ pub fn analyse_known(
 /// The same with dependencies told by the dropped rows that the caller chooses (from 0). Verdicts do not depend on them.
 ///
 /// # Errors
-/// If C is not finite, or the rows cannot be dropped without changing the motion.
+/// As [`analyse`], and [`AnalysisError::Rows`]: the rows cannot be dropped without changing the motion.
 pub fn analyse_dropping(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],
     dropped: &[usize],
 ) -> Result<Analysis, AnalysisError> {
+    check_configuration(mechanism, t, q)?;
     let s = evaluated(mechanism, t, q);
     let decision = decide_dropping(mechanism, &s, q, dropped)
         .map_err(|source| AnalysisError::Rows { time: t, source })?;
@@ -270,7 +276,7 @@ pub(crate) fn judge(
         if let linalg::RankStatus::Undecided(doubt) = &decision.status {
             warnings.push(format!("the rank of {what} alone is undecided: {doubt}"));
         }
-        Ok(decision.rank)
+        Ok::<_, AnalysisError>(decision.rank)
     };
     let rank_holonomic = rank_of("Φq", 0..layout.m)?;
     let rank_nonholonomic = rank_of("Ψ", layout.m..layout.rows())?;

@@ -12,7 +12,7 @@ mod blocked;
 mod branches;
 mod forms;
 
-use linalg::{Matrix, RankDecision};
+use linalg::{Doubt, Matrix, RankDecision, RankError};
 use model::Mechanism;
 
 use crate::state::{self, StateError};
@@ -68,6 +68,12 @@ pub enum Undetermined {
         /// As many are examined.
         most: usize,
     },
+    /// How many motions are regular is undecided.
+    #[error("how many of the given regular motions are independent is undecided: {0}")]
+    RegularCount(Doubt),
+    /// The regular motions leave the range of numbers.
+    #[error("the given regular motions cannot be compared: {0}")]
+    Regular(RankError),
     /// The quadratic equations are empty.
     #[error("all motions are compatible to second order; terms of third order would decide")]
     NoTerms,

@@ -54,32 +54,80 @@ pub(crate) fn check(
     q: &[f64],
     v: &[f64],
 ) -> Result<(), StateError> {
+    check_configuration(mechanism, time, q)?;
+    check_numbers(time, "velocities", v, mechanism.layout().n_v)
+}
+
+/// Checks time and coordinates.
+pub(crate) fn check_configuration(
+    mechanism: &Mechanism,
+    time: f64,
+    q: &[f64],
+) -> Result<(), StateError> {
     if !time.is_finite() {
         return Err(StateError::Time { time });
     }
-    let layout = mechanism.layout();
-    for (what, x, expected) in [
-        ("coordinates", q, layout.n_q),
-        ("velocities", v, layout.n_v),
-    ] {
-        let found = x.len();
-        if found != expected {
-            return Err(StateError::Length {
-                time,
-                what,
-                found,
-                expected,
-            });
-        }
-        if let Some(index) = x.iter().position(|x| !x.is_finite()) {
-            let value = x[index];
-            return Err(StateError::NotFinite {
-                time,
-                what,
-                index,
-                value,
-            });
+    check_numbers(time, "coordinates", q, mechanism.layout().n_q)
+}
+
+fn check_numbers(
+    time: f64,
+    what: &'static str,
+    x: &[f64],
+    expected: usize,
+) -> Result<(), StateError> {
+    let found = x.len();
+    if found != expected {
+        return Err(StateError::Length {
+            time,
+            what,
+            found,
+            expected,
+        });
+    }
+    match x.iter().position(|x| !x.is_finite()) {
+        Some(index) => Err(StateError::NotFinite {
+            time,
+            what,
+            index,
+            value: x[index],
+        }),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use model::{Body, Description};
+
+    use super::*;
+    use crate::{AnalysisError, analyse, analyse_dropping, certify, generic};
+
+    /// Coordinates of another mechanism have no verdicts, and no panic.
+    #[test]
+    fn only_a_configuration_is_analysed() {
+        let description = Description {
+            bodies: vec![Body {
+                name: "body".into(),
+                mass: 1.0,
+                inertia: 1.0,
+                ..Body::default()
+            }],
+            ..Description::default()
+        };
+        let mechanism = Mechanism::build(&description).expect("a free body builds");
+        assert!(analyse(&mechanism, 0.0, &[0.0; 3]).is_ok());
+        for (t, q) in [
+            (0.0, &[][..]),
+            (0.0, &[0.0; 4]),
+            (0.0, &[0.0, f64::NAN, 0.0]),
+            (f64::INFINITY, &[0.0; 3]),
+        ] {
+            let refused = |e: AnalysisError| matches!(e, AnalysisError::State(_));
+            assert!(analyse(&mechanism, t, q).is_err_and(refused));
+            assert!(analyse_dropping(&mechanism, t, q, &[]).is_err_and(refused));
+            assert!(certify(&mechanism, t, q).is_err_and(refused));
+            assert_eq!(generic(&mechanism, t, q), None);
         }
     }
-    Ok(())
 }

@@ -5,7 +5,7 @@
 
 use super::{
     CLEARANCE, Evidence, NEARLY_SINGULAR, RankDecision, RankError, RankStatus, Uncertainty,
-    check_finite, tolerance,
+    check_finite, gap, tolerance,
 };
 use crate::strong_basis;
 use crate::{Matrix, PivotedQr, kernels};
@@ -137,11 +137,7 @@ impl RankDecision {
                 singular_values: Vec::new(),
                 sigma_r: sigma,
                 sigma_next: residual,
-                gap: if residual == 0.0 {
-                    f64::INFINITY
-                } else {
-                    sigma / residual
-                },
+                gap: gap(sigma, residual),
                 tolerance,
                 constraint_residual,
                 dependence_residual: residual,

@@ -19,15 +19,8 @@ pub(super) fn smallest_singular_value(a: &Matrix, perturbation: f64) -> f64 {
     if r > n {
         return 0.0;
     }
-    // Aᵀ·P = Q·R: column i of X = Q·R⁻ᵀ·Pᵀ is row i of `x`.
-    let qr = PivotedQr::of_rows(a.clone());
-    let mut x = Matrix::zeros(r, n);
-    for (k, &i) in qr.permutation().iter().enumerate() {
-        let column = x.row_mut(i);
-        column[k] = 1.0;
-        qr.solve_r_transpose(&mut column[..r]);
-        qr.q_mul(column);
-    }
+    // Rows: the columns of X.
+    let x = PivotedQr::of_rows(a.clone()).pseudo_inverse().transpose();
     let e = Matrix::from_fn(r, r, |i, l| {
         f64::from(u8::from(i == l)) - kernels::dot(a.row(i), x.row(l))
     });

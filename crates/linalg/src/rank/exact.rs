@@ -5,7 +5,7 @@
 use super::certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant};
 use super::graded::Graded;
 use super::modular::{ExactBasis, Integers, exact_basis};
-use super::{Evidence, RankDecision, RankError, RankStatus, check_finite, projected};
+use super::{Evidence, RankDecision, RankError, RankStatus, check_finite, gap, projected};
 use crate::strong_basis::{self, COEFFICIENT_BOUND};
 use crate::{Dd, DdMatrix, Matrix, equilibrate, kernels};
 
@@ -85,11 +85,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
         evidence: Evidence {
             sigma_r,
             sigma_next,
-            gap: if sigma_next == 0.0 {
-                f64::INFINITY
-            } else {
-                sigma_r / sigma_next
-            },
+            gap: gap(sigma_r, sigma_next),
             tolerance: 0.0,
             constraint_residual: 0.0,
             dependence_residual: residual,

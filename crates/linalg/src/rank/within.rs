@@ -8,7 +8,7 @@ use super::graded::Graded;
 use super::perturbation;
 use super::{
     Doubt, Evidence, NOISE_FACTOR, RankDecision, RankError, RankStatus, Reading, Uncertainty,
-    check_finite, projected,
+    check_finite, gap, projected,
 };
 use crate::strong_basis::{self, Basis};
 use crate::{Dd, DdMatrix};
@@ -109,11 +109,7 @@ pub fn certify_within<'a>(
         evidence: Evidence {
             sigma_r,
             sigma_next,
-            gap: if sigma_next == 0.0 {
-                f64::INFINITY
-            } else {
-                sigma_r / sigma_next
-            },
+            gap: gap(sigma_r, sigma_next),
             tolerance,
             constraint_residual: 0.0,
             dependence_residual: 0.0,

@@ -157,10 +157,7 @@ fn certificate(grounds: Grounds) -> Certificate {
         uncertainty: 0.0,
         spread: 0.0,
         row_noise: Vec::new(),
-        nearly_redundant: Some(NearlyRedundant {
-            sigma: 0.5,
-            direction: vec![0.0, 0.0, 1.0, 0.0],
-        }),
+        nearly_redundant: None,
     }
 }
 
@@ -184,8 +181,21 @@ fn a_certificate_proves_a_decided_rank_that_it_reaches() {
         assert!(evidence.certified);
         assert_eq!(evidence.grounds, Some(word));
         assert_eq!(evidence.sigma_bound, Some(0.375));
-        assert_eq!(evidence.nearly_redundant.map(|n| n.sigma), Some(0.5));
     }
+    // A point off by a micrometre in a mechanism of 2 m with σ_r = 1e-4.
+    let near = Analysis {
+        nearly_redundant: Some(NearlyRedundant {
+            sigma: 1e-4,
+            direction: vec![0.0, 0.0, 1.0, 0.0],
+        }),
+        ..analysis.clone()
+    };
+    let told = AnalysisDocument::new("door", &near, Proof::default()).evidence;
+    let change = told
+        .nearly_redundant
+        .expect("is told")
+        .change_per_micrometre;
+    assert!((change - 5e-3).abs() < 1e-12, "{change}");
     let weaker = Certificate {
         rank_at_least: 2,
         ..certificate(Grounds::Vanishes)

@@ -24,7 +24,16 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
     };
     // Margins of what is generically not unique, sample by sample; nothing where another verdict is known to hold.
     let is_known = |s: &Sample| s.regular && !is_special(s.t);
-    let known: Vec<bool> = path.samples.iter().map(is_known).collect();
+    let of_all_parts = |s: &Sample| -> Option<Vec<f64>> {
+        is_known(s).then(|| {
+            parts(mechanism, &s.analysis)
+                .iter()
+                .map(|p| p.2.margin)
+                .collect()
+        })
+    };
+    let times: Vec<f64> = path.samples.iter().map(|s| s.t).collect();
+    let known: Vec<Option<Vec<f64>>> = path.samples.iter().map(of_all_parts).collect();
     let not_unique: Vec<usize> = parts(mechanism, generic)
         .iter()
         .enumerate()
@@ -34,13 +43,10 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
     let margin = |analysis: &Analysis, part: usize| parts(mechanism, analysis)[part].2.margin;
     let mut found: Vec<(f64, Analysis)> = Vec::new();
     for part in not_unique {
-        let margins: Vec<Option<f64>> = path
-            .samples
+        let margins: Vec<Option<f64>> = known
             .iter()
-            .zip(&known)
-            .map(|(s, known)| known.then(|| margin(&s.analysis, part)))
+            .map(|margins| margins.as_ref().map(|of_parts| of_parts[part]))
             .collect();
-        let times: Vec<f64> = path.samples.iter().map(|s| s.t).collect();
         for bracket in local_minima(&times, &margins) {
             let is_unique = |a: &Analysis| parts(mechanism, a)[part].2.verdict.is_unique();
             let inside = |t: f64| bracket[0] <= t && t <= bracket[1];

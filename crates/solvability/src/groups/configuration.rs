@@ -7,7 +7,7 @@ use model::{ConstraintId, Mechanism, Scratch, System};
 use super::error::{RequestError, check};
 use super::form::LinearForm;
 use crate::matrices::Solvability;
-use crate::mechanism::dimensionless;
+use crate::mechanism::{dimensionless, evaluated, uncertainty};
 use crate::verdict::Judgement;
 
 /// A mechanism at time t and coordinates q, with the rank of C there.
@@ -16,6 +16,8 @@ pub struct Configuration<'a> {
     pub(crate) s: Scratch,
     /// Length by which torques are compared with forces (m).
     pub(crate) size: f64,
+    /// What the entries of the dimensionless C are known to.
+    pub(crate) uncertainty: Matrix,
     pub(crate) solvability: Solvability,
 }
 
@@ -56,13 +58,12 @@ impl<'a> Configuration<'a> {
                 });
             }
         }
-        let mut s = mechanism.scratch();
-        mechanism.pose(t, q, &mut s);
-        mechanism.c(&mut s);
+        let s = evaluated(mechanism, t, q);
         let size = scene_size(mechanism, q);
         let c = dimensionless(mechanism, &s, size);
         Ok(Self {
             mechanism,
+            uncertainty: uncertainty(mechanism, &s, q, size),
             s,
             size,
             solvability: Solvability::from_decision(&c, decision.clone()),

@@ -4,7 +4,7 @@
 //! x₀ the rate of time (only where something is driven), x₁ the regular motions and y the new ones. Both are orthonormal in
 //! dimensionless velocities.
 
-use linalg::{Matrix, PivotedQr, RankDecision};
+use linalg::{Matrix, PivotedQr, RankDecision, RankStatus};
 use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
 
@@ -55,7 +55,7 @@ impl Forms {
         let own = Matrix::from_fn(n, regular.ncols(), |k, j| {
             regular[(k, j)] / units[k] / speed
         });
-        let (coordinates, x_1) = split(&null.transpose().product(&own));
+        let (coordinates, x_1) = split(&null.transpose().product(&own))?;
         let y = coordinates.ncols() - x_1;
         if y > KERNEL_MAX {
             return Err(Undetermined::Kernel {
@@ -211,10 +211,15 @@ impl Forms {
 }
 
 /// Orthonormal coordinates of which the first ones span the columns, and how many these are.
-fn split(columns: &Matrix) -> (Matrix, usize) {
-    let d = columns.nrows();
-    let rank = linalg::decide(columns, REGULAR).map_or(0, |d| d.rank);
-    (PivotedQr::of_columns(columns).q_columns(0..d), rank)
+fn split(columns: &Matrix) -> Result<(Matrix, usize), Undetermined> {
+    let decision = linalg::decide(columns, REGULAR).map_err(Undetermined::Regular)?;
+    match decision.status {
+        RankStatus::Undecided(doubt) => Err(Undetermined::RegularCount(doubt)),
+        _ => {
+            let q = PivotedQr::of_columns(columns).q_columns(0..columns.nrows());
+            Ok((q, decision.rank))
+        }
+    }
 }
 
 /// Basis of the left null space, for the rows of C as they stand.
