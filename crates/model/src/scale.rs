@@ -3,6 +3,7 @@
 
 use linalg::Scaling;
 
+use crate::description::BodyRef;
 use crate::mechanism::{Mechanism, N_BODY};
 use crate::system::{Scratch, System};
 
@@ -65,13 +66,29 @@ impl Mechanism {
         columns.iter().all(|j| j % N_BODY == 2)
     }
 
-    /// Takes the column factors of translations out of a scaling: all lengths are then in one unit, rotations in that of their arms.
-    pub fn unscale_translations(&self, scaling: &mut Scaling) {
-        for (k, e) in scaling.cols.iter_mut().enumerate() {
-            if k % N_BODY != 2 {
-                *e = 0;
+    /// Scaling of the columns of a dimensionless C as bodies feel them: one unit for all lengths, and for the rotation of each body the
+    /// distance of its farthest joint, where it has one. Unlike an equilibration it does not depend on the directions of joints. Needs
+    /// the poses of the scratch.
+    #[must_use]
+    pub fn felt_scaling(&self, s: &Scratch, size: f64) -> Scaling {
+        let mut arms = vec![0.0_f64; self.bodies().len()];
+        for id in self.constraint_ids() {
+            let [x, y] = self.place(id, s);
+            for body in &self.layout().groups[id.0].bodies {
+                if let BodyRef::Body(k) = *body {
+                    arms[k] = arms[k].max((x - s.poses[k].x).hypot(y - s.poses[k].y));
+                }
             }
         }
+        let layout = self.layout();
+        let mut scaling = Scaling::identity(layout.rows(), layout.n_v);
+        for (body, arm) in arms.into_iter().enumerate().filter(|(_, arm)| *arm > 0.0) {
+            let exponent = (size / arm).log2().round();
+            if exponent.is_finite() {
+                scaling.cols[N_BODY * body + 2] = exponent as i32;
+            }
+        }
+        scaling
     }
 
     /// The scaling that makes C dimensionless for a mechanism of this size: columns of rotations divided by the size, rounded to a

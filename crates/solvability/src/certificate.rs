@@ -97,19 +97,25 @@ impl Rows {
         })
     }
 
-    /// Whether the kept rows nearly depend on each other as bodies feel it: measured with all translations in one unit, because
-    /// equilibration may scale the only misaligned entry of a column up to size one.
+    /// Whether the kept rows nearly depend on each other as bodies feel it, at the pose of the scratch; equilibration may scale the only
+    /// misaligned entry of a column up to size one.
     pub(crate) fn nearly_redundant(
         &self,
         mechanism: &Mechanism,
+        s: &Scratch,
         decision: &RankDecision,
     ) -> Option<NearlyRedundant> {
         if !decision.is_decided() {
             return None;
         }
-        let mut scaling = decision.scaling.clone();
-        mechanism.unscale_translations(&mut scaling);
-        let kept = scaling.apply(&self.matrix()).select_rows(&decision.kept);
+        let felt = mechanism.felt_scaling(s, self.size).apply(&self.matrix());
+        let mut kept = felt.select_rows(&decision.kept);
+        for i in 0..kept.nrows() {
+            let largest = kept.row(i).iter().fold(0.0_f64, |a, c| a.max(c.abs()));
+            if largest > 0.0 {
+                kept.row_mut(i).iter_mut().for_each(|c| *c /= largest);
+            }
+        }
         let weakest =
             linalg::weakest_combination(&kept).filter(|weakest| weakest.sigma < NEARLY_REDUNDANT);
         let whole = |w: linalg::WeakestCombination| {

@@ -309,7 +309,7 @@ pub(crate) fn judge(
         nonholonomic_rows: layout.h,
         rank_holonomic,
         rank_nonholonomic,
-        nearly_redundant: rows.nearly_redundant(mechanism, &decision),
+        nearly_redundant: rows.nearly_redundant(mechanism, s, &decision),
         decision,
         reactions,
         dependencies,

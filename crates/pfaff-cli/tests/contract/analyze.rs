@@ -575,3 +575,31 @@ fn a_singular_start_says_how_the_motion_goes_on() {
         assert_eq!(d["evidence"]["permanent"], false);
     }
 }
+
+/// Two edges that are parallel but for ε: independent as read, and said to be so only just.
+#[test]
+fn nearly_parallel_edges_are_told() {
+    for (apart, change) in [
+        ("1e-3", "by about 0.1 %"),
+        ("1e-9", "by about 1e3 times their own size"),
+    ] {
+        let scene = format!(
+            r#"scene = {{ name = "edges", space = "plane" }}
+            body = [{{ name = "sled", mass = 1.0, inertia = 1.0 }}]
+            joint = [
+                {{ name = "left", type = "knife-edge", body = "sled", point = [0.0, 0.5], normal = [0.0, 1.0] }},
+                {{ name = "right", type = "knife-edge", body = "sled", point = [0.0, -0.5], normal = [{apart}, 1.0] }},
+            ]"#
+        );
+        let text = stdout(&with_scene(&["analyze", "-"], &scene));
+        contains(
+            &text,
+            &[
+                "redundancy 0,",
+                "NEARLY REDUNDANT",
+                "the rows of left, right",
+                change,
+            ],
+        );
+    }
+}
