@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use dynamics::{MotionError, MotionOptions};
 use model::start::scene_size;
 use model::{ColumnKind, Mechanism, System};
-use solvability::{Along, AlongError, State, along_motion};
+use solvability::{Along, AlongError, PassageKind, State, along_motion};
 
 use crate::error::StudyError;
 use crate::study::Study;
@@ -18,6 +18,9 @@ const ROWS: usize = 4;
 
 /// Between judged states no body moves by more than this share of the mechanism's size, or as many radians.
 const REACH: f64 = 0.1;
+
+/// A motion that stopped is continued by so many times what lies between its last row and its end, at least the distance of rows.
+const BEYOND: f64 = 8.0;
 
 /// Judged states at most.
 const INTERVALS_MAX: usize = 4_000;
@@ -33,8 +36,11 @@ pub struct Journey {
     pub samples: usize,
     /// How far a body moves between two of them: a share of the mechanism's size, or as many radians.
     pub reach: f64,
-    /// Why the motion stopped there, if it did.
+    /// Why the motion stopped, if it did.
     pub stopped: Option<MotionError>,
+    /// Where the motion stopped at a singular configuration: until when (s) it was judged, continued beyond its last state as smoothly
+    /// as it came. How it goes on is what the passages say, not what was computed.
+    pub continued_to: Option<f64>,
 }
 
 /// How far a journey is.
@@ -87,6 +93,14 @@ impl Study {
             }));
         }
         let run = self.record(t_end, INTERVALS, &mut progress)?;
+        if run.stopped.is_some()
+            && let Some(journey) = self.judge_beyond(&run, &mut progress)
+        {
+            return Ok(Journey {
+                stopped: run.stopped,
+                ..journey
+            });
+        }
         let needed = INTERVALS as f64 * run.reach(&self.prepared.mechanism) / REACH;
         let intervals = INTERVALS.max(needed.min(INTERVALS_MAX as f64).ceil() as usize);
         if run.stopped.is_none() && intervals == INTERVALS {
@@ -110,19 +124,32 @@ impl Study {
         }
     }
 
-    fn judge(
+    /// A motion that stopped, judged a little beyond its end, if a passage lies there.
+    fn judge_beyond(&self, run: &Record, progress: &mut impl FnMut(Progress)) -> Option<Journey> {
+        let last = run.rows.last().filter(|_| run.rows.len() > 1)?.t;
+        let to = run.reached + BEYOND * (run.reached - last).max(last / (ROWS * INTERVALS) as f64);
+        let along = self.along(run, to, INTERVALS, progress).ok()?;
+        let passed = along.passages.iter().any(|p| {
+            p.time > last && p.time < to && matches!(p.kind, PassageKind::RankDrops { .. })
+        });
+        passed.then(|| Journey {
+            along,
+            to: last,
+            samples: INTERVALS + 1,
+            reach: run.reach(&self.prepared.mechanism),
+            stopped: None,
+            continued_to: Some(to),
+        })
+    }
+
+    /// Verdicts at evenly spaced times up to `to`.
+    fn along(
         &self,
-        run: Record,
+        run: &Record,
+        to: f64,
         intervals: usize,
         progress: &mut impl FnMut(Progress),
-    ) -> Result<Journey, StudyError> {
-        let mechanism = &self.prepared.mechanism;
-        let Some(to) = run.rows.last().map(|row| row.t).filter(|t| *t > 0.0) else {
-            return Err(match run.stopped {
-                Some(error) => error.into(),
-                None => StudyError::NoEnd,
-            });
-        };
+    ) -> Result<Along, StudyError> {
         let times: Vec<f64> = (0..=intervals)
             .map(|k| to * (k as f64 / intervals as f64))
             .collect();
@@ -130,13 +157,28 @@ impl Study {
             progress(Progress::Judging(t));
             run.state(t)
         };
-        let along = along_motion(mechanism, motion, &times)?;
+        Ok(along_motion(&self.prepared.mechanism, motion, &times)?)
+    }
+
+    fn judge(
+        &self,
+        run: Record,
+        intervals: usize,
+        progress: &mut impl FnMut(Progress),
+    ) -> Result<Journey, StudyError> {
+        let Some(to) = run.rows.last().map(|row| row.t).filter(|t| *t > 0.0) else {
+            return Err(match run.stopped {
+                Some(error) => error.into(),
+                None => StudyError::NoEnd,
+            });
+        };
         Ok(Journey {
-            along,
+            along: self.along(&run, to, intervals, progress)?,
             to,
-            samples: times.len(),
-            reach: run.reach(mechanism),
+            samples: intervals + 1,
+            reach: run.reach(&self.prepared.mechanism),
             stopped: run.stopped,
+            continued_to: None,
         })
     }
 
@@ -221,7 +263,7 @@ impl Record {
         ROWS as f64 * self.rows.windows(2).map(moved).fold(0.0, f64::max)
     }
 
-    /// The motion at a time between the first row and the last; there must be two.
+    /// The motion at a time between the first row and the last, or near them; there must be two.
     fn state(&self, t: f64) -> State {
         let next = self.rows.partition_point(|row| row.t <= t);
         let k = next.clamp(1, self.rows.len() - 1);

@@ -44,12 +44,11 @@ pub(super) fn judge(
     bar.finish_and_clear();
     let journey = journey.map_err(|e| source.failure(e))?;
     let stopped = journey.stopped.map(|e| e.to_string());
-    Ok(AlongDocument::new(
-        &journey.along,
-        journey.to,
-        (journey.samples, journey.reach),
-        stopped,
-    ))
+    let extent = (journey.samples, journey.reach);
+    Ok(AlongDocument {
+        continued_to: journey.continued_to,
+        ..AlongDocument::new(&journey.along, journey.to, extent, stopped)
+    })
 }
 
 /// One verdict, then what differs.
@@ -102,10 +101,14 @@ pub(super) fn describe(along: &AlongDocument) -> String {
         out.push_str(&wrapped("- ", &between));
     }
     if let Some(reason) = &along.stopped {
-        out.push_str(&wrapped(
-            "- ",
-            &format!("the motion stopped, and was judged only so far: {reason}"),
-        ));
+        let judged = match along.continued_to {
+            Some(to) => format!(
+                "the motion stopped there; continued as smoothly as it came, it was judged up to t = {} s: {reason}",
+                seconds(to)
+            ),
+            None => format!("the motion stopped, and was judged only so far: {reason}"),
+        };
+        out.push_str(&wrapped("- ", &judged));
     }
     out
 }

@@ -404,15 +404,15 @@ fn a_whole_motion_has_one_verdict_and_exceptions() {
 }
 
 #[test]
-fn a_motion_that_stops_is_judged_as_far_as_it_goes() {
+fn a_motion_that_stops_at_a_passage_is_judged_beyond_it() {
     let output = with_scene(&["analyze", "-", "--along"], &cranks());
     assert_eq!(output.status.code(), Some(1), "{output:?}");
     contains(
         &stdout(&output),
         &[
-            "the motion stopped, and was judged only so far",
-            "singular configuration",
-            "nearly singular from",
+            "at t = 0.5 s the configuration is singular: the redundancy rises from 0 to 1 for an instant",
+            "a bifurcation: another branch is compatible with the constraints",
+            "the motion stopped there; continued as smoothly as it came",
         ],
     );
     let output = with_scene(&["analyze", "-", "--along", "--json"], &cranks());
@@ -423,7 +423,11 @@ fn a_motion_that_stops_is_judged_as_far_as_it_goes() {
     let along = &document(&output)["along"];
     let to = along["to"].as_f64().expect("a number");
     assert!((0.49..0.5).contains(&to), "{to}");
-    assert!(along["stopped"].is_string());
+    assert!(along["stopped"].is_string() && along["continued_to"].as_f64() > Some(0.5));
+    let passage = &along["passages"][0];
+    let time = passage["time"].as_f64().expect("a number");
+    assert!((time - 0.5).abs() < 1e-9, "{time}");
+    assert_eq!(passage["continuation"], "bifurcation");
     // Before that there is nothing to say.
     let output = with_scene(&["analyze", "-", "--along", "0.4"], &cranks());
     assert_eq!(output.status.code(), Some(0), "{output:?}");

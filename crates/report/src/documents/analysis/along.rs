@@ -16,6 +16,9 @@ pub struct AlongDocument {
     pub reach: f64,
     /// Why the motion stopped there, if it did.
     pub stopped: Option<String>,
+    /// Until when (s) the motion was judged beyond the singular configuration at which it stopped, continued as smoothly as it came.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub continued_to: Option<f64>,
     /// The verdicts that hold almost always.
     pub generic: GenericVerdictsDocument,
     /// Stretches of time with other verdicts.
@@ -133,6 +136,7 @@ impl AlongDocument {
             samples,
             reach,
             stopped,
+            continued_to: None,
             generic: GenericVerdictsDocument {
                 time: analysis.time,
                 rank: analysis.decision.rank,
