@@ -8,7 +8,7 @@ use super::path::{NEARLY_SINGULAR, Path, Point, Sample};
 use super::{AlongError, Passage, PassageKind, Stretch, differences, search, words};
 use crate::certificate::Rows;
 use crate::mechanism::{Analysis, judge, velocity_units};
-use crate::second_order::second_order;
+use crate::second_order::{Continuation, Undetermined, second_order};
 use crate::state::State;
 
 /// A sign change belongs to a singular configuration if σ_r is below this there; otherwise rows or frame have turned.
@@ -158,18 +158,16 @@ fn passage<F: FnMut(f64) -> State>(
         RankStatus::Undecided(doubt) => PassageKind::Undecided { doubt },
         _ if decision.rank == path.rank => PassageKind::NearlySingular { sigma },
         _ => {
-            let v = consistent(path.mechanism, &point, &decision.kept);
-            let regular = regular_motions(path, time, interval, &v)?;
+            let continuation = match consistent(path.mechanism, &point, &decision.kept) {
+                Some(v) => {
+                    let regular = regular_motions(path, time, interval, &v)?;
+                    second_order(path.mechanism, time, &point.q, &v, &decision, &regular)?
+                }
+                None => Continuation::Undetermined(Undetermined::Open),
+            };
             PassageKind::RankDrops {
                 redundancy: decision.redundancy,
-                continuation: second_order(
-                    path.mechanism,
-                    time,
-                    &point.q,
-                    &v,
-                    &decision,
-                    &regular,
-                )?,
+                continuation,
             }
         }
     };
@@ -210,8 +208,8 @@ fn nearly_singular<F: FnMut(f64) -> State>(
     Ok(found)
 }
 
-/// Velocities of the motion, moved onto `C·v = b` in the kept rows.
-fn consistent(mechanism: &Mechanism, p: &Point, kept: &[usize]) -> Vec<f64> {
+/// Velocities of the motion, moved onto `C·v = b` in the kept rows; `None` where these are dependent to the last digit.
+fn consistent(mechanism: &Mechanism, p: &Point, kept: &[usize]) -> Option<Vec<f64>> {
     let layout = mechanism.layout();
     let mut s = p.s.clone();
     mechanism.b(&mut s);
@@ -221,10 +219,8 @@ fn consistent(mechanism: &Mechanism, p: &Point, kept: &[usize]) -> Vec<f64> {
         .map(|&i| layout.velocity_residual(&s, i, &p.v))
         .collect();
     let weights = vec![1.0; p.v.len()];
-    match least_squares_step(&c, &residual, &weights, 0.0) {
-        Ok(step) => p.v.iter().zip(step).map(|(v, d)| v + d).collect(),
-        Err(_) => p.v.clone(),
-    }
+    let step = least_squares_step(&c, &residual, &weights, 0.0).ok()?;
+    Some(p.v.iter().zip(step).map(|(v, d)| v + d).collect())
 }
 
 /// Velocities that the mechanism has also beside the instant, n_v × (n_v − r).
