@@ -31,15 +31,23 @@ pub(crate) fn run(arguments: &Analyze) -> Outcome {
         drop: drop.clone(),
         ..Overrides::default()
     };
-    match Study::read(&source.name, &source.text, &Registry::planar(), &overrides) {
-        Ok(study) => of_study(arguments, &source, &study, drop.as_deref()),
-        // What cannot move can be judged all the same, at the start.
-        Err(StudyError::Motion(MotionError::RankUndecided(_)))
-            if arguments.at_time == 0.0 && arguments.along.is_none() =>
-        {
-            of_start(arguments, &source, drop.as_deref())
+    let error = match Study::read(&source.name, &source.text, &Registry::planar(), &overrides) {
+        Ok(study) => return of_study(arguments, &source, &study, drop.as_deref()),
+        Err(e) => e,
+    };
+    // What cannot move can be judged all the same, at the start.
+    let warning = match &error {
+        StudyError::Motion(MotionError::RankUndecided(_)) => {
+            "the rank of the start is undecided in double precision, so this mechanism cannot be moved".to_owned()
         }
-        Err(e) => Err(source.failure(e)),
+        StudyError::SingularStart(diagnostic) => {
+            format!("no motion begins with these velocities: {}", diagnostic.message)
+        }
+        _ => return Err(source.failure(error)),
+    };
+    match arguments.at_time == 0.0 && arguments.along.is_none() {
+        true => of_start(arguments, &source, drop.as_deref(), warning),
+        false => Err(source.failure(error)),
     }
 }
 
@@ -64,16 +72,18 @@ fn of_study(
     }
 }
 
-fn of_start(arguments: &Analyze, source: &Source, drop: Option<&[usize]>) -> Outcome {
+fn of_start(
+    arguments: &Analyze,
+    source: &Source,
+    drop: Option<&[usize]>,
+    warning: String,
+) -> Outcome {
     let failure = |e| source.failure(e);
     let read = Blueprint::read(&source.name, &source.text, &Registry::planar());
     let mut blueprint = read.map_err(failure)?;
     let inquiry = blueprint.inquire(drop).map_err(failure)?;
     let mut document = ask::document(arguments, source, &inquiry)?;
-    document.warnings.push(
-        "the rank of the start is undecided in double precision, so this mechanism cannot be moved"
-            .to_owned(),
-    );
+    document.warnings.push(warning);
     answer(arguments, &inquiry, &document)
 }
 

@@ -46,6 +46,9 @@ impl Source {
     /// An error with the places of this text.
     pub(crate) fn failure(&self, error: StudyError) -> Failure {
         match error {
+            StudyError::SingularStart(diagnostic) => {
+                self.failure(StudyError::Scene(vec![*diagnostic]))
+            }
             StudyError::Scene(diagnostics) => Failure::Scene {
                 name: self.name.clone(),
                 text: self.text.clone(),

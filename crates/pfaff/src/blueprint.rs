@@ -5,7 +5,7 @@ use dynamics::{MotionError, MotionOptions, RowChoice, prepare};
 use model::start::{assemble, consistent_velocity};
 use model::{Known, Mechanism, Registry};
 use scene::Scene;
-use solvability::State;
+use solvability::{ConstraintLevel, State};
 
 use crate::error::StudyError;
 use crate::inquiry::Inquiry;
@@ -55,6 +55,7 @@ impl Blueprint {
     ///
     /// # Errors
     /// - [`StudyError::Scene`]: there is no such start.
+    /// - [`StudyError::SingularStart`]: there is one, but no motion begins with its velocities.
     /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen.
     pub fn prepare(self, overrides: &Overrides) -> Result<Study, StudyError> {
         let Self { scene, mechanism } = self;
@@ -66,6 +67,9 @@ impl Blueprint {
         };
         let prepared = match prepare(mechanism, &scene.start, &rows) {
             Ok(prepared) => prepared,
+            Err(e) if leaves_no_motion(&e) => {
+                return Err(StudyError::SingularStart(Box::new(scene.locate_motion(&e))));
+            }
             // Faults of the text have a place in it; rows may come from the caller.
             Err(e @ (MotionError::Start(_) | MotionError::Contradiction(_))) => {
                 return Err(StudyError::Scene(vec![scene.locate_motion(&e)]));
@@ -79,8 +83,8 @@ impl Blueprint {
         })
     }
 
-    /// The start, to be asked about its reactions, also where [`Blueprint::prepare`] refuses to choose rows because their rank is
-    /// undecided in `f64`.
+    /// The start, to be asked about its reactions, also where [`Blueprint::prepare`] refuses it: because the rank is undecided in
+    /// `f64`, or no motion begins there.
     ///
     /// # Errors
     /// [`StudyError::Scene`], [`StudyError::Analysis`]: there is no consistent start, or C cannot be judged there.
@@ -108,6 +112,11 @@ impl Blueprint {
         }
         Ok(inquiry)
     }
+}
+
+/// Whether rows contradict each other in accelerations only, and none of them is driven: another velocity would do.
+fn leaves_no_motion(e: &MotionError) -> bool {
+    matches!(e, MotionError::Contradiction(c) if c.level == ConstraintLevel::Acceleration && !c.driven)
 }
 
 /// The scene's wishes with those of the caller on top.

@@ -16,6 +16,10 @@ pub enum StudyError {
     /// The scene is wrong, with all places.
     #[error("{} problem(s) in the scene, the first: {}", .0.len(), .0.first().map_or(String::new(), ToString::to_string))]
     Scene(Vec<Diagnostic>),
+    /// The start is a singular configuration that cannot be left with its velocities. It can be judged all the same, by
+    /// [`Blueprint::inquire`](crate::Blueprint::inquire).
+    #[error("{}", .0.message)]
+    SingularStart(Box<Diagnostic>),
     /// Nobody says how long the run takes.
     #[error("the scene has no `[simulate]` with `t_end`, and no last time was given")]
     NoEnd,
@@ -91,6 +95,7 @@ impl StudyError {
     pub fn is_input(&self) -> bool {
         match self {
             Self::Scene(_)
+            | Self::SingularStart(_)
             | Self::NoEnd
             | Self::Combination { .. }
             | Self::UnknownReaction { .. }

@@ -607,3 +607,28 @@ fn nearly_parallel_edges_are_told() {
         );
     }
 }
+
+/// The catalogue's flat cranks with a turning drive: the verdict of the start does not wait for velocities with which it can be left.
+#[test]
+fn a_start_that_cannot_be_left_is_judged_and_warned_of() {
+    let drive = r#"
+        drive = [{ name = "motor", joint = "pivot 0", type = "angle", motion = { type = "constant-rate", rate = 1.0 } }]"#;
+    let scene = flat_cranks(&[0.0, 1.0]) + drive;
+    let still = scene
+        .replace(
+            "velocity = [0.0, 0.25], angular_velocity = 1.0",
+            "angle = 0.0",
+        )
+        .replace(", velocity = [0.0, 0.5]", "");
+    let output = with_scene(&["analyze", "-", "--json"], &still);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let d = document(&output);
+    assert_eq!((&d["rank"], &d["redundancy"]), (&8.into(), &1.into()));
+    let warning = d["warnings"][0].as_str().expect("a warning");
+    assert!(
+        warning.starts_with("no motion begins with these velocities"),
+        "{warning}"
+    );
+    let output = with_scene(&["check", "-"], &still);
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+}
