@@ -87,7 +87,7 @@ pub struct Evidence {
     pub gap: f64,
     /// τ: below it a singular value counts as zero.
     pub tolerance: f64,
-    /// The largest uncertainty of an equilibrated entry that the caller stated.
+    /// The largest uncertainty of an equilibrated entry that the caller stated; 0 for exact entries.
     pub constraint_residual: f64,
     /// Largest `‖row of C_D − T·C_K‖₂`: how far the dependencies are from exact.
     pub dependence_residual: f64,

@@ -111,7 +111,7 @@ pub fn certify_within<'a>(
             sigma_next,
             gap: gap(sigma_r, sigma_next),
             tolerance,
-            constraint_residual: 0.0,
+            constraint_residual: uncertainty,
             dependence_residual: 0.0,
             singular_values: sigma,
             certificate: None,

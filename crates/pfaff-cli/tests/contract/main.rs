@@ -4,6 +4,7 @@ mod analyze;
 mod bad_input;
 mod documents;
 mod failures;
+mod singular;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

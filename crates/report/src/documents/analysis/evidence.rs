@@ -29,7 +29,7 @@ pub struct EvidenceDocument {
     pub gap: f64,
     /// Below it a singular value counts as zero.
     pub tolerance: f64,
-    /// Relative residual of the constraints at the configuration.
+    /// What the entries of the equilibrated matrix are known to, the open constraints included.
     pub constraint_residual: f64,
     /// Whether the redundancy is the same at other configurations; `None` if that is not known.
     pub permanent: Option<bool>,

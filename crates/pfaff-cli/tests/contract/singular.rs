@@ -1,0 +1,77 @@
+//! `pfaff analyze` at singular starts.
+
+use super::analyze::{contains, document};
+use super::{stdout, with_scene};
+
+/// Cranks of length 0.5 at these pivots, all flat and turning with 1 rad/s, under one coupler.
+fn flat_cranks(pivots: &[f64]) -> String {
+    let bodies = pivots.iter().enumerate().map(|(k, x)| {
+        let middle = x + 0.25;
+        format!(
+            r#"{{ name = "crank {k}", mass = 1.0, inertia = 0.1, position = [{middle}, 0.0], velocity = [0.0, 0.25], angular_velocity = 1.0 }},"#
+        )
+    });
+    let joints = pivots.iter().enumerate().map(|(k, x)| {
+        let tip = x + 0.5;
+        format!(
+            r#"{{ name = "pivot {k}", type = "revolute", bodies = ["ground", "crank {k}"], at = [{x}, 0.0] }},
+               {{ name = "tip {k}", type = "revolute", bodies = ["crank {k}", "coupler"], at = [{tip}, 0.0] }},"#
+        )
+    });
+    format!(
+        r#"scene = {{ name = "flat", space = "plane" }}
+        body = [ {} {{ name = "coupler", mass = 1.0, inertia = 0.1, position = [1.0, 0.0], velocity = [0.0, 0.5] }} ]
+        joint = [ {} ]"#,
+        bodies.collect::<String>(),
+        joints.collect::<String>()
+    )
+}
+
+/// Two flat cranks may go on in parallel or against each other; a third one forbids the latter at second order.
+#[test]
+fn a_singular_start_says_how_the_motion_goes_on() {
+    for (pivots, kind, piece) in [
+        (
+            &[0.0, 1.0][..],
+            "bifurcation",
+            "another branch is compatible",
+        ),
+        (
+            &[0.0, 1.0, 1.7],
+            "unique",
+            "the motion stays unique (second order)",
+        ),
+    ] {
+        let scene = flat_cranks(pivots);
+        let text = stdout(&with_scene(&["analyze", "-"], &scene));
+        contains(&text, &["ONLY HERE", piece]);
+        let d = document(&with_scene(&["analyze", "-", "--json"], &scene));
+        assert_eq!(d["continuation"]["kind"], kind, "{d:#}");
+        assert_eq!(d["evidence"]["permanent"], false);
+    }
+}
+
+/// The catalogue's flat cranks with a turning drive: the verdict of the start does not wait for velocities with which it can be left.
+#[test]
+fn a_start_that_cannot_be_left_is_judged_and_warned_of() {
+    let drive = r#"
+        drive = [{ name = "motor", joint = "pivot 0", type = "angle", motion = { type = "constant-rate", rate = 1.0 } }]"#;
+    let scene = flat_cranks(&[0.0, 1.0]) + drive;
+    let still = scene
+        .replace(
+            "velocity = [0.0, 0.25], angular_velocity = 1.0",
+            "angle = 0.0",
+        )
+        .replace(", velocity = [0.0, 0.5]", "");
+    let output = with_scene(&["analyze", "-", "--json"], &still);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let d = document(&output);
+    assert_eq!((&d["rank"], &d["redundancy"]), (&8.into(), &1.into()));
+    let warning = d["warnings"][0].as_str().expect("a warning");
+    assert!(
+        warning.starts_with("no motion begins with these velocities"),
+        "{warning}"
+    );
+    let output = with_scene(&["check", "-"], &still);
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+}
