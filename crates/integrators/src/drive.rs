@@ -133,6 +133,8 @@ struct Run<'a, E: std::error::Error + 'static> {
     t: f64,
     /// Signed size of the next trial.
     h: f64,
+    /// What it was before it was shortened for a reason that has nothing to do with its error.
+    uncut: Option<f64>,
     y0: Vec<f64>,
     f0: Vec<f64>,
     y1: Vec<f64>,
@@ -154,6 +156,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             statistics: Statistics::default(),
             t,
             h: 0.0,
+            uncut: None,
             y0: y0.to_vec(),
             f0: zeros(),
             y1: zeros(),
@@ -243,7 +246,10 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             true => distance / reach,
             false => distance - LEFT_TO_PASS * reach,
         };
-        self.h *= share.min(1.0);
+        if share < 1.0 {
+            self.uncut = Some(self.h);
+            self.h *= share;
+        }
     }
 
     /// The next trial, ending exactly at the end of the leg if it reaches so far.
@@ -357,6 +363,10 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.failures = 0;
         self.last_rejection = None;
         let h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));
+        let h = match self.uncut.take() {
+            Some(uncut) if uncut.abs() > h.abs() => uncut,
+            _ => h,
+        };
         self.h = h.clamp(-self.options.max_step, self.options.max_step);
     }
 
@@ -368,6 +378,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         cause: Cause<E>,
     ) {
         self.failures += 1;
+        self.uncut = None;
         let statistics = &mut self.statistics;
         self.h = match cause {
             Cause::ErrorTest { norm } if !norm.is_nan() => {
