@@ -12,29 +12,37 @@
 //! | `control`, `start` | step-size control and the automatic first step |
 //! | `step` | an accepted step with its dense output: [`Step`] |
 //! | `sample` | rows at given output times: [`sample()`] |
-//! | `dopri5` | Dormand–Prince 5(4): `tableau`, `step`, `dense` |
+//! | `combine` | sums of stages |
+//! | `rk5` | Dormand–Prince 5(4) and Tsitouras 5(4): `dopri5` and `tsit5` (tables), `step`, `dense` |
+//! | `dop853` | Dormand–Prince 8(5,3): `tableau`, `step`, `dense` |
 
 #![forbid(unsafe_code)]
 
+mod combine;
 mod control;
-mod dopri5;
+mod dop853;
 mod drive;
 mod error;
 mod interval;
 mod method;
 mod ode;
 mod options;
+mod rk5;
 mod sample;
 mod start;
 mod statistics;
 mod step;
 
-pub use dopri5::Dopri5;
+#[cfg(test)]
+mod trees;
+
+pub use dop853::Dop853;
 pub use error::{Cause, Failure, IntegrationError};
 pub use interval::Interval;
 pub use method::{End, Method, Outcome, integrate};
 pub use ode::{Function, Ode, StepEnd, StepInfo};
 pub use options::{InitialStep, Options, Tolerance};
+pub use rk5::{Dopri5, Tsit5};
 pub use sample::{OutputTimes, sample};
 pub use statistics::Statistics;
 pub use step::{OutputError, Step};

@@ -1,7 +1,7 @@
 //! One trial step and its estimated error.
 
-use super::Stages;
-use super::tableau::{A, C, E};
+use super::{Stages, Tableau};
+use crate::combine::combine;
 use crate::control::Control;
 use crate::drive::evaluate;
 use crate::error::Cause;
@@ -9,7 +9,7 @@ use crate::method::{Start, Stepper, Trial};
 use crate::ode::Ode;
 use crate::statistics::Statistics;
 
-impl<O: Ode> Stepper<O> for Stages {
+impl<O: Ode, T: Tableau> Stepper<O> for Stages<T> {
     fn order(&self) -> i32 {
         5
     }
@@ -26,46 +26,32 @@ impl<O: Ode> Stepper<O> for Stages {
         y1: &mut [f64],
         statistics: &mut Statistics,
     ) -> Result<(), Cause<O::Error>> {
-        let y0 = start.y0;
-        let (h, n) = (trial.h, y0.len());
-        let [k2, k3, k4, k5, k6, k7] = self.k.each_mut().map(|k| &mut k[..n]);
-        let (k1, y) = (&start.f0[..n], &mut self.y[..n]);
+        let (h, y0, k1) = (trial.h, start.y0, start.f0);
+        let [k2, k3, k4, k5, k6, k7] = &mut self.k;
+        let (a, y) = (T::A, &mut self.y[..]);
         let mut stage = |s: usize, y: &[f64], k: &mut [f64]| {
-            evaluate(
-                ode,
-                trial.stage_time(C[s]),
-                y,
-                k,
-                &mut statistics.evaluations,
-            )
+            let t = trial.stage_time(T::C[s]);
+            evaluate(ode, t, y, k, &mut statistics.evaluations)
         };
-        for i in 0..n {
-            y[i] = y0[i] + h * (A[0][0] * k1[i]);
-        }
+        combine(y, y0, h, [(a[0][0], k1)]);
         stage(0, y, k2)?;
-        for i in 0..n {
-            y[i] = y0[i] + h * (A[1][0] * k1[i] + A[1][1] * k2[i]);
-        }
+        combine(y, y0, h, [(a[1][0], k1), (a[1][1], k2)]);
         stage(1, y, k3)?;
-        for i in 0..n {
-            y[i] = y0[i] + h * (A[2][0] * k1[i] + A[2][1] * k2[i] + A[2][2] * k3[i]);
-        }
+        combine(y, y0, h, [(a[2][0], k1), (a[2][1], k2), (a[2][2], k3)]);
         stage(2, y, k4)?;
-        for i in 0..n {
-            let sum = A[3][0] * k1[i] + A[3][1] * k2[i] + A[3][2] * k3[i] + A[3][3] * k4[i];
-            y[i] = y0[i] + h * sum;
-        }
+        let [a1, a2, a3, a4, ..] = a[3];
+        combine(y, y0, h, [(a1, k1), (a2, k2), (a3, k3), (a4, k4)]);
         stage(3, y, k5)?;
-        for i in 0..n {
-            let sum = A[4][0] * k1[i] + A[4][1] * k2[i] + A[4][2] * k3[i] + A[4][3] * k4[i];
-            y[i] = y0[i] + h * (sum + A[4][4] * k5[i]);
-        }
+        let [a1, a2, a3, a4, a5, _] = a[4];
+        combine(y, y0, h, [(a1, k1), (a2, k2), (a3, k3), (a4, k4), (a5, k5)]);
         stage(4, y, k6)?;
-        let y1 = &mut y1[..n];
-        for i in 0..n {
-            let sum = A[5][0] * k1[i] + A[5][2] * k3[i] + A[5][3] * k4[i] + A[5][4] * k5[i];
-            y1[i] = y0[i] + h * (sum + A[5][5] * k6[i]);
-        }
+        let [a1, a2, a3, a4, a5, a6] = a[5];
+        combine(
+            y1,
+            y0,
+            h,
+            [(a1, k1), (a2, k2), (a3, k3), (a4, k4), (a5, k5), (a6, k6)],
+        );
         stage(5, y1, k7)
     }
 
@@ -77,15 +63,16 @@ impl<O: Ode> Stepper<O> for Stages {
         scale: &[f64],
         _statistics: &mut Statistics,
     ) -> Result<f64, Cause<O::Error>> {
-        let (h, f0, n) = (trial.h, start.f0, start.f0.len());
+        let (h, k1, n) = (trial.h, start.f0, scale.len());
         if n == 0 {
             return Ok(0.0);
         }
-        let [_, k3, k4, k5, k6, k7] = self.k.each_ref().map(|k| &k[..n]);
+        let [k2, k3, k4, k5, k6, k7] = self.k.each_ref().map(|k| &k[..n]);
+        let e = T::E;
         let mut sum = 0.0;
         for i in 0..n {
-            let slopes = E[0] * f0[i] + E[2] * k3[i] + E[3] * k4[i] + E[4] * k5[i];
-            let error = h * (slopes + E[5] * k6[i] + E[6] * k7[i]);
+            let slopes = e[0] * k1[i] + e[1] * k2[i] + e[2] * k3[i] + e[3] * k4[i];
+            let error = h * (slopes + e[4] * k5[i] + e[5] * k6[i] + e[6] * k7[i]);
             // No error needs no weight: a component that stays 0 may have weight 0.
             if error != 0.0 {
                 sum += (error / scale[i]) * (error / scale[i]);
