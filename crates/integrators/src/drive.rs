@@ -371,6 +371,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             t: self.t,
             y: self.y0,
             end,
+            next_step: (self.statistics.accepted > 0).then_some(self.h.abs()),
             statistics: self.statistics,
         }
     }

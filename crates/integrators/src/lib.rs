@@ -11,7 +11,7 @@
 //! | `drive` | the loop of trials, rejections and accepted steps, shared by all methods |
 //! | `control`, `start` | step-size control and the automatic first step |
 //! | `step` | an accepted step with its dense output: [`Step`] |
-//! | `sample` | rows at given output times: [`sample()`] |
+//! | `rows`, `sample` | rows at given output times: [`Rows`] for observers, [`sample()`] for the rest |
 //! | `combine` | sums of stages |
 //! | `rk5` | Dormand–Prince 5(4) and Tsitouras 5(4): `dopri5` and `tsit5` (tables), `step`, `dense` |
 //! | `dop853` | Dormand–Prince 8(5,3): `tableau`, `step`, `dense` |
@@ -28,6 +28,7 @@ mod method;
 mod ode;
 mod options;
 mod rk5;
+mod rows;
 mod sample;
 mod start;
 mod statistics;
@@ -43,6 +44,7 @@ pub use method::{End, Method, Outcome, integrate};
 pub use ode::{Function, Ode, StepEnd, StepInfo};
 pub use options::{InitialStep, Options, Tolerance};
 pub use rk5::{Dopri5, Tsit5};
-pub use sample::{OutputTimes, sample};
+pub use rows::{OutputTimes, Rows};
+pub use sample::sample;
 pub use statistics::Statistics;
 pub use step::{OutputError, Step};

@@ -42,8 +42,24 @@ pub struct Outcome {
     pub y: Vec<f64>,
     /// Whether `t_end` was reached.
     pub end: End,
+    /// Size > 0 of the step that would have been tried next, cut by no end and no break time: the
+    /// [`InitialStep::Given`](crate::InitialStep::Given) of an integration that goes on from here. `None` if there was no step.
+    pub next_step: Option<f64>,
     /// Cost.
     pub statistics: Statistics,
+}
+
+impl Outcome {
+    /// Where no step was made.
+    pub(crate) fn unmoved(t: f64, y0: &[f64], end: End) -> Self {
+        Self {
+            t,
+            y: y0.to_vec(),
+            end,
+            next_step: None,
+            statistics: Statistics::default(),
+        }
+    }
 }
 
 /// Integrates y' = f(t, y), y(t0) = `y0` over `interval` and calls `observe` with each accepted step.

@@ -145,15 +145,24 @@ impl<'a, O: Ode> Step<'a, O> {
         t: f64,
         out: &mut [f64],
     ) -> Result<(), OutputError<O::Error>> {
-        match self.locate(t, out)? {
+        self.locate(t, out)?;
+        self.write_accurately(t, out)
+            .map_err(OutputError::Evaluation)
+    }
+
+    /// [`Step::interpolate_accurately`] for a t known to lie in the step.
+    pub(crate) fn write_accurately(
+        &mut self,
+        t: f64,
+        out: &mut [f64],
+    ) -> Result<(), Cause<O::Error>> {
+        match self.place(t) {
             Place::Start => out.copy_from_slice(self.ends.y0),
             Place::End => out.copy_from_slice(self.ends.y1),
             Place::Inside { theta } => {
                 if !self.is_prepared {
                     let count = &mut self.statistics.output_evaluations;
-                    self.dense
-                        .prepare(self.ode, &self.ends, count)
-                        .map_err(OutputError::Evaluation)?;
+                    self.dense.prepare(self.ode, &self.ends, count)?;
                     self.is_prepared = true;
                 }
                 self.dense.interpolate_accurately(&self.ends, theta, out);
@@ -170,17 +179,22 @@ impl<'a, O: Ode> Step<'a, O> {
                 found: out.len(),
             });
         }
-        if t == t0 {
-            return Ok(Place::Start);
-        }
-        if t == t1 {
-            return Ok(Place::End);
-        }
-        if t0.min(t1) < t && t < t0.max(t1) {
-            let theta = (t - t0) / self.ends.trial.h;
-            return Ok(Place::Inside { theta });
+        if t0.min(t1) <= t && t <= t0.max(t1) {
+            return Ok(self.place(t));
         }
         Err(OutputError::OutsideStep { t, t0, t1 })
+    }
+
+    fn place(&self, t: f64) -> Place {
+        if t == self.t0() {
+            Place::Start
+        } else if t == self.t1() {
+            Place::End
+        } else {
+            Place::Inside {
+                theta: (t - self.t0()) / self.ends.trial.h,
+            }
+        }
     }
 }
 
