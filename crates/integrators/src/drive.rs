@@ -336,7 +336,12 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.t = trial.t1;
         self.failures = 0;
         self.last_rejection = None;
-        let h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));
+        let wanted = self.h;
+        let mut h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));
+        // A step cut by the end of its leg says nothing against the size wanted before.
+        if trial.t1 == trial.leg.end && h.abs() < wanted.abs() {
+            h = wanted;
+        }
         self.h = h.clamp(-self.options.max_step, self.options.max_step);
     }
 

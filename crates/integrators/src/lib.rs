@@ -11,6 +11,7 @@
 //! | `drive` | the loop of trials, rejections and accepted steps, shared by all methods |
 //! | `control`, `start` | step-size control and the automatic first step |
 //! | `step` | an accepted step with its dense output: [`Step`] |
+//! | `events`, `root` | zeros of a function of the solution: [`Crossings`] for observers, [`integrate_until`] for the rest |
 //! | `rows`, `sample` | rows at given output times: [`Rows`] for observers, [`sample()`] for the rest |
 //! | `combine` | sums of stages |
 //! | `rk5` | Dormand–Prince 5(4) and Tsitouras 5(4): `dopri5` and `tsit5` (tables), `step`, `dense` |
@@ -23,11 +24,13 @@ mod control;
 mod dop853;
 mod drive;
 mod error;
+mod events;
 mod interval;
 mod method;
 mod ode;
 mod options;
 mod rk5;
+mod root;
 mod rows;
 mod sample;
 mod start;
@@ -39,6 +42,7 @@ mod trees;
 
 pub use dop853::Dop853;
 pub use error::{Cause, Failure, IntegrationError};
+pub use events::{Crossing, Crossings, Direction, integrate_until};
 pub use interval::Interval;
 pub use method::{End, Method, Outcome, integrate};
 pub use ode::{Function, Ode, StepEnd, StepInfo};

@@ -126,12 +126,18 @@ impl<'a, O: Ode> Step<'a, O> {
     ///
     /// [`OutputError::OutsideStep`], [`OutputError::Length`].
     pub fn interpolate(&self, t: f64, out: &mut [f64]) -> Result<(), OutputError<O::Error>> {
-        match self.locate(t, out)? {
+        self.check(t, out)?;
+        self.write_cheaply(t, out);
+        Ok(())
+    }
+
+    /// [`Step::interpolate`] for a t known to lie in the step.
+    pub(crate) fn write_cheaply(&self, t: f64, out: &mut [f64]) {
+        match self.place(t) {
             Place::Start => out.copy_from_slice(self.ends.y0),
             Place::End => out.copy_from_slice(self.ends.y1),
             Place::Inside { theta } => self.dense.interpolate(&self.ends, theta, out),
         }
-        Ok(())
     }
 
     /// Writes y(t) to `out` (length n), as accurate as the steps. The first call inside a step makes extra evaluations of
@@ -145,7 +151,7 @@ impl<'a, O: Ode> Step<'a, O> {
         t: f64,
         out: &mut [f64],
     ) -> Result<(), OutputError<O::Error>> {
-        self.locate(t, out)?;
+        self.check(t, out)?;
         self.write_accurately(t, out)
             .map_err(OutputError::Evaluation)
     }
@@ -171,7 +177,7 @@ impl<'a, O: Ode> Step<'a, O> {
         Ok(())
     }
 
-    fn locate(&self, t: f64, out: &[f64]) -> Result<Place, OutputError<O::Error>> {
+    fn check(&self, t: f64, out: &[f64]) -> Result<(), OutputError<O::Error>> {
         let (t0, t1) = (self.t0(), self.t1());
         if out.len() != self.ends.y0.len() {
             return Err(OutputError::Length {
@@ -180,7 +186,7 @@ impl<'a, O: Ode> Step<'a, O> {
             });
         }
         if t0.min(t1) <= t && t <= t0.max(t1) {
-            return Ok(self.place(t));
+            return Ok(());
         }
         Err(OutputError::OutsideStep { t, t0, t1 })
     }
