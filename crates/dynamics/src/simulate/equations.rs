@@ -24,7 +24,7 @@ const NEAREST_MAX: f64 = 0.1;
 
 /// From pivots of this share of the reference on the stages of a step are moved onto the constraints before they are evaluated:
 /// off them by δ, accelerations are wrong by δ divided by that share.
-const CAREFUL: f64 = 0.3;
+const CAREFUL: f64 = 0.1;
 
 /// Singular configurations are foreseen for so many steps like the last one: no method lets steps grow by more.
 const FORESIGHT: f64 = 12.0;
