@@ -6,13 +6,17 @@ use crate::combine::combine;
 use crate::control::StepControl;
 use crate::drive::evaluate;
 use crate::error::Cause;
-use crate::method::{Start, Stepper, Trial};
+use crate::method::{Start, Stepper, Trial, widest_gap};
 use crate::ode::Ode;
 use crate::statistics::Statistics;
 
 impl<O: Ode> Stepper<O> for Stages {
     fn order(&self) -> i32 {
         8
+    }
+
+    fn widest_gap(&self) -> f64 {
+        widest_gap(&C)
     }
 
     fn control(&mut self) -> &mut dyn StepControl {

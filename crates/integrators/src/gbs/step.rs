@@ -16,6 +16,11 @@ impl<O: Ode> Stepper<O> for Extrapolation {
         2 * self.control.target as i32
     }
 
+    /// Before the first substep of the longest column there may be.
+    fn widest_gap(&self) -> f64 {
+        0.5 / substeps(self.control.target + 1) as f64
+    }
+
     fn control(&mut self) -> &mut dyn StepControl {
         &mut self.control
     }
