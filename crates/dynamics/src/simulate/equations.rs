@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use integrators::{Ode, StepEnd, StepInfo, Tolerance};
+use integrators::{Delicate, Ode, StepEnd, StepInfo, Tolerance};
 use model::System;
 
 use super::Sample;
@@ -28,6 +28,9 @@ const CAREFUL: f64 = 0.1;
 
 /// Singular configurations are foreseen for so many steps like the last one: no method lets steps grow by more.
 const FORESIGHT: f64 = 12.0;
+
+/// Relative error of a step over a singular configuration that rounding may cause where steps are short.
+const PASSED: f64 = 1e-10;
 
 /// Largest relative correction of a step over a singular configuration, as share of the distance at which it ends: other branches are
 /// as far away as that.
@@ -281,8 +284,9 @@ impl Ode for Equations<'_> {
         })
     }
 
-    fn delicate_time(&self) -> Option<f64> {
-        self.delicate
+    fn delicate_time(&self) -> Option<Delicate> {
+        let slack = (PASSED / self.rtol).max(1.0);
+        self.delicate.map(|t| Delicate { t, slack })
     }
 
     /// Rates that jump make the velocities jump, by an impulse of the constraints.
