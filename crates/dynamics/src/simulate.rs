@@ -123,7 +123,8 @@ pub fn simulate(
         })
     };
     options.check().map_err(fail)?;
-    let motion = KeptRowMotion::new(prepared).map_err(|e| fail(e.into()))?;
+    options.check_rows(&prepared.choice).map_err(fail)?;
+    let motion = KeptRowMotion::with(prepared, options).map_err(|e| fail(e.into()))?;
     let mut equations = Equations::new(motion, prepared, options);
     equations
         .motion
@@ -141,7 +142,7 @@ pub fn simulate(
         ..Options::with_tolerance(options.rtol, options.atol)
     };
     let method = match options.method {
-        Method::Dopri5 => integrators::Dopri5,
+        Method::Auto | Method::Dopri5 => integrators::Dopri5,
     };
     // A run that takes no time has one row.
     let times = match options.t_end > 0.0 {

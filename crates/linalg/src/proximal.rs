@@ -80,11 +80,30 @@ impl ProximalSaddle {
             iterations: 1,
         };
         let mut saddle = Self::with_tuning(reference, mass, one)?;
-        saddle.factor(reference, mass)?;
-        let sigma_squared = smallest_direction(&saddle.rows, &saddle.regularised, rank)?;
-        saddle.tuning = ProximalTuning::rule(sigma_squared, tolerance);
-        saddle.state = State::Empty;
+        saddle.tune(reference, mass, rank, tolerance)?;
         Ok(saddle)
+    }
+
+    /// Tunes again for C of a decided rank; the weights of the rows stay, and with them the λ that iterations tend to. Allocates; after it
+    /// there is nothing factored.
+    ///
+    /// # Errors
+    /// As [`ProximalSaddle::new`]; the tuning is then the old one.
+    pub fn tune(
+        &mut self,
+        c: &Matrix,
+        mass: &[f64],
+        rank: usize,
+        tolerance: f64,
+    ) -> Result<(), SaddleError> {
+        let old = std::mem::replace(&mut self.tuning.mu, 1.0);
+        let factored = self.factor(c, mass);
+        self.tuning.mu = old;
+        self.state = State::Empty;
+        factored?;
+        let sigma_squared = smallest_direction(&self.rows, &self.regularised, rank)?;
+        self.tuning = ProximalTuning::rule(sigma_squared, tolerance);
+        Ok(())
     }
 
     /// The same with a tuning of the caller's.

@@ -108,7 +108,7 @@ impl<'m> Equations<'m> {
         }
     }
 
-    /// Projects a row of output and shows it. At a break time it is the state just before.
+    /// Projects a row of output, where states are projected, and shows it. At a break time it is the state just before.
     pub(super) fn show(
         &mut self,
         t: f64,
@@ -121,7 +121,7 @@ impl<'m> Equations<'m> {
             t
         };
         let (q, rest) = y.split_at_mut(self.n_q);
-        let found = self.motion.project(t_before, q, &mut rest[..self.n_v])?;
+        let found = self.motion.end_row(t_before, q, &mut rest[..self.n_v])?;
         self.note(y, found);
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
         row(&mut Sample {
@@ -196,7 +196,7 @@ impl Ode for Equations<'_> {
         };
         let (q, rest) = y.split_at_mut(self.n_q);
         let v = &mut rest[..self.n_v];
-        let found = self.motion.project_step(step.t_rhs, q, v, nearest)?;
+        let found = self.motion.end_step(step.t_rhs, q, v, nearest)?;
         let pivot_ratio = self.motion.pivot_ratio();
         for (before, y) in self.before.iter_mut().zip(&*y) {
             *before -= y;
@@ -206,15 +206,22 @@ impl Ode for Equations<'_> {
         if is_suspect && correction > SMOOTH {
             return Err(self.motion.no_way_over(step.t));
         }
-        self.derivative(step.t_rhs, y, dy)?;
+        if self.motion.projects() {
+            self.derivative(step.t_rhs, y, dy)?;
+            let a = &mut dy[self.n_q..self.n_q + self.n_v];
+            self.motion.review_acceleration(a)?;
+        }
         // From here on the step stands.
         self.is_suspect = is_suspect;
         self.note(y, found);
         self.events.extend(self.motion.accept(step.t));
         self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
-        Ok(StepEnd::Projected {
-            correction,
-            evaluations: 1,
+        Ok(match self.motion.projects() {
+            true => StepEnd::Projected {
+                correction,
+                evaluations: 1,
+            },
+            false => StepEnd::Unchanged,
         })
     }
 
