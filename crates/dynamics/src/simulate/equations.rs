@@ -22,6 +22,10 @@ const NEAREST_TOLERANCES: f64 = 100.0;
 /// Loose tolerances must not keep a motion far from everything.
 const NEAREST_MAX: f64 = 0.1;
 
+/// From pivots of this share of the reference on the stages of a step are moved onto the constraints before they are evaluated:
+/// off them by δ, accelerations are wrong by δ divided by that share.
+const CAREFUL: f64 = 0.3;
+
 /// Largest correction, in the norm of the error test, of a step over a singular configuration.
 const SMOOTH: f64 = 1.0;
 
@@ -42,8 +46,11 @@ pub(super) struct Equations<'m> {
     events: Vec<Event>,
     /// Whether the last accepted step may have passed a singular configuration.
     is_suspect: bool,
-    /// The state before a projection.
+    /// Whether the stages of the present step are moved onto the constraints.
+    is_careful: bool,
+    /// The state before a projection; a stage on the constraints.
     before: Vec<f64>,
+    stage: Vec<f64>,
 }
 
 impl<'m> Equations<'m> {
@@ -67,7 +74,9 @@ impl<'m> Equations<'m> {
             min_pivot_ratio: f64::INFINITY,
             events: Vec::new(),
             is_suspect: false,
+            is_careful: false,
             before: Vec::new(),
+            stage: Vec::new(),
             motion,
         }
     }
@@ -77,6 +86,8 @@ impl<'m> Equations<'m> {
         let mut y = [q, v].concat();
         y.extend(self.works.then_some(0.0));
         self.before = y.clone();
+        self.stage = y.clone();
+        self.is_careful = self.motion.relative_pivot() < CAREFUL;
         y
     }
 
@@ -148,6 +159,7 @@ impl<'m> Equations<'m> {
         times.binary_search_by(|b| b.total_cmp(&t)).is_ok()
     }
 
+    /// f at a state on the constraints, or as near as a stage comes.
     fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
         let (qd, rest) = dy.split_at_mut(self.n_q);
@@ -178,7 +190,18 @@ impl Ode for Equations<'_> {
     }
 
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
-        self.derivative(t, y, dy)
+        if !self.is_careful {
+            return self.derivative(t, y, dy);
+        }
+        let mut stage = std::mem::take(&mut self.stage);
+        stage.copy_from_slice(y);
+        let (q, rest) = stage.split_at_mut(self.n_q);
+        let result = self
+            .motion
+            .approach(t, q, &mut rest[..self.n_v])
+            .and_then(|()| self.derivative(t, &stage, dy));
+        self.stage = stage;
+        result
     }
 
     fn end_of_step(
@@ -213,6 +236,7 @@ impl Ode for Equations<'_> {
         }
         // From here on the step stands.
         self.is_suspect = is_suspect;
+        self.is_careful = self.motion.relative_pivot() < CAREFUL;
         self.note(y, found);
         self.events.extend(self.motion.accept(step.t));
         self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
