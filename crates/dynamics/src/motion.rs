@@ -18,6 +18,7 @@ mod review;
 mod rows;
 mod stabilise;
 
+use linalg::ProximalTuning;
 use model::{Mechanism, Scratch, System};
 
 use crate::error::Trip;
@@ -143,6 +144,12 @@ impl<'a> KeptRowMotion<'a> {
     #[must_use]
     pub fn scratch(&self) -> &Scratch {
         &self.s
+    }
+
+    /// μ and the number of proximal iterations, where accelerations come from them.
+    #[must_use]
+    pub fn proximal_tuning(&self) -> Option<ProximalTuning> {
+        self.all_rows.as_ref().and_then(AllRows::proximal_tuning)
     }
 
     /// Smallest pivot of the last factorisation relative to its row: small near singular configurations.

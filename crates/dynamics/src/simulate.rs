@@ -8,6 +8,7 @@ mod energy;
 mod equations;
 
 use integrators::{Cause, IntegrationError, Interval, Options, OutputTimes, sample};
+use linalg::ProximalTuning;
 use model::{Reaction, System};
 
 use crate::error::{MotionError, Trip};
@@ -42,6 +43,8 @@ pub struct Summary {
     pub min_pivot_ratio: f64,
     /// What happened on the way.
     pub events: Vec<Event>,
+    /// The last tuning of proximal iterations, where accelerations come from them.
+    pub proximal: Option<ProximalTuning>,
 }
 
 /// A run that stopped early, with what was reached.
@@ -79,7 +82,7 @@ impl Sample<'_, '_> {
         Ok(a)
     }
 
-    /// Multipliers of all rows, those of dropped rows zero by decree; allocates.
+    /// Multipliers of all rows as [`Motion::multipliers`] gives them; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.
@@ -90,8 +93,8 @@ impl Sample<'_, '_> {
         Ok(lambda)
     }
 
-    /// Reactions of all joints and drives in the order of their rows. Those of non-unique joints belong to the kept
-    /// rows of this run and to no other; allocates.
+    /// Reactions of all joints and drives in the order of their rows. Those of non-unique joints belong to the choice
+    /// of this run (its kept rows, or the norm of its formulation) and to no other; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.

@@ -87,7 +87,7 @@ impl<'m> Equations<'m> {
         y.extend(self.works.then_some(0.0));
         self.before = y.clone();
         self.stage = y.clone();
-        self.is_careful = self.motion.relative_pivot() < CAREFUL;
+        self.is_careful = self.wants_care();
         y
     }
 
@@ -115,6 +115,7 @@ impl<'m> Equations<'m> {
             energy_balance: self.energy.relative_gap(),
             min_pivot_ratio: self.min_pivot_ratio,
             events: self.events.clone(),
+            proximal: self.motion.proximal_tuning(),
             ..super::Summary::default()
         }
     }
@@ -152,6 +153,10 @@ impl<'m> Equations<'m> {
     /// Records what happened.
     pub(super) fn record(&mut self, event: Event) {
         self.events.push(event);
+    }
+
+    fn wants_care(&self) -> bool {
+        self.motion.projects() && self.motion.relative_pivot() < CAREFUL
     }
 
     fn is_break(&self, t: f64) -> bool {
@@ -236,7 +241,7 @@ impl Ode for Equations<'_> {
         }
         // From here on the step stands.
         self.is_suspect = is_suspect;
-        self.is_careful = self.motion.relative_pivot() < CAREFUL;
+        self.is_careful = self.wants_care();
         self.note(y, found);
         self.events.extend(self.motion.accept(step.t));
         self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
