@@ -74,6 +74,11 @@ fn main() {
             rtol: tol,
             atol: tol,
             output_step: 10.0,
+            method: match std::env::args().nth(2).as_deref() {
+                Some("8") => dynamics::Method::Dop853,
+                Some("t") => dynamics::Method::Tsit5,
+                _ => dynamics::Method::Dopri5,
+            },
             ..MotionOptions::to(10.0)
         };
         let mut q = vec![];
@@ -94,14 +99,15 @@ fn main() {
                     }
                 }
                 println!(
-                    "{tol:.1e} steps {} rej {} ev {} err {e:.1e} phi {:.1e} v {:.1e} E {:.1e} ms {:.1}",
+                    "{tol:.1e} steps {} rej {} ev {} err {e:.1e} phi {:.1e} v {:.1e} E {:.1e} ms {:.1} {}",
                     s.steps,
                     s.rejected,
                     s.evaluations,
                     s.max_position_residual,
                     s.max_velocity_residual,
                     s.energy_balance,
-                    1e3 * s.wall_seconds
+                    1e3 * s.wall_seconds,
+                    s.events.len()
                 );
             }
             Err(f) => {
@@ -109,6 +115,9 @@ fn main() {
                 println!("{tol:.1e} t {} FAIL {}", f.summary.t, f.error);
             }
         }
+    }
+    if let Some(e) = std::env::args().nth(3) {
+        println!("{e}");
     }
     println!("wrong {wrong} failed {failed} worst {worst:.1e}");
 }

@@ -11,11 +11,15 @@ pub enum Method {
     Auto,
     /// Dormand–Prince 5(4), the method of MATLAB's `ode45`.
     Dopri5,
+    /// Tsitouras 5(4).
+    Tsit5,
+    /// Dormand–Prince 8(5,3).
+    Dop853,
 }
 
 impl Method {
     /// All that can be asked for.
-    pub const ALL: &[Self] = &[Self::Auto, Self::Dopri5];
+    pub const ALL: &[Self] = &[Self::Auto, Self::Dopri5, Self::Dop853, Self::Tsit5];
 
     /// Its name in scenes and results.
     #[must_use]
@@ -23,6 +27,8 @@ impl Method {
         match self {
             Self::Auto => "auto",
             Self::Dopri5 => "dopri5",
+            Self::Tsit5 => "tsit5",
+            Self::Dop853 => "dop853",
         }
     }
 

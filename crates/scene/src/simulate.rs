@@ -23,14 +23,7 @@ struct Choice<T: 'static> {
 
 const METHODS: Choice<Method> = Choice {
     key: "method",
-    planned: &[
-        "dop853",
-        "tsit5",
-        "gbs",
-        "radau5",
-        "generalized-alpha",
-        "hem4",
-    ],
+    planned: &["gbs", "radau5", "generalized-alpha", "hem4"],
     available: Method::ALL,
     name: Method::name,
 };

@@ -26,8 +26,12 @@ const NEAREST_MAX: f64 = 0.1;
 /// off them by δ, accelerations are wrong by δ divided by that share.
 const CAREFUL: f64 = 0.3;
 
-/// Largest correction, in the norm of the error test, of a step over a singular configuration.
-const SMOOTH: f64 = 1.0;
+/// Singular configurations are foreseen for so many steps like the last one: no method lets steps grow by more.
+const FORESIGHT: f64 = 12.0;
+
+/// Largest relative correction of a step over a singular configuration, as share of the distance at which it ends: other branches are
+/// as far away as that.
+const SMOOTH: f64 = 0.01;
 
 /// The equations of a run with what is noted on the way.
 pub(super) struct Equations<'m> {
@@ -39,6 +43,7 @@ pub(super) struct Equations<'m> {
     /// Steps must not end nearer to a singular configuration, but where they have to.
     nearest: f64,
     t_end: f64,
+    rtol: f64,
     energy: EnergyBalance,
     max_position_residual: f64,
     max_velocity_residual: f64,
@@ -48,6 +53,8 @@ pub(super) struct Equations<'m> {
     is_suspect: bool,
     /// Whether the stages of the present step are moved onto the constraints.
     is_careful: bool,
+    /// When the motion is expected to pass a singular configuration.
+    delicate: Option<f64>,
     /// The state before a projection; a stage on the constraints.
     before: Vec<f64>,
     stage: Vec<f64>,
@@ -68,6 +75,7 @@ impl<'m> Equations<'m> {
             works: layout.rheonomic || mechanism.has_applied_forces(),
             nearest: (NEAREST_TOLERANCES * options.rtol).clamp(NEAREST, NEAREST_MAX),
             t_end: options.t_end,
+            rtol: options.rtol,
             energy: EnergyBalance::new(mechanism, q, v),
             max_position_residual: 0.0,
             max_velocity_residual: 0.0,
@@ -75,6 +83,7 @@ impl<'m> Equations<'m> {
             events: Vec::new(),
             is_suspect: false,
             is_careful: false,
+            delicate: None,
             before: Vec::new(),
             stage: Vec::new(),
             motion,
@@ -148,6 +157,11 @@ impl<'m> Equations<'m> {
     /// Whether the last accepted step may have passed a singular configuration.
     pub(super) fn is_suspect(&self) -> bool {
         self.is_suspect
+    }
+
+    /// Share of the reference to which a pivot falls that vanishes, as well as this run knows.
+    pub(super) fn passage_noise(&self) -> f64 {
+        self.nearest
     }
 
     /// Records what happened.
@@ -229,9 +243,14 @@ impl Ode for Equations<'_> {
         for (before, y) in self.before.iter_mut().zip(&*y) {
             *before -= y;
         }
-        let correction = step.norm(&self.before);
         let is_suspect = self.motion.may_have_passed();
-        if is_suspect && correction > SMOOTH {
+        if is_suspect && !self.motion.projects() {
+            let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+            let missed = self.motion.missed_correction(step.t_rhs, q, v)?;
+            self.before[..missed.len()].copy_from_slice(&missed);
+        }
+        let correction = step.norm(&self.before);
+        if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot() {
             return Err(self.motion.no_way_over(step.t));
         }
         if self.motion.projects() {
@@ -245,13 +264,22 @@ impl Ode for Equations<'_> {
         self.note(y, found);
         self.events.extend(self.motion.accept(step.t));
         self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
-        Ok(match self.motion.projects() {
-            true => StepEnd::Projected {
-                correction,
-                evaluations: 1,
-            },
-            false => StepEnd::Unchanged,
+        if !self.motion.projects() {
+            return Ok(StepEnd::Unchanged);
+        }
+        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+        let now = (step.t, q, v, &dy[self.n_q..self.n_q + self.n_v]);
+        self.delicate = self
+            .motion
+            .foresee(now, step.t + FORESIGHT * (step.t - step.t0));
+        Ok(StepEnd::Projected {
+            correction,
+            evaluations: 1,
         })
+    }
+
+    fn delicate_time(&self) -> Option<f64> {
+        self.delicate
     }
 
     /// Rates that jump make the velocities jump, by an impulse of the constraints.

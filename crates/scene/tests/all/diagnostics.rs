@@ -618,7 +618,7 @@ fn help_lists_what_there_is() {
         (
             "t_end = 2.0",
             "t_end = 2.0\nmethod = \"radau5\"",
-            "available are `auto`, `dopri5`",
+            "available are `auto`, `dopri5`, `dop853`, `tsit5`",
         ),
         (
             "t_end = 2.0",
