@@ -137,7 +137,7 @@ pub fn simulate(
         ..Options::with_tolerance(options.rtol, options.atol)
     };
     let method = match options.method {
-        Method::Dopri5 => integrators::Method::Dopri5,
+        Method::Dopri5 => integrators::Dopri5,
     };
     // A run that takes no time has one row.
     let times = match options.t_end > 0.0 {
@@ -147,7 +147,7 @@ pub fn simulate(
     let mut tripped = None;
     let clock = Instant::now();
     let outcome = sample(
-        method,
+        &method,
         &mut equations,
         &interval,
         &y0,

@@ -25,7 +25,7 @@ const LOG_ERROR_FLOOR: f64 = -9.210_340_371_976_182;
 
 /// A PI controller and its memory.
 #[derive(Debug, Clone)]
-pub(crate) struct Control {
+pub struct Control {
     constants: ControlConstants,
     /// ln err_old.
     log_previous_error: f64,

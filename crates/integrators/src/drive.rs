@@ -2,10 +2,9 @@
 //!
 //! Not here: formulas of a method (`Stepper`), the law of step control (`control`), output times (`sample`).
 
-use crate::control::Control;
 use crate::error::{Cause, Failure, IntegrationError};
 use crate::interval::{Interval, Leg};
-use crate::method::{End, Ends, Outcome, Stepper, Trial};
+use crate::method::{End, Ends, Outcome, Start, Stepper, Trial};
 use crate::ode::{Ode, StepEnd, StepInfo};
 use crate::options::{InitialStep, Options};
 use crate::start::{StartScratch, initial_step};
@@ -40,9 +39,9 @@ where
         Ok(legs) => legs,
         Err(error) => return Err(refuse(error, interval.t0, y0)),
     };
-    let mut run = Run::new(interval.t0, y0, options, Control::new(S::CONTROL));
+    let mut run = Run::new(interval.t0, y0, options);
     for leg in &legs {
-        if let Err(error) = run.start(ode, leg, S::ORDER) {
+        if let Err(error) = run.start(ode, stepper, leg) {
             return Err(run.fail(error));
         }
         while run.t != leg.end {
@@ -53,12 +52,12 @@ where
             match run.attempt(ode, stepper, &trial) {
                 Ok(()) => {
                     let flow = observe(&mut run.accepted(ode, stepper, trial));
-                    run.advance(&trial);
+                    run.advance(stepper, &trial);
                     if flow.is_break() {
                         return Ok(run.finish(End::Stopped));
                     }
                 }
-                Err(cause) => run.reject(&trial, cause),
+                Err(cause) => run.reject::<O, S>(stepper, &trial, cause),
             }
         }
     }
@@ -125,7 +124,6 @@ fn finite(v: &[f64]) -> Result<(), usize> {
 /// State of an integration. Index 0: start of the step, 1: its end.
 struct Run<'a, E: std::error::Error + 'static> {
     options: &'a Options,
-    control: Control,
     statistics: Statistics,
     t: f64,
     /// Signed size of the next trial.
@@ -144,11 +142,10 @@ struct Run<'a, E: std::error::Error + 'static> {
 }
 
 impl<'a, E: std::error::Error + 'static> Run<'a, E> {
-    fn new(t: f64, y0: &[f64], options: &'a Options, control: Control) -> Self {
+    fn new(t: f64, y0: &[f64], options: &'a Options) -> Self {
         let zeros = || vec![0.0; y0.len()];
         Self {
             options,
-            control,
             statistics: Statistics::default(),
             t,
             h: 0.0,
@@ -165,13 +162,16 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
     }
 
     /// Derivative and first step size at the start of a leg.
-    fn start<O: Ode<Error = E>>(
+    fn start<O: Ode<Error = E>, S: Stepper<O>>(
         &mut self,
         ode: &mut O,
+        stepper: &mut S,
         leg: &Leg,
-        order: i32,
     ) -> Result<(), IntegrationError<E>> {
         let t = leg.evaluation_time(leg.start);
+        if !self.is_first_leg {
+            self.cross_break(ode, leg.start, t)?;
+        }
         evaluate(
             ode,
             t,
@@ -183,7 +183,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             t: leg.start,
             cause,
         })?;
-        self.control.reset();
+        stepper.restart();
         let h_max = self.options.max_step.min((leg.end - leg.start).abs());
         self.h = match self.options.initial_step {
             InitialStep::Given(h) if self.is_first_leg => {
@@ -198,11 +198,32 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
                     f: &mut self.f1,
                 };
                 let start = (&self.y0[..], &self.f0[..], &self.scale[..]);
-                initial_step(ode, leg, order, start, h_max, scratch, &mut self.statistics)
+                initial_step(
+                    ode,
+                    leg,
+                    stepper.order(),
+                    start,
+                    h_max,
+                    scratch,
+                    &mut self.statistics,
+                )
             }
         };
         self.is_first_leg = false;
         Ok(())
+    }
+
+    /// Lets the problem change the state where its right-hand side may jump.
+    fn cross_break<O: Ode<Error = E>>(
+        &mut self,
+        ode: &mut O,
+        t: f64,
+        t_rhs: f64,
+    ) -> Result<(), IntegrationError<E>> {
+        let failed = |cause| IntegrationError::StartFailed { t, cause };
+        ode.at_break(t_rhs, &mut self.y0)
+            .map_err(|e| failed(Cause::Problem(e)))?;
+        finite(&self.y0).map_err(|component| failed(Cause::NonFinite { component }))
     }
 
     /// The next trial, ending exactly at the end of the leg if it reaches so far.
@@ -247,13 +268,16 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         trial: &Trial<'_>,
     ) -> Result<(), Cause<E>> {
         let non_finite = |component| Cause::NonFinite { component };
-        let evaluations = &mut self.statistics.evaluations;
-        stepper.trial(ode, trial, &self.y0, &self.f0, &mut self.y1, evaluations)?;
+        let statistics = &mut self.statistics;
+        let start = Start {
+            y0: &self.y0,
+            f0: &self.f0,
+            tolerance: &self.options.tolerance,
+        };
+        stepper.trial(ode, trial, &start, &mut self.y1, statistics)?;
         finite(&self.y1).map_err(non_finite)?;
-        self.options
-            .tolerance
-            .scale(&self.y0, &self.y1, &mut self.scale);
-        let norm = stepper.error_norm(trial.h, &self.f0, &self.scale);
+        start.tolerance.scale(&self.y0, &self.y1, &mut self.scale);
+        let norm = stepper.error_norm(ode, trial, &start, &self.scale, statistics)?;
         self.error_norm = Some(norm);
         if norm.is_nan() || norm > 1.0 {
             return Err(Cause::ErrorTest { norm });
@@ -270,17 +294,16 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             .map_err(Cause::Problem)?
         {
             StepEnd::Unchanged => {
-                stepper.end_derivative(ode, trial, &self.y1, &mut self.f1, evaluations)
+                stepper.end_derivative(ode, trial, &self.y1, &mut self.f1, statistics)
             }
             StepEnd::Projected {
                 correction,
                 evaluations,
             } => {
-                self.statistics.hook_evaluations += evaluations;
+                statistics.hook_evaluations += evaluations;
                 finite(&self.y1).and(finite(&self.f1)).map_err(non_finite)?;
-                self.statistics.projections += 1;
-                let largest = &mut self.statistics.largest_correction;
-                *largest = largest.max(correction);
+                statistics.projections += 1;
+                statistics.largest_correction = statistics.largest_correction.max(correction);
                 Ok(())
             }
             StepEnd::Reject => Err(Cause::RejectedByHook),
@@ -307,32 +330,37 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
     }
 
     /// Goes on from the end of the step just accepted.
-    fn advance(&mut self, trial: &Trial<'_>) {
+    fn advance<O: Ode<Error = E>, S: Stepper<O>>(&mut self, stepper: &mut S, trial: &Trial<'_>) {
         std::mem::swap(&mut self.y0, &mut self.y1);
         std::mem::swap(&mut self.f0, &mut self.f1);
         self.t = trial.t1;
         self.failures = 0;
         self.last_rejection = None;
-        let h = self.control.accept(trial.h, self.error_norm.unwrap_or(0.0));
+        let h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));
         self.h = h.clamp(-self.options.max_step, self.options.max_step);
     }
 
     /// Counts a rejected trial and shortens the step.
-    fn reject(&mut self, trial: &Trial<'_>, cause: Cause<E>) {
+    fn reject<O: Ode<Error = E>, S: Stepper<O>>(
+        &mut self,
+        stepper: &mut S,
+        trial: &Trial<'_>,
+        cause: Cause<E>,
+    ) {
         self.failures += 1;
         let statistics = &mut self.statistics;
         self.h = match cause {
             Cause::ErrorTest { norm } if !norm.is_nan() => {
                 statistics.rejected_by_error += 1;
-                self.control.reject(trial.h, norm)
+                stepper.after_rejection(trial.h, norm)
             }
             Cause::RejectedByHook => {
                 statistics.rejected_by_hook += 1;
-                self.control.shorten(trial.h, FACTOR_AFTER_HOOK)
+                stepper.after_failure(trial.h, FACTOR_AFTER_HOOK)
             }
             _ => {
                 statistics.rejected_by_failure += 1;
-                self.control.shorten(trial.h, FACTOR_AFTER_FAILURE)
+                stepper.after_failure(trial.h, FACTOR_AFTER_FAILURE)
             }
         };
         self.last_rejection = Some(cause);

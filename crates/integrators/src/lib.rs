@@ -29,6 +29,7 @@ mod start;
 mod statistics;
 mod step;
 
+pub use dopri5::Dopri5;
 pub use error::{Cause, Failure, IntegrationError};
 pub use interval::Interval;
 pub use method::{End, Method, Outcome, integrate};

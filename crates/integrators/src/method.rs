@@ -1,23 +1,27 @@
-//! The choice of a method, and what a method has to provide for the shared loop.
+//! What a method is, and what it has to provide for the shared loop.
 
-use crate::control::ControlConstants;
-use crate::dopri5::Dopri5;
+use crate::control::Control;
 use crate::drive::drive;
 use crate::error::{Cause, Failure};
 use crate::interval::{Interval, Leg};
 use crate::ode::Ode;
-use crate::options::Options;
+use crate::options::{Options, Tolerance};
 use crate::statistics::Statistics;
 use crate::step::Step;
 use std::ops::ControlFlow;
 
-/// Explicit one-step methods.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-#[non_exhaustive]
-pub enum Method {
-    /// Dormand–Prince 5(4), seven stages, the last one reused; known as `ode45`. Order 5. Dense output of order 4
-    /// (local error O(h⁵)) without and of order 5 (local error O(h⁶), like the step) with two extra evaluations in the step.
-    Dopri5,
+/// A method that can integrate the problem `O`: [`Dopri5`](crate::Dopri5) and its like. A method asks of the problem what it needs:
+/// explicit methods are methods of every [`Ode`].
+///
+/// Sealed: the loop behind [`integrate`] and the methods are written for each other.
+pub trait Method<O: Ode> {
+    /// Stages and memory of the method.
+    #[doc(hidden)]
+    type Stepper: Stepper<O>;
+
+    /// Room for one integration of `ode`.
+    #[doc(hidden)]
+    fn stepper(&self, ode: &O) -> Self::Stepper;
 }
 
 /// How an integration ended without failure.
@@ -66,18 +70,18 @@ pub struct Outcome {
 /// y' = 2t from y(0) = 0 gives y(3) = 9.
 ///
 /// ```
-/// use integrators::{Function, Interval, Method, Options, integrate};
+/// use integrators::{Dopri5, Function, Interval, Options, integrate};
 /// use std::ops::ControlFlow;
 ///
 /// let mut ode = Function::new(1, |t, _y: &[f64], dy: &mut [f64]| dy[0] = 2.0 * t);
-/// let end = integrate(Method::Dopri5, &mut ode, &Interval::new(0.0, 3.0), &[0.0], &Options::default(), |_step| {
+/// let end = integrate(&Dopri5, &mut ode, &Interval::new(0.0, 3.0), &[0.0], &Options::default(), |_step| {
 ///     ControlFlow::Continue(())
 /// })?;
 /// assert!((end.y[0] - 9.0).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn integrate<O, F>(
-    method: Method,
+pub fn integrate<O, M, F>(
+    method: &M,
     ode: &mut O,
     interval: &Interval<'_>,
     y0: &[f64],
@@ -86,19 +90,16 @@ pub fn integrate<O, F>(
 ) -> Result<Outcome, Box<Failure<O::Error>>>
 where
     O: Ode,
+    M: Method<O>,
     F: FnMut(&mut Step<'_, O>) -> ControlFlow<()>,
 {
-    match method {
-        Method::Dopri5 => {
-            let mut stepper = Dopri5::new(ode.dim());
-            drive(ode, &mut stepper, interval, y0, options, observe)
-        }
-    }
+    let mut stepper = method.stepper(ode);
+    drive(ode, &mut stepper, interval, y0, options, observe)
 }
 
 /// One trial: from t over h to t1 = t + h, inside a leg.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Trial<'a> {
+pub struct Trial<'a> {
     pub(crate) leg: &'a Leg,
     pub(crate) t: f64,
     pub(crate) h: f64,
@@ -120,7 +121,7 @@ impl Trial<'_> {
 
 /// Both ends of an accepted step: states (after projection) and derivatives there.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Ends<'a> {
+pub struct Ends<'a> {
     pub(crate) trial: Trial<'a>,
     pub(crate) y0: &'a [f64],
     pub(crate) f0: &'a [f64],
@@ -128,25 +129,42 @@ pub(crate) struct Ends<'a> {
     pub(crate) f1: &'a [f64],
 }
 
-/// What the shared loop needs from a method: a trial step, its error, the derivative at its end.
-pub(crate) trait Stepper<O: Ode>: Dense<O> {
+/// What a step begins with.
+#[derive(Debug, Clone, Copy)]
+pub struct Start<'a> {
+    pub(crate) y0: &'a [f64],
+    /// f(t, y0), at a break time from this side.
+    pub(crate) f0: &'a [f64],
+    pub(crate) tolerance: &'a Tolerance,
+}
+
+/// What the shared loop needs from a method: a trial step, its error, the derivative at its end, the next step size.
+pub trait Stepper<O: Ode>: Dense<O> {
     /// Order of the solution that is carried on.
-    const ORDER: i32;
-    const CONTROL: ControlConstants;
+    fn order(&self) -> i32;
+
+    /// The controller of the step size.
+    fn control(&mut self) -> &mut Control;
 
     /// Computes the stages and the new state `y1`.
     fn trial(
         &mut self,
         ode: &mut O,
         trial: &Trial<'_>,
-        y0: &[f64],
-        f0: &[f64],
+        start: &Start<'_>,
         y1: &mut [f64],
-        evaluations: &mut u64,
+        statistics: &mut Statistics,
     ) -> Result<(), Cause<O::Error>>;
 
     /// Weighted norm of the estimated error of the last trial.
-    fn error_norm(&self, h: f64, f0: &[f64], scale: &[f64]) -> f64;
+    fn error_norm(
+        &mut self,
+        ode: &mut O,
+        trial: &Trial<'_>,
+        start: &Start<'_>,
+        scale: &[f64],
+        statistics: &mut Statistics,
+    ) -> Result<f64, Cause<O::Error>>;
 
     /// Writes the derivative at the end of the last trial to `f1`, for a state that the hook has left unchanged.
     fn end_derivative(
@@ -155,12 +173,33 @@ pub(crate) trait Stepper<O: Ode>: Dense<O> {
         trial: &Trial<'_>,
         y1: &[f64],
         f1: &mut [f64],
-        evaluations: &mut u64,
+        statistics: &mut Statistics,
     ) -> Result<(), Cause<O::Error>>;
+
+    /// Forgets the steps before, at the start of a leg.
+    fn restart(&mut self) {
+        self.control().reset();
+    }
+
+    /// Size of the next trial after an accepted step of size h.
+    fn after_acceptance(&mut self, h: f64, error_norm: f64) -> f64 {
+        self.control().accept(h, error_norm)
+    }
+
+    /// Size of the next trial after one of size h whose error was too large.
+    fn after_rejection(&mut self, h: f64, error_norm: f64) -> f64 {
+        self.control().reject(h, error_norm)
+    }
+
+    /// Size of the next trial after one of size h that gave no error estimate or was not wanted; `factor` is what the loop
+    /// proposes.
+    fn after_failure(&mut self, h: f64, factor: f64) -> f64 {
+        self.control().shorten(h, factor)
+    }
 }
 
 /// What dense output needs from a method; object-safe, so that [`Step`] need not name the method.
-pub(crate) trait Dense<O: Ode> {
+pub trait Dense<O: Ode> {
     /// Without further evaluations.
     fn interpolate(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]);
 

@@ -41,6 +41,17 @@ pub trait Ode {
         let _ = (step, y, dy);
         Ok(StepEnd::Unchanged)
     }
+
+    /// Called at each break time inside the interval, before the first evaluation behind it, with the time just behind it. May
+    /// change `y` (length n): there the solution jumps.
+    ///
+    /// # Errors
+    ///
+    /// The problem's own; the integration then ends at the break time.
+    fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), Self::Error> {
+        let _ = (t, y);
+        Ok(())
+    }
 }
 
 /// What [`Ode::end_of_step`] may know about the step it judges.

@@ -88,13 +88,13 @@ impl OutputTimes {
 /// Free fall, y = t²: rows at 0, 0.4, 0.8 and at the end.
 ///
 /// ```
-/// use integrators::{Function, Interval, Method, Options, OutputTimes, sample};
+/// use integrators::{Dopri5, Function, Interval, Options, OutputTimes, sample};
 /// use std::ops::ControlFlow;
 ///
 /// let mut ode = Function::new(1, |t, _y: &[f64], dy: &mut [f64]| dy[0] = 2.0 * t);
 /// let (interval, options) = (Interval::new(0.0, 1.0), Options::default());
 /// let mut rows = Vec::new();
-/// sample(Method::Dopri5, &mut ode, &interval, &[0.0], &options, &OutputTimes::Every(0.4), |_ode, t, y| {
+/// sample(&Dopri5, &mut ode, &interval, &[0.0], &options, &OutputTimes::Every(0.4), |_ode, t, y| {
 ///     rows.push((t, y[0]));
 ///     ControlFlow::Continue(())
 /// })?;
@@ -103,8 +103,8 @@ impl OutputTimes {
 /// assert!(rows.iter().all(|(t, y)| (y - t * t).abs() < 1e-14));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-pub fn sample<O, F>(
-    method: Method,
+pub fn sample<O, M, F>(
+    method: &M,
     ode: &mut O,
     interval: &Interval<'_>,
     y0: &[f64],
@@ -114,6 +114,7 @@ pub fn sample<O, F>(
 ) -> Result<Outcome, Box<Failure<O::Error>>>
 where
     O: Ode,
+    M: Method<O>,
     F: FnMut(&mut O, f64, &mut [f64]) -> ControlFlow<()>,
 {
     check(ode, interval, y0, options)

@@ -17,14 +17,14 @@
 //! b = 1/2 were chosen here: the norm of the 20 error coefficients of order 6 is then nowhere in the step larger than at its
 //! end, where it is that of the method itself (asserted in `order_conditions`).
 
-use super::Dopri5;
+use super::Stages;
 use super::tableau::{D, NODE_A, NODE_B};
 use crate::drive::evaluate;
 use crate::error::Cause;
 use crate::method::{Dense, Ends};
 use crate::ode::Ode;
 
-impl<O: Ode> Dense<O> for Dopri5 {
+impl<O: Ode> Dense<O> for Stages {
     fn interpolate(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]) {
         quartic(&self.k, ends, theta, out);
     }

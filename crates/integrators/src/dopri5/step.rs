@@ -1,38 +1,43 @@
 //! One trial step and its estimated error.
 
-use super::Dopri5;
+use super::Stages;
 use super::tableau::{A, C, E};
-use crate::control::ControlConstants;
+use crate::control::Control;
 use crate::drive::evaluate;
 use crate::error::Cause;
-use crate::method::{Stepper, Trial};
+use crate::method::{Start, Stepper, Trial};
 use crate::ode::Ode;
+use crate::statistics::Statistics;
 
-impl<O: Ode> Stepper<O> for Dopri5 {
-    const ORDER: i32 = 5;
-    /// Those of the program DOPRI5 of Hairer and Wanner: α = 1/5 − ¾·β.
-    const CONTROL: ControlConstants = ControlConstants {
-        alpha: 0.2 - 0.75 * 0.04,
-        beta: 0.04,
-        safety: 0.9,
-        min_factor: 0.2,
-        max_factor: 10.0,
-    };
+impl<O: Ode> Stepper<O> for Stages {
+    fn order(&self) -> i32 {
+        5
+    }
+
+    fn control(&mut self) -> &mut Control {
+        &mut self.control
+    }
 
     fn trial(
         &mut self,
         ode: &mut O,
         trial: &Trial<'_>,
-        y0: &[f64],
-        f0: &[f64],
+        start: &Start<'_>,
         y1: &mut [f64],
-        evaluations: &mut u64,
+        statistics: &mut Statistics,
     ) -> Result<(), Cause<O::Error>> {
+        let y0 = start.y0;
         let (h, n) = (trial.h, y0.len());
         let [k2, k3, k4, k5, k6, k7] = self.k.each_mut().map(|k| &mut k[..n]);
-        let (k1, y) = (&f0[..n], &mut self.y[..n]);
+        let (k1, y) = (&start.f0[..n], &mut self.y[..n]);
         let mut stage = |s: usize, y: &[f64], k: &mut [f64]| {
-            evaluate(ode, trial.stage_time(C[s]), y, k, evaluations)
+            evaluate(
+                ode,
+                trial.stage_time(C[s]),
+                y,
+                k,
+                &mut statistics.evaluations,
+            )
         };
         for i in 0..n {
             y[i] = y0[i] + h * (A[0][0] * k1[i]);
@@ -64,10 +69,17 @@ impl<O: Ode> Stepper<O> for Dopri5 {
         stage(5, y1, k7)
     }
 
-    fn error_norm(&self, h: f64, f0: &[f64], scale: &[f64]) -> f64 {
-        let n = f0.len();
+    fn error_norm(
+        &mut self,
+        _ode: &mut O,
+        trial: &Trial<'_>,
+        start: &Start<'_>,
+        scale: &[f64],
+        _statistics: &mut Statistics,
+    ) -> Result<f64, Cause<O::Error>> {
+        let (h, f0, n) = (trial.h, start.f0, start.f0.len());
         if n == 0 {
-            return 0.0;
+            return Ok(0.0);
         }
         let [_, k3, k4, k5, k6, k7] = self.k.each_ref().map(|k| &k[..n]);
         let mut sum = 0.0;
@@ -79,7 +91,7 @@ impl<O: Ode> Stepper<O> for Dopri5 {
                 sum += (error / scale[i]) * (error / scale[i]);
             }
         }
-        (sum / n as f64).sqrt()
+        Ok((sum / n as f64).sqrt())
     }
 
     fn end_derivative(
@@ -88,7 +100,7 @@ impl<O: Ode> Stepper<O> for Dopri5 {
         _trial: &Trial<'_>,
         _y1: &[f64],
         f1: &mut [f64],
-        _evaluations: &mut u64,
+        _statistics: &mut Statistics,
     ) -> Result<(), Cause<O::Error>> {
         f1.copy_from_slice(&self.k[5]);
         Ok(())

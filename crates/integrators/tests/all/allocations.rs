@@ -1,7 +1,7 @@
 //! Memory is allocated at the start only.
 
 use crate::problems::kepler;
-use integrators::{Function, Interval, Method, Options, OutputTimes, sample};
+use integrators::{Dopri5, Function, Interval, Options, OutputTimes, sample};
 use std::ops::ControlFlow;
 
 #[test]
@@ -14,7 +14,7 @@ fn the_number_of_allocations_does_not_depend_on_the_length() {
         let info = allocation_counter::measure(|| {
             let y0 = [1.0, 0.0, 0.0, 1.1];
             let end = sample(
-                Method::Dopri5,
+                &Dopri5,
                 &mut ode,
                 &interval,
                 &y0,

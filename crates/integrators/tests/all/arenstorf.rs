@@ -3,7 +3,7 @@
 use crate::problems::arenstorf::{PERIOD, Y0, rhs};
 use crate::problems::{distance, run_function};
 use integrators::{
-    Function, InitialStep, Interval, Method, Options, OutputTimes, integrate, sample,
+    Dopri5, Function, InitialStep, Interval, Options, OutputTimes, integrate, sample,
 };
 use std::ops::ControlFlow;
 
@@ -31,7 +31,7 @@ fn reproduces_the_published_run_of_the_original_program() {
     let mut next = rows.next();
     let options = Options::with_tolerance(1e-7, 1e-7);
     let interval = Interval::new(0.0, PERIOD);
-    let end = integrate(Method::Dopri5, &mut ode, &interval, &Y0, &options, |step| {
+    let end = integrate(&Dopri5, &mut ode, &interval, &Y0, &options, |step| {
         while let Some(row) = next.filter(|row| row.0 <= step.t1()) {
             step.interpolate(row.0, &mut y).expect("inside");
             assert!(
@@ -106,7 +106,7 @@ fn rows_are_as_accurate_as_steps() {
         let options = Options::with_tolerance(tolerance, tolerance);
         let interval = Interval::new(0.0, PERIOD / 2.0);
         sample(
-            Method::Dopri5,
+            &Dopri5,
             &mut ode,
             &interval,
             &Y0,
@@ -131,7 +131,7 @@ fn rows_are_as_accurate_as_steps() {
     let interval = Interval::new(0.0, PERIOD / 2.0);
     let options = Options::with_tolerance(1e-8, 1e-8);
     integrate(
-        Method::Dopri5,
+        &Dopri5,
         &mut Function::new(4, rhs),
         &interval,
         &Y0,

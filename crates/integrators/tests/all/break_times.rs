@@ -1,7 +1,8 @@
 //! Kinks and jumps of f, declared and not.
 
 use crate::problems::run;
-use integrators::{Function, Interval, Method, Options, integrate};
+use integrators::{Dopri5, Function, Interval, Ode, Options, integrate};
+use std::convert::Infallible;
 use std::ops::ControlFlow;
 
 const DECLARED: [f64; 1] = [1.0];
@@ -96,7 +97,7 @@ fn steps_end_exactly_at_break_times_and_the_end() {
     let mut ends = Vec::new();
     let mut ode = Function::new(1, |_t, y: &[f64], dy: &mut [f64]| dy[0] = -y[0]);
     let end = integrate(
-        Method::Dopri5,
+        &Dopri5,
         &mut ode,
         &interval(&breaks),
         &[1.0],
@@ -124,4 +125,52 @@ fn neighbouring_break_times_are_passed() {
         &Options::default(),
     );
     assert!((end.y[0] - 1.0).abs() < 1e-14, "{}", end.y[0]);
+}
+
+/// A ball of unit mass that is hit at t = 1: v jumps by 3 there.
+struct Hit;
+
+impl Ode for Hit {
+    type Error = Infallible;
+
+    fn dim(&self) -> usize {
+        2
+    }
+
+    fn rhs(&mut self, _t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Infallible> {
+        dy.copy_from_slice(&[y[1], 0.0]);
+        Ok(())
+    }
+
+    fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), Infallible> {
+        assert_eq!(t, 1.0_f64.next_up());
+        y[1] += 3.0;
+        Ok(())
+    }
+}
+
+#[test]
+fn the_state_may_jump_at_a_break_time() {
+    let interval = Interval {
+        t0: 0.0,
+        t_end: 2.0,
+        break_times: &[1.0],
+    };
+    let mut before = 0.0;
+    let end = integrate(
+        &Dopri5,
+        &mut Hit,
+        &interval,
+        &[0.0, 1.0],
+        &Options::default(),
+        |step| {
+            if step.t1() == 1.0 {
+                before = step.y1()[1];
+            }
+            ControlFlow::Continue(())
+        },
+    )
+    .expect("free flight");
+    assert_eq!(before, 1.0, "the step to t = 1 ends before the hit");
+    assert!((end.y[0] - 5.0).abs() < 1e-14 && end.y[1] == 4.0);
 }

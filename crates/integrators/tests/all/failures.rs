@@ -2,7 +2,7 @@
 
 use crate::problems::{oscillator, run, run_function};
 use integrators::{
-    Cause, End, Failure, Function, InitialStep, IntegrationError, Interval, Method, Ode, Options,
+    Cause, Dopri5, End, Failure, Function, InitialStep, IntegrationError, Interval, Ode, Options,
     OutputError, Tolerance, integrate,
 };
 use std::convert::Infallible;
@@ -16,7 +16,7 @@ fn fails<F: FnMut(f64, &[f64], &mut [f64])>(
     options: &Options,
 ) -> Failure<Infallible> {
     let mut ode = Function::new(1, f);
-    *integrate(Method::Dopri5, &mut ode, interval, y0, options, |_| {
+    *integrate(&Dopri5, &mut ode, interval, y0, options, |_| {
         ControlFlow::Continue(())
     })
     .expect_err("this must fail")
@@ -117,7 +117,7 @@ fn errors_of_the_problem_are_kept_when_steps_collapse() {
     };
     let mut last = 0.0;
     let failure = integrate(
-        Method::Dopri5,
+        &Dopri5,
         &mut ode,
         &Interval::new(0.0, 2.0),
         &[1.0],
@@ -301,7 +301,7 @@ fn dense_output_does_not_extrapolate() {
     let mut ode = Function::new(1, decay);
     let interval = Interval::new(0.0, 1.0);
     integrate(
-        Method::Dopri5,
+        &Dopri5,
         &mut ode,
         &interval,
         &[1.0],

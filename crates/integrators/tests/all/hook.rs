@@ -2,7 +2,7 @@
 
 use crate::problems::{WEIGHT, distance, fixed_step, observed_orders};
 use integrators::{
-    Cause, IntegrationError, Interval, Method, Ode, Options, Outcome, StepEnd, StepInfo, integrate,
+    Cause, Dopri5, IntegrationError, Interval, Ode, Options, Outcome, StepEnd, StepInfo, integrate,
 };
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -54,7 +54,7 @@ fn circle(t_end: f64, options: &Options) -> Outcome {
     };
     let mut previous: Option<([f64; 2], [f64; 2])> = None;
     integrate(
-        Method::Dopri5,
+        &Dopri5,
         &mut ode,
         &Interval::new(0.0, t_end),
         &[1.0, 0.0],
@@ -117,7 +117,7 @@ fn dense_output_passes_smoothly_through_projected_states() {
     let options = fixed_step(1.25); // large corrections, (1/600 − 1/720)·h⁶ ≈ 1e-3
     let mut y = [[0.0; 2]; 2];
     let end = integrate(
-        Method::Dopri5,
+        &Dopri5,
         &mut ode,
         &Interval::new(0.0, 10.0),
         &[1.0, 0.0],
@@ -166,14 +166,9 @@ fn rejection_by_the_hook_halves_the_step() {
     let free = circle(10.0, &options).statistics;
     let limit = 0.5 * free.largest_correction;
     let mut ode = Circle { limit };
-    let end = integrate(
-        Method::Dopri5,
-        &mut ode,
-        &interval,
-        &[1.0, 0.0],
-        &options,
-        |_| ControlFlow::Continue(()),
-    )
+    let end = integrate(&Dopri5, &mut ode, &interval, &[1.0, 0.0], &options, |_| {
+        ControlFlow::Continue(())
+    })
     .expect("shorter steps have smaller corrections");
     let s = end.statistics;
     assert!(
@@ -183,14 +178,9 @@ fn rejection_by_the_hook_halves_the_step() {
     assert!(s.accepted > free.accepted);
 
     let mut ode = Circle { limit: -1.0 };
-    let failure = integrate(
-        Method::Dopri5,
-        &mut ode,
-        &interval,
-        &[1.0, 0.0],
-        &options,
-        |_| ControlFlow::Continue(()),
-    )
+    let failure = integrate(&Dopri5, &mut ode, &interval, &[1.0, 0.0], &options, |_| {
+        ControlFlow::Continue(())
+    })
     .expect_err("no step is good enough");
     assert!(
         matches!(

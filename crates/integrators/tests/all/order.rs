@@ -3,7 +3,7 @@
 use crate::problems::{
     distance, fixed_step, kepler, modulated, observed_orders, oscillator, run_function,
 };
-use integrators::{Function, Interval, Method, Options, integrate};
+use integrators::{Dopri5, Function, Interval, Options, integrate};
 use std::ops::ControlFlow;
 
 /// Observed orders scatter by the next term of the error, a few per cent at these steps.
@@ -36,25 +36,18 @@ fn largest_errors(n: u32) -> Errors {
     let mut y = [0.0];
     let options = fixed_step(T_END / f64::from(n));
     let interval = Interval::new(0.0, T_END);
-    let end = integrate(
-        Method::Dopri5,
-        &mut ode,
-        &interval,
-        &[1.0],
-        &options,
-        |step| {
-            let error = |t: f64, y: f64| (y - t.sin().exp()).abs();
-            errors.ends = errors.ends.max(error(step.t1(), step.y1()[0]));
-            for i in 1..10 {
-                let t = step.t0() + f64::from(i) / 10.0 * (step.t1() - step.t0());
-                step.interpolate(t, &mut y).expect("t is inside");
-                errors.cheap = errors.cheap.max(error(t, y[0]));
-                step.interpolate_accurately(t, &mut y).expect("t is inside");
-                errors.accurate = errors.accurate.max(error(t, y[0]));
-            }
-            ControlFlow::Continue(())
-        },
-    )
+    let end = integrate(&Dopri5, &mut ode, &interval, &[1.0], &options, |step| {
+        let error = |t: f64, y: f64| (y - t.sin().exp()).abs();
+        errors.ends = errors.ends.max(error(step.t1(), step.y1()[0]));
+        for i in 1..10 {
+            let t = step.t0() + f64::from(i) / 10.0 * (step.t1() - step.t0());
+            step.interpolate(t, &mut y).expect("t is inside");
+            errors.cheap = errors.cheap.max(error(t, y[0]));
+            step.interpolate_accurately(t, &mut y).expect("t is inside");
+            errors.accurate = errors.accurate.max(error(t, y[0]));
+        }
+        ControlFlow::Continue(())
+    })
     .expect("smooth problem");
     let s = end.statistics;
     assert_eq!(s.accepted, u64::from(n));
@@ -91,19 +84,12 @@ fn dense_outputs_have_local_orders_five_and_six() {
         let (mut cheap, mut accurate) = ([0.0; 2], [0.0; 2]);
         let interval = Interval::new(0.0, h);
         let y0 = [1.0, 0.0];
-        integrate(
-            Method::Dopri5,
-            &mut ode,
-            &interval,
-            &y0,
-            &fixed_step(h),
-            |step| {
-                step.interpolate(theta * h, &mut cheap).expect("inside");
-                step.interpolate_accurately(theta * h, &mut accurate)
-                    .expect("inside");
-                ControlFlow::Continue(())
-            },
-        )
+        integrate(&Dopri5, &mut ode, &interval, &y0, &fixed_step(h), |step| {
+            step.interpolate(theta * h, &mut cheap).expect("inside");
+            step.interpolate_accurately(theta * h, &mut accurate)
+                .expect("inside");
+            ControlFlow::Continue(())
+        })
         .expect("smooth problem");
         let exact = [(theta * h).cos(), -(theta * h).sin()];
         (distance(&cheap, &exact), distance(&accurate, &exact))

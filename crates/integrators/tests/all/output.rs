@@ -2,7 +2,7 @@
 
 use crate::problems::oscillator;
 use integrators::{
-    End, Function, IntegrationError, Interval, Method, Ode, Options, OutputTimes, integrate, sample,
+    Dopri5, End, Function, IntegrationError, Interval, Ode, Options, OutputTimes, integrate, sample,
 };
 use std::ops::ControlFlow;
 use thiserror::Error;
@@ -12,7 +12,7 @@ fn times(interval: &Interval<'_>, times: &OutputTimes) -> Vec<f64> {
     let options = Options::default();
     let mut ode = Function::new(2, oscillator);
     sample(
-        Method::Dopri5,
+        &Dopri5,
         &mut ode,
         interval,
         &[1.0, 0.0],
@@ -70,7 +70,7 @@ fn rows_at_given_times() {
         let options = Options::default();
         let at = OutputTimes::At(bad);
         let failure = sample(
-            Method::Dopri5,
+            &Dopri5,
             &mut ode,
             &interval,
             &[1.0, 0.0],
@@ -93,7 +93,7 @@ fn bad_output_steps_are_refused() {
         let (interval, options) = (Interval::new(0.0, 2.0), Options::default());
         let every = OutputTimes::Every(dt);
         let failure = sample(
-            Method::Dopri5,
+            &Dopri5,
             &mut ode,
             &interval,
             &[1.0, 0.0],
@@ -115,7 +115,7 @@ fn the_observer_can_stop() {
     let (interval, options) = (Interval::new(0.0, 100.0), Options::default());
     let mut t_stop = 0.0;
     let end = integrate(
-        Method::Dopri5,
+        &Dopri5,
         &mut ode,
         &interval,
         &[1.0, 0.0],
@@ -137,7 +137,7 @@ fn the_observer_can_stop() {
     let mut rows = 0;
     let every = OutputTimes::Every(0.5);
     let end = sample(
-        Method::Dopri5,
+        &Dopri5,
         &mut ode,
         &interval,
         &[1.0, 0.0],
@@ -188,7 +188,7 @@ fn a_failing_extra_evaluation_is_named() {
     let at = OutputTimes::At(vec![0.7]);
     let interval = Interval::new(0.0, 1.0);
     let failure = sample(
-        Method::Dopri5,
+        &Dopri5,
         &mut OnlyAtStages,
         &interval,
         &[0.0],

@@ -1,7 +1,7 @@
 //! Right-hand sides and small helpers shared by the tests.
 
 use integrators::{
-    Function, InitialStep, Interval, Method, Ode, Options, Outcome, Tolerance, integrate,
+    Dopri5, Function, InitialStep, Interval, Ode, Options, Outcome, Tolerance, integrate,
 };
 use std::ops::ControlFlow;
 
@@ -61,7 +61,7 @@ pub(crate) fn run<O: Ode>(
     y0: &[f64],
     options: &Options,
 ) -> Outcome {
-    integrate(Method::Dopri5, ode, interval, y0, options, |_| {
+    integrate(&Dopri5, ode, interval, y0, options, |_| {
         ControlFlow::Continue(())
     })
     .expect("the integration reaches its end")
