@@ -134,6 +134,11 @@ impl<'a> KeptRowMotion<'a> {
         self.velocity.pivot_ratio()
     }
 
+    /// The same relative to that when the rows were chosen.
+    pub(crate) fn relative_pivot(&self) -> f64 {
+        self.velocity.relative_pivot()
+    }
+
     /// Power of drives and applied forces at the last evaluated acceleration (W): `Q·v − λᵀ·b`. The weight has a
     /// potential and is not counted.
     pub(crate) fn power(&mut self, v: &[f64]) -> f64 {

@@ -12,29 +12,38 @@
 //! | `control`, `start` | step-size control and the automatic first step |
 //! | `step` | an accepted step with its dense output: [`Step`] |
 //! | `sample` | rows at given output times: [`sample()`] |
+//! | `implicit` | problems with a Jacobian: [`Implicit`] |
+//! | `dense_implicit` | a plain problem with a dense Jacobian: [`DenseImplicit`] |
 //! | `dopri5` | Dormand–Prince 5(4): `tableau`, `step`, `dense` |
+//! | `radau5` | Radau IIA of order 5: `tableau`, `scale`, `newton`, `convergence`, `step`, `dense` |
 
 #![forbid(unsafe_code)]
 
 mod control;
+mod dense_implicit;
 mod dopri5;
 mod drive;
 mod error;
+mod implicit;
 mod interval;
 mod method;
 mod ode;
 mod options;
+mod radau5;
 mod sample;
 mod start;
 mod statistics;
 mod step;
 
+pub use dense_implicit::{DenseError, DenseImplicit, Differences, Jacobian};
 pub use dopri5::Dopri5;
 pub use error::{Cause, Failure, IntegrationError};
+pub use implicit::Implicit;
 pub use interval::Interval;
 pub use method::{End, Method, Outcome, integrate};
 pub use ode::{Function, Ode, StepEnd, StepInfo};
 pub use options::{InitialStep, Options, Tolerance};
+pub use radau5::Radau5;
 pub use sample::{OutputTimes, sample};
 pub use statistics::Statistics;
 pub use step::{OutputError, Step};

@@ -143,6 +143,11 @@ pub trait Stepper<O: Ode>: Dense<O> {
     /// Order of the solution that is carried on.
     fn order(&self) -> i32;
 
+    /// The middle of the widest gap between nodes: where in a step f is not looked at.
+    fn widest_gap(&self) -> f64 {
+        0.5
+    }
+
     /// The controller of the step size.
     fn control(&mut self) -> &mut Control;
 

@@ -24,7 +24,37 @@ pub(crate) struct Singular {
     pub(crate) dependent: usize,
 }
 
+/// A singular configuration is looked for up to so many times the distance at which a straight line meets it.
+const BEYOND: f64 = 1.5;
+
+/// Where a pivot falls to this share of the present one and rises again, it vanishes: what is left is the error of a parabola.
+const VANISHES: f64 = 0.2;
+
 impl KeptRowMotion<'_> {
+    /// When the motion that was at q with velocities v and accelerations a at time t, the last accepted one, will be singular,
+    /// if that is to be expected before `t_last`.
+    pub(crate) fn foresee(
+        &mut self,
+        (t, q, v, a): (f64, &[f64], &[f64], &[f64]),
+        t_last: f64,
+    ) -> Option<f64> {
+        let expected = self.passage.expected().filter(|&e| e <= t_last)?;
+        let noise = VANISHES * self.velocity.relative_pivot();
+        let mechanism = self.mechanism;
+        let (mut qd, mut qdd) = (vec![0.0; q.len()], vec![0.0; q.len()]);
+        mechanism.rate(q, v, &mut qd);
+        // Of T(q)·v the part that is new at this place: enough for a place to look for.
+        mechanism.rate(q, a, &mut qdd);
+        let end = t + BEYOND * (expected - t);
+        let singular = self.locate([t, end], noise, |time, out| {
+            let dt = time - t;
+            for i in 0..out.len() {
+                out[i] = q[i] + dt * (qd[i] + 0.5 * dt * qdd[i]);
+            }
+        })?;
+        Some(singular.t)
+    }
+
     /// The singular configuration between t0 and t1, if there is one: where the sign of the bordered determinant changes, or where
     /// the smallest pivot falls below `noise` of its reference and rises again. `state` gives the coordinates of the step.
     pub(crate) fn locate(

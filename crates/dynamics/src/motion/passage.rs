@@ -1,9 +1,12 @@
 //! Does a step pass a singular configuration? There the kept rows are dependent for an instant: branches of the motion may meet,
 //! and a step may land on another one with every residual at rounding.
 //!
-//! Stages that come as near as [`SINGULAR`](super::rows) leave the dependent rows out of their solve. A step must not end
-//! near a singular configuration, where a projection cannot tell the branches apart; one that goes over it stands only if it
-//! needed no correction worth its tolerance, which a kink into another branch would: the motion goes on as smoothly as it came.
+//! What determines the accelerations there is a quotient of two numbers that both vanish: at the distance σ, a share of the reference
+//! pivots, a stage off the constraints by δ is wrong by δ/σ and rounding by eps/σ². So, near a singular configuration, stages are
+//! moved onto the constraints before they are evaluated, steps are chosen such that it falls between two stages
+//! ([`Passage::expected`]), and rows below 1e-6 are left out of a solve. A step must not end where a projection could not tell the
+//! branches apart, and one that goes over a singular configuration stands only if its correction is small beside the
+//! distance of the branches: the motion goes on as smoothly as it came.
 
 use super::rows::KeptRows;
 
@@ -17,6 +20,9 @@ pub(super) struct Passage {
     frame: Vec<f64>,
     sign: f64,
     t: f64,
+    /// Relative pivot there, and its rate since the step before.
+    pivot: f64,
+    rate: f64,
     lowest: Option<f64>,
 }
 
@@ -24,6 +30,11 @@ impl Passage {
     /// Time of the last accepted step.
     pub(super) fn since(&self) -> f64 {
         self.t
+    }
+
+    /// When the pivots of the last two accepted steps, continued as a straight line, vanish.
+    pub(super) fn expected(&self) -> Option<f64> {
+        (self.rate < 0.0).then(|| self.t - self.pivot / self.rate)
     }
 
     /// Notes the pivots of a stage.
@@ -44,6 +55,9 @@ impl Passage {
 
     /// Takes the freshly factored rows of an accepted step at time t.
     pub(super) fn take(&mut self, rows: &mut KeptRows, t: f64) {
+        let pivot = rows.relative_pivot();
+        self.rate = (pivot - self.pivot) / (t - self.t);
+        self.pivot = pivot;
         self.t = t;
         self.lowest = None;
         rows.null_frame(&mut self.frame);

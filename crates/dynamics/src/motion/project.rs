@@ -58,6 +58,12 @@ impl KeptRowMotion<'_> {
         self.finish(q, v, iterations)
     }
 
+    /// Moves a stage onto the constraints.
+    pub(crate) fn approach(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Trip> {
+        self.settle(t, q)?;
+        self.project_velocity(v)
+    }
+
     /// Whether the step to the state just evaluated may have passed a singular configuration.
     pub(crate) fn may_have_passed(&mut self) -> bool {
         self.passage.is_suspect(&mut self.velocity)

@@ -22,8 +22,16 @@ const NEAREST_TOLERANCES: f64 = 100.0;
 /// Loose tolerances must not keep a motion far from everything.
 const NEAREST_MAX: f64 = 0.1;
 
-/// Largest correction, in the norm of the error test, of a step over a singular configuration.
-const SMOOTH: f64 = 1.0;
+/// From pivots of this share of the reference on the stages of a step are moved onto the constraints before they are evaluated:
+/// off them by δ, accelerations are wrong by δ divided by that share.
+const CAREFUL: f64 = 0.3;
+
+/// Singular configurations are foreseen for so many steps like the last one: no method lets steps grow by more.
+const FORESIGHT: f64 = 12.0;
+
+/// Largest relative correction of a step over a singular configuration, as share of the distance at which it ends: other branches are
+/// as far away as that.
+const SMOOTH: f64 = 0.01;
 
 /// The equations of a run with what is noted on the way.
 pub(super) struct Equations<'m> {
@@ -35,6 +43,7 @@ pub(super) struct Equations<'m> {
     /// Steps must not end nearer to a singular configuration, but where they have to.
     nearest: f64,
     t_end: f64,
+    rtol: f64,
     energy: EnergyBalance,
     max_position_residual: f64,
     max_velocity_residual: f64,
@@ -42,8 +51,13 @@ pub(super) struct Equations<'m> {
     events: Vec<Event>,
     /// Whether the last accepted step may have passed a singular configuration.
     is_suspect: bool,
-    /// The state before a projection.
+    /// Whether the stages of the present step are moved onto the constraints.
+    is_careful: bool,
+    /// When the motion is expected to pass a singular configuration.
+    delicate: Option<f64>,
+    /// The state before a projection; a stage on the constraints.
     before: Vec<f64>,
+    stage: Vec<f64>,
 }
 
 impl<'m> Equations<'m> {
@@ -61,13 +75,17 @@ impl<'m> Equations<'m> {
             works: layout.rheonomic || mechanism.has_applied_forces(),
             nearest: (NEAREST_TOLERANCES * options.rtol).clamp(NEAREST, NEAREST_MAX),
             t_end: options.t_end,
+            rtol: options.rtol,
             energy: EnergyBalance::new(mechanism, q, v),
             max_position_residual: 0.0,
             max_velocity_residual: 0.0,
             min_pivot_ratio: f64::INFINITY,
             events: Vec::new(),
             is_suspect: false,
+            is_careful: false,
+            delicate: None,
             before: Vec::new(),
+            stage: Vec::new(),
             motion,
         }
     }
@@ -77,6 +95,8 @@ impl<'m> Equations<'m> {
         let mut y = [q, v].concat();
         y.extend(self.works.then_some(0.0));
         self.before = y.clone();
+        self.stage = y.clone();
+        self.is_careful = self.motion.relative_pivot() < CAREFUL;
         y
     }
 
@@ -166,7 +186,18 @@ impl Ode for Equations<'_> {
     }
 
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
-        self.motion.derivative(t, y, dy)
+        if !self.is_careful {
+            return self.motion.derivative(t, y, dy);
+        }
+        let mut stage = std::mem::take(&mut self.stage);
+        stage.copy_from_slice(y);
+        let (q, rest) = stage.split_at_mut(self.n_q);
+        let result = self
+            .motion
+            .approach(t, q, &mut rest[..self.n_v])
+            .and_then(|()| self.motion.derivative(t, &stage, dy));
+        self.stage = stage;
+        result
     }
 
     fn end_of_step(
@@ -191,19 +222,29 @@ impl Ode for Equations<'_> {
         }
         let correction = step.norm(&self.before);
         let is_suspect = self.motion.may_have_passed();
-        if is_suspect && correction > SMOOTH {
+        if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot() {
             return Err(self.motion.no_way_over(step.t));
         }
         self.motion.derivative(step.t_rhs, y, dy)?;
         // From here on the step stands.
         self.is_suspect = is_suspect;
+        self.is_careful = self.motion.relative_pivot() < CAREFUL;
         self.note(y, found);
         self.events.extend(self.motion.accept(step.t));
         self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
+        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+        let now = (step.t, q, v, &dy[self.n_q..self.n_q + self.n_v]);
+        self.delicate = self
+            .motion
+            .foresee(now, step.t + FORESIGHT * (step.t - step.t0));
         Ok(StepEnd::Projected {
             correction,
             evaluations: 1,
         })
+    }
+
+    fn delicate_time(&self) -> Option<f64> {
+        self.delicate
     }
 
     /// Rates that jump make the velocities jump, by an impulse of the constraints.

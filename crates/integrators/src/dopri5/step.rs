@@ -14,6 +14,11 @@ impl<O: Ode> Stepper<O> for Stages {
         5
     }
 
+    /// Between the nodes 3/10 and 4/5.
+    fn widest_gap(&self) -> f64 {
+        0.55
+    }
+
     fn control(&mut self) -> &mut Control {
         &mut self.control
     }

@@ -9,3 +9,4 @@ mod kepler;
 mod order;
 mod output;
 mod problems;
+mod radau5;
