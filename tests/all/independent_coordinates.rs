@@ -2,7 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{KeptRowMotion, MotionOptions, Prepared, Reduced, RowChoice, prepare, simulate};
+use dynamics::{
+    KeptRowMotion, Method, MotionOptions, Prepared, Reduced, RowChoice, prepare, simulate,
+};
 use joints::{Bushing, SpringDamper, TorsionSpringDamper};
 use model::{BodyRef, Description, Force, Mechanism, PlaneForce, StartOptions};
 use tests::cranks::cranks;
@@ -164,4 +166,110 @@ fn shifted_systems_are_solved() {
     let imaginary = |i: usize| alpha * im[i] + beta * re[i] - times(&im)[i] - b_im[i];
     let gap = largest((0..re.len()).flat_map(|i| [real(i), imaginary(i)]));
     assert!(gap < 1e-10, "{gap:e}");
+}
+
+/// Three cranks whose first one is held by a spring of 1e12 N·m/rad and a damper of 1e6 N·m·s/rad to a hand that is driven by
+/// s(t) = −0.7 + 0.3·sin t: the fast motion decays with 3e5/s, and the crank follows the hand.
+mod held {
+    use super::*;
+    use joints::RevoluteAngleDrive;
+    use model::{Body, Drive, Function};
+
+    const K: f64 = 1e12;
+    const C: f64 = 1e6;
+    const G: f64 = 9.81;
+    /// Inertia of all bodies about the one angle θ, cranks 1 m long: 3·(0.1 + 1·0.5²) + 0.5·1².
+    const INERTIA: f64 = 1.55;
+    /// Moment of the weight at θ = 0, by g: 3·1·0.5 + 0.5·1.
+    const LEVER: f64 = 2.0;
+
+    /// θ and θ̇ of the slow motion, `I·θ̈ = −G·cos θ − k·(θ − s) − c·(θ̇ − ṡ)`, by two terms of its series in 1/k: the third is
+    /// below 1e-20.
+    pub(super) fn slow(t: f64) -> [f64; 2] {
+        let (sin, cos) = t.sin_cos();
+        let [s, d, dd, ddd] = [-0.7 + 0.3 * sin, 0.3 * cos, -0.3 * sin, -0.3 * cos];
+        let weight = G * LEVER;
+        let e = -(INERTIA * dd + weight * s.cos()) / K;
+        let e_rate = -(INERTIA * ddd - weight * s.sin() * d) / K;
+        [s + e - C * e_rate / K, d + e_rate]
+    }
+
+    pub(super) fn description() -> Description {
+        let [theta, omega] = slow(0.0);
+        let mut d = cranks(&[0.0, 1.0, 2.0], 1.0, theta);
+        d.gravity = [0.0, -G];
+        let (sin, cos) = theta.sin_cos();
+        for crank in &mut d.bodies[..3] {
+            crank.inertia = 0.1;
+            crank.angular_velocity = omega;
+            crank.velocity = [-0.5 * omega * sin, 0.5 * omega * cos];
+        }
+        d.bodies[3].mass = 0.5;
+        d.bodies[3].velocity = [-omega * sin, omega * cos];
+        d.bodies.push(Body {
+            name: "hand".into(),
+            mass: 1.0,
+            inertia: 0.01,
+            angular_velocity: 0.3,
+            ..Body::default()
+        });
+        let pair = [BodyRef::Ground, BodyRef::Body(4)];
+        let hand = tests::revolute("hand pivot", &d.bodies, pair, [0.0, 0.0]);
+        d.joints.push(hand);
+        d.drives.push(Drive {
+            name: "drive".into(),
+            bodies: pair.to_vec(),
+            element: Box::new(RevoluteAngleDrive {
+                s_i: [0.0; 2],
+                s_j: [0.0; 2],
+                measure_0: 0.0,
+            }),
+            motion: Function::harmonic(0.3, 1.0, 0.0, 0.0).expect("finite"),
+        });
+        let spring = TorsionSpringDamper {
+            stiffness: K,
+            damping: C,
+            free_angle: Some(-0.7),
+            free_angle_0: 0.0,
+        };
+        let pair = [BodyRef::Body(4), BodyRef::Body(0)];
+        d.forces.push(force("grip", pair, spring));
+        d
+    }
+}
+
+/// Steps and the errors of angle and angular velocity of the held crank after 2 s.
+fn held_crank(p: &Prepared, rtol: f64) -> (u64, f64, f64) {
+    let options = MotionOptions {
+        method: Method::Radau5,
+        rtol,
+        atol: 1e-3 * rtol,
+        output_step: 2.0,
+        ..MotionOptions::to(2.0)
+    };
+    let mut found = [0.0; 2];
+    let summary = simulate(p, &options, |row| {
+        found = [row.q[2], row.v[2]];
+        Ok(ControlFlow::Continue(()))
+    })
+    .expect("a motion");
+    let expected = held::slow(2.0);
+    let [position, velocity] = [0, 1].map(|i| (found[i] - expected[i]).abs());
+    eprintln!(
+        "{rtol:e}: {} steps, {} rejected, {} evaluations, {position:e} {velocity:e} {} s, energy {:e}",
+        summary.steps,
+        summary.rejected,
+        summary.evaluations,
+        summary.wall_seconds,
+        summary.energy_balance
+    );
+    (summary.steps, position, velocity)
+}
+
+#[test]
+fn a_grip_of_1e12_takes_few_steps() {
+    let p = prepared(&held::description());
+    for k in 6..18 {
+        held_crank(&p, 10f64.powf(-0.5 * f64::from(k)));
+    }
 }

@@ -7,7 +7,9 @@ use std::time::Instant;
 mod energy;
 mod equations;
 
-use integrators::{Cause, IntegrationError, Interval, Options, OutputTimes, sample};
+use integrators::{
+    Cause, Dopri5, IntegrationError, Interval, Options, OutputTimes, Radau5, sample,
+};
 use model::{Reaction, System};
 
 use crate::error::{MotionError, Trip};
@@ -123,7 +125,8 @@ pub fn simulate(
         })
     };
     options.check().map_err(fail)?;
-    let motion = KeptRowMotion::new(prepared).map_err(|e| fail(e.into()))?;
+    options.check_rows(&prepared.choice).map_err(fail)?;
+    let motion = KeptRowMotion::with(prepared, options).map_err(|e| fail(e.into()))?;
     let mut equations = Equations::new(motion, prepared, options);
     equations
         .motion
@@ -140,9 +143,6 @@ pub fn simulate(
         tolerance: equations.tolerance(options),
         ..Options::with_tolerance(options.rtol, options.atol)
     };
-    let method = match options.method {
-        Method::Dopri5 => integrators::Dopri5,
-    };
     // A run that takes no time has one row.
     let times = match options.t_end > 0.0 {
         true => OutputTimes::Every(options.output_step),
@@ -150,21 +150,20 @@ pub fn simulate(
     };
     let mut tripped = None;
     let clock = Instant::now();
-    let outcome = sample(
-        &method,
-        &mut equations,
-        &interval,
-        &y0,
-        &settings,
-        &times,
-        |e, t, y| match e.show(t, y, &mut row) {
-            Ok(flow) => flow,
-            Err(trip) => {
-                tripped = Some(trip);
-                ControlFlow::Break(())
-            }
-        },
-    );
+    let show = |e: &mut Equations<'_>, t: f64, y: &mut [f64]| match e.show(t, y, &mut row) {
+        Ok(flow) => flow,
+        Err(trip) => {
+            tripped = Some(trip);
+            ControlFlow::Break(())
+        }
+    };
+    let run = &mut equations;
+    let outcome = match options.method {
+        Method::Auto | Method::Dopri5 => {
+            sample(&Dopri5, run, &interval, &y0, &settings, &times, show)
+        }
+        Method::Radau5 => sample(&Radau5, run, &interval, &y0, &settings, &times, show),
+    };
     let wall_seconds = clock.elapsed().as_secs_f64();
     let (t, statistics) = match &outcome {
         Ok(o) => (o.t, o.statistics),

@@ -56,7 +56,7 @@ impl KeptRowMotion<'_> {
         let (qd, rest) = dy.split_at_mut(layout.n_q);
         let (a, work) = rest.split_at_mut(layout.n_v);
         let Some(mut chart) = self.chart.take() else {
-            self.solve_on_kept(t, q, v, a)?;
+            self.solve(t, q, v, a)?;
             self.rates(q, v, qd, work);
             return Ok(());
         };

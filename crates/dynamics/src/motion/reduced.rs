@@ -15,6 +15,7 @@ use linalg::{Lu, Matrix};
 use model::{Derivatives, System};
 
 use super::KeptRowMotion;
+use super::chart::Chart;
 use crate::error::Trip;
 
 /// The Jacobian at one instant, and factors of shifted ones.
@@ -27,6 +28,8 @@ pub struct Reduced {
     /// Time of the Jacobian.
     time: f64,
     real: Lu,
+    /// The chart of the Jacobian.
+    generation: u64,
     /// Of the real form [αI − S·D, −βI; βI, αI − S·D].
     complex: Lu,
     shift: f64,
@@ -53,6 +56,7 @@ impl Reduced {
             places: Vec::new(),
             columns: Matrix::default(),
             time: 0.0,
+            generation: 0,
             real: Lu::new(0),
             complex: Lu::new(0),
             shift: 1.0,
@@ -88,11 +92,9 @@ impl Reduced {
         self.dy.resize(y.len(), 0.0);
         motion.derivative(t, y, &mut self.dy)?;
         self.take_places(motion, y.len());
+        self.generation = motion.chart.as_ref().map_or(0, |c| c.generation);
         let mechanism = motion.mechanism;
-        self.lambda.fill(0.0);
-        for (&i, &l) in motion.velocity.kept.iter().zip(&motion.velocity.lambda) {
-            self.lambda[i] = l;
-        }
+        motion.last_multipliers(&mut self.lambda);
         let a = &self.dy[n_q..n_q + mechanism.layout().n_v];
         mechanism.differentiate(a, &self.lambda, &motion.s, &mut self.derivatives);
         motion.position.factor(mechanism, &motion.s)?;
@@ -101,6 +103,24 @@ impl Reduced {
             self.differentiate(motion, j)?;
         }
         Ok(())
+    }
+
+    /// Linearises and factors again where the chart has changed: f is another function of y then, although the motion is the same.
+    ///
+    /// # Errors
+    /// As [`Reduced::linearise`] and [`Reduced::factor`].
+    pub(crate) fn follow(
+        &mut self,
+        motion: &mut KeptRowMotion<'_>,
+        t: f64,
+        y: &[f64],
+    ) -> Result<(), Trip> {
+        let is_behind = |c: &Chart| c.generation != self.generation;
+        if self.places.is_empty() || !motion.chart.as_ref().is_some_and(is_behind) {
+            return Ok(());
+        }
+        self.linearise(motion, t, y)?;
+        self.factor(self.shift, self.complex_shift)
     }
 
     /// `∂f/∂w`, dense, and the places of w in y.

@@ -3,14 +3,14 @@
 
 use std::ops::ControlFlow;
 
-use integrators::{Ode, StepEnd, StepInfo, Tolerance};
+use integrators::{Implicit, Ode, StepEnd, StepInfo, Tolerance};
 use model::System;
 
 use super::Sample;
 use super::energy::EnergyBalance;
 use crate::error::Trip;
 use crate::events::Event;
-use crate::motion::{Correction, KeptRowMotion, Motion};
+use crate::motion::{Correction, KeptRowMotion, Reduced};
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 
@@ -36,6 +36,8 @@ const SMOOTH: f64 = 0.01;
 /// The equations of a run with what is noted on the way.
 pub(super) struct Equations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
+    /// Of implicit methods.
+    reduced: Reduced,
     n_q: usize,
     n_v: usize,
     /// Whether y carries the work.
@@ -86,6 +88,7 @@ impl<'m> Equations<'m> {
             delicate: None,
             before: Vec::new(),
             stage: Vec::new(),
+            reduced: Reduced::new(&motion),
             motion,
         }
     }
@@ -128,7 +131,7 @@ impl<'m> Equations<'m> {
         }
     }
 
-    /// Projects a row of output and shows it. At a break time it is the state just before.
+    /// Projects a row of output, where states are projected, and shows it. At a break time it is the state just before.
     pub(super) fn show(
         &mut self,
         t: f64,
@@ -141,7 +144,7 @@ impl<'m> Equations<'m> {
             t
         };
         let (q, rest) = y.split_at_mut(self.n_q);
-        let found = self.motion.project(t_before, q, &mut rest[..self.n_v])?;
+        let found = self.motion.end_row(t_before, q, &mut rest[..self.n_v])?;
         self.note(y, found);
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
         row(&mut Sample {
@@ -215,7 +218,7 @@ impl Ode for Equations<'_> {
         };
         let (q, rest) = y.split_at_mut(self.n_q);
         let v = &mut rest[..self.n_v];
-        let found = self.motion.project_step(step.t_rhs, q, v, nearest)?;
+        let found = self.motion.end_step(step.t_rhs, q, v, nearest)?;
         let pivot_ratio = self.motion.pivot_ratio();
         for (before, y) in self.before.iter_mut().zip(&*y) {
             *before -= y;
@@ -225,13 +228,21 @@ impl Ode for Equations<'_> {
         if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot() {
             return Err(self.motion.no_way_over(step.t));
         }
-        self.motion.derivative(step.t_rhs, y, dy)?;
+        if self.motion.projects() {
+            self.motion.derivative(step.t_rhs, y, dy)?;
+            self.reduced.follow(&mut self.motion, step.t_rhs, y)?;
+            let a = &mut dy[self.n_q..self.n_q + self.n_v];
+            self.motion.review_acceleration(a)?;
+        }
         // From here on the step stands.
         self.is_suspect = is_suspect;
         self.is_careful = self.motion.relative_pivot() < CAREFUL;
         self.note(y, found);
         self.events.extend(self.motion.accept(step.t));
         self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
+        if !self.motion.projects() {
+            return Ok(StepEnd::Unchanged);
+        }
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
         let now = (step.t, q, v, &dy[self.n_q..self.n_q + self.n_v]);
         self.delicate = self
@@ -258,5 +269,23 @@ impl Ode for Equations<'_> {
             self.events.push(impulse.event);
         }
         Ok(())
+    }
+}
+
+impl Implicit for Equations<'_> {
+    fn linearise(&mut self, t: f64, y: &[f64]) -> Result<(), Trip> {
+        self.reduced.linearise(&mut self.motion, t, y)
+    }
+
+    fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), Trip> {
+        self.reduced.factor(real, complex)
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        self.reduced.solve(x);
+    }
+
+    fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
+        self.reduced.solve_complex(re, im);
     }
 }
