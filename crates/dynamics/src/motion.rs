@@ -278,6 +278,7 @@ impl Motion for KeptRowMotion<'_> {
     }
 
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, Trip> {
+        self.complete_row(t, q, v)?;
         let iterations = self.settle(t, q)?;
         self.finish(q, v, iterations)
     }

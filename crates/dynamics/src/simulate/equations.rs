@@ -99,8 +99,13 @@ impl<'m> Equations<'m> {
         y.extend(self.works.then_some(0.0));
         self.before = y.clone();
         self.stage = y.clone();
-        self.is_careful = self.motion.relative_pivot() < CAREFUL;
+        self.is_careful = self.wants_care();
         y
+    }
+
+    /// Whether the next stages have to be moved onto the constraints. On a chart all of them lie there.
+    fn wants_care(&self) -> bool {
+        self.motion.independent().is_none() && self.motion.relative_pivot() < CAREFUL
     }
 
     /// The work is measured, not controlled: its error has no weight. It still counts as a component of the mean, which makes the
@@ -236,7 +241,7 @@ impl Ode for Equations<'_> {
         }
         // From here on the step stands.
         self.is_suspect = is_suspect;
-        self.is_careful = self.motion.relative_pivot() < CAREFUL;
+        self.is_careful = self.wants_care();
         self.note(y, found);
         self.events.extend(self.motion.accept(step.t));
         self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
