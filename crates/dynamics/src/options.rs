@@ -15,11 +15,19 @@ pub enum Method {
     Tsit5,
     /// Dormand–Prince 8(5,3).
     Dop853,
+    /// Radau IIA of order 5 on independent coordinates, for stiff forces.
+    Radau5,
 }
 
 impl Method {
     /// All that can be asked for.
-    pub const ALL: &[Self] = &[Self::Auto, Self::Dopri5, Self::Dop853, Self::Tsit5];
+    pub const ALL: &[Self] = &[
+        Self::Auto,
+        Self::Dopri5,
+        Self::Dop853,
+        Self::Tsit5,
+        Self::Radau5,
+    ];
 
     /// Its name in scenes and results.
     #[must_use]
@@ -29,7 +37,14 @@ impl Method {
             Self::Dopri5 => "dopri5",
             Self::Tsit5 => "tsit5",
             Self::Dop853 => "dop853",
+            Self::Radau5 => "radau5",
         }
+    }
+
+    /// Whether it solves systems of equations with a Jacobian in its steps.
+    #[must_use]
+    pub fn is_implicit(self) -> bool {
+        self == Self::Radau5
     }
 
     /// The integrator that a run uses.
@@ -49,6 +64,9 @@ pub enum Formulation {
     /// r independent rows are kept, the others only monitored.
     #[default]
     KeptRows,
+    /// The same rows give dependent coordinates and velocities; the motion is one of the independent ones alone. Nothing drifts, and
+    /// nothing is stabilised.
+    NullSpace,
     /// All rows by a complete orthogonal decomposition of locked rank; of all reactions those with the least
     /// `Σ F² + T²` (N, N·m).
     MinimumNorm,
@@ -58,13 +76,19 @@ pub enum Formulation {
 
 impl Formulation {
     /// All that can be asked for.
-    pub const ALL: &[Self] = &[Self::KeptRows, Self::MinimumNorm, Self::Proximal];
+    pub const ALL: &[Self] = &[
+        Self::KeptRows,
+        Self::NullSpace,
+        Self::MinimumNorm,
+        Self::Proximal,
+    ];
 
     /// Its name in scenes and results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::KeptRows => "kept-rows",
+            Self::NullSpace => "null-space",
             Self::MinimumNorm => "minimum-norm",
             Self::Proximal => "proximal",
         }
@@ -74,7 +98,7 @@ impl Formulation {
     #[must_use]
     pub fn drops_rows(self) -> bool {
         match self {
-            Self::KeptRows => true,
+            Self::KeptRows | Self::NullSpace => true,
             Self::MinimumNorm | Self::Proximal => false,
         }
     }
@@ -158,6 +182,12 @@ impl MotionOptions {
     pub const RTOL: f64 = 1e-8;
     /// Absolute tolerance where none is given.
     pub const ATOL: f64 = 1e-10;
+
+    /// Whether the motion is one of independent coordinates alone: implicit methods have no other Jacobian.
+    #[must_use]
+    pub fn is_on_chart(&self) -> bool {
+        self.formulation == Formulation::NullSpace || self.method.is_implicit()
+    }
 
     /// The defaults for a run to `t_end`.
     #[must_use]
