@@ -15,15 +15,25 @@
 //! | `implicit` | problems with a Jacobian: [`Implicit`] |
 //! | `dense_implicit` | a plain problem with a dense Jacobian: [`DenseImplicit`] |
 //! | `dopri5` | Dormand–Prince 5(4): `tableau`, `step`, `dense` |
-//! | `radau5` | Radau IIA of order 5: `tableau`, `scale`, `newton`, `convergence`, `step`, `dense` |
+//! | `radau5` | Radau IIA of order 5: `tableau`, `scale`, `newton`, `step`, `dense` |
+//! | `constrained` | problems with constraints as equations of their own: [`Constrained`] |
+//! | `hem4` | half-explicit Runge–Kutta method of order 4: `tableau`, `step` |
+//! | `generalized_alpha` | generalized-α on positions: `newton`, `step` |
+//! | `convergence` | when Newton's iterations end |
+//! | `hermite` | dense output from both ends of a step |
 
 #![forbid(unsafe_code)]
 
+mod constrained;
 mod control;
+mod convergence;
 mod dense_implicit;
 mod dopri5;
 mod drive;
 mod error;
+mod generalized_alpha;
+mod hem4;
+mod hermite;
 mod implicit;
 mod interval;
 mod method;
@@ -35,9 +45,12 @@ mod start;
 mod statistics;
 mod step;
 
+pub use constrained::{Constrained, Linearisation, Sizes, Target};
 pub use dense_implicit::{DenseError, DenseImplicit, Differences, Jacobian};
 pub use dopri5::Dopri5;
 pub use error::{Cause, Failure, IntegrationError};
+pub use generalized_alpha::GeneralizedAlpha;
+pub use hem4::Hem4;
 pub use implicit::Implicit;
 pub use interval::Interval;
 pub use method::{End, Method, Outcome, integrate};

@@ -1,7 +1,7 @@
 //! A plain problem made [`Implicit`]: dense Jacobian, by a formula or by differences, and dense LU decompositions.
 
 mod complex;
-mod lu;
+pub(crate) mod lu;
 
 use crate::implicit::Implicit;
 use crate::ode::{Ode, StepEnd, StepInfo};

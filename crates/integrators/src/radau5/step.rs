@@ -1,11 +1,11 @@
 //! One trial step, its estimated error and the size of the next one.
 
-use super::convergence::{Convergence, GOOD_RATE, MAX_ITERATIONS, Verdict};
 use super::newton::dot;
 use super::scale::set_scale;
 use super::tableau::{COMPLEX, E, REAL};
 use super::{Matrices, Stages};
 use crate::control::{Control, weighted_rms};
+use crate::convergence::{Convergence, GOOD_RATE, MAX_ITERATIONS, Verdict};
 use crate::drive::{evaluate, finite};
 use crate::error::Cause;
 use crate::implicit::Implicit;
