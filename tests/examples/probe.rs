@@ -30,7 +30,7 @@ fn main() {
         let tol = 10f64.powf(-4.0 - 8.0 * k as f64 / 63.0);
         let m = Mechanism::build(&four_bars(n, 0.0, 1.0)).unwrap();
         let p = prepare(m, &StartOptions::default(), &RowChoice::Automatic).unwrap();
-        let o = MotionOptions { rtol: tol, atol: tol, output_step: 10.0, ..MotionOptions::to(10.0) };
+        let o = MotionOptions { rtol: tol, atol: tol, output_step: 10.0, method: match std::env::args().nth(2).as_deref() { Some("8") => dynamics::Method::Dop853, Some("t") => dynamics::Method::Tsit5, _ => dynamics::Method::Dopri5 }, ..MotionOptions::to(10.0) };
         let mut q = vec![];
         match simulate(&p, &o, |s| { q = s.q.to_vec(); Ok(ControlFlow::Continue(())) }) {
             Ok(s) => {
@@ -38,10 +38,11 @@ fn main() {
                 let (x, y) = (2.0*q[0], 2.0*q[1]);
                 let e = (x - 0.3284581115).hypot(y - 0.9445185378);
                 if n == 2 { if e > 0.3 { wrong += 1; } if tol <= 1e-7 { worst = worst.max(e); } }
-                println!("{tol:.1e} steps {} rej {} ev {} err {e:.1e} phi {:.1e} v {:.1e} E {:.1e} ms {:.1}", s.steps, s.rejected, s.evaluations, s.max_position_residual, s.max_velocity_residual, s.energy_balance, 1e3*s.wall_seconds);
+                println!("{tol:.1e} steps {} rej {} ev {} err {e:.1e} phi {:.1e} v {:.1e} E {:.1e} ms {:.1} {}", s.steps, s.rejected, s.evaluations, s.max_position_residual, s.max_velocity_residual, s.energy_balance, 1e3*s.wall_seconds, s.events.len());
             }
             Err(f) => { failed += 1; println!("{tol:.1e} t {} FAIL {}", f.summary.t, f.error); }
         }
     }
+    if let Some(e) = std::env::args().nth(3) { println!("{e}"); }
     println!("wrong {wrong} failed {failed} worst {worst:.1e}");
 }

@@ -7,7 +7,10 @@ use std::time::Instant;
 mod energy;
 mod equations;
 
-use integrators::{Cause, IntegrationError, Interval, Options, OutputTimes, sample};
+use integrators::{
+    Cause, Dop853, Dopri5, IntegrationError, Interval, Options, Outcome, OutputTimes, Rows, Step,
+    Tsit5, integrate,
+};
 use model::{Reaction, System};
 
 use crate::error::{MotionError, Trip};
@@ -140,31 +143,24 @@ pub fn simulate(
         tolerance: equations.tolerance(options),
         ..Options::with_tolerance(options.rtol, options.atol)
     };
-    let method = match options.method {
-        Method::Dopri5 => integrators::Dopri5,
-    };
     // A run that takes no time has one row.
     let times = match options.t_end > 0.0 {
         true => OutputTimes::Every(options.output_step),
         false => OutputTimes::At(vec![0.0]),
     };
-    let mut tripped = None;
+    let rows = Rows::new(times, &interval).map_err(|e| fail(named(e)))?;
+    let mut run = Run {
+        equations,
+        rows,
+        row: &mut row,
+        stopped: None,
+    };
     let clock = Instant::now();
-    let outcome = sample(
-        &method,
-        &mut equations,
-        &interval,
-        &y0,
-        &settings,
-        &times,
-        |e, t, y| match e.show(t, y, &mut row) {
-            Ok(flow) => flow,
-            Err(trip) => {
-                tripped = Some(trip);
-                ControlFlow::Break(())
-            }
-        },
-    );
+    let outcome = match options.method {
+        Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
+        Method::Tsit5 => run.go(&Tsit5, &interval, &y0, &settings),
+        Method::Dop853 => run.go(&Dop853, &interval, &y0, &settings),
+    };
     let wall_seconds = clock.elapsed().as_secs_f64();
     let (t, statistics) = match &outcome {
         Ok(o) => (o.t, o.statistics),
@@ -177,18 +173,91 @@ pub fn simulate(
         evaluations: statistics.total_evaluations(),
         projections: statistics.projections,
         wall_seconds,
-        ..equations.summary()
+        ..run.equations.summary()
     };
-    match (outcome, tripped) {
-        (_, Some(trip)) => Err(Box::new(Failure {
-            error: trip.into(),
-            summary,
-        })),
-        (Ok(_), None) => Ok(summary),
-        (Err(f), None) => Err(Box::new(Failure {
-            error: named(f.error),
-            summary,
-        })),
+    let error = match (outcome, run.stopped) {
+        (_, Some(error)) => error,
+        (Ok(_), None) => return Ok(summary),
+        (Err(f), None) => named(f.error),
+    };
+    Err(Box::new(Failure { error, summary }))
+}
+
+/// A run on its way: the equations, the rows that are still to be shown, and why it was stopped.
+struct Run<'r, 'm, F> {
+    equations: Equations<'m>,
+    rows: Rows,
+    row: &'r mut F,
+    stopped: Option<MotionError>,
+}
+
+type Integrated = Result<Outcome, Box<integrators::Failure<Trip>>>;
+
+impl<'m, F> Run<'_, 'm, F>
+where
+    F: FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+{
+    fn go<M: integrators::Method<Equations<'m>>>(
+        &mut self,
+        method: &M,
+        interval: &Interval<'_>,
+        y0: &[f64],
+        settings: &Options,
+    ) -> Integrated {
+        let Self {
+            equations,
+            rows,
+            row,
+            stopped,
+        } = self;
+        let mut show = |e: &mut Equations<'m>, t: f64, y: &mut [f64]| match e.show(t, y, row) {
+            Ok(flow) => flow,
+            Err(trip) => {
+                *stopped = Some(trip.into());
+                ControlFlow::Break(())
+            }
+        };
+        if rows.start(equations, y0, &mut show).is_break() {
+            // Nothing is integrated; what follows is the result of no time.
+            let nowhere = Interval::new(interval.t0, interval.t0);
+            return integrate(method, equations, &nowhere, y0, settings, |_| {
+                ControlFlow::Break(())
+            });
+        }
+        let mut refused = None;
+        let outcome = integrate(method, equations, interval, y0, settings, |step| {
+            note_passage(step);
+            rows.emit(step, &mut show).unwrap_or_else(|error| {
+                refused = Some(error);
+                ControlFlow::Break(())
+            })
+        });
+        if let Some(error) = refused {
+            *stopped = Some(named(error));
+        }
+        outcome
+    }
+}
+
+/// Records the singular configuration that a step has passed, if it has.
+fn note_passage(step: &mut Step<'_, Equations<'_>>) {
+    if !step.ode().is_suspect() {
+        return;
+    }
+    let (t0, t1) = (step.t0(), step.t1());
+    let noise = step.ode().passage_noise();
+    let mut search = step.ode().motion.search();
+    let mut y = step.y0().to_vec();
+    // The dense output without further evaluations: its error moves the instant by less than it moves the mechanism.
+    let found = search.find([t0, t1], noise, |t, q| {
+        if step.interpolate(t, &mut y).is_ok() {
+            let n = q.len();
+            q.copy_from_slice(&y[..n]);
+        }
+    });
+    if let Some(singular) = found {
+        let event = search.event(singular);
+        step.ode().record(event);
     }
 }
 

@@ -362,11 +362,13 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.t = trial.t1;
         self.failures = 0;
         self.last_rejection = None;
-        let h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));
-        let h = match self.uncut.take() {
-            Some(uncut) if uncut.abs() > h.abs() => uncut,
-            _ => h,
-        };
+        // A step cut by the end of its leg or before a delicate time says nothing against the size wanted before.
+        let is_cut = trial.t1 == trial.leg.end || self.uncut.is_some();
+        let wanted = self.uncut.take().unwrap_or(self.h);
+        let mut h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));
+        if is_cut && h.abs() < wanted.abs() {
+            h = wanted;
+        }
         self.h = h.clamp(-self.options.max_step, self.options.max_step);
     }
 
@@ -402,6 +404,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             t: self.t,
             y: self.y0,
             end,
+            next_step: (self.statistics.accepted > 0).then_some(self.h.abs()),
             statistics: self.statistics,
         }
     }

@@ -7,7 +7,7 @@ use super::KeptRowMotion;
 use crate::error::Trip;
 use crate::events::{Event, EventKind};
 
-/// Residuals below this share of the terms of their row are no jumps.
+/// Residuals below this share of the terms of their row, or for rates of the largest row, are no jumps.
 const NO_JUMP: f64 = 1e-9;
 
 /// What a jump of the rates has done.
@@ -44,10 +44,9 @@ impl KeptRowMotion<'_> {
             }
         }
         self.evaluate_b();
-        let jumps = |&i: &usize| {
-            let size = mechanism.velocity_scale(&self.s, i, v);
-            layout.velocity_residual(&self.s, i, v).abs() > NO_JUMP * size
-        };
+        let sizes = (0..layout.rows()).map(|i| mechanism.velocity_scale(&self.s, i, v));
+        let largest = sizes.fold(0.0, f64::max);
+        let jumps = |&i: &usize| layout.velocity_residual(&self.s, i, v).abs() > NO_JUMP * largest;
         let Some(row) = (0..layout.rows()).find(jumps) else {
             return Ok(None);
         };

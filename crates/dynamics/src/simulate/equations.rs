@@ -158,6 +158,11 @@ impl<'m> Equations<'m> {
         self.is_suspect
     }
 
+    /// Share of the reference to which a pivot falls that vanishes, as well as this run knows.
+    pub(super) fn passage_noise(&self) -> f64 {
+        self.nearest
+    }
+
     /// Records what happened.
     pub(super) fn record(&mut self, event: Event) {
         self.events.push(event);

@@ -150,6 +150,10 @@ impl<O: Ode, J: Jacobian<O>> Ode for DenseImplicit<O, J> {
             .map_err(DenseError::Problem)
     }
 
+    fn delicate_time(&self) -> Option<f64> {
+        self.ode.delicate_time()
+    }
+
     fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), Self::Error> {
         self.ode.at_break(t, y).map_err(DenseError::Problem)
     }

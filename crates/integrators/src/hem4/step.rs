@@ -7,12 +7,16 @@ use crate::control::{Control, weighted_rms};
 use crate::drive::{evaluate, finite};
 use crate::error::Cause;
 use crate::hermite::{PLACE, cubic, cubic_derivative, quartic_weight};
-use crate::method::{Dense, Ends, Start, Stepper, Trial};
+use crate::method::{Dense, Ends, Start, Stepper, Trial, widest_gap};
 use crate::statistics::Statistics;
 
 impl<O: Constrained> Stepper<O> for Stages {
     fn order(&self) -> i32 {
         4
+    }
+
+    fn widest_gap(&self) -> f64 {
+        widest_gap(&C)
     }
 
     fn control(&mut self) -> &mut Control {
