@@ -9,6 +9,7 @@ mod exact_oracle;
 mod existence;
 mod generic;
 mod granularity;
+mod independent_coordinates;
 mod invariance;
 mod nearly_redundant;
 mod plain;

@@ -9,10 +9,12 @@
 //! Positions and velocities have rows of their own. A holonomic row may be dropped because knife edges imply its
 //! velocity; nothing implies its position, and without it the configuration would drift.
 
+mod chart;
 mod impulse;
 mod locate;
 mod passage;
 mod project;
+mod reduced;
 mod review;
 mod rows;
 
@@ -22,8 +24,11 @@ use crate::error::Trip;
 use crate::events::Event;
 use crate::options::RowChoice;
 use crate::prepare::Prepared;
+use chart::Chart;
 use passage::Passage;
 use rows::KeptRows;
+
+pub use reduced::Reduced;
 
 /// Equations solved for what moves.
 pub trait Motion {
@@ -72,6 +77,8 @@ pub struct KeptRowMotion<'a> {
     aside: Option<KeptRows>,
     /// Independent rows of Φq.
     position: KeptRows,
+    /// Independent coordinates, where the motion is one of these alone.
+    chart: Option<Chart>,
     /// Whether a singular configuration is passed.
     passage: Passage,
     /// What happened at the last accepted steps and has not been told.
@@ -101,6 +108,7 @@ impl<'a> KeptRowMotion<'a> {
             velocity: rows(&prepared.decision)?,
             aside: None,
             position: rows(&prepared.position_decision)?,
+            chart: None,
             passage: Passage::default(),
             pending: None,
             delta: vec![0.0; n],
@@ -165,6 +173,17 @@ impl<'a> KeptRowMotion<'a> {
         mechanism.c(s);
         velocity.factor(mechanism, s)?;
         passage.see(velocity);
+        self.solve_factored(v, a)
+    }
+
+    /// The same where the pose is taken and the rows are factored.
+    fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), Trip> {
+        let Self {
+            mechanism,
+            s,
+            velocity,
+            ..
+        } = self;
         mechanism.twist(v, s);
         mechanism.gamma(s);
         mechanism.force(s);

@@ -9,6 +9,7 @@ mod equilibrate;
 mod kernels;
 #[cfg(feature = "faer")]
 mod large;
+mod lu;
 mod matrix;
 mod null_space;
 mod prime_field;
@@ -30,6 +31,7 @@ pub use deletions::{
 };
 pub use double_double::Dd;
 pub use equilibrate::{Scaling, equilibrate};
+pub use lu::{Lu, SingularPivot};
 pub use matrix::{Matrix, ShapeError};
 pub use null_space::{Components, components, dependencies, orthonormal, support_tolerance};
 pub use qr::PivotedQr;

@@ -173,19 +173,6 @@ impl<'m> Equations<'m> {
         times.binary_search_by(|b| b.total_cmp(&t)).is_ok()
     }
 
-    /// f at a state on the constraints, or as near as a stage comes.
-    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
-        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
-        let (qd, rest) = dy.split_at_mut(self.n_q);
-        let (a, work) = rest.split_at_mut(self.n_v);
-        self.motion.mechanism().rate(q, v, qd);
-        self.motion.acceleration(t, q, v, a)?;
-        if let Some(work) = work.first_mut() {
-            *work = self.motion.power(v);
-        }
-        Ok(())
-    }
-
     /// Notes residuals and energy of a projected state.
     fn note(&mut self, y: &[f64], found: Correction) {
         self.max_position_residual = self.max_position_residual.max(found.position_residual);
@@ -205,7 +192,7 @@ impl Ode for Equations<'_> {
 
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
         if !self.is_careful {
-            return self.derivative(t, y, dy);
+            return self.motion.derivative(t, y, dy);
         }
         let mut stage = std::mem::take(&mut self.stage);
         stage.copy_from_slice(y);
@@ -213,7 +200,7 @@ impl Ode for Equations<'_> {
         let result = self
             .motion
             .approach(t, q, &mut rest[..self.n_v])
-            .and_then(|()| self.derivative(t, &stage, dy));
+            .and_then(|()| self.motion.derivative(t, &stage, dy));
         self.stage = stage;
         result
     }
@@ -243,7 +230,7 @@ impl Ode for Equations<'_> {
         if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot() {
             return Err(self.motion.no_way_over(step.t));
         }
-        self.derivative(step.t_rhs, y, dy)?;
+        self.motion.derivative(step.t_rhs, y, dy)?;
         // From here on the step stands.
         self.is_suspect = is_suspect;
         self.is_careful = self.motion.relative_pivot() < CAREFUL;
