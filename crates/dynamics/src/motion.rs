@@ -10,6 +10,7 @@
 //! velocity; nothing implies its position, and without it the configuration would drift.
 
 mod chart;
+pub(crate) mod constrained;
 mod impulse;
 mod locate;
 mod passage;
@@ -151,6 +152,13 @@ impl<'a> KeptRowMotion<'a> {
             .map(|(&i, l)| -l * self.s.b[i])
             .sum();
         self.mechanism.applied_power(&self.s.force, v) + constraints
+    }
+
+    /// Kept rows: how many are holonomic, and how many are not.
+    pub(crate) fn kept_rows(&self) -> [usize; 2] {
+        let kept = &self.velocity.kept;
+        let holonomic = kept.partition_point(|&i| i < self.mechanism.layout().m);
+        [holonomic, kept.len() - holonomic]
     }
 
     /// b at the pose of the scratch.

@@ -13,6 +13,10 @@ pub enum Method {
     Tsit5,
     /// Dormand–Prince 8(5,3).
     Dop853,
+    /// Half-explicit Runge–Kutta method of order 4: without derivatives of the constraints.
+    Hem4,
+    /// Generalized-α on positions with ρ∞ = 0.8, order 2: for stiff forces at low accuracy.
+    GeneralizedAlpha,
 }
 
 impl Method {
@@ -23,6 +27,8 @@ impl Method {
             Self::Dopri5 => "dopri5",
             Self::Tsit5 => "tsit5",
             Self::Dop853 => "dop853",
+            Self::Hem4 => "hem4",
+            Self::GeneralizedAlpha => "generalized-alpha",
         }
     }
 }

@@ -4,12 +4,13 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+mod constrained;
 mod energy;
 mod equations;
 
 use integrators::{
-    Cause, Dop853, Dopri5, IntegrationError, Interval, Options, Outcome, OutputTimes, Rows, Step,
-    Tsit5, integrate,
+    Cause, Dop853, Dopri5, GeneralizedAlpha, Hem4, IntegrationError, Interval, Options, Outcome,
+    OutputTimes, Rows, Step, Tsit5, integrate,
 };
 use model::{Reaction, System};
 
@@ -160,6 +161,8 @@ pub fn simulate(
         Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
         Method::Tsit5 => run.go(&Tsit5, &interval, &y0, &settings),
         Method::Dop853 => run.go(&Dop853, &interval, &y0, &settings),
+        Method::Hem4 => run.go(&Hem4, &interval, &y0, &settings),
+        Method::GeneralizedAlpha => run.go(&GeneralizedAlpha::default(), &interval, &y0, &settings),
     };
     let wall_seconds = clock.elapsed().as_secs_f64();
     let (t, statistics) = match &outcome {

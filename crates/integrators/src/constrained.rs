@@ -18,7 +18,7 @@ use crate::ode::Ode;
 ///
 /// Lengths: q has n_q, v has n_v, λ has r components. n_q = n_v in the plane; in space T is not the identity.
 pub trait Constrained: Ode {
-    /// Lengths of the parts.
+    /// Lengths of the parts. Between two steps holonomic rows may be exchanged for others; all lengths but these two are fixed, and so is r.
     fn sizes(&self) -> Sizes;
 
     /// Writes q' = T(q)·v at (t, y) to `qd` (length n_q).

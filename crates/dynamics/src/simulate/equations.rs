@@ -10,6 +10,7 @@ use super::Sample;
 use super::energy::EnergyBalance;
 use crate::error::Trip;
 use crate::events::Event;
+use crate::motion::constrained::SaddlePoint;
 use crate::motion::{Correction, KeptRowMotion, Motion};
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
@@ -36,8 +37,10 @@ const SMOOTH: f64 = 0.01;
 /// The equations of a run with what is noted on the way.
 pub(super) struct Equations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
-    n_q: usize,
-    n_v: usize,
+    /// The constraints as equations of their own.
+    pub(super) saddle_point: SaddlePoint,
+    pub(super) n_q: usize,
+    pub(super) n_v: usize,
     /// Whether y carries the work.
     works: bool,
     /// Steps must not end nearer to a singular configuration, but where they have to.
@@ -86,6 +89,7 @@ impl<'m> Equations<'m> {
             delicate: None,
             before: Vec::new(),
             stage: Vec::new(),
+            saddle_point: SaddlePoint::new(&motion),
             motion,
         }
     }

@@ -31,7 +31,8 @@ impl Stepping {
         let (h, c, t1) = (trial.h, self.coefficients, trial.stage_time(1.0));
         let share = (1.0 - c.alpha_f) / (1.0 - c.alpha_m);
         let (c_v, c_q) = (h * c.gamma * share, h * h * c.beta * share);
-        let (n_v, holonomic) = (self.sizes.velocities, self.sizes.holonomic);
+        // Which rows are kept may change between steps.
+        let (n_v, holonomic) = (self.sizes.velocities, ode.sizes().holonomic);
         self.move_to_end(ode, h, start.y0, y1);
         statistics.jacobians += 1;
         statistics.factorisations += 1;
