@@ -11,6 +11,7 @@
 
 mod all_rows;
 mod chart;
+pub(crate) mod constrained;
 mod impulse;
 mod locate;
 mod passage;
@@ -188,6 +189,13 @@ impl<'a> KeptRowMotion<'a> {
             }
         };
         self.mechanism.applied_power(&self.s.force, v) + constraints
+    }
+
+    /// Kept rows: how many are holonomic, and how many are not.
+    pub(crate) fn kept_rows(&self) -> [usize; 2] {
+        let kept = &self.velocity.kept;
+        let holonomic = kept.partition_point(|&i| i < self.mechanism.layout().m);
+        [holonomic, kept.len() - holonomic]
     }
 
     /// b at the pose of the scratch.

@@ -17,6 +17,10 @@ pub enum Method {
     Dop853,
     /// Radau IIA of order 5 on independent coordinates, for stiff forces.
     Radau5,
+    /// Half-explicit Runge–Kutta method of order 4: without derivatives of the constraints.
+    Hem4,
+    /// Generalized-α on positions with ρ∞ = 0.8, order 2: for stiff forces at low accuracy.
+    GeneralizedAlpha,
 }
 
 impl Method {
@@ -27,6 +31,8 @@ impl Method {
         Self::Dop853,
         Self::Tsit5,
         Self::Radau5,
+        Self::Hem4,
+        Self::GeneralizedAlpha,
     ];
 
     /// Its name in scenes and results.
@@ -38,13 +44,15 @@ impl Method {
             Self::Tsit5 => "tsit5",
             Self::Dop853 => "dop853",
             Self::Radau5 => "radau5",
+            Self::Hem4 => "hem4",
+            Self::GeneralizedAlpha => "generalized-alpha",
         }
     }
 
     /// Whether it solves systems of equations with a Jacobian in its steps.
     #[must_use]
     pub fn is_implicit(self) -> bool {
-        self == Self::Radau5
+        matches!(self, Self::Radau5 | Self::GeneralizedAlpha)
     }
 
     /// The integrator that a run uses.

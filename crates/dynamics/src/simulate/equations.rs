@@ -10,6 +10,7 @@ use super::Sample;
 use super::energy::EnergyBalance;
 use crate::error::Trip;
 use crate::events::Event;
+use crate::motion::constrained::SaddlePoint;
 use crate::motion::{Correction, KeptRowMotion, Reduced};
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
@@ -41,8 +42,10 @@ pub(super) struct Equations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
     /// Of implicit methods.
     reduced: Reduced,
-    n_q: usize,
-    n_v: usize,
+    /// The constraints as equations of their own.
+    pub(super) saddle_point: SaddlePoint,
+    pub(super) n_q: usize,
+    pub(super) n_v: usize,
     /// Whether y carries the work.
     works: bool,
     /// Steps must not end nearer to a singular configuration, but where they have to.
@@ -95,6 +98,7 @@ impl<'m> Equations<'m> {
             before: Vec::new(),
             stage: Vec::new(),
             reduced: Reduced::new(&motion),
+            saddle_point: SaddlePoint::new(&motion),
             motion,
         }
     }
