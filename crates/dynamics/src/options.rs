@@ -15,6 +15,8 @@ pub enum Method {
     Tsit5,
     /// Dormand–Prince 8(5,3).
     Dop853,
+    /// Extrapolated midpoint rule of variable order, for very tight tolerances.
+    Gbs,
     /// Radau IIA of order 5 on independent coordinates, for stiff forces.
     Radau5,
     /// Half-explicit Runge–Kutta method of order 4: without derivatives of the constraints.
@@ -30,6 +32,7 @@ impl Method {
         Self::Dopri5,
         Self::Dop853,
         Self::Tsit5,
+        Self::Gbs,
         Self::Radau5,
         Self::Hem4,
         Self::GeneralizedAlpha,
@@ -43,6 +46,7 @@ impl Method {
             Self::Dopri5 => "dopri5",
             Self::Tsit5 => "tsit5",
             Self::Dop853 => "dop853",
+            Self::Gbs => "gbs",
             Self::Radau5 => "radau5",
             Self::Hem4 => "hem4",
             Self::GeneralizedAlpha => "generalized-alpha",
@@ -59,7 +63,7 @@ impl Method {
     #[must_use]
     pub fn chosen(self) -> Self {
         match self {
-            Self::Auto => Self::Dopri5,
+            Self::Auto => Self::Dop853,
             method => method,
         }
     }
