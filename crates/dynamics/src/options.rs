@@ -53,10 +53,10 @@ impl Method {
         }
     }
 
-    /// Whether it solves systems of equations with a Jacobian in its steps.
+    /// Whether it needs the Jacobian of the motion, which only independent coordinates have.
     #[must_use]
-    pub fn is_implicit(self) -> bool {
-        matches!(self, Self::Radau5 | Self::GeneralizedAlpha)
+    pub fn needs_independent_coordinates(self) -> bool {
+        self == Self::Radau5
     }
 
     /// The integrator that a run uses.
@@ -195,10 +195,10 @@ impl MotionOptions {
     /// Absolute tolerance where none is given.
     pub const ATOL: f64 = 1e-10;
 
-    /// Whether the motion is one of independent coordinates alone: implicit methods have no other Jacobian.
+    /// Whether the motion is one of independent coordinates alone.
     #[must_use]
     pub fn is_on_chart(&self) -> bool {
-        self.formulation == Formulation::NullSpace || self.method.is_implicit()
+        self.formulation == Formulation::NullSpace || self.method.needs_independent_coordinates()
     }
 
     /// The defaults for a run to `t_end`.
