@@ -1,7 +1,7 @@
 //! Why a motion stops, or does not begin.
 
 use integrators::IntegrationError;
-use linalg::{Doubt, KeptRowsError, SaddleError};
+use linalg::{Doubt, KeptRowsError, SaddleError, SingularPivot};
 use model::{RowLabel, StartError};
 use solvability::{AnalysisError, Contradiction, StateError};
 
@@ -23,6 +23,27 @@ pub enum Trip {
         pivot: f64,
         /// What it is compared with.
         scale: f64,
+    },
+    /// The independent coordinates no longer determine the others.
+    #[error(
+        "at t = {time} s the independent coordinates do not determine the others: row {row} has a pivot of {pivot:.3e} times the \
+         one at their choice"
+    )]
+    Chart {
+        /// When.
+        time: f64,
+        /// The row that cannot be solved.
+        row: RowLabel,
+        /// Its pivot relative to the one at the choice.
+        pivot: f64,
+    },
+    /// The linear system of an implicit step has no solution.
+    #[error("at t = {time} s the iteration matrix of the step is singular: {source}")]
+    IterationMatrix {
+        /// When.
+        time: f64,
+        /// Why.
+        source: SingularPivot,
     },
     /// A motion that moves no mass.
     #[error(
@@ -112,6 +133,19 @@ pub enum Trip {
         /// Why.
         what: String,
     },
+    /// Proximal iterations do not reach their tolerance, also after a new tuning.
+    #[error(
+        "at t = {time} s proximal iterations still change accelerations by {share:.1e} of their size, more than {allowed:.1e}: \
+         the constraints are too nearly dependent for this formulation; use kept-rows or minimum-norm"
+    )]
+    Unsettled {
+        /// When.
+        time: f64,
+        /// What the last iteration changed.
+        share: f64,
+        /// What is allowed.
+        allowed: f64,
+    },
     /// The saddle equations were refused for another reason.
     #[error("at t = {time} s: {source}")]
     Saddle {
@@ -135,6 +169,14 @@ pub enum MotionError {
         value: f64,
         /// What is needed.
         expected: &'static str,
+    },
+    /// Rows to drop where none are.
+    #[error(
+        "rows are dropped, but the formulation {formulation} uses all rows: choose kept-rows, or drop none"
+    )]
+    NothingToDrop {
+        /// The formulation.
+        formulation: &'static str,
     },
     /// No consistent start.
     #[error(transparent)]
@@ -182,7 +224,7 @@ impl MotionError {
                 smallest_singular_value,
                 required,
             } => format!(
-                "these rows cannot be dropped: what is kept is dependent (smallest singular value \
+                "at t = 0 s these rows cannot be dropped: what is kept is dependent (smallest singular value \
                  {smallest_singular_value:.3e}, need {required:.3e}). `pfaff analyze` lists the dependent sets; drop \
                  one row of each"
             ),

@@ -21,9 +21,12 @@
 
 mod factor;
 mod orientation;
+mod partition;
 mod solve;
 #[cfg(test)]
 mod tests;
+
+use crate::Matrix;
 
 /// Solver of the saddle equations of n coordinates and r independent constraint rows.
 ///
@@ -48,6 +51,9 @@ pub struct KeptRowSaddle {
     used: Vec<usize>,
     /// Row j: `U_0j … U_jj`, then column j of L below its unit diagonal. r×n, row-major.
     lu: Vec<f64>,
+    /// Coordinates in the order in which a factorisation takes them up, and how many of them it may solve for.
+    order: Vec<usize>,
+    solvable: usize,
     /// Position i of P·x is coordinate `permutation[i]`.
     permutation: Vec<usize>,
     /// Row c: `−L₁⁻ᵀ·L₂ᵀ·e_c`, the dependent part of the null vector c. k×r, row-major.
@@ -66,7 +72,7 @@ pub struct KeptRowSaddle {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum State {
+pub(crate) enum State {
     Empty,
     Factored,
 }
@@ -92,6 +98,14 @@ pub enum SaddleError {
         found: usize,
         /// The length it must have.
         expected: usize,
+    },
+    /// Coordinates that cannot be solved for.
+    #[error("coordinate {coordinate} cannot be solved for: need different coordinates below {n}")]
+    Partition {
+        /// The coordinate.
+        coordinate: usize,
+        /// Coordinates.
+        n: usize,
     },
     /// A NaN or infinite entry.
     #[error("{argument} contains the value {value} at {index}, need finite numbers")]
@@ -159,6 +173,8 @@ impl KeptRowSaddle {
             rows: r,
             used: (0..r).collect(),
             lu: vec![0.0; r * n],
+            order: (0..n).collect(),
+            solvable: n,
             permutation: (0..n).collect(),
             null_basis: vec![0.0; most(|n, r| (n - r) * r)],
             mass: vec![0.0; n],
@@ -199,7 +215,11 @@ impl KeptRowSaddle {
     }
 }
 
-fn check_length(argument: &'static str, x: &[f64], expected: usize) -> Result<(), SaddleError> {
+pub(crate) fn check_length<T>(
+    argument: &'static str,
+    x: &[T],
+    expected: usize,
+) -> Result<(), SaddleError> {
     if x.len() == expected {
         Ok(())
     } else {
@@ -211,8 +231,39 @@ fn check_length(argument: &'static str, x: &[f64], expected: usize) -> Result<()
     }
 }
 
+/// Whether C has the shape and the entries of a matrix, and the masses those of masses.
+pub(crate) fn check_equations(
+    c: &Matrix,
+    mass: &[f64],
+    (m, n): (usize, usize),
+) -> Result<(), SaddleError> {
+    for (argument, found, expected) in [("C, by rows,", c.nrows(), m), ("row of C", c.ncols(), n)] {
+        if found != expected {
+            return Err(SaddleError::Length {
+                argument,
+                found,
+                expected,
+            });
+        }
+    }
+    check_finite("C", c.as_slice(), 0)?;
+    check_length("mass", mass, n)?;
+    check_finite("mass", mass, 0)?;
+    match mass.iter().position(|&m| m < 0.0) {
+        Some(index) => Err(SaddleError::NegativeMass {
+            index,
+            value: mass[index],
+        }),
+        None => Ok(()),
+    }
+}
+
 /// `first` is the index of `x[0]` in the argument.
-fn check_finite(argument: &'static str, x: &[f64], first: usize) -> Result<(), SaddleError> {
+pub(crate) fn check_finite(
+    argument: &'static str,
+    x: &[f64],
+    first: usize,
+) -> Result<(), SaddleError> {
     // Branch-free: x·0 is NaN exactly for NaN and infinities.
     if x.iter().map(|a| a * 0.0).sum::<f64>() == 0.0 {
         return Ok(());

@@ -20,6 +20,18 @@ const STALLED_ROUNDINGS: f64 = 50.0;
 /// reaches them through coefficients of up to some hundreds.
 const DROPPED_MISFIT: f64 = 1e-11;
 
+/// Factors of an earlier configuration serve as long as a correction gains a digit: a factorisation costs about ten corrections.
+const CONVERGENCE: f64 = 0.1;
+
+/// Which coordinates a correction moves.
+#[derive(Clone, Copy)]
+pub(super) enum Correct {
+    /// All, by the smallest correction in the mass metric.
+    AllCoordinates,
+    /// Those that the rows have been partitioned to determine.
+    DependentCoordinates,
+}
+
 impl KeptRowMotion<'_> {
     /// Projects a step that passed its error test, and keeps other rows if the present ones have become nearly dependent there.
     /// What happened is told by [`KeptRowMotion::accept`], once the step stands.
@@ -34,12 +46,14 @@ impl KeptRowMotion<'_> {
         v: &mut [f64],
         nearest: f64,
     ) -> Result<Correction, Trip> {
+        self.complete_step(t, q, v)?;
         let iterations = self.settle(t, q)?;
         if self.velocity.relative_pivot() < nearest {
             return Err(self.no_way_over(t));
         }
         if let Some(event) = self.review(q)? {
             self.pending = Some(event);
+            self.renew_chart(q)?;
         }
         self.finish(q, v, iterations)
     }
@@ -78,7 +92,7 @@ impl KeptRowMotion<'_> {
 
     /// Moves q onto the constraints and factors there.
     pub(super) fn settle(&mut self, t: f64, q: &mut [f64]) -> Result<usize, Trip> {
-        let iterations = self.project_position(t, q)?;
+        let iterations = self.project_position(t, q, Correct::AllCoordinates)?;
         self.velocity.factor(self.mechanism, &self.s)?;
         Ok(iterations)
     }
@@ -94,7 +108,13 @@ impl KeptRowMotion<'_> {
         self.monitor(q, v, iterations)
     }
 
-    fn project_position(&mut self, t: f64, q: &mut [f64]) -> Result<usize, Trip> {
+    /// Newton's method on the kept rows of Φ.
+    pub(super) fn project_position(
+        &mut self,
+        t: f64,
+        q: &mut [f64],
+        correct: Correct,
+    ) -> Result<usize, Trip> {
         let Self {
             mechanism,
             s,
@@ -137,10 +157,22 @@ impl KeptRowMotion<'_> {
                     iterations: iteration,
                 });
             }
+            let converges = worst.1 <= CONVERGENCE * best;
             best = best.min(worst.1);
             iteration += 1;
-            position.factor(mechanism, s)?;
-            position.solve(mechanism, s, zero, delta)?;
+            match correct {
+                Correct::AllCoordinates => {
+                    position.factor(mechanism, s)?;
+                    position.solve(mechanism, s, zero, delta)?;
+                }
+                Correct::DependentCoordinates => {
+                    if !converges {
+                        position.factor(mechanism, s)?;
+                    }
+                    delta.fill(0.0);
+                    position.complete(mechanism, s, delta)?;
+                }
+            }
             for (q, d) in q.iter_mut().zip(&*delta) {
                 *q += d;
             }
@@ -180,17 +212,10 @@ impl KeptRowMotion<'_> {
     /// Residuals of all rows at a projected state, dropped rows refused above the limit.
     fn monitor(&self, q: &[f64], v: &[f64], iterations: usize) -> Result<Correction, Trip> {
         let layout = self.mechanism.layout();
-        let mut found = Correction {
+        let found = Correction {
             iterations,
-            ..Correction::default()
+            ..self.residuals(v)
         };
-        for i in 0..layout.rows() {
-            let velocity = layout.velocity_residual(&self.s, i, v).abs();
-            found.velocity_residual = found.velocity_residual.max(velocity);
-            if i < layout.m {
-                found.position_residual = found.position_residual.max(self.s.phi[i].abs());
-            }
-        }
         let rows = 0..layout.rows();
         let position = |i: usize| self.mechanism.position_scale(&self.s, i, q);
         let velocity = |i: usize| self.mechanism.velocity_scale(&self.s, i, v);
@@ -207,6 +232,17 @@ impl KeptRowMotion<'_> {
             self.check_dropped(i, "velocity", residual, limit)?;
         }
         Ok(found)
+    }
+
+    /// Residuals of all rows at a state whose Φ, C and b stand in the scratch.
+    pub(super) fn residuals(&self, v: &[f64]) -> Correction {
+        let velocity = |i| self.mechanism.layout().velocity_residual(&self.s, i, v);
+        Correction {
+            iterations: 0,
+            position_residual: largest(&self.s.phi),
+            velocity_residual: (0..self.mechanism.layout().rows())
+                .fold(0.0, |a, i| f64::max(a, velocity(i).abs())),
+        }
     }
 
     fn check_dropped(

@@ -3,14 +3,14 @@
 
 use std::ops::ControlFlow;
 
-use integrators::{Ode, StepEnd, StepInfo, Tolerance};
+use integrators::{Delicate, Implicit, Ode, StepEnd, StepInfo, Tolerance};
 use model::System;
 
 use super::Sample;
 use super::energy::EnergyBalance;
 use crate::error::Trip;
 use crate::events::Event;
-use crate::motion::{Correction, KeptRowMotion, Motion};
+use crate::motion::{Correction, KeptRowMotion, Reduced};
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 
@@ -29,6 +29,9 @@ const CAREFUL: f64 = 0.1;
 /// Singular configurations are foreseen for so many steps like the last one: no method lets steps grow by more.
 const FORESIGHT: f64 = 12.0;
 
+/// Relative error of a step over a singular configuration that rounding may cause where steps are short.
+const PASSED: f64 = 1e-10;
+
 /// Largest relative correction of a step over a singular configuration, as share of the distance at which it ends: other branches are
 /// as far away as that.
 const SMOOTH: f64 = 0.01;
@@ -36,6 +39,8 @@ const SMOOTH: f64 = 0.01;
 /// The equations of a run with what is noted on the way.
 pub(super) struct Equations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
+    /// Of implicit methods.
+    reduced: Reduced,
     n_q: usize,
     n_v: usize,
     /// Whether y carries the work.
@@ -89,6 +94,7 @@ impl<'m> Equations<'m> {
             delicate: None,
             before: Vec::new(),
             stage: Vec::new(),
+            reduced: Reduced::new(&motion),
             motion,
         }
     }
@@ -99,8 +105,14 @@ impl<'m> Equations<'m> {
         y.extend(self.works.then_some(0.0));
         self.before = y.clone();
         self.stage = y.clone();
-        self.is_careful = self.motion.relative_pivot() < CAREFUL;
+        self.is_careful = self.wants_care();
         y
+    }
+
+    /// Whether the next stages have to be moved onto the constraints. On a chart all of them lie there; without projection none shall.
+    fn wants_care(&self) -> bool {
+        let off = self.motion.projects() && self.motion.independent().is_none();
+        off && self.motion.relative_pivot() < CAREFUL
     }
 
     /// The work is measured, not controlled: its error has no weight. It still counts as a component of the mean, which makes the
@@ -127,11 +139,12 @@ impl<'m> Equations<'m> {
             energy_balance: self.energy.relative_gap(),
             min_pivot_ratio: self.min_pivot_ratio,
             events: self.events.clone(),
+            proximal: self.motion.proximal_tuning(),
             ..super::Summary::default()
         }
     }
 
-    /// Projects a row of output and shows it. At a break time it is the state just before.
+    /// Projects a row of output, where states are projected, and shows it. At a break time it is the state just before.
     pub(super) fn show(
         &mut self,
         t: f64,
@@ -144,7 +157,7 @@ impl<'m> Equations<'m> {
             t
         };
         let (q, rest) = y.split_at_mut(self.n_q);
-        let found = self.motion.project(t_before, q, &mut rest[..self.n_v])?;
+        let found = self.motion.end_row(t_before, q, &mut rest[..self.n_v])?;
         self.note(y, found);
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
         row(&mut Sample {
@@ -192,19 +205,6 @@ impl<'m> Equations<'m> {
         times.binary_search_by(|b| b.total_cmp(&t)).is_ok()
     }
 
-    /// f at a state on the constraints, or as near as a stage comes.
-    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
-        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
-        let (qd, rest) = dy.split_at_mut(self.n_q);
-        let (a, work) = rest.split_at_mut(self.n_v);
-        self.motion.mechanism().rate(q, v, qd);
-        self.motion.acceleration(t, q, v, a)?;
-        if let Some(work) = work.first_mut() {
-            *work = self.motion.power(v);
-        }
-        Ok(())
-    }
-
     /// Notes residuals and energy of a projected state.
     fn note(&mut self, y: &[f64], found: Correction) {
         self.max_position_residual = self.max_position_residual.max(found.position_residual);
@@ -224,7 +224,7 @@ impl Ode for Equations<'_> {
 
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
         if !self.is_careful {
-            return self.derivative(t, y, dy);
+            return self.motion.derivative(t, y, dy);
         }
         let mut stage = std::mem::take(&mut self.stage);
         stage.copy_from_slice(y);
@@ -232,7 +232,7 @@ impl Ode for Equations<'_> {
         let result = self
             .motion
             .approach(t, q, &mut rest[..self.n_v])
-            .and_then(|()| self.derivative(t, &stage, dy));
+            .and_then(|()| self.motion.derivative(t, &stage, dy));
         self.stage = stage;
         result
     }
@@ -252,24 +252,37 @@ impl Ode for Equations<'_> {
         };
         let (q, rest) = y.split_at_mut(self.n_q);
         let v = &mut rest[..self.n_v];
-        let found = self.motion.project_step(step.t_rhs, q, v, nearest)?;
+        let found = self.motion.end_step(step.t_rhs, q, v, nearest)?;
         let pivot_ratio = self.motion.pivot_ratio();
         for (before, y) in self.before.iter_mut().zip(&*y) {
             *before -= y;
         }
-        let correction = step.norm(&self.before);
         let is_suspect = self.motion.may_have_passed();
+        if is_suspect && !self.motion.projects() {
+            let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+            let missed = self.motion.missed_correction(step.t_rhs, q, v)?;
+            self.before[..missed.len()].copy_from_slice(&missed);
+        }
+        let correction = step.norm(&self.before);
         if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot().max(NEAREST)
         {
             return Err(self.motion.no_way_over(step.t));
         }
-        self.derivative(step.t_rhs, y, dy)?;
+        if self.motion.projects() {
+            self.motion.derivative(step.t_rhs, y, dy)?;
+            self.reduced.follow(&mut self.motion, step.t_rhs, y)?;
+            let a = &mut dy[self.n_q..self.n_q + self.n_v];
+            self.motion.review_acceleration(a)?;
+        }
         // From here on the step stands.
         self.is_suspect = is_suspect;
-        self.is_careful = self.motion.relative_pivot() < CAREFUL;
+        self.is_careful = self.wants_care();
         self.note(y, found);
         self.events.extend(self.motion.accept(step.t));
         self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
+        if !self.motion.projects() {
+            return Ok(StepEnd::Unchanged);
+        }
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
         let now = (step.t, q, v, &dy[self.n_q..self.n_q + self.n_v]);
         self.delicate = self
@@ -281,8 +294,9 @@ impl Ode for Equations<'_> {
         })
     }
 
-    fn delicate_time(&self) -> Option<f64> {
-        self.delicate
+    fn delicate_time(&self) -> Option<Delicate> {
+        let slack = (PASSED / self.rtol).max(1.0);
+        self.delicate.map(|t| Delicate { t, slack })
     }
 
     /// Rates that jump make the velocities jump, by an impulse of the constraints.
@@ -296,5 +310,23 @@ impl Ode for Equations<'_> {
             self.events.push(impulse.event);
         }
         Ok(())
+    }
+}
+
+impl Implicit for Equations<'_> {
+    fn linearise(&mut self, t: f64, y: &[f64]) -> Result<(), Trip> {
+        self.reduced.linearise(&mut self.motion, t, y)
+    }
+
+    fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), Trip> {
+        self.reduced.factor(real, complex)
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        self.reduced.solve(x);
+    }
+
+    fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
+        self.reduced.solve_complex(re, im);
     }
 }

@@ -11,3 +11,4 @@ mod kepler;
 mod order;
 mod output;
 mod problems;
+mod radau5;
