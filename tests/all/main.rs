@@ -8,6 +8,7 @@ mod constrained_methods;
 mod deletions;
 mod exact_oracle;
 mod existence;
+mod formulations;
 mod generic;
 mod granularity;
 mod independent_coordinates;

@@ -7,11 +7,13 @@ use std::time::Instant;
 mod constrained;
 mod energy;
 mod equations;
+mod passages;
 
 use integrators::{
     Cause, Dop853, Dopri5, GeneralizedAlpha, Hem4, IntegrationError, Interval, Options, Outcome,
-    OutputTimes, Rows, Step, Tsit5, integrate,
+    OutputTimes, Radau5, Rows, Tsit5, integrate,
 };
+use linalg::ProximalTuning;
 use model::{Reaction, System};
 
 use crate::error::{MotionError, Trip};
@@ -46,6 +48,8 @@ pub struct Summary {
     pub min_pivot_ratio: f64,
     /// What happened on the way.
     pub events: Vec<Event>,
+    /// The last tuning of proximal iterations, where accelerations come from them.
+    pub proximal: Option<ProximalTuning>,
 }
 
 /// A run that stopped early, with what was reached.
@@ -83,7 +87,7 @@ impl Sample<'_, '_> {
         Ok(a)
     }
 
-    /// Multipliers of all rows, those of dropped rows zero by decree; allocates.
+    /// Multipliers of all rows as [`Motion::multipliers`] gives them; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.
@@ -94,8 +98,8 @@ impl Sample<'_, '_> {
         Ok(lambda)
     }
 
-    /// Reactions of all joints and drives in the order of their rows. Those of non-unique joints belong to the kept
-    /// rows of this run and to no other; allocates.
+    /// Reactions of all joints and drives in the order of their rows. Those of non-unique joints belong to the choice
+    /// of this run (its kept rows, or the norm of its formulation) and to no other; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.
@@ -127,7 +131,8 @@ pub fn simulate(
         })
     };
     options.check().map_err(fail)?;
-    let motion = KeptRowMotion::new(prepared).map_err(|e| fail(e.into()))?;
+    options.check_rows(&prepared.choice).map_err(fail)?;
+    let motion = KeptRowMotion::with(prepared, options).map_err(|e| fail(e.into()))?;
     let mut equations = Equations::new(motion, prepared, options);
     equations
         .motion
@@ -157,10 +162,11 @@ pub fn simulate(
         stopped: None,
     };
     let clock = Instant::now();
-    let outcome = match options.method {
-        Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
+    let outcome = match options.method.chosen() {
+        Method::Auto | Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
         Method::Tsit5 => run.go(&Tsit5, &interval, &y0, &settings),
         Method::Dop853 => run.go(&Dop853, &interval, &y0, &settings),
+        Method::Radau5 => run.go(&Radau5, &interval, &y0, &settings),
         Method::Hem4 => run.go(&Hem4, &interval, &y0, &settings),
         Method::GeneralizedAlpha => run.go(&GeneralizedAlpha::default(), &interval, &y0, &settings),
     };
@@ -229,7 +235,7 @@ where
         }
         let mut refused = None;
         let outcome = integrate(method, equations, interval, y0, settings, |step| {
-            note_passage(step);
+            passages::note(step);
             rows.emit(step, &mut show).unwrap_or_else(|error| {
                 refused = Some(error);
                 ControlFlow::Break(())
@@ -239,28 +245,6 @@ where
             *stopped = Some(named(error));
         }
         outcome
-    }
-}
-
-/// Records the singular configuration that a step has passed, if it has.
-fn note_passage(step: &mut Step<'_, Equations<'_>>) {
-    if !step.ode().is_suspect() {
-        return;
-    }
-    let (t0, t1) = (step.t0(), step.t1());
-    let noise = step.ode().passage_noise();
-    let mut search = step.ode().motion.search();
-    let mut y = step.y0().to_vec();
-    // The dense output without further evaluations: its error moves the instant by less than it moves the mechanism.
-    let found = search.find([t0, t1], noise, |t, q| {
-        if step.interpolate(t, &mut y).is_ok() {
-            let n = q.len();
-            q.copy_from_slice(&y[..n]);
-        }
-    });
-    if let Some(singular) = found {
-        let event = search.event(singular);
-        step.ode().record(event);
     }
 }
 

@@ -56,7 +56,7 @@ impl KeptRowMotion<'_> {
         let (qd, rest) = dy.split_at_mut(layout.n_q);
         let (a, work) = rest.split_at_mut(layout.n_v);
         let Some(mut chart) = self.chart.take() else {
-            self.solve_on_kept(t, q, v, a)?;
+            self.solve(t, q, v, a)?;
             self.rates(q, v, qd, work);
             return Ok(());
         };
@@ -86,19 +86,30 @@ impl KeptRowMotion<'_> {
     }
 
     /// Overwrites dependent coordinates and velocities; factors there.
-    fn complete(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<usize, Trip> {
-        let iterations = self.project_position(t, q, Correct::DependentCoordinates)?;
+    fn complete(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Trip> {
+        self.project_position(t, q, Correct::DependentCoordinates)?;
         self.velocity.factor(self.mechanism, &self.s)?;
         self.evaluate_b();
         for (rhs, &i) in self.velocity.rhs.iter_mut().zip(&self.velocity.kept) {
             *rhs = self.s.b[i];
         }
-        self.velocity.complete(self.mechanism, &self.s, v)?;
-        Ok(iterations)
+        self.velocity.complete(self.mechanism, &self.s, v)
     }
 
-    /// Completes the result of a step on a chart, and chooses another one where its pivots have fallen. What projections
-    /// leave to do afterwards is rounding.
+    /// Completes a state on a chart. What projections leave to do afterwards is rounding.
+    pub(super) fn complete_row(
+        &mut self,
+        t: f64,
+        q: &mut [f64],
+        v: &mut [f64],
+    ) -> Result<(), Trip> {
+        match self.chart {
+            Some(_) => self.complete(t, q, v),
+            None => Ok(()),
+        }
+    }
+
+    /// Completes the result of a step on a chart, and chooses another one where its pivots have fallen.
     pub(super) fn complete_step(
         &mut self,
         t: f64,

@@ -9,12 +9,15 @@
 //! | velocities | `C·dv = −∂(C·v − b)/∂q·dq`, dv given on u |
 //! | accelerations | `M·da + Cᵀ·dλ = ∂(Q − Cᵀ·λ)/∂q·dq + ∂Q/∂v·dv`, `C·da = −∂(C·a − Γ)/∂q·dq + ∂Γ/∂v·dv` |
 //!
-//! `(σ·I − D·S)·x = r` needs a factorisation of the order of w alone: `(σ·I − S·D)·x_w = r_w`, then `σ·x = r + D·x_w`.
+//! `(σ·I − D·S)·x = r` needs a factorisation of the order of w alone, `(σ·I − S·D)·x_w = r_w`. The dependent entries of x serve as a guess for
+//! completions only, so they follow from x_w as those of dq and dv do. The rest of the solution, `σ·x = r + D·x_w`, would let Newton's
+//! method see stiff forces off the slow motion through all levers of the mechanism, and stop it although w has converged.
 
 use linalg::{Lu, Matrix};
 use model::{Derivatives, System};
 
 use super::KeptRowMotion;
+use super::chart::Chart;
 use crate::error::Trip;
 
 /// The Jacobian at one instant, and factors of shifted ones.
@@ -22,11 +25,17 @@ pub struct Reduced {
     derivatives: Derivatives,
     /// Places of w in y.
     places: Vec<usize>,
+    /// Place of the work in y.
+    work: Option<usize>,
     /// Row j: column j of D.
     columns: Matrix,
+    /// Row j: change of y with w_j along the constraints, without the work.
+    tangents: Matrix,
     /// Time of the Jacobian.
     time: f64,
     real: Lu,
+    /// The chart of the Jacobian.
+    generation: u64,
     /// Of the real form [αI − S·D, −βI; βI, αI − S·D].
     complex: Lu,
     shift: f64,
@@ -51,8 +60,11 @@ impl Reduced {
         Self {
             derivatives: mechanism.derivatives(),
             places: Vec::new(),
+            work: None,
             columns: Matrix::default(),
+            tangents: Matrix::default(),
             time: 0.0,
+            generation: 0,
             real: Lu::new(0),
             complex: Lu::new(0),
             shift: 1.0,
@@ -88,11 +100,9 @@ impl Reduced {
         self.dy.resize(y.len(), 0.0);
         motion.derivative(t, y, &mut self.dy)?;
         self.take_places(motion, y.len());
+        self.generation = motion.chart.as_ref().map_or(0, |c| c.generation);
         let mechanism = motion.mechanism;
-        self.lambda.fill(0.0);
-        for (&i, &l) in motion.velocity.kept.iter().zip(&motion.velocity.lambda) {
-            self.lambda[i] = l;
-        }
+        motion.last_multipliers(&mut self.lambda);
         let a = &self.dy[n_q..n_q + mechanism.layout().n_v];
         mechanism.differentiate(a, &self.lambda, &motion.s, &mut self.derivatives);
         motion.position.factor(mechanism, &motion.s)?;
@@ -101,6 +111,24 @@ impl Reduced {
             self.differentiate(motion, j)?;
         }
         Ok(())
+    }
+
+    /// Linearises and factors again where the chart has changed: f is another function of y then, although the motion is the same.
+    ///
+    /// # Errors
+    /// As [`Reduced::linearise`] and [`Reduced::factor`].
+    pub(crate) fn follow(
+        &mut self,
+        motion: &mut KeptRowMotion<'_>,
+        t: f64,
+        y: &[f64],
+    ) -> Result<(), Trip> {
+        let is_behind = |c: &Chart| c.generation != self.generation;
+        if self.places.is_empty() || !motion.chart.as_ref().is_some_and(is_behind) {
+            return Ok(());
+        }
+        self.linearise(motion, t, y)?;
+        self.factor(self.shift, self.complex_shift)
     }
 
     /// `∂f/∂w`, dense, and the places of w in y.
@@ -117,8 +145,11 @@ impl Reduced {
             return;
         }
         self.places = places.collect();
+        let moving = n_q + motion.mechanism.layout().n_v;
+        self.work = (n > moving).then_some(moving);
         let k = self.places.len();
         self.columns = Matrix::zeros(k, n);
+        self.tangents = Matrix::zeros(k, n);
         self.real = Lu::new(k);
         self.complex = Lu::new(2 * k);
         self.w = vec![0.0; 2 * k];
@@ -155,6 +186,9 @@ impl Reduced {
             *rhs = self.rows_of_velocity[i];
         }
         velocity.complete(mechanism, s, dv)?;
+        let tangent = self.tangents.row_mut(j);
+        mechanism.rate(&chart.q, dq, &mut tangent[..layout.n_q]);
+        tangent[layout.n_q..layout.n_q + layout.n_v].copy_from_slice(dv);
 
         self.force.fill(0.0);
         d.force_dq.add_product(dq, &mut self.force);
@@ -212,7 +246,7 @@ impl Reduced {
         Ok(())
     }
 
-    /// `x ← (σ·I − ∂f/∂y)⁻¹·x` for the real σ.
+    /// Solves `(σ·I − ∂f/∂y)·x = r` for the real σ, r in `x` on entry; dependent entries follow the independent ones.
     pub fn solve(&mut self, x: &mut [f64]) {
         let k = self.places.len();
         let w = &mut self.w[..k];
@@ -220,16 +254,12 @@ impl Reduced {
             *w = x[place];
         }
         self.real.solve(w);
-        for (j, &w) in w.iter().enumerate() {
-            for (x, d) in x.iter_mut().zip(self.columns.row(j)) {
-                *x += d * w;
-            }
-        }
-        for x in x.iter_mut() {
-            *x /= self.shift;
-        }
-        for (&w, &place) in w.iter().zip(&self.places) {
-            x[place] = w;
+        let work = self
+            .work
+            .map(|at| (x[at] + self.work_along(&self.w[..k], at)) / self.shift);
+        self.follow_w(&self.w[..k], x);
+        if let (Some(at), Some(work)) = (self.work, work) {
+            x[at] = work;
         }
     }
 
@@ -242,23 +272,35 @@ impl Reduced {
         }
         self.complex.solve(&mut self.w);
         let (w_re, w_im) = self.w.split_at(k);
-        for (j, (&w_re, &w_im)) in w_re.iter().zip(w_im).enumerate() {
-            for ((re, im), d) in re.iter_mut().zip(&mut *im).zip(self.columns.row(j)) {
-                *re += d * w_re;
-                *im += d * w_im;
-            }
-        }
         let [alpha, beta] = self.complex_shift;
         let norm = alpha * alpha + beta * beta;
-        for (re, im) in re.iter_mut().zip(&mut *im) {
-            (*re, *im) = (
-                (alpha * *re + beta * *im) / norm,
-                (alpha * *im - beta * *re) / norm,
-            );
+        let work = self.work.map(|at| {
+            let a = re[at] + self.work_along(w_re, at);
+            let b = im[at] + self.work_along(w_im, at);
+            ((alpha * a + beta * b) / norm, (alpha * b - beta * a) / norm)
+        });
+        self.follow_w(w_re, re);
+        self.follow_w(w_im, im);
+        if let (Some(at), Some(work)) = (self.work, work) {
+            (re[at], im[at]) = work;
         }
-        for (j, &place) in self.places.iter().enumerate() {
-            re[place] = w_re[j];
-            im[place] = w_im[j];
+    }
+
+    /// Change of the power along w.
+    fn work_along(&self, w: &[f64], at: usize) -> f64 {
+        w.iter()
+            .enumerate()
+            .map(|(j, w)| w * self.columns[(j, at)])
+            .sum()
+    }
+
+    /// `x ← Σ w_j·(tangent j)`
+    fn follow_w(&self, w: &[f64], x: &mut [f64]) {
+        x.fill(0.0);
+        for (j, &w) in w.iter().enumerate() {
+            for (x, d) in x.iter_mut().zip(self.tangents.row(j)) {
+                *x += d * w;
+            }
         }
     }
 }

@@ -120,8 +120,13 @@ impl KeptRows {
         }
     }
 
-    /// Leaves out rows whose pivot is below this share of the reference.
-    fn factor_above(&mut self, share: f64, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
+    /// As [`KeptRows::factor`], leaving out rows whose pivot is below this share of the reference.
+    pub(super) fn factor_above(
+        &mut self,
+        share: f64,
+        mechanism: &Mechanism,
+        s: &Scratch,
+    ) -> Result<(), Trip> {
         self.take_entries(mechanism, s);
         let reference = self.reference_pivot.filter(|r| r.is_finite());
         let floor = share * reference.unwrap_or(0.0);
@@ -138,17 +143,6 @@ impl KeptRows {
     /// Rows of the last factorisation that are dependent for an instant and were left out: their number.
     pub(super) fn n_left_out(&self) -> usize {
         self.saddle.n_left_out()
-    }
-
-    /// How many rows have pivots below this share of the reference.
-    pub(super) fn n_dependent(
-        &mut self,
-        share: f64,
-        mechanism: &Mechanism,
-        s: &Scratch,
-    ) -> Result<usize, Trip> {
-        self.factor_above(share, mechanism, s)?;
-        Ok(self.saddle.n_left_out())
     }
 
     /// Whether the last factorisation uses the k-th kept row.
@@ -231,41 +225,51 @@ impl KeptRows {
     }
 
     fn trip(&self, mechanism: &Mechanism, s: &Scratch, e: SaddleError) -> Trip {
-        let time = s.t;
-        match e {
-            SaddleError::RankLost { row, pivot, scale } => {
-                let row = mechanism.layout().labels[self.kept[row]].clone();
-                Trip::RankLost {
-                    time,
-                    row,
-                    pivot,
-                    scale,
-                }
-            }
-            SaddleError::MasslessMotion { motion, .. } => {
-                let larger = |a: usize, b: usize| {
-                    if motion[b].abs() > motion[a].abs() {
-                        b
-                    } else {
-                        a
-                    }
-                };
-                let (body, coordinate) = mechanism.coordinate((0..motion.len()).fold(0, larger));
-                Trip::Massless {
-                    time,
-                    body: body.to_owned(),
-                    coordinate,
-                }
-            }
-            SaddleError::NonFinite {
-                argument,
-                index,
-                value,
-            } => Trip::NotFinite {
+        trip(mechanism, s, e, |row| self.kept[row])
+    }
+}
+
+/// Why a solve at the instant of the scratch failed; `row_of` tells which row of C a row of the solver is.
+pub(super) fn trip(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    e: SaddleError,
+    row_of: impl Fn(usize) -> usize,
+) -> Trip {
+    let time = s.t;
+    match e {
+        SaddleError::RankLost { row, pivot, scale } => {
+            let row = mechanism.layout().labels[row_of(row)].clone();
+            Trip::RankLost {
                 time,
-                what: format!("{argument}[{index}] = {value}"),
-            },
-            source => Trip::Saddle { time, source },
+                row,
+                pivot,
+                scale,
+            }
         }
+        SaddleError::MasslessMotion { motion, .. } => {
+            let larger = |a: usize, b: usize| {
+                if motion[b].abs() > motion[a].abs() {
+                    b
+                } else {
+                    a
+                }
+            };
+            let (body, coordinate) = mechanism.coordinate((0..motion.len()).fold(0, larger));
+            Trip::Massless {
+                time,
+                body: body.to_owned(),
+                coordinate,
+            }
+        }
+        SaddleError::NonFinite {
+            argument,
+            index,
+            value,
+        } => Trip::NotFinite {
+            time,
+            what: format!("{argument}[{index}] = {value}"),
+        },
+        source => Trip::Saddle { time, source },
     }
 }

@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use integrators::{Ode, StepEnd, StepInfo, Tolerance};
+use integrators::{Delicate, Implicit, Ode, StepEnd, StepInfo, Tolerance};
 use model::System;
 
 use super::Sample;
@@ -11,7 +11,7 @@ use super::energy::EnergyBalance;
 use crate::error::Trip;
 use crate::events::Event;
 use crate::motion::constrained::SaddlePoint;
-use crate::motion::{Correction, KeptRowMotion, Motion};
+use crate::motion::{Correction, KeptRowMotion, Reduced};
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 
@@ -25,10 +25,13 @@ const NEAREST_MAX: f64 = 0.1;
 
 /// From pivots of this share of the reference on the stages of a step are moved onto the constraints before they are evaluated:
 /// off them by δ, accelerations are wrong by δ divided by that share.
-const CAREFUL: f64 = 0.3;
+const CAREFUL: f64 = 0.1;
 
 /// Singular configurations are foreseen for so many steps like the last one: no method lets steps grow by more.
 const FORESIGHT: f64 = 12.0;
+
+/// Relative error of a step over a singular configuration that rounding may cause where steps are short.
+const PASSED: f64 = 1e-10;
 
 /// Largest relative correction of a step over a singular configuration, as share of the distance at which it ends: other branches are
 /// as far away as that.
@@ -37,6 +40,8 @@ const SMOOTH: f64 = 0.01;
 /// The equations of a run with what is noted on the way.
 pub(super) struct Equations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
+    /// Of implicit methods.
+    reduced: Reduced,
     /// The constraints as equations of their own.
     pub(super) saddle_point: SaddlePoint,
     pub(super) n_q: usize,
@@ -54,6 +59,8 @@ pub(super) struct Equations<'m> {
     events: Vec<Event>,
     /// Whether the last accepted step may have passed a singular configuration.
     is_suspect: bool,
+    /// By the number of dependent rows, whether the motion is unique in a passage.
+    uniqueness: Vec<(usize, String)>,
     /// Whether the stages of the present step are moved onto the constraints.
     is_careful: bool,
     /// When the motion is expected to pass a singular configuration.
@@ -85,10 +92,12 @@ impl<'m> Equations<'m> {
             min_pivot_ratio: f64::INFINITY,
             events: Vec::new(),
             is_suspect: false,
+            uniqueness: Vec::new(),
             is_careful: false,
             delicate: None,
             before: Vec::new(),
             stage: Vec::new(),
+            reduced: Reduced::new(&motion),
             saddle_point: SaddlePoint::new(&motion),
             motion,
         }
@@ -100,8 +109,14 @@ impl<'m> Equations<'m> {
         y.extend(self.works.then_some(0.0));
         self.before = y.clone();
         self.stage = y.clone();
-        self.is_careful = self.motion.relative_pivot() < CAREFUL;
+        self.is_careful = self.wants_care();
         y
+    }
+
+    /// Whether the next stages have to be moved onto the constraints. On a chart all of them lie there; without projection none shall.
+    fn wants_care(&self) -> bool {
+        let off = self.motion.projects() && self.motion.independent().is_none();
+        off && self.motion.relative_pivot() < CAREFUL
     }
 
     /// The work is measured, not controlled: its error has no weight. It still counts as a component of the mean, which makes the
@@ -128,11 +143,12 @@ impl<'m> Equations<'m> {
             energy_balance: self.energy.relative_gap(),
             min_pivot_ratio: self.min_pivot_ratio,
             events: self.events.clone(),
+            proximal: self.motion.proximal_tuning(),
             ..super::Summary::default()
         }
     }
 
-    /// Projects a row of output and shows it. At a break time it is the state just before.
+    /// Projects a row of output, where states are projected, and shows it. At a break time it is the state just before.
     pub(super) fn show(
         &mut self,
         t: f64,
@@ -145,7 +161,7 @@ impl<'m> Equations<'m> {
             t
         };
         let (q, rest) = y.split_at_mut(self.n_q);
-        let found = self.motion.project(t_before, q, &mut rest[..self.n_v])?;
+        let found = self.motion.end_row(t_before, q, &mut rest[..self.n_v])?;
         self.note(y, found);
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
         row(&mut Sample {
@@ -165,6 +181,22 @@ impl<'m> Equations<'m> {
     /// Share of the reference to which a pivot falls that vanishes, as well as this run knows.
     pub(super) fn passage_noise(&self) -> f64 {
         self.nearest
+    }
+
+    /// What is known of passages where so many rows are dependent.
+    pub(super) fn uniqueness_of(&self, dependent: usize) -> Option<&str> {
+        let known = self.uniqueness.iter().find(|(d, _)| *d == dependent);
+        known.map(|(_, words)| words.as_str())
+    }
+
+    /// Keeps it.
+    pub(super) fn remember_uniqueness(&mut self, dependent: usize, words: String) {
+        self.uniqueness.push((dependent, words));
+    }
+
+    /// Numbers of coordinates and velocities.
+    pub(super) fn sizes(&self) -> (usize, usize) {
+        (self.n_q, self.n_v)
     }
 
     /// Records what happened.
@@ -224,23 +256,37 @@ impl Ode for Equations<'_> {
         };
         let (q, rest) = y.split_at_mut(self.n_q);
         let v = &mut rest[..self.n_v];
-        let found = self.motion.project_step(step.t_rhs, q, v, nearest)?;
+        let found = self.motion.end_step(step.t_rhs, q, v, nearest)?;
         let pivot_ratio = self.motion.pivot_ratio();
         for (before, y) in self.before.iter_mut().zip(&*y) {
             *before -= y;
         }
-        let correction = step.norm(&self.before);
         let is_suspect = self.motion.may_have_passed();
-        if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot() {
+        if is_suspect && !self.motion.projects() {
+            let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+            let missed = self.motion.missed_correction(step.t_rhs, q, v)?;
+            self.before[..missed.len()].copy_from_slice(&missed);
+        }
+        let correction = step.norm(&self.before);
+        if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot().max(NEAREST)
+        {
             return Err(self.motion.no_way_over(step.t));
         }
-        self.motion.derivative(step.t_rhs, y, dy)?;
+        if self.motion.projects() {
+            self.motion.derivative(step.t_rhs, y, dy)?;
+            self.reduced.follow(&mut self.motion, step.t_rhs, y)?;
+            let a = &mut dy[self.n_q..self.n_q + self.n_v];
+            self.motion.review_acceleration(a)?;
+        }
         // From here on the step stands.
         self.is_suspect = is_suspect;
-        self.is_careful = self.motion.relative_pivot() < CAREFUL;
+        self.is_careful = self.wants_care();
         self.note(y, found);
         self.events.extend(self.motion.accept(step.t));
         self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
+        if !self.motion.projects() {
+            return Ok(StepEnd::Unchanged);
+        }
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
         let now = (step.t, q, v, &dy[self.n_q..self.n_q + self.n_v]);
         self.delicate = self
@@ -252,8 +298,9 @@ impl Ode for Equations<'_> {
         })
     }
 
-    fn delicate_time(&self) -> Option<f64> {
-        self.delicate
+    fn delicate_time(&self) -> Option<Delicate> {
+        let slack = (PASSED / self.rtol).max(1.0);
+        self.delicate.map(|t| Delicate { t, slack })
     }
 
     /// Rates that jump make the velocities jump, by an impulse of the constraints.
@@ -267,5 +314,23 @@ impl Ode for Equations<'_> {
             self.events.push(impulse.event);
         }
         Ok(())
+    }
+}
+
+impl Implicit for Equations<'_> {
+    fn linearise(&mut self, t: f64, y: &[f64]) -> Result<(), Trip> {
+        self.reduced.linearise(&mut self.motion, t, y)
+    }
+
+    fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), Trip> {
+        self.reduced.factor(real, complex)
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        self.reduced.solve(x);
+    }
+
+    fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
+        self.reduced.solve_complex(re, im);
     }
 }

@@ -4,7 +4,7 @@ mod complex;
 pub(crate) mod lu;
 
 use crate::implicit::Implicit;
-use crate::ode::{Ode, StepEnd, StepInfo};
+use crate::ode::{Delicate, Ode, StepEnd, StepInfo};
 use complex::Complex;
 use lu::Lu;
 use std::error::Error;
@@ -150,7 +150,7 @@ impl<O: Ode, J: Jacobian<O>> Ode for DenseImplicit<O, J> {
             .map_err(DenseError::Problem)
     }
 
-    fn delicate_time(&self) -> Option<f64> {
+    fn delicate_time(&self) -> Option<Delicate> {
         self.ode.delicate_time()
     }
 

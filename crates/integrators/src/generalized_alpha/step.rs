@@ -2,7 +2,7 @@
 
 use super::Stepping;
 use crate::constrained::Constrained;
-use crate::control::{Control, weighted_rms};
+use crate::control::{StepControl, weighted_rms};
 use crate::convergence::Convergence;
 use crate::drive::evaluate;
 use crate::error::Cause;
@@ -15,7 +15,7 @@ impl<O: Constrained> Stepper<O> for Stepping {
         2
     }
 
-    fn control(&mut self) -> &mut Control {
+    fn control(&mut self) -> &mut dyn StepControl {
         &mut self.control
     }
 

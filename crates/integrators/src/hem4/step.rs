@@ -3,7 +3,7 @@
 use super::Stages;
 use super::tableau::{A, C, E};
 use crate::constrained::{Constrained, Target};
-use crate::control::{Control, weighted_rms};
+use crate::control::{StepControl, weighted_rms};
 use crate::drive::{evaluate, finite};
 use crate::error::Cause;
 use crate::hermite::{PLACE, cubic, cubic_derivative, quartic_weight};
@@ -19,7 +19,7 @@ impl<O: Constrained> Stepper<O> for Stages {
         widest_gap(&C)
     }
 
-    fn control(&mut self) -> &mut Control {
+    fn control(&mut self) -> &mut dyn StepControl {
         &mut self.control
     }
 

@@ -4,7 +4,7 @@ use super::newton::dot;
 use super::scale::set_scale;
 use super::tableau::{C, COMPLEX, E, REAL};
 use super::{Matrices, Stages};
-use crate::control::{Control, weighted_rms};
+use crate::control::{StepControl, weighted_rms};
 use crate::convergence::{Convergence, GOOD_RATE, MAX_ITERATIONS, Verdict};
 use crate::drive::{evaluate, finite};
 use crate::error::Cause;
@@ -75,7 +75,7 @@ impl<O: Implicit> Stepper<O> for Stages {
         widest_gap(&C)
     }
 
-    fn control(&mut self) -> &mut Control {
+    fn control(&mut self) -> &mut dyn StepControl {
         &mut self.control
     }
 
