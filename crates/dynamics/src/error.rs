@@ -224,7 +224,7 @@ impl MotionError {
                 smallest_singular_value,
                 required,
             } => format!(
-                "these rows cannot be dropped: what is kept is dependent (smallest singular value \
+                "at t = 0 s these rows cannot be dropped: what is kept is dependent (smallest singular value \
                  {smallest_singular_value:.3e}, need {required:.3e}). `pfaff analyze` lists the dependent sets; drop \
                  one row of each"
             ),

@@ -11,6 +11,7 @@
 
 mod all_rows;
 mod chart;
+pub(crate) mod constrained;
 mod impulse;
 mod locate;
 mod passage;
@@ -20,6 +21,7 @@ mod review;
 mod rows;
 mod stabilise;
 
+use linalg::ProximalTuning;
 use model::{Mechanism, Scratch, System};
 
 use crate::error::Trip;
@@ -157,6 +159,12 @@ impl<'a> KeptRowMotion<'a> {
         &self.s
     }
 
+    /// μ and the number of proximal iterations, where accelerations come from them.
+    #[must_use]
+    pub fn proximal_tuning(&self) -> Option<ProximalTuning> {
+        self.all_rows.as_ref().and_then(AllRows::proximal_tuning)
+    }
+
     /// Smallest pivot of the last factorisation relative to its row: small near singular configurations.
     #[must_use]
     pub fn pivot_ratio(&self) -> f64 {
@@ -181,6 +189,13 @@ impl<'a> KeptRowMotion<'a> {
             }
         };
         self.mechanism.applied_power(&self.s.force, v) + constraints
+    }
+
+    /// Kept rows: how many are holonomic, and how many are not.
+    pub(crate) fn kept_rows(&self) -> [usize; 2] {
+        let kept = &self.velocity.kept;
+        let holonomic = kept.partition_point(|&i| i < self.mechanism.layout().m);
+        [holonomic, kept.len() - holonomic]
     }
 
     /// b at the pose of the scratch.

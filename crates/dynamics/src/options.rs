@@ -11,13 +11,29 @@ pub enum Method {
     Auto,
     /// Dormand–Prince 5(4), the method of MATLAB's `ode45`.
     Dopri5,
+    /// Tsitouras 5(4).
+    Tsit5,
+    /// Dormand–Prince 8(5,3).
+    Dop853,
     /// Radau IIA of order 5 on independent coordinates, for stiff forces.
     Radau5,
+    /// Half-explicit Runge–Kutta method of order 4: without derivatives of the constraints.
+    Hem4,
+    /// Generalized-α on positions with ρ∞ = 0.8, order 2: for stiff forces at low accuracy.
+    GeneralizedAlpha,
 }
 
 impl Method {
     /// All that can be asked for.
-    pub const ALL: &[Self] = &[Self::Auto, Self::Dopri5, Self::Radau5];
+    pub const ALL: &[Self] = &[
+        Self::Auto,
+        Self::Dopri5,
+        Self::Dop853,
+        Self::Tsit5,
+        Self::Radau5,
+        Self::Hem4,
+        Self::GeneralizedAlpha,
+    ];
 
     /// Its name in scenes and results.
     #[must_use]
@@ -25,14 +41,18 @@ impl Method {
         match self {
             Self::Auto => "auto",
             Self::Dopri5 => "dopri5",
+            Self::Tsit5 => "tsit5",
+            Self::Dop853 => "dop853",
             Self::Radau5 => "radau5",
+            Self::Hem4 => "hem4",
+            Self::GeneralizedAlpha => "generalized-alpha",
         }
     }
 
     /// Whether it solves systems of equations with a Jacobian in its steps.
     #[must_use]
     pub fn is_implicit(self) -> bool {
-        self == Self::Radau5
+        matches!(self, Self::Radau5 | Self::GeneralizedAlpha)
     }
 
     /// The integrator that a run uses.

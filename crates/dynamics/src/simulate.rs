@@ -4,12 +4,16 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+mod constrained;
 mod energy;
 mod equations;
+mod passages;
 
 use integrators::{
-    Cause, Dopri5, IntegrationError, Interval, Options, OutputTimes, Radau5, sample,
+    Cause, Dop853, Dopri5, GeneralizedAlpha, Hem4, IntegrationError, Interval, Options, Outcome,
+    OutputTimes, Radau5, Rows, Tsit5, integrate,
 };
+use linalg::ProximalTuning;
 use model::{Reaction, System};
 
 use crate::error::{MotionError, Trip};
@@ -44,6 +48,8 @@ pub struct Summary {
     pub min_pivot_ratio: f64,
     /// What happened on the way.
     pub events: Vec<Event>,
+    /// The last tuning of proximal iterations, where accelerations come from them.
+    pub proximal: Option<ProximalTuning>,
 }
 
 /// A run that stopped early, with what was reached.
@@ -81,7 +87,7 @@ impl Sample<'_, '_> {
         Ok(a)
     }
 
-    /// Multipliers of all rows, those of dropped rows zero by decree; allocates.
+    /// Multipliers of all rows as [`Motion::multipliers`] gives them; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.
@@ -92,8 +98,8 @@ impl Sample<'_, '_> {
         Ok(lambda)
     }
 
-    /// Reactions of all joints and drives in the order of their rows. Those of non-unique joints belong to the kept
-    /// rows of this run and to no other; allocates.
+    /// Reactions of all joints and drives in the order of their rows. Those of non-unique joints belong to the choice
+    /// of this run (its kept rows, or the norm of its formulation) and to no other; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.
@@ -148,21 +154,21 @@ pub fn simulate(
         true => OutputTimes::Every(options.output_step),
         false => OutputTimes::At(vec![0.0]),
     };
-    let mut tripped = None;
-    let clock = Instant::now();
-    let show = |e: &mut Equations<'_>, t: f64, y: &mut [f64]| match e.show(t, y, &mut row) {
-        Ok(flow) => flow,
-        Err(trip) => {
-            tripped = Some(trip);
-            ControlFlow::Break(())
-        }
+    let rows = Rows::new(times, &interval).map_err(|e| fail(named(e)))?;
+    let mut run = Run {
+        equations,
+        rows,
+        row: &mut row,
+        stopped: None,
     };
-    let run = &mut equations;
-    let outcome = match options.method {
-        Method::Auto | Method::Dopri5 => {
-            sample(&Dopri5, run, &interval, &y0, &settings, &times, show)
-        }
-        Method::Radau5 => sample(&Radau5, run, &interval, &y0, &settings, &times, show),
+    let clock = Instant::now();
+    let outcome = match options.method.chosen() {
+        Method::Auto | Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
+        Method::Tsit5 => run.go(&Tsit5, &interval, &y0, &settings),
+        Method::Dop853 => run.go(&Dop853, &interval, &y0, &settings),
+        Method::Radau5 => run.go(&Radau5, &interval, &y0, &settings),
+        Method::Hem4 => run.go(&Hem4, &interval, &y0, &settings),
+        Method::GeneralizedAlpha => run.go(&GeneralizedAlpha::default(), &interval, &y0, &settings),
     };
     let wall_seconds = clock.elapsed().as_secs_f64();
     let (t, statistics) = match &outcome {
@@ -176,18 +182,69 @@ pub fn simulate(
         evaluations: statistics.total_evaluations(),
         projections: statistics.projections,
         wall_seconds,
-        ..equations.summary()
+        ..run.equations.summary()
     };
-    match (outcome, tripped) {
-        (_, Some(trip)) => Err(Box::new(Failure {
-            error: trip.into(),
-            summary,
-        })),
-        (Ok(_), None) => Ok(summary),
-        (Err(f), None) => Err(Box::new(Failure {
-            error: named(f.error),
-            summary,
-        })),
+    let error = match (outcome, run.stopped) {
+        (_, Some(error)) => error,
+        (Ok(_), None) => return Ok(summary),
+        (Err(f), None) => named(f.error),
+    };
+    Err(Box::new(Failure { error, summary }))
+}
+
+/// A run on its way: the equations, the rows that are still to be shown, and why it was stopped.
+struct Run<'r, 'm, F> {
+    equations: Equations<'m>,
+    rows: Rows,
+    row: &'r mut F,
+    stopped: Option<MotionError>,
+}
+
+type Integrated = Result<Outcome, Box<integrators::Failure<Trip>>>;
+
+impl<'m, F> Run<'_, 'm, F>
+where
+    F: FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+{
+    fn go<M: integrators::Method<Equations<'m>>>(
+        &mut self,
+        method: &M,
+        interval: &Interval<'_>,
+        y0: &[f64],
+        settings: &Options,
+    ) -> Integrated {
+        let Self {
+            equations,
+            rows,
+            row,
+            stopped,
+        } = self;
+        let mut show = |e: &mut Equations<'m>, t: f64, y: &mut [f64]| match e.show(t, y, row) {
+            Ok(flow) => flow,
+            Err(trip) => {
+                *stopped = Some(trip.into());
+                ControlFlow::Break(())
+            }
+        };
+        if rows.start(equations, y0, &mut show).is_break() {
+            // Nothing is integrated; what follows is the result of no time.
+            let nowhere = Interval::new(interval.t0, interval.t0);
+            return integrate(method, equations, &nowhere, y0, settings, |_| {
+                ControlFlow::Break(())
+            });
+        }
+        let mut refused = None;
+        let outcome = integrate(method, equations, interval, y0, settings, |step| {
+            passages::note(step);
+            rows.emit(step, &mut show).unwrap_or_else(|error| {
+                refused = Some(error);
+                ControlFlow::Break(())
+            })
+        });
+        if let Some(error) = refused {
+            *stopped = Some(named(error));
+        }
+        outcome
     }
 }
 

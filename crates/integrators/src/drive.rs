@@ -5,7 +5,7 @@
 use crate::error::{Cause, Failure, IntegrationError};
 use crate::interval::{Interval, Leg};
 use crate::method::{End, Ends, Outcome, Start, Stepper, Trial};
-use crate::ode::{Ode, StepEnd, StepInfo};
+use crate::ode::{Delicate, Ode, StepEnd, StepInfo};
 use crate::options::{InitialStep, Options};
 use crate::start::{StartScratch, initial_step};
 use crate::statistics::Statistics;
@@ -48,7 +48,7 @@ where
         }
         while run.t != leg.end {
             if let Some(delicate) = ode.delicate_time() {
-                run.step_over(delicate, stepper.widest_gap());
+                run.step_over(delicate.t, stepper.widest_gap());
             }
             let trial = match run.next_trial(leg) {
                 Ok(trial) => trial,
@@ -305,7 +305,12 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         start.tolerance.scale(&self.y0, &self.y1, &mut self.scale);
         let norm = stepper.error_norm(ode, trial, &start, &self.scale, statistics)?;
         self.error_norm = Some(norm);
-        if norm.is_nan() || norm > 1.0 {
+        let is_delicate = |d: &Delicate| (d.t - trial.t) * (trial.t1 - d.t) > 0.0;
+        let permitted = ode
+            .delicate_time()
+            .filter(is_delicate)
+            .map_or(1.0, |d| d.slack);
+        if norm.is_nan() || norm > permitted {
             return Err(Cause::ErrorTest { norm });
         }
         let info = StepInfo {
@@ -362,11 +367,13 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.t = trial.t1;
         self.failures = 0;
         self.last_rejection = None;
-        let h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));
-        let h = match self.uncut.take() {
-            Some(uncut) if uncut.abs() > h.abs() => uncut,
-            _ => h,
-        };
+        // A step cut by the end of its leg or before a delicate time says nothing against the size wanted before.
+        let is_cut = trial.t1 == trial.leg.end || self.uncut.is_some();
+        let wanted = self.uncut.take().unwrap_or(self.h);
+        let mut h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));
+        if is_cut && h.abs() < wanted.abs() {
+            h = wanted;
+        }
         self.h = h.clamp(-self.options.max_step, self.options.max_step);
     }
 
@@ -402,6 +409,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             t: self.t,
             y: self.y0,
             end,
+            next_step: (self.statistics.accepted > 0).then_some(self.h.abs()),
             statistics: self.statistics,
         }
     }

@@ -2,7 +2,8 @@
 //! another choice. Projection, monitors and passages stay with the kept rows.
 
 use linalg::{
-    Matrix, MinimumNormSaddle, PivotedQr, ProximalSaddle, SaddleError, support_tolerance,
+    Matrix, MinimumNormSaddle, PivotedQr, ProximalSaddle, ProximalTuning, SaddleError,
+    support_tolerance,
 };
 use model::reaction::COMPONENTS;
 use model::{Mechanism, Scratch, System};
@@ -125,6 +126,14 @@ impl AllRows {
                 allowed,
             }),
             _ => Ok(()),
+        }
+    }
+
+    /// The tuning of proximal iterations.
+    pub(super) fn proximal_tuning(&self) -> Option<ProximalTuning> {
+        match &self.saddle {
+            Saddle::MinimumNorm(_) => None,
+            Saddle::Proximal { saddle, .. } => Some(saddle.tuning()),
         }
     }
 

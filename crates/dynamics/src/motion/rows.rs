@@ -150,8 +150,13 @@ impl KeptRows {
         }
     }
 
-    /// Leaves out rows whose pivot is below this share of the reference.
-    fn factor_above(&mut self, share: f64, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
+    /// As [`KeptRows::factor`], leaving out rows whose pivot is below this share of the reference.
+    pub(super) fn factor_above(
+        &mut self,
+        share: f64,
+        mechanism: &Mechanism,
+        s: &Scratch,
+    ) -> Result<(), Trip> {
         self.take_entries(mechanism, s);
         let reference = self.reference().filter(|r| r.is_finite());
         let floor = share * reference.unwrap_or(0.0);
@@ -168,17 +173,6 @@ impl KeptRows {
     /// Rows of the last factorisation that are dependent for an instant and were left out: their number.
     pub(super) fn n_left_out(&self) -> usize {
         self.saddle.n_left_out()
-    }
-
-    /// How many rows have pivots below this share of the reference.
-    pub(super) fn n_dependent(
-        &mut self,
-        share: f64,
-        mechanism: &Mechanism,
-        s: &Scratch,
-    ) -> Result<usize, Trip> {
-        self.factor_above(share, mechanism, s)?;
-        Ok(self.saddle.n_left_out())
     }
 
     /// Whether the last factorisation uses the k-th kept row.

@@ -62,6 +62,23 @@ impl KeptRowMotion<'_> {
         self.inspect(t, q, v)
     }
 
+    /// What a projection would change in [q; v] of a state that is left as it is; allocates.
+    ///
+    /// # Errors
+    /// As [`Motion::project`].
+    pub(crate) fn missed_correction(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<Vec<f64>, Trip> {
+        let (mut polished_q, mut polished_v) = (q.to_vec(), v.to_vec());
+        self.project(t, &mut polished_q, &mut polished_v)?;
+        self.inspect(t, q, v)?;
+        let moved = polished_q.iter().zip(q).chain(polished_v.iter().zip(v));
+        Ok(moved.map(|(to, from)| to - from).collect())
+    }
+
     /// Factors at a state as it is, and finds its residuals.
     fn inspect(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Correction, Trip> {
         let Self {

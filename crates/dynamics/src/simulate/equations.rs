@@ -3,13 +3,14 @@
 
 use std::ops::ControlFlow;
 
-use integrators::{Implicit, Ode, StepEnd, StepInfo, Tolerance};
+use integrators::{Delicate, Implicit, Ode, StepEnd, StepInfo, Tolerance};
 use model::System;
 
 use super::Sample;
 use super::energy::EnergyBalance;
 use crate::error::Trip;
 use crate::events::Event;
+use crate::motion::constrained::SaddlePoint;
 use crate::motion::{Correction, KeptRowMotion, Reduced};
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
@@ -24,10 +25,13 @@ const NEAREST_MAX: f64 = 0.1;
 
 /// From pivots of this share of the reference on the stages of a step are moved onto the constraints before they are evaluated:
 /// off them by δ, accelerations are wrong by δ divided by that share.
-const CAREFUL: f64 = 0.3;
+const CAREFUL: f64 = 0.1;
 
 /// Singular configurations are foreseen for so many steps like the last one: no method lets steps grow by more.
 const FORESIGHT: f64 = 12.0;
+
+/// Relative error of a step over a singular configuration that rounding may cause where steps are short.
+const PASSED: f64 = 1e-10;
 
 /// Largest relative correction of a step over a singular configuration, as share of the distance at which it ends: other branches are
 /// as far away as that.
@@ -38,8 +42,10 @@ pub(super) struct Equations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
     /// Of implicit methods.
     reduced: Reduced,
-    n_q: usize,
-    n_v: usize,
+    /// The constraints as equations of their own.
+    pub(super) saddle_point: SaddlePoint,
+    pub(super) n_q: usize,
+    pub(super) n_v: usize,
     /// Whether y carries the work.
     works: bool,
     /// Steps must not end nearer to a singular configuration, but where they have to.
@@ -53,6 +59,8 @@ pub(super) struct Equations<'m> {
     events: Vec<Event>,
     /// Whether the last accepted step may have passed a singular configuration.
     is_suspect: bool,
+    /// By the number of dependent rows, whether the motion is unique in a passage.
+    uniqueness: Vec<(usize, String)>,
     /// Whether the stages of the present step are moved onto the constraints.
     is_careful: bool,
     /// When the motion is expected to pass a singular configuration.
@@ -84,11 +92,13 @@ impl<'m> Equations<'m> {
             min_pivot_ratio: f64::INFINITY,
             events: Vec::new(),
             is_suspect: false,
+            uniqueness: Vec::new(),
             is_careful: false,
             delicate: None,
             before: Vec::new(),
             stage: Vec::new(),
             reduced: Reduced::new(&motion),
+            saddle_point: SaddlePoint::new(&motion),
             motion,
         }
     }
@@ -103,9 +113,10 @@ impl<'m> Equations<'m> {
         y
     }
 
-    /// Whether the next stages have to be moved onto the constraints. On a chart all of them lie there.
+    /// Whether the next stages have to be moved onto the constraints. On a chart all of them lie there; without projection none shall.
     fn wants_care(&self) -> bool {
-        self.motion.independent().is_none() && self.motion.relative_pivot() < CAREFUL
+        let off = self.motion.projects() && self.motion.independent().is_none();
+        off && self.motion.relative_pivot() < CAREFUL
     }
 
     /// The work is measured, not controlled: its error has no weight. It still counts as a component of the mean, which makes the
@@ -132,6 +143,7 @@ impl<'m> Equations<'m> {
             energy_balance: self.energy.relative_gap(),
             min_pivot_ratio: self.min_pivot_ratio,
             events: self.events.clone(),
+            proximal: self.motion.proximal_tuning(),
             ..super::Summary::default()
         }
     }
@@ -164,6 +176,27 @@ impl<'m> Equations<'m> {
     /// Whether the last accepted step may have passed a singular configuration.
     pub(super) fn is_suspect(&self) -> bool {
         self.is_suspect
+    }
+
+    /// Share of the reference to which a pivot falls that vanishes, as well as this run knows.
+    pub(super) fn passage_noise(&self) -> f64 {
+        self.nearest
+    }
+
+    /// What is known of passages where so many rows are dependent.
+    pub(super) fn uniqueness_of(&self, dependent: usize) -> Option<&str> {
+        let known = self.uniqueness.iter().find(|(d, _)| *d == dependent);
+        known.map(|(_, words)| words.as_str())
+    }
+
+    /// Keeps it.
+    pub(super) fn remember_uniqueness(&mut self, dependent: usize, words: String) {
+        self.uniqueness.push((dependent, words));
+    }
+
+    /// Numbers of coordinates and velocities.
+    pub(super) fn sizes(&self) -> (usize, usize) {
+        (self.n_q, self.n_v)
     }
 
     /// Records what happened.
@@ -229,9 +262,15 @@ impl Ode for Equations<'_> {
         for (before, y) in self.before.iter_mut().zip(&*y) {
             *before -= y;
         }
-        let correction = step.norm(&self.before);
         let is_suspect = self.motion.may_have_passed();
-        if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot() {
+        if is_suspect && !self.motion.projects() {
+            let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+            let missed = self.motion.missed_correction(step.t_rhs, q, v)?;
+            self.before[..missed.len()].copy_from_slice(&missed);
+        }
+        let correction = step.norm(&self.before);
+        if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot().max(NEAREST)
+        {
             return Err(self.motion.no_way_over(step.t));
         }
         if self.motion.projects() {
@@ -259,8 +298,9 @@ impl Ode for Equations<'_> {
         })
     }
 
-    fn delicate_time(&self) -> Option<f64> {
-        self.delicate
+    fn delicate_time(&self) -> Option<Delicate> {
+        let slack = (PASSED / self.rtol).max(1.0);
+        self.delicate.map(|t| Delicate { t, slack })
     }
 
     /// Rates that jump make the velocities jump, by an impulse of the constraints.

@@ -4,9 +4,9 @@ use std::ops::{Add, Div, Mul, Sub};
 
 /// `re + i·im`.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub(super) struct Complex {
-    pub(super) re: f64,
-    pub(super) im: f64,
+pub(crate) struct Complex {
+    pub(crate) re: f64,
+    pub(crate) im: f64,
 }
 
 impl Add for Complex {

@@ -6,7 +6,7 @@ use super::complex::Complex;
 use std::ops::{Add, Div, Mul, Sub};
 
 /// A number to decompose with.
-pub(super) trait Scalar:
+pub(crate) trait Scalar:
     Copy + Default + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
     /// Size by which pivots are compared: |x|, or |Re x| + |Im x|.
@@ -27,7 +27,7 @@ impl Scalar for Complex {
 
 /// The factors of an n×n matrix; `Lu::new` gives room, [`Lu::factor`] the contents.
 #[derive(Debug, Clone)]
-pub(super) struct Lu<T> {
+pub(crate) struct Lu<T> {
     n: usize,
     /// Row by row: U with its diagonal, below it the multipliers of L.
     a: Vec<T>,
@@ -36,7 +36,7 @@ pub(super) struct Lu<T> {
 }
 
 impl<T: Scalar> Lu<T> {
-    pub(super) fn new(n: usize) -> Self {
+    pub(crate) fn new(n: usize) -> Self {
         Self {
             n,
             a: vec![T::default(); n * n],
@@ -46,7 +46,7 @@ impl<T: Scalar> Lu<T> {
 
     /// Decomposes the matrix with the entries `entry(row, column)`. `Err(k)`: no pivot in column k, none is different from zero and
     /// finite.
-    pub(super) fn factor(&mut self, entry: impl Fn(usize, usize) -> T) -> Result<(), usize> {
+    pub(crate) fn factor(&mut self, entry: impl Fn(usize, usize) -> T) -> Result<(), usize> {
         let n = self.n;
         for (i, row) in self.a.chunks_exact_mut(n.max(1)).enumerate() {
             for (j, x) in row.iter_mut().enumerate() {
@@ -84,7 +84,7 @@ impl<T: Scalar> Lu<T> {
     }
 
     /// Overwrites `x` with A⁻¹·x.
-    pub(super) fn solve(&self, x: &mut [T]) {
+    pub(crate) fn solve(&self, x: &mut [T]) {
         let n = self.n;
         for k in 0..n {
             x.swap(k, self.exchanged[k]);

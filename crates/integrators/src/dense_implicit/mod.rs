@@ -1,10 +1,10 @@
 //! A plain problem made [`Implicit`]: dense Jacobian, by a formula or by differences, and dense LU decompositions.
 
 mod complex;
-mod lu;
+pub(crate) mod lu;
 
 use crate::implicit::Implicit;
-use crate::ode::{Ode, StepEnd, StepInfo};
+use crate::ode::{Delicate, Ode, StepEnd, StepInfo};
 use complex::Complex;
 use lu::Lu;
 use std::error::Error;
@@ -148,6 +148,10 @@ impl<O: Ode, J: Jacobian<O>> Ode for DenseImplicit<O, J> {
         self.ode
             .end_of_step(step, y, dy)
             .map_err(DenseError::Problem)
+    }
+
+    fn delicate_time(&self) -> Option<Delicate> {
+        self.ode.delicate_time()
     }
 
     fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), Self::Error> {

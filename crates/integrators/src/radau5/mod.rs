@@ -4,7 +4,6 @@
 //! program RADAU5 also gave the constants. Deviations: the Jacobian is renewed before a step is given up, and the dense output has a
 //! higher order (see `dense`).
 
-mod convergence;
 mod dense;
 mod newton;
 mod scale;
@@ -15,9 +14,9 @@ mod tableau;
 mod tests;
 
 use crate::control::{Control, ControlConstants};
+use crate::convergence::Convergence;
 use crate::implicit::Implicit;
 use crate::method::Method;
-use convergence::Convergence;
 
 /// Radau IIA of order 5 with simplified Newton iterations, for stiff problems.
 ///

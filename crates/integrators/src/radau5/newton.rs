@@ -11,10 +11,10 @@
 //! Not here: when to stop (`convergence`).
 
 use super::Stages;
-use super::convergence::Verdict;
 use super::scale::set_scale;
 use super::tableau::{C, COMPLEX, REAL, T, T_INVERSE, lagrange};
 use crate::control::weighted_square_sum;
+use crate::convergence::Verdict;
 use crate::drive::{evaluate, finite};
 use crate::error::Cause;
 use crate::implicit::Implicit;

@@ -1,15 +1,15 @@
 //! One trial step, its estimated error and the size of the next one.
 
-use super::convergence::{Convergence, GOOD_RATE, MAX_ITERATIONS, Verdict};
 use super::newton::dot;
 use super::scale::set_scale;
-use super::tableau::{COMPLEX, E, REAL};
+use super::tableau::{C, COMPLEX, E, REAL};
 use super::{Matrices, Stages};
-use crate::control::{Control, weighted_rms};
+use crate::control::{StepControl, weighted_rms};
+use crate::convergence::{Convergence, GOOD_RATE, MAX_ITERATIONS, Verdict};
 use crate::drive::{evaluate, finite};
 use crate::error::Cause;
 use crate::implicit::Implicit;
-use crate::method::{Start, Stepper, Trial};
+use crate::method::{Start, Stepper, Trial, widest_gap};
 use crate::statistics::Statistics;
 
 /// Factors serve a step whose size differs by less than this part: Newton's method then loses no more than a good rate.
@@ -71,7 +71,11 @@ impl<O: Implicit> Stepper<O> for Stages {
         5
     }
 
-    fn control(&mut self) -> &mut Control {
+    fn widest_gap(&self) -> f64 {
+        widest_gap(&C)
+    }
+
+    fn control(&mut self) -> &mut dyn StepControl {
         &mut self.control
     }
 

@@ -1,10 +1,10 @@
-//! When Newton's iterations have converged, will not converge, or can only stir the noise of rounding.
+//! When simplified Newton iterations have converged, will not converge, or can only stir the noise of rounding; for all implicit methods.
 //!
 //! Source: Hairer, Wanner II, 2nd ed., IV.8, and the constants of the authors' program RADAU5; the rule for noise is ours.
 
-pub(super) const MAX_ITERATIONS: u32 = 7;
-/// Convergence at this rate or faster means that J serves another step.
-pub(super) const GOOD_RATE: f64 = 1e-3;
+pub(crate) const MAX_ITERATIONS: u32 = 7;
+/// Convergence at this rate or faster means that the matrices serve another step.
+pub(crate) const GOOD_RATE: f64 = 1e-3;
 /// Convergence at this rate or slower is none.
 const BAD_RATE: f64 = 0.99;
 /// Step-size factor where nothing is known about the convergence.
@@ -16,10 +16,10 @@ const LARGEST_NOISE: f64 = 0.03;
 
 /// What to do after an iteration.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Verdict {
+pub(crate) enum Verdict {
     /// Iterate again.
     GoOn,
-    /// The stages are accurate enough.
+    /// The solution is accurate enough.
     Converged,
     /// Give up; with `factor` times the step size they might converge.
     Diverged { factor: f64 },
@@ -27,11 +27,11 @@ pub(super) enum Verdict {
 
 /// How fast the iterations of a step have converged.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Convergence {
+pub(crate) struct Convergence {
     /// Iterations so far.
-    pub(super) iterations: u32,
+    pub(crate) iterations: u32,
     /// Smoothed quotient of successive increments.
-    pub(super) rate: f64,
+    pub(crate) rate: f64,
     /// rate/(1 − rate): bound of the remaining error in terms of the last increment; for a first iteration from the steps before.
     remaining: f64,
     norm: f64,
@@ -54,7 +54,7 @@ impl Default for Convergence {
 
 impl Convergence {
     /// The next solve, which remembers from this one how far a first increment can be trusted.
-    pub(super) fn next(self) -> Self {
+    pub(crate) fn next(self) -> Self {
         Self {
             remaining: self.remaining.max(f64::EPSILON).powf(0.8),
             ..Self::default()
@@ -62,7 +62,7 @@ impl Convergence {
     }
 
     /// Judges an iteration with increments of the given norm; what is left at the end may have the norm `permitted`.
-    pub(super) fn judge(&mut self, norm: f64, permitted: f64) -> Verdict {
+    pub(crate) fn judge(&mut self, norm: f64, permitted: f64) -> Verdict {
         self.iterations += 1;
         let (last_norm, last_quotient) = (self.norm.max(f64::EPSILON), self.quotient);
         self.norm = norm;
