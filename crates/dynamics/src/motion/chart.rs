@@ -3,8 +3,8 @@
 //! projections and output do not know of the partition. Steps of explicit methods need no projection; implicit methods have a Jacobian without
 //! constraints ([`super::reduced`]).
 //!
-//! The partition stays for a step at least, because f must not change within it. It is chosen again at an accepted step where its pivots have
-//! fallen. Near a singular configuration there is none, and a step that needs one is refused.
+//! The partition stays for a step and its dense output, because f must not change within them. Where its pivots have fallen it is chosen again
+//! at the accepted state, when the next step begins. Near a singular configuration there is none, and a step that needs one is refused.
 
 use model::System;
 
@@ -22,6 +22,18 @@ pub(super) struct Chart {
     pub(super) v: Vec<f64>,
     /// How many partitions there were before.
     pub(super) generation: u64,
+    /// Where this one was chosen: t, q and v.
+    pub(super) origin: Origin,
+    /// Where another one is due.
+    renewal: Option<Origin>,
+}
+
+/// An accepted state.
+#[derive(Clone)]
+pub(super) struct Origin {
+    pub(super) t: f64,
+    pub(super) q: Vec<f64>,
+    pub(super) v: Vec<f64>,
 }
 
 impl KeptRowMotion<'_> {
@@ -32,7 +44,8 @@ impl KeptRowMotion<'_> {
     pub fn use_chart(&mut self, t: f64, q: &[f64]) -> Result<(), Trip> {
         self.mechanism.pose(t, q, &mut self.s);
         self.mechanism.c(&mut self.s);
-        self.choose_chart(q)
+        let (q, v) = (q.to_vec(), vec![0.0; self.mechanism.layout().n_v]);
+        self.choose_chart(Origin { t, q, v })
     }
 
     /// Independent coordinates and velocities, ascending, where the motion is one of these alone.
@@ -50,6 +63,7 @@ impl KeptRowMotion<'_> {
     /// # Panics
     /// If `y` or `dy` are shorter than n_q + n_v.
     pub fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
+        self.begin_step(|accepted| t > accepted)?;
         let layout = self.mechanism.layout();
         let (q, rest) = y.split_at(layout.n_q);
         let v = &rest[..layout.n_v];
@@ -109,33 +123,37 @@ impl KeptRowMotion<'_> {
         }
     }
 
-    /// Completes the result of a step on a chart, and chooses another one where its pivots have fallen.
-    pub(super) fn complete_step(
-        &mut self,
-        t: f64,
-        q: &mut [f64],
-        v: &mut [f64],
-    ) -> Result<(), Trip> {
-        if self.chart.is_none() {
+    /// Asks for another chart where the present one is worn: at the state just evaluated, which has been accepted at t.
+    pub(super) fn review_chart(&mut self, t: f64) {
+        let worn = self.velocity.are_worn() || self.position.are_worn() || self.aside.is_some();
+        if let (true, Some(chart)) = (worn, &mut self.chart) {
+            let (q, v) = (chart.q.clone(), chart.v.clone());
+            chart.renewal = Some(Origin { t, q, v });
+        }
+    }
+
+    /// Chooses the chart that has been asked for, if a step has begun: whether one has is told by the time of the accepted state.
+    pub(super) fn begin_step(&mut self, has_begun: impl Fn(f64) -> bool) -> Result<(), Trip> {
+        let due = self.chart.as_ref().and_then(|c| c.renewal.as_ref());
+        let Some(origin) = due.filter(|origin| has_begun(origin.t)).cloned() else {
             return Ok(());
+        };
+        self.mechanism.pose(origin.t, &origin.q, &mut self.s);
+        self.mechanism.phi(&mut self.s);
+        self.mechanism.c(&mut self.s);
+        // Whether other rows are due is judged without a partition.
+        self.velocity.forget_partition();
+        self.position.forget_partition();
+        self.velocity.factor(self.mechanism, &self.s)?;
+        self.position.factor(self.mechanism, &self.s)?;
+        if let Some(event) = self.review(&origin.q)? {
+            self.pending = Some(event);
         }
-        self.complete(t, q, v)?;
-        if self.velocity.are_lost() || self.position.are_lost() {
-            self.choose_chart(q)?;
-        }
-        Ok(())
+        self.choose_chart(origin)
     }
 
-    /// Chooses a chart on new rows, at the pose of the scratch.
-    pub(super) fn renew_chart(&mut self, q: &[f64]) -> Result<(), Trip> {
-        match self.chart {
-            Some(_) => self.choose_chart(q),
-            None => Ok(()),
-        }
-    }
-
-    /// Partitions the rows at the pose of the scratch.
-    fn choose_chart(&mut self, q: &[f64]) -> Result<(), Trip> {
+    /// Partitions the rows at the pose of the scratch, which is that of the origin.
+    fn choose_chart(&mut self, origin: Origin) -> Result<(), Trip> {
         let (mechanism, s) = (self.mechanism, &self.s);
         let z = self.position.partition(mechanism, s, self.size)?;
         let u = self.velocity.partition(mechanism, s, self.size)?;
@@ -147,9 +165,11 @@ impl KeptRowMotion<'_> {
         self.chart = Some(Chart {
             z,
             u,
-            q: q.to_vec(),
-            v: vec![0.0; mechanism.layout().n_v],
+            q: origin.q.clone(),
+            v: origin.v.clone(),
             generation,
+            origin,
+            renewal: None,
         });
         Ok(())
     }

@@ -46,14 +46,16 @@ impl KeptRowMotion<'_> {
         v: &mut [f64],
         nearest: f64,
     ) -> Result<Correction, Trip> {
-        self.complete_step(t, q, v)?;
+        self.complete_row(t, q, v)?;
         let iterations = self.settle(t, q)?;
         if self.velocity.relative_pivot() < nearest {
             return Err(self.no_way_over(t));
         }
-        if let Some(event) = self.review(q)? {
+        // On a chart rows are exchanged when the next step begins.
+        if self.chart.is_none()
+            && let Some(event) = self.review(q)?
+        {
             self.pending = Some(event);
-            self.renew_chart(q)?;
         }
         self.finish(q, v, iterations)
     }
@@ -79,6 +81,7 @@ impl KeptRowMotion<'_> {
 
     /// Takes the state just evaluated as that of an accepted step; what happened since the last one.
     pub(crate) fn accept(&mut self, t: f64) -> Option<Event> {
+        self.review_chart(t);
         self.passage.take(&mut self.velocity, t);
         self.pending.take()
     }

@@ -17,7 +17,7 @@ use linalg::{Lu, Matrix};
 use model::{Derivatives, System};
 
 use super::KeptRowMotion;
-use super::chart::Chart;
+use super::chart::Origin;
 use crate::error::Trip;
 
 /// The Jacobian at one instant, and factors of shifted ones.
@@ -97,6 +97,7 @@ impl Reduced {
         if motion.chart.is_none() {
             motion.use_chart(t, &y[..n_q])?;
         }
+        motion.begin_step(|_| true)?;
         self.dy.resize(y.len(), 0.0);
         motion.derivative(t, y, &mut self.dy)?;
         self.take_places(motion, y.len());
@@ -113,21 +114,22 @@ impl Reduced {
         Ok(())
     }
 
-    /// Linearises and factors again where the chart has changed: f is another function of y then, although the motion is the same.
+    /// Linearises and factors again where the chart has changed as the step began: f is another function of y then, although the motion is
+    /// the same.
     ///
     /// # Errors
     /// As [`Reduced::linearise`] and [`Reduced::factor`].
-    pub(crate) fn follow(
-        &mut self,
-        motion: &mut KeptRowMotion<'_>,
-        t: f64,
-        y: &[f64],
-    ) -> Result<(), Trip> {
-        let is_behind = |c: &Chart| c.generation != self.generation;
-        if self.places.is_empty() || !motion.chart.as_ref().is_some_and(is_behind) {
+    pub(crate) fn follow(&mut self, motion: &mut KeptRowMotion<'_>) -> Result<(), Trip> {
+        let Some(chart) = &motion.chart else {
+            return Ok(());
+        };
+        if self.places.is_empty() || chart.generation == self.generation {
             return Ok(());
         }
-        self.linearise(motion, t, y)?;
+        let Origin { t, q, v } = chart.origin.clone();
+        let mut y = [q, v].concat();
+        y.resize(self.columns.ncols(), 0.0);
+        self.linearise(motion, t, &y)?;
         self.factor(self.shift, self.complex_shift)
     }
 

@@ -20,11 +20,20 @@ pub(super) struct KeptRows {
     saddle: KeptRowSaddle,
     /// Pivot ratio when these rows were chosen: what later ones are compared with.
     reference_pivot: Option<f64>,
+    /// The same for the present partition, if there is one.
+    partition: Option<PartitionPivot>,
 }
+
+/// Pivot ratio of a partition at its first factorisation.
+#[derive(Clone, Copy)]
+struct PartitionPivot(Option<f64>);
 
 /// Other rows are kept once the pivots have fallen below this share of those at the choice: rounding of the kept
 /// rows reaches the dropped ones through the inverse of the pivots.
 const PIVOT_LOSS: f64 = 0.1;
+
+/// A partition is renewed once its pivots have fallen below this share: steps should not reach those of lost rows.
+const PARTITION_WORN: f64 = 0.5;
 
 /// Rows below this share are dependent for an instant and left out of the solve.
 const PIVOT_SINGULAR: f64 = 1e-6;
@@ -47,24 +56,29 @@ impl KeptRows {
             c: Matrix::zeros(r, n),
             saddle: KeptRowSaddle::new(n, r)?,
             reference_pivot: None,
+            partition: None,
         })
     }
 
     /// Factors at the entries of C in the scratch. Rows that are dependent for an instant are left out, but not at the first time.
     pub(super) fn factor(&mut self, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
-        let reference = self.reference_pivot;
+        let reference = self.reference();
         self.factor_above(PIVOT_SINGULAR, mechanism, s)?;
         match (reference, self.saddle.n_left_out()) {
             (None, 1..) => Err(self.rank_lost(mechanism, s)),
             (None, 0) => {
-                self.reference_pivot = Some(self.saddle.pivot_ratio());
+                let pivot = Some(self.saddle.pivot_ratio());
+                match &mut self.partition {
+                    Some(partition) => partition.0 = pivot,
+                    None => self.reference_pivot = pivot,
+                }
                 Ok(())
             }
             _ => Ok(()),
         }
     }
 
-    /// Solves from now on for the coordinates that these rows determine best at the entries of C in the scratch, lengths measured
+    /// Solves from now on for the coordinates that these rows determine best at the entries of C in the scratch, with lengths measured
     /// by `size`; factors there, and returns the others, ascending.
     pub(super) fn partition(
         &mut self,
@@ -73,7 +87,8 @@ impl KeptRows {
         size: f64,
     ) -> Result<Vec<usize>, Trip> {
         let r = self.kept.len();
-        self.take_entries(mechanism, s);
+        self.forget_partition();
+        self.factor(mechanism, s)?;
         let scaling = Scaling {
             rows: vec![0; r],
             cols: mechanism.dimension_scaling(size).cols,
@@ -83,6 +98,7 @@ impl KeptRows {
         if let Err(e) = self.saddle.partition(dependent) {
             return Err(self.trip(mechanism, s, e));
         }
+        self.partition = Some(PartitionPivot(None));
         self.factor(mechanism, s)?;
         let mut free = free.to_vec();
         free.sort_unstable();
@@ -92,6 +108,20 @@ impl KeptRows {
     /// Every factorisation chooses again what it solves for.
     pub(super) fn forget_partition(&mut self) {
         self.saddle.forget_partition();
+        self.partition = None;
+    }
+
+    /// Whether another partition is due.
+    pub(super) fn are_worn(&self) -> bool {
+        self.partition.is_some() && self.relative_pivot() < PARTITION_WORN
+    }
+
+    /// Pivot ratio that the present ones are compared with.
+    fn reference(&self) -> Option<f64> {
+        match self.partition {
+            Some(partition) => partition.0,
+            None => self.reference_pivot,
+        }
     }
 
     /// Overwrites the dependent entries of x so that `C·x = rhs`; of a row left out there would be none.
@@ -128,7 +158,7 @@ impl KeptRows {
         s: &Scratch,
     ) -> Result<(), Trip> {
         self.take_entries(mechanism, s);
-        let reference = self.reference_pivot.filter(|r| r.is_finite());
+        let reference = self.reference().filter(|r| r.is_finite());
         let floor = share * reference.unwrap_or(0.0);
         let c = &self.c;
         match self
@@ -152,7 +182,7 @@ impl KeptRows {
 
     /// Smallest pivot relative to that when the rows were chosen; infinite without rows.
     pub(super) fn relative_pivot(&self) -> f64 {
-        match self.reference_pivot {
+        match self.reference() {
             Some(reference) if reference.is_finite() => self.pivot_ratio() / reference,
             _ => f64::INFINITY,
         }

@@ -228,7 +228,8 @@ impl Ode for Equations<'_> {
 
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
         if !self.is_careful {
-            return self.motion.derivative(t, y, dy);
+            self.motion.derivative(t, y, dy)?;
+            return self.reduced.follow(&mut self.motion);
         }
         let mut stage = std::mem::take(&mut self.stage);
         stage.copy_from_slice(y);
@@ -274,7 +275,6 @@ impl Ode for Equations<'_> {
         }
         if self.motion.projects() {
             self.motion.derivative(step.t_rhs, y, dy)?;
-            self.reduced.follow(&mut self.motion, step.t_rhs, y)?;
             let a = &mut dy[self.n_q..self.n_q + self.n_v];
             self.motion.review_acceleration(a)?;
         }
