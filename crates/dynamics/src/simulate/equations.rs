@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use integrators::{Ode, StepEnd, StepInfo, Tolerance};
+use integrators::{Delicate, Ode, StepEnd, StepInfo, Tolerance};
 use model::System;
 
 use super::Sample;
@@ -24,10 +24,13 @@ const NEAREST_MAX: f64 = 0.1;
 
 /// From pivots of this share of the reference on the stages of a step are moved onto the constraints before they are evaluated:
 /// off them by δ, accelerations are wrong by δ divided by that share.
-const CAREFUL: f64 = 0.3;
+const CAREFUL: f64 = 0.1;
 
 /// Singular configurations are foreseen for so many steps like the last one: no method lets steps grow by more.
 const FORESIGHT: f64 = 12.0;
+
+/// Relative error of a step over a singular configuration that rounding may cause where steps are short.
+const PASSED: f64 = 1e-10;
 
 /// Largest relative correction of a step over a singular configuration, as share of the distance at which it ends: other branches are
 /// as far away as that.
@@ -51,6 +54,8 @@ pub(super) struct Equations<'m> {
     events: Vec<Event>,
     /// Whether the last accepted step may have passed a singular configuration.
     is_suspect: bool,
+    /// By the number of dependent rows, whether the motion is unique in a passage.
+    uniqueness: Vec<(usize, String)>,
     /// Whether the stages of the present step are moved onto the constraints.
     is_careful: bool,
     /// When the motion is expected to pass a singular configuration.
@@ -82,6 +87,7 @@ impl<'m> Equations<'m> {
             min_pivot_ratio: f64::INFINITY,
             events: Vec::new(),
             is_suspect: false,
+            uniqueness: Vec::new(),
             is_careful: false,
             delicate: None,
             before: Vec::new(),
@@ -162,6 +168,22 @@ impl<'m> Equations<'m> {
     /// Share of the reference to which a pivot falls that vanishes, as well as this run knows.
     pub(super) fn passage_noise(&self) -> f64 {
         self.nearest
+    }
+
+    /// What is known of passages where so many rows are dependent.
+    pub(super) fn uniqueness_of(&self, dependent: usize) -> Option<&str> {
+        let known = self.uniqueness.iter().find(|(d, _)| *d == dependent);
+        known.map(|(_, words)| words.as_str())
+    }
+
+    /// Keeps it.
+    pub(super) fn remember_uniqueness(&mut self, dependent: usize, words: String) {
+        self.uniqueness.push((dependent, words));
+    }
+
+    /// Numbers of coordinates and velocities.
+    pub(super) fn sizes(&self) -> (usize, usize) {
+        (self.n_q, self.n_v)
     }
 
     /// Records what happened.
@@ -250,7 +272,8 @@ impl Ode for Equations<'_> {
             self.before[..missed.len()].copy_from_slice(&missed);
         }
         let correction = step.norm(&self.before);
-        if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot() {
+        if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot().max(NEAREST)
+        {
             return Err(self.motion.no_way_over(step.t));
         }
         if self.motion.projects() {
@@ -278,8 +301,9 @@ impl Ode for Equations<'_> {
         })
     }
 
-    fn delicate_time(&self) -> Option<f64> {
-        self.delicate
+    fn delicate_time(&self) -> Option<Delicate> {
+        let slack = (PASSED / self.rtol).max(1.0);
+        self.delicate.map(|t| Delicate { t, slack })
     }
 
     /// Rates that jump make the velocities jump, by an impulse of the constraints.
