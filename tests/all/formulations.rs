@@ -189,7 +189,7 @@ fn three_cranks_move_the_same_by_every_formulation() {
     }
 }
 
-/// Towards the flat configuration σ_r falls to a tenth, and σ_r² to a hundredth: iterations tuned at the start would end too early.
+/// Towards the flat configuration σ_r falls: iterations tuned at the start would end too early.
 #[test]
 fn proximal_iterations_are_tuned_again() {
     let (theta, rate, length) = (1.2_f64, -1.0, 0.5);
