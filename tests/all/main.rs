@@ -10,6 +10,7 @@ mod existence;
 mod formulations;
 mod generic;
 mod granularity;
+mod independent_coordinates;
 mod invariance;
 mod nearly_redundant;
 mod plain;

@@ -37,7 +37,8 @@ pub enum OutputError<E: Error + 'static> {
 /// An accepted step from (t0, y0) to (t1, y1), y1 after projection by the hook.
 ///
 /// Both dense outputs give y0 at t0 and y1 at t1 bit for bit, have the derivatives f(t0, y0) and f(t1, y1) there, and are
-/// therefore continuously differentiable over all steps between two break times, with and without projection.
+/// therefore continuously differentiable over all steps between two break times, with and without projection. (Those of
+/// [`Radau5`](crate::Radau5) are continuous, and their derivatives are right up to their error.)
 /// Between the ends they lie on no manifold: project what is written.
 pub struct Step<'a, O: Ode> {
     ode: &'a mut O,

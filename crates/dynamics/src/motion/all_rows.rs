@@ -52,7 +52,7 @@ impl AllRows {
         let c = mechanism.layout().dense(&s);
         let rank = prepared.decision.rank;
         let saddle = match formulation {
-            Formulation::KeptRows => return Ok(None),
+            Formulation::KeptRows | Formulation::NullSpace => return Ok(None),
             Formulation::MinimumNorm => {
                 MinimumNormSaddle::new(&c, rank).map(|saddle| Saddle::MinimumNorm(Box::new(saddle)))
             }

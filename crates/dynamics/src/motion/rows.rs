@@ -1,6 +1,6 @@
 //! Independent rows of C with everything that solving on them needs.
 
-use linalg::{KeptRowSaddle, Matrix, SaddleError};
+use linalg::{KeptRowSaddle, Matrix, PivotedQr, SaddleError, Scaling};
 use model::{Mechanism, Scratch, System};
 
 use crate::error::Trip;
@@ -64,6 +64,62 @@ impl KeptRows {
         }
     }
 
+    /// Solves from now on for the coordinates that these rows determine best at the entries of C in the scratch, lengths measured
+    /// by `size`; factors there, and returns the others, ascending.
+    pub(super) fn partition(
+        &mut self,
+        mechanism: &Mechanism,
+        s: &Scratch,
+        size: f64,
+    ) -> Result<Vec<usize>, Trip> {
+        let r = self.kept.len();
+        self.take_entries(mechanism, s);
+        let scaling = Scaling {
+            rows: vec![0; r],
+            cols: mechanism.dimension_scaling(size).cols,
+        };
+        let qr = PivotedQr::of_columns(&scaling.apply(&self.c));
+        let (dependent, free) = qr.permutation().split_at(r);
+        if let Err(e) = self.saddle.partition(dependent) {
+            return Err(self.trip(mechanism, s, e));
+        }
+        self.factor(mechanism, s)?;
+        let mut free = free.to_vec();
+        free.sort_unstable();
+        Ok(free)
+    }
+
+    /// Every factorisation chooses again what it solves for.
+    pub(super) fn forget_partition(&mut self) {
+        self.saddle.forget_partition();
+    }
+
+    /// Overwrites the dependent entries of x so that `C·x = rhs`; of a row left out there would be none.
+    pub(super) fn complete(
+        &mut self,
+        mechanism: &Mechanism,
+        s: &Scratch,
+        x: &mut [f64],
+    ) -> Result<(), Trip> {
+        if let Some(row) = (0..self.kept.len()).find(|&k| !self.saddle.uses(k)) {
+            return Err(Trip::Chart {
+                time: s.t,
+                row: mechanism.layout().labels[self.kept[row]].clone(),
+                pivot: self.relative_pivot(),
+            });
+        }
+        match self.saddle.complete(&self.rhs, x) {
+            Ok(()) => Ok(()),
+            Err(e) => Err(self.trip(mechanism, s, e)),
+        }
+    }
+
+    fn take_entries(&mut self, mechanism: &Mechanism, s: &Scratch) {
+        for (k, &i) in self.kept.iter().enumerate() {
+            mechanism.layout().scatter_row(s, i, self.c.row_mut(k));
+        }
+    }
+
     /// As [`KeptRows::factor`], leaving out rows whose pivot is below this share of the reference.
     pub(super) fn factor_above(
         &mut self,
@@ -71,9 +127,7 @@ impl KeptRows {
         mechanism: &Mechanism,
         s: &Scratch,
     ) -> Result<(), Trip> {
-        for (k, &i) in self.kept.iter().enumerate() {
-            mechanism.layout().scatter_row(s, i, self.c.row_mut(k));
-        }
+        self.take_entries(mechanism, s);
         let reference = self.reference_pivot.filter(|r| r.is_finite());
         let floor = share * reference.unwrap_or(0.0);
         let c = &self.c;

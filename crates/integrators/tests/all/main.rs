@@ -10,3 +10,4 @@ mod kepler;
 mod order;
 mod output;
 mod problems;
+mod radau5;
