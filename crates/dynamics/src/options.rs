@@ -220,6 +220,7 @@ impl MotionOptions {
     ///
     /// # Errors
     /// - [`MotionError::Option`]: one is not finite or out of range.
+    /// - [`MotionError::Combination`]: method, formulation and stabilisation do not go together.
     /// - [`MotionError::NothingToDrop`]: rows are dropped, but the formulation uses all.
     pub fn check(&self) -> Result<(), MotionError> {
         let numbers = [
@@ -254,7 +255,38 @@ impl MotionOptions {
                 });
             }
         }
+        self.check_combination()?;
         self.check_rows(&self.rows)
+    }
+
+    /// Whether method, formulation and stabilisation go together.
+    fn check_combination(&self) -> Result<(), MotionError> {
+        let method = self.method.chosen();
+        let combination = |with, why| {
+            Err(MotionError::Combination {
+                chosen: self.formulation.name(),
+                with,
+                why,
+            })
+        };
+        let has_own_equations = method.is_implicit() || method == Method::Hem4;
+        if has_own_equations && !self.formulation.drops_rows() {
+            return combination(method.name(), "the method solves equations on kept rows");
+        }
+        if self.stabilisation == Stabilisation::Projection {
+            return Ok(());
+        }
+        if self.formulation == Formulation::NullSpace {
+            return combination(self.stabilisation.name(), "nothing drifts there");
+        }
+        match has_own_equations {
+            true => Err(MotionError::Combination {
+                chosen: method.name(),
+                with: self.stabilisation.name(),
+                why: "the method relies on projection",
+            }),
+            false => Ok(()),
+        }
     }
 
     /// Whether rows that the user dropped have a meaning.
