@@ -269,7 +269,10 @@ impl MotionOptions {
                 why,
             })
         };
-        let has_own_equations = method.is_implicit() || method == Method::Hem4;
+        let has_own_equations = matches!(
+            method,
+            Method::Radau5 | Method::Hem4 | Method::GeneralizedAlpha
+        );
         if has_own_equations && !self.formulation.drops_rows() {
             return combination(method.name(), "the method solves equations on kept rows");
         }
