@@ -79,6 +79,7 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate
     };
     positive("rtol", "a number > 0", &mut options.rtol);
     positive("atol", "a number > 0", &mut options.atol);
+    positive("max_step", "a time > 0", &mut options.max_step);
     options.method = choose(&mut table, &METHODS, findings).unwrap_or_default();
     options.formulation = choose(&mut table, &FORMULATIONS, findings).unwrap_or_default();
     options.stabilisation = choose(&mut table, &STABILISATIONS, findings).unwrap_or_default();
