@@ -4,6 +4,7 @@ mod allocations;
 mod along_motion;
 mod bad_matrices;
 mod choices;
+mod constrained_methods;
 mod deletions;
 mod exact_oracle;
 mod existence;

@@ -170,6 +170,16 @@ pub enum MotionError {
         /// What is needed.
         expected: &'static str,
     },
+    /// Two options that do not go together.
+    #[error("{chosen} does not go with {with}: {why}")]
+    Combination {
+        /// One.
+        chosen: &'static str,
+        /// The other.
+        with: &'static str,
+        /// Why not.
+        why: &'static str,
+    },
     /// Rows to drop where none are.
     #[error(
         "rows are dropped, but the formulation {formulation} uses all rows: choose kept-rows, or drop none"

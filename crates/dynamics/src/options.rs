@@ -15,6 +15,8 @@ pub enum Method {
     Tsit5,
     /// Dormand–Prince 8(5,3).
     Dop853,
+    /// Extrapolated midpoint rule of variable order, for very tight tolerances.
+    Gbs,
     /// Radau IIA of order 5 on independent coordinates, for stiff forces.
     Radau5,
     /// Half-explicit Runge–Kutta method of order 4: without derivatives of the constraints.
@@ -30,6 +32,7 @@ impl Method {
         Self::Dopri5,
         Self::Dop853,
         Self::Tsit5,
+        Self::Gbs,
         Self::Radau5,
         Self::Hem4,
         Self::GeneralizedAlpha,
@@ -43,23 +46,24 @@ impl Method {
             Self::Dopri5 => "dopri5",
             Self::Tsit5 => "tsit5",
             Self::Dop853 => "dop853",
+            Self::Gbs => "gbs",
             Self::Radau5 => "radau5",
             Self::Hem4 => "hem4",
             Self::GeneralizedAlpha => "generalized-alpha",
         }
     }
 
-    /// Whether it solves systems of equations with a Jacobian in its steps.
+    /// Whether it needs the Jacobian of the motion, which only independent coordinates have.
     #[must_use]
-    pub fn is_implicit(self) -> bool {
-        matches!(self, Self::Radau5 | Self::GeneralizedAlpha)
+    pub fn needs_independent_coordinates(self) -> bool {
+        self == Self::Radau5
     }
 
     /// The integrator that a run uses.
     #[must_use]
     pub fn chosen(self) -> Self {
         match self {
-            Self::Auto => Self::Dopri5,
+            Self::Auto => Self::Dop853,
             method => method,
         }
     }
@@ -191,10 +195,10 @@ impl MotionOptions {
     /// Absolute tolerance where none is given.
     pub const ATOL: f64 = 1e-10;
 
-    /// Whether the motion is one of independent coordinates alone: implicit methods have no other Jacobian.
+    /// Whether the motion is one of independent coordinates alone.
     #[must_use]
     pub fn is_on_chart(&self) -> bool {
-        self.formulation == Formulation::NullSpace || self.method.is_implicit()
+        self.formulation == Formulation::NullSpace || self.method.needs_independent_coordinates()
     }
 
     /// The defaults for a run to `t_end`.
@@ -216,6 +220,7 @@ impl MotionOptions {
     ///
     /// # Errors
     /// - [`MotionError::Option`]: one is not finite or out of range.
+    /// - [`MotionError::Combination`]: method, formulation and stabilisation do not go together.
     /// - [`MotionError::NothingToDrop`]: rows are dropped, but the formulation uses all.
     pub fn check(&self) -> Result<(), MotionError> {
         let numbers = [
@@ -250,7 +255,41 @@ impl MotionOptions {
                 });
             }
         }
+        self.check_combination()?;
         self.check_rows(&self.rows)
+    }
+
+    /// Whether method, formulation and stabilisation go together.
+    fn check_combination(&self) -> Result<(), MotionError> {
+        let method = self.method.chosen();
+        let combination = |with, why| {
+            Err(MotionError::Combination {
+                chosen: self.formulation.name(),
+                with,
+                why,
+            })
+        };
+        let has_own_equations = matches!(
+            method,
+            Method::Radau5 | Method::Hem4 | Method::GeneralizedAlpha
+        );
+        if has_own_equations && !self.formulation.drops_rows() {
+            return combination(method.name(), "the method solves equations on kept rows");
+        }
+        if self.stabilisation == Stabilisation::Projection {
+            return Ok(());
+        }
+        if self.formulation == Formulation::NullSpace {
+            return combination(self.stabilisation.name(), "nothing drifts there");
+        }
+        match has_own_equations {
+            true => Err(MotionError::Combination {
+                chosen: method.name(),
+                with: self.stabilisation.name(),
+                why: "the method relies on projection",
+            }),
+            false => Ok(()),
+        }
     }
 
     /// Whether rows that the user dropped have a meaning.

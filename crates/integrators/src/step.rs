@@ -120,8 +120,8 @@ impl<'a, O: Ode> Step<'a, O> {
         self.ode
     }
 
-    /// Writes y(t) to `out` (length n) without evaluating f; one order less than the steps. For pictures and for finding
-    /// events.
+    /// Writes y(t) to `out` (length n) without evaluating f; less accurate than the steps, of the order that each method states.
+    /// For pictures and for seeing where events are.
     ///
     /// # Errors
     ///
@@ -141,8 +141,8 @@ impl<'a, O: Ode> Step<'a, O> {
         }
     }
 
-    /// Writes y(t) to `out` (length n), as accurate as the steps. The first call inside a step makes extra evaluations of
-    /// f; further calls in the same step, and calls at its ends, make none.
+    /// Writes y(t) to `out` (length n), as accurate as the steps (of global order, that is). The first call inside a step makes
+    /// extra evaluations of f; further calls in the same step, and calls at its ends, make none.
     ///
     /// # Errors
     ///

@@ -31,9 +31,9 @@ pub(super) struct AllRows {
 }
 
 enum Saddle {
-    MinimumNorm(MinimumNormSaddle),
+    MinimumNorm(Box<MinimumNormSaddle>),
     Proximal {
-        saddle: ProximalSaddle,
+        saddle: Box<ProximalSaddle>,
         tolerance: f64,
     },
 }
@@ -53,11 +53,13 @@ impl AllRows {
         let rank = prepared.decision.rank;
         let saddle = match formulation {
             Formulation::KeptRows | Formulation::NullSpace => return Ok(None),
-            Formulation::MinimumNorm => MinimumNormSaddle::new(&c, rank).map(Saddle::MinimumNorm),
+            Formulation::MinimumNorm => {
+                MinimumNormSaddle::new(&c, rank).map(|saddle| Saddle::MinimumNorm(Box::new(saddle)))
+            }
             Formulation::Proximal => {
                 let saddle = ProximalSaddle::new(&c, mechanism.mass(), rank, rtol);
                 saddle.map(|saddle| Saddle::Proximal {
-                    saddle,
+                    saddle: Box::new(saddle),
                     tolerance: rtol,
                 })
             }

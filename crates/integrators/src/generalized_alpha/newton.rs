@@ -91,31 +91,35 @@ impl Stepping {
     }
 
     /// Weighted norm of what the last increment has changed in v and, along the directions of v, in q.
+    ///
+    /// Φ is known to the rounding of the largest coordinate, so q is, too, and v to the rounding divided by the step size: asking for
+    /// more would only shorten the step, which makes it worse.
     fn increment_norm(&mut self, start: &Start<'_>, y1: &[f64], c_v: f64, c_q: f64) -> f64 {
+        let (n_v, n_q, v) = (
+            self.sizes.velocities,
+            self.sizes.positions,
+            self.sizes.velocity_range(),
+        );
         start.tolerance.scale(start.y0, y1, &mut self.scale);
-        for ((scale, y0), y1) in self.scale.iter_mut().zip(start.y0).zip(y1) {
-            *scale = scale.max(ROUNDING / PERMITTED * y0.abs().max(y1.abs()));
+        let positions = start.y0[..n_q].iter().chain(&y1[..n_q]);
+        let floor = ROUNDING / PERMITTED * positions.fold(0.0, |size: f64, q| size.max(q.abs()));
+        let (in_q, in_v) = self.scale[..v.end].split_at_mut(n_q);
+        for scale in in_q.iter_mut() {
+            *scale = scale.max(floor);
         }
-        let (n_v, v) = (self.sizes.velocities, self.sizes.velocity_range());
+        for (scale, v1) in in_v.iter_mut().zip(&y1[v]) {
+            let rounding = ROUNDING / PERMITTED * v1.abs();
+            *scale = scale.max(rounding).max(floor * (c_v / c_q).abs());
+        }
         // The sharpest weight of a position stands for all where positions are not displaced component by component.
-        let positions = &self.scale[..self.sizes.positions];
-        let sharpest = positions.iter().copied().fold(f64::INFINITY, f64::min);
-        let square = |i: usize, x: f64| {
-            let q = if positions.len() == n_v {
-                positions[i]
-            } else {
-                sharpest
-            };
-            (x * c_q / q).powi(2)
-        };
+        let sharpest = in_q.iter().copied().fold(f64::INFINITY, f64::min);
         let x = &self.x[..n_v];
-        let in_q: f64 = x
-            .iter()
-            .enumerate()
-            .map(|(i, &x)| if x == 0.0 { 0.0 } else { square(i, x) })
-            .sum();
-        let in_v = c_v * c_v * weighted_square_sum(x, &self.scale[v]);
-        ((in_q + in_v) / (2 * n_v).max(1) as f64).sqrt()
+        let of_q: f64 = match n_q == n_v {
+            true => weighted_square_sum(x, in_q),
+            false => x.iter().map(|x| (x / sharpest) * (x / sharpest)).sum(),
+        };
+        let sum = c_q * c_q * of_q + c_v * c_v * weighted_square_sum(x, in_v);
+        (sum / (2 * n_v).max(1) as f64).sqrt()
     }
 }
 

@@ -3,6 +3,7 @@
 mod allocations;
 mod arenstorf;
 mod break_times;
+mod edges;
 mod events;
 mod failures;
 mod hook;
