@@ -14,14 +14,18 @@ const WORTH_EXCHANGE: f64 = 3.0;
 impl KeptRowMotion<'_> {
     /// Whether [`KeptRowMotion::review`] has something to decide at freshly factored rows.
     pub(super) fn wants_review(&mut self) -> bool {
-        self.aside.is_some()
-            || self.velocity.are_lost(self.mechanism, &self.s)
-            || self.position.are_lost(self.mechanism, &self.s)
+        self.aside.is_some() || self.position.are_lost() || self.want_exchange()
+    }
+
+    /// Whether other kept rows should be looked for. Rows that the user chose stay as long as they can.
+    fn want_exchange(&mut self) -> bool {
+        let may_choose = self.choice == RowChoice::Automatic;
+        self.velocity.are_lost() || may_choose && self.velocity.are_poor(self.mechanism, &self.s)
     }
 
     /// Looks at the pivots of a settled position at coordinates q.
     pub(super) fn review(&mut self, q: &[f64]) -> Result<Option<Event>, Trip> {
-        if self.position.are_lost(self.mechanism, &self.s) {
+        if self.position.are_lost() {
             let decision = decide_holonomic(self.mechanism, &self.s, q);
             let mut old = self.position.clone();
             if let Some(better) = self.better(decision, &mut old)? {
@@ -36,7 +40,7 @@ impl KeptRowMotion<'_> {
                 self.event("the rows asked for are independent again and kept again"),
             ));
         }
-        if !self.velocity.are_lost(self.mechanism, &self.s) {
+        if !self.want_exchange() {
             return Ok(None);
         }
         let decision = decide(self.mechanism, &self.s, q);
@@ -51,6 +55,17 @@ impl KeptRowMotion<'_> {
         Ok(Some(self.event("the kept rows became nearly dependent")))
     }
 
+    /// Rows that imply the others better than the kept ones do at a settled row of output: between two steps that keep rows
+    /// which suit both, the mechanism may pass where they do not.
+    pub(super) fn better_for_row(&mut self, q: &[f64]) -> Result<Option<KeptRows>, Trip> {
+        if self.chart.is_some() || !self.want_exchange() {
+            return Ok(None);
+        }
+        let decision = decide(self.mechanism, &self.s, q);
+        let mut kept = self.velocity.clone();
+        self.better(decision, &mut kept)
+    }
+
     /// Exchanges the kept rows and the ones set aside, if there are any.
     pub(super) fn swap_aside(&mut self) {
         if let Some(aside) = &mut self.aside {
@@ -62,8 +77,7 @@ impl KeptRowMotion<'_> {
         let Some(aside) = &mut self.aside else {
             return false;
         };
-        aside.factor(self.mechanism, &self.s).is_ok()
-            && aside.are_recovered(self.mechanism, &self.s)
+        aside.factor(self.mechanism, &self.s).is_ok() && aside.are_recovered()
     }
 
     /// Freshly factored kept rows of a new decision, if they have the rank of the old ones and imply the dropped ones by smaller

@@ -46,9 +46,8 @@ const PIVOT_SINGULAR: f64 = 1e-6;
 /// Rows set aside come back above this share.
 const PIVOT_RECOVERY: f64 = 0.2;
 
-/// Above this coefficient in a dropped row other rows are looked for, and below this one rows set aside come back.
+/// Rows chosen by themselves are exchanged above this coefficient in a dropped row.
 const LARGE_COEFFICIENT: f64 = 30.0;
-const SMALL_COEFFICIENT: f64 = 15.0;
 
 impl KeptRows {
     /// Storage for n velocities and these rows.
@@ -262,18 +261,20 @@ impl KeptRows {
         self.saddle.n_coordinates() - self.saddle.n_rows() + self.saddle.n_left_out()
     }
 
-    /// Whether other rows may be better: the kept ones have become nearly dependent since they were chosen, or imply the dropped ones by
-    /// large coefficients. At the entries of C in the scratch, where the rows are freshly factored.
-    pub(super) fn are_lost(&mut self, mechanism: &Mechanism, s: &Scratch) -> bool {
-        !self.dropped.is_empty()
-            && (self.relative_pivot() < PIVOT_LOSS
-                || self.largest_coefficient(mechanism, s) > LARGE_COEFFICIENT)
+    /// Whether the rows have become nearly dependent since they were chosen, and there are others.
+    pub(super) fn are_lost(&self) -> bool {
+        !self.dropped.is_empty() && self.relative_pivot() < PIVOT_LOSS
+    }
+
+    /// Whether the rows imply the dropped ones by large coefficients, at the entries of C in the scratch, where they are freshly
+    /// factored.
+    pub(super) fn are_poor(&mut self, mechanism: &Mechanism, s: &Scratch) -> bool {
+        self.largest_coefficient(mechanism, s) > LARGE_COEFFICIENT
     }
 
     /// Whether rows that were lost are as independent as before.
-    pub(super) fn are_recovered(&mut self, mechanism: &Mechanism, s: &Scratch) -> bool {
+    pub(super) fn are_recovered(&self) -> bool {
         self.relative_pivot() > PIVOT_RECOVERY
-            && self.largest_coefficient(mechanism, s) < SMALL_COEFFICIENT
     }
 
     fn rank_lost(&self, mechanism: &Mechanism, s: &Scratch) -> Trip {

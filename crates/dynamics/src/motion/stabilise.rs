@@ -52,7 +52,16 @@ impl KeptRowMotion<'_> {
         v: &mut [f64],
     ) -> Result<Correction, Trip> {
         if self.projects() {
-            return self.project(t, q, v);
+            let iterations = self.settle(t, q)?;
+            return match self.better_for_row(q)? {
+                None => self.finish(q, v, iterations),
+                Some(mut rows) => {
+                    std::mem::swap(&mut self.velocity, &mut rows);
+                    let found = self.finish(q, v, iterations);
+                    std::mem::swap(&mut self.velocity, &mut rows);
+                    found
+                }
+            };
         }
         let (mut polished_q, mut polished_v) = (q.to_vec(), v.to_vec());
         self.project(t, &mut polished_q, &mut polished_v)?;
