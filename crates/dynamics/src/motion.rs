@@ -89,6 +89,8 @@ pub struct KeptRowMotion<'a> {
     stabilisation: Stabilisation,
     /// Whether a singular configuration is passed.
     passage: Passage,
+    /// Whether other rows hold the position since it was settled.
+    is_unsettled: bool,
     /// What happened at the last accepted steps and has not been told.
     pending: Option<Event>,
     /// A correction, n_v.
@@ -141,6 +143,7 @@ impl<'a> KeptRowMotion<'a> {
             all_rows,
             stabilisation,
             passage: Passage::default(),
+            is_unsettled: false,
             pending: None,
             delta: vec![0.0; n],
             zero: vec![0.0; n],

@@ -68,6 +68,9 @@ impl KeptRowMotion<'_> {
         {
             self.pending = Some(event);
         }
+        if std::mem::take(&mut self.is_unsettled) {
+            self.settle(t, q)?;
+        }
         self.finish(q, v, iterations)
     }
 

@@ -14,7 +14,20 @@ const WORTH_EXCHANGE: f64 = 3.0;
 impl KeptRowMotion<'_> {
     /// Whether [`KeptRowMotion::review`] has something to decide at freshly factored rows.
     pub(super) fn wants_review(&mut self) -> bool {
-        self.aside.is_some() || self.position.are_lost() || self.want_exchange()
+        self.aside.is_some() || self.position_wants_exchange() || self.want_exchange()
+    }
+
+    /// The same for the rows that hold the position, which nobody chooses. Projections that had nothing to do have not factored them here.
+    fn position_wants_exchange(&mut self) -> bool {
+        let Self {
+            mechanism,
+            s,
+            position,
+            ..
+        } = self;
+        !position.dropped.is_empty()
+            && position.factor(mechanism, s).is_ok()
+            && (position.are_lost() || position.are_poor(mechanism, s))
     }
 
     /// Whether other kept rows should be looked for. Rows that the user chose stay as long as they can.
@@ -25,11 +38,12 @@ impl KeptRowMotion<'_> {
 
     /// Looks at the pivots of a settled position at coordinates q.
     pub(super) fn review(&mut self, q: &[f64]) -> Result<Option<Event>, Trip> {
-        if self.position.are_lost() {
+        if self.position_wants_exchange() {
             let decision = decide_holonomic(self.mechanism, &self.s, q);
             let mut old = self.position.clone();
             if let Some(better) = self.better(decision, &mut old)? {
                 self.position = better;
+                self.is_unsettled = true;
             }
         }
         if self.aside.is_some() && self.chosen_rows_recovered() {

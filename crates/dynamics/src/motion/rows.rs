@@ -47,7 +47,7 @@ const PIVOT_SINGULAR: f64 = 1e-6;
 const PIVOT_RECOVERY: f64 = 0.2;
 
 /// Rows chosen by themselves are exchanged above this coefficient in a dropped row.
-const LARGE_COEFFICIENT: f64 = 30.0;
+const LARGE_COEFFICIENT: f64 = 10.0;
 
 impl KeptRows {
     /// Storage for n velocities and these rows.
