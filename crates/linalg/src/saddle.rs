@@ -41,7 +41,11 @@ mod tests;
 #[derive(Debug, Clone)]
 pub struct KeptRowSaddle {
     n: usize,
+    /// Rows in use: all of them, but where some were left out.
     r: usize,
+    rows: usize,
+    /// The row of C behind each row in use, ascending.
+    used: Vec<usize>,
     /// Row j: `U_0j … U_jj`, then column j of L below its unit diagonal. r×n, row-major.
     lu: Vec<f64>,
     /// Position i of P·x is coordinate `permutation[i]`.
@@ -147,17 +151,20 @@ impl KeptRowSaddle {
         if r > n {
             return Err(SaddleError::TooManyRows { n, r });
         }
-        let k = n - r;
+        // Left out, rows become free motions: the largest k·r and k².
+        let most = |size: fn(usize, usize) -> usize| (0..=r).map(|r| size(n, r)).max().unwrap_or(0);
         Ok(Self {
             n,
             r,
+            rows: r,
+            used: (0..r).collect(),
             lu: vec![0.0; r * n],
             permutation: (0..n).collect(),
-            null_basis: vec![0.0; k * r],
+            null_basis: vec![0.0; most(|n, r| (n - r) * r)],
             mass: vec![0.0; n],
-            reduced_mass: vec![0.0; k * k],
+            reduced_mass: vec![0.0; n * n],
             pivot_ratio: f64::INFINITY,
-            bordered: vec![0.0; k * k],
+            bordered: vec![0.0; n * n],
             state: State::Empty,
             y: vec![0.0; n],
             g: vec![0.0; n],
@@ -171,10 +178,20 @@ impl KeptRowSaddle {
 
     /// Number of constraint rows r.
     pub fn n_rows(&self) -> usize {
-        self.r
+        self.rows
     }
 
-    /// Smallest `|pivot| / largest entry of its row` of the last factorisation, infinite for r = 0:
+    /// Number of rows that the last factorisation left out, see [`KeptRowSaddle::factor_above`].
+    pub fn n_left_out(&self) -> usize {
+        self.rows - self.r
+    }
+
+    /// Whether the last factorisation uses row `k`.
+    pub fn uses(&self, k: usize) -> bool {
+        self.used[..self.r].binary_search(&k).is_ok()
+    }
+
+    /// Smallest `|pivot| / largest entry of its row` of the last factorisation, rows left out included, infinite for r = 0:
     /// the monitor for near-singular configurations. It changes smoothly along a motion except where
     /// the pivot order changes, and falls towards zero as the kept rows become dependent.
     pub fn pivot_ratio(&self) -> f64 {

@@ -156,7 +156,7 @@ fn the_state_may_jump_at_a_break_time() {
         t_end: 2.0,
         break_times: &[1.0],
     };
-    let mut ends = Vec::new();
+    let mut before = 0.0;
     let end = integrate(
         &Dopri5,
         &mut Hit,
@@ -164,14 +164,13 @@ fn the_state_may_jump_at_a_break_time() {
         &[0.0, 1.0],
         &Options::default(),
         |step| {
-            ends.push((step.t1(), step.y1().to_vec()));
+            if step.t1() == 1.0 {
+                before = step.y1()[1];
+            }
             ControlFlow::Continue(())
         },
     )
     .expect("free flight");
-    assert!(
-        ends.contains(&(1.0, vec![1.0, 1.0])),
-        "the step to 1 ends before the hit: {ends:?}"
-    );
+    assert_eq!(before, 1.0, "the step to t = 1 ends before the hit");
     assert!((end.y[0] - 5.0).abs() < 1e-14 && end.y[1] == 4.0);
 }

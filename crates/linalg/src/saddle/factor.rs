@@ -6,6 +6,16 @@ use crate::kernels::{axpy, dot, max_abs};
 /// A pivot below this fraction of its row is rounding noise, whatever the configuration.
 const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
 
+/// What became of a row.
+enum Elimination {
+    Used,
+    /// It depends on the rows before: its largest entry left, and the largest at first.
+    Dependent {
+        pivot: f64,
+        scale: f64,
+    },
+}
+
 impl KeptRowSaddle {
     /// Factors for the kept rows of C and the masses.
     ///
@@ -26,6 +36,52 @@ impl KeptRowSaddle {
         row: impl Fn(usize) -> &'c [f64],
         mass: &[f64],
     ) -> Result<(), SaddleError> {
+        self.prepare(mass)?;
+        for j in 0..self.rows {
+            if let Elimination::Dependent { pivot, scale } =
+                self.eliminate(j, row(j), PIVOT_FLOOR)?
+            {
+                return Err(SaddleError::RankLost {
+                    row: j,
+                    pivot,
+                    scale,
+                });
+            }
+        }
+        self.finish(mass)
+    }
+
+    /// As [`KeptRowSaddle::factor`], but a row whose pivot is at most `floor` of its largest entry is left out: where rows are
+    /// dependent for an instant, the others determine the solution. The multiplier of a row left out is zero, and its
+    /// equation does not hold.
+    ///
+    /// ```
+    /// use linalg::KeptRowSaddle;
+    /// let rows = [[1.0, 0.0], [1.0, 1e-9]];
+    /// let mut saddle = KeptRowSaddle::new(2, 2)?;
+    /// saddle.factor_above(1e-6, |k| &rows[k], &[1.0, 1.0])?;
+    /// let (mut a, mut lambda) = ([0.0; 2], [0.0; 2]);
+    /// saddle.solve(&[3.0, 5.0], &[2.0, 7.0], &mut a, &mut lambda)?;
+    /// assert_eq!((a, lambda, saddle.n_left_out()), ([2.0, 5.0], [1.0, 0.0], 1));
+    /// # Ok::<(), linalg::SaddleError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`KeptRowSaddle::factor`], without [`SaddleError::RankLost`].
+    pub fn factor_above<'c>(
+        &mut self,
+        floor: f64,
+        row: impl Fn(usize) -> &'c [f64],
+        mass: &[f64],
+    ) -> Result<(), SaddleError> {
+        self.prepare(mass)?;
+        for j in 0..self.rows {
+            self.eliminate(j, row(j), floor.max(PIVOT_FLOOR))?;
+        }
+        self.finish(mass)
+    }
+
+    fn prepare(&mut self, mass: &[f64]) -> Result<(), SaddleError> {
         self.state = State::Empty;
         check_length("mass", mass, self.n)?;
         check_finite("mass", mass, 0)?;
@@ -39,9 +95,11 @@ impl KeptRowSaddle {
             *p = i;
         }
         self.pivot_ratio = f64::INFINITY;
-        for j in 0..self.r {
-            self.eliminate(j, row(j))?;
-        }
+        self.r = 0;
+        Ok(())
+    }
+
+    fn finish(&mut self, mass: &[f64]) -> Result<(), SaddleError> {
         for (m, &coordinate) in self.mass.iter_mut().zip(&self.permutation) {
             *m = mass[coordinate];
         }
@@ -51,11 +109,16 @@ impl KeptRowSaddle {
         Ok(())
     }
 
-    /// Column j of U and of L from row j of C: gather, eliminate with the rows before, pivot.
-    fn eliminate(&mut self, j: usize, c_j: &[f64]) -> Result<(), SaddleError> {
-        let n = self.n;
+    /// The next column of U and of L from a row of C: gather, eliminate with the rows before, pivot.
+    fn eliminate(
+        &mut self,
+        row: usize,
+        c_j: &[f64],
+        floor: f64,
+    ) -> Result<Elimination, SaddleError> {
+        let (n, j) = (self.n, self.r);
         check_length("row of C", c_j, n)?;
-        check_finite("C", c_j, j * n)?;
+        check_finite("C", c_j, row * n)?;
         let scale = max_abs(c_j);
 
         let (before, rest) = self.lu.split_at_mut(j * n);
@@ -77,14 +140,17 @@ impl KeptRowSaddle {
             }
         }
         let pivot = x[at];
-        if pivot.is_nan() || pivot.abs() <= PIVOT_FLOOR * scale {
-            return Err(SaddleError::RankLost {
-                row: j,
+        if scale > 0.0 {
+            self.pivot_ratio = self.pivot_ratio.min(pivot.abs() / scale);
+        }
+        if pivot.is_nan() || pivot.abs() <= floor * scale {
+            return Ok(Elimination::Dependent {
                 pivot: pivot.abs(),
                 scale,
             });
         }
-        self.pivot_ratio = self.pivot_ratio.min(pivot.abs() / scale);
+        self.used[j] = row;
+        self.r += 1;
         if at != j {
             self.permutation.swap(at, j);
             x.swap(at, j);
@@ -95,7 +161,7 @@ impl KeptRowSaddle {
         for l in &mut x[j + 1..] {
             *l /= pivot;
         }
-        Ok(())
+        Ok(Elimination::Used)
     }
 
     /// Solves `L₁ᵀ·Y = −L₂ᵀ` column by column.
@@ -104,7 +170,10 @@ impl KeptRowSaddle {
         if r == 0 {
             return;
         }
-        for (c, y) in self.null_basis.chunks_exact_mut(r).enumerate() {
+        for (c, y) in self.null_basis[..(n - r) * r]
+            .chunks_exact_mut(r)
+            .enumerate()
+        {
             for t in (0..r).rev() {
                 let l_t = &self.lu[t * n..(t + 1) * n];
                 y[t] = -l_t[r + c] - dot(&l_t[t + 1..r], &y[t + 1..r]);

@@ -17,7 +17,7 @@ impl KeptRowSaddle {
             n - r
         );
         frame.fill(0.0);
-        for (c, vector) in frame.chunks_exact_mut(n).enumerate() {
+        for (c, vector) in frame.chunks_exact_mut(n.max(1)).enumerate() {
             for t in 0..r {
                 vector[self.permutation[t]] = self.null_basis[c * r + t];
             }
@@ -50,7 +50,10 @@ impl KeptRowSaddle {
         let (n, r) = (self.n, self.r);
         let k = n - r;
         assert_eq!(frame.len(), k * n, "a frame of {k} vectors of {n}");
-        for (c, row) in self.bordered.chunks_exact_mut(k.max(1)).enumerate() {
+        for (c, row) in self.bordered[..k * k]
+            .chunks_exact_mut(k.max(1))
+            .enumerate()
+        {
             for (x, b) in row.iter_mut().zip(frame.chunks_exact(n)) {
                 let dependent = (0..r).map(|t| self.null_basis[c * r + t] * b[self.permutation[t]]);
                 *x = b[self.permutation[r + c]] + dependent.sum::<f64>();

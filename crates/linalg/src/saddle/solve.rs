@@ -11,7 +11,7 @@ impl KeptRowSaddle {
     /// | `f` | n | applied forces; 0 for a projection |
     /// | `gamma` | r | right-hand side of the kept rows; −Φ for a mass-metric projection step |
     /// | `a` | n | overwritten: accelerations (or the correction of the projection) |
-    /// | `lambda` | r | overwritten: multipliers of the kept rows |
+    /// | `lambda` | r | overwritten: multipliers of the kept rows, zero for rows left out |
     ///
     /// # Errors
     /// - [`SaddleError::NotFactored`]: there is no successful `factor` before.
@@ -28,9 +28,9 @@ impl KeptRowSaddle {
             return Err(SaddleError::NotFactored);
         }
         check_length("f", f, n)?;
-        check_length("gamma", gamma, r)?;
+        check_length("gamma", gamma, self.rows)?;
         check_length("a", a, n)?;
-        check_length("lambda", lambda, r)?;
+        check_length("lambda", lambda, self.rows)?;
         check_finite("f", f, 0)?;
         check_finite("gamma", gamma, 0)?;
 
@@ -43,7 +43,10 @@ impl KeptRowSaddle {
         for (&coordinate, &y_i) in self.permutation.iter().zip(&self.y) {
             a[coordinate] = y_i;
         }
-        lambda.copy_from_slice(&self.g[..r]);
+        lambda.fill(0.0);
+        for (&row, &l) in self.used[..r].iter().zip(&self.g) {
+            lambda[row] = l;
+        }
         Ok(())
     }
 
@@ -56,10 +59,10 @@ impl KeptRowSaddle {
         let (n, r) = (self.n, self.r);
         let (y, free) = self.y.split_at_mut(r);
         free.fill(0.0);
-        for (j, row) in self.lu.chunks_exact(n.max(1)).enumerate() {
-            y[j] = (gamma[j] - dot(&row[..j], &y[..j])) / row[j];
+        for (j, row) in self.lu[..r * n].chunks_exact(n.max(1)).enumerate() {
+            y[j] = (gamma[self.used[j]] - dot(&row[..j], &y[..j])) / row[j];
         }
-        for (j, row) in self.lu.chunks_exact(n.max(1)).enumerate().rev() {
+        for (j, row) in self.lu[..r * n].chunks_exact(n.max(1)).enumerate().rev() {
             y[j] -= dot(&row[j + 1..r], &y[j + 1..r]);
         }
     }
