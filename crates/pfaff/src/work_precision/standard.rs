@@ -70,33 +70,28 @@ impl Standard {
         Self::new(instants.collect(), limits, units(mechanism, size))
     }
 
-    /// The mean of two runs at the times of both, with their difference as its limit. Of the reactions those that are unique at
-    /// every instant.
-    pub(super) fn agreement(
-        pair: [&[Observation]; 2],
+    /// The mean of two runs at the times of both, with their difference as its limit. Of the reactions those at the places of `unique`.
+    pub(super) fn mean(
+        [a, b]: [&[Observation]; 2],
+        unique: &[usize],
         mechanism: &Mechanism,
         size: f64,
-    ) -> Result<Self, StudyError> {
-        let unique = unique_reactions(pair[0], mechanism)?;
+    ) -> Self {
         let mean = |(a, b): (&Observation, &Observation)| {
-            let all = |k: usize| (0..a.values[k].len()).collect::<Vec<_>>();
-            let places = [all(0), all(1), all(2), unique.clone()];
-            let mut k = 0;
-            let values = places.map(|places| {
-                let (x, y) = (&a.values[k], &b.values[k]);
-                k += 1;
-                let mean = |&i: &usize| (i, 0.5 * (x[i] + y[i]));
-                places.iter().map(mean).collect()
+            let values = [0, 1, 2, 3].map(|kind| {
+                let (x, y) = (&a.values[kind], &b.values[kind]);
+                let places = (0..x.len()).filter(|place| kind < 3 || unique.contains(place));
+                places.map(|i| (i, 0.5 * (x[i] + y[i]))).collect()
             });
             Expected { t: a.t, values }
         };
-        let instants = pair[0].iter().zip(pair[1]).map(mean).collect();
+        let instants = a.iter().zip(b).map(mean).collect();
         let mut standard = Self::new(instants, [0.0; 4], units(mechanism, size));
-        if let Some(errors) = standard.errors(pair[0]) {
+        if let Some(errors) = standard.errors(a) {
             // Both are half their difference away from the mean.
             standard.limits = errors.scaled.map(|e| 2.0 * e);
         }
-        Ok(standard)
+        standard
     }
 
     fn new(instants: Vec<Expected>, limits: [f64; 4], units: [Vec<f64>; 4]) -> Self {
@@ -182,7 +177,10 @@ fn is_same_time(a: f64, b: f64) -> bool {
 }
 
 /// Components of reactions that are unique at all of these configurations, by place.
-fn unique_reactions(run: &[Observation], mechanism: &Mechanism) -> Result<Vec<usize>, StudyError> {
+pub(super) fn unique_reactions(
+    run: &[Observation],
+    mechanism: &Mechanism,
+) -> Result<Vec<usize>, StudyError> {
     let groups = &mechanism.layout().groups;
     let mut unique: Vec<(usize, usize)> = groups
         .iter()

@@ -55,7 +55,7 @@ impl<W: Write> WorkPrecisionTable<W> {
     /// - [`TableError::Write`]: the writer failed.
     pub fn row(&mut self, row: &WorkPrecisionRow) -> Result<(), TableError> {
         let curve = &row.curve;
-        self.table.record(&(
+        self.table.record((
             (
                 &row.scene,
                 curve.formulation,

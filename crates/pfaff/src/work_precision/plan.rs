@@ -1,0 +1,135 @@
+//! Which runs are made.
+
+use dynamics::{Formulation, Method, Stabilisation};
+use report::CurveName;
+
+/// A way to move a mechanism; with its tolerances it is a curve of error over time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curve {
+    /// Integrator.
+    pub method: Method,
+    /// Treatment of redundancy.
+    pub formulation: Formulation,
+    /// Treatment of drift.
+    pub stabilisation: Stabilisation,
+}
+
+impl Curve {
+    /// Its names in tables.
+    #[must_use]
+    pub fn name(&self) -> CurveName {
+        CurveName {
+            formulation: self.formulation.name(),
+            method: self.method.name(),
+            stabilisation: self.stabilisation.name(),
+        }
+    }
+}
+
+/// Methods that are compared.
+const METHODS: [Method; 1] = [Method::Dopri5];
+
+/// The explicit method with which treatments are compared.
+const EXPLICIT: Method = Method::Dopri5;
+
+/// Treatments of redundancy; the first is that of the comparison of methods.
+const FORMULATIONS: [Formulation; 1] = [Formulation::KeptRows];
+
+/// Treatments of drift; the first is that of the comparison of methods.
+const STABILISATIONS: [Stabilisation; 1] = [Stabilisation::Projection];
+
+/// Methods whose order is high enough for a reference.
+pub(super) const ACCURATE: [Method; 1] = [Method::Dopri5];
+
+/// The runs of a comparison, the same for every scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Curves.
+    pub curves: Vec<Curve>,
+    /// Tolerances, relative and absolute alike, the loosest first.
+    pub tolerances: Vec<f64>,
+    /// Runs whose time is taken, at least.
+    pub repetitions: u32,
+    /// Time that these runs take together, at least (s).
+    pub seconds: f64,
+    /// A run that takes longer (s) is given up, and so are runs of its curve with tighter tolerances.
+    pub budget: f64,
+}
+
+impl Plan {
+    /// Every method on kept rows with projection, one explicit method with every formulation and with every stabilisation; tolerances
+    /// 1e-3, 1e-4, … 1e-13.
+    #[must_use]
+    pub fn standard() -> Self {
+        let curves = everything().into_iter().filter(|curve| {
+            let usual = [
+                curve.method == EXPLICIT,
+                curve.formulation == FORMULATIONS[0],
+                curve.stabilisation == STABILISATIONS[0],
+            ];
+            usual.into_iter().filter(|u| !u).count() <= 1
+        });
+        Self {
+            curves: curves.collect(),
+            tolerances: (3..=13).map(|k| 0.1_f64.powi(k)).collect(),
+            repetitions: 3,
+            seconds: 0.02,
+            budget: 10.0,
+        }
+    }
+
+    /// The same curves at three tolerances, for a first look.
+    #[must_use]
+    pub fn quick() -> Self {
+        Self {
+            tolerances: vec![1e-4, 1e-7, 1e-10],
+            seconds: 0.0,
+            budget: 1.0,
+            ..Self::standard()
+        }
+    }
+
+    /// Every method with every formulation and every stabilisation.
+    #[must_use]
+    pub fn everything() -> Self {
+        Self {
+            curves: everything(),
+            ..Self::standard()
+        }
+    }
+
+    /// Number of runs per scene.
+    #[must_use]
+    pub fn runs(&self) -> usize {
+        self.curves.len() * self.tolerances.len()
+    }
+
+    /// The curve of a method in the comparison of methods.
+    pub(super) fn usual(method: Method) -> Curve {
+        Curve {
+            method,
+            formulation: FORMULATIONS[0],
+            stabilisation: STABILISATIONS[0],
+        }
+    }
+}
+
+/// All curves: methods first, then what is compared with one method.
+fn everything() -> Vec<Curve> {
+    let mut curves: Vec<Curve> = METHODS.into_iter().map(Plan::usual).collect();
+    for method in METHODS {
+        for formulation in FORMULATIONS {
+            for stabilisation in STABILISATIONS {
+                let curve = Curve {
+                    method,
+                    formulation,
+                    stabilisation,
+                };
+                if !curves.contains(&curve) {
+                    curves.push(curve);
+                }
+            }
+        }
+    }
+    curves
+}
