@@ -5,11 +5,14 @@
 //! | `plan` | which runs are made |
 //! | `observation`, `standard` | what is compared, with what, and how well that is known |
 //! | `measure` | runs that are looked at, runs whose time is taken |
-//! | `ranking` | who is the fastest to which error |
+//! | `ranking`, `overview` | who is the fastest to which error |
+//! | [`provenance`] | where and when runs were made |
 
 mod measure;
 mod observation;
+mod overview;
 mod plan;
+pub mod provenance;
 mod ranking;
 mod standard;
 
@@ -25,6 +28,7 @@ use measure::{Ending, Look, Times, clock, look, options};
 use plan::ACCURATE;
 use standard::{Standard, unique_reactions};
 
+pub use overview::overview;
 pub use plan::{Curve, Plan};
 pub use standard::Errors;
 
