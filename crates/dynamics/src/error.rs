@@ -78,10 +78,23 @@ pub enum Trip {
         /// What is allowed.
         tolerance: f64,
     },
-    /// A step went over a singular configuration.
+    /// A constraint jumps.
     #[error(
-        "between t = {from} s and t = {to} s the mechanism passes a singular configuration: the constraints do not determine \
-         on which branch it goes on"
+        "at t = {time} s row {row} jumps by {jump:.3e}: positions cannot follow at once (an infinite force); use a function \
+         of time that is continuous, or a short ramp"
+    )]
+    PositionJump {
+        /// When.
+        time: f64,
+        /// The row.
+        row: RowLabel,
+        /// By how much.
+        jump: f64,
+    },
+    /// No step gets over a singular configuration.
+    #[error(
+        "between t = {from} s and t = {to} s the mechanism is in or passes a singular configuration that it does not leave \
+         smoothly: the constraints do not determine how it goes on"
     )]
     SingularPassage {
         /// The last time before it.

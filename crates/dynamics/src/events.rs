@@ -23,6 +23,10 @@ pub struct Event {
 pub enum EventKind {
     /// Other rows are kept; the rank is the same.
     RowsExchanged,
+    /// A singular configuration was passed: the rank dropped for an instant.
+    SingularPassage,
+    /// A rate jumped, and velocities with it.
+    Impulse,
 }
 
 impl EventKind {
@@ -31,6 +35,8 @@ impl EventKind {
     pub fn name(self) -> &'static str {
         match self {
             Self::RowsExchanged => "rows-exchanged",
+            Self::SingularPassage => "singular-passage",
+            Self::Impulse => "impulse",
         }
     }
 }

@@ -9,10 +9,12 @@
 //! Positions and velocities have rows of their own. A holonomic row may be dropped because knife edges imply its
 //! velocity; nothing implies its position, and without it the configuration would drift.
 
+mod impulse;
+mod locate;
+mod passage;
 mod project;
 mod review;
 mod rows;
-mod side;
 
 use model::{Mechanism, Scratch, System};
 
@@ -20,8 +22,8 @@ use crate::error::Trip;
 use crate::events::Event;
 use crate::options::RowChoice;
 use crate::prepare::Prepared;
+use passage::Passage;
 use rows::KeptRows;
-use side::Side;
 
 /// Equations solved for what moves.
 pub trait Motion {
@@ -37,8 +39,8 @@ pub trait Motion {
     /// If that fails, or a dropped row is violated.
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, Trip>;
 
-    /// Multipliers of all rows; those of dropped rows are zero by decree. NaN where the rows asked for are dependent at
-    /// just this instant, so that no finite multipliers belong to them.
+    /// Multipliers of all rows; those of dropped rows are zero by decree. NaN where the kept rows are dependent at
+    /// just this instant, so that no multipliers belong to them.
     ///
     /// # Errors
     /// As [`Motion::acceleration`].
@@ -70,8 +72,8 @@ pub struct KeptRowMotion<'a> {
     aside: Option<KeptRows>,
     /// Independent rows of Φq.
     position: KeptRows,
-    /// On which side of its singular configurations the mechanism is.
-    side: Side,
+    /// Whether a singular configuration is passed.
+    passage: Passage,
     /// What happened at the last accepted steps and has not been told.
     pending: Option<Event>,
     /// A correction, n_v.
@@ -99,7 +101,7 @@ impl<'a> KeptRowMotion<'a> {
             velocity: rows(&prepared.decision)?,
             aside: None,
             position: rows(&prepared.position_decision)?,
-            side: Side::default(),
+            passage: Passage::default(),
             pending: None,
             delta: vec![0.0; n],
             zero: vec![0.0; n],
@@ -122,6 +124,11 @@ impl<'a> KeptRowMotion<'a> {
     #[must_use]
     pub fn pivot_ratio(&self) -> f64 {
         self.velocity.pivot_ratio()
+    }
+
+    /// The same relative to that when the rows were chosen.
+    pub(crate) fn relative_pivot(&self) -> f64 {
+        self.velocity.relative_pivot()
     }
 
     /// Power of drives and applied forces at the last evaluated acceleration (W): `Q·v − λᵀ·b`. The weight has a
@@ -151,11 +158,13 @@ impl<'a> KeptRowMotion<'a> {
             mechanism,
             s,
             velocity,
+            passage,
             ..
         } = self;
         mechanism.pose(t, q, s);
         mechanism.c(s);
         velocity.factor(mechanism, s)?;
+        passage.see(velocity);
         mechanism.twist(v, s);
         mechanism.gamma(s);
         mechanism.force(s);
@@ -183,22 +192,20 @@ impl Motion for KeptRowMotion<'_> {
         v: &[f64],
         lambda: &mut [f64],
     ) -> Result<(), Trip> {
-        let asked = self.aside.is_some();
         self.swap_aside();
         let mut a = std::mem::take(&mut self.delta);
         let solved = self.solve_on_kept(t, q, v, &mut a);
         self.delta = a;
+        let left_out = self.velocity.n_left_out();
         lambda.fill(0.0);
         for (&i, &l) in self.velocity.kept.iter().zip(&self.velocity.lambda) {
             lambda[i] = l;
         }
         self.swap_aside();
-        match solved {
-            Err(Trip::RankLost { .. }) if asked => {
-                lambda.fill(f64::NAN);
-                Ok(())
-            }
-            other => other,
+        solved?;
+        if left_out > 0 {
+            lambda.fill(f64::NAN);
         }
+        Ok(())
     }
 }

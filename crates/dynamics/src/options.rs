@@ -9,6 +9,10 @@ pub enum Method {
     /// Dormand–Prince 5(4), the method of MATLAB's `ode45`.
     #[default]
     Dopri5,
+    /// Tsitouras 5(4).
+    Tsit5,
+    /// Dormand–Prince 8(5,3).
+    Dop853,
 }
 
 impl Method {
@@ -17,6 +21,8 @@ impl Method {
     pub fn name(self) -> &'static str {
         match self {
             Self::Dopri5 => "dopri5",
+            Self::Tsit5 => "tsit5",
+            Self::Dop853 => "dop853",
         }
     }
 }

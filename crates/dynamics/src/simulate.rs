@@ -4,17 +4,21 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+mod energy;
+mod equations;
+
 use integrators::{
-    Cause, IntegrationError, Interval, Ode, Options, OutputTimes, StepEnd, StepInfo, Tolerance,
-    sample,
+    Cause, Dop853, Dopri5, IntegrationError, Interval, Options, Outcome, OutputTimes, Rows, Step,
+    Tsit5, integrate,
 };
 use model::{Reaction, System};
 
 use crate::error::{MotionError, Trip};
 use crate::events::Event;
-use crate::motion::{Correction, KeptRowMotion, Motion};
+use crate::motion::{KeptRowMotion, Motion};
 use crate::options::{Method, MotionOptions};
 use crate::prepare::Prepared;
+use equations::Equations;
 
 /// Numbers of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -57,7 +61,9 @@ pub struct Failure {
 pub struct Sample<'s, 'm> {
     /// Time (s).
     pub t: f64,
-    /// Coordinates.
+    /// The same, or the last number before a break time.
+    t_before: f64,
+    /// Coordinates. At a break time all values are those just before.
     pub q: &'s [f64],
     /// Velocities.
     pub v: &'s [f64],
@@ -71,7 +77,8 @@ impl Sample<'_, '_> {
     /// If the equations have no unique solution here.
     pub fn acceleration(&mut self) -> Result<Vec<f64>, Trip> {
         let mut a = vec![0.0; self.v.len()];
-        self.motion.acceleration(self.t, self.q, self.v, &mut a)?;
+        self.motion
+            .acceleration(self.t_before, self.q, self.v, &mut a)?;
         Ok(a)
     }
 
@@ -82,7 +89,7 @@ impl Sample<'_, '_> {
     pub fn multipliers(&mut self) -> Result<Vec<f64>, Trip> {
         let mut lambda = vec![0.0; self.motion.mechanism().layout().rows()];
         self.motion
-            .multipliers(self.t, self.q, self.v, &mut lambda)?;
+            .multipliers(self.t_before, self.q, self.v, &mut lambda)?;
         Ok(lambda)
     }
 
@@ -120,7 +127,7 @@ pub fn simulate(
     };
     options.check().map_err(fail)?;
     let motion = KeptRowMotion::new(prepared).map_err(|e| fail(e.into()))?;
-    let mut equations = Equations::new(motion, prepared);
+    let mut equations = Equations::new(motion, prepared, options);
     equations
         .motion
         .begin(0.0, &mut prepared.q.clone())
@@ -136,31 +143,24 @@ pub fn simulate(
         tolerance: equations.tolerance(options),
         ..Options::with_tolerance(options.rtol, options.atol)
     };
-    let method = match options.method {
-        Method::Dopri5 => integrators::Dopri5,
-    };
     // A run that takes no time has one row.
     let times = match options.t_end > 0.0 {
         true => OutputTimes::Every(options.output_step),
         false => OutputTimes::At(vec![0.0]),
     };
-    let mut tripped = None;
+    let rows = Rows::new(times, &interval).map_err(|e| fail(named(e)))?;
+    let mut run = Run {
+        equations,
+        rows,
+        row: &mut row,
+        stopped: None,
+    };
     let clock = Instant::now();
-    let outcome = sample(
-        &method,
-        &mut equations,
-        &interval,
-        &y0,
-        &settings,
-        &times,
-        |e, t, y| match e.show(t, y, &mut row) {
-            Ok(flow) => flow,
-            Err(trip) => {
-                tripped = Some(trip);
-                ControlFlow::Break(())
-            }
-        },
-    );
+    let outcome = match options.method {
+        Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
+        Method::Tsit5 => run.go(&Tsit5, &interval, &y0, &settings),
+        Method::Dop853 => run.go(&Dop853, &interval, &y0, &settings),
+    };
     let wall_seconds = clock.elapsed().as_secs_f64();
     let (t, statistics) = match &outcome {
         Ok(o) => (o.t, o.statistics),
@@ -173,18 +173,91 @@ pub fn simulate(
         evaluations: statistics.total_evaluations(),
         projections: statistics.projections,
         wall_seconds,
-        ..equations.summary()
+        ..run.equations.summary()
     };
-    match (outcome, tripped) {
-        (_, Some(trip)) => Err(Box::new(Failure {
-            error: trip.into(),
-            summary,
-        })),
-        (Ok(_), None) => Ok(summary),
-        (Err(f), None) => Err(Box::new(Failure {
-            error: named(f.error),
-            summary,
-        })),
+    let error = match (outcome, run.stopped) {
+        (_, Some(error)) => error,
+        (Ok(_), None) => return Ok(summary),
+        (Err(f), None) => named(f.error),
+    };
+    Err(Box::new(Failure { error, summary }))
+}
+
+/// A run on its way: the equations, the rows that are still to be shown, and why it was stopped.
+struct Run<'r, 'm, F> {
+    equations: Equations<'m>,
+    rows: Rows,
+    row: &'r mut F,
+    stopped: Option<MotionError>,
+}
+
+type Integrated = Result<Outcome, Box<integrators::Failure<Trip>>>;
+
+impl<'m, F> Run<'_, 'm, F>
+where
+    F: FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+{
+    fn go<M: integrators::Method<Equations<'m>>>(
+        &mut self,
+        method: &M,
+        interval: &Interval<'_>,
+        y0: &[f64],
+        settings: &Options,
+    ) -> Integrated {
+        let Self {
+            equations,
+            rows,
+            row,
+            stopped,
+        } = self;
+        let mut show = |e: &mut Equations<'m>, t: f64, y: &mut [f64]| match e.show(t, y, row) {
+            Ok(flow) => flow,
+            Err(trip) => {
+                *stopped = Some(trip.into());
+                ControlFlow::Break(())
+            }
+        };
+        if rows.start(equations, y0, &mut show).is_break() {
+            // Nothing is integrated; what follows is the result of no time.
+            let nowhere = Interval::new(interval.t0, interval.t0);
+            return integrate(method, equations, &nowhere, y0, settings, |_| {
+                ControlFlow::Break(())
+            });
+        }
+        let mut refused = None;
+        let outcome = integrate(method, equations, interval, y0, settings, |step| {
+            note_passage(step);
+            rows.emit(step, &mut show).unwrap_or_else(|error| {
+                refused = Some(error);
+                ControlFlow::Break(())
+            })
+        });
+        if let Some(error) = refused {
+            *stopped = Some(named(error));
+        }
+        outcome
+    }
+}
+
+/// Records the singular configuration that a step has passed, if it has.
+fn note_passage(step: &mut Step<'_, Equations<'_>>) {
+    if !step.ode().is_suspect() {
+        return;
+    }
+    let (t0, t1) = (step.t0(), step.t1());
+    let noise = step.ode().passage_noise();
+    let mut search = step.ode().motion.search();
+    let mut y = step.y0().to_vec();
+    // The dense output without further evaluations: its error moves the instant by less than it moves the mechanism.
+    let found = search.find([t0, t1], noise, |t, q| {
+        if step.interpolate(t, &mut y).is_ok() {
+            let n = q.len();
+            q.copy_from_slice(&y[..n]);
+        }
+    });
+    if let Some(singular) = found {
+        let event = search.event(singular);
+        step.ode().record(event);
     }
 }
 
@@ -200,184 +273,5 @@ fn named(error: IntegrationError<Trip>) -> MotionError {
             ..
         } => MotionError::Trip(trip),
         other => MotionError::Integration(Box::new(other)),
-    }
-}
-
-/// The differential equation of a run: y = [q; v], and the work of drives and applied forces where there are any.
-struct Equations<'m> {
-    motion: KeptRowMotion<'m>,
-    n_q: usize,
-    n_v: usize,
-    /// Whether y carries the work.
-    works: bool,
-    energy: EnergyBalance,
-    max_position_residual: f64,
-    max_velocity_residual: f64,
-    min_pivot_ratio: f64,
-    events: Vec<Event>,
-    /// The state before a projection.
-    before: Vec<f64>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct EnergyBalance {
-    start: f64,
-    largest_kinetic: f64,
-    largest_gap: f64,
-}
-
-impl<'m> Equations<'m> {
-    fn new(motion: KeptRowMotion<'m>, prepared: &Prepared) -> Self {
-        let (q, v) = (&prepared.q, &prepared.v);
-        let mechanism = motion.mechanism();
-        let layout = mechanism.layout();
-        let works = layout.rheonomic || mechanism.has_applied_forces();
-        let kinetic = mechanism.kinetic_energy(v);
-        Self {
-            n_q: layout.n_q,
-            n_v: layout.n_v,
-            works,
-            energy: EnergyBalance {
-                start: kinetic + mechanism.potential_energy(q),
-                largest_kinetic: kinetic,
-                largest_gap: 0.0,
-            },
-            max_position_residual: 0.0,
-            max_velocity_residual: 0.0,
-            min_pivot_ratio: f64::INFINITY,
-            events: Vec::new(),
-            before: Vec::new(),
-            motion,
-        }
-    }
-
-    fn initial_state(&mut self, q: &[f64], v: &[f64]) -> Vec<f64> {
-        let mut y = [q, v].concat();
-        y.extend(self.works.then_some(0.0));
-        self.before = y.clone();
-        y
-    }
-
-    /// The work is measured, not controlled: its error has no weight. It still counts as a component of the mean, which makes the
-    /// control looser by the factor √((n + 1)/n).
-    fn tolerance(&self, options: &MotionOptions) -> Tolerance {
-        if !self.works {
-            return Tolerance::Uniform {
-                rtol: options.rtol,
-                atol: options.atol,
-            };
-        }
-        let mut rtol = vec![options.rtol; self.n_q + self.n_v];
-        let mut atol = vec![options.atol; self.n_q + self.n_v];
-        rtol.push(0.0);
-        atol.push(f64::MAX);
-        Tolerance::PerComponent { rtol, atol }
-    }
-
-    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
-        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
-        let (qd, rest) = dy.split_at_mut(self.n_q);
-        let (a, work) = rest.split_at_mut(self.n_v);
-        self.motion.mechanism().rate(q, v, qd);
-        self.motion.acceleration(t, q, v, a)?;
-        self.motion.same_side(t)?;
-        if let Some(work) = work.first_mut() {
-            *work = self.motion.power(v);
-        }
-        Ok(())
-    }
-
-    /// Projects a row of output.
-    fn project_row(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trip> {
-        let (q, rest) = y.split_at_mut(self.n_q);
-        let found = self.motion.project(t, q, &mut rest[..self.n_v])?;
-        self.note(y, found);
-        Ok(())
-    }
-
-    /// Notes residuals and energy of a projected state.
-    fn note(&mut self, y: &[f64], found: Correction) {
-        self.max_position_residual = self.max_position_residual.max(found.position_residual);
-        self.max_velocity_residual = self.max_velocity_residual.max(found.velocity_residual);
-        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
-        let work = y.get(self.n_q + self.n_v).copied().unwrap_or(0.0);
-        let mechanism = self.motion.mechanism();
-        let kinetic = mechanism.kinetic_energy(v);
-        let gap = kinetic + mechanism.potential_energy(q) - self.energy.start - work;
-        self.energy.largest_kinetic = self.energy.largest_kinetic.max(kinetic);
-        self.energy.largest_gap = self.energy.largest_gap.max(gap.abs());
-    }
-
-    fn show(
-        &mut self,
-        t: f64,
-        y: &mut [f64],
-        row: &mut impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
-    ) -> Result<ControlFlow<()>, Trip> {
-        self.project_row(t, y)?;
-        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
-        row(&mut Sample {
-            t,
-            q,
-            v,
-            motion: &mut self.motion,
-        })
-    }
-
-    fn summary(&self) -> Summary {
-        let EnergyBalance {
-            largest_kinetic,
-            largest_gap,
-            ..
-        } = self.energy;
-        Summary {
-            max_position_residual: self.max_position_residual,
-            max_velocity_residual: self.max_velocity_residual,
-            energy_balance: if largest_gap > 0.0 {
-                largest_gap / largest_kinetic
-            } else {
-                0.0
-            },
-            min_pivot_ratio: self.min_pivot_ratio,
-            events: self.events.clone(),
-            ..Summary::default()
-        }
-    }
-}
-
-impl Ode for Equations<'_> {
-    type Error = Trip;
-
-    fn dim(&self) -> usize {
-        self.n_q + self.n_v + usize::from(self.works)
-    }
-
-    fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
-        self.derivative(t, y, dy)
-    }
-
-    fn end_of_step(
-        &mut self,
-        step: &StepInfo<'_>,
-        y: &mut [f64],
-        dy: &mut [f64],
-    ) -> Result<StepEnd, Trip> {
-        self.before.copy_from_slice(y);
-        let (q, rest) = y.split_at_mut(self.n_q);
-        let found = self.motion.project_step(step.t, q, &mut rest[..self.n_v])?;
-        let pivot_ratio = self.motion.pivot_ratio();
-        for (before, y) in self.before.iter_mut().zip(&*y) {
-            *before -= y;
-        }
-        let correction = step.norm(&self.before);
-        self.derivative(step.t_rhs, y, dy)?;
-        // From here on the step stands.
-        self.note(y, found);
-        self.events.extend(self.motion.accept());
-        self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
-        Ok(StepEnd::Projected {
-            correction,
-            evaluations: 1,
-        })
     }
 }

@@ -16,6 +16,8 @@ use std::ops::ControlFlow;
 const SMALLEST_STEP_IN_EPSILONS: f64 = 16.0;
 /// A step that would leave less than this part of itself before the end of a leg is stretched to the end.
 const STRETCH: f64 = 1.01;
+/// A step that stops before a delicate time leaves this part of what a step of its size could pass.
+const LEFT_TO_PASS: f64 = 0.8;
 /// Step-size factor after a failed evaluation.
 const FACTOR_AFTER_FAILURE: f64 = 0.25;
 /// Step-size factor after a rejection by the hook.
@@ -45,6 +47,9 @@ where
             return Err(run.fail(error));
         }
         while run.t != leg.end {
+            if let Some(delicate) = ode.delicate_time() {
+                run.step_over(delicate, stepper.widest_gap());
+            }
             let trial = match run.next_trial(leg) {
                 Ok(trial) => trial,
                 Err(error) => return Err(run.fail(error)),
@@ -128,6 +133,8 @@ struct Run<'a, E: std::error::Error + 'static> {
     t: f64,
     /// Signed size of the next trial.
     h: f64,
+    /// What it was before it was shortened for a reason that has nothing to do with its error.
+    uncut: Option<f64>,
     y0: Vec<f64>,
     f0: Vec<f64>,
     y1: Vec<f64>,
@@ -149,6 +156,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             statistics: Statistics::default(),
             t,
             h: 0.0,
+            uncut: None,
             y0: y0.to_vec(),
             f0: zeros(),
             y1: zeros(),
@@ -224,6 +232,24 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         ode.at_break(t_rhs, &mut self.y0)
             .map_err(|e| failed(Cause::Problem(e)))?;
         finite(&self.y0).map_err(|component| failed(Cause::NonFinite { component }))
+    }
+
+    /// Shortens a step that would reach a delicate time, so that it or the next one passes it with the time in the widest gap between
+    /// its nodes.
+    fn step_over(&mut self, delicate: f64, gap: f64) {
+        let (distance, reach) = ((delicate - self.t) / self.h, gap);
+        if distance <= 0.0 || distance >= 1.0 + reach {
+            return;
+        }
+        // In units of h: this step passes if it may be so long, else it leaves the next one a little less than its reach.
+        let share = match distance <= reach {
+            true => distance / reach,
+            false => distance - LEFT_TO_PASS * reach,
+        };
+        if share < 1.0 {
+            self.uncut = Some(self.h);
+            self.h *= share;
+        }
     }
 
     /// The next trial, ending exactly at the end of the leg if it reaches so far.
@@ -336,7 +362,13 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.t = trial.t1;
         self.failures = 0;
         self.last_rejection = None;
-        let h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));
+        // A step cut by the end of its leg or before a delicate time says nothing against the size wanted before.
+        let is_cut = trial.t1 == trial.leg.end || self.uncut.is_some();
+        let wanted = self.uncut.take().unwrap_or(self.h);
+        let mut h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));
+        if is_cut && h.abs() < wanted.abs() {
+            h = wanted;
+        }
         self.h = h.clamp(-self.options.max_step, self.options.max_step);
     }
 
@@ -348,6 +380,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         cause: Cause<E>,
     ) {
         self.failures += 1;
+        self.uncut = None;
         let statistics = &mut self.statistics;
         self.h = match cause {
             Cause::ErrorTest { norm } if !norm.is_nan() => {
@@ -371,6 +404,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             t: self.t,
             y: self.y0,
             end,
+            next_step: (self.statistics.accepted > 0).then_some(self.h.abs()),
             statistics: self.statistics,
         }
     }

@@ -129,6 +129,12 @@ pub enum IntegrationError<E: Error + 'static> {
         /// Signed step size that was to be tried next.
         h: f64,
     },
+    /// The function whose zeros are events has no value.
+    #[error("the event function is not a number at t = {t}")]
+    EventUndefined {
+        /// The time.
+        t: f64,
+    },
     /// The extra evaluations for accurate output inside an accepted step failed.
     #[error("no output at t = {t}: {cause}")]
     OutputFailed {

@@ -11,30 +11,44 @@
 //! | `drive` | the loop of trials, rejections and accepted steps, shared by all methods |
 //! | `control`, `start` | step-size control and the automatic first step |
 //! | `step` | an accepted step with its dense output: [`Step`] |
-//! | `sample` | rows at given output times: [`sample()`] |
-//! | `dopri5` | Dormand–Prince 5(4): `tableau`, `step`, `dense` |
+//! | `events`, `root` | zeros of a function of the solution: [`Crossings`] for observers, [`integrate_until`] for the rest |
+//! | `rows`, `sample` | rows at given output times: [`Rows`] for observers, [`sample()`] for the rest |
+//! | `combine` | sums of stages |
+//! | `rk5` | Dormand–Prince 5(4) and Tsitouras 5(4): `dopri5` and `tsit5` (tables), `step`, `dense` |
+//! | `dop853` | Dormand–Prince 8(5,3): `tableau`, `step`, `dense` |
 
 #![forbid(unsafe_code)]
 
+mod combine;
 mod control;
-mod dopri5;
+mod dop853;
 mod drive;
 mod error;
+mod events;
 mod interval;
 mod method;
 mod ode;
 mod options;
+mod rk5;
+mod root;
+mod rows;
 mod sample;
 mod start;
 mod statistics;
 mod step;
 
-pub use dopri5::Dopri5;
+#[cfg(test)]
+mod trees;
+
+pub use dop853::Dop853;
 pub use error::{Cause, Failure, IntegrationError};
+pub use events::{Crossing, Crossings, Direction, integrate_until};
 pub use interval::Interval;
 pub use method::{End, Method, Outcome, integrate};
 pub use ode::{Function, Ode, StepEnd, StepInfo};
 pub use options::{InitialStep, Options, Tolerance};
-pub use sample::{OutputTimes, sample};
+pub use rk5::{Dopri5, Tsit5};
+pub use rows::{OutputTimes, Rows};
+pub use sample::sample;
 pub use statistics::Statistics;
 pub use step::{OutputError, Step};

@@ -42,8 +42,24 @@ pub struct Outcome {
     pub y: Vec<f64>,
     /// Whether `t_end` was reached.
     pub end: End,
+    /// Size > 0 of the step that would have been tried next, cut by no end and no break time: the
+    /// [`InitialStep::Given`](crate::InitialStep::Given) of an integration that goes on from here. `None` if there was no step.
+    pub next_step: Option<f64>,
     /// Cost.
     pub statistics: Statistics,
+}
+
+impl Outcome {
+    /// Where no step was made.
+    pub(crate) fn unmoved(t: f64, y0: &[f64], end: End) -> Self {
+        Self {
+            t,
+            y: y0.to_vec(),
+            end,
+            next_step: None,
+            statistics: Statistics::default(),
+        }
+    }
 }
 
 /// Integrates y' = f(t, y), y(t0) = `y0` over `interval` and calls `observe` with each accepted step.
@@ -138,10 +154,25 @@ pub struct Start<'a> {
     pub(crate) tolerance: &'a Tolerance,
 }
 
+/// The middle of the widest gap between nodes, 0 and 1 included.
+pub(crate) fn widest_gap(nodes: &[f64]) -> f64 {
+    let all = || nodes.iter().copied().chain([0.0, 1.0]);
+    let gap = |from: f64| (from, all().filter(|c| *c > from).fold(1.0, f64::min));
+    let (from, to) = all().map(gap).fold((0.0, 0.0), |best, g| {
+        if g.1 - g.0 > best.1 - best.0 { g } else { best }
+    });
+    0.5 * (from + to)
+}
+
 /// What the shared loop needs from a method: a trial step, its error, the derivative at its end, the next step size.
 pub trait Stepper<O: Ode>: Dense<O> {
     /// Order of the solution that is carried on.
     fn order(&self) -> i32;
+
+    /// The middle of the widest gap between nodes: where in a step f is not looked at.
+    fn widest_gap(&self) -> f64 {
+        0.5
+    }
 
     /// The controller of the step size.
     fn control(&mut self) -> &mut Control;

@@ -42,6 +42,12 @@ pub trait Ode {
         Ok(StepEnd::Unchanged)
     }
 
+    /// A time ahead near which f is better not evaluated, if one is known: a removable singularity, where values are mostly rounding.
+    /// Steps are then chosen such that it lies between two stages, as far from both as the method allows.
+    fn delicate_time(&self) -> Option<f64> {
+        None
+    }
+
     /// Called at each break time inside the interval, before the first evaluation behind it, with the time just behind it. May
     /// change `y` (length n): there the solution jumps.
     ///

@@ -126,12 +126,18 @@ impl<'a, O: Ode> Step<'a, O> {
     ///
     /// [`OutputError::OutsideStep`], [`OutputError::Length`].
     pub fn interpolate(&self, t: f64, out: &mut [f64]) -> Result<(), OutputError<O::Error>> {
-        match self.locate(t, out)? {
+        self.check(t, out)?;
+        self.write_cheaply(t, out);
+        Ok(())
+    }
+
+    /// [`Step::interpolate`] for a t known to lie in the step.
+    pub(crate) fn write_cheaply(&self, t: f64, out: &mut [f64]) {
+        match self.place(t) {
             Place::Start => out.copy_from_slice(self.ends.y0),
             Place::End => out.copy_from_slice(self.ends.y1),
             Place::Inside { theta } => self.dense.interpolate(&self.ends, theta, out),
         }
-        Ok(())
     }
 
     /// Writes y(t) to `out` (length n), as accurate as the steps. The first call inside a step makes extra evaluations of
@@ -145,15 +151,24 @@ impl<'a, O: Ode> Step<'a, O> {
         t: f64,
         out: &mut [f64],
     ) -> Result<(), OutputError<O::Error>> {
-        match self.locate(t, out)? {
+        self.check(t, out)?;
+        self.write_accurately(t, out)
+            .map_err(OutputError::Evaluation)
+    }
+
+    /// [`Step::interpolate_accurately`] for a t known to lie in the step.
+    pub(crate) fn write_accurately(
+        &mut self,
+        t: f64,
+        out: &mut [f64],
+    ) -> Result<(), Cause<O::Error>> {
+        match self.place(t) {
             Place::Start => out.copy_from_slice(self.ends.y0),
             Place::End => out.copy_from_slice(self.ends.y1),
             Place::Inside { theta } => {
                 if !self.is_prepared {
                     let count = &mut self.statistics.output_evaluations;
-                    self.dense
-                        .prepare(self.ode, &self.ends, count)
-                        .map_err(OutputError::Evaluation)?;
+                    self.dense.prepare(self.ode, &self.ends, count)?;
                     self.is_prepared = true;
                 }
                 self.dense.interpolate_accurately(&self.ends, theta, out);
@@ -162,7 +177,7 @@ impl<'a, O: Ode> Step<'a, O> {
         Ok(())
     }
 
-    fn locate(&self, t: f64, out: &[f64]) -> Result<Place, OutputError<O::Error>> {
+    fn check(&self, t: f64, out: &[f64]) -> Result<(), OutputError<O::Error>> {
         let (t0, t1) = (self.t0(), self.t1());
         if out.len() != self.ends.y0.len() {
             return Err(OutputError::Length {
@@ -170,17 +185,22 @@ impl<'a, O: Ode> Step<'a, O> {
                 found: out.len(),
             });
         }
-        if t == t0 {
-            return Ok(Place::Start);
-        }
-        if t == t1 {
-            return Ok(Place::End);
-        }
-        if t0.min(t1) < t && t < t0.max(t1) {
-            let theta = (t - t0) / self.ends.trial.h;
-            return Ok(Place::Inside { theta });
+        if t0.min(t1) <= t && t <= t0.max(t1) {
+            return Ok(());
         }
         Err(OutputError::OutsideStep { t, t0, t1 })
+    }
+
+    fn place(&self, t: f64) -> Place {
+        if t == self.t0() {
+            Place::Start
+        } else if t == self.t1() {
+            Place::End
+        } else {
+            Place::Inside {
+                theta: (t - self.t0()) / self.ends.trial.h,
+            }
+        }
     }
 }
 

@@ -1,8 +1,10 @@
 //! Functions of time, with their first two derivatives and the times where a derivative jumps. Nothing else in the
 //! house depends on time.
 
+mod lines;
 mod spline;
 
+use lines::Lines;
 use spline::Spline;
 
 /// A scalar function of time.
@@ -33,6 +35,7 @@ enum Law {
         steps: Vec<Step>,
     },
     Table(Spline),
+    Lines(Lines),
 }
 
 /// A smooth step `by·(10s³ − 15s⁴ + 6s⁵)`, `s = (t − from)/(to − from)` clamped to [0, 1].
@@ -170,25 +173,38 @@ impl Function {
     /// # Errors
     /// If there are fewer than two points, times do not grow, or a number is not finite.
     pub fn table(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
-        finite("times", times)?;
-        finite("values", values)?;
-        if times.len() != values.len() {
-            return Err(FunctionError::Uneven {
-                times: times.len(),
-                values: values.len(),
-            });
-        }
-        if times.len() < 2 {
-            return Err(FunctionError::ShortTable { found: times.len() });
-        }
-        if let Some(k) = (1..times.len()).find(|&k| times[k] <= times[k - 1]) {
+        points(times, values, |earlier, later| later > earlier)?;
+        Ok(Self(Law::Table(Spline::natural(times, values))))
+    }
+
+    /// Straight lines through a table, the outer ones continued on both sides. Two points of one time make the value jump there;
+    /// at other points the rate jumps.
+    ///
+    /// ```
+    /// use model::Function;
+    /// let f = Function::lines(&[0.0, 1.0, 1.0, 3.0], &[0.0, 2.0, 5.0, 5.0])?;
+    /// assert_eq!(f.jet(0.5), [1.0, 2.0, 0.0]);
+    /// assert_eq!((f.jet(1.0_f64.next_down())[1], f.jet(1.0)[0], f.jet(2.0)), (2.0, 5.0, [5.0, 0.0, 0.0]));
+    /// # Ok::<(), model::FunctionError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// If there are fewer than two points, times fall or more than two are equal or the first or last two are, or a number is not
+    /// finite.
+    pub fn lines(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
+        points(times, values, |earlier, later| later >= earlier)?;
+        let last = times.len() - 1;
+        let has_no_line = |k: usize| {
+            times[k] == times[k - 1] && (k == 1 || k == last || times[k] == times[k - 2])
+        };
+        if let Some(k) = (1..=last).find(|&k| has_no_line(k)) {
             return Err(FunctionError::NotIncreasing {
                 index: k,
                 earlier: times[k - 1],
                 later: times[k],
             });
         }
-        Ok(Self(Law::Table(Spline::natural(times, values))))
+        Ok(Self(Law::Lines(Lines::new(times, values))))
     }
 
     /// `[f(t), ḟ(t), f̈(t)]`
@@ -217,16 +233,18 @@ impl Function {
                 [sum[0] + jet[0], sum[1] + jet[1], sum[2] + jet[2]]
             }),
             Law::Table(spline) => spline.jet(t),
+            Law::Lines(lines) => lines.jet(t),
         }
     }
 
-    /// Times at which a derivative jumps, ascending.
+    /// Times at which the function or a derivative jumps, ascending.
     #[must_use]
     pub fn break_times(&self) -> Vec<f64> {
         let mut times = match &self.0 {
             Law::Polynomial(_) | Law::Harmonic { .. } => Vec::new(),
             Law::Steps { steps, .. } => steps.iter().flat_map(|s| [s.from, s.to]).collect(),
             Law::Table(spline) => spline.times().to_vec(),
+            Law::Lines(lines) => lines.times().to_vec(),
         };
         times.sort_by(f64::total_cmp);
         times.dedup();
@@ -251,6 +269,33 @@ impl Step {
             by / (span * span) * 60.0 * s * (s - 1.0) * (2.0 * s - 1.0),
         ]
     }
+}
+
+/// Points of a table, their times in order.
+fn points(
+    times: &[f64],
+    values: &[f64],
+    follows: impl Fn(f64, f64) -> bool,
+) -> Result<(), FunctionError> {
+    finite("times", times)?;
+    finite("values", values)?;
+    if times.len() != values.len() {
+        return Err(FunctionError::Uneven {
+            times: times.len(),
+            values: values.len(),
+        });
+    }
+    if times.len() < 2 {
+        return Err(FunctionError::ShortTable { found: times.len() });
+    }
+    if let Some(k) = (1..times.len()).find(|&k| !follows(times[k - 1], times[k])) {
+        return Err(FunctionError::NotIncreasing {
+            index: k,
+            earlier: times[k - 1],
+            later: times[k],
+        });
+    }
+    Ok(())
 }
 
 fn finite(name: &'static str, values: &[f64]) -> Result<(), FunctionError> {
@@ -308,6 +353,24 @@ mod tests {
             for k in 0..3 {
                 assert!((before[k] - after[k]).abs() < 1e-6, "derivative {k} at {t}");
             }
+        }
+    }
+
+    #[test]
+    fn lines_are_one_sided_at_their_points() {
+        let f = Function::lines(&[0.0, 1.0, 1.0, 2.0], &[1.0, 3.0, 0.0, -1.0]).unwrap();
+        assert_eq!(f.jet(-1.0), [-1.0, 2.0, 0.0]);
+        assert_eq!(f.jet(0.0), [1.0, 2.0, 0.0]);
+        assert_eq!(f.jet(1.0), [0.0, -1.0, 0.0]);
+        assert_eq!(f.jet(2.0), [-1.0, -1.0, 0.0]);
+        assert_eq!(f.jet(4.0), [-3.0, -1.0, 0.0]);
+        assert_eq!(f.break_times(), [0.0, 1.0, 2.0]);
+        for times in [
+            [0.0, 0.0, 1.0, 2.0],
+            [0.0, 1.0, 2.0, 2.0],
+            [0.0, 2.0, 1.0, 3.0],
+        ] {
+            assert!(Function::lines(&times, &[0.0; 4]).is_err(), "{times:?}");
         }
     }
 

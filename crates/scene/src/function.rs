@@ -10,7 +10,14 @@ use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
 /// Values of `type`.
-const TYPES: [&str; 5] = ["steps", "constant-rate", "polynomial", "harmonic", "table"];
+const TYPES: [&str; 6] = [
+    "steps",
+    "constant-rate",
+    "polynomial",
+    "harmonic",
+    "table",
+    "linear-table",
+];
 
 /// The times of a table: the run must not leave them.
 pub(crate) struct Domain {
@@ -41,7 +48,8 @@ pub(crate) fn read(
         }
         "polynomial" => polynomial(&mut table, field, findings),
         "harmonic" => harmonic(&mut table, field, findings),
-        "table" => spline(&mut table, domains, findings),
+        "table" => points(&mut table, Function::table, domains, findings),
+        "linear-table" => points(&mut table, Function::lines, domains, findings),
         unknown => {
             findings.error_with_help(
                 kind.span(),
@@ -124,8 +132,9 @@ fn harmonic(table: &mut Table, field: &Field, findings: &mut Findings) -> Option
     accept(function, field, findings)
 }
 
-fn spline(
+fn points(
     table: &mut Table,
+    through: impl Fn(&[f64], &[f64]) -> Result<Function, FunctionError>,
     domains: &mut Vec<Domain>,
     findings: &mut Findings,
 ) -> Option<Function> {
@@ -135,7 +144,7 @@ fn spline(
     let t = times.any_numbers(findings);
     let y = values.any_numbers(findings);
     let (t, y) = (t?, y?);
-    let function = match Function::table(&t, &y) {
+    let function = match through(&t, &y) {
         Ok(function) => function,
         Err(error) => {
             let at = match &error {

@@ -21,42 +21,59 @@ const STALLED_ROUNDINGS: f64 = 50.0;
 const DROPPED_MISFIT: f64 = 1e-11;
 
 impl KeptRowMotion<'_> {
-    /// Projects an accepted step, and keeps other rows if the present ones have become nearly dependent there. What happened
-    /// is told by [`KeptRowMotion::accept`], once the step stands.
+    /// Projects a step that passed its error test, and keeps other rows if the present ones have become nearly dependent there.
+    /// What happened is told by [`KeptRowMotion::accept`], once the step stands.
     ///
     /// # Errors
-    /// As [`super::Motion::project`]; also if the step passed a singular configuration, or the rank itself changes here.
+    /// As [`super::Motion::project`]; also if the step ends nearer to a singular configuration than `nearest`, a share of
+    /// the reference pivots.
     pub(crate) fn project_step(
         &mut self,
         t: f64,
         q: &mut [f64],
         v: &mut [f64],
+        nearest: f64,
     ) -> Result<Correction, Trip> {
         let iterations = self.settle(t, q)?;
-        self.side.check(&mut self.velocity, t)?;
+        if self.velocity.relative_pivot() < nearest {
+            return Err(self.no_way_over(t));
+        }
         if let Some(event) = self.review(q)? {
             self.pending = Some(event);
         }
-        let found = self.finish(q, v, iterations)?;
-        self.side.take(&mut self.velocity, t);
-        Ok(found)
+        self.finish(q, v, iterations)
     }
 
-    /// What happened since the last accepted step.
-    pub(crate) fn accept(&mut self) -> Option<Event> {
+    /// Moves a stage onto the constraints.
+    pub(crate) fn approach(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Trip> {
+        self.settle(t, q)?;
+        self.project_velocity(v)
+    }
+
+    /// Whether the step to the state just evaluated may have passed a singular configuration.
+    pub(crate) fn may_have_passed(&mut self) -> bool {
+        self.passage.is_suspect(&mut self.velocity)
+    }
+
+    /// Refuses a step over a singular configuration.
+    pub(crate) fn no_way_over(&self, t: f64) -> Trip {
+        Trip::SingularPassage {
+            from: self.passage.since(),
+            to: t,
+        }
+    }
+
+    /// Takes the state just evaluated as that of an accepted step; what happened since the last one.
+    pub(crate) fn accept(&mut self, t: f64) -> Option<Event> {
+        self.passage.take(&mut self.velocity, t);
         self.pending.take()
     }
 
-    /// Takes the start as the side of singular configurations on which the motion begins.
+    /// Takes the start as the first accepted state.
     pub(crate) fn begin(&mut self, t: f64, q: &mut [f64]) -> Result<(), Trip> {
         self.settle(t, q)?;
-        self.side.take(&mut self.velocity, t);
+        self.passage.take(&mut self.velocity, t);
         Ok(())
-    }
-
-    /// Whether the last evaluated acceleration lies on the side of the last accepted step.
-    pub(crate) fn same_side(&mut self, t: f64) -> Result<(), Trip> {
-        self.side.check(&mut self.velocity, t)
     }
 
     /// Moves q onto the constraints and factors there.
@@ -94,10 +111,15 @@ impl KeptRowMotion<'_> {
             mechanism.c(s);
             // The row that misses most, in roundings of its terms.
             let mut worst = (0, 0.0_f64);
-            for (rhs, &i) in position.rhs.iter_mut().zip(&position.kept) {
-                *rhs = -s.phi[i];
-                let roundings = rhs.abs() / (f64::EPSILON * mechanism.position_scale(s, i, q));
-                if *rhs != 0.0 && (roundings > worst.1 || roundings.is_nan()) {
+            for (k, &i) in position.kept.iter().enumerate() {
+                position.rhs[k] = -s.phi[i];
+                // A row left out is as good as its dependence allows.
+                if s.phi[i] == 0.0 || iteration > 0 && !position.uses(k) {
+                    continue;
+                }
+                let size = mechanism.position_scale(s, i, q);
+                let roundings = s.phi[i].abs() / (f64::EPSILON * size);
+                if roundings > worst.1 || roundings.is_nan() {
                     worst = (i, roundings);
                 }
             }

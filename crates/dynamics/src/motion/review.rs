@@ -1,6 +1,5 @@
 //! Exchange of kept rows that have become nearly dependent, at accepted and polished points only.
 
-use linalg::RankStatus;
 use model::System;
 use solvability::{decide, decide_holonomic};
 
@@ -13,9 +12,10 @@ impl KeptRowMotion<'_> {
     /// Looks at the pivots of a settled position at coordinates q.
     pub(super) fn review(&mut self, q: &[f64]) -> Result<Option<Event>, Trip> {
         if self.position.are_lost() && !self.position.dropped.is_empty() {
-            let kept = self.position.kept.len();
             let decision = decide_holonomic(self.mechanism, &self.s, q);
-            self.position = self.decided(decision, kept)?;
+            if let Some(better) = self.better(decision, &self.position)? {
+                self.position = better;
+            }
         }
         if self.aside.is_some() && self.chosen_rows_recovered() {
             self.swap_aside();
@@ -29,13 +29,10 @@ impl KeptRowMotion<'_> {
         if !self.velocity.are_lost() || self.velocity.dropped.is_empty() {
             return Ok(None);
         }
-        let kept = self.velocity.kept.len();
-        let mut rows = self.decided(decide(self.mechanism, &self.s, q), kept)?;
-        if rows.kept == self.velocity.kept {
-            self.velocity.confirm();
+        let decision = decide(self.mechanism, &self.s, q);
+        let Some(rows) = self.better(decision, &self.velocity)? else {
             return Ok(None);
-        }
-        rows.factor(self.mechanism, &self.s)?;
+        };
         let lost = std::mem::replace(&mut self.velocity, rows);
         if let (RowChoice::Drop(_), None) = (&self.choice, &self.aside) {
             self.aside = Some(lost);
@@ -57,30 +54,26 @@ impl KeptRowMotion<'_> {
         aside.factor(self.mechanism, &self.s).is_ok() && aside.are_recovered()
     }
 
-    /// Kept rows of a new decision, which must have the old rank.
-    fn decided(
+    /// Freshly factored kept rows of a new decision, if they have the rank of the old ones and larger pivots. Another rank is that
+    /// of a singular configuration nearby, not of the motion.
+    fn better(
         &self,
         decision: Result<linalg::RankDecision, solvability::AnalysisError>,
-        rank: usize,
-    ) -> Result<KeptRows, Trip> {
+        old: &KeptRows,
+    ) -> Result<Option<KeptRows>, Trip> {
         let time = self.s.t;
-        let none = |what: String| Trip::NoRows { time, what };
-        let decision = decision.map_err(|e| none(e.to_string()))?;
-        if let RankStatus::Undecided(doubt) = decision.status {
-            return Err(none(doubt.to_string()));
+        let decision = decision.map_err(|e| Trip::NoRows {
+            time,
+            what: e.to_string(),
+        })?;
+        if !decision.is_decided() || decision.rank != old.kept.len() || decision.kept == old.kept {
+            return Ok(None);
         }
-        if decision.rank != rank {
-            return Err(none(format!(
-                "the rank changes from {rank} to {}",
-                decision.rank
-            )));
-        }
-        KeptRows::new(
-            self.mechanism.layout().n_v,
-            &decision.kept,
-            &decision.dropped,
-        )
-        .map_err(|source| Trip::Saddle { time, source })
+        let n = self.mechanism.layout().n_v;
+        let mut rows = KeptRows::new(n, &decision.kept, &decision.dropped)
+            .map_err(|source| Trip::Saddle { time, source })?;
+        rows.factor(self.mechanism, &self.s)?;
+        Ok(rows.are_better_than(old).then_some(rows))
     }
 
     fn event(&self, why: &str) -> Event {

@@ -6,6 +6,7 @@ use model::{Mechanism, Scratch, System};
 use crate::error::Trip;
 
 /// Kept rows, their dense block of C, and the factored saddle matrix.
+#[derive(Clone)]
 pub(super) struct KeptRows {
     /// Rows of C, ascending.
     pub(super) kept: Vec<usize>,
@@ -25,8 +26,11 @@ pub(super) struct KeptRows {
 /// rows reaches the dropped ones through the inverse of the pivots.
 const PIVOT_LOSS: f64 = 0.1;
 
-/// Below this share the side of a singular configuration is not known: some √eps.
+/// Rows below this share are dependent for an instant and left out of the solve.
 const PIVOT_SINGULAR: f64 = 1e-6;
+
+/// Other rows are worth an exchange if their pivots are so many times larger.
+const WORTH_EXCHANGE: f64 = 2.0;
 
 /// Rows set aside come back above this share.
 const PIVOT_RECOVERY: f64 = 0.2;
@@ -46,20 +50,69 @@ impl KeptRows {
         })
     }
 
-    /// Factors at the entries of C in the scratch.
+    /// Factors at the entries of C in the scratch. Rows that are dependent for an instant are left out, but not at the first time.
     pub(super) fn factor(&mut self, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
+        let reference = self.reference_pivot;
+        self.factor_above(PIVOT_SINGULAR, mechanism, s)?;
+        match (reference, self.saddle.n_left_out()) {
+            (None, 1..) => Err(self.rank_lost(mechanism, s)),
+            (None, 0) => {
+                self.reference_pivot = Some(self.saddle.pivot_ratio());
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Leaves out rows whose pivot is below this share of the reference.
+    fn factor_above(&mut self, share: f64, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
         for (k, &i) in self.kept.iter().enumerate() {
             mechanism.layout().scatter_row(s, i, self.c.row_mut(k));
         }
+        let reference = self.reference_pivot.filter(|r| r.is_finite());
+        let floor = share * reference.unwrap_or(0.0);
         let c = &self.c;
-        match self.saddle.factor(|k| c.row(k), mechanism.mass()) {
-            Ok(()) => {
-                self.reference_pivot
-                    .get_or_insert(self.saddle.pivot_ratio());
-                Ok(())
-            }
+        match self
+            .saddle
+            .factor_above(floor, |k| c.row(k), mechanism.mass())
+        {
+            Ok(()) => Ok(()),
             Err(e) => Err(self.trip(mechanism, s, e)),
         }
+    }
+
+    /// Rows of the last factorisation that are dependent for an instant and were left out: their number.
+    pub(super) fn n_left_out(&self) -> usize {
+        self.saddle.n_left_out()
+    }
+
+    /// How many rows have pivots below this share of the reference.
+    pub(super) fn n_dependent(
+        &mut self,
+        share: f64,
+        mechanism: &Mechanism,
+        s: &Scratch,
+    ) -> Result<usize, Trip> {
+        self.factor_above(share, mechanism, s)?;
+        Ok(self.saddle.n_left_out())
+    }
+
+    /// Whether the last factorisation uses the k-th kept row.
+    pub(super) fn uses(&self, k: usize) -> bool {
+        self.saddle.uses(k)
+    }
+
+    /// Smallest pivot relative to that when the rows were chosen; infinite without rows.
+    pub(super) fn relative_pivot(&self) -> f64 {
+        match self.reference_pivot {
+            Some(reference) if reference.is_finite() => self.pivot_ratio() / reference,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Whether these rows, freshly factored, are worth taking in place of others.
+    pub(super) fn are_better_than(&self, others: &Self) -> bool {
+        self.pivot_ratio() > WORTH_EXCHANGE * others.pivot_ratio()
     }
 
     /// Solves `M·x + Cᵀ·λ = force`, `C·x = rhs` with the factored matrix.
@@ -84,22 +137,21 @@ impl KeptRows {
     /// Writes a frame of the motions that the factored rows allow.
     pub(super) fn null_frame(&self, frame: &mut Vec<f64>) {
         let n = self.saddle.n_coordinates();
-        frame.resize((n - self.saddle.n_rows()) * n, 0.0);
+        frame.resize(self.n_free() * n, 0.0);
         self.saddle.null_frame(frame);
     }
 
     /// Sign of the determinant of the factored rows bordered by a frame, 0 for a frame of another size.
     pub(super) fn orientation(&mut self, frame: &[f64]) -> f64 {
-        let n = self.saddle.n_coordinates();
-        match frame.len() == (n - self.saddle.n_rows()) * n {
+        match frame.len() == self.n_free() * self.saddle.n_coordinates() {
             true => self.saddle.orientation(frame),
             false => 0.0,
         }
     }
 
-    /// The present pivots are those that later ones are compared with.
-    pub(super) fn confirm(&mut self) {
-        self.reference_pivot = Some(self.pivot_ratio());
+    /// Number of free motions of the last factorisation.
+    fn n_free(&self) -> usize {
+        self.saddle.n_coordinates() - self.saddle.n_rows() + self.saddle.n_left_out()
     }
 
     /// Whether the rows have become nearly dependent since they were chosen.
@@ -108,17 +160,20 @@ impl KeptRows {
             .is_some_and(|r| self.pivot_ratio() < PIVOT_LOSS * r)
     }
 
-    /// Whether the rows are as good as dependent: so near to a singular configuration that its position, known to √eps, does
-    /// not tell the side. Without rows the ratio is infinite, and nothing is singular.
-    pub(super) fn are_singular(&self) -> bool {
-        self.reference_pivot
-            .is_some_and(|r| self.pivot_ratio() < PIVOT_SINGULAR * r)
-    }
-
     /// Whether rows that were lost are as independent as before.
     pub(super) fn are_recovered(&self) -> bool {
         self.reference_pivot
             .is_some_and(|r| self.pivot_ratio() > PIVOT_RECOVERY * r)
+    }
+
+    fn rank_lost(&self, mechanism: &Mechanism, s: &Scratch) -> Trip {
+        let dependent = (0..self.kept.len()).find(|&k| !self.saddle.uses(k));
+        Trip::RankLost {
+            time: s.t,
+            row: mechanism.layout().labels[self.kept[dependent.unwrap_or(0)]].clone(),
+            pivot: self.saddle.pivot_ratio(),
+            scale: 1.0,
+        }
     }
 
     fn trip(&self, mechanism: &Mechanism, s: &Scratch, e: SaddleError) -> Trip {

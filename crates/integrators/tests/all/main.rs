@@ -3,6 +3,7 @@
 mod allocations;
 mod arenstorf;
 mod break_times;
+mod events;
 mod failures;
 mod hook;
 mod kepler;

@@ -2,7 +2,8 @@
 
 use crate::problems::oscillator;
 use integrators::{
-    Dopri5, End, Function, IntegrationError, Interval, Ode, Options, OutputTimes, integrate, sample,
+    Dopri5, End, Function, InitialStep, IntegrationError, Interval, Ode, Options, OutputTimes,
+    integrate, sample,
 };
 use std::ops::ControlFlow;
 use thiserror::Error;
@@ -202,4 +203,41 @@ fn a_failing_extra_evaluation_is_named() {
         "no output at t = 0.7: the problem reports: not at t = 0.5"
     );
     assert!(failure.t == 1.0 && (failure.y[0] - 1.0).abs() < 1e-15);
+}
+
+/// The step size of the outcome is the one to go on with, although the last step was cut short by the end.
+#[test]
+fn an_integration_goes_on_with_the_step_size_of_its_outcome() {
+    let options = Options::with_tolerance(1e-9, 1e-9);
+    let run = |t0: f64, t_end: f64, initial_step| {
+        let mut largest = 0.0_f64;
+        let y0 = [t0.cos(), -t0.sin()];
+        let options = Options {
+            initial_step,
+            ..options.clone()
+        };
+        let end = integrate(
+            &Dopri5,
+            &mut Function::new(2, oscillator),
+            &Interval::new(t0, t_end),
+            &y0,
+            &options,
+            |step| {
+                largest = largest.max(step.t1() - step.t0());
+                ControlFlow::Continue(())
+            },
+        )
+        .expect("smooth problem");
+        (end, largest)
+    };
+    let (there, largest) = run(0.0, 5.001, InitialStep::Automatic);
+    let next = there.next_step.expect("steps were made");
+    assert!(
+        next > 0.8 * largest && next < 1.3 * largest,
+        "{next} {largest}"
+    );
+    let (fresh, _) = run(5.001, 10.0, InitialStep::Automatic);
+    let (continued, _) = run(5.001, 10.0, InitialStep::Given(next));
+    assert_eq!(continued.statistics.rejected(), 0);
+    assert!(continued.statistics.evaluations < fresh.statistics.evaluations);
 }

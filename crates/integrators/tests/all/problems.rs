@@ -38,6 +38,13 @@ pub(crate) fn modulated(t: f64, y: &[f64], dy: &mut [f64]) {
     dy[0] = y[0] * t.cos();
 }
 
+/// A problem whose type can be named, for functions over several methods.
+pub(crate) type Plain = Function<fn(f64, &[f64], &mut [f64])>;
+
+pub(crate) fn plain(dim: usize, f: fn(f64, &[f64], &mut [f64])) -> Plain {
+    Function::new(dim, f)
+}
+
 /// Absolute tolerance that no error of the tests exceeds.
 pub(crate) const WEIGHT: f64 = 1e100;
 

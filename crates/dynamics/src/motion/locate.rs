@@ -1,0 +1,162 @@
+//! When does a step pass a singular configuration, and how many rows are dependent there? Looked for in the dense output of
+//! an accepted step that was suspect.
+
+use model::{Mechanism, Scratch, System};
+
+use super::KeptRowMotion;
+use super::rows::KeptRows;
+use crate::events::{Event, EventKind};
+
+/// Places at which a step is first looked at.
+const PLACES: usize = 16;
+
+/// Intervals are divided so often: the place is then found to rounding.
+const DIVISIONS: usize = 60;
+
+/// Share by which a golden section shortens an interval.
+const GOLDEN: f64 = 0.618_033_988_749_894_8;
+
+/// A singular configuration within a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Singular {
+    /// When (s).
+    pub(crate) t: f64,
+    /// Kept rows that are dependent there.
+    pub(crate) dependent: usize,
+}
+
+/// A singular configuration is looked for up to so many times the distance at which a straight line meets it.
+const BEYOND: f64 = 1.5;
+
+/// Where a pivot falls to this share of the present one and rises again, it vanishes: what is left is the error of a parabola.
+const VANISHES: f64 = 0.2;
+
+impl<'m> KeptRowMotion<'m> {
+    /// When the motion that was at q with velocities v and accelerations a at time t, the last accepted one, will be singular,
+    /// if that is to be expected before `t_last`.
+    pub(crate) fn foresee(
+        &self,
+        (t, q, v, a): (f64, &[f64], &[f64], &[f64]),
+        t_last: f64,
+    ) -> Option<f64> {
+        let expected = self.passage.expected().filter(|&e| e <= t_last)?;
+        let noise = VANISHES * self.velocity.relative_pivot();
+        let (mut qd, mut qdd) = (vec![0.0; q.len()], vec![0.0; q.len()]);
+        self.mechanism.rate(q, v, &mut qd);
+        // Of the derivative of T(q)·v the part that is new at this place: enough for a place to look for.
+        self.mechanism.rate(q, a, &mut qdd);
+        let end = t + BEYOND * (expected - t);
+        let singular = self.search().find([t, end], noise, |time, out| {
+            let dt = time - t;
+            for i in 0..out.len() {
+                out[i] = q[i] + dt * (qd[i] + 0.5 * dt * qdd[i]);
+            }
+        })?;
+        Some(singular.t)
+    }
+
+    /// A search on the present rows with storage of its own.
+    pub(crate) fn search(&self) -> Search<'m> {
+        Search {
+            mechanism: self.mechanism,
+            s: self.s.clone(),
+            rows: self.velocity.clone(),
+        }
+    }
+}
+
+/// Looks for singular configurations on kept rows.
+pub(crate) struct Search<'m> {
+    mechanism: &'m Mechanism,
+    s: Scratch,
+    rows: KeptRows,
+}
+
+impl Search<'_> {
+    /// The singular configuration between t0 and t1, if there is one: where the sign of the bordered determinant changes, or where
+    /// the smallest pivot falls below `noise` of its reference and rises again. `state` gives the coordinates on the way.
+    pub(crate) fn find(
+        &mut self,
+        [t0, t1]: [f64; 2],
+        noise: f64,
+        mut state: impl FnMut(f64, &mut [f64]),
+    ) -> Option<Singular> {
+        let mut q = vec![0.0; self.mechanism.layout().n_q];
+        let mut at = |t: f64, search: &mut Self| -> Option<f64> {
+            state(t, &mut q);
+            search.mechanism.pose(t, &q, &mut search.s);
+            search.mechanism.c(&mut search.s);
+            search.rows.factor(search.mechanism, &search.s).ok()?;
+            Some(search.rows.relative_pivot())
+        };
+        let time = |k: usize| t0 + (t1 - t0) * (k as f64 / PLACES as f64);
+        let mut frame = Vec::new();
+        let (mut pivots, mut signs) = ([0.0; PLACES + 1], [0.0; PLACES + 1]);
+        for k in 0..=PLACES {
+            pivots[k] = at(time(k), self)?;
+            if k == 0 {
+                self.rows.null_frame(&mut frame);
+            }
+            signs[k] = self.rows.orientation(&frame);
+        }
+        let flip = signs.windows(2).position(|w| w[0] * w[1] < 0.0);
+        let t = match flip {
+            Some(k) => {
+                let (mut low, mut high) = (time(k), time(k + 1));
+                for _ in 0..DIVISIONS {
+                    let middle = 0.5 * (low + high);
+                    at(middle, self)?;
+                    match self.rows.orientation(&frame) * signs[k] > 0.0 {
+                        true => low = middle,
+                        false => high = middle,
+                    }
+                }
+                high
+            }
+            None => {
+                let k = (1..PLACES).min_by(|&a, &b| pivots[a].total_cmp(&pivots[b]))?;
+                let (mut low, mut high) = (time(k - 1), time(k + 1));
+                for _ in 0..DIVISIONS {
+                    let width = GOLDEN * (high - low);
+                    let (left, right) = (high - width, low + width);
+                    match at(left, self)? < at(right, self)? {
+                        true => high = right,
+                        false => low = left,
+                    }
+                }
+                0.5 * (low + high)
+            }
+        };
+        let pivot = at(t, self)?;
+        if flip.is_none() && pivot > noise {
+            return None;
+        }
+        let share = noise.max(2.0 * pivot);
+        let dependent = self.rows.n_dependent(share, self.mechanism, &self.s).ok()?;
+        Some(Singular {
+            t,
+            dependent: dependent.max(1),
+        })
+    }
+
+    /// What is told of it.
+    pub(crate) fn event(&self, singular: Singular) -> Event {
+        let redundancy = self.rows.dropped.len();
+        let Singular { t, dependent } = singular;
+        let (rows, verb) = match dependent {
+            1 => ("row", "depends"),
+            _ => ("rows", "depend"),
+        };
+        Event {
+            time: t,
+            kind: EventKind::SingularPassage,
+            redundancy_before: redundancy,
+            redundancy_after: redundancy + dependent,
+            dropped: self.rows.dropped.clone(),
+            text: format!(
+                "passed a singular configuration: {dependent} more {rows} {verb} on the others for this instant, and the motion went \
+                 on as smoothly as it came. Whether the constraints allow other branches there, `pfaff analyze --along` says."
+            ),
+        }
+    }
+}

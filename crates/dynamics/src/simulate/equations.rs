@@ -1,0 +1,280 @@
+//! The differential equation of a run: y = [q; v], and the work of drives and applied forces where there are any. Steps are
+//! projected; where a rate jumps, so do the velocities.
+
+use std::ops::ControlFlow;
+
+use integrators::{Ode, StepEnd, StepInfo, Tolerance};
+use model::System;
+
+use super::Sample;
+use super::energy::EnergyBalance;
+use crate::error::Trip;
+use crate::events::Event;
+use crate::motion::{Correction, KeptRowMotion, Motion};
+use crate::options::MotionOptions;
+use crate::prepare::Prepared;
+
+/// Nearest approach of the end of a step to a singular configuration, as share of the reference pivots; and in units of the
+/// relative tolerance.
+const NEAREST: f64 = 1e-3;
+const NEAREST_TOLERANCES: f64 = 100.0;
+
+/// Loose tolerances must not keep a motion far from everything.
+const NEAREST_MAX: f64 = 0.1;
+
+/// From pivots of this share of the reference on the stages of a step are moved onto the constraints before they are evaluated:
+/// off them by δ, accelerations are wrong by δ divided by that share.
+const CAREFUL: f64 = 0.1;
+
+/// Singular configurations are foreseen for so many steps like the last one: no method lets steps grow by more.
+const FORESIGHT: f64 = 12.0;
+
+/// Largest relative correction of a step over a singular configuration, as share of the distance at which it ends: other branches are
+/// as far away as that.
+const SMOOTH: f64 = 0.01;
+
+/// The equations of a run with what is noted on the way.
+pub(super) struct Equations<'m> {
+    pub(super) motion: KeptRowMotion<'m>,
+    n_q: usize,
+    n_v: usize,
+    /// Whether y carries the work.
+    works: bool,
+    /// Steps must not end nearer to a singular configuration, but where they have to.
+    nearest: f64,
+    t_end: f64,
+    rtol: f64,
+    energy: EnergyBalance,
+    max_position_residual: f64,
+    max_velocity_residual: f64,
+    min_pivot_ratio: f64,
+    events: Vec<Event>,
+    /// Whether the last accepted step may have passed a singular configuration.
+    is_suspect: bool,
+    /// Whether the stages of the present step are moved onto the constraints.
+    is_careful: bool,
+    /// When the motion is expected to pass a singular configuration.
+    delicate: Option<f64>,
+    /// The state before a projection; a stage on the constraints.
+    before: Vec<f64>,
+    stage: Vec<f64>,
+}
+
+impl<'m> Equations<'m> {
+    pub(super) fn new(
+        motion: KeptRowMotion<'m>,
+        prepared: &Prepared,
+        options: &MotionOptions,
+    ) -> Self {
+        let (q, v) = (&prepared.q, &prepared.v);
+        let mechanism = motion.mechanism();
+        let layout = mechanism.layout();
+        Self {
+            n_q: layout.n_q,
+            n_v: layout.n_v,
+            works: layout.rheonomic || mechanism.has_applied_forces(),
+            nearest: (NEAREST_TOLERANCES * options.rtol).clamp(NEAREST, NEAREST_MAX),
+            t_end: options.t_end,
+            rtol: options.rtol,
+            energy: EnergyBalance::new(mechanism, q, v),
+            max_position_residual: 0.0,
+            max_velocity_residual: 0.0,
+            min_pivot_ratio: f64::INFINITY,
+            events: Vec::new(),
+            is_suspect: false,
+            is_careful: false,
+            delicate: None,
+            before: Vec::new(),
+            stage: Vec::new(),
+            motion,
+        }
+    }
+
+    /// y at the start.
+    pub(super) fn initial_state(&mut self, q: &[f64], v: &[f64]) -> Vec<f64> {
+        let mut y = [q, v].concat();
+        y.extend(self.works.then_some(0.0));
+        self.before = y.clone();
+        self.stage = y.clone();
+        self.is_careful = self.motion.relative_pivot() < CAREFUL;
+        y
+    }
+
+    /// The work is measured, not controlled: its error has no weight. It still counts as a component of the mean, which makes the
+    /// control looser by the factor √((n + 1)/n).
+    pub(super) fn tolerance(&self, options: &MotionOptions) -> Tolerance {
+        if !self.works {
+            return Tolerance::Uniform {
+                rtol: options.rtol,
+                atol: options.atol,
+            };
+        }
+        let mut rtol = vec![options.rtol; self.n_q + self.n_v];
+        let mut atol = vec![options.atol; self.n_q + self.n_v];
+        rtol.push(0.0);
+        atol.push(f64::MAX);
+        Tolerance::PerComponent { rtol, atol }
+    }
+
+    /// Numbers and events of the run so far.
+    pub(super) fn summary(&self) -> super::Summary {
+        super::Summary {
+            max_position_residual: self.max_position_residual,
+            max_velocity_residual: self.max_velocity_residual,
+            energy_balance: self.energy.relative_gap(),
+            min_pivot_ratio: self.min_pivot_ratio,
+            events: self.events.clone(),
+            ..super::Summary::default()
+        }
+    }
+
+    /// Projects a row of output and shows it. At a break time it is the state just before.
+    pub(super) fn show(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        row: &mut impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+    ) -> Result<ControlFlow<()>, Trip> {
+        let t_before = if t > 0.0 && self.is_break(t) {
+            t.next_down()
+        } else {
+            t
+        };
+        let (q, rest) = y.split_at_mut(self.n_q);
+        let found = self.motion.project(t_before, q, &mut rest[..self.n_v])?;
+        self.note(y, found);
+        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+        row(&mut Sample {
+            t,
+            t_before,
+            q,
+            v,
+            motion: &mut self.motion,
+        })
+    }
+
+    /// Whether the last accepted step may have passed a singular configuration.
+    pub(super) fn is_suspect(&self) -> bool {
+        self.is_suspect
+    }
+
+    /// Share of the reference to which a pivot falls that vanishes, as well as this run knows.
+    pub(super) fn passage_noise(&self) -> f64 {
+        self.nearest
+    }
+
+    /// Records what happened.
+    pub(super) fn record(&mut self, event: Event) {
+        self.events.push(event);
+    }
+
+    fn is_break(&self, t: f64) -> bool {
+        let times = &self.motion.mechanism().layout().break_times;
+        times.binary_search_by(|b| b.total_cmp(&t)).is_ok()
+    }
+
+    /// f at a state on the constraints, or as near as a stage comes.
+    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
+        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+        let (qd, rest) = dy.split_at_mut(self.n_q);
+        let (a, work) = rest.split_at_mut(self.n_v);
+        self.motion.mechanism().rate(q, v, qd);
+        self.motion.acceleration(t, q, v, a)?;
+        if let Some(work) = work.first_mut() {
+            *work = self.motion.power(v);
+        }
+        Ok(())
+    }
+
+    /// Notes residuals and energy of a projected state.
+    fn note(&mut self, y: &[f64], found: Correction) {
+        self.max_position_residual = self.max_position_residual.max(found.position_residual);
+        self.max_velocity_residual = self.max_velocity_residual.max(found.velocity_residual);
+        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+        let work = y.get(self.n_q + self.n_v).copied().unwrap_or(0.0);
+        self.energy.note(self.motion.mechanism(), q, v, work);
+    }
+}
+
+impl Ode for Equations<'_> {
+    type Error = Trip;
+
+    fn dim(&self) -> usize {
+        self.n_q + self.n_v + usize::from(self.works)
+    }
+
+    fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
+        if !self.is_careful {
+            return self.derivative(t, y, dy);
+        }
+        let mut stage = std::mem::take(&mut self.stage);
+        stage.copy_from_slice(y);
+        let (q, rest) = stage.split_at_mut(self.n_q);
+        let result = self
+            .motion
+            .approach(t, q, &mut rest[..self.n_v])
+            .and_then(|()| self.derivative(t, &stage, dy));
+        self.stage = stage;
+        result
+    }
+
+    fn end_of_step(
+        &mut self,
+        step: &StepInfo<'_>,
+        y: &mut [f64],
+        dy: &mut [f64],
+    ) -> Result<StepEnd, Trip> {
+        self.before.copy_from_slice(y);
+        // A step has to end at the break times and at the end of the run, wherever that is.
+        let nearest = if step.t == self.t_end || self.is_break(step.t) {
+            0.0
+        } else {
+            self.nearest
+        };
+        let (q, rest) = y.split_at_mut(self.n_q);
+        let v = &mut rest[..self.n_v];
+        let found = self.motion.project_step(step.t_rhs, q, v, nearest)?;
+        let pivot_ratio = self.motion.pivot_ratio();
+        for (before, y) in self.before.iter_mut().zip(&*y) {
+            *before -= y;
+        }
+        let correction = step.norm(&self.before);
+        let is_suspect = self.motion.may_have_passed();
+        if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot() {
+            return Err(self.motion.no_way_over(step.t));
+        }
+        self.derivative(step.t_rhs, y, dy)?;
+        // From here on the step stands.
+        self.is_suspect = is_suspect;
+        self.is_careful = self.motion.relative_pivot() < CAREFUL;
+        self.note(y, found);
+        self.events.extend(self.motion.accept(step.t));
+        self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
+        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+        let now = (step.t, q, v, &dy[self.n_q..self.n_q + self.n_v]);
+        self.delicate = self
+            .motion
+            .foresee(now, step.t + FORESIGHT * (step.t - step.t0));
+        Ok(StepEnd::Projected {
+            correction,
+            evaluations: 1,
+        })
+    }
+
+    fn delicate_time(&self) -> Option<f64> {
+        self.delicate
+    }
+
+    /// Rates that jump make the velocities jump, by an impulse of the constraints.
+    fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trip> {
+        let (q, rest) = y.split_at_mut(self.n_q);
+        let (v, work) = rest.split_at_mut(self.n_v);
+        if let Some(impulse) = self.motion.cross_break(t, q, v)? {
+            if let Some(work) = work.first_mut() {
+                *work += impulse.energy;
+            }
+            self.events.push(impulse.event);
+        }
+        Ok(())
+    }
+}

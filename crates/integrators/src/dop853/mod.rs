@@ -1,0 +1,63 @@
+//! Dormand–Prince 8(5,3): twelve stages, order 8, error estimates of order 5 and 3 combined, dense output of order 6 and 7.
+//!
+//! Source: the program DOP853 of E. Hairer and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I,
+//! 2nd ed., II.5, II.6, II.10.
+
+mod dense;
+mod step;
+mod tableau;
+
+#[cfg(test)]
+mod order_conditions;
+
+use crate::control::{Control, ControlConstants};
+use crate::method::Method;
+use crate::ode::Ode;
+
+/// Dormand–Prince 8(5,3): the method for smooth problems at 1e-6 and below. Order 8; an accepted step costs twelve evaluations, the
+/// derivative at its end included, a rejected one eleven. Dense output of order 6 (local error O(h⁷)) without and of order 7
+/// (local error O(h⁸)) with three extra evaluations in the step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Dop853;
+
+impl<O: Ode> Method<O> for Dop853 {
+    type Stepper = Stages;
+
+    fn stepper(&self, ode: &O) -> Stages {
+        Stages::new(ode.dim())
+    }
+}
+
+/// Those of the program DOP853: no memory of the previous error.
+const CONTROL: ControlConstants = ControlConstants {
+    alpha: 1.0 / 8.0,
+    beta: 0.0,
+    safety: 0.9,
+    min_factor: 0.333,
+    max_factor: 6.0,
+};
+
+/// Stages and scratch; stages 1 and 13 are the derivatives at the ends of the step, kept by the caller.
+#[derive(Debug)]
+pub struct Stages {
+    control: Control,
+    /// Stages 2 to 12 of the last trial.
+    k: [Vec<f64>; 11],
+    /// Stages 14 to 16 of the last prepared step.
+    extra: [Vec<f64>; 3],
+    /// Argument of a stage.
+    y: Vec<f64>,
+}
+
+impl Stages {
+    /// Room for `dim` components.
+    pub(crate) fn new(dim: usize) -> Self {
+        let zeros = || vec![0.0; dim];
+        Self {
+            control: Control::new(CONTROL),
+            k: std::array::from_fn(|_| zeros()),
+            extra: std::array::from_fn(|_| zeros()),
+            y: zeros(),
+        }
+    }
+}

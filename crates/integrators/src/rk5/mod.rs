@@ -1,0 +1,83 @@
+//! Pairs of order 5(4) with seven stages of which the last is the first of the next step: one implementation, two tables.
+
+mod dense;
+mod dopri5;
+mod step;
+mod tsit5;
+
+#[cfg(test)]
+mod order_conditions;
+
+pub use dopri5::Dopri5;
+pub use tsit5::Tsit5;
+
+use crate::control::{Control, ControlConstants};
+use crate::method::Method;
+use crate::ode::Ode;
+use std::marker::PhantomData;
+
+/// The coefficients of a pair.
+pub trait Tableau {
+    /// Nodes of the stages 2 to 7; row sums of `A`.
+    const C: [f64; 6];
+    /// Rows for the arguments of stages 2 to 7. The last row is the new state, too.
+    const A: [[f64; 6]; 6];
+    /// Weights of the estimated error: order 5 minus order 4.
+    const E: [f64; 7];
+    /// Weights of the quartic term of the dense output of order 4, see `dense`.
+    const D: [f64; 7];
+}
+
+impl<O: Ode> Method<O> for Dopri5 {
+    type Stepper = Stages<Self>;
+
+    fn stepper(&self, ode: &O) -> Stages<Self> {
+        Stages::new(ode.dim())
+    }
+}
+
+impl<O: Ode> Method<O> for Tsit5 {
+    type Stepper = Stages<Self>;
+
+    fn stepper(&self, ode: &O) -> Stages<Self> {
+        Stages::new(ode.dim())
+    }
+}
+
+/// For both pairs those of the program DOPRI5 of Hairer and Wanner: α = 1/5 − ¾·β.
+const CONTROL: ControlConstants = ControlConstants {
+    alpha: 0.2 - 0.75 * 0.04,
+    beta: 0.04,
+    safety: 0.9,
+    min_factor: 0.2,
+    max_factor: 10.0,
+};
+
+/// Stages and scratch; the first stage is the derivative at the start of the step, kept by the caller.
+#[derive(Debug)]
+pub struct Stages<T> {
+    control: Control,
+    /// Stages 2 to 7 of the last trial.
+    k: [Vec<f64>; 6],
+    /// f at `NODE_A`, `NODE_B` of the last prepared step.
+    f_a: Vec<f64>,
+    f_b: Vec<f64>,
+    /// Argument of a stage.
+    y: Vec<f64>,
+    tableau: PhantomData<T>,
+}
+
+impl<T> Stages<T> {
+    /// Room for `dim` components.
+    pub(crate) fn new(dim: usize) -> Self {
+        let zeros = || vec![0.0; dim];
+        Self {
+            control: Control::new(CONTROL),
+            k: std::array::from_fn(|_| zeros()),
+            f_a: zeros(),
+            f_b: zeros(),
+            y: zeros(),
+            tableau: PhantomData,
+        }
+    }
+}

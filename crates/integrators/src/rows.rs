@@ -1,0 +1,196 @@
+//! Rows at given output times, as accurate as the accurate dense output and independent of the size of the steps.
+//!
+//! A part for observers, beside events and work of their own; [`crate::sample()`] is the convenience that integrates, too.
+
+use crate::error::IntegrationError;
+use crate::interval::Interval;
+use crate::ode::Ode;
+use crate::options::invalid;
+use crate::step::Step;
+use std::ops::ControlFlow;
+
+/// When rows are wanted.
+#[derive(Debug, Clone, PartialEq)]
+pub enum OutputTimes {
+    /// t0, t0 ± dt, t0 ± 2·dt, … and `t_end` exactly; dt > 0. A multiple of dt that falls within 1e-9·dt of `t_end` gives
+    /// way to it.
+    Every(f64),
+    /// These times inside the interval, ends included, strictly in the order of travel.
+    At(Vec<f64>),
+}
+
+/// The rows of one integration, handed out step by step.
+///
+/// # Examples
+///
+/// Free fall, y = t²: rows at 0, 0.4, 0.8 and 1, and the steps counted on the way.
+///
+/// ```
+/// use integrators::{Dopri5, Function, Interval, Options, OutputTimes, Rows, integrate};
+/// use std::ops::ControlFlow;
+///
+/// let mut ode = Function::new(1, |t, _y: &[f64], dy: &mut [f64]| dy[0] = 2.0 * t);
+/// let (interval, y0) = (Interval::new(0.0, 1.0), [0.0]);
+/// let (mut written, mut steps) = (Vec::new(), 0);
+/// let mut rows = Rows::new::<std::convert::Infallible>(OutputTimes::Every(0.4), &interval)?;
+/// let mut write = |_ode: &mut _, t: f64, y: &mut [f64]| {
+///     written.push((t, y[0]));
+///     ControlFlow::Continue(())
+/// };
+/// let _ = rows.start(&mut ode, &y0, &mut write);
+/// integrate(&Dopri5, &mut ode, &interval, &y0, &Options::default(), |step| {
+///     steps += 1;
+///     rows.emit(step, &mut write).expect("f can be evaluated everywhere")
+/// })?;
+/// assert_eq!(written.iter().map(|row| row.0).collect::<Vec<_>>(), [0.0, 0.4, 0.8, 1.0]);
+/// assert!(written.iter().all(|(t, y)| (y - t * t).abs() < 1e-14));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Rows {
+    times: OutputTimes,
+    interval: Interval<'static>,
+    /// Number of the next row.
+    index: u64,
+    y: Vec<f64>,
+}
+
+impl Rows {
+    /// The rows at `times` of an integration over `interval`.
+    ///
+    /// # Errors
+    ///
+    /// [`IntegrationError::InvalidOption`] for a bad output step, [`IntegrationError::InvalidOutputTime`] for a bad list.
+    pub fn new<E: std::error::Error + 'static>(
+        times: OutputTimes,
+        interval: &Interval<'_>,
+    ) -> Result<Self, IntegrationError<E>> {
+        times.check(interval)?;
+        Ok(Self {
+            times,
+            interval: Interval::new(interval.t0, interval.t_end),
+            index: 0,
+            y: Vec::new(),
+        })
+    }
+
+    /// Calls `row` with the initial state if t0 is among the times. To be called before the integration.
+    pub fn start<O: Ode>(
+        &mut self,
+        ode: &mut O,
+        y0: &[f64],
+        mut row: impl FnMut(&mut O, f64, &mut [f64]) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.y.clear();
+        self.y.extend_from_slice(y0);
+        if self.next() == Some(self.interval.t0) {
+            self.index += 1;
+            row(ode, self.interval.t0, &mut self.y)?;
+        }
+        ControlFlow::Continue(())
+    }
+
+    /// Calls `row` with the problem, the time and the state at all output times up to the end of `step`. What `row` does to the
+    /// state (a projection, say) has no effect on the integration. After `Break` by `row` nothing more is called.
+    ///
+    /// # Errors
+    ///
+    /// [`IntegrationError::OutputFailed`] if an extra evaluation fails; the rows before stand.
+    pub fn emit<O: Ode>(
+        &mut self,
+        step: &mut Step<'_, O>,
+        row: impl FnMut(&mut O, f64, &mut [f64]) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, IntegrationError<O::Error>> {
+        self.emit_until(step.t1(), step, row)
+    }
+
+    /// As [`Rows::emit`], but not beyond `t_stop`, where an event ends the motion.
+    ///
+    /// # Errors
+    ///
+    /// Those of [`Rows::emit`].
+    pub fn emit_until<O: Ode>(
+        &mut self,
+        t_stop: f64,
+        step: &mut Step<'_, O>,
+        mut row: impl FnMut(&mut O, f64, &mut [f64]) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, IntegrationError<O::Error>> {
+        let sign = self.interval.direction();
+        let last = if (t_stop - step.t1()) * sign < 0.0 {
+            t_stop
+        } else {
+            step.t1()
+        };
+        self.y.resize(step.y0().len(), 0.0);
+        while let Some(t) = self.next().filter(|t| (last - t) * sign >= 0.0) {
+            self.index += 1;
+            // Times of steps that were not shown here are passed over.
+            if (t - step.t0()) * sign < 0.0 {
+                continue;
+            }
+            step.write_accurately(t, &mut self.y)
+                .map_err(|cause| IntegrationError::OutputFailed { t, cause })?;
+            if row(step.ode(), t, &mut self.y).is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn next(&self) -> Option<f64> {
+        self.times.get(self.index, &self.interval)
+    }
+}
+
+/// Rows closer to t_end than this part of dt are t_end.
+const SAME_ROW: f64 = 1e-9;
+
+impl OutputTimes {
+    fn check<E: std::error::Error + 'static>(
+        &self,
+        interval: &Interval<'_>,
+    ) -> Result<(), IntegrationError<E>> {
+        match self {
+            Self::Every(dt) if *dt > 0.0 && dt.is_finite() => Ok(()),
+            Self::Every(dt) => Err(invalid("output step", *dt, "a finite positive number")),
+            Self::At(times) => {
+                let (t0, t_end, sign) = (interval.t0, interval.t_end, interval.direction());
+                let is_good = |index: usize, t: f64| {
+                    let after = index == 0 || (t - times[index - 1]) * sign > 0.0;
+                    after && (t - t0) * sign >= 0.0 && (t_end - t) * sign >= 0.0
+                };
+                match times.iter().enumerate().find(|&(i, &t)| !is_good(i, t)) {
+                    None => Ok(()),
+                    Some((index, &t)) => Err(IntegrationError::InvalidOutputTime {
+                        index,
+                        t,
+                        t0,
+                        t_end,
+                    }),
+                }
+            }
+        }
+    }
+
+    /// Row number `index`, if there is one.
+    fn get(&self, index: u64, interval: &Interval<'_>) -> Option<f64> {
+        match self {
+            Self::At(times) => usize::try_from(index)
+                .ok()
+                .and_then(|i| times.get(i))
+                .copied(),
+            Self::Every(dt) => {
+                // A product, not a sum: rounding does not pile up. Time number i counts if i·dt is short of the length.
+                let length = (interval.t_end - interval.t0).abs();
+                let before_end = |i: u64| length - i as f64 * dt > SAME_ROW * dt.min(length);
+                if index == 0 || before_end(index) {
+                    Some(interval.t0 + interval.direction() * (index as f64 * dt))
+                } else if before_end(index - 1) {
+                    Some(interval.t_end)
+                } else {
+                    None
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,31 @@
+//! Straight lines through the points of a table. Where two points have one time the value jumps.
+
+/// Points in the order of time; times may repeat once, but not at the ends.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Lines {
+    times: Vec<f64>,
+    values: Vec<f64>,
+}
+
+impl Lines {
+    /// Through at least two points of different times.
+    pub(super) fn new(times: &[f64], values: &[f64]) -> Self {
+        Self {
+            times: times.to_vec(),
+            values: values.to_vec(),
+        }
+    }
+
+    pub(super) fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// At a point the line that begins there.
+    pub(super) fn jet(&self, t: f64) -> [f64; 3] {
+        let (x, y) = (&self.times, &self.values);
+        let behind = x.partition_point(|&x| x <= t);
+        let k = behind.clamp(1, x.len() - 1);
+        let rate = (y[k] - y[k - 1]) / (x[k] - x[k - 1]);
+        [y[k - 1] + rate * (t - x[k - 1]), rate, 0.0]
+    }
+}
