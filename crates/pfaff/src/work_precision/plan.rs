@@ -27,10 +27,10 @@ impl Curve {
 }
 
 /// Methods that are compared.
-const METHODS: [Method; 1] = [Method::Dopri5];
+const METHODS: [Method; 3] = [Method::Dopri5, Method::Tsit5, Method::Dop853];
 
 /// The explicit method with which treatments are compared.
-const EXPLICIT: Method = Method::Dopri5;
+const EXPLICIT: Method = Method::Dop853;
 
 /// Treatments of redundancy; the first is that of the comparison of methods.
 const FORMULATIONS: [Formulation; 1] = [Formulation::KeptRows];
@@ -38,8 +38,13 @@ const FORMULATIONS: [Formulation; 1] = [Formulation::KeptRows];
 /// Treatments of drift; the first is that of the comparison of methods.
 const STABILISATIONS: [Stabilisation; 1] = [Stabilisation::Projection];
 
+/// Powers of ten, exactly.
+const TOLERANCES: [f64; 11] = [
+    1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13,
+];
+
 /// Methods whose order is high enough for a reference.
-pub(super) const ACCURATE: [Method; 1] = [Method::Dopri5];
+pub(super) const ACCURATE: [Method; 3] = [Method::Dop853, Method::Tsit5, Method::Dopri5];
 
 /// The runs of a comparison, the same for every scene.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,7 +76,7 @@ impl Plan {
         });
         Self {
             curves: curves.collect(),
-            tolerances: (3..=13).map(|k| 0.1_f64.powi(k)).collect(),
+            tolerances: TOLERANCES.to_vec(),
             repetitions: 3,
             seconds: 0.02,
             budget: 10.0,

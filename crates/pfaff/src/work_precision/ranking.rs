@@ -2,8 +2,10 @@
 
 use report::{CurveName, Place, RankingLine, WorkPrecisionRow};
 
-/// Errors that are looked at, as powers of ten.
-const LEVELS: std::ops::RangeInclusive<i32> = 3..=12;
+/// Errors that are looked at.
+const LEVELS: [f64; 10] = [
+    1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12,
+];
 
 /// A run is trusted to reach an error if no tighter one misses it by more than this factor: near singular configurations a loose
 /// run may be right by luck.
@@ -23,8 +25,9 @@ pub(super) fn ranking(rows: &[WorkPrecisionRow], limit: f64) -> Vec<RankingLine>
             curves.push(&row.curve);
         }
     }
-    let levels = LEVELS.map(|k| 10_f64.powi(-k));
-    let levels = levels.filter(|level| limit.is_finite() && *level >= RESOLVED * limit);
+    let levels = LEVELS
+        .into_iter()
+        .filter(|level| limit.is_finite() && *level >= RESOLVED * limit);
     let line = |error: f64| {
         let mut places: Vec<Place> = curves
             .iter()

@@ -18,7 +18,7 @@ const MARGIN: f64 = 18.0;
 /// Room for labels of the vertical axis (px).
 const LABELS: f64 = 44.0;
 /// Room between panels (px).
-const GUTTER: f64 = 26.0;
+const GUTTER: f64 = 30.0;
 /// Height of a panel (px).
 const HEIGHT: f64 = 176.0;
 /// Room above a panel for the name of its scene (px).
@@ -93,6 +93,11 @@ pub fn work_precision(scenes: &[WorkPrecisionScene]) -> String {
         ];
         let vertical = errors(scene);
         for (column, (family, work, unit)) in panels.into_iter().enumerate() {
+            let told = if column == 0 {
+                Unit::Number
+            } else {
+                Unit::Untold
+            };
             let curves = family.curves(scene, work);
             let x = curves.iter().flat_map(|c| c.points.iter().map(|p| p[0]));
             let frame = Frame {
@@ -101,7 +106,7 @@ pub fn work_precision(scenes: &[WorkPrecisionScene]) -> String {
                 width,
                 height: HEIGHT,
                 x: decades(x, unit, 5),
-                y: decades(vertical.clone(), Unit::Number, 6),
+                y: decades(vertical.clone(), told, 6),
             };
             draw(&mut svg, &frame, scene, &curves);
         }

@@ -9,27 +9,35 @@ pub(super) enum Unit {
     Number,
     /// Times (s).
     Seconds,
+    /// The neighbour tells.
+    Untold,
 }
 
-/// An axis over whole decades of these logarithms, with at most `count` + 1 labels.
+/// Room beyond the first and the last value, in decades.
+const MARGIN: f64 = 0.2;
+
+/// An axis over these logarithms with at most `count` + 1 labels at powers of ten, at least two.
 pub(super) fn decades(logarithms: impl IntoIterator<Item = f64>, unit: Unit, count: i32) -> Axis {
     let [low, high] = range(logarithms).unwrap_or([0.0, 1.0]);
-    let (low, high) = (low.floor() as i32, high.ceil() as i32);
-    let high = high.max(low + 1);
-    let step = (high - low + count - 1) / count;
-    let first = low + (-low).rem_euclid(step);
-    let ticks = (first..=high)
-        .step_by(step.max(1) as usize)
-        .map(|power| Tick {
-            value: f64::from(power),
-            label: match unit {
-                Unit::Number => power_of_ten(power),
-                Unit::Seconds => time(power),
-            },
-        });
+    let (mut low, mut high) = (low - MARGIN, high + MARGIN);
+    if high.floor() - low.ceil() < 1.0 {
+        low = low.floor();
+        high = high.ceil().max(low + 1.0);
+    }
+    let (first, last) = (low.ceil() as i32, high.floor() as i32);
+    let step = (last - first + count - 1).div_euclid(count).max(1);
+    let first = first + (-first).rem_euclid(step);
+    let ticks = (first..=last).step_by(step as usize).map(|power| Tick {
+        value: f64::from(power),
+        label: match unit {
+            Unit::Number => power_of_ten(power),
+            Unit::Seconds => time(power),
+            Unit::Untold => String::new(),
+        },
+    });
     Axis {
-        min: f64::from(low),
-        max: f64::from(high),
+        min: low,
+        max: high,
         ticks: ticks.collect(),
         exponent: 0,
     }
@@ -57,13 +65,16 @@ mod tests {
     #[test]
     fn labels_stand_at_multiples_of_their_step() {
         let axis = decades([-12.4, -0.2], Unit::Number, 6);
-        assert_eq!((axis.min, axis.max), (-13.0, 0.0));
-        assert_eq!(labels(&axis), ["10⁻¹²", "10⁻⁹", "10⁻⁶", "10⁻³", "1"]);
+        assert_eq!((axis.min, axis.max), (-12.4 - MARGIN, -0.2 + MARGIN));
+        assert_eq!(
+            labels(&axis),
+            ["10⁻¹²", "10⁻¹⁰", "10⁻⁸", "10⁻⁶", "10⁻⁴", "10⁻²", "1"]
+        );
     }
 
     #[test]
     fn times_have_units() {
-        let axis = decades([-5.5, 0.5], Unit::Seconds, 9);
+        let axis = decades([-6.0, 1.0], Unit::Seconds, 9);
         assert_eq!(
             labels(&axis),
             [
@@ -74,7 +85,7 @@ mod tests {
 
     #[test]
     fn a_single_value_and_none_have_an_axis() {
-        assert_eq!(labels(&decades([2.0], Unit::Number, 4)), ["10²", "10³"]);
+        assert_eq!(labels(&decades([2.5], Unit::Number, 4)), ["10²", "10³"]);
         assert_eq!(labels(&decades([], Unit::Number, 4)), ["1", "10"]);
     }
 }
