@@ -6,10 +6,11 @@ use std::time::Instant;
 
 mod energy;
 mod equations;
+mod passages;
 
 use integrators::{
-    Cause, Dop853, Dopri5, IntegrationError, Interval, Options, Outcome, OutputTimes, Rows, Step,
-    Tsit5, integrate,
+    Cause, Dop853, Dopri5, IntegrationError, Interval, Options, Outcome, OutputTimes, Rows, Tsit5,
+    integrate,
 };
 use model::{Reaction, System};
 
@@ -226,7 +227,7 @@ where
         }
         let mut refused = None;
         let outcome = integrate(method, equations, interval, y0, settings, |step| {
-            note_passage(step);
+            passages::note(step);
             rows.emit(step, &mut show).unwrap_or_else(|error| {
                 refused = Some(error);
                 ControlFlow::Break(())
@@ -236,28 +237,6 @@ where
             *stopped = Some(named(error));
         }
         outcome
-    }
-}
-
-/// Records the singular configuration that a step has passed, if it has.
-fn note_passage(step: &mut Step<'_, Equations<'_>>) {
-    if !step.ode().is_suspect() {
-        return;
-    }
-    let (t0, t1) = (step.t0(), step.t1());
-    let noise = step.ode().passage_noise();
-    let mut search = step.ode().motion.search();
-    let mut y = step.y0().to_vec();
-    // The dense output without further evaluations: its error moves the instant by less than it moves the mechanism.
-    let found = search.find([t0, t1], noise, |t, q| {
-        if step.interpolate(t, &mut y).is_ok() {
-            let n = q.len();
-            q.copy_from_slice(&y[..n]);
-        }
-    });
-    if let Some(singular) = found {
-        let event = search.event(singular);
-        step.ode().record(event);
     }
 }
 

@@ -5,6 +5,21 @@
 //! with one logarithm and one exponential a step.
 //! Not here: why a trial failed (`drive`), the error estimate itself (each method).
 
+/// What the loop asks after each trial: the size of the next one.
+pub trait StepControl {
+    /// Forgets the past, at the start of a leg.
+    fn reset(&mut self);
+
+    /// After an accepted step of size `h` with error norm `error` ≤ 1.
+    fn accept(&mut self, h: f64, error: f64) -> f64;
+
+    /// After a trial of size `h` with error norm `error` > 1, possibly infinite.
+    fn reject(&mut self, h: f64, error: f64) -> f64;
+
+    /// After a trial of size `h` that gave no error estimate or was not wanted; `factor` is what the loop proposes.
+    fn shorten(&mut self, h: f64, factor: f64) -> f64;
+}
+
 /// Constants of the controller, chosen by each method.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ControlConstants {
@@ -25,7 +40,7 @@ const LOG_ERROR_FLOOR: f64 = -9.210_340_371_976_182;
 
 /// A PI controller and its memory.
 #[derive(Debug, Clone)]
-pub struct Control {
+pub(crate) struct Control {
     constants: ControlConstants,
     /// ln err_old.
     log_previous_error: f64,
@@ -40,14 +55,15 @@ impl Control {
             after_rejection: false,
         }
     }
+}
 
-    /// Forgets the past, for a restart.
-    pub(crate) fn reset(&mut self) {
+impl StepControl for Control {
+    fn reset(&mut self) {
         *self = Self::new(self.constants);
     }
 
-    /// Next step size after an accepted step of size `h` with error norm `error` ≤ 1; does not grow right after a rejection.
-    pub(crate) fn accept(&mut self, h: f64, error: f64) -> f64 {
+    /// Does not grow right after a rejection.
+    fn accept(&mut self, h: f64, error: f64) -> f64 {
         let c = self.constants;
         // ln 0 = −∞ gives the factor +∞, cut to the limit.
         let log_error = error.ln();
@@ -62,15 +78,13 @@ impl Control {
         h * factor.clamp(c.min_factor, limit)
     }
 
-    /// Next step size after a trial of size `h` with error norm `error` > 1, possibly infinite.
-    pub(crate) fn reject(&mut self, h: f64, error: f64) -> f64 {
+    fn reject(&mut self, h: f64, error: f64) -> f64 {
         let c = self.constants;
         self.after_rejection = true;
         h * (c.safety * error.powf(-c.alpha)).max(c.min_factor)
     }
 
-    /// Next step size after a trial that gave no error estimate.
-    pub(crate) fn shorten(&mut self, h: f64, factor: f64) -> f64 {
+    fn shorten(&mut self, h: f64, factor: f64) -> f64 {
         self.after_rejection = true;
         h * factor
     }

@@ -16,6 +16,7 @@
 //! | `combine` | sums of stages |
 //! | `rk5` | Dormand–Prince 5(4) and Tsitouras 5(4): `dopri5` and `tsit5` (tables), `step`, `dense` |
 //! | `dop853` | Dormand–Prince 8(5,3): `tableau`, `step`, `dense` |
+//! | `gbs` | extrapolated midpoint rule: `sequence`, `step`, `order`, `dense` |
 
 #![forbid(unsafe_code)]
 
@@ -25,6 +26,7 @@ mod dop853;
 mod drive;
 mod error;
 mod events;
+mod gbs;
 mod interval;
 mod method;
 mod ode;
@@ -43,6 +45,7 @@ mod trees;
 pub use dop853::Dop853;
 pub use error::{Cause, Failure, IntegrationError};
 pub use events::{Crossing, Crossings, Direction, integrate_until};
+pub use gbs::Gbs;
 pub use interval::Interval;
 pub use method::{End, Method, Outcome, integrate};
 pub use ode::{Function, Ode, StepEnd, StepInfo};

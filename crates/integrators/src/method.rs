@@ -1,6 +1,6 @@
 //! What a method is, and what it has to provide for the shared loop.
 
-use crate::control::Control;
+use crate::control::StepControl;
 use crate::drive::drive;
 use crate::error::{Cause, Failure};
 use crate::interval::{Interval, Leg};
@@ -175,7 +175,7 @@ pub trait Stepper<O: Ode>: Dense<O> {
     }
 
     /// The controller of the step size.
-    fn control(&mut self) -> &mut Control;
+    fn control(&mut self) -> &mut dyn StepControl;
 
     /// Computes the stages and the new state `y1`.
     fn trial(

@@ -82,6 +82,17 @@ impl Tolerance {
         }
     }
 
+    /// The smallest relative part that is not zero; 0 if all are.
+    pub(crate) fn relative(&self) -> f64 {
+        match self {
+            Self::Uniform { rtol, .. } => *rtol,
+            Self::PerComponent { rtol, .. } => {
+                let smallest = rtol.iter().copied().filter(|&r| r > 0.0);
+                smallest.min_by(f64::total_cmp).unwrap_or(0.0)
+            }
+        }
+    }
+
     fn check<E: Error + 'static>(&self, dim: usize) -> Result<(), IntegrationError<E>> {
         match self {
             Self::Uniform { rtol, atol } => check_pair(*rtol, *atol),

@@ -86,7 +86,10 @@ impl Search<'_> {
             state(t, &mut q);
             search.mechanism.pose(t, &q, &mut search.s);
             search.mechanism.c(&mut search.s);
-            search.rows.factor(search.mechanism, &search.s).ok()?;
+            search
+                .rows
+                .factor_above(0.0, search.mechanism, &search.s)
+                .ok()?;
             Some(search.rows.relative_pivot())
         };
         let time = |k: usize| t0 + (t1 - t0) * (k as f64 / PLACES as f64);
@@ -132,15 +135,17 @@ impl Search<'_> {
             return None;
         }
         let share = noise.max(2.0 * pivot);
-        let dependent = self.rows.n_dependent(share, self.mechanism, &self.s).ok()?;
+        self.rows
+            .factor_above(share, self.mechanism, &self.s)
+            .ok()?;
         Some(Singular {
             t,
-            dependent: dependent.max(1),
+            dependent: self.rows.n_left_out().max(1),
         })
     }
 
-    /// What is told of it.
-    pub(crate) fn event(&self, singular: Singular) -> Event {
+    /// What is told of it; `uniqueness` says in words whether the motion is unique there.
+    pub(crate) fn event(&self, singular: Singular, uniqueness: &str) -> Event {
         let redundancy = self.rows.dropped.len();
         let Singular { t, dependent } = singular;
         let (rows, verb) = match dependent {
@@ -154,8 +159,8 @@ impl Search<'_> {
             redundancy_after: redundancy + dependent,
             dropped: self.rows.dropped.clone(),
             text: format!(
-                "passed a singular configuration: {dependent} more {rows} {verb} on the others for this instant, and the motion went \
-                 on as smoothly as it came. Whether the constraints allow other branches there, `pfaff analyze --along` says."
+                "passed a singular configuration, where {dependent} more {rows} {verb} on the others for an instant: {uniqueness}. \
+                 The run went on as smoothly as it came."
             ),
         }
     }

@@ -64,8 +64,13 @@ impl KeptRows {
         }
     }
 
-    /// Leaves out rows whose pivot is below this share of the reference.
-    fn factor_above(&mut self, share: f64, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
+    /// As [`KeptRows::factor`], leaving out rows whose pivot is below this share of the reference.
+    pub(super) fn factor_above(
+        &mut self,
+        share: f64,
+        mechanism: &Mechanism,
+        s: &Scratch,
+    ) -> Result<(), Trip> {
         for (k, &i) in self.kept.iter().enumerate() {
             mechanism.layout().scatter_row(s, i, self.c.row_mut(k));
         }
@@ -84,17 +89,6 @@ impl KeptRows {
     /// Rows of the last factorisation that are dependent for an instant and were left out: their number.
     pub(super) fn n_left_out(&self) -> usize {
         self.saddle.n_left_out()
-    }
-
-    /// How many rows have pivots below this share of the reference.
-    pub(super) fn n_dependent(
-        &mut self,
-        share: f64,
-        mechanism: &Mechanism,
-        s: &Scratch,
-    ) -> Result<usize, Trip> {
-        self.factor_above(share, mechanism, s)?;
-        Ok(self.saddle.n_left_out())
     }
 
     /// Whether the last factorisation uses the k-th kept row.

@@ -51,6 +51,8 @@ pub(super) struct Equations<'m> {
     events: Vec<Event>,
     /// Whether the last accepted step may have passed a singular configuration.
     is_suspect: bool,
+    /// By the number of dependent rows, whether the motion is unique in a passage.
+    uniqueness: Vec<(usize, String)>,
     /// Whether the stages of the present step are moved onto the constraints.
     is_careful: bool,
     /// When the motion is expected to pass a singular configuration.
@@ -82,6 +84,7 @@ impl<'m> Equations<'m> {
             min_pivot_ratio: f64::INFINITY,
             events: Vec::new(),
             is_suspect: false,
+            uniqueness: Vec::new(),
             is_careful: false,
             delicate: None,
             before: Vec::new(),
@@ -163,6 +166,22 @@ impl<'m> Equations<'m> {
         self.nearest
     }
 
+    /// What is known of passages where so many rows are dependent.
+    pub(super) fn uniqueness_of(&self, dependent: usize) -> Option<&str> {
+        let known = self.uniqueness.iter().find(|(d, _)| *d == dependent);
+        known.map(|(_, words)| words.as_str())
+    }
+
+    /// Keeps it.
+    pub(super) fn remember_uniqueness(&mut self, dependent: usize, words: String) {
+        self.uniqueness.push((dependent, words));
+    }
+
+    /// Numbers of coordinates and velocities.
+    pub(super) fn sizes(&self) -> (usize, usize) {
+        (self.n_q, self.n_v)
+    }
+
     /// Records what happened.
     pub(super) fn record(&mut self, event: Event) {
         self.events.push(event);
@@ -240,7 +259,8 @@ impl Ode for Equations<'_> {
         }
         let correction = step.norm(&self.before);
         let is_suspect = self.motion.may_have_passed();
-        if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot() {
+        if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot().max(NEAREST)
+        {
             return Err(self.motion.no_way_over(step.t));
         }
         self.derivative(step.t_rhs, y, dy)?;

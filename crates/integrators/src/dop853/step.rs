@@ -3,7 +3,7 @@
 use super::Stages;
 use super::tableau::{A, C, E3, E5};
 use crate::combine::combine;
-use crate::control::Control;
+use crate::control::StepControl;
 use crate::drive::evaluate;
 use crate::error::Cause;
 use crate::method::{Start, Stepper, Trial, widest_gap};
@@ -19,7 +19,7 @@ impl<O: Ode> Stepper<O> for Stages {
         widest_gap(&C)
     }
 
-    fn control(&mut self) -> &mut Control {
+    fn control(&mut self) -> &mut dyn StepControl {
         &mut self.control
     }
 

@@ -2,7 +2,7 @@
 
 use super::{Stages, Tableau};
 use crate::combine::combine;
-use crate::control::Control;
+use crate::control::StepControl;
 use crate::drive::evaluate;
 use crate::error::Cause;
 use crate::method::{Start, Stepper, Trial, widest_gap};
@@ -18,7 +18,7 @@ impl<O: Ode, T: Tableau> Stepper<O> for Stages<T> {
         widest_gap(&T::C)
     }
 
-    fn control(&mut self) -> &mut Control {
+    fn control(&mut self) -> &mut dyn StepControl {
         &mut self.control
     }
 

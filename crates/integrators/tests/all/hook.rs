@@ -2,7 +2,8 @@
 
 use crate::problems::{WEIGHT, distance, fixed_step, observed_orders};
 use integrators::{
-    Cause, Dopri5, IntegrationError, Interval, Ode, Options, Outcome, StepEnd, StepInfo, integrate,
+    Cause, Dop853, Dopri5, Gbs, IntegrationError, Interval, Method, Ode, Options, Outcome, StepEnd,
+    StepInfo, Tsit5, integrate,
 };
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -108,38 +109,38 @@ fn projected_steps_turn_by_the_angle_of_the_stability_function() {
     );
 }
 
-/// The largest gap of value and slope of the dense outputs at step ends, by one-sided differences inside the steps.
-#[test]
-fn dense_output_passes_smoothly_through_projected_states() {
+/// Value and slope of the dense outputs at step ends, by one-sided differences inside steps of size h, with large corrections.
+fn check_smoothness(name: &str, method: &impl Method<Circle>, h: f64) {
     let mut ode = Circle {
         limit: f64::INFINITY,
     };
-    let options = fixed_step(1.25); // large corrections, (1/600 − 1/720)·h⁶ ≈ 1e-3
     let mut y = [[0.0; 2]; 2];
+    let interval = Interval::new(0.0, 8.0 * h);
     let end = integrate(
-        &Dopri5,
+        method,
         &mut ode,
-        &Interval::new(0.0, 10.0),
+        &interval,
         &[1.0, 0.0],
-        &options,
+        &fixed_step(h),
         |step| {
             let small = 1e-6 * (step.t1() - step.t0());
             let (start, end) = (step.t0() + small, step.t1() - small);
-            for accurate in 0..2 {
-                if accurate == 0 {
-                    step.interpolate(start, &mut y[0]).expect("inside");
-                    step.interpolate(end, &mut y[1]).expect("inside");
-                } else {
-                    step.interpolate_accurately(start, &mut y[0])
-                        .expect("inside");
-                    step.interpolate_accurately(end, &mut y[1]).expect("inside");
+            for accurate in [false, true] {
+                for (t, y) in [start, end].into_iter().zip(&mut y) {
+                    if accurate {
+                        step.interpolate_accurately(t, y).expect("inside");
+                    } else {
+                        step.interpolate(t, y).expect("inside");
+                    }
                 }
                 for i in 0..2 {
                     let slope_0 = (y[0][i] - step.y0()[i]) / (start - step.t0());
                     let slope_1 = (step.y1()[i] - y[1][i]) / (step.t1() - end);
-                    // Differences over 1e-6 of a step: truncation 1e-6, rounding 1e-16/1e-6.
-                    assert!((slope_0 - step.f0()[i]).abs() < 1e-5);
-                    assert!((slope_1 - step.f1()[i]).abs() < 1e-5);
+                    // Differences over 1e-6 of a step: truncation some 1e-6, rounding 1e-16/1e-6.
+                    let gap = (slope_0 - step.f0()[i])
+                        .abs()
+                        .max((slope_1 - step.f1()[i]).abs());
+                    assert!(gap < 2e-5, "{name}, accurate: {accurate}: {gap:e}");
                 }
             }
             for (t, ends) in [(step.t0(), step.y0()), (step.t1(), step.y1())] {
@@ -152,11 +153,47 @@ fn dense_output_passes_smoothly_through_projected_states() {
     )
     .expect("smooth problem");
     // Otherwise the slopes would agree without any care.
-    assert!(
-        WEIGHT * end.statistics.largest_correction > 1e-4,
-        "{:?}",
-        end.statistics
-    );
+    let correction = WEIGHT * end.statistics.largest_correction;
+    assert!(correction > 1e-4, "{name}: {correction:e}");
+}
+
+#[test]
+fn dense_output_passes_smoothly_through_projected_states() {
+    check_smoothness("dopri5", &Dopri5, 1.25);
+    check_smoothness("tsit5", &Tsit5, 1.25);
+    check_smoothness("dop853", &Dop853, 2.5);
+    check_smoothness("gbs", &Gbs, 1.5);
+}
+
+/// Twenty units of time on the circle with each method; `evaluations` of a trial, without the one of the hook.
+#[test]
+fn all_methods_stay_on_the_circle() {
+    fn check(name: &str, method: &impl Method<Circle>) {
+        let mut ode = Circle {
+            limit: f64::INFINITY,
+        };
+        let options = Options::with_tolerance(1e-9, 1e-9);
+        let interval = Interval::new(0.0, 20.0);
+        let end = integrate(method, &mut ode, &interval, &[1.0, 0.0], &options, |step| {
+            let (y1, f1) = (step.y1(), step.f1());
+            assert!((y1[0].hypot(y1[1]) - 1.0).abs() < ON_CIRCLE);
+            assert_eq!(f1, [y1[1], -y1[0]]);
+            ControlFlow::Continue(())
+        })
+        .expect("smooth problem");
+        let s = end.statistics;
+        assert_eq!(
+            (s.projections, s.hook_evaluations),
+            (s.accepted, s.accepted),
+            "{name}"
+        );
+        let error = distance(&end.y, &[20.0_f64.cos(), -20.0_f64.sin()]);
+        assert!(error < 1e-7, "{name}: {error:e}, {s:?}");
+    }
+    check("dopri5", &Dopri5);
+    check("tsit5", &Tsit5);
+    check("dop853", &Dop853);
+    check("gbs", &Gbs);
 }
 
 #[test]

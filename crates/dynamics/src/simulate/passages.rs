@@ -1,0 +1,67 @@
+//! Records the singular configurations that the steps of a run have passed: when, by how many rows the rank drops, and whether the
+//! motion is unique there.
+
+use integrators::Step;
+use solvability::{PassageKind, State, along_motion};
+
+use super::equations::Equations;
+
+/// States of a step by which the passage is judged.
+const STATES: usize = 8;
+
+/// Looks for a singular configuration in an accepted step, if it is suspect.
+pub(super) fn note(step: &mut Step<'_, Equations<'_>>) {
+    if !step.ode().is_suspect() {
+        return;
+    }
+    let (t0, t1) = (step.t0(), step.t1());
+    let noise = step.ode().passage_noise();
+    let mut search = step.ode().motion.search();
+    let mut y = step.y0().to_vec();
+    let found = search.find([t0, t1], noise, |t, q| {
+        if step.interpolate_accurately(t, &mut y).is_ok() {
+            let n = q.len();
+            q.copy_from_slice(&y[..n]);
+        }
+    });
+    let Some(singular) = found else {
+        return;
+    };
+    // Passages of one kind are of one kind also later.
+    if step.ode().uniqueness_of(singular.dependent).is_none() {
+        let words =
+            judge(step).unwrap_or_else(|| "whether it is unique there is not decided".into());
+        step.ode().remember_uniqueness(singular.dependent, words);
+    }
+    let words = step.ode().uniqueness_of(singular.dependent).unwrap_or("");
+    let event = search.event(singular, words);
+    step.ode().record(event);
+}
+
+/// What second order says of the passage within a step.
+fn judge(step: &mut Step<'_, Equations<'_>>) -> Option<String> {
+    let mechanism = step.ode().motion.mechanism();
+    let (n_q, n_v) = step.ode().sizes();
+    let (t0, t1) = (step.t0(), step.t1());
+    let times: Vec<f64> = (0..=STATES)
+        .map(|k| t0 + (t1 - t0) * (k as f64 / STATES as f64))
+        .collect();
+    let mut y = step.y0().to_vec();
+    let along = along_motion(
+        mechanism,
+        |t| {
+            // Outside the step nothing is asked for.
+            let _ = step.interpolate_accurately(t, &mut y);
+            State {
+                q: y[..n_q].to_vec(),
+                v: y[n_q..n_q + n_v].to_vec(),
+            }
+        },
+        &times,
+    )
+    .ok()?;
+    along.passages.iter().find_map(|p| match &p.kind {
+        PassageKind::RankDrops { continuation, .. } => Some(continuation.to_string()),
+        _ => None,
+    })
+}
