@@ -8,6 +8,7 @@ mod choices;
 mod deletions;
 mod exact_oracle;
 mod existence;
+mod formulations;
 mod generic;
 mod granularity;
 mod invariance;

@@ -112,6 +112,19 @@ pub enum Trip {
         /// Why.
         what: String,
     },
+    /// Proximal iterations do not reach their tolerance, also after a new tuning.
+    #[error(
+        "at t = {time} s proximal iterations still change accelerations by {share:.1e} of their size, more than {allowed:.1e}: \
+         the constraints are too nearly dependent for this formulation; use kept-rows or minimum-norm"
+    )]
+    Unsettled {
+        /// When.
+        time: f64,
+        /// What the last iteration changed.
+        share: f64,
+        /// What is allowed.
+        allowed: f64,
+    },
     /// The saddle equations were refused for another reason.
     #[error("at t = {time} s: {source}")]
     Saddle {
@@ -135,6 +148,14 @@ pub enum MotionError {
         value: f64,
         /// What is needed.
         expected: &'static str,
+    },
+    /// Rows to drop where none are.
+    #[error(
+        "rows are dropped, but the formulation {formulation} uses all rows: choose kept-rows, or drop none"
+    )]
+    NothingToDrop {
+        /// The formulation.
+        formulation: &'static str,
     },
     /// No consistent start.
     #[error(transparent)]
@@ -182,7 +203,7 @@ impl MotionError {
                 smallest_singular_value,
                 required,
             } => format!(
-                "these rows cannot be dropped: what is kept is dependent (smallest singular value \
+                "at t = 0 s these rows cannot be dropped: what is kept is dependent (smallest singular value \
                  {smallest_singular_value:.3e}, need {required:.3e}). `pfaff analyze` lists the dependent sets; drop \
                  one row of each"
             ),

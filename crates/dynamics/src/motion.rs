@@ -1,4 +1,4 @@
-//! The solved equations of motion on kept rows.
+//! The solved equations of motion on kept rows, or with all rows where the formulation says so.
 //!
 //! The rank is never re-decided at a stage, where the state is off the constraints by δ and a singular value that is
 //! exactly zero reads as about δ. The dropped rows are only monitored, at accepted steps: their residual after
@@ -9,25 +9,29 @@
 //! Positions and velocities have rows of their own. A holonomic row may be dropped because knife edges imply its
 //! velocity; nothing implies its position, and without it the configuration would drift.
 
+mod all_rows;
 mod impulse;
 mod locate;
 mod passage;
 mod project;
 mod review;
 mod rows;
+mod stabilise;
 
+use linalg::ProximalTuning;
 use model::{Mechanism, Scratch, System};
 
 use crate::error::Trip;
 use crate::events::Event;
-use crate::options::RowChoice;
+use crate::options::{MotionOptions, RowChoice, Stabilisation};
 use crate::prepare::Prepared;
+use all_rows::AllRows;
 use passage::Passage;
 use rows::KeptRows;
 
 /// Equations solved for what moves.
 pub trait Motion {
-    /// `v̇` from `M·v̇ + C_Kᵀ·λ_K = Q`, `C_K·v̇ = Γ_K`.
+    /// `v̇` from `M·v̇ + C_Kᵀ·λ_K = Q`, `C_K·v̇ = Γ_K`, or the same with all rows.
     ///
     /// # Errors
     /// If the equations have no (unique) solution here.
@@ -39,8 +43,8 @@ pub trait Motion {
     /// If that fails, or a dropped row is violated.
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, Trip>;
 
-    /// Multipliers of all rows; those of dropped rows are zero by decree. NaN where the kept rows are dependent at
-    /// just this instant, so that no multipliers belong to them.
+    /// Multipliers of all rows as the formulation chooses them. On kept rows those of dropped rows are zero by decree, and NaN where
+    /// the kept rows are dependent at just this instant, so that no multipliers belong to them.
     ///
     /// # Errors
     /// As [`Motion::acceleration`].
@@ -59,7 +63,7 @@ pub struct Correction {
     pub velocity_residual: f64,
 }
 
-/// A mechanism on kept rows. All storage is made here; evaluations allocate nothing.
+/// A mechanism on kept rows. All storage is made here; accelerations and projections allocate nothing.
 pub struct KeptRowMotion<'a> {
     mechanism: &'a Mechanism,
     s: Scratch,
@@ -72,6 +76,9 @@ pub struct KeptRowMotion<'a> {
     aside: Option<KeptRows>,
     /// Independent rows of Φq.
     position: KeptRows,
+    /// All rows, where accelerations and reactions are theirs.
+    all_rows: Option<AllRows>,
+    stabilisation: Stabilisation,
     /// Whether a singular configuration is passed.
     passage: Passage,
     /// What happened at the last accepted steps and has not been told.
@@ -83,11 +90,28 @@ pub struct KeptRowMotion<'a> {
 }
 
 impl<'a> KeptRowMotion<'a> {
-    /// The motion of a prepared mechanism.
+    /// The motion of a prepared mechanism on kept rows, with projection.
     ///
     /// # Errors
     /// If more rows are kept than there are velocities.
     pub fn new(prepared: &'a Prepared) -> Result<Self, Trip> {
+        Self::kept(prepared, None, Stabilisation::Projection)
+    }
+
+    /// The motion of a prepared mechanism with the formulation, stabilisation and relative tolerance of a run.
+    ///
+    /// # Errors
+    /// As [`KeptRowMotion::new`]; also if the formulation has no solution at the start.
+    pub fn with(prepared: &'a Prepared, options: &MotionOptions) -> Result<Self, Trip> {
+        let all_rows = AllRows::new(prepared, options.formulation, options.rtol)?;
+        Self::kept(prepared, all_rows, options.stabilisation)
+    }
+
+    fn kept(
+        prepared: &'a Prepared,
+        all_rows: Option<AllRows>,
+        stabilisation: Stabilisation,
+    ) -> Result<Self, Trip> {
         let n = prepared.mechanism.layout().n_v;
         let rows = |d: &linalg::RankDecision| {
             KeptRows::new(n, &d.kept, &d.dropped)
@@ -101,6 +125,8 @@ impl<'a> KeptRowMotion<'a> {
             velocity: rows(&prepared.decision)?,
             aside: None,
             position: rows(&prepared.position_decision)?,
+            all_rows,
+            stabilisation,
             passage: Passage::default(),
             pending: None,
             delta: vec![0.0; n],
@@ -120,6 +146,12 @@ impl<'a> KeptRowMotion<'a> {
         &self.s
     }
 
+    /// μ and the number of proximal iterations, where accelerations come from them.
+    #[must_use]
+    pub fn proximal_tuning(&self) -> Option<ProximalTuning> {
+        self.all_rows.as_ref().and_then(AllRows::proximal_tuning)
+    }
+
     /// Smallest pivot of the last factorisation relative to its row: small near singular configurations.
     #[must_use]
     pub fn pivot_ratio(&self) -> f64 {
@@ -135,13 +167,14 @@ impl<'a> KeptRowMotion<'a> {
     /// potential and is not counted.
     pub(crate) fn power(&mut self, v: &[f64]) -> f64 {
         self.evaluate_b();
-        let rows = &self.velocity;
-        let constraints: f64 = rows
-            .kept
-            .iter()
-            .zip(&rows.lambda)
-            .map(|(&i, l)| -l * self.s.b[i])
-            .sum();
+        let b = &self.s.b;
+        let constraints: f64 = match &self.all_rows {
+            Some(all) => all.lambda.iter().zip(b).map(|(l, b)| -l * b).sum(),
+            None => {
+                let rows = self.velocity.kept.iter().zip(&self.velocity.lambda);
+                rows.map(|(&i, l)| -l * b[i]).sum()
+            }
+        };
         self.mechanism.applied_power(&self.s.force, v) + constraints
     }
 
@@ -152,8 +185,9 @@ impl<'a> KeptRowMotion<'a> {
         }
     }
 
-    /// Solves for accelerations and multipliers of the kept rows.
-    fn solve_on_kept(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Trip> {
+    /// Solves for accelerations and multipliers. The kept rows are factored whatever the formulation: they tell how near a singular
+    /// configuration is.
+    fn solve(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Trip> {
         let Self {
             mechanism,
             s,
@@ -168,16 +202,56 @@ impl<'a> KeptRowMotion<'a> {
         mechanism.twist(v, s);
         mechanism.gamma(s);
         mechanism.force(s);
+        self.pull_back(v);
+        let Self {
+            mechanism,
+            s,
+            velocity,
+            all_rows,
+            ..
+        } = self;
+        if let Some(all) = all_rows {
+            return all.solve(mechanism, s, a);
+        }
         for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
             *rhs = s.gamma[i];
         }
         velocity.solve(mechanism, s, &s.force, a)
     }
+
+    fn multipliers_of_all(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<(), Trip> {
+        let mut a = std::mem::take(&mut self.delta);
+        let solved = self.solve(t, q, v, &mut a);
+        self.delta = a;
+        solved?;
+        if let Some(all) = &mut self.all_rows {
+            all.choose(self.mechanism, &self.s);
+            lambda.copy_from_slice(&all.lambda);
+        }
+        Ok(())
+    }
+
+    /// Makes sure that the acceleration just evaluated, at a state on the constraints, is as good as asked for.
+    ///
+    /// # Errors
+    /// [`Trip::Unsettled`] if it cannot be.
+    pub(crate) fn review_acceleration(&mut self, a: &mut [f64]) -> Result<(), Trip> {
+        match &mut self.all_rows {
+            Some(all) => all.review(self.mechanism, &self.s, a),
+            None => Ok(()),
+        }
+    }
 }
 
 impl Motion for KeptRowMotion<'_> {
     fn acceleration(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Trip> {
-        self.solve_on_kept(t, q, v, a)
+        self.solve(t, q, v, a)
     }
 
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, Trip> {
@@ -192,9 +266,12 @@ impl Motion for KeptRowMotion<'_> {
         v: &[f64],
         lambda: &mut [f64],
     ) -> Result<(), Trip> {
+        if self.all_rows.is_some() {
+            return self.multipliers_of_all(t, q, v, lambda);
+        }
         self.swap_aside();
         let mut a = std::mem::take(&mut self.delta);
-        let solved = self.solve_on_kept(t, q, v, &mut a);
+        let solved = self.solve(t, q, v, &mut a);
         self.delta = a;
         let left_out = self.velocity.n_left_out();
         lambda.fill(0.0);

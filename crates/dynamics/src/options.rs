@@ -6,8 +6,10 @@ use crate::error::MotionError;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
-    /// Dormand–Prince 5(4), the method of MATLAB's `ode45`.
+    /// The best one for the scene.
     #[default]
+    Auto,
+    /// Dormand–Prince 5(4), the method of MATLAB's `ode45`.
     Dopri5,
     /// Tsitouras 5(4).
     Tsit5,
@@ -16,51 +18,104 @@ pub enum Method {
 }
 
 impl Method {
+    /// All that can be asked for.
+    pub const ALL: &[Self] = &[Self::Auto, Self::Dopri5, Self::Dop853, Self::Tsit5];
+
     /// Its name in scenes and results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
+            Self::Auto => "auto",
             Self::Dopri5 => "dopri5",
             Self::Tsit5 => "tsit5",
             Self::Dop853 => "dop853",
         }
     }
+
+    /// The integrator that a run uses.
+    #[must_use]
+    pub fn chosen(self) -> Self {
+        match self {
+            Self::Auto => Self::Dopri5,
+            method => method,
+        }
+    }
 }
 
-/// How redundant rows are dealt with.
+/// How redundant rows are dealt with. The motion is the same; reactions that are not unique are not.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Formulation {
     /// r independent rows are kept, the others only monitored.
     #[default]
     KeptRows,
+    /// All rows by a complete orthogonal decomposition of locked rank; of all reactions those with the least
+    /// `Σ F² + T²` (N, N·m).
+    MinimumNorm,
+    /// All rows by proximal iterations, tuned once to the relative tolerance of the run.
+    Proximal,
 }
 
 impl Formulation {
+    /// All that can be asked for.
+    pub const ALL: &[Self] = &[Self::KeptRows, Self::MinimumNorm, Self::Proximal];
+
     /// Its name in scenes and results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::KeptRows => "kept-rows",
+            Self::MinimumNorm => "minimum-norm",
+            Self::Proximal => "proximal",
+        }
+    }
+
+    /// Whether reactions in dropped rows are zero by decree.
+    #[must_use]
+    pub fn drops_rows(self) -> bool {
+        match self {
+            Self::KeptRows => true,
+            Self::MinimumNorm | Self::Proximal => false,
         }
     }
 }
 
 /// How drift off the constraints is prevented.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub enum Stabilisation {
     /// Position and velocity are projected in the mass metric after each step.
     #[default]
     Projection,
+    /// Accelerations pull back what has drifted: `Γ − 2α·(C·v − b) − β²·Φ`, and `Γ − α·(C·v − b)` for nonholonomic rows. Nothing is projected;
+    /// residuals show what is left.
+    Baumgarte {
+        /// α (1/s)
+        alpha: f64,
+        /// β (1/s)
+        beta: f64,
+    },
+    /// None. Residuals show the drift.
+    None,
 }
 
 impl Stabilisation {
+    /// Baumgarte's method with the gains that are used where none are given.
+    pub const BAUMGARTE: Self = Self::Baumgarte {
+        alpha: 5.0,
+        beta: 5.0,
+    };
+
+    /// All that can be asked for, with the usual gains.
+    pub const ALL: &[Self] = &[Self::Projection, Self::BAUMGARTE, Self::None];
+
     /// Its name in scenes and results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Projection => "projection",
+            Self::Baumgarte { .. } => "baumgarte",
+            Self::None => "none",
         }
     }
 }
@@ -119,10 +174,11 @@ impl MotionOptions {
         }
     }
 
-    /// Whether these numbers can be those of a run.
+    /// Whether these options can be those of a run.
     ///
     /// # Errors
-    /// [`MotionError::Option`]: one is not finite or out of range.
+    /// - [`MotionError::Option`]: one is not finite or out of range.
+    /// - [`MotionError::NothingToDrop`]: rows are dropped, but the formulation uses all.
     pub fn check(&self) -> Result<(), MotionError> {
         let numbers = [
             ("t_end", self.t_end, self.t_end >= 0.0, "a finite time ≥ 0"),
@@ -135,7 +191,19 @@ impl MotionOptions {
             ("rtol", self.rtol, self.rtol > 0.0, "a number > 0"),
             ("atol", self.atol, self.atol > 0.0, "a number > 0"),
         ];
-        for (name, value, right, expected) in numbers {
+        let gains = match self.stabilisation {
+            Stabilisation::Baumgarte { alpha, beta } => [alpha, beta],
+            Stabilisation::Projection | Stabilisation::None => [0.0; 2],
+        };
+        let gains = gains.map(|gain| {
+            (
+                "a gain of baumgarte",
+                gain,
+                gain >= 0.0,
+                "a number ≥ 0 (1/s)",
+            )
+        });
+        for (name, value, right, expected) in numbers.into_iter().chain(gains) {
             if !(right && value.is_finite()) {
                 return Err(MotionError::Option {
                     name,
@@ -144,6 +212,18 @@ impl MotionOptions {
                 });
             }
         }
-        Ok(())
+        self.check_rows(&self.rows)
+    }
+
+    /// Whether rows that the user dropped have a meaning.
+    pub(crate) fn check_rows(&self, rows: &RowChoice) -> Result<(), MotionError> {
+        match rows {
+            RowChoice::Drop(_) if !self.formulation.drops_rows() => {
+                Err(MotionError::NothingToDrop {
+                    formulation: self.formulation.name(),
+                })
+            }
+            _ => Ok(()),
+        }
     }
 }

@@ -12,6 +12,7 @@ use integrators::{
     Cause, Dop853, Dopri5, IntegrationError, Interval, Options, Outcome, OutputTimes, Rows, Tsit5,
     integrate,
 };
+use linalg::ProximalTuning;
 use model::{Reaction, System};
 
 use crate::error::{MotionError, Trip};
@@ -46,6 +47,8 @@ pub struct Summary {
     pub min_pivot_ratio: f64,
     /// What happened on the way.
     pub events: Vec<Event>,
+    /// The last tuning of proximal iterations, where accelerations come from them.
+    pub proximal: Option<ProximalTuning>,
 }
 
 /// A run that stopped early, with what was reached.
@@ -83,7 +86,7 @@ impl Sample<'_, '_> {
         Ok(a)
     }
 
-    /// Multipliers of all rows, those of dropped rows zero by decree; allocates.
+    /// Multipliers of all rows as [`Motion::multipliers`] gives them; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.
@@ -94,8 +97,8 @@ impl Sample<'_, '_> {
         Ok(lambda)
     }
 
-    /// Reactions of all joints and drives in the order of their rows. Those of non-unique joints belong to the kept
-    /// rows of this run and to no other; allocates.
+    /// Reactions of all joints and drives in the order of their rows. Those of non-unique joints belong to the choice
+    /// of this run (its kept rows, or the norm of its formulation) and to no other; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.
@@ -127,7 +130,8 @@ pub fn simulate(
         })
     };
     options.check().map_err(fail)?;
-    let motion = KeptRowMotion::new(prepared).map_err(|e| fail(e.into()))?;
+    options.check_rows(&prepared.choice).map_err(fail)?;
+    let motion = KeptRowMotion::with(prepared, options).map_err(|e| fail(e.into()))?;
     let mut equations = Equations::new(motion, prepared, options);
     equations
         .motion
@@ -157,8 +161,8 @@ pub fn simulate(
         stopped: None,
     };
     let clock = Instant::now();
-    let outcome = match options.method {
-        Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
+    let outcome = match options.method.chosen() {
+        Method::Auto | Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
         Method::Tsit5 => run.go(&Tsit5, &interval, &y0, &settings),
         Method::Dop853 => run.go(&Dop853, &interval, &y0, &settings),
     };

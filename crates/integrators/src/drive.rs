@@ -5,7 +5,7 @@
 use crate::error::{Cause, Failure, IntegrationError};
 use crate::interval::{Interval, Leg};
 use crate::method::{End, Ends, Outcome, Start, Stepper, Trial};
-use crate::ode::{Ode, StepEnd, StepInfo};
+use crate::ode::{Delicate, Ode, StepEnd, StepInfo};
 use crate::options::{InitialStep, Options};
 use crate::start::{StartScratch, initial_step};
 use crate::statistics::Statistics;
@@ -48,7 +48,7 @@ where
         }
         while run.t != leg.end {
             if let Some(delicate) = ode.delicate_time() {
-                run.step_over(delicate, stepper.widest_gap());
+                run.step_over(delicate.t, stepper.widest_gap());
             }
             let trial = match run.next_trial(leg) {
                 Ok(trial) => trial,
@@ -305,7 +305,12 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         start.tolerance.scale(&self.y0, &self.y1, &mut self.scale);
         let norm = stepper.error_norm(ode, trial, &start, &self.scale, statistics)?;
         self.error_norm = Some(norm);
-        if norm.is_nan() || norm > 1.0 {
+        let is_delicate = |d: &Delicate| (d.t - trial.t) * (trial.t1 - d.t) > 0.0;
+        let permitted = ode
+            .delicate_time()
+            .filter(is_delicate)
+            .map_or(1.0, |d| d.slack);
+        if norm.is_nan() || norm > permitted {
             return Err(Cause::ErrorTest { norm });
         }
         let info = StepInfo {

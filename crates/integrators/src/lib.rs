@@ -48,7 +48,7 @@ pub use events::{Crossing, Crossings, Direction, integrate_until};
 pub use gbs::Gbs;
 pub use interval::Interval;
 pub use method::{End, Method, Outcome, integrate};
-pub use ode::{Function, Ode, StepEnd, StepInfo};
+pub use ode::{Delicate, Function, Ode, StepEnd, StepInfo};
 pub use options::{InitialStep, Options, Tolerance};
 pub use rk5::{Dopri5, Tsit5};
 pub use rows::{OutputTimes, Rows};

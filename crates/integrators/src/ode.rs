@@ -44,7 +44,7 @@ pub trait Ode {
 
     /// A time ahead near which f is better not evaluated, if one is known: a removable singularity, where values are mostly rounding.
     /// Steps are then chosen such that it lies between two stages, as far from both as the method allows.
-    fn delicate_time(&self) -> Option<f64> {
+    fn delicate_time(&self) -> Option<Delicate> {
         None
     }
 
@@ -60,6 +60,15 @@ pub trait Ode {
     }
 }
 
+/// A time near which f is mostly rounding.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Delicate {
+    /// The time.
+    pub t: f64,
+    /// Factor ≥ 1 by which a step over it may miss its tolerance: smaller steps would come nearer to it and be worse.
+    pub slack: f64,
+}
+
 /// What [`Ode::end_of_step`] may know about the step it judges.
 #[derive(Debug, Clone, Copy)]
 pub struct StepInfo<'a> {
@@ -70,7 +79,7 @@ pub struct StepInfo<'a> {
     /// Time at which to evaluate f at the end of the step: `t`, except at a break time, where it is the
     /// neighbouring floating-point number inside the step, so that f has its value from this side.
     pub t_rhs: f64,
-    /// Estimated local error in the weighted norm; at most 1.
+    /// Estimated local error in the weighted norm; at most 1, or the slack of a delicate time.
     pub error_norm: f64,
     /// Weights of the norm, `atol + rtol·max(|y0|, |y1|)` per component, length n.
     pub scale: &'a [f64],

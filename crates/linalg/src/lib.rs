@@ -9,9 +9,12 @@ mod equilibrate;
 mod kernels;
 #[cfg(feature = "faer")]
 mod large;
+mod ldl;
 mod matrix;
+mod minimum_norm;
 mod null_space;
 mod prime_field;
+mod proximal;
 mod qr;
 mod rank;
 mod regularized;
@@ -31,7 +34,9 @@ pub use deletions::{
 pub use double_double::Dd;
 pub use equilibrate::{Scaling, equilibrate};
 pub use matrix::{Matrix, ShapeError};
+pub use minimum_norm::MinimumNormSaddle;
 pub use null_space::{Components, components, dependencies, orthonormal, support_tolerance};
+pub use proximal::{ProximalSaddle, ProximalTuning};
 pub use qr::PivotedQr;
 pub use rank::{
     Certificate, CoefficientReading, Degraded, Doubt, Evidence, ExactNullSpace, Grounds,

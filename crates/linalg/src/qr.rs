@@ -17,6 +17,8 @@ mod tests;
 
 use crate::Matrix;
 
+pub(crate) use factor::{Reflections, apply, factor_above, reflect};
+
 /// `A·P = Q·R` with `|R_00| ≥ |R_11| ≥ …`, the columns of the n×m matrix A given as m rows.
 ///
 /// Storage: row k holds column k of R up to and with the diagonal, then the tail of the Householder

@@ -24,6 +24,7 @@ mod modular;
 mod perturbation;
 #[cfg(test)]
 mod tests;
+mod truncation;
 mod uncertainty;
 mod within;
 
@@ -40,6 +41,7 @@ pub use within::certify_within;
 
 pub(crate) use clear::{Size, independent, size};
 pub use explicit::{KeptRowsError, decide_dropping, decide_keeping};
+pub(crate) use truncation::{ROUNDING, TRUNCATION};
 
 /// Factor between the noise estimate and the tolerance τ: rounding of an equilibrated matrix and
 /// the polished residual were each measured within a factor 4 of the singular value they cause.

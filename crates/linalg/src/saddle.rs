@@ -25,6 +25,8 @@ mod solve;
 #[cfg(test)]
 mod tests;
 
+use crate::Matrix;
+
 /// Solver of the saddle equations of n coordinates and r independent constraint rows.
 ///
 /// ```
@@ -66,7 +68,7 @@ pub struct KeptRowSaddle {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum State {
+pub(crate) enum State {
     Empty,
     Factored,
 }
@@ -199,7 +201,11 @@ impl KeptRowSaddle {
     }
 }
 
-fn check_length(argument: &'static str, x: &[f64], expected: usize) -> Result<(), SaddleError> {
+pub(crate) fn check_length(
+    argument: &'static str,
+    x: &[f64],
+    expected: usize,
+) -> Result<(), SaddleError> {
     if x.len() == expected {
         Ok(())
     } else {
@@ -211,8 +217,39 @@ fn check_length(argument: &'static str, x: &[f64], expected: usize) -> Result<()
     }
 }
 
+/// Whether C has the shape and the entries of a matrix, and the masses those of masses.
+pub(crate) fn check_equations(
+    c: &Matrix,
+    mass: &[f64],
+    (m, n): (usize, usize),
+) -> Result<(), SaddleError> {
+    for (argument, found, expected) in [("C, by rows,", c.nrows(), m), ("row of C", c.ncols(), n)] {
+        if found != expected {
+            return Err(SaddleError::Length {
+                argument,
+                found,
+                expected,
+            });
+        }
+    }
+    check_finite("C", c.as_slice(), 0)?;
+    check_length("mass", mass, n)?;
+    check_finite("mass", mass, 0)?;
+    match mass.iter().position(|&m| m < 0.0) {
+        Some(index) => Err(SaddleError::NegativeMass {
+            index,
+            value: mass[index],
+        }),
+        None => Ok(()),
+    }
+}
+
 /// `first` is the index of `x[0]` in the argument.
-fn check_finite(argument: &'static str, x: &[f64], first: usize) -> Result<(), SaddleError> {
+pub(crate) fn check_finite(
+    argument: &'static str,
+    x: &[f64],
+    first: usize,
+) -> Result<(), SaddleError> {
     // Branch-free: x·0 is NaN exactly for NaN and infinities.
     if x.iter().map(|a| a * 0.0).sum::<f64>() == 0.0 {
         return Ok(());

@@ -1,23 +1,50 @@
-//! The saddle solver allocates in `new` and nowhere else.
+//! The saddle solvers allocate when they are made and nowhere else.
 
-use linalg::KeptRowSaddle;
+use linalg::{KeptRowSaddle, Matrix, MinimumNormSaddle, ProximalSaddle};
+
+const N: usize = 21;
+const R: usize = 17;
+
+/// R rows, the last two of which are sums of others in the matrix of all rows.
+fn rows(m: usize) -> Matrix {
+    let entry = |i: usize, j: usize| ((i * N + j).pow(2) as f64).sin();
+    Matrix::from_fn(m, N, |i, j| match i < R {
+        true => entry(i, j),
+        false => entry(i - R, j) + entry(i - R + 1, j),
+    })
+}
 
 #[test]
 fn factor_and_solve_allocate_nothing() {
-    const N: usize = 21;
-    const R: usize = 17;
-    let c: Vec<f64> = (0..R * N).map(|l| ((l * l) as f64).sin()).collect();
+    let (c, all) = (rows(R), rows(R + 2));
     let mass = [1.0; N];
-    let (f, gamma) = ([1.0; N], [0.5; R]);
-    let (mut a, mut lambda) = ([0.0; N], [0.0; R]);
-    let mut saddle = KeptRowSaddle::new(N, R).unwrap();
+    let f = [1.0; N];
+    let gamma = all.times(&[0.5; N]);
+    let (mut a, mut lambda) = ([0.0; N], [0.0; R + 2]);
+    let mut kept = KeptRowSaddle::new(N, R).unwrap();
+    let mut least = MinimumNormSaddle::new(&all, R).unwrap();
+    let mut proximal = ProximalSaddle::new(&all, &mass, R, 1e-8).unwrap();
+    let mut accelerations = [[0.0; N]; 3];
     let counted = allocation_counter::measure(|| {
-        saddle
-            .factor(|k| &c[k * N..(k + 1) * N], &mass)
-            .and_then(|()| saddle.solve(&f, &gamma, &mut a, &mut lambda))
+        kept.factor(|k| c.row(k), &mass)
+            .and_then(|()| kept.solve(&f, &gamma[..R], &mut a, &mut lambda[..R]))
             .unwrap();
+        accelerations[0] = a;
+        least
+            .factor(&all, &mass)
+            .and_then(|()| least.solve(&f, &gamma, &mut a, &mut lambda))
+            .unwrap();
+        accelerations[1] = a;
+        proximal
+            .factor(&all, &mass)
+            .and_then(|()| proximal.solve(&f, &gamma, &mut a, &mut lambda))
+            .unwrap();
+        accelerations[2] = a;
     });
     assert_eq!(counted.count_total, 0);
-    let residual: f64 = c[..N].iter().zip(&a).map(|(x, y)| x * y).sum::<f64>() - 0.5;
-    assert!(residual.abs() < 1e-12, "{residual:e}");
+    for (a, tolerance) in accelerations.iter().zip([1e-12, 1e-12, 1e-6]) {
+        for (row, gamma) in c.times(a).iter().zip(&gamma) {
+            assert!((row - gamma).abs() < tolerance, "{row} {gamma}");
+        }
+    }
 }

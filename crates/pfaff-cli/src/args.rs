@@ -2,7 +2,9 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, Parser, Subcommand};
+use pfaff::dynamics::{Formulation, Method, Stabilisation};
 
 /// Mechanisms with redundant constraints: how they move, and which of their joint reactions may be believed.
 #[derive(Parser)]
@@ -133,11 +135,14 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "A", allow_hyphen_values = true)]
     pub(crate) atol: Option<f64>,
     /// Integrator
-    #[arg(long, value_name = "M")]
-    pub(crate) method: Option<MethodName>,
+    #[arg(long, value_name = "M", value_parser = named(Method::ALL, Method::name))]
+    pub(crate) method: Option<Method>,
     /// Treatment of redundant rows
-    #[arg(long, value_name = "F")]
-    pub(crate) formulation: Option<FormulationName>,
+    #[arg(long, value_name = "F", value_parser = named(Formulation::ALL, Formulation::name))]
+    pub(crate) formulation: Option<Formulation>,
+    /// Treatment of drift; baumgarte has the gains of the scene, or 5 and 5 (1/s)
+    #[arg(long, value_name = "S", value_parser = named(Stabilisation::ALL, Stabilisation::name))]
+    pub(crate) stabilisation: Option<Stabilisation>,
     /// Rows to eliminate, counted from 1
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
     pub(crate) drop: Option<Vec<usize>>,
@@ -173,18 +178,14 @@ pub(crate) struct Check {
     pub(crate) json: bool,
 }
 
-/// Integrators that are there.
-#[derive(Clone, Copy, ValueEnum)]
-pub(crate) enum MethodName {
-    /// The best one for the scene
-    Auto,
-    /// Dormand–Prince 5(4), MATLAB's ode45
-    Dopri5,
-}
-
-/// Treatments of redundancy that are there.
-#[derive(Clone, Copy, ValueEnum)]
-pub(crate) enum FormulationName {
-    /// Independent rows are kept, the others monitored
-    KeptRows,
+/// Reads one of the names of an enum of `dynamics`, and says what the names are where it is none.
+fn named<T: Copy + Send + Sync + 'static>(
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    let names = all.iter().map(|value| name(*value));
+    PossibleValuesParser::new(names).try_map(move |text| {
+        let found = all.iter().find(|value| name(**value) == text);
+        found.copied().ok_or("no such name")
+    })
 }

@@ -5,12 +5,11 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
-use pfaff::dynamics::Method;
 use pfaff::report::{OutputDirectory, RunDocument, write_json};
 use pfaff::{Overrides, StudyError};
 
 use crate::Outcome;
-use crate::args::{FormulationName, MethodName, Simulate};
+use crate::args::Simulate;
 use crate::input::{Source, rows_from_zero};
 use crate::output::{Failure, print};
 
@@ -68,16 +67,13 @@ pub(crate) fn run(arguments: &Simulate) -> Outcome {
 }
 
 fn overrides(arguments: &Simulate) -> Result<Overrides, Failure> {
-    let method = arguments.method.map(|m| match m {
-        MethodName::Auto | MethodName::Dopri5 => Method::Dopri5,
-    });
-    // The only one there is; named so that scripts may say it.
-    let _: Option<FormulationName> = arguments.formulation;
     Ok(Overrides {
         t_end: arguments.t_end,
         rtol: arguments.rtol,
         atol: arguments.atol,
-        method,
+        method: arguments.method,
+        formulation: arguments.formulation,
+        stabilisation: arguments.stabilisation,
         drop: rows_from_zero(arguments.drop.as_deref())?,
     })
 }
@@ -85,7 +81,7 @@ fn overrides(arguments: &Simulate) -> Result<Overrides, Failure> {
 /// The summary in words.
 fn describe(name: &str, d: &RunDocument, out: &str) -> String {
     let mut text = format!(
-        "{name}: {} to t = {} s with {} ({})\n\
+        "{name}: {} to t = {} s with {} ({}, {})\n\
          {} steps, {} rejected, {} evaluations in {:.2} ms\n\
          |Φ| ≤ {:.1e}, |C·v − b| ≤ {:.1e}, energy balance {:.1e}\n",
         if d.partial {
@@ -96,6 +92,7 @@ fn describe(name: &str, d: &RunDocument, out: &str) -> String {
         d.t_end,
         d.method,
         d.formulation,
+        d.stabilisation,
         d.steps,
         d.rejected,
         d.evaluations,
@@ -129,13 +126,10 @@ fn describe(name: &str, d: &RunDocument, out: &str) -> String {
             .filter(|(_, r)| r.choice.is_some())
             .map(|(name, _)| name.as_str())
             .collect();
-        let rows: Vec<String> = choice.deleted_rows.iter().map(usize::to_string).collect();
         text.push_str(&format!(
-            "not determined by the model: {}. Their columns in reactions.csv belong to one choice ({}, rows {} deleted), \
-             not to the mechanism.\n",
+            "not determined by the model: {}. Their columns in reactions.csv belong to one choice ({choice}), not to the \
+             mechanism.\n",
             names.join(", "),
-            choice.method,
-            rows.join(", ")
         ));
     }
     text.push_str(&format!("written to {out}\n"));

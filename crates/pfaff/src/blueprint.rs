@@ -137,6 +137,13 @@ fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
     options.rtol = overrides.rtol.unwrap_or(options.rtol);
     options.atol = overrides.atol.unwrap_or(options.atol);
     options.method = overrides.method.unwrap_or(options.method);
+    options.formulation = overrides.formulation.unwrap_or(options.formulation);
+    match overrides.stabilisation {
+        Some(other) if other.name() != options.stabilisation.name() => {
+            options.stabilisation = other;
+        }
+        _ => {}
+    }
     if let Some(drop) = &overrides.drop {
         options.rows = RowChoice::Drop(drop.clone());
     }

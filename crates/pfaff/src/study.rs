@@ -3,7 +3,10 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{Failure, Method, MotionOptions, Prepared, Sample, Summary, Trip, simulate};
+use dynamics::{
+    Failure, Formulation, Method, MotionOptions, Prepared, Sample, Stabilisation, Summary, Trip,
+    simulate,
+};
 use model::{Known, Registry};
 use report::{
     Ending, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
@@ -48,6 +51,10 @@ pub struct Overrides {
     pub atol: Option<f64>,
     /// Integrator.
     pub method: Option<Method>,
+    /// Treatment of redundancy.
+    pub formulation: Option<Formulation>,
+    /// Treatment of drift; gains are those of the scene where it has some.
+    pub stabilisation: Option<Stabilisation>,
     /// Rows to drop, from 0.
     pub drop: Option<Vec<usize>>,
 }

@@ -14,38 +14,32 @@ use crate::table::Table;
 /// The values of a key whose meaning is an enum of `dynamics`.
 struct Choice<T: 'static> {
     key: &'static str,
-    /// All that a scene may ever ask for.
+    /// What cannot be done yet.
     planned: &'static [&'static str],
     /// What can be done today.
-    available: &'static [(&'static str, T)],
+    available: &'static [T],
+    name: fn(T) -> &'static str,
 }
 
 const METHODS: Choice<Method> = Choice {
     key: "method",
-    planned: &[
-        "auto",
-        "dopri5",
-        "dop853",
-        "tsit5",
-        "gbs",
-        "radau5",
-        "generalized-alpha",
-        "hem4",
-    ],
-    // `auto` leaves the choice to `dynamics`, which has one method today.
-    available: &[("auto", Method::Dopri5), ("dopri5", Method::Dopri5)],
+    planned: &["gbs", "radau5", "generalized-alpha", "hem4"],
+    available: Method::ALL,
+    name: Method::name,
 };
 
 const FORMULATIONS: Choice<Formulation> = Choice {
     key: "formulation",
-    planned: &["kept-rows", "null-space", "minimum-norm", "proximal"],
-    available: &[("kept-rows", Formulation::KeptRows)],
+    planned: &["null-space"],
+    available: Formulation::ALL,
+    name: Formulation::name,
 };
 
 const STABILISATIONS: Choice<Stabilisation> = Choice {
     key: "stabilisation",
-    planned: &["projection", "baumgarte", "none"],
-    available: &[("projection", Stabilisation::Projection)],
+    planned: &[],
+    available: Stabilisation::ALL,
+    name: Stabilisation::name,
 };
 
 /// Most rows that a run may be asked to write: a hundred bodies of six numbers then take some 100 GB.
@@ -88,7 +82,23 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate
     options.method = choose(&mut table, &METHODS, findings).unwrap_or_default();
     options.formulation = choose(&mut table, &FORMULATIONS, findings).unwrap_or_default();
     options.stabilisation = choose(&mut table, &STABILISATIONS, findings).unwrap_or_default();
-    let drop = table.optional("drop").map(|field| rows(&field, findings));
+    if let Some(field) = table.optional("baumgarte") {
+        gains(&field, &mut options.stabilisation, findings);
+    }
+    let drop_field = table.optional("drop");
+    if let Some(field) = drop_field
+        .as_ref()
+        .filter(|_| !options.formulation.drops_rows())
+    {
+        let formulation = options.formulation.name();
+        let error = MotionError::NothingToDrop { formulation };
+        findings.error(
+            field.span(),
+            format!("{}: {error}", field.subject),
+            "no row is dropped here",
+        );
+    }
+    let drop = drop_field.map(|field| rows(&field, findings));
     table.close(findings);
     if let Some(drop) = &drop {
         options.rows = RowChoice::Drop(drop.iter().map(|(row, _)| *row).collect());
@@ -151,10 +161,11 @@ fn bounded(
 
 fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Findings) -> Option<T> {
     let field = table.optional(choice.key)?;
-    let names = || choice.available.iter().map(|(name, _)| *name);
+    let names = || choice.available.iter().map(|value| (choice.name)(*value));
     let value = field.text(&format!("one of {}", list(names())), findings)?;
-    if let Some((_, found)) = choice.available.iter().find(|(name, _)| *name == value) {
-        return Some(*found);
+    let mut available = choice.available.iter().copied();
+    if let Some(found) = available.find(|found| (choice.name)(*found) == value) {
+        return Some(found);
     }
     let (message, label, help) = match choice.planned.contains(&value) {
         true => ("is not available yet", "not available yet", None),
@@ -167,6 +178,39 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
         help.or_else(|| Some(format!("available are {}", list(names())))),
     );
     None
+}
+
+/// The gains of Baumgarte's method, `[α, β]`, where it is asked for.
+fn gains(field: &Field, stabilisation: &mut Stabilisation, findings: &mut Findings) {
+    const EXPECTED: &str = "two gains ≥ 0, `[alpha, beta]` (1/s)";
+    let Some(gains) = field.pair(EXPECTED, findings) else {
+        return;
+    };
+    if gains.iter().any(|gain| *gain < 0.0) {
+        let [alpha, beta] = gains;
+        findings.error(
+            field.span(),
+            format!(
+                "{}: `baumgarte` is [{alpha}, {beta}], need {EXPECTED}",
+                field.subject
+            ),
+            format!("expected {EXPECTED}"),
+        );
+        return;
+    }
+    match stabilisation {
+        Stabilisation::Baumgarte { alpha, beta } => [*alpha, *beta] = gains,
+        other => findings.error_with_help(
+            field.span(),
+            format!(
+                "{}: `baumgarte` gives gains, but the stabilisation is `{}`",
+                field.subject,
+                other.name()
+            ),
+            "no gains are used",
+            Some("add `stabilisation = \"baumgarte\"`".to_owned()),
+        ),
+    }
 }
 
 /// Rows to drop, counted from 1 in the file and from 0 in the result. That they exist is checked when the mechanism

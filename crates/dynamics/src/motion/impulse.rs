@@ -30,12 +30,12 @@ impl KeptRowMotion<'_> {
     ) -> Result<Option<Impulse>, Trip> {
         let mechanism = self.mechanism;
         let layout = mechanism.layout();
-        mechanism.pose(t, q, &mut self.s);
-        mechanism.phi(&mut self.s);
-        mechanism.c(&mut self.s);
+        // What a state misses already, where it is not projected, is no jump.
+        let [phi_before, rate_before] = self.missed(t.next_down().next_down(), q, v);
+        let [phi, rate] = self.missed(t, q, v);
         for i in 0..layout.m {
-            let (jump, size) = (self.s.phi[i].abs(), mechanism.position_scale(&self.s, i, q));
-            if jump > NO_JUMP * size {
+            let jump = (phi[i] - phi_before[i]).abs();
+            if jump > NO_JUMP * mechanism.position_scale(&self.s, i, q) {
                 return Err(Trip::PositionJump {
                     time: t,
                     row: layout.labels[i].clone(),
@@ -43,14 +43,14 @@ impl KeptRowMotion<'_> {
                 });
             }
         }
-        self.evaluate_b();
+        let jump = |i: usize| rate_before[i] - rate[i];
         let sizes = (0..layout.rows()).map(|i| mechanism.velocity_scale(&self.s, i, v));
         let largest = sizes.fold(0.0, f64::max);
-        let jumps = |&i: &usize| layout.velocity_residual(&self.s, i, v).abs() > NO_JUMP * largest;
+        let jumps = |&i: &usize| jump(i).abs() > NO_JUMP * largest;
         let Some(row) = (0..layout.rows()).find(jumps) else {
             return Ok(None);
         };
-        let jump = -layout.velocity_residual(&self.s, row, v);
+        let jump = jump(row);
         let kinetic = mechanism.kinetic_energy(v);
         let iterations = self.settle(t, q)?;
         self.finish(q, v, iterations)?;
@@ -69,5 +69,16 @@ impl KeptRowMotion<'_> {
             ),
         };
         Ok(Some(Impulse { energy, event }))
+    }
+
+    /// Φ and C·v − b at a state.
+    fn missed(&mut self, t: f64, q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
+        let layout = self.mechanism.layout();
+        self.mechanism.pose(t, q, &mut self.s);
+        self.mechanism.phi(&mut self.s);
+        self.mechanism.c(&mut self.s);
+        self.evaluate_b();
+        let rate = (0..layout.rows()).map(|i| layout.velocity_residual(&self.s, i, v));
+        [self.s.phi.clone(), rate.collect()]
     }
 }

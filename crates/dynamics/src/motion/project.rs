@@ -180,17 +180,10 @@ impl KeptRowMotion<'_> {
     /// Residuals of all rows at a projected state, dropped rows refused above the limit.
     fn monitor(&self, q: &[f64], v: &[f64], iterations: usize) -> Result<Correction, Trip> {
         let layout = self.mechanism.layout();
-        let mut found = Correction {
+        let found = Correction {
             iterations,
-            ..Correction::default()
+            ..self.residuals(v)
         };
-        for i in 0..layout.rows() {
-            let velocity = layout.velocity_residual(&self.s, i, v).abs();
-            found.velocity_residual = found.velocity_residual.max(velocity);
-            if i < layout.m {
-                found.position_residual = found.position_residual.max(self.s.phi[i].abs());
-            }
-        }
         let rows = 0..layout.rows();
         let position = |i: usize| self.mechanism.position_scale(&self.s, i, q);
         let velocity = |i: usize| self.mechanism.velocity_scale(&self.s, i, v);
@@ -207,6 +200,17 @@ impl KeptRowMotion<'_> {
             self.check_dropped(i, "velocity", residual, limit)?;
         }
         Ok(found)
+    }
+
+    /// Residuals of all rows at a state whose Φ, C and b stand in the scratch.
+    pub(super) fn residuals(&self, v: &[f64]) -> Correction {
+        let velocity = |i| self.mechanism.layout().velocity_residual(&self.s, i, v);
+        Correction {
+            iterations: 0,
+            position_residual: largest(&self.s.phi),
+            velocity_residual: (0..self.mechanism.layout().rows())
+                .fold(0.0, |a, i| f64::max(a, velocity(i).abs())),
+        }
     }
 
     fn check_dropped(

@@ -9,6 +9,12 @@ use crate::events::{Event, EventKind};
 use crate::options::RowChoice;
 
 impl KeptRowMotion<'_> {
+    /// Whether [`KeptRowMotion::review`] has something to decide at freshly factored rows.
+    pub(super) fn wants_review(&self) -> bool {
+        let lost = |rows: &KeptRows| rows.are_lost() && !rows.dropped.is_empty();
+        self.aside.is_some() || lost(&self.velocity) || lost(&self.position)
+    }
+
     /// Looks at the pivots of a settled position at coordinates q.
     pub(super) fn review(&mut self, q: &[f64]) -> Result<Option<Event>, Trip> {
         if self.position.are_lost() && !self.position.dropped.is_empty() {

@@ -171,41 +171,51 @@ impl KeptRows {
     }
 
     fn trip(&self, mechanism: &Mechanism, s: &Scratch, e: SaddleError) -> Trip {
-        let time = s.t;
-        match e {
-            SaddleError::RankLost { row, pivot, scale } => {
-                let row = mechanism.layout().labels[self.kept[row]].clone();
-                Trip::RankLost {
-                    time,
-                    row,
-                    pivot,
-                    scale,
-                }
-            }
-            SaddleError::MasslessMotion { motion, .. } => {
-                let larger = |a: usize, b: usize| {
-                    if motion[b].abs() > motion[a].abs() {
-                        b
-                    } else {
-                        a
-                    }
-                };
-                let (body, coordinate) = mechanism.coordinate((0..motion.len()).fold(0, larger));
-                Trip::Massless {
-                    time,
-                    body: body.to_owned(),
-                    coordinate,
-                }
-            }
-            SaddleError::NonFinite {
-                argument,
-                index,
-                value,
-            } => Trip::NotFinite {
+        trip(mechanism, s, e, |row| self.kept[row])
+    }
+}
+
+/// Why a solve at the instant of the scratch failed; `row_of` tells which row of C a row of the solver is.
+pub(super) fn trip(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    e: SaddleError,
+    row_of: impl Fn(usize) -> usize,
+) -> Trip {
+    let time = s.t;
+    match e {
+        SaddleError::RankLost { row, pivot, scale } => {
+            let row = mechanism.layout().labels[row_of(row)].clone();
+            Trip::RankLost {
                 time,
-                what: format!("{argument}[{index}] = {value}"),
-            },
-            source => Trip::Saddle { time, source },
+                row,
+                pivot,
+                scale,
+            }
         }
+        SaddleError::MasslessMotion { motion, .. } => {
+            let larger = |a: usize, b: usize| {
+                if motion[b].abs() > motion[a].abs() {
+                    b
+                } else {
+                    a
+                }
+            };
+            let (body, coordinate) = mechanism.coordinate((0..motion.len()).fold(0, larger));
+            Trip::Massless {
+                time,
+                body: body.to_owned(),
+                coordinate,
+            }
+        }
+        SaddleError::NonFinite {
+            argument,
+            index,
+            value,
+        } => Trip::NotFinite {
+            time,
+            what: format!("{argument}[{index}] = {value}"),
+        },
+        source => Trip::Saddle { time, source },
     }
 }

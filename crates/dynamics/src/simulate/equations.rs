@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use integrators::{Ode, StepEnd, StepInfo, Tolerance};
+use integrators::{Delicate, Ode, StepEnd, StepInfo, Tolerance};
 use model::System;
 
 use super::Sample;
@@ -28,6 +28,9 @@ const CAREFUL: f64 = 0.1;
 
 /// Singular configurations are foreseen for so many steps like the last one: no method lets steps grow by more.
 const FORESIGHT: f64 = 12.0;
+
+/// Relative error of a step over a singular configuration that rounding may cause where steps are short.
+const PASSED: f64 = 1e-10;
 
 /// Largest relative correction of a step over a singular configuration, as share of the distance at which it ends: other branches are
 /// as far away as that.
@@ -99,7 +102,7 @@ impl<'m> Equations<'m> {
         y.extend(self.works.then_some(0.0));
         self.before = y.clone();
         self.stage = y.clone();
-        self.is_careful = self.motion.relative_pivot() < CAREFUL;
+        self.is_careful = self.wants_care();
         y
     }
 
@@ -127,11 +130,12 @@ impl<'m> Equations<'m> {
             energy_balance: self.energy.relative_gap(),
             min_pivot_ratio: self.min_pivot_ratio,
             events: self.events.clone(),
+            proximal: self.motion.proximal_tuning(),
             ..super::Summary::default()
         }
     }
 
-    /// Projects a row of output and shows it. At a break time it is the state just before.
+    /// Projects a row of output, where states are projected, and shows it. At a break time it is the state just before.
     pub(super) fn show(
         &mut self,
         t: f64,
@@ -144,7 +148,7 @@ impl<'m> Equations<'m> {
             t
         };
         let (q, rest) = y.split_at_mut(self.n_q);
-        let found = self.motion.project(t_before, q, &mut rest[..self.n_v])?;
+        let found = self.motion.end_row(t_before, q, &mut rest[..self.n_v])?;
         self.note(y, found);
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
         row(&mut Sample {
@@ -185,6 +189,10 @@ impl<'m> Equations<'m> {
     /// Records what happened.
     pub(super) fn record(&mut self, event: Event) {
         self.events.push(event);
+    }
+
+    fn wants_care(&self) -> bool {
+        self.motion.projects() && self.motion.relative_pivot() < CAREFUL
     }
 
     fn is_break(&self, t: f64) -> bool {
@@ -252,24 +260,36 @@ impl Ode for Equations<'_> {
         };
         let (q, rest) = y.split_at_mut(self.n_q);
         let v = &mut rest[..self.n_v];
-        let found = self.motion.project_step(step.t_rhs, q, v, nearest)?;
+        let found = self.motion.end_step(step.t_rhs, q, v, nearest)?;
         let pivot_ratio = self.motion.pivot_ratio();
         for (before, y) in self.before.iter_mut().zip(&*y) {
             *before -= y;
         }
-        let correction = step.norm(&self.before);
         let is_suspect = self.motion.may_have_passed();
+        if is_suspect && !self.motion.projects() {
+            let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+            let missed = self.motion.missed_correction(step.t_rhs, q, v)?;
+            self.before[..missed.len()].copy_from_slice(&missed);
+        }
+        let correction = step.norm(&self.before);
         if is_suspect && correction * self.rtol > SMOOTH * self.motion.relative_pivot().max(NEAREST)
         {
             return Err(self.motion.no_way_over(step.t));
         }
-        self.derivative(step.t_rhs, y, dy)?;
+        if self.motion.projects() {
+            self.derivative(step.t_rhs, y, dy)?;
+            let a = &mut dy[self.n_q..self.n_q + self.n_v];
+            self.motion.review_acceleration(a)?;
+        }
         // From here on the step stands.
         self.is_suspect = is_suspect;
-        self.is_careful = self.motion.relative_pivot() < CAREFUL;
+        self.is_careful = self.wants_care();
         self.note(y, found);
         self.events.extend(self.motion.accept(step.t));
         self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
+        if !self.motion.projects() {
+            return Ok(StepEnd::Unchanged);
+        }
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
         let now = (step.t, q, v, &dy[self.n_q..self.n_q + self.n_v]);
         self.delicate = self
@@ -281,8 +301,9 @@ impl Ode for Equations<'_> {
         })
     }
 
-    fn delicate_time(&self) -> Option<f64> {
-        self.delicate
+    fn delicate_time(&self) -> Option<Delicate> {
+        let slack = (PASSED / self.rtol).max(1.0);
+        self.delicate.map(|t| Delicate { t, slack })
     }
 
     /// Rates that jump make the velocities jump, by an impulse of the constraints.

@@ -7,7 +7,7 @@ use crate::{Matrix, kernels};
 const DOWNDATE_LIMIT: f64 = 1.490_116_119_384_765_6e-8;
 
 /// Remaining length of one column.
-#[derive(Clone, Copy)]
+#[derive(Debug, Clone, Copy)]
 struct Length {
     /// Downdated value.
     now: f64,
@@ -15,21 +15,64 @@ struct Length {
     exact: f64,
 }
 
-/// Factors in place; the rows of `a` are the columns that are pivoted.
-pub(super) fn factor(mut a: Matrix) -> PivotedQr {
-    let m = a.nrows();
-    let steps = m.min(a.ncols());
-    let mut tau = vec![0.0; steps];
-    let mut permutation: Vec<usize> = (0..m).collect();
-    let mut lengths: Vec<Length> = (0..m)
-        .map(|j| {
-            let exact = kernels::norm(a.row(j));
-            Length { now: exact, exact }
-        })
-        .collect();
+/// What a factorisation needs beside the matrix itself; made once, used any number of times.
+#[derive(Debug, Clone)]
+pub(crate) struct Reflections {
+    /// Factor of each Householder step.
+    pub(crate) tau: Vec<f64>,
+    /// Position k of `A·P` is column `permutation[k]` of A.
+    pub(crate) permutation: Vec<usize>,
+    lengths: Vec<Length>,
+}
 
-    for k in 0..steps {
-        let pivot = longest(&lengths, k);
+impl Reflections {
+    /// Storage for m columns and at most so many steps.
+    pub(crate) fn new(m: usize, steps: usize) -> Self {
+        let none = Length {
+            now: 0.0,
+            exact: 0.0,
+        };
+        Self {
+            tau: vec![0.0; steps],
+            permutation: (0..m).collect(),
+            lengths: vec![none; m],
+        }
+    }
+}
+
+/// Factors completely; the rows of `a` are the columns that are pivoted.
+pub(super) fn factor(mut a: Matrix) -> PivotedQr {
+    let mut reflections = Reflections::new(a.nrows(), a.nrows().min(a.ncols()));
+    factor_above(f64::NEG_INFINITY, &mut a, &mut reflections);
+    let Reflections {
+        tau, permutation, ..
+    } = reflections;
+    PivotedQr {
+        factors: a,
+        tau,
+        permutation,
+    }
+}
+
+/// Factors in place as far as remaining columns are longer than `floor` and there is room for steps, and returns the number of
+/// steps; what remains is left as it is. Allocates nothing.
+pub(crate) fn factor_above(floor: f64, a: &mut Matrix, reflections: &mut Reflections) -> usize {
+    let m = a.nrows();
+    let Reflections {
+        tau,
+        permutation,
+        lengths,
+    } = reflections;
+    for (j, (place, length)) in permutation.iter_mut().zip(&mut *lengths).enumerate() {
+        *place = j;
+        let exact = kernels::norm(a.row(j));
+        *length = Length { now: exact, exact };
+    }
+    for k in 0..tau.len() {
+        let pivot = longest(lengths, k);
+        if lengths[pivot].now <= floor {
+            return k;
+        }
         a.swap_rows(k, pivot);
         permutation.swap(k, pivot);
         lengths.swap(k, pivot);
@@ -41,11 +84,7 @@ pub(super) fn factor(mut a: Matrix) -> PivotedQr {
             downdate(&mut lengths[j], &column[k..]);
         }
     }
-    PivotedQr {
-        factors: a,
-        tau,
-        permutation,
-    }
+    tau.len()
 }
 
 /// First index from `k` on with the largest length, so that ties do not reorder.
@@ -61,7 +100,7 @@ fn longest(lengths: &[Length], k: usize) -> usize {
 
 /// Overwrites `x` by `[β, v_1, v_2, …]` with `H·x = β·e_0`, `H = I − τ·v·vᵀ`, `v_0 = 1`; returns τ.
 /// A column that is already `[β, 0, …]` gets τ = 0, that is H = I.
-fn reflect(x: &mut [f64]) -> f64 {
+pub(crate) fn reflect(x: &mut [f64]) -> f64 {
     let alpha = x[0];
     if kernels::max_abs(&x[1..]) == 0.0 {
         return 0.0;
@@ -76,7 +115,7 @@ fn reflect(x: &mut [f64]) -> f64 {
 }
 
 /// `y ← (I − τ·v·vᵀ)·y` with `v_0 = 1` (the stored entry 0 of `v` is R's).
-pub(super) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
+pub(crate) fn apply(tau: f64, v: &[f64], y: &mut [f64]) {
     if tau == 0.0 {
         return;
     }

@@ -230,7 +230,14 @@ fn drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows() {
 fn rows_that_cannot_be_dropped() {
     let folder = Folder::new("drop");
     for (drop, piece) in [
-        ("1,21", "what is kept is dependent"),
+        (
+            "1,21",
+            "at t = 0 s these rows cannot be dropped: what is kept is dependent",
+        ),
+        (
+            "3,20",
+            "at t = 0 s these rows cannot be dropped: what is kept is dependent",
+        ),
         ("6", "drop exactly 2"),
         ("6,6", "listed twice"),
         ("6,99", "rows are 1 to 22"),
@@ -240,6 +247,34 @@ fn rows_that_cannot_be_dropped() {
         let text = stderr(&output);
         assert_eq!(output.status.code(), Some(2), "{drop}: {text}");
         assert!(text.contains(piece), "{drop}: {text}");
+    }
+}
+
+#[test]
+fn rows_to_drop_where_all_are_used() {
+    let folder = Folder::new("drop-all");
+    let simulate = ["simulate", ROBOT, "--out", folder.text(), "--drop", "6,21"];
+    let output = pfaff(&[&simulate[..], &["--formulation", "proximal"][..]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    let text = stderr(&output);
+    assert!(
+        text.contains("the formulation proximal uses all rows"),
+        "{text}"
+    );
+}
+
+#[test]
+fn names_of_choices_are_listed() {
+    let folder = Folder::new("names");
+    for (option, names) in [
+        ("--method", "auto, dopri5, dop853, tsit5"),
+        ("--formulation", "kept-rows, minimum-norm, proximal"),
+        ("--stabilisation", "projection, baumgarte, none"),
+    ] {
+        let output = pfaff(&["simulate", ROBOT, "--out", folder.text(), option, "best"]);
+        assert_eq!(output.status.code(), Some(2));
+        let text = stderr(&output);
+        assert!(text.contains("'best'") && text.contains(names), "{text}");
     }
 }
 

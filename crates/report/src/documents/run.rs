@@ -1,6 +1,10 @@
 //! `summary.json` of a run.
 
-use dynamics::{Event, EventKind, MotionError, MotionOptions, Prepared, RowChoice, Summary};
+use std::fmt;
+
+use dynamics::{
+    Event, EventKind, Formulation, MotionError, MotionOptions, Prepared, RowChoice, Summary,
+};
 use serde::Serialize;
 use solvability::Analysis;
 
@@ -39,6 +43,8 @@ pub struct RunDocument {
     pub method: &'static str,
     /// Treatment of redundancy.
     pub formulation: &'static str,
+    /// Treatment of drift.
+    pub stabilisation: &'static str,
     /// Whether the run ended before its last time.
     pub partial: bool,
     /// Why it stopped.
@@ -101,14 +107,80 @@ pub struct RunReactionDocument {
 
 /// What was decided so that a non-unique reaction has a number.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct ChoiceDocument {
-    /// Treatment of redundancy.
-    pub method: &'static str,
-    /// Rows whose multipliers are zero by decree.
-    pub deleted_rows: Vec<usize>,
-    /// Time from which other rows are deleted (s; see the events); absent if never.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub valid_until: Option<f64>,
+#[serde(tag = "method", rename_all = "kebab-case")]
+pub enum ChoiceDocument {
+    /// The multipliers of some rows are zero by decree.
+    KeptRows {
+        /// These.
+        deleted_rows: Vec<usize>,
+        /// Time from which other rows are deleted (s; see the events); absent if never.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        valid_until: Option<f64>,
+    },
+    /// The shortest solution.
+    MinimumNorm {
+        /// The norm.
+        norm: &'static str,
+    },
+    /// What proximal iterations tend to.
+    Proximal {
+        /// μ at the end of the run.
+        mu: f64,
+        /// Iterations for each evaluation at the end of the run.
+        iterations: usize,
+        /// The norm in which it is the shortest solution.
+        norm: &'static str,
+    },
+}
+
+/// Norm of the reactions of the formulation minimum-norm.
+const OF_REACTIONS: &str = "forces weighted by 1/N and torques by 1/(N·m)";
+
+/// Norm of the multipliers of the formulation proximal.
+const OF_MULTIPLIERS: &str =
+    "multipliers divided by the root of the mass that their row moves at the start";
+
+impl ChoiceDocument {
+    fn new(run: &Run<'_>) -> Self {
+        let (prepared, summary) = (run.prepared, run.summary);
+        match (run.options.formulation, summary.proximal) {
+            (Formulation::MinimumNorm, _) => Self::MinimumNorm { norm: OF_REACTIONS },
+            (_, Some(tuning)) => Self::Proximal {
+                mu: tuning.mu,
+                iterations: tuning.iterations,
+                norm: OF_MULTIPLIERS,
+            },
+            _ => {
+                // Rows that the user asked for stay those of the reactions, whatever is kept for the motion.
+                let automatic = prepared.choice == RowChoice::Automatic;
+                let exchange = |e: &&Event| automatic && e.kind == EventKind::RowsExchanged;
+                Self::KeptRows {
+                    deleted_rows: from_one(&prepared.decision.dropped),
+                    valid_until: summary.events.iter().find(exchange).map(|e| e.time),
+                }
+            }
+        }
+    }
+}
+
+impl fmt::Display for ChoiceDocument {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::KeptRows { deleted_rows, .. } => {
+                let rows: Vec<String> = deleted_rows.iter().map(usize::to_string).collect();
+                write!(f, "kept-rows, rows {} deleted", rows.join(", "))
+            }
+            Self::MinimumNorm { norm } => write!(f, "minimum-norm, {norm}"),
+            Self::Proximal {
+                mu,
+                iterations,
+                norm,
+            } => write!(
+                f,
+                "proximal, {iterations} iterations with mu = {mu:.1e}, {norm}"
+            ),
+        }
+    }
 }
 
 impl RunDocument {
@@ -121,14 +193,7 @@ impl RunDocument {
             Ending::Interrupted => (true, None),
             Ending::Stopped(error) => (true, Some(error.to_string())),
         };
-        // Rows that the user asked for stay those of the reactions, whatever is kept for the motion.
-        let automatic = prepared.choice == RowChoice::Automatic;
-        let exchange = |e: &&Event| automatic && e.kind == EventKind::RowsExchanged;
-        let choice = ChoiceDocument {
-            method: run.options.formulation.name(),
-            deleted_rows: from_one(&prepared.decision.dropped),
-            valid_until: summary.events.iter().find(exchange).map(|e| e.time),
-        };
+        let choice = ChoiceDocument::new(run);
         let reactions = run.analysis.reactions.iter().map(|r| {
             let document = RunReactionDocument {
                 verdict: (&r.wrench).into(),
@@ -137,8 +202,9 @@ impl RunDocument {
             (r.name.clone(), document)
         });
         Self {
-            method: run.options.method.name(),
+            method: run.options.method.chosen().name(),
             formulation: run.options.formulation.name(),
+            stabilisation: run.options.stabilisation.name(),
             partial,
             error,
             t_end: summary.t,

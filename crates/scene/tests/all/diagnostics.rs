@@ -479,6 +479,30 @@ fn runs_starts_and_groups() {
             "no such choice",
         ),
         (
+            "t_end = 2.0",
+            "t_end = 2.0\nformulation = «\"null-space\"»",
+            "`[simulate]`: `formulation` `null-space` is not available yet",
+            "not available yet",
+        ),
+        (
+            "t_end = 2.0",
+            "t_end = 2.0\nstabilisation = \"baumgarte\"\nbaumgarte = «[5.0, -1.0]»",
+            "`[simulate]`: `baumgarte` is [5, -1], need two gains ≥ 0, `[alpha, beta]` (1/s)",
+            "expected two gains ≥ 0, `[alpha, beta]` (1/s)",
+        ),
+        (
+            "t_end = 2.0",
+            "t_end = 2.0\nbaumgarte = «[5.0, 5.0]»",
+            "`[simulate]`: `baumgarte` gives gains, but the stabilisation is `projection`",
+            "no gains are used",
+        ),
+        (
+            "drop = [1]",
+            "formulation = \"minimum-norm\"\ndrop = «[1]»",
+            "`[simulate]`: rows are dropped, but the formulation minimum-norm uses all rows: choose kept-rows, or drop none",
+            "no row is dropped here",
+        ),
+        (
             "drop = [1]",
             "drop = [1, «0»]",
             "`[simulate]`: `drop` names row 0; rows are counted from 1",
@@ -594,7 +618,7 @@ fn help_lists_what_there_is() {
         (
             "t_end = 2.0",
             "t_end = 2.0\nmethod = \"radau5\"",
-            "available are `auto`, `dopri5`",
+            "available are `auto`, `dopri5`, `dop853`, `tsit5`",
         ),
         (
             "t_end = 2.0",

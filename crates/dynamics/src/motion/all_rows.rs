@@ -1,0 +1,195 @@
+//! The equations of motion solved with all rows of C instead of the kept ones. Accelerations are the same; reactions that are not unique are
+//! another choice. Projection, monitors and passages stay with the kept rows.
+
+use linalg::{
+    Matrix, MinimumNormSaddle, PivotedQr, ProximalSaddle, ProximalTuning, SaddleError,
+    support_tolerance,
+};
+use model::reaction::COMPONENTS;
+use model::{Mechanism, Scratch, System};
+
+use super::rows::trip;
+use crate::error::Trip;
+use crate::options::Formulation;
+use crate::prepare::Prepared;
+
+/// Proximal iterations are tuned again once their last one changes more than so many tolerances, on the constraints.
+const UNSETTLED: f64 = 100.0;
+
+/// The first solve for the least reactions leaves its own rounding; the second removes what of it matters.
+const LEAST_SOLVES: usize = 2;
+
+/// All rows with the solver of a formulation.
+pub(super) struct AllRows {
+    /// Multipliers of the last solve.
+    pub(super) lambda: Vec<f64>,
+    c: Matrix,
+    saddle: Saddle,
+    rank: usize,
+    /// Shares below this one are rounding of the null space.
+    tolerance: f64,
+}
+
+enum Saddle {
+    MinimumNorm(MinimumNormSaddle),
+    Proximal {
+        saddle: ProximalSaddle,
+        tolerance: f64,
+    },
+}
+
+impl AllRows {
+    /// The solver of a formulation at the prepared start, where the rank is decided; nothing where that is one of kept rows.
+    pub(super) fn new(
+        prepared: &Prepared,
+        formulation: Formulation,
+        rtol: f64,
+    ) -> Result<Option<Self>, Trip> {
+        let mechanism = &prepared.mechanism;
+        let mut s = mechanism.scratch();
+        mechanism.pose(0.0, &prepared.q, &mut s);
+        mechanism.c(&mut s);
+        let c = mechanism.layout().dense(&s);
+        let rank = prepared.decision.rank;
+        let saddle = match formulation {
+            Formulation::KeptRows => return Ok(None),
+            Formulation::MinimumNorm => MinimumNormSaddle::new(&c, rank).map(Saddle::MinimumNorm),
+            Formulation::Proximal => {
+                let saddle = ProximalSaddle::new(&c, mechanism.mass(), rank, rtol);
+                saddle.map(|saddle| Saddle::Proximal {
+                    saddle,
+                    tolerance: rtol,
+                })
+            }
+        };
+        Ok(Some(Self {
+            lambda: vec![0.0; c.nrows()],
+            saddle: saddle.map_err(|e| trip(mechanism, &s, e, |row| row))?,
+            c,
+            rank,
+            tolerance: support_tolerance(&prepared.decision),
+        }))
+    }
+
+    /// Solves `M·a + Cᵀ·λ = Q`, `C·a = Γ` at the entries, Γ and Q of the scratch.
+    pub(super) fn solve(
+        &mut self,
+        mechanism: &Mechanism,
+        s: &Scratch,
+        a: &mut [f64],
+    ) -> Result<(), Trip> {
+        for i in 0..self.c.nrows() {
+            mechanism.layout().scatter_row(s, i, self.c.row_mut(i));
+        }
+        self.solve_again(mechanism, s, a)
+    }
+
+    /// The same at the last C.
+    fn solve_again(
+        &mut self,
+        mechanism: &Mechanism,
+        s: &Scratch,
+        a: &mut [f64],
+    ) -> Result<(), Trip> {
+        let (mass, lambda) = (mechanism.mass(), &mut self.lambda);
+        let solved: Result<(), SaddleError> = match &mut self.saddle {
+            Saddle::MinimumNorm(saddle) => saddle
+                .factor(&self.c, mass)
+                .and_then(|()| saddle.solve(&s.force, &s.gamma, a, lambda)),
+            Saddle::Proximal { saddle, .. } => saddle
+                .factor(&self.c, mass)
+                .and_then(|()| saddle.solve(&s.force, &s.gamma, a, lambda)),
+        };
+        solved.map_err(|e| trip(mechanism, s, e, |row| row))
+    }
+
+    /// Whether the last solve, at a state on the constraints, reached its tolerance. If not, it is tuned again and `a` solved for again.
+    pub(super) fn review(
+        &mut self,
+        mechanism: &Mechanism,
+        s: &Scratch,
+        a: &mut [f64],
+    ) -> Result<(), Trip> {
+        let Some(allowed) = self.missed() else {
+            return Ok(());
+        };
+        if let Saddle::Proximal { saddle, tolerance } = &mut self.saddle {
+            saddle
+                .tune(&self.c, mechanism.mass(), self.rank, *tolerance)
+                .map_err(|e| trip(mechanism, s, e, |row| row))?;
+        }
+        self.solve_again(mechanism, s, a)?;
+        match (self.missed(), &self.saddle) {
+            (Some(_), Saddle::Proximal { saddle, .. }) => Err(Trip::Unsettled {
+                time: s.t,
+                share: saddle.unsettled(),
+                allowed,
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// The tuning of proximal iterations.
+    pub(super) fn proximal_tuning(&self) -> Option<ProximalTuning> {
+        match &self.saddle {
+            Saddle::MinimumNorm(_) => None,
+            Saddle::Proximal { saddle, .. } => Some(saddle.tuning()),
+        }
+    }
+
+    /// What is allowed, if iterations ended above it.
+    fn missed(&self) -> Option<f64> {
+        match &self.saddle {
+            Saddle::MinimumNorm(_) => None,
+            Saddle::Proximal { saddle, tolerance } => {
+                let allowed = UNSETTLED * tolerance.max(f64::EPSILON);
+                (saddle.unsettled() > allowed).then_some(allowed)
+            }
+        }
+    }
+
+    /// Turns the multipliers of the last solve into those that the formulation reports; allocates.
+    pub(super) fn choose(&mut self, mechanism: &Mechanism, s: &Scratch) {
+        if let Saddle::MinimumNorm(saddle) = &self.saddle {
+            let free = saddle.left_null_space();
+            self.least_reactions(&free, &wrenches(mechanism, s));
+        }
+    }
+
+    /// λ + Z·y with the least ‖W·(λ + Z·y)‖, W from multipliers to the wrenches of all joints and drives. Directions that change no wrench
+    /// are left alone.
+    fn least_reactions(&mut self, free: &Matrix, wrenches: &Matrix) {
+        let images = wrenches.product(free);
+        let qr = PivotedQr::of_columns(&images);
+        let largest = qr.r_diagonal().next().unwrap_or(0.0).abs();
+        let visible = qr
+            .r_diagonal()
+            .filter(|r| r.abs() > self.tolerance * largest);
+        let visible = visible.count();
+        for _ in 0..LEAST_SOLVES {
+            let mut y = wrenches.times(&self.lambda);
+            qr.q_transpose_mul(&mut y);
+            y.truncate(visible);
+            qr.solve_r(&mut y);
+            for (i, l) in self.lambda.iter_mut().enumerate() {
+                let columns = qr.permutation().iter().map(|&k| free[(i, k)]);
+                *l -= columns.zip(&y).map(|(z, y)| z * y).sum::<f64>();
+            }
+        }
+    }
+}
+
+/// W: Fx, Fy (N) and T (N·m) of all joints and drives on their first bodies.
+fn wrenches(mechanism: &Mechanism, s: &Scratch) -> Matrix {
+    let layout = mechanism.layout();
+    let mut all = Matrix::zeros(COMPONENTS.len() * layout.groups.len(), layout.rows());
+    for (k, id) in mechanism.constraint_ids().enumerate() {
+        let map = mechanism.wrench_map(id, s);
+        let first = layout.groups[k].rows.start;
+        for c in 0..map.nrows() {
+            let row = all.row_mut(COMPONENTS.len() * k + c);
+            row[first..first + map.ncols()].copy_from_slice(map.row(c));
+        }
+    }
+    all
+}

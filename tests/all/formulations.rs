@@ -1,0 +1,351 @@
+//! One motion by every formulation, whatever is done about redundancy; and what is seen of drift where nothing is projected.
+
+use std::ops::ControlFlow;
+
+use dynamics::{
+    Formulation, MotionError, MotionOptions, Prepared, RowChoice, Stabilisation, Summary, prepare,
+    simulate,
+};
+use model::{Description, Mechanism, StartOptions, System};
+use serde::Deserialize;
+use solvability::{Choice, Configuration, Equations, NormWeights, Value, analyse};
+use tests::cranks::cranks;
+use tests::largest;
+use tests::robot::{robot, steering};
+
+const REFERENCE: &str = include_str!("../reference/robot_trolley.json");
+
+/// Reactions of the robot that the model leaves open.
+const NOT_UNIQUE: [&str; 6] = ["B", "C", "W1", "W2", "W3", "W4"];
+
+/// Pairs of rows (from 1) that can be dropped at every configuration of the robot's motion.
+const PAIRS: [[usize; 2]; 9] = [
+    [4, 20],
+    [4, 21],
+    [6, 20],
+    [6, 21],
+    [18, 20],
+    [18, 21],
+    [19, 20],
+    [19, 21],
+    [20, 21],
+];
+
+#[derive(Deserialize)]
+struct Reference {
+    rows: Vec<ReferenceRow>,
+}
+
+#[derive(Deserialize)]
+struct ReferenceRow {
+    t: f64,
+    q: Vec<f64>,
+    qd: Vec<f64>,
+}
+
+/// What a run wrote: times, states, and force, torque of every joint and drive.
+struct Run {
+    t: Vec<f64>,
+    q: Vec<Vec<f64>>,
+    v: Vec<Vec<f64>>,
+    reactions: Vec<Vec<[f64; 3]>>,
+    summary: Summary,
+}
+
+impl Run {
+    fn of(p: &Prepared, options: &MotionOptions) -> Self {
+        let mut run = Self {
+            t: Vec::new(),
+            q: Vec::new(),
+            v: Vec::new(),
+            reactions: Vec::new(),
+            summary: Summary::default(),
+        };
+        let summary = simulate(p, options, |sample| {
+            run.t.push(sample.t);
+            run.q.push(sample.q.to_vec());
+            run.v.push(sample.v.to_vec());
+            let reactions = sample.reactions()?.into_iter();
+            let parts = reactions.map(|r| [r.force[0], r.force[1], r.torque]);
+            run.reactions.push(parts.collect());
+            Ok(ControlFlow::Continue(()))
+        });
+        run.summary = summary.expect("moves");
+        run
+    }
+
+    /// Largest difference of coordinates and velocities.
+    fn distance(&self, other: &Self) -> f64 {
+        assert_eq!(self.t, other.t);
+        gap(&self.q, &other.q).max(gap(&self.v, &other.v))
+    }
+
+    /// Largest difference of the reaction of a joint.
+    fn reaction_distance(&self, other: &Self, joint: usize) -> f64 {
+        let pairs = self.reactions.iter().zip(&other.reactions);
+        let parts = pairs.flat_map(|(a, b)| (0..3).map(move |c| a[joint][c] - b[joint][c]));
+        largest(parts)
+    }
+}
+
+fn gap(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
+    largest(
+        a.iter()
+            .flatten()
+            .zip(b.iter().flatten())
+            .map(|(a, b)| a - b),
+    )
+}
+
+fn started(d: &Description, rows: &RowChoice) -> Prepared {
+    let mechanism = Mechanism::build(d).expect("builds");
+    prepare(mechanism, &StartOptions::default(), rows).expect("starts")
+}
+
+/// Three cranks with gravity, swinging.
+fn swinging_cranks() -> Description {
+    let mut d = cranks(&[-0.8, 0.0, 0.8], 0.5, -1.0);
+    d.gravity = [0.0, -9.81];
+    d
+}
+
+fn to(t_end: f64, formulation: Formulation, tolerance: f64) -> MotionOptions {
+    MotionOptions {
+        rtol: tolerance,
+        atol: tolerance,
+        formulation,
+        ..MotionOptions::to(t_end)
+    }
+}
+
+const OTHERS: [Formulation; 2] = [Formulation::MinimumNorm, Formulation::Proximal];
+
+#[test]
+fn the_robot_moves_the_same_by_every_formulation_and_elimination() {
+    let reference: Reference = serde_json::from_str(REFERENCE).expect("the reference is JSON");
+    let d = robot(steering());
+    let automatic = started(&d, &RowChoice::Automatic);
+    let kept = Run::of(&automatic, &to(10.0, Formulation::KeptRows, 1e-10));
+    let error = reference.rows.iter().map(|r| {
+        let close = |t: &f64| (t - r.t).abs() < 1e-9;
+        let at = kept
+            .t
+            .iter()
+            .position(close)
+            .expect("a row at each listed time");
+        let of = |a: &[f64], b: &[f64]| largest(a.iter().zip(b).map(|(a, b)| a - b));
+        of(&kept.q[at], &r.q).max(of(&kept.v[at], &r.qd))
+    });
+    let error = largest(error);
+    assert!(error < 1e-7, "{error:e}");
+    let allowed = f64::max(10.0 * error, 1e-11);
+
+    let runs = OTHERS.map(|f| {
+        (
+            f.name().to_owned(),
+            Run::of(&automatic, &to(10.0, f, 1e-10)),
+        )
+    });
+    let eliminated = PAIRS.iter().map(|pair| {
+        let rows = RowChoice::Drop(pair.iter().map(|row| row - 1).collect());
+        let run = Run::of(&started(&d, &rows), &to(10.0, Formulation::KeptRows, 1e-10));
+        (format!("without {pair:?}"), run)
+    });
+    let groups = &automatic.mechanism.layout().groups;
+    for (name, run) in runs.into_iter().chain(eliminated) {
+        let motion = kept.distance(&run);
+        println!("{name}: {motion:.1e}, {:?}", run.summary.proximal);
+        assert!(motion <= allowed, "{name}: {motion:e}, run {error:e}");
+        for (k, group) in groups.iter().enumerate() {
+            let (d, unique) = (
+                kept.reaction_distance(&run, k),
+                !NOT_UNIQUE.contains(&group.name.as_str()),
+            );
+            assert!(!unique || d <= 1e-6, "{name}: {} by {d:e}", group.name);
+            if name == "minimum-norm" {
+                assert!(unique || d > 1.0, "{name}: {} is the same", group.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn three_cranks_move_the_same_by_every_formulation() {
+    let p = started(&swinging_cranks(), &RowChoice::Automatic);
+    let tight = Run::of(&p, &to(3.0, Formulation::KeptRows, 1e-13));
+    let kept = Run::of(&p, &to(3.0, Formulation::KeptRows, 1e-10));
+    let error = kept.distance(&tight);
+    for formulation in OTHERS {
+        let run = Run::of(&p, &to(3.0, formulation, 1e-10));
+        let motion = kept.distance(&run);
+        println!("{}: {motion:.1e}, own {error:.1e}", formulation.name());
+        assert!(
+            motion <= f64::max(10.0 * error, 1e-11),
+            "{formulation:?}: {motion:e} {error:e}"
+        );
+        let residual = run
+            .summary
+            .max_position_residual
+            .max(run.summary.max_velocity_residual);
+        assert!(residual < 1e-12, "{residual:e}");
+    }
+}
+
+/// The run and `analyze --choose minimum-norm` mean the same norm.
+#[test]
+fn minimum_norm_is_that_of_the_analysis() {
+    for (d, t_end) in [(robot(steering()), 2.0), (swinging_cranks(), 1.0)] {
+        let p = started(&d, &RowChoice::Automatic);
+        let options = MotionOptions {
+            output_step: 0.25,
+            ..to(t_end, Formulation::MinimumNorm, 1e-10)
+        };
+        let run = Run::of(&p, &options);
+        for k in 0..run.t.len() {
+            let (t, q, v) = (run.t[k], &run.q[k], &run.v[k]);
+            let analysis = analyse(&p.mechanism, t, q).expect("C is finite");
+            let configuration =
+                Configuration::new(&p.mechanism, t, q, &analysis.decision).expect("fits");
+            let equations = Equations::of(&p.mechanism, t, q, v).expect("fits");
+            let lambda = equations.multipliers(&analysis.decision).expect("solves");
+            let choice = Choice::MinimumNorm(NormWeights::NEWTON_METRE);
+            let expected = configuration
+                .distribute(&lambda, &choice)
+                .expect("distributes");
+            for (reaction, found) in expected.reactions.iter().zip(&run.reactions[k]) {
+                for (name, value) in &reaction.components {
+                    let (Value::Unique(expected)
+                    | Value::Chosen {
+                        value: expected, ..
+                    }) = value;
+                    let found = match *name {
+                        "Fx" => found[0],
+                        "Fy" => found[1],
+                        _ => found[2],
+                    };
+                    assert!(
+                        (found - expected).abs() < 1e-8 * expected.abs().max(10.0),
+                        "{} {name} at {t}: {found} {expected}",
+                        reaction.name
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn what_cannot_be_dropped_is_refused_with_the_time() {
+    let refusal = |rows: &[usize]| {
+        let mechanism = Mechanism::build(&robot(steering())).expect("builds");
+        let rows = RowChoice::Drop(rows.iter().map(|row| row - 1).collect());
+        match prepare(mechanism, &StartOptions::default(), &rows) {
+            Ok(_) => panic!("{rows:?} is refused"),
+            Err(error) => error.to_string(),
+        }
+    };
+    for pair in [[3, 20], [5, 21], [18, 19]] {
+        let text = refusal(&pair);
+        assert!(
+            text.starts_with("at t = 0 s these rows cannot be dropped"),
+            "{text}"
+        );
+    }
+    let p = started(&robot(steering()), &RowChoice::Drop(vec![5, 20]));
+    let failure = simulate(&p, &to(1.0, Formulation::MinimumNorm, 1e-8), |_| {
+        Ok(ControlFlow::Continue(()))
+    });
+    let error = failure.expect_err("no row is dropped").error;
+    assert!(
+        matches!(
+            error,
+            MotionError::NothingToDrop {
+                formulation: "minimum-norm"
+            }
+        ),
+        "{error}"
+    );
+}
+
+/// Φ of a written state, evaluated here.
+fn opening(p: &Prepared, t: f64, q: &[f64]) -> f64 {
+    let mut s = p.mechanism.scratch();
+    p.mechanism.pose(t, q, &mut s);
+    p.mechanism.phi(&mut s);
+    largest(s.phi.iter().copied())
+}
+
+#[test]
+fn without_projection_the_drift_is_told() {
+    let d = swinging_cranks();
+    let p = started(&d, &RowChoice::Automatic);
+    let exact = Run::of(&p, &to(5.0, Formulation::KeptRows, 1e-12));
+    let run = |stabilisation| {
+        let options = MotionOptions {
+            stabilisation,
+            ..to(5.0, Formulation::KeptRows, 1e-7)
+        };
+        let run = Run::of(&p, &options);
+        let written = (0..run.t.len()).map(|k| opening(&p, run.t[k], &run.q[k]));
+        (largest(written), run)
+    };
+    let (projected, run_projected) = run(Stabilisation::Projection);
+    let (drifted, run_drifted) = run(Stabilisation::None);
+    let (pulled, run_pulled) = run(Stabilisation::BAUMGARTE);
+    println!("drift: projection {projected:.1e}, none {drifted:.1e}, baumgarte {pulled:.1e}");
+    assert!(projected < 1e-14, "{projected:e}");
+    assert!(drifted > 1e-9 && drifted < 1e-3, "{drifted:e}");
+    assert!(
+        pulled > 1e-13 && pulled < 0.5 * drifted,
+        "{pulled:e} {drifted:e}"
+    );
+    for (written, run) in [
+        (projected, &run_projected),
+        (drifted, &run_drifted),
+        (pulled, &run_pulled),
+    ] {
+        // Steps are in the summary, too.
+        let told = run.summary.max_position_residual;
+        assert!(
+            told >= written && told <= 10.0 * written.max(1e-15),
+            "{told:e} {written:e}"
+        );
+        let error = run.distance(&exact);
+        println!("error {error:.1e}, {} evaluations", run.summary.evaluations);
+        assert!(error < 1e-3, "{error:e}");
+    }
+}
+
+/// Drives and knife edges, with break times: drift is no jump of a drive.
+#[test]
+fn the_robot_drifts_and_is_pulled_back() {
+    let p = started(&robot(steering()), &RowChoice::Automatic);
+    let exact = Run::of(&p, &to(10.0, Formulation::KeptRows, 1e-10));
+    for stabilisation in [Stabilisation::None, Stabilisation::BAUMGARTE] {
+        let options = MotionOptions {
+            stabilisation,
+            ..to(10.0, Formulation::KeptRows, 1e-6)
+        };
+        let run = Run::of(&p, &options);
+        let (position, velocity) = (
+            run.summary.max_position_residual,
+            run.summary.max_velocity_residual,
+        );
+        println!(
+            "{}: {position:.1e} {velocity:.1e}, error {:.1e}",
+            stabilisation.name(),
+            run.distance(&exact)
+        );
+        assert!(
+            position > 1e-10 && position < 1e-4 && velocity > 1e-10 && velocity < 1e-4,
+            "{position:e} {velocity:e}"
+        );
+        assert!(run.distance(&exact) < 1e-3);
+        assert!(
+            run.summary
+                .events
+                .iter()
+                .all(|e| e.kind != dynamics::EventKind::Impulse)
+        );
+    }
+}
