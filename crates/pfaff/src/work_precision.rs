@@ -88,7 +88,7 @@ impl Subject {
         let times = match &reference {
             Some(known) => {
                 let wanted = known.instants.iter().map(|i| i.t).collect();
-                Times::multiples(wanted, base.output_step, base.t_end)
+                Times::multiples(wanted, base.output_step)
             }
             None => Times::evenly(INSTANTS, base.t_end),
         };

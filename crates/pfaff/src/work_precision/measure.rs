@@ -9,7 +9,7 @@ use super::observation::Observation;
 use super::plan::{Curve, Plan};
 use crate::study::Study;
 
-/// Rows of a run that is looked at, at least: between two of them it can be given up.
+/// Rows of a run with a budget, at least: between two of them it can be given up.
 const ROWS: f64 = 1000.0;
 
 /// The times of a run that are looked at.
@@ -23,23 +23,28 @@ pub(super) struct Times {
 
 impl Times {
     /// Some times that are multiples of `step`.
-    pub(super) fn multiples(wanted: Vec<f64>, step: f64, t_end: f64) -> Self {
-        let parts = (ROWS * step / t_end).ceil().max(1.0);
-        Self {
-            step: step / parts,
-            wanted,
-        }
+    pub(super) fn multiples(wanted: Vec<f64>, step: f64) -> Self {
+        Self { step, wanted }
     }
 
     /// Evenly spaced times: `count` and the end.
     pub(super) fn evenly(count: u32, t_end: f64) -> Self {
         let step = t_end / f64::from(count);
         let wanted = (1..=count).map(|k| step * f64::from(k)).collect();
-        Self::multiples(wanted, step, t_end)
+        Self::multiples(wanted, step)
     }
 
     fn has(&self, t: f64) -> bool {
-        self.wanted.iter().any(|w| (w - t).abs() < 1e-3 * self.step)
+        let near = 1e-3 * self.step / ROWS;
+        self.wanted.iter().any(|w| (w - t).abs() < near)
+    }
+
+    /// Time between the rows of a run that can be given up (s).
+    fn step(&self, t_end: f64, budget: f64) -> f64 {
+        match budget.is_finite() {
+            true => self.step / (ROWS * self.step / t_end).ceil().max(1.0),
+            false => self.step,
+        }
     }
 }
 
@@ -83,7 +88,7 @@ pub(super) fn look(
     interrupted: &impl Fn() -> bool,
 ) -> Look {
     let options = MotionOptions {
-        output_step: times.step,
+        output_step: times.step(options.t_end, budget),
         ..options.clone()
     };
     let clock = Instant::now();

@@ -26,17 +26,19 @@ impl Curve {
     }
 }
 
-/// Methods that are compared.
-const METHODS: [Method; 3] = [Method::Dopri5, Method::Tsit5, Method::Dop853];
+/// Methods that are compared: all but the one that chooses another.
+fn methods() -> impl Iterator<Item = Method> {
+    Method::ALL.iter().copied().filter(|m| *m != Method::Auto)
+}
 
 /// The explicit method with which treatments are compared.
 const EXPLICIT: Method = Method::Dop853;
 
-/// Treatments of redundancy; the first is that of the comparison of methods.
-const FORMULATIONS: [Formulation; 1] = [Formulation::KeptRows];
+/// Treatment of redundancy in the comparison of methods.
+const FORMULATION: Formulation = Formulation::KeptRows;
 
-/// Treatments of drift; the first is that of the comparison of methods.
-const STABILISATIONS: [Stabilisation; 1] = [Stabilisation::Projection];
+/// Treatment of drift in the comparison of methods.
+const STABILISATION: Stabilisation = Stabilisation::Projection;
 
 /// Powers of ten, exactly.
 const TOLERANCES: [f64; 11] = [
@@ -69,8 +71,8 @@ impl Plan {
         let curves = everything().into_iter().filter(|curve| {
             let usual = [
                 curve.method == EXPLICIT,
-                curve.formulation == FORMULATIONS[0],
-                curve.stabilisation == STABILISATIONS[0],
+                curve.formulation == FORMULATION,
+                curve.stabilisation == STABILISATION,
             ];
             usual.into_iter().filter(|u| !u).count() <= 1
         });
@@ -113,18 +115,18 @@ impl Plan {
     pub(super) fn usual(method: Method) -> Curve {
         Curve {
             method,
-            formulation: FORMULATIONS[0],
-            stabilisation: STABILISATIONS[0],
+            formulation: FORMULATION,
+            stabilisation: STABILISATION,
         }
     }
 }
 
 /// All curves: methods first, then what is compared with one method.
 fn everything() -> Vec<Curve> {
-    let mut curves: Vec<Curve> = METHODS.into_iter().map(Plan::usual).collect();
-    for method in METHODS {
-        for formulation in FORMULATIONS {
-            for stabilisation in STABILISATIONS {
+    let mut curves: Vec<Curve> = methods().map(Plan::usual).collect();
+    for method in methods() {
+        for &formulation in Formulation::ALL {
+            for &stabilisation in Stabilisation::ALL {
                 let curve = Curve {
                     method,
                     formulation,
