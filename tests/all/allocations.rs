@@ -1,6 +1,6 @@
 //! An evaluation of the right-hand side allocates nothing.
 
-use dynamics::{KeptRowMotion, Motion, RowChoice, prepare};
+use dynamics::{Formulation, KeptRowMotion, Motion, MotionOptions, RowChoice, prepare};
 use model::{Mechanism, StartOptions};
 use tests::robot::{robot, steering};
 
@@ -26,4 +26,24 @@ fn evaluations_and_projections_allocate_nothing() {
         assert!(correction.iterations > 0);
     });
     assert_eq!(counted.count_total, 0, "{counted:?}");
+}
+
+#[test]
+fn accelerations_of_every_formulation_allocate_nothing() {
+    let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
+    let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts");
+    let mut a = vec![0.0; p.v.len()];
+    for &formulation in Formulation::ALL {
+        let options = MotionOptions {
+            formulation,
+            ..MotionOptions::to(1.0)
+        };
+        let mut motion = KeptRowMotion::with(&p, &options).expect("moves");
+        let counted = allocation_counter::measure(|| {
+            motion
+                .acceleration(1.5, &p.q, &p.v, &mut a)
+                .expect("regular");
+        });
+        assert_eq!(counted.count_total, 0, "{formulation:?}: {counted:?}");
+    }
 }

@@ -36,6 +36,7 @@ pub(crate) struct ConstraintKernels {
     pub(crate) d_force_dx: Sparse,
     pub(crate) d_residual_dx: Sparse,
     pub(crate) d_gamma_dv: Sparse,
+    pub(crate) d_velocity_dx: Sparse,
 }
 
 /// Kernels of a force.
@@ -100,6 +101,7 @@ pub(crate) fn constraint(
         .collect();
     let (d_force_dx, d_residual_dx) = position_derivatives(model, &c, &gamma, &columns);
     let d_gamma_dv = velocity_derivatives(model, &gamma);
+    let d_velocity_dx = along_columns(model, &velocity, &columns);
     Ok(ConstraintKernels {
         phi: if body.holonomic {
             body.rows.clone()
@@ -116,6 +118,7 @@ pub(crate) fn constraint(
         d_force_dx,
         d_residual_dx,
         d_gamma_dv,
+        d_velocity_dx,
     })
 }
 
@@ -260,39 +263,46 @@ fn position_derivatives(
     gamma: &[Expr],
     columns: &[Derivation],
 ) -> (Sparse, Sparse) {
-    let mut d_force = Vec::new();
-    for row in 0..columns.len() {
-        let terms: Vec<(f64, Expr)> = c
-            .iter()
-            .filter(|e| e.column == row)
-            .map(|e| (1.0, model.g.mul(e.value, model.inputs.lambda[e.row])))
-            .collect();
-        let force = model.g.sum(&terms);
-        for (column, along) in columns.iter().enumerate() {
-            push(&mut d_force, model, row, column, |m| {
-                along.apply(&mut m.g, force)
-            });
-        }
-    }
-    let mut d_residual = Vec::new();
-    for (row, &gamma) in gamma.iter().enumerate() {
-        let mut terms: Vec<(f64, Expr)> = c
-            .iter()
-            .filter(|e| e.row == row)
-            .map(|e| {
-                let a = model.inputs.slots[e.column / N_DOF].acceleration[e.column % N_DOF];
-                (1.0, model.g.mul(e.value, a))
-            })
-            .collect();
-        terms.push((-1.0, gamma));
-        let residual = model.g.sum(&terms);
-        for (column, along) in columns.iter().enumerate() {
-            push(&mut d_residual, model, row, column, |m| {
-                along.apply(&mut m.g, residual)
-            });
-        }
-    }
+    let forces: Vec<Expr> = (0..columns.len())
+        .map(|column| {
+            let terms: Vec<(f64, Expr)> = c
+                .iter()
+                .filter(|e| e.column == column)
+                .map(|e| (1.0, model.g.mul(e.value, model.inputs.lambda[e.row])))
+                .collect();
+            model.g.sum(&terms)
+        })
+        .collect();
+    let residuals: Vec<Expr> = gamma
+        .iter()
+        .enumerate()
+        .map(|(row, &gamma)| {
+            let mut terms: Vec<(f64, Expr)> = c
+                .iter()
+                .filter(|e| e.row == row)
+                .map(|e| {
+                    let a = model.inputs.slots[e.column / N_DOF].acceleration[e.column % N_DOF];
+                    (1.0, model.g.mul(e.value, a))
+                })
+                .collect();
+            terms.push((-1.0, gamma));
+            model.g.sum(&terms)
+        })
+        .collect();
+    let d_force = along_columns(model, &forces, columns);
+    let d_residual = along_columns(model, &residuals, columns);
     (d_force, d_residual)
+}
+
+/// Derivatives of `rows` along each degree of freedom.
+fn along_columns(model: &mut Model, rows: &[Expr], columns: &[Derivation]) -> Sparse {
+    let mut out = Vec::new();
+    for (row, &e) in rows.iter().enumerate() {
+        for (column, along) in columns.iter().enumerate() {
+            push(&mut out, model, row, column, |m| along.apply(&mut m.g, e));
+        }
+    }
+    out
 }
 
 /// Partial derivatives of `rows` by the velocities.

@@ -192,6 +192,13 @@ fn constraint_type(
         &values(&k.d_gamma_dv),
         VELOCITY,
     );
+    let d_velocity_dx = method(
+        "d_velocity_dx",
+        "∂(C·v − b)/∂x",
+        model,
+        &values(&k.d_velocity_dx),
+        VELOCITY,
+    );
     quote! {
         #structure
 
@@ -215,6 +222,7 @@ fn constraint_type(
             #d_force_dx
             #d_residual_dx
             #d_gamma_dv
+            #d_velocity_dx
         }
     }
 }

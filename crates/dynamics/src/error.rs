@@ -1,7 +1,7 @@
 //! Why a motion stops, or does not begin.
 
 use integrators::IntegrationError;
-use linalg::{Doubt, KeptRowsError, SaddleError};
+use linalg::{Doubt, KeptRowsError, SaddleError, SingularPivot};
 use model::{RowLabel, StartError};
 use solvability::{AnalysisError, Contradiction, StateError};
 
@@ -23,6 +23,27 @@ pub enum Trip {
         pivot: f64,
         /// What it is compared with.
         scale: f64,
+    },
+    /// The independent coordinates no longer determine the others.
+    #[error(
+        "at t = {time} s the independent coordinates do not determine the others: row {row} has a pivot of {pivot:.3e} times the \
+         one at their choice"
+    )]
+    Chart {
+        /// When.
+        time: f64,
+        /// The row that cannot be solved.
+        row: RowLabel,
+        /// Its pivot relative to the one at the choice.
+        pivot: f64,
+    },
+    /// The linear system of an implicit step has no solution.
+    #[error("at t = {time} s the iteration matrix of the step is singular: {source}")]
+    IterationMatrix {
+        /// When.
+        time: f64,
+        /// Why.
+        source: SingularPivot,
     },
     /// A motion that moves no mass.
     #[error(
@@ -148,6 +169,16 @@ pub enum MotionError {
         value: f64,
         /// What is needed.
         expected: &'static str,
+    },
+    /// Two options that do not go together.
+    #[error("{chosen} does not go with {with}: {why}")]
+    Combination {
+        /// One.
+        chosen: &'static str,
+        /// The other.
+        with: &'static str,
+        /// Why not.
+        why: &'static str,
     },
     /// Rows to drop where none are.
     #[error(

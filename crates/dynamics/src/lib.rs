@@ -19,7 +19,7 @@ pub mod simulate;
 
 pub use error::{MotionError, Trip};
 pub use events::{Event, EventKind};
-pub use motion::{Correction, KeptRowMotion, Motion};
+pub use motion::{Correction, KeptRowMotion, Motion, Reduced};
 pub use options::{Formulation, Method, MotionOptions, RowChoice, Stabilisation};
 pub use prepare::{Prepared, prepare};
 pub use simulate::{Failure, Sample, Summary, simulate};

@@ -10,10 +10,13 @@
 //! velocity; nothing implies its position, and without it the configuration would drift.
 
 mod all_rows;
+mod chart;
+pub(crate) mod constrained;
 mod impulse;
 mod locate;
 mod passage;
 mod project;
+mod reduced;
 mod review;
 mod rows;
 mod stabilise;
@@ -26,8 +29,11 @@ use crate::events::Event;
 use crate::options::{MotionOptions, RowChoice, Stabilisation};
 use crate::prepare::Prepared;
 use all_rows::AllRows;
+use chart::Chart;
 use passage::Passage;
 use rows::KeptRows;
+
+pub use reduced::Reduced;
 
 /// Equations solved for what moves.
 pub trait Motion {
@@ -76,6 +82,8 @@ pub struct KeptRowMotion<'a> {
     aside: Option<KeptRows>,
     /// Independent rows of Φq.
     position: KeptRows,
+    /// Independent coordinates, where the motion is one of these alone.
+    chart: Option<Chart>,
     /// All rows, where accelerations and reactions are theirs.
     all_rows: Option<AllRows>,
     stabilisation: Stabilisation,
@@ -104,7 +112,11 @@ impl<'a> KeptRowMotion<'a> {
     /// As [`KeptRowMotion::new`]; also if the formulation has no solution at the start.
     pub fn with(prepared: &'a Prepared, options: &MotionOptions) -> Result<Self, Trip> {
         let all_rows = AllRows::new(prepared, options.formulation, options.rtol)?;
-        Self::kept(prepared, all_rows, options.stabilisation)
+        let mut motion = Self::kept(prepared, all_rows, options.stabilisation)?;
+        if options.is_on_chart() {
+            motion.use_chart(0.0, &prepared.q)?;
+        }
+        Ok(motion)
     }
 
     fn kept(
@@ -125,6 +137,7 @@ impl<'a> KeptRowMotion<'a> {
             velocity: rows(&prepared.decision)?,
             aside: None,
             position: rows(&prepared.position_decision)?,
+            chart: None,
             all_rows,
             stabilisation,
             passage: Passage::default(),
@@ -178,6 +191,13 @@ impl<'a> KeptRowMotion<'a> {
         self.mechanism.applied_power(&self.s.force, v) + constraints
     }
 
+    /// Kept rows: how many are holonomic, and how many are not.
+    pub(crate) fn kept_rows(&self) -> [usize; 2] {
+        let kept = &self.velocity.kept;
+        let holonomic = kept.partition_point(|&i| i < self.mechanism.layout().m);
+        [holonomic, kept.len() - holonomic]
+    }
+
     /// b at the pose of the scratch.
     fn evaluate_b(&mut self) {
         if self.mechanism.layout().rheonomic {
@@ -199,9 +219,14 @@ impl<'a> KeptRowMotion<'a> {
         mechanism.c(s);
         velocity.factor(mechanism, s)?;
         passage.see(velocity);
-        mechanism.twist(v, s);
-        mechanism.gamma(s);
-        mechanism.force(s);
+        self.solve_factored(v, a)
+    }
+
+    /// The same where the pose is taken and the rows are factored.
+    fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), Trip> {
+        self.mechanism.twist(v, &mut self.s);
+        self.mechanism.gamma(&mut self.s);
+        self.mechanism.force(&mut self.s);
         self.pull_back(v);
         let Self {
             mechanism,
@@ -217,6 +242,19 @@ impl<'a> KeptRowMotion<'a> {
             *rhs = s.gamma[i];
         }
         velocity.solve(mechanism, s, &s.force, a)
+    }
+
+    /// Multipliers of all rows from the last solve; those of dropped rows are zero.
+    fn last_multipliers(&self, lambda: &mut [f64]) {
+        match &self.all_rows {
+            Some(all) => lambda.copy_from_slice(&all.lambda),
+            None => {
+                lambda.fill(0.0);
+                for (&i, &l) in self.velocity.kept.iter().zip(&self.velocity.lambda) {
+                    lambda[i] = l;
+                }
+            }
+        }
     }
 
     fn multipliers_of_all(
@@ -255,6 +293,7 @@ impl Motion for KeptRowMotion<'_> {
     }
 
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, Trip> {
+        self.complete_row(t, q, v)?;
         let iterations = self.settle(t, q)?;
         self.finish(q, v, iterations)
     }
@@ -274,10 +313,7 @@ impl Motion for KeptRowMotion<'_> {
         let solved = self.solve(t, q, v, &mut a);
         self.delta = a;
         let left_out = self.velocity.n_left_out();
-        lambda.fill(0.0);
-        for (&i, &l) in self.velocity.kept.iter().zip(&self.velocity.lambda) {
-            lambda[i] = l;
-        }
+        self.last_multipliers(lambda);
         self.swap_aside();
         solved?;
         if left_out > 0 {

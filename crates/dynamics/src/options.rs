@@ -15,11 +15,28 @@ pub enum Method {
     Tsit5,
     /// Dormand–Prince 8(5,3).
     Dop853,
+    /// Extrapolated midpoint rule of variable order, for very tight tolerances.
+    Gbs,
+    /// Radau IIA of order 5 on independent coordinates, for stiff forces.
+    Radau5,
+    /// Half-explicit Runge–Kutta method of order 4: without derivatives of the constraints.
+    Hem4,
+    /// Generalized-α on positions with ρ∞ = 0.8, order 2: for stiff forces at low accuracy.
+    GeneralizedAlpha,
 }
 
 impl Method {
     /// All that can be asked for.
-    pub const ALL: &[Self] = &[Self::Auto, Self::Dopri5, Self::Dop853, Self::Tsit5];
+    pub const ALL: &[Self] = &[
+        Self::Auto,
+        Self::Dopri5,
+        Self::Dop853,
+        Self::Tsit5,
+        Self::Gbs,
+        Self::Radau5,
+        Self::Hem4,
+        Self::GeneralizedAlpha,
+    ];
 
     /// Its name in scenes and results.
     #[must_use]
@@ -29,14 +46,24 @@ impl Method {
             Self::Dopri5 => "dopri5",
             Self::Tsit5 => "tsit5",
             Self::Dop853 => "dop853",
+            Self::Gbs => "gbs",
+            Self::Radau5 => "radau5",
+            Self::Hem4 => "hem4",
+            Self::GeneralizedAlpha => "generalized-alpha",
         }
+    }
+
+    /// Whether it needs the Jacobian of the motion, which only independent coordinates have.
+    #[must_use]
+    pub fn needs_independent_coordinates(self) -> bool {
+        self == Self::Radau5
     }
 
     /// The integrator that a run uses.
     #[must_use]
     pub fn chosen(self) -> Self {
         match self {
-            Self::Auto => Self::Dopri5,
+            Self::Auto => Self::Dop853,
             method => method,
         }
     }
@@ -49,6 +76,9 @@ pub enum Formulation {
     /// r independent rows are kept, the others only monitored.
     #[default]
     KeptRows,
+    /// The same rows give dependent coordinates and velocities; the motion is one of the independent ones alone. Nothing drifts, and
+    /// nothing is stabilised.
+    NullSpace,
     /// All rows by a complete orthogonal decomposition of locked rank; of all reactions those with the least
     /// `Σ F² + T²` (N, N·m).
     MinimumNorm,
@@ -58,13 +88,19 @@ pub enum Formulation {
 
 impl Formulation {
     /// All that can be asked for.
-    pub const ALL: &[Self] = &[Self::KeptRows, Self::MinimumNorm, Self::Proximal];
+    pub const ALL: &[Self] = &[
+        Self::KeptRows,
+        Self::NullSpace,
+        Self::MinimumNorm,
+        Self::Proximal,
+    ];
 
     /// Its name in scenes and results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::KeptRows => "kept-rows",
+            Self::NullSpace => "null-space",
             Self::MinimumNorm => "minimum-norm",
             Self::Proximal => "proximal",
         }
@@ -74,7 +110,7 @@ impl Formulation {
     #[must_use]
     pub fn drops_rows(self) -> bool {
         match self {
-            Self::KeptRows => true,
+            Self::KeptRows | Self::NullSpace => true,
             Self::MinimumNorm | Self::Proximal => false,
         }
     }
@@ -159,6 +195,12 @@ impl MotionOptions {
     /// Absolute tolerance where none is given.
     pub const ATOL: f64 = 1e-10;
 
+    /// Whether the motion is one of independent coordinates alone.
+    #[must_use]
+    pub fn is_on_chart(&self) -> bool {
+        self.formulation == Formulation::NullSpace || self.method.needs_independent_coordinates()
+    }
+
     /// The defaults for a run to `t_end`.
     #[must_use]
     pub fn to(t_end: f64) -> Self {
@@ -178,6 +220,7 @@ impl MotionOptions {
     ///
     /// # Errors
     /// - [`MotionError::Option`]: one is not finite or out of range.
+    /// - [`MotionError::Combination`]: method, formulation and stabilisation do not go together.
     /// - [`MotionError::NothingToDrop`]: rows are dropped, but the formulation uses all.
     pub fn check(&self) -> Result<(), MotionError> {
         let numbers = [
@@ -212,7 +255,41 @@ impl MotionOptions {
                 });
             }
         }
+        self.check_combination()?;
         self.check_rows(&self.rows)
+    }
+
+    /// Whether method, formulation and stabilisation go together.
+    fn check_combination(&self) -> Result<(), MotionError> {
+        let method = self.method.chosen();
+        let combination = |with, why| {
+            Err(MotionError::Combination {
+                chosen: self.formulation.name(),
+                with,
+                why,
+            })
+        };
+        let has_own_equations = matches!(
+            method,
+            Method::Radau5 | Method::Hem4 | Method::GeneralizedAlpha
+        );
+        if has_own_equations && !self.formulation.drops_rows() {
+            return combination(method.name(), "the method solves equations on kept rows");
+        }
+        if self.stabilisation == Stabilisation::Projection {
+            return Ok(());
+        }
+        if self.formulation == Formulation::NullSpace {
+            return combination(self.stabilisation.name(), "nothing drifts there");
+        }
+        match has_own_equations {
+            true => Err(MotionError::Combination {
+                chosen: method.name(),
+                with: self.stabilisation.name(),
+                why: "the method relies on projection",
+            }),
+            false => Ok(()),
+        }
     }
 
     /// Whether rows that the user dropped have a meaning.

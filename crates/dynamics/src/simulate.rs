@@ -4,13 +4,14 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+mod constrained;
 mod energy;
 mod equations;
 mod passages;
 
 use integrators::{
-    Cause, Dop853, Dopri5, IntegrationError, Interval, Options, Outcome, OutputTimes, Rows, Tsit5,
-    integrate,
+    Cause, Dop853, Dopri5, Gbs, GeneralizedAlpha, Hem4, IntegrationError, Interval, Options,
+    Outcome, OutputTimes, Radau5, Rows, Tsit5, integrate,
 };
 use linalg::ProximalTuning;
 use model::{Reaction, System};
@@ -162,9 +163,13 @@ pub fn simulate(
     };
     let clock = Instant::now();
     let outcome = match options.method.chosen() {
-        Method::Auto | Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
+        Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
         Method::Tsit5 => run.go(&Tsit5, &interval, &y0, &settings),
-        Method::Dop853 => run.go(&Dop853, &interval, &y0, &settings),
+        Method::Auto | Method::Dop853 => run.go(&Dop853, &interval, &y0, &settings),
+        Method::Gbs => run.go(&Gbs, &interval, &y0, &settings),
+        Method::Radau5 => run.go(&Radau5, &interval, &y0, &settings),
+        Method::Hem4 => run.go(&Hem4, &interval, &y0, &settings),
+        Method::GeneralizedAlpha => run.go(&GeneralizedAlpha::default(), &interval, &y0, &settings),
     };
     let wall_seconds = clock.elapsed().as_secs_f64();
     let (t, statistics) = match &outcome {

@@ -122,7 +122,7 @@ pub(crate) fn refuse<E: std::error::Error>(
 
 /// `Err` with the first component that is not finite.
 #[inline]
-fn finite(v: &[f64]) -> Result<(), usize> {
+pub(crate) fn finite(v: &[f64]) -> Result<(), usize> {
     v.iter().position(|x| !x.is_finite()).map_or(Ok(()), Err)
 }
 

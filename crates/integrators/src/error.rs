@@ -23,6 +23,16 @@ pub enum Cause<E: Error + 'static> {
     /// The right-hand side or the hook returned an error.
     #[error("the problem reports: {0}")]
     Problem(#[source] E),
+    /// Newton's method for the stages does not converge.
+    #[error(
+        "Newton's iteration for the stages does not converge (rate {rate:.2e} after {iterations} iterations)"
+    )]
+    NewtonDiverges {
+        /// Last increment over the one before; NaN or infinite where they are not finite.
+        rate: f64,
+        /// Iterations with the last Jacobian.
+        iterations: u32,
+    },
     /// The hook returned [`crate::StepEnd::Reject`].
     #[error("the hook at the end of the step rejects it")]
     RejectedByHook,

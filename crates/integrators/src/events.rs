@@ -42,9 +42,9 @@ const WIDTH_IN_EPSILONS: f64 = 2.0;
 ///
 /// g is looked at in eleven places of each step, first in the dense output that costs nothing; only a step in which its sign
 /// changes pays for the accurate one. A zero at the end of a step belongs to that step, one at the start of the integration to
-/// none. Two zeros between neighbouring places are not seen, nor is a contact without change of sign (a grazing contact), unless
-/// g happens to be exactly 0 in one of the places: bound the step size where g changes faster than the solution, and look for zeros
-/// of dg/dt where contacts matter.
+/// none. Not seen are two zeros between neighbouring places, a contact without change of sign (a grazing contact) unless g happens
+/// to be exactly 0 in one of the places, and a sign that changes with a jump of the state at a break time. Bound the step size
+/// where g changes faster than the solution, and look for zeros of dg/dt where contacts matter.
 ///
 /// # Examples
 ///

@@ -17,20 +17,36 @@
 //! | `rk5` | Dormand–Prince 5(4) and Tsitouras 5(4): `dopri5` and `tsit5` (tables), `step`, `dense` |
 //! | `dop853` | Dormand–Prince 8(5,3): `tableau`, `step`, `dense` |
 //! | `gbs` | extrapolated midpoint rule: `sequence`, `step`, `order`, `dense` |
+//! | `implicit` | problems with a Jacobian: [`Implicit`] |
+//! | `dense_implicit` | a plain problem with a dense Jacobian: [`DenseImplicit`] |
+//! | `radau5` | Radau IIA of order 5: `tableau`, `scale`, `newton`, `step`, `dense` |
+//! | `constrained` | problems with constraints as equations of their own: [`Constrained`] |
+//! | `hem4` | half-explicit Runge–Kutta method of order 4: `tableau`, `step` |
+//! | `generalized_alpha` | generalized-α on positions: `newton`, `step` |
+//! | `convergence` | when Newton's iterations end |
+//! | `hermite` | dense output from both ends of a step |
 
 #![forbid(unsafe_code)]
 
 mod combine;
+mod constrained;
 mod control;
+mod convergence;
+mod dense_implicit;
 mod dop853;
 mod drive;
 mod error;
 mod events;
 mod gbs;
+mod generalized_alpha;
+mod hem4;
+mod hermite;
+mod implicit;
 mod interval;
 mod method;
 mod ode;
 mod options;
+mod radau5;
 mod rk5;
 mod root;
 mod rows;
@@ -42,14 +58,20 @@ mod step;
 #[cfg(test)]
 mod trees;
 
+pub use constrained::{Constrained, Linearisation, Sizes, Target};
+pub use dense_implicit::{DenseError, DenseImplicit, Differences, Jacobian};
 pub use dop853::Dop853;
 pub use error::{Cause, Failure, IntegrationError};
 pub use events::{Crossing, Crossings, Direction, integrate_until};
 pub use gbs::Gbs;
+pub use generalized_alpha::GeneralizedAlpha;
+pub use hem4::Hem4;
+pub use implicit::Implicit;
 pub use interval::Interval;
 pub use method::{End, Method, Outcome, integrate};
 pub use ode::{Delicate, Function, Ode, StepEnd, StepInfo};
 pub use options::{InitialStep, Options, Tolerance};
+pub use radau5::Radau5;
 pub use rk5::{Dopri5, Tsit5};
 pub use rows::{OutputTimes, Rows};
 pub use sample::sample;

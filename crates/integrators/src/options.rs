@@ -93,6 +93,14 @@ impl Tolerance {
         }
     }
 
+    /// Relative part for component `i`.
+    pub(crate) fn rtol(&self, i: usize) -> f64 {
+        match self {
+            Self::Uniform { rtol, .. } => *rtol,
+            Self::PerComponent { rtol, .. } => rtol[i],
+        }
+    }
+
     fn check<E: Error + 'static>(&self, dim: usize) -> Result<(), IntegrationError<E>> {
         match self {
             Self::Uniform { rtol, atol } => check_pair(*rtol, *atol),

@@ -10,6 +10,15 @@ pub struct Statistics {
     pub output_evaluations: u64,
     /// Evaluations of f reported by [`crate::Ode::end_of_step`].
     pub hook_evaluations: u64,
+    /// Evaluations of a Jacobian or of the matrices of a constrained problem; evaluations of f spent on differences are not in
+    /// `evaluations`.
+    pub jacobians: u64,
+    /// Factorisations for one step size: a real and a complex one (Radau IIA) count once.
+    pub factorisations: u64,
+    /// Solutions of a linear system; a real and a complex one of the same iteration count once.
+    pub solves: u64,
+    /// Iterations of Newton's method.
+    pub newton_iterations: u64,
     /// Accepted steps.
     pub accepted: u64,
     /// Trials rejected because the estimated error was too large.

@@ -190,6 +190,7 @@ fn constraint_bits<K: Constraint>(seed: u64) -> Vec<u64> {
     call(&|o| k.d_force_dx(&x, &f, &lambda, o));
     call(&|o| k.d_residual_dx(&x, &v, &a, &f, o));
     call(&|o| k.d_gamma_dv(&x, &v, &f, o));
+    call(&|o| k.d_velocity_dx(&x, &v, &f, o));
     out.extend((0..spec.common.requirements.len()).map(|r| u64::from(k.requirement(r, &x))));
     out
 }

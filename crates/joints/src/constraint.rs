@@ -70,6 +70,9 @@ pub trait Constraint: Clone + Send + Sync + Sized + 'static {
 
     /// Entries of `∂Γ/∂v`.
     fn d_gamma_dv<T: Ring>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]);
+
+    /// Entries of `∂(C·v − b)/∂x`.
+    fn d_velocity_dx<T: Ring>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]);
 }
 
 /// A constraint as an object, for one number type.
@@ -109,6 +112,8 @@ pub trait Element<T: Ring = f64>: Send + Sync {
     );
     /// See [`Constraint::d_gamma_dv`].
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]);
+    /// See [`Constraint::d_velocity_dx`].
+    fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]);
 }
 
 impl<T: Ring, K: Constraint> Element<T> for K {
@@ -160,5 +165,8 @@ impl<T: Ring, K: Constraint> Element<T> for K {
     }
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         Constraint::d_gamma_dv(self, x, v, f, out);
+    }
+    fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        Constraint::d_velocity_dx(self, x, v, f, out);
     }
 }

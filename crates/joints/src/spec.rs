@@ -221,6 +221,8 @@ pub struct ConstraintSpec {
     pub d_residual_dx: &'static [[usize; 2]],
     /// Pattern (row, column of the block) of `∂Γ/∂v`.
     pub d_gamma_dv: &'static [[usize; 2]],
+    /// Pattern (row, column of the block) of `∂(C·v − b)/∂x`.
+    pub d_velocity_dx: &'static [[usize; 2]],
 }
 
 /// What a constraint is for.

@@ -10,6 +10,7 @@ mod kernels;
 #[cfg(feature = "faer")]
 mod large;
 mod ldl;
+mod lu;
 mod matrix;
 mod minimum_norm;
 mod null_space;
@@ -33,6 +34,7 @@ pub use deletions::{
 };
 pub use double_double::Dd;
 pub use equilibrate::{Scaling, equilibrate};
+pub use lu::{Lu, SingularPivot};
 pub use matrix::{Matrix, ShapeError};
 pub use minimum_norm::MinimumNormSaddle;
 pub use null_space::{Components, components, dependencies, orthonormal, support_tolerance};

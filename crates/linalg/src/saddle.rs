@@ -21,6 +21,7 @@
 
 mod factor;
 mod orientation;
+mod partition;
 mod solve;
 #[cfg(test)]
 mod tests;
@@ -50,6 +51,9 @@ pub struct KeptRowSaddle {
     used: Vec<usize>,
     /// Row j: `U_0j … U_jj`, then column j of L below its unit diagonal. r×n, row-major.
     lu: Vec<f64>,
+    /// Coordinates in the order in which a factorisation takes them up, and how many of them it may solve for.
+    order: Vec<usize>,
+    solvable: usize,
     /// Position i of P·x is coordinate `permutation[i]`.
     permutation: Vec<usize>,
     /// Row c: `−L₁⁻ᵀ·L₂ᵀ·e_c`, the dependent part of the null vector c. k×r, row-major.
@@ -94,6 +98,14 @@ pub enum SaddleError {
         found: usize,
         /// The length it must have.
         expected: usize,
+    },
+    /// Coordinates that cannot be solved for.
+    #[error("coordinate {coordinate} cannot be solved for: need different coordinates below {n}")]
+    Partition {
+        /// The coordinate.
+        coordinate: usize,
+        /// Coordinates.
+        n: usize,
     },
     /// A NaN or infinite entry.
     #[error("{argument} contains the value {value} at {index}, need finite numbers")]
@@ -161,6 +173,8 @@ impl KeptRowSaddle {
             rows: r,
             used: (0..r).collect(),
             lu: vec![0.0; r * n],
+            order: (0..n).collect(),
+            solvable: n,
             permutation: (0..n).collect(),
             null_basis: vec![0.0; most(|n, r| (n - r) * r)],
             mass: vec![0.0; n],
@@ -201,9 +215,9 @@ impl KeptRowSaddle {
     }
 }
 
-pub(crate) fn check_length(
+pub(crate) fn check_length<T>(
     argument: &'static str,
-    x: &[f64],
+    x: &[T],
     expected: usize,
 ) -> Result<(), SaddleError> {
     if x.len() == expected {

@@ -2,6 +2,7 @@
 //! everything that can be wrong; what is built has no invalid state.
 
 mod build;
+mod derivatives;
 mod kernels;
 
 use std::ops::Range;
@@ -14,6 +15,7 @@ use crate::registry::{PlaneConstraint, PlaneForce};
 use crate::system::{Layout, System};
 
 pub use build::BuildError;
+pub use derivatives::{Derivatives, Sparse};
 
 /// Coordinates and velocities of a planar body.
 pub(crate) const N_BODY: usize = 3;

@@ -108,6 +108,7 @@ impl StudyError {
                     | MotionError::Contradiction(_)
                     | MotionError::Rows(_)
                     | MotionError::Option { .. }
+                    | MotionError::Combination { .. }
                     | MotionError::NothingToDrop { .. }
             ),
             Self::Analysis(e) => matches!(e, AnalysisError::Rows { .. }),

@@ -125,6 +125,13 @@ fn affine_rheonomic_psi() {
     // n·v_s − f(t) = 0: b = f, Γ = Γ of the knife edge + ḟ.
     assert_close(&state.values(&model, &k.b), &[0.25]);
     assert_close(&state.values(&model, &k.gamma), &[edge_gamma() - 1.5]);
+    // ∂(C·v − b)/∂φ = (Ω·n)·v of the origin: what ω adds turns with the normal.
+    let (n, ..) = edge();
+    assert_eq!(places(&k.d_velocity_dx), [[0, 2]]);
+    assert_close(
+        &state.values(&model, &[k.d_velocity_dx[0].1]),
+        &[-n[1] * 1.5 + n[0] * -0.7],
+    );
 }
 
 #[test]

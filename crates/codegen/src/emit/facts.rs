@@ -60,6 +60,7 @@ pub(super) fn constraint_spec(
     let d_force_dx = pattern(&k.d_force_dx);
     let d_residual_dx = pattern(&k.d_residual_dx);
     let d_gamma_dv = pattern(&k.d_gamma_dv);
+    let d_velocity_dx = pattern(&k.d_velocity_dx);
     quote! {
         const SPEC: ConstraintSpec = ConstraintSpec {
             common: #common,
@@ -74,6 +75,7 @@ pub(super) fn constraint_spec(
             d_force_dx: #d_force_dx,
             d_residual_dx: #d_residual_dx,
             d_gamma_dv: #d_gamma_dv,
+            d_velocity_dx: #d_velocity_dx,
         };
     }
 }

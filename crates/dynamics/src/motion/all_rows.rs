@@ -31,9 +31,9 @@ pub(super) struct AllRows {
 }
 
 enum Saddle {
-    MinimumNorm(MinimumNormSaddle),
+    MinimumNorm(Box<MinimumNormSaddle>),
     Proximal {
-        saddle: ProximalSaddle,
+        saddle: Box<ProximalSaddle>,
         tolerance: f64,
     },
 }
@@ -52,12 +52,14 @@ impl AllRows {
         let c = mechanism.layout().dense(&s);
         let rank = prepared.decision.rank;
         let saddle = match formulation {
-            Formulation::KeptRows => return Ok(None),
-            Formulation::MinimumNorm => MinimumNormSaddle::new(&c, rank).map(Saddle::MinimumNorm),
+            Formulation::KeptRows | Formulation::NullSpace => return Ok(None),
+            Formulation::MinimumNorm => {
+                MinimumNormSaddle::new(&c, rank).map(|saddle| Saddle::MinimumNorm(Box::new(saddle)))
+            }
             Formulation::Proximal => {
                 let saddle = ProximalSaddle::new(&c, mechanism.mass(), rank, rtol);
                 saddle.map(|saddle| Saddle::Proximal {
-                    saddle,
+                    saddle: Box::new(saddle),
                     tolerance: rtol,
                 })
             }

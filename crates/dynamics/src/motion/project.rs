@@ -20,6 +20,18 @@ const STALLED_ROUNDINGS: f64 = 50.0;
 /// reaches them through coefficients of up to some hundreds.
 const DROPPED_MISFIT: f64 = 1e-11;
 
+/// Factors of an earlier configuration serve as long as a correction gains a digit: a factorisation costs about ten corrections.
+const CONVERGENCE: f64 = 0.1;
+
+/// Which coordinates a correction moves.
+#[derive(Clone, Copy)]
+pub(super) enum Correct {
+    /// All, by the smallest correction in the mass metric.
+    AllCoordinates,
+    /// Those that the rows have been partitioned to determine.
+    DependentCoordinates,
+}
+
 impl KeptRowMotion<'_> {
     /// Projects a step that passed its error test, and keeps other rows if the present ones have become nearly dependent there.
     /// What happened is told by [`KeptRowMotion::accept`], once the step stands.
@@ -34,11 +46,15 @@ impl KeptRowMotion<'_> {
         v: &mut [f64],
         nearest: f64,
     ) -> Result<Correction, Trip> {
+        self.complete_row(t, q, v)?;
         let iterations = self.settle(t, q)?;
         if self.velocity.relative_pivot() < nearest {
             return Err(self.no_way_over(t));
         }
-        if let Some(event) = self.review(q)? {
+        // On a chart rows are exchanged when the next step begins.
+        if self.chart.is_none()
+            && let Some(event) = self.review(q)?
+        {
             self.pending = Some(event);
         }
         self.finish(q, v, iterations)
@@ -65,6 +81,7 @@ impl KeptRowMotion<'_> {
 
     /// Takes the state just evaluated as that of an accepted step; what happened since the last one.
     pub(crate) fn accept(&mut self, t: f64) -> Option<Event> {
+        self.review_chart(t);
         self.passage.take(&mut self.velocity, t);
         self.pending.take()
     }
@@ -78,7 +95,7 @@ impl KeptRowMotion<'_> {
 
     /// Moves q onto the constraints and factors there.
     pub(super) fn settle(&mut self, t: f64, q: &mut [f64]) -> Result<usize, Trip> {
-        let iterations = self.project_position(t, q)?;
+        let iterations = self.project_position(t, q, Correct::AllCoordinates)?;
         self.velocity.factor(self.mechanism, &self.s)?;
         Ok(iterations)
     }
@@ -94,7 +111,13 @@ impl KeptRowMotion<'_> {
         self.monitor(q, v, iterations)
     }
 
-    fn project_position(&mut self, t: f64, q: &mut [f64]) -> Result<usize, Trip> {
+    /// Newton's method on the kept rows of Φ.
+    pub(super) fn project_position(
+        &mut self,
+        t: f64,
+        q: &mut [f64],
+        correct: Correct,
+    ) -> Result<usize, Trip> {
         let Self {
             mechanism,
             s,
@@ -137,10 +160,22 @@ impl KeptRowMotion<'_> {
                     iterations: iteration,
                 });
             }
+            let converges = worst.1 <= CONVERGENCE * best;
             best = best.min(worst.1);
             iteration += 1;
-            position.factor(mechanism, s)?;
-            position.solve(mechanism, s, zero, delta)?;
+            match correct {
+                Correct::AllCoordinates => {
+                    position.factor(mechanism, s)?;
+                    position.solve(mechanism, s, zero, delta)?;
+                }
+                Correct::DependentCoordinates => {
+                    if !converges {
+                        position.factor(mechanism, s)?;
+                    }
+                    delta.fill(0.0);
+                    position.complete(mechanism, s, delta)?;
+                }
+            }
             for (q, d) in q.iter_mut().zip(&*delta) {
                 *q += d;
             }

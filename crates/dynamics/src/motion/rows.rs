@@ -1,6 +1,6 @@
 //! Independent rows of C with everything that solving on them needs.
 
-use linalg::{KeptRowSaddle, Matrix, SaddleError};
+use linalg::{KeptRowSaddle, Matrix, PivotedQr, SaddleError, Scaling};
 use model::{Mechanism, Scratch, System};
 
 use crate::error::Trip;
@@ -20,11 +20,20 @@ pub(super) struct KeptRows {
     saddle: KeptRowSaddle,
     /// Pivot ratio when these rows were chosen: what later ones are compared with.
     reference_pivot: Option<f64>,
+    /// The same for the present partition, if there is one.
+    partition: Option<PartitionPivot>,
 }
+
+/// Pivot ratio of a partition at its first factorisation.
+#[derive(Clone, Copy)]
+struct PartitionPivot(Option<f64>);
 
 /// Other rows are kept once the pivots have fallen below this share of those at the choice: rounding of the kept
 /// rows reaches the dropped ones through the inverse of the pivots.
 const PIVOT_LOSS: f64 = 0.1;
+
+/// A partition is renewed once its pivots have fallen below this share: steps should not reach those of lost rows.
+const PARTITION_WORN: f64 = 0.5;
 
 /// Rows below this share are dependent for an instant and left out of the solve.
 const PIVOT_SINGULAR: f64 = 1e-6;
@@ -47,20 +56,97 @@ impl KeptRows {
             c: Matrix::zeros(r, n),
             saddle: KeptRowSaddle::new(n, r)?,
             reference_pivot: None,
+            partition: None,
         })
     }
 
     /// Factors at the entries of C in the scratch. Rows that are dependent for an instant are left out, but not at the first time.
     pub(super) fn factor(&mut self, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
-        let reference = self.reference_pivot;
+        let reference = self.reference();
         self.factor_above(PIVOT_SINGULAR, mechanism, s)?;
         match (reference, self.saddle.n_left_out()) {
             (None, 1..) => Err(self.rank_lost(mechanism, s)),
             (None, 0) => {
-                self.reference_pivot = Some(self.saddle.pivot_ratio());
+                let pivot = Some(self.saddle.pivot_ratio());
+                match &mut self.partition {
+                    Some(partition) => partition.0 = pivot,
+                    None => self.reference_pivot = pivot,
+                }
                 Ok(())
             }
             _ => Ok(()),
+        }
+    }
+
+    /// Solves from now on for the coordinates that these rows determine best at the entries of C in the scratch, with lengths measured
+    /// by `size`; factors there, and returns the others, ascending.
+    pub(super) fn partition(
+        &mut self,
+        mechanism: &Mechanism,
+        s: &Scratch,
+        size: f64,
+    ) -> Result<Vec<usize>, Trip> {
+        let r = self.kept.len();
+        self.forget_partition();
+        self.factor(mechanism, s)?;
+        let scaling = Scaling {
+            rows: vec![0; r],
+            cols: mechanism.dimension_scaling(size).cols,
+        };
+        let qr = PivotedQr::of_columns(&scaling.apply(&self.c));
+        let (dependent, free) = qr.permutation().split_at(r);
+        if let Err(e) = self.saddle.partition(dependent) {
+            return Err(self.trip(mechanism, s, e));
+        }
+        self.partition = Some(PartitionPivot(None));
+        self.factor(mechanism, s)?;
+        let mut free = free.to_vec();
+        free.sort_unstable();
+        Ok(free)
+    }
+
+    /// Every factorisation chooses again what it solves for.
+    pub(super) fn forget_partition(&mut self) {
+        self.saddle.forget_partition();
+        self.partition = None;
+    }
+
+    /// Whether another partition is due.
+    pub(super) fn are_worn(&self) -> bool {
+        self.partition.is_some() && self.relative_pivot() < PARTITION_WORN
+    }
+
+    /// Pivot ratio that the present ones are compared with.
+    fn reference(&self) -> Option<f64> {
+        match self.partition {
+            Some(partition) => partition.0,
+            None => self.reference_pivot,
+        }
+    }
+
+    /// Overwrites the dependent entries of x so that `C·x = rhs`; of a row left out there would be none.
+    pub(super) fn complete(
+        &mut self,
+        mechanism: &Mechanism,
+        s: &Scratch,
+        x: &mut [f64],
+    ) -> Result<(), Trip> {
+        if let Some(row) = (0..self.kept.len()).find(|&k| !self.saddle.uses(k)) {
+            return Err(Trip::Chart {
+                time: s.t,
+                row: mechanism.layout().labels[self.kept[row]].clone(),
+                pivot: self.relative_pivot(),
+            });
+        }
+        match self.saddle.complete(&self.rhs, x) {
+            Ok(()) => Ok(()),
+            Err(e) => Err(self.trip(mechanism, s, e)),
+        }
+    }
+
+    fn take_entries(&mut self, mechanism: &Mechanism, s: &Scratch) {
+        for (k, &i) in self.kept.iter().enumerate() {
+            mechanism.layout().scatter_row(s, i, self.c.row_mut(k));
         }
     }
 
@@ -71,10 +157,8 @@ impl KeptRows {
         mechanism: &Mechanism,
         s: &Scratch,
     ) -> Result<(), Trip> {
-        for (k, &i) in self.kept.iter().enumerate() {
-            mechanism.layout().scatter_row(s, i, self.c.row_mut(k));
-        }
-        let reference = self.reference_pivot.filter(|r| r.is_finite());
+        self.take_entries(mechanism, s);
+        let reference = self.reference().filter(|r| r.is_finite());
         let floor = share * reference.unwrap_or(0.0);
         let c = &self.c;
         match self
@@ -98,7 +182,7 @@ impl KeptRows {
 
     /// Smallest pivot relative to that when the rows were chosen; infinite without rows.
     pub(super) fn relative_pivot(&self) -> f64 {
-        match self.reference_pivot {
+        match self.reference() {
             Some(reference) if reference.is_finite() => self.pivot_ratio() / reference,
             _ => f64::INFINITY,
         }

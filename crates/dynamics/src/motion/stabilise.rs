@@ -8,9 +8,9 @@ use crate::error::Trip;
 use crate::options::Stabilisation;
 
 impl KeptRowMotion<'_> {
-    /// Whether states are moved onto the constraints.
+    /// Whether states are moved onto the constraints. On a chart they always are.
     pub(crate) fn projects(&self) -> bool {
-        self.stabilisation == Stabilisation::Projection
+        self.chart.is_some() || self.stabilisation == Stabilisation::Projection
     }
 
     /// Ends a step that passed its error test, which must not come nearer to a singular configuration than `nearest`.

@@ -3,14 +3,15 @@
 
 use std::ops::ControlFlow;
 
-use integrators::{Delicate, Ode, StepEnd, StepInfo, Tolerance};
+use integrators::{Delicate, Implicit, Ode, StepEnd, StepInfo, Tolerance};
 use model::System;
 
 use super::Sample;
 use super::energy::EnergyBalance;
 use crate::error::Trip;
 use crate::events::Event;
-use crate::motion::{Correction, KeptRowMotion, Motion};
+use crate::motion::constrained::SaddlePoint;
+use crate::motion::{Correction, KeptRowMotion, Reduced};
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 
@@ -39,8 +40,12 @@ const SMOOTH: f64 = 0.01;
 /// The equations of a run with what is noted on the way.
 pub(super) struct Equations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
-    n_q: usize,
-    n_v: usize,
+    /// Of implicit methods.
+    reduced: Reduced,
+    /// The constraints as equations of their own.
+    pub(super) saddle_point: SaddlePoint,
+    pub(super) n_q: usize,
+    pub(super) n_v: usize,
     /// Whether y carries the work.
     works: bool,
     /// Steps must not end nearer to a singular configuration, but where they have to.
@@ -92,6 +97,8 @@ impl<'m> Equations<'m> {
             delicate: None,
             before: Vec::new(),
             stage: Vec::new(),
+            reduced: Reduced::new(&motion),
+            saddle_point: SaddlePoint::new(&motion),
             motion,
         }
     }
@@ -104,6 +111,12 @@ impl<'m> Equations<'m> {
         self.stage = y.clone();
         self.is_careful = self.wants_care();
         y
+    }
+
+    /// Whether the next stages have to be moved onto the constraints. On a chart all of them lie there; without projection none shall.
+    fn wants_care(&self) -> bool {
+        let off = self.motion.projects() && self.motion.independent().is_none();
+        off && self.motion.relative_pivot() < CAREFUL
     }
 
     /// The work is measured, not controlled: its error has no weight. It still counts as a component of the mean, which makes the
@@ -191,26 +204,9 @@ impl<'m> Equations<'m> {
         self.events.push(event);
     }
 
-    fn wants_care(&self) -> bool {
-        self.motion.projects() && self.motion.relative_pivot() < CAREFUL
-    }
-
     fn is_break(&self, t: f64) -> bool {
         let times = &self.motion.mechanism().layout().break_times;
         times.binary_search_by(|b| b.total_cmp(&t)).is_ok()
-    }
-
-    /// f at a state on the constraints, or as near as a stage comes.
-    fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
-        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
-        let (qd, rest) = dy.split_at_mut(self.n_q);
-        let (a, work) = rest.split_at_mut(self.n_v);
-        self.motion.mechanism().rate(q, v, qd);
-        self.motion.acceleration(t, q, v, a)?;
-        if let Some(work) = work.first_mut() {
-            *work = self.motion.power(v);
-        }
-        Ok(())
     }
 
     /// Notes residuals and energy of a projected state.
@@ -232,7 +228,8 @@ impl Ode for Equations<'_> {
 
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
         if !self.is_careful {
-            return self.derivative(t, y, dy);
+            self.motion.derivative(t, y, dy)?;
+            return self.reduced.follow(&mut self.motion);
         }
         let mut stage = std::mem::take(&mut self.stage);
         stage.copy_from_slice(y);
@@ -240,7 +237,7 @@ impl Ode for Equations<'_> {
         let result = self
             .motion
             .approach(t, q, &mut rest[..self.n_v])
-            .and_then(|()| self.derivative(t, &stage, dy));
+            .and_then(|()| self.motion.derivative(t, &stage, dy));
         self.stage = stage;
         result
     }
@@ -277,7 +274,7 @@ impl Ode for Equations<'_> {
             return Err(self.motion.no_way_over(step.t));
         }
         if self.motion.projects() {
-            self.derivative(step.t_rhs, y, dy)?;
+            self.motion.derivative(step.t_rhs, y, dy)?;
             let a = &mut dy[self.n_q..self.n_q + self.n_v];
             self.motion.review_acceleration(a)?;
         }
@@ -317,5 +314,23 @@ impl Ode for Equations<'_> {
             self.events.push(impulse.event);
         }
         Ok(())
+    }
+}
+
+impl Implicit for Equations<'_> {
+    fn linearise(&mut self, t: f64, y: &[f64]) -> Result<(), Trip> {
+        self.reduced.linearise(&mut self.motion, t, y)
+    }
+
+    fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), Trip> {
+        self.reduced.factor(real, complex)
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        self.reduced.solve(x);
+    }
+
+    fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
+        self.reduced.solve_complex(re, im);
     }
 }

@@ -62,7 +62,7 @@ impl<O: Ode> Dense<O> for Extrapolation {
         self.pieces = 1;
         self.fit(ends, ends.y0, 0);
         let error = self.estimate(ode, ends, evaluations)?;
-        if error > 1.0 {
+        if error.is_nan() || error > 1.0 {
             // The error of a piece falls with the power 2k + 1 of its length.
             let wanted = error.powf(1.0 / (2 * self.control.last) as f64).ceil();
             self.pieces = (wanted as usize).clamp(2, PIECES);

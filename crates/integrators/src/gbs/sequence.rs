@@ -1,7 +1,8 @@
 //! The numbers of substeps and the weights of the extrapolation.
 //!
 //! The numbers 2, 6, 10, … differ by multiples of four, so that the middle of the step is reached after an odd number of substeps in
-//! every column: errors of differences around it have then the same expansion, which dense output needs (HNW I, II.9).
+//! every column: errors of differences around it have then the same expansion, which dense output needs (HNW I, II.9). Without output
+//! the sequence 2, 4, 6, … would need a quarter to a third less evaluations for the same error.
 
 /// Columns there are.
 pub(super) const COLUMNS: usize = 9;

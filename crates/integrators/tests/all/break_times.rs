@@ -1,7 +1,10 @@
 //! Kinks and jumps of f, declared and not.
 
-use crate::problems::run;
-use integrators::{Dopri5, Function, Interval, Ode, Options, integrate};
+use crate::problems::{Plain, fixed_step, plain, run};
+use integrators::{
+    Dop853, Dopri5, Function, Gbs, Interval, Method, Ode, Options, OutputTimes, Tsit5, integrate,
+    sample,
+};
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
@@ -72,6 +75,47 @@ fn declared_jump_needs_no_rejection_on_either_side() {
     let undeclared = run(jump_with_less, &[]);
     assert!(undeclared.statistics.rejected() > 5);
     assert!(undeclared.statistics.evaluations > less.statistics.evaluations);
+}
+
+/// The side from which f is evaluated does not depend on how the problem writes its condition, for any method.
+#[test]
+fn all_methods_stay_on_their_side_of_a_jump() {
+    fn check(name: &str, method: &impl Method<Plain>) {
+        for options in [Options::default(), fixed_step(0.25)] {
+            let run = |f: fn(f64, &[f64], &mut [f64])| {
+                let mut rows = Vec::new();
+                let times = OutputTimes::Every(0.1);
+                let mut write = |_: &mut Plain, _t: f64, y: &mut [f64]| {
+                    rows.push(y[0]);
+                    ControlFlow::Continue(())
+                };
+                let (mut ode, interval) = (plain(1, f), interval(&DECLARED));
+                let end = sample(
+                    method,
+                    &mut ode,
+                    &interval,
+                    &[1.0],
+                    &options,
+                    &times,
+                    &mut write,
+                )
+                .expect("smooth on either side");
+                (end, rows)
+            };
+            let (less, less_or_equal) = (run(jump_with_less), run(jump_with_less_or_equal));
+            assert_eq!(less, less_or_equal, "{name}");
+            assert_eq!(less.0.statistics.rejected(), 0, "{name}");
+            for (i, y) in less.1.iter().enumerate() {
+                let t = 0.1 * i as f64;
+                let exact = if t < 1.0 { (-t).exp() } else { (t - 2.0).exp() };
+                assert!((y - exact).abs() < 1e-4, "{name}, t = {t}: {y}");
+            }
+        }
+    }
+    check("dopri5", &Dopri5);
+    check("tsit5", &Tsit5);
+    check("dop853", &Dop853);
+    check("gbs", &Gbs);
 }
 
 #[test]

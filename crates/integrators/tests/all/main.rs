@@ -3,6 +3,7 @@
 mod allocations;
 mod arenstorf;
 mod break_times;
+mod edges;
 mod events;
 mod failures;
 mod hook;
@@ -10,3 +11,4 @@ mod kepler;
 mod order;
 mod output;
 mod problems;
+mod radau5;

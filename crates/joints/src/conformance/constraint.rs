@@ -25,6 +25,7 @@ pub(super) fn check<K: Constraint>(seed: u64) -> Result<(), Failure> {
         pattern("∂(Cᵀλ)/∂x", [n, n], K::SPEC.d_force_dx.to_vec())?,
         pattern("∂(C·a − Γ)/∂x", [m, n], K::SPEC.d_residual_dx.to_vec())?,
         pattern("∂Γ/∂v", [m, n], K::SPEC.d_gamma_dv.to_vec())?,
+        pattern("∂(C·v − b)/∂x", [m, n], K::SPEC.d_velocity_dx.to_vec())?,
     ];
     let mut restricts = vec![false; m];
     let mut depends_on_time = false;
@@ -106,7 +107,7 @@ impl<K: Constraint> Check<'_, K> {
                     column / n
                 )
             }
-            Property::DResidualDx | Property::DGammaDv => {
+            Property::DResidualDx | Property::DGammaDv | Property::DVelocityDx => {
                 format!(
                     "{}, column {}, motion {}",
                     row_name(row),
@@ -195,7 +196,7 @@ impl<K: Constraint> Check<'_, K> {
     }
 
     /// Blocks in the order of their patterns in [`check`].
-    fn sparse_blocks(&self) -> [Block; 5] {
+    fn sparse_blocks(&self) -> [Block; 6] {
         let (k, x, f) = (self.constraint, &self.case.x, &self.case.f);
         let m = &self.case.motions[0];
         [
@@ -204,6 +205,7 @@ impl<K: Constraint> Check<'_, K> {
             kernels::d_force_dx(k, x, f, &m.lambda),
             kernels::d_residual_dx(k, x, &m.v, &m.a, f),
             kernels::d_gamma_dv(k, x, &m.v, f),
+            kernels::d_velocity_dx(k, x, &m.v, f),
         ]
     }
 }

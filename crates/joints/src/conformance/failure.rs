@@ -33,6 +33,8 @@ pub enum Property {
     DResidualDx,
     /// `∂Γ/∂v`
     DGammaDv,
+    /// `∂(C·v − b)/∂x`
+    DVelocityDx,
     /// The wrench is −C of the first body, moved to the place.
     Wrench,
     /// The place is fixed in the first body.
@@ -70,6 +72,7 @@ impl fmt::Display for Property {
             Self::DForceDx => "d_force_dx = ∂(Cᵀλ)/∂x",
             Self::DResidualDx => "d_residual_dx = ∂(C·a − Γ)/∂x",
             Self::DGammaDv => "d_gamma_dv = ∂Γ/∂v",
+            Self::DVelocityDx => "d_velocity_dx = ∂(C·v − b)/∂x",
             Self::Wrench => "the wrench is −C of the first body, moved to the place",
             Self::Place => "the place is fixed in the first body",
             Self::Component => "the named component is not larger than the reaction",

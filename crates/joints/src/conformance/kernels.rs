@@ -124,6 +124,17 @@ pub(super) fn d_gamma_dv<K: Constraint>(k: &K, x: &[Pose], v: &[Twist], f: &[[f6
     scatter(shape::<K>(), K::SPEC.d_gamma_dv, &out)
 }
 
+pub(super) fn d_velocity_dx<K: Constraint>(
+    k: &K,
+    x: &[Pose],
+    v: &[Twist],
+    f: &[[f64; 3]],
+) -> Block {
+    let mut out = unwritten(K::SPEC.d_velocity_dx.len());
+    k.d_velocity_dx(x, v, f, &mut out);
+    scatter(shape::<K>(), K::SPEC.d_velocity_dx, &out)
+}
+
 /// The generalised force, all degrees of freedom of all slots.
 pub(super) fn q<T: Real, K: Force>(k: &K, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]]) -> Block<T> {
     let mut out = unwritten(K::SPEC.q.len());

@@ -43,6 +43,7 @@ impl Constraint for Angle {
         d_force_dx: &[],
         d_residual_dx: &[],
         d_gamma_dv: &[],
+        d_velocity_dx: &[],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         Reader::new(Self::SPEC.common.parameters, arguments)?;
@@ -116,6 +117,14 @@ impl Constraint for Angle {
     ) {}
     /// ∂Γ/∂v. Operations: none.
     fn d_gamma_dv<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        f: &[[T; 3]],
+        out: &mut [T],
+    ) {}
+    /// ∂(C·v − b)/∂x. Operations: none.
+    fn d_velocity_dx<T: Ring>(
         &self,
         x: &[Pose<T>],
         v: &[Twist<T>],

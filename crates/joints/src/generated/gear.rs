@@ -52,6 +52,7 @@ impl Constraint for Gear {
         d_force_dx: &[],
         d_residual_dx: &[],
         d_gamma_dv: &[],
+        d_velocity_dx: &[],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
@@ -134,6 +135,14 @@ impl Constraint for Gear {
     ) {}
     /// ∂Γ/∂v. Operations: none.
     fn d_gamma_dv<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        f: &[[T; 3]],
+        out: &mut [T],
+    ) {}
+    /// ∂(C·v − b)/∂x. Operations: none.
+    fn d_velocity_dx<T: Ring>(
         &self,
         x: &[Pose<T>],
         v: &[Twist<T>],

@@ -25,6 +25,7 @@ mod wrong {
     pub(super) const C_UNWRITTEN: u8 = 13;
     pub(super) const PATTERN: u8 = 14;
     pub(super) const RHEONOMIC: u8 = 15;
+    pub(super) const D_VELOCITY_DX: u8 = 16;
 }
 
 /// `K` with kernel `WRONG` changed in its first entry.
@@ -124,6 +125,10 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
     fn d_gamma_dv<T: Ring>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         self.0.d_gamma_dv(x, v, f, out);
         change(out, WRONG == wrong::D_GAMMA_DV);
+    }
+    fn d_velocity_dx<T: Ring>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
+        self.0.d_velocity_dx(x, v, f, out);
+        change(out, WRONG == wrong::D_VELOCITY_DX);
     }
 }
 
@@ -235,6 +240,10 @@ fn a_wrong_entry_of_any_constraint_kernel_is_named() {
         (
             found(check_constraint::<Drive<{ wrong::D_GAMMA_DV }>>(SEED)),
             P::DGammaDv,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::D_VELOCITY_DX }>>(SEED)),
+            P::DVelocityDx,
         ),
         (
             found(check_constraint::<Drive<{ wrong::INITIALISE }>>(SEED)),

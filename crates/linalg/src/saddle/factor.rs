@@ -91,9 +91,7 @@ impl KeptRowSaddle {
                 value: mass[index],
             });
         }
-        for (i, p) in self.permutation.iter_mut().enumerate() {
-            *p = i;
-        }
+        self.permutation.copy_from_slice(&self.order);
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
         Ok(())
@@ -134,7 +132,7 @@ impl KeptRowSaddle {
         }
 
         let mut at = j;
-        for i in j + 1..n {
+        for i in j + 1..self.solvable {
             if x[i].abs() > x[at].abs() {
                 at = i;
             }

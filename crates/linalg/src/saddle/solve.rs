@@ -54,16 +54,21 @@ impl KeptRowSaddle {
         &self.lu[j * self.n..(j + 1) * self.n]
     }
 
-    /// y = P·a_p with `C·a_p = γ` and zeros in the free coordinates: `Uᵀ·s = γ`, `L₁ᵀ·y₁ = s`.
+    /// y = P·a_p with `C·a_p = γ` and zeros in the free coordinates.
     fn particular(&mut self, gamma: &[f64]) {
-        let (n, r) = (self.n, self.r);
-        let (y, free) = self.y.split_at_mut(r);
-        free.fill(0.0);
-        for (j, row) in self.lu[..r * n].chunks_exact(n.max(1)).enumerate() {
+        self.y[self.r..].fill(0.0);
+        self.determine(gamma);
+    }
+
+    /// y₁ such that `C·a = γ` with the y₂ that is there: `Uᵀ·s = γ`, `L₁ᵀ·y₁ = s − L₂ᵀ·y₂`.
+    pub(super) fn determine(&mut self, gamma: &[f64]) {
+        let (n, y) = (self.n, &mut self.y);
+        let rows = self.lu[..self.r * n].chunks_exact(n.max(1)).enumerate();
+        for (j, row) in rows.clone() {
             y[j] = (gamma[self.used[j]] - dot(&row[..j], &y[..j])) / row[j];
         }
-        for (j, row) in self.lu[..r * n].chunks_exact(n.max(1)).enumerate().rev() {
-            y[j] -= dot(&row[j + 1..r], &y[j + 1..r]);
+        for (j, row) in rows.rev() {
+            y[j] -= dot(&row[j + 1..], &y[j + 1..]);
         }
     }
 

@@ -81,19 +81,7 @@ impl System for Mechanism {
     }
 
     fn twist(&self, v: &[f64], s: &mut Scratch) {
-        let slot_twists = &mut s.slot_twists;
-        for (slots, bodies) in self.places() {
-            for (twist, &body) in slot_twists[slots].iter_mut().zip(bodies) {
-                if let BodyRef::Body(k) = body {
-                    let v = &v[N_BODY * k..];
-                    *twist = Twist {
-                        x: v[0],
-                        y: v[1],
-                        omega: v[2],
-                    };
-                }
-            }
-        }
+        self.spread(v, &mut s.slot_twists);
     }
 
     fn gamma(&self, s: &mut Scratch) {
@@ -132,6 +120,22 @@ impl System for Mechanism {
 }
 
 impl Mechanism {
+    /// Writes velocities or accelerations of the bodies to the slots; those of the ground stay zero.
+    pub(super) fn spread(&self, v: &[f64], slot_twists: &mut [Twist]) {
+        for (slots, bodies) in self.places() {
+            for (twist, &body) in slot_twists[slots].iter_mut().zip(bodies) {
+                if let BodyRef::Body(k) = body {
+                    let v = &v[N_BODY * k..];
+                    *twist = Twist {
+                        x: v[0],
+                        y: v[1],
+                        omega: v[2],
+                    };
+                }
+            }
+        }
+    }
+
     /// Slots and bodies of all constraints and forces.
     fn places(&self) -> impl Iterator<Item = (Range<usize>, &[BodyRef])> {
         let constraints = self

@@ -264,11 +264,43 @@ fn rows_to_drop_where_all_are_used() {
 }
 
 #[test]
+fn options_that_do_not_go_together() {
+    let folder = Folder::new("together");
+    for (options, message) in [
+        (
+            ["--method", "radau5", "--stabilisation", "none"],
+            "radau5 does not go with none: the method relies on projection",
+        ),
+        (
+            [
+                "--formulation",
+                "null-space",
+                "--stabilisation",
+                "baumgarte",
+            ],
+            "null-space does not go with baumgarte: nothing drifts there",
+        ),
+        (
+            ["--method", "hem4", "--formulation", "proximal"],
+            "proximal does not go with hem4: the method solves equations on kept rows",
+        ),
+    ] {
+        let simulate = ["simulate", ROBOT, "--out", folder.text()];
+        let output = pfaff(&[&simulate[..], &options[..]].concat());
+        assert_eq!(output.status.code(), Some(2));
+        assert!(stderr(&output).contains(message), "{}", stderr(&output));
+    }
+}
+
+#[test]
 fn names_of_choices_are_listed() {
     let folder = Folder::new("names");
     for (option, names) in [
-        ("--method", "auto, dopri5, dop853, tsit5"),
-        ("--formulation", "kept-rows, minimum-norm, proximal"),
+        ("--method", "auto, dopri5, dop853, tsit5, radau5"),
+        (
+            "--formulation",
+            "kept-rows, null-space, minimum-norm, proximal",
+        ),
         ("--stabilisation", "projection, baumgarte, none"),
     ] {
         let output = pfaff(&["simulate", ROBOT, "--out", folder.text(), option, "best"]);

@@ -14,7 +14,7 @@ use solvability::{
     Verdict,
 };
 
-use super::{AnalysisDocument, Ending, Proof, Run, RunDocument, write_json};
+use super::{AnalysisDocument, ChoiceDocument, Ending, Proof, Run, RunDocument, write_json};
 
 fn judged(verdict: Verdict, margin: f64) -> Judgement {
     Judgement { verdict, margin }
@@ -299,6 +299,7 @@ fn summary_has_the_keys_of_the_contract() {
         energy_balance: 0.0,
         min_pivot_ratio: 1.0,
         events: Vec::new(),
+        proximal: None,
     };
     let (prepared, options) = (prepared(), MotionOptions::to(2.0));
     let run = Run {
@@ -356,7 +357,7 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
     assert_eq!(document.events[0].kind, "rows-exchanged");
     for (name, reaction) in &document.reactions.0 {
         let choice = reaction.choice.as_ref();
-        assert_eq!(choice.and_then(|c| c.valid_until), Some(1.25), "{name}");
+        assert_eq!(valid_until(choice), Some(1.25), "{name}");
     }
     // Rows that were asked for stay those of the reactions.
     let asked = Prepared {
@@ -372,7 +373,36 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
         .0
         .iter()
         .filter_map(|(_, r)| r.choice.as_ref());
-    assert!(choices.into_iter().all(|c| c.valid_until.is_none()));
+    assert!(choices.into_iter().all(|c| valid_until(Some(c)).is_none()));
     let interrupted = RunDocument::new(&run(Ending::Interrupted));
     assert!(interrupted.partial && interrupted.error.is_none());
+}
+
+/// When other rows are deleted, if the choice is one of rows.
+fn valid_until(choice: Option<&ChoiceDocument>) -> Option<f64> {
+    match choice {
+        Some(ChoiceDocument::KeptRows { valid_until, .. }) => *valid_until,
+        _ => None,
+    }
+}
+
+#[test]
+fn choices_without_deleted_rows() {
+    let least = ChoiceDocument::MinimumNorm { norm: "the norm" };
+    assert_eq!(
+        serde_json::to_string(&least).unwrap(),
+        r#"{"method":"minimum-norm","norm":"the norm"}"#
+    );
+    assert_eq!(least.to_string(), "minimum-norm, the norm");
+    let proximal = ChoiceDocument::Proximal {
+        mu: 2.5e-4,
+        iterations: 8,
+        norm: "the norm",
+    };
+    assert_eq!(
+        serde_json::to_string(&proximal).unwrap(),
+        r#"{"method":"proximal","mu":0.00025,"iterations":8,"norm":"the norm"}"#
+    );
+    let words = "proximal, 8 iterations with mu = 2.5e-4, the norm";
+    assert_eq!(proximal.to_string(), words);
 }

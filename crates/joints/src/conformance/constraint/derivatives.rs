@@ -146,6 +146,11 @@ impl<K: Constraint> Check<'_, K> {
             Property::DGammaDv,
             each(&|m| kernels::d_gamma_dv(k, x, &m.v, f)),
             each(&|m| self.jacobian::<O>(Q::Gamma, Along::Twist, m)),
+        )?;
+        claim(
+            Property::DVelocityDx,
+            each(&|m| kernels::d_velocity_dx(k, x, &m.v, f)),
+            each(&|m| self.jacobian::<O>(Q::Velocity, Along::Pose, m)),
         )
     }
 

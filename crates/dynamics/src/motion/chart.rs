@@ -1,0 +1,176 @@
+//! Independent coordinates z and velocities u: the rows determine the others, and the motion is an ordinary differential equation of
+//! z and u alone. y keeps all coordinates: `f(y) = F(P·y)`, where P completes a state from its independent entries, so that results,
+//! projections and output do not know of the partition. Steps of explicit methods need no projection; implicit methods have a Jacobian without
+//! constraints ([`super::reduced`]).
+//!
+//! The partition stays for a step and its dense output, because f must not change within them. Where its pivots have fallen it is chosen again
+//! at the accepted state, when the next step begins. Near a singular configuration there is none, and a step that needs one is refused.
+
+use model::System;
+
+use super::KeptRowMotion;
+use super::project::Correct;
+use crate::error::Trip;
+
+/// A partition, and the state completed last.
+pub(super) struct Chart {
+    /// Independent coordinates: columns of Φq, which in the plane are places in q.
+    pub(super) z: Vec<usize>,
+    /// Independent velocities.
+    pub(super) u: Vec<usize>,
+    pub(super) q: Vec<f64>,
+    pub(super) v: Vec<f64>,
+    /// How many partitions there were before.
+    pub(super) generation: u64,
+    /// Where this one was chosen: t, q and v.
+    pub(super) origin: Origin,
+    /// Where another one is due.
+    renewal: Option<Origin>,
+}
+
+/// An accepted state.
+#[derive(Clone)]
+pub(super) struct Origin {
+    pub(super) t: f64,
+    pub(super) q: Vec<f64>,
+    pub(super) v: Vec<f64>,
+}
+
+impl KeptRowMotion<'_> {
+    /// From now on the motion is one of independent coordinates, chosen at q, which must lie on the constraints at t.
+    ///
+    /// # Errors
+    /// If the kept rows are dependent there.
+    pub fn use_chart(&mut self, t: f64, q: &[f64]) -> Result<(), Trip> {
+        self.mechanism.pose(t, q, &mut self.s);
+        self.mechanism.c(&mut self.s);
+        let (q, v) = (q.to_vec(), vec![0.0; self.mechanism.layout().n_v]);
+        self.choose_chart(Origin { t, q, v })
+    }
+
+    /// Independent coordinates and velocities, ascending, where the motion is one of these alone.
+    #[must_use]
+    pub fn independent(&self) -> Option<(&[usize], &[usize])> {
+        self.chart.as_ref().map(|c| (&c.z[..], &c.u[..]))
+    }
+
+    /// `ẏ = f(t, y)` of `y = [q; v]`, or `[q; v; W]` with the work W of drives and applied forces. On a chart the dependent entries of
+    /// y are a first guess only.
+    ///
+    /// # Errors
+    /// As [`super::Motion::acceleration`]; [`Trip::OffConstraints`], [`Trip::Chart`] if a state cannot be completed.
+    ///
+    /// # Panics
+    /// If `y` or `dy` are shorter than n_q + n_v.
+    pub fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
+        self.begin_step(|accepted| t > accepted)?;
+        let layout = self.mechanism.layout();
+        let (q, rest) = y.split_at(layout.n_q);
+        let v = &rest[..layout.n_v];
+        let (qd, rest) = dy.split_at_mut(layout.n_q);
+        let (a, work) = rest.split_at_mut(layout.n_v);
+        let Some(mut chart) = self.chart.take() else {
+            self.solve(t, q, v, a)?;
+            self.rates(q, v, qd, work);
+            return Ok(());
+        };
+        chart.q.copy_from_slice(q);
+        chart.v.copy_from_slice(v);
+        let solved = self.solve_on_chart(t, &mut chart, a);
+        if solved.is_ok() {
+            self.rates(&chart.q, &chart.v, qd, work);
+        }
+        self.chart = Some(chart);
+        solved
+    }
+
+    /// q̇ and, where there is room for it, the power at a state whose acceleration is the last one evaluated.
+    fn rates(&mut self, q: &[f64], v: &[f64], qd: &mut [f64], work: &mut [f64]) {
+        self.mechanism.rate(q, v, qd);
+        if let Some(work) = work.first_mut() {
+            *work = self.power(v);
+        }
+    }
+
+    /// Completes the state of a chart and solves for accelerations there.
+    fn solve_on_chart(&mut self, t: f64, chart: &mut Chart, a: &mut [f64]) -> Result<(), Trip> {
+        self.complete(t, &mut chart.q, &mut chart.v)?;
+        self.passage.see(&self.velocity);
+        self.solve_factored(&chart.v, a)
+    }
+
+    /// Overwrites dependent coordinates and velocities; factors there.
+    fn complete(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Trip> {
+        self.project_position(t, q, Correct::DependentCoordinates)?;
+        self.velocity.factor(self.mechanism, &self.s)?;
+        self.evaluate_b();
+        for (rhs, &i) in self.velocity.rhs.iter_mut().zip(&self.velocity.kept) {
+            *rhs = self.s.b[i];
+        }
+        self.velocity.complete(self.mechanism, &self.s, v)
+    }
+
+    /// Completes a state on a chart. What projections leave to do afterwards is rounding.
+    pub(super) fn complete_row(
+        &mut self,
+        t: f64,
+        q: &mut [f64],
+        v: &mut [f64],
+    ) -> Result<(), Trip> {
+        match self.chart {
+            Some(_) => self.complete(t, q, v),
+            None => Ok(()),
+        }
+    }
+
+    /// Asks for another chart where the present one is worn: at the state just evaluated, which has been accepted at t.
+    pub(super) fn review_chart(&mut self, t: f64) {
+        let worn = self.velocity.are_worn() || self.position.are_worn() || self.aside.is_some();
+        if let (true, Some(chart)) = (worn, &mut self.chart) {
+            let (q, v) = (chart.q.clone(), chart.v.clone());
+            chart.renewal = Some(Origin { t, q, v });
+        }
+    }
+
+    /// Chooses the chart that has been asked for, if a step has begun: whether one has is told by the time of the accepted state.
+    pub(super) fn begin_step(&mut self, has_begun: impl Fn(f64) -> bool) -> Result<(), Trip> {
+        let due = self.chart.as_ref().and_then(|c| c.renewal.as_ref());
+        let Some(origin) = due.filter(|origin| has_begun(origin.t)).cloned() else {
+            return Ok(());
+        };
+        self.mechanism.pose(origin.t, &origin.q, &mut self.s);
+        self.mechanism.phi(&mut self.s);
+        self.mechanism.c(&mut self.s);
+        // Whether other rows are due is judged without a partition.
+        self.velocity.forget_partition();
+        self.position.forget_partition();
+        self.velocity.factor(self.mechanism, &self.s)?;
+        self.position.factor(self.mechanism, &self.s)?;
+        if let Some(event) = self.review(&origin.q)? {
+            self.pending = Some(event);
+        }
+        self.choose_chart(origin)
+    }
+
+    /// Partitions the rows at the pose of the scratch, which is that of the origin.
+    fn choose_chart(&mut self, origin: Origin) -> Result<(), Trip> {
+        let (mechanism, s) = (self.mechanism, &self.s);
+        let z = self.position.partition(mechanism, s, self.size)?;
+        let u = self.velocity.partition(mechanism, s, self.size)?;
+        // Rows set aside are only solved on, at single instants.
+        if let Some(aside) = &mut self.aside {
+            aside.forget_partition();
+        }
+        let generation = self.chart.as_ref().map_or(0, |c| c.generation + 1);
+        self.chart = Some(Chart {
+            z,
+            u,
+            q: origin.q.clone(),
+            v: origin.v.clone(),
+            generation,
+            origin,
+            renewal: None,
+        });
+        Ok(())
+    }
+}

@@ -1,0 +1,308 @@
+//! The Jacobian of the motion on independent coordinates, and the linear systems of implicit methods.
+//!
+//! `f(y) = F(P·y)` depends on w = [z; u] only, so `∂f/∂y = D·S`, where S picks w from y and D has a column for each entry of w. By
+//! implicit differentiation, with the factors that solve the equations of motion themselves:
+//!
+//! | | equation |
+//! | --- | --- |
+//! | coordinates | `Φq·dq = 0`, dq given on z |
+//! | velocities | `C·dv = −∂(C·v − b)/∂q·dq`, dv given on u |
+//! | accelerations | `M·da + Cᵀ·dλ = ∂(Q − Cᵀ·λ)/∂q·dq + ∂Q/∂v·dv`, `C·da = −∂(C·a − Γ)/∂q·dq + ∂Γ/∂v·dv` |
+//!
+//! `(σ·I − D·S)·x = r` needs a factorisation of the order of w alone, `(σ·I − S·D)·x_w = r_w`. The dependent entries of x serve as a guess for
+//! completions only, so they follow from x_w as those of dq and dv do. The rest of the solution, `σ·x = r + D·x_w`, would let Newton's
+//! method see stiff forces off the slow motion through all levers of the mechanism, and stop it although w has converged.
+
+use linalg::{Lu, Matrix};
+use model::{Derivatives, System};
+
+use super::KeptRowMotion;
+use super::chart::Origin;
+use crate::error::Trip;
+
+/// The Jacobian at one instant, and factors of shifted ones.
+pub struct Reduced {
+    derivatives: Derivatives,
+    /// Places of w in y.
+    places: Vec<usize>,
+    /// Place of the work in y.
+    work: Option<usize>,
+    /// Row j: column j of D.
+    columns: Matrix,
+    /// Row j: change of y with w_j along the constraints, without the work.
+    tangents: Matrix,
+    /// Time of the Jacobian.
+    time: f64,
+    real: Lu,
+    /// The chart of the Jacobian.
+    generation: u64,
+    /// Of the real form [αI − S·D, −βI; βI, αI − S·D].
+    complex: Lu,
+    shift: f64,
+    complex_shift: [f64; 2],
+    /// Solutions on w, real and imaginary parts.
+    w: Vec<f64>,
+    dq: Vec<f64>,
+    dv: Vec<f64>,
+    force: Vec<f64>,
+    rows: Vec<f64>,
+    rows_of_velocity: Vec<f64>,
+    lambda: Vec<f64>,
+    dy: Vec<f64>,
+}
+
+impl Reduced {
+    /// Storage for a motion; nothing is linearised yet.
+    #[must_use]
+    pub fn new(motion: &KeptRowMotion<'_>) -> Self {
+        let mechanism = motion.mechanism();
+        let layout = mechanism.layout();
+        Self {
+            derivatives: mechanism.derivatives(),
+            places: Vec::new(),
+            work: None,
+            columns: Matrix::default(),
+            tangents: Matrix::default(),
+            time: 0.0,
+            generation: 0,
+            real: Lu::new(0),
+            complex: Lu::new(0),
+            shift: 1.0,
+            complex_shift: [1.0, 0.0],
+            w: Vec::new(),
+            dq: vec![0.0; layout.n_v],
+            dv: vec![0.0; layout.n_v],
+            force: vec![0.0; layout.n_v],
+            rows: vec![0.0; layout.rows()],
+            rows_of_velocity: vec![0.0; layout.rows()],
+            lambda: vec![0.0; layout.rows()],
+            dy: vec![0.0; layout.n_q + layout.n_v],
+        }
+    }
+
+    /// Takes the Jacobian at t and y, which is completed first. A motion on no chart gets one here.
+    ///
+    /// # Errors
+    /// As [`KeptRowMotion::derivative`].
+    ///
+    /// # Panics
+    /// If y is shorter than n_q + n_v.
+    pub fn linearise(
+        &mut self,
+        motion: &mut KeptRowMotion<'_>,
+        t: f64,
+        y: &[f64],
+    ) -> Result<(), Trip> {
+        let n_q = motion.mechanism.layout().n_q;
+        if motion.chart.is_none() {
+            motion.use_chart(t, &y[..n_q])?;
+        }
+        motion.begin_step(|_| true)?;
+        self.dy.resize(y.len(), 0.0);
+        motion.derivative(t, y, &mut self.dy)?;
+        self.take_places(motion, y.len());
+        self.generation = motion.chart.as_ref().map_or(0, |c| c.generation);
+        let mechanism = motion.mechanism;
+        motion.last_multipliers(&mut self.lambda);
+        let a = &self.dy[n_q..n_q + mechanism.layout().n_v];
+        mechanism.differentiate(a, &self.lambda, &motion.s, &mut self.derivatives);
+        motion.position.factor(mechanism, &motion.s)?;
+        self.time = t;
+        for j in 0..self.places.len() {
+            self.differentiate(motion, j)?;
+        }
+        Ok(())
+    }
+
+    /// Linearises and factors again where the chart has changed as the step began: f is another function of y then, although the motion is
+    /// the same.
+    ///
+    /// # Errors
+    /// As [`Reduced::linearise`] and [`Reduced::factor`].
+    pub(crate) fn follow(&mut self, motion: &mut KeptRowMotion<'_>) -> Result<(), Trip> {
+        let Some(chart) = &motion.chart else {
+            return Ok(());
+        };
+        if self.places.is_empty() || chart.generation == self.generation {
+            return Ok(());
+        }
+        let Origin { t, q, v } = chart.origin.clone();
+        let mut y = [q, v].concat();
+        y.resize(self.columns.ncols(), 0.0);
+        self.linearise(motion, t, &y)?;
+        self.factor(self.shift, self.complex_shift)
+    }
+
+    /// `∂f/∂w`, dense, and the places of w in y.
+    #[must_use]
+    pub fn jacobian(&self) -> (Matrix, &[usize]) {
+        (self.columns.transpose(), &self.places)
+    }
+
+    fn take_places(&mut self, motion: &KeptRowMotion<'_>, n: usize) {
+        let (z, u) = motion.independent().expect("linearise has chosen a chart");
+        let n_q = motion.mechanism.layout().n_q;
+        let places = z.iter().copied().chain(u.iter().map(|u| n_q + u));
+        if self.columns.ncols() == n && places.clone().eq(self.places.iter().copied()) {
+            return;
+        }
+        self.places = places.collect();
+        let moving = n_q + motion.mechanism.layout().n_v;
+        self.work = (n > moving).then_some(moving);
+        let k = self.places.len();
+        self.columns = Matrix::zeros(k, n);
+        self.tangents = Matrix::zeros(k, n);
+        self.real = Lu::new(k);
+        self.complex = Lu::new(2 * k);
+        self.w = vec![0.0; 2 * k];
+    }
+
+    /// Column j of D.
+    fn differentiate(&mut self, motion: &mut KeptRowMotion<'_>, j: usize) -> Result<(), Trip> {
+        let KeptRowMotion {
+            mechanism,
+            s,
+            position,
+            velocity,
+            chart,
+            ..
+        } = motion;
+        let chart = chart.as_ref().expect("linearise has chosen a chart");
+        let layout = mechanism.layout();
+        let d = &self.derivatives;
+        let (dq, dv) = (&mut self.dq, &mut self.dv);
+        dq.fill(0.0);
+        dv.fill(0.0);
+        let place = self.places[j];
+        if j < chart.z.len() {
+            dq[place] = 1.0;
+            position.rhs.fill(0.0);
+            position.complete(mechanism, s, dq)?;
+        } else {
+            dv[place - layout.n_q] = 1.0;
+        }
+        self.rows_of_velocity.fill(0.0);
+        d.velocity_dq
+            .subtract_product(dq, &mut self.rows_of_velocity);
+        for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
+            *rhs = self.rows_of_velocity[i];
+        }
+        velocity.complete(mechanism, s, dv)?;
+        let tangent = self.tangents.row_mut(j);
+        mechanism.rate(&chart.q, dq, &mut tangent[..layout.n_q]);
+        tangent[layout.n_q..layout.n_q + layout.n_v].copy_from_slice(dv);
+
+        self.force.fill(0.0);
+        d.force_dq.add_product(dq, &mut self.force);
+        d.reaction_dq.subtract_product(dq, &mut self.force);
+        d.force_dv.add_product(dv, &mut self.force);
+        self.rows.fill(0.0);
+        d.residual_dq.subtract_product(dq, &mut self.rows);
+        d.gamma_dv.add_product(dv, &mut self.rows);
+        for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
+            *rhs = self.rows[i];
+        }
+        let (d_rate, rest) = self.columns.row_mut(j).split_at_mut(layout.n_q);
+        let (da, d_work) = rest.split_at_mut(layout.n_v);
+        velocity.solve(mechanism, s, &self.force, da)?;
+        mechanism.rate(&chart.q, dv, d_rate);
+        if let Some(d_work) = d_work.first_mut() {
+            // On the constraints the power is (M·a − weight)·v.
+            let (mass, a) = (mechanism.mass(), &self.dy[layout.n_q..]);
+            for (f, (m, a)) in self.force.iter_mut().zip(mass.iter().zip(a)) {
+                *f = m * a;
+            }
+            let inertia = mass.iter().zip(&*da).zip(&chart.v);
+            *d_work = mechanism.applied_power(&self.force, dv)
+                + inertia.map(|((m, da), v)| m * da * v).sum::<f64>();
+        }
+        Ok(())
+    }
+
+    /// Factors `σ·I − ∂f/∂y` for a real σ and a complex one, `[Re σ, Im σ]`.
+    ///
+    /// # Errors
+    /// [`Trip::IterationMatrix`] if one is singular.
+    pub fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), Trip> {
+        let (k, time) = (self.places.len(), self.time);
+        let (columns, places) = (&self.columns, &self.places);
+        let shifted = |sigma: f64, i: usize, j: usize| {
+            let diagonal = if i == j { sigma } else { 0.0 };
+            diagonal - columns[(j, places[i])]
+        };
+        let singular = |source| Trip::IterationMatrix { time, source };
+        self.real
+            .factor(|i, j| shifted(real, i, j))
+            .map_err(singular)?;
+        let [alpha, beta] = complex;
+        let coupled = |i: usize, j: usize| if i == j { beta } else { 0.0 };
+        self.complex
+            .factor(|i, j| match (i < k, j < k) {
+                (true, true) => shifted(alpha, i, j),
+                (true, false) => -coupled(i, j - k),
+                (false, true) => coupled(i - k, j),
+                (false, false) => shifted(alpha, i - k, j - k),
+            })
+            .map_err(singular)?;
+        (self.shift, self.complex_shift) = (real, complex);
+        Ok(())
+    }
+
+    /// Solves `(σ·I − ∂f/∂y)·x = r` for the real σ, r in `x` on entry; dependent entries follow the independent ones.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        let k = self.places.len();
+        let w = &mut self.w[..k];
+        for (w, &place) in w.iter_mut().zip(&self.places) {
+            *w = x[place];
+        }
+        self.real.solve(w);
+        let work = self
+            .work
+            .map(|at| (x[at] + self.work_along(&self.w[..k], at)) / self.shift);
+        self.follow_w(&self.w[..k], x);
+        if let (Some(at), Some(work)) = (self.work, work) {
+            x[at] = work;
+        }
+    }
+
+    /// The same for the complex σ.
+    pub fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
+        let k = self.places.len();
+        for (j, &place) in self.places.iter().enumerate() {
+            self.w[j] = re[place];
+            self.w[k + j] = im[place];
+        }
+        self.complex.solve(&mut self.w);
+        let (w_re, w_im) = self.w.split_at(k);
+        let [alpha, beta] = self.complex_shift;
+        let norm = alpha * alpha + beta * beta;
+        let work = self.work.map(|at| {
+            let a = re[at] + self.work_along(w_re, at);
+            let b = im[at] + self.work_along(w_im, at);
+            ((alpha * a + beta * b) / norm, (alpha * b - beta * a) / norm)
+        });
+        self.follow_w(w_re, re);
+        self.follow_w(w_im, im);
+        if let (Some(at), Some(work)) = (self.work, work) {
+            (re[at], im[at]) = work;
+        }
+    }
+
+    /// Change of the power along w.
+    fn work_along(&self, w: &[f64], at: usize) -> f64 {
+        w.iter()
+            .enumerate()
+            .map(|(j, w)| w * self.columns[(j, at)])
+            .sum()
+    }
+
+    /// `x ← Σ w_j·(tangent j)`
+    fn follow_w(&self, w: &[f64], x: &mut [f64]) {
+        x.fill(0.0);
+        for (j, &w) in w.iter().enumerate() {
+            for (x, d) in x.iter_mut().zip(self.tangents.row(j)) {
+                *x += d * w;
+            }
+        }
+    }
+}

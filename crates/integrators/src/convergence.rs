@@ -1,0 +1,156 @@
+//! When simplified Newton iterations have converged, will not converge, or can only stir the noise of rounding; for all implicit methods.
+//!
+//! Source: Hairer, Wanner II, 2nd ed., IV.8, and the constants of the authors' program RADAU5; the rule for noise is ours.
+
+pub(crate) const MAX_ITERATIONS: u32 = 7;
+/// Convergence at this rate or faster means that the matrices serve another step.
+pub(crate) const GOOD_RATE: f64 = 1e-3;
+/// Convergence at this rate or slower is none.
+const BAD_RATE: f64 = 0.99;
+/// Step-size factor where nothing is known about the convergence.
+const FACTOR_WITHOUT_RATE: f64 = 0.5;
+/// Iterations that once converged at this rate and then no longer do have arrived at the noise of rounding ...
+const RATE_ABOVE_NOISE: f64 = 0.1;
+/// ... if their increments are below this part of the permitted error.
+const LARGEST_NOISE: f64 = 0.03;
+
+/// What to do after an iteration.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Verdict {
+    /// Iterate again.
+    GoOn,
+    /// The solution is accurate enough.
+    Converged,
+    /// Give up; with `factor` times the step size they might converge.
+    Diverged { factor: f64 },
+}
+
+/// How fast the iterations of a step have converged.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Convergence {
+    /// Iterations so far.
+    pub(crate) iterations: u32,
+    /// Smoothed quotient of successive increments.
+    pub(crate) rate: f64,
+    /// rate/(1 − rate): bound of the remaining error in terms of the last increment; for a first iteration from the steps before.
+    remaining: f64,
+    norm: f64,
+    quotient: f64,
+    smallest_quotient: f64,
+}
+
+impl Default for Convergence {
+    fn default() -> Self {
+        Self {
+            iterations: 0,
+            rate: GOOD_RATE,
+            remaining: 1.0,
+            norm: 0.0,
+            quotient: 0.0,
+            smallest_quotient: f64::INFINITY,
+        }
+    }
+}
+
+impl Convergence {
+    /// The next solve, which remembers from this one how far a first increment can be trusted.
+    pub(crate) fn next(self) -> Self {
+        Self {
+            remaining: self.remaining.max(f64::EPSILON).powf(0.8),
+            ..Self::default()
+        }
+    }
+
+    /// Judges an iteration with increments of the given norm; what is left at the end may have the norm `permitted`.
+    pub(crate) fn judge(&mut self, norm: f64, permitted: f64) -> Verdict {
+        self.iterations += 1;
+        let (last_norm, last_quotient) = (self.norm.max(f64::EPSILON), self.quotient);
+        self.norm = norm;
+        if !norm.is_finite() {
+            self.rate = norm;
+            return Verdict::Diverged {
+                factor: FACTOR_WITHOUT_RATE,
+            };
+        }
+        let mut factor = None;
+        if self.iterations > 1 {
+            self.quotient = norm / last_norm;
+            self.rate = match self.iterations {
+                2 => self.quotient,
+                _ => (self.quotient * last_quotient).sqrt(),
+            };
+            factor = self.factor_if_hopeless(permitted);
+        }
+        let is_noise = self.smallest_quotient <= RATE_ABOVE_NOISE && norm <= LARGEST_NOISE;
+        self.smallest_quotient = match self.iterations {
+            1 => f64::INFINITY,
+            _ => self.smallest_quotient.min(self.quotient),
+        };
+        match factor {
+            Some(_) if is_noise => {
+                (self.rate, self.remaining) = (self.smallest_quotient, self.smallest_quotient);
+                Verdict::Converged
+            }
+            Some(factor) => Verdict::Diverged { factor },
+            None if self.remaining * norm <= permitted => Verdict::Converged,
+            None if self.iterations == MAX_ITERATIONS => Verdict::Diverged {
+                factor: FACTOR_WITHOUT_RATE,
+            },
+            None => Verdict::GoOn,
+        }
+    }
+
+    /// Sets `remaining`; a factor of the step size if the iterations that are left will not do.
+    fn factor_if_hopeless(&mut self, permitted: f64) -> Option<f64> {
+        if self.rate >= BAD_RATE {
+            return Some(FACTOR_WITHOUT_RATE);
+        }
+        self.remaining = self.rate / (1.0 - self.rate);
+        let left = MAX_ITERATIONS - self.iterations;
+        let end = self.remaining * self.norm * self.rate.powf(f64::from(left)) / permitted;
+        (end >= 1.0).then(|| 0.8 * end.min(20.0).powf(-1.0 / f64::from(4 + left)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn judge_all(norms: &[f64], permitted: f64) -> (Vec<Verdict>, Convergence) {
+        let mut convergence = Convergence::default();
+        let verdicts = norms
+            .iter()
+            .map(|n| convergence.judge(*n, permitted))
+            .collect();
+        (verdicts, convergence)
+    }
+
+    #[test]
+    fn iterations_end_by_their_rate() {
+        use Verdict::{Converged, Diverged, GoOn};
+        // 1e-2/(1 − 1e-2)·1e-4 ≤ 1e-5
+        let (verdicts, last) = judge_all(&[1.0, 1e-2, 1e-4], 1e-5);
+        assert_eq!(verdicts, [GoOn, GoOn, Converged]);
+        assert!((last.rate - 1e-2).abs() < 1e-16);
+        assert_eq!(judge_all(&[1.0, 1.0], 1e-5).0[1], Diverged { factor: 0.5 });
+        // Halved six times: far from 1e-8.
+        let (verdicts, _) = judge_all(&[1.0, 0.5], 1e-8);
+        assert!(matches!(verdicts[1], Diverged { factor } if factor > 0.5 && factor < 0.8));
+        assert_eq!(judge_all(&[f64::NAN], 1e-5).0, [Diverged { factor: 0.5 }]);
+    }
+
+    #[test]
+    fn noise_is_what_no_longer_contracts_and_is_small() {
+        use Verdict::{Converged, Diverged};
+        let (verdicts, last) = judge_all(&[1.0, 1e-3, 1e-3, 1e-3], 1e-6);
+        assert_eq!(verdicts[3], Converged);
+        assert_eq!(last.rate, 1e-3);
+        // Too large for noise; never contracted.
+        let (verdicts, _) = judge_all(&[1e3, 1.0, 1.0, 1.0], 1e-6);
+        assert!(matches!(verdicts[3], Diverged { .. }));
+        assert!(matches!(
+            judge_all(&[1e-3, 1e-3], 1e-6).0[1],
+            Diverged { .. }
+        ));
+    }
+}

@@ -1,0 +1,145 @@
+//! The solution inside an accepted step.
+//!
+//! **Order 4** (local error O(h⁵)). The collocation polynomial p of degree 3 through y0, Y₁, Y₂, Y₃ has the right derivative at the
+//! nodes, not at the start. The quartic
+//!
+//! ```text
+//! u(θ) = p(θ) + D·φ(θ) + θ²(3 − 2θ)·c,   φ(θ) = ∫₀^θ (s − c₁)(s − c₂)(s − 1)/(−c₁c₂) ds
+//! ```
+//!
+//! mends the start with its defect D = h·f0 − p'(0) and leaves the rest as it is: φ(1) = 0, because the Radau quadrature is exact for
+//! cubics, and φ' = 0 at the nodes. c is what a projection has added to y1.
+//! A stiff problem turns the rounding of y0 into a large D; so D is filtered by (I − h/u₁·J)⁻¹, which changes it by O(h⁵) where the
+//! problem is smooth. It is the error estimate (times u₁), already known.
+//!
+//! **Order 5** (local error O(h⁶)). u plus the quintic whose derivative takes the defects of u, `h·f(t, u) − u'`, filtered likewise, at θ = 0, ¼, ¾ and 1, and
+//! that vanishes at both ends; two extra evaluations (the same idea as in `dopri5`).
+
+use super::Stages;
+use super::newton::dot;
+use super::tableau::{C, REAL, lagrange, lagrange_derivative};
+use crate::drive::{evaluate, finite};
+use crate::error::Cause;
+use crate::implicit::Implicit;
+use crate::method::{Dense, Ends};
+
+/// Places of the defects.
+const PLACES: [f64; 4] = [0.0, 0.25, 0.75, 1.0];
+
+impl<O: Implicit> Dense<O> for Stages {
+    fn interpolate(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]) {
+        self.quartic(ends).value(theta, out);
+    }
+
+    fn prepare(
+        &mut self,
+        ode: &mut O,
+        ends: &Ends<'_>,
+        evaluations: &mut u64,
+    ) -> Result<(), Cause<O::Error>> {
+        let quartic = Quartic {
+            ends,
+            z: &self.z,
+            defect: &self.defect,
+        };
+        for (theta, defect) in PLACES.into_iter().zip(&mut self.defects) {
+            if theta == 0.0 {
+                defect.copy_from_slice(ends.f0);
+            } else if theta == 1.0 {
+                defect.copy_from_slice(ends.f1);
+            } else {
+                quartic.value(theta, &mut self.y);
+                let t = ends.trial.stage_time(theta);
+                evaluate(ode, t, &self.y, defect, evaluations)?;
+            }
+            for (i, defect) in defect.iter_mut().enumerate() {
+                *defect = REAL * (*defect - quartic.derivative(theta, i) / ends.trial.h);
+            }
+            ode.solve(defect);
+            finite(defect).map_err(|component| Cause::NonFinite { component })?;
+        }
+        Ok(())
+    }
+
+    fn interpolate_accurately(&self, ends: &Ends<'_>, theta: f64, out: &mut [f64]) {
+        self.quartic(ends).value(theta, out);
+        let weights = defect_weights(theta);
+        for (i, out) in out.iter_mut().enumerate() {
+            for (weight, defect) in weights.iter().zip(&self.defects) {
+                *out += weight * defect[i];
+            }
+        }
+    }
+}
+
+impl Stages {
+    fn quartic<'a>(&'a self, ends: &'a Ends<'a>) -> Quartic<'a> {
+        Quartic {
+            ends,
+            z: &self.z,
+            defect: &self.defect,
+        }
+    }
+}
+
+/// The output of order 4.
+struct Quartic<'a> {
+    ends: &'a Ends<'a>,
+    z: &'a [Vec<f64>; 3],
+    /// Filtered defect at the start over u₁.
+    defect: &'a [f64],
+}
+
+impl Quartic<'_> {
+    fn value(&self, theta: f64, out: &mut [f64]) {
+        let (l, phi) = (lagrange(theta), REAL * start_weight(theta));
+        let end = theta * theta * (3.0 - 2.0 * theta);
+        for (i, out) in out.iter_mut().enumerate() {
+            let inside = dot(&l, &self.increments(i)) + phi * self.defect[i];
+            *out = self.ends.y0[i] + (inside + end * self.projection(i));
+        }
+    }
+
+    /// Component `i` of u'(θ).
+    fn derivative(&self, theta: f64, i: usize) -> f64 {
+        dot(&lagrange_derivative(theta), &self.increments(i))
+            + REAL * start_weight_derivative(theta) * self.defect[i]
+            + 6.0 * theta * (1.0 - theta) * self.projection(i)
+    }
+
+    fn increments(&self, i: usize) -> [f64; 3] {
+        [self.z[0][i], self.z[1][i], self.z[2][i]]
+    }
+
+    /// What the hook has added to y1.
+    fn projection(&self, i: usize) -> f64 {
+        (self.ends.y1[i] - self.ends.y0[i]) - self.z[2][i]
+    }
+}
+
+/// φ(θ): φ(0) = φ(1) = 0, φ'(0) = 1, φ' = 0 at the nodes.
+pub(super) fn start_weight(theta: f64) -> f64 {
+    let [a, b, _] = C;
+    let x = theta;
+    // ∫ (s³ − (a+b+1)·s² + (ab+a+b)·s − ab) ds
+    let integral =
+        x * (-a * b + x * ((a * b + a + b) / 2.0 + x * (-(a + b + 1.0) / 3.0 + x / 4.0)));
+    integral / (-a * b)
+}
+
+pub(super) fn start_weight_derivative(theta: f64) -> f64 {
+    let [a, b, _] = C;
+    (theta - a) * (theta - b) * (theta - 1.0) / (-a * b)
+}
+
+/// The polynomials of degree 5 that vanish at θ = 0 and 1 and are dual to the derivatives at the four places.
+pub(super) fn defect_weights(theta: f64) -> [f64; 4] {
+    let x = theta;
+    let rest = 1.0 - x;
+    [
+        x * rest * rest * (3.0 + x * (4.0 - 16.0 * x)) / 3.0,
+        8.0 / 3.0 * x * x * rest * rest * (9.0 - 16.0 * x),
+        8.0 / 3.0 * x * x * rest * rest * (7.0 - 16.0 * x),
+        x * x * rest * (9.0 + x * (16.0 * x - 28.0)) / 3.0,
+    ]
+}

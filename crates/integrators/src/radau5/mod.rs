@@ -1,0 +1,114 @@
+//! Radau IIA of order 5: implicit, three stages, collocation at the Radau nodes, for stiff problems.
+//!
+//! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., IV.5 (method) and IV.8 (implementation), whose
+//! program RADAU5 also gave the constants. Deviations: the Jacobian is renewed before a step is given up, and the dense output has a
+//! higher order (see `dense`).
+
+mod dense;
+mod newton;
+mod scale;
+mod step;
+mod tableau;
+
+#[cfg(test)]
+mod tests;
+
+use crate::control::{Control, ControlConstants};
+use crate::convergence::Convergence;
+use crate::implicit::Implicit;
+use crate::method::Method;
+
+/// Radau IIA of order 5 with simplified Newton iterations, for stiff problems.
+///
+/// L-stable. The error estimate is of order 3: it is compared with `0.1·ρ^(−1/3)` times the tolerance, ρ ≤ 10⁻³ being the relative
+/// tolerance, so that the error of the step, which is of order 5, follows the tolerance. Tolerances below 100 units of rounding of the
+/// state are taken as 100: stiff forces turn rounding into noise.
+///
+/// Dense output of order 4 (local error O(h⁵)) without and of order 5 (local error O(h⁶), like the step) with two extra evaluations in
+/// the step. It is continuous; at the ends of steps its derivative has jumps of the size of its error.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Radau5;
+
+impl<O: Implicit> Method<O> for Radau5 {
+    type Stepper = Stages;
+
+    fn stepper(&self, ode: &O) -> Stages {
+        Stages::new(ode.dim())
+    }
+}
+
+/// Those of the program RADAU5: the classical controller for an estimate of order 3.
+const CONTROL: ControlConstants = ControlConstants {
+    alpha: 0.25,
+    beta: 0.0,
+    safety: 0.9,
+    min_factor: 0.125,
+    max_factor: 5.0,
+};
+
+/// Stages, matrices' state and memory of the last steps.
+#[derive(Debug)]
+pub struct Stages {
+    control: Control,
+    /// z_i = Y_i − y0 of the last trial.
+    z: [Vec<f64>; 3],
+    /// The same of the last accepted step, for starting values.
+    z_before: [Vec<f64>; 3],
+    /// w = T⁻¹·z, in which the Newton system falls apart into a real and a complex one.
+    w: [Vec<f64>; 3],
+    /// Stage derivatives, then increments of w.
+    k: [Vec<f64>; 3],
+    /// `h·f0 − u'(0)` of the last trial, filtered: the estimated error times u₁.
+    defect: Vec<f64>,
+    /// Filtered defects of the dense output at the places of `dense`.
+    defects: [Vec<f64>; 4],
+    /// Argument of a stage, and scratch.
+    y: Vec<f64>,
+    /// Weights of the norms of this method.
+    scale: Vec<f64>,
+    matrices: Matrices,
+    convergence: Convergence,
+    /// Size of the last accepted step since the start of the leg, for starting values.
+    h_before: Option<f64>,
+    /// Size and error of the step that the predictive controller compares with.
+    reference: Option<(f64, f64)>,
+    /// At the start of a leg and after a rejection the estimate is filtered twice.
+    filter_twice: bool,
+    /// What Newton's method proposes after its failure.
+    factor_after_failure: Option<f64>,
+}
+
+/// What the problem has linearised and factored.
+#[derive(Debug, Clone, Copy, Default)]
+struct Matrices {
+    /// Time at which J was computed.
+    linearised_at: Option<f64>,
+    /// Step size of the factors.
+    factored_for: Option<f64>,
+    /// The last step converged so slowly that the next one is to have a new J.
+    is_worn: bool,
+}
+
+impl Stages {
+    fn new(dim: usize) -> Self {
+        let zeros = || vec![0.0; dim];
+        let three = || std::array::from_fn(|_| zeros());
+        Self {
+            control: Control::new(CONTROL),
+            z: three(),
+            z_before: three(),
+            w: three(),
+            k: three(),
+            defect: zeros(),
+            defects: std::array::from_fn(|_| zeros()),
+            y: zeros(),
+            scale: zeros(),
+            matrices: Matrices::default(),
+            convergence: Convergence::default(),
+            h_before: None,
+            reference: None,
+            filter_twice: true,
+            factor_after_failure: None,
+        }
+    }
+}

@@ -1,0 +1,135 @@
+//! LU factorisation of small square matrices with partial pivoting, for the linear systems of implicit methods. Not for ranks: nothing
+//! here says how independent the rows are, beyond a pivot that is exactly zero or not finite.
+
+use crate::kernels::{axpy, dot};
+
+/// `P·A = L·U` of an n×n matrix. Storage is made once; `factor` and `solve` allocate nothing.
+///
+/// ```
+/// use linalg::Lu;
+/// let a = [[0.0, 2.0], [4.0, 1.0]];
+/// let mut lu = Lu::new(2);
+/// lu.factor(|i, j| a[i][j])?;
+/// let mut x = [6.0, 11.0];
+/// lu.solve(&mut x);
+/// assert_eq!(x, [2.0, 3.0]);
+/// # Ok::<(), linalg::SingularPivot>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Lu {
+    n: usize,
+    /// L below its unit diagonal, U on and above the diagonal; row-major.
+    factors: Vec<f64>,
+    /// Row i of `P·A` is row `permutation[i]` of A.
+    permutation: Vec<usize>,
+    /// Scratch of `solve`.
+    right: Vec<f64>,
+}
+
+/// A column without a pivot.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[error("column {column} has the pivot {pivot}, need a finite number that is not zero")]
+pub struct SingularPivot {
+    /// The column.
+    pub column: usize,
+    /// The largest entry left in it.
+    pub pivot: f64,
+}
+
+impl Lu {
+    /// Storage for n×n matrices; the factors are those of the identity.
+    pub fn new(n: usize) -> Self {
+        let mut lu = Self {
+            n,
+            factors: vec![0.0; n * n],
+            permutation: (0..n).collect(),
+            right: vec![0.0; n],
+        };
+        for i in 0..n {
+            lu.factors[i * n + i] = 1.0;
+        }
+        lu
+    }
+
+    /// Factors the matrix with entries `entry(i, j)`.
+    ///
+    /// # Errors
+    /// [`SingularPivot`]; there are no factors then, and `solve` gives no meaningful result.
+    pub fn factor(
+        &mut self,
+        mut entry: impl FnMut(usize, usize) -> f64,
+    ) -> Result<(), SingularPivot> {
+        let n = self.n;
+        for i in 0..n {
+            self.permutation[i] = i;
+            for j in 0..n {
+                self.factors[i * n + j] = entry(i, j);
+            }
+        }
+        for k in 0..n {
+            let size = |i: usize| self.factors[i * n + k].abs();
+            let at = (k + 1..n).fold(k, |at, i| if size(i) > size(at) { i } else { at });
+            let pivot = self.factors[at * n + k];
+            if pivot == 0.0 || !pivot.is_finite() {
+                return Err(SingularPivot { column: k, pivot });
+            }
+            self.permutation.swap(k, at);
+            let (upper, lower) = self.factors.split_at_mut((k + 1) * n);
+            let row_k = &mut upper[k * n..];
+            if at != k {
+                row_k.swap_with_slice(&mut lower[(at - k - 1) * n..(at - k) * n]);
+            }
+            for row in lower.chunks_exact_mut(n) {
+                row[k] /= pivot;
+                let l = row[k];
+                axpy(-l, &row_k[k + 1..], &mut row[k + 1..]);
+            }
+        }
+        Ok(())
+    }
+
+    /// `x ← A⁻¹·x`.
+    ///
+    /// # Panics
+    /// If `x` is shorter than n.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        let (n, y) = (self.n, &mut self.right);
+        for (i, &row) in self.permutation.iter().enumerate() {
+            y[i] = x[row] - dot(&self.factors[i * n..i * n + i], &y[..i]);
+        }
+        for i in (0..n).rev() {
+            let row = &self.factors[i * n..(i + 1) * n];
+            x[i] = (y[i] - dot(&row[i + 1..], &x[i + 1..n])) / row[i];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn solutions_are_put_back_by_the_matrix() {
+        let n = 7;
+        let a = |i: usize, j: usize| ((i * 31 + j * 17 + 5) % 23) as f64 - 11.0;
+        let mut lu = Lu::new(n);
+        lu.factor(a).unwrap();
+        let b: Vec<f64> = (0..n).map(|i| i as f64 - 2.5).collect();
+        let mut x = b.clone();
+        lu.solve(&mut x);
+        for (i, b) in b.iter().enumerate() {
+            let back: f64 = (0..n).map(|j| a(i, j) * x[j]).sum();
+            assert!((back - b).abs() < 1e-12, "row {i}: {back} instead of {b}");
+        }
+    }
+
+    #[test]
+    fn a_column_without_pivot_is_named() {
+        let a = [[1.0, 2.0], [2.0, 4.0]];
+        let error = Lu::new(2).factor(|i, j| a[i][j]).unwrap_err();
+        let expected = "column 1 has the pivot 0, need a finite number that is not zero";
+        assert_eq!(error.to_string(), expected);
+        assert!(Lu::new(1).factor(|_, _| f64::NAN).is_err());
+        Lu::new(0).factor(|_, _| 0.0).unwrap();
+    }
+}

@@ -1,0 +1,197 @@
+//! Derivatives of the equations of motion, assembled from the derivative kernels of joints and forces: what implicit methods and
+//! sensitivities need. Not for explicit motion, which needs none of them.
+//!
+//! All are taken along velocity directions, so that every block has n_v columns: `∂/∂q` means the change with q as the
+//! mechanism moves with a velocity.
+
+use joints::Twist;
+
+use super::{Mechanism, N_BODY};
+use crate::description::BodyRef;
+use crate::system::Scratch;
+
+/// Derivatives at one instant, and the storage for them.
+#[derive(Clone, Debug)]
+pub struct Derivatives {
+    /// `∂Q/∂q`, n_v × n_v
+    pub force_dq: Sparse,
+    /// `∂Q/∂v`, n_v × n_v
+    pub force_dv: Sparse,
+    /// `∂(Cᵀ·λ)/∂q`, n_v × n_v
+    pub reaction_dq: Sparse,
+    /// `∂(C·a − Γ)/∂q`, (m + h) × n_v
+    pub residual_dq: Sparse,
+    /// `∂Γ/∂v`, (m + h) × n_v
+    pub gamma_dv: Sparse,
+    /// `∂(C·v − b)/∂q`, (m + h) × n_v
+    pub velocity_dq: Sparse,
+    /// Accelerations of the slots.
+    slots: Vec<Twist>,
+}
+
+/// A matrix as a sum of entries, in the order of the elements that they come from. The pattern is fixed.
+#[derive(Clone, Debug, Default)]
+pub struct Sparse {
+    /// Row, column and place in the values; entries of the ground have none.
+    entries: Vec<(usize, usize, usize)>,
+    values: Vec<f64>,
+}
+
+impl Sparse {
+    /// `y ← y + A·x`.
+    ///
+    /// # Panics
+    /// If a row or column of the matrix lies outside `y` or `x`.
+    pub fn add_product(&self, x: &[f64], y: &mut [f64]) {
+        for (row, column, value) in self.iter() {
+            y[row] += value * x[column];
+        }
+    }
+
+    /// `y ← y − A·x`.
+    ///
+    /// # Panics
+    /// As [`Sparse::add_product`].
+    pub fn subtract_product(&self, x: &[f64], y: &mut [f64]) {
+        for (row, column, value) in self.iter() {
+            y[row] -= value * x[column];
+        }
+    }
+
+    /// Row, column and value of each entry; the same place may come more than once, and counts with the sum.
+    pub fn iter(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
+        self.entries
+            .iter()
+            .map(|&(row, column, at)| (row, column, self.values[at]))
+    }
+
+    /// Room for one more block.
+    fn push_block(
+        &mut self,
+        pattern: &[[usize; 2]],
+        row: impl Fn(usize) -> Option<usize>,
+        column: impl Fn(usize) -> Option<usize>,
+    ) {
+        let first = self.values.len();
+        self.values.resize(first + pattern.len(), 0.0);
+        for (k, &[i, j]) in pattern.iter().enumerate() {
+            if let (Some(row), Some(column)) = (row(i), column(j)) {
+                self.entries.push((row, column, first + k));
+            }
+        }
+    }
+
+    /// The values of blocks one after the other.
+    fn blocks<'s>(&'s mut self) -> impl FnMut(usize) -> &'s mut [f64] {
+        let mut rest = self.values.as_mut_slice();
+        move |n| {
+            let (block, tail) = std::mem::take(&mut rest).split_at_mut(n);
+            rest = tail;
+            block
+        }
+    }
+}
+
+/// Column of C for a column of a block; none for the ground.
+fn column_of(bodies: &[BodyRef]) -> impl Fn(usize) -> Option<usize> + '_ {
+    |k| match bodies[k / N_BODY] {
+        BodyRef::Ground => None,
+        BodyRef::Body(body) => Some(N_BODY * body + k % N_BODY),
+    }
+}
+
+impl Mechanism {
+    /// Storage for [`Mechanism::differentiate`]; the values are zero.
+    #[must_use]
+    pub fn derivatives(&self) -> Derivatives {
+        let mut d = Derivatives {
+            force_dq: Sparse::default(),
+            force_dv: Sparse::default(),
+            reaction_dq: Sparse::default(),
+            residual_dq: Sparse::default(),
+            gamma_dv: Sparse::default(),
+            velocity_dq: Sparse::default(),
+            slots: vec![Twist::zero(); self.n_slots],
+        };
+        for c in &self.constraints {
+            let spec = c.element.element().spec();
+            let column = column_of(&c.bodies);
+            let row = |i: usize| Some(c.rows.start + i);
+            d.reaction_dq.push_block(spec.d_force_dx, &column, &column);
+            d.residual_dq.push_block(spec.d_residual_dx, row, &column);
+            d.gamma_dv.push_block(spec.d_gamma_dv, row, &column);
+            d.velocity_dq.push_block(spec.d_velocity_dx, row, &column);
+        }
+        for f in &self.forces {
+            let spec = f.element.element().spec();
+            let column = column_of(&f.bodies);
+            d.force_dq.push_block(spec.dq_dx, &column, &column);
+            d.force_dv.push_block(spec.dq_dv, &column, &column);
+        }
+        d
+    }
+
+    /// Computes the derivatives at the pose and the twist of the scratch, for accelerations `a` (n_v) and multipliers `lambda`
+    /// (m + h); allocates nothing.
+    ///
+    /// ```
+    /// use joints::Revolute;
+    /// use model::{Body, BodyRef, Description, Joint, Mechanism, System};
+    /// // A pendulum of length 2: Γ_y = −R_j·s_j·φ̇² = −2·φ̇², so ∂Γ_y/∂φ̇ = −4·φ̇.
+    /// let bob = Body { name: "bob".into(), mass: 1.0, inertia: 0.1, ..Body::default() };
+    /// let pivot = Revolute { s_i: [0.0, 0.0], s_j: [0.0, 2.0] };
+    /// let pendulum = Description {
+    ///     bodies: vec![bob],
+    ///     joints: vec![Joint::new("pivot", &[BodyRef::Ground, BodyRef::Body(0)], pivot)],
+    ///     ..Description::default()
+    /// };
+    /// let mechanism = Mechanism::build(&pendulum).unwrap();
+    /// let (mut s, mut d) = (mechanism.scratch(), mechanism.derivatives());
+    /// mechanism.pose(0.0, &[0.0, -2.0, 0.0], &mut s);
+    /// mechanism.twist(&[6.0, 0.0, 3.0], &mut s);
+    /// mechanism.differentiate(&[0.0; 3], &[0.0; 2], &s, &mut d);
+    /// let mut gamma = [0.0; 2];
+    /// d.gamma_dv.add_product(&[0.0, 0.0, 1.0], &mut gamma);
+    /// assert_eq!(gamma, [0.0, -12.0]);
+    /// ```
+    ///
+    /// # Panics
+    /// If a slice is too short, or the storage is that of another mechanism.
+    pub fn differentiate(&self, a: &[f64], lambda: &[f64], s: &Scratch, d: &mut Derivatives) {
+        self.spread(a, &mut d.slots);
+        let mut reaction_dq = d.reaction_dq.blocks();
+        let mut residual_dq = d.residual_dq.blocks();
+        let mut gamma_dv = d.gamma_dv.blocks();
+        let mut velocity_dq = d.velocity_dq.blocks();
+        for c in &self.constraints {
+            let element = c.element.element();
+            let spec = element.spec();
+            let (x, v) = (
+                &s.slot_poses[c.slots.clone()],
+                &s.slot_twists[c.slots.clone()],
+            );
+            let (a, f) = (&d.slots[c.slots.clone()], &s.jets[c.functions.clone()]);
+            let lambda = &lambda[c.rows.clone()];
+            element.d_force_dx(x, f, lambda, reaction_dq(spec.d_force_dx.len()));
+            element.d_residual_dx(x, v, a, f, residual_dq(spec.d_residual_dx.len()));
+            element.d_gamma_dv(x, v, f, gamma_dv(spec.d_gamma_dv.len()));
+            element.d_velocity_dx(x, v, f, velocity_dq(spec.d_velocity_dx.len()));
+        }
+        let mut force_dq = d.force_dq.blocks();
+        let mut force_dv = d.force_dv.blocks();
+        for force in &self.forces {
+            let element = force.element.element();
+            let spec = element.spec();
+            let (x, v) = (
+                &s.slot_poses[force.slots.clone()],
+                &s.slot_twists[force.slots.clone()],
+            );
+            let f = &s.jets[force.functions.clone()];
+            element.dq_dx(x, v, f, force_dq(spec.dq_dx.len()));
+            element.dq_dv(x, v, f, force_dv(spec.dq_dv.len()));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,387 @@
+//! The motion on independent coordinates: completed states, and the Jacobian against differences of the motion itself.
+
+use std::ops::ControlFlow;
+
+use dynamics::{
+    Formulation, KeptRowMotion, Method, MotionOptions, Prepared, Reduced, RowChoice, prepare,
+    simulate,
+};
+use joints::{Bushing, Direction, KnifeEdge, SpringDamper, TorsionSpringDamper};
+use model::{Body, BodyRef, Description, Force, Joint, Mechanism, PlaneForce, StartOptions};
+use tests::cranks::cranks;
+use tests::largest;
+use tests::robot::{robot, steering};
+
+fn prepared(d: &Description) -> Prepared {
+    let mechanism = Mechanism::build(d).expect("a mechanism");
+    prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("a start")
+}
+
+/// A state `[q; v; work]` on the constraints, in motion.
+fn state_at(p: &Prepared, t: f64) -> Vec<f64> {
+    let mut y = Vec::new();
+    let options = MotionOptions::to(t);
+    simulate(p, &options, |row| {
+        y = [row.q, row.v, &[0.0]].concat();
+        Ok(ControlFlow::Continue(()))
+    })
+    .expect("a motion");
+    y
+}
+
+fn force(name: &str, bodies: [BodyRef; 2], element: impl PlaneForce + 'static) -> Force {
+    Force {
+        name: name.into(),
+        bodies: bodies.to_vec(),
+        element: Box::new(element),
+        functions: Vec::new(),
+    }
+}
+
+/// Three cranks with forces of every kind.
+fn sprung_cranks() -> Description {
+    let [ground, crank, coupler] = [BodyRef::Ground, BodyRef::Body(0), BodyRef::Body(3)];
+    let spring = SpringDamper {
+        s_i: [0.3, 2.0],
+        s_j: [0.2, 0.1],
+        stiffness: 40.0,
+        damping: 1.5,
+        free_length: Some(0.7),
+        free_length_0: 0.0,
+    };
+    let torsion = TorsionSpringDamper {
+        stiffness: 30.0,
+        damping: 0.8,
+        free_angle: Some(0.5),
+        free_angle_0: 0.0,
+    };
+    let bushing = Bushing {
+        s_i: [0.5, 1.0],
+        s_j: [0.1, -0.2],
+        stiffness: [20.0, 10.0, 5.0],
+        damping: [0.3, 0.2, 0.1],
+        offset: [0.0; 2],
+        angle_0: 0.0,
+    };
+    let mut d = cranks(&[0.0, 1.0, 2.0], 0.8, 0.9);
+    d.gravity = [0.0, -9.81];
+    d.forces = vec![
+        force("spring", [ground, coupler], spring),
+        force("torsion", [ground, crank], torsion),
+        force("bushing", [ground, coupler], bushing),
+    ];
+    d
+}
+
+/// The mechanisms, at times when everything moves: the robot is steered at 1.5 s.
+fn cases() -> [(&'static str, Prepared, f64); 2] {
+    [
+        ("cranks", prepared(&sprung_cranks()), 0.4),
+        ("robot", prepared(&robot(steering())), 1.5),
+    ]
+}
+
+#[test]
+fn the_jacobian_is_the_difference_of_the_motion() {
+    const H: f64 = 1e-5;
+    for (name, p, t) in cases() {
+        let y = state_at(&p, t);
+        let mut motion = KeptRowMotion::new(&p).expect("rows");
+        let mut reduced = Reduced::new(&motion);
+        reduced.linearise(&mut motion, t, &y).expect("a Jacobian");
+        let (jacobian, places) = reduced.jacobian();
+        let size = jacobian.max_abs();
+        assert!(size > 1.0, "{name}: the motion depends on its state");
+        for (j, &place) in places.iter().enumerate() {
+            let mut at = |h: f64| {
+                let mut y = y.clone();
+                y[place] += h;
+                let mut dy = vec![0.0; y.len()];
+                motion.derivative(t, &y, &mut dy).expect("a state nearby");
+                dy
+            };
+            let (plus, minus) = (at(H), at(-H));
+            for (i, (plus, minus)) in plus.iter().zip(&minus).enumerate() {
+                let difference = (plus - minus) / (2.0 * H);
+                let found = jacobian[(i, j)];
+                assert!(
+                    (found - difference).abs() < 1e-7 * size,
+                    "{name}, d f[{i}]/d y[{place}]: {found}, by differences {difference}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn dependent_entries_are_a_guess_only() {
+    for (name, p, t) in cases() {
+        let y = state_at(&p, t);
+        let mut motion = KeptRowMotion::new(&p).expect("rows");
+        let mut expected = vec![0.0; y.len()];
+        motion.derivative(t, &y, &mut expected).expect("a state");
+        motion.use_chart(t, &y[..y.len() / 2]).expect("a chart");
+        let (z, u) = motion.independent().expect("a chart");
+        let n = p.q.len();
+        let is_free = |i: usize| z.contains(&i) || i >= n && u.contains(&(i - n));
+        let moved: Vec<f64> = (0..y.len())
+            .map(|i| {
+                y[i] + if is_free(i) {
+                    0.0
+                } else {
+                    1e-3 * (i as f64).sin()
+                }
+            })
+            .collect();
+        let mut found = vec![0.0; y.len()];
+        motion.derivative(t, &moved, &mut found).expect("a state");
+        let gap = largest(found.iter().zip(&expected).map(|(a, b)| a - b));
+        let size = largest(expected.iter().copied());
+        assert!(gap < 1e-12 * size, "{name}: {gap:e} of {size}");
+    }
+}
+
+#[test]
+fn shifted_systems_are_solved() {
+    let (_, p, t) = &cases()[0];
+    let y = state_at(p, *t);
+    let mut motion = KeptRowMotion::new(p).expect("rows");
+    let mut reduced = Reduced::new(&motion);
+    reduced.linearise(&mut motion, *t, &y).expect("a Jacobian");
+    let (sigma, [alpha, beta]) = (3.0, [2.0, 5.0]);
+    reduced.factor(sigma, [alpha, beta]).expect("regular");
+    let (jacobian, places) = reduced.jacobian();
+    let places = places.to_vec();
+    let times = |x: &[f64]| jacobian.times(&places.iter().map(|&i| x[i]).collect::<Vec<_>>());
+    let right = |k: f64| -> Vec<f64> { (0..y.len()).map(|i| (k * i as f64).cos()).collect() };
+
+    let (b, mut x) = (right(1.0), right(1.0));
+    reduced.solve(&mut x);
+    let gap = |i: usize| sigma * x[i] - times(&x)[i] - b[i];
+    let work = y.len() - 1;
+    let of_w = |gap: &dyn Fn(usize) -> f64| largest(places.iter().chain([&work]).map(|&i| gap(i)));
+    assert!(of_w(&gap) < 1e-10, "{:e}", of_w(&gap));
+
+    let (b_re, b_im) = (right(2.0), right(3.0));
+    let (mut re, mut im) = (b_re.clone(), b_im.clone());
+    reduced.solve_complex(&mut re, &mut im);
+    let real = |i: usize| alpha * re[i] - beta * im[i] - times(&re)[i] - b_re[i];
+    let imaginary = |i: usize| alpha * im[i] + beta * re[i] - times(&im)[i] - b_im[i];
+    assert!(of_w(&real) < 1e-10, "{:e}", of_w(&real));
+    assert!(of_w(&imaginary) < 1e-10, "{:e}", of_w(&imaginary));
+
+    // The dependent entries move the state along the constraints: velocities, which q̇ shows once completed, miss by H² only.
+    const H: f64 = 1e-4;
+    for x in [&x, &re, &im] {
+        let size = largest(x.iter().copied());
+        let moved: Vec<f64> = y.iter().zip(x).map(|(y, x)| y + H * x / size).collect();
+        let mut dy = vec![0.0; y.len()];
+        motion
+            .derivative(*t, &moved, &mut dy)
+            .expect("a state nearby");
+        let n = p.q.len();
+        let gap = largest((0..n).map(|i| dy[i] - moved[n + i]));
+        assert!(gap < 100.0 * H * H, "{gap:e}");
+    }
+}
+
+/// Three cranks whose first one is held by a spring of 1e12 N·m/rad and a damper of 1e6 N·m·s/rad to a hand that is driven by
+/// s(t) = −0.7 + 0.3·sin t: the fast motion decays with 3e5/s, and the crank follows the hand.
+mod held {
+    use super::*;
+    use joints::RevoluteAngleDrive;
+    use model::{Drive, Function};
+
+    const K: f64 = 1e12;
+    const C: f64 = 1e6;
+    const G: f64 = 9.81;
+    /// Inertia of all bodies about the one angle θ, cranks 1 m long: 3·(0.1 + 1·0.5²) + 0.5·1².
+    const INERTIA: f64 = 1.55;
+    /// Moment of the weight at θ = 0, by g: 3·1·0.5 + 0.5·1.
+    const LEVER: f64 = 2.0;
+
+    /// θ and θ̇ of the slow motion, `I·θ̈ = −G·cos θ − k·(θ − s) − c·(θ̇ − ṡ)`, by two terms of its series in 1/k: the third is
+    /// below 1e-20.
+    pub(super) fn slow(t: f64) -> [f64; 2] {
+        let (sin, cos) = t.sin_cos();
+        let [s, d, dd, ddd] = [-0.7 + 0.3 * sin, 0.3 * cos, -0.3 * sin, -0.3 * cos];
+        let weight = G * LEVER;
+        let e = -(INERTIA * dd + weight * s.cos()) / K;
+        let e_rate = -(INERTIA * ddd - weight * s.sin() * d) / K;
+        [s + e - C * e_rate / K, d + e_rate]
+    }
+
+    pub(super) fn description() -> Description {
+        let [theta, omega] = slow(0.0);
+        let mut d = cranks(&[0.0, 1.0, 2.0], 1.0, theta);
+        d.gravity = [0.0, -G];
+        let (sin, cos) = theta.sin_cos();
+        for crank in &mut d.bodies[..3] {
+            crank.inertia = 0.1;
+            crank.angular_velocity = omega;
+            crank.velocity = [-0.5 * omega * sin, 0.5 * omega * cos];
+        }
+        d.bodies[3].mass = 0.5;
+        d.bodies[3].velocity = [-omega * sin, omega * cos];
+        d.bodies.push(Body {
+            name: "hand".into(),
+            mass: 1.0,
+            inertia: 0.01,
+            angular_velocity: 0.3,
+            ..Body::default()
+        });
+        let pair = [BodyRef::Ground, BodyRef::Body(4)];
+        let hand = tests::revolute("hand pivot", &d.bodies, pair, [0.0, 0.0]);
+        d.joints.push(hand);
+        d.drives.push(Drive {
+            name: "drive".into(),
+            bodies: pair.to_vec(),
+            element: Box::new(RevoluteAngleDrive {
+                s_i: [0.0; 2],
+                s_j: [0.0; 2],
+                measure_0: 0.0,
+            }),
+            motion: Function::harmonic(0.3, 1.0, 0.0, 0.0).expect("finite"),
+        });
+        let spring = TorsionSpringDamper {
+            stiffness: K,
+            damping: C,
+            free_angle: Some(-0.7),
+            free_angle_0: 0.0,
+        };
+        let pair = [BodyRef::Body(4), BodyRef::Body(0)];
+        d.forces.push(force("grip", pair, spring));
+        d
+    }
+}
+
+/// Steps and the errors of angle and angular velocity of the held crank after 2 s.
+fn held_crank(p: &Prepared, rtol: f64) -> (u64, f64, f64) {
+    let options = MotionOptions {
+        method: Method::Radau5,
+        rtol,
+        atol: 1e-3 * rtol,
+        output_step: 2.0,
+        ..MotionOptions::to(2.0)
+    };
+    let mut found = [0.0; 2];
+    let summary = simulate(p, &options, |row| {
+        found = [row.q[2], row.v[2]];
+        Ok(ControlFlow::Continue(()))
+    })
+    .expect("a motion");
+    assert!(summary.max_position_residual < 1e-14);
+    let expected = held::slow(2.0);
+    let [position, velocity] = [0, 1].map(|i| (found[i] - expected[i]).abs());
+    (summary.steps, position, velocity)
+}
+
+/// A stiffness of 1e12 is no reason for short steps: an explicit method would need 3e5 of them. The angle follows the hand to far below
+/// the tolerance. The velocity at the end of a step is the slope of a cubic through s at its Radau nodes, which misses that of s by
+/// `s⁗·h³/80`: after 2 s it depends on how long the last step happens to be.
+#[test]
+fn a_grip_of_1e12_takes_few_steps() {
+    let p = prepared(&held::description());
+    let mut smallest = f64::INFINITY;
+    for k in 6..12 {
+        let rtol = 10f64.powf(-0.5 * f64::from(k));
+        let (steps, position, velocity) = held_crank(&p, rtol);
+        assert!(
+            steps <= [9, 12, 16, 20, 28, 40][k as usize - 6],
+            "{steps} steps at {rtol:e}"
+        );
+        assert!(position <= 1e-10, "{position:e} at {rtol:e}");
+        assert!(velocity <= 1e-5, "{velocity:e} at {rtol:e}");
+        smallest = smallest.min(velocity);
+    }
+    assert!(smallest <= 1e-7, "{smallest:e}");
+}
+
+/// A blade through the centre of mass runs in circles: `x = v/ω·sin ωt`. The velocity that depends on the others is that across the
+/// blade, which is another one every quarter of a turn.
+#[test]
+fn charts_are_renewed_as_a_blade_turns() {
+    let (speed, omega) = (1.2, 1.5);
+    let edge = KnifeEdge {
+        s: [0.0, 0.0],
+        normal: Direction::Y,
+    };
+    let d = Description {
+        bodies: vec![Body {
+            name: "sleigh".into(),
+            mass: 1.0,
+            inertia: 0.5,
+            velocity: [speed, 0.0],
+            angular_velocity: omega,
+            ..Body::default()
+        }],
+        joints: vec![Joint::new("edge", &[BodyRef::Body(0)], edge)],
+        ..Description::default()
+    };
+    let p = prepared(&d);
+    for method in [Method::Dopri5, Method::Radau5] {
+        let options = MotionOptions {
+            method,
+            formulation: Formulation::NullSpace,
+            rtol: 1e-10,
+            atol: 1e-12,
+            output_step: 0.5,
+            ..MotionOptions::to(10.0)
+        };
+        let summary = simulate(&p, &options, |row| {
+            let (sin, cos) = (omega * row.t).sin_cos();
+            let radius = speed / omega;
+            let expected = [radius * sin, radius * (1.0 - cos), omega * row.t];
+            let gap = largest(row.q.iter().zip(expected).map(|(q, e)| q - e));
+            assert!(gap < 1e-8, "{method:?} at t = {}: {gap:e}", row.t);
+            Ok(ControlFlow::Continue(()))
+        })
+        .expect("a motion");
+        assert!(summary.max_velocity_residual < 1e-14);
+    }
+}
+
+/// Null space and kept rows are two ways to write one motion, and an implicit method goes there too.
+#[test]
+fn all_ways_lead_along_one_motion() {
+    let end = |p: &Prepared, t: f64, method: Method, formulation: Formulation| {
+        let options = MotionOptions {
+            method,
+            formulation,
+            rtol: 1e-9,
+            atol: 1e-11,
+            output_step: t,
+            ..MotionOptions::to(t)
+        };
+        let mut y = Vec::new();
+        let summary = simulate(p, &options, |row| {
+            let [q, v] = [row.q.to_vec(), row.v.to_vec()];
+            y = [q, v, row.acceleration()?, row.multipliers()?].concat();
+            Ok(ControlFlow::Continue(()))
+        })
+        .expect("a motion");
+        assert!(summary.max_position_residual < 1e-14 && summary.max_velocity_residual < 1e-14);
+        y
+    };
+    for (name, p, t) in cases() {
+        let expected = end(&p, t, Method::Dopri5, Formulation::KeptRows);
+        for (method, formulation) in [
+            (Method::Dopri5, Formulation::NullSpace),
+            (Method::Radau5, Formulation::NullSpace),
+            (Method::Radau5, Formulation::MinimumNorm),
+        ] {
+            let found = end(&p, t, method, formulation);
+            // Multipliers are other ones where all rows are used.
+            let n = match formulation {
+                Formulation::MinimumNorm => 3 * p.q.len(),
+                _ => found.len(),
+            };
+            let gap = largest(found.iter().zip(&expected).take(n).map(|(a, b)| a - b));
+            let size = largest(expected[..n].iter().copied());
+            assert!(
+                gap < 1e-7 * size,
+                "{name}, {method:?}, {formulation:?}: {gap:e}"
+            );
+        }
+    }
+}
