@@ -214,6 +214,7 @@ impl Subject {
         let counted = timed.map_or(summary, |(fastest, _)| fastest);
         row.evaluations = counted.evaluations;
         row.projections = counted.projections;
+        row.factorisations = counted.factorisations;
         row.steps = counted.steps;
         row.rejected = counted.rejected;
         row.constraint_residual = counted

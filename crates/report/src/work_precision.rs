@@ -41,7 +41,7 @@ pub struct WorkPrecisionRow {
     pub evaluations: u64,
     /// Projections of steps.
     pub projections: u64,
-    /// Factorisations.
+    /// Factorisations of iteration matrices of implicit methods.
     pub factorisations: u64,
     /// Accepted steps.
     pub steps: u64,

@@ -1,6 +1,7 @@
 //! All scenes together, in words.
 
-use report::{WorkPrecisionRow, WorkPrecisionScene};
+use dynamics::Method;
+use report::{Place, WorkPrecisionRow, WorkPrecisionScene};
 
 /// Methods this close to the fastest share its place: repeated runs differ by as much.
 const EQUAL: f64 = 1.1;
@@ -14,7 +15,7 @@ const TIGHT: f64 = 1e-6;
 /// Who wins how often, how many runs did not reach their end, and which finished runs are wrong.
 #[must_use]
 pub fn overview(scenes: &[WorkPrecisionScene]) -> Vec<String> {
-    let mut sentences: Vec<String> = wins(scenes).into_iter().collect();
+    let mut sentences: Vec<String> = wins(scenes).into_iter().chain(losses(scenes)).collect();
     let rows: Vec<&WorkPrecisionRow> = scenes.iter().flat_map(|s| &s.rows).collect();
     let unfinished = rows.iter().filter(|row| row.status != "done").count();
     sentences.push(format!(
@@ -43,20 +44,85 @@ fn name(row: &WorkPrecisionRow) -> String {
     )
 }
 
-/// How often each method is the fastest, over all scenes and errors.
-fn wins(scenes: &[WorkPrecisionScene]) -> Option<String> {
-    let usual = &scenes.iter().flat_map(|s| &s.rows).next()?.curve;
-    let (mut total, mut counts) = (0, Vec::<(&str, usize)>::new());
-    for line in scenes.iter().flat_map(|s| &s.ranking) {
-        let alike = line.places.iter().filter(|p| {
-            p.curve.formulation == usual.formulation && p.curve.stabilisation == usual.stabilisation
-        });
-        let places: Vec<_> = alike.collect();
-        let Some(first) = places.first() else {
+/// The places of methods with the usual treatment, the fastest first, for each scene and error.
+fn methods(scenes: &[WorkPrecisionScene]) -> impl Iterator<Item = (&str, f64, Vec<&Place>)> {
+    let usual = scenes
+        .iter()
+        .flat_map(|s| &s.rows)
+        .next()
+        .map(|row| &row.curve);
+    let is_usual = move |place: &&Place| {
+        usual.is_some_and(|u| {
+            place.curve.formulation == u.formulation && place.curve.stabilisation == u.stabilisation
+        })
+    };
+    let lines = scenes
+        .iter()
+        .flat_map(|s| s.ranking.iter().map(|line| (s.name.as_str(), line)));
+    let places = lines.map(move |(name, line)| {
+        (
+            name,
+            line.error,
+            line.places.iter().filter(is_usual).collect(),
+        )
+    });
+    places.filter(|(_, _, places): &(_, _, Vec<_>)| !places.is_empty())
+}
+
+/// Where the method that is chosen by itself is not the fastest.
+fn losses(scenes: &[WorkPrecisionScene]) -> Option<String> {
+    let chosen = Method::Auto.chosen().name();
+    let mut worst: Vec<(&str, f64, &str, f64)> = Vec::new();
+    let mut unreached: Vec<&str> = Vec::new();
+    for (scene, error, places) in methods(scenes) {
+        let first = places[0];
+        let Some(own) = places.iter().find(|p| p.curve.method == chosen) else {
+            if unreached.last() != Some(&scene) {
+                unreached.push(scene);
+            }
             continue;
         };
+        let factor = own.seconds / first.seconds;
+        match worst.last_mut() {
+            _ if factor < EQUAL => {}
+            Some(last) if last.0 == scene => {
+                if factor > last.3 {
+                    *last = (scene, error, first.curve.method, factor);
+                }
+            }
+            _ => worst.push((scene, error, first.curve.method, factor)),
+        }
+    }
+    let lost = worst.iter().map(|(scene, error, method, factor)| {
+        format!("{scene} (at worst {factor:.1} times the time of {method}, at {error:.0e})")
+    });
+    let lost: Vec<String> = lost.collect();
+    let mut words = match lost.len() {
+        0 => format!("{chosen}, which `auto` chooses, loses nowhere by more than a tenth"),
+        _ => format!(
+            "{chosen}, which `auto` chooses, loses in {}",
+            lost.join(", ")
+        ),
+    };
+    if !unreached.is_empty() {
+        words.push_str(&format!(
+            "; some errors that others reach it does not in {}",
+            unreached.join(", ")
+        ));
+    }
+    words.push('.');
+    scenes.first().map(|_| words)
+}
+
+/// How often each method is the fastest, over all scenes and errors.
+fn wins(scenes: &[WorkPrecisionScene]) -> Option<String> {
+    let (mut total, mut counts) = (0, Vec::<(&str, usize)>::new());
+    for (_, _, places) in methods(scenes) {
         total += 1;
-        for place in places.iter().filter(|p| p.seconds <= EQUAL * first.seconds) {
+        for place in places
+            .iter()
+            .filter(|p| p.seconds <= EQUAL * places[0].seconds)
+        {
             match counts
                 .iter_mut()
                 .find(|(method, _)| *method == place.curve.method)
@@ -65,6 +131,9 @@ fn wins(scenes: &[WorkPrecisionScene]) -> Option<String> {
                 None => counts.push((place.curve.method, 1)),
             }
         }
+    }
+    if total == 0 {
+        return None;
     }
     counts.sort_by_key(|(_, n)| std::cmp::Reverse(*n));
     let words: Vec<String> = counts

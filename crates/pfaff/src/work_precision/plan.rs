@@ -46,7 +46,13 @@ const TOLERANCES: [f64; 11] = [
 ];
 
 /// Methods whose order is high enough for a reference.
-pub(super) const ACCURATE: [Method; 3] = [Method::Dop853, Method::Tsit5, Method::Dopri5];
+pub(super) const ACCURATE: [Method; 5] = [
+    Method::Dop853,
+    Method::Gbs,
+    Method::Radau5,
+    Method::Tsit5,
+    Method::Dopri5,
+];
 
 /// The runs of a comparison, the same for every scene.
 #[derive(Clone, Debug, PartialEq)]

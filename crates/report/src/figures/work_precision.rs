@@ -99,7 +99,7 @@ pub fn work_precision(scenes: &[WorkPrecisionScene]) -> String {
                 Unit::Untold
             };
             let curves = family.curves(scene, work);
-            let x = curves.iter().flat_map(|c| c.points.iter().map(|p| p[0]));
+            let x = curves.iter().flat_map(|c| c.shown().map(|p| p[0]));
             let frame = Frame {
                 left: left(column),
                 top: top + TITLE,
@@ -114,11 +114,16 @@ pub fn work_precision(scenes: &[WorkPrecisionScene]) -> String {
     svg.finish()
 }
 
-/// Logarithms of all errors of a scene and of its limit.
+/// The limit of a reference is shown if it is at most this much below the smallest error.
+const FAR: f64 = 1e-3;
+
+/// Logarithms of all errors of a scene, and of its limit if that is near.
 fn errors(scene: &WorkPrecisionScene) -> impl Iterator<Item = f64> + Clone {
     let runs = scene.rows.iter().filter_map(WorkPrecisionRow::motion_error);
-    let limit = scene.reference.motion_limit();
-    runs.chain(limit.is_finite().then_some(limit)).map(height)
+    let smallest = runs.clone().fold(f64::INFINITY, f64::min);
+    let limit = Some(scene.reference.motion_limit());
+    let near = limit.filter(|limit| *limit >= FAR * smallest);
+    runs.chain(near).map(height)
 }
 
 /// Place of an error.
@@ -129,9 +134,9 @@ fn height(error: f64) -> f64 {
 fn draw(svg: &mut Svg, frame: &Frame, scene: &WorkPrecisionScene, curves: &[Curve]) {
     let limit = scene.reference.motion_limit();
     let resolved = limit.is_finite() && limit > 0.0;
-    let level = height(limit).max(frame.y.min);
-    let [_, y] = frame.place(frame.x.min, level);
     let bottom = frame.top + frame.height;
+    let [_, y] = frame.place(frame.x.min, height(limit));
+    let resolved = resolved && y < bottom;
     if resolved {
         svg.element("rect")
             .at([
@@ -144,7 +149,7 @@ fn draw(svg: &mut Svg, frame: &Frame, scene: &WorkPrecisionScene, curves: &[Curv
             .empty();
     }
     frame.draw(svg, Labels::Shown);
-    if resolved && y < bottom {
+    if resolved {
         svg.element("line")
             .at([
                 ("x1", frame.left),
@@ -156,7 +161,7 @@ fn draw(svg: &mut Svg, frame: &Frame, scene: &WorkPrecisionScene, curves: &[Curv
             .with("stroke-dasharray", "5 4")
             .empty();
     }
-    if curves.iter().all(|c| c.points.is_empty()) {
+    if curves.iter().all(|c| c.shown().next().is_none()) {
         frame.note(svg, "no run reached its end");
     }
     for curve in curves {
@@ -269,7 +274,7 @@ impl Family {
             .collect()
     }
 
-    /// Finished runs, loosest tolerance first.
+    /// Runs, loosest tolerance first.
     fn curves(&self, scene: &WorkPrecisionScene, work: Work) -> Vec<Curve> {
         let curve = |(k, (name, _)): (usize, &(CurveName, String))| {
             let rows = scene.rows.iter().filter(|row| row.curve == *name);
@@ -280,7 +285,7 @@ impl Family {
             };
             Curve {
                 look: Look::nth(k),
-                points: rows.filter_map(point).collect(),
+                points: rows.map(point).collect(),
             }
         };
         self.members.iter().enumerate().map(curve).collect()

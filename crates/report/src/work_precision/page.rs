@@ -32,7 +32,8 @@ const EXPLANATION: &str = "<p>Each run is compared with values that it did not m
 components and reference times; lengths are measured in the size of the mechanism, and the error of each kind (position, velocity, \
 acceleration, reaction) is relative to the largest value of the kind. Reactions are compared only where they are unique: other \
 ones belong to the elimination, not to the mechanism. <em>Evaluations</em> are solved accelerations, rejected steps and starts \
-included. <em>Seconds</em> are the shortest of at least three runs after one to warm up, without output; runs are repeated until \
+included; each of them solves the equations once, and <em>factorisations</em> are those of the iteration matrices of implicit methods. \
+<em>Seconds</em> are the shortest of at least three runs after one to warm up, without output; runs are repeated until \
 they have taken 20 ms. In the figure the error is the larger one of position and velocity, a point is a tolerance, and down and to the left \
 is better. Below the dashed line the reference itself is not known better. Runs that failed, were refused or given up are rows of the tables with \
 their reason.</p>\n";

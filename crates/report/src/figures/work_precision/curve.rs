@@ -86,24 +86,28 @@ impl Look {
     }
 }
 
-/// A curve in logarithms.
+/// A curve in logarithms, with a gap for each run that has no point.
 pub(super) struct Curve {
     pub(super) look: Look,
-    pub(super) points: Vec<[f64; 2]>,
+    pub(super) points: Vec<Option<[f64; 2]>>,
 }
 
 impl Curve {
+    /// The points there are.
+    pub(super) fn shown(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.points.iter().copied().flatten()
+    }
+
     pub(super) fn draw(&self, svg: &mut Svg, frame: &Frame) {
-        let points: Vec<[f64; 2]> = self
-            .points
-            .iter()
-            .map(|[x, y]| frame.place(*x, *y))
-            .collect();
-        if points.len() > 1 {
-            self.look.line(svg, &points);
-        }
-        for point in points {
-            self.look.mark(svg, point);
+        for piece in self.points.split(Option::is_none) {
+            let points = piece.iter().flatten();
+            let points: Vec<[f64; 2]> = points.map(|[x, y]| frame.place(*x, *y)).collect();
+            if points.len() > 1 {
+                self.look.line(svg, &points);
+            }
+            for point in points {
+                self.look.mark(svg, point);
+            }
         }
     }
 }
