@@ -1,5 +1,8 @@
 //! Which curve reaches which error in the shortest time, in numbers and in words.
 
+#[cfg(test)]
+mod tests;
+
 use report::{CurveName, Place, RankingLine, WorkPrecisionRow};
 
 /// Errors that are looked at.
@@ -111,27 +114,27 @@ pub(super) fn words(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Vec<Str
 
 fn range(levels: &[f64], places: &[&Place], factors: &[f64]) -> String {
     let span = match levels {
-        [only] => format!("To an error of {only:.0e}"),
-        [first, .., last] => format!("To errors of {first:.0e} … {last:.0e}"),
+        [first, .., last] => format!("Errors of {first:.0e} … {last:.0e}"),
+        [only] => format!("An error of {only:.0e}"),
         [] => String::new(),
     };
     let winner = places[0].curve.method;
-    let (low, high) = factors
-        .iter()
-        .fold((f64::INFINITY, 0.0_f64), |(l, h), f| (l.min(*f), h.max(*f)));
-    match places.get(1) {
-        None => format!("{span} {winner} alone comes."),
-        Some(next) if high < EQUAL => {
-            format!(
-                "{span} {winner} and {} are equally fast.",
-                next.curve.method
-            )
+    let fold = |(low, high): (f64, f64), f: &f64| (low.min(*f), high.max(*f));
+    let (low, high) = factors.iter().fold((f64::INFINITY, 0.0), fold);
+    let Some(next) = places.get(1).map(|place| place.curve.method) else {
+        return format!("{span}: {winner}, at the tight end alone.");
+    };
+    match high < EQUAL {
+        true => format!("{span}: {winner}, and {next} as fast."),
+        false => {
+            let factor = span_of(low, high);
+            let which = if levels.len() > 1 {
+                ", at the tight end"
+            } else {
+                ","
+            };
+            format!("{span}: {winner}; the next{which} {next}, takes {factor} times as long.")
         }
-        Some(next) => format!(
-            "{span} {winner} is the fastest; the next, at last {}, takes {} times as long.",
-            next.curve.method,
-            span_of(low, high)
-        ),
     }
 }
 
@@ -140,7 +143,7 @@ fn span_of(low: f64, high: f64) -> String {
     match (a == b, high.is_finite()) {
         (true, _) => a,
         (false, true) => format!("{a} to {b}"),
-        (false, false) => format!("{a} times or more"),
+        (false, false) => format!("at least {a}"),
     }
 }
 
