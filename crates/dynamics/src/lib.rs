@@ -10,6 +10,7 @@
 //! | [`events`] | what happened on the way |
 //! | [`mod@simulate`] | a run: integration, projected output, energy balance |
 
+mod choose;
 mod error;
 pub mod events;
 pub mod motion;

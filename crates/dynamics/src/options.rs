@@ -6,7 +6,7 @@ use crate::error::MotionError;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Method {
-    /// The best one for the scene.
+    /// Dormand–Prince 8(5,3), or Radau IIA where forces make the motion stiff at its start.
     #[default]
     Auto,
     /// Dormand–Prince 5(4), the method of MATLAB's `ode45`.
@@ -57,15 +57,6 @@ impl Method {
     #[must_use]
     pub fn needs_independent_coordinates(self) -> bool {
         self == Self::Radau5
-    }
-
-    /// The integrator that a run uses.
-    #[must_use]
-    pub fn chosen(self) -> Self {
-        match self {
-            Self::Auto => Self::Dop853,
-            method => method,
-        }
     }
 }
 
@@ -177,6 +168,8 @@ pub struct MotionOptions {
     pub rtol: f64,
     /// Absolute tolerance of the step control.
     pub atol: f64,
+    /// Largest step (s); infinite where error control alone decides.
+    pub max_step: f64,
     /// Integrator.
     pub method: Method,
     /// Treatment of redundancy.
@@ -209,6 +202,7 @@ impl MotionOptions {
             output_step: t_end / Self::OUTPUT_STEPS,
             rtol: Self::RTOL,
             atol: Self::ATOL,
+            max_step: f64::INFINITY,
             method: Method::default(),
             formulation: Formulation::default(),
             stabilisation: Stabilisation::default(),
@@ -246,6 +240,13 @@ impl MotionOptions {
                 "a number ≥ 0 (1/s)",
             )
         });
+        if self.max_step.is_nan() || self.max_step <= 0.0 {
+            return Err(MotionError::Option {
+                name: "max_step",
+                value: self.max_step,
+                expected: "a time > 0",
+            });
+        }
         for (name, value, right, expected) in numbers.into_iter().chain(gains) {
             if !(right && value.is_finite()) {
                 return Err(MotionError::Option {
@@ -261,7 +262,7 @@ impl MotionOptions {
 
     /// Whether method, formulation and stabilisation go together.
     fn check_combination(&self) -> Result<(), MotionError> {
-        let method = self.method.chosen();
+        let method = self.method;
         let combination = |with, why| {
             Err(MotionError::Combination {
                 chosen: self.formulation.name(),

@@ -16,6 +16,7 @@ use integrators::{
 use linalg::ProximalTuning;
 use model::{Reaction, System};
 
+use crate::choose;
 use crate::error::{MotionError, Trip};
 use crate::events::Event;
 use crate::motion::{KeptRowMotion, Motion};
@@ -28,6 +29,8 @@ use equations::Equations;
 pub struct Summary {
     /// Last time reached (s).
     pub t: f64,
+    /// The integrator: the one asked for, or the one chosen.
+    pub method: Method,
     /// Accepted steps.
     pub steps: u64,
     /// Rejected steps.
@@ -134,6 +137,11 @@ pub fn simulate(
     };
     options.check().map_err(fail)?;
     options.check_rows(&prepared.choice).map_err(fail)?;
+    let method = choose::method(prepared, options).map_err(|e| fail(e.into()))?;
+    let options = &MotionOptions {
+        method,
+        ..options.clone()
+    };
     let motion = KeptRowMotion::with(prepared, options).map_err(|e| fail(e.into()))?;
     let mut equations = Equations::new(motion, prepared, options);
     equations
@@ -149,6 +157,7 @@ pub fn simulate(
     };
     let settings = Options {
         tolerance: equations.tolerance(options),
+        max_step: options.max_step,
         ..Options::with_tolerance(options.rtol, options.atol)
     };
     // A run that takes no time has one row.
@@ -164,7 +173,7 @@ pub fn simulate(
         stopped: None,
     };
     let clock = Instant::now();
-    let outcome = match options.method.chosen() {
+    let outcome = match method {
         Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
         Method::Tsit5 => run.go(&Tsit5, &interval, &y0, &settings),
         Method::Auto | Method::Dop853 => run.go(&Dop853, &interval, &y0, &settings),
@@ -180,6 +189,7 @@ pub fn simulate(
     };
     let summary = Summary {
         t,
+        method,
         steps: statistics.accepted,
         rejected: statistics.rejected(),
         evaluations: statistics.total_evaluations(),

@@ -134,6 +134,9 @@ pub(crate) struct Simulate {
     /// Absolute tolerance
     #[arg(long, value_name = "A", allow_hyphen_values = true)]
     pub(crate) atol: Option<f64>,
+    /// Largest step (s)
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    pub(crate) max_step: Option<f64>,
     /// Integrator
     #[arg(long, value_name = "M", value_parser = named(Method::ALL, Method::name))]
     pub(crate) method: Option<Method>,

@@ -71,6 +71,7 @@ fn overrides(arguments: &Simulate) -> Result<Overrides, Failure> {
         t_end: arguments.t_end,
         rtol: arguments.rtol,
         atol: arguments.atol,
+        max_step: arguments.max_step,
         method: arguments.method,
         formulation: arguments.formulation,
         stabilisation: arguments.stabilisation,

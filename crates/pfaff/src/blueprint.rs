@@ -136,6 +136,7 @@ fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
     }
     options.rtol = overrides.rtol.unwrap_or(options.rtol);
     options.atol = overrides.atol.unwrap_or(options.atol);
+    options.max_step = overrides.max_step.unwrap_or(options.max_step);
     options.method = overrides.method.unwrap_or(options.method);
     options.formulation = overrides.formulation.unwrap_or(options.formulation);
     match overrides.stabilisation {

@@ -49,6 +49,8 @@ pub struct Overrides {
     pub rtol: Option<f64>,
     /// Absolute tolerance.
     pub atol: Option<f64>,
+    /// Largest step (s).
+    pub max_step: Option<f64>,
     /// Integrator.
     pub method: Option<Method>,
     /// Treatment of redundancy.

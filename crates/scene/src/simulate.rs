@@ -14,30 +14,24 @@ use crate::table::Table;
 /// The values of a key whose meaning is an enum of `dynamics`.
 struct Choice<T: 'static> {
     key: &'static str,
-    /// What cannot be done yet.
-    planned: &'static [&'static str],
-    /// What can be done today.
     available: &'static [T],
     name: fn(T) -> &'static str,
 }
 
 const METHODS: Choice<Method> = Choice {
     key: "method",
-    planned: &["gbs", "radau5", "generalized-alpha", "hem4"],
     available: Method::ALL,
     name: Method::name,
 };
 
 const FORMULATIONS: Choice<Formulation> = Choice {
     key: "formulation",
-    planned: &["null-space"],
     available: Formulation::ALL,
     name: Formulation::name,
 };
 
 const STABILISATIONS: Choice<Stabilisation> = Choice {
     key: "stabilisation",
-    planned: &[],
     available: Stabilisation::ALL,
     name: Stabilisation::name,
 };
@@ -79,6 +73,7 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate
     };
     positive("rtol", "a number > 0", &mut options.rtol);
     positive("atol", "a number > 0", &mut options.atol);
+    positive("max_step", "a time > 0", &mut options.max_step);
     options.method = choose(&mut table, &METHODS, findings).unwrap_or_default();
     options.formulation = choose(&mut table, &FORMULATIONS, findings).unwrap_or_default();
     options.stabilisation = choose(&mut table, &STABILISATIONS, findings).unwrap_or_default();
@@ -167,14 +162,11 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
     if let Some(found) = available.find(|found| (choice.name)(*found) == value) {
         return Some(found);
     }
-    let (message, label, help) = match choice.planned.contains(&value) {
-        true => ("is not available yet", "not available yet", None),
-        false => ("is unknown", "no such choice", did_you_mean(value, names())),
-    };
+    let help = did_you_mean(value, names());
     findings.error_with_help(
         field.span(),
-        format!("{}: `{}` `{value}` {message}", field.subject, field.key),
-        label,
+        format!("{}: `{}` `{value}` is unknown", field.subject, field.key),
+        "no such choice",
         help.or_else(|| Some(format!("available are {}", list(names())))),
     );
     None

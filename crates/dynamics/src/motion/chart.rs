@@ -39,6 +39,28 @@ pub(super) struct Origin {
 impl KeptRowMotion<'_> {
     /// From now on the motion is one of independent coordinates, chosen at q, which must lie on the constraints at t.
     ///
+    /// ```
+    /// use dynamics::{KeptRowMotion, RowChoice, prepare};
+    /// use joints::Angle;
+    /// use model::{Body, BodyRef, Description, Joint, Mechanism, StartOptions};
+    /// // A body that does not turn: x and y are independent, its angle is not.
+    /// let level = Description {
+    ///     bodies: vec![Body { name: "crate".into(), mass: 1.0, inertia: 1.0, ..Body::default() }],
+    ///     joints: vec![Joint::new("level", &[BodyRef::Ground, BodyRef::Body(0)], Angle { angle_0: 0.0 })],
+    ///     ..Description::default()
+    /// };
+    /// let mechanism = Mechanism::build(&level).unwrap();
+    /// let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)?;
+    /// let mut motion = KeptRowMotion::new(&prepared)?;
+    /// motion.use_chart(0.0, &prepared.q)?;
+    /// assert_eq!(motion.independent(), Some((&[0, 1][..], &[0, 1][..])));
+    /// // A wrong angle in y is a guess only: ẏ = [q̇; v̇] is that of the completed state.
+    /// let mut dy = [0.0; 6];
+    /// motion.derivative(0.0, &[5.0, 6.0, 0.3, 7.0, 8.0, 0.2], &mut dy)?;
+    /// assert_eq!(dy, [7.0, 8.0, 0.0, 0.0, 0.0, 0.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// If the kept rows are dependent there.
     pub fn use_chart(&mut self, t: f64, q: &[f64]) -> Result<(), Trip> {

@@ -21,6 +21,29 @@ use super::chart::Origin;
 use crate::error::Trip;
 
 /// The Jacobian at one instant, and factors of shifted ones.
+///
+/// ```
+/// use dynamics::{KeptRowMotion, Reduced, RowChoice, prepare};
+/// use joints::Revolute;
+/// use model::{Body, BodyRef, Description, Joint, Mechanism, StartOptions};
+/// // A pendulum of length 1 at rest below its pivot: u̇ = −g/(l² + I/m)·l·z with its angle z, here −10/(1 + 0.25) = −8.
+/// let pendulum = Description {
+///     gravity: [0.0, -10.0],
+///     bodies: vec![Body { name: "bob".into(), mass: 2.0, inertia: 0.5, position: [0.0, -1.0], ..Body::default() }],
+///     joints: vec![Joint::new("pivot", &[BodyRef::Ground, BodyRef::Body(0)], Revolute { s_i: [0.0; 2], s_j: [0.0, 1.0] })],
+///     ..Description::default()
+/// };
+/// let mechanism = Mechanism::build(&pendulum).unwrap();
+/// let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)?;
+/// let mut motion = KeptRowMotion::new(&prepared)?;
+/// let mut reduced = Reduced::new(&motion);
+/// reduced.linearise(&mut motion, 0.0, &[0.0, -1.0, 0.0, 0.0, 0.0, 0.0])?;
+/// let (jacobian, places) = reduced.jacobian();
+/// // w is [angle; angular velocity] or [x; v_x], which are the same here.
+/// let [z, u] = [places[0], places[1]];
+/// assert!((jacobian[(z, 1)] - 1.0).abs() < 1e-14 && (jacobian[(u, 0)] + 8.0).abs() < 1e-13);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub struct Reduced {
     derivatives: Derivatives,
     /// Places of w in y.

@@ -202,7 +202,7 @@ impl RunDocument {
             (r.name.clone(), document)
         });
         Self {
-            method: run.options.method.chosen().name(),
+            method: run.summary.method.name(),
             formulation: run.options.formulation.name(),
             stabilisation: run.options.stabilisation.name(),
             partial,

@@ -1,7 +1,7 @@
 //! Whole documents of small runs, byte for byte.
 
 use dynamics::{
-    Event, EventKind, MotionError, MotionOptions, Prepared, RowChoice, Summary, prepare,
+    Event, EventKind, Method, MotionError, MotionOptions, Prepared, RowChoice, Summary, prepare,
 };
 use joints::Revolute;
 use linalg::{
@@ -288,6 +288,7 @@ fn summary_has_the_keys_of_the_contract() {
     let mut analysis = analysis();
     analysis.reactions[0].wrench = judged(Verdict::Unique, 0.0);
     let summary = Summary {
+        method: Method::Dopri5,
         t: 2.0,
         steps: 10,
         rejected: 1,

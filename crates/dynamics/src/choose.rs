@@ -1,0 +1,89 @@
+//! Which method suits a motion where none is asked for.
+
+use linalg::Matrix;
+
+use crate::error::Trip;
+use crate::motion::{KeptRowMotion, Reduced};
+use crate::options::{Formulation, Method, MotionOptions, Stabilisation};
+use crate::prepare::Prepared;
+
+/// A motion for which an explicit method would need more steps than this, only to stay stable, is stiff.
+const STIFF: f64 = 2e4;
+
+/// Explicit steps are stable up to about this many times 1/|λ|: Dormand–Prince 8(5,3), along the negative real axis.
+const STABLE: f64 = 6.0;
+
+/// Iterations for the largest |λ|; the second half counts.
+const ITERATIONS: usize = 64;
+
+/// The method of a run: the one asked for, or Dormand–Prince 8(5,3), or Radau IIA where forces make the motion stiff at its start.
+///
+/// # Errors
+/// If the motion has no Jacobian at the start.
+pub(crate) fn method(prepared: &Prepared, options: &MotionOptions) -> Result<Method, Trip> {
+    if options.method != Method::Auto {
+        return Ok(options.method);
+    }
+    let may_be_implicit = options.stabilisation == Stabilisation::Projection
+        && matches!(
+            options.formulation,
+            Formulation::KeptRows | Formulation::NullSpace
+        );
+    if !(may_be_implicit && prepared.mechanism.has_applied_forces()) {
+        return Ok(Method::Dop853);
+    }
+    let rate = fastest_rate(prepared)?;
+    match rate * options.t_end > STIFF * STABLE {
+        true => Ok(Method::Radau5),
+        false => Ok(Method::Dop853),
+    }
+}
+
+/// The largest |λ| (1/s) of the motion on independent coordinates at the start.
+fn fastest_rate(prepared: &Prepared) -> Result<f64, Trip> {
+    let mut motion = KeptRowMotion::new(prepared)?;
+    let mut reduced = Reduced::new(&motion);
+    let y = [prepared.q.as_slice(), &prepared.v].concat();
+    reduced.linearise(&mut motion, 0.0, &y)?;
+    let (columns, places) = reduced.jacobian();
+    let k = places.len();
+    let on_w = Matrix::from_fn(k, k, |i, j| columns[(places[i], j)]);
+    Ok(spectral_radius(&on_w))
+}
+
+/// By growth of a vector under the matrix: the geometric mean, which complex pairs have too.
+fn spectral_radius(a: &Matrix) -> f64 {
+    let k = a.nrows();
+    // No eigenvector is orthogonal to this but by chance.
+    let mut x: Vec<f64> = (0..k).map(|i| 1.0 + 0.1 * (i as f64).sin()).collect();
+    let mut logs = 0.0;
+    for iteration in 0..ITERATIONS {
+        let next = a.times(&x);
+        let norm = next.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if norm == 0.0 || !norm.is_finite() {
+            return if norm == 0.0 { 0.0 } else { f64::INFINITY };
+        }
+        x = next.iter().map(|x| x / norm).collect();
+        if 2 * iteration >= ITERATIONS {
+            logs += norm.ln();
+        }
+    }
+    (2.0 * logs / ITERATIONS as f64).exp()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_fastest_rate_is_found_also_of_oscillations() {
+        // ẍ = −k·x beside a slow decay: |λ| = √k.
+        let k = 1e10;
+        let a = Matrix::from_rows(&[[0.0, 1.0, 0.0], [-k, 0.0, 0.0], [0.0, 0.0, -3.0]]);
+        let found = spectral_radius(&a);
+        assert!((found / 1e5 - 1.0).abs() < 0.05, "{found}");
+        let a = Matrix::from_rows(&[[-2e6, 1.0], [0.0, -3.0]]);
+        assert!((spectral_radius(&a) / 2e6 - 1.0).abs() < 1e-6);
+        assert_eq!(spectral_radius(&Matrix::zeros(3, 3)), 0.0);
+    }
+}
