@@ -156,12 +156,22 @@ impl Subject {
             scene: WorkPrecisionScene {
                 name: self.name.clone(),
                 title: self.title.clone(),
+                automatic: self.automatic(plan, interrupted),
                 reference: document,
                 summary: ranking::words(&ranking, &rows),
                 ranking,
                 rows,
             },
         })
+    }
+
+    /// The method that is chosen where none is asked for: a run with the loosest tolerance tells.
+    fn automatic(&self, plan: &Plan, interrupted: &impl Fn() -> bool) -> &'static str {
+        let curve = Plan::usual(Method::Auto);
+        let tolerance = plan.tolerances.first().copied().unwrap_or(self.base.rtol);
+        let options = options(&self.base, curve, tolerance);
+        let run = look(&self.study, &options, &self.times, plan.budget, interrupted);
+        run.summary.method.name()
     }
 
     /// One setting: a row, or nothing if somebody asked to stop.

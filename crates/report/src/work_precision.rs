@@ -118,6 +118,8 @@ pub struct WorkPrecisionScene {
     pub name: String,
     /// What it is.
     pub title: String,
+    /// The method that is chosen where none is asked for.
+    pub automatic: &'static str,
     /// What runs are compared with.
     pub reference: ReferenceDocument,
     /// Which method wins where, in words.

@@ -1,6 +1,5 @@
 //! All scenes together, in words.
 
-use dynamics::Method;
 use report::{Place, WorkPrecisionRow, WorkPrecisionScene};
 
 /// Methods this close to the fastest share its place: repeated runs differ by as much.
@@ -45,7 +44,9 @@ fn name(row: &WorkPrecisionRow) -> String {
 }
 
 /// The places of methods with the usual treatment, the fastest first, for each scene and error.
-fn methods(scenes: &[WorkPrecisionScene]) -> impl Iterator<Item = (&str, f64, Vec<&Place>)> {
+fn methods(
+    scenes: &[WorkPrecisionScene],
+) -> impl Iterator<Item = (&WorkPrecisionScene, f64, Vec<&Place>)> {
     let usual = scenes
         .iter()
         .flat_map(|s| &s.rows)
@@ -58,7 +59,7 @@ fn methods(scenes: &[WorkPrecisionScene]) -> impl Iterator<Item = (&str, f64, Ve
     };
     let lines = scenes
         .iter()
-        .flat_map(|s| s.ranking.iter().map(|line| (s.name.as_str(), line)));
+        .flat_map(|s| s.ranking.iter().map(move |line| (s, line)));
     let places = lines.map(move |(name, line)| {
         (
             name,
@@ -69,23 +70,22 @@ fn methods(scenes: &[WorkPrecisionScene]) -> impl Iterator<Item = (&str, f64, Ve
     places.filter(|(_, _, places): &(_, _, Vec<_>)| !places.is_empty())
 }
 
-/// Where the method that is chosen by itself is not the fastest.
+/// Where the method that is chosen by itself is not the fastest, with the worst factor of each scene.
 fn losses(scenes: &[WorkPrecisionScene]) -> Option<String> {
-    let chosen = Method::Auto.chosen().name();
-    let mut worst: Vec<(&str, f64, &str, f64)> = Vec::new();
+    let mut worst: Vec<(&WorkPrecisionScene, f64, &str, f64)> = Vec::new();
     let mut unreached: Vec<&str> = Vec::new();
     for (scene, error, places) in methods(scenes) {
         let first = places[0];
-        let Some(own) = places.iter().find(|p| p.curve.method == chosen) else {
-            if unreached.last() != Some(&scene) {
-                unreached.push(scene);
+        let Some(own) = places.iter().find(|p| p.curve.method == scene.automatic) else {
+            if unreached.last() != Some(&scene.name.as_str()) {
+                unreached.push(&scene.name);
             }
             continue;
         };
         let factor = own.seconds / first.seconds;
         match worst.last_mut() {
             _ if factor < EQUAL => {}
-            Some(last) if last.0 == scene => {
+            Some(last) if last.0.name == scene.name => {
                 if factor > last.3 {
                     *last = (scene, error, first.curve.method, factor);
                 }
@@ -94,20 +94,21 @@ fn losses(scenes: &[WorkPrecisionScene]) -> Option<String> {
         }
     }
     let lost = worst.iter().map(|(scene, error, method, factor)| {
-        format!("{scene} (at worst {factor:.1} times the time of {method}, at {error:.0e})")
+        let (name, own) = (&scene.name, scene.automatic);
+        format!("{name} ({own} takes {factor:.1} times as long as {method} at {error:.0e})")
     });
     let lost: Vec<String> = lost.collect();
     let mut words = match lost.len() {
-        0 => format!("{chosen}, which `auto` chooses, loses nowhere by more than a tenth"),
+        0 => "The method that is chosen by itself loses nowhere by more than a tenth".to_owned(),
         _ => format!(
-            "{chosen}, which `auto` chooses, loses in {}",
+            "The method that is chosen by itself loses, at worst, in {}",
             lost.join(", ")
         ),
     };
     if !unreached.is_empty() {
+        let names = unreached.join(", ");
         words.push_str(&format!(
-            "; some errors that others reach it does not in {}",
-            unreached.join(", ")
+            "; it does not reach all errors that others reach in {names}"
         ));
     }
     words.push('.');

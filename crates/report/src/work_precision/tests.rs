@@ -71,6 +71,7 @@ fn document() -> WorkPrecisionDocument {
         scenes: vec![WorkPrecisionScene {
             name: "pendulum".to_owned(),
             title: "Pendulum".to_owned(),
+            automatic: "dop853",
             reference: ReferenceDocument {
                 source: "closed form".to_owned(),
                 limits: [3e-16, 3e-16, f64::NAN, f64::NAN],
