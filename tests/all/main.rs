@@ -14,6 +14,7 @@ mod generic;
 mod granularity;
 mod independent_coordinates;
 mod invariance;
+mod long_runs;
 mod nearly_redundant;
 mod plain;
 mod planted_matrices;

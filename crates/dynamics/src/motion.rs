@@ -171,6 +171,12 @@ impl<'a> KeptRowMotion<'a> {
         self.velocity.pivot_ratio()
     }
 
+    /// Whether the motion is so near to a singular configuration that stages have to lie on the constraints: off them by δ,
+    /// accelerations are wrong by δ divided by the share of the reference pivots that is left.
+    pub(crate) fn is_delicate(&self) -> bool {
+        self.velocity.are_delicate()
+    }
+
     /// The same relative to that when the rows were chosen.
     pub(crate) fn relative_pivot(&self) -> f64 {
         self.velocity.relative_pivot()

@@ -3,6 +3,7 @@
 
 use model::System;
 
+use super::rows::KeptRows;
 use super::{Correction, KeptRowMotion};
 use crate::error::Trip;
 use crate::events::Event;
@@ -10,8 +11,15 @@ use crate::events::Event;
 /// Corrections of the position per projection; one or two are the rule, more where a tolerance is very loose.
 const CORRECTIONS: usize = 20;
 
+/// Corrections of the velocity per projection, at most.
+const VELOCITY_PASSES: usize = 3;
+
 /// Kept rows count as satisfied below this many roundings of their terms.
 const ROUNDINGS: f64 = 10.0;
+
+/// The same where pivots have fallen below [`WEAK`] of their reference: what kept rows miss by is multiplied in the dropped ones.
+const FEW_ROUNDINGS: f64 = 1.0;
+const WEAK: f64 = 0.5;
 
 /// The same where a further correction does not help.
 const STALLED_ROUNDINGS: f64 = 50.0;
@@ -19,6 +27,9 @@ const STALLED_ROUNDINGS: f64 = 50.0;
 /// Dropped rows count as implied by the kept ones below this share of the largest row. Rounding of the kept rows, 1e-15,
 /// reaches them through coefficients of up to some hundreds.
 const DROPPED_MISFIT: f64 = 1e-11;
+
+/// Smallest share of the reference pivots that is taken into account there: nearer, rows are left out.
+const NEAREST_PIVOT: f64 = 1e-6;
 
 /// Factors of an earlier configuration serve as long as a correction gains a digit: a factorisation costs about ten corrections.
 const CONVERGENCE: f64 = 0.1;
@@ -126,6 +137,7 @@ impl KeptRowMotion<'_> {
             zero,
             ..
         } = self;
+        let enough = enough(position);
         let mut best = f64::INFINITY;
         let mut iteration = 0;
         loop {
@@ -148,7 +160,7 @@ impl KeptRowMotion<'_> {
             }
             // Rounding may leave a little more: a stalled iteration close to it is done too.
             let stalled = worst.1 >= 0.5 * best && worst.1 <= STALLED_ROUNDINGS;
-            if worst.1 <= ROUNDINGS || stalled {
+            if worst.1 <= enough || stalled {
                 return Ok(iteration);
             }
             if iteration == CORRECTIONS || worst.1.is_nan() {
@@ -194,14 +206,15 @@ impl KeptRowMotion<'_> {
             ..
         } = self;
         let layout = mechanism.layout();
-        // The second pass removes what rounding left of the first.
-        for _ in 0..2 {
+        let enough = enough(velocity);
+        // Further passes remove what rounding left of the first.
+        for _ in 0..VELOCITY_PASSES {
             for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
                 *rhs = -layout.velocity_residual(s, i, v);
             }
             let scale = |&i: &usize| mechanism.velocity_scale(s, i, v);
             let scale = velocity.kept.iter().map(scale).fold(0.0, f64::max);
-            if largest(&velocity.rhs) <= ROUNDINGS * f64::EPSILON * scale {
+            if largest(&velocity.rhs) <= enough * f64::EPSILON * scale {
                 break;
             }
             velocity.solve(mechanism, s, zero, delta)?;
@@ -222,13 +235,17 @@ impl KeptRowMotion<'_> {
         let rows = 0..layout.rows();
         let position = |i: usize| self.mechanism.position_scale(&self.s, i, q);
         let velocity = |i: usize| self.mechanism.velocity_scale(&self.s, i, v);
-        let limit = DROPPED_MISFIT * (0..layout.m).map(position).fold(0.0, f64::max);
+        // Rounding of the kept rows reaches the dropped ones through the inverse of their pivots, near a singular configuration
+        // more than elsewhere.
+        let misfit =
+            |rows: &KeptRows| DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0);
+        let limit = misfit(&self.position) * (0..layout.m).map(position).fold(0.0, f64::max);
         for &i in &self.position.dropped {
             self.check_dropped(i, "position", self.s.phi[i].abs(), limit)?;
         }
         // Off the constraints by rounding of its coordinates, the rows agree to the same share.
         let rounding = self.mechanism.relative_residual(&self.s, q, self.size);
-        let share = DROPPED_MISFIT.max(STALLED_ROUNDINGS * rounding);
+        let share = misfit(&self.velocity).max(STALLED_ROUNDINGS * rounding);
         let limit = share * rows.map(velocity).fold(0.0, f64::max);
         for &i in &self.velocity.dropped {
             let residual = layout.velocity_residual(&self.s, i, v).abs();
@@ -271,4 +288,12 @@ impl KeptRowMotion<'_> {
 
 fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a: f64, x| a.max(x.abs()))
+}
+
+/// Roundings below which rows count as satisfied.
+fn enough(rows: &KeptRows) -> f64 {
+    match rows.relative_pivot() < WEAK {
+        true => FEW_ROUNDINGS,
+        false => ROUNDINGS,
+    }
 }

@@ -8,18 +8,23 @@ use crate::error::Trip;
 use crate::events::{Event, EventKind};
 use crate::options::RowChoice;
 
+/// Other rows are worth an exchange if their coefficients are so many times smaller.
+const WORTH_EXCHANGE: f64 = 3.0;
+
 impl KeptRowMotion<'_> {
     /// Whether [`KeptRowMotion::review`] has something to decide at freshly factored rows.
-    pub(super) fn wants_review(&self) -> bool {
-        let lost = |rows: &KeptRows| rows.are_lost() && !rows.dropped.is_empty();
-        self.aside.is_some() || lost(&self.velocity) || lost(&self.position)
+    pub(super) fn wants_review(&mut self) -> bool {
+        self.aside.is_some()
+            || self.velocity.are_lost(self.mechanism, &self.s)
+            || self.position.are_lost(self.mechanism, &self.s)
     }
 
     /// Looks at the pivots of a settled position at coordinates q.
     pub(super) fn review(&mut self, q: &[f64]) -> Result<Option<Event>, Trip> {
-        if self.position.are_lost() && !self.position.dropped.is_empty() {
+        if self.position.are_lost(self.mechanism, &self.s) {
             let decision = decide_holonomic(self.mechanism, &self.s, q);
-            if let Some(better) = self.better(decision, &self.position)? {
+            let mut old = self.position.clone();
+            if let Some(better) = self.better(decision, &mut old)? {
                 self.position = better;
             }
         }
@@ -31,15 +36,15 @@ impl KeptRowMotion<'_> {
                 self.event("the rows asked for are independent again and kept again"),
             ));
         }
-        // Without dropped rows there is nothing to choose.
-        if !self.velocity.are_lost() || self.velocity.dropped.is_empty() {
+        if !self.velocity.are_lost(self.mechanism, &self.s) {
             return Ok(None);
         }
         let decision = decide(self.mechanism, &self.s, q);
-        let Some(rows) = self.better(decision, &self.velocity)? else {
+        let mut lost = self.velocity.clone();
+        let Some(rows) = self.better(decision, &mut lost)? else {
             return Ok(None);
         };
-        let lost = std::mem::replace(&mut self.velocity, rows);
+        self.velocity = rows;
         if let (RowChoice::Drop(_), None) = (&self.choice, &self.aside) {
             self.aside = Some(lost);
         }
@@ -57,15 +62,16 @@ impl KeptRowMotion<'_> {
         let Some(aside) = &mut self.aside else {
             return false;
         };
-        aside.factor(self.mechanism, &self.s).is_ok() && aside.are_recovered()
+        aside.factor(self.mechanism, &self.s).is_ok()
+            && aside.are_recovered(self.mechanism, &self.s)
     }
 
-    /// Freshly factored kept rows of a new decision, if they have the rank of the old ones and larger pivots. Another rank is that
-    /// of a singular configuration nearby, not of the motion.
+    /// Freshly factored kept rows of a new decision, if they have the rank of the old ones and imply the dropped ones by smaller
+    /// coefficients. Another rank is that of a singular configuration nearby, not of the motion.
     fn better(
         &self,
         decision: Result<linalg::RankDecision, solvability::AnalysisError>,
-        old: &KeptRows,
+        old: &mut KeptRows,
     ) -> Result<Option<KeptRows>, Trip> {
         let time = self.s.t;
         let decision = decision.map_err(|e| Trip::NoRows {
@@ -79,7 +85,9 @@ impl KeptRowMotion<'_> {
         let mut rows = KeptRows::new(n, &decision.kept, &decision.dropped)
             .map_err(|source| Trip::Saddle { time, source })?;
         rows.factor(self.mechanism, &self.s)?;
-        Ok(rows.are_better_than(old).then_some(rows))
+        rows.compare_as(old);
+        let [new, old] = [&mut rows, old].map(|r| r.largest_coefficient(self.mechanism, &self.s));
+        Ok((WORTH_EXCHANGE * new < old).then_some(rows))
     }
 
     fn event(&self, why: &str) -> Event {

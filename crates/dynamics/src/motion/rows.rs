@@ -17,6 +17,8 @@ pub(super) struct KeptRows {
     /// Multipliers of the last solve.
     pub(super) lambda: Vec<f64>,
     c: Matrix,
+    /// A row of C and a correction, n_v each.
+    vectors: [Vec<f64>; 2],
     saddle: KeptRowSaddle,
     /// Pivot ratio when these rows were chosen: what later ones are compared with.
     reference_pivot: Option<f64>,
@@ -35,14 +37,18 @@ const PIVOT_LOSS: f64 = 0.1;
 /// A partition is renewed once its pivots have fallen below this share: steps should not reach those of lost rows.
 const PARTITION_WORN: f64 = 0.5;
 
+/// Below this share of the reference pivots rows are delicate.
+const DELICATE: f64 = 0.1;
+
 /// Rows below this share are dependent for an instant and left out of the solve.
 const PIVOT_SINGULAR: f64 = 1e-6;
 
-/// Other rows are worth an exchange if their pivots are so many times larger.
-const WORTH_EXCHANGE: f64 = 2.0;
-
 /// Rows set aside come back above this share.
 const PIVOT_RECOVERY: f64 = 0.2;
+
+/// Above this coefficient in a dropped row other rows are looked for, and below this one rows set aside come back.
+const LARGE_COEFFICIENT: f64 = 30.0;
+const SMALL_COEFFICIENT: f64 = 15.0;
 
 impl KeptRows {
     /// Storage for n velocities and these rows.
@@ -54,6 +60,7 @@ impl KeptRows {
             rhs: vec![0.0; r],
             lambda: vec![0.0; r],
             c: Matrix::zeros(r, n),
+            vectors: [vec![0.0; n], vec![0.0; n]],
             saddle: KeptRowSaddle::new(n, r)?,
             reference_pivot: None,
             partition: None,
@@ -188,9 +195,32 @@ impl KeptRows {
         }
     }
 
-    /// Whether these rows, freshly factored, are worth taking in place of others.
-    pub(super) fn are_better_than(&self, others: &Self) -> bool {
-        self.pivot_ratio() > WORTH_EXCHANGE * others.pivot_ratio()
+    /// Whether rounding of these rows is felt many times over in what depends on them.
+    pub(super) fn are_delicate(&self) -> bool {
+        self.relative_pivot() < DELICATE
+    }
+
+    /// The largest coefficient by which a kept row enters a dropped one, at the entries of C in the scratch where the rows are freshly
+    /// factored: rounding of the kept rows reaches the dropped ones multiplied by it.
+    pub(super) fn largest_coefficient(&mut self, mechanism: &Mechanism, s: &Scratch) -> f64 {
+        let mut largest = 0.0_f64;
+        self.rhs.fill(0.0);
+        let [mut row, mut x] = std::mem::take(&mut self.vectors);
+        for d in 0..self.dropped.len() {
+            // A row that the kept ones imply, as a force, moves nothing: M·0 + C_Kᵀ·λ = c_Dᵀ.
+            mechanism.layout().scatter_row(s, self.dropped[d], &mut row);
+            largest = match self.solve(mechanism, s, &row, &mut x) {
+                Ok(()) => self.lambda.iter().fold(largest, |a, l| a.max(l.abs())),
+                Err(_) => f64::INFINITY,
+            };
+        }
+        self.vectors = [row, x];
+        largest
+    }
+
+    /// Compares pivots from now on with what those of other rows were compared with: this place may be a singular one.
+    pub(super) fn compare_as(&mut self, others: &Self) {
+        self.reference_pivot = others.reference_pivot;
     }
 
     /// Solves `M·x + Cᵀ·λ = force`, `C·x = rhs` with the factored matrix.
@@ -232,16 +262,18 @@ impl KeptRows {
         self.saddle.n_coordinates() - self.saddle.n_rows() + self.saddle.n_left_out()
     }
 
-    /// Whether the rows have become nearly dependent since they were chosen.
-    pub(super) fn are_lost(&self) -> bool {
-        self.reference_pivot
-            .is_some_and(|r| self.pivot_ratio() < PIVOT_LOSS * r)
+    /// Whether other rows may be better: the kept ones have become nearly dependent since they were chosen, or imply the dropped ones by
+    /// large coefficients. At the entries of C in the scratch, where the rows are freshly factored.
+    pub(super) fn are_lost(&mut self, mechanism: &Mechanism, s: &Scratch) -> bool {
+        !self.dropped.is_empty()
+            && (self.relative_pivot() < PIVOT_LOSS
+                || self.largest_coefficient(mechanism, s) > LARGE_COEFFICIENT)
     }
 
     /// Whether rows that were lost are as independent as before.
-    pub(super) fn are_recovered(&self) -> bool {
-        self.reference_pivot
-            .is_some_and(|r| self.pivot_ratio() > PIVOT_RECOVERY * r)
+    pub(super) fn are_recovered(&mut self, mechanism: &Mechanism, s: &Scratch) -> bool {
+        self.relative_pivot() > PIVOT_RECOVERY
+            && self.largest_coefficient(mechanism, s) < SMALL_COEFFICIENT
     }
 
     fn rank_lost(&self, mechanism: &Mechanism, s: &Scratch) -> Trip {

@@ -23,10 +23,6 @@ const NEAREST_TOLERANCES: f64 = 100.0;
 /// Loose tolerances must not keep a motion far from everything.
 const NEAREST_MAX: f64 = 0.1;
 
-/// From pivots of this share of the reference on the stages of a step are moved onto the constraints before they are evaluated:
-/// off them by δ, accelerations are wrong by δ divided by that share.
-const CAREFUL: f64 = 0.1;
-
 /// Singular configurations are foreseen for so many steps like the last one: no method lets steps grow by more.
 const FORESIGHT: f64 = 12.0;
 
@@ -116,7 +112,7 @@ impl<'m> Equations<'m> {
     /// Whether the next stages have to be moved onto the constraints. On a chart all of them lie there; without projection none shall.
     fn wants_care(&self) -> bool {
         let off = self.motion.projects() && self.motion.independent().is_none();
-        off && self.motion.relative_pivot() < CAREFUL
+        off && self.motion.is_delicate()
     }
 
     /// The work is measured, not controlled: its error has no weight. It still counts as a component of the mean, which makes the
