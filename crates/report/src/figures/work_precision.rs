@@ -31,15 +31,16 @@ const COLUMNS: usize = 3;
 /// Errors shown, as powers of ten; what lies beyond is drawn at the edge.
 const SHOWN: [f64; 2] = [-16.0, 1.0];
 
-/// Colours of the light scheme by those of the dark one.
-const DARK: [(&str, &str); 8] = [
+/// Colours of the light scheme with those of the dark one.
+const DARK: [(&str, &str); 9] = [
     ("#ffffff", "#14171a"),
     ("#222222", "#e8eaec"),
     ("#5f6870", "#a3abb3"),
     ("#e3e6e9", "#2b3036"),
     ("#8a939b", "#59626b"),
     ("#000000", "#ffffff"),
-    ("#0072b2", "#3fa7e8"),
+    ("#0072b2", "#2b8ad6"),
+    ("#56b4e9", "#9bdcff"),
     ("#f1f3f5", "#1d2125"),
 ];
 

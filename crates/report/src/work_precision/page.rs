@@ -16,7 +16,7 @@ const STYLE: &str = "
 body { font: 15px/1.5 Helvetica, Arial, 'Liberation Sans', sans-serif; color: var(--ink); background: var(--page);
   max-width: 1140px; margin: 2em auto; padding: 0 1em; }
 h1 { font-size: 1.6em; } h2 { font-size: 1.2em; margin-top: 2.2em; border-top: 1px solid var(--line); padding-top: 1em; }
-p, li { max-width: 50em; } .grey { color: var(--grey); }
+p, li { max-width: 64em; } .grey { color: var(--grey); }
 svg { max-width: 100%; height: auto; }
 .wide { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
