@@ -3,6 +3,7 @@
 mod allocations;
 mod along_motion;
 mod bad_matrices;
+mod cases;
 mod choices;
 mod constrained_methods;
 mod deletions;

@@ -39,6 +39,8 @@ pub struct Summary {
     pub evaluations: u64,
     /// Projections of steps.
     pub projections: u64,
+    /// Factorisations of iteration matrices of implicit methods.
+    pub factorisations: u64,
     /// Time of the integration alone (s).
     pub wall_seconds: f64,
     /// Largest |Φ| at accepted steps and written rows.
@@ -192,6 +194,7 @@ pub fn simulate(
         rejected: statistics.rejected(),
         evaluations: statistics.total_evaluations(),
         projections: statistics.projections,
+        factorisations: statistics.factorisations,
         wall_seconds,
         ..run.equations.summary()
     };

@@ -29,6 +29,13 @@ const ANALYZE_EXAMPLES: &str = "Examples:
 
 Reactions that are not unique are never given a number without the choice it depends on.";
 
+const WORK_PRECISION_EXAMPLES: &str = "Examples:
+  pfaff work-precision --out wp                      the suite: scenes whose motion is known
+  pfaff work-precision andrews sleigh --out wp       two of them
+  pfaff work-precision mine.toml --out wp --quick    a scene of your own; two methods that agree are its reference
+
+Build with --release, and keep the machine idle: seconds are compared.";
+
 #[derive(Subcommand)]
 pub(crate) enum Command {
     /// Rank, redundancy, and the verdict of every reaction
@@ -37,6 +44,9 @@ pub(crate) enum Command {
     /// Motion and reactions, written into a directory
     #[command(after_help = "Example: pfaff simulate robot-trolley.toml --out run --drop 6,21")]
     Simulate(Simulate),
+    /// Error against run time, for every method and tolerance
+    #[command(after_help = WORK_PRECISION_EXAMPLES)]
+    WorkPrecision(WorkPrecision),
     /// Read and assemble only: every problem of the file, with its place
     #[command(after_help = "Example: pfaff check robot-trolley.toml")]
     Check(Check),
@@ -47,6 +57,7 @@ impl Command {
     pub(crate) fn answer(&self) -> Answer {
         let (Self::Analyze(Analyze { json, .. })
         | Self::Simulate(Simulate { json, .. })
+        | Self::WorkPrecision(WorkPrecision { json, .. })
         | Self::Check(Check { json, .. })) = self;
         match json {
             true => Answer::Json,
@@ -139,6 +150,24 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
     pub(crate) drop: Option<Vec<usize>>,
     /// The summary as one JSON document on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct WorkPrecision {
+    /// Scene files, - for standard input, or names of cases of the suite; none: the suite
+    pub(crate) scenes: Vec<PathBuf>,
+    /// Directory for the results
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Three tolerances, for a first look
+    #[arg(long, conflicts_with = "all")]
+    pub(crate) quick: bool,
+    /// Every method with every formulation and every stabilisation
+    #[arg(long)]
+    pub(crate) all: bool,
+    /// All results as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -10,6 +10,7 @@
 //! | [`study`] | its consistent start, its motion, its files |
 //! | [`inquiry`] | one configuration, and everything that can be asked of its reactions |
 //! | [`journey`] | the verdicts along its motion |
+//! | [`mod@work_precision`] | error against run time |
 //! | [`error`] | why there are no results |
 
 pub mod blueprint;
@@ -17,6 +18,7 @@ pub mod error;
 pub mod inquiry;
 pub mod journey;
 pub mod study;
+pub mod work_precision;
 
 pub use dynamics;
 pub use integrators;
@@ -26,6 +28,7 @@ pub use model;
 pub use report;
 pub use scene;
 pub use solvability;
+pub use suite;
 
 pub use blueprint::Blueprint;
 pub use error::StudyError;

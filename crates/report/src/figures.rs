@@ -6,6 +6,7 @@
 //! | [`mechanism()`] | a mechanism to scale, its joints marked by the verdict of their reactions |
 //! | [`history()`], [`histories`] | quantities over time |
 //! | [`paths()`] | paths in the plane, with equal axes |
+//! | [`work_precision()`] | error against run time, scene by scene |
 //!
 //! Not here: which quantities are worth a figure, and pages around them.
 
@@ -20,11 +21,14 @@ mod plot;
 mod style;
 mod svg;
 mod symbol;
+mod work_precision;
 
 pub use history::{Panel, Series, histories, history};
 pub use mechanism::{Marking, mechanism};
 pub use paths::{Path, PathRecorder, paths};
 pub use style::{Pattern, Style};
+pub(crate) use svg::escape;
+pub use work_precision::work_precision;
 
 /// Why a figure cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

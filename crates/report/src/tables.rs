@@ -10,6 +10,8 @@ mod trajectory;
 
 use std::io::Write;
 
+use serde::Serialize;
+
 pub use reactions::{ReactionTable, Selection};
 pub use trajectory::TrajectoryTable;
 
@@ -50,14 +52,14 @@ pub enum TableError {
 }
 
 /// A CSV writer with a fixed number of columns.
-struct Table<W: Write> {
+pub(crate) struct Table<W: Write> {
     name: &'static str,
     csv: csv::Writer<W>,
 }
 
 impl<W: Write> Table<W> {
     /// Writes the header.
-    fn new(name: &'static str, out: W, header: &[String]) -> Result<Self, TableError> {
+    pub(crate) fn new(name: &'static str, out: W, header: &[String]) -> Result<Self, TableError> {
         let csv = csv::WriterBuilder::new()
             .has_headers(false)
             .from_writer(out);
@@ -68,12 +70,23 @@ impl<W: Write> Table<W> {
     }
 
     fn row(&mut self, values: &[f64]) -> Result<(), TableError> {
+        self.record(values)
+    }
+
+    /// Writes a row of any plain values.
+    pub(crate) fn record(&mut self, values: impl Serialize) -> Result<(), TableError> {
         let written = self.csv.serialize(values);
         self.checked(written)
     }
 
+    /// Hands on what is buffered.
+    pub(crate) fn flush(&mut self) -> Result<(), TableError> {
+        let written = self.csv.flush();
+        self.checked(written.map_err(csv::Error::from))
+    }
+
     /// Everything written, the writer back.
-    fn finish(self) -> Result<W, TableError> {
+    pub(crate) fn finish(self) -> Result<W, TableError> {
         let table = self.name;
         self.csv.into_inner().map_err(|e| TableError::Write {
             table,

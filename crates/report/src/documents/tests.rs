@@ -293,6 +293,7 @@ fn summary_has_the_keys_of_the_contract() {
         steps: 10,
         rejected: 1,
         evaluations: 70,
+        factorisations: 0,
         projections: 10,
         wall_seconds: 0.125,
         max_position_residual: 0.0,

@@ -88,11 +88,7 @@ impl Axis {
         if self.exponent == 0 {
             return unit.to_owned();
         }
-        let exponent = self.exponent.to_string();
-        let power: String = "10"
-            .chars()
-            .chain(exponent.chars().map(superscript))
-            .collect();
+        let power = power_of_ten(self.exponent);
         if unit.is_empty() || unit == "1" {
             power
         } else {
@@ -131,6 +127,20 @@ fn with_minus(label: &str) -> String {
         Some(rest) if rest.chars().all(|c| matches!(c, '0' | '.')) => rest.to_owned(),
         Some(rest) => format!("−{rest}"),
         None => label.to_owned(),
+    }
+}
+
+/// `10⁻⁶`; 1 and 10 without an exponent.
+pub(super) fn power_of_ten(exponent: i32) -> String {
+    match exponent {
+        0 => "1".to_owned(),
+        1 => "10".to_owned(),
+        _ => {
+            let digits = exponent.to_string();
+            "10".chars()
+                .chain(digits.chars().map(superscript))
+                .collect()
+        }
     }
 }
 

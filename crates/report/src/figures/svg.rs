@@ -141,7 +141,7 @@ pub(super) fn point_list(points: impl IntoIterator<Item = [f64; 2]>) -> String {
 }
 
 /// Escapes what XML gives a meaning, and replaces what it forbids.
-fn escape(from: &str, to: &mut String) {
+pub(crate) fn escape(from: &str, to: &mut String) {
     for c in from.chars() {
         match c {
             '&' => to.push_str("&amp;"),

@@ -1,0 +1,145 @@
+//! `work-precision`: its files, its rows, its refusals.
+
+use serde_json::Value;
+
+use super::bad_input::PENDULUM;
+use super::{Folder, pfaff, stderr, stdout, with_scene};
+
+/// The promised columns, in their order; more may follow.
+const COLUMNS: &str = "scene,formulation,method,stabilisation,tolerance,error_position,error_velocity,error_acceleration,\
+error_reaction,constraint_residual,evaluations,projections,factorisations,steps,seconds,status,";
+
+/// Runs a scene quickly; the lines of the table below its header.
+fn quick(folder: &Folder, scene: &str) -> (std::process::Output, Vec<Vec<String>>) {
+    let output = pfaff(&["work-precision", scene, "--quick", "--out", folder.text()]);
+    let table = folder.read("work_precision.csv");
+    let mut lines = table.lines();
+    let header = lines.next().expect("a header");
+    assert!(header.starts_with(COLUMNS), "{header}");
+    let rows = lines.map(|line| line.split(',').map(str::to_owned).collect());
+    (output, rows.collect())
+}
+
+#[test]
+fn a_case_of_the_suite_is_compared_with_its_reference() {
+    let folder = Folder::new("work-precision-case");
+    let (output, rows) = quick(&folder, "sleigh");
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(
+        stdout(&output).contains("reference known to 3e-16"),
+        "{}",
+        stdout(&output)
+    );
+    // Columns 2 and 4 are method and tolerance, 5 and 6 errors, 15 the status.
+    let row = |method: &str, tolerance: &str| {
+        let found = rows.iter().find(|r| r[2] == method && r[4] == tolerance);
+        found.unwrap_or_else(|| panic!("{method} at {tolerance}: {rows:?}"))
+    };
+    for (tolerance, bound) in [("0.0001", 1e-3), ("1e-10", 1e-8)] {
+        let dop853 = row("dop853", tolerance);
+        assert_eq!(dop853[15], "done");
+        let error: f64 = dop853[6].parse().expect("a number");
+        assert!(error > 1e-16 && error < bound, "{tolerance}: {error:e}");
+    }
+    for name in ["work_precision.svg", "report.html"] {
+        assert!(folder.read(name).contains("Chaplygin sleigh"), "{name}");
+    }
+    assert!(!folder.0.join("work_precision.csv.part").exists());
+}
+
+#[test]
+fn runs_that_fail_are_rows_with_their_reason() {
+    let folder = Folder::new("work-precision-failing");
+    // A hand-made contradiction: the drive of the pivot is met by a second one, until half a second.
+    let scene = super::bad_input::contradiction_at_half_a_second();
+    let path = folder.0.join("scene.toml");
+    std::fs::create_dir_all(&folder.0).expect("writable");
+    std::fs::write(&path, scene).expect("writable");
+    let (output, rows) = quick(&folder, path.to_str().expect("UTF-8"));
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(!rows.is_empty());
+    for row in &rows {
+        assert!(row[14] == "NaN" && row[15] != "done", "{row:?}");
+    }
+    let named = rows
+        .iter()
+        .filter(|row| row[15..].join(",").contains("t = 0.5"));
+    assert!(named.count() > 3, "{rows:?}");
+    assert!(stdout(&output).contains("did not reach their end"));
+}
+
+#[test]
+fn a_scene_of_ones_own_is_compared_with_two_methods_that_agree() {
+    let folder = Folder::new("work-precision-own");
+    let arguments = [
+        "work-precision",
+        "-",
+        "--quick",
+        "--json",
+        "--out",
+        folder.text(),
+    ];
+    let output = with_scene(&arguments, PENDULUM);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let document: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+    let reference = &document["scenes"][0]["reference"];
+    let agreement = reference["agreement"].as_str().expect("a text");
+    assert!(
+        agreement.contains(" and ") && agreement.contains("agree to"),
+        "{agreement}"
+    );
+    let limit = reference["limits"][0].as_f64().expect("known");
+    assert!(limit > 0.0 && limit < 1e-9, "{limit:e}");
+    assert_eq!(document["partial"], false);
+}
+
+#[test]
+fn wrong_input_is_refused_before_anything_is_run() {
+    let folder = Folder::new("work-precision-wrong");
+    let out = folder.text();
+    for (arguments, piece) in [
+        (
+            vec!["work-precision", "no-such-scene", "--out", out],
+            "no-such-scene",
+        ),
+        (vec!["work-precision"], "--out"),
+        (
+            vec!["work-precision", "sleigh", "--quick", "--all", "--out", out],
+            "--all",
+        ),
+    ] {
+        let output = pfaff(&arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(
+            stderr(&output).contains(piece),
+            "{arguments:?}: {}",
+            stderr(&output)
+        );
+    }
+    let (scene, _) = PENDULUM.split_once("[simulate]").expect("it has an end");
+    let endless = with_scene(&["work-precision", "-", "--out", out], scene);
+    assert_eq!(endless.status.code(), Some(2));
+    assert!(stderr(&endless).contains("t_end"), "{}", stderr(&endless));
+    assert!(!folder.0.exists());
+}
+
+#[test]
+fn a_place_that_cannot_be_written_has_code_1() {
+    let folder = Folder::new("work-precision-occupied");
+    std::fs::create_dir_all(&folder.0).expect("writable");
+    let file = folder.0.join("file");
+    std::fs::write(&file, "here first").expect("writable");
+    let output = pfaff(&[
+        "work-precision",
+        "sleigh",
+        "--quick",
+        "--out",
+        file.to_str().expect("UTF-8"),
+    ]);
+    assert_eq!(output.status.code(), Some(1), "{output:?}");
+    assert!(
+        stderr(&output).contains("cannot make the directory"),
+        "{}",
+        stderr(&output)
+    );
+}

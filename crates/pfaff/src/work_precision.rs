@@ -1,0 +1,382 @@
+//! Error against run time: one scene by every method at many tolerances, compared with values that no run made itself.
+//!
+//! | module | content |
+//! | --- | --- |
+//! | `plan` | which runs are made |
+//! | `observation`, `standard` | what is compared, with what, and how well that is known |
+//! | `measure` | runs that are looked at, runs whose time is taken |
+//! | `ranking`, `overview` | who is the fastest to which error |
+//! | [`provenance`] | where and when runs were made |
+
+mod measure;
+mod observation;
+mod overview;
+mod plan;
+pub mod provenance;
+mod ranking;
+mod standard;
+
+use dynamics::{Method, MotionOptions};
+use model::Registry;
+use model::start::scene_size;
+use report::{ReferenceDocument, WorkPrecisionRow, WorkPrecisionScene};
+use suite::{Case, Reference};
+
+use crate::error::StudyError;
+use crate::study::{Overrides, Study};
+use measure::{Ending, Look, Times, clock, look, options};
+use plan::ACCURATE;
+use standard::{Standard, unique_reactions};
+
+pub use overview::overview;
+pub use plan::{Curve, Plan};
+pub use standard::Errors;
+
+/// Instants at which a motion is compared of which nothing is known beforehand.
+const INSTANTS: u32 = 5;
+
+/// Tolerances for a reference: the tightest at which a method reaches its end.
+const TIGHTEST: [f64; 3] = [1e-13, 1e-12, 1e-11];
+
+/// A scene whose motion is to be compared.
+pub struct Subject {
+    name: String,
+    title: String,
+    study: Study,
+    base: MotionOptions,
+    reference: Option<Reference>,
+    times: Times,
+    /// Size of the mechanism (m).
+    size: f64,
+}
+
+/// A finished comparison, or what there is of it.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// References, runs, and who wins.
+    pub scene: WorkPrecisionScene,
+    /// Whether somebody asked to stop.
+    pub interrupted: bool,
+}
+
+impl Subject {
+    /// A case of the suite.
+    ///
+    /// # Errors
+    /// As [`Study::read`].
+    pub fn of_case(case: &Case) -> Result<Self, StudyError> {
+        let registry = Registry::planar();
+        let study = Study::read(case.name, case.scene, &registry, &Overrides::default())?;
+        Self::new(study, case.title, Some(case.reference()))
+    }
+
+    /// A scene of which nothing is known: its reference are two methods that agree.
+    ///
+    /// # Errors
+    /// [`StudyError::NoEnd`]: nobody says how long the run takes.
+    pub fn of_study(study: Study) -> Result<Self, StudyError> {
+        let title = study.scene.name().to_owned();
+        Self::new(study, &title, None)
+    }
+
+    fn new(study: Study, title: &str, reference: Option<Reference>) -> Result<Self, StudyError> {
+        let base = study.options.clone().ok_or(StudyError::NoEnd)?;
+        base.check()?;
+        if base.t_end == 0.0 {
+            return Err(StudyError::NoEnd);
+        }
+        let times = match &reference {
+            Some(known) => {
+                let wanted = known.instants.iter().map(|i| i.t).collect();
+                Times::multiples(wanted, base.output_step)
+            }
+            None => Times::evenly(INSTANTS, base.t_end),
+        };
+        Ok(Self {
+            name: study.scene.name().to_owned(),
+            title: title.to_owned(),
+            size: scene_size(&study.prepared.mechanism, &study.prepared.q),
+            study,
+            base,
+            reference,
+            times,
+        })
+    }
+
+    /// Its name.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// One run, compared with the reference of the suite: how far it is off, and how far the reference may be. `None` if nothing is known.
+    ///
+    /// # Errors
+    /// [`StudyError::Motion`]: the run did not reach its end.
+    pub fn errors(&self, curve: Curve, tolerance: f64) -> Result<Option<Errors>, StudyError> {
+        let options = options(&self.base, curve, tolerance);
+        let run = look(&self.study, &options, &self.times, f64::INFINITY, &|| false);
+        if let Ending::Failed(error) = run.ending {
+            return Err(error.into());
+        }
+        let known = self.known();
+        Ok(known.and_then(|known| known.errors(&run.observations)))
+    }
+
+    /// Makes all runs of a plan and shows each row when it is there. `interrupted` is asked now and then whether to stop.
+    ///
+    /// # Errors
+    /// [`StudyError::Analysis`]: it cannot be told which reactions are unique. Whatever `row` returns.
+    pub fn compare<E: From<StudyError>>(
+        &self,
+        plan: &Plan,
+        interrupted: &impl Fn() -> bool,
+        mut row: impl FnMut(&WorkPrecisionRow) -> Result<(), E>,
+    ) -> Result<Comparison, E> {
+        let (standard, document) = self.standard(plan, interrupted)?;
+        let mut rows: Vec<WorkPrecisionRow> = Vec::with_capacity(plan.runs());
+        'all: for &curve in &plan.curves {
+            let mut given_up = None;
+            for &tolerance in &plan.tolerances {
+                let new = match given_up {
+                    Some(looser) => Some(given_up_before(self.empty_row(curve, tolerance), looser)),
+                    None => self.run(curve, tolerance, plan, standard.as_ref(), interrupted),
+                };
+                let Some(new) = new else { break 'all };
+                if new.status.starts_with(GIVEN_UP) {
+                    given_up = given_up.or(Some(tolerance));
+                }
+                row(&new)?;
+                rows.push(new);
+            }
+        }
+        let ranking = ranking::ranking(&rows, document.motion_limit());
+        Ok(Comparison {
+            interrupted: rows.len() < plan.runs(),
+            scene: WorkPrecisionScene {
+                name: self.name.clone(),
+                title: self.title.clone(),
+                automatic: self.automatic(plan, interrupted),
+                reference: document,
+                summary: ranking::words(&ranking, &rows),
+                ranking,
+                rows,
+            },
+        })
+    }
+
+    /// The method that is chosen where none is asked for: a run with the loosest tolerance tells.
+    fn automatic(&self, plan: &Plan, interrupted: &impl Fn() -> bool) -> &'static str {
+        let curve = Plan::usual(Method::Auto);
+        let tolerance = plan.tolerances.first().copied().unwrap_or(self.base.rtol);
+        let options = options(&self.base, curve, tolerance);
+        let run = look(&self.study, &options, &self.times, plan.budget, interrupted);
+        run.summary.method.name()
+    }
+
+    /// One setting: a row, or nothing if somebody asked to stop.
+    fn run(
+        &self,
+        curve: Curve,
+        tolerance: f64,
+        plan: &Plan,
+        standard: Option<&Standard>,
+        interrupted: &impl Fn() -> bool,
+    ) -> Option<WorkPrecisionRow> {
+        let options = options(&self.base, curve, tolerance);
+        let Look {
+            observations,
+            summary,
+            ending,
+        } = look(&self.study, &options, &self.times, plan.budget, interrupted);
+        let limit = standard.map_or(f64::NAN, |s| s.limits[0].max(s.limits[1]));
+        let mut row = WorkPrecisionRow {
+            reference_limit: limit,
+            ..self.empty_row(curve, tolerance)
+        };
+        let timed = match ending {
+            Ending::Interrupted => return None,
+            Ending::Reached => clock(&self.study, &options, plan, interrupted),
+            Ending::GivenUp(t) => {
+                row.status = format!(
+                    "{GIVEN_UP}: {:.0} s of computing led to t = {t:.3} s",
+                    plan.budget
+                );
+                None
+            }
+            Ending::Failed(error) => {
+                row.status = match summary.steps {
+                    0 => format!("refused: {error}"),
+                    _ => format!("stopped: {error}"),
+                };
+                None
+            }
+        };
+        if interrupted() {
+            return None;
+        }
+        if let (Some((_, repetitions)), Some(standard)) = (&timed, standard) {
+            let errors = standard.errors(&observations).unwrap_or(Errors::UNKNOWN);
+            (row.errors, row.error_state) = (errors.scaled, errors.state);
+            row.repetitions = *repetitions;
+        }
+        let reached = timed.is_some();
+        let counted = timed.map_or(summary, |(fastest, _)| fastest);
+        row.evaluations = counted.evaluations;
+        row.projections = counted.projections;
+        row.factorisations = counted.factorisations;
+        row.steps = counted.steps;
+        row.rejected = counted.rejected;
+        row.constraint_residual = counted
+            .max_position_residual
+            .max(counted.max_velocity_residual);
+        row.energy_error = counted.energy_balance;
+        row.seconds = if reached {
+            counted.wall_seconds
+        } else {
+            f64::NAN
+        };
+        Some(row)
+    }
+
+    /// A row with nothing in it yet.
+    fn empty_row(&self, curve: Curve, tolerance: f64) -> WorkPrecisionRow {
+        WorkPrecisionRow {
+            scene: self.name.clone(),
+            curve: curve.name(),
+            tolerance,
+            errors: Errors::UNKNOWN.scaled,
+            constraint_residual: f64::NAN,
+            evaluations: 0,
+            projections: 0,
+            factorisations: 0,
+            steps: 0,
+            seconds: f64::NAN,
+            status: "done".to_owned(),
+            rejected: 0,
+            repetitions: 0,
+            energy_error: f64::NAN,
+            error_state: f64::NAN,
+            reference_limit: f64::NAN,
+        }
+    }
+
+    fn known(&self) -> Option<Standard> {
+        let mechanism = &self.study.prepared.mechanism;
+        let reference = self.reference.as_ref()?;
+        Some(Standard::known(reference, mechanism, self.size))
+    }
+
+    /// What runs are compared with: what is known, and for kinds of which nothing is known two runs of different methods that agree.
+    fn standard(
+        &self,
+        plan: &Plan,
+        interrupted: &impl Fn() -> bool,
+    ) -> Result<(Option<Standard>, ReferenceDocument), StudyError> {
+        let known = self.known();
+        let pair = self.best_pair(plan, interrupted)?;
+        let agreement = match (&pair, &known) {
+            (None, _) => {
+                "No two different methods reached the end at a tight tolerance.".to_owned()
+            }
+            (Some(pair), known) => pair.words(known.as_ref()),
+        };
+        let source = match &self.reference {
+            Some(reference) => reference.source.clone(),
+            None => "the mean of two runs of different methods; how far they are apart is how well it is known.".to_owned(),
+        };
+        let standard = match (known, pair) {
+            (Some(known), Some(pair)) => Some(known.completed_by(&pair.mean)),
+            (Some(only), None) => Some(only),
+            (None, pair) => pair.map(|pair| pair.mean),
+        };
+        let limits = standard.as_ref().map_or([f64::NAN; 4], |s| s.limits);
+        let document = ReferenceDocument {
+            source,
+            limits,
+            agreement,
+        };
+        Ok((standard, document))
+    }
+
+    /// Of the most accurate runs of different methods the two that agree best.
+    fn best_pair(
+        &self,
+        plan: &Plan,
+        interrupted: &impl Fn() -> bool,
+    ) -> Result<Option<Pair>, StudyError> {
+        let accurate = |&method: &Method| {
+            let curve = Plan::usual(method);
+            for tolerance in TIGHTEST {
+                let options = options(&self.base, curve, tolerance);
+                let run = look(&self.study, &options, &self.times, plan.budget, interrupted);
+                match run.ending {
+                    Ending::Reached => return Some((method, tolerance, run.observations)),
+                    Ending::Failed(_) => {}
+                    Ending::GivenUp(_) | Ending::Interrupted => return None,
+                }
+            }
+            None
+        };
+        let runs: Vec<_> = ACCURATE.iter().filter_map(accurate).collect();
+        let mechanism = &self.study.prepared.mechanism;
+        let mut best: Option<Pair> = None;
+        let unique = match runs.first() {
+            Some(first) if runs.len() > 1 => unique_reactions(&first.2, mechanism)?,
+            _ => return Ok(None),
+        };
+        for (k, a) in runs.iter().enumerate() {
+            for b in &runs[..k] {
+                let mean = Standard::mean([&a.2, &b.2], &unique, mechanism, self.size);
+                let motion = |s: &Standard| s.limits[0].max(s.limits[1]);
+                if best
+                    .as_ref()
+                    .is_none_or(|best| motion(&mean) < motion(&best.mean))
+                {
+                    best = Some(Pair {
+                        methods: [b.0, a.0].map(Method::name),
+                        tolerance: a.1.max(b.1),
+                        mean,
+                        first: a.2.clone(),
+                    });
+                }
+            }
+        }
+        Ok(best)
+    }
+}
+
+/// Beginning of the status of runs that took too long.
+const GIVEN_UP: &str = "given up";
+
+fn given_up_before(row: WorkPrecisionRow, looser: f64) -> WorkPrecisionRow {
+    WorkPrecisionRow {
+        status: format!("{GIVEN_UP}: as at the tolerance {looser:.0e}"),
+        ..row
+    }
+}
+
+/// Two runs that agree.
+struct Pair {
+    methods: [&'static str; 2],
+    /// The looser tolerance of both.
+    tolerance: f64,
+    mean: Standard,
+    first: Vec<observation::Observation>,
+}
+
+impl Pair {
+    fn words(&self, known: Option<&Standard>) -> String {
+        let [a, b] = self.methods;
+        let apart = self.mean.limits[0].max(self.mean.limits[1]);
+        let mut words = format!("{a} and {b} at {:.0e} agree to {apart:.1e}", self.tolerance);
+        if let Some(errors) = known.and_then(|known| known.errors(&self.first)) {
+            words.push_str(&format!(
+                ", and with the reference to {:.1e}",
+                errors.motion()
+            ));
+        }
+        words.push('.');
+        words
+    }
+}

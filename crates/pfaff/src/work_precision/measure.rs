@@ -1,0 +1,150 @@
+//! Runs: one that is looked at, and those whose time is taken.
+
+use std::ops::ControlFlow;
+use std::time::Instant;
+
+use dynamics::{MotionError, MotionOptions, Summary};
+
+use super::observation::Observation;
+use super::plan::{Curve, Plan};
+use crate::study::Study;
+
+/// Rows of a run with a budget, at least: between two of them it can be given up.
+const ROWS: f64 = 1000.0;
+
+/// The times of a run that are looked at.
+#[derive(Clone, Debug)]
+pub(super) struct Times {
+    /// Time between rows (s); all wanted times are multiples of it.
+    step: f64,
+    /// What is wanted.
+    wanted: Vec<f64>,
+}
+
+impl Times {
+    /// Some times that are multiples of `step`.
+    pub(super) fn multiples(wanted: Vec<f64>, step: f64) -> Self {
+        Self { step, wanted }
+    }
+
+    /// Evenly spaced times: `count` and the end.
+    pub(super) fn evenly(count: u32, t_end: f64) -> Self {
+        let step = t_end / f64::from(count);
+        let wanted = (1..=count).map(|k| step * f64::from(k)).collect();
+        Self::multiples(wanted, step)
+    }
+
+    fn has(&self, t: f64) -> bool {
+        let near = 1e-3 * self.step / ROWS;
+        self.wanted.iter().any(|w| (w - t).abs() < near)
+    }
+
+    /// Time between the rows of a run that can be given up (s).
+    fn step(&self, t_end: f64, budget: f64) -> f64 {
+        match budget.is_finite() {
+            true => self.step / (ROWS * self.step / t_end).ceil().max(1.0),
+            false => self.step,
+        }
+    }
+}
+
+/// How a run ended.
+#[derive(Debug)]
+pub(super) enum Ending {
+    Reached,
+    /// It took too long; the last time (s).
+    GivenUp(f64),
+    /// Somebody asked to stop.
+    Interrupted,
+    Failed(MotionError),
+}
+
+/// A run that was looked at.
+#[derive(Debug)]
+pub(super) struct Look {
+    pub(super) observations: Vec<Observation>,
+    pub(super) summary: Summary,
+    pub(super) ending: Ending,
+}
+
+/// What a curve at a tolerance asks of a run.
+pub(super) fn options(base: &MotionOptions, curve: Curve, tolerance: f64) -> MotionOptions {
+    MotionOptions {
+        rtol: tolerance,
+        atol: tolerance,
+        method: curve.method,
+        formulation: curve.formulation,
+        stabilisation: curve.stabilisation,
+        ..base.clone()
+    }
+}
+
+/// Runs and looks at the wanted times.
+pub(super) fn look(
+    study: &Study,
+    options: &MotionOptions,
+    times: &Times,
+    budget: f64,
+    interrupted: &impl Fn() -> bool,
+) -> Look {
+    let options = MotionOptions {
+        output_step: times.step(options.t_end, budget),
+        ..options.clone()
+    };
+    let clock = Instant::now();
+    let (mut observations, mut early) = (Vec::new(), None);
+    let outcome = study.run(&options, |sample| {
+        if times.has(sample.t) {
+            observations.push(Observation::of(sample)?);
+        }
+        early = match interrupted() {
+            true => Some(Ending::Interrupted),
+            false if clock.elapsed().as_secs_f64() > budget => Some(Ending::GivenUp(sample.t)),
+            false => None,
+        };
+        Ok(match early {
+            Some(_) => ControlFlow::Break(()),
+            None => ControlFlow::Continue(()),
+        })
+    });
+    let (summary, ending) = match outcome {
+        Ok(summary) => (summary, early.unwrap_or(Ending::Reached)),
+        Err(failure) => (failure.summary, Ending::Failed(failure.error)),
+    };
+    Look {
+        observations,
+        summary,
+        ending,
+    }
+}
+
+/// Runs without output and takes the time: the summary of the fastest run, and how many there were. `None` if one did not
+/// reach its end, or somebody asked to stop.
+pub(super) fn clock(
+    study: &Study,
+    options: &MotionOptions,
+    plan: &Plan,
+    interrupted: &impl Fn() -> bool,
+) -> Option<(Summary, u32)> {
+    let options = MotionOptions {
+        output_step: options.t_end,
+        ..options.clone()
+    };
+    let (mut best, mut runs, mut total) = (None::<Summary>, 0, 0.0);
+    while runs < plan.repetitions || total < plan.seconds {
+        if interrupted() {
+            return None;
+        }
+        let summary = study
+            .run(&options, |_| Ok(ControlFlow::Continue(())))
+            .ok()?;
+        (runs, total) = (runs + 1, total + summary.wall_seconds);
+        if best
+            .as_ref()
+            .is_none_or(|b| summary.wall_seconds < b.wall_seconds)
+        {
+            best = Some(summary);
+        }
+    }
+    best.map(|summary| (summary, runs))
+}

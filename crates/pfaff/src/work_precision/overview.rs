@@ -1,0 +1,148 @@
+//! All scenes together, in words.
+
+use report::{Place, WorkPrecisionRow, WorkPrecisionScene};
+
+/// Methods this close to the fastest share its place: repeated runs differ by as much.
+const EQUAL: f64 = 1.1;
+
+/// A finished run with an error above this one at a tolerance of at most [`TIGHT`] is wrong, not inaccurate.
+const WRONG: f64 = 1e-2;
+
+/// See [`WRONG`].
+const TIGHT: f64 = 1e-6;
+
+/// Who wins how often, how many runs did not reach their end, and which finished runs are wrong.
+#[must_use]
+pub fn overview(scenes: &[WorkPrecisionScene]) -> Vec<String> {
+    let mut sentences: Vec<String> = wins(scenes).into_iter().chain(losses(scenes)).collect();
+    let rows: Vec<&WorkPrecisionRow> = scenes.iter().flat_map(|s| &s.rows).collect();
+    let unfinished = rows.iter().filter(|row| row.status != "done").count();
+    sentences.push(format!(
+        "{} runs; {unfinished} did not reach their end, each with its reason in the table.",
+        rows.len()
+    ));
+    let is_wrong = |row: &&WorkPrecisionRow| {
+        row.tolerance <= TIGHT && row.motion_error().is_some_and(|error| error > WRONG)
+    };
+    let wrong: Vec<String> = rows.into_iter().filter(is_wrong).map(name).collect();
+    sentences.push(match wrong.len() {
+        0 => format!("No finished run at a tolerance of {TIGHT:.0e} or tighter is off by more than {WRONG:.0e}."),
+        n => format!(
+            "{n} finished runs at a tolerance of {TIGHT:.0e} or tighter are off by more than {WRONG:.0e}: {}.",
+            wrong.join("; ")
+        ),
+    });
+    sentences
+}
+
+fn name(row: &WorkPrecisionRow) -> String {
+    let curve = &row.curve;
+    format!(
+        "{} with {}, {}, {} at {:.0e}",
+        row.scene, curve.method, curve.formulation, curve.stabilisation, row.tolerance
+    )
+}
+
+/// The places of methods with the usual treatment, the fastest first, for each scene and error.
+fn methods(
+    scenes: &[WorkPrecisionScene],
+) -> impl Iterator<Item = (&WorkPrecisionScene, f64, Vec<&Place>)> {
+    let usual = scenes
+        .iter()
+        .flat_map(|s| &s.rows)
+        .next()
+        .map(|row| &row.curve);
+    let is_usual = move |place: &&Place| {
+        usual.is_some_and(|u| {
+            place.curve.formulation == u.formulation && place.curve.stabilisation == u.stabilisation
+        })
+    };
+    let lines = scenes
+        .iter()
+        .flat_map(|s| s.ranking.iter().map(move |line| (s, line)));
+    let places = lines.map(move |(name, line)| {
+        (
+            name,
+            line.error,
+            line.places.iter().filter(is_usual).collect(),
+        )
+    });
+    places.filter(|(_, _, places): &(_, _, Vec<_>)| !places.is_empty())
+}
+
+/// Where the method that is chosen by itself is not the fastest, with the worst factor of each scene.
+fn losses(scenes: &[WorkPrecisionScene]) -> Option<String> {
+    let mut worst: Vec<(&WorkPrecisionScene, f64, &str, f64)> = Vec::new();
+    let mut unreached: Vec<&str> = Vec::new();
+    for (scene, error, places) in methods(scenes) {
+        let first = places[0];
+        let Some(own) = places.iter().find(|p| p.curve.method == scene.automatic) else {
+            if unreached.last() != Some(&scene.name.as_str()) {
+                unreached.push(&scene.name);
+            }
+            continue;
+        };
+        let factor = own.seconds / first.seconds;
+        match worst.last_mut() {
+            _ if factor < EQUAL => {}
+            Some(last) if last.0.name == scene.name => {
+                if factor > last.3 {
+                    *last = (scene, error, first.curve.method, factor);
+                }
+            }
+            _ => worst.push((scene, error, first.curve.method, factor)),
+        }
+    }
+    let lost = worst.iter().map(|(scene, error, method, factor)| {
+        let (name, own) = (&scene.name, scene.automatic);
+        format!("{name} ({own} takes {factor:.1} times as long as {method} at {error:.0e})")
+    });
+    let lost: Vec<String> = lost.collect();
+    let mut words = match lost.len() {
+        0 => "The method that is chosen by itself loses nowhere by more than a tenth".to_owned(),
+        _ => format!(
+            "The method that is chosen by itself loses, at worst, in {}",
+            lost.join(", ")
+        ),
+    };
+    if !unreached.is_empty() {
+        let names = unreached.join(", ");
+        words.push_str(&format!(
+            "; it does not reach all errors that others reach in {names}"
+        ));
+    }
+    words.push('.');
+    scenes.first().map(|_| words)
+}
+
+/// How often each method is the fastest, over all scenes and errors.
+fn wins(scenes: &[WorkPrecisionScene]) -> Option<String> {
+    let (mut total, mut counts) = (0, Vec::<(&str, usize)>::new());
+    for (_, _, places) in methods(scenes) {
+        total += 1;
+        for place in places
+            .iter()
+            .filter(|p| p.seconds <= EQUAL * places[0].seconds)
+        {
+            match counts
+                .iter_mut()
+                .find(|(method, _)| *method == place.curve.method)
+            {
+                Some((_, n)) => *n += 1,
+                None => counts.push((place.curve.method, 1)),
+            }
+        }
+    }
+    if total == 0 {
+        return None;
+    }
+    counts.sort_by_key(|(_, n)| std::cmp::Reverse(*n));
+    let words: Vec<String> = counts
+        .iter()
+        .map(|(method, n)| format!("{method} {n}"))
+        .collect();
+    Some(format!(
+        "Of {total} pairs of a scene and an error that some method reaches, the fastest or within a tenth of it: {}.",
+        words.join(", ")
+    ))
+}

@@ -1,0 +1,148 @@
+//! Which runs are made.
+
+use dynamics::{Formulation, Method, Stabilisation};
+use report::CurveName;
+
+/// A way to move a mechanism; with its tolerances it is a curve of error over time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curve {
+    /// Integrator.
+    pub method: Method,
+    /// Treatment of redundancy.
+    pub formulation: Formulation,
+    /// Treatment of drift.
+    pub stabilisation: Stabilisation,
+}
+
+impl Curve {
+    /// Its names in tables.
+    #[must_use]
+    pub fn name(&self) -> CurveName {
+        CurveName {
+            formulation: self.formulation.name(),
+            method: self.method.name(),
+            stabilisation: self.stabilisation.name(),
+        }
+    }
+}
+
+/// Methods that are compared: all but the one that chooses another.
+fn methods() -> impl Iterator<Item = Method> {
+    Method::ALL.iter().copied().filter(|m| *m != Method::Auto)
+}
+
+/// The explicit method with which treatments are compared.
+const EXPLICIT: Method = Method::Dop853;
+
+/// Treatment of redundancy in the comparison of methods.
+const FORMULATION: Formulation = Formulation::KeptRows;
+
+/// Treatment of drift in the comparison of methods.
+const STABILISATION: Stabilisation = Stabilisation::Projection;
+
+/// Powers of ten, exactly.
+const TOLERANCES: [f64; 11] = [
+    1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12, 1e-13,
+];
+
+/// Methods whose order is high enough for a reference.
+pub(super) const ACCURATE: [Method; 5] = [
+    Method::Dop853,
+    Method::Gbs,
+    Method::Radau5,
+    Method::Tsit5,
+    Method::Dopri5,
+];
+
+/// The runs of a comparison, the same for every scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    /// Curves.
+    pub curves: Vec<Curve>,
+    /// Tolerances, relative and absolute alike, the loosest first.
+    pub tolerances: Vec<f64>,
+    /// Runs whose time is taken, at least.
+    pub repetitions: u32,
+    /// Time that these runs take together, at least (s).
+    pub seconds: f64,
+    /// A run that takes longer (s) is given up, and so are runs of its curve with tighter tolerances.
+    pub budget: f64,
+}
+
+impl Plan {
+    /// Every method on kept rows with projection, one explicit method with every formulation and with every stabilisation; tolerances
+    /// 1e-3, 1e-4, … 1e-13.
+    #[must_use]
+    pub fn standard() -> Self {
+        let curves = everything().into_iter().filter(|curve| {
+            let usual = [
+                curve.method == EXPLICIT,
+                curve.formulation == FORMULATION,
+                curve.stabilisation == STABILISATION,
+            ];
+            usual.into_iter().filter(|u| !u).count() <= 1
+        });
+        Self {
+            curves: curves.collect(),
+            tolerances: TOLERANCES.to_vec(),
+            repetitions: 3,
+            seconds: 0.02,
+            budget: 10.0,
+        }
+    }
+
+    /// The same curves at three tolerances, for a first look.
+    #[must_use]
+    pub fn quick() -> Self {
+        Self {
+            tolerances: vec![1e-4, 1e-7, 1e-10],
+            seconds: 0.0,
+            budget: 1.0,
+            ..Self::standard()
+        }
+    }
+
+    /// Every method with every formulation and every stabilisation.
+    #[must_use]
+    pub fn everything() -> Self {
+        Self {
+            curves: everything(),
+            ..Self::standard()
+        }
+    }
+
+    /// Number of runs per scene.
+    #[must_use]
+    pub fn runs(&self) -> usize {
+        self.curves.len() * self.tolerances.len()
+    }
+
+    /// The curve of a method in the comparison of methods.
+    pub(super) fn usual(method: Method) -> Curve {
+        Curve {
+            method,
+            formulation: FORMULATION,
+            stabilisation: STABILISATION,
+        }
+    }
+}
+
+/// All curves: methods first, then what is compared with one method.
+fn everything() -> Vec<Curve> {
+    let mut curves: Vec<Curve> = methods().map(Plan::usual).collect();
+    for method in methods() {
+        for &formulation in Formulation::ALL {
+            for &stabilisation in Stabilisation::ALL {
+                let curve = Curve {
+                    method,
+                    formulation,
+                    stabilisation,
+                };
+                if !curves.contains(&curve) {
+                    curves.push(curve);
+                }
+            }
+        }
+    }
+    curves
+}

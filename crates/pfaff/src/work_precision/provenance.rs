@@ -1,0 +1,67 @@
+//! Where and when runs were made.
+
+use std::time::{SystemTime, UNIX_EPOCH};
+
+/// Processor, number of cores that may be used, operating system.
+#[must_use]
+pub fn machine() -> String {
+    let processor = std::fs::read_to_string("/proc/cpuinfo").ok();
+    let model = processor.as_deref().and_then(|text| {
+        let line = text.lines().find(|line| line.starts_with("model name"))?;
+        Some(line.split_once(':')?.1.trim())
+    });
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    format!(
+        "{}, {cores} cores, {} {}",
+        model.unwrap_or("unknown processor"),
+        std::env::consts::OS,
+        std::env::consts::ARCH
+    )
+}
+
+/// Day and time of now in UTC, as `2026-11-21 16:20 UTC`.
+#[must_use]
+pub fn date() -> String {
+    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    let minutes = since.map_or(0, |d| d.as_secs() / 60);
+    let (days, minute) = (minutes / 1440, minutes % 1440);
+    let [year, month, day] = civil(days);
+    format!(
+        "{year}-{month:02}-{day:02} {:02}:{:02} UTC",
+        minute / 60,
+        minute % 60
+    )
+}
+
+/// Year, month and day of a number of days after 1970-01-01, in the Gregorian calendar. Years begin in March here, so that the day
+/// of a leap year is their last; an era has 400 years.
+fn civil(days: u64) -> [u64; 3] {
+    let days = days + 719_468;
+    let (era, day) = (days / 146_097, days % 146_097);
+    let year = (day - day / 1460 + day / 36_524 - day / 146_096) / 365;
+    let day = day - (365 * year + year / 4 - year / 100);
+    let month = (5 * day + 2) / 153;
+    let day = day - (153 * month + 2) / 5 + 1;
+    let (month, next) = if month < 10 {
+        (month + 3, 0)
+    } else {
+        (month - 9, 1)
+    };
+    [era * 400 + year + next, month, day]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::civil;
+
+    #[test]
+    fn days_have_their_dates() {
+        // By the calendar: the beginning, leap days of 1972 and 2000, the first of March after each.
+        assert_eq!(civil(0), [1970, 1, 1]);
+        assert_eq!(civil(789), [1972, 2, 29]);
+        assert_eq!(civil(790), [1972, 3, 1]);
+        assert_eq!(civil(11_016), [2000, 2, 29]);
+        assert_eq!(civil(11_017), [2000, 3, 1]);
+        assert_eq!(civil(20_778), [2026, 11, 21]);
+    }
+}

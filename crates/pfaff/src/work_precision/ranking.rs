@@ -1,0 +1,196 @@
+//! Which curve reaches which error in the shortest time, in numbers and in words.
+
+#[cfg(test)]
+mod tests;
+
+use report::{CurveName, Place, RankingLine, WorkPrecisionRow};
+
+/// Errors that are looked at.
+const LEVELS: [f64; 10] = [
+    1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12,
+];
+
+/// A run is trusted to reach an error if no tighter one misses it by more than this factor: near singular configurations a loose
+/// run may be right by luck.
+const LUCK: f64 = 10.0;
+
+/// An error this much above what the reference is known to is still told.
+const RESOLVED: f64 = 3.0;
+
+/// Methods this close are called equal: repeated runs differ by as much.
+const EQUAL: f64 = 1.1;
+
+/// Curves by time at each error, the fastest first.
+pub(super) fn ranking(rows: &[WorkPrecisionRow], limit: f64) -> Vec<RankingLine> {
+    let mut curves: Vec<&CurveName> = Vec::new();
+    for row in rows {
+        if !curves.contains(&&row.curve) {
+            curves.push(&row.curve);
+        }
+    }
+    let levels = LEVELS
+        .into_iter()
+        .filter(|level| limit.is_finite() && *level >= RESOLVED * limit);
+    let line = |error: f64| {
+        let mut places: Vec<Place> = curves
+            .iter()
+            .filter_map(|curve| {
+                let of_curve = |row: &&WorkPrecisionRow| row.curve == **curve;
+                let runs: Vec<&WorkPrecisionRow> = rows.iter().filter(of_curve).collect();
+                let (seconds, evaluations) = cost(&runs, error)?;
+                Some(Place {
+                    curve: (*curve).clone(),
+                    seconds,
+                    evaluations,
+                })
+            })
+            .collect();
+        places.sort_by(|a, b| a.seconds.total_cmp(&b.seconds));
+        RankingLine { error, places }
+    };
+    levels
+        .map(line)
+        .filter(|line| !line.places.is_empty())
+        .collect()
+}
+
+/// Time (s) and evaluations for an error, from the runs of a curve with the loosest tolerance first: between the last run that
+/// misses it and the first that reaches it, straight in logarithms.
+fn cost(runs: &[&WorkPrecisionRow], level: f64) -> Option<(f64, f64)> {
+    let error = |row: &WorkPrecisionRow| row.motion_error().unwrap_or(f64::INFINITY);
+    let finished: Vec<(&WorkPrecisionRow, f64)> = runs.iter().map(|r| (*r, error(r))).collect();
+    let reached = (0..finished.len()).find(|&k| {
+        finished[k].1 <= level
+            && finished[k..]
+                .iter()
+                .all(|f| f.1 <= LUCK * level || f.0.status != "done")
+    })?;
+    let (row, found) = finished[reached];
+    let own = (row.seconds, row.evaluations as f64);
+    let before = reached.checked_sub(1).map(|k| finished[k]);
+    let Some((looser, missed)) = before.filter(|b| b.1.is_finite() && b.1 > level && found > 0.0)
+    else {
+        return Some(own);
+    };
+    let share = (missed / level).ln() / (missed / found).ln();
+    let between = |a: f64, b: f64| (a.ln() + share * (b.ln() - a.ln())).exp();
+    let evaluations = between(looser.evaluations as f64, own.1);
+    Some((between(looser.seconds, own.0), evaluations))
+}
+
+/// Who wins where, one sentence for each range of errors; then how treatments of one method compare.
+pub(super) fn words(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Vec<String> {
+    let Some(usual) = rows.first().map(|row| &row.curve) else {
+        return Vec::new();
+    };
+    let is_method = |c: &CurveName| {
+        c.formulation == usual.formulation && c.stabilisation == usual.stabilisation
+    };
+    let mut ranges: Vec<(Vec<f64>, Vec<&Place>, Vec<f64>)> = Vec::new();
+    for line in lines {
+        let methods: Vec<&Place> = line.places.iter().filter(|p| is_method(&p.curve)).collect();
+        let Some(first) = methods.first() else {
+            continue;
+        };
+        let next = methods
+            .get(1)
+            .map_or(f64::INFINITY, |p| p.seconds / first.seconds);
+        match ranges.last_mut() {
+            Some((levels, places, factors)) if places[0].curve == first.curve => {
+                levels.push(line.error);
+                factors.push(next);
+                *places = methods;
+            }
+            _ => ranges.push((vec![line.error], methods, vec![next])),
+        }
+    }
+    let mut sentences: Vec<String> = ranges
+        .iter()
+        .map(|(levels, places, factors)| range(levels, places, factors))
+        .collect();
+    sentences.extend(treatments(lines, rows));
+    sentences
+}
+
+fn range(levels: &[f64], places: &[&Place], factors: &[f64]) -> String {
+    let span = match levels {
+        [first, .., last] => format!("Errors of {first:.0e} … {last:.0e}"),
+        [only] => format!("An error of {only:.0e}"),
+        [] => String::new(),
+    };
+    let winner = places[0].curve.method;
+    let fold = |(low, high): (f64, f64), f: &f64| (low.min(*f), high.max(*f));
+    let (low, high) = factors.iter().fold((f64::INFINITY, 0.0), fold);
+    let Some(next) = places.get(1).map(|place| place.curve.method) else {
+        return format!("{span}: {winner}, at the tight end alone.");
+    };
+    match high < EQUAL {
+        true => format!("{span}: {winner}, and {next} as fast."),
+        false => {
+            let factor = span_of(low, high);
+            let which = if levels.len() > 1 {
+                ", at the tight end"
+            } else {
+                ","
+            };
+            format!("{span}: {winner}; the next{which} {next}, takes {factor} times as long.")
+        }
+    }
+}
+
+fn span_of(low: f64, high: f64) -> String {
+    let (a, b) = (format!("{low:.1}"), format!("{high:.1}"));
+    match (a == b, high.is_finite()) {
+        (true, _) => a,
+        (false, true) => format!("{a} to {b}"),
+        (false, false) => format!("at least {a}"),
+    }
+}
+
+/// Treatments of redundancy and drift compared with the usual one of the same method.
+fn treatments(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Option<String> {
+    let usual = &rows.first()?.curve;
+    let mut others: Vec<&CurveName> = Vec::new();
+    for row in rows {
+        let same = row.curve.formulation == usual.formulation
+            && row.curve.stabilisation == usual.stabilisation;
+        if !same && !others.contains(&&row.curve) {
+            others.push(&row.curve);
+        }
+    }
+    let compared: Vec<String> = others
+        .iter()
+        .map(|curve| {
+            let base = CurveName {
+                method: curve.method,
+                ..usual.clone()
+            };
+            let ratio = |line: &RankingLine| {
+                let of = |name: &CurveName| line.places.iter().find(|p| p.curve == *name);
+                Some((line.error, of(curve)?.seconds / of(&base)?.seconds))
+            };
+            let ratios: Vec<(f64, f64)> = lines.iter().filter_map(ratio).collect();
+            let name = match curve.stabilisation == usual.stabilisation {
+                true => curve.formulation.to_owned(),
+                false => curve.stabilisation.to_owned(),
+            };
+            match ratios.last() {
+                None => format!("{name} reaches no error of the table"),
+                Some((best, _)) => {
+                    let mean = ratios.iter().map(|r| r.1.ln()).sum::<f64>() / ratios.len() as f64;
+                    format!(
+                        "{name} {:.1} times as long (down to {best:.0e})",
+                        mean.exp()
+                    )
+                }
+            }
+        })
+        .collect();
+    let method = others.first()?.method;
+    Some(format!(
+        "{method} takes, compared with {} and {}: {}.",
+        usual.formulation,
+        usual.stabilisation,
+        compared.join("; ")
+    ))
+}

@@ -1,0 +1,201 @@
+//! What runs are compared with: values by place and instant, how well each kind is known, and where it comes from.
+
+use model::{Mechanism, System};
+use solvability::analyse;
+use suite::{Kind, Reference};
+
+use super::observation::{Observation, index, place, reaction_place, units};
+use crate::error::StudyError;
+
+/// Rows and instants of a reference are the same time if they differ by less than this part of it.
+const SAME_TIME: f64 = 1e-9;
+
+/// Errors of a run.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Errors {
+    /// Of each kind in the order of [`Kind::ALL`]: the largest over components and instants, lengths and torques divided by the size of the
+    /// mechanism, relative to the largest value of the kind (to 1 for positions that stay smaller, and where all are zero). NaN where nothing is
+    /// known.
+    pub scaled: [f64; 4],
+    /// The largest difference of a coordinate or velocity, in SI units.
+    pub state: f64,
+}
+
+impl Errors {
+    /// Nothing is known.
+    pub(super) const UNKNOWN: Self = Self {
+        scaled: [f64::NAN; 4],
+        state: f64::NAN,
+    };
+
+    /// The larger of the errors of position and velocity.
+    #[must_use]
+    pub fn motion(&self) -> f64 {
+        self.scaled[0].max(self.scaled[1])
+    }
+}
+
+/// Reference values of one mechanism.
+#[derive(Clone, Debug)]
+pub(super) struct Standard {
+    /// How far the values of each kind may be from the truth, scaled as [`Errors::scaled`]; NaN where nothing is known.
+    pub(super) limits: [f64; 4],
+    instants: Vec<Expected>,
+    units: [Vec<f64>; 4],
+    scales: [f64; 4],
+}
+
+/// Values at one time, by place.
+#[derive(Clone, Debug)]
+struct Expected {
+    t: f64,
+    values: [Vec<(usize, f64)>; 4],
+}
+
+impl Standard {
+    /// The values of a reference. Names that the mechanism does not have are left out.
+    pub(super) fn known(reference: &Reference, mechanism: &Mechanism, size: f64) -> Self {
+        let instants = reference.instants.iter().map(|instant| {
+            let mut values: [Vec<(usize, f64)>; 4] = Default::default();
+            for fact in &instant.facts {
+                let at = place(fact, mechanism).map(|place| (place, fact.value));
+                values[index(fact.quantity.kind())].extend(at);
+            }
+            Expected {
+                t: instant.t,
+                values,
+            }
+        });
+        let limits = Kind::ALL.map(|kind| reference.trust.of(kind));
+        Self::new(instants.collect(), limits, units(mechanism, size))
+    }
+
+    /// The mean of two runs at the times of both, with their difference as its limit. Of the reactions those at the places of `unique`.
+    pub(super) fn mean(
+        [a, b]: [&[Observation]; 2],
+        unique: &[usize],
+        mechanism: &Mechanism,
+        size: f64,
+    ) -> Self {
+        let mean = |(a, b): (&Observation, &Observation)| {
+            let values = [0, 1, 2, 3].map(|kind| {
+                let (x, y) = (&a.values[kind], &b.values[kind]);
+                let places = (0..x.len()).filter(|place| kind < 3 || unique.contains(place));
+                places.map(|i| (i, 0.5 * (x[i] + y[i]))).collect()
+            });
+            Expected { t: a.t, values }
+        };
+        let instants = a.iter().zip(b).map(mean).collect();
+        let mut standard = Self::new(instants, [0.0; 4], units(mechanism, size));
+        if let Some(errors) = standard.errors(a) {
+            // Both are half their difference away from the mean.
+            standard.limits = errors.scaled.map(|e| 2.0 * e);
+        }
+        standard
+    }
+
+    fn new(instants: Vec<Expected>, limits: [f64; 4], units: [Vec<f64>; 4]) -> Self {
+        let scale = |kind: usize| {
+            let values = instants.iter().flat_map(|i| &i.values[kind]);
+            let sizes = values.map(|&(place, value)| (value / units[kind][place]).abs());
+            let largest = sizes.fold(if kind == 0 { 1.0 } else { 0.0 }, f64::max);
+            if largest > 0.0 { largest } else { 1.0 }
+        };
+        let scales = [scale(0), scale(1), scale(2), scale(3)];
+        let is_known = |kind: usize| instants.iter().any(|i| !i.values[kind].is_empty());
+        let known = [is_known(0), is_known(1), is_known(2), is_known(3)];
+        let mut limits = limits;
+        for (limit, known) in limits.iter_mut().zip(known) {
+            *limit = if known { *limit } else { f64::NAN };
+        }
+        Self {
+            limits,
+            instants,
+            units,
+            scales,
+        }
+    }
+
+    /// Takes kinds of which nothing is known from another one.
+    pub(super) fn completed_by(mut self, other: &Self) -> Self {
+        for kind in 0..4 {
+            if !self.limits[kind].is_nan() {
+                continue;
+            }
+            let mut taken = 0;
+            for instant in &mut self.instants {
+                let same = |o: &&Expected| is_same_time(o.t, instant.t);
+                if let Some(theirs) = other.instants.iter().find(same) {
+                    instant.values[kind].clone_from(&theirs.values[kind]);
+                    taken += theirs.values[kind].len();
+                }
+            }
+            if taken > 0 {
+                self.limits[kind] = other.limits[kind];
+                self.scales[kind] = other.scales[kind];
+            }
+        }
+        self
+    }
+
+    /// Errors of a run; `None` if it has no row at one of the instants.
+    pub(super) fn errors(&self, run: &[Observation]) -> Option<Errors> {
+        let mut errors = Errors {
+            scaled: [0.0; 4],
+            state: 0.0,
+        };
+        for expected in &self.instants {
+            let row = run.iter().find(|row| is_same_time(row.t, expected.t))?;
+            for kind in 0..4 {
+                for &(place, value) in &expected.values[kind] {
+                    let gap = (row.values[kind][place] - value).abs();
+                    let relative = match gap {
+                        0.0 => 0.0,
+                        _ => gap / (self.units[kind][place] * self.scales[kind]),
+                    };
+                    errors.scaled[kind] = worse(errors.scaled[kind], relative);
+                    if kind < 2 {
+                        errors.state = worse(errors.state, gap);
+                    }
+                }
+            }
+        }
+        for (error, limit) in errors.scaled.iter_mut().zip(self.limits) {
+            *error = if limit.is_nan() { f64::NAN } else { *error };
+        }
+        Some(errors)
+    }
+}
+
+/// The larger one; what is not finite is the worst.
+fn worse(a: f64, b: f64) -> f64 {
+    if b.is_nan() { f64::INFINITY } else { a.max(b) }
+}
+
+fn is_same_time(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME_TIME * a.abs().max(b.abs())
+}
+
+/// Components of reactions that are unique at all of these configurations, by place.
+pub(super) fn unique_reactions(
+    run: &[Observation],
+    mechanism: &Mechanism,
+) -> Result<Vec<usize>, StudyError> {
+    let groups = &mechanism.layout().groups;
+    let mut unique: Vec<(usize, usize)> = groups
+        .iter()
+        .enumerate()
+        .flat_map(|(g, group)| group.components().into_iter().map(move |c| (g, c)))
+        .collect();
+    for row in run {
+        let analysis = analyse(mechanism, row.t, &row.q)?;
+        unique.retain(|&(g, c)| {
+            let components = &analysis.reactions[g].components;
+            let name = model::reaction::COMPONENTS[c];
+            let found = components.iter().find(|v| v.name == name);
+            found.is_some_and(|v| v.judgement.verdict.is_unique())
+        });
+    }
+    let place = |(g, c): (usize, usize)| reaction_place(g, c);
+    Ok(unique.into_iter().map(place).collect())
+}

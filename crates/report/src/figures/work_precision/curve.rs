@@ -1,0 +1,150 @@
+//! Curves with markers, and their legend.
+
+use crate::figures::plot::{Frame, LEGEND_LINE};
+use crate::figures::style::{INK, Style, TEXT_SIZE};
+use crate::figures::svg::{Svg, point_list, text_width};
+
+/// Half the size of a marker (px).
+const HALF: f64 = 3.4;
+
+/// Length of a sample in the legend (px).
+const SAMPLE: f64 = 24.0;
+
+/// How a curve looks: colour and marker change together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Look(usize);
+
+impl Look {
+    pub(super) fn nth(place: usize) -> Self {
+        Self(place)
+    }
+
+    fn colour(self) -> &'static str {
+        Style {
+            colour: self.0,
+            ..Style::default()
+        }
+        .colour()
+    }
+
+    /// Outline of its marker around the origin.
+    fn marker(self) -> &'static [[f64; 2]] {
+        const SHAPES: [&[[f64; 2]]; 7] = [
+            // circle (an octagon), square, triangle, diamond, triangle downwards, cross, star of three
+            &[
+                [1.0, 0.41],
+                [0.41, 1.0],
+                [-0.41, 1.0],
+                [-1.0, 0.41],
+                [-1.0, -0.41],
+                [-0.41, -1.0],
+                [0.41, -1.0],
+                [1.0, -0.41],
+            ],
+            &[[0.9, 0.9], [-0.9, 0.9], [-0.9, -0.9], [0.9, -0.9]],
+            &[[0.0, -1.25], [1.15, 0.85], [-1.15, 0.85]],
+            &[[0.0, -1.35], [1.2, 0.0], [0.0, 1.35], [-1.2, 0.0]],
+            &[[0.0, 1.25], [1.15, -0.85], [-1.15, -0.85]],
+            &[
+                [0.4, 0.4],
+                [0.4, 1.25],
+                [-0.4, 1.25],
+                [-0.4, 0.4],
+                [-1.25, 0.4],
+                [-1.25, -0.4],
+                [-0.4, -0.4],
+                [-0.4, -1.25],
+                [0.4, -1.25],
+                [0.4, -0.4],
+                [1.25, -0.4],
+                [1.25, 0.4],
+            ],
+            &[[1.3, 0.4], [-1.3, 0.4], [-1.3, -0.4], [1.3, -0.4]],
+        ];
+        SHAPES[self.0 % SHAPES.len()]
+    }
+
+    fn mark(self, svg: &mut Svg, [x, y]: [f64; 2]) {
+        let outline = self
+            .marker()
+            .iter()
+            .map(|[u, v]| [x + HALF * u, y + HALF * v]);
+        svg.element("polygon")
+            .with("points", &point_list(outline))
+            .with("fill", self.colour())
+            .empty();
+    }
+
+    fn line(self, svg: &mut Svg, points: &[[f64; 2]]) {
+        svg.element("polyline")
+            .with("points", &point_list(points.iter().copied()))
+            .with("fill", "none")
+            .with("stroke", self.colour())
+            .with("stroke-width", "1.5")
+            .with("stroke-linejoin", "round")
+            .empty();
+    }
+}
+
+/// A curve in logarithms, with a gap for each run that has no point.
+pub(super) struct Curve {
+    pub(super) look: Look,
+    pub(super) points: Vec<Option<[f64; 2]>>,
+}
+
+impl Curve {
+    /// The points there are.
+    pub(super) fn shown(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.points.iter().copied().flatten()
+    }
+
+    pub(super) fn draw(&self, svg: &mut Svg, frame: &Frame) {
+        for piece in self.points.split(Option::is_none) {
+            let points = piece.iter().flatten();
+            let points: Vec<[f64; 2]> = points.map(|[x, y]| frame.place(*x, *y)).collect();
+            if points.len() > 1 {
+                self.look.line(svg, &points);
+            }
+            for point in points {
+                self.look.mark(svg, point);
+            }
+        }
+    }
+}
+
+/// Places of the entries relative to the corner, and the number of lines.
+fn layout(entries: &[(&str, Look)], width: f64) -> (Vec<[f64; 2]>, usize) {
+    let (mut x, mut row) = (0.0, 0);
+    let mut places = Vec::with_capacity(entries.len());
+    for (name, _) in entries {
+        let w = SAMPLE + 6.0 + text_width(name, TEXT_SIZE) + 12.0;
+        if x > 0.0 && x + w > width {
+            (x, row) = (0.0, row + 1);
+        }
+        places.push([x, row as f64 * LEGEND_LINE]);
+        x += w;
+    }
+    (places, if entries.is_empty() { 0 } else { row + 1 })
+}
+
+/// Height of a legend (px).
+pub(super) fn legend_height(entries: &[(&str, Look)], width: f64) -> f64 {
+    layout(entries, width).1 as f64 * LEGEND_LINE
+}
+
+/// Draws a legend from its upper left corner.
+pub(super) fn legend(svg: &mut Svg, corner: [f64; 2], width: f64, entries: &[(&str, Look)]) {
+    for ([x, y], (name, look)) in layout(entries, width).0.into_iter().zip(entries) {
+        let (x, y) = (corner[0] + x, corner[1] + y + 0.5 * LEGEND_LINE);
+        look.line(svg, &[[x, y], [x + SAMPLE, y]]);
+        look.mark(svg, [x + 0.5 * SAMPLE, y]);
+        svg.element("text")
+            .at([
+                ("x", x + SAMPLE + 6.0),
+                ("y", y + 4.0),
+                ("font-size", TEXT_SIZE),
+            ])
+            .with("fill", INK)
+            .text(name);
+    }
+}

@@ -1,0 +1,240 @@
+//! `report.html` of a comparison: one file that opens offline, for readers who have not seen the program.
+
+use std::fmt::Write;
+
+use super::{
+    Place, ReferenceDocument, WorkPrecisionDocument, WorkPrecisionRow, WorkPrecisionScene,
+};
+use crate::figures::escape;
+
+/// Colours follow the reader's scheme, as those of the figure.
+const STYLE: &str = "
+:root { color-scheme: light dark; --ink: #222; --grey: #5f6870; --line: #d5d9dd; --page: #fff; --best: #e3f2e8; }
+@media (prefers-color-scheme: dark) {
+  :root { --ink: #e8eaec; --grey: #a3abb3; --line: #343a41; --page: #14171a; --best: #1d3a29; }
+}
+body { font: 15px/1.5 Helvetica, Arial, 'Liberation Sans', sans-serif; color: var(--ink); background: var(--page);
+  max-width: 1140px; margin: 2em auto; padding: 0 1em; }
+h1 { font-size: 1.6em; } h2 { font-size: 1.2em; margin-top: 2.2em; border-top: 1px solid var(--line); padding-top: 1em; }
+p, li { max-width: 64em; } .grey { color: var(--grey); }
+svg { max-width: 100%; height: auto; }
+.wide { overflow-x: auto; }
+table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; }
+th, td { padding: 2px 9px; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
+th { font-weight: 600; } .name { text-align: left; } .best { background: var(--best); }
+td.status { text-align: left; white-space: normal; min-width: 14em; }
+details { margin: .8em 0; } summary { cursor: pointer; }
+dt { font-weight: 600; } dd { margin: 0 0 .3em 1.5em; }
+";
+
+/// What the numbers are, once for all scenes.
+const EXPLANATION: &str = "<p>Each run is compared with values that it did not make itself. <em>Errors</em> are the largest over all \
+components and reference times; lengths are measured in the size of the mechanism, and the error of each kind (position, velocity, \
+acceleration, reaction) is relative to the largest value of the kind. Reactions are compared only where they are unique: other \
+ones belong to the elimination, not to the mechanism. <em>Evaluations</em> are solved accelerations, rejected steps and starts \
+included; each of them solves the equations once, and <em>factorisations</em> are those of the iteration matrices of implicit methods. \
+<em>Seconds</em> are the shortest of at least three runs after one to warm up, without output; runs are repeated until \
+they have taken 20 ms. In the figure the error is the larger one of position and velocity, a point is a tolerance, and down and to the left \
+is better. Below the dashed line the reference itself is not known better. Runs that failed, were refused or given up are rows of the tables with \
+their reason.</p>\n";
+
+/// The page of a comparison; `figure` is the SVG of [`crate::figures::work_precision()`].
+#[must_use]
+pub fn work_precision_page(document: &WorkPrecisionDocument, figure: &str) -> String {
+    let mut page = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width\">\n<title>Error against run time</title>\n\
+         <style>{STYLE}</style>\n</head>\n<body>\n<h1>Error against run time</h1>\n"
+    );
+    if document.partial {
+        page.push_str("<p><strong>Interrupted: not all runs were made.</strong></p>\n");
+    }
+    list(&mut page, &document.summary);
+    page.push_str(EXPLANATION);
+    page.push_str(figure);
+    for scene in &document.scenes {
+        section(&mut page, scene);
+    }
+    let p = &document.provenance;
+    page.push_str("<h2>How it was made</h2>\n<dl>\n");
+    for (what, value) in [
+        ("Machine", &p.machine),
+        ("Versions", &p.versions),
+        ("Date", &p.date),
+        ("Command", &p.command),
+    ] {
+        add(
+            &mut page,
+            format_args!("<dt>{what}</dt><dd>{}</dd>\n", safe(value)),
+        );
+    }
+    page.push_str("</dl>\n</body>\n</html>\n");
+    page
+}
+
+fn section(page: &mut String, scene: &WorkPrecisionScene) {
+    let id = safe(&scene.name);
+    let heading = format_args!("<h2 id=\"{id}\">{}</h2>\n", safe(&scene.title));
+    add(page, heading);
+    reference(page, &scene.reference);
+    list(page, &scene.summary);
+    ranking(page, scene);
+    runs(page, scene);
+}
+
+fn reference(page: &mut String, reference: &ReferenceDocument) {
+    let [position, velocity, acceleration, reaction] = reference.limits.map(short);
+    let words = format_args!(
+        "<p class=\"grey\">Reference: {} Known to {position} (position), {velocity} (velocity), {acceleration} (acceleration), {reaction} \
+         (unique reactions). {}</p>\n",
+        safe(&reference.source),
+        safe(&reference.agreement)
+    );
+    add(page, words);
+}
+
+fn list(page: &mut String, sentences: &[String]) {
+    if sentences.is_empty() {
+        return;
+    }
+    page.push_str("<ul>\n");
+    for sentence in sentences {
+        add(page, format_args!("<li>{}</li>\n", safe(sentence)));
+    }
+    page.push_str("</ul>\n");
+}
+
+/// Time and evaluations of each curve at each error; the fastest is marked.
+fn ranking(page: &mut String, scene: &WorkPrecisionScene) {
+    let mut curves = Vec::new();
+    for place in scene.ranking.iter().flat_map(|line| &line.places) {
+        if !curves.contains(&&place.curve) {
+            curves.push(&place.curve);
+        }
+    }
+    if curves.is_empty() {
+        return;
+    }
+    page.push_str("<div class=\"wide\"><table>\n<tr><th class=\"name\">time, evaluations for an error of</th>");
+    for line in &scene.ranking {
+        add(page, format_args!("<th>{:.0e}</th>", line.error));
+    }
+    page.push_str("</tr>\n");
+    for curve in curves {
+        let name = [curve.method, curve.formulation, curve.stabilisation].join(", ");
+        add(
+            page,
+            format_args!("<tr><td class=\"name\">{}</td>", safe(&name)),
+        );
+        for line in &scene.ranking {
+            let place = line.places.iter().position(|p| p.curve == *curve);
+            match place.map(|k| (k, &line.places[k])) {
+                Some((
+                    k,
+                    Place {
+                        seconds,
+                        evaluations,
+                        ..
+                    },
+                )) => {
+                    let class = if k == 0 { " class=\"best\"" } else { "" };
+                    let cell =
+                        format_args!("<td{class}>{}, {evaluations:.0}</td>", duration(*seconds));
+                    add(page, cell);
+                }
+                None => page.push_str("<td>–</td>"),
+            }
+        }
+        page.push_str("</tr>\n");
+    }
+    page.push_str("</table></div>\n");
+}
+
+/// All runs.
+fn runs(page: &mut String, scene: &WorkPrecisionScene) {
+    let summary = format_args!(
+        "<details><summary>All {} runs</summary>\n",
+        scene.rows.len()
+    );
+    add(page, summary);
+    page.push_str(
+        "<div class=\"wide\"><table>\n<tr><th class=\"name\">method</th><th class=\"name\">formulation</th>\
+         <th class=\"name\">stabilisation</th><th>tolerance</th><th>position</th><th>velocity</th><th>acceleration</th>\
+         <th>reactions</th><th>constraints</th><th>energy</th><th>evaluations</th><th>projections</th><th>factorisations</th><th>steps</th>\
+         <th>rejected</th><th>time</th><th class=\"name\">status</th></tr>\n",
+    );
+    for row in &scene.rows {
+        run(page, row);
+    }
+    page.push_str("</table></div></details>\n");
+}
+
+fn run(page: &mut String, row: &WorkPrecisionRow) {
+    let curve = &row.curve;
+    page.push_str("<tr>");
+    for name in [curve.method, curve.formulation, curve.stabilisation] {
+        add(page, format_args!("<td class=\"name\">{}</td>", safe(name)));
+    }
+    add(page, format_args!("<td>{:.0e}</td>", row.tolerance));
+    for number in row
+        .errors
+        .into_iter()
+        .chain([row.constraint_residual, row.energy_error])
+    {
+        add(page, format_args!("<td>{}</td>", short(number)));
+    }
+    for count in [
+        row.evaluations,
+        row.projections,
+        row.factorisations,
+        row.steps,
+        row.rejected,
+    ] {
+        add(page, format_args!("<td>{count}</td>"));
+    }
+    let end = format_args!(
+        "<td>{}</td><td class=\"status\">{}</td></tr>\n",
+        duration(row.seconds),
+        safe(&row.status)
+    );
+    add(page, end);
+}
+
+/// An error with two digits.
+fn short(number: f64) -> String {
+    match number.is_finite() {
+        true => format!("{number:.1e}"),
+        false if number.is_nan() => "–".to_owned(),
+        false => "∞".to_owned(),
+    }
+}
+
+/// A time with three digits in a unit that suits it.
+pub(super) fn duration(seconds: f64) -> String {
+    if !seconds.is_finite() {
+        return "–".to_owned();
+    }
+    let units = [(1.0, "s"), (1e-3, "ms"), (1e-6, "µs")];
+    let (unit, name) = units
+        .into_iter()
+        .find(|(u, _)| seconds >= *u)
+        .unwrap_or(units[2]);
+    let value = seconds / unit;
+    let decimals = match value {
+        100.0.. => 0,
+        10.0.. => 1,
+        _ => 2,
+    };
+    format!("{value:.decimals$} {name}")
+}
+
+fn safe(text: &str) -> String {
+    let mut out = String::new();
+    escape(text, &mut out);
+    out
+}
+
+fn add(page: &mut String, text: std::fmt::Arguments<'_>) {
+    // Writing to a string cannot fail.
+    let _ = page.write_fmt(text);
+}

@@ -1,0 +1,89 @@
+//! `work_precision.csv`, row by row as the runs end.
+
+use std::io::Write;
+
+use super::WorkPrecisionRow;
+use crate::tables::{Table, TableError};
+
+/// Columns; those after `status` may become more.
+const HEADER: [&str; 21] = [
+    "scene",
+    "formulation",
+    "method",
+    "stabilisation",
+    "tolerance",
+    "error_position",
+    "error_velocity",
+    "error_acceleration",
+    "error_reaction",
+    "constraint_residual",
+    "evaluations",
+    "projections",
+    "factorisations",
+    "steps",
+    "seconds",
+    "status",
+    "rejected",
+    "repetitions",
+    "energy_error",
+    "error_state",
+    "reference_limit",
+];
+
+/// One line per run. Each line is handed to the writer at once: an interruption loses nothing.
+pub struct WorkPrecisionTable<W: Write> {
+    table: Table<W>,
+}
+
+impl<W: Write> WorkPrecisionTable<W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn new(out: W) -> Result<Self, TableError> {
+        let header = HEADER.map(str::to_owned);
+        let mut table = Self {
+            table: Table::new("work_precision.csv", out, &header)?,
+        };
+        table.table.flush()?;
+        Ok(table)
+    }
+
+    /// Writes a run. What is not known is `NaN`.
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn row(&mut self, row: &WorkPrecisionRow) -> Result<(), TableError> {
+        let curve = &row.curve;
+        self.table.record((
+            (
+                &row.scene,
+                curve.formulation,
+                curve.method,
+                curve.stabilisation,
+            ),
+            row.tolerance,
+            row.errors,
+            row.constraint_residual,
+            [
+                row.evaluations,
+                row.projections,
+                row.factorisations,
+                row.steps,
+            ],
+            row.seconds,
+            &row.status,
+            (row.rejected, row.repetitions),
+            [row.energy_error, row.error_state, row.reference_limit],
+        ))?;
+        self.table.flush()
+    }
+
+    /// Gives the writer back.
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn finish(self) -> Result<W, TableError> {
+        self.table.finish()
+    }
+}
