@@ -99,6 +99,21 @@ pub enum Trip {
         /// What is allowed.
         tolerance: f64,
     },
+    /// Newton's method for dependent coordinates went to a configuration far away: another branch, or another turn.
+    #[error(
+        "at t = {time} s the dependent coordinates could only be found {by:.2} (lengths of the mechanism, or radians) from where the \
+         step expects them, at the {coordinate} of `{body}`"
+    )]
+    FarCompletion {
+        /// When.
+        time: f64,
+        /// The body that moved most.
+        body: String,
+        /// Its coordinate.
+        coordinate: &'static str,
+        /// By how much: lengths as share of the mechanism's size, angles in radians.
+        by: f64,
+    },
     /// A constraint jumps.
     #[error(
         "at t = {time} s row {row} jumps by {jump:.3e}: positions cannot follow at once (an infinite force); use a function \

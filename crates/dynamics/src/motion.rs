@@ -93,6 +93,8 @@ pub struct KeptRowMotion<'a> {
     is_unsettled: bool,
     /// What happened at the last accepted steps and has not been told.
     pending: Option<Event>,
+    /// A state before it was completed, n_q.
+    guess: Vec<f64>,
     /// A correction, n_v.
     delta: Vec<f64>,
     /// No force, n_v.
@@ -145,6 +147,7 @@ impl<'a> KeptRowMotion<'a> {
             passage: Passage::default(),
             is_unsettled: false,
             pending: None,
+            guess: vec![0.0; prepared.mechanism.layout().n_q],
             delta: vec![0.0; n],
             zero: vec![0.0; n],
         })

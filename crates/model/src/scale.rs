@@ -58,6 +58,20 @@ impl Mechanism {
         jets.iter().flatten().map(|x| x.abs()).sum()
     }
 
+    /// The coordinate in which two configurations differ most, and by how much: lengths as share of `size`, angles in radians.
+    #[must_use]
+    pub fn largest_difference(&self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
+        let mut largest = (0, 0.0);
+        for (j, (a, b)) in a.iter().zip(b).enumerate() {
+            let unit = if j % N_BODY == 2 { 1.0 } else { size };
+            let difference = (a - b).abs() / unit;
+            if difference > largest.1 {
+                largest = (j, difference);
+            }
+        }
+        largest
+    }
+
     /// Whether row `i` compares angles: no translation takes part in it.
     #[must_use]
     pub fn is_angular(&self, i: usize) -> bool {

@@ -36,6 +36,10 @@ pub(super) struct Origin {
     pub(super) v: Vec<f64>,
 }
 
+/// Dependent coordinates that move by more than this when a state is completed, as share of the mechanism's size or in radians, may have
+/// gone to another branch or another turn.
+const FAR: f64 = 0.25;
+
 impl KeptRowMotion<'_> {
     /// From now on the motion is one of independent coordinates, chosen at q, which must lie on the constraints at t.
     ///
@@ -123,7 +127,18 @@ impl KeptRowMotion<'_> {
 
     /// Overwrites dependent coordinates and velocities; factors there.
     fn complete(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Trip> {
+        self.guess.copy_from_slice(q);
         self.project_position(t, q, Correct::DependentCoordinates)?;
+        let (place, by) = self.mechanism.largest_difference(q, &self.guess, self.size);
+        if by > FAR {
+            let (body, coordinate) = self.mechanism.coordinate(place);
+            return Err(Trip::FarCompletion {
+                time: t,
+                body: body.to_owned(),
+                coordinate,
+                by,
+            });
+        }
         self.velocity.factor(self.mechanism, &self.s)?;
         self.evaluate_b();
         for (rhs, &i) in self.velocity.rhs.iter_mut().zip(&self.velocity.kept) {

@@ -54,6 +54,7 @@ impl KeptRowMotion<'_> {
         let kinetic = mechanism.kinetic_energy(v);
         let iterations = self.settle(t, q)?;
         self.finish(q, v, iterations)?;
+        self.passage.forget_entry();
         let energy = mechanism.kinetic_energy(v) - kinetic;
         let redundancy = self.velocity.dropped.len();
         let label = &layout.labels[row];

@@ -10,6 +10,10 @@
 
 use super::rows::KeptRows;
 
+/// Velocities behind a singular configuration may miss those that the accelerations on both sides explain by this share: a step over it
+/// is short beside the curvature of the motion, and another branch leads elsewhere.
+const KINK: f64 = 0.25;
+
 /// Stages below this share of the reference pivots make a step suspect.
 const SUSPECT: f64 = 0.1;
 
@@ -24,6 +28,15 @@ pub(super) struct Passage {
     pivot: f64,
     rate: f64,
     lowest: Option<f64>,
+    /// The last accepted state whose pivots were not yet small.
+    entry: Option<Entry>,
+}
+
+/// Time, velocities and accelerations of a state.
+struct Entry {
+    t: f64,
+    v: Vec<f64>,
+    a: Vec<f64>,
 }
 
 impl Passage {
@@ -46,6 +59,40 @@ impl Passage {
     /// Whether the determinant of freshly factored rows has another sign than at the last accepted step.
     pub(super) fn is_beyond(&self, rows: &mut KeptRows) -> bool {
         self.sign * rows.orientation(&self.frame) < 0.0
+    }
+
+    /// Whether velocities v at time t, with accelerations a and the weights `mass`, follow from those with which the motion came near a
+    /// singular configuration. On another branch they have another direction. Asked where the rows are sound again.
+    pub(super) fn is_continued_by(&self, (t, v, a): (f64, &[f64], &[f64]), mass: &[f64]) -> bool {
+        let Some(entry) = &self.entry else {
+            return true;
+        };
+        let dt = t - entry.t;
+        let norm = |x: &mut dyn Iterator<Item = f64>| -> f64 {
+            x.zip(mass).map(|(x, m)| m * x * x).sum::<f64>().sqrt()
+        };
+        let kink =
+            norm(&mut (0..v.len()).map(|i| v[i] - entry.v[i] - 0.5 * dt * (a[i] + entry.a[i])));
+        let change = norm(&mut (0..v.len()).map(|i| 0.5 * dt * (a[i].abs() + entry.a[i].abs())));
+        let speed = norm(&mut v.iter().copied()).max(norm(&mut entry.v.iter().copied()));
+        kink <= KINK * (speed + change)
+    }
+
+    /// Takes an accepted state as the last one before rows become delicate.
+    pub(super) fn enter(&mut self, (t, v, a): (f64, &[f64], &[f64])) {
+        let entry = self.entry.get_or_insert_with(|| Entry {
+            t,
+            v: v.to_vec(),
+            a: a.to_vec(),
+        });
+        entry.t = t;
+        entry.v.copy_from_slice(v);
+        entry.a.copy_from_slice(a);
+    }
+
+    /// Forgets it, where velocities jump for another reason.
+    pub(super) fn forget_entry(&mut self) {
+        self.entry = None;
     }
 
     /// Whether a step that ends at freshly factored rows may have passed a singular configuration.

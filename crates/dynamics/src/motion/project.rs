@@ -85,6 +85,19 @@ impl KeptRowMotion<'_> {
         self.passage.is_suspect(&mut self.velocity)
     }
 
+    /// Whether velocities v and accelerations a at the state just evaluated go on from where the motion came near a singular
+    /// configuration; as long as it is near, that remains to be seen.
+    pub(crate) fn goes_on_smoothly(&self, now: (f64, &[f64], &[f64])) -> bool {
+        self.velocity.are_delicate() || self.passage.is_continued_by(now, self.mechanism.mass())
+    }
+
+    /// Notes an accepted state far from singular configurations.
+    pub(crate) fn note_sound(&mut self, now: (f64, &[f64], &[f64])) {
+        if !self.velocity.are_delicate() {
+            self.passage.enter(now);
+        }
+    }
+
     /// Refuses a step over a singular configuration.
     pub(crate) fn no_way_over(&self, t: f64) -> Trip {
         Trip::SingularPassage {

@@ -273,6 +273,11 @@ impl Ode for Equations<'_> {
             self.motion.derivative(step.t_rhs, y, dy)?;
             let a = &mut dy[self.n_q..self.n_q + self.n_v];
             self.motion.review_acceleration(a)?;
+            let now = (step.t, &y[self.n_q..self.n_q + self.n_v], &*a);
+            if is_suspect && !self.motion.goes_on_smoothly(now) {
+                return Err(self.motion.no_way_over(step.t));
+            }
+            self.motion.note_sound(now);
         }
         // From here on the step stands.
         self.is_suspect = is_suspect;
