@@ -119,7 +119,8 @@ impl KeptRows {
 
     /// Whether another partition is due.
     pub(super) fn are_worn(&self) -> bool {
-        self.partition.is_some() && self.relative_pivot() < PARTITION_WORN
+        let worn = |chosen: f64| self.pivot_ratio() < PARTITION_WORN * chosen;
+        self.partition.and_then(|p| p.0).is_some_and(worn)
     }
 
     /// Pivot ratio that the present ones are compared with.
@@ -186,9 +187,9 @@ impl KeptRows {
         self.saddle.uses(k)
     }
 
-    /// Smallest pivot relative to that when the rows were chosen; infinite without rows.
+    /// Smallest pivot relative to that when the rows were chosen, whatever they are solved for; infinite without rows.
     pub(super) fn relative_pivot(&self) -> f64 {
-        match self.reference() {
+        match self.reference_pivot {
             Some(reference) if reference.is_finite() => self.pivot_ratio() / reference,
             _ => f64::INFINITY,
         }
