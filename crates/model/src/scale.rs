@@ -58,13 +58,18 @@ impl Mechanism {
         jets.iter().flatten().map(|x| x.abs()).sum()
     }
 
+    /// What coordinate `j` is measured by: lengths by `size`, angles by one radian.
+    #[must_use]
+    pub fn unit(&self, j: usize, size: f64) -> f64 {
+        if j % N_BODY == 2 { 1.0 } else { size }
+    }
+
     /// The coordinate in which two configurations differ most, and by how much: lengths as share of `size`, angles in radians.
     #[must_use]
     pub fn largest_difference(&self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
         let mut largest = (0, 0.0);
         for (j, (a, b)) in a.iter().zip(b).enumerate() {
-            let unit = if j % N_BODY == 2 { 1.0 } else { size };
-            let difference = (a - b).abs() / unit;
+            let difference = (a - b).abs() / self.unit(j, size);
             if difference > largest.1 {
                 largest = (j, difference);
             }

@@ -20,12 +20,30 @@ pub(super) struct Chart {
     pub(super) u: Vec<usize>,
     pub(super) q: Vec<f64>,
     pub(super) v: Vec<f64>,
+    /// Coordinates of the last accepted state.
+    accepted: Vec<f64>,
+    /// Its rates and its time.
+    accepted_rate: Vec<f64>,
+    accepted_at: f64,
     /// How many partitions there were before.
     pub(super) generation: u64,
     /// Where this one was chosen: t, q and v.
     pub(super) origin: Origin,
     /// Where another one is due.
     renewal: Option<Origin>,
+}
+
+impl Chart {
+    /// Takes the independent entries of a state. The others stay those of the state completed last: what an integrator carries for them
+    /// may be off by as much as a step, and Newton's method would go from there to another branch or another turn.
+    fn take_independent(&mut self, q: &[f64], v: &[f64]) {
+        for &i in &self.z {
+            self.q[i] = q[i];
+        }
+        for &i in &self.u {
+            self.v[i] = v[i];
+        }
+    }
 }
 
 /// An accepted state.
@@ -38,7 +56,11 @@ pub(super) struct Origin {
 
 /// Dependent coordinates that move by more than this when a state is completed, as share of the mechanism's size or in radians, may have
 /// gone to another branch or another turn.
-const FAR: f64 = 0.25;
+const FAR: f64 = 0.6;
+
+/// The end of a step may lie so far from where the rates at both ends lead, as share of the largest way on it, and beside.
+const FAR_IN_A_STEP: f64 = 0.5;
+const FAR_AT_REST: f64 = 1e-2;
 
 impl KeptRowMotion<'_> {
     /// From now on the motion is one of independent coordinates, chosen at q, which must lie on the constraints at t.
@@ -81,7 +103,7 @@ impl KeptRowMotion<'_> {
     }
 
     /// `ẏ = f(t, y)` of `y = [q; v]`, or `[q; v; W]` with the work W of drives and applied forces. On a chart the dependent entries of
-    /// y are a first guess only.
+    /// y do not matter.
     ///
     /// # Errors
     /// As [`super::Motion::acceleration`]; [`Trip::OffConstraints`], [`Trip::Chart`] if a state cannot be completed.
@@ -100,9 +122,9 @@ impl KeptRowMotion<'_> {
             self.rates(q, v, qd, work);
             return Ok(());
         };
-        chart.q.copy_from_slice(q);
-        chart.v.copy_from_slice(v);
-        let solved = self.solve_on_chart(t, &mut chart, a);
+        let solved = self
+            .complete_on(&mut chart, t, q, v)
+            .and_then(|()| self.solve_completed(&chart, a));
         if solved.is_ok() {
             self.rates(&chart.q, &chart.v, qd, work);
         }
@@ -118,9 +140,56 @@ impl KeptRowMotion<'_> {
         }
     }
 
-    /// Completes the state of a chart and solves for accelerations there.
-    fn solve_on_chart(&mut self, t: f64, chart: &mut Chart, a: &mut [f64]) -> Result<(), Trip> {
-        self.complete(t, &mut chart.q, &mut chart.v)?;
+    /// Whether an evaluated state at the end of a step, q with rates q̇, is where the rates at both ends lead: on another branch or another
+    /// turn it is not.
+    ///
+    /// # Errors
+    /// [`Trip::FarCompletion`]
+    pub(crate) fn check_travel(&mut self, t: f64, q: &[f64], qd: &[f64]) -> Result<(), Trip> {
+        let Some(chart) = &mut self.chart else {
+            return Ok(());
+        };
+        let (mechanism, size) = (self.mechanism, self.size);
+        let dt = t - chart.accepted_at;
+        let mut farthest = 0.0_f64;
+        for (i, led) in self.guess.iter_mut().enumerate() {
+            let travel = 0.5 * dt * (chart.accepted_rate[i] + qd[i]);
+            *led = chart.accepted[i] + travel;
+            farthest = farthest
+                .max(dt * chart.accepted_rate[i].abs().max(qd[i].abs()) / mechanism.unit(i, size));
+        }
+        let (place, by) = mechanism.largest_difference(q, &self.guess, size);
+        if by <= FAR_IN_A_STEP * farthest + FAR_AT_REST {
+            return Ok(());
+        }
+        let (body, coordinate) = mechanism.coordinate(place);
+        Err(Trip::FarCompletion {
+            time: t,
+            body: body.to_owned(),
+            coordinate,
+            by,
+        })
+    }
+
+    /// Completes a state on a chart: from the state completed last or, if that was too far away, from the one accepted last.
+    fn complete_on(&mut self, chart: &mut Chart, t: f64, q: &[f64], v: &[f64]) -> Result<(), Trip> {
+        chart.take_independent(q, v);
+        let near = self.complete(t, &mut chart.q, &mut chart.v);
+        if near.is_ok() {
+            return near;
+        }
+        chart.q.copy_from_slice(&chart.accepted);
+        chart.take_independent(q, v);
+        let completed = self.complete(t, &mut chart.q, &mut chart.v);
+        if completed.is_err() {
+            // Where it failed is no place to begin from.
+            chart.q.copy_from_slice(&chart.accepted);
+        }
+        completed
+    }
+
+    /// Solves for accelerations at the state just completed.
+    fn solve_completed(&mut self, chart: &Chart, a: &mut [f64]) -> Result<(), Trip> {
         self.passage.see(&self.velocity);
         self.solve_factored(&chart.v, a)
     }
@@ -154,16 +223,29 @@ impl KeptRowMotion<'_> {
         q: &mut [f64],
         v: &mut [f64],
     ) -> Result<(), Trip> {
-        match self.chart {
-            Some(_) => self.complete(t, q, v),
-            None => Ok(()),
+        let Some(mut chart) = self.chart.take() else {
+            return Ok(());
+        };
+        let completed = self.complete_on(&mut chart, t, q, v);
+        if completed.is_ok() {
+            q.copy_from_slice(&chart.q);
+            v.copy_from_slice(&chart.v);
         }
+        self.chart = Some(chart);
+        completed
     }
 
     /// Asks for another chart where the present one is worn: at the state just evaluated, which has been accepted at t.
     pub(super) fn review_chart(&mut self, t: f64) {
         let worn = self.velocity.are_worn() || self.position.are_worn() || self.aside.is_some();
-        if let (true, Some(chart)) = (worn, &mut self.chart) {
+        let Some(chart) = &mut self.chart else {
+            return;
+        };
+        chart.accepted.copy_from_slice(&chart.q);
+        self.mechanism
+            .rate(&chart.q, &chart.v, &mut chart.accepted_rate);
+        chart.accepted_at = t;
+        if worn {
             let (q, v) = (chart.q.clone(), chart.v.clone());
             chart.renewal = Some(Origin { t, q, v });
         }
@@ -198,12 +280,17 @@ impl KeptRowMotion<'_> {
         if let Some(aside) = &mut self.aside {
             aside.forget_partition();
         }
+        let mut accepted_rate = vec![0.0; origin.q.len()];
+        mechanism.rate(&origin.q, &origin.v, &mut accepted_rate);
         let generation = self.chart.as_ref().map_or(0, |c| c.generation + 1);
         self.chart = Some(Chart {
             z,
             u,
             q: origin.q.clone(),
             v: origin.v.clone(),
+            accepted: origin.q.clone(),
+            accepted_rate,
+            accepted_at: origin.t,
             generation,
             origin,
             renewal: None,

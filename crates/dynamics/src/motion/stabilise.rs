@@ -52,6 +52,7 @@ impl KeptRowMotion<'_> {
         v: &mut [f64],
     ) -> Result<Correction, Trip> {
         if self.projects() {
+            self.complete_row(t, q, v)?;
             let iterations = self.settle(t, q)?;
             return match self.better_for_row(q)? {
                 None => self.finish(q, v, iterations),

@@ -278,6 +278,10 @@ impl Ode for Equations<'_> {
                 return Err(self.motion.no_way_over(step.t));
             }
             self.motion.note_sound(now);
+            if self.motion.independent().is_some() {
+                self.motion
+                    .check_travel(step.t_rhs, &y[..self.n_q], &dy[..self.n_q])?;
+            }
         }
         // From here on the step stands.
         self.is_suspect = is_suspect;
