@@ -100,7 +100,7 @@ fn pairs_and_both_dense_outputs_converge_with_order_five() {
     }
 }
 
-/// The local error of order 7 of the cheap output counts like a global error of order 7; the accurate output is as good as the ends.
+/// The local error of order 7 of the cheap output counts like a global one; the accurate output is as good as the ends.
 #[test]
 fn dop853_and_its_accurate_output_converge_with_order_eight_and_the_cheap_one_with_seven() {
     let errors = halved(&Dop853, 35, 6);
