@@ -1,7 +1,7 @@
-//! Dormand–Prince 8(5,3): twelve stages, order 8, error estimates of order 5 and 3 combined, dense output of order 6 and 7.
+//! Dormand–Prince 8(5,3): twelve stages, order 8, error estimates of order 5 and 3 combined, dense output of order 6 and 8.
 //!
 //! Source: the program DOP853 of E. Hairer and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I,
-//! 2nd ed., II.5, II.6, II.10.
+//! 2nd ed., II.5, II.10. The dense outputs are of our own making.
 
 mod dense;
 mod step;
@@ -13,10 +13,11 @@ mod order_conditions;
 use crate::control::{Control, ControlConstants};
 use crate::method::Method;
 use crate::ode::Ode;
+use tableau::{STAGES, STEP_STAGES};
 
 /// Dormand–Prince 8(5,3): the method for smooth problems at 1e-6 and below. Order 8; an accepted step costs twelve evaluations, the
-/// derivative at its end included, a rejected one eleven. Dense output of order 6 (local error O(h⁷)) without and of order 7
-/// (local error O(h⁸)) with three extra evaluations in the step.
+/// derivative at its end included, a rejected one eleven. Dense output of order 6 (local error O(h⁷)) without and of order 8
+/// (local error O(h⁹), like the step) with six extra evaluations in the step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Dop853;
 
@@ -43,8 +44,8 @@ pub struct Stages {
     control: Control,
     /// Stages 2 to 12 of the last trial.
     k: [Vec<f64>; 11],
-    /// Stages 14 to 16 of the last prepared step.
-    extra: [Vec<f64>; 3],
+    /// Stages 14 to 19 of the last prepared step.
+    extra: [Vec<f64>; STAGES - STEP_STAGES],
     /// Argument of a stage.
     y: Vec<f64>,
 }

@@ -1,7 +1,7 @@
 //! One trial step and its estimated error.
 
 use super::Stages;
-use super::tableau::{A, C, E3, E5};
+use super::tableau::{A, C, E3, E5, STEP_STAGES};
 use crate::combine::combine;
 use crate::control::StepControl;
 use crate::drive::evaluate;
@@ -16,7 +16,7 @@ impl<O: Ode> Stepper<O> for Stages {
     }
 
     fn widest_gap(&self) -> f64 {
-        widest_gap(&C)
+        widest_gap(&C[..STEP_STAGES])
     }
 
     fn control(&mut self) -> &mut dyn StepControl {

@@ -100,13 +100,16 @@ fn pairs_and_both_dense_outputs_converge_with_order_five() {
     }
 }
 
-/// The local errors inside, of order 7 and 8, count like global errors of order 7 and 8.
+/// The local error of order 7 of the cheap output counts like a global one; the accurate output is as good as the ends.
 #[test]
-fn dop853_converges_with_order_eight_and_its_dense_outputs_with_seven_and_eight() {
-    let errors = halved(&Dop853, 35, 3);
+fn dop853_and_its_accurate_output_converge_with_order_eight_and_the_cheap_one_with_seven() {
+    let errors = halved(&Dop853, 35, 6);
     assert_order("ends", &errors.each_ref().map(|e| e.ends), 8.0);
     assert_order("cheap", &errors.each_ref().map(|e| e.cheap), 7.0);
     assert_order("accurate", &errors.each_ref().map(|e| e.accurate), 8.0);
+    for e in &errors {
+        assert!(e.accurate < 1.1 * e.ends, "{:e} {:e}", e.accurate, e.ends);
+    }
 }
 
 /// Errors inside one step from an exact state, over a step and its half.
@@ -119,7 +122,7 @@ fn dense_outputs_have_the_local_orders_they_claim() {
     for (name, errors, cheap, accurate) in [
         ("dopri5", one_step(&Dopri5, 0.1, 2), 5.0, 6.0),
         ("tsit5", one_step(&Tsit5, 0.1, 2), 5.0, 6.0),
-        ("dop853", one_step(&Dop853, 0.4, 3), 7.0, 8.0),
+        ("dop853", one_step(&Dop853, 0.4, 6), 7.0, 9.0),
     ] {
         assert_order(name, &errors.each_ref().map(|e| e.cheap), cheap);
         assert_order(name, &errors.each_ref().map(|e| e.accurate), accurate);
