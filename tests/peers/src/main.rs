@@ -1,6 +1,7 @@
 //! Our methods and those of other crates on the same right-hand sides: `cargo run --release -- DIRECTORY` in `tests/peers`.
 
 mod equal_error;
+mod figure;
 mod libraries;
 mod machine;
 mod measure;
@@ -41,6 +42,7 @@ fn run(directory: &std::path::Path) -> Result<(), Box<dyn Error>> {
     runs.extend(runs::of_arenstorf());
     runs.extend(runs::of_robertson());
     let rows = measure(&runs);
+    std::fs::create_dir_all(directory)?;
 
     let mut text = format!(
         "# Tables\n\nWritten by `tests/peers`. What they mean: [README](README.md).\n\n{}",
@@ -59,8 +61,9 @@ fn run(directory: &std::path::Path) -> Result<(), Box<dyn Error>> {
             .collect();
         text += "\n";
         text += &tables::problem(title, &of_problem)?;
+        let figure = figure::draw(title, &of_problem)?;
+        std::fs::write(directory.join(format!("{name}.svg")), figure)?;
     }
-    std::fs::create_dir_all(directory)?;
     std::fs::write(directory.join("tables.md"), text)?;
     std::fs::write(directory.join("peers.csv"), tables::csv(&rows)?)?;
     Ok(())

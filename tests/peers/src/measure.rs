@@ -1,4 +1,4 @@
-//! One row of the comparison: what a run costs and how good it is. Times are those of this thread, the least of several runs.
+//! One row of the comparison: what a run costs and how good it is. Times are those of this thread.
 
 use std::time::Duration;
 
@@ -72,28 +72,58 @@ pub struct Row {
     pub atol: f64,
     /// What came out, or what the library said.
     pub result: Result<Outcome, String>,
-    /// Least time (s).
+    /// Time (s), NaN where nothing came out.
     pub seconds: f64,
 }
 
+/// From this error on, relative or in metres and radians, an end is wrong.
+const WRONG: f64 = 1.0;
+
+impl Row {
+    /// What came out, if it is an answer.
+    pub fn good(&self) -> Option<&Outcome> {
+        self.result.as_ref().ok().filter(|r| r.error < WRONG)
+    }
+
+    /// Why there is no answer.
+    pub fn trouble(&self) -> Option<String> {
+        match &self.result {
+            Err(text) => Some(format!("failed: {text}")),
+            Ok(r) if r.error >= WRONG => Some(format!(
+                "no answer, and no notice of it: error {:.1e}",
+                r.error
+            )),
+            Ok(_) => None,
+        }
+    }
+}
+
 /// Rounds over all runs, so that a disturbance of some seconds does not spoil all repetitions of a run.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 9;
 
 /// Each run is repeated in each round until this has passed …
-const ENOUGH: Duration = Duration::from_millis(60);
+const ENOUGH: Duration = Duration::from_millis(20);
 
 /// … and at least so often, unless one takes longer than that.
 const REPETITIONS: usize = 3;
 
 /// Makes all runs. The first one of each is the warm-up and gives the result.
+///
+/// The least time of a round is one without interruptions; the median over the rounds is one at the usual speed of the processor, where
+/// the least over all would be that of runs which happened to meet a fast spell.
 pub fn measure(runs: &[Run<'_>]) -> Vec<Row> {
     let mut rows: Vec<Row> = runs.iter().map(first).collect();
+    let mut times = vec![Vec::with_capacity(ROUNDS); runs.len()];
     for _ in 0..ROUNDS {
-        for (run, row) in runs.iter().zip(&mut rows) {
+        for ((run, row), times) in runs.iter().zip(&rows).zip(&mut times) {
             if row.result.is_ok() {
-                row.seconds = row.seconds.min(least_time(run));
+                times.push(least_time(run));
             }
         }
+    }
+    for (row, times) in rows.iter_mut().zip(&mut times) {
+        times.sort_by(f64::total_cmp);
+        row.seconds = times.get(times.len() / 2).copied().unwrap_or(f64::NAN);
     }
     rows
 }
@@ -104,7 +134,7 @@ fn first(run: &Run<'_>) -> Row {
         rtol: run.rtol,
         atol: run.atol,
         result: (run.go)(),
-        seconds: f64::INFINITY,
+        seconds: f64::NAN,
     }
 }
 

@@ -6,7 +6,7 @@ use crate::equal_error::{Cost, Point, cost_at};
 use crate::measure::{Row, Series};
 
 /// Errors at which series are compared.
-const ERRORS: [i32; 6] = [-2, -4, -6, -8, -10, -11];
+const ERRORS: [i32; 7] = [-2, -4, -6, -7, -8, -10, -11];
 
 /// All rows, failures included.
 pub fn csv(rows: &[Row]) -> Result<String, fmt::Error> {
@@ -26,13 +26,15 @@ pub fn csv(rows: &[Row]) -> Result<String, fmt::Error> {
             "{problem},{library},{method},{breaks},{:.0e},{:.0e},",
             row.rtol, row.atol
         )?;
+        let status = row.trouble().map(|text| text.replace(['"', '\n'], " "));
+        let status = status.map_or("ok".to_owned(), |text| format!("\"{text}\""));
         match &row.result {
             Ok(r) => writeln!(
                 out,
-                "{:.3e},{},{},{:.3e},ok",
+                "{:.3e},{},{},{:.3e},{status}",
                 r.error, r.evaluations, r.steps, row.seconds
             )?,
-            Err(text) => writeln!(out, ",,,,\"{}\"", text.replace(['"', '\n'], " "))?,
+            Err(_) => writeln!(out, ",,,,{status}")?,
         }
     }
     Ok(out)
@@ -47,18 +49,18 @@ pub fn problem(title: &str, rows: &[&Row]) -> Result<String, fmt::Error> {
         }
     }
     let mut out = format!("## {title}\n");
-    let evaluations = |row: &Row| row.result.as_ref().ok().map(|r| r.evaluations as f64);
-    let microseconds = |row: &Row| row.result.as_ref().ok().map(|_| 1e6 * row.seconds);
+    let evaluations = |row: &Row| row.good().map(|r| r.evaluations as f64);
+    let microseconds = |row: &Row| row.good().map(|_| 1e6 * row.seconds);
     writeln!(out, "\nEvaluations (ratio to the first line).\n")?;
     table(&mut out, &all, rows, evaluations)?;
     writeln!(out, "\nMicroseconds (ratio to the first line).\n")?;
     table(&mut out, &all, rows, microseconds)?;
     per_evaluation(&mut out, &all, rows)?;
     for row in rows {
-        if let Err(text) = &row.result {
+        if let Some(text) = row.trouble() {
             writeln!(
                 out,
-                "- failed: {} at rtol {:.0e}: {text}",
+                "- {} at rtol {:.0e} {text}",
                 name(&row.series),
                 row.rtol
             )?;
@@ -67,7 +69,8 @@ pub fn problem(title: &str, rows: &[&Row]) -> Result<String, fmt::Error> {
     Ok(out)
 }
 
-fn name(series: &Series) -> String {
+/// Library, method and what is unusual about break times.
+pub fn name(series: &Series) -> String {
     let Series {
         library,
         method,
@@ -94,7 +97,7 @@ fn table(
 ) -> fmt::Result {
     let costs = |series: &Series| {
         let point = |row: &Row| {
-            let (result, cost) = (row.result.as_ref().ok()?, cost(row)?);
+            let (result, cost) = (row.good()?, cost(row)?);
             Some(Point {
                 error: result.error,
                 cost,
@@ -141,7 +144,7 @@ fn per_evaluation(out: &mut String, all: &[&Series], rows: &[&Row]) -> fmt::Resu
         "\n| series | least error | time per evaluation (ns): loosest … tightest tolerance |\n| --- | ---: | ---: |"
     )?;
     for series in all {
-        let done = || of(rows, series).filter_map(|row| Some((row, row.result.as_ref().ok()?)));
+        let done = || of(rows, series).filter_map(|row| Some((row, row.good()?)));
         let least = done().map(|(_, r)| r.error).fold(f64::INFINITY, f64::min);
         let mut each = done().map(|(row, r)| 1e9 * row.seconds / r.evaluations as f64);
         if let Some(first) = each.next() {
