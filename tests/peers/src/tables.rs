@@ -60,7 +60,7 @@ pub fn problem(title: &str, rows: &[&Row]) -> Result<String, fmt::Error> {
         if let Some(text) = row.trouble() {
             writeln!(
                 out,
-                "- {} at rtol {:.0e} {text}",
+                "- {} at rtol {:.0e}: {text}",
                 name(&row.series),
                 row.rtol
             )?;
