@@ -14,11 +14,12 @@ const REACHED: [(&str, f64, [f64; 4]); 14] = [
     // The reference is trusted to 1e-11 and 1e-9 only.
     ("robot-trolley", TIGHT, [1e-12, 1e-12, 1e-12, 1e-12]),
     ("three-cranks", TIGHT, [1e-14, 3e-14, 5e-14, UNKNOWN]),
-    // Thirty-one passages, each with the rounding of a nearly singular solve.
+    // Thirty-one passages. Accelerations at the share σ of the reference pivots carry the rounding eps/σ²: 1e-10 at instants up to σ = 1e-3,
+    // where they fall by chance.
     (
         "turning-cranks",
         TIGHT_PAST_SINGULAR,
-        [1.1e-13, 3e-12, 1.2e-11, UNKNOWN],
+        [1.1e-13, 3e-12, 1e-10, UNKNOWN],
     ),
     (
         "n-four-bar",
