@@ -83,6 +83,30 @@ fn every_case_is_reproduced_to_the_digits_of_double_precision() {
     assert!(misses.is_empty(), "\n{misses}");
 }
 
+/// Ten passages of horizontal positions where the rank drops by two: never the other branch, at whatever tolerance.
+#[test]
+fn the_four_bars_keep_their_branch_at_sixty_four_tolerances() {
+    let subject = Subject::of_case(suite::find("n-four-bar").expect("exists")).expect("builds");
+    let curve = Curve {
+        method: Method::Auto,
+        formulation: Formulation::KeptRows,
+        stabilisation: Stabilisation::Projection,
+    };
+    for k in 0..64 {
+        let tolerance = 10.0_f64.powf(-4.0 - 8.0 * f64::from(k) / 63.0);
+        let errors = subject
+            .errors(curve, tolerance)
+            .unwrap_or_else(|e| panic!("{tolerance:.1e}: {e}"))
+            .expect("the motion is known");
+        let bound = if tolerance <= 1e-7 { 1e-5 } else { 1e-2 };
+        assert!(
+            errors.scaled[0] <= bound,
+            "{tolerance:.1e}: {:.1e}",
+            errors.scaled[0]
+        );
+    }
+}
+
 #[test]
 fn a_loose_run_is_found_to_be_loose() {
     for (name, _, bounds) in REACHED {

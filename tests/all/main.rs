@@ -7,6 +7,7 @@ mod cases;
 mod choices;
 mod constrained_methods;
 mod deletions;
+mod drives_that_jump;
 mod exact_oracle;
 mod existence;
 mod formulations;

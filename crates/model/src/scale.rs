@@ -146,7 +146,9 @@ impl Mechanism {
             .fold(0.0, f64::max)
     }
 
-    fn relative_to_reach(&self, s: &Scratch, i: usize, size: f64, x: f64) -> f64 {
+    /// `x` relative to what row `i` changes by when the mechanism moves by its own size. Needs C.
+    #[must_use]
+    pub fn relative_to_reach(&self, s: &Scratch, i: usize, size: f64, x: f64) -> f64 {
         let reach = |(j, c): (usize, f64)| c.abs() * if j % N_BODY == 2 { 1.0 } else { size };
         let reach: f64 = self.layout().row(s, i).map(reach).sum();
         if reach > 0.0 { x / reach } else { x }

@@ -34,6 +34,13 @@ pub(super) struct Chart {
 }
 
 impl Chart {
+    /// The longest way of a coordinate from the last accepted state to time t at the rates there, in its `unit`.
+    fn way_to(&self, t: f64, unit: impl Fn(usize) -> f64) -> f64 {
+        let rates = self.accepted_rate.iter().enumerate();
+        let largest = rates.fold(0.0, |a: f64, (i, rate)| a.max(rate.abs() / unit(i)));
+        largest * (t - self.accepted_at).abs()
+    }
+
     /// Takes the independent entries of a state. The others stay those of the state completed last: what an integrator carries for them
     /// may be off by as much as a step, and Newton's method would go from there to another branch or another turn.
     fn take_independent(&mut self, q: &[f64], v: &[f64]) {
@@ -57,6 +64,9 @@ pub(super) struct Origin {
 /// Dependent coordinates that move by more than this when a state is completed, as share of the mechanism's size or in radians, may have
 /// gone to another branch or another turn.
 const FAR: f64 = 0.6;
+
+/// Beside this they may move by so many times the way that the mechanism would go from the last accepted state with its rates.
+const WAY: f64 = 2.0;
 
 /// The end of a step may lie so far from where the rates at both ends lead, as share of the largest way on it, and beside.
 const FAR_IN_A_STEP: f64 = 0.5;
@@ -173,14 +183,15 @@ impl KeptRowMotion<'_> {
 
     /// Completes a state on a chart: from the state completed last or, if that was too far away, from the one accepted last.
     fn complete_on(&mut self, chart: &mut Chart, t: f64, q: &[f64], v: &[f64]) -> Result<(), Trip> {
+        let far = FAR + WAY * chart.way_to(t, |i| self.mechanism.unit(i, self.size));
         chart.take_independent(q, v);
-        let near = self.complete(t, &mut chart.q, &mut chart.v);
+        let near = self.complete(t, far, &mut chart.q, &mut chart.v);
         if near.is_ok() {
             return near;
         }
         chart.q.copy_from_slice(&chart.accepted);
         chart.take_independent(q, v);
-        let completed = self.complete(t, &mut chart.q, &mut chart.v);
+        let completed = self.complete(t, far, &mut chart.q, &mut chart.v);
         if completed.is_err() {
             // Where it failed is no place to begin from.
             chart.q.copy_from_slice(&chart.accepted);
@@ -195,11 +206,11 @@ impl KeptRowMotion<'_> {
     }
 
     /// Overwrites dependent coordinates and velocities; factors there.
-    fn complete(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Trip> {
+    fn complete(&mut self, t: f64, far: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Trip> {
         self.guess.copy_from_slice(q);
         self.project_position(t, q, Correct::DependentCoordinates)?;
         let (place, by) = self.mechanism.largest_difference(q, &self.guess, self.size);
-        if by > FAR {
+        if by > far {
             let (body, coordinate) = self.mechanism.coordinate(place);
             return Err(Trip::FarCompletion {
                 time: t,

@@ -10,6 +10,11 @@ use crate::events::{Event, EventKind};
 /// Residuals below this share of the terms of their row, or for rates of the largest row, are no jumps.
 const NO_JUMP: f64 = 1e-9;
 
+/// Between times that are so many roundings apart a continuous function changes much more than between neighbouring ones: what
+/// remains of the wider change is a jump.
+const WIDE: f64 = 1e6;
+const REMAINS: f64 = 0.5;
+
 /// What a jump of the rates has done.
 pub(crate) struct Impulse {
     /// Work of the impulse (J).
@@ -31,11 +36,15 @@ impl KeptRowMotion<'_> {
         let mechanism = self.mechanism;
         let layout = mechanism.layout();
         // What a state misses already, where it is not projected, is no jump.
-        let [phi_before, rate_before] = self.missed(t.next_down().next_down(), q, v);
-        let [phi, rate] = self.missed(t, q, v);
+        let at = t.next_down();
+        let [phi, rate] = self.change([at.next_down(), t], q, v);
+        let wide = WIDE * f64::EPSILON * at.abs().max(f64::MIN_POSITIVE);
+        let [phi_wide, rate_wide] = self.change([at - wide, at + wide], q, v);
         for i in 0..layout.m {
-            let jump = (phi[i] - phi_before[i]).abs();
-            if jump > NO_JUMP * mechanism.position_scale(&self.s, i, q) {
+            let jump = phi[i].abs();
+            let is_large = jump > NO_JUMP * mechanism.position_scale(&self.s, i, q)
+                && mechanism.relative_to_reach(&self.s, i, self.size, jump) > NO_JUMP;
+            if is_large && jump > REMAINS * phi_wide[i].abs() {
                 return Err(Trip::PositionJump {
                     time: t,
                     row: layout.labels[i].clone(),
@@ -43,14 +52,15 @@ impl KeptRowMotion<'_> {
                 });
             }
         }
-        let jump = |i: usize| rate_before[i] - rate[i];
         let sizes = (0..layout.rows()).map(|i| mechanism.velocity_scale(&self.s, i, v));
         let largest = sizes.fold(0.0, f64::max);
-        let jumps = |&i: &usize| jump(i).abs() > NO_JUMP * largest;
+        let jumps = |&i: &usize| {
+            rate[i].abs() > NO_JUMP * largest && rate[i].abs() > REMAINS * rate_wide[i].abs()
+        };
         let Some(row) = (0..layout.rows()).find(jumps) else {
             return Ok(None);
         };
-        let jump = jump(row);
+        let jump = -rate[row];
         let kinetic = mechanism.kinetic_energy(v);
         let iterations = self.settle(t, q)?;
         self.finish(q, v, iterations)?;
@@ -70,6 +80,19 @@ impl KeptRowMotion<'_> {
             ),
         };
         Ok(Some(Impulse { energy, event }))
+    }
+
+    /// By how much Φ and C·v − b of a state change from one time to another, where only functions of time change.
+    fn change(&mut self, [from, to]: [f64; 2], q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
+        let [phi_from, rate_from] = self.missed(from, q, v);
+        let [mut phi, mut rate] = self.missed(to, q, v);
+        for (to, from) in phi.iter_mut().zip(phi_from) {
+            *to -= from;
+        }
+        for (to, from) in rate.iter_mut().zip(rate_from) {
+            *to -= from;
+        }
+        [phi, rate]
     }
 
     /// Φ and C·v − b at a state.

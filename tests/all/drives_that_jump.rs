@@ -1,0 +1,194 @@
+//! Drives with kinks and jumps: a jump of the rate is an impulse with a known energy, a jump of the position is refused by name. And
+//! rows at a break time show what was just before.
+
+use std::ops::ControlFlow;
+
+use dynamics::{
+    EventKind, Method, MotionError, MotionOptions, Prepared, RowChoice, Trip, prepare, simulate,
+};
+use joints::{
+    Direction, Revolute, RevoluteAngleDrive, Translational, TranslationalDisplacementDrive,
+};
+use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, StartOptions};
+
+const MASS: f64 = 2.0;
+const INERTIA: f64 = 0.3;
+
+/// A wheel on a pin, driven by angle.
+fn wheel(motion: Function) -> Prepared {
+    let d = Description {
+        name: "wheel".into(),
+        bodies: vec![Body {
+            name: "wheel".into(),
+            mass: MASS,
+            inertia: INERTIA,
+            ..Body::default()
+        }],
+        joints: vec![Joint::new(
+            "pin",
+            &[BodyRef::Ground, BodyRef::Body(0)],
+            Revolute {
+                s_i: [0.0; 2],
+                s_j: [0.0; 2],
+            },
+        )],
+        drives: vec![Drive {
+            name: "motor".into(),
+            bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
+            element: Box::new(RevoluteAngleDrive {
+                s_i: [0.0; 2],
+                s_j: [0.0; 2],
+                measure_0: 0.0,
+            }),
+            motion,
+        }],
+        ..Description::default()
+    };
+    let mechanism = Mechanism::build(&d).expect("builds");
+    prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts")
+}
+
+const METHODS: [Method; 5] = [
+    Method::Dop853,
+    Method::Dopri5,
+    Method::Gbs,
+    Method::Radau5,
+    Method::Hem4,
+];
+
+#[test]
+fn a_jump_of_the_rate_is_an_impulse_with_its_energy() {
+    // 2 rad/s until t = 1, then −1 rad/s: T falls from 0.6 J to 0.15 J.
+    let motion = Function::lines(&[0.0, 1.0, 3.0], &[0.0, 2.0, 0.0]).expect("two lines");
+    for method in METHODS {
+        let mut rows = Vec::new();
+        let options = MotionOptions {
+            method,
+            output_step: 0.5,
+            ..MotionOptions::to(2.0)
+        };
+        let summary = simulate(&wheel(motion.clone()), &options, |s| {
+            rows.push((s.t, s.q[2], s.v[2]));
+            Ok(ControlFlow::Continue(()))
+        })
+        .unwrap_or_else(|e| panic!("{method:?}: {e}"));
+        let expected = [
+            (0.0, 0.0, 2.0),
+            (0.5, 1.0, 2.0),
+            (1.0, 2.0, 2.0), // just before
+            (1.5, 1.5, -1.0),
+            (2.0, 1.0, -1.0),
+        ];
+        for (row, e) in rows.iter().zip(expected) {
+            let close = (row.1 - e.1).abs() < 1e-9 && (row.2 - e.2).abs() < 1e-9;
+            assert!(row.0 == e.0 && close, "{method:?}: {row:?}, expected {e:?}");
+        }
+        let [event] = summary.events.as_slice() else {
+            panic!("{method:?}: one event: {:?}", summary.events);
+        };
+        assert_eq!(event.kind, EventKind::Impulse);
+        assert!(
+            (event.time - 1.0).abs() < 1e-12 && event.text.contains("-4.5"),
+            "{event:?}"
+        );
+        assert!(
+            summary.energy_balance < 1e-9,
+            "{method:?}: {:.1e}",
+            summary.energy_balance
+        );
+    }
+}
+
+#[test]
+fn a_jump_of_the_position_is_refused_with_the_drive_and_the_time() {
+    let jump = Function::lines(&[0.0, 1.0, 1.0, 2.0], &[0.0, 0.5, 0.75, 1.0]).expect("a jump");
+    for method in METHODS {
+        let options = MotionOptions {
+            method,
+            ..MotionOptions::to(2.0)
+        };
+        let mut last = 0.0;
+        let failure = simulate(&wheel(jump.clone()), &options, |s| {
+            last = s.t;
+            Ok(ControlFlow::Continue(()))
+        })
+        .expect_err("nothing can follow");
+        let MotionError::Trip(Trip::PositionJump { time, row, jump }) = &failure.error else {
+            panic!("{method:?}: {failure}");
+        };
+        assert!(
+            (time - 1.0).abs() < 1e-12 && row.joint == "motor",
+            "{failure}"
+        );
+        assert!(
+            (jump - 0.25).abs() < 1e-12 && last == 1.0,
+            "{failure}, rows to {last}"
+        );
+    }
+}
+
+/// A slide that is at rest and moves with 1 m/s from t = 1 on.
+#[test]
+fn a_start_at_once_takes_half_m_v_squared() {
+    let motion = Function::lines(&[0.0, 1.0, 2.0], &[0.0, 0.0, 1.0]).expect("a kink");
+    let d = Description {
+        name: "slide".into(),
+        bodies: vec![Body {
+            name: "slide".into(),
+            mass: MASS,
+            inertia: INERTIA,
+            ..Body::default()
+        }],
+        joints: vec![Joint::new(
+            "guide",
+            &[BodyRef::Ground, BodyRef::Body(0)],
+            Translational {
+                s_i: [0.0; 2],
+                s_j: [0.0; 2],
+                axis: Direction::X,
+                angle_0: 0.0,
+            },
+        )],
+        drives: vec![Drive {
+            name: "push".into(),
+            bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
+            element: Box::new(TranslationalDisplacementDrive {
+                s_i: [0.0; 2],
+                s_j: [0.0; 2],
+                axis: Direction::X,
+                angle_0: 0.0,
+                measure_0: 0.0,
+            }),
+            motion,
+        }],
+        ..Description::default()
+    };
+    let mechanism = Mechanism::build(&d).expect("builds");
+    let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts");
+    let mut v = 0.0;
+    let summary = simulate(&p, &MotionOptions::to(2.0), |s| {
+        v = s.v[0];
+        Ok(ControlFlow::Continue(()))
+    })
+    .expect("moves");
+    assert!((v - 1.0).abs() < 1e-12);
+    let kinds: Vec<EventKind> = summary.events.iter().map(|e| e.kind).collect();
+    assert_eq!(kinds, [EventKind::Impulse]);
+    // From rest to 1 m/s.
+    assert!(
+        summary.events[0].text.contains("1.000000e0 J"),
+        "{:?}",
+        summary.events
+    );
+}
+
+/// Smooth steps from rest: rates of 1e-32 behind the break times are no jumps.
+#[test]
+fn smooth_steps_are_no_jumps() {
+    let steps = Function::steps(0.0, &[[1.0, 2.0, 0.5], [2.0, 2.5, 1.0]]).expect("two steps");
+    let summary = simulate(&wheel(steps), &MotionOptions::to(4.0), |_| {
+        Ok(ControlFlow::Continue(()))
+    })
+    .expect("moves");
+    assert!(summary.events.is_empty(), "{:?}", summary.events);
+}
