@@ -210,6 +210,21 @@ pub fn along_motion(
     })
 }
 
+/// The singular and nearly singular configurations of a motion alone: part of what [`along_motion`] finds, in a fraction of its time.
+///
+/// # Errors
+/// As [`along_motion`].
+pub fn singular_passages(
+    mechanism: &Mechanism,
+    motion: impl FnMut(f64) -> State,
+    times: &[f64],
+) -> Result<Vec<Passage>, AlongError> {
+    let times = with_break_times(mechanism, times)?;
+    let mut path = Path::new(mechanism, motion, &times)?;
+    let (generic, stretches) = stretches::stretches(&path);
+    passages::passages(&mut path, &generic, &stretches)
+}
+
 /// Sample times, break times between them, and one time within each piece between break times.
 fn with_break_times(mechanism: &Mechanism, times: &[f64]) -> Result<Vec<f64>, AlongError> {
     let wrong = |index: usize| {

@@ -40,7 +40,10 @@ pub mod units;
 pub mod verdict;
 mod words;
 
-pub use along::{Along, AlongError, Difference, Part, Passage, PassageKind, Stretch, along_motion};
+pub use along::{
+    Along, AlongError, Difference, Part, Passage, PassageKind, Stretch, along_motion,
+    singular_passages,
+};
 pub use certificate::certify;
 pub use choices::{
     Choice, ChoiceError, Compliance, Distribution, Equations, Label, NormWeights, ReactionValues,

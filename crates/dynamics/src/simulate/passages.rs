@@ -2,7 +2,7 @@
 //! motion is unique there.
 
 use integrators::Step;
-use solvability::{PassageKind, State, along_motion};
+use solvability::{PassageKind, State, singular_passages};
 
 use super::equations::Equations;
 
@@ -47,7 +47,7 @@ fn judge(step: &mut Step<'_, Equations<'_>>) -> Option<String> {
         .map(|k| t0 + (t1 - t0) * (k as f64 / STATES as f64))
         .collect();
     let mut y = step.y0().to_vec();
-    let along = along_motion(
+    let passages = singular_passages(
         mechanism,
         |t| {
             // Outside the step nothing is asked for.
@@ -60,7 +60,7 @@ fn judge(step: &mut Step<'_, Equations<'_>>) -> Option<String> {
         &times,
     )
     .ok()?;
-    along.passages.iter().find_map(|p| match &p.kind {
+    passages.iter().find_map(|p| match &p.kind {
         PassageKind::RankDrops { continuation, .. } => Some(continuation.to_string()),
         _ => None,
     })
