@@ -114,6 +114,22 @@ pub enum Trip {
         /// By how much: lengths as share of the mechanism's size, angles in radians.
         by: f64,
     },
+    /// A row of output is not where its step leads.
+    #[error(
+        "the row at t = {time} s lies {by:.2} (lengths of the mechanism, or radians) from where the step around it leads, at the {coordinate} of \
+         `{body}`, or has other velocities: near a singular configuration the method's output between steps may lead to another branch; use another method, \
+         or a smaller max_step"
+    )]
+    FarRow {
+        /// When.
+        time: f64,
+        /// The body that lies farthest off.
+        body: String,
+        /// Its coordinate.
+        coordinate: &'static str,
+        /// By how much: lengths as share of the mechanism's size, angles in radians.
+        by: f64,
+    },
     /// A constraint jumps.
     #[error(
         "at t = {time} s row {row} jumps by {jump:.3e}: positions cannot follow at once (an infinite force); use a function \

@@ -30,6 +30,7 @@ use crate::options::{MotionOptions, RowChoice, Stabilisation};
 use crate::prepare::Prepared;
 use all_rows::AllRows;
 use chart::Chart;
+pub(crate) use locate::Singular;
 use passage::Passage;
 use rows::KeptRows;
 
@@ -157,6 +158,11 @@ impl<'a> KeptRowMotion<'a> {
     #[must_use]
     pub fn mechanism(&self) -> &'a Mechanism {
         self.mechanism
+    }
+
+    /// Length by which positions are measured (m).
+    pub(crate) fn size(&self) -> f64 {
+        self.size
     }
 
     /// Results of the last evaluation: poses, forces, …

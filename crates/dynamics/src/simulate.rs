@@ -8,6 +8,7 @@ mod constrained;
 mod energy;
 mod equations;
 mod passages;
+mod span;
 
 use integrators::{
     Cause, Dop853, Dopri5, Gbs, GeneralizedAlpha, Hem4, IntegrationError, Interval, Options,
@@ -77,6 +78,8 @@ pub struct Sample<'s, 'm> {
     pub q: &'s [f64],
     /// Velocities.
     pub v: &'s [f64],
+    /// Share of the reference pivots below which reactions are not told.
+    blind: f64,
     motion: &'s mut KeptRowMotion<'m>,
 }
 
@@ -100,6 +103,9 @@ impl Sample<'_, '_> {
         let mut lambda = vec![0.0; self.motion.mechanism().layout().rows()];
         self.motion
             .multipliers(self.t_before, self.q, self.v, &mut lambda)?;
+        if self.motion.relative_pivot() < self.blind {
+            lambda.fill(f64::NAN);
+        }
         Ok(lambda)
     }
 
@@ -250,6 +256,11 @@ where
         let mut refused = None;
         let outcome = integrate(method, equations, interval, y0, settings, |step| {
             passages::note(step);
+            let (times, ends) = (
+                [step.t0(), step.t1()],
+                [step.y0(), step.f0(), step.y1(), step.f1()],
+            );
+            step.ode().take_step(times, ends);
             rows.emit(step, &mut show).unwrap_or_else(|error| {
                 refused = Some(error);
                 ControlFlow::Break(())

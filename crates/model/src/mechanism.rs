@@ -204,6 +204,25 @@ impl Mechanism {
                 reach[j / N_BODY] = reach[j / N_BODY].max(c.abs());
             }
         }
+        // A body held at its centre is where its neighbours' arms put it.
+        let mut of_neighbours = vec![0.0_f64; self.bodies.len()];
+        for c in &self.constraints {
+            let bodies = || {
+                c.bodies.iter().filter_map(|b| match *b {
+                    BodyRef::Body(k) => Some(k),
+                    BodyRef::Ground => None,
+                })
+            };
+            let longest = bodies().map(|k| reach[k]).fold(0.0, f64::max);
+            for k in bodies() {
+                of_neighbours[k] = of_neighbours[k].max(longest);
+            }
+        }
+        for (reach, neighbours) in reach.iter_mut().zip(of_neighbours) {
+            if *reach == 0.0 {
+                *reach = neighbours;
+            }
+        }
         self.reach = reach;
     }
 

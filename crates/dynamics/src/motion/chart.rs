@@ -181,7 +181,8 @@ impl KeptRowMotion<'_> {
         })
     }
 
-    /// Completes a state on a chart: from the state completed last or, if that was too far away, from the one accepted last.
+    /// Completes a state on a chart: from the state completed last or, if that was too far away, from the one accepted last, or from what
+    /// the integrator carries.
     fn complete_on(&mut self, chart: &mut Chart, t: f64, q: &[f64], v: &[f64]) -> Result<(), Trip> {
         let far = FAR + WAY * chart.way_to(t, |i| self.mechanism.unit(i, self.size));
         chart.take_independent(q, v);
@@ -191,12 +192,17 @@ impl KeptRowMotion<'_> {
         }
         chart.q.copy_from_slice(&chart.accepted);
         chart.take_independent(q, v);
-        let completed = self.complete(t, far, &mut chart.q, &mut chart.v);
-        if completed.is_err() {
+        if self.complete(t, far, &mut chart.q, &mut chart.v).is_ok() {
+            return Ok(());
+        }
+        chart.q.copy_from_slice(q);
+        let carried = self.complete(t, FAR, &mut chart.q, &mut chart.v);
+        if carried.is_err() {
             // Where it failed is no place to begin from.
             chart.q.copy_from_slice(&chart.accepted);
+            return near;
         }
-        completed
+        carried
     }
 
     /// Solves for accelerations at the state just completed.

@@ -8,6 +8,7 @@ use model::System;
 
 use super::Sample;
 use super::energy::EnergyBalance;
+use super::span::Span;
 use crate::error::Trip;
 use crate::events::Event;
 use crate::motion::constrained::SaddlePoint;
@@ -28,6 +29,12 @@ const FORESIGHT: f64 = 12.0;
 
 /// Relative error of a step over a singular configuration that rounding may cause where steps are short.
 const PASSED: f64 = 1e-10;
+
+/// Reactions are not told nearer to a singular configuration than this share of the reference pivots, or so many relative tolerances:
+/// a row off its motion by δ has reactions that are wrong by δ divided by that share.
+const BLIND: f64 = 1e-6;
+const BLIND_TOLERANCES: f64 = 1e3;
+const BLIND_MAX: f64 = 1e-2;
 
 /// Largest relative correction of a step over a singular configuration, as share of the distance at which it ends: other branches are
 /// as far away as that.
@@ -61,6 +68,8 @@ pub(super) struct Equations<'m> {
     is_careful: bool,
     /// When the motion is expected to pass a singular configuration.
     delicate: Option<f64>,
+    /// The last accepted step.
+    last: Span,
     /// The state before a projection; a stage on the constraints.
     before: Vec<f64>,
     stage: Vec<f64>,
@@ -91,6 +100,7 @@ impl<'m> Equations<'m> {
             uniqueness: Vec::new(),
             is_careful: false,
             delicate: None,
+            last: Span::default(),
             before: Vec::new(),
             stage: Vec::new(),
             reduced: Reduced::new(&motion),
@@ -158,6 +168,8 @@ impl<'m> Equations<'m> {
         };
         let (q, rest) = y.split_at_mut(self.n_q);
         let found = self.motion.end_row(t_before, q, &mut rest[..self.n_v])?;
+        let mechanism = self.motion.mechanism();
+        self.last.check(mechanism, self.motion.size(), t, y)?;
         self.note(y, found);
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
         row(&mut Sample {
@@ -165,8 +177,14 @@ impl<'m> Equations<'m> {
             t_before,
             q,
             v,
+            blind: (BLIND_TOLERANCES * self.rtol).clamp(BLIND, BLIND_MAX),
             motion: &mut self.motion,
         })
+    }
+
+    /// Takes an accepted step, for the rows in it.
+    pub(super) fn take_step(&mut self, times: [f64; 2], ends: [&[f64]; 4]) {
+        self.last.take(times, ends);
     }
 
     /// Whether the last accepted step may have passed a singular configuration.
@@ -258,7 +276,8 @@ impl Ode for Equations<'_> {
         for (before, y) in self.before.iter_mut().zip(&*y) {
             *before -= y;
         }
-        let is_suspect = self.motion.may_have_passed();
+        let foreseen = self.delicate.is_some_and(|t| step.t0 < t && t <= step.t);
+        let is_suspect = foreseen || self.motion.may_have_passed();
         if is_suspect && !self.motion.projects() {
             let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
             let missed = self.motion.missed_correction(step.t_rhs, q, v)?;

@@ -5,37 +5,60 @@ use integrators::Step;
 use solvability::{PassageKind, State, singular_passages};
 
 use super::equations::Equations;
+use crate::motion::Singular;
 
 /// States of a step by which the passage is judged.
 const STATES: usize = 8;
 
-/// Looks for a singular configuration in an accepted step, if it is suspect.
+/// Passages of one step that are told at most, and what they are apart at least, as share of the step.
+const MOST: usize = 8;
+const BESIDE: f64 = 0.02;
+
+/// Looks for singular configurations in an accepted step, if it is suspect.
 pub(super) fn note(step: &mut Step<'_, Equations<'_>>) {
     if !step.ode().is_suspect() {
         return;
     }
-    let (t0, t1) = (step.t0(), step.t1());
+    for singular in found(step) {
+        // Passages of one kind are of one kind also later.
+        if step.ode().uniqueness_of(singular.dependent).is_none() {
+            let words =
+                judge(step).unwrap_or_else(|| "whether it is unique there is not decided".into());
+            step.ode().remember_uniqueness(singular.dependent, words);
+        }
+        let search = step.ode().motion.search();
+        let words = step.ode().uniqueness_of(singular.dependent).unwrap_or("");
+        let event = search.event(singular, words);
+        step.ode().record(event);
+    }
+}
+
+/// The singular configurations within a step, in order: where one is found, both sides of it are looked at, too.
+fn found(step: &mut Step<'_, Equations<'_>>) -> Vec<Singular> {
     let noise = step.ode().passage_noise();
     let mut search = step.ode().motion.search();
     let mut y = step.y0().to_vec();
-    let found = search.find([t0, t1], noise, |t, q| {
+    let whole = [step.t0(), step.t1()];
+    let mut state = |t: f64, q: &mut [f64]| {
         if step.interpolate_accurately(t, &mut y).is_ok() {
             let n = q.len();
             q.copy_from_slice(&y[..n]);
         }
-    });
-    let Some(singular) = found else {
-        return;
     };
-    // Passages of one kind are of one kind also later.
-    if step.ode().uniqueness_of(singular.dependent).is_none() {
-        let words =
-            judge(step).unwrap_or_else(|| "whether it is unique there is not decided".into());
-        step.ode().remember_uniqueness(singular.dependent, words);
+    let beside = BESIDE * (whole[1] - whole[0]);
+    let mut intervals = vec![whole];
+    let mut found: Vec<Singular> = Vec::new();
+    while let Some([from, to]) = intervals.pop() {
+        if to - from < beside || found.len() == MOST {
+            continue;
+        }
+        if let Some(singular) = search.find([from, to], noise, &mut state) {
+            intervals.extend([[from, singular.t - beside], [singular.t + beside, to]]);
+            found.push(singular);
+        }
     }
-    let words = step.ode().uniqueness_of(singular.dependent).unwrap_or("");
-    let event = search.event(singular, words);
-    step.ode().record(event);
+    found.sort_by(|a, b| a.t.total_cmp(&b.t));
+    found
 }
 
 /// What second order says of the passage within a step.
