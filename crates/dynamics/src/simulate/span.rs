@@ -9,6 +9,9 @@ use crate::error::Trip;
 const LED: f64 = 0.25;
 const LED_AT_REST: f64 = 1e-3;
 
+/// Velocities on a way may be so many times those of going it evenly.
+const PEAK: f64 = 3.0;
+
 /// An accepted step: times, and y0, f0, y1, f1.
 #[derive(Default)]
 pub(super) struct Span {
@@ -46,7 +49,10 @@ impl Span {
         let [y0, f0, y1, f1] = &self.ends;
         let h = t1 - t0;
         let change = |i: usize| h * f0[i].abs().max(f1[i].abs());
-        let longest = |a: f64, i: usize| a.max(change(i) / mechanism.unit(i, size));
+        let longest = |a: f64, i: usize| {
+            let way = change(i).max((y1[i] - y0[i]).abs());
+            a.max(way / mechanism.unit(i, size))
+        };
         let way = (0..n_q).fold(0.0, longest);
         let (place, by) = mechanism.largest_difference(&y[..n_q], &led[..n_q], size);
         let norm = |x: &dyn Fn(usize) -> f64| -> f64 {
@@ -55,8 +61,9 @@ impl Span {
         };
         let kink = norm(&|i| y[i] - led[i]);
         let speed = norm(&|i| y0[i].abs().max(y1[i].abs()) + change(i));
-        let rest = norm(&|i| LED_AT_REST * mechanism.unit(i - n_q, size) / h);
-        if by <= LED * way + LED_AT_REST && kink <= LED * speed + rest {
+        // A long step of a drive may begin and end at rest.
+        let mean = norm(&|i| (way + LED_AT_REST) * mechanism.unit(i - n_q, size) / h);
+        if by <= LED * way + LED_AT_REST && kink <= LED * speed + PEAK * mean {
             return Ok(());
         }
         let (body, coordinate) = mechanism.coordinate(place);
