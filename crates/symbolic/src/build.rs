@@ -1,6 +1,7 @@
 //! Straight-line code built operation by operation. What is known is folded: numbers, zeros and ones, signs, `x − x`. Nothing is
 //! regrouped, so that the order of operations, which decides about rounding, stays that of the caller.
 
+use crate::evaluate::Number;
 use crate::graph::{Function, Symbol};
 use crate::program::{Binary, Op, Program, Value};
 
@@ -198,26 +199,31 @@ impl Program {
     /// The values of the outputs where each input has the value `input(symbol)`: what printed code computes, bit for bit.
     #[must_use]
     pub fn run(&self, input: impl Fn(Symbol) -> f64) -> Vec<f64> {
-        let mut values = Vec::with_capacity(self.ops().len());
-        let of = |values: &[f64], v: Value| values[v.index()];
+        let mut values: Vec<f64> = Vec::with_capacity(self.ops().len());
         for op in self.ops() {
-            let value = match *op {
-                Op::Number(bits) => f64::from_bits(bits),
-                Op::Input(s) => input(s),
-                Op::Neg(a) => -of(&values, a),
-                Op::Call(f, a) => crate::Number::call(of(&values, a), f),
-                Op::Binary(kind, a, b) => {
-                    let (a, b) = (of(&values, a), of(&values, b));
-                    match kind {
-                        Binary::Add => a + b,
-                        Binary::Sub => a - b,
-                        Binary::Mul => a * b,
-                        Binary::Div => a / b,
-                    }
-                }
-            };
-            values.push(value);
+            values.push(op.evaluate(|v| values[v.index()], &input));
         }
-        self.outputs().iter().map(|&v| of(&values, v)).collect()
+        self.outputs().iter().map(|v| values[v.index()]).collect()
+    }
+}
+
+impl Op {
+    /// Its value where its operands have the values `of`, and inputs those of `input`.
+    pub fn evaluate(&self, of: impl Fn(Value) -> f64, input: impl Fn(Symbol) -> f64) -> f64 {
+        match *self {
+            Self::Number(bits) => f64::from_bits(bits),
+            Self::Input(s) => input(s),
+            Self::Neg(a) => -of(a),
+            Self::Call(f, a) => of(a).call(f),
+            Self::Binary(kind, a, b) => {
+                let (a, b) = (of(a), of(b));
+                match kind {
+                    Binary::Add => a + b,
+                    Binary::Sub => a - b,
+                    Binary::Mul => a * b,
+                    Binary::Div => a / b,
+                }
+            }
+        }
     }
 }
