@@ -1,9 +1,13 @@
 //! What a run asks of straight-line code that was generated for one mechanism. Not here: how such code is made, and when a run may
-//! use it (`motion::coded`).
+//! use it ([`Prepared::code_for`](crate::Prepared::code_for)).
 //!
 //! Code keeps the rows that it was generated for and eliminates in an order that was chosen offline, so it cannot find new pivots. It says how good
 //! its pivots are instead: its *health*, the smallest pivot as a signed share of the smallest |pivot| of the same place that its
 //! generator saw. 1 is as good; 0 or less has passed a singular pivot; NaN never counts as healthy. Whoever calls it has to look.
+
+mod belongs;
+
+pub use belongs::{CodeMismatch, NoCode};
 
 /// What code was generated for.
 #[derive(Clone, Debug, PartialEq)]

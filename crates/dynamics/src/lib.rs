@@ -20,7 +20,7 @@ pub mod options;
 pub mod prepare;
 pub mod simulate;
 
-pub use code::{Facts, SceneCode};
+pub use code::{CodeMismatch, Facts, NoCode, SceneCode};
 pub use error::{MotionError, Trip};
 pub use events::{Event, EventKind};
 pub use motion::{Correction, KeptRowMotion, Motion, Reduced};
