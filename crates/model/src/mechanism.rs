@@ -159,11 +159,12 @@ impl Mechanism {
         self.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum()
     }
 
-    /// Power of the applied forces Q without the weight (W).
+    /// Rate of kinetic energy and potential of the weight at velocities v and accelerations a (W): `vᵀ·(M·a − weight)`. On the
+    /// constraints it is the power of drives and applied forces, because `M·a − Q = −Cᵀ·λ` and `C·v = b`.
     #[must_use]
-    pub fn applied_power(&self, force: &[f64], v: &[f64]) -> f64 {
-        let terms = force.iter().zip(&self.weight).zip(v);
-        terms.map(|((q, w), v)| (q - w) * v).sum()
+    pub fn energy_rate(&self, v: &[f64], a: &[f64]) -> f64 {
+        let terms = self.mass.iter().zip(a).zip(self.weight.iter().zip(v));
+        terms.map(|((m, a), (w, v))| (m * a - w) * v).sum()
     }
 
     /// Name of the body and of its coordinate behind a column of C.
