@@ -30,7 +30,7 @@ pub enum FileError {
 }
 
 impl FileError {
-    fn refused(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+    pub(crate) fn refused(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_owned();
         move |source| Self::Refused {
             action,
