@@ -80,6 +80,13 @@ impl Journal {
     /// - [`JournalError::File`]: the operating system refused.
     pub fn open(directory: &Path, name: &str, plan: &SweepPlan) -> Result<Self, JournalError> {
         let path = directory.join(format!("{name}{ENDING}"));
+        // Those of other shards: a journal of another sweep beside them would spoil the directory.
+        for other in journals(directory)?.iter().filter(|other| **other != path) {
+            let bytes = fs::read(other).map_err(FileError::refused("read", other))?;
+            if let Some(found) = Content::of(&bytes).plan(other)? {
+                same(other, &found, plan)?;
+            }
+        }
         let mut options = File::options();
         let opened = options.read(true).append(true).create(true).open(&path);
         let mut file = opened.map_err(FileError::refused("open", &path))?;

@@ -14,9 +14,6 @@ pub enum SweepStatus {
 }
 
 impl SweepStatus {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Done, Self::Stopped, Self::Refused];
-
     /// Its word in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -96,6 +93,8 @@ pub struct SweepMotion {
     pub redundancy: u64,
     /// Joints and drives whose reaction is not unique at the start, or undecided.
     pub not_unique: u64,
+    /// Time of the last written state (s); the end of a run that is done.
+    pub t_state: f64,
     /// The last written state, body by body x, y, angle, vx, vy, omega; NaN where no row was written.
     pub state: Vec<f64>,
     /// Of the joints and drives of [`SweepPlan::reactions`].
@@ -127,12 +126,13 @@ const COUNTS: [&str; 8] = [
     "redundancy",
     "not_unique",
 ];
-const NUMBERS: [&str; 5] = [
+const NUMBERS: [&str; 6] = [
     "seconds",
     "max_position_residual",
     "max_velocity_residual",
     "energy_balance",
     "start_correction",
+    "t_state",
 ];
 const STATE: [&str; 6] = ["x", "y", "angle", "vx", "vy", "omega"];
 const EXTREME: [&str; 4] = ["F_max", "F_max_t", "T_max", "T_max_t"];
@@ -191,6 +191,7 @@ impl SweepPlan {
             number(|m| m.max_velocity_residual),
             number(|m| m.energy_balance),
             number(|m| m.start_correction),
+            number(|m| m.t_state),
         ]);
         match motion {
             Some(m) => {

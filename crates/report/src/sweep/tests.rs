@@ -68,6 +68,7 @@ fn row(run: u64) -> SweepRow {
             rank: 2,
             redundancy: 0,
             not_unique: 0,
+            t_state: 1.0,
             state: vec![0.1 + 0.2, -1e300, x, 1.0 / x, f64::NAN, f64::INFINITY],
             extremes: vec![Extreme::UNKNOWN],
         }),
@@ -231,6 +232,10 @@ fn another_sweep_is_refused_by_name() {
         assert!(error.to_string().contains(what), "{error}");
         assert_eq!(fs::read(folder.journal()).expect("readable"), before);
     }
+    // Neither does it begin beside it.
+    let beside = SweepPlan { runs: 5, ..plan() };
+    assert!(Journal::open(&folder.0, "sweep-1-of-2", &beside).is_err());
+    assert_eq!(fs::read_dir(&folder.0).expect("readable").count(), 1);
     let _held = Journal::open(&folder.0, "sweep", &plan()).expect("free");
     let error = Journal::open(&folder.0, "sweep", &plan()).expect_err("held");
     assert!(matches!(error, JournalError::Busy { .. }), "{error}");
@@ -279,12 +284,12 @@ fn tables_do_not_depend_on_who_made_the_rows() {
     assert_eq!(
         lines[0],
         "run,body.bob.mass,status,error,method,t,steps,rejected,evaluations,projections,events,rank,redundancy,not_unique,\
-         seconds,max_position_residual,max_velocity_residual,energy_balance,start_correction,bob.x,bob.y,bob.angle,bob.vx,\
+         seconds,max_position_residual,max_velocity_residual,energy_balance,start_correction,t_state,bob.x,bob.y,bob.angle,bob.vx,\
          bob.vy,bob.omega,pivot.F_max,pivot.F_max_t,pivot.T_max,pivot.T_max_t"
     );
     assert_eq!(
         lines[1],
-        "1,0.3333333333333333,done,,dop853,1.0,10,0,120,10,0,2,0,0,0.001,5e-324,1e-17,1e-9,-0.0,0.30000000000000004,-1e300,\
+        "1,0.3333333333333333,done,,dop853,1.0,10,0,120,10,0,2,0,0,0.001,5e-324,1e-17,1e-9,-0.0,1.0,0.30000000000000004,-1e300,\
          1.0,1.0,NaN,inf,NaN,NaN,NaN,NaN"
     );
     assert!(lines[2].starts_with(
