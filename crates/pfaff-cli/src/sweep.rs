@@ -130,15 +130,11 @@ fn describe(d: &SweepDocument, ending: Ending, out: &str) -> String {
         d.stopped,
         d.refused,
     );
-    match ending {
-        Ending::Whole => {}
-        Ending::Interrupted => {
-            text.push_str("interrupted; the same command goes on where it was\n")
-        }
-        Ending::Missing => {
-            text.push_str("runs are missing: shards that were not made, or not to their end\n")
-        }
-    }
+    text.push_str(match ending {
+        Ending::Whole => "",
+        Ending::Interrupted => "interrupted; the same command goes on where it was\n",
+        Ending::Missing => "runs are missing: shards that were not made, or not to their end\n",
+    });
     for failure in &d.failures {
         let lead = format!("run {} {}: ", failure.run, failure.status);
         text.push_str(&wrapped(&lead, &failure.error));

@@ -273,7 +273,10 @@ impl<'r> Sweep<'r> {
             return Ok(None);
         }
         if let Some(table) = table {
-            table.finish()?.finish()?;
+            // On the disk before the journal says so.
+            let mut file = table.finish()?;
+            file.sync()?;
+            file.finish()?;
         }
         Ok(Some(row))
     }

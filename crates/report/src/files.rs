@@ -133,6 +133,18 @@ impl OutputFile {
         flushed.and(renamed)
     }
 
+    /// Waits until what was written so far is on the disk, not only with the operating system.
+    ///
+    /// # Errors
+    /// - [`FileError::Refused`]: not everything could be written.
+    pub fn sync(&mut self) -> Result<(), FileError> {
+        let synced = self
+            .buffer
+            .flush()
+            .and_then(|()| self.buffer.get_ref().sync_data());
+        synced.map_err(FileError::refused("write", &self.part))
+    }
+
     fn rename(self) -> Result<PathBuf, FileError> {
         let Self { buffer, part, path } = self;
         // Closed first: some systems do not rename open files. What could not be flushed is not tried again.

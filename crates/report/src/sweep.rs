@@ -3,6 +3,8 @@
 //! A journal is a text that only grows, one line for each finished run, behind a line that says what the sweep is. Tables are made of
 //! journals, whole and in the order of the grid, whoever did the runs and when.
 //!
+//! Journals are read back here and nowhere else.
+//!
 //! Not here: grids, runs and threads.
 
 mod cell;

@@ -17,8 +17,8 @@ use crate::files::FileError;
 /// Ending of the names of journals.
 const ENDING: &str = ".journal";
 
-/// Lines are on the disk, not only with the operating system, at least this often: a power failure costs no more runs than finish within this
-/// time. A crash of the program costs none.
+/// A line that comes so long after the journal was last forced to the disk forces it again: to wait for the disk takes longer than short runs
+/// do. A power failure costs at most the runs that finished within this time after the last force; a crash of the program costs none.
 const SYNC: Duration = Duration::from_millis(100);
 
 /// Why a journal cannot be used.
