@@ -138,7 +138,8 @@ impl FromStr for Axis {
             count: n.to_owned(),
         })?;
         let (from, to) = (number(from)?, number(to)?);
-        if matches!(spacing, Spacing::Logarithmic) && from * to.signum() <= 0.0 {
+        let has_logarithms = from != 0.0 && to != 0.0 && from.signum() == to.signum();
+        if matches!(spacing, Spacing::Logarithmic) && !has_logarithms {
             return Err(AxisError::Logarithm {
                 text: text.to_owned(),
             });
@@ -263,6 +264,8 @@ mod tests {
             ("k=0:1:1e3", "`1e3` is not a number of values"),
             ("k=0:1:99999999", "is not a number of values"),
             ("k=0:1:3:log", "neither of them 0"),
+            ("k=1:0:3:log", "neither of them 0"),
+            ("k=-1:-0.0:3:log", "neither of them 0"),
             ("k=-1:1:3:log", "neither of them 0"),
         ] {
             let error = text.parse::<Axis>().expect_err(text);

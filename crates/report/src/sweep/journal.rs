@@ -49,8 +49,8 @@ pub enum JournalError {
         /// What it is now.
         now: String,
     },
-    /// Its first line is damaged, others are not.
-    #[error("the first line of `{}` is damaged: nobody knows what its rows belong to; remove it to begin again", path.display())]
+    /// Its first line is damaged, or none of a sweep.
+    #[error("the first line of `{}` is not that of a sweep: nobody knows what its rows belong to; remove it to begin again", path.display())]
     Damaged {
         /// The journal.
         path: PathBuf,
@@ -70,6 +70,8 @@ pub struct Journal {
     path: PathBuf,
     plan: SweepPlan,
     synced: Instant,
+    /// Held as long as the journal is written. A file of its own: some systems let nobody read a locked one.
+    _lock: File,
 }
 
 impl Journal {
@@ -87,17 +89,23 @@ impl Journal {
                 same(other, &found, plan)?;
             }
         }
+        let lock = directory.join(format!("{name}.lock"));
+        let held = File::create(&lock).map_err(FileError::refused("make", &lock))?;
+        held.try_lock().map_err(|e| match e {
+            TryLockError::WouldBlock => JournalError::Busy { path: path.clone() },
+            TryLockError::Error(e) => FileError::refused("lock", &lock)(e).into(),
+        })?;
         let mut options = File::options();
         let opened = options.read(true).append(true).create(true).open(&path);
         let mut file = opened.map_err(FileError::refused("open", &path))?;
-        file.try_lock().map_err(|e| match e {
-            TryLockError::WouldBlock => JournalError::Busy { path: path.clone() },
-            TryLockError::Error(e) => FileError::refused("lock", &path)(e).into(),
-        })?;
         let mut bytes = Vec::new();
         file.read_to_end(&mut bytes)
             .map_err(FileError::refused("read", &path))?;
         let content = Content::of(&bytes);
+        let found = content.plan(&path)?;
+        if let Some(found) = &found {
+            same(&path, found, plan)?;
+        }
         file.set_len(content.length as u64)
             .map_err(FileError::refused("cut", &path))?;
         let mut journal = Self {
@@ -105,10 +113,10 @@ impl Journal {
             path,
             plan: plan.clone(),
             synced: Instant::now(),
+            _lock: held,
         };
-        match content.plan(&journal.path)? {
-            Some(found) => same(&journal.path, &found, plan)?,
-            None => journal.line(&json(plan), SyncWhen::Now)?,
+        if found.is_none() {
+            journal.line(&json(plan), SyncWhen::Now)?;
         }
         Ok(journal)
     }
@@ -223,6 +231,8 @@ struct Content<'b> {
     lines: Vec<&'b [u8]>,
     /// Whether the first line is among them.
     begins: bool,
+    /// Whether a line is complete, but not as it was written.
+    has_damage: bool,
     /// Bytes up to the end of the last one.
     length: usize,
 }
@@ -232,6 +242,7 @@ impl<'b> Content<'b> {
         let mut content = Self {
             lines: Vec::new(),
             begins: false,
+            has_damage: false,
             length: 0,
         };
         let mut at = 0;
@@ -240,20 +251,20 @@ impl<'b> Content<'b> {
                 content.begins |= at == 0;
                 content.lines.push(text);
                 content.length = at + line.len();
+            } else {
+                content.has_damage |= line.ends_with(b"\n");
             }
             at += line.len();
         }
         content
     }
 
-    /// What its first line says; nothing if it has no line.
+    /// What its first line says; nothing if there is none yet.
     fn plan(&self, path: &Path) -> Result<Option<SweepPlan>, JournalError> {
-        let Some(first) = self.lines.first() else {
-            return Ok(None);
-        };
-        let plan = match self.begins {
-            true => serde_json::from_slice(first).ok(),
-            false => None,
+        let plan = match self.lines.first() {
+            None if !self.has_damage => return Ok(None),
+            Some(first) if self.begins => serde_json::from_slice(first).ok(),
+            _ => None,
         };
         plan.map(Some).ok_or_else(|| JournalError::Damaged {
             path: path.to_owned(),

@@ -8,7 +8,7 @@ use crate::files::{FileError, OutputDirectory};
 use crate::tables::{Table, TableError};
 
 /// Held while tables are written, by one process at a time.
-const LOCK: &str = "sweep.lock";
+const LOCK: &str = "tables.lock";
 
 /// Writes `sweep.csv`, `sweep.parquet` where this is compiled, and `summary.json`. `read` reads the journals once nobody else
 /// is writing tables: of several shards that end at the same time, the last one has all rows.
