@@ -10,6 +10,7 @@
 //! | [`study`] | its consistent start, its motion, its files |
 //! | [`inquiry`] | one configuration, and everything that can be asked of its reactions |
 //! | [`journey`] | the verdicts along its motion |
+//! | [`mod@sweep`] | many runs with other numbers |
 //! | [`mod@work_precision`] | error against run time |
 //! | [`error`] | why there are no results |
 
@@ -18,6 +19,7 @@ pub mod error;
 pub mod inquiry;
 pub mod journey;
 pub mod study;
+pub mod sweep;
 pub mod work_precision;
 
 pub use dynamics;

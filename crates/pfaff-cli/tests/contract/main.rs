@@ -5,6 +5,7 @@ mod bad_input;
 mod documents;
 mod failures;
 mod singular;
+mod sweep;
 mod work_precision;
 
 use std::io::Write;
