@@ -33,6 +33,8 @@ pub(crate) struct Signature {
     pub(crate) out: (&'static str, &'static str),
     /// Whether it returns a health.
     pub(crate) divides: bool,
+    /// Whether runs ask for it.
+    pub(crate) is_of_runs: bool,
 }
 
 const ACCELERATION: Signature = Signature {
@@ -41,6 +43,7 @@ const ACCELERATION: Signature = Signature {
     arguments: &[("q", "N_Q"), ("v", "N_V")],
     out: ("a", "N_V"),
     divides: true,
+    is_of_runs: true,
 };
 
 const MULTIPLIERS: Signature = Signature {
@@ -49,6 +52,7 @@ const MULTIPLIERS: Signature = Signature {
     arguments: &[("q", "N_Q"), ("v", "N_V")],
     out: ("lambda", "ROWS"),
     divides: true,
+    is_of_runs: true,
 };
 
 const PHI: Signature = Signature {
@@ -57,6 +61,7 @@ const PHI: Signature = Signature {
     arguments: &[("q", "N_Q")],
     out: ("values", "M"),
     divides: false,
+    is_of_runs: true,
 };
 
 const VELOCITY_RESIDUAL: Signature = Signature {
@@ -65,6 +70,7 @@ const VELOCITY_RESIDUAL: Signature = Signature {
     arguments: &[("q", "N_Q"), ("v", "N_V")],
     out: ("values", "ROWS"),
     divides: false,
+    is_of_runs: true,
 };
 
 const POSITION_CORRECTION: Signature = Signature {
@@ -73,6 +79,7 @@ const POSITION_CORRECTION: Signature = Signature {
     arguments: &[("q", "N_Q"), ("r", "M")],
     out: ("dq", "N_Q"),
     divides: true,
+    is_of_runs: true,
 };
 
 const VELOCITY_CORRECTION: Signature = Signature {
@@ -81,6 +88,7 @@ const VELOCITY_CORRECTION: Signature = Signature {
     arguments: &[("q", "N_Q"), ("r", "ROWS")],
     out: ("dv", "N_V"),
     divides: true,
+    is_of_runs: true,
 };
 
 const JACOBIAN_ACTION: Signature = Signature {
@@ -89,12 +97,24 @@ const JACOBIAN_ACTION: Signature = Signature {
     arguments: &[("q", "N_Q"), ("v", "N_V"), ("dq", "N_Q"), ("dv", "N_V")],
     out: ("da", "N_V"),
     divides: true,
+    is_of_runs: true,
+};
+
+const CONSTRAINT_MATRIX: Signature = Signature {
+    name: "constraint_matrix",
+    doc: "Entries of C that are not always zero, in the order of `PATTERN`: what verdicts are found from.",
+    arguments: &[("q", "N_Q")],
+    out: ("entries", "ENTRIES"),
+    divides: false,
+    is_of_runs: false,
 };
 
 /// All functions of a module.
 pub(crate) struct Functions {
     pub(crate) equations: Equations,
     pub(crate) list: Vec<Function>,
+    /// Row and column of the entries of C that are not always zero.
+    pub(crate) pattern: Vec<[usize; 2]>,
 }
 
 impl Functions {
@@ -155,6 +175,7 @@ impl Functions {
         let dv = velocity.solve(&mut e.code, mass, &missing, &no_force);
         let da = tangent(&mut e, &a);
 
+        let (pattern, entries) = sparse(&e);
         let shares = velocity_shares;
         let plan = [
             (ACCELERATION, a, shares.clone()),
@@ -164,6 +185,7 @@ impl Functions {
             (POSITION_CORRECTION, dq, position_shares),
             (VELOCITY_CORRECTION, dv, shares.clone()),
             (JACOBIAN_ACTION, da, shares),
+            (CONSTRAINT_MATRIX, entries, Vec::new()),
         ];
         let program = &e.code.program;
         let list = plan.map(|(signature, outputs, shares)| Function {
@@ -182,8 +204,16 @@ impl Functions {
         Ok(Self {
             equations: e,
             list: list.into(),
+            pattern,
         })
     }
+}
+
+/// Entries of C that are not always zero, with row and column.
+fn sparse(e: &Equations) -> (Vec<[usize; 2]>, Vec<Value>) {
+    let rows = e.c.iter().enumerate();
+    let entries = rows.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, v)| ([i, j], *v)));
+    entries.filter(|(_, v)| !e.code.program.is_zero(*v)).unzip()
 }
 
 /// Each divisor as a signed share of its smallest size over the sampled states, or of a part of its median where it came nearer to zero: a
