@@ -64,9 +64,11 @@ fn root() -> PathBuf {
 /// Measures everything and prints the table.
 fn tell(instructions: bool) -> Outcome<Vec<Line>> {
     let robot = Robot::moving()?;
-    let mut all = works(&robot)?;
+    let mut all = candidates::all(&robot)?;
+    all.extend(runs::all(&robot)?);
     let times = timing::take_turns(&mut all);
-    let count = |work: &Work<'_>| match instructions {
+    // The cost of a run that no machine changes is its number of evaluations, which is told anyway.
+    let count = |work: &Work<'_>| match instructions && work.group != Group::Run {
         true => instructions::per_lap(work.key).map(Some),
         false => Ok(None),
     };
@@ -94,7 +96,7 @@ fn report(directory: &Path) -> Outcome<()> {
 fn repeat(key: &str, laps: &str) -> Outcome<()> {
     let laps: usize = laps.parse()?;
     let robot = Robot::moving()?;
-    let mut all = works(&robot)?;
+    let mut all = candidates::all(&robot)?;
     let work = all
         .iter_mut()
         .find(|w| w.key == key)
@@ -103,11 +105,4 @@ fn repeat(key: &str, laps: &str) -> Outcome<()> {
         (work.lap)();
     }
     Ok(())
-}
-
-/// Everything that is measured, checked.
-fn works(robot: &Robot) -> Outcome<Vec<Work<'_>>> {
-    let mut all = candidates::all(robot)?;
-    all.extend(runs::all(robot)?);
-    Ok(all)
 }
