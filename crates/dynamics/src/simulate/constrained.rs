@@ -49,7 +49,7 @@ impl Constrained for Equations<'_> {
         self.saddle_point
             .acceleration_towards(&mut self.motion, (t, q, v), &aim, a)?;
         if let Some(work) = work.first_mut() {
-            *work = self.motion.power(v);
+            *work = self.motion.mechanism().energy_rate(v, a);
         }
         Ok(())
     }
