@@ -15,8 +15,8 @@ const BAR: f64 = 17.0;
 /// The times of some candidates as SVG.
 pub(crate) fn bars(lines: &[&Line]) -> String {
     let mut sorted = lines.to_vec();
-    sorted.sort_by(|a, b| a.time.median.total_cmp(&b.time.median));
-    let logs = || sorted.iter().map(|l| l.time.median.log10());
+    sorted.sort_by(|a, b| a.time.least.total_cmp(&b.time.least));
+    let logs = || sorted.iter().map(|l| l.time.least.log10());
     let low = logs().fold(f64::INFINITY, f64::min).floor();
     let high = logs()
         .fold(f64::NEG_INFINITY, f64::max)
@@ -44,7 +44,7 @@ pub(crate) fn bars(lines: &[&Line]) -> String {
     }
     for (k, line) in sorted.iter().enumerate() {
         let y = TOP + PITCH * k as f64 + 0.5 * (PITCH - BAR);
-        let end = x(line.time.median.log10());
+        let end = x(line.time.least.log10());
         let (fill, weight) = match line.is_ours() {
             true => ("#0072b2", "bold"),
             false => ("#9fb3c2", "normal"),
@@ -54,12 +54,12 @@ pub(crate) fn bars(lines: &[&Line]) -> String {
             out,
             "<rect x=\"{LEFT}\" y=\"{y:.1}\" width=\"{:.1}\" height=\"{BAR}\" fill=\"{fill}\"/>\n\
              <text x=\"{}\" y=\"{text:.1}\" text-anchor=\"end\" font-weight=\"{weight}\">{}</text>\n\
-             <text x=\"{:.1}\" y=\"{text:.1}\">{}</text>",
+             <text x=\"{:.1}\" y=\"{text:.1}\" stroke=\"#ffffff\" stroke-width=\"4\" paint-order=\"stroke\">{}</text>",
             end - LEFT,
             LEFT - 8.0,
             line.plain_title(),
             end + 6.0,
-            duration(line.time.median)
+            duration(line.time.least)
         );
     }
     out + "</svg>\n"

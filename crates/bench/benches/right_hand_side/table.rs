@@ -6,7 +6,7 @@ use std::process::Command;
 use pfaff::work_precision::provenance;
 
 use crate::candidates::{Group, Work};
-use crate::timing::Time;
+use crate::timing::{ROUNDS, Time};
 
 /// One line of the table.
 pub(crate) struct Line {
@@ -80,8 +80,8 @@ pub(crate) fn text(lines: &[Line]) -> String {
                 out,
                 "| {} | {} | {} | {count} | {} |",
                 line.title,
-                duration(line.time.median),
-                share(line.time.median, ours.map(|o| o.time.median)),
+                duration(line.time.least),
+                share(line.time.least, ours.map(|o| o.time.least)),
                 counts(line).map_or(String::new(), |n| share(n, ours.and_then(counts))),
             );
         }
@@ -94,7 +94,7 @@ pub(crate) fn text(lines: &[Line]) -> String {
 pub(crate) fn page(lines: &[Line]) -> String {
     let versions = ["faer", "nalgebra", "num-dual"].map(|name| format!("{name} {}", version(name)));
     format!(
-        "# Tables\n\nWritten by `cargo xtask right-hand-side`. What they mean: [README](README.md).\n\n- {}\n- {}, profile `bench`, no flags\n- {}\n- {}, commit {}\n\n{}",
+        "# Tables\n\nWritten by `cargo xtask right-hand-side`. What they mean: [README](README.md).\n\n- {}\n- {}, profile `bench`, no flags; least of {ROUNDS} rounds in turns\n- {}\n- {}, commit {}\n\n{}",
         provenance::machine(),
         said_by("rustc", &["--version"]),
         versions.join(", "),
@@ -106,13 +106,13 @@ pub(crate) fn page(lines: &[Line]) -> String {
 
 /// One line per candidate, all digits.
 pub(crate) fn csv(lines: &[Line]) -> String {
-    let mut out = String::from("key,title,seconds_median,seconds_least,instructions\n");
+    let mut out = String::from("key,title,seconds,seconds_median,instructions\n");
     for line in lines {
         let Time { median, least } = line.time;
         let count = line.instructions.map_or(String::new(), |n| n.to_string());
         let _ = writeln!(
             out,
-            "{},\"{}\",{median:e},{least:e},{count}",
+            "{},\"{}\",{least:e},{median:e},{count}",
             line.key,
             line.plain_title()
         );

@@ -1,12 +1,12 @@
-//! Times of works that take turns: in each round all of them run for a while, and a work has the median over the rounds. Neighbours on the machine
-//! and changes of its speed meet all of them alike.
+//! Times of works that take turns: in each round all of them run for a while, so that changes of the machine's speed meet all alike. Neighbours on
+//! the machine can only add time: the least over the rounds is what a work needs, the median tells how much was added.
 
 use std::time::{Duration, Instant};
 
 use crate::candidates::Work;
 
 /// Rounds over all works.
-const ROUNDS: usize = 101;
+pub(crate) const ROUNDS: usize = 101;
 
 /// A work is repeated in a round until this has passed.
 const ENOUGH: Duration = Duration::from_micros(500);
