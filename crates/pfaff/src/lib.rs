@@ -38,10 +38,12 @@ pub use inquiry::Inquiry;
 pub use journey::{Journey, Progress};
 pub use study::{Findings, Overrides, Study};
 
+#[cfg(feature = "macros")]
 #[doc(hidden)]
 pub use joint_macro as __macros;
 
 /// Defines a joint; see the crate `joint-macro`.
+#[cfg(feature = "macros")]
 #[macro_export]
 macro_rules! joint {
     ($($definition:tt)*) => {
@@ -50,6 +52,7 @@ macro_rules! joint {
 }
 
 /// Defines a force; see the crate `joint-macro`.
+#[cfg(feature = "macros")]
 #[macro_export]
 macro_rules! force {
     ($($definition:tt)*) => {

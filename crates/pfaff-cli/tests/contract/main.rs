@@ -2,6 +2,7 @@
 
 mod analyze;
 mod bad_input;
+mod cold_start;
 mod documents;
 mod failures;
 mod singular;
