@@ -341,7 +341,7 @@ impl Ode for Equations<'_> {
             return Err(self.motion.no_way_over(step.t));
         }
         if self.motion.projects() {
-            self.motion.derivative(step.t_rhs, y, dy)?;
+            self.motion.derivative_of_projected(step.t_rhs, y, dy)?;
             let a = &mut dy[self.n_q..self.n_q + self.n_v];
             self.motion.review_acceleration(a)?;
             let now = (step.t, &y[self.n_q..self.n_q + self.n_v], &*a);
