@@ -107,6 +107,11 @@ pub(crate) struct TimeFunction {
 }
 
 impl TimeFunction {
+    /// The function, and what is subtracted from it.
+    pub(crate) fn parts(&self) -> (&Function, f64) {
+        (&self.function, self.offset)
+    }
+
     pub(crate) fn jet(&self, t: f64) -> [f64; 3] {
         let [f, d, dd] = self.function.jet(t);
         [f - self.offset, d, dd]
@@ -262,6 +267,19 @@ impl Mechanism {
 
     pub(crate) fn constraints(&self) -> &[PlacedConstraint] {
         &self.constraints
+    }
+
+    pub(crate) fn forces(&self) -> &[PlacedForce] {
+        &self.forces
+    }
+
+    /// Q without applied forces.
+    pub(crate) fn weight(&self) -> &[f64] {
+        &self.weight
+    }
+
+    pub(crate) fn time_functions(&self) -> &[TimeFunction] {
+        &self.functions
     }
 
     /// Functions of time that a constraint takes.
