@@ -112,13 +112,14 @@ impl<'m> Equations<'m> {
         }
     }
 
-    /// y at the start.
+    /// y at the start, where the rows are factored.
     pub(super) fn initial_state(&mut self, q: &[f64], v: &[f64]) -> Vec<f64> {
         let mut y = [q, v].concat();
         y.extend(self.works.then_some(0.0));
         self.before = y.clone();
         self.stage = y.clone();
         self.is_careful = self.wants_care();
+        self.min_pivot_ratio = self.motion.pivot_ratio();
         y
     }
 
