@@ -10,6 +10,7 @@ mod check;
 mod input;
 mod output;
 mod simulate;
+mod sweep;
 mod work_precision;
 
 use std::process::ExitCode;
@@ -23,6 +24,7 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         Command::Analyze(a) => analyze::run(a),
         Command::Simulate(a) => simulate::run(a),
+        Command::Sweep(a) => sweep::run(a),
         Command::WorkPrecision(a) => work_precision::run(a),
         Command::Check(a) => check::run(a),
     };

@@ -2,9 +2,11 @@
 
 mod analyze;
 mod bad_input;
+mod cold_start;
 mod documents;
 mod failures;
 mod singular;
+mod sweep;
 mod work_precision;
 
 use std::io::Write;
