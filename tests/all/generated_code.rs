@@ -372,10 +372,9 @@ fn code_that_is_not_sure_is_left_and_comes_back() {
     }
 }
 
-/// A parallelogram driven through its flat pose, where two branches meet: code has no way over it.
-#[test]
-fn singular_configurations_are_passed_by_the_interpreter() {
-    let mut d = cranks(&[0.0, 1.0], 0.5, -0.5);
+/// Cranks whose first one is driven.
+fn driven(pivots: &[f64], start: f64, motion: Function) -> Prepared {
+    let mut d = cranks(pivots, 0.5, start);
     d.drives.push(Drive {
         name: "motor".into(),
         bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
@@ -384,9 +383,49 @@ fn singular_configurations_are_passed_by_the_interpreter() {
             s_j: [0.0; 2],
             measure_0: 0.0,
         }),
-        motion: Function::constant_rate(1.0).expect("finite"),
+        motion,
     });
-    let p = started(&d);
+    started(&d)
+}
+
+/// Rates jump just before the code is left, and while it is.
+#[test]
+fn impulses_are_those_of_the_interpreter() {
+    let times = [0.0, 4.0, 4.2, 6.0];
+    let motion = Function::lines(&times, &[0.0, -0.2, -0.25, 0.1]).expect("a function");
+    let p = driven(&[0.0, 1.0, 2.5], -1.3, motion);
+    let (expected, interpreted) = run(&p, &tight(6.0));
+    for fault in [Fault::None, Fault::Health(0.0)] {
+        let coded = p
+            .clone()
+            .with_code(Elimination::new(&p, fault))
+            .expect("its own");
+        let (rows, summary) = run(&coded, &tight(6.0));
+        assert!(
+            apart(&rows, &expected) < 1e-9,
+            "{:e}",
+            apart(&rows, &expected)
+        );
+        let impulses = |s: &Summary| {
+            let impulses = s.events.iter().filter(|e| e.kind == EventKind::Impulse);
+            impulses.map(|e| e.text.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(impulses(&summary).len(), 2);
+        assert_eq!(impulses(&interpreted).len(), 2);
+        assert!(summary.energy_balance < 1e-9, "{}", summary.energy_balance);
+        let left = told(&summary).first().map(|(_, t)| *t);
+        match fault {
+            Fault::None => assert_eq!(left, None),
+            _ => assert!(left.is_some_and(|t| (4.0..=4.1).contains(&t)), "{left:?}"),
+        }
+    }
+}
+
+/// A parallelogram driven through its flat pose, where two branches meet: code has no way over it.
+#[test]
+fn singular_configurations_are_passed_by_the_interpreter() {
+    let rate = Function::constant_rate(1.0).expect("finite");
+    let p = driven(&[0.0, 1.0], -0.5, rate);
     let options = MotionOptions {
         output_step: 0.1,
         ..MotionOptions::to(6.0)
