@@ -161,22 +161,28 @@ fn modules_compile_without_the_standard_library() {
 #[test]
 fn checked_in_modules_agree_with_their_scene() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-    let folder = root.join("crates/robot-trolley/src/generated");
     let scene = "crates/robot-trolley/robot-trolley.toml";
     let text = std::fs::read_to_string(root.join(scene)).expect("the scene");
     let choices = Choices {
         dynamics: Some("pfaff::dynamics".into()),
         libm: false,
     };
-    for drop in [[6, 21], [18, 21], [19, 21]] {
-        let rows = drop.map(|row: usize| row - 1);
-        let module = scene_codegen::scene_text(scene, &text, Some(&rows), &choices).expect("code");
-        let out = format!("drop_{}_{}.rs", drop[0], drop[1]);
+    let modules = [
+        ("automatic", None),
+        ("drop_6_21", Some([6, 21])),
+        ("drop_18_21", Some([18, 21])),
+        ("drop_19_21", Some([19, 21])),
+    ];
+    for (name, drop) in modules {
+        let rows = drop.map(|rows: [usize; 2]| rows.map(|row| row - 1));
+        let rows = rows.as_ref().map(<[usize; 2]>::as_slice);
+        let module = scene_codegen::scene_text(scene, &text, rows, &choices).expect("code");
+        let out = format!("crates/robot-trolley/src/generated/{name}.rs");
+        let drop = drop.map_or(String::new(), |[a, b]| format!(" --drop {a},{b}"));
         let command = format!(
-            "`cargo xtask codegen --scene {scene} --out crates/robot-trolley/src/generated/{out} --drop {},{} --dynamics pfaff::dynamics`",
-            drop[0], drop[1]
+            "`cargo xtask codegen --scene {scene} --out {out}{drop} --dynamics pfaff::dynamics`"
         );
-        let found = std::fs::read_to_string(folder.join(&out)).unwrap_or_default();
+        let found = std::fs::read_to_string(root.join(&out)).unwrap_or_default();
         assert!(
             found == module.as_file(&command),
             "{out} is stale: run {command}"

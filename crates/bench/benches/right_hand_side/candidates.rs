@@ -3,10 +3,11 @@
 
 use std::hint::black_box;
 
-use dynamics::{Formulation, KeptRowMotion, Motion, MotionOptions};
+use dynamics::{Formulation, KeptRowMotion, Motion, MotionOptions, SceneCode};
 use linalg::KeptRowSaddle;
 use model::System;
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
+use robot_trolley::generated::automatic;
 
 use crate::Outcome;
 use crate::dual::DualRobot;
@@ -76,6 +77,9 @@ pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'_>>> {
             "minimal coordinates, by hand for this robot",
             by_hand(),
         )?
+        .right_hand_side("generated", "**code generated for the scene**", generated())?
+        .lanes::<4>("generated-4", "the same, 4 states at once, each")?
+        .lanes::<8>("generated-8", "the same, 8 states at once, each")?
         .right_hand_side("kept-rows", "**kept rows, interpreted**", kept_rows(robot)?)?
         .right_hand_side(
             "dual-numbers",
@@ -131,6 +135,23 @@ pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'_>>> {
 /// Evaluates in a state, into the caller's storage.
 type Call<'r> = Box<dyn FnMut(&State, &mut [f64]) -> bool + 'r>;
 
+/// L states, state by state in the last index.
+struct Lanes<const L: usize> {
+    t: [f64; L],
+    q: [[f64; L]; automatic::N_Q],
+    v: [[f64; L]; automatic::N_V],
+}
+
+impl<const L: usize> Lanes<L> {
+    fn of(states: &[State]) -> Self {
+        Self {
+            t: std::array::from_fn(|l| states[l].t),
+            q: std::array::from_fn(|k| std::array::from_fn(|l| states[l].q[k])),
+            v: std::array::from_fn(|k| std::array::from_fn(|l| states[l].v[k])),
+        }
+    }
+}
+
 struct List<'r> {
     robot: &'r Robot,
     works: Vec<Work<'r>>,
@@ -149,6 +170,43 @@ impl<'r> List<'r> {
         self.add(key, title, Group::Matrices, call, |state| {
             &state.c_and_gamma
         })
+    }
+
+    /// Generated code on L states at once, checked in all of them. A call is one state.
+    fn lanes<const L: usize>(mut self, key: &'static str, title: &str) -> Outcome<Self> {
+        let states = &self.robot.states;
+        let size = states
+            .iter()
+            .flat_map(|s| &s.a)
+            .fold(0.0, |m: f64, x| m.max(x.abs()));
+        let groups: Vec<Lanes<L>> = states.chunks_exact(L).map(Lanes::of).collect();
+        let mut a = [[0.0; L]; automatic::N_V];
+        for (group, states) in groups.iter().zip(states.chunks_exact(L)) {
+            automatic::acceleration_of(&group.t, &group.q, &group.v, &mut a);
+            for (l, state) in states.iter().enumerate() {
+                let pairs = state.a.iter().zip(&a);
+                let by = pairs.map(|(known, a)| (known - a[l]).abs() / size);
+                let by = by.fold(0.0, f64::max);
+                // Also where it is not a number.
+                if !(by < AGREES) {
+                    return Err(format!("{key} is wrong by {by:.1e} at t = {} s", state.t).into());
+                }
+            }
+        }
+        self.works.push(Work {
+            key,
+            title: title.to_owned(),
+            group: Group::RightHandSide,
+            calls: L * groups.len(),
+            lap: Box::new(move || {
+                for group in &groups {
+                    let Lanes { t, q, v } = black_box(group);
+                    black_box(automatic::acceleration_of(t, q, v, &mut a));
+                    black_box(&a);
+                }
+            }),
+        });
+        Ok(self)
     }
 
     /// Checks the candidate in all states and takes it up.
@@ -190,6 +248,12 @@ impl<'r> List<'r> {
         });
         Ok(self)
     }
+}
+
+/// As a run calls it.
+fn generated<'r>() -> Call<'r> {
+    let code: &dyn SceneCode = &automatic::Code;
+    Box::new(move |s, a| code.acceleration(s.t, &s.q, &s.v, a) > 0.0)
 }
 
 fn by_hand<'r>() -> Call<'r> {

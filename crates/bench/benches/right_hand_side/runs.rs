@@ -2,8 +2,10 @@
 //! what runs are compared at. Two rows of output, not written anywhere; the start is not included, the storage of the motion is.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
 use dynamics::{MotionOptions, Prepared, Summary, simulate};
+use robot_trolley::generated::automatic;
 use suite::{Kind, Quantity};
 
 use crate::Outcome;
@@ -22,7 +24,10 @@ const DECADES: [i32; 2] = [-4, -13];
 pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'static>>> {
     let known = end(robot)?;
     let run = |key, name, prepared, error| run(key, name, prepared, error, &known);
+    let coded = || robot.prepared.clone().with_code(Arc::new(automatic::Code));
     Ok(vec![
+        run("run_1e-6_generated", "generated code", coded()?, 1e-6)?,
+        run("run_1e-10_generated", "generated code", coded()?, 1e-10)?,
         run("run_1e-6", "interpreted", robot.prepared.clone(), 1e-6)?,
         run("run_1e-10", "interpreted", robot.prepared.clone(), 1e-10)?,
     ])

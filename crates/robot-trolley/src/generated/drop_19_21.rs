@@ -16,6 +16,7 @@
 //! | `position_correction` | 248 mul, 239 add, 8 div |
 //! | `velocity_correction` | 288 mul, 246 add, 4 neg, 8 div |
 //! | `jacobian_action` | 940 mul, 784 add, 4 neg, 16 div |
+//! | `constraint_matrix` | 36 mul, 20 add, 15 neg |
 
 #![forbid(unsafe_code)]
 #![allow(clippy::all, clippy::pedantic, unused_variables, unused_mut, unreachable_pub, dead_code)]
@@ -43,10 +44,96 @@ pub const POSITION_KEPT: [usize; 17usize] = [
     0usize, 1usize, 2usize, 3usize, 4usize, 5usize, 6usize, 7usize, 8usize, 9usize,
     10usize, 11usize, 12usize, 13usize, 14usize, 15usize, 16usize,
 ];
+/// Number of entries of C that are not always zero.
+pub const ENTRIES: usize = 81usize;
+/// Row and column of each of them, from 0.
+pub const PATTERN: [[usize; 2]; ENTRIES] = [
+    [0usize, 0usize],
+    [0usize, 2usize],
+    [0usize, 18usize],
+    [0usize, 20usize],
+    [1usize, 1usize],
+    [1usize, 2usize],
+    [1usize, 19usize],
+    [1usize, 20usize],
+    [2usize, 0usize],
+    [2usize, 2usize],
+    [2usize, 3usize],
+    [2usize, 5usize],
+    [3usize, 1usize],
+    [3usize, 2usize],
+    [3usize, 4usize],
+    [3usize, 5usize],
+    [4usize, 0usize],
+    [4usize, 2usize],
+    [4usize, 6usize],
+    [4usize, 8usize],
+    [5usize, 1usize],
+    [5usize, 2usize],
+    [5usize, 7usize],
+    [5usize, 8usize],
+    [6usize, 3usize],
+    [6usize, 5usize],
+    [6usize, 9usize],
+    [6usize, 11usize],
+    [7usize, 4usize],
+    [7usize, 5usize],
+    [7usize, 10usize],
+    [7usize, 11usize],
+    [8usize, 6usize],
+    [8usize, 8usize],
+    [8usize, 12usize],
+    [8usize, 14usize],
+    [9usize, 7usize],
+    [9usize, 8usize],
+    [9usize, 13usize],
+    [9usize, 14usize],
+    [10usize, 9usize],
+    [10usize, 11usize],
+    [10usize, 15usize],
+    [10usize, 17usize],
+    [11usize, 10usize],
+    [11usize, 11usize],
+    [11usize, 16usize],
+    [11usize, 17usize],
+    [12usize, 12usize],
+    [12usize, 14usize],
+    [12usize, 15usize],
+    [12usize, 17usize],
+    [13usize, 13usize],
+    [13usize, 14usize],
+    [13usize, 16usize],
+    [13usize, 17usize],
+    [14usize, 0usize],
+    [14usize, 1usize],
+    [14usize, 2usize],
+    [14usize, 15usize],
+    [14usize, 16usize],
+    [15usize, 2usize],
+    [15usize, 17usize],
+    [16usize, 0usize],
+    [16usize, 1usize],
+    [16usize, 2usize],
+    [16usize, 15usize],
+    [16usize, 16usize],
+    [17usize, 3usize],
+    [17usize, 4usize],
+    [17usize, 5usize],
+    [18usize, 6usize],
+    [18usize, 7usize],
+    [18usize, 8usize],
+    [19usize, 0usize],
+    [19usize, 1usize],
+    [20usize, 0usize],
+    [20usize, 1usize],
+    [21usize, 18usize],
+    [21usize, 19usize],
+    [21usize, 20usize],
+];
 /// Times at which a derivative of a function of time jumps (s).
 pub const BREAK_TIMES: [f64; 8usize] = [1f64, 2f64, 3f64, 4f64, 6f64, 7f64, 8f64, 9f64];
 /// Operations of each function; sines and functions of time are not counted.
-pub const OPERATIONS: &str = "acceleration: 344 mul, 276 add, 4 neg, 8 div; multipliers: 425 mul, 359 add, 5 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 248 mul, 239 add, 8 div; velocity_correction: 288 mul, 246 add, 4 neg, 8 div; jacobian_action: 940 mul, 784 add, 4 neg, 16 div";
+pub const OPERATIONS: &str = "acceleration: 344 mul, 276 add, 4 neg, 8 div; multipliers: 425 mul, 359 add, 5 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 248 mul, 239 add, 8 div; velocity_correction: 288 mul, 246 add, 4 neg, 8 div; jacobian_action: 940 mul, 784 add, 4 neg, 16 div; constraint_matrix: 36 mul, 20 add, 15 neg";
 /// Functions of time, each with two derivatives.
 #[inline]
 fn jets(t: f64) -> [f64; 3usize] {
@@ -2211,6 +2298,151 @@ pub fn jacobian_action_of<const L: usize>(
         );
     }
     health
+}
+#[inline(always)]
+fn constraint_matrix_core(
+    q: impl Fn(usize) -> f64,
+    x: impl Fn(usize) -> f64,
+    mut out: impl FnMut(usize, f64),
+) {
+    let q0 = q(0usize);
+    let q1 = q(1usize);
+    let cos2 = x(0usize);
+    let sin2 = x(1usize);
+    let cos5 = x(2usize);
+    let sin5 = x(3usize);
+    let cos8 = x(4usize);
+    let sin8 = x(5usize);
+    let cos11 = x(6usize);
+    let sin11 = x(7usize);
+    let cos14 = x(8usize);
+    let sin14 = x(9usize);
+    let q15 = q(15usize);
+    let q16 = q(16usize);
+    let cos17 = x(10usize);
+    let sin17 = x(11usize);
+    let cos20 = x(12usize);
+    let sin20 = x(13usize);
+    let t0 = 0.3 * cos2;
+    let t1 = 0.025 * sin5;
+    let t2 = 0.3 * sin2;
+    let t3 = 0.025 * cos5;
+    let t4 = 0.025 * sin8;
+    let t5 = 0.025 * cos8;
+    let t6 = 0.125 * sin11;
+    let t7 = 0.125 * cos11;
+    let t8 = 0.125 * sin14;
+    let t9 = 0.125 * cos14;
+    let t10 = 0.2 * cos17;
+    let t11 = 0.2 * sin17;
+    let t12 = -sin2;
+    let t13 = q1 - q16;
+    let t14 = q0 - q15;
+    let t15 = -cos2;
+    out(0usize, 1.0);
+    out(1usize, 0.4 * sin2);
+    out(2usize, -1.0);
+    out(3usize, 0.35 * sin20);
+    out(4usize, 1.0);
+    out(5usize, -(0.4 * cos2));
+    out(6usize, -1.0);
+    out(7usize, -(0.35 * cos20));
+    out(8usize, 1.0);
+    out(9usize, -t2);
+    out(10usize, -1.0);
+    out(11usize, 0.044999999999999984 * sin5 - t3);
+    out(12usize, 1.0);
+    out(13usize, t0);
+    out(14usize, -1.0);
+    out(15usize, -(0.044999999999999984 * cos5 + t1));
+    out(16usize, 1.0);
+    out(17usize, t2);
+    out(18usize, -1.0);
+    out(19usize, -(t5 + 0.044999999999999984 * sin8));
+    out(20usize, 1.0);
+    out(21usize, -t0);
+    out(22usize, -1.0);
+    out(23usize, 0.044999999999999984 * cos8 - t4);
+    out(24usize, 1.0);
+    out(25usize, 0.04500000000000001 * sin5 - t3);
+    out(26usize, -1.0);
+    out(27usize, t7 + 0.0050000000000000044 * sin11);
+    out(28usize, 1.0);
+    out(29usize, -(t1 + 0.04500000000000001 * cos5));
+    out(30usize, -1.0);
+    out(31usize, t6 - 0.0050000000000000044 * cos11);
+    out(32usize, 1.0);
+    out(33usize, -(t5 + 0.04500000000000001 * sin8));
+    out(34usize, -1.0);
+    out(35usize, t9 - 0.0050000000000000044 * sin14);
+    out(36usize, 1.0);
+    out(37usize, 0.04500000000000001 * cos8 - t4);
+    out(38usize, -1.0);
+    out(39usize, 0.0050000000000000044 * cos14 + t8);
+    out(40usize, 1.0);
+    out(41usize, t7 + 0.004999999999999977 * sin11);
+    out(42usize, -1.0);
+    out(43usize, t11);
+    out(44usize, 1.0);
+    out(45usize, t6 - 0.004999999999999977 * cos11);
+    out(46usize, -1.0);
+    out(47usize, -t10);
+    out(48usize, 1.0);
+    out(49usize, t9 - 0.004999999999999977 * sin14);
+    out(50usize, -1.0);
+    out(51usize, -t11);
+    out(52usize, 1.0);
+    out(53usize, t8 + 0.004999999999999977 * cos14);
+    out(54usize, -1.0);
+    out(55usize, t10);
+    out(56usize, cos2);
+    out(57usize, sin2);
+    out(58usize, cos2 * t13 - sin2 * t14);
+    out(59usize, t15);
+    out(60usize, t12);
+    out(61usize, -1.0);
+    out(62usize, 1.0);
+    out(63usize, sin2);
+    out(64usize, t15);
+    out(65usize, sin2 * t13 + cos2 * t14);
+    out(66usize, t12);
+    out(67usize, cos2);
+    out(68usize, -sin5);
+    out(69usize, cos5);
+    out(70usize, 0.044999999999999984);
+    out(71usize, -sin8);
+    out(72usize, cos8);
+    out(73usize, -0.044999999999999984);
+    out(74usize, t12);
+    out(75usize, cos2);
+    out(76usize, t12);
+    out(77usize, cos2);
+    out(78usize, -sin20);
+    out(79usize, cos20);
+    out(80usize, -0.050000000000000044);
+}
+///Entries of C that are not always zero, in the order of `PATTERN`: what verdicts are found from.
+///
+///Operations: 36 mul, 20 add, 15 neg.
+pub fn constraint_matrix(t: f64, q: &[f64; N_Q], entries: &mut [f64; ENTRIES]) {
+    let x = rotations(q);
+    constraint_matrix_core(|k| q[k], |k| x[k], |k, value| entries[k] = value);
+}
+///The same for L states at once, state by state in the last index.
+#[inline]
+pub fn constraint_matrix_of<const L: usize>(
+    t: &[f64; L],
+    q: &[[f64; L]; N_Q],
+    entries: &mut [[f64; L]; ENTRIES],
+) {
+    let x = rotations_of(q);
+    for l in 0..L {
+        constraint_matrix_core(
+            |k| q[k][l],
+            |k| x[k][l],
+            |k, value| entries[k][l] = value,
+        );
+    }
 }
 /// The mechanism as a run takes it.
 #[derive(Clone, Copy, Debug)]
