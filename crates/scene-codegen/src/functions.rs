@@ -225,6 +225,8 @@ fn shares(e: &mut Equations, factored: &Factored) -> Vec<Value> {
         let mut sizes: Vec<f64> = at.iter().map(|d| d.abs()).collect();
         sizes.sort_by(f64::total_cmp);
         let unit = sizes[0].max(OF_MEDIAN * sizes[sizes.len() / 2]);
+        // A power of two, so that the text does not depend on the rounding of the sampled states.
+        let unit = unit.log2().round().exp2();
         let unit = e.code.program.number(sign / unit);
         e.code.program.mul(divisor, unit)
     };

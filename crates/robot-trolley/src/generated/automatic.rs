@@ -9,13 +9,13 @@
 //!
 //! | function | operations |
 //! | --- | --- |
-//! | `acceleration` | 348 mul, 275 add, 4 neg, 8 div |
-//! | `multipliers` | 431 mul, 354 add, 4 neg, 8 div |
+//! | `acceleration` | 347 mul, 275 add, 4 neg, 8 div |
+//! | `multipliers` | 430 mul, 354 add, 4 neg, 8 div |
 //! | `phi` | 36 mul, 65 add, 1 neg |
 //! | `velocity_residual` | 79 mul, 79 add |
-//! | `position_correction` | 248 mul, 239 add, 8 div |
-//! | `velocity_correction` | 292 mul, 244 add, 3 neg, 8 div |
-//! | `jacobian_action` | 954 mul, 784 add, 4 neg, 16 div |
+//! | `position_correction` | 247 mul, 239 add, 8 div |
+//! | `velocity_correction` | 291 mul, 244 add, 3 neg, 8 div |
+//! | `jacobian_action` | 953 mul, 784 add, 4 neg, 16 div |
 //! | `constraint_matrix` | 36 mul, 20 add, 15 neg |
 
 #![forbid(unsafe_code)]
@@ -133,7 +133,7 @@ pub const PATTERN: [[usize; 2]; ENTRIES] = [
 /// Times at which a derivative of a function of time jumps (s).
 pub const BREAK_TIMES: [f64; 8usize] = [1f64, 2f64, 3f64, 4f64, 6f64, 7f64, 8f64, 9f64];
 /// Operations of each function; sines and functions of time are not counted.
-pub const OPERATIONS: &str = "acceleration: 348 mul, 275 add, 4 neg, 8 div; multipliers: 431 mul, 354 add, 4 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 248 mul, 239 add, 8 div; velocity_correction: 292 mul, 244 add, 3 neg, 8 div; jacobian_action: 954 mul, 784 add, 4 neg, 16 div; constraint_matrix: 36 mul, 20 add, 15 neg";
+pub const OPERATIONS: &str = "acceleration: 347 mul, 275 add, 4 neg, 8 div; multipliers: 430 mul, 354 add, 4 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 247 mul, 239 add, 8 div; velocity_correction: 291 mul, 244 add, 3 neg, 8 div; jacobian_action: 953 mul, 784 add, 4 neg, 16 div; constraint_matrix: 36 mul, 20 add, 15 neg";
 /// Functions of time, each with two derivatives.
 #[inline]
 fn jets(t: f64) -> [f64; 3usize] {
@@ -494,18 +494,18 @@ fn acceleration_core(
     out(19usize, t160 + t130 * t162);
     out(20usize, t159 + t129 * t162);
     f64::INFINITY
-        .min(-(2.5 * t72))
-        .min(4.0147920392408425 * t85)
-        .min(-(12.06225061990655 * t91))
-        .min(19.92226467661937 * t82)
-        .min(4.984850779279141 * t101)
-        .min(3.422223611883895 * t97)
-        .min(1.4111797147466714 * t107)
-        .min(0.03312744344555191 * t132)
+        .min(-(2.0 * t72))
+        .min(4.0 * t85)
+        .min(-(16.0 * t91))
+        .min(16.0 * t82)
+        .min(4.0 * t101)
+        .min(4.0 * t97)
+        .min(t107)
+        .min(0.03125 * t132)
 }
 ///Accelerations a of `M·a + Cᵀ·λ = Q`, `C·a = Γ` on the kept rows.
 ///
-///Operations: 348 mul, 275 add, 4 neg, 8 div.
+///Operations: 347 mul, 275 add, 4 neg, 8 div.
 pub fn acceleration(t: f64, q: &[f64; N_Q], v: &[f64; N_V], a: &mut [f64; N_V]) -> f64 {
     let f = jets(t);
     let x = rotations(q);
@@ -831,18 +831,18 @@ fn multipliers_core(
     out(20usize, 0.0);
     out(21usize, t173);
     f64::INFINITY
-        .min(-(2.5 * t72))
-        .min(4.0147920392408425 * t85)
-        .min(-(12.06225061990655 * t91))
-        .min(19.92226467661937 * t82)
-        .min(4.984850779279141 * t101)
-        .min(3.422223611883895 * t97)
-        .min(1.4111797147466714 * t107)
-        .min(0.03312744344555191 * t132)
+        .min(-(2.0 * t72))
+        .min(4.0 * t85)
+        .min(-(16.0 * t91))
+        .min(16.0 * t82)
+        .min(4.0 * t101)
+        .min(4.0 * t97)
+        .min(t107)
+        .min(0.03125 * t132)
 }
 ///Their multipliers λ of all rows, 0 for dropped ones.
 ///
-///Operations: 431 mul, 354 add, 4 neg, 8 div.
+///Operations: 430 mul, 354 add, 4 neg, 8 div.
 pub fn multipliers(
     t: f64,
     q: &[f64; N_Q],
@@ -1367,18 +1367,18 @@ fn position_correction_core(
     out(19usize, t153 + (t135 + t74 * t155) - t1 * t152);
     out(20usize, t152);
     f64::INFINITY
-        .min(19.92226467661937 * t37)
-        .min(4.984850779279141 * t49)
-        .min(5.555555555555562 * t39)
-        .min(8.948631854892234 * t53)
-        .min(0.2804883429954465 * t90)
-        .min(0.05706173659368996 * t94)
-        .min(0.04830355433295124 * t100)
-        .min(1.0789884074683198 * t108)
+        .min(16.0 * t37)
+        .min(4.0 * t49)
+        .min(4.0 * t39)
+        .min(8.0 * t53)
+        .min(0.25 * t90)
+        .min(0.0625 * t94)
+        .min(0.0625 * t100)
+        .min(t108)
 }
 ///The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.
 ///
-///Operations: 248 mul, 239 add, 8 div.
+///Operations: 247 mul, 239 add, 8 div.
 pub fn position_correction(
     t: f64,
     q: &[f64; N_Q],
@@ -1620,18 +1620,18 @@ fn velocity_correction_core(
     out(19usize, t128 + t95 * t130);
     out(20usize, t127 + t94 * t130);
     f64::INFINITY
-        .min(-(2.5 * t37))
-        .min(4.0147920392408425 * t50)
-        .min(-(12.06225061990655 * t56))
-        .min(19.92226467661937 * t47)
-        .min(4.984850779279141 * t66)
-        .min(3.422223611883895 * t62)
-        .min(1.4111797147466714 * t72)
-        .min(0.03312744344555191 * t97)
+        .min(-(2.0 * t37))
+        .min(4.0 * t50)
+        .min(-(16.0 * t56))
+        .min(16.0 * t47)
+        .min(4.0 * t66)
+        .min(4.0 * t62)
+        .min(t72)
+        .min(0.03125 * t97)
 }
 ///The smallest dv in the mass metric with `C·dv = −r` on the kept rows.
 ///
-///Operations: 292 mul, 244 add, 3 neg, 8 div.
+///Operations: 291 mul, 244 add, 3 neg, 8 div.
 pub fn velocity_correction(
     t: f64,
     q: &[f64; N_Q],
@@ -2243,18 +2243,18 @@ fn jacobian_action_core(
     out(19usize, t391 + (t225 * t360 + t155 * t393));
     out(20usize, t390 + (t225 * t359 + t154 * t393));
     f64::INFINITY
-        .min(-(2.5 * t81))
-        .min(4.0147920392408425 * t98)
-        .min(-(12.06225061990655 * t107))
-        .min(19.92226467661937 * t93)
-        .min(4.984850779279141 * t117)
-        .min(3.422223611883895 * t113)
-        .min(1.4111797147466714 * t125)
-        .min(0.03312744344555191 * t175)
+        .min(-(2.0 * t81))
+        .min(4.0 * t98)
+        .min(-(16.0 * t107))
+        .min(16.0 * t93)
+        .min(4.0 * t117)
+        .min(4.0 * t113)
+        .min(t125)
+        .min(0.03125 * t175)
 }
 ///The derivative of accelerations along (dq, dv).
 ///
-///Operations: 954 mul, 784 add, 4 neg, 16 div.
+///Operations: 953 mul, 784 add, 4 neg, 16 div.
 pub fn jacobian_action(
     t: f64,
     q: &[f64; N_Q],

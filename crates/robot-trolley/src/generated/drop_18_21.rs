@@ -13,7 +13,7 @@
 //! | `multipliers` | 413 mul, 343 add, 6 neg, 8 div |
 //! | `phi` | 36 mul, 65 add, 1 neg |
 //! | `velocity_residual` | 79 mul, 79 add |
-//! | `position_correction` | 248 mul, 239 add, 8 div |
+//! | `position_correction` | 247 mul, 239 add, 8 div |
 //! | `velocity_correction` | 279 mul, 234 add, 4 neg, 8 div |
 //! | `jacobian_action` | 915 mul, 754 add, 4 neg, 16 div |
 //! | `constraint_matrix` | 36 mul, 20 add, 15 neg |
@@ -133,7 +133,7 @@ pub const PATTERN: [[usize; 2]; ENTRIES] = [
 /// Times at which a derivative of a function of time jumps (s).
 pub const BREAK_TIMES: [f64; 8usize] = [1f64, 2f64, 3f64, 4f64, 6f64, 7f64, 8f64, 9f64];
 /// Operations of each function; sines and functions of time are not counted.
-pub const OPERATIONS: &str = "acceleration: 335 mul, 266 add, 4 neg, 8 div; multipliers: 413 mul, 343 add, 6 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 248 mul, 239 add, 8 div; velocity_correction: 279 mul, 234 add, 4 neg, 8 div; jacobian_action: 915 mul, 754 add, 4 neg, 16 div; constraint_matrix: 36 mul, 20 add, 15 neg";
+pub const OPERATIONS: &str = "acceleration: 335 mul, 266 add, 4 neg, 8 div; multipliers: 413 mul, 343 add, 6 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 247 mul, 239 add, 8 div; velocity_correction: 279 mul, 234 add, 4 neg, 8 div; jacobian_action: 915 mul, 754 add, 4 neg, 16 div; constraint_matrix: 36 mul, 20 add, 15 neg";
 /// Functions of time, each with two derivatives.
 #[inline]
 fn jets(t: f64) -> [f64; 3usize] {
@@ -486,14 +486,14 @@ fn acceleration_core(
     out(19usize, t156 + t127 * t158);
     out(20usize, t155 + t126 * t158);
     f64::INFINITY
-        .min(-(2.5 * t69))
-        .min(35.30841795231176 * t82)
-        .min(-(3.345313622363381 * t89))
-        .min(-(9.02728091038547 * t92))
-        .min(9.948708954257185 * t96)
-        .min(-(3.422223611883901 * t101))
-        .min(2.749065311025324 * cos2)
-        .min(0.033127443445707026 * t129)
+        .min(-(2.0 * t69))
+        .min(32.0 * t82)
+        .min(-(4.0 * t89))
+        .min(-(8.0 * t92))
+        .min(8.0 * t96)
+        .min(-(4.0 * t101))
+        .min(2.0 * cos2)
+        .min(0.03125 * t129)
 }
 ///Accelerations a of `M·a + Cᵀ·λ = Q`, `C·a = Γ` on the kept rows.
 ///
@@ -822,14 +822,14 @@ fn multipliers_core(
     out(20usize, 0.0);
     out(21usize, t168);
     f64::INFINITY
-        .min(-(2.5 * t69))
-        .min(35.30841795231176 * t82)
-        .min(-(3.345313622363381 * t89))
-        .min(-(9.02728091038547 * t92))
-        .min(9.948708954257185 * t96)
-        .min(-(3.422223611883901 * t101))
-        .min(2.749065311025324 * cos2)
-        .min(0.033127443445707026 * t129)
+        .min(-(2.0 * t69))
+        .min(32.0 * t82)
+        .min(-(4.0 * t89))
+        .min(-(8.0 * t92))
+        .min(8.0 * t96)
+        .min(-(4.0 * t101))
+        .min(2.0 * cos2)
+        .min(0.03125 * t129)
 }
 ///Their multipliers λ of all rows, 0 for dropped ones.
 ///
@@ -1358,18 +1358,18 @@ fn position_correction_core(
     out(19usize, t153 + (t135 + t74 * t155) - t1 * t152);
     out(20usize, t152);
     f64::INFINITY
-        .min(19.922264680198396 * t39)
-        .min(4.984850779279144 * t49)
-        .min(5.555555555555561 * t42)
-        .min(8.948631854892236 * t53)
-        .min(0.2804883429954467 * t90)
-        .min(0.05706173659378109 * t94)
-        .min(0.048303554335003246 * t100)
-        .min(1.078988407468308 * t108)
+        .min(16.0 * t39)
+        .min(4.0 * t49)
+        .min(4.0 * t42)
+        .min(8.0 * t53)
+        .min(0.25 * t90)
+        .min(0.0625 * t94)
+        .min(0.0625 * t100)
+        .min(t108)
 }
 ///The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.
 ///
-///Operations: 248 mul, 239 add, 8 div.
+///Operations: 247 mul, 239 add, 8 div.
 pub fn position_correction(
     t: f64,
     q: &[f64; N_Q],
@@ -1609,14 +1609,14 @@ fn velocity_correction_core(
     out(19usize, t93 * t128 - t126);
     out(20usize, t125 + t92 * t128);
     f64::INFINITY
-        .min(-(2.5 * t35))
-        .min(35.30841795231176 * t48)
-        .min(-(3.345313622363381 * t55))
-        .min(-(9.02728091038547 * t58))
-        .min(9.948708954257185 * t62)
-        .min(-(3.422223611883901 * t67))
-        .min(2.749065311025324 * cos2)
-        .min(0.033127443445707026 * t95)
+        .min(-(2.0 * t35))
+        .min(32.0 * t48)
+        .min(-(4.0 * t55))
+        .min(-(8.0 * t58))
+        .min(8.0 * t62)
+        .min(-(4.0 * t67))
+        .min(2.0 * cos2)
+        .min(0.03125 * t95)
 }
 ///The smallest dv in the mass metric with `C·dv = −r` on the kept rows.
 ///
@@ -2211,14 +2211,14 @@ fn jacobian_action_core(
     out(19usize, t378 + (t217 * t348 + t151 * t380));
     out(20usize, t377 + (t217 * t347 + t150 * t380));
     f64::INFINITY
-        .min(-(2.5 * t80))
-        .min(35.30841795231176 * t95)
-        .min(-(3.345313622363381 * t105))
-        .min(-(9.02728091038547 * t108))
-        .min(9.948708954257185 * t113)
-        .min(-(3.422223611883901 * t119))
-        .min(2.749065311025324 * cos2)
-        .min(0.033127443445707026 * t171)
+        .min(-(2.0 * t80))
+        .min(32.0 * t95)
+        .min(-(4.0 * t105))
+        .min(-(8.0 * t108))
+        .min(8.0 * t113)
+        .min(-(4.0 * t119))
+        .min(2.0 * cos2)
+        .min(0.03125 * t171)
 }
 ///The derivative of accelerations along (dq, dv).
 ///

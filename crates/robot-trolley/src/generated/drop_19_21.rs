@@ -13,7 +13,7 @@
 //! | `multipliers` | 425 mul, 359 add, 5 neg, 8 div |
 //! | `phi` | 36 mul, 65 add, 1 neg |
 //! | `velocity_residual` | 79 mul, 79 add |
-//! | `position_correction` | 248 mul, 239 add, 8 div |
+//! | `position_correction` | 247 mul, 239 add, 8 div |
 //! | `velocity_correction` | 288 mul, 246 add, 4 neg, 8 div |
 //! | `jacobian_action` | 940 mul, 784 add, 4 neg, 16 div |
 //! | `constraint_matrix` | 36 mul, 20 add, 15 neg |
@@ -133,7 +133,7 @@ pub const PATTERN: [[usize; 2]; ENTRIES] = [
 /// Times at which a derivative of a function of time jumps (s).
 pub const BREAK_TIMES: [f64; 8usize] = [1f64, 2f64, 3f64, 4f64, 6f64, 7f64, 8f64, 9f64];
 /// Operations of each function; sines and functions of time are not counted.
-pub const OPERATIONS: &str = "acceleration: 344 mul, 276 add, 4 neg, 8 div; multipliers: 425 mul, 359 add, 5 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 248 mul, 239 add, 8 div; velocity_correction: 288 mul, 246 add, 4 neg, 8 div; jacobian_action: 940 mul, 784 add, 4 neg, 16 div; constraint_matrix: 36 mul, 20 add, 15 neg";
+pub const OPERATIONS: &str = "acceleration: 344 mul, 276 add, 4 neg, 8 div; multipliers: 425 mul, 359 add, 5 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 247 mul, 239 add, 8 div; velocity_correction: 288 mul, 246 add, 4 neg, 8 div; jacobian_action: 940 mul, 784 add, 4 neg, 16 div; constraint_matrix: 36 mul, 20 add, 15 neg";
 /// Functions of time, each with two derivatives.
 #[inline]
 fn jets(t: f64) -> [f64; 3usize] {
@@ -491,14 +491,14 @@ fn acceleration_core(
     out(19usize, t162 + t130 * t164);
     out(20usize, t161 + t129 * t164);
     f64::INFINITY
-        .min(-(2.5 * t71))
-        .min(-(22.02920553519258 * t80))
-        .min(-(4.970277182961832 * t87))
-        .min(5.5555555555555545 * t92)
-        .min(8.948631854892232 * t98)
-        .min(3.4222236118838962 * t103)
-        .min(2.749065311020857 * cos2)
-        .min(0.03312744344533879 * t132)
+        .min(-(2.0 * t71))
+        .min(-(16.0 * t80))
+        .min(-(4.0 * t87))
+        .min(4.0 * t92)
+        .min(8.0 * t98)
+        .min(4.0 * t103)
+        .min(2.0 * cos2)
+        .min(0.03125 * t132)
 }
 ///Accelerations a of `M·a + Cᵀ·λ = Q`, `C·a = Γ` on the kept rows.
 ///
@@ -834,14 +834,14 @@ fn multipliers_core(
     out(20usize, 0.0);
     out(21usize, t174);
     f64::INFINITY
-        .min(-(2.5 * t71))
-        .min(-(22.02920553519258 * t80))
-        .min(-(4.970277182961832 * t87))
-        .min(5.5555555555555545 * t92)
-        .min(8.948631854892232 * t98)
-        .min(3.4222236118838962 * t103)
-        .min(2.749065311020857 * cos2)
-        .min(0.03312744344533879 * t132)
+        .min(-(2.0 * t71))
+        .min(-(16.0 * t80))
+        .min(-(4.0 * t87))
+        .min(4.0 * t92)
+        .min(8.0 * t98)
+        .min(4.0 * t103)
+        .min(2.0 * cos2)
+        .min(0.03125 * t132)
 }
 ///Their multipliers λ of all rows, 0 for dropped ones.
 ///
@@ -1370,18 +1370,18 @@ fn position_correction_core(
     out(19usize, t153 + (t135 + t74 * t155) - t1 * t152);
     out(20usize, t152);
     f64::INFINITY
-        .min(19.92226467382571 * t30)
-        .min(4.984850779279323 * t49)
-        .min(5.5555555555555545 * t42)
-        .min(8.948631854892232 * t53)
-        .min(0.28048834299544656 * t90)
-        .min(0.057061736593593725 * t94)
-        .min(0.04830355433134954 * t100)
-        .min(1.0789884074683316 * t108)
+        .min(16.0 * t30)
+        .min(4.0 * t49)
+        .min(4.0 * t42)
+        .min(8.0 * t53)
+        .min(0.25 * t90)
+        .min(0.0625 * t94)
+        .min(0.0625 * t100)
+        .min(t108)
 }
 ///The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.
 ///
-///Operations: 248 mul, 239 add, 8 div.
+///Operations: 247 mul, 239 add, 8 div.
 pub fn position_correction(
     t: f64,
     q: &[f64; N_Q],
@@ -1624,14 +1624,14 @@ fn velocity_correction_core(
     out(19usize, t94 * t130 - t128);
     out(20usize, t127 + t93 * t130);
     f64::INFINITY
-        .min(-(2.5 * t35))
-        .min(-(22.02920553519258 * t44))
-        .min(-(4.970277182961832 * t51))
-        .min(5.5555555555555545 * t56)
-        .min(8.948631854892232 * t62)
-        .min(3.4222236118838962 * t67)
-        .min(2.749065311020857 * cos2)
-        .min(0.03312744344533879 * t96)
+        .min(-(2.0 * t35))
+        .min(-(16.0 * t44))
+        .min(-(4.0 * t51))
+        .min(4.0 * t56)
+        .min(8.0 * t62)
+        .min(4.0 * t67)
+        .min(2.0 * cos2)
+        .min(0.03125 * t96)
 }
 ///The smallest dv in the mass metric with `C·dv = −r` on the kept rows.
 ///
@@ -2241,14 +2241,14 @@ fn jacobian_action_core(
     out(19usize, t386 + (t218 * t352 + t151 * t388));
     out(20usize, t385 + (t218 * t351 + t150 * t388));
     f64::INFINITY
-        .min(-(2.5 * t80))
-        .min(-(22.02920553519258 * t89))
-        .min(-(4.970277182961832 * t98))
-        .min(5.5555555555555545 * t104)
-        .min(8.948631854892232 * t112)
-        .min(3.4222236118838962 * t118)
-        .min(2.749065311020857 * cos2)
-        .min(0.03312744344533879 * t171)
+        .min(-(2.0 * t80))
+        .min(-(16.0 * t89))
+        .min(-(4.0 * t98))
+        .min(4.0 * t104)
+        .min(8.0 * t112)
+        .min(4.0 * t118)
+        .min(2.0 * cos2)
+        .min(0.03125 * t171)
 }
 ///The derivative of accelerations along (dq, dv).
 ///

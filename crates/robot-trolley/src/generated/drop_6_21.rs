@@ -13,7 +13,7 @@
 //! | `multipliers` | 431 mul, 346 add, 5 neg, 8 div |
 //! | `phi` | 36 mul, 65 add, 1 neg |
 //! | `velocity_residual` | 79 mul, 79 add |
-//! | `position_correction` | 248 mul, 239 add, 8 div |
+//! | `position_correction` | 247 mul, 239 add, 8 div |
 //! | `velocity_correction` | 292 mul, 237 add, 4 neg, 8 div |
 //! | `jacobian_action` | 958 mul, 775 add, 4 neg, 16 div |
 //! | `constraint_matrix` | 36 mul, 20 add, 15 neg |
@@ -133,7 +133,7 @@ pub const PATTERN: [[usize; 2]; ENTRIES] = [
 /// Times at which a derivative of a function of time jumps (s).
 pub const BREAK_TIMES: [f64; 8usize] = [1f64, 2f64, 3f64, 4f64, 6f64, 7f64, 8f64, 9f64];
 /// Operations of each function; sines and functions of time are not counted.
-pub const OPERATIONS: &str = "acceleration: 350 mul, 269 add, 4 neg, 8 div; multipliers: 431 mul, 346 add, 5 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 248 mul, 239 add, 8 div; velocity_correction: 292 mul, 237 add, 4 neg, 8 div; jacobian_action: 958 mul, 775 add, 4 neg, 16 div; constraint_matrix: 36 mul, 20 add, 15 neg";
+pub const OPERATIONS: &str = "acceleration: 350 mul, 269 add, 4 neg, 8 div; multipliers: 431 mul, 346 add, 5 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 247 mul, 239 add, 8 div; velocity_correction: 292 mul, 237 add, 4 neg, 8 div; jacobian_action: 958 mul, 775 add, 4 neg, 16 div; constraint_matrix: 36 mul, 20 add, 15 neg";
 /// Functions of time, each with two derivatives.
 #[inline]
 fn jets(t: f64) -> [f64; 3usize] {
@@ -489,14 +489,14 @@ fn acceleration_core(
     out(19usize, t157 + t126 * t159);
     out(20usize, t156 + t125 * t159);
     f64::INFINITY
-        .min(-(2.5 * t68))
-        .min(10.129592953042867 * t72)
-        .min(4.0147920392408425 * t86)
-        .min(12.062250619906571 * t89)
-        .min(3.4222236118839024 * t94)
-        .min(2.7490653110767944 * cos2)
-        .min(-(22.767517637254844 * t83))
-        .min(0.03312744344536494 * t128)
+        .min(-(2.0 * t68))
+        .min(8.0 * t72)
+        .min(4.0 * t86)
+        .min(16.0 * t89)
+        .min(4.0 * t94)
+        .min(2.0 * cos2)
+        .min(-(32.0 * t83))
+        .min(0.03125 * t128)
 }
 ///Accelerations a of `M·a + Cᵀ·λ = Q`, `C·a = Γ` on the kept rows.
 ///
@@ -825,14 +825,14 @@ fn multipliers_core(
     out(20usize, 0.0);
     out(21usize, t170);
     f64::INFINITY
-        .min(-(2.5 * t68))
-        .min(10.129592953042867 * t72)
-        .min(4.0147920392408425 * t87)
-        .min(12.062250619906571 * t90)
-        .min(3.4222236118839024 * t95)
-        .min(2.7490653110767944 * cos2)
-        .min(-(22.767517637254844 * t84))
-        .min(0.03312744344536494 * t129)
+        .min(-(2.0 * t68))
+        .min(8.0 * t72)
+        .min(4.0 * t87)
+        .min(16.0 * t90)
+        .min(4.0 * t95)
+        .min(2.0 * cos2)
+        .min(-(32.0 * t84))
+        .min(0.03125 * t129)
 }
 ///Their multipliers λ of all rows, 0 for dropped ones.
 ///
@@ -1361,18 +1361,18 @@ fn position_correction_core(
     out(19usize, t153 + (t135 + t74 * t155) - t1 * t152);
     out(20usize, t152);
     f64::INFINITY
-        .min(19.922264672849224 * t38)
-        .min(4.9848507792771075 * t49)
-        .min(5.55555555555556 * t36)
-        .min(8.948631854892238 * t53)
-        .min(0.2804883429954464 * t90)
-        .min(0.057061736593680114 * t94)
-        .min(0.048303554330789734 * t100)
-        .min(1.0789884074683256 * t108)
+        .min(16.0 * t38)
+        .min(4.0 * t49)
+        .min(4.0 * t36)
+        .min(8.0 * t53)
+        .min(0.25 * t90)
+        .min(0.0625 * t94)
+        .min(0.0625 * t100)
+        .min(t108)
 }
 ///The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.
 ///
-///Operations: 248 mul, 239 add, 8 div.
+///Operations: 247 mul, 239 add, 8 div.
 pub fn position_correction(
     t: f64,
     q: &[f64; N_Q],
@@ -1610,14 +1610,14 @@ fn velocity_correction_core(
     out(19usize, t92 * t125 - t123);
     out(20usize, t122 + t91 * t125);
     f64::INFINITY
-        .min(-(2.5 * t33))
-        .min(10.129592953042867 * t37)
-        .min(4.0147920392408425 * t52)
-        .min(12.062250619906571 * t55)
-        .min(3.4222236118839024 * t60)
-        .min(2.7490653110767944 * cos2)
-        .min(-(22.767517637254844 * t49))
-        .min(0.03312744344536494 * t94)
+        .min(-(2.0 * t33))
+        .min(8.0 * t37)
+        .min(4.0 * t52)
+        .min(16.0 * t55)
+        .min(4.0 * t60)
+        .min(2.0 * cos2)
+        .min(-(32.0 * t49))
+        .min(0.03125 * t94)
 }
 ///The smallest dv in the mass metric with `C·dv = −r` on the kept rows.
 ///
@@ -2224,14 +2224,14 @@ fn jacobian_action_core(
     out(19usize, t382 + (t218 * t349 + t150 * t384));
     out(20usize, t381 + (t218 * t348 + t149 * t384));
     f64::INFINITY
-        .min(-(2.5 * t79))
-        .min(10.129592953042867 * t83)
-        .min(4.0147920392408425 * t99)
-        .min(12.062250619906571 * t104)
-        .min(3.4222236118839024 * t110)
-        .min(2.7490653110767944 * cos2)
-        .min(-(22.767517637254844 * t96))
-        .min(0.03312744344536494 * t170)
+        .min(-(2.0 * t79))
+        .min(8.0 * t83)
+        .min(4.0 * t99)
+        .min(16.0 * t104)
+        .min(4.0 * t110)
+        .min(2.0 * cos2)
+        .min(-(32.0 * t96))
+        .min(0.03125 * t170)
 }
 ///The derivative of accelerations along (dq, dv).
 ///
