@@ -78,8 +78,8 @@ pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'_>>> {
             by_hand(),
         )?
         .right_hand_side("generated", "**code generated for the scene**", generated())?
-        .lanes::<4>("generated-4", "the same, 4 states at once, each")?
-        .lanes::<8>("generated-8", "the same, 8 states at once, each")?
+        .lanes::<4>("generated-4", "generated code, 4 states at once, each")?
+        .lanes::<8>("generated-8", "generated code, 8 states at once, each")?
         .right_hand_side("kept-rows", "**kept rows, interpreted**", kept_rows(robot)?)?
         .right_hand_side(
             "dual-numbers",
