@@ -145,10 +145,11 @@ impl Elimination {
         let gamma: Vec<f64> = self.facts.kept.iter().map(|&i| work.s.gamma[i]).collect();
         let force = work.s.force.clone();
         let (a, lambda, health) = self.solve(work, self.facts.kept, &force, &gamma);
-        match self.fault {
-            Fault::Health(health) if is_faulty(t) => (a, lambda, health),
-            _ => (a, lambda, health),
-        }
+        let health = match self.fault {
+            Fault::Health(health) if is_faulty(t) => health,
+            _ => health,
+        };
+        (a, lambda, health)
     }
 }
 
@@ -371,10 +372,9 @@ fn code_that_is_not_sure_is_left_and_comes_back() {
     }
 }
 
-/// A parallelogram driven through its flat pose, where two branches meet: code has no way over it.
-#[test]
-fn singular_configurations_are_passed_by_the_interpreter() {
-    let mut d = cranks(&[0.0, 1.0], 0.5, -0.5);
+/// Cranks whose first one is driven.
+fn driven(pivots: &[f64], start: f64, motion: Function) -> Prepared {
+    let mut d = cranks(pivots, 0.5, start);
     d.drives.push(Drive {
         name: "motor".into(),
         bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
@@ -383,9 +383,49 @@ fn singular_configurations_are_passed_by_the_interpreter() {
             s_j: [0.0; 2],
             measure_0: 0.0,
         }),
-        motion: Function::constant_rate(1.0).expect("finite"),
+        motion,
     });
-    let p = started(&d);
+    started(&d)
+}
+
+/// Rates jump just before the code is left, and while it is.
+#[test]
+fn impulses_are_those_of_the_interpreter() {
+    let times = [0.0, 4.0, 4.2, 6.0];
+    let motion = Function::lines(&times, &[0.0, -0.2, -0.25, 0.1]).expect("a function");
+    let p = driven(&[0.0, 1.0, 2.5], -1.3, motion);
+    let (expected, interpreted) = run(&p, &tight(6.0));
+    for fault in [Fault::None, Fault::Health(0.0)] {
+        let coded = p
+            .clone()
+            .with_code(Elimination::new(&p, fault))
+            .expect("its own");
+        let (rows, summary) = run(&coded, &tight(6.0));
+        assert!(
+            apart(&rows, &expected) < 1e-9,
+            "{:e}",
+            apart(&rows, &expected)
+        );
+        let impulses = |s: &Summary| {
+            let impulses = s.events.iter().filter(|e| e.kind == EventKind::Impulse);
+            impulses.map(|e| e.text.clone()).collect::<Vec<_>>()
+        };
+        assert_eq!(impulses(&summary).len(), 2);
+        assert_eq!(impulses(&interpreted).len(), 2);
+        assert!(summary.energy_balance < 1e-9, "{}", summary.energy_balance);
+        let left = told(&summary).first().map(|(_, t)| *t);
+        match fault {
+            Fault::None => assert_eq!(left, None),
+            _ => assert!(left.is_some_and(|t| (4.0..=4.1).contains(&t)), "{left:?}"),
+        }
+    }
+}
+
+/// A parallelogram driven through its flat pose, where two branches meet: code has no way over it.
+#[test]
+fn singular_configurations_are_passed_by_the_interpreter() {
+    let rate = Function::constant_rate(1.0).expect("finite");
+    let p = driven(&[0.0, 1.0], -0.5, rate);
     let options = MotionOptions {
         output_step: 0.1,
         ..MotionOptions::to(6.0)
@@ -452,6 +492,96 @@ fn a_healthy_run_asks_the_interpreter_nothing() {
     let counted = code.evaluations.load(Ordering::Relaxed) as u64;
     assert_eq!(counted, summary.evaluations);
     assert_eq!(counted, 2 + 12 * summary.steps + 11 * summary.rejected);
+}
+
+/// Bodies that fall: nothing to solve.
+struct Falling(Facts);
+
+impl SceneCode for Falling {
+    fn facts(&self) -> &Facts {
+        &self.0
+    }
+
+    fn acceleration(&self, _t: f64, _q: &[f64], _v: &[f64], a: &mut [f64]) -> f64 {
+        for (i, a) in a.iter_mut().enumerate() {
+            *a = if i % 3 == 1 { -9.81 } else { 0.0 };
+        }
+        1.0
+    }
+
+    fn multipliers(&self, _t: f64, _q: &[f64], _v: &[f64], _lambda: &mut [f64]) -> f64 {
+        1.0
+    }
+
+    fn phi(&self, _t: f64, _q: &[f64], _phi: &mut [f64]) {}
+
+    fn velocity_residual(&self, _t: f64, _q: &[f64], _v: &[f64], _out: &mut [f64]) {}
+
+    fn position_correction(&self, _t: f64, _q: &[f64], _phi: &[f64], dq: &mut [f64]) -> f64 {
+        dq.fill(0.0);
+        1.0
+    }
+
+    fn velocity_correction(&self, _t: f64, _q: &[f64], _out: &[f64], dv: &mut [f64]) -> f64 {
+        dv.fill(0.0);
+        1.0
+    }
+
+    fn jacobian_action(
+        &self,
+        _t: f64,
+        _q: &[f64],
+        _v: &[f64],
+        _dq: &[f64],
+        _dv: &[f64],
+        da: &mut [f64],
+    ) -> f64 {
+        da.fill(0.0);
+        1.0
+    }
+}
+
+#[test]
+fn steps_on_code_allocate_nothing() {
+    let body = |i: usize| model::Body {
+        name: format!("body {i}"),
+        mass: 1.0,
+        inertia: 1.0,
+        ..model::Body::default()
+    };
+    let p = started(&Description {
+        gravity: [0.0, -9.81],
+        bodies: (0..7).map(body).collect(),
+        ..Description::default()
+    });
+    let code = Falling(Facts {
+        name: "falling",
+        n_q: 21,
+        n_v: 21,
+        m: 0,
+        h: 0,
+        kept: &[],
+        position_kept: &[],
+        break_times: &[],
+        operations: "",
+    });
+    let p = p.with_code(Arc::new(code)).expect("its own");
+    let count = |steps: f64| {
+        let options = MotionOptions {
+            max_step: 1.0 / steps,
+            output_step: 1.0,
+            ..MotionOptions::to(1.0)
+        };
+        let mut taken = 0;
+        let counted = allocation_counter::measure(|| {
+            let run = simulate(&p, &options, |_| Ok(ControlFlow::Continue(())));
+            taken = run.expect("falls").steps;
+        });
+        (taken, counted.count_total)
+    };
+    let (few, many) = (count(10.0), count(1000.0));
+    assert!(few.0 < 20 && many.0 >= 1000, "{few:?} {many:?}");
+    assert_eq!(few.1, many.1);
 }
 
 #[test]

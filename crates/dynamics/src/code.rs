@@ -32,7 +32,49 @@ pub struct Facts {
     pub operations: &'static str,
 }
 
-/// Straight-line code for one mechanism on fixed kept rows. No function allocates or panics on slices of the sizes below; any numbers
+/// Straight-line code for one mechanism on fixed kept rows.
+///
+/// ```
+/// use std::ops::ControlFlow;
+/// use std::sync::Arc;
+/// use dynamics::{Facts, MotionOptions, RowChoice, SceneCode, prepare, simulate};
+/// use model::{Body, Description, Mechanism, StartOptions};
+///
+/// /// A stone that falls: nothing holds it.
+/// struct Stone(Facts);
+///
+/// impl SceneCode for Stone {
+///     fn facts(&self) -> &Facts { &self.0 }
+///     fn acceleration(&self, _: f64, _: &[f64], _: &[f64], a: &mut [f64]) -> f64 {
+///         a.copy_from_slice(&[0.0, -10.0, 0.0]);
+///         1.0
+///     }
+///     fn multipliers(&self, _: f64, _: &[f64], _: &[f64], _: &mut [f64]) -> f64 { 1.0 }
+///     fn phi(&self, _: f64, _: &[f64], _: &mut [f64]) {}
+///     fn velocity_residual(&self, _: f64, _: &[f64], _: &[f64], _: &mut [f64]) {}
+///     fn position_correction(&self, _: f64, _: &[f64], _: &[f64], dq: &mut [f64]) -> f64 { dq.fill(0.0); 1.0 }
+///     fn velocity_correction(&self, _: f64, _: &[f64], _: &[f64], dv: &mut [f64]) -> f64 { dv.fill(0.0); 1.0 }
+///     fn jacobian_action(&self, _: f64, _: &[f64], _: &[f64], _: &[f64], _: &[f64], da: &mut [f64]) -> f64 { da.fill(0.0); 1.0 }
+/// }
+///
+/// let stone = Body { name: "stone".into(), mass: 2.0, inertia: 0.1, ..Body::default() };
+/// let described = Description { gravity: [0.0, -10.0], bodies: vec![stone], ..Description::default() };
+/// let mechanism = Mechanism::build(&described).unwrap();
+/// let facts = Facts {
+///     name: "stone", n_q: 3, n_v: 3, m: 0, h: 0,
+///     kept: &[], position_kept: &[], break_times: &[], operations: "",
+/// };
+/// let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)?.with_code(Arc::new(Stone(facts)))?;
+/// let mut y = 0.0;
+/// simulate(&prepared, &MotionOptions::to(1.0), |row| {
+///     y = row.q[1];
+///     Ok(ControlFlow::Continue(()))
+/// })?;
+/// assert!((y + 5.0).abs() < 1e-14);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// No function allocates or panics on slices of the sizes below; any numbers
 /// may come, and the health tells what the result is worth.
 ///
 /// | argument | length | meaning |

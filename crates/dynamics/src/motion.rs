@@ -258,17 +258,25 @@ impl<'a> KeptRowMotion<'a> {
         velocity.solve(mechanism, s, &s.force, a)
     }
 
-    /// Multipliers of all rows from the last solve; those of dropped rows are zero.
-    fn last_multipliers(&self, lambda: &mut [f64]) {
-        match &self.all_rows {
-            Some(all) => lambda.copy_from_slice(&all.lambda),
-            None => {
-                lambda.fill(0.0);
-                for (&i, &l) in self.velocity.kept.iter().zip(&self.velocity.lambda) {
-                    lambda[i] = l;
-                }
-            }
+    /// Multipliers of all rows for accelerations a from the last solve; those of dropped rows are zero.
+    fn multipliers_for(&mut self, a: &[f64], lambda: &mut [f64]) -> Result<(), Trip> {
+        let Self {
+            mechanism,
+            s,
+            velocity,
+            all_rows,
+            ..
+        } = self;
+        if let Some(all) = all_rows {
+            lambda.copy_from_slice(&all.lambda);
+            return Ok(());
         }
+        velocity.find_multipliers(mechanism, s, &s.force, a)?;
+        lambda.fill(0.0);
+        for (&i, &l) in velocity.kept.iter().zip(&velocity.lambda) {
+            lambda[i] = l;
+        }
+        Ok(())
     }
 
     fn multipliers_of_all(
@@ -330,10 +338,11 @@ impl Motion for KeptRowMotion<'_> {
         }
         self.swap_aside();
         let mut a = std::mem::take(&mut self.delta);
-        let solved = self.solve(t, q, v, &mut a);
+        let solved = self
+            .solve(t, q, v, &mut a)
+            .and_then(|()| self.multipliers_for(&a, lambda));
         self.delta = a;
         let left_out = self.velocity.n_left_out();
-        self.last_multipliers(lambda);
         self.swap_aside();
         solved?;
         if left_out > 0 {

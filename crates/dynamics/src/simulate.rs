@@ -50,7 +50,7 @@ pub struct Summary {
     pub max_velocity_residual: f64,
     /// Largest |E − E₀ − work of drives and applied forces| relative to the largest kinetic energy.
     pub energy_balance: f64,
-    /// Smallest pivot ratio of the kept rows at accepted steps.
+    /// Smallest pivot ratio of the kept rows at the start and at accepted steps that were interpreted.
     pub min_pivot_ratio: f64,
     /// What happened on the way.
     pub events: Vec<Event>,

@@ -48,7 +48,30 @@ pub(crate) fn norm(x: &[f64]) -> f64 {
 
 /// Largest absolute entry, 0 for an empty slice; NaN entries are skipped.
 pub(crate) fn max_abs(x: &[f64]) -> f64 {
-    x.iter().fold(0.0_f64, |largest, a| largest.max(a.abs()))
+    let larger = |largest: f64, a: f64| if a.abs() > largest { a.abs() } else { largest };
+    let (x4, rest) = x.as_chunks::<4>();
+    let mut m = [0.0_f64; 4];
+    for a in x4 {
+        for l in 0..4 {
+            m[l] = larger(m[l], a[l]);
+        }
+    }
+    m.iter()
+        .chain(rest)
+        .fold(0.0, |largest, &a| larger(largest, a))
+}
+
+/// Whether all entries are finite, without branches: x·0 is NaN exactly for NaN and infinities.
+pub(crate) fn all_finite(x: &[f64]) -> bool {
+    let (x4, rest) = x.as_chunks::<4>();
+    let mut s = [0.0_f64; 4];
+    for a in x4 {
+        for l in 0..4 {
+            s[l] += a[l] * 0.0;
+        }
+    }
+    let sum: f64 = s.iter().sum();
+    sum + rest.iter().map(|a| a * 0.0).sum::<f64>() == 0.0
 }
 
 #[cfg(test)]
@@ -59,6 +82,26 @@ mod tests {
     fn dot_of_seven_entries_by_hand() {
         let x = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0];
         assert_eq!(dot(&x, &x), 140.0);
+    }
+
+    #[test]
+    fn every_place_counts() {
+        for n in 0..10 {
+            let x: Vec<f64> = (1..=n).map(f64::from).collect();
+            assert_eq!(max_abs(&x), f64::from(n));
+            assert!(all_finite(&x));
+            for i in 0..x.len() {
+                let mut x = x.clone();
+                x[i] = -100.0;
+                assert_eq!(max_abs(&x), 100.0);
+                for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+                    x[i] = bad;
+                    assert!(!all_finite(&x));
+                }
+                x[i] = f64::NAN;
+                assert!(max_abs(&x) <= f64::from(n), "{x:?}");
+            }
+        }
     }
 
     #[test]

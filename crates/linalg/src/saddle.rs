@@ -27,6 +27,7 @@ mod solve;
 mod tests;
 
 use crate::Matrix;
+use crate::kernels::all_finite;
 
 /// Solver of the saddle equations of n coordinates and r independent constraint rows.
 ///
@@ -51,6 +52,8 @@ pub struct KeptRowSaddle {
     used: Vec<usize>,
     /// Row j: `U_0j … U_jj`, then column j of L below its unit diagonal. r×n, row-major.
     lu: Vec<f64>,
+    /// 1/U_jj of each row in use: a product costs less than a quotient.
+    inverse: Vec<f64>,
     /// Coordinates in the order in which a factorisation takes them up, and how many of them it may solve for.
     order: Vec<usize>,
     solvable: usize,
@@ -173,6 +176,7 @@ impl KeptRowSaddle {
             rows: r,
             used: (0..r).collect(),
             lu: vec![0.0; r * n],
+            inverse: vec![0.0; r],
             order: (0..n).collect(),
             solvable: n,
             permutation: (0..n).collect(),
@@ -264,8 +268,7 @@ pub(crate) fn check_finite(
     x: &[f64],
     first: usize,
 ) -> Result<(), SaddleError> {
-    // Branch-free: x·0 is NaN exactly for NaN and infinities.
-    if x.iter().map(|a| a * 0.0).sum::<f64>() == 0.0 {
+    if all_finite(x) {
         return Ok(());
     }
     match x.iter().position(|a| !a.is_finite()) {

@@ -43,7 +43,8 @@ pub use shard::{Shard, ShardError};
 /// simulate = { t_end = 1.0 }
 /// "#;
 /// let axes = vec!["scene.gravity[1]=-1.62,-9.81".parse()?];
-/// let sweep = Sweep::read("stone.toml", scene, &Registry::planar(), axes)?;
+/// let registry = Registry::planar();
+/// let sweep = Sweep::read("stone.toml", scene, &registry, axes)?;
 /// let heights: Vec<f64> = (1..=sweep.runs())
 ///     .filter_map(|run| sweep.row(run).motion)
 ///     .map(|motion| motion.state[1])

@@ -2,18 +2,18 @@
 
 /// Names and texts, in the order in which modules have them.
 pub(crate) const SUPPORT: [(&str, &str); 7] = [
-    ("cos_sin", include_str!("support/cos_sin.rs")),
-    ("polynomial", include_str!("support/polynomial.rs")),
-    ("harmonic", include_str!("support/harmonic.rs")),
-    ("steps", include_str!("support/steps.rs")),
-    ("spline", include_str!("support/spline.rs")),
-    ("lines", include_str!("support/lines.rs")),
-    ("recip_or_zero", include_str!("support/recip_or_zero.rs")),
+    ("cos_sin", include_str!("support/cos_sin.in")),
+    ("polynomial", include_str!("support/polynomial.in")),
+    ("harmonic", include_str!("support/harmonic.in")),
+    ("steps", include_str!("support/steps.in")),
+    ("spline", include_str!("support/spline.in")),
+    ("lines", include_str!("support/lines.in")),
+    ("recip_or_zero", include_str!("support/recip_or_zero.in")),
 ];
 
 #[cfg(test)]
 mod tests {
-    include!("support/cos_sin.rs");
+    include!("support/cos_sin.in");
 
     #[test]
     fn cosine_and_sine_are_those_of_the_library() {

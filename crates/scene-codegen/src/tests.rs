@@ -4,6 +4,7 @@ use dynamics::{KeptRowMotion, Motion};
 use linalg::KeptRowSaddle;
 use model::System;
 use pfaff::{Blueprint, Overrides, Study};
+use solvability::{Solvability, Verdict};
 use symbolic::Symbol;
 
 use crate::equations::Source;
@@ -288,5 +289,28 @@ fn the_robot_needs_no_more_operations_than_it_did() {
             "{name}: {} > {most}",
             counts.total()
         );
+    }
+}
+
+/// Verdicts from the entries of C that a module gives: those published for the robot.
+#[test]
+fn verdicts_from_the_entries_of_c() {
+    let study = study("robot-trolley", ROBOT);
+    let subject = subject(&study, "robot-trolley");
+    let functions = Functions::new(&subject).expect("code");
+    let start = Subject::at_start(&study.prepared).states[0].clone();
+    let (entries, _) = run(&functions, &subject, "constraint_matrix", &start, |_| 0.0);
+    let layout = study.prepared.mechanism.layout();
+    let mut c = linalg::Matrix::zeros(layout.rows(), layout.n_v);
+    for (&[i, j], value) in functions.pattern.iter().zip(entries) {
+        c[(i, j)] = value;
+    }
+    let verdicts = Solvability::of(&c, 1e-14).expect("finite");
+    assert_eq!(verdicts.decision().rank, 20);
+    // Rows of A, D … H, the drive and W5 are unique; B and C along x, and the four edges of the robot are not.
+    for i in 0..layout.rows() {
+        let unique = !matches!(i, 3 | 5 | 17..=20);
+        let verdict = verdicts.row(i).expect("a row").verdict;
+        assert_eq!(verdict == Verdict::Unique, unique, "row {}", i + 1);
     }
 }

@@ -218,8 +218,7 @@ impl Comparison<'_> {
     fn check(&self, size: impl Fn(usize) -> f64) -> Result<(), CodeMismatch> {
         let differs = |i: &usize| {
             let by = (self.found[*i] - self.expected[*i]).abs();
-            // Also where it is not a number.
-            !(by <= SAME * size(*i))
+            by.is_nan() || by > SAME * size(*i)
         };
         match (0..self.expected.len()).find(differs) {
             None => Ok(()),

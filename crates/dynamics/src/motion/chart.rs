@@ -144,6 +144,30 @@ impl KeptRowMotion<'_> {
         solved
     }
 
+    /// The same at a state that a projection has just moved onto the constraints, where the rows are factored.
+    ///
+    /// # Errors
+    /// As [`KeptRowMotion::derivative`].
+    pub(crate) fn derivative_of_projected(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        dy: &mut [f64],
+    ) -> Result<(), Trip> {
+        if self.chart.is_some() {
+            return self.derivative(t, y, dy);
+        }
+        let layout = self.mechanism.layout();
+        let (q, rest) = y.split_at(layout.n_q);
+        let v = &rest[..layout.n_v];
+        let (qd, rest) = dy.split_at_mut(layout.n_q);
+        let (a, work) = rest.split_at_mut(layout.n_v);
+        self.passage.see(&self.velocity);
+        self.solve_factored(v, a)?;
+        self.rates(q, v, a, (qd, work));
+        Ok(())
+    }
+
     /// q̇ and, where there is room for it, the power of drives and applied forces at a state with acceleration a.
     fn rates(&self, q: &[f64], v: &[f64], a: &[f64], (qd, work): (&mut [f64], &mut [f64])) {
         self.mechanism.rate(q, v, qd);

@@ -43,7 +43,7 @@ impl SaddlePoint {
         }
     }
 
-    /// `v̇` from `M·v̇ + C_K(t, q)ᵀ·λ_K = Q(t, q, v)` and the aim; the multipliers become those of the motion.
+    /// `v̇` from `M·v̇ + C_K(t, q)ᵀ·λ_K = Q(t, q, v)` and the aim.
     ///
     /// # Errors
     /// [`Trip::IterationMatrix`].
@@ -74,7 +74,6 @@ impl SaddlePoint {
         self.x[..n].copy_from_slice(&motion.s.force);
         self.lu.solve(&mut self.x);
         a.copy_from_slice(&self.x[..n]);
-        motion.velocity.lambda.copy_from_slice(&self.x[n..]);
         Ok(())
     }
 

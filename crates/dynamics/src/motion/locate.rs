@@ -31,6 +31,15 @@ const BEYOND: f64 = 1.5;
 /// Where a pivot falls to this share of the present one and rises again, it vanishes: what is left is the error of a parabola.
 const VANISHES: f64 = 0.2;
 
+/// Between two places a pivot falls at most by so many times what it changes by between any two neighbouring ones.
+const STEEPER: f64 = 2.0;
+
+/// The largest change between neighbours.
+fn steepest(pivots: &[f64]) -> f64 {
+    let changes = pivots.windows(2).map(|w| (w[1] - w[0]).abs());
+    changes.fold(0.0, f64::max)
+}
+
 impl<'m> KeptRowMotion<'m> {
     /// When the motion that was at q with velocities v and accelerations a at time t, the last accepted one, will be singular,
     /// if that is to be expected before `t_last`.
@@ -118,6 +127,9 @@ impl Search<'_> {
             }
             None => {
                 let k = (1..PLACES).min_by(|&a, &b| pivots[a].total_cmp(&pivots[b]))?;
+                if pivots[k] - STEEPER * steepest(&pivots) > noise {
+                    return None;
+                }
                 let (mut low, mut high) = (time(k - 1), time(k + 1));
                 for _ in 0..DIVISIONS {
                     let width = GOLDEN * (high - low);

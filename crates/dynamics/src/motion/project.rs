@@ -248,24 +248,27 @@ impl KeptRowMotion<'_> {
             iterations,
             ..self.residuals(v)
         };
-        let rows = 0..layout.rows();
-        let position = |i: usize| self.mechanism.position_scale(&self.s, i, q);
-        let velocity = |i: usize| self.mechanism.velocity_scale(&self.s, i, v);
         // Rounding of the kept rows reaches the dropped ones through the inverse of their pivots, near a singular configuration
         // more than elsewhere.
         let misfit =
             |rows: &KeptRows| DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0);
-        let limit = misfit(&self.position) * (0..layout.m).map(position).fold(0.0, f64::max);
-        for &i in &self.position.dropped {
-            self.check_dropped(i, "position", self.s.phi[i].abs(), limit)?;
+        if !self.position.dropped.is_empty() {
+            let scale = |i: usize| self.mechanism.position_scale(&self.s, i, q);
+            let limit = misfit(&self.position) * (0..layout.m).map(scale).fold(0.0, f64::max);
+            for &i in &self.position.dropped {
+                self.check_dropped(i, "position", self.s.phi[i].abs(), limit)?;
+            }
         }
-        // Off the constraints by rounding of its coordinates, the rows agree to the same share.
-        let rounding = self.mechanism.relative_residual(&self.s, q, self.size);
-        let share = misfit(&self.velocity).max(STALLED_ROUNDINGS * rounding);
-        let limit = share * rows.map(velocity).fold(0.0, f64::max);
-        for &i in &self.velocity.dropped {
-            let residual = layout.velocity_residual(&self.s, i, v).abs();
-            self.check_dropped(i, "velocity", residual, limit)?;
+        if !self.velocity.dropped.is_empty() {
+            // Off the constraints by rounding of its coordinates, the rows agree to the same share.
+            let rounding = self.mechanism.relative_residual(&self.s, q, self.size);
+            let share = misfit(&self.velocity).max(STALLED_ROUNDINGS * rounding);
+            let scale = |i: usize| self.mechanism.velocity_scale(&self.s, i, v);
+            let limit = share * (0..layout.rows()).map(scale).fold(0.0, f64::max);
+            for &i in &self.velocity.dropped {
+                let residual = layout.velocity_residual(&self.s, i, v).abs();
+                self.check_dropped(i, "velocity", residual, limit)?;
+            }
         }
         Ok(found)
     }

@@ -126,8 +126,8 @@ impl Reduced {
         self.take_places(motion, y.len());
         self.generation = motion.chart.as_ref().map_or(0, |c| c.generation);
         let mechanism = motion.mechanism;
-        motion.last_multipliers(&mut self.lambda);
         let a = &self.dy[n_q..n_q + mechanism.layout().n_v];
+        motion.multipliers_for(a, &mut self.lambda)?;
         mechanism.differentiate(a, &self.lambda, &motion.s, &mut self.derivatives);
         motion.position.factor(mechanism, &motion.s)?;
         self.time = t;

@@ -14,10 +14,10 @@ pub(super) struct KeptRows {
     pub(super) dropped: Vec<usize>,
     /// Right-hand side, one value for each kept row.
     pub(super) rhs: Vec<f64>,
-    /// Multipliers of the last solve.
+    /// Multipliers, as they were found last.
     pub(super) lambda: Vec<f64>,
     c: Matrix,
-    /// A row of C and a correction, n_v each.
+    /// A row of C, and no motion, n_v each.
     vectors: [Vec<f64>; 2],
     saddle: KeptRowSaddle,
     /// Pivot ratio when these rows were chosen: what later ones are compared with.
@@ -76,7 +76,10 @@ impl KeptRows {
                 let pivot = Some(self.saddle.pivot_ratio());
                 match &mut self.partition {
                     Some(partition) => partition.0 = pivot,
-                    None => self.reference_pivot = pivot,
+                    None => {
+                        self.reference_pivot = pivot;
+                        self.saddle.keep_order();
+                    }
                 }
                 Ok(())
             }
@@ -152,8 +155,18 @@ impl KeptRows {
     }
 
     fn take_entries(&mut self, mechanism: &Mechanism, s: &Scratch) {
+        let pattern = &mechanism.layout().pattern;
         for (k, &i) in self.kept.iter().enumerate() {
-            mechanism.layout().scatter_row(s, i, self.c.row_mut(k));
+            let row = self.c.row_mut(k);
+            let entries = pattern.start[i]..pattern.start[i + 1];
+            let columns = &pattern.column[entries.clone()];
+            // Other columns stay zero.
+            for &column in columns {
+                row[column] = 0.0;
+            }
+            for (&column, &entry) in columns.iter().zip(&pattern.entry[entries]) {
+                row[column] += s.entries[entry];
+            }
         }
     }
 
@@ -204,12 +217,11 @@ impl KeptRows {
     /// factored: rounding of the kept rows reaches the dropped ones multiplied by it.
     pub(super) fn largest_coefficient(&mut self, mechanism: &Mechanism, s: &Scratch) -> f64 {
         let mut largest = 0.0_f64;
-        self.rhs.fill(0.0);
-        let [mut row, mut x] = std::mem::take(&mut self.vectors);
+        let [mut row, x] = std::mem::take(&mut self.vectors);
         for d in 0..self.dropped.len() {
             // A row that the kept ones imply, as a force, moves nothing: M·0 + C_Kᵀ·λ = c_Dᵀ.
             mechanism.layout().scatter_row(s, self.dropped[d], &mut row);
-            largest = match self.solve(mechanism, s, &row, &mut x) {
+            largest = match self.saddle.multipliers(&row, &x, &mut self.lambda) {
                 Ok(()) => self.lambda.iter().fold(largest, |a, l| a.max(l.abs())),
                 Err(_) => f64::INFINITY,
             };
@@ -223,7 +235,7 @@ impl KeptRows {
         self.reference_pivot = others.reference_pivot;
     }
 
-    /// Solves `M·x + Cᵀ·λ = force`, `C·x = rhs` with the factored matrix.
+    /// Solves `M·x + Cᵀ·λ = force`, `C·x = rhs` for x with the factored matrix.
     pub(super) fn solve(
         &mut self,
         mechanism: &Mechanism,
@@ -231,7 +243,21 @@ impl KeptRows {
         force: &[f64],
         x: &mut [f64],
     ) -> Result<(), Trip> {
-        match self.saddle.solve(force, &self.rhs, x, &mut self.lambda) {
+        match self.saddle.motion(force, &self.rhs, x) {
+            Ok(()) => Ok(()),
+            Err(e) => Err(self.trip(mechanism, s, e)),
+        }
+    }
+
+    /// The λ that belongs to such a solution x.
+    pub(super) fn find_multipliers(
+        &mut self,
+        mechanism: &Mechanism,
+        s: &Scratch,
+        force: &[f64],
+        x: &[f64],
+    ) -> Result<(), Trip> {
+        match self.saddle.multipliers(force, x, &mut self.lambda) {
             Ok(()) => Ok(()),
             Err(e) => Err(self.trip(mechanism, s, e)),
         }

@@ -112,13 +112,14 @@ impl<'m> Equations<'m> {
         }
     }
 
-    /// y at the start.
+    /// y at the start, where the rows are factored.
     pub(super) fn initial_state(&mut self, q: &[f64], v: &[f64]) -> Vec<f64> {
         let mut y = [q, v].concat();
         y.extend(self.works.then_some(0.0));
         self.before = y.clone();
         self.stage = y.clone();
         self.is_careful = self.wants_care();
+        self.min_pivot_ratio = self.motion.pivot_ratio();
         y
     }
 
@@ -341,7 +342,7 @@ impl Ode for Equations<'_> {
             return Err(self.motion.no_way_over(step.t));
         }
         if self.motion.projects() {
-            self.motion.derivative(step.t_rhs, y, dy)?;
+            self.motion.derivative_of_projected(step.t_rhs, y, dy)?;
             let a = &mut dy[self.n_q..self.n_q + self.n_v];
             self.motion.review_acceleration(a)?;
             let now = (step.t, &y[self.n_q..self.n_q + self.n_v], &*a);

@@ -131,12 +131,10 @@ impl KeptRowSaddle {
             }
         }
 
-        let mut at = j;
-        for i in j + 1..self.solvable {
-            if x[i].abs() > x[at].abs() {
-                at = i;
-            }
-        }
+        // No entry is the largest one if all are NaN.
+        let largest = max_abs(&x[j..self.solvable]);
+        let at = (j..self.solvable).find(|&i| x[i].abs() == largest);
+        let at = at.unwrap_or(j);
         let pivot = x[at];
         if scale > 0.0 {
             self.pivot_ratio = self.pivot_ratio.min(pivot.abs() / scale);
@@ -156,8 +154,10 @@ impl KeptRowSaddle {
                 l_k.swap(at, j);
             }
         }
+        let inverse = 1.0 / pivot;
+        self.inverse[j] = inverse;
         for l in &mut x[j + 1..] {
-            *l /= pivot;
+            *l *= inverse;
         }
         Ok(Elimination::Used)
     }

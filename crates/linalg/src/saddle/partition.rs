@@ -31,6 +31,12 @@ impl KeptRowSaddle {
         Ok(())
     }
 
+    /// From the next factorisation on, takes coordinates up in the order of the last one. Each still solves for the largest entries, but where
+    /// these are the same, or as large, nothing has to be moved.
+    pub fn keep_order(&mut self) {
+        self.order.copy_from_slice(&self.permutation);
+    }
+
     /// From the next factorisation on, each one chooses for itself what it solves for.
     pub fn forget_partition(&mut self) {
         self.order = (0..self.n).collect();
@@ -105,6 +111,25 @@ mod tests {
                 assert!((a - b).abs() < 1e-14, "{dependent:?}: {found:?}");
             }
         }
+    }
+
+    #[test]
+    fn a_kept_order_is_taken_up_first() {
+        let mut saddle = KeptRowSaddle::new(4, 2).unwrap();
+        saddle.factor(|k| &ROWS[k], &MASS).unwrap();
+        let permutation = saddle.permutation.clone();
+        let (ratio, side) = (saddle.pivot_ratio(), saddle.orientation(&[1.0; 8]));
+        saddle.keep_order();
+        saddle.factor(|k| &ROWS[k], &MASS).unwrap();
+        assert_eq!(saddle.permutation, permutation);
+        assert_eq!(
+            (saddle.pivot_ratio(), saddle.orientation(&[1.0; 8])),
+            (ratio, side)
+        );
+        // Entries that have become the largest are still solved for.
+        let turned = [[1.0, 2.0, -1.0, 9.0], [0.0, 3.0, 1.0, -2.0]];
+        saddle.factor(|k| &turned[k], &MASS).unwrap();
+        assert_eq!(saddle.permutation[0], 3);
     }
 
     #[test]
