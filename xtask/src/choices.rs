@@ -2,12 +2,16 @@
 //! the command itself, one at a time in an empty target folder.
 
 use std::collections::BTreeSet;
-use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 use std::time::Instant;
 
+use crate::scene;
 use crate::tree::{cargo, machine, root, run, said_by};
+
+/// A scene and where the program with code of its own has it.
+const ROBOT: &str = "crates/robot-trolley/robot-trolley.toml";
+const GENERATED: &str = "xtask/choices/generated/src/robot.rs";
 
 const REPORT: &str = "docs/reports/choices/table.md";
 
@@ -30,7 +34,7 @@ const fn small(package: &'static str, uses: &'static str) -> Choice {
     }
 }
 
-const CHOICES: [Choice; 8] = [
+const CHOICES: [Choice; 9] = [
     small(
         "choice-integrators",
         "`integrators`: a differential equation",
@@ -47,6 +51,10 @@ const CHOICES: [Choice; 8] = [
     small(
         "choice-dynamics",
         "`dynamics`: a mechanism built in code moves",
+    ),
+    small(
+        "choice-generated",
+        "`integrators` and code generated for one scene",
     ),
     small(
         "choice-pfaff-lean",
@@ -82,18 +90,20 @@ struct Build {
     processor: Option<f64>,
 }
 
-/// Builds everything and writes the table.
+/// What stands below the table.
+const NOTES: &str = "
+Build times are those of the machine and its neighbours; processor seconds are of all cores together. Crates include procedural macros and what only build
+scripts use. Profiles are cargo's own, `release` stripped; the debug profile of the command is that of the workspace, which optimises.
+";
+
+/// Builds everything; the table is written after each program, so that an interruption loses only the last one.
 pub(crate) fn report() -> Result<String, String> {
     let target = std::env::temp_dir().join(format!("pfaff-choices-{}", std::process::id()));
-    let table = table(&target);
-    remove(&target)?;
     let path = root().join(REPORT);
     fs::create_dir_all(path.parent().unwrap_or(&path)).map_err(|e| format!("{REPORT}: {e}"))?;
-    fs::write(&path, table?).map_err(|e| format!("{REPORT}: {e}"))?;
-    Ok(format!("written to {REPORT}"))
-}
-
-fn table(target: &Path) -> Result<String, String> {
+    same_versions()?;
+    let [scene, out] = [ROBOT, GENERATED].map(|path| root().join(path));
+    scene::generate(&scene.to_string_lossy(), &["--out", &out.to_string_lossy()])?;
     let mut text = format!(
         "# What a part costs\n\nWritten by `cargo xtask choices` from the programs in `xtask/choices`: clean builds, one at a time, downloads not counted.\n\n{}\n\
          | program uses | crates of ours | others | release build | processor | debug build | processor | stripped binary |\n\
@@ -101,35 +111,50 @@ fn table(target: &Path) -> Result<String, String> {
         machine()?
     );
     for choice in &CHOICES {
-        let cost = measure(choice, target)?;
-        let Cost {
-            house,
-            others,
-            debug,
-            release,
-            size,
-        } = cost;
-        let seconds = |s: Option<f64>| s.map_or(String::new(), |s| format!("{s:.1} s"));
-        let line = format!(
-            "| {} | {house} | {others} | {} | {} | {} | {} | {:.2} MB |",
-            choice.uses,
-            seconds(Some(release.wall)),
-            seconds(release.processor),
-            seconds(Some(debug.wall)),
-            seconds(debug.processor),
-            size as f64 / 1e6
-        );
+        let cost = measure(choice, &target);
+        remove(&target)?;
+        let line = line(choice, &cost?);
         println!("{line}");
-        writeln!(text, "{line}").map_err(|e| e.to_string())?;
+        text += &line;
+        text.push('\n');
+        fs::write(&path, format!("{text}{NOTES}")).map_err(|e| format!("{REPORT}: {e}"))?;
     }
-    text += "\nBuild times are those of the machine and its neighbours; processor seconds are of all cores together. Crates include procedural macros and \
-             what only build scripts use. Profiles are cargo's own, `release` stripped; the debug profile of the command is that of the workspace, which optimises.\n";
-    Ok(text)
+    Ok(format!("written to {REPORT}"))
+}
+
+/// Gives the programs the versions of the workspace; cargo drops what they do not need.
+fn same_versions() -> Result<(), String> {
+    let lock = |folder: &str| root().join(folder).join("Cargo.lock");
+    let (from, to) = (lock("."), lock("xtask/choices"));
+    let copied = fs::copy(&from, &to);
+    copied
+        .map(drop)
+        .map_err(|e| format!("{}: {e}", to.display()))
+}
+
+fn line(choice: &Choice, cost: &Cost) -> String {
+    let Cost {
+        house,
+        others,
+        debug,
+        release,
+        size,
+    } = cost;
+    let seconds = |s: Option<f64>| s.map_or(String::new(), |s| format!("{s:.1} s"));
+    format!(
+        "| {} | {house} | {others} | {} | {} | {} | {} | {:.2} MB |",
+        choice.uses,
+        seconds(Some(release.wall)),
+        seconds(release.processor),
+        seconds(Some(debug.wall)),
+        seconds(debug.processor),
+        *size as f64 / 1e6
+    )
 }
 
 fn measure(choice: &Choice, target: &Path) -> Result<Cost, String> {
     let folder = root().join(choice.workspace);
-    run(cargo(&folder).args(["fetch", "--quiet", "--locked"]))?;
+    run(cargo(&folder).args(["fetch", "--quiet"]))?;
     let (house, others) = dependencies(choice, &folder)?;
     let debug = build(choice, &folder, target, "dev")?;
     let release = build(choice, &folder, target, "release")?;
@@ -150,7 +175,6 @@ fn measure(choice: &Choice, target: &Path) -> Result<Cost, String> {
 fn dependencies(choice: &Choice, folder: &Path) -> Result<(usize, usize), String> {
     let tree = [
         "tree",
-        "--locked",
         "--edges",
         "normal,build",
         "--prefix",
@@ -176,7 +200,6 @@ fn build(choice: &Choice, folder: &Path, target: &Path, profile: &str) -> Result
         .args([
             "build",
             "--quiet",
-            "--locked",
             "--package",
             choice.package,
             "--profile",
