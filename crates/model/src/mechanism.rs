@@ -4,6 +4,8 @@
 mod build;
 mod derivatives;
 mod kernels;
+mod part;
+mod work;
 
 use std::ops::Range;
 
@@ -16,6 +18,8 @@ use crate::system::{Layout, System};
 
 pub use build::BuildError;
 pub use derivatives::{Derivatives, Sparse};
+pub use part::Part;
+pub use work::Work;
 
 /// Coordinates and velocities of a planar body.
 pub(crate) const N_BODY: usize = 3;
@@ -84,6 +88,23 @@ pub(crate) struct PlacedConstraint {
     pub(crate) varying: Vec<usize>,
     pub(crate) rows: Range<usize>,
     pub(crate) functions: Range<usize>,
+}
+
+impl PlacedConstraint {
+    /// Whether its block of C depends on the configuration.
+    pub(crate) fn has_varying_entries(&self) -> bool {
+        !self.varying.is_empty()
+    }
+
+    /// Whether b and Φt of its rows may differ from zero.
+    pub(crate) fn depends_on_time(&self) -> bool {
+        self.element.element().spec().rheonomic
+    }
+
+    /// Whether Γ of its rows may differ from zero: C of the others is constant, so that `C·v̇ = 0`.
+    pub(crate) fn has_gamma(&self) -> bool {
+        self.has_varying_entries() || self.depends_on_time()
+    }
 }
 
 /// A force in its place.

@@ -134,7 +134,8 @@ impl std::fmt::Display for RowLabel {
     }
 }
 
-/// Storage of one evaluation. Made by [`System::scratch`]; holds the results of the kernels.
+/// Storage of one evaluation. Made by [`System::scratch`]; holds the results of the kernels, and serves the mechanism that made it: what
+/// is known from the last evaluation is not computed again.
 #[derive(Clone, Debug)]
 pub struct Scratch {
     /// Time of the poses.
@@ -157,6 +158,8 @@ pub struct Scratch {
     pub(crate) slot_twists: Vec<Twist>,
     /// Values of the functions of time.
     pub(crate) jets: Vec<[f64; 3]>,
+    /// Their time; NaN at the beginning.
+    pub(crate) jets_at: f64,
     /// Results of one kernel.
     pub(crate) block: Vec<f64>,
 }

@@ -1,4 +1,6 @@
-//! The kernels of an assembled mechanism: every element in turn, on the caller's storage.
+//! The kernels of an assembled mechanism: every element in turn, on the caller's storage. What does not change from one call to the
+//! next is not computed again: functions at the time of the last call, sines and cosines of angles that have stayed, entries of C that
+//! are constant, Γ of rows that are linear in q.
 
 use std::ops::Range;
 
@@ -30,6 +32,7 @@ impl System for Mechanism {
             slot_poses: vec![Pose::GROUND; self.n_slots],
             slot_twists: vec![Twist::zero(); self.n_slots],
             jets: vec![[0.0; 3]; self.functions.len()],
+            jets_at: f64::NAN,
             block: vec![0.0; self.block],
         }
     }
@@ -37,7 +40,12 @@ impl System for Mechanism {
     fn pose(&self, t: f64, q: &[f64], s: &mut Scratch) {
         s.t = t;
         for (pose, q) in s.poses.iter_mut().zip(q.chunks_exact(N_BODY)) {
-            *pose = Pose::new(q[0], q[1], q[2]);
+            (pose.x, pose.y) = (q[0], q[1]);
+            // By bits: the sine of −0 is not that of 0.
+            if pose.angle.to_bits() != q[2].to_bits() {
+                *pose = Pose::new(q[0], q[1], q[2]);
+                note(Counted::Trigonometry);
+            }
         }
         let (poses, slot_poses) = (&s.poses, &mut s.slot_poses);
         for (slots, bodies) in self.places() {
@@ -45,8 +53,12 @@ impl System for Mechanism {
                 *pose = pose_of(poses, body);
             }
         }
-        for (jet, f) in s.jets.iter_mut().zip(&self.functions) {
-            *jet = f.jet(t);
+        if s.jets_at != t {
+            s.jets_at = t;
+            for (jet, f) in s.jets.iter_mut().zip(&self.functions) {
+                *jet = f.jet(t);
+                note(Counted::Function);
+            }
         }
     }
 
@@ -61,7 +73,7 @@ impl System for Mechanism {
 
     fn c(&self, s: &mut Scratch) {
         for c in &self.constraints {
-            if !c.varying.is_empty() {
+            if c.has_varying_entries() {
                 let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
                 c.element
                     .element()
@@ -73,7 +85,7 @@ impl System for Mechanism {
     fn b(&self, s: &mut Scratch) {
         for c in &self.constraints {
             let element = c.element.element();
-            if element.spec().rheonomic {
+            if c.depends_on_time() {
                 let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
                 element.b(x, f, &mut s.b[c.rows.clone()]);
             }
@@ -86,6 +98,10 @@ impl System for Mechanism {
 
     fn gamma(&self, s: &mut Scratch) {
         for c in &self.constraints {
+            if !c.has_gamma() {
+                s.gamma[c.rows.clone()].fill(0.0);
+                continue;
+            }
             let (x, v) = (
                 &s.slot_poses[c.slots.clone()],
                 &s.slot_twists[c.slots.clone()],
@@ -137,7 +153,7 @@ impl Mechanism {
     }
 
     /// Slots and bodies of all constraints and forces.
-    fn places(&self) -> impl Iterator<Item = (Range<usize>, &[BodyRef])> {
+    pub(super) fn places(&self) -> impl Iterator<Item = (Range<usize>, &[BodyRef])> {
         let constraints = self
             .constraints
             .iter()
@@ -149,3 +165,23 @@ impl Mechanism {
         constraints.chain(forces)
     }
 }
+
+/// What tests count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Counted {
+    /// A sine and a cosine.
+    Trigonometry,
+    /// A function of time with its derivatives.
+    Function,
+}
+
+/// Counts one piece of work, in tests of this crate only.
+#[inline]
+fn note(work: Counted) {
+    #[cfg(test)]
+    tests::COUNTS.with_borrow_mut(|counts| counts[work as usize] += 1);
+    let _ = work;
+}
+
+#[cfg(test)]
+mod tests;
