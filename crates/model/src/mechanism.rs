@@ -18,7 +18,7 @@ use crate::system::{Layout, System};
 
 pub use build::BuildError;
 pub use derivatives::{Derivatives, Sparse};
-pub use part::Part;
+pub use part::{Part, Places};
 pub use work::Work;
 
 /// Coordinates and velocities of a planar body.
@@ -189,6 +189,12 @@ impl Mechanism {
             &self.bodies[column / N_BODY].name,
             ["x", "y", "angle"][column % N_BODY],
         )
+    }
+
+    /// Generalised forces of gravity, n_v.
+    #[must_use]
+    pub fn weight(&self) -> &[f64] {
+        &self.weight
     }
 
     /// Potential energy of the weight (J).

@@ -8,20 +8,27 @@ use super::{Mechanism, N_BODY, TimeFunction};
 use crate::description::BodyRef;
 use crate::function::Function;
 
-/// A mechanism that is a part of another one, and where its bodies, rows and joints are there.
+/// A mechanism that is a part of another one.
 #[derive(Clone)]
 pub struct Part {
     /// The part. Its rows are named and numbered as in the whole.
     pub mechanism: Mechanism,
-    /// Its bodies in the whole, ascending.
+    /// Where it is in the whole.
+    pub places: Places,
+}
+
+/// Where a part is in the whole; all lists ascending.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Places {
+    /// Its bodies.
     pub bodies: Vec<usize>,
-    /// Its coordinates in the whole, ascending.
+    /// Its coordinates.
     pub coordinates: Vec<usize>,
-    /// Its velocities in the whole, ascending.
+    /// Its velocities.
     pub velocities: Vec<usize>,
-    /// Its rows of C in the whole, ascending.
+    /// Its rows of C.
     pub rows: Vec<usize>,
-    /// Its joints and drives among the groups of the whole, ascending.
+    /// Its joints and drives among the groups.
     pub groups: Vec<usize>,
 }
 
@@ -45,8 +52,8 @@ impl Mechanism {
     /// };
     /// let mechanism = Mechanism::build(&d).unwrap();
     /// assert_eq!(mechanism.components(), [vec![0, 2], vec![1]]);
-    /// let part = mechanism.part(&[0, 2]);
-    /// assert_eq!((part.rows, part.groups), (vec![0, 1, 4, 5], vec![0, 2]));
+    /// let places = mechanism.part(&[0, 2]).places;
+    /// assert_eq!((places.rows, places.groups), (vec![0, 1, 4, 5], vec![0, 2]));
     /// ```
     #[must_use]
     pub fn components(&self) -> Vec<Vec<usize>> {
@@ -127,14 +134,14 @@ impl Mechanism {
         let weight = velocities.iter().map(|&j| self.weight[j]).collect();
         let mut mechanism = b.finish(&self.name, own, weight);
         mechanism.reach = bodies.iter().map(|&k| self.reach[k]).collect();
-        Part {
-            mechanism,
+        let places = Places {
             bodies: bodies.to_vec(),
             coordinates: velocities.clone(),
             velocities,
             rows,
             groups,
-        }
+        };
+        Part { mechanism, places }
     }
 }
 

@@ -90,30 +90,37 @@ fn parts_have_the_equations_of_the_whole() {
     let c = whole.layout().dense(&s);
     let mut rows = Vec::new();
     for set in &sets {
-        let part = whole.part(set);
+        let Part {
+            mechanism: part,
+            places,
+        } = whole.part(set);
         let pick =
             |x: &[f64], places: &[usize]| -> Vec<f64> { places.iter().map(|&k| x[k]).collect() };
-        let mut own = part.mechanism.scratch();
-        let (q, v) = (pick(&q, &part.coordinates), pick(&v, &part.velocities));
-        evaluate(&part.mechanism, &mut own, &q, &v);
-        let layout = part.mechanism.layout();
-        assert_eq!(layout.m + layout.h, part.rows.len());
-        let m = part.rows.iter().filter(|&&i| i < whole.layout().m).count();
+        let mut own = part.scratch();
+        let (q, v) = (pick(&q, &places.coordinates), pick(&v, &places.velocities));
+        evaluate(&part, &mut own, &q, &v);
+        let layout = part.layout();
+        assert_eq!(layout.m + layout.h, places.rows.len());
+        let m = places
+            .rows
+            .iter()
+            .filter(|&&i| i < whole.layout().m)
+            .count();
         assert_eq!(layout.m, m);
-        assert_eq!(own.phi, pick(&s.phi, &part.rows[..m]));
-        assert_eq!(own.b, pick(&s.b, &part.rows));
-        assert_eq!(own.gamma, pick(&s.gamma, &part.rows));
-        assert_eq!(own.force, pick(&s.force, &part.velocities));
-        assert_eq!(part.mechanism.mass(), pick(whole.mass(), &part.velocities));
+        assert_eq!(own.phi, pick(&s.phi, &places.rows[..m]));
+        assert_eq!(own.b, pick(&s.b, &places.rows));
+        assert_eq!(own.gamma, pick(&s.gamma, &places.rows));
+        assert_eq!(own.force, pick(&s.force, &places.velocities));
+        assert_eq!(part.mass(), pick(whole.mass(), &places.velocities));
         let dense = layout.dense(&own);
-        for (i, &row) in part.rows.iter().enumerate() {
-            assert_eq!(dense.row(i), pick(c.row(row), &part.velocities));
+        for (i, &row) in places.rows.iter().enumerate() {
+            assert_eq!(dense.row(i), pick(c.row(row), &places.velocities));
             assert_eq!(layout.labels[i], whole.layout().labels[row]);
         }
-        for (k, &body) in part.bodies.iter().enumerate() {
-            assert_eq!(part.mechanism.reach(k), whole.reach(body));
+        for (k, &body) in places.bodies.iter().enumerate() {
+            assert_eq!(part.reach(k), whole.reach(body));
         }
-        rows.extend(part.rows);
+        rows.extend(places.rows);
     }
     rows.sort_unstable();
     assert_eq!(rows, [0, 1, 2, 3]);
