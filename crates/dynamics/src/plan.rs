@@ -113,10 +113,8 @@ pub struct Line<'p> {
 /// # Ok::<(), dynamics::MotionError>(())
 /// ```
 pub struct Plan<'a> {
-    /// What is to move.
-    pub(crate) prepared: &'a Prepared,
-    /// How; methods are those of the components.
-    pub(crate) options: MotionOptions,
+    prepared: &'a Prepared,
+    options: MotionOptions,
     /// Whether the mechanism is taken apart.
     pub apart: Decided<bool>,
     /// Which rows of output are computed.
@@ -155,6 +153,18 @@ impl<'a> Plan<'a> {
             rows: rows(options, wanted.rows),
             components,
         })
+    }
+
+    /// What is to move.
+    #[must_use]
+    pub fn prepared(&self) -> &'a Prepared {
+        self.prepared
+    }
+
+    /// What was asked; methods are those of the components.
+    #[must_use]
+    pub fn options(&self) -> &MotionOptions {
+        &self.options
     }
 
     /// All decisions, those of the whole first.

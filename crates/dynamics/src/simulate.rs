@@ -92,7 +92,7 @@ fn run_component(
     let method = component.decisions.method.value;
     let options = &MotionOptions {
         method,
-        ..plan.options.clone()
+        ..plan.options().clone()
     };
     let motion = KeptRowMotion::with(prepared, options).map_err(|e| not_begun(e.into()))?;
     let wanted = component.decisions.reactions.value.clone();
@@ -156,12 +156,12 @@ fn run_component(
 
 /// The times of the rows.
 fn output_times(plan: &Plan<'_>) -> OutputTimes {
-    let t_end = plan.options.t_end;
+    let t_end = plan.options().t_end;
     match plan.rows.value {
         // A run that takes no time has one row.
         _ if t_end <= 0.0 => OutputTimes::At(vec![0.0]),
         plan::Rows::Ends => OutputTimes::At(vec![0.0, t_end]),
-        plan::Rows::Every => OutputTimes::Every(plan.options.output_step),
+        plan::Rows::Every => OutputTimes::Every(plan.options().output_step),
     }
 }
 

@@ -69,6 +69,8 @@ pub struct Mechanism {
     entries: Vec<f64>,
     /// Longest arm of each body in the initial configuration (m).
     reach: Vec<f64>,
+    /// Bodies whose angle rows of angles hold.
+    held: Vec<bool>,
     n_slots: usize,
     /// Largest number of values of one kernel.
     block: usize,

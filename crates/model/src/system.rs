@@ -142,6 +142,8 @@ pub struct Scratch {
     pub t: f64,
     /// Pose of each body.
     pub poses: Vec<Pose>,
+    /// Angles of their sines and cosines; NaN at the beginning.
+    pub(crate) turned_to: Vec<f64>,
     /// Φ, m values.
     pub phi: Vec<f64>,
     /// Entries of the blocks of C, constraint by constraint, ground columns included.

@@ -53,7 +53,7 @@ impl Decisions {
         Ok(Self {
             linear_systems: linear_systems(method.value, &sizes),
             elimination: dense(prepared, options.formulation, &sizes, &work),
-            mobility: mobility(&sizes),
+            mobility: mobility(&sizes, &work),
             nonholonomic: nonholonomic(&sizes),
             dropped: dropped(options.formulation, &sizes),
             of_time: of_time(&sizes, &work),
@@ -77,8 +77,8 @@ impl Decisions {
             line("nonholonomic rows", &self.nonholonomic),
             line("dropped rows", &self.dropped),
             line("rows of time", &self.of_time),
-            line("entries of C", &self.entries),
-            line("rows of Γ", &self.gamma),
+            line("varying entries", &self.entries),
+            line("rows of gamma", &self.gamma),
             line("turning bodies", &self.turning),
             line("forces", &self.forces),
             line("reactions", &self.reactions),
@@ -133,7 +133,7 @@ fn dense(
         value: [rows, n],
         taken: format!("dense, {rows} × {n}"),
         reason: format!(
-            "{}; {} entries of C, eliminated before M enters",
+            "{}, {} entries of C; saved against LU of the whole saddle matrix",
             formulation.name(),
             work.entries
         ),
@@ -141,14 +141,15 @@ fn dense(
     }
 }
 
-fn mobility(sizes: &Sizes) -> Decided<usize> {
+fn mobility(sizes: &Sizes, work: &Work) -> Decided<usize> {
     let value = sizes.mobility();
-    let (taken, reason) = match value {
-        0 => (
+    let (taken, reason) = match (value, work.rows_of_time) {
+        (0, 0) => ("none".to_owned(), "the constraints hold it where it is"),
+        (0, _) => (
             "a function of time".to_owned(),
-            "the constraints leave no freedom; functions are evaluated once at each time",
+            "driven, and nothing is free; functions are evaluated once at each time",
         ),
-        n => (format!("{n}"), "velocities less independent rows"),
+        (n, _) => (format!("{n}"), "velocities less independent rows"),
     };
     Decided {
         value,
@@ -211,11 +212,11 @@ fn of_time(sizes: &Sizes, work: &Work) -> Decided<usize> {
         (0, 0) => ("b = 0".to_owned(), "nothing depends on time".to_owned()),
         (0, n) => (
             "b = 0".to_owned(),
-            format!("no constraint depends on time; {n} functions of forces"),
+            format!("no constraint depends on time; functions of forces: {n}"),
         ),
         (rows, n) => (
             format!("b and Φt of {rows}"),
-            format!("driven; {n} functions, evaluated once at each time"),
+            format!("driven; functions, evaluated once at each time: {n}"),
         ),
     };
     Decided {
@@ -245,7 +246,7 @@ fn gamma(sizes: &Sizes, work: &Work) -> Decided<usize> {
         value,
         taken: format!("{value} evaluated"),
         reason: match all - value {
-            0 => "every joint has rows that turn or move".to_owned(),
+            0 => "no joint has constant C".to_owned(),
             n => format!("{n} belong to joints with constant C: Γ = 0"),
         },
         saves: Saving::of_sizes(all - value, all, Cost::Gamma),

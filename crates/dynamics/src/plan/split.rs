@@ -20,7 +20,10 @@ pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart
     let sets = whole.mechanism.components();
     let n = sets.len();
     if n == 1 {
-        return Ok(stays("all bodies are connected".to_owned()));
+        return Ok(stays(match whole.mechanism.bodies().len() {
+            1 => "there is one body".to_owned(),
+            _ => "all bodies are connected".to_owned(),
+        }));
     }
     if n > MOST {
         return Ok(stays(format!(

@@ -1,13 +1,19 @@
 //! What a plan leaves out is not done, and components that are run apart move as they do alone.
 
+mod watched;
+
 use std::ops::ControlFlow;
 
-use joints::{Distance, Revolute, RevoluteAngleDrive, SpringDamper};
+use joints::{
+    Angle, Direction, Distance, PinInSlot, Revolute, RevoluteAngleDrive, SpringDamper,
+    Translational,
+};
 use model::{Body, BodyRef, Description, Drive, Force, Function, Joint, Mechanism, StartOptions};
 
 use super::*;
 use crate::counts::{Counted, counted};
 use crate::{Failure, Method, RowChoice, Summary, prepare};
+use watched::{Calls, take, watch};
 
 const GROUND: BodyRef = BodyRef::Ground;
 
@@ -282,16 +288,16 @@ fn the_first_component_to_stop_stops_all() {
         };
         let block = BodyRef::Body(2);
         d.joints.push(Joint::new("rod", &[arm, block], rod));
-        let slot = joints::PinInSlot {
+        let slot = PinInSlot {
             s_i: [9.0, 0.8],
             s_j: [0.0; 2],
-            axis: joints::Direction::X,
+            axis: Direction::X,
         };
         d.joints.push(Joint::new("rail", &[GROUND, block], slot));
         d.joints.push(Joint::new(
             "upright",
             &[GROUND, block],
-            joints::Angle { angle_0: 0.0 },
+            Angle { angle_0: 0.0 },
         ));
     });
     let plan = Plan::new(&p, &to(0.4), &Wanted::default()).expect("a plan");
@@ -314,4 +320,136 @@ fn the_first_component_to_stop_stops_all() {
     );
     // Every row before the failure stands: one each 0.05 s.
     assert_eq!(rows.len(), (stopped / 0.05).floor() as usize + 1);
+}
+
+/// Calls of the kernels of the first joint in a run with this plan, the start left out.
+fn calls(build: impl FnOnce(&mut Description), options: &MotionOptions, wanted: &Wanted) -> Calls {
+    let mut notes = None;
+    let p = scene(|d| {
+        build(d);
+        notes = Some(watch(&mut d.joints[0]));
+    });
+    let notes = notes.expect("there is a joint");
+    let plan = Plan::new(&p, options, wanted).expect("a plan");
+    take(&notes);
+    go(&plan);
+    take(&notes)
+}
+
+#[test]
+fn kernels_of_what_is_left_out_are_not_called() {
+    let everything = Wanted::default();
+    let fall = |d: &mut Description| pendulum(d, "bob", 0.0);
+    let calls = |wanted: &Wanted, method| {
+        let options = MotionOptions { method, ..to(1.0) };
+        calls(fall, &options, wanted)
+    };
+    let all = calls(&everything, Method::Dop853);
+    assert!(all.phi > 0 && all.c > 0 && all.gamma > 0, "{all:?}");
+    assert_eq!(
+        (all.b, all.derivatives),
+        (0, 0),
+        "nothing depends on time, nothing is stiff"
+    );
+    assert_eq!(all.wrench, 9, "one for each row");
+    let nobody = Wanted {
+        reactions: Reactions::None,
+        ..Wanted::default()
+    };
+    assert_eq!(calls(&nobody, Method::Dop853).wrench, 0);
+    assert!(calls(&everything, Method::Radau5).derivatives > 0);
+}
+
+#[test]
+fn a_component_does_not_work_for_another() {
+    let fall = |d: &mut Description| pendulum(d, "bob", 0.0);
+    let both = |d: &mut Description| {
+        pendulum(d, "bob", 0.0);
+        stiff(d);
+    };
+    let everything = Wanted::default();
+    assert_eq!(
+        calls(both, &to(1.0), &everything),
+        calls(fall, &to(1.0), &everything)
+    );
+}
+
+/// A block on a rail through the ground that rises by 0.6 in 1, pushed along it by a drive, with a weight that hangs from it.
+fn guided(d: &mut Description) {
+    let axis = Direction::new([0.8, 0.6]).expect("a direction");
+    let [block, held, bob] = [0, 1, 2].map(BodyRef::Body);
+    d.bodies.push(Body {
+        angle: 0.7,
+        ..body("block", [0.0, 0.0])
+    });
+    d.bodies.push(body("held", [2.0, 1.0]));
+    d.bodies.push(body("bob", [1.0, -1.0]));
+    let rail = Translational {
+        s_i: [0.0; 2],
+        s_j: [0.3, 0.2],
+        axis,
+        angle_0: 0.0,
+    };
+    let mut rail = Joint::new("rail", &[GROUND, block], rail);
+    // The point of the block that slides is on the rail.
+    d.bodies[0].position = [
+        -(0.7_f64.cos() * 0.3 - 0.7_f64.sin() * 0.2),
+        -(0.7_f64.sin() * 0.3 + 0.7_f64.cos() * 0.2),
+    ];
+    rail.name = "rail".into();
+    d.joints.push(rail);
+    d.joints
+        .push(Joint::new("hold", &[block, held], Angle { angle_0: 0.0 }));
+    let pin = |name: &str, i, j, at: [f64; 2], bodies: &[Body]| {
+        let local = |b| match b {
+            BodyRef::Ground => at,
+            BodyRef::Body(k) => bodies[k].pose().to_local(at),
+        };
+        Joint::new(
+            name,
+            &[i, j],
+            Revolute {
+                s_i: local(i),
+                s_j: local(j),
+            },
+        )
+    };
+    d.joints
+        .push(pin("hook", block, bob, [0.5, -0.5], &d.bodies));
+    d.joints.push(pin("tie", held, bob, [1.5, 0.0], &d.bodies));
+    let motor = joints::TranslationalDisplacementDrive {
+        s_i: [0.0; 2],
+        s_j: [0.3, 0.2],
+        axis,
+        angle_0: 0.0,
+        measure_0: 0.0,
+    };
+    d.drives.push(Drive {
+        name: "motor".into(),
+        bodies: vec![GROUND, block],
+        element: Box::new(motor),
+        motion: Function::harmonic(0.3, 5.0, 0.2, 0.0).expect("finite"),
+    });
+}
+
+#[test]
+fn bodies_that_do_not_turn_have_one_sine_and_cosine() {
+    let p = scene(guided);
+    let plan = Plan::new(&p, &to(2.0), &Wanted::default()).expect("a plan");
+    let turning = &plan.components[0].decisions.turning;
+    assert_eq!((turning.value, turning.taken.as_str()), (1, "1 of 3"));
+    for turn in 0..2 {
+        let seen = calls(
+            |d| {
+                guided(d);
+                d.joints.swap(0, turn);
+            },
+            &to(2.0),
+            &Wanted::default(),
+        );
+        assert_eq!(seen.sines.len(), 1, "joint {turn}: {:?}", seen.sines);
+        // Rows of angles have constant C and no Γ.
+        assert_eq!((seen.c == 0, seen.gamma == 0), (turn == 1, turn == 1));
+        assert!(seen.phi > 0);
+    }
 }

@@ -61,7 +61,7 @@ where
 {
     let clock = Instant::now();
     let (outcomes, stopped) = thread::scope(|scope| {
-        let mut several = Several::new(&plan.prepared.mechanism);
+        let mut several = Several::new(&plan.prepared().mechanism);
         let mut handles = Vec::with_capacity(plan.components.len());
         let mut refused = None;
         for (k, component) in plan.components.iter().enumerate() {
@@ -84,7 +84,7 @@ where
         }
         let stopped = match refused {
             Some(error) => Some(error),
-            None => several.go(&plan.prepared.mechanism, row).map(Into::into),
+            None => several.go(&plan.prepared().mechanism, row).map(Into::into),
         };
         // Whoever waits goes no further.
         drop(several);

@@ -478,7 +478,7 @@ impl Builder {
         self.layout.break_times.sort_by(f64::total_cmp);
         self.layout.break_times.dedup();
         let mass = bodies.iter();
-        Mechanism {
+        let mut mechanism = Mechanism {
             name: name.to_owned(),
             constraints: self.constraints,
             forces: self.forces,
@@ -487,11 +487,14 @@ impl Builder {
             weight,
             entries: self.entries,
             reach: vec![0.0; bodies.len()],
+            held: Vec::new(),
             n_slots: self.n_slots,
             block: self.block,
             layout: self.layout,
             bodies,
-        }
+        };
+        mechanism.held = mechanism.held_bodies();
+        mechanism
     }
 }
 

@@ -10,6 +10,9 @@ use super::{Mechanism, N_BODY, pose_of};
 use crate::description::BodyRef;
 use crate::system::{Layout, Scratch, System};
 
+/// What rounding moves an angle by that is held.
+const HELD: f64 = 4.0 * f64::EPSILON;
+
 impl System for Mechanism {
     fn layout(&self) -> &Layout {
         &self.layout
@@ -24,6 +27,7 @@ impl System for Mechanism {
         Scratch {
             t: 0.0,
             poses: vec![Pose::GROUND; self.bodies.len()],
+            turned_to: vec![f64::NAN; self.bodies.len()],
             phi: vec![0.0; layout.m],
             entries: self.entries.clone(),
             b: vec![0.0; layout.rows()],
@@ -39,11 +43,11 @@ impl System for Mechanism {
 
     fn pose(&self, t: f64, q: &[f64], s: &mut Scratch) {
         s.t = t;
-        for (pose, q) in s.poses.iter_mut().zip(q.chunks_exact(N_BODY)) {
-            (pose.x, pose.y) = (q[0], q[1]);
-            // By bits: the sine of −0 is not that of 0.
-            if pose.angle.to_bits() != q[2].to_bits() {
-                *pose = Pose::new(q[0], q[1], q[2]);
+        for (k, (pose, q)) in s.poses.iter_mut().zip(q.chunks_exact(N_BODY)).enumerate() {
+            (pose.x, pose.y, pose.angle) = (q[0], q[1], q[2]);
+            if !self.stays(k, s.turned_to[k], q[2]) {
+                s.turned_to[k] = q[2];
+                (pose.sin, pose.cos) = q[2].sin_cos();
                 note(Counted::Trigonometry);
             }
         }
@@ -136,6 +140,15 @@ impl System for Mechanism {
 }
 
 impl Mechanism {
+    /// Whether a body has the sine and cosine at an angle that it had at another one. Where rows of angles hold it, rounding may move the
+    /// angle, but does not turn it; elsewhere bits count: the sine of −0 is not that of 0.
+    fn stays(&self, body: usize, from: f64, to: f64) -> bool {
+        match self.held[body] {
+            true => (to - from).abs() <= HELD * from.abs().max(1.0),
+            false => to.to_bits() == from.to_bits(),
+        }
+    }
+
     /// Writes velocities or accelerations of the bodies to the slots; those of the ground stay zero.
     pub(super) fn spread(&self, v: &[f64], slot_twists: &mut [Twist]) {
         for (slots, bodies) in self.places() {

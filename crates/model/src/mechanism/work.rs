@@ -42,7 +42,7 @@ impl Mechanism {
     #[must_use]
     pub fn work(&self) -> Work {
         let mut work = Work {
-            without_turning: self.bodies_that_do_not_turn(),
+            without_turning: (0..self.held.len()).filter(|&k| self.held[k]).collect(),
             functions: self.functions.len(),
             forces: self.forces.len(),
             ..Work::default()
@@ -64,10 +64,10 @@ impl Mechanism {
         work
     }
 
-    /// Bodies whose angle keeps its initial value: a holonomic row that does not depend on time holds it against the ground, or against
+    /// For each body, whether its angle keeps its initial value: a holonomic row that does not depend on time holds it against the ground, or against
     /// bodies of which this is known. Only rows of angles alone, with constant entries, are asked, so that not all such bodies may be
     /// found.
-    fn bodies_that_do_not_turn(&self) -> Vec<usize> {
+    pub(super) fn held_bodies(&self) -> Vec<bool> {
         let rows: Vec<Vec<usize>> = self
             .constraints
             .iter()
@@ -83,7 +83,7 @@ impl Mechanism {
                 free.next().filter(|_| free.next().is_none())
             };
             let Some(body) = rows.iter().find_map(free) else {
-                return (0..held.len()).filter(|&k| held[k]).collect();
+                return held;
             };
             held[body] = true;
         }

@@ -95,6 +95,28 @@ fn angles_that_stay_have_their_sine_and_cosine_already() {
 }
 
 #[test]
+fn rounding_does_not_turn_what_is_held() {
+    let m = trolley();
+    let mut s = m.scratch();
+    m.pose(0.0, &[0.0; 9], &mut s);
+    let mut q = [0.0; 9];
+    // Each by one rounding: the slider is held, the bob is not.
+    (q[2], q[8]) = (f64::EPSILON, f64::EPSILON);
+    assert_eq!(count(Counted::Trigonometry, || m.pose(0.0, &q, &mut s)), 1);
+    assert_eq!([s.poses[0].sin, s.poses[2].sin], [0.0, f64::EPSILON]);
+    assert_eq!(s.poses[0].angle, f64::EPSILON, "rows of angles see it");
+    // Roundings do not add up unseen.
+    for k in 2..8 {
+        q[2] = f64::EPSILON * f64::from(k);
+        m.pose(0.0, &q, &mut s);
+    }
+    assert_eq!(s.poses[0].sin, 5.0 * f64::EPSILON);
+    q[2] = 1e-9;
+    m.pose(0.0, &q, &mut s);
+    assert_eq!(s.poses[0].sin, 1e-9);
+}
+
+#[test]
 fn functions_are_evaluated_once_at_each_time() {
     let m = trolley();
     let mut s = m.scratch();
