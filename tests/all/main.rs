@@ -11,6 +11,7 @@ mod drives_that_jump;
 mod exact_oracle;
 mod existence;
 mod formulations;
+mod generated_code;
 mod generic;
 mod granularity;
 mod independent_coordinates;

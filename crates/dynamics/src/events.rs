@@ -27,6 +27,10 @@ pub enum EventKind {
     SingularPassage,
     /// A rate jumped, and velocities with it.
     Impulse,
+    /// Generated code was not sure: the equations are interpreted from here on.
+    CodeLeft,
+    /// Generated code is used again.
+    CodeUsed,
 }
 
 impl EventKind {
@@ -37,6 +41,8 @@ impl EventKind {
             Self::RowsExchanged => "rows-exchanged",
             Self::SingularPassage => "singular-passage",
             Self::Impulse => "impulse",
+            Self::CodeLeft => "code-left",
+            Self::CodeUsed => "code-used",
         }
     }
 }

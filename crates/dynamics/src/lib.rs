@@ -6,12 +6,14 @@
 //! | --- | --- |
 //! | [`options`] | what a run is asked to do |
 //! | [`mod@prepare`] | consistent start, decided rank, kept rows |
+//! | [`code`] | what a run asks of code generated for one mechanism |
 //! | [`plan`] | what a run does and leaves out, with reasons |
 //! | [`motion`] | the solved equations on kept rows: acceleration, projection, reactions, monitors |
 //! | [`events`] | what happened on the way |
 //! | [`mod@simulate`] | a run: integration, projected output, energy balance |
 
 mod choose;
+pub mod code;
 mod counts;
 mod error;
 pub mod events;
@@ -21,6 +23,7 @@ pub mod plan;
 pub mod prepare;
 pub mod simulate;
 
+pub use code::{CodeMismatch, Facts, NoCode, SceneCode};
 pub use error::{MotionError, Trip};
 pub use events::{Event, EventKind};
 pub use motion::{Correction, KeptRowMotion, Motion, Reduced};

@@ -11,6 +11,7 @@
 
 mod all_rows;
 mod chart;
+mod coded;
 pub(crate) mod constrained;
 mod impulse;
 mod locate;
@@ -20,6 +21,8 @@ mod reduced;
 mod review;
 mod rows;
 mod stabilise;
+
+use std::sync::Arc;
 
 use linalg::ProximalTuning;
 use model::{Mechanism, Scratch, System};
@@ -31,6 +34,7 @@ use crate::options::{MotionOptions, RowChoice, Stabilisation};
 use crate::prepare::Prepared;
 use all_rows::AllRows;
 use chart::Chart;
+use coded::Coded;
 pub(crate) use locate::Singular;
 use passage::Passage;
 use rows::KeptRows;
@@ -89,6 +93,8 @@ pub struct KeptRowMotion<'a> {
     /// All rows, where accelerations and reactions are theirs.
     all_rows: Option<AllRows>,
     stabilisation: Stabilisation,
+    /// Generated code, where there is some that may be used.
+    coded: Option<Coded>,
     /// Whether a singular configuration is passed.
     passage: Passage,
     /// Whether other rows hold the position since it was settled.
@@ -104,7 +110,7 @@ pub struct KeptRowMotion<'a> {
 }
 
 impl<'a> KeptRowMotion<'a> {
-    /// The motion of a prepared mechanism on kept rows, with projection.
+    /// The motion of a prepared mechanism on kept rows, with projection and by the interpreter.
     ///
     /// # Errors
     /// If more rows are kept than there are velocities.
@@ -112,7 +118,8 @@ impl<'a> KeptRowMotion<'a> {
         Self::kept(prepared, None, Stabilisation::Projection)
     }
 
-    /// The motion of a prepared mechanism with the formulation, stabilisation and relative tolerance of a run.
+    /// The motion of a prepared mechanism with the formulation, stabilisation and relative tolerance of a run; on generated code, if there
+    /// is some for it.
     ///
     /// # Errors
     /// As [`KeptRowMotion::new`]; also if the formulation has no solution at the start.
@@ -121,6 +128,9 @@ impl<'a> KeptRowMotion<'a> {
         let mut motion = Self::kept(prepared, all_rows, options.stabilisation)?;
         if options.is_on_chart() {
             motion.use_chart(0.0, &prepared.q)?;
+        }
+        if let Ok(code) = prepared.code_for(options) {
+            motion.use_code(Arc::clone(code), 0.0, &prepared.q);
         }
         Ok(motion)
     }
@@ -146,6 +156,7 @@ impl<'a> KeptRowMotion<'a> {
             chart: None,
             all_rows,
             stabilisation,
+            coded: None,
             passage: Passage::default(),
             is_unsettled: false,
             pending: None,
@@ -193,21 +204,6 @@ impl<'a> KeptRowMotion<'a> {
     /// The same relative to that when the rows were chosen.
     pub(crate) fn relative_pivot(&self) -> f64 {
         self.velocity.relative_pivot()
-    }
-
-    /// Power of drives and applied forces at the last evaluated acceleration (W): `Q·v − λᵀ·b`. The weight has a
-    /// potential and is not counted.
-    pub(crate) fn power(&mut self, v: &[f64]) -> f64 {
-        self.evaluate_b();
-        let b = &self.s.b;
-        let constraints: f64 = match &self.all_rows {
-            Some(all) => all.lambda.iter().zip(b).map(|(l, b)| -l * b).sum(),
-            None => {
-                let rows = self.velocity.kept.iter().zip(&self.velocity.lambda);
-                rows.map(|(&i, l)| -l * b[i]).sum()
-            }
-        };
-        self.mechanism.applied_power(&self.s.force, v) + constraints
     }
 
     /// Kept rows: how many are holonomic, and how many are not.
@@ -308,7 +304,10 @@ impl<'a> KeptRowMotion<'a> {
 
 impl Motion for KeptRowMotion<'_> {
     fn acceleration(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Trip> {
-        self.solve(t, q, v, a)
+        match self.coded_acceleration(t, q, v, a) {
+            true => Ok(()),
+            false => self.solve(t, q, v, a),
+        }
     }
 
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, Trip> {
@@ -327,6 +326,9 @@ impl Motion for KeptRowMotion<'_> {
         note(Counted::Multipliers);
         if self.all_rows.is_some() {
             return self.multipliers_of_all(t, q, v, lambda);
+        }
+        if self.coded_multipliers(t, q, v, lambda) {
+            return Ok(());
         }
         self.swap_aside();
         let mut a = std::mem::take(&mut self.delta);

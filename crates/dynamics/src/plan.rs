@@ -10,6 +10,8 @@ mod tests;
 
 use model::{Places, System};
 
+use crate::choose;
+use crate::code::NoCode;
 use crate::error::MotionError;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
@@ -117,6 +119,8 @@ pub struct Plan<'a> {
     options: MotionOptions,
     /// Whether the mechanism is taken apart.
     pub apart: Decided<bool>,
+    /// Whether code that was generated for the mechanism is used.
+    pub code: Decided<bool>,
     /// Which rows of output are computed.
     pub rows: Decided<Rows>,
     /// Its components, or the whole as the only one.
@@ -138,7 +142,11 @@ impl<'a> Plan<'a> {
         options.check()?;
         options.check_rows(&prepared.choice)?;
         let groups = wanted_groups(prepared, &wanted.reactions)?;
-        let (apart, parts) = split::split(prepared)?;
+        let code = code(prepared, options)?;
+        let (apart, parts) = match code.value {
+            true => split::stays("the generated code has all bodies".to_owned()),
+            false => split::split(prepared)?,
+        };
         let components = match parts.is_empty() {
             true => vec![ComponentPlan::whole(prepared, options, &groups)?],
             false => parts
@@ -150,6 +158,7 @@ impl<'a> Plan<'a> {
             prepared,
             options: options.clone(),
             apart,
+            code,
             rows: rows(options, wanted.rows),
             components,
         })
@@ -172,6 +181,7 @@ impl<'a> Plan<'a> {
     pub fn lines(&self) -> Vec<Line<'_>> {
         let of_whole = [
             line("components", &self.apart),
+            line("generated code", &self.code),
             line("rows of output", &self.rows),
         ];
         let several = self.components.len() > 1;
@@ -210,6 +220,36 @@ fn wanted_groups(prepared: &Prepared, reactions: &Reactions) -> Result<Vec<bool>
         Some(name) => Err(MotionError::NoReaction { name: name.clone() }),
         None => Ok(groups.iter().map(|g| names.contains(&g.name)).collect()),
     }
+}
+
+/// Whether a run of the whole is one on generated code.
+fn code(prepared: &Prepared, options: &MotionOptions) -> Result<Decided<bool>, MotionError> {
+    let interpreted = |why: NoCode| Decided {
+        value: false,
+        taken: "interpreted".to_owned(),
+        reason: why.to_string(),
+        saves: None,
+    };
+    // What has no code need not choose a method for the whole.
+    if let Err(why @ NoCode::None) = prepared.code_for(options) {
+        return Ok(interpreted(why));
+    }
+    let options = MotionOptions {
+        method: choose::method(prepared, options)?.value,
+        ..options.clone()
+    };
+    Ok(match prepared.code_for(&options) {
+        Err(why) => interpreted(why),
+        Ok(code) => Decided {
+            value: true,
+            taken: format!("`{}`", code.facts().name),
+            reason: format!(
+                "its values are those of this mechanism; {}",
+                code.facts().operations
+            ),
+            saves: None,
+        },
+    })
 }
 
 fn rows(options: &MotionOptions, rows: Rows) -> Decided<Rows> {

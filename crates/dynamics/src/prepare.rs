@@ -1,11 +1,14 @@
 //! From an assembled mechanism to one that can move: a consistent start, a decided rank, kept rows. The rank is
 //! decided here, at a polished point, and nowhere else during a run.
 
+use std::sync::Arc;
+
 use linalg::{RankDecision, RankStatus};
 use model::start::{assemble, consistent_velocity};
 use model::{Assembly, Mechanism, StartOptions, System};
 use solvability::{Ranks, contradictions, decide, decide_dropping, decide_holonomic};
 
+use crate::code::SceneCode;
 use crate::error::MotionError;
 use crate::options::RowChoice;
 
@@ -28,6 +31,8 @@ pub struct Prepared {
     pub assembly: Assembly,
     /// Velocities at the start minus the described ones.
     pub velocity_correction: Vec<f64>,
+    /// Code generated for this mechanism on these rows, if there is some: see [`Prepared::with_code`].
+    pub(crate) code: Option<Arc<dyn SceneCode>>,
 }
 
 /// Assembles the start, decides the rank there, chooses rows, and makes the velocities consistent.
@@ -80,5 +85,6 @@ pub fn prepare(
         position_decision,
         assembly,
         velocity_correction,
+        code: None,
     })
 }

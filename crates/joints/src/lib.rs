@@ -5,6 +5,7 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`ring`] | the number types kernels run on |
+//! | [`recorded`] | the one that writes down what is done with it |
 //! | [`plane`] | poses and twists of planar bodies |
 //! | [`spec`] | what a definition says of itself: rows, parameters, patterns, counts |
 //! | [`arguments`] | values for the parameters of a definition |
@@ -21,6 +22,7 @@ pub mod constraint;
 pub mod force;
 pub mod generated;
 pub mod plane;
+pub mod recorded;
 pub mod ring;
 pub mod spec;
 pub mod visitor;
@@ -30,6 +32,7 @@ pub use constraint::{Constraint, Element};
 pub use force::{Force, ForceElement};
 pub use generated::*;
 pub use plane::{Direction, Line, Pose, Twist};
+pub use recorded::Recorded;
 pub use ring::{Magnitude, Real, Ring};
 pub use spec::{ConstraintSpec, ForceSpec};
 pub use visitor::Visitor;

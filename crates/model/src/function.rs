@@ -2,10 +2,13 @@
 //! house depends on time.
 
 mod lines;
+mod parts;
 mod spline;
 
 use lines::Lines;
 use spline::Spline;
+
+pub use parts::Parts;
 
 /// A scalar function of time.
 ///

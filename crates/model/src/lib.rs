@@ -24,6 +24,7 @@
 //! | [`mechanism`] | the assembled equations |
 //! | [`system`] | what a solver sees of them |
 //! | [`extended`] | constraints in double-double, for certificates |
+//! | [`record`] | the equations as operations, for generators of code |
 //! | `scale` | what residuals are compared with |
 //! | `uncertainty` | what the entries of C are known to |
 //! | [`start`] | a consistent start |
@@ -35,6 +36,7 @@ pub mod extended;
 pub mod function;
 pub mod mechanism;
 pub mod reaction;
+pub mod record;
 pub mod registry;
 mod rigid;
 mod scale;
@@ -47,6 +49,7 @@ pub use extended::Polished;
 pub use function::{Function, FunctionError};
 pub use mechanism::{BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work};
 pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction};
+pub use record::Recording;
 pub use registry::{ConstraintDefinition, ForceDefinition, PlaneConstraint, PlaneForce, Registry};
 pub use start::{Assembly, Coordinate, StartError, StartOptions};
 pub use system::{Layout, RowLabel, Scratch, System};

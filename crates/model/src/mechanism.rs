@@ -130,6 +130,11 @@ pub(crate) struct TimeFunction {
 }
 
 impl TimeFunction {
+    /// The function, and what is subtracted from it.
+    pub(crate) fn parts(&self) -> (&Function, f64) {
+        (&self.function, self.offset)
+    }
+
     pub(crate) fn jet(&self, t: f64) -> [f64; 3] {
         let [f, d, dd] = self.function.jet(t);
         [f - self.offset, d, dd]
@@ -177,11 +182,12 @@ impl Mechanism {
         self.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum()
     }
 
-    /// Power of the applied forces Q without the weight (W).
+    /// Rate of kinetic energy and potential of the weight at velocities v and accelerations a (W): `vᵀ·(M·a − weight)`. On the
+    /// constraints it is the power of drives and applied forces, because `M·a − Q = −Cᵀ·λ` and `C·v = b`.
     #[must_use]
-    pub fn applied_power(&self, force: &[f64], v: &[f64]) -> f64 {
-        let terms = force.iter().zip(&self.weight).zip(v);
-        terms.map(|((q, w), v)| (q - w) * v).sum()
+    pub fn energy_rate(&self, v: &[f64], a: &[f64]) -> f64 {
+        let terms = self.mass.iter().zip(a).zip(self.weight.iter().zip(v));
+        terms.map(|((m, a), (w, v))| (m * a - w) * v).sum()
     }
 
     /// Name of the body and of its coordinate behind a column of C.
@@ -290,6 +296,14 @@ impl Mechanism {
 
     pub(crate) fn constraints(&self) -> &[PlacedConstraint] {
         &self.constraints
+    }
+
+    pub(crate) fn forces(&self) -> &[PlacedForce] {
+        &self.forces
+    }
+
+    pub(crate) fn time_functions(&self) -> &[TimeFunction] {
+        &self.functions
     }
 
     /// Functions of time that a constraint takes.

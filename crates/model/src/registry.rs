@@ -2,11 +2,11 @@
 
 use joints::spec::{ConstraintSpec, ForceSpec, Spec};
 use joints::{
-    Argument, ArgumentError, Constraint, Element, Force, ForceElement, Magnitude, Visitor,
+    Argument, ArgumentError, Constraint, Element, Force, ForceElement, Magnitude, Recorded, Visitor,
 };
 use linalg::Dd;
 
-/// A planar constraint as an object: kernels in `f64`, in double-double and on magnitudes.
+/// A planar constraint as an object: kernels in `f64`, in double-double, on magnitudes and on recorded numbers.
 pub trait PlaneConstraint: Send + Sync {
     /// Kernels for motion.
     fn element(&self) -> &dyn Element<f64>;
@@ -16,6 +16,8 @@ pub trait PlaneConstraint: Send + Sync {
     fn extended(&self) -> &dyn Element<Dd>;
     /// Kernels for bounds of the rounding of data.
     fn magnitude(&self) -> &dyn Element<Magnitude>;
+    /// Kernels that write down their operations.
+    fn recorded(&self) -> &dyn Element<Recorded>;
     /// A copy.
     fn boxed(&self) -> Box<dyn PlaneConstraint>;
 }
@@ -31,6 +33,9 @@ impl<K: Constraint> PlaneConstraint for K {
         self
     }
     fn magnitude(&self) -> &dyn Element<Magnitude> {
+        self
+    }
+    fn recorded(&self) -> &dyn Element<Recorded> {
         self
     }
     fn boxed(&self) -> Box<dyn PlaneConstraint> {
@@ -50,6 +55,8 @@ pub trait PlaneForce: Send + Sync {
     fn element(&self) -> &dyn ForceElement<f64>;
     /// The same, to set initial values.
     fn element_mut(&mut self) -> &mut dyn ForceElement<f64>;
+    /// Kernels that write down their operations.
+    fn recorded(&self) -> &dyn ForceElement<Recorded>;
     /// A copy.
     fn boxed(&self) -> Box<dyn PlaneForce>;
 }
@@ -59,6 +66,9 @@ impl<K: Force> PlaneForce for K {
         self
     }
     fn element_mut(&mut self) -> &mut dyn ForceElement<f64> {
+        self
+    }
+    fn recorded(&self) -> &dyn ForceElement<Recorded> {
         self
     }
     fn boxed(&self) -> Box<dyn PlaneForce> {

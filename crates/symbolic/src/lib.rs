@@ -8,21 +8,27 @@
 //! | `order` | the canonical order of terms and factors |
 //! | [`differentiate`] | exact derivatives along any derivation |
 //! | [`evaluate`] | direct evaluation, for tests and constants |
-//! | [`lower`] | common subexpressions and operation counts |
+//! | [`program`] | straight-line code: common subexpressions and operation counts |
+//! | `build` | the same built by operations, known parts folded |
+//! | `tangent` | derivatives of straight-line code along its inputs |
+//! | `lower` | from expressions to straight-line code |
 //! | [`mod@print`] | Rust tokens |
 //!
 //! No mechanics here: bodies, joints and frames belong to the crate `codegen`.
 
+mod build;
 pub mod differentiate;
 pub mod evaluate;
 pub mod graph;
-pub mod lower;
+mod lower;
 mod order;
 pub mod print;
+pub mod program;
 mod substitute;
+mod tangent;
 
 pub use differentiate::Derivation;
 pub use evaluate::Number;
 pub use graph::{Expr, Function, Graph, Node, Symbol};
-pub use lower::{Binary, Counts, Op, Program, Value};
 pub use print::{Printer, Scalar};
+pub use program::{Binary, Counts, Op, Program, Value};

@@ -7,7 +7,7 @@ use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;
 
 use crate::graph::{Expr, Function, Graph};
-use crate::lower::{Binary, Op, Program, Value};
+use crate::program::{Binary, Op, Program, Value};
 
 /// The number type of the printed code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -128,25 +128,27 @@ impl KeptRowMotion<'_> {
         let (qd, rest) = dy.split_at_mut(layout.n_q);
         let (a, work) = rest.split_at_mut(layout.n_v);
         let Some(mut chart) = self.chart.take() else {
-            self.solve(t, q, v, a)?;
-            self.rates(q, v, qd, work);
+            if !self.coded_stage(t, q, v, a)? {
+                self.solve(t, q, v, a)?;
+            }
+            self.rates(q, v, a, (qd, work));
             return Ok(());
         };
         let solved = self
             .complete_on(&mut chart, t, q, v)
             .and_then(|()| self.solve_completed(&chart, a));
         if solved.is_ok() {
-            self.rates(&chart.q, &chart.v, qd, work);
+            self.rates(&chart.q, &chart.v, a, (qd, work));
         }
         self.chart = Some(chart);
         solved
     }
 
-    /// q̇ and, where there is room for it, the power at a state whose acceleration is the last one evaluated.
-    fn rates(&mut self, q: &[f64], v: &[f64], qd: &mut [f64], work: &mut [f64]) {
+    /// q̇ and, where there is room for it, the power of drives and applied forces at a state with acceleration a.
+    fn rates(&self, q: &[f64], v: &[f64], a: &[f64], (qd, work): (&mut [f64], &mut [f64])) {
         self.mechanism.rate(q, v, qd);
         if let Some(work) = work.first_mut() {
-            *work = self.power(v);
+            *work = self.mechanism.energy_rate(v, a);
         }
     }
 

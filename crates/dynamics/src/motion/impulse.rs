@@ -65,6 +65,7 @@ impl KeptRowMotion<'_> {
         let iterations = self.settle(t, q)?;
         self.finish(q, v, iterations)?;
         self.passage.forget_entry();
+        self.restart_code(t);
         let energy = mechanism.kinetic_energy(v) - kinetic;
         let redundancy = self.velocity.dropped.len();
         let label = &layout.labels[row];

@@ -232,14 +232,11 @@ impl Reduced {
         velocity.solve(mechanism, s, &self.force, da)?;
         mechanism.rate(&chart.q, dv, d_rate);
         if let Some(d_work) = d_work.first_mut() {
-            // On the constraints the power is (M·a − weight)·v.
-            let (mass, a) = (mechanism.mass(), &self.dy[layout.n_q..]);
-            for (f, (m, a)) in self.force.iter_mut().zip(mass.iter().zip(a)) {
-                *f = m * a;
-            }
-            let inertia = mass.iter().zip(&*da).zip(&chart.v);
-            *d_work = mechanism.applied_power(&self.force, dv)
-                + inertia.map(|((m, da), v)| m * da * v).sum::<f64>();
+            // The power (M·a − weight)·v, changed with v, and with a.
+            let a = &self.dy[layout.n_q..layout.n_q + layout.n_v];
+            let inertia = mechanism.mass().iter().zip(&*da).zip(&chart.v);
+            *d_work =
+                mechanism.energy_rate(dv, a) + inertia.map(|((m, da), v)| m * da * v).sum::<f64>();
         }
         Ok(())
     }

@@ -51,6 +51,9 @@ impl KeptRowMotion<'_> {
         q: &mut [f64],
         v: &mut [f64],
     ) -> Result<Correction, Trip> {
+        if let Some(found) = self.coded_row(t, q, v) {
+            return Ok(found);
+        }
         if self.projects() {
             self.complete_row(t, q, v)?;
             let iterations = self.settle(t, q)?;

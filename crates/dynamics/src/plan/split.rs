@@ -51,7 +51,8 @@ pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart
     Ok((decided, parts))
 }
 
-fn stays(reason: String) -> (Decided<bool>, Vec<PreparedPart>) {
+/// The mechanism stays whole.
+pub(super) fn stays(reason: String) -> (Decided<bool>, Vec<PreparedPart>) {
     let decided = Decided {
         value: false,
         taken: "solved as one".to_owned(),
@@ -114,6 +115,7 @@ fn prepared(whole: &Prepared, part: Part) -> Result<Option<PreparedPart>, Motion
         decision,
         position_decision,
         assembly,
+        code: None,
     };
     Ok(Some((own, places)))
 }

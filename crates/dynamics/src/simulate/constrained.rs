@@ -49,7 +49,7 @@ impl Constrained for Equations<'_> {
         let (motion, saddle_point) = self.constrained();
         saddle_point.acceleration_towards(motion, (t, q, v), &aim, a)?;
         if let Some(work) = work.first_mut() {
-            *work = self.motion.power(v);
+            *work = self.motion.mechanism().energy_rate(v, a);
         }
         Ok(())
     }

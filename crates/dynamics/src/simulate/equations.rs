@@ -68,6 +68,8 @@ pub(super) struct Equations<'m> {
     uniqueness: Vec<(usize, String)>,
     /// Whether the stages of the present step are moved onto the constraints.
     is_careful: bool,
+    /// Whether stages of the present step were evaluated by code that has been left since: it begins again.
+    is_void: bool,
     /// When the motion is expected to pass a singular configuration.
     delicate: Option<f64>,
     /// The last accepted step.
@@ -102,6 +104,7 @@ impl<'m> Equations<'m> {
             is_suspect: false,
             uniqueness: Vec::new(),
             is_careful: false,
+            is_void: false,
             delicate: None,
             last: Span::default(),
             before: Vec::new(),
@@ -246,6 +249,44 @@ impl<'m> Equations<'m> {
         self.events.push(event);
     }
 
+    /// The end of a step on generated code, which goes on as long as it is sure of itself.
+    fn end_of_coded_step(
+        &mut self,
+        step: &StepInfo<'_>,
+        y: &mut [f64],
+        dy: &mut [f64],
+    ) -> Result<StepEnd, Trip> {
+        let ended = self.motion.end_coded_step(step.t_rhs, y, dy);
+        self.note_departure();
+        let Some(found) = ended? else {
+            self.is_void = false;
+            return Ok(StepEnd::Reject);
+        };
+        for (before, y) in self.before.iter_mut().zip(&*y) {
+            *before -= y;
+        }
+        let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+        let a = &dy[self.n_q..self.n_q + self.n_v];
+        self.motion.accept_coded((step.t, q, v, a));
+        self.is_suspect = false;
+        self.note(y, found);
+        Ok(StepEnd::Projected {
+            correction: step.norm(&self.before),
+            evaluations: 1,
+        })
+    }
+
+    /// If code was left: the interpreter goes on from the last accepted state as if it had led there.
+    fn note_departure(&mut self) {
+        let Some(departure) = self.motion.take_departure() else {
+            return;
+        };
+        self.events.push(departure.event);
+        self.is_void = departure.is_within_step;
+        self.is_careful = self.wants_care();
+        self.delicate = self.motion.foresee_from_code(FORESIGHT);
+    }
+
     fn is_break(&self, t: f64) -> bool {
         let times = &self.motion.mechanism().layout().break_times;
         times.binary_search_by(|b| b.total_cmp(&t)).is_ok()
@@ -269,6 +310,11 @@ impl Ode for Equations<'_> {
     }
 
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
+        if self.motion.is_coded() {
+            let evaluated = self.motion.derivative(t, y, dy);
+            self.note_departure();
+            return evaluated;
+        }
         if !self.is_careful {
             self.motion.derivative(t, y, dy)?;
             return match &mut self.reduced {
@@ -294,6 +340,12 @@ impl Ode for Equations<'_> {
         dy: &mut [f64],
     ) -> Result<StepEnd, Trip> {
         self.before.copy_from_slice(y);
+        if std::mem::take(&mut self.is_void) {
+            return Ok(StepEnd::Reject);
+        }
+        if self.motion.is_coded() {
+            return self.end_of_coded_step(step, y, dy);
+        }
         // A step has to end at the break times and at the end of the run, wherever that is.
         let nearest = if step.t == self.t_end || self.is_break(step.t) {
             0.0
@@ -347,6 +399,10 @@ impl Ode for Equations<'_> {
         self.delicate = self
             .motion
             .foresee(now, step.t + FORESIGHT * (step.t - step.t0));
+        if !is_suspect && self.delicate.is_none() {
+            let returned = self.motion.return_to_code(now);
+            self.events.extend(returned);
+        }
         Ok(StepEnd::Projected {
             correction,
             evaluations: 1,

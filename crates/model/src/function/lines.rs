@@ -20,6 +20,11 @@ impl Lines {
         &self.times
     }
 
+    /// Times and values.
+    pub(super) fn points(&self) -> (&[f64], &[f64]) {
+        (&self.times, &self.values)
+    }
+
     /// At a point the line that begins there.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let (x, y) = (&self.times, &self.values);

@@ -40,6 +40,11 @@ impl Spline {
         &self.times
     }
 
+    /// Times, values and second derivatives.
+    pub(super) fn points(&self) -> (&[f64], &[f64], &[f64]) {
+        (&self.times, &self.values, &self.curvatures)
+    }
+
     /// Value and derivatives; outside the table the end tangents go on.
     pub(super) fn jet(&self, t: f64) -> [f64; 3] {
         let last = self.times.len() - 1;

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::sync::{Arc, Mutex};
 
 use joints::spec::ConstraintSpec;
-use joints::{Element, Magnitude, Pose, Twist};
+use joints::{Element, Magnitude, Pose, Recorded, Twist};
 use linalg::Dd;
 use model::{Joint, PlaneConstraint};
 
@@ -66,6 +66,9 @@ impl PlaneConstraint for Watched {
     }
     fn magnitude(&self) -> &dyn Element<Magnitude> {
         self.inner.magnitude()
+    }
+    fn recorded(&self) -> &dyn Element<Recorded> {
+        self.inner.recorded()
     }
     fn boxed(&self) -> Box<dyn PlaneConstraint> {
         Box::new(self.clone())

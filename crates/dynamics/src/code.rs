@@ -1,0 +1,76 @@
+//! What a run asks of straight-line code that was generated for one mechanism. Not here: how such code is made, and when a run may
+//! use it ([`Prepared::code_for`](crate::Prepared::code_for)).
+//!
+//! Code keeps the rows that it was generated for and eliminates in an order that was chosen offline, so it cannot find new pivots. It says how good
+//! its pivots are instead: its *health*, the smallest pivot as a signed share of the smallest |pivot| of the same place that its
+//! generator saw. 1 is as good; 0 or less has passed a singular pivot; NaN never counts as healthy. Whoever calls it has to look.
+
+mod belongs;
+
+pub use belongs::{CodeMismatch, NoCode};
+
+/// What code was generated for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Facts {
+    /// Name of the scene.
+    pub name: &'static str,
+    /// Coordinates.
+    pub n_q: usize,
+    /// Velocities.
+    pub n_v: usize,
+    /// Holonomic rows.
+    pub m: usize,
+    /// Nonholonomic rows.
+    pub h: usize,
+    /// Kept rows of C, from 0, ascending.
+    pub kept: &'static [usize],
+    /// Kept rows of Φq, from 0, ascending.
+    pub position_kept: &'static [usize],
+    /// Times at which a function of time is not smooth (s), ascending.
+    pub break_times: &'static [f64],
+    /// Operations of each function, in words.
+    pub operations: &'static str,
+}
+
+/// Straight-line code for one mechanism on fixed kept rows. No function allocates or panics on slices of the sizes below; any numbers
+/// may come, and the health tells what the result is worth.
+///
+/// | argument | length | meaning |
+/// | --- | --- | --- |
+/// | `q`, `dq` | n_q | coordinates and their change |
+/// | `v`, `dv`, `a`, `da` | n_v | velocities, accelerations, and their changes |
+/// | `phi` | m | Φ(q, t) of all holonomic rows |
+/// | `residual`, `lambda` | m + h | C·v − b, and multipliers, of all rows |
+pub trait SceneCode: Send + Sync {
+    /// What it was generated for.
+    fn facts(&self) -> &Facts;
+
+    /// `a` from `M·a + C_Kᵀ·λ_K = Q`, `C_K·a = Γ_K`; the health.
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64;
+
+    /// The λ of these equations, 0 for dropped rows; the health.
+    fn multipliers(&self, t: f64, q: &[f64], v: &[f64], lambda: &mut [f64]) -> f64;
+
+    /// Φ of all holonomic rows.
+    fn phi(&self, t: f64, q: &[f64], phi: &mut [f64]);
+
+    /// `C·v − b` of all rows.
+    fn velocity_residual(&self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]);
+
+    /// The smallest `dq` in the mass metric with `Φq·dq = −phi` on the kept rows of Φq; the health of their pivots.
+    fn position_correction(&self, t: f64, q: &[f64], phi: &[f64], dq: &mut [f64]) -> f64;
+
+    /// The smallest `dv` in the mass metric with `C·dv = −residual` on the kept rows of C; the health.
+    fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64;
+
+    /// `da = (∂a/∂q)·dq + (∂a/∂v)·dv`, for implicit methods; the health.
+    fn jacobian_action(
+        &self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        dq: &[f64],
+        dv: &[f64],
+        da: &mut [f64],
+    ) -> f64;
+}

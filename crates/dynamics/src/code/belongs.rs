@@ -1,0 +1,331 @@
+//! Does code belong to a mechanism, and may a run use it? Decided by numbers, never by names: sizes, rows and break times have to be
+//! equal, and values have to agree where the motion starts and around it.
+
+use std::sync::Arc;
+
+use model::{Mechanism, System};
+
+use super::SceneCode;
+use crate::error::Trip;
+use crate::motion::{KeptRowMotion, Motion};
+use crate::options::{Formulation, Method, MotionOptions, Stabilisation};
+use crate::prepare::Prepared;
+
+/// Values of code and interpreter may differ by this share of the terms that they are made of.
+const SAME: f64 = 1e-9;
+
+/// Smallest health at the start.
+const SOUND: f64 = 0.1;
+
+/// States around the start at which values are compared, and how far they are from it in units of the mechanism (its size, or a radian),
+/// and in such units per second: terms in squares of velocities have to count.
+const STATES: usize = 6;
+const DISTANCE: f64 = 0.01;
+const SPEED: f64 = 1.0;
+
+/// Why code does not belong to a mechanism.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CodeMismatch {
+    /// It was generated for something of another size.
+    #[error("the code `{name}` has {found} {what}, the mechanism {expected}")]
+    Size {
+        /// Of the code.
+        name: &'static str,
+        /// What was counted.
+        what: &'static str,
+        /// In the code.
+        found: usize,
+        /// In the mechanism.
+        expected: usize,
+    },
+    /// It keeps other rows.
+    #[error(
+        "the code `{name}` keeps the {level} rows {}, this run {}",
+        from_one(found),
+        from_one(expected)
+    )]
+    Rows {
+        /// Of the code.
+        name: &'static str,
+        /// Positions or velocities.
+        level: &'static str,
+        /// Rows of the code, from 0.
+        found: Vec<usize>,
+        /// Rows of the run, from 0.
+        expected: Vec<usize>,
+    },
+    /// Its functions of time have other break times.
+    #[error("the code `{name}` has break times at {found:?} s, the mechanism at {expected:?} s")]
+    BreakTimes {
+        /// Of the code.
+        name: &'static str,
+        /// In the code (s).
+        found: Vec<f64>,
+        /// In the mechanism (s).
+        expected: Vec<f64>,
+    },
+    /// A value differs.
+    #[error(
+        "at t = {time} s the code `{name}` gives {what}[{index}] = {found:.9e}, the mechanism {expected:.9e}"
+    )]
+    Value {
+        /// Of the code.
+        name: &'static str,
+        /// Which function.
+        what: &'static str,
+        /// Component, from 0.
+        index: usize,
+        /// When (s).
+        time: f64,
+        /// Value of the code.
+        found: f64,
+        /// Value of the mechanism.
+        expected: f64,
+    },
+    /// It is not sure of itself at the start.
+    #[error(
+        "the code `{name}` has a health of {health:.3} at the start, need {SOUND}: it was generated for other configurations"
+    )]
+    Unhealthy {
+        /// Of the code.
+        name: &'static str,
+        /// Its health.
+        health: f64,
+    },
+    /// The mechanism itself has no values there.
+    #[error(transparent)]
+    Trip(#[from] Trip),
+}
+
+fn from_one(rows: &[usize]) -> String {
+    let rows: Vec<String> = rows.iter().map(|i| (i + 1).to_string()).collect();
+    rows.join(", ")
+}
+
+/// Why a run does not use generated code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoCode {
+    /// There is none.
+    #[error("none was given")]
+    None,
+    /// The method asks for more than accelerations.
+    #[error("the method {0} asks for more than accelerations")]
+    Method(&'static str),
+    /// The formulation is another.
+    #[error("code is generated for kept rows, the formulation is {0}")]
+    Formulation(&'static str),
+    /// States are not projected.
+    #[error("code is watched by its projections, the stabilisation is {0}")]
+    Stabilisation(&'static str),
+}
+
+impl Prepared {
+    /// The same with code generated for it, which runs then use where they can.
+    ///
+    /// # Errors
+    /// [`CodeMismatch`], if the code is that of another mechanism or of other rows.
+    pub fn with_code(self, code: Arc<dyn SceneCode>) -> Result<Self, CodeMismatch> {
+        check_facts(&self, &*code)?;
+        check_values(&self, &*code)?;
+        Ok(Self {
+            code: Some(code),
+            ..self
+        })
+    }
+
+    /// The code that a run with these options uses, or why it uses none.
+    ///
+    /// # Errors
+    /// [`NoCode`]
+    pub fn code_for(&self, options: &MotionOptions) -> Result<&Arc<dyn SceneCode>, NoCode> {
+        let code = self.code.as_ref().ok_or(NoCode::None)?;
+        match options.method {
+            Method::Auto | Method::Dopri5 | Method::Tsit5 | Method::Dop853 | Method::Gbs => {}
+            Method::Radau5 | Method::Hem4 | Method::GeneralizedAlpha => {
+                return Err(NoCode::Method(options.method.name()));
+            }
+        }
+        if options.formulation != Formulation::KeptRows {
+            return Err(NoCode::Formulation(options.formulation.name()));
+        }
+        match options.stabilisation {
+            Stabilisation::Projection => Ok(code),
+            other => Err(NoCode::Stabilisation(other.name())),
+        }
+    }
+}
+
+fn check_facts(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMismatch> {
+    let (facts, layout) = (code.facts(), prepared.mechanism.layout());
+    let name = facts.name;
+    let sizes = [
+        ("coordinates", facts.n_q, layout.n_q),
+        ("velocities", facts.n_v, layout.n_v),
+        ("holonomic rows", facts.m, layout.m),
+        ("nonholonomic rows", facts.h, layout.h),
+    ];
+    for (what, found, expected) in sizes {
+        if found != expected {
+            return Err(CodeMismatch::Size {
+                name,
+                what,
+                found,
+                expected,
+            });
+        }
+    }
+    let rows = [
+        ("velocity", facts.kept, &prepared.decision.kept),
+        (
+            "position",
+            facts.position_kept,
+            &prepared.position_decision.kept,
+        ),
+    ];
+    for (level, found, expected) in rows {
+        if found != expected {
+            return Err(CodeMismatch::Rows {
+                name,
+                level,
+                found: found.to_vec(),
+                expected: expected.clone(),
+            });
+        }
+    }
+    match facts.break_times == layout.break_times {
+        true => Ok(()),
+        false => Err(CodeMismatch::BreakTimes {
+            name,
+            found: facts.break_times.to_vec(),
+            expected: layout.break_times.clone(),
+        }),
+    }
+}
+
+/// Values of code and interpreter at one instant.
+struct Comparison<'a> {
+    name: &'static str,
+    time: f64,
+    what: &'static str,
+    found: &'a [f64],
+    expected: &'a [f64],
+}
+
+impl Comparison<'_> {
+    /// Whether component i may differ by `SAME·size(i)`.
+    fn check(&self, size: impl Fn(usize) -> f64) -> Result<(), CodeMismatch> {
+        let differs = |i: &usize| {
+            let by = (self.found[*i] - self.expected[*i]).abs();
+            // Also where it is not a number.
+            !(by <= SAME * size(*i))
+        };
+        match (0..self.expected.len()).find(differs) {
+            None => Ok(()),
+            Some(index) => Err(CodeMismatch::Value {
+                name: self.name,
+                what: self.what,
+                index,
+                time: self.time,
+                found: self.found[index],
+                expected: self.expected[index],
+            }),
+        }
+    }
+}
+
+/// Times between the break times, and the start.
+fn times(mechanism: &Mechanism) -> Vec<f64> {
+    let breaks = &mechanism.layout().break_times;
+    let first = std::iter::once(0.0).chain(breaks.iter().copied().filter(|t| *t > 0.0));
+    let mut ends: Vec<f64> = first.collect();
+    ends.push(ends[ends.len() - 1] + 1.0);
+    ends.windows(2).map(|w| 0.5 * (w[0] + w[1])).collect()
+}
+
+fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMismatch> {
+    let mut motion = KeptRowMotion::new(prepared)?;
+    let mut a = vec![0.0; prepared.v.len()];
+    let health = code.acceleration(0.0, &prepared.q, &prepared.v, &mut a);
+    if health.is_nan() || health < SOUND {
+        return Err(CodeMismatch::Unhealthy {
+            name: code.facts().name,
+            health,
+        });
+    }
+    compare(&mut motion, code, (0.0, &prepared.q, &prepared.v))?;
+    let times = times(&prepared.mechanism);
+    for k in 0..STATES.max(times.len()) {
+        // No symmetry of a mechanism is one of these numbers.
+        let shift = |i: usize| (1.7 * (i + 1) as f64 + 2.9 * (k + 1) as f64).sin();
+        let moved = |x: &[f64], by: f64| -> Vec<f64> {
+            let unit = |i: usize| prepared.mechanism.unit(i, prepared.assembly.size);
+            let shifted = x.iter().enumerate();
+            shifted.map(|(i, x)| x + by * shift(i) * unit(i)).collect()
+        };
+        let (q, v) = (moved(&prepared.q, DISTANCE), moved(&prepared.v, SPEED));
+        compare(&mut motion, code, (times[k % times.len()], &q, &v))?;
+    }
+    Ok(())
+}
+
+/// Compares Φ, C·v − b, accelerations and multipliers; the last two only where both are sure of them.
+fn compare(
+    motion: &mut KeptRowMotion<'_>,
+    code: &dyn SceneCode,
+    (t, q, v): (f64, &[f64], &[f64]),
+) -> Result<(), CodeMismatch> {
+    let mechanism = motion.mechanism();
+    let (layout, name) = (mechanism.layout(), code.facts().name);
+    let mut s = mechanism.scratch();
+    mechanism.pose(t, q, &mut s);
+    mechanism.phi(&mut s);
+    mechanism.c(&mut s);
+    mechanism.b(&mut s);
+    let comparison = |what, found: &[f64], expected: &[f64], size: &dyn Fn(usize) -> f64| {
+        let comparison = Comparison {
+            name,
+            time: t,
+            what,
+            found,
+            expected,
+        };
+        comparison.check(size)
+    };
+    let mut phi = vec![f64::NAN; layout.m];
+    code.phi(t, q, &mut phi);
+    comparison("Φ", &phi, &s.phi, &|i| mechanism.position_scale(&s, i, q))?;
+
+    let mut residual = vec![f64::NAN; layout.rows()];
+    code.velocity_residual(t, q, v, &mut residual);
+    let expected: Vec<f64> = (0..layout.rows())
+        .map(|i| layout.velocity_residual(&s, i, v))
+        .collect();
+    let size = |i: usize| mechanism.velocity_scale(&s, i, v);
+    comparison("C·v − b", &residual, &expected, &size)?;
+
+    let (mut a, mut expected) = (vec![f64::NAN; v.len()], vec![0.0; v.len()]);
+    let health = code.acceleration(t, q, v, &mut a);
+    let solved = motion.acceleration(t, q, v, &mut expected);
+    if health.is_nan() || health < SOUND || solved.is_err() {
+        return Ok(());
+    }
+    let scene_size = motion.size();
+    let unit = |j: usize| mechanism.unit(j, scene_size);
+    let largest = |x: &[f64]| {
+        let shares = x.iter().enumerate().map(|(j, x)| x.abs() / unit(j));
+        shares.fold(0.0, f64::max)
+    };
+    let rate = largest(&expected).max(largest(v).powi(2));
+    comparison("acceleration", &a, &expected, &|j| rate * unit(j))?;
+
+    let mut lambda = vec![f64::NAN; layout.rows()];
+    let mut expected = vec![0.0; layout.rows()];
+    code.multipliers(t, q, v, &mut lambda);
+    motion.multipliers(t, q, v, &mut expected)?;
+    let size = expected.iter().fold(0.0, |a, l| f64::max(a, l.abs()));
+    let forces = mechanism.mass().iter().enumerate();
+    let inertia = forces.fold(0.0, |a, (j, m)| f64::max(a, m * rate * unit(j)));
+    comparison("multiplier", &lambda, &expected, &|_| size.max(inertia))
+}

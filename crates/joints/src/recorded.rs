@@ -1,0 +1,136 @@
+//! A number that writes down what is done with it: kernels run on it once and leave their operations, with the values of their
+//! parameters, on a tape. From tapes come programs for one mechanism; nothing is differentiated or simplified here.
+//!
+//! The tape belongs to the thread, because kernels copy numbers and know of nothing else.
+
+use std::cell::RefCell;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::ring::Real;
+
+/// Place of an operation on the tape of the present recording.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Recorded(usize);
+
+/// One operation of a tape; operands come before their uses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Operation {
+    /// A constant.
+    Number(f64),
+    /// The input of this number.
+    Input(usize),
+    /// `a + b`
+    Add(Recorded, Recorded),
+    /// `a − b`
+    Sub(Recorded, Recorded),
+    /// `a · b`
+    Mul(Recorded, Recorded),
+    /// `a / b`
+    Div(Recorded, Recorded),
+    /// `−a`
+    Neg(Recorded),
+    /// `√a`
+    Sqrt(Recorded),
+    /// `1/a`, and 0 for 0
+    RecipOrZero(Recorded),
+}
+
+thread_local! {
+    static TAPE: RefCell<Vec<Operation>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Runs `f` and returns the operations of all [`Recorded`] numbers in it, in their order. Numbers of one recording mean nothing in
+/// another.
+///
+/// ```
+/// use joints::recorded::{Operation, Recorded, record};
+/// let (tape, y) = record(|| {
+///     let x = Recorded::input(0);
+///     x * x - Recorded::from(2.0)
+/// });
+/// assert_eq!(tape.len(), 4);
+/// assert_eq!(tape[y.place()], Operation::Sub(tape_place(1), tape_place(2)));
+/// # fn tape_place(k: usize) -> Recorded { record(|| (0..=k).map(Recorded::input).last().unwrap()).1 }
+/// ```
+pub fn record<R>(f: impl FnOnce() -> R) -> (Vec<Operation>, R) {
+    let outer = TAPE.take();
+    let result = f();
+    (TAPE.replace(outer), result)
+}
+
+impl Recorded {
+    /// An input.
+    #[must_use]
+    pub fn input(k: usize) -> Self {
+        Self::push(Operation::Input(k))
+    }
+
+    /// Its place on the tape.
+    #[must_use]
+    pub fn place(self) -> usize {
+        self.0
+    }
+
+    fn push(operation: Operation) -> Self {
+        TAPE.with_borrow_mut(|tape| {
+            tape.push(operation);
+            Self(tape.len() - 1)
+        })
+    }
+}
+
+impl From<f64> for Recorded {
+    fn from(x: f64) -> Self {
+        Self::push(Operation::Number(x))
+    }
+}
+
+impl Add for Recorded {
+    type Output = Self;
+
+    fn add(self, y: Self) -> Self {
+        Self::push(Operation::Add(self, y))
+    }
+}
+
+impl Sub for Recorded {
+    type Output = Self;
+
+    fn sub(self, y: Self) -> Self {
+        Self::push(Operation::Sub(self, y))
+    }
+}
+
+impl Mul for Recorded {
+    type Output = Self;
+
+    fn mul(self, y: Self) -> Self {
+        Self::push(Operation::Mul(self, y))
+    }
+}
+
+impl Div for Recorded {
+    type Output = Self;
+
+    fn div(self, y: Self) -> Self {
+        Self::push(Operation::Div(self, y))
+    }
+}
+
+impl Neg for Recorded {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self::push(Operation::Neg(self))
+    }
+}
+
+impl Real for Recorded {
+    fn sqrt(self) -> Self {
+        Self::push(Operation::Sqrt(self))
+    }
+
+    fn recip_or_zero(self) -> Self {
+        Self::push(Operation::RecipOrZero(self))
+    }
+}

@@ -1,0 +1,219 @@
+//! The equations of a mechanism as operations: every kernel runs once on numbers that write down what is done with them. What comes
+//! out holds for this mechanism with its parameters and initial values, and for no other; generators of code for one scene begin here.
+
+use joints::recorded::{Operation, Recorded, record};
+use joints::{Pose, Twist};
+
+use crate::description::BodyRef;
+use crate::function::Function;
+use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint};
+use crate::system::System;
+
+/// What an input of a recording stands for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Input {
+    /// A coordinate, by its place in q.
+    Coordinate(usize),
+    /// The cosine of the coordinate at this place in q.
+    Cos(usize),
+    /// Its sine.
+    Sin(usize),
+    /// A velocity, by its place in v.
+    Velocity(usize),
+    /// A function of time as the mechanism takes it, or a derivative of it.
+    Function {
+        /// Which function, in the order of [`Mechanism::functions`].
+        function: usize,
+        /// 0, 1 or 2.
+        derivative: usize,
+    },
+}
+
+/// The equations of one mechanism as operations on inputs.
+#[derive(Clone, Debug)]
+pub struct Recording {
+    /// All operations; results are places in it.
+    pub tape: Vec<Operation>,
+    /// What each input stands for.
+    pub inputs: Vec<Input>,
+    /// Φ, m values.
+    pub phi: Vec<Recorded>,
+    /// C by rows, m + h: column and value; entries of one place are to be added.
+    pub c: Vec<Vec<(usize, Recorded)>>,
+    /// b, m + h values.
+    pub b: Vec<Recorded>,
+    /// Γ, m + h values.
+    pub gamma: Vec<Recorded>,
+    /// Q, n_v values, the weight included.
+    pub force: Vec<Recorded>,
+}
+
+/// Poses, twists and jets as inputs.
+struct Inputs {
+    list: Vec<Input>,
+    poses: Vec<Pose<Recorded>>,
+    twists: Vec<Twist<Recorded>>,
+    jets: Vec<[Recorded; 3]>,
+}
+
+impl Inputs {
+    fn new(bodies: usize, functions: usize) -> Self {
+        let mut list = Vec::new();
+        let mut input = |what: Input| {
+            list.push(what);
+            Recorded::input(list.len() - 1)
+        };
+        let poses = (0..bodies).map(|k| Pose {
+            x: input(Input::Coordinate(N_BODY * k)),
+            y: input(Input::Coordinate(N_BODY * k + 1)),
+            angle: input(Input::Coordinate(N_BODY * k + 2)),
+            cos: input(Input::Cos(N_BODY * k + 2)),
+            sin: input(Input::Sin(N_BODY * k + 2)),
+        });
+        let poses = poses.collect();
+        let twists = (0..bodies).map(|k| Twist {
+            x: input(Input::Velocity(N_BODY * k)),
+            y: input(Input::Velocity(N_BODY * k + 1)),
+            omega: input(Input::Velocity(N_BODY * k + 2)),
+        });
+        let twists = twists.collect();
+        let jets = (0..functions).map(|function| {
+            [0, 1, 2].map(|derivative| {
+                input(Input::Function {
+                    function,
+                    derivative,
+                })
+            })
+        });
+        let jets = jets.collect();
+        Self {
+            list,
+            poses,
+            twists,
+            jets,
+        }
+    }
+
+    fn slots(&self, bodies: &[BodyRef]) -> (Vec<Pose<Recorded>>, Vec<Twist<Recorded>>) {
+        let pose = |b: &BodyRef| match *b {
+            BodyRef::Ground => Pose::GROUND.cast(),
+            BodyRef::Body(k) => self.poses[k],
+        };
+        let twist = |b: &BodyRef| match *b {
+            BodyRef::Ground => Twist::zero(),
+            BodyRef::Body(k) => self.twists[k],
+        };
+        (
+            bodies.iter().map(pose).collect(),
+            bodies.iter().map(twist).collect(),
+        )
+    }
+}
+
+/// What is computed of a recording while it runs.
+struct Results {
+    phi: Vec<Recorded>,
+    entries: Vec<Recorded>,
+    b: Vec<Recorded>,
+    gamma: Vec<Recorded>,
+    force: Vec<Recorded>,
+}
+
+impl Mechanism {
+    /// The functions of time of its joints, drives and forces, each with the value that is subtracted from it: f(0) for drives.
+    pub fn functions(&self) -> impl Iterator<Item = (&Function, f64)> {
+        self.time_functions().iter().map(|f| f.parts())
+    }
+
+    /// Records Φ, C, b, Γ and Q of this mechanism.
+    ///
+    /// ```
+    /// use model::{Body, Description, Mechanism, record::Input};
+    /// let stone = Description {
+    ///     gravity: [0.0, -10.0],
+    ///     bodies: vec![Body { name: "stone".into(), mass: 2.0, inertia: 1.0, ..Body::default() }],
+    ///     ..Description::default()
+    /// };
+    /// let recording = Mechanism::build(&stone).unwrap().record();
+    /// assert_eq!(recording.inputs[3], Input::Cos(2));
+    /// assert_eq!(recording.tape[recording.force[1].place()], joints::recorded::Operation::Number(-20.0));
+    /// ```
+    #[must_use]
+    pub fn record(&self) -> Recording {
+        let layout = self.layout();
+        let n_functions = self.time_functions().len();
+        let (tape, (inputs, results)) = record(|| {
+            let inputs = Inputs::new(self.bodies().len(), n_functions);
+            let results = self.run_on(&inputs);
+            (inputs.list, results)
+        });
+        let row = |i: usize| {
+            let range = layout.pattern.start[i]..layout.pattern.start[i + 1];
+            let entry = |k: usize| {
+                (
+                    layout.pattern.column[k],
+                    results.entries[layout.pattern.entry[k]],
+                )
+            };
+            range.map(entry).collect()
+        };
+        Recording {
+            tape,
+            inputs,
+            c: (0..layout.rows()).map(row).collect(),
+            phi: results.phi,
+            b: results.b,
+            gamma: results.gamma,
+            force: results.force,
+        }
+    }
+
+    fn run_on(&self, inputs: &Inputs) -> Results {
+        let layout = self.layout();
+        let zero = Recorded::from(0.0);
+        let mut r = Results {
+            phi: vec![zero; layout.m],
+            entries: self
+                .constant_entries()
+                .iter()
+                .map(|&e| Recorded::from(e))
+                .collect(),
+            b: vec![zero; layout.rows()],
+            gamma: vec![zero; layout.rows()],
+            force: self.weight().iter().map(|&w| Recorded::from(w)).collect(),
+        };
+        for c in self.constraints() {
+            record_constraint(c, inputs, layout.m, &mut r);
+        }
+        for f in self.forces() {
+            let (x, v) = inputs.slots(&f.bodies);
+            let mut block = vec![zero; f.columns.len()];
+            f.element
+                .recorded()
+                .q(&x, &v, &inputs.jets[f.functions.clone()], &mut block);
+            for (column, value) in f.columns.iter().zip(block) {
+                if let Some(column) = *column {
+                    r.force[column] = r.force[column] + value;
+                }
+            }
+        }
+        r
+    }
+}
+
+fn record_constraint(c: &PlacedConstraint, inputs: &Inputs, m: usize, r: &mut Results) {
+    let element = c.element.recorded();
+    let (x, v) = inputs.slots(&c.bodies);
+    let f = &inputs.jets[c.functions.clone()];
+    let rows = c.rows.clone();
+    if rows.start < m {
+        element.phi(&x, f, &mut r.phi[rows.clone()]);
+    }
+    if !c.varying.is_empty() {
+        element.c(&x, f, &mut r.entries[c.entries.clone()]);
+    }
+    if element.spec().rheonomic {
+        element.b(&x, f, &mut r.b[rows.clone()]);
+    }
+    element.gamma(&x, &v, f, &mut r.gamma[rows]);
+}

@@ -1,0 +1,367 @@
+//! Elimination of kept rows as straight-line code. The order of the pivots is chosen once, over all sampled states: the pivot with the
+//! least fill among those that are large beside their row and their column everywhere (Markowitz with a threshold).
+//!
+//! The rows determine r dependent coordinates; the others are free. Every solve is one with the null space: x = x₀ + N·w, where x₀
+//! meets the rows with the free coordinates at zero, N is the motion that each of them causes, and w minimises what is left in the mass
+//! metric. Zeros and ones of the mechanism fold away, so that sparsity needs no bookkeeping.
+//!
+//! Source of the threshold rule: I. S. Duff, A. M. Erisman, J. K. Reid, Direct Methods for Sparse Matrices, 2nd ed. (2017), chapters 5 and 7.
+
+use symbolic::Value;
+
+use crate::error::CodeError;
+use crate::sampled::Sampled;
+
+/// A pivot should be at least this share of the largest entry of its row and of its column, at every state.
+const THRESHOLD: f64 = 0.1;
+
+/// Below this share no pivot is taken: the motion has no fixed order of elimination.
+const SMALLEST: f64 = 1e-3;
+
+/// Rows in factored form, and the mass of the motions that they leave free.
+pub(crate) struct Factored {
+    n: usize,
+    pivots: Vec<Pivot>,
+    /// Coordinates that the rows do not determine.
+    free: Vec<usize>,
+    /// N: for each free coordinate the motion of all.
+    frame: Vec<Vec<Value>>,
+    /// Rows of the factor L of NᵀMN = L·D·Lᵀ, and 1/D.
+    reduced: Vec<(Vec<Value>, Value)>,
+    /// Everything that is divided by.
+    pub(crate) divisors: Vec<Value>,
+}
+
+struct Pivot {
+    row: usize,
+    column: usize,
+    inverse: Value,
+    /// Rows that are eliminated with it, and by what multiple.
+    below: Vec<(usize, Value)>,
+    /// Its row: later dependent coordinates.
+    right: Vec<(usize, Value)>,
+    /// Its row: free coordinates, in their order.
+    free: Vec<Value>,
+}
+
+impl Factored {
+    /// Factors `rows` (r × n, zeros as the constant 0) for the masses `mass`. Columns are compared after multiplication by `scale`.
+    pub(crate) fn new(
+        code: &mut Sampled,
+        mut rows: Vec<Vec<Value>>,
+        mass: &[f64],
+        scale: &[f64],
+    ) -> Result<Self, CodeError> {
+        let (r, n) = (rows.len(), mass.len());
+        let mut open_rows: Vec<usize> = (0..r).collect();
+        let mut open_columns: Vec<usize> = (0..n).collect();
+        let mut chosen = Vec::with_capacity(r);
+        while !open_rows.is_empty() {
+            let (row, column) = best_pivot(code, &rows, &open_rows, &open_columns, scale)?;
+            open_rows.retain(|&i| i != row);
+            open_columns.retain(|&j| j != column);
+            let p = &mut code.program;
+            let (one, pivot) = (p.number(1.0), rows[row][column]);
+            let inverse = p.div(one, pivot);
+            let mut below = Vec::new();
+            for &i in &open_rows {
+                if p.is_zero(rows[i][column]) {
+                    continue;
+                }
+                let multiple = p.mul(rows[i][column], inverse);
+                below.push((i, multiple));
+                for &j in &open_columns {
+                    let part = p.mul(multiple, rows[row][j]);
+                    rows[i][j] = p.sub(rows[i][j], part);
+                }
+            }
+            chosen.push((row, column, pivot, inverse, below));
+        }
+        let free = open_columns;
+        let mut divisors = Vec::new();
+        let mut pivots = Vec::with_capacity(r);
+        for (k, (row, column, pivot, inverse, below)) in chosen.iter().enumerate() {
+            let p = &code.program;
+            let later = chosen[k + 1..].iter().map(|c| c.1);
+            let right = later.map(|j| (j, rows[*row][j]));
+            if p.as_number(*pivot).is_none() {
+                divisors.push(*pivot);
+            }
+            pivots.push(Pivot {
+                row: *row,
+                column: *column,
+                inverse: *inverse,
+                below: below.clone(),
+                right: right.filter(|(_, v)| !p.is_zero(*v)).collect(),
+                free: free.iter().map(|&j| rows[*row][j]).collect(),
+            });
+        }
+        let mut factored = Self {
+            n,
+            pivots,
+            free,
+            frame: Vec::new(),
+            reduced: Vec::new(),
+            divisors,
+        };
+        factored.frame = factored.null_frame(code);
+        factored.reduce_mass(code, mass)?;
+        Ok(factored)
+    }
+
+    /// Smallest x in the mass metric beside M⁻¹·force with `rows·x = rhs`: the accelerations of force and Γ.
+    pub(crate) fn solve(
+        &self,
+        code: &mut Sampled,
+        mass: &[f64],
+        rhs: &[Value],
+        force: &[Value],
+    ) -> Vec<Value> {
+        let mut x = self.particular(code, rhs);
+        let p = &mut code.program;
+        let left: Vec<Value> = (0..self.n)
+            .map(|i| {
+                let inertia = {
+                    let m = p.number(mass[i]);
+                    p.mul(m, x[i])
+                };
+                p.sub(force[i], inertia)
+            })
+            .collect();
+        let pulled: Vec<Value> = self.frame.iter().map(|n| dot(code, n, &left)).collect();
+        let w = self.solve_reduced(code, pulled);
+        let p = &mut code.program;
+        for (n, w) in self.frame.iter().zip(w) {
+            for (x, n) in x.iter_mut().zip(n) {
+                let moved = p.mul(*n, w);
+                *x = p.add(*x, moved);
+            }
+        }
+        x
+    }
+
+    /// λ with `rowsᵀ·λ = excess` in the dependent coordinates, for each of the rows.
+    pub(crate) fn multipliers(&self, code: &mut Sampled, excess: &[Value]) -> Vec<Value> {
+        let p = &mut code.program;
+        let zero = p.number(0.0);
+        let mut left = excess.to_vec();
+        let mut lambda = vec![zero; self.pivots.len()];
+        // Uᵀ·y = excess, then Lᵀ·λ = y.
+        for pivot in &self.pivots {
+            let y = p.mul(left[pivot.column], pivot.inverse);
+            lambda[pivot.row] = y;
+            for &(column, u) in &pivot.right {
+                let part = p.mul(u, y);
+                left[column] = p.sub(left[column], part);
+            }
+        }
+        for pivot in self.pivots.iter().rev() {
+            for &(row, multiple) in &pivot.below {
+                let part = p.mul(multiple, lambda[row]);
+                lambda[pivot.row] = p.sub(lambda[pivot.row], part);
+            }
+        }
+        lambda
+    }
+
+    /// x with `rows·x = rhs` and the free coordinates at zero.
+    fn particular(&self, code: &mut Sampled, rhs: &[Value]) -> Vec<Value> {
+        let p = &mut code.program;
+        let mut rhs = rhs.to_vec();
+        for pivot in &self.pivots {
+            for &(row, multiple) in &pivot.below {
+                let part = p.mul(multiple, rhs[pivot.row]);
+                rhs[row] = p.sub(rhs[row], part);
+            }
+        }
+        let zero = p.number(0.0);
+        let mut x = vec![zero; self.n];
+        for pivot in self.pivots.iter().rev() {
+            let mut left = rhs[pivot.row];
+            for &(column, u) in &pivot.right {
+                let part = p.mul(u, x[column]);
+                left = p.sub(left, part);
+            }
+            x[pivot.column] = p.mul(left, pivot.inverse);
+        }
+        x
+    }
+
+    /// The motion of all coordinates with one free coordinate, for each of them.
+    fn null_frame(&self, code: &mut Sampled) -> Vec<Vec<Value>> {
+        let p = &mut code.program;
+        let (zero, one) = (p.number(0.0), p.number(1.0));
+        let motion = |(k, &free): (usize, &usize)| {
+            let mut x = vec![zero; self.n];
+            x[free] = one;
+            for pivot in self.pivots.iter().rev() {
+                let mut left = p.neg(pivot.free[k]);
+                for &(column, u) in &pivot.right {
+                    let part = p.mul(u, x[column]);
+                    left = p.sub(left, part);
+                }
+                x[pivot.column] = p.mul(left, pivot.inverse);
+            }
+            x
+        };
+        self.free.iter().enumerate().map(motion).collect()
+    }
+
+    /// NᵀMN = L·D·Lᵀ.
+    fn reduce_mass(&mut self, code: &mut Sampled, mass: &[f64]) -> Result<(), CodeError> {
+        let masses: Vec<Value> = mass.iter().map(|&m| code.program.number(m)).collect();
+        let heavy: Vec<Vec<Value>> = self
+            .frame
+            .iter()
+            .map(|n| {
+                let pairs = n.iter().zip(&masses);
+                pairs.map(|(n, m)| code.program.mul(*m, *n)).collect()
+            })
+            .collect();
+        let k = self.free.len();
+        // Row by row; `row` holds that of L·D.
+        for i in 0..k {
+            let mut row: Vec<Value> = (0..=i)
+                .map(|j| dot(code, &self.frame[i], &heavy[j]))
+                .collect();
+            let mut factors = Vec::with_capacity(i);
+            let p = &mut code.program;
+            for j in 0..i {
+                for l in 0..j {
+                    let part = p.mul(row[l], self.reduced[j].0[l]);
+                    row[j] = p.sub(row[j], part);
+                }
+            }
+            for j in 0..i {
+                let factor = p.mul(row[j], self.reduced[j].1);
+                let part = p.mul(factor, row[j]);
+                row[i] = p.sub(row[i], part);
+                factors.push(factor);
+            }
+            let diagonal = row[i];
+            let smallest = code
+                .at(diagonal)
+                .iter()
+                .fold(f64::INFINITY, |a, d| a.min(*d));
+            if !(smallest > 0.0) {
+                return Err(CodeError::Massless {
+                    column: self.free[i],
+                });
+            }
+            let p = &mut code.program;
+            if p.as_number(diagonal).is_none() {
+                self.divisors.push(diagonal);
+            }
+            let one = p.number(1.0);
+            let inverse = p.div(one, diagonal);
+            self.reduced.push((factors, inverse));
+        }
+        Ok(())
+    }
+
+    fn solve_reduced(&self, code: &mut Sampled, mut w: Vec<Value>) -> Vec<Value> {
+        let p = &mut code.program;
+        for i in 0..w.len() {
+            for j in 0..i {
+                let part = p.mul(self.reduced[i].0[j], w[j]);
+                w[i] = p.sub(w[i], part);
+            }
+        }
+        for (w, (_, inverse)) in w.iter_mut().zip(&self.reduced) {
+            *w = p.mul(*w, *inverse);
+        }
+        for i in (0..w.len()).rev() {
+            for j in i + 1..w.len() {
+                let part = p.mul(self.reduced[j].0[i], w[j]);
+                w[i] = p.sub(w[i], part);
+            }
+        }
+        w
+    }
+}
+
+/// Σ aᵢ·bᵢ
+fn dot(code: &mut Sampled, a: &[Value], b: &[Value]) -> Value {
+    let p = &mut code.program;
+    let zero = p.number(0.0);
+    a.iter().zip(b).fold(zero, |sum, (a, b)| {
+        let product = p.mul(*a, *b);
+        p.add(sum, product)
+    })
+}
+
+/// The entry with the least fill among those that are large enough everywhere; constants before others.
+fn best_pivot(
+    code: &mut Sampled,
+    rows: &[Vec<Value>],
+    open_rows: &[usize],
+    open_columns: &[usize],
+    scale: &[f64],
+) -> Result<(usize, usize), CodeError> {
+    let states = code.states();
+    let mut row_top = vec![vec![0.0_f64; states]; rows.len()];
+    let mut column_top = vec![vec![0.0_f64; states]; scale.len()];
+    let mut row_count = vec![0; rows.len()];
+    let mut column_count = vec![0; scale.len()];
+    let entries: Vec<(usize, usize)> = open_rows
+        .iter()
+        .flat_map(|&i| open_columns.iter().map(move |&j| (i, j)))
+        .filter(|&(i, j)| !code.program.is_zero(rows[i][j]))
+        .collect();
+    for &(i, j) in &entries {
+        row_count[i] += 1;
+        column_count[j] += 1;
+        for (k, value) in code.at(rows[i][j]).iter().enumerate() {
+            let size = value.abs() * scale[j];
+            row_top[i][k] = row_top[i][k].max(size);
+            column_top[j][k] = column_top[j][k].max(size);
+        }
+    }
+    let mut best: Option<(Candidate, usize, usize)> = None;
+    for &(i, j) in &entries {
+        let share = code
+            .at(rows[i][j])
+            .iter()
+            .enumerate()
+            .map(|(k, value)| value.abs() * scale[j] / row_top[i][k].max(column_top[j][k]))
+            .fold(1.0, |a: f64, share| if share < a { share } else { a });
+        let candidate = Candidate {
+            share,
+            fill: (row_count[i] - 1) * (column_count[j] - 1),
+            varies: code.program.as_number(rows[i][j]).is_none(),
+        };
+        if best
+            .as_ref()
+            .is_none_or(|(b, ..)| candidate.is_better_than(b))
+        {
+            best = Some((candidate, i, j));
+        }
+    }
+    match best {
+        Some((candidate, i, j)) if candidate.share >= SMALLEST => Ok((i, j)),
+        _ => Err(CodeError::NoPivot {
+            share: best.map_or(0.0, |b| b.0.share),
+            left: open_rows.len(),
+        }),
+    }
+}
+
+/// What speaks for a pivot.
+struct Candidate {
+    /// Smallest share of the largest entry of its row and column.
+    share: f64,
+    /// New entries at most.
+    fill: usize,
+    varies: bool,
+}
+
+impl Candidate {
+    fn is_better_than(&self, other: &Self) -> bool {
+        match (self.share >= THRESHOLD, other.share >= THRESHOLD) {
+            (true, false) => true,
+            (false, true) => false,
+            (false, false) => self.share > other.share,
+            (true, true) => (self.fill, self.varies) < (other.fill, other.varies),
+        }
+    }
+}

@@ -1,0 +1,144 @@
+//! The recorded equations of a mechanism as one program, with the numbers of the mechanism folded in.
+
+use joints::recorded::{Operation, Recorded};
+use model::record::Input;
+use model::{Recording, System};
+use symbolic::{Function, Graph, Value};
+
+use crate::sampled::Sampled;
+use crate::subject::Subject;
+
+/// What an input of the program stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Source {
+    /// Of the mechanism.
+    Mechanism(Input),
+    /// A right-hand side, by row.
+    Rhs(usize),
+    /// A direction of coordinates.
+    AlongQ(usize),
+    /// A direction of velocities.
+    AlongV(usize),
+}
+
+/// The equations as values of a program.
+pub(crate) struct Equations {
+    pub(crate) code: Sampled,
+    /// Names of the inputs, and what they stand for.
+    pub(crate) names: Graph,
+    pub(crate) sources: Vec<Source>,
+    inputs: Vec<Value>,
+    pub(crate) phi: Vec<Value>,
+    /// Rows of C, dense, zeros as the constant 0.
+    pub(crate) c: Vec<Vec<Value>>,
+    pub(crate) b: Vec<Value>,
+    pub(crate) gamma: Vec<Value>,
+    pub(crate) force: Vec<Value>,
+}
+
+impl Equations {
+    pub(crate) fn new(subject: &Subject<'_>) -> Self {
+        let mechanism = &subject.prepared.mechanism;
+        let layout = mechanism.layout();
+        let recording = mechanism.record();
+        let sources: Vec<Source> = recording
+            .inputs
+            .iter()
+            .map(|&i| Source::Mechanism(i))
+            .chain((0..layout.rows()).map(Source::Rhs))
+            .chain((0..layout.n_q).map(Source::AlongQ))
+            .chain((0..layout.n_v).map(Source::AlongV))
+            .collect();
+        let value = |source: &Source, state| match *source {
+            Source::Mechanism(input) => subject.input(input, state),
+            Source::Rhs(_) | Source::AlongQ(_) | Source::AlongV(_) => 0.0,
+        };
+        let states = subject.states.iter();
+        let samples = states.map(|state| sources.iter().map(|s| value(s, state)).collect());
+        let mut code = Sampled::new(samples.collect());
+        let mut names = Graph::new();
+        let mut inputs = Vec::with_capacity(sources.len());
+        for source in &sources {
+            let symbol = names.symbol(&name(*source));
+            if let Some(symbol) = names.as_symbol(symbol) {
+                inputs.push(code.program.input(symbol));
+            }
+        }
+        let values = replay(&mut code, &recording, &inputs);
+        let of = |list: &[Recorded]| list.iter().map(|r| values[r.place()]).collect();
+        let zero = code.program.number(0.0);
+        let row = |entries: &Vec<(usize, Recorded)>, code: &mut Sampled| {
+            let mut row = vec![zero; layout.n_v];
+            for (column, r) in entries {
+                row[*column] = code.program.add(row[*column], values[r.place()]);
+            }
+            row
+        };
+        let c = recording.c.iter().map(|e| row(e, &mut code)).collect();
+        Self {
+            phi: of(&recording.phi),
+            c,
+            b: of(&recording.b),
+            gamma: of(&recording.gamma),
+            force: of(&recording.force),
+            code,
+            names,
+            sources,
+            inputs,
+        }
+    }
+
+    /// The input that stands for something; all of them are there from the beginning.
+    pub(crate) fn input(&self, source: Source) -> Option<Value> {
+        let at = self.sources.iter().position(|&s| s == source)?;
+        self.inputs.get(at).copied()
+    }
+
+    /// `C·x` of a row.
+    pub(crate) fn row_times(&mut self, i: usize, x: &[Value]) -> Value {
+        let p = &mut self.code.program;
+        let zero = p.number(0.0);
+        self.c[i].iter().zip(x).fold(zero, |sum, (c, x)| {
+            let product = p.mul(*c, *x);
+            p.add(sum, product)
+        })
+    }
+}
+
+/// The operations of a tape in a program, which folds what is known.
+fn replay(code: &mut Sampled, recording: &Recording, inputs: &[Value]) -> Vec<Value> {
+    let p = &mut code.program;
+    let mut values: Vec<Value> = Vec::with_capacity(recording.tape.len());
+    for operation in &recording.tape {
+        let of = |r: Recorded| values[r.place()];
+        let value = match *operation {
+            Operation::Number(x) => p.number(x),
+            Operation::Input(k) => inputs[k],
+            Operation::Add(a, b) => p.add(of(a), of(b)),
+            Operation::Sub(a, b) => p.sub(of(a), of(b)),
+            Operation::Mul(a, b) => p.mul(of(a), of(b)),
+            Operation::Div(a, b) => p.div(of(a), of(b)),
+            Operation::Neg(a) => p.neg(of(a)),
+            Operation::Sqrt(a) => p.call(Function::Sqrt, of(a)),
+            Operation::RecipOrZero(a) => p.call(Function::RecipOrZero, of(a)),
+        };
+        values.push(value);
+    }
+    values
+}
+
+fn name(source: Source) -> String {
+    match source {
+        Source::Mechanism(Input::Coordinate(k)) => format!("q{k}"),
+        Source::Mechanism(Input::Cos(k)) => format!("cos{k}"),
+        Source::Mechanism(Input::Sin(k)) => format!("sin{k}"),
+        Source::Mechanism(Input::Velocity(k)) => format!("v{k}"),
+        Source::Mechanism(Input::Function {
+            function,
+            derivative,
+        }) => format!("{}{function}", ["f", "df", "ddf"][derivative.min(2)]),
+        Source::Rhs(k) => format!("r{k}"),
+        Source::AlongQ(k) => format!("dq{k}"),
+        Source::AlongV(k) => format!("dv{k}"),
+    }
+}

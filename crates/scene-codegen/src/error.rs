@@ -1,0 +1,69 @@
+//! Why there is no code for a mechanism.
+
+use dynamics::{MotionError, Trip};
+use pfaff::StudyError;
+
+/// What kept a module from being generated.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CodeError {
+    /// The scene has no study.
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    /// The motion cannot be sampled.
+    #[error("the motion that the code is made for stops: {0}")]
+    Motion(#[from] Box<dynamics::Failure>),
+    /// A state cannot be prepared.
+    #[error(transparent)]
+    Start(#[from] MotionError),
+    /// A state of the motion cannot be evaluated.
+    #[error(transparent)]
+    Trip(#[from] Trip),
+    /// There is no order of elimination that serves the whole motion.
+    #[error(
+        "no fixed order of elimination serves the whole motion: with {left} rows left the best pivot falls to {share:.1e} of its row or column \
+         (at least 1e-3 is needed); run this scene interpreted, or generate code for a shorter motion"
+    )]
+    NoPivot {
+        /// Smallest share of the best pivot.
+        share: f64,
+        /// Rows that are not yet eliminated.
+        left: usize,
+    },
+    /// A free motion has no mass.
+    #[error(
+        "the motion of velocity {} has no mass, so its acceleration is not determined; give its body mass or inertia",
+        column + 1
+    )]
+    Massless {
+        /// Place of the velocity, from 0.
+        column: usize,
+    },
+    /// The code would be too long to compile.
+    #[error(
+        "the module would have {operations} operations, more than {limit}: compilers take minutes for that; run this scene interpreted"
+    )]
+    TooLong {
+        /// Operations of the longest function.
+        operations: usize,
+        /// What is allowed.
+        limit: usize,
+    },
+    /// A file cannot be read or written.
+    #[error("{path}: {source}")]
+    File {
+        /// The file.
+        path: String,
+        /// Why.
+        source: std::io::Error,
+    },
+    /// A generated file does not agree with its scene.
+    #[error("{path} does not agree with its scene: generate it again")]
+    Stale {
+        /// The file.
+        path: String,
+    },
+    /// What was generated is no Rust: an error of this crate.
+    #[error("the generated text is no Rust: {0}")]
+    Text(String),
+}

@@ -1,0 +1,45 @@
+#![doc = include_str!("../README.md")]
+
+mod eliminate;
+mod equations;
+mod error;
+mod functions;
+mod module;
+mod sampled;
+mod subject;
+mod support;
+mod time;
+
+pub use error::CodeError;
+pub use module::{Choices, Module, generate};
+pub use subject::{State, Subject};
+
+use std::path::Path;
+
+use pfaff::{Blueprint, Overrides};
+
+/// The module of a scene file: made for the run that the scene asks for, or for its start if it asks for none.
+///
+/// # Errors
+/// If the file cannot be read, the scene is wrong or its run stops, or there is no code for it.
+pub fn scene(path: &Path, choices: &Choices) -> Result<Module, CodeError> {
+    let text = std::fs::read_to_string(path).map_err(|source| CodeError::File {
+        path: path.display().to_string(),
+        source,
+    })?;
+    scene_text(&path.display().to_string(), &text, choices)
+}
+
+/// The same from the text of a scene; `name` is the file's name in messages.
+///
+/// # Errors
+/// As [`scene`].
+pub fn scene_text(name: &str, text: &str, choices: &Choices) -> Result<Module, CodeError> {
+    let study = Blueprint::read(name, text, &pfaff::model::Registry::planar())?
+        .prepare(&Overrides::default())?;
+    let subject = match &study.options {
+        Some(options) => Subject::of_run(&study.prepared, options)?,
+        None => Subject::at_start(&study.prepared),
+    };
+    generate(&subject, choices)
+}

@@ -1,0 +1,74 @@
+//! `scene-codegen SCENE --out FILE`: one scene, one module.
+
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+
+use clap::Parser;
+use scene_codegen::{Choices, CodeError, scene};
+
+/// Writes one scene as one Rust module: its numbers folded in, its kept rows eliminated in an order that serves its whole motion.
+#[derive(Parser)]
+struct Arguments {
+    /// The scene file.
+    scene: PathBuf,
+    /// The file to write.
+    #[arg(long)]
+    out: PathBuf,
+    /// Path of the crate `dynamics` as the module sees it; then the module implements its trait `SceneCode`.
+    #[arg(long)]
+    dynamics: Option<String>,
+    /// Sines and roots of the crate `libm`, for programs without the standard library.
+    #[arg(long)]
+    libm: bool,
+    /// Compare with the file instead of writing it.
+    #[arg(long)]
+    check: bool,
+}
+
+fn main() -> ExitCode {
+    match run(&Arguments::parse()) {
+        Ok(said) => {
+            #[expect(clippy::print_stdout, reason = "a program says what it did")]
+            {
+                println!("{said}");
+            }
+            ExitCode::SUCCESS
+        }
+        Err(e) => {
+            #[expect(clippy::print_stderr, reason = "a program says what it did not do")]
+            {
+                eprintln!("error: {e}");
+            }
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn run(arguments: &Arguments) -> Result<String, CodeError> {
+    let choices = Choices {
+        dynamics: arguments.dynamics.clone(),
+        libm: arguments.libm,
+    };
+    let module = scene(&arguments.scene, &choices)?;
+    let file = |path: &Path, source| CodeError::File {
+        path: path.display().to_string(),
+        source,
+    };
+    let text = module.as_file(&format!(
+        "`cargo xtask codegen --scene {} --out {}`",
+        arguments.scene.display(),
+        arguments.out.display()
+    ));
+    let out = &arguments.out;
+    if arguments.check {
+        let found = std::fs::read_to_string(out).map_err(|e| file(out, e))?;
+        return match found == text {
+            true => Ok(format!("{} agrees with its scene", out.display())),
+            false => Err(CodeError::Stale {
+                path: out.display().to_string(),
+            }),
+        };
+    }
+    std::fs::write(out, text).map_err(|e| file(out, e))?;
+    Ok(format!("{} written", out.display()))
+}

@@ -1,0 +1,56 @@
+//! Functions of time as text.
+
+use std::fmt::Write;
+
+use model::Function;
+use model::function::Parts;
+
+/// The expression of the jet of a function at `t`, and the support that it needs.
+pub(crate) fn jet(function: &Function) -> (String, &'static [&'static str]) {
+    match function.parts() {
+        Parts::Polynomial(c) => (format!("polynomial(t, &{c:?})"), &["polynomial"]),
+        Parts::Harmonic {
+            amplitude,
+            omega,
+            phase,
+            offset,
+        } => (
+            format!("harmonic(t, [{amplitude:?}, {omega:?}, {phase:?}, {offset:?}])"),
+            &["cos_sin", "harmonic"],
+        ),
+        Parts::Steps { start, steps } => (format!("steps(t, {start:?}, &{steps:?})"), &["steps"]),
+        Parts::Spline {
+            times,
+            values,
+            curvatures,
+        } => {
+            let points = times.iter().zip(values).zip(curvatures);
+            let points: Vec<[f64; 3]> = points.map(|((t, f), k)| [*t, *f, *k]).collect();
+            (format!("spline(t, &{points:?})"), &["spline"])
+        }
+        Parts::Lines { times, values } => {
+            let points: Vec<[f64; 2]> = times.iter().zip(values).map(|(t, f)| [*t, *f]).collect();
+            (format!("lines(t, &{points:?})"), &["lines"])
+        }
+    }
+}
+
+/// The body of the function that evaluates all jets: `[f, ḟ, f̈]` one after the other.
+pub(crate) fn jets<'f>(
+    functions: impl Iterator<Item = (&'f Function, f64)>,
+) -> (String, Vec<&'static str>) {
+    let (mut text, mut names, mut support) = (String::new(), String::new(), Vec::new());
+    for (k, (function, offset)) in functions.enumerate() {
+        let (call, needed) = jet(function);
+        support.extend(needed);
+        let minus = if offset == 0.0 {
+            String::new()
+        } else {
+            format!(" - {offset:?}")
+        };
+        // Writing to a string does not fail.
+        let _ = write!(text, "let [f{k}, d{k}, dd{k}] = {call};");
+        let _ = write!(names, "f{k}{minus}, d{k}, dd{k},");
+    }
+    (format!("{text} [{names}]"), support)
+}

@@ -1,0 +1,204 @@
+//! Straight-line code: binary operations with value numbering, so that what is shared is computed once, and the count of
+//! what is left. A program is lowered from expressions ([`crate::lower`]) or built by operations that fold what is known.
+
+use std::collections::HashMap;
+use std::fmt;
+
+use crate::graph::{Expr, Function, Symbol};
+
+/// Handle of an operation of a [`Program`]; operands come before their uses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Value(u32);
+
+/// Operations of two operands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Binary {
+    /// `a + b`
+    Add,
+    /// `a − b`
+    Sub,
+    /// `a · b`
+    Mul,
+    /// `a / b`
+    Div,
+}
+
+/// One operation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Op {
+    /// A constant, as bits.
+    Number(u64),
+    /// An input.
+    Input(Symbol),
+    /// Sum, difference, product or quotient.
+    Binary(Binary, Value, Value),
+    /// Change of sign.
+    Neg(Value),
+    /// A function of one argument.
+    Call(Function, Value),
+}
+
+/// Number of operations of each kind.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Products.
+    pub mul: usize,
+    /// Sums and differences.
+    pub add: usize,
+    /// Changes of sign.
+    pub neg: usize,
+    /// Quotients.
+    pub div: usize,
+    /// Square roots and other functions.
+    pub call: usize,
+}
+
+impl Counts {
+    /// All of them.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.mul + self.add + self.neg + self.div + self.call
+    }
+}
+
+impl fmt::Display for Counts {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let parts: Vec<String> = [
+            (self.mul, "mul"),
+            (self.add, "add"),
+            (self.neg, "neg"),
+            (self.div, "div"),
+            (self.call, "call"),
+        ]
+        .iter()
+        .filter(|(n, _)| *n > 0)
+        .map(|(n, kind)| format!("{n} {kind}"))
+        .collect();
+        match parts.is_empty() {
+            true => f.write_str("none"),
+            false => f.write_str(&parts.join(", ")),
+        }
+    }
+}
+
+/// Straight-line code for a list of outputs.
+#[derive(Clone, Default)]
+pub struct Program {
+    ops: Vec<Op>,
+    pub(crate) outputs: Vec<Value>,
+    pub(crate) values: HashMap<Expr, Value>,
+    table: HashMap<Op, Value>,
+}
+
+impl Program {
+    /// The operations, operands first.
+    #[must_use]
+    pub fn ops(&self) -> &[Op] {
+        &self.ops
+    }
+
+    /// Where each output is found.
+    #[must_use]
+    pub fn outputs(&self) -> &[Value] {
+        &self.outputs
+    }
+
+    /// Where an expression is found, if the program computes it on its way.
+    #[must_use]
+    pub fn value_of(&self, e: Expr) -> Option<Value> {
+        self.values.get(&e).copied()
+    }
+
+    /// The operation behind a handle.
+    #[must_use]
+    pub fn op(&self, v: Value) -> Op {
+        self.ops[v.0 as usize]
+    }
+
+    /// The handle of the operation at a place of [`Program::ops`].
+    ///
+    /// # Panics
+    /// If there is no such place.
+    #[must_use]
+    pub fn value_at(&self, place: usize) -> Value {
+        assert!(
+            place < self.ops.len(),
+            "operation {place} of {}",
+            self.ops.len()
+        );
+        Value(place as u32)
+    }
+
+    /// How often each operation is used by others and by outputs.
+    #[must_use]
+    pub fn uses(&self) -> Vec<usize> {
+        let mut uses = vec![0; self.ops.len()];
+        for v in self
+            .ops
+            .iter()
+            .flat_map(Op::operands)
+            .chain(self.outputs.iter().copied())
+        {
+            uses[v.0 as usize] += 1;
+        }
+        uses
+    }
+
+    /// Number of operations of each kind.
+    #[must_use]
+    pub fn counts(&self) -> Counts {
+        let mut counts = Counts::default();
+        for op in &self.ops {
+            match op {
+                Op::Number(_) | Op::Input(_) => {}
+                Op::Binary(Binary::Add | Binary::Sub, ..) => counts.add += 1,
+                Op::Binary(Binary::Mul, ..) => counts.mul += 1,
+                Op::Binary(Binary::Div, ..) => counts.div += 1,
+                Op::Neg(_) => counts.neg += 1,
+                Op::Call(..) => counts.call += 1,
+            }
+        }
+        counts
+    }
+
+    /// The value of an operation: an old one if it has been computed before.
+    pub(crate) fn push(&mut self, op: Op) -> Value {
+        if let Some(&v) = self.table.get(&op) {
+            return v;
+        }
+        let v = Value(self.ops.len() as u32);
+        self.ops.push(op);
+        self.table.insert(op, v);
+        v
+    }
+}
+
+impl Value {
+    /// Place in [`Program::ops`].
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+impl Op {
+    /// The values that it takes.
+    pub(crate) fn operands(&self) -> impl Iterator<Item = Value> + use<> {
+        let (a, b) = match *self {
+            Op::Number(_) | Op::Input(_) => (None, None),
+            Op::Binary(_, a, b) => (Some(a), Some(b)),
+            Op::Neg(a) | Op::Call(_, a) => (Some(a), None),
+        };
+        a.into_iter().chain(b)
+    }
+
+    /// The same operation on other values, if there are any for all of them.
+    pub(crate) fn with_operands(&self, to: impl Fn(Value) -> Option<Value>) -> Option<Self> {
+        Some(match *self {
+            Op::Number(_) | Op::Input(_) => *self,
+            Op::Binary(kind, a, b) => Op::Binary(kind, to(a)?, to(b)?),
+            Op::Neg(a) => Op::Neg(to(a)?),
+            Op::Call(f, a) => Op::Call(f, to(a)?),
+        })
+    }
+}

@@ -1,0 +1,549 @@
+//! Runs on generated code. The code here is no generated one but solves the same equations its own way, so that faults can be put into it:
+//! whatever it does, the motion is that of the interpreter, and the run says who evaluated.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex};
+
+use dynamics::{
+    CodeMismatch, EventKind, Facts, Formulation, Method, MotionOptions, NoCode, Prepared,
+    RowChoice, SceneCode, Stabilisation, Summary, prepare, simulate,
+};
+use linalg::KeptRowSaddle;
+use model::start::CorrectionLimit;
+use model::{BodyRef, Description, Drive, Function, Mechanism, Scratch, StartOptions, System};
+use tests::cranks::cranks;
+use tests::robot::{robot, steering};
+
+/// What is wrong with code, at times t.
+#[derive(Clone, Copy)]
+enum Fault {
+    None,
+    /// Its health is this from 4.1 to 4.8 s.
+    Health(f64),
+    /// Accelerations are NaN from 4.1 to 4.8 s, and it says that all is well.
+    NotFinite,
+    /// A dropped row misses from 4.1 to 4.8 s.
+    DroppedRow(usize),
+    /// Corrections of the position are so many times too large from 4.1 to 4.8 s.
+    Correction(f64),
+    /// Accelerations are wrong by this share, always.
+    Acceleration(f64),
+    /// The same for multipliers.
+    Multipliers(f64),
+}
+
+/// Code for a mechanism by dense elimination on its kept rows.
+struct Elimination {
+    facts: Facts,
+    mechanism: Mechanism,
+    fault: Fault,
+    evaluations: AtomicUsize,
+    work: Mutex<Work>,
+}
+
+struct Work {
+    s: Scratch,
+    rows: Vec<Vec<f64>>,
+    /// A frame of free motions and the pivots at the start: what later ones are compared with.
+    frame: Vec<f64>,
+    reference: f64,
+}
+
+fn leak<T>(x: &[T]) -> &'static [T]
+where
+    T: Clone,
+{
+    Box::leak(x.to_vec().into_boxed_slice())
+}
+
+impl Elimination {
+    fn new(p: &Prepared, fault: Fault) -> Arc<Self> {
+        let layout = p.mechanism.layout();
+        let facts = Facts {
+            name: "elimination",
+            n_q: layout.n_q,
+            n_v: layout.n_v,
+            m: layout.m,
+            h: layout.h,
+            kept: leak(&p.decision.kept),
+            position_kept: leak(&p.position_decision.kept),
+            break_times: leak(&layout.break_times),
+            operations: "",
+        };
+        let code = Self {
+            facts,
+            fault,
+            evaluations: AtomicUsize::new(0),
+            work: Mutex::new(Work {
+                s: p.mechanism.scratch(),
+                rows: Vec::new(),
+                frame: Vec::new(),
+                reference: 0.0,
+            }),
+            mechanism: p.mechanism.clone(),
+        };
+        {
+            let mut work = code.work.lock().expect("one thread");
+            code.pose(&mut work, 0.0, &p.q);
+            let saddle = code.factor(&mut work, code.facts.kept);
+            let mut frame = vec![0.0; (layout.n_v - code.facts.kept.len()) * layout.n_v];
+            saddle.null_frame(&mut frame);
+            work.frame = frame;
+            work.reference = saddle.orientation_of(&work.frame) * saddle.pivot_ratio();
+        }
+        Arc::new(code)
+    }
+
+    fn pose(&self, work: &mut Work, t: f64, q: &[f64]) {
+        self.mechanism.pose(t, q, &mut work.s);
+        self.mechanism.phi(&mut work.s);
+        self.mechanism.c(&mut work.s);
+        self.mechanism.b(&mut work.s);
+    }
+
+    fn factor(&self, work: &mut Work, kept: &[usize]) -> KeptRowSaddle {
+        let n = self.facts.n_v;
+        work.rows.resize(kept.len(), Vec::new());
+        for (row, &i) in work.rows.iter_mut().zip(kept) {
+            row.resize(n, 0.0);
+            self.mechanism.layout().scatter_row(&work.s, i, row);
+        }
+        let mut saddle = KeptRowSaddle::new(n, kept.len()).expect("independent rows");
+        saddle
+            .factor_above(0.0, |k| &work.rows[k], self.mechanism.mass())
+            .expect("masses");
+        saddle
+    }
+
+    /// Solves on kept rows; x, λ of these rows, and the health.
+    fn solve(
+        &self,
+        work: &mut Work,
+        kept: &[usize],
+        force: &[f64],
+        gamma: &[f64],
+    ) -> (Vec<f64>, Vec<f64>, f64) {
+        let saddle = &mut self.factor(work, kept);
+        let (mut x, mut lambda) = (vec![0.0; force.len()], vec![0.0; kept.len()]);
+        saddle
+            .solve(force, gamma, &mut x, &mut lambda)
+            .expect("factored");
+        let health = match kept == self.facts.kept {
+            true => saddle.orientation_of(&work.frame) * saddle.pivot_ratio() / work.reference,
+            false => 1.0,
+        };
+        (x, lambda, health)
+    }
+
+    fn motion(&self, t: f64, q: &[f64], v: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
+        let work = &mut *self.work.lock().expect("one thread");
+        self.pose(work, t, q);
+        self.mechanism.twist(v, &mut work.s);
+        self.mechanism.gamma(&mut work.s);
+        self.mechanism.force(&mut work.s);
+        let gamma: Vec<f64> = self.facts.kept.iter().map(|&i| work.s.gamma[i]).collect();
+        let force = work.s.force.clone();
+        let (a, lambda, health) = self.solve(work, self.facts.kept, &force, &gamma);
+        match self.fault {
+            Fault::Health(health) if is_faulty(t) => (a, lambda, health),
+            _ => (a, lambda, health),
+        }
+    }
+}
+
+/// `orientation` needs storage of the solver, but changes nothing in it.
+trait OrientationOf {
+    fn orientation_of(&self, frame: &[f64]) -> f64;
+}
+
+impl OrientationOf for KeptRowSaddle {
+    fn orientation_of(&self, frame: &[f64]) -> f64 {
+        self.clone().orientation(frame)
+    }
+}
+
+fn is_faulty(t: f64) -> bool {
+    (4.1..4.8).contains(&t)
+}
+
+impl SceneCode for Elimination {
+    fn facts(&self) -> &Facts {
+        &self.facts
+    }
+
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64 {
+        self.evaluations.fetch_add(1, Ordering::Relaxed);
+        let (found, _, health) = self.motion(t, q, v);
+        a.copy_from_slice(&found);
+        match self.fault {
+            Fault::NotFinite if is_faulty(t) => a[0] = f64::NAN,
+            Fault::Acceleration(share) => a.iter_mut().for_each(|a| *a *= 1.0 + share),
+            _ => {}
+        }
+        health
+    }
+
+    fn multipliers(&self, t: f64, q: &[f64], v: &[f64], lambda: &mut [f64]) -> f64 {
+        let (_, found, health) = self.motion(t, q, v);
+        lambda.fill(0.0);
+        for (&i, l) in self.facts.kept.iter().zip(found) {
+            lambda[i] = l;
+        }
+        if let Fault::Multipliers(share) = self.fault {
+            lambda.iter_mut().for_each(|l| *l *= 1.0 + share);
+        }
+        health
+    }
+
+    fn phi(&self, t: f64, q: &[f64], phi: &mut [f64]) {
+        let work = &mut *self.work.lock().expect("one thread");
+        self.pose(work, t, q);
+        phi.copy_from_slice(&work.s.phi);
+    }
+
+    fn velocity_residual(&self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]) {
+        let work = &mut *self.work.lock().expect("one thread");
+        self.pose(work, t, q);
+        for (i, out) in out.iter_mut().enumerate() {
+            *out = self.mechanism.layout().velocity_residual(&work.s, i, v);
+        }
+        match self.fault {
+            Fault::DroppedRow(i) if is_faulty(t) => out[i] += 1e-6,
+            _ => {}
+        }
+    }
+
+    fn position_correction(&self, t: f64, q: &[f64], phi: &[f64], dq: &mut [f64]) -> f64 {
+        let work = &mut *self.work.lock().expect("one thread");
+        self.pose(work, t, q);
+        let kept = self.facts.position_kept;
+        let rhs: Vec<f64> = kept.iter().map(|&i| -phi[i]).collect();
+        let (found, _, _) = self.solve(work, kept, &vec![0.0; dq.len()], &rhs);
+        dq.copy_from_slice(&found);
+        match self.fault {
+            Fault::Correction(times) if is_faulty(t) => dq.iter_mut().for_each(|d| *d *= times),
+            _ => {}
+        }
+        1.0
+    }
+
+    fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64 {
+        let work = &mut *self.work.lock().expect("one thread");
+        self.pose(work, t, q);
+        let rhs: Vec<f64> = self.facts.kept.iter().map(|&i| -residual[i]).collect();
+        let (found, _, health) = self.solve(work, self.facts.kept, &vec![0.0; dv.len()], &rhs);
+        dv.copy_from_slice(&found);
+        health
+    }
+
+    fn jacobian_action(
+        &self,
+        _t: f64,
+        _q: &[f64],
+        _v: &[f64],
+        _dq: &[f64],
+        _dv: &[f64],
+        da: &mut [f64],
+    ) -> f64 {
+        da.fill(f64::NAN);
+        f64::NAN
+    }
+}
+
+fn started(d: &Description) -> Prepared {
+    let options = StartOptions {
+        correction: CorrectionLimit::Any,
+        ..StartOptions::default()
+    };
+    prepare(
+        Mechanism::build(d).expect("builds"),
+        &options,
+        &RowChoice::Automatic,
+    )
+    .expect("starts")
+}
+
+fn trolley() -> Prepared {
+    started(&robot(steering()))
+}
+
+/// Rows of a run, [q; v; λ] each, and its summary.
+fn run(p: &Prepared, options: &MotionOptions) -> (Vec<Vec<f64>>, Summary) {
+    let mut rows = Vec::new();
+    let summary = simulate(p, options, |row| {
+        let lambda = row.multipliers()?;
+        rows.push([row.q, row.v, &lambda].concat());
+        Ok(ControlFlow::Continue(()))
+    })
+    .expect("runs to its end");
+    (rows, summary)
+}
+
+/// The largest difference of two runs.
+fn apart(a: &[Vec<f64>], b: &[Vec<f64>]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    let pairs = a.iter().flatten().zip(b.iter().flatten());
+    pairs.fold(0.0, |largest, (a, b)| f64::max(largest, (a - b).abs()))
+}
+
+/// (kind, time) of what happened to the code.
+fn told(summary: &Summary) -> Vec<(EventKind, f64)> {
+    let of_code = [EventKind::CodeLeft, EventKind::CodeUsed];
+    let events = summary.events.iter();
+    events
+        .filter(|e| of_code.contains(&e.kind))
+        .map(|e| (e.kind, e.time))
+        .collect()
+}
+
+fn tight(t_end: f64) -> MotionOptions {
+    MotionOptions {
+        rtol: 1e-11,
+        atol: 1e-12,
+        output_step: 0.25,
+        ..MotionOptions::to(t_end)
+    }
+}
+
+#[test]
+fn a_run_on_healthy_code_is_that_of_the_interpreter() {
+    let p = trolley();
+    let (expected, interpreted) = run(&p, &tight(10.0));
+    for method in [Method::Dop853, Method::Tsit5, Method::Gbs] {
+        let options = MotionOptions {
+            method,
+            ..tight(10.0)
+        };
+        let coded = p
+            .clone()
+            .with_code(Elimination::new(&p, Fault::None))
+            .expect("its own");
+        let (rows, summary) = run(&coded, &options);
+        assert!(
+            apart(&rows, &expected) < 1e-9,
+            "{:e}",
+            apart(&rows, &expected)
+        );
+        assert_eq!(told(&summary), []);
+        assert!(summary.max_position_residual < 1e-14, "{summary:?}");
+        assert!(summary.energy_balance < 1e-9 && interpreted.energy_balance < 1e-9);
+    }
+}
+
+/// From the last accepted state before the fault on the equations are interpreted, and from some time behind it on no more.
+#[test]
+fn code_that_is_not_sure_is_left_and_comes_back() {
+    let p = trolley();
+    let (expected, _) = run(&p, &tight(10.0));
+    let dropped = p.decision.dropped[0];
+    for (fault, reason) in [
+        (Fault::Health(0.05), "its pivots have fallen to 0.05"),
+        (Fault::Health(-2.0), "its pivots have fallen to -2.00"),
+        (Fault::Health(f64::NAN), "its pivots have fallen to NaN"),
+        (Fault::NotFinite, "a result of it is not finite"),
+        (Fault::DroppedRow(dropped), "the dropped row"),
+        (Fault::Correction(1e6), "its corrections leave row"),
+    ] {
+        let coded = p
+            .clone()
+            .with_code(Elimination::new(&p, fault))
+            .expect("its own at the start");
+        let (rows, summary) = run(&coded, &tight(10.0));
+        assert!(
+            apart(&rows, &expected) < 1e-9,
+            "{reason}: {:e}",
+            apart(&rows, &expected)
+        );
+        let told = told(&summary);
+        assert_eq!(told.len(), 2, "{reason}: {:?}", summary.events);
+        let [(left, t_left), (used, t_used)] = [told[0], told[1]];
+        assert_eq!([left, used], [EventKind::CodeLeft, EventKind::CodeUsed]);
+        assert!((3.0..=4.1).contains(&t_left), "{reason}: {t_left}");
+        // Hysteresis: not before it is healthy again, for which some steps have to be interpreted.
+        assert!(t_used > 4.1 && t_used < 10.0, "{reason}: {t_used}");
+        let event = summary
+            .events
+            .iter()
+            .find(|e| e.kind == EventKind::CodeLeft);
+        let text = &event.expect("told").text;
+        assert!(text.contains(reason), "{text}");
+    }
+}
+
+/// A parallelogram driven through its flat pose, where two branches meet: code has no way over it.
+#[test]
+fn singular_configurations_are_passed_by_the_interpreter() {
+    let mut d = cranks(&[0.0, 1.0], 0.5, -0.5);
+    d.drives.push(Drive {
+        name: "motor".into(),
+        bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
+        element: Box::new(joints::RevoluteAngleDrive {
+            s_i: [0.0; 2],
+            s_j: [0.0; 2],
+            measure_0: 0.0,
+        }),
+        motion: Function::constant_rate(1.0).expect("finite"),
+    });
+    let p = started(&d);
+    let options = MotionOptions {
+        output_step: 0.1,
+        ..MotionOptions::to(6.0)
+    };
+    let (expected, interpreted) = run(&p, &options);
+    let coded = p
+        .clone()
+        .with_code(Elimination::new(&p, Fault::None))
+        .expect("its own");
+    let (rows, summary) = run(&coded, &options);
+    let n = 2 * p.v.len();
+    let motion = |rows: &[Vec<f64>]| rows.iter().map(|r| r[..n].to_vec()).collect::<Vec<_>>();
+    let by = apart(&motion(&rows), &motion(&expected));
+    assert!(by < 1e-6, "{by:e}: {:?}", summary.events);
+    let passages = |s: &Summary| -> Vec<f64> {
+        let passages = s
+            .events
+            .iter()
+            .filter(|e| e.kind == EventKind::SingularPassage);
+        passages.map(|e| e.time).collect()
+    };
+    let (found, right) = (passages(&summary), passages(&interpreted));
+    assert_eq!(found.len(), right.len(), "{:?}", summary.events);
+    for (found, right) in found.iter().zip(right) {
+        assert!((found - right).abs() < 1e-6, "{found} {right}");
+    }
+    assert!(
+        told(&summary)
+            .iter()
+            .any(|(kind, _)| *kind == EventKind::CodeLeft)
+    );
+}
+
+/// The mechanism is exchanged for another one behind the back of the run: whoever asked the interpreter would notice.
+#[test]
+fn a_healthy_run_asks_the_interpreter_nothing() {
+    let d = |length: f64| {
+        let mut d = cranks(&[0.0, 1.0, 2.5], length, -1.3);
+        d.gravity = [0.0, -9.81];
+        d
+    };
+    let p = started(&d(0.5));
+    let options = MotionOptions {
+        output_step: 3.0,
+        ..MotionOptions::to(3.0)
+    };
+    let code = Elimination::new(&p, Fault::None);
+    let mut coded = p.clone().with_code(code.clone()).expect("its own");
+    let last = |p: &Prepared| {
+        let mut last = Vec::new();
+        let summary = simulate(p, &options, |row| {
+            last = [row.q, row.v].concat();
+            Ok(ControlFlow::Continue(()))
+        });
+        (last, summary.expect("runs"))
+    };
+    let (expected, right) = last(&coded);
+    assert!(told(&right).is_empty() && right.steps > 10, "{right:?}");
+    coded.mechanism = Mechanism::build(&d(0.6)).expect("builds");
+    code.evaluations.store(0, Ordering::Relaxed);
+    let (found, summary) = last(&coded);
+    assert_eq!(found, expected);
+    // Two at the start, twelve a step, eleven a rejected one; six more for rows between.
+    let counted = code.evaluations.load(Ordering::Relaxed) as u64;
+    assert_eq!(counted, summary.evaluations);
+    assert_eq!(counted, 2 + 12 * summary.steps + 11 * summary.rejected);
+}
+
+#[test]
+fn code_of_another_mechanism_is_refused() {
+    let p = trolley();
+    let refused = |code: Arc<Elimination>| match p.clone().with_code(code) {
+        Err(mismatch) => mismatch,
+        Ok(_) => panic!("accepted"),
+    };
+    let mut light = robot(steering());
+    light.bodies[6].inertia *= 1.0 + 1e-6;
+    let mismatch = refused(Elimination::new(&started(&light), Fault::None));
+    assert!(matches!(mismatch, CodeMismatch::Value { .. }), "{mismatch}");
+    let mut slow = robot(steering());
+    slow.drives[0].motion = Function::steps(0.0, &[[1.0, 2.5, 0.02]]).expect("a function");
+    let mismatch = refused(Elimination::new(&started(&slow), Fault::None));
+    assert!(
+        matches!(mismatch, CodeMismatch::BreakTimes { .. }),
+        "{mismatch}"
+    );
+    let other_rows = prepare(
+        Mechanism::build(&robot(steering())).expect("builds"),
+        &StartOptions::default(),
+        &RowChoice::Drop(vec![5, 20]),
+    )
+    .expect("starts");
+    let mismatch = refused(Elimination::new(&other_rows, Fault::None));
+    assert!(
+        matches!(
+            mismatch,
+            CodeMismatch::Rows {
+                level: "velocity",
+                ..
+            }
+        ),
+        "{mismatch}"
+    );
+    let mismatch = refused(Elimination::new(
+        &started(&cranks(&[0.0, 1.0], 0.5, 0.4)),
+        Fault::None,
+    ));
+    assert_eq!(
+        mismatch.to_string(),
+        "the code `elimination` has 9 coordinates, the mechanism 21"
+    );
+    for (fault, what) in [
+        (Fault::Acceleration(1e-7), "acceleration"),
+        (Fault::Multipliers(1e-7), "multiplier"),
+    ] {
+        let mismatch = refused(Elimination::new(&p, fault));
+        let CodeMismatch::Value { what: found, .. } = mismatch else {
+            panic!("{mismatch}");
+        };
+        assert_eq!(found, what);
+    }
+}
+
+#[test]
+fn runs_that_code_cannot_serve_say_why() {
+    let p = trolley();
+    let options = MotionOptions::to(1.0);
+    let why = |p: &Prepared, options: &MotionOptions| p.code_for(options).err();
+    assert_eq!(why(&p, &options), Some(NoCode::None));
+    let coded = p
+        .clone()
+        .with_code(Elimination::new(&p, Fault::None))
+        .expect("its own");
+    assert_eq!(why(&coded, &options), None);
+    for (options, reason) in [
+        (
+            MotionOptions {
+                method: Method::Radau5,
+                ..options.clone()
+            },
+            NoCode::Method("radau5"),
+        ),
+        (
+            MotionOptions {
+                formulation: Formulation::MinimumNorm,
+                ..options.clone()
+            },
+            NoCode::Formulation("minimum-norm"),
+        ),
+        (
+            MotionOptions {
+                stabilisation: Stabilisation::None,
+                ..options.clone()
+            },
+            NoCode::Stabilisation("none"),
+        ),
+    ] {
+        assert_eq!(why(&coded, &options), Some(reason));
+        assert!(simulate(&coded, &options, |_| Ok(ControlFlow::Continue(()))).is_ok());
+    }
+}
