@@ -4,6 +4,7 @@ mod analyze;
 mod bad_input;
 mod documents;
 mod failures;
+mod plan;
 mod singular;
 mod work_precision;
 
