@@ -25,6 +25,8 @@ pub use saving::{Cost, Saving};
 pub struct Wanted {
     /// Whether rows of output are: states on the constraints at the times of output.
     pub rows: Rows,
+    /// Whether accelerations are, at these rows.
+    pub accelerations: bool,
     /// Whose reactions are, at these rows.
     pub reactions: Reactions,
 }
@@ -34,6 +36,7 @@ impl Default for Wanted {
     fn default() -> Self {
         Self {
             rows: Rows::Every,
+            accelerations: true,
             reactions: Reactions::All,
         }
     }
@@ -123,6 +126,8 @@ pub struct Plan<'a> {
     pub code: Decided<bool>,
     /// Which rows of output are computed.
     pub rows: Decided<Rows>,
+    /// Whether accelerations are computed there.
+    pub accelerations: Decided<bool>,
     /// Its components, or the whole as the only one.
     pub components: Vec<ComponentPlan<'a>>,
 }
@@ -160,6 +165,7 @@ impl<'a> Plan<'a> {
             apart,
             code,
             rows: rows(options, wanted.rows),
+            accelerations: accelerations(wanted.accelerations),
             components,
         })
     }
@@ -183,6 +189,7 @@ impl<'a> Plan<'a> {
             line("components", &self.apart),
             line("generated code", &self.code),
             line("rows of output", &self.rows),
+            line("accelerations", &self.accelerations),
         ];
         let several = self.components.len() > 1;
         let of_components = self.components.iter().flat_map(|component| {
@@ -267,6 +274,19 @@ fn rows(options: &MotionOptions, rows: Rows) -> Decided<Rows> {
             reason: "nothing is written of the others".to_owned(),
             saves: Saving::of(every.saturating_sub(2), every, Cost::Rows),
         },
+    }
+}
+
+fn accelerations(wanted: bool) -> Decided<bool> {
+    let (taken, reason) = match wanted {
+        true => ("at rows of output", "wanted"),
+        false => ("within steps only", "not wanted at rows of output"),
+    };
+    Decided {
+        value: wanted,
+        taken: taken.to_owned(),
+        reason: reason.to_owned(),
+        saves: None,
     }
 }
 

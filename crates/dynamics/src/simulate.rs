@@ -25,6 +25,7 @@ use crate::options::{Method, MotionOptions};
 use crate::plan::{self, Plan, Wanted};
 use crate::prepare::Prepared;
 use equations::Equations;
+use sample::AtRows;
 
 pub use sample::Sample;
 pub use summary::{ComponentSummary, Failure, Summary};
@@ -95,7 +96,10 @@ fn run_component(
         ..plan.options().clone()
     };
     let motion = KeptRowMotion::with(prepared, options).map_err(|e| not_begun(e.into()))?;
-    let wanted = component.decisions.reactions.value.clone();
+    let wanted = AtRows {
+        accelerations: plan.accelerations.value,
+        reactions: component.decisions.reactions.value.clone(),
+    };
     let mut equations = Equations::new(motion, prepared, options, wanted);
     equations
         .motion

@@ -304,7 +304,12 @@ fn wanted(output: &Output) -> Wanted {
         (false, Reactions::None) => Rows::Ends,
         _ => Rows::Every,
     };
-    Wanted { rows, reactions }
+    Wanted {
+        rows,
+        // No table has them.
+        accelerations: false,
+        reactions,
+    }
 }
 
 fn write_row(

@@ -167,6 +167,7 @@ fn rows_that_nobody_wants_are_not_computed() {
     let p = scene(|d| pendulum(d, "bob", 0.0));
     let wanted = Wanted {
         rows: Rows::Ends,
+        accelerations: false,
         reactions: Reactions::None,
     };
     let plan = Plan::new(&p, &to(2.0), &wanted).expect("a plan");
@@ -367,11 +368,16 @@ fn a_component_does_not_work_for_another() {
         pendulum(d, "bob", 0.0);
         stiff(d);
     };
-    let everything = Wanted::default();
-    assert_eq!(
-        calls(both, &to(1.0), &everything),
-        calls(fall, &to(1.0), &everything)
-    );
+    // Rows that are shown together are computed before anybody asks: only what is wanted.
+    let wanted = Wanted {
+        accelerations: false,
+        ..Wanted::default()
+    };
+    let [with, alone] = [
+        calls(both, &to(1.0), &wanted),
+        calls(fall, &to(1.0), &wanted),
+    ];
+    assert!(with == alone, "{} and {} of C", with.c, alone.c);
 }
 
 /// A block on a rail through the ground that rises by 0.6 in 1, pushed along it by a drive, with a weight that hangs from it.
@@ -452,4 +458,28 @@ fn bodies_that_do_not_turn_have_one_sine_and_cosine() {
         assert_eq!((seen.c == 0, seen.gamma == 0), (turn == 1, turn == 1));
         assert!(seen.phi > 0);
     }
+}
+
+#[test]
+fn too_many_components_stay_one() {
+    let free = |n: usize| {
+        scene(|d| {
+            let one = |k: usize| body(&format!("body {k}"), [k as f64, 0.0]);
+            d.bodies = (0..n).map(one).collect();
+        })
+    };
+    let components = |p: &Prepared| {
+        let plan = Plan::new(p, &to(1.0), &Wanted::default()).expect("a plan");
+        (plan.components.len(), plan.apart.reason)
+    };
+    assert_eq!(components(&free(64)).0, 64);
+    let (n, reason) = components(&free(65));
+    assert_eq!(
+        (n, reason.split(',').next()),
+        (1, Some("65 do not feel each other"))
+    );
+    // They fall all the same.
+    let (rows, _) = record(&free(64), &to(1.0));
+    let fallen = rows.last().expect("there are rows").1[3 * 40 + 1];
+    assert!((fallen + 0.5 * 9.81).abs() < 1e-12, "{fallen}");
 }

@@ -7,7 +7,7 @@ use integrators::{Delicate, Implicit, Ode, StepEnd, StepInfo, Tolerance};
 use model::System;
 
 use super::energy::{self, EnergyBalance};
-use super::sample::{OfMotion, Sample, Source};
+use super::sample::{AtRows, OfMotion, Sample, Source};
 use super::span::Span;
 use crate::error::Trip;
 use crate::events::Event;
@@ -43,8 +43,8 @@ const SMOOTH: f64 = 0.01;
 /// The equations of a run with what is noted on the way.
 pub(super) struct Equations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
-    /// Joints and drives whose reactions are wanted.
-    wanted: Vec<usize>,
+    /// What is wanted at rows of output.
+    wanted: AtRows,
     /// Of implicit methods, from their first step on.
     reduced: Option<Reduced>,
     /// The constraints as equations of their own, from the first step that needs them.
@@ -84,7 +84,7 @@ impl<'m> Equations<'m> {
         motion: KeptRowMotion<'m>,
         prepared: &Prepared,
         options: &MotionOptions,
-        wanted: Vec<usize>,
+        wanted: AtRows,
     ) -> Self {
         let (q, v) = (&prepared.q, &prepared.v);
         let mechanism = motion.mechanism();

@@ -2,7 +2,6 @@
 
 use model::{Mechanism, Reaction, System};
 
-use super::several::Several;
 use crate::error::Trip;
 use crate::motion::{KeptRowMotion, Motion};
 
@@ -21,8 +20,8 @@ pub struct Sample<'s, 'm> {
 pub(super) enum Source<'s, 'm> {
     /// The motion of all bodies.
     Motion(OfMotion<'s, 'm>),
-    /// Motions of components.
-    Several(&'s mut Several),
+    /// Motions of components, which have computed it already.
+    Several(&'s Values),
 }
 
 /// A motion, and what is wanted of it.
@@ -31,20 +30,43 @@ pub(super) struct OfMotion<'s, 'm> {
     pub(super) t_before: f64,
     /// Share of the reference pivots below which reactions are not told.
     pub(super) blind: f64,
-    /// Joints and drives whose reactions are wanted, ascending.
-    pub(super) wanted: &'s [usize],
+    pub(super) wanted: &'s AtRows,
     pub(super) motion: &'s mut KeptRowMotion<'m>,
 }
 
+/// What is wanted at rows of output of a component.
+#[derive(Clone, Debug)]
+pub(super) struct AtRows {
+    pub(super) accelerations: bool,
+    /// Joints and drives whose reactions are wanted, ascending.
+    pub(super) reactions: Vec<usize>,
+}
+
+/// Values at a row, of a component or of the whole.
+#[derive(Clone)]
+pub(super) struct Values {
+    pub(super) acceleration: Result<Vec<f64>, Trip>,
+    pub(super) multipliers: Result<Vec<f64>, Trip>,
+    pub(super) reactions: Result<Vec<Reaction>, Trip>,
+}
+
 impl Sample<'_, '_> {
-    /// Accelerations; allocates.
+    /// All that is wanted of the row.
+    pub(super) fn values(&mut self) -> Values {
+        match &mut self.source {
+            Source::Motion(source) => source.values(self.q, self.v),
+            Source::Several(values) => (*values).clone(),
+        }
+    }
+
+    /// Accelerations, NaN where the plan leaves them out; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.
     pub fn acceleration(&mut self) -> Result<Vec<f64>, Trip> {
         match &mut self.source {
             Source::Motion(source) => source.acceleration(self.q, self.v),
-            Source::Several(several) => several.acceleration(),
+            Source::Several(values) => values.acceleration.clone(),
         }
     }
 
@@ -56,7 +78,7 @@ impl Sample<'_, '_> {
     pub fn multipliers(&mut self) -> Result<Vec<f64>, Trip> {
         match &mut self.source {
             Source::Motion(source) => source.multipliers(self.q, self.v),
-            Source::Several(several) => several.multipliers(),
+            Source::Several(values) => values.multipliers.clone(),
         }
     }
 
@@ -68,22 +90,24 @@ impl Sample<'_, '_> {
     pub fn reactions(&mut self) -> Result<Vec<Reaction>, Trip> {
         match &mut self.source {
             Source::Motion(source) => source.reactions(self.q, self.v),
-            Source::Several(several) => several.reactions(),
+            Source::Several(values) => values.reactions.clone(),
         }
     }
 }
 
 impl OfMotion<'_, '_> {
     fn acceleration(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, Trip> {
-        let mut a = vec![0.0; v.len()];
-        self.motion.acceleration(self.t_before, q, v, &mut a)?;
+        let mut a = vec![f64::NAN; v.len()];
+        if self.wanted.accelerations {
+            self.motion.acceleration(self.t_before, q, v, &mut a)?;
+        }
         Ok(a)
     }
 
     fn multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, Trip> {
         let mechanism = self.motion.mechanism();
         let mut lambda = vec![f64::NAN; mechanism.layout().rows()];
-        if self.wanted.is_empty() {
+        if self.wanted.reactions.is_empty() {
             return Ok(lambda);
         }
         self.motion.multipliers(self.t_before, q, v, &mut lambda)?;
@@ -100,21 +124,37 @@ impl OfMotion<'_, '_> {
 
     fn reactions(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<Reaction>, Trip> {
         let lambda = self.multipliers(q, v)?;
+        Ok(self.reactions_of(&lambda))
+    }
+
+    /// Those of the multipliers that were just solved for.
+    fn reactions_of(&self, lambda: &[f64]) -> Vec<Reaction> {
         let mechanism = self.motion.mechanism();
         let s = self.motion.scratch();
         let reaction = |(k, id)| match self.wants(k) {
-            true => mechanism.reaction(id, s, &lambda),
+            true => mechanism.reaction(id, s, lambda),
             false => left_out(mechanism, k),
         };
-        Ok(mechanism
-            .constraint_ids()
-            .enumerate()
-            .map(reaction)
-            .collect())
+        let ids = mechanism.constraint_ids().enumerate();
+        ids.map(reaction).collect()
+    }
+
+    fn values(&mut self, q: &[f64], v: &[f64]) -> Values {
+        let acceleration = self.acceleration(q, v);
+        let multipliers = self.multipliers(q, v);
+        let reactions = match &multipliers {
+            Ok(lambda) => Ok(self.reactions_of(lambda)),
+            Err(trip) => Err(trip.clone()),
+        };
+        Values {
+            acceleration,
+            multipliers,
+            reactions,
+        }
     }
 
     fn wants(&self, group: usize) -> bool {
-        self.wanted.binary_search(&group).is_ok()
+        self.wanted.reactions.binary_search(&group).is_ok()
     }
 }
 

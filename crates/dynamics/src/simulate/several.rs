@@ -1,55 +1,35 @@
 //! Components that do not feel each other, run at the same time: each on its own thread with its own method, steps, events and break
-//! times. They meet at the rows of output, where they wait until the row is done with, and answer what is asked of it. Not here: who
-//! belongs to which component (`plan::split`).
+//! times. Each computes what the plan wants at its rows and runs ahead of the others by some rows at most; rows are shown once all have
+//! reached them. Not here: who belongs to which component (`plan::split`).
 
 use std::ops::ControlFlow;
-use std::sync::mpsc::{Receiver, RecvError, Sender, channel};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread::{self, ScopedJoinHandle};
 use std::time::Instant;
 
-use model::{Mechanism, Places, Reaction, System};
+use model::{Places, Reaction, System};
 
-use super::sample::{Sample, Source, left_out};
+use super::sample::{Sample, Source, Values, left_out};
 use super::summary::{ComponentSummary, Failure, Summary};
 use super::{Watch, run_component};
 use crate::error::{MotionError, Trip};
 use crate::plan::Plan;
 
-/// What is asked of a component that waits at a row.
-enum Question {
-    Acceleration,
-    Multipliers,
-    Reactions,
-    /// To go on to the next row.
-    Next,
-}
+/// Rows that a component may be ahead.
+const AHEAD: usize = 64;
 
-/// What it answers.
-enum Answer {
-    /// It has reached a row.
-    Row {
-        t: f64,
-        q: Vec<f64>,
-        v: Vec<f64>,
-    },
-    Numbers(Result<Vec<f64>, Trip>),
-    Reactions(Result<Vec<Reaction>, Trip>),
+/// A row of a component with all that is wanted of it.
+struct Row {
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    values: Values,
 }
 
 /// A component on its thread, as seen from the rows.
-struct Link {
-    places: Places,
-    questions: Sender<Question>,
-    answers: Receiver<Answer>,
-}
-
-/// All components, waiting at a row.
-pub(super) struct Several {
-    links: Vec<Link>,
-    /// Reactions where none is computed, which tell how many rows and joints there are.
-    nobody: Vec<Reaction>,
-    n_rows: usize,
-    n_v: usize,
+struct Link<'p> {
+    places: &'p Places,
+    rows: Receiver<Row>,
 }
 
 type Integrated = Result<Summary, Box<Failure>>;
@@ -60,14 +40,14 @@ where
     F: FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
 {
     let clock = Instant::now();
+    let whole = Places::default();
     let (outcomes, stopped) = thread::scope(|scope| {
-        let mut several = Several::new(&plan.prepared().mechanism);
+        let mut links = Vec::with_capacity(plan.components.len());
         let mut handles = Vec::with_capacity(plan.components.len());
         let mut refused = None;
         for (k, component) in plan.components.iter().enumerate() {
-            let ((questions, asked), (told, answers)) = (channel(), channel());
-            let work =
-                move || run_component(plan, k, watch, |sample| Ok(serve(sample, &asked, &told)));
+            let (told, rows) = sync_channel(AHEAD);
+            let work = move || run_component(plan, k, watch, |sample| Ok(tell(sample, &told)));
             match thread::Builder::new().spawn_scoped(scope, work) {
                 Ok(handle) => handles.push(handle),
                 Err(source) => {
@@ -76,18 +56,15 @@ where
                     break;
                 }
             }
-            several.links.push(Link {
-                places: component.places().cloned().unwrap_or_default(),
-                questions,
-                answers,
-            });
+            let places = component.places().unwrap_or(&whole);
+            links.push(Link { places, rows });
         }
         let stopped = match refused {
             Some(error) => Some(error),
-            None => several.go(&plan.prepared().mechanism, row).map(Into::into),
+            None => show(plan, &links, row).map(Into::into),
         };
-        // Whoever waits goes no further.
-        drop(several);
+        // Nobody listens any more: who is ahead stops at its next row.
+        drop(links);
         (handles.into_iter().map(joined).collect::<Vec<_>>(), stopped)
     });
     conclude(plan, outcomes, stopped, clock.elapsed().as_secs_f64())
@@ -100,143 +77,74 @@ fn joined(handle: ScopedJoinHandle<'_, Integrated>) -> Integrated {
         .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
 }
 
-/// Waits at a row and answers until it is done with.
-fn serve(
-    sample: &mut Sample<'_, '_>,
-    asked: &Receiver<Question>,
-    told: &Sender<Answer>,
-) -> ControlFlow<()> {
-    let mut answer = Answer::Row {
+/// Tells a row, as long as somebody listens.
+fn tell(sample: &mut Sample<'_, '_>, told: &SyncSender<Row>) -> ControlFlow<()> {
+    let row = Row {
         t: sample.t,
         q: sample.q.to_vec(),
         v: sample.v.to_vec(),
+        values: sample.values(),
     };
-    loop {
-        // Nobody listens or asks any more where the run is over.
-        if told.send(answer).is_err() {
-            return ControlFlow::Break(());
-        }
-        answer = match asked.recv() {
-            Ok(Question::Next) => return ControlFlow::Continue(()),
-            Ok(Question::Acceleration) => Answer::Numbers(sample.acceleration()),
-            Ok(Question::Multipliers) => Answer::Numbers(sample.multipliers()),
-            Ok(Question::Reactions) => Answer::Reactions(sample.reactions()),
-            Err(RecvError) => return ControlFlow::Break(()),
-        };
+    match told.send(row) {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(_) => ControlFlow::Break(()),
     }
 }
 
-impl Several {
-    fn new(mechanism: &Mechanism) -> Self {
-        let layout = mechanism.layout();
-        Self {
-            links: Vec::new(),
-            nobody: (0..layout.groups.len())
-                .map(|k| left_out(mechanism, k))
-                .collect(),
-            n_rows: layout.rows(),
-            n_v: layout.n_v,
-        }
-    }
-
-    /// Shows rows as long as all components reach them and more are wanted. Why it was stopped by a row, if it was.
-    fn go<F>(&mut self, mechanism: &Mechanism, mut row: F) -> Option<Trip>
-    where
-        F: FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
-    {
-        let (mut q, mut v) = (vec![0.0; mechanism.layout().n_q], vec![0.0; self.n_v]);
-        while let Some(t) = self.next(&mut q, &mut v) {
-            let shown = row(&mut Sample {
-                t,
-                q: &q,
-                v: &v,
-                source: Source::Several(self),
-            });
-            match shown {
-                Ok(ControlFlow::Continue(())) => {}
-                Ok(ControlFlow::Break(())) => return None,
-                Err(trip) => return Some(trip),
-            }
-            for link in &self.links {
-                // One that has ended is found out at the next row.
-                let _ = link.questions.send(Question::Next);
-            }
-        }
-        None
-    }
-
-    /// Takes the state of all components at the next row; nothing if one of them has ended.
-    fn next(&mut self, q: &mut [f64], v: &mut [f64]) -> Option<f64> {
+/// Shows rows as long as all components reach them and more are wanted. Why it was stopped by a row, if it was.
+fn show<F>(plan: &Plan<'_>, links: &[Link<'_>], mut row: F) -> Option<Trip>
+where
+    F: FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+{
+    let mechanism = &plan.prepared().mechanism;
+    let layout = mechanism.layout();
+    let nobody: Vec<Reaction> = (0..layout.groups.len())
+        .map(|k| left_out(mechanism, k))
+        .collect();
+    let (mut q, mut v) = (vec![0.0; layout.n_q], vec![0.0; layout.n_v]);
+    loop {
         let mut time = None;
-        for link in &self.links {
-            let Ok(Answer::Row {
-                t,
-                q: own_q,
-                v: own_v,
-            }) = link.answers.recv()
-            else {
-                return None;
-            };
+        let mut values = Values {
+            acceleration: Ok(vec![f64::NAN; layout.n_v]),
+            multipliers: Ok(vec![f64::NAN; layout.rows()]),
+            reactions: Ok(nobody.clone()),
+        };
+        for Link { places, rows } in links {
+            // One that has ended has no more rows.
+            let Ok(own) = rows.recv() else { return None };
             assert!(
-                time.is_none_or(|known| known == t),
-                "rows of components at {time:?} and {t} s"
+                time.is_none_or(|known| known == own.t),
+                "rows of components at {time:?} and {} s",
+                own.t
             );
-            time = Some(t);
-            spread(&own_q, &link.places.coordinates, q);
-            spread(&own_v, &link.places.velocities, v);
+            time = Some(own.t);
+            spread(&own.q, &places.coordinates, &mut q);
+            spread(&own.v, &places.velocities, &mut v);
+            let (own, all) = (own.values, &mut values);
+            gather(own.acceleration, &places.velocities, &mut all.acceleration);
+            gather(own.multipliers, &places.rows, &mut all.multipliers);
+            gather(own.reactions, &places.groups, &mut all.reactions);
         }
-        time
-    }
-
-    pub(super) fn acceleration(&mut self) -> Result<Vec<f64>, Trip> {
-        let a = vec![f64::NAN; self.n_v];
-        self.numbers(|| Question::Acceleration, |places| &places.velocities, a)
-    }
-
-    pub(super) fn multipliers(&mut self) -> Result<Vec<f64>, Trip> {
-        let lambda = vec![f64::NAN; self.n_rows];
-        self.numbers(|| Question::Multipliers, |places| &places.rows, lambda)
-    }
-
-    pub(super) fn reactions(&mut self) -> Result<Vec<Reaction>, Trip> {
-        self.ask(|| Question::Reactions);
-        let mut reactions = self.nobody.clone();
-        let mut outcome = Ok(());
-        for link in &self.links {
-            // All answers are taken, so that the next ones are those of the next question.
-            if let Ok(Answer::Reactions(own)) = link.answers.recv() {
-                match own {
-                    Ok(own) => spread(&own, &link.places.groups, &mut reactions),
-                    Err(trip) => outcome = outcome.and(Err(trip)),
-                }
-            }
+        let shown = row(&mut Sample {
+            t: time?,
+            q: &q,
+            v: &v,
+            source: Source::Several(&values),
+        });
+        match shown {
+            Ok(ControlFlow::Continue(())) => {}
+            Ok(ControlFlow::Break(())) => return None,
+            Err(trip) => return Some(trip),
         }
-        outcome.map(|()| reactions)
     }
+}
 
-    fn numbers(
-        &mut self,
-        question: impl Fn() -> Question,
-        places: impl Fn(&Places) -> &[usize],
-        mut all: Vec<f64>,
-    ) -> Result<Vec<f64>, Trip> {
-        self.ask(question);
-        let mut outcome = Ok(());
-        for link in &self.links {
-            if let Ok(Answer::Numbers(own)) = link.answers.recv() {
-                match own {
-                    Ok(own) => spread(&own, places(&link.places), &mut all),
-                    Err(trip) => outcome = outcome.and(Err(trip)),
-                }
-            }
-        }
-        outcome.map(|()| all)
-    }
-
-    fn ask(&self, question: impl Fn() -> Question) {
-        for link in &self.links {
-            let _ = link.questions.send(question());
-        }
+/// Puts values of a part to their places in the whole; the first failure stands for all.
+fn gather<T: Copy>(own: Result<Vec<T>, Trip>, places: &[usize], whole: &mut Result<Vec<T>, Trip>) {
+    match (own, &mut *whole) {
+        (Ok(own), Ok(whole)) => spread(&own, places, whole),
+        (Err(trip), Ok(_)) => *whole = Err(trip),
+        (_, Err(_)) => {}
     }
 }
 

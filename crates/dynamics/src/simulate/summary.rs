@@ -136,3 +136,63 @@ fn events(components: &[ComponentSummary], dropped: &[&[usize]]) -> Vec<Event> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::events::EventKind;
+
+    fn event(time: f64, before: usize, dropped: &[usize]) -> Event {
+        Event {
+            time,
+            kind: EventKind::RowsExchanged,
+            redundancy_before: before,
+            redundancy_after: dropped.len(),
+            dropped: dropped.to_vec(),
+            text: String::new(),
+        }
+    }
+
+    fn component(rows: &[usize], t: f64, events: Vec<Event>) -> ComponentSummary {
+        ComponentSummary {
+            name: String::new(),
+            places: Places {
+                rows: rows.to_vec(),
+                ..Places::default()
+            },
+            summary: Summary {
+                t,
+                steps: 10,
+                energy_gap: 0.25,
+                largest_kinetic_energy: t,
+                events,
+                ..Summary::default()
+            },
+        }
+    }
+
+    #[test]
+    fn events_of_components_are_told_with_the_rows_of_the_whole() {
+        // Rows 0, 2, 4 of which the second is dropped at first, and rows 1, 3 of which the first is.
+        let components = vec![
+            component(
+                &[0, 2, 4],
+                2.0,
+                vec![event(0.5, 1, &[0]), event(1.5, 1, &[2])],
+            ),
+            component(&[1, 3], 1.0, vec![event(1.0, 1, &[1])]),
+        ];
+        let whole = Summary::of_components(components, &[&[1], &[0]], 0.125);
+        let told: Vec<(f64, &[usize])> = whole
+            .events
+            .iter()
+            .map(|e| (e.time, e.dropped.as_slice()))
+            .collect();
+        assert_eq!(told, [(0.5, &[0, 1][..]), (1.0, &[0, 3]), (1.5, &[3, 4])]);
+        let redundancy = |e: &Event| [e.redundancy_before, e.redundancy_after];
+        assert!(whole.events.iter().all(|e| redundancy(e) == [2, 2]));
+        // All have reached what the slower one has; the balance is a bound.
+        assert_eq!((whole.t, whole.steps), (1.0, 20));
+        assert_eq!(whole.energy_balance, (0.25 + 0.25) / 2.0);
+    }
+}
