@@ -244,49 +244,34 @@ impl KeptRowMotion<'_> {
 
     /// Residuals of all rows at a projected state, dropped rows refused above the limit.
     fn monitor(&self, q: &[f64], v: &[f64], iterations: usize) -> Result<Correction, Trip> {
+        let layout = self.mechanism.layout();
         let found = Correction {
             iterations,
             ..self.residuals(v)
         };
+        // Rounding of the kept rows reaches the dropped ones through the inverse of their pivots, near a singular configuration
+        // more than elsewhere.
+        let misfit =
+            |rows: &KeptRows| DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0);
         if !self.position.dropped.is_empty() {
-            self.monitor_position(q)?;
+            let scale = |i: usize| self.mechanism.position_scale(&self.s, i, q);
+            let limit = misfit(&self.position) * (0..layout.m).map(scale).fold(0.0, f64::max);
+            for &i in &self.position.dropped {
+                self.check_dropped(i, "position", self.s.phi[i].abs(), limit)?;
+            }
         }
         if !self.velocity.dropped.is_empty() {
-            self.monitor_velocity(q, v)?;
+            // Off the constraints by rounding of its coordinates, the rows agree to the same share.
+            let rounding = self.mechanism.relative_residual(&self.s, q, self.size);
+            let share = misfit(&self.velocity).max(STALLED_ROUNDINGS * rounding);
+            let scale = |i: usize| self.mechanism.velocity_scale(&self.s, i, v);
+            let limit = share * (0..layout.rows()).map(scale).fold(0.0, f64::max);
+            for &i in &self.velocity.dropped {
+                let residual = layout.velocity_residual(&self.s, i, v).abs();
+                self.check_dropped(i, "velocity", residual, limit)?;
+            }
         }
         Ok(found)
-    }
-
-    /// Rounding of the kept rows reaches the dropped ones through the inverse of their pivots, near a singular configuration more than
-    /// elsewhere.
-    fn misfit(rows: &KeptRows) -> f64 {
-        DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0)
-    }
-
-    fn monitor_position(&self, q: &[f64]) -> Result<(), Trip> {
-        let scale = |i: usize| self.mechanism.position_scale(&self.s, i, q);
-        let largest = (0..self.mechanism.layout().m)
-            .map(scale)
-            .fold(0.0, f64::max);
-        let limit = Self::misfit(&self.position) * largest;
-        for &i in &self.position.dropped {
-            self.check_dropped(i, "position", self.s.phi[i].abs(), limit)?;
-        }
-        Ok(())
-    }
-
-    fn monitor_velocity(&self, q: &[f64], v: &[f64]) -> Result<(), Trip> {
-        let layout = self.mechanism.layout();
-        // Off the constraints by rounding of its coordinates, the rows agree to the same share.
-        let rounding = self.mechanism.relative_residual(&self.s, q, self.size);
-        let share = Self::misfit(&self.velocity).max(STALLED_ROUNDINGS * rounding);
-        let scale = |i: usize| self.mechanism.velocity_scale(&self.s, i, v);
-        let limit = share * (0..layout.rows()).map(scale).fold(0.0, f64::max);
-        for &i in &self.velocity.dropped {
-            let residual = layout.velocity_residual(&self.s, i, v).abs();
-            self.check_dropped(i, "velocity", residual, limit)?;
-        }
-        Ok(())
     }
 
     /// Residuals of all rows at a state whose Φ, C and b stand in the scratch.

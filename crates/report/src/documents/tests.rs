@@ -341,10 +341,8 @@ fn summary_has_the_keys_of_the_contract() {
 #[test]
 fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
     let analysis = analysis();
-    let prepared = Prepared {
-        choice: RowChoice::Automatic,
-        ..prepared()
-    };
+    let mut prepared = prepared();
+    prepared.choice = RowChoice::Automatic;
     let plan = planned(&prepared);
     let summary = Summary {
         t: 1.5,
@@ -375,10 +373,8 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
         assert_eq!(valid_until(choice), Some(1.25), "{name}");
     }
     // Rows that were asked for stay those of the reactions.
-    let asked = Prepared {
-        choice: RowChoice::Drop(vec![3]),
-        ..prepared.clone()
-    };
+    let mut asked = prepared.clone();
+    asked.choice = RowChoice::Drop(vec![3]);
     let explicit = RunDocument::new(&Run {
         plan: &planned(&asked),
         ..run(Ending::Complete)
