@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use ::codegen::{Expansion, Kind, expand_file, snake_case};
+
+use crate::tree::root;
 
 const DEFINITIONS: &str = "crates/joints/definitions";
 const GENERATED: &str = "crates/joints/src/generated";
@@ -56,11 +58,6 @@ pub(crate) fn check() -> Result<String, String> {
         "{} files in {GENERATED} agree with their definitions",
         files.len()
     ))
-}
-
-fn root() -> PathBuf {
-    let xtask = Path::new(env!("CARGO_MANIFEST_DIR"));
-    xtask.parent().unwrap_or(xtask).to_owned()
 }
 
 /// Names of the Rust files in a folder.

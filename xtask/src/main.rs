@@ -1,12 +1,25 @@
 //! Commands for developers. `cargo xtask codegen` writes the kernels of all joints and forces from their
-//! definitions; with `--check` it compares and changes nothing.
+//! definitions; with `--check` it compares and changes nothing; with `--scene` it writes one mechanism as one module. The others measure
+//! and write `docs/reports`.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+mod choices;
 mod codegen;
+mod cold_start;
+mod right_hand_side;
+mod scene;
+mod tree;
 
 use std::process::ExitCode;
 
-const USAGE: &str = "usage: cargo xtask codegen [--check]";
+const USAGE: &str = "usage: cargo xtask COMMAND
+  codegen [--check]   kernels of joints and forces from their definitions
+  codegen --scene FILE --out FILE.rs [--drop ROWS] [--dynamics PATH] [--libm] [--check]
+                      one mechanism as one module
+  right-hand-side     times and instructions of one right-hand side, into docs/reports/right-hand-side
+  instructions        the same, told only
+  choices             build time, size and dependencies of programs that use a part, into docs/reports/choices
+  cold-start          times of the commands, process included";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -18,6 +31,11 @@ fn main() -> ExitCode {
     {
         ["codegen"] => codegen::write(),
         ["codegen", "--check"] => codegen::check(),
+        ["codegen", "--scene", scene, rest @ ..] => scene::generate(scene, rest),
+        ["right-hand-side"] => right_hand_side::report(),
+        ["instructions"] => right_hand_side::instructions(),
+        ["choices"] => choices::report(),
+        ["cold-start"] => cold_start::tell(),
         _ => Err(USAGE.to_owned()),
     };
     match outcome {

@@ -6,10 +6,10 @@
 
 use std::ops::{Index, IndexMut};
 
-use approx::{AbsDiffEq, RelativeEq};
-
 use crate::kernels;
 
+#[cfg(feature = "approx")]
+mod compare;
 #[cfg(feature = "nalgebra")]
 mod interop;
 
@@ -244,30 +244,6 @@ impl Index<(usize, usize)> for Matrix {
 impl IndexMut<(usize, usize)> for Matrix {
     fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut f64 {
         &mut self.row_mut(i)[j]
-    }
-}
-
-impl AbsDiffEq for Matrix {
-    type Epsilon = f64;
-
-    fn default_epsilon() -> f64 {
-        f64::EPSILON
-    }
-
-    fn abs_diff_eq(&self, other: &Self, epsilon: f64) -> bool {
-        (self.nrows, self.ncols) == (other.nrows, other.ncols)
-            && self.data.abs_diff_eq(&other.data, epsilon)
-    }
-}
-
-impl RelativeEq for Matrix {
-    fn default_max_relative() -> f64 {
-        f64::EPSILON
-    }
-
-    fn relative_eq(&self, other: &Self, epsilon: f64, max_relative: f64) -> bool {
-        (self.nrows, self.ncols) == (other.nrows, other.ncols)
-            && self.data.relative_eq(&other.data, epsilon, max_relative)
     }
 }
 

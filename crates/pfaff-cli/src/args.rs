@@ -1,10 +1,12 @@
 //! What may be written on the command line.
 
+use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use pfaff::dynamics::{Formulation, Method, Stabilisation};
+use pfaff::sweep::{Axis, Shard};
 
 /// Mechanisms with redundant constraints: how they move, and which of their joint reactions may be believed.
 #[derive(Parser)]
@@ -29,6 +31,15 @@ const ANALYZE_EXAMPLES: &str = "Examples:
 
 Reactions that are not unique are never given a number without the choice it depends on.";
 
+const SWEEP_EXAMPLES: &str = "Examples:
+  pfaff sweep robot.toml --vary body.platform.mass=10:40:31 --out masses
+  pfaff sweep robot.toml --vary drive.steering.motion.steps[0].by=0.01,0.02 --vary simulate.rtol=1e-4:1e-10:7:log --out grid
+  pfaff sweep robot.toml --vary body.platform.mass=10:40:31 --out masses --shard 2/3    every third run, for one of three machines
+  pfaff sweep --merge masses-1 masses-2 masses-3 --out masses                          one table of all
+
+The same command again goes on where the last one was interrupted. Several --vary are a full grid; the last one runs fastest. Things go by their names or by
+[0], [1], ...; a key that the scene leaves out is added to it. Exit code 1 if a run is not done; it has a row all the same.";
+
 const WORK_PRECISION_EXAMPLES: &str = "Examples:
   pfaff work-precision --out wp                      the suite: scenes whose motion is known
   pfaff work-precision andrews sleigh --out wp       two of them
@@ -47,6 +58,9 @@ pub(crate) enum Command {
     /// What a run of the scene needs, what is left out, and why
     #[command(after_help = "Example: pfaff plan robot-trolley.toml --method radau5")]
     Plan(Plan),
+    /// Many runs with other numbers in the scene: parallel, resumable, in shards
+    #[command(after_help = SWEEP_EXAMPLES)]
+    Sweep(Sweep),
     /// Error against run time, for every method and tolerance
     #[command(after_help = WORK_PRECISION_EXAMPLES)]
     WorkPrecision(WorkPrecision),
@@ -61,6 +75,7 @@ impl Command {
         let (Self::Analyze(Analyze { json, .. })
         | Self::Simulate(Simulate { json, .. })
         | Self::Plan(Plan { json, .. })
+        | Self::Sweep(Sweep { json, .. })
         | Self::WorkPrecision(WorkPrecision { json, .. })
         | Self::Check(Check { json, .. })) = self;
         match json {
@@ -178,6 +193,34 @@ pub(crate) struct Plan {
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
     pub(crate) drop: Option<Vec<usize>>,
     /// The plan as one JSON document on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct Sweep {
+    /// Scene file, or - for standard input
+    #[arg(required_unless_present = "merge", conflicts_with = "merge")]
+    pub(crate) scene: Option<PathBuf>,
+    /// A number of the scene and its values: KEY=FROM:TO:N, KEY=FROM:TO:N:log or KEY=A,B,C; may be given several times
+    #[arg(long, value_name = "KEY=VALUES", required_unless_present = "merge")]
+    pub(crate) vary: Vec<Axis>,
+    /// Directory for the results
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: PathBuf,
+    /// Every n-th run only, beginning with the i-th; shards may share a directory
+    #[arg(long, value_name = "I/N", default_value = "1/1")]
+    pub(crate) shard: Shard,
+    /// Runs at the same time; as many as there are cores where it is not given
+    #[arg(long, value_name = "K")]
+    pub(crate) threads: Option<NonZeroUsize>,
+    /// Keep the trajectory of each run, in runs/NUMBER/trajectory.csv
+    #[arg(long)]
+    pub(crate) keep_rows: bool,
+    /// Instead of runs: one table of what these directories have
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["vary", "shard", "threads", "keep_rows"])]
+    pub(crate) merge: Vec<PathBuf>,
+    /// The summary as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -11,6 +11,7 @@ mod input;
 mod output;
 mod plan;
 mod simulate;
+mod sweep;
 mod work_precision;
 
 use std::process::ExitCode;
@@ -25,6 +26,7 @@ fn main() -> ExitCode {
         Command::Analyze(a) => analyze::run(a),
         Command::Simulate(a) => simulate::run(a),
         Command::Plan(a) => plan::run(a),
+        Command::Sweep(a) => sweep::run(a),
         Command::WorkPrecision(a) => work_precision::run(a),
         Command::Check(a) => check::run(a),
     };

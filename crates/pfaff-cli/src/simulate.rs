@@ -15,7 +15,7 @@ use crate::output::{Failure, print};
 
 /// Share of the largest kinetic energy by which a run may miss its energy balance without a warning. Default tolerances
 /// stay below a thousandth of this; what is above shows in a plot.
-const TRUSTED_BALANCE: f64 = 1e-3;
+pub(crate) const TRUSTED_BALANCE: f64 = 1e-3;
 
 /// Ticks of the progress bar over the whole run.
 const TICKS: u64 = 1000;

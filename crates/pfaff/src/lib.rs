@@ -10,6 +10,7 @@
 //! | [`study`] | its consistent start, its motion, its files |
 //! | [`inquiry`] | one configuration, and everything that can be asked of its reactions |
 //! | [`journey`] | the verdicts along its motion |
+//! | [`mod@sweep`] | many runs with other numbers |
 //! | [`mod@work_precision`] | error against run time |
 //! | [`error`] | why there are no results |
 
@@ -18,6 +19,7 @@ pub mod error;
 pub mod inquiry;
 pub mod journey;
 pub mod study;
+pub mod sweep;
 pub mod work_precision;
 
 pub use dynamics;
@@ -36,10 +38,12 @@ pub use inquiry::Inquiry;
 pub use journey::{Journey, Progress};
 pub use study::{Findings, Overrides, Study};
 
+#[cfg(feature = "macros")]
 #[doc(hidden)]
 pub use joint_macro as __macros;
 
 /// Defines a joint; see the crate `joint-macro`.
+#[cfg(feature = "macros")]
 #[macro_export]
 macro_rules! joint {
     ($($definition:tt)*) => {
@@ -48,6 +52,7 @@ macro_rules! joint {
 }
 
 /// Defines a force; see the crate `joint-macro`.
+#[cfg(feature = "macros")]
 #[macro_export]
 macro_rules! force {
     ($($definition:tt)*) => {

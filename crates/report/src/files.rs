@@ -30,7 +30,7 @@ pub enum FileError {
 }
 
 impl FileError {
-    fn refused(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
+    pub(crate) fn refused(action: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Self {
         let path = path.to_owned();
         move |source| Self::Refused {
             action,
@@ -131,6 +131,18 @@ impl OutputFile {
         let flushed = flushed.map_err(FileError::refused("write the end of", &self.path));
         let renamed = self.rename();
         flushed.and(renamed)
+    }
+
+    /// Waits until what was written so far is on the disk, not only with the operating system.
+    ///
+    /// # Errors
+    /// - [`FileError::Refused`]: not everything could be written.
+    pub fn sync(&mut self) -> Result<(), FileError> {
+        let synced = self
+            .buffer
+            .flush()
+            .and_then(|()| self.buffer.get_ref().sync_data());
+        synced.map_err(FileError::refused("write", &self.part))
     }
 
     fn rename(self) -> Result<PathBuf, FileError> {

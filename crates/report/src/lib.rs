@@ -8,17 +8,20 @@
 //! | [`documents`] | `analyze --json`, `plan --json` and `summary.json` |
 //! | [`figures`] | the mechanism with its verdicts, histories, paths in the plane: SVG |
 //! | [`mod@work_precision`] | error against run time: table, figure, page |
+//! | [`mod@sweep`] | many runs: a journal that survives interruptions, CSV and Parquet |
 //! | [`files`] | an output directory in which no half-written file is taken for a whole one |
 
 pub mod documents;
 pub mod figures;
 pub mod files;
+pub mod sweep;
 pub mod tables;
 pub mod work_precision;
 
 pub use documents::{AnalysisDocument, Ending, PlanDocument, Proof, Run, RunDocument, write_json};
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Series, Style};
 pub use files::{FileError, OutputDirectory, OutputFile};
+pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
 pub use tables::{ReactionTable, Selection, TableError, TrajectoryTable};
 pub use work_precision::{
     CurveName, Place, Provenance, RankingLine, ReferenceDocument, WorkPrecisionDocument,

@@ -25,6 +25,9 @@ struct Arguments {
     /// Directory for the figures
     #[arg(long, value_name = "DIR", default_value = "figures")]
     out: PathBuf,
+    /// Evaluate the equations of the scene by the interpreter instead of the code generated for it
+    #[arg(long)]
+    interpreted: bool,
 }
 
 fn main() -> ExitCode {
@@ -43,7 +46,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     let start = analyse(mechanism, 0.0, &study.prepared.q)?;
     println!("{}", text::structure(&start));
 
-    let variants = variants::run()?;
+    let variants = variants::run(arguments.interpreted)?;
     let mut agreeing = 0;
     for instant in &variants[0].rows {
         let analysis = analyse(mechanism, instant.t, &instant.q)?;

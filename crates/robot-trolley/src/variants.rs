@@ -1,13 +1,24 @@
 //! Three ways to eliminate the two redundant rows, run one after the other.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 
-use pfaff::dynamics::{MotionOptions, RowChoice, Summary};
+use pfaff::Overrides;
+use pfaff::dynamics::{MotionOptions, RowChoice, SceneCode, Summary};
 use pfaff::model::Reaction;
-use pfaff::{Overrides, StudyError};
+use robot_trolley::generated::{drop_6_21, drop_18_21, drop_19_21};
 
 /// The published variants: rows to delete, counted from 1.
 pub(crate) const DELETED: [[usize; 2]; 3] = [[6, 21], [18, 21], [19, 21]];
+
+/// The code generated for them.
+fn code() -> [Arc<dyn SceneCode>; 3] {
+    [
+        Arc::new(drop_6_21::Code),
+        Arc::new(drop_18_21::Code),
+        Arc::new(drop_19_21::Code),
+    ]
+}
 
 /// Tolerance of the runs; differences between them are compared with it.
 pub(crate) const TOLERANCE: f64 = 1e-11;
@@ -32,18 +43,26 @@ pub(crate) struct Instant {
     pub(crate) reactions: Vec<Reaction>,
 }
 
-/// Runs all variants.
-pub(crate) fn run() -> Result<Vec<Variant>, StudyError> {
-    DELETED.iter().map(|&deleted| run_one(deleted)).collect()
+/// Runs all variants on generated code, or `interpreted`.
+pub(crate) fn run(interpreted: bool) -> Result<Vec<Variant>, Box<dyn std::error::Error>> {
+    let runs = DELETED.iter().zip(code());
+    runs.map(|(&deleted, code)| run_one(deleted, (!interpreted).then_some(code)))
+        .collect()
 }
 
-fn run_one(deleted: [usize; 2]) -> Result<Variant, StudyError> {
+fn run_one(
+    deleted: [usize; 2],
+    code: Option<Arc<dyn SceneCode>>,
+) -> Result<Variant, Box<dyn std::error::Error>> {
     let drop = deleted.map(|row| row - 1).to_vec();
-    let study = crate::read(&Overrides {
+    let mut study = crate::read(&Overrides {
         drop: Some(drop.clone()),
         ..Overrides::default()
     })?;
-    let base = study.options.clone().ok_or(StudyError::NoEnd)?;
+    if let Some(code) = code {
+        study.prepared = study.prepared.with_code(code)?;
+    }
+    let base = study.options.clone().ok_or(pfaff::StudyError::NoEnd)?;
     let options = MotionOptions {
         rtol: TOLERANCE,
         atol: TOLERANCE,

@@ -7,6 +7,8 @@
 //!
 //! Source of the threshold rule: I. S. Duff, A. M. Erisman, J. K. Reid, Direct Methods for Sparse Matrices, 2nd ed. (2017), chapters 5 and 7.
 
+use std::cmp::Ordering;
+
 use symbolic::Value;
 
 use crate::error::CodeError;
@@ -319,13 +321,15 @@ fn best_pivot(
     }
     let mut best: Option<(Candidate, usize, usize)> = None;
     for &(i, j) in &entries {
-        let share = code
-            .at(rows[i][j])
+        let at = code.at(rows[i][j]);
+        let keeps_sign = at.iter().all(|value| value * at[0] > 0.0);
+        let share = at
             .iter()
             .enumerate()
             .map(|(k, value)| value.abs() * scale[j] / row_top[i][k].max(column_top[j][k]))
             .fold(1.0, |a: f64, share| if share < a { share } else { a });
         let candidate = Candidate {
+            keeps_sign,
             share,
             fill: (row_count[i] - 1) * (column_count[j] - 1),
             varies: code.program.as_number(rows[i][j]).is_none(),
@@ -348,6 +352,8 @@ fn best_pivot(
 
 /// What speaks for a pivot.
 struct Candidate {
+    /// Whether it has one sign at all states: else the motion passes where it vanishes.
+    keeps_sign: bool,
     /// Smallest share of the largest entry of its row and column.
     share: f64,
     /// New entries at most.
@@ -357,11 +363,12 @@ struct Candidate {
 
 impl Candidate {
     fn is_better_than(&self, other: &Self) -> bool {
-        match (self.share >= THRESHOLD, other.share >= THRESHOLD) {
-            (true, false) => true,
-            (false, true) => false,
-            (false, false) => self.share > other.share,
-            (true, true) => (self.fill, self.varies) < (other.fill, other.varies),
+        let class = |c: &Self| (c.keeps_sign, c.share >= THRESHOLD);
+        match class(self).cmp(&class(other)) {
+            Ordering::Greater => true,
+            Ordering::Less => false,
+            Ordering::Equal if self.share < THRESHOLD => self.share > other.share,
+            Ordering::Equal => (self.fill, self.varies) < (other.fill, other.varies),
         }
     }
 }

@@ -57,6 +57,9 @@ pub enum CodeError {
         /// Why.
         source: std::io::Error,
     },
+    /// Rows count from 1.
+    #[error("rows to drop are counted from 1, found 0")]
+    RowZero,
     /// A generated file does not agree with its scene.
     #[error("{path} does not agree with its scene: generate it again")]
     Stale {

@@ -12,19 +12,109 @@ use crate::subject::Subject;
 /// Longest function that is generated. A compiler takes about a minute for it.
 const LIMIT: usize = 60_000;
 
+/// This part of its median counts as the smallest size of a divisor.
+const OF_MEDIAN: f64 = 0.5;
+
 /// One function: straight-line code from inputs to outputs, and the shares of its divisors.
 pub(crate) struct Function {
-    pub(crate) name: &'static str,
-    /// What the outputs are called, and how many there are.
-    pub(crate) out: (&'static str, usize),
+    pub(crate) signature: Signature,
+    /// Number of outputs.
+    pub(crate) n_out: usize,
     /// Outputs, then shares.
     pub(crate) program: Program,
 }
+
+/// Name, arguments and result of a function, the same for every mechanism: arrays with the constants that are their lengths.
+pub(crate) struct Signature {
+    pub(crate) name: &'static str,
+    pub(crate) doc: &'static str,
+    /// After the time.
+    pub(crate) arguments: &'static [(&'static str, &'static str)],
+    pub(crate) out: (&'static str, &'static str),
+    /// Whether it returns a health.
+    pub(crate) divides: bool,
+    /// Whether runs ask for it.
+    pub(crate) is_of_runs: bool,
+}
+
+const ACCELERATION: Signature = Signature {
+    name: "acceleration",
+    doc: "Accelerations a of `M·a + Cᵀ·λ = Q`, `C·a = Γ` on the kept rows.",
+    arguments: &[("q", "N_Q"), ("v", "N_V")],
+    out: ("a", "N_V"),
+    divides: true,
+    is_of_runs: true,
+};
+
+const MULTIPLIERS: Signature = Signature {
+    name: "multipliers",
+    doc: "Their multipliers λ of all rows, 0 for dropped ones.",
+    arguments: &[("q", "N_Q"), ("v", "N_V")],
+    out: ("lambda", "ROWS"),
+    divides: true,
+    is_of_runs: true,
+};
+
+const PHI: Signature = Signature {
+    name: "phi",
+    doc: "Φ of all holonomic rows.",
+    arguments: &[("q", "N_Q")],
+    out: ("values", "M"),
+    divides: false,
+    is_of_runs: true,
+};
+
+const VELOCITY_RESIDUAL: Signature = Signature {
+    name: "velocity_residual",
+    doc: "`C·v − b` of all rows.",
+    arguments: &[("q", "N_Q"), ("v", "N_V")],
+    out: ("values", "ROWS"),
+    divides: false,
+    is_of_runs: true,
+};
+
+const POSITION_CORRECTION: Signature = Signature {
+    name: "position_correction",
+    doc: "The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.",
+    arguments: &[("q", "N_Q"), ("r", "M")],
+    out: ("dq", "N_Q"),
+    divides: true,
+    is_of_runs: true,
+};
+
+const VELOCITY_CORRECTION: Signature = Signature {
+    name: "velocity_correction",
+    doc: "The smallest dv in the mass metric with `C·dv = −r` on the kept rows.",
+    arguments: &[("q", "N_Q"), ("r", "ROWS")],
+    out: ("dv", "N_V"),
+    divides: true,
+    is_of_runs: true,
+};
+
+const JACOBIAN_ACTION: Signature = Signature {
+    name: "jacobian_action",
+    doc: "The derivative of accelerations along (dq, dv).",
+    arguments: &[("q", "N_Q"), ("v", "N_V"), ("dq", "N_Q"), ("dv", "N_V")],
+    out: ("da", "N_V"),
+    divides: true,
+    is_of_runs: true,
+};
+
+const CONSTRAINT_MATRIX: Signature = Signature {
+    name: "constraint_matrix",
+    doc: "Entries of C that are not always zero, in the order of `PATTERN`: what verdicts are found from.",
+    arguments: &[("q", "N_Q")],
+    out: ("entries", "ENTRIES"),
+    divides: false,
+    is_of_runs: false,
+};
 
 /// All functions of a module.
 pub(crate) struct Functions {
     pub(crate) equations: Equations,
     pub(crate) list: Vec<Function>,
+    /// Row and column of the entries of C that are not always zero.
+    pub(crate) pattern: Vec<[usize; 2]>,
 }
 
 impl Functions {
@@ -85,38 +175,23 @@ impl Functions {
         let dv = velocity.solve(&mut e.code, mass, &missing, &no_force);
         let da = tangent(&mut e, &a);
 
-        let (phi, n_v, n_q) = (e.phi.clone(), layout.n_v, layout.n_q);
+        let (pattern, entries) = sparse(&e);
+        let shares = velocity_shares;
         let plan = [
-            ("acceleration", ("a", n_v), a, velocity_shares.clone()),
-            (
-                "multipliers",
-                ("lambda", layout.rows()),
-                lambda,
-                velocity_shares.clone(),
-            ),
-            ("phi", ("phi", layout.m), phi, Vec::new()),
-            (
-                "velocity_residual",
-                ("residual", layout.rows()),
-                residual,
-                Vec::new(),
-            ),
-            ("position_correction", ("dq", n_q), dq, position_shares),
-            (
-                "velocity_correction",
-                ("dv", n_v),
-                dv,
-                velocity_shares.clone(),
-            ),
-            ("jacobian_action", ("da", n_v), da, velocity_shares),
+            (ACCELERATION, a, shares.clone()),
+            (MULTIPLIERS, lambda, shares.clone()),
+            (PHI, e.phi.clone(), Vec::new()),
+            (VELOCITY_RESIDUAL, residual, Vec::new()),
+            (POSITION_CORRECTION, dq, position_shares),
+            (VELOCITY_CORRECTION, dv, shares.clone()),
+            (JACOBIAN_ACTION, da, shares),
+            (CONSTRAINT_MATRIX, entries, Vec::new()),
         ];
-        let list = plan.map(|(name, out, outputs, shares)| Function {
-            name,
-            out,
-            program: e
-                .code
-                .program
-                .with_outputs(&[outputs.as_slice(), &shares].concat()),
+        let program = &e.code.program;
+        let list = plan.map(|(signature, outputs, shares)| Function {
+            signature,
+            n_out: outputs.len(),
+            program: program.with_outputs(&[outputs, shares].concat()),
         });
         let longest = list.iter().map(|f| f.program.counts().total()).max();
         let operations = longest.unwrap_or(0);
@@ -129,17 +204,28 @@ impl Functions {
         Ok(Self {
             equations: e,
             list: list.into(),
+            pattern,
         })
     }
 }
 
-/// Each divisor as a signed share of its smallest size over the sampled states.
+/// Entries of C that are not always zero, with row and column.
+fn sparse(e: &Equations) -> (Vec<[usize; 2]>, Vec<Value>) {
+    let rows = e.c.iter().enumerate();
+    let entries = rows.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, v)| ([i, j], *v)));
+    entries.filter(|(_, v)| !e.code.program.is_zero(*v)).unzip()
+}
+
+/// Each divisor as a signed share of its smallest size over the sampled states, or of a part of its median where it came nearer to zero: a
+/// motion that passes a singular configuration must not make that the measure.
 fn shares(e: &mut Equations, factored: &Factored) -> Vec<Value> {
     let share = |&divisor: &Value| {
         let at = e.code.at(divisor);
         let sign = at.first().map_or(1.0, |d| d.signum());
-        let smallest = at.iter().fold(f64::INFINITY, |a, d| a.min(d.abs()));
-        let unit = e.code.program.number(sign / smallest);
+        let mut sizes: Vec<f64> = at.iter().map(|d| d.abs()).collect();
+        sizes.sort_by(f64::total_cmp);
+        let unit = sizes[0].max(OF_MEDIAN * sizes[sizes.len() / 2]);
+        let unit = e.code.program.number(sign / unit);
         e.code.program.mul(divisor, unit)
     };
     factored.divisors.iter().map(share).collect()

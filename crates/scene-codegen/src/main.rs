@@ -14,6 +14,9 @@ struct Arguments {
     /// The file to write.
     #[arg(long)]
     out: PathBuf,
+    /// Rows to drop, from 1, separated by commas; default: those of the scene.
+    #[arg(long, value_delimiter = ',', value_name = "ROWS")]
+    drop: Option<Vec<usize>>,
     /// Path of the crate `dynamics` as the module sees it; then the module implements its trait `SceneCode`.
     #[arg(long)]
     dynamics: Option<String>,
@@ -49,17 +52,19 @@ fn run(arguments: &Arguments) -> Result<String, CodeError> {
         dynamics: arguments.dynamics.clone(),
         libm: arguments.libm,
     };
-    let module = scene(&arguments.scene, &choices)?;
+    let drop = match &arguments.drop {
+        Some(rows) if rows.contains(&0) => return Err(CodeError::RowZero),
+        rows => rows
+            .as_ref()
+            .map(|rows| rows.iter().map(|row| row - 1).collect::<Vec<_>>()),
+    };
+    let module = scene(&arguments.scene, drop.as_deref(), &choices)?;
     let file = |path: &Path, source| CodeError::File {
         path: path.display().to_string(),
         source,
     };
-    let text = module.as_file(&format!(
-        "`cargo xtask codegen --scene {} --out {}`",
-        arguments.scene.display(),
-        arguments.out.display()
-    ));
     let out = &arguments.out;
+    let text = module.as_file(&format!("`{}`", command(arguments)));
     if arguments.check {
         let found = std::fs::read_to_string(out).map_err(|e| file(out, e))?;
         return match found == text {
@@ -71,4 +76,21 @@ fn run(arguments: &Arguments) -> Result<String, CodeError> {
     }
     std::fs::write(out, text).map_err(|e| file(out, e))?;
     Ok(format!("{} written", out.display()))
+}
+
+/// The command that writes the file.
+fn command(arguments: &Arguments) -> String {
+    let (scene, out) = (arguments.scene.display(), arguments.out.display());
+    let mut command = format!("cargo xtask codegen --scene {scene} --out {out}");
+    if let Some(rows) = &arguments.drop {
+        let rows: Vec<String> = rows.iter().map(usize::to_string).collect();
+        command += &format!(" --drop {}", rows.join(","));
+    }
+    if let Some(path) = &arguments.dynamics {
+        command += &format!(" --dynamics {path}");
+    }
+    if arguments.libm {
+        command += " --libm";
+    }
+    command
 }

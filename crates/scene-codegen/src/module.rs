@@ -42,6 +42,13 @@ const ATTRIBUTES: [&str; 2] = [
 ];
 
 impl Module {
+    /// The same by another name.
+    #[must_use]
+    pub fn named(self, name: &str) -> Self {
+        let name = identifier(name);
+        Self { name, ..self }
+    }
+
     /// The text of a file that is the module; `origin` tells how it was made.
     #[must_use]
     pub fn as_file(&self, origin: &str) -> String {
@@ -98,10 +105,10 @@ pub fn generate(subject: &Subject<'_>, choices: &Choices) -> Result<Module, Code
     items.extend(constants(subject, &functions));
     items.extend(shared(&shape, &jets)?);
     for f in &functions.list {
-        items.extend(function(&functions, f, &shape)?);
+        items.extend(function(&functions, f, &shape));
     }
     if let Some(path) = &choices.dynamics {
-        items.extend(face(subject, path)?);
+        items.extend(face(&functions, path)?);
     }
     let mut text = print(items)?;
     for (name, snippet) in SUPPORT {
@@ -124,6 +131,15 @@ pub fn generate(subject: &Subject<'_>, choices: &Choices) -> Result<Module, Code
         docs: docs(subject, &functions),
         items: text,
     })
+}
+
+/// A name as Rust has it.
+fn identifier(name: &str) -> String {
+    let name = name.replace(|c: char| !c.is_ascii_alphanumeric(), "_");
+    match name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        true => name.to_lowercase(),
+        false => format!("scene_{}", name.to_lowercase()),
+    }
 }
 
 const ROOT: &str = "
@@ -188,6 +204,8 @@ fn constants(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
     let break_times = &layout.break_times;
     let (n_kept, n_position, n_breaks) = (kept.len(), position_kept.len(), break_times.len());
     let operations = operations(functions).join("; ");
+    let n_entries = functions.pattern.len();
+    let pattern = functions.pattern.iter().map(|[i, j]| quote!([#i, #j]));
     quote! {
         /// Name of the scene.
         pub const NAME: &str = #name;
@@ -205,6 +223,10 @@ fn constants(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
         pub const KEPT: [usize; #n_kept] = [#(#kept),*];
         /// Rows that hold the position, from 0.
         pub const POSITION_KEPT: [usize; #n_position] = [#(#position_kept),*];
+        /// Number of entries of C that are not always zero.
+        pub const ENTRIES: usize = #n_entries;
+        /// Row and column of each of them, from 0.
+        pub const PATTERN: [[usize; 2]; ENTRIES] = [#(#pattern),*];
         /// Times at which a derivative of a function of time jumps (s).
         pub const BREAK_TIMES: [f64; #n_breaks] = [#(#break_times),*];
         /// Operations of each function; sines and functions of time are not counted.
@@ -214,7 +236,7 @@ fn constants(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
 
 fn operations(functions: &Functions) -> Vec<String> {
     let list = functions.list.iter();
-    list.map(|f| format!("{}: {}", f.name, f.program.counts()))
+    list.map(|f| format!("{}: {}", f.signature.name, f.program.counts()))
         .collect()
 }
 
@@ -246,15 +268,19 @@ fn docs(subject: &Subject<'_>, functions: &Functions) -> Vec<String> {
         String::new(),
         "Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that"
             .to_owned(),
-        "divide return a health: the smallest divisor as a signed share of the smallest one that was met when the code was made. Near 0 the"
+        "divide return a health: the smallest divisor as a signed share of what it was at the states that the code was made for. Near 0 the"
             .to_owned(),
-        "order of elimination has worn out, below 0 it is wrong.".to_owned(),
+        "order of elimination has worn out, below 0 a divisor has passed zero.".to_owned(),
         String::new(),
         "| function | operations |".to_owned(),
         "| --- | --- |".to_owned(),
     ];
     for f in &functions.list {
-        docs.push(format!("| `{}` | {} |", f.name, f.program.counts()));
+        docs.push(format!(
+            "| `{}` | {} |",
+            f.signature.name,
+            f.program.counts()
+        ));
     }
     docs
 }
@@ -307,57 +333,35 @@ fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
 }
 
 /// A function on arrays: its straight-line core on readers and a writer, the face for one state, and the face for many.
-fn function(functions: &Functions, f: &Function, shape: &Shape) -> Result<TokenStream, CodeError> {
+fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
     let e = &functions.equations;
     let (statements, outputs) = Printer::new(&e.names, &f.program, Scalar::F64, &[]).print();
     let mut used: Vec<Symbol> = inputs(f).collect();
     used.sort_unstable();
     used.dedup();
-    let place = |s: &Symbol| e.sources[s.index()];
+    let place = |s: &Symbol| array(e.sources[s.index()], shape);
     let reads = used.iter().map(|s| {
         let name = format_ident!("{}", e.names.name(*s));
-        let (array, k) = array(place(s), shape);
+        let (array, k) = place(s);
         let array = format_ident!("{array}");
         quote!(let #name = #array(#k);)
     });
-    let arrays: BTreeSet<&str> = used.iter().map(|s| array(place(s), shape).0).collect();
-    let n_out = f.out.1;
-    let (values, shares) = outputs.split_at(n_out);
-    let writes = values
-        .iter()
-        .enumerate()
-        .map(|(k, value)| quote!(out(#k, #value);));
-    let health = shares
-        .iter()
-        .map(|s| quote!((#s)))
-        .reduce(|a, b| quote!(#a.min(#b)))
-        .unwrap_or(quote!(f64::INFINITY));
-    let core = format_ident!("{}_core", f.name);
-    let name = format_ident!("{}", f.name);
-    let batch = format_ident!("{}_of", f.name);
-    let out = format_ident!("{}", f.out.0);
+    let arrays: BTreeSet<&str> = used.iter().map(|s| place(s).0).collect();
+    let (values, shares) = outputs.split_at(f.n_out);
+    let writes = values.iter().enumerate();
+    let writes = writes.map(|(k, value)| quote!(out(#k, #value);));
+    let signature = &f.signature;
+    let [name, core, batch] =
+        ["", "_core", "_of"].map(|end| format_ident!("{}{end}", signature.name));
+    let (out, length) = signature.out;
+    let [out, length] = [out, length].map(|x| format_ident!("{x}"));
     let readers: Vec<_> = arrays.iter().map(|a| format_ident!("{a}")).collect();
-    let parameters = PARAMETERS.iter().filter(|p| {
-        arrays.contains(p.0)
-            || p.0 == "t" && arrays.contains("f")
-            || p.0 == "q" && arrays.contains("x")
-    });
     let (mut one, mut many) = (Vec::new(), Vec::new());
-    for (name, length) in parameters {
-        let (name, length) = (
-            format_ident!("{name}"),
-            length.map(|l| format_ident!("{l}")),
-        );
-        match length {
-            None => {
-                one.push(quote!(#name: f64));
-                many.push(quote!(#name: &[f64; L]));
-            }
-            Some(length) => {
-                one.push(quote!(#name: &[f64; #length]));
-                many.push(quote!(#name: &[[f64; L]; #length]));
-            }
-        }
+    for &(name, length) in signature.arguments {
+        let name = format_ident!("{name}");
+        let length = format_ident!("{length}");
+        one.push(quote!(#name: &[f64; #length]));
+        many.push(quote!(#name: &[[f64; L]; #length]));
     }
     let prepare = |jets: TokenStream, rotations: TokenStream| {
         let f = arrays.contains("f").then(|| quote!(let f = #jets;));
@@ -366,68 +370,56 @@ fn function(functions: &Functions, f: &Function, shape: &Shape) -> Result<TokenS
     };
     let one_shared = prepare(quote!(jets(t)), quote!(rotations(q)));
     let many_shared = prepare(quote!(jets_of(t)), quote!(rotations_of(q)));
-    let length = format_ident!("{}", out_length(f.name));
-    let doc = doc(f.name);
+    let doc = signature.doc;
     let counts = format!("Operations: {}.", f.program.counts());
-    Ok(quote! {
+    let many_doc = "The same for L states at once, state by state in the last index.";
+    let read_one = quote!(#(|k| #readers[k],)*);
+    let read_many = quote!(#(|k| #readers[k][l],)*);
+    let core_arguments =
+        quote!(#(#readers: impl Fn(usize) -> f64,)* mut out: impl FnMut(usize, f64));
+    if !signature.divides {
+        return quote! {
+            #[inline(always)]
+            fn #core(#core_arguments) { #(#reads)* #(#statements)* #(#writes)* }
+            #[doc = #doc]
+            ///
+            #[doc = #counts]
+            pub fn #name(t: f64, #(#one,)* #out: &mut [f64; #length]) {
+                #one_shared
+                #core(#read_one |k, value| #out[k] = value);
+            }
+            #[doc = #many_doc]
+            #[inline]
+            pub fn #batch<const L: usize>(t: &[f64; L], #(#many,)* #out: &mut [[f64; L]; #length]) {
+                #many_shared
+                for l in 0..L { #core(#read_many |k, value| #out[k][l] = value); }
+            }
+        };
+    }
+    let health = shares.iter().fold(
+        quote!(f64::INFINITY),
+        |health, share| quote!(#health.min(#share)),
+    );
+    quote! {
         #[inline(always)]
-        fn #core(#(#readers: impl Fn(usize) -> f64,)* mut out: impl FnMut(usize, f64)) -> f64 {
-            #(#reads)*
-            #(#statements)*
-            #(#writes)*
-            #health
-        }
+        fn #core(#core_arguments) -> f64 { #(#reads)* #(#statements)* #(#writes)* #health }
         #[doc = #doc]
+        ///
         #[doc = #counts]
-        pub fn #name(#(#one,)* #out: &mut [f64; #length]) -> f64 {
+        pub fn #name(t: f64, #(#one,)* #out: &mut [f64; #length]) -> f64 {
             #one_shared
-            #core(#(|k| #readers[k],)* |k, value| #out[k] = value)
+            #core(#read_one |k, value| #out[k] = value)
         }
-        /// The same for L states at once, state by state in the last index.
+        #[doc = #many_doc]
         #[inline]
-        pub fn #batch<const L: usize>(#(#many,)* #out: &mut [[f64; L]; #length]) -> [f64; L] {
+        pub fn #batch<const L: usize>(
+            t: &[f64; L], #(#many,)* #out: &mut [[f64; L]; #length],
+        ) -> [f64; L] {
             #many_shared
             let mut health = [0.0; L];
-            for l in 0..L {
-                health[l] = #core(#(|k| #readers[k][l],)* |k, value| #out[k][l] = value);
-            }
+            for l in 0..L { health[l] = #core(#read_many |k, value| #out[k][l] = value); }
             health
         }
-    })
-}
-
-/// Arguments in their order, with the constant that is their length.
-const PARAMETERS: [(&str, Option<&str>); 6] = [
-    ("t", None),
-    ("q", Some("N_Q")),
-    ("v", Some("N_V")),
-    ("r", Some("ROWS")),
-    ("dq", Some("N_Q")),
-    ("dv", Some("N_V")),
-];
-
-fn out_length(name: &str) -> &'static str {
-    match name {
-        "multipliers" | "velocity_residual" => "ROWS",
-        "phi" => "M",
-        "position_correction" => "N_Q",
-        _ => "N_V",
-    }
-}
-
-fn doc(name: &str) -> &'static str {
-    match name {
-        "acceleration" => "Accelerations v̇ on the kept rows.",
-        "multipliers" => "Multipliers λ of all rows, 0 for dropped ones.",
-        "phi" => "Φ of all holonomic rows.",
-        "velocity_residual" => "C·v − b of all rows.",
-        "position_correction" => {
-            "The smallest correction dq in the mass metric with Φq·dq = −r on the rows that hold the position."
-        }
-        "velocity_correction" => {
-            "The smallest correction dv in the mass metric with C·dv = −r on the kept rows."
-        }
-        _ => "The derivative of accelerations along (dq, dv).",
     }
 }
 
@@ -452,7 +444,52 @@ fn array(source: Source, shape: &Shape) -> (&'static str, usize) {
     }
 }
 
-/// The implementation of `dynamics::SceneCode`.
-fn face(_subject: &Subject<'_>, _path: &str) -> Result<TokenStream, CodeError> {
-    Ok(TokenStream::new())
+/// `Code`, which implements `dynamics::SceneCode`.
+fn face(functions: &Functions, path: &str) -> Result<TokenStream, CodeError> {
+    let path = parse(path)?;
+    let of_runs = functions.list.iter().filter(|f| f.signature.is_of_runs);
+    let methods = of_runs.map(|f| {
+        let signature = &f.signature;
+        let name = format_ident!("{}", signature.name);
+        let (out, out_length) = signature.out;
+        let [out, out_length] = [out, out_length].map(|x| format_ident!("{x}"));
+        let names: Vec<_> = signature
+            .arguments
+            .iter()
+            .map(|a| format_ident!("{}", a.0))
+            .collect();
+        let lengths = signature.arguments.iter().map(|a| format_ident!("{}", a.1));
+        let (result, otherwise) = match signature.divides {
+            true => (quote!(-> f64), quote!(return f64::NAN)),
+            false => (quote!(), quote!(return)),
+        };
+        quote! {
+            fn #name(&self, t: f64, #(#names: &[f64],)* #out: &mut [f64]) #result {
+                let (#(Some(#names),)* Some(#out)) =
+                    (#(#names.first_chunk::<#lengths>(),)* #out.first_chunk_mut::<#out_length>())
+                else { #otherwise };
+                #name(t, #(#names,)* #out)
+            }
+        }
+    });
+    Ok(quote! {
+        /// The mechanism as a run takes it.
+        #[derive(Clone, Copy, Debug)]
+        pub struct Code;
+        static FACTS: #path::code::Facts = #path::code::Facts {
+            name: NAME,
+            n_q: N_Q,
+            n_v: N_V,
+            m: M,
+            h: H,
+            kept: &KEPT,
+            position_kept: &POSITION_KEPT,
+            break_times: &BREAK_TIMES,
+            operations: OPERATIONS,
+        };
+        impl #path::SceneCode for Code {
+            fn facts(&self) -> &#path::code::Facts { &FACTS }
+            #(#methods)*
+        }
+    })
 }

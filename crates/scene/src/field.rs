@@ -189,7 +189,7 @@ fn whole(n: &DeInteger) -> Option<f64> {
 const EXCERPT: usize = 40;
 
 /// What a value is, in words.
-fn found(value: &DeValue) -> String {
+pub(crate) fn found(value: &DeValue) -> String {
     match value {
         DeValue::String(text) if text.chars().count() <= EXCERPT => format!("the text {text:?}"),
         DeValue::String(_) => "a long text".to_owned(),

@@ -13,6 +13,7 @@
 //! | `function` | functions of time |
 //! | `start`, `simulate`, `reactions`, `combination` | what is to be done |
 //! | `scene`, `source_map`, `locate` | the result, its places, and errors that come later |
+//! | `template` | the text with other numbers in it |
 //! | `diagnostic`, `text`, `findings`, `nearest` | problems, lines and columns, names that were meant |
 
 mod arguments;
@@ -38,6 +39,7 @@ mod simulate;
 mod source_map;
 mod start;
 mod table;
+mod template;
 mod text;
 
 pub use combination::{Combination, CombinationError, CombinationProblem, Term, WrenchTerm};
@@ -46,4 +48,5 @@ pub use reactions::{GroupContent, GroupRequest, Output, WantedReactions};
 pub use read::read;
 pub use scene::Scene;
 pub use source_map::{Entry, SourceMap};
+pub use template::{KeyError, Template};
 pub use text::SourceText;

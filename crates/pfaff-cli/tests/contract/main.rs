@@ -2,10 +2,12 @@
 
 mod analyze;
 mod bad_input;
+mod cold_start;
 mod documents;
 mod failures;
 mod plan;
 mod singular;
+mod sweep;
 mod work_precision;
 
 use std::io::Write;

@@ -1,0 +1,356 @@
+//! What is compared. Each candidate is evaluated in every state of the motion and must give what is known there before it is timed. A new
+//! one is one line in [`all`].
+
+use std::hint::black_box;
+
+use dynamics::{Formulation, KeptRowMotion, Motion, MotionOptions};
+use linalg::KeptRowSaddle;
+use model::System;
+use nalgebra::{DMatrix, DVector, SMatrix, SVector};
+
+use crate::Outcome;
+use crate::dual::DualRobot;
+use crate::faer_lu::FaerLu;
+use crate::nalgebra_lu::{self, N};
+use crate::recursive;
+use crate::robot::{Robot, State};
+use crate::saddle::Saddle;
+
+/// What a candidate computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Group {
+    /// (t, q, v) → v̇.
+    RightHandSide,
+    /// The assembled saddle equations → v̇ and λ; nothing is evaluated.
+    Solve,
+    /// (t, q, v) → C and Γ.
+    Matrices,
+    /// Ten seconds of motion.
+    Run,
+}
+
+impl Group {
+    /// In the order of the table.
+    pub(crate) const ALL: [Self; 4] = [Self::RightHandSide, Self::Solve, Self::Matrices, Self::Run];
+
+    /// As a heading.
+    pub(crate) fn title(self) -> &'static str {
+        match self {
+            Self::RightHandSide => "Right-hand side: (t, q, v) → accelerations of all bodies",
+            Self::Solve => "The linear equations alone, already assembled",
+            Self::Matrices => "C and Γ alone: (t, q, v) → 22 × 21 matrix and 22 values",
+            Self::Run => "Ten seconds of motion, output excluded",
+        }
+    }
+}
+
+/// One thing to measure.
+pub(crate) struct Work<'r> {
+    /// Its name in commands and in the CSV.
+    pub(crate) key: &'static str,
+    /// What it is.
+    pub(crate) title: String,
+    /// With what it is compared.
+    pub(crate) group: Group,
+    /// Calls in one lap.
+    pub(crate) calls: usize,
+    /// Does them.
+    pub(crate) lap: Box<dyn FnMut() + 'r>,
+}
+
+/// Largest difference, relative to the largest value that is known in any state. Ill-conditioned by 1/σ_r ≈ 25 at most; the rest is for solvers
+/// that square or truncate.
+const AGREES: f64 = 1e-10;
+/// Singular values below this share of the largest one are zero: with all rows the smallest true one is 1e-3 of it.
+const SINGULAR: f64 = 1e-9;
+
+/// The candidates, in the order of the table.
+pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'_>>> {
+    let list = List {
+        robot,
+        works: Vec::new(),
+    };
+    let list = list
+        .right_hand_side(
+            "by-hand",
+            "minimal coordinates, by hand for this robot",
+            by_hand(),
+        )?
+        .right_hand_side("kept-rows", "**kept rows, interpreted**", kept_rows(robot)?)?
+        .right_hand_side(
+            "dual-numbers",
+            "kept rows, C and Γ by dual numbers (num-dual)",
+            kept_rows_by_dual_numbers(robot)?,
+        )?
+        .right_hand_side(
+            "minimum-norm",
+            "all rows, least reactions",
+            all_rows(robot, Formulation::MinimumNorm)?,
+        )?
+        .right_hand_side(
+            "proximal",
+            "all rows, proximal iterations",
+            all_rows(robot, Formulation::Proximal)?,
+        )?
+        .right_hand_side(
+            "nalgebra",
+            "dense saddle LU, nalgebra, 41 × 41 on the stack",
+            dense_nalgebra(robot),
+        )?
+        .right_hand_side(
+            "nalgebra-heap",
+            "dense saddle LU, nalgebra, 41 × 41 on the heap",
+            dense_nalgebra_on_heap(robot),
+        )?
+        .right_hand_side("faer", "dense saddle LU, faer, in place", dense_faer(robot))?
+        .right_hand_side(
+            "svd",
+            "dense saddle SVD, nalgebra, all rows 43 × 43",
+            dense_svd(robot),
+        )?
+        .solve(
+            "solve-kept-rows",
+            "**null space of kept rows**",
+            solve_kept_rows(robot)?,
+        )?
+        .solve(
+            "solve-nalgebra",
+            "LU, nalgebra, on the stack",
+            solve_nalgebra(),
+        )?
+        .solve("solve-faer", "LU, faer, in place", solve_faer())?
+        .matrices("kernels", "**generated kernels**", kernels(robot))?
+        .matrices(
+            "dual-kernels",
+            "dual numbers (num-dual)",
+            dual_kernels(robot),
+        );
+    Ok(list?.works)
+}
+
+/// Evaluates in a state, into the caller's storage.
+type Call<'r> = Box<dyn FnMut(&State, &mut [f64]) -> bool + 'r>;
+
+struct List<'r> {
+    robot: &'r Robot,
+    works: Vec<Work<'r>>,
+}
+
+impl<'r> List<'r> {
+    fn right_hand_side(self, key: &'static str, title: &str, call: Call<'r>) -> Outcome<Self> {
+        self.add(key, title, Group::RightHandSide, call, |state| &state.a)
+    }
+
+    fn solve(self, key: &'static str, title: &str, call: Call<'r>) -> Outcome<Self> {
+        self.add(key, title, Group::Solve, call, |state| &state.a)
+    }
+
+    fn matrices(self, key: &'static str, title: &str, call: Call<'r>) -> Outcome<Self> {
+        self.add(key, title, Group::Matrices, call, |state| {
+            &state.c_and_gamma
+        })
+    }
+
+    /// Checks the candidate in all states and takes it up.
+    fn add(
+        mut self,
+        key: &'static str,
+        title: &str,
+        group: Group,
+        mut call: Call<'r>,
+        known: fn(&State) -> &[f64],
+    ) -> Outcome<Self> {
+        let states = &self.robot.states;
+        let size = states
+            .iter()
+            .flat_map(known)
+            .fold(0.0, |m: f64, x| m.max(x.abs()));
+        let mut out = vec![f64::NAN; known(&states[0]).len()];
+        for state in states {
+            let done = call(state, &mut out);
+            let pairs = known(state).iter().zip(&out);
+            let difference = pairs.map(|(a, b)| (a - b).abs() / size).fold(0.0, f64::max);
+            let is_finite = out.iter().all(|x| x.is_finite());
+            if !(done && is_finite && difference < AGREES) {
+                let t = state.t;
+                return Err(format!("{key} is wrong by {difference:.1e} at t = {t} s").into());
+            }
+        }
+        self.works.push(Work {
+            key,
+            title: title.to_owned(),
+            group,
+            calls: states.len(),
+            lap: Box::new(move || {
+                for state in states {
+                    black_box(call(black_box(state), &mut out));
+                    black_box(&out);
+                }
+            }),
+        });
+        Ok(self)
+    }
+}
+
+fn by_hand<'r>() -> Call<'r> {
+    Box::new(|s, a| {
+        recursive::acceleration(s.t, &s.q, &s.v, a);
+        true
+    })
+}
+
+fn kept_rows(robot: &Robot) -> Outcome<Call<'_>> {
+    let mut motion = KeptRowMotion::new(&robot.prepared)?;
+    Ok(Box::new(move |s, a| {
+        motion.acceleration(s.t, &s.q, &s.v, a).is_ok()
+    }))
+}
+
+/// Proximal iterations are tuned to the tolerance of a run: here to what is asked of every candidate.
+fn all_rows(robot: &Robot, formulation: Formulation) -> Outcome<Call<'_>> {
+    let options = MotionOptions {
+        formulation,
+        rtol: 0.1 * AGREES,
+        ..MotionOptions::to(10.0)
+    };
+    let mut motion = KeptRowMotion::with(&robot.prepared, &options)?;
+    Ok(Box::new(move |s, a| {
+        motion.acceleration(s.t, &s.q, &s.v, a).is_ok()
+    }))
+}
+
+fn kept_rows_by_dual_numbers(robot: &Robot) -> Outcome<Call<'_>> {
+    let mechanism = &robot.prepared.mechanism;
+    let (n, rows) = (mechanism.layout().n_v, mechanism.layout().rows());
+    let dual = dual_robot(robot);
+    let mut both = vec![0.0; rows * (n + 1)];
+    let kept = &robot.prepared.decision.kept;
+    let mut saddle = KeptRowSaddle::new(n, kept.len())?;
+    // Nothing acts on the robot but its constraints.
+    let force = vec![0.0; n];
+    let (mut gamma, mut lambda) = (vec![0.0; kept.len()], vec![0.0; kept.len()]);
+    Ok(Box::new(move |s, a| {
+        dual.c_and_gamma(s.t, &s.q, &s.v, &mut both);
+        for (gamma, &i) in gamma.iter_mut().zip(kept) {
+            *gamma = both[rows * n + i];
+        }
+        let row = |k: usize| &both[kept[k] * n..][..n];
+        saddle.factor(row, mechanism.mass()).is_ok()
+            && saddle.solve(&force, &gamma, a, &mut lambda).is_ok()
+    }))
+}
+
+fn dense_nalgebra(robot: &Robot) -> Call<'_> {
+    let mut saddle = Saddle::of_kept_rows(&robot.prepared);
+    let mut matrix = SMatrix::<f64, N, N>::zeros();
+    let mut x = SVector::<f64, N>::zeros();
+    Box::new(move |s, a| {
+        saddle.fill(s.t, &s.q, &s.v, matrix.as_mut_slice(), x.as_mut_slice());
+        let done = nalgebra_lu::solve_static(matrix, &mut x);
+        a.copy_from_slice(&x.as_slice()[..a.len()]);
+        done
+    })
+}
+
+fn dense_nalgebra_on_heap(robot: &Robot) -> Call<'_> {
+    let mut saddle = Saddle::of_kept_rows(&robot.prepared);
+    let mut x = DVector::zeros(saddle.n);
+    Box::new(move |s, a| {
+        let mut matrix = DMatrix::zeros(saddle.n, saddle.n);
+        saddle.fill(s.t, &s.q, &s.v, matrix.as_mut_slice(), x.as_mut_slice());
+        let done = nalgebra_lu::solve_dynamic(matrix, &mut x);
+        a.copy_from_slice(&x.as_slice()[..a.len()]);
+        done
+    })
+}
+
+fn dense_faer(robot: &Robot) -> Call<'_> {
+    let mut saddle = Saddle::of_kept_rows(&robot.prepared);
+    let (mut matrix, mut x) = (vec![0.0; saddle.n * saddle.n], vec![0.0; saddle.n]);
+    let mut faer = FaerLu::new(saddle.n);
+    Box::new(move |s, a| {
+        saddle.fill(s.t, &s.q, &s.v, &mut matrix, &mut x);
+        faer.solve(&mut matrix, &mut x);
+        a.copy_from_slice(&x[..a.len()]);
+        true
+    })
+}
+
+fn dense_svd(robot: &Robot) -> Call<'_> {
+    let mut saddle = Saddle::of_all_rows(&robot.prepared);
+    let mut load = DVector::zeros(saddle.n);
+    Box::new(move |s, a| {
+        let mut matrix = DMatrix::zeros(saddle.n, saddle.n);
+        saddle.fill(s.t, &s.q, &s.v, matrix.as_mut_slice(), load.as_mut_slice());
+        let x = nalgebra_lu::solve_singular(matrix, &load, SINGULAR);
+        x.map(|x| a.copy_from_slice(&x.as_slice()[..a.len()]))
+            .is_some()
+    })
+}
+
+/// Rows of C_K out of the assembled matrix of a state: behind the mass its columns are those of C_Kᵀ.
+fn solve_kept_rows(robot: &Robot) -> Outcome<Call<'_>> {
+    let mass = robot.prepared.mechanism.mass();
+    let (n, r) = (mass.len(), robot.prepared.decision.kept.len());
+    let mut saddle = KeptRowSaddle::new(n, r)?;
+    let mut lambda = vec![0.0; r];
+    let order = n + r;
+    Ok(Box::new(move |s, a| {
+        let (matrix, load) = &s.saddle;
+        let row = |k: usize| &matrix[order * (n + k)..][..n];
+        saddle.factor(row, mass).is_ok()
+            && saddle.solve(&load[..n], &load[n..], a, &mut lambda).is_ok()
+    }))
+}
+
+fn solve_nalgebra<'r>() -> Call<'r> {
+    Box::new(|s, a| {
+        let matrix = SMatrix::<f64, N, N>::from_column_slice(&s.saddle.0);
+        let mut x = SVector::<f64, N>::from_column_slice(&s.saddle.1);
+        let done = nalgebra_lu::solve_static(matrix, &mut x);
+        a.copy_from_slice(&x.as_slice()[..a.len()]);
+        done
+    })
+}
+
+fn solve_faer<'r>() -> Call<'r> {
+    let mut faer = FaerLu::new(N);
+    let (mut matrix, mut x) = (vec![0.0; N * N], vec![0.0; N]);
+    Box::new(move |s, a| {
+        matrix.copy_from_slice(&s.saddle.0);
+        x.copy_from_slice(&s.saddle.1);
+        faer.solve(&mut matrix, &mut x);
+        a.copy_from_slice(&x[..a.len()]);
+        true
+    })
+}
+
+fn kernels(robot: &Robot) -> Call<'_> {
+    let mechanism = &robot.prepared.mechanism;
+    let mut s = mechanism.scratch();
+    Box::new(move |state, out| {
+        mechanism.pose(state.t, &state.q, &mut s);
+        mechanism.c(&mut s);
+        mechanism.twist(&state.v, &mut s);
+        mechanism.gamma(&mut s);
+        let layout = mechanism.layout();
+        let (c, gamma) = out.split_at_mut(layout.rows() * layout.n_v);
+        for (i, row) in c.chunks_exact_mut(layout.n_v).enumerate() {
+            layout.scatter_row(&s, i, row);
+        }
+        gamma.copy_from_slice(&s.gamma);
+        true
+    })
+}
+
+fn dual_kernels(robot: &Robot) -> Call<'_> {
+    let dual = dual_robot(robot);
+    Box::new(move |s, out| {
+        dual.c_and_gamma(s.t, &s.q, &s.v, out);
+        true
+    })
+}
+
+fn dual_robot(robot: &Robot) -> DualRobot {
+    DualRobot::new(&robot.prepared.mechanism, tests::robot::steering())
+}

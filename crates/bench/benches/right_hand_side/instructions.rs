@@ -1,0 +1,34 @@
+//! Instructions per call by callgrind, which do not depend on neighbours or the speed of the processor. Callgrind shows no AVX-512 to programs, so faer
+//! takes its AVX2 kernels there.
+
+use std::process::Command;
+
+use crate::Outcome;
+
+/// Laps of a short and a long repetition; the difference has no start-up in it.
+const LAPS: [u64; 2] = [1, 4];
+
+/// Instructions of one lap of a candidate.
+pub(crate) fn per_lap(key: &str) -> Outcome<u64> {
+    let [few, many] = LAPS;
+    let difference = collected(key, many)?.saturating_sub(collected(key, few)?);
+    Ok(difference / (many - few))
+}
+
+/// What callgrind counts while this very program repeats one candidate.
+fn collected(key: &str, laps: u64) -> Outcome<u64> {
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
+        .arg(std::env::current_exe()?)
+        .args(["--repeat", key, &laps.to_string()])
+        .output()
+        .map_err(|e| format!("instructions need valgrind on the path: {e}"))?;
+    let said = String::from_utf8_lossy(&output.stderr);
+    let count = said
+        .lines()
+        .find_map(|line| line.split_once("Collected : "));
+    match (output.status.success(), count) {
+        (true, Some((_, count))) => Ok(count.trim().parse()?),
+        _ => Err(format!("callgrind on {key}: {}", said.trim()).into()),
+    }
+}

@@ -1,0 +1,27 @@
+//! The dense equations by nalgebra: LU with partial pivoting of a matrix whose size the compiler knows or not, and singular values.
+
+use nalgebra::{DMatrix, DVector, SMatrix, SVector};
+
+/// Order of the saddle matrix on kept rows.
+pub(crate) const N: usize = 41;
+
+/// LU of a matrix on the stack. `x` is `[a; λ]` afterwards.
+pub(crate) fn solve_static(matrix: SMatrix<f64, N, N>, x: &mut SVector<f64, N>) -> bool {
+    matrix.lu().solve_mut(x)
+}
+
+/// LU of a matrix on the heap, which is consumed: nalgebra has no other way.
+pub(crate) fn solve_dynamic(matrix: DMatrix<f64>, x: &mut DVector<f64>) -> bool {
+    matrix.lu().solve_mut(x)
+}
+
+/// Least solution of a singular system; singular values below `tolerance` times the largest are zero.
+pub(crate) fn solve_singular(
+    matrix: DMatrix<f64>,
+    load: &DVector<f64>,
+    tolerance: f64,
+) -> Option<DVector<f64>> {
+    let svd = matrix.svd(true, true);
+    let largest = svd.singular_values.max();
+    svd.solve(load, tolerance * largest).ok()
+}

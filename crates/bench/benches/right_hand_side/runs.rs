@@ -1,0 +1,133 @@
+//! Ten seconds of the robot at a wanted error: the loosest tolerance that gives it is looked for first, because errors and not tolerances are
+//! what runs are compared at. Two rows of output, not written anywhere; the start is not included, the storage of the motion is.
+
+use std::ops::ControlFlow;
+
+use dynamics::{MotionOptions, Prepared, Summary, simulate};
+use suite::{Kind, Quantity};
+
+use crate::Outcome;
+use crate::candidates::{Group, Work};
+use crate::robot::Robot;
+
+/// Length of the run (s).
+const T_END: f64 = 10.0;
+
+/// Tolerances that are tried in each decade.
+const PER_DECADE: i32 = 8;
+/// Loosest and tightest tolerance (decades).
+const DECADES: [i32; 2] = [-4, -13];
+
+/// The runs, in the order of the table. What else can move the robot is one line here.
+pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'static>>> {
+    let known = end(robot)?;
+    let run = |key, name, prepared, error| run(key, name, prepared, error, &known);
+    Ok(vec![
+        run("run_1e-6", "interpreted", robot.prepared.clone(), 1e-6)?,
+        run("run_1e-10", "interpreted", robot.prepared.clone(), 1e-10)?,
+    ])
+}
+
+fn run(
+    key: &'static str,
+    name: &str,
+    prepared: Prepared,
+    wanted: f64,
+    known: &[f64],
+) -> Outcome<Work<'static>> {
+    let found = loosest(&prepared, wanted, known)?;
+    let Found {
+        options,
+        error,
+        summary,
+    } = found;
+    let title = format!(
+        "error {wanted:.0e}, {name}: rtol {:.1e}, error {error:.1e}, {} steps, {} evaluations",
+        options.rtol, summary.steps, summary.evaluations
+    );
+    Ok(Work {
+        key,
+        title,
+        group: Group::Run,
+        calls: 1,
+        lap: Box::new(move || {
+            std::hint::black_box(
+                simulate(&prepared, &options, |_| Ok(ControlFlow::Continue(()))).is_ok(),
+            );
+        }),
+    })
+}
+
+struct Found {
+    options: MotionOptions,
+    error: f64,
+    summary: Summary,
+}
+
+/// The loosest tolerance from which on all tighter ones give the wanted error. Tolerances are tried from the tight end, so that
+/// an accident at a loose one does not count.
+fn loosest(prepared: &Prepared, wanted: f64, known: &[f64]) -> Outcome<Found> {
+    let mut best = None;
+    for k in (PER_DECADE * DECADES[1]..=PER_DECADE * DECADES[0])
+        .map(|k| f64::from(k) / f64::from(PER_DECADE))
+    {
+        let rtol = 10.0_f64.powf(k);
+        let options = MotionOptions {
+            rtol,
+            atol: rtol / 100.0,
+            output_step: T_END,
+            ..MotionOptions::to(T_END)
+        };
+        let mut end = Vec::new();
+        let summary = simulate(prepared, &options, |row| {
+            end = [row.q, row.v].concat();
+            Ok(ControlFlow::Continue(()))
+        })?;
+        let error = end
+            .iter()
+            .zip(known)
+            .map(|(a, b)| (a - b).abs())
+            .fold(0.0, f64::max);
+        if error > wanted || end.iter().any(|x| !x.is_finite()) {
+            break;
+        }
+        best = Some(Found {
+            options,
+            error,
+            summary,
+        });
+    }
+    best.ok_or_else(|| format!("no tolerance gives an error of {wanted:e}").into())
+}
+
+/// q and v at the end, by the reference of the suite.
+fn end(robot: &Robot) -> Outcome<Vec<f64>> {
+    let case = suite::find("robot-trolley").ok_or("the suite has no robot")?;
+    let reference = case.reference();
+    let last = reference
+        .instants
+        .last()
+        .filter(|i| i.t == T_END)
+        .ok_or("no end in the reference")?;
+    let bodies = robot.prepared.mechanism.bodies();
+    let mut end = vec![f64::NAN; 6 * bodies.len()];
+    for fact in &last.facts {
+        let (offset, places) = match fact.quantity.kind() {
+            Kind::Position => (0, [Quantity::X, Quantity::Y, Quantity::Angle]),
+            Kind::Velocity => (
+                3 * bodies.len(),
+                [Quantity::Vx, Quantity::Vy, Quantity::Omega],
+            ),
+            Kind::Acceleration | Kind::Reaction => continue,
+        };
+        let body = bodies.iter().position(|b| b.name == fact.of);
+        let place = places.iter().position(|p| *p == fact.quantity);
+        if let (Some(body), Some(place)) = (body, place) {
+            end[offset + 3 * body + place] = fact.value;
+        }
+    }
+    match end.iter().all(|x| x.is_finite()) {
+        true => Ok(end),
+        false => Err("the reference does not know all of q and v at the end".into()),
+    }
+}

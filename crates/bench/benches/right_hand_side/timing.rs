@@ -1,0 +1,54 @@
+//! Times of works that take turns: in each round all of them run for a while, so that changes of the machine's speed meet all alike. Neighbours on
+//! the machine can only add time: the least over the rounds is what a work needs, the median tells how much was added.
+
+use std::time::{Duration, Instant};
+
+use crate::candidates::Work;
+
+/// Rounds over all works.
+pub(crate) const ROUNDS: usize = 101;
+
+/// A work is repeated in a round until this has passed.
+const ENOUGH: Duration = Duration::from_micros(500);
+
+/// Time of one call.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Time {
+    /// Median over the rounds (s).
+    pub(crate) median: f64,
+    /// Least of the rounds (s).
+    pub(crate) least: f64,
+}
+
+/// Times of all works; the first round warms up and counts for nothing.
+pub(crate) fn take_turns(works: &mut [Work<'_>]) -> Vec<Time> {
+    let mut times = vec![Vec::with_capacity(ROUNDS); works.len()];
+    for round in 0..=ROUNDS {
+        for (work, times) in works.iter_mut().zip(&mut times) {
+            let time = of_a_while(work);
+            if round > 0 {
+                times.push(time);
+            }
+        }
+    }
+    let sorted = times.into_iter().map(|mut times| {
+        times.sort_by(f64::total_cmp);
+        Time {
+            median: times[ROUNDS / 2],
+            least: times[0],
+        }
+    });
+    sorted.collect()
+}
+
+fn of_a_while(work: &mut Work<'_>) -> f64 {
+    let (clock, mut laps) = (Instant::now(), 0);
+    loop {
+        (work.lap)();
+        laps += 1;
+        let elapsed = clock.elapsed();
+        if elapsed >= ENOUGH {
+            return elapsed.as_secs_f64() / (laps * work.calls) as f64;
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! `pfaff sweep`: many runs of one scene with other numbers, in parallel, in parts, resumable; with progress on a terminal.
+
+use std::num::NonZeroUsize;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use pfaff::model::Registry;
+use pfaff::report::{SweepDocument, SweepStatus, write_json};
+use pfaff::sweep::{Sweep, SweepError, SweepProgress, SweepSettings, merge};
+
+use crate::Outcome;
+use crate::args;
+use crate::input::Source;
+use crate::output::{Failure, count, print, wrapped};
+use crate::simulate::TRUSTED_BALANCE;
+
+pub(crate) fn run(arguments: &args::Sweep) -> Outcome {
+    let (document, ending) = match &arguments.scene {
+        Some(scene) => make(arguments, &Source::read(scene)?)?,
+        None => {
+            let document = merge(&arguments.merge, &arguments.out).map_err(|e| failure(&e))?;
+            let ending = match document.partial {
+                true => Ending::Missing,
+                false => Ending::Whole,
+            };
+            (document, ending)
+        }
+    };
+    let text = match arguments.json {
+        true => {
+            let mut out = Vec::new();
+            write_json(&mut out, &document).map_err(|e| Failure::stopped(e.to_string()))?;
+            String::from_utf8_lossy(&out).into_owned()
+        }
+        false => describe(&document, ending, &arguments.out.display().to_string()),
+    };
+    print(&text)?;
+    match ending {
+        Ending::Whole if document.done == document.finished => Ok(()),
+        _ => Err(Failure::Incomplete),
+    }
+}
+
+/// Whether everything was made that was asked for.
+#[derive(Clone, Copy)]
+enum Ending {
+    /// It was.
+    Whole,
+    /// Somebody asked to stop.
+    Interrupted,
+    /// Runs are missing that nobody has made.
+    Missing,
+}
+
+/// Makes the runs.
+fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Ending), Failure> {
+    let registry = Registry::planar();
+    let sweep = Sweep::read(
+        &source.name,
+        &source.text,
+        &registry,
+        arguments.vary.clone(),
+    );
+    let mut sweep = sweep.map_err(|e| match e {
+        SweepError::Study(e) => source.failure(e),
+        other => failure(&other),
+    })?;
+    if arguments.keep_rows {
+        sweep = sweep.keeping_rows();
+    }
+    let settings = SweepSettings {
+        shard: arguments.shard,
+        threads: arguments.threads.map_or(0, NonZeroUsize::get),
+    };
+    let flag = Arc::new(AtomicBool::new(false));
+    let setter = Arc::clone(&flag);
+    ctrlc::set_handler(move || setter.store(true, Ordering::Relaxed))
+        .map_err(|e| Failure::stopped(format!("cannot listen for interrupts: {e}")))?;
+    let interrupted = || flag.load(Ordering::Relaxed);
+    // Hidden by itself where standard error is no terminal.
+    let bar = ProgressBar::new(0);
+    let template = "{bar:40} {pos}/{len} runs, {per_sec}, {eta} left{msg}";
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    let mut failed: u64 = 0;
+    let outcome = sweep.run_into(
+        &arguments.out,
+        &settings,
+        interrupted,
+        |progress| match progress {
+            SweepProgress::Begin { runs, finished } => {
+                bar.set_length(runs);
+                bar.set_position(finished);
+                bar.reset_eta();
+            }
+            SweepProgress::Finished(row) => {
+                bar.inc(1);
+                if row.status != SweepStatus::Done {
+                    failed += 1;
+                    bar.set_message(format!(", {failed} not done"));
+                }
+            }
+        },
+    );
+    bar.finish_and_clear();
+    let ending = match interrupted() {
+        true => Ending::Interrupted,
+        false => Ending::Whole,
+    };
+    Ok((outcome.map_err(|e| failure(&e))?, ending))
+}
+
+fn failure(error: &SweepError) -> Failure {
+    match error.is_input() {
+        true => Failure::input(error.to_string()),
+        false => Failure::stopped(error.to_string()),
+    }
+}
+
+/// The summary in words.
+fn describe(d: &SweepDocument, ending: Ending, out: &str) -> String {
+    let mut text = format!(
+        "{}: {} of {}: {} done, {} stopped, {} refused\n",
+        d.scene,
+        d.finished,
+        count(d.runs as usize, "run", "runs"),
+        d.done,
+        d.stopped,
+        d.refused,
+    );
+    text.push_str(match ending {
+        Ending::Whole => "",
+        Ending::Interrupted => "interrupted; the same command goes on where it was\n",
+        Ending::Missing => "runs are missing: shards that were not made, or not to their end\n",
+    });
+    for failure in &d.failures {
+        let lead = format!("run {} {}: ", failure.run, failure.status);
+        text.push_str(&wrapped(&lead, &failure.error));
+    }
+    let named = d.failures.len() as u64;
+    if named < d.stopped + d.refused {
+        let more = d.stopped + d.refused - named;
+        text.push_str(&format!("and {more} more: see the column `error`\n"));
+    }
+    if let (Some(balance), Some(run)) = (d.max_energy_balance, d.max_energy_balance_run)
+        && balance > TRUSTED_BALANCE
+    {
+        text.push_str(&format!(
+            "warning: the energy balance of run {run} is off by {balance:.1e} of its largest kinetic energy: do not trust it, \
+             nor others above {TRUSTED_BALANCE:.0e} in the column `energy_balance`\n"
+        ));
+    }
+    text.push_str(&format!("written to {out}\n"));
+    text
+}

@@ -1,0 +1,35 @@
+//! Commands are quick from a cold start, process included. Bounds are five times what is promised for an idle machine, so that
+//! only growth is noticed; `cargo xtask cold-start` tells the times.
+
+use std::time::{Duration, Instant};
+
+use super::{Folder, ROBOT, pfaff};
+
+/// Runs of a command, of which the fastest counts: neighbours only slow down.
+const RUNS: usize = 11;
+
+fn fastest(arguments: &[&str]) -> Duration {
+    let times = (0..RUNS).map(|_| {
+        let clock = Instant::now();
+        let output = pfaff(arguments);
+        let time = clock.elapsed();
+        assert!(output.status.success(), "{output:?}");
+        time
+    });
+    times.min().unwrap_or(Duration::MAX)
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "times of a debug build mean nothing")]
+fn an_analysis_takes_ten_milliseconds() {
+    let time = fastest(&["analyze", ROBOT]);
+    assert!(time < Duration::from_millis(5 * 10), "{time:?}");
+}
+
+#[test]
+#[cfg_attr(debug_assertions, ignore = "times of a debug build mean nothing")]
+fn ten_seconds_with_files_take_sixty_milliseconds() {
+    let folder = Folder::new("cold_start");
+    let time = fastest(&["simulate", ROBOT, "--out", folder.text()]);
+    assert!(time < Duration::from_millis(5 * 60), "{time:?}");
+}

@@ -1,0 +1,321 @@
+//! Many runs of one scene with other numbers in it: in parallel, in parts, and so that an interruption costs nothing that was finished.
+//!
+//! Each run is read, checked, assembled and moved like any scene. What is wrong with one combination of numbers stands in its row; the
+//! others go on. Numbers of reactions are those of unique ones only.
+//!
+//! Not here: what a key means ([`scene::Template`]), and what files look like ([`report::sweep`]).
+
+mod axis;
+mod error;
+mod run;
+mod shard;
+#[cfg(test)]
+mod tests;
+
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use model::{Registry, System};
+use rayon::prelude::*;
+use report::sweep::{Journal, Journals, SweepPlan, digest, write_sweep};
+use report::{OutputDirectory, SweepDocument, SweepRow, TrajectoryTable};
+use scene::{Template, WantedReactions};
+
+use crate::blueprint::Blueprint;
+use crate::error::StudyError;
+use axis::Grid;
+
+pub use axis::{Axis, AxisError};
+pub use error::SweepError;
+pub use shard::{Shard, ShardError};
+
+/// A scene and the numbers that are varied in it. Several axes are a full grid, in which the last one runs fastest.
+///
+/// ```
+/// use pfaff::model::Registry;
+/// use pfaff::sweep::Sweep;
+///
+/// // A stone falls for one second on the Moon and on Earth.
+/// let scene = r#"
+/// scene = { name = "stone", space = "plane", gravity = [0.0, -1.0] }
+/// body = [{ name = "stone", mass = 1.0, inertia = 1.0, position = [0.0, 10.0] }]
+/// simulate = { t_end = 1.0 }
+/// "#;
+/// let axes = vec!["scene.gravity[1]=-1.62,-9.81".parse()?];
+/// let sweep = Sweep::read("stone.toml", scene, &Registry::planar(), axes)?;
+/// let heights: Vec<f64> = (1..=sweep.runs())
+///     .filter_map(|run| sweep.row(run).motion)
+///     .map(|motion| motion.state[1])
+///     .collect();
+/// assert!((heights[0] - (10.0 - 0.81)).abs() < 1e-9);
+/// assert!((heights[1] - (10.0 - 4.905)).abs() < 1e-9);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Sweep<'r> {
+    template: Template,
+    grid: Grid,
+    plan: SweepPlan,
+    /// Places of the wanted reactions among all.
+    reactions: Vec<usize>,
+    registry: &'r Registry,
+}
+
+/// How a sweep is done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SweepSettings {
+    /// The runs that are made here.
+    pub shard: Shard,
+    /// Threads; 0 is as many as there are cores.
+    pub threads: usize,
+}
+
+impl Default for SweepSettings {
+    fn default() -> Self {
+        Self {
+            shard: Shard::WHOLE,
+            threads: 0,
+        }
+    }
+}
+
+/// How far a sweep is.
+#[derive(Clone, Copy, Debug)]
+pub enum SweepProgress<'a> {
+    /// It begins.
+    Begin {
+        /// Runs of this shard.
+        runs: u64,
+        /// Those that were finished before.
+        finished: u64,
+    },
+    /// A run is finished, and its row is in the journal.
+    Finished(&'a SweepRow),
+}
+
+impl<'r> Sweep<'r> {
+    /// Reads a scene and opens the numbers that are varied. `name` is the file's name in messages.
+    ///
+    /// # Errors
+    /// - [`SweepError::Study`]: the scene is wrong as it stands, or nobody says how long a run takes.
+    /// - [`SweepError::Key`]: a key names no number of the scene.
+    /// - [`SweepError::Axis`]: nothing is varied, or there are too many combinations.
+    pub fn read(
+        name: &str,
+        text: &str,
+        registry: &'r Registry,
+        axes: Vec<Axis>,
+    ) -> Result<Self, SweepError> {
+        let blueprint = Blueprint::read(name, text, registry)?;
+        if blueprint.scene.simulate.is_none() {
+            return Err(StudyError::NoEnd.into());
+        }
+        let grid = Grid::new(axes)?;
+        let keys: Vec<&str> = grid.axes.iter().map(Axis::key).collect();
+        let template = Template::new(text, &keys)?;
+        let groups = &blueprint.mechanism.layout().groups;
+        let is_wanted = |name: &String| match &blueprint.scene.output.reactions {
+            WantedReactions::All => true,
+            WantedReactions::Of(names) => names.contains(name),
+            WantedReactions::None => false,
+        };
+        let reactions: Vec<usize> = (0..groups.len())
+            .filter(|k| is_wanted(&groups[*k].name))
+            .collect();
+        let plan = SweepPlan {
+            scene: blueprint.scene.description.name.clone(),
+            digest: format!("{:016x}", digest(text.as_bytes())),
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            vary: grid.axes.iter().map(Axis::to_string).collect(),
+            runs: grid.len as u64,
+            keep_rows: false,
+            keys: keys.into_iter().map(str::to_owned).collect(),
+            bodies: blueprint
+                .mechanism
+                .bodies()
+                .iter()
+                .map(|b| b.name.clone())
+                .collect(),
+            reactions: reactions.iter().map(|k| groups[*k].name.clone()).collect(),
+        };
+        Ok(Self {
+            template,
+            grid,
+            plan,
+            reactions,
+            registry,
+        })
+    }
+
+    /// The same, with the trajectory of each run in `runs/<number>/trajectory.csv`.
+    #[must_use]
+    pub fn keeping_rows(mut self) -> Self {
+        self.plan.keep_rows = true;
+        self
+    }
+
+    /// Number of runs, those of all shards.
+    #[must_use]
+    pub fn runs(&self) -> u64 {
+        self.plan.runs
+    }
+
+    /// The varied numbers of a run.
+    ///
+    /// # Panics
+    /// If there is no such run; they are counted from 1.
+    #[must_use]
+    pub fn point(&self, run: u64) -> Vec<f64> {
+        let runs = self.runs();
+        assert!((1..=runs).contains(&run), "no run {run} of 1 to {runs}");
+        // Smaller than a number of runs, which was a usize.
+        self.grid.point((run - 1) as usize)
+    }
+
+    /// Makes a run and writes nothing.
+    ///
+    /// # Panics
+    /// If there is no such run; they are counted from 1.
+    #[must_use]
+    pub fn row(&self, run: u64) -> SweepRow {
+        match self.begin(run) {
+            Ok(begun) => begun.go(|_| ControlFlow::Continue(())),
+            Err(error) => self.refused(run, &error),
+        }
+    }
+
+    /// Makes the runs of a shard that are not in a journal of the directory yet, and writes the tables of all that are there then:
+    /// `sweep.csv`, `sweep.parquet` and `summary.json`. `progress` sees each finished run, in no order; `interrupted` is asked often, and ends the
+    /// sweep without losing a finished run.
+    ///
+    /// # Errors
+    /// - [`SweepError::NoneBegins`]: no run can begin; nothing is written.
+    /// - [`SweepError::Journal`]: the directory belongs to another sweep, or another process works on this shard.
+    /// - [`SweepError::File`], [`SweepError::Table`], [`SweepError::Threads`]: the system refused.
+    pub fn run_into(
+        &self,
+        directory: &Path,
+        settings: &SweepSettings,
+        interrupted: impl Fn() -> bool + Sync,
+        mut progress: impl FnMut(SweepProgress<'_>) + Send,
+    ) -> Result<SweepDocument, SweepError> {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(settings.threads);
+        let pool = pool.build().map_err(|source| SweepError::Threads {
+            threads: settings.threads,
+            source,
+        })?;
+        pool.install(|| self.check(&interrupted))?;
+        let output = OutputDirectory::create(directory)?;
+        let journal = Journal::open(directory, &settings.shard.journal(), &self.plan)?;
+        let finished = Journals::read(&[directory])?.rows;
+        let mine = (1..=self.runs()).filter(|run| settings.shard.has(*run));
+        let (before, pending): (Vec<u64>, Vec<u64>) =
+            mine.partition(|run| finished.contains_key(run));
+        drop(finished);
+        progress(SweepProgress::Begin {
+            runs: (before.len() + pending.len()) as u64,
+            finished: before.len() as u64,
+        });
+        let ledger = Mutex::new((journal, progress));
+        let make = |run: &u64| {
+            let keep = self
+                .plan
+                .keep_rows
+                .then(|| folder(directory, *run, self.runs()));
+            if let Some(row) = self.whole_row(*run, keep.as_deref(), &interrupted)? {
+                // A thread that panicked has written a whole line or none.
+                let mut ledger = ledger.lock().unwrap_or_else(PoisonError::into_inner);
+                ledger.0.append(&row)?;
+                ledger.1(SweepProgress::Finished(&row));
+            }
+            Ok::<(), SweepError>(())
+        };
+        pool.install(|| pending.par_iter().with_max_len(1).try_for_each(make))?;
+        let (journal, _) = ledger.into_inner().unwrap_or_else(PoisonError::into_inner);
+        journal.finish()?;
+        write_sweep(&output, || Ok(Journals::read(&[directory])?))
+    }
+
+    /// Makes a run, with its trajectory in a directory if one is given; nothing if it was interrupted.
+    fn whole_row(
+        &self,
+        run: u64,
+        keep: Option<&Path>,
+        interrupted: &impl Fn() -> bool,
+    ) -> Result<Option<SweepRow>, SweepError> {
+        if interrupted() {
+            return Ok(None);
+        }
+        let begun = match self.begin(run) {
+            Ok(begun) => begun,
+            Err(error) => return Ok(Some(self.refused(run, &error))),
+        };
+        let table = |directory: &Path| {
+            let file = OutputDirectory::create(directory)?.file("trajectory.csv")?;
+            Ok::<_, SweepError>(TrajectoryTable::new(file, &begun.study.prepared.mechanism)?)
+        };
+        let mut table = keep.map(table).transpose()?;
+        let (mut unwritten, mut is_interrupted) = (None, false);
+        let row = begun.go(|sample| {
+            is_interrupted = interrupted();
+            if let Some(table) = &mut table {
+                unwritten = table.row(sample.t, sample.q, sample.v).err();
+            }
+            match is_interrupted || unwritten.is_some() {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        });
+        if let Some(error) = unwritten {
+            return Err(error.into());
+        }
+        if is_interrupted {
+            return Ok(None);
+        }
+        if let Some(table) = table {
+            // On the disk before the journal says so.
+            let mut file = table.finish()?;
+            file.sync()?;
+            file.finish()?;
+        }
+        Ok(Some(row))
+    }
+
+    /// Refuses a sweep of which no run can begin. The first one that can ends the search.
+    fn check(&self, interrupted: &(impl Fn() -> bool + Sync)) -> Result<(), SweepError> {
+        let begins = |run: &u64| interrupted() || self.begin(*run).is_ok();
+        let found = (1..=self.runs()).into_par_iter().find_any(begins);
+        match (found, self.begin(1).err()) {
+            (None, Some(error)) => Err(SweepError::NoneBegins {
+                runs: self.runs(),
+                values: self.values(1),
+                reason: run::reason(&error),
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    /// What is varied, with its values in a run.
+    fn values(&self, run: u64) -> String {
+        let axes = self.grid.axes.iter().zip(self.point(run));
+        let texts: Vec<String> = axes
+            .map(|(axis, x)| format!("{} = {x}", axis.key()))
+            .collect();
+        texts.join(", ")
+    }
+}
+
+/// Writes the tables of journals in several directories, as if they were one.
+///
+/// # Errors
+/// [`SweepError::Journal`]: they are not of one sweep; [`SweepError::File`], [`SweepError::Table`]: something could not be written.
+pub fn merge(directories: &[PathBuf], into: &Path) -> Result<SweepDocument, SweepError> {
+    let journals = Journals::read(directories)?;
+    write_sweep(&OutputDirectory::create(into)?, || Ok(journals))
+}
+
+/// Where the files of a run are, with as many digits as the last one has.
+fn folder(directory: &Path, run: u64, runs: u64) -> PathBuf {
+    let width = runs.to_string().len();
+    directory.join("runs").join(format!("{run:0width$}"))
+}

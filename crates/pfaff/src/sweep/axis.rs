@@ -1,0 +1,292 @@
+//! A number of a scene and the values it takes.
+
+use std::fmt;
+use std::str::FromStr;
+
+/// Runs that a sweep may have: their rows are held in memory when tables are written.
+const RUNS_MAX: usize = 10_000_000;
+
+/// A key of a scene with the values it takes, as `KEY=FROM:TO:N`, `KEY=FROM:TO:N:log` or `KEY=1,2,5`.
+///
+/// `FROM:TO:N` are N ≥ 2 values with both ends, evenly spaced, or evenly in their logarithms. Both ends are met exactly.
+///
+/// ```
+/// use pfaff::sweep::Axis;
+///
+/// let axis: Axis = "simulate.rtol=1e-4:1e-10:3:log".parse()?;
+/// assert_eq!((axis.key(), axis.values()), ("simulate.rtol", &[1e-4, 1e-7, 1e-10][..]));
+/// assert_eq!("body.bob.mass=1,2,5".parse::<Axis>()?.values(), [1.0, 2.0, 5.0]);
+/// assert_eq!("body.bob.mass=0:1:11".parse::<Axis>()?.values()[3], 0.3);
+/// # Ok::<(), pfaff::sweep::AxisError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Axis {
+    key: String,
+    /// The values as they were written.
+    text: String,
+    values: Vec<f64>,
+}
+
+/// Why there is no axis or no grid.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AxisError {
+    /// Neither a range nor a list.
+    #[error("`{text}` is not KEY=FROM:TO:N, KEY=FROM:TO:N:log or KEY=A,B,C")]
+    Form {
+        /// What was written.
+        text: String,
+    },
+    /// A value that is no finite number.
+    #[error("`{text}`: `{value}` is not a finite number")]
+    Value {
+        /// What was written.
+        text: String,
+        /// The value.
+        value: String,
+    },
+    /// A range with fewer than two values, or too many.
+    #[error(
+        "`{text}`: `{count}` is not a number of values from 2 to {RUNS_MAX}; a single value is `KEY=VALUE`"
+    )]
+    Count {
+        /// What was written.
+        text: String,
+        /// The number of values.
+        count: String,
+    },
+    /// Logarithms of numbers that have none.
+    #[error("`{text}`: logarithmic spacing needs two ends of the same sign, neither of them 0")]
+    Logarithm {
+        /// What was written.
+        text: String,
+    },
+    /// No axis at all.
+    #[error("nothing is varied")]
+    Nothing,
+    /// Too many combinations.
+    #[error("the grid has more than {RUNS_MAX} combinations")]
+    TooLarge,
+}
+
+impl Axis {
+    /// A key with any values.
+    ///
+    /// # Errors
+    /// [`AxisError::Form`], [`AxisError::Value`]: there are none, or they are not finite.
+    pub fn list(key: &str, values: &[f64]) -> Result<Self, AxisError> {
+        let texts: Vec<String> = values.iter().map(|x| format!("{x:?}")).collect();
+        format!("{key}={}", texts.join(",")).parse()
+    }
+
+    /// Name of the number; see [`scene::Template`].
+    #[must_use]
+    pub fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// Its values.
+    #[must_use]
+    pub fn values(&self) -> &[f64] {
+        &self.values
+    }
+}
+
+impl fmt::Display for Axis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}={}", self.key, self.text)
+    }
+}
+
+impl FromStr for Axis {
+    type Err = AxisError;
+
+    fn from_str(text: &str) -> Result<Self, AxisError> {
+        let form = || AxisError::Form {
+            text: text.to_owned(),
+        };
+        // Names may have the sign in them, numbers do not.
+        let (key, values) = text.rsplit_once('=').ok_or_else(form)?;
+        if key.is_empty() {
+            return Err(form());
+        }
+        let number = |value: &str| {
+            let read = value.trim().parse().ok().filter(|x: &f64| x.is_finite());
+            read.ok_or_else(|| AxisError::Value {
+                text: text.to_owned(),
+                value: value.to_owned(),
+            })
+        };
+        let parts: Vec<&str> = values.split(':').collect();
+        let (spacing, [from, to, n]) = match parts[..] {
+            [list] => {
+                let values = list.split(',').map(number).collect::<Result<_, _>>()?;
+                return Ok(Self {
+                    key: key.to_owned(),
+                    text: list.to_owned(),
+                    values,
+                });
+            }
+            [from, to, n] => (Spacing::Even, [from, to, n]),
+            [from, to, n, "log"] => (Spacing::Logarithmic, [from, to, n]),
+            _ => return Err(form()),
+        };
+        let count = n.trim().parse().ok();
+        let count = count.filter(|n| (2..=RUNS_MAX).contains(n));
+        let n = count.ok_or_else(|| AxisError::Count {
+            text: text.to_owned(),
+            count: n.to_owned(),
+        })?;
+        let (from, to) = (number(from)?, number(to)?);
+        let has_logarithms = from != 0.0 && to != 0.0 && from.signum() == to.signum();
+        if matches!(spacing, Spacing::Logarithmic) && !has_logarithms {
+            return Err(AxisError::Logarithm {
+                text: text.to_owned(),
+            });
+        }
+        Ok(Self {
+            key: key.to_owned(),
+            text: values.to_owned(),
+            values: (0..n).map(|k| spacing.value(from, to, k, n - 1)).collect(),
+        })
+    }
+}
+
+#[derive(Clone, Copy)]
+enum Spacing {
+    Even,
+    Logarithmic,
+}
+
+impl Spacing {
+    /// Value k of 0 … last.
+    fn value(self, from: f64, to: f64, k: usize, last: usize) -> f64 {
+        let share = k as f64 / last as f64;
+        match self {
+            _ if k == 0 => from,
+            _ if k == last => to,
+            // Rounded once where the ends are whole, so that 0:1:11 meets 0.3.
+            Self::Even if (from.abs() + to.abs()) * (last as f64) < f64::MAX => {
+                (from * (last - k) as f64 + to * k as f64) / last as f64
+            }
+            Self::Even => from * (1.0 - share) + to * share,
+            // Powers of ten meet decades.
+            Self::Logarithmic => {
+                let exponent = from.abs().log10() * (1.0 - share) + to.abs().log10() * share;
+                10_f64.powf(exponent).copysign(from)
+            }
+        }
+    }
+}
+
+/// All combinations of the values of some axes; the last axis runs fastest.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Grid {
+    pub(super) axes: Vec<Axis>,
+    pub(super) len: usize,
+}
+
+impl Grid {
+    pub(super) fn new(axes: Vec<Axis>) -> Result<Self, AxisError> {
+        if axes.is_empty() {
+            return Err(AxisError::Nothing);
+        }
+        let mut len = 1_usize;
+        for axis in &axes {
+            let product = len.checked_mul(axis.values.len());
+            len = product
+                .filter(|n| *n <= RUNS_MAX)
+                .ok_or(AxisError::TooLarge)?;
+        }
+        Ok(Self { axes, len })
+    }
+
+    /// The values of a combination, from 0.
+    pub(super) fn point(&self, run: usize) -> Vec<f64> {
+        let mut rest = run;
+        let mut point: Vec<f64> = self
+            .axes
+            .iter()
+            .rev()
+            .map(|axis| {
+                let n = axis.values.len();
+                let value = axis.values[rest % n];
+                rest /= n;
+                value
+            })
+            .collect();
+        point.reverse();
+        point
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Axis, AxisError, Grid};
+
+    fn axis(text: &str) -> Axis {
+        text.parse().unwrap_or_else(|e: AxisError| panic!("{e}"))
+    }
+
+    #[test]
+    fn values_meet_what_was_written() {
+        assert_eq!(axis("k=0:1:5").values(), [0.0, 0.25, 0.5, 0.75, 1.0]);
+        let tenths = axis("k=0.1:0.9:9");
+        for (k, x) in tenths.values().iter().enumerate() {
+            let written: f64 = format!("0.{}", k + 1).parse().expect("a number");
+            assert!((x - written).abs() <= f64::EPSILON * written, "{x}");
+        }
+        assert_eq!(axis("k=1:1000:4:log").values(), [1.0, 10.0, 100.0, 1000.0]);
+        assert_eq!(axis("k=-0.01:-100:3:log").values(), [-0.01, -1.0, -100.0]);
+        assert_eq!(axis("k=1e-300:1e300:3:log").values()[1], 1.0);
+        assert_eq!(axis("k=-1.7e308:1.7e308:3").values()[1], 0.0);
+        assert_eq!(axis("a=b.mass=2").key(), "a=b.mass");
+        assert_eq!(axis("k=2:1:2").to_string(), "k=2:1:2");
+        assert_eq!(
+            Axis::list("k", &[0.1, -2.0]).map(|a| a.to_string()),
+            Ok("k=0.1,-2.0".to_owned())
+        );
+    }
+
+    #[test]
+    fn what_is_no_axis_is_refused() {
+        for (text, piece) in [
+            ("mass", "is not KEY=FROM:TO:N"),
+            ("=1:2:3", "is not KEY=FROM:TO:N"),
+            ("k=1:2", "is not KEY=FROM:TO:N"),
+            ("k=1:2:3:lin", "is not KEY=FROM:TO:N"),
+            ("k=", "`` is not a finite number"),
+            ("k=1,,2", "`` is not a finite number"),
+            ("k=nan", "`nan` is not a finite number"),
+            ("k=0:inf:3", "`inf` is not a finite number"),
+            ("k=0:1:1", "`1` is not a number of values"),
+            ("k=0:1:-3", "`-3` is not a number of values"),
+            ("k=0:1:1e3", "`1e3` is not a number of values"),
+            ("k=0:1:99999999", "is not a number of values"),
+            ("k=0:1:3:log", "neither of them 0"),
+            ("k=1:0:3:log", "neither of them 0"),
+            ("k=-1:-0.0:3:log", "neither of them 0"),
+            ("k=-1:1:3:log", "neither of them 0"),
+        ] {
+            let error = text.parse::<Axis>().expect_err(text);
+            assert!(error.to_string().contains(piece), "{error}");
+        }
+        let wide = axis("k=0:1:10000");
+        assert_eq!(
+            Grid::new(vec![wide.clone(), wide]),
+            Err(AxisError::TooLarge)
+        );
+        assert_eq!(Grid::new(Vec::new()), Err(AxisError::Nothing));
+    }
+
+    #[test]
+    fn the_last_axis_runs_fastest() {
+        let grid = Grid::new(vec![axis("a=1,2"), axis("b=3,4,5")]).expect("small");
+        let points: Vec<Vec<f64>> = (0..grid.len).map(|k| grid.point(k)).collect();
+        assert_eq!(points.len(), 6);
+        assert_eq!(
+            points[..4],
+            [[1.0, 3.0], [1.0, 4.0], [1.0, 5.0], [2.0, 3.0]]
+        );
+    }
+}

@@ -1,0 +1,181 @@
+//! One run: the scene with its numbers, moved and watched.
+
+use std::ops::ControlFlow;
+
+use dynamics::{Sample, Summary, Trip};
+use model::System;
+use report::sweep::{Extreme, SweepMotion};
+use report::{SweepRow, SweepStatus};
+use solvability::{Analysis, analyse};
+
+use super::Sweep;
+use crate::blueprint::Blueprint;
+use crate::error::StudyError;
+use crate::study::{Overrides, Study};
+
+/// Rates and coordinates of a planar body, as tables have them.
+const N_BODY: usize = 3;
+
+/// A run that can begin: assembled, and judged at its start.
+pub(super) struct Begun<'s> {
+    sweep: &'s Sweep<'s>,
+    run: u64,
+    pub(super) study: Study,
+    analysis: Analysis,
+}
+
+impl Sweep<'_> {
+    /// Assembles a run (from 1).
+    pub(super) fn begin(&self, run: u64) -> Result<Begun<'_>, StudyError> {
+        let text = self.template.with(&self.point(run));
+        let blueprint = Blueprint::read(&self.plan.scene, &text, self.registry)?;
+        let study = blueprint.prepare(&Overrides::default())?;
+        let options = study.options.as_ref().ok_or(StudyError::NoEnd)?;
+        options.check()?;
+        let analysis = analyse(&study.prepared.mechanism, 0.0, &study.prepared.q)?;
+        Ok(Begun {
+            sweep: self,
+            run,
+            study,
+            analysis,
+        })
+    }
+
+    /// The row of a run that cannot begin.
+    pub(super) fn refused(&self, run: u64, error: &StudyError) -> SweepRow {
+        SweepRow {
+            run,
+            varied: self.point(run),
+            status: SweepStatus::Refused,
+            error: reason(error),
+            motion: None,
+        }
+    }
+}
+
+impl Begun<'_> {
+    /// Moves it to its end, or as long as `each` goes on; that sees every written row.
+    pub(super) fn go(&self, mut each: impl FnMut(&Sample<'_, '_>) -> ControlFlow<()>) -> SweepRow {
+        let Self {
+            sweep,
+            run,
+            study,
+            analysis,
+        } = self;
+        let Some(options) = &study.options else {
+            return sweep.refused(*run, &StudyError::NoEnd);
+        };
+        let mut watch = Watch::new(&sweep.reactions, study, analysis);
+        let outcome = study.run(options, |sample| {
+            watch.see(sample)?;
+            Ok(each(sample))
+        });
+        let (summary, error) = match outcome {
+            Ok(summary) => (summary, None),
+            Err(failure) => (failure.summary, Some(StudyError::from(failure.error))),
+        };
+        match error {
+            // It was never on its way.
+            Some(error) if watch.t_state.is_nan() => sweep.refused(*run, &error),
+            error => SweepRow {
+                run: *run,
+                varied: sweep.point(*run),
+                status: match error {
+                    Some(_) => SweepStatus::Stopped,
+                    None => SweepStatus::Done,
+                },
+                error: error.as_ref().map_or(String::new(), reason),
+                motion: Some(watch.motion(study, analysis, &summary)),
+            },
+        }
+    }
+}
+
+/// An error in words, without the name and the lines of a text that nobody has written.
+pub(super) fn reason(error: &StudyError) -> String {
+    let StudyError::Scene(diagnostics) = error else {
+        return error.to_string();
+    };
+    let texts = diagnostics.iter().map(|d| match d.primary.text.as_str() {
+        text if text.starts_with("did you mean") => format!("{}; {text}", d.message),
+        _ => d.message.clone(),
+    });
+    texts.collect::<Vec<_>>().join("; ")
+}
+
+/// What is kept of the written rows of a run.
+struct Watch {
+    /// Time of the last state (s).
+    t_state: f64,
+    /// The last state, body by body as in trajectories.
+    state: Vec<f64>,
+    /// The wanted reactions, and which of them are unique.
+    reactions: Vec<(usize, bool)>,
+    extremes: Vec<Extreme>,
+}
+
+impl Watch {
+    fn new(reactions: &[usize], study: &Study, analysis: &Analysis) -> Self {
+        let is_unique = |k: usize| {
+            let verdict = analysis.reactions.get(k).map(|r| &r.wrench.verdict);
+            verdict.is_some_and(|v| v.is_unique())
+        };
+        Self {
+            t_state: f64::NAN,
+            state: vec![f64::NAN; 2 * study.prepared.mechanism.layout().n_q],
+            reactions: reactions.iter().map(|&k| (k, is_unique(k))).collect(),
+            extremes: vec![Extreme::UNKNOWN; reactions.len()],
+        }
+    }
+
+    fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), Trip> {
+        self.t_state = sample.t;
+        let bodies = sample
+            .q
+            .chunks_exact(N_BODY)
+            .zip(sample.v.chunks_exact(N_BODY));
+        for (state, (q, v)) in self.state.chunks_exact_mut(2 * N_BODY).zip(bodies) {
+            state[..N_BODY].copy_from_slice(q);
+            state[N_BODY..].copy_from_slice(v);
+        }
+        if !self.reactions.iter().any(|(_, is_unique)| *is_unique) {
+            return Ok(());
+        }
+        let all = sample.reactions()?;
+        for ((k, is_unique), extreme) in self.reactions.iter().zip(&mut self.extremes) {
+            if *is_unique && let Some(reaction) = all.get(*k) {
+                let force = reaction.force[0].hypot(reaction.force[1]);
+                extreme.include(sample.t, force, reaction.torque.abs());
+            }
+        }
+        Ok(())
+    }
+
+    fn motion(self, study: &Study, analysis: &Analysis, summary: &Summary) -> SweepMotion {
+        let largest = |values: &[f64]| values.iter().fold(0.0, |a, x| f64::max(a, x.abs()));
+        let not_unique = analysis
+            .reactions
+            .iter()
+            .filter(|r| !r.wrench.verdict.is_unique());
+        SweepMotion {
+            method: summary.method.name(),
+            t: summary.t,
+            steps: summary.steps,
+            rejected: summary.rejected,
+            evaluations: summary.evaluations,
+            projections: summary.projections,
+            seconds: summary.wall_seconds,
+            max_position_residual: summary.max_position_residual,
+            max_velocity_residual: summary.max_velocity_residual,
+            energy_balance: summary.energy_balance,
+            start_correction: largest(&study.prepared.assembly.correction),
+            events: summary.events.len() as u64,
+            rank: analysis.decision.rank as u64,
+            redundancy: analysis.decision.redundancy as u64,
+            not_unique: not_unique.count() as u64,
+            t_state: self.t_state,
+            state: self.state,
+            extremes: self.extremes,
+        }
+    }
+}

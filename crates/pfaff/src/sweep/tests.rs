@@ -1,0 +1,284 @@
+//! Sweeps against closed forms, whatever the threads, the shards and the interruptions.
+
+use std::fs;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use model::Registry;
+use report::{SweepDocument, SweepStatus};
+
+use super::{Shard, Sweep, SweepError, SweepProgress, SweepSettings, merge};
+
+/// A point mass on a rod of length 1 m, which passes its lowest point at v = 10⁻⁴ m/s.
+const PENDULUM: &str = r#"
+scene = { name = "pendulum", space = "plane", gravity = [0.0, -9.81] }
+body = [{ name = "bob", mass = 2.0, inertia = 0.0, velocity = [1e-4, 0.0] }]
+joint = [{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [0.0, 1.0] }]
+start = { keep = ["bob.vx"] }
+simulate = { t_end = 2.0, output_step = 0.5, rtol = 1e-10, atol = 1e-14 }
+"#;
+
+struct Folder(PathBuf);
+
+impl Folder {
+    fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("pfaff-sweep-{}-{name}", std::process::id()));
+        let _ = fs::remove_dir_all(&path);
+        Self(path)
+    }
+
+    /// The table, without the column of seconds.
+    fn table(&self) -> Vec<Vec<String>> {
+        let text = fs::read_to_string(self.0.join("sweep.csv")).expect("written");
+        let cells = |line: &str| line.split(',').map(str::to_owned).collect::<Vec<_>>();
+        let mut rows: Vec<Vec<String>> = text.lines().map(cells).collect();
+        let seconds = rows[0]
+            .iter()
+            .position(|name| name == "seconds")
+            .expect("a column");
+        for row in &mut rows {
+            row.remove(seconds);
+        }
+        rows
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.0);
+    }
+}
+
+fn sweep<'r>(registry: &'r Registry, scene: &str, vary: &[&str]) -> Sweep<'r> {
+    let axes = vary.iter().map(|axis| axis.parse().expect("an axis"));
+    Sweep::read("scene.toml", scene, registry, axes.collect()).unwrap_or_else(|e| panic!("{e}"))
+}
+
+fn run(sweep: &Sweep<'_>, folder: &Folder, shard: Shard, threads: usize) -> SweepDocument {
+    let settings = SweepSettings { shard, threads };
+    let done = sweep.run_into(&folder.0, &settings, || false, |_| {});
+    done.unwrap_or_else(|e| panic!("{e}"))
+}
+
+/// Small swings: x(t) = v/ω·sin ωt with ω² = g/L, and the largest pull m·(g + v²/L) at the bottom. Of the swing θ² < 10⁻⁸ is left out.
+#[test]
+fn a_pendulum_swings_as_its_length_says() {
+    let registry = Registry::planar();
+    let sweep = sweep(&registry, PENDULUM, &["joint.pivot.at[1]=0.25:4:9:log"]);
+    let (v, g) = (1e-4, 9.81_f64);
+    for run in 1..=sweep.runs() {
+        let length = sweep.point(run)[0];
+        let row = sweep.row(run);
+        assert_eq!((row.status, row.error.as_str()), (SweepStatus::Done, ""));
+        let motion = row.motion.expect("it moved");
+        let omega = (g / length).sqrt();
+        let (x, vx) = (v / omega * (2.0 * omega).sin(), v * (2.0 * omega).cos());
+        assert_eq!(motion.t_state, 2.0);
+        assert!(
+            (motion.state[0] - x).abs() < 1e-8 * v,
+            "L = {length}: {:e}",
+            motion.state[0] - x
+        );
+        assert!(
+            (motion.state[3] - vx).abs() < 1e-8 * v * omega,
+            "L = {length}: {:e}",
+            motion.state[3] - vx
+        );
+        let (extreme, pull) = (motion.extremes[0], 2.0 * (g + v * v / length));
+        assert!(
+            (extreme.force - pull).abs() < 1e-13 * pull,
+            "L = {length}: {:e}",
+            extreme.force - pull
+        );
+        assert_eq!(
+            (motion.rank, motion.redundancy, motion.not_unique),
+            (2, 0, 0)
+        );
+    }
+}
+
+/// A beam on two hinges: the pull along it is anybody's guess, and no table has a number for it.
+#[test]
+fn reactions_that_are_not_unique_have_no_number() {
+    let beam = r#"
+scene = { name = "beam", space = "plane", gravity = [0.0, -10.0] }
+body = [{ name = "beam", mass = 3.0, inertia = 1.0 }]
+joint = [
+    { name = "left", type = "revolute", bodies = ["ground", "beam"], at = [-1.0, 0.0] },
+    { name = "right", type = "revolute", bodies = ["ground", "beam"], at = [1.0, 0.0] },
+]
+simulate = { t_end = 0.1 }
+"#;
+    let registry = Registry::planar();
+    let row = sweep(&registry, beam, &["body.beam.mass=1,2"]).row(2);
+    let motion = row.motion.expect("it stands still");
+    assert_eq!(
+        (motion.rank, motion.redundancy, motion.not_unique),
+        (3, 1, 2)
+    );
+    for extreme in &motion.extremes {
+        assert!(extreme.force.is_nan() && extreme.force_time.is_nan() && extreme.torque.is_nan());
+    }
+    // What is not wanted has no column.
+    let named = format!("{beam}output = {{ reactions = [\"right\"] }}\n");
+    let sweep = sweep(&registry, &named, &["body.beam.mass=1,2"]);
+    assert_eq!(sweep.plan.reactions, ["right"]);
+}
+
+#[test]
+fn threads_and_shards_leave_no_trace() {
+    let registry = Registry::planar();
+    // A mass of −1 is refused.
+    let sweep = sweep(
+        &registry,
+        PENDULUM,
+        &["body.bob.mass=-1:8:10", "scene.gravity[1]=-1,-10"],
+    );
+    let folders = ["one", "two", "shards", "apart", "merged"].map(Folder::new);
+    let [one, two, shards, apart, merged] = &folders;
+    let document = run(&sweep, one, Shard::WHOLE, 1);
+    // Mass 0 has no motion either: two of the ten masses, times two.
+    assert_eq!(
+        (document.runs, document.done, document.stopped),
+        (20, 16, 0)
+    );
+    assert_eq!((document.refused, document.partial), (4, false));
+    assert!(
+        document.failures[0].error.contains("mass is -1"),
+        "{:?}",
+        document.failures
+    );
+    run(&sweep, two, Shard::WHOLE, 2);
+    assert_eq!(one.table(), two.table());
+    let shard = |text: &str| text.parse::<Shard>().expect("a shard");
+    for text in ["2/3", "3/3"] {
+        assert!(run(&sweep, shards, shard(text), 2).partial);
+    }
+    let document = run(&sweep, apart, shard("1/3"), 2);
+    assert_eq!((document.finished, document.partial), (7, true));
+    let document = merge(&[shards.0.clone(), apart.0.clone()], &merged.0).expect("one sweep");
+    assert_eq!((document.finished, document.partial), (20, false));
+    assert_eq!(one.table(), merged.table());
+    // The whole sweep in the directory of two shards makes the third part only.
+    let mut begun = (0, 0);
+    let settings = SweepSettings::default();
+    let note = |progress: SweepProgress<'_>| match progress {
+        SweepProgress::Begin { runs, finished } => begun = (runs, finished),
+        SweepProgress::Finished(row) => assert!(shard("1/3").has(row.run)),
+    };
+    sweep
+        .run_into(&shards.0, &settings, || false, note)
+        .expect("continued");
+    assert_eq!(begun, (20, 13));
+    assert_eq!(one.table(), shards.table());
+}
+
+#[test]
+fn an_interrupted_sweep_goes_on_where_it_was() {
+    let registry = Registry::planar();
+    let sweep = sweep(&registry, PENDULUM, &["body.bob.mass=1:12:12"]).keeping_rows();
+    let (folder, whole) = (Folder::new("interrupted"), Folder::new("whole"));
+    let count = AtomicUsize::new(0);
+    let settings = SweepSettings {
+        threads: 2,
+        ..SweepSettings::default()
+    };
+    let mut seen = Vec::new();
+    for limit in [4, 1000] {
+        count.store(0, Ordering::Relaxed);
+        let interrupted = || count.load(Ordering::Relaxed) >= limit;
+        let note = |progress: SweepProgress<'_>| {
+            if let SweepProgress::Finished(row) = progress {
+                count.fetch_add(1, Ordering::Relaxed);
+                seen.push(row.run);
+            }
+        };
+        let document = sweep
+            .run_into(&folder.0, &settings, interrupted, note)
+            .expect("written");
+        assert_eq!(document.finished as usize, seen.len());
+        assert_eq!(document.partial, limit == 4);
+    }
+    seen.sort_unstable();
+    assert_eq!(seen, (1..=12).collect::<Vec<_>>());
+    run(&sweep, &whole, Shard::WHOLE, 1);
+    assert_eq!(folder.table(), whole.table());
+    for run in 1..=12 {
+        let name = format!("runs/{run:02}/trajectory.csv");
+        let [a, b] = [&folder, &whole].map(|f| fs::read(f.0.join(&name)).expect("kept"));
+        assert!(
+            a == b && a.iter().filter(|b| **b == b'\n').count() == 6,
+            "{name}"
+        );
+    }
+}
+
+#[test]
+fn wrong_sweeps_are_refused_before_anything_is_written() {
+    let registry = Registry::planar();
+    let folder = Folder::new("refused");
+    let refused = |scene: &str, vary: &[&str]| {
+        let axes = vary
+            .iter()
+            .map(|axis| axis.parse().expect("an axis"))
+            .collect();
+        let sweep = match Sweep::read("scene.toml", scene, &registry, axes) {
+            Ok(sweep) => sweep,
+            Err(error) => return error,
+        };
+        let settings = SweepSettings::default();
+        let begun = sweep.run_into(&folder.0, &settings, || false, |_| {});
+        begun.expect_err("refused")
+    };
+    let endless = PENDULUM.replace("simulate", "# simulate");
+    let wrong = PENDULUM.replace("mass = 2.0", "mass = -2.0");
+    for (error, piece) in [
+        (refused(PENDULUM, &[]), "nothing is varied"),
+        (
+            refused(PENDULUM, &["body.bib.mass=1,2"]),
+            "there is no `bib` in `body`; did you mean `bob`?",
+        ),
+        (
+            refused(PENDULUM, &["body.bob.mass=1,2", "body[0].mass=3,4"]),
+            "are the same number",
+        ),
+        (
+            refused(PENDULUM, &["body.bob.mas=1,2"]),
+            "none of the 2 runs can begin; the first, with body.bob.mas = 1: body `bob` has no key `mas`; did you mean `mass`?",
+        ),
+        (refused(PENDULUM, &["body.bob.mass=-1,-2"]), "mass is -1"),
+        (refused(&endless, &["body.bob.mass=1,2"]), "t_end"),
+        (refused(&wrong, &["body.bob.mass=1,2"]), "mass is -2"),
+    ] {
+        assert!(
+            error.is_input() && error.to_string().contains(piece),
+            "{error}"
+        );
+    }
+    assert!(!folder.0.exists());
+    // A directory with results of another sweep stays as it is.
+    run(
+        &sweep(&registry, PENDULUM, &["body.bob.mass=1,2"]),
+        &folder,
+        Shard::WHOLE,
+        1,
+    );
+    let before = folder.table();
+    for (scene, vary, piece) in [
+        (
+            PENDULUM,
+            "body.bob.mass=1,3",
+            "the grid is body.bob.mass=1,3, and was body.bob.mass=1,2",
+        ),
+        (
+            &PENDULUM.replace("9.81", "9.8"),
+            "body.bob.mass=1,2",
+            "the text of the scene is",
+        ),
+    ] {
+        let error = refused(scene, &[vary]);
+        assert!(matches!(error, SweepError::Journal(_)) && error.is_input());
+        assert!(error.to_string().contains(piece), "{error}");
+        assert_eq!(folder.table(), before);
+    }
+}

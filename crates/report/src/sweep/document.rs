@@ -1,0 +1,99 @@
+//! `summary.json` of a sweep.
+
+use serde::Serialize;
+
+use super::{Cell, Column, SweepPlan, SweepRows, SweepStatus};
+
+/// Runs that are not done and are named.
+const NAMED: usize = 10;
+
+/// What has become of a sweep.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SweepDocument {
+    /// Name of the scene.
+    pub scene: String,
+    /// Keys with their values.
+    pub vary: Vec<String>,
+    /// Number of runs of the whole grid.
+    pub runs: u64,
+    /// How many of them have a row.
+    pub finished: u64,
+    /// Whether some have none.
+    pub partial: bool,
+    /// Runs that reached their end.
+    pub done: u64,
+    /// Runs that stopped before it.
+    pub stopped: u64,
+    /// Runs that did not begin.
+    pub refused: u64,
+    /// The first ones that are not done.
+    pub failures: Vec<SweepFailure>,
+    /// The largest energy balance of all runs; nothing where no run has one.
+    pub max_energy_balance: Option<f64>,
+    /// The run that has it.
+    pub max_energy_balance_run: Option<u64>,
+}
+
+/// A run that is not done.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct SweepFailure {
+    /// Its number, from 1.
+    pub run: u64,
+    /// `stopped` or `refused`.
+    pub status: String,
+    /// Why.
+    pub error: String,
+}
+
+impl SweepDocument {
+    /// The summary of rows under these columns.
+    pub(super) fn new(plan: &SweepPlan, columns: &[Column], rows: &SweepRows) -> Self {
+        let place = |name: &str| {
+            // Varied keys come first and may have any name.
+            let behind = 1 + plan.keys.len();
+            let own = columns.iter().skip(behind);
+            own.take_while(|c| c.name != name).count() + behind
+        };
+        let (status, error, balance) = (place("status"), place("error"), place("energy_balance"));
+        let word = |cells: &[Cell], k: usize| match cells.get(k) {
+            Some(Cell::Text(text)) => text.clone(),
+            _ => String::new(),
+        };
+        let count = |wanted: SweepStatus| {
+            let such = rows.values().filter(|c| word(c, status) == wanted.name());
+            such.count() as u64
+        };
+        let is_done = |cells: &[Cell]| word(cells, status) == SweepStatus::Done.name();
+        let failures = rows.iter().filter(|(_, cells)| !is_done(cells));
+        let mut worst: Option<(u64, f64)> = None;
+        for (run, cells) in rows {
+            if let Some(Cell::Number(x)) = cells.get(balance)
+                && !x.is_nan()
+                && worst.is_none_or(|(_, largest)| *x > largest)
+            {
+                worst = Some((*run, *x));
+            }
+        }
+        let finished = rows.len() as u64;
+        Self {
+            scene: plan.scene.clone(),
+            vary: plan.vary.clone(),
+            runs: plan.runs,
+            finished,
+            partial: finished < plan.runs,
+            done: count(SweepStatus::Done),
+            stopped: count(SweepStatus::Stopped),
+            refused: count(SweepStatus::Refused),
+            failures: failures
+                .take(NAMED)
+                .map(|(run, cells)| SweepFailure {
+                    run: *run,
+                    status: word(cells, status),
+                    error: word(cells, error),
+                })
+                .collect(),
+            max_energy_balance: worst.map(|(_, x)| x),
+            max_energy_balance_run: worst.map(|(run, _)| run),
+        }
+    }
+}

@@ -1,0 +1,209 @@
+//! One run of a sweep as a row, and the columns of all rows.
+
+use super::{Cell, Column, Kind, SweepPlan};
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SweepStatus {
+    /// At its last time.
+    Done,
+    /// Before it; what was reached is given.
+    Stopped,
+    /// It did not begin: the numbers make no mechanism, or no motion.
+    Refused,
+}
+
+impl SweepStatus {
+    /// Its word in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Done => "done",
+            Self::Stopped => "stopped",
+            Self::Refused => "refused",
+        }
+    }
+}
+
+/// Largest |F| and |T| of a joint or drive over the written rows of a run, each with the first time at which it occurs (s). NaN where the
+/// reaction is not unique: there is no such number without a choice.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Extreme {
+    /// Largest |F| (N).
+    pub force: f64,
+    /// When (s).
+    pub force_time: f64,
+    /// Largest |T| (N·m).
+    pub torque: f64,
+    /// When (s).
+    pub torque_time: f64,
+}
+
+impl Extreme {
+    /// Nothing is known.
+    pub const UNKNOWN: Self = Self {
+        force: f64::NAN,
+        force_time: f64::NAN,
+        torque: f64::NAN,
+        torque_time: f64::NAN,
+    };
+
+    /// Takes a value at a time into account; NaN is none.
+    pub fn include(&mut self, t: f64, force: f64, torque: f64) {
+        // A comparison with NaN is false, and the first value is larger than nothing.
+        if force > self.force || self.force.is_nan() && !force.is_nan() {
+            (self.force, self.force_time) = (force, t);
+        }
+        if torque > self.torque || self.torque.is_nan() && !torque.is_nan() {
+            (self.torque, self.torque_time) = (torque, t);
+        }
+    }
+}
+
+/// The numbers of a run that began.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepMotion {
+    /// Integrator.
+    pub method: &'static str,
+    /// Last time reached (s).
+    pub t: f64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Evaluations of accelerations.
+    pub evaluations: u64,
+    /// Projections of steps.
+    pub projections: u64,
+    /// Time of the integration alone (s).
+    pub seconds: f64,
+    /// Largest |Φ|.
+    pub max_position_residual: f64,
+    /// Largest |C·v − b|.
+    pub max_velocity_residual: f64,
+    /// Largest |E − E₀ − work| relative to the largest kinetic energy.
+    pub energy_balance: f64,
+    /// Largest change of a coordinate by the assembly (m or rad).
+    pub start_correction: f64,
+    /// Events on the way.
+    pub events: u64,
+    /// Rank of C at the start.
+    pub rank: u64,
+    /// Degree of redundancy at the start.
+    pub redundancy: u64,
+    /// Joints and drives whose reaction is not unique at the start, or undecided.
+    pub not_unique: u64,
+    /// Time of the last written state (s); the end of a run that is done.
+    pub t_state: f64,
+    /// The last written state, body by body x, y, angle, vx, vy, omega; NaN where no row was written.
+    pub state: Vec<f64>,
+    /// Of the joints and drives of [`SweepPlan::reactions`].
+    pub extremes: Vec<Extreme>,
+}
+
+/// A run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SweepRow {
+    /// Its number in the grid, from 1.
+    pub run: u64,
+    /// The varied numbers.
+    pub varied: Vec<f64>,
+    /// How it ended.
+    pub status: SweepStatus,
+    /// Why it is not done; empty if it is.
+    pub error: String,
+    /// Its numbers, if it began.
+    pub motion: Option<SweepMotion>,
+}
+
+const COUNTS: [&str; 8] = [
+    "steps",
+    "rejected",
+    "evaluations",
+    "projections",
+    "events",
+    "rank",
+    "redundancy",
+    "not_unique",
+];
+const NUMBERS: [&str; 6] = [
+    "seconds",
+    "max_position_residual",
+    "max_velocity_residual",
+    "energy_balance",
+    "start_correction",
+    "t_state",
+];
+const STATE: [&str; 6] = ["x", "y", "angle", "vx", "vy", "omega"];
+const EXTREME: [&str; 4] = ["F_max", "F_max_t", "T_max", "T_max_t"];
+
+impl SweepPlan {
+    /// `run`, the varied keys, `status`, `error`, `method`, `t`, counts, numbers, then per body its last state and per wanted joint
+    /// and drive its extremes.
+    #[must_use]
+    pub fn columns(&self) -> Vec<Column> {
+        let column = |kind: Kind| move |name: String| Column { name, kind };
+        let own = |names: &'static [&'static str], kind| {
+            names
+                .iter()
+                .map(|name| (*name).to_owned())
+                .map(column(kind))
+        };
+        let of = |things: &[String], parts: &'static [&'static str]| {
+            let names = things
+                .iter()
+                .flat_map(|thing| parts.iter().map(move |part| format!("{thing}.{part}")));
+            names.map(column(Kind::Number)).collect::<Vec<_>>()
+        };
+        own(&["run"], Kind::Count)
+            .chain(self.keys.iter().cloned().map(column(Kind::Number)))
+            .chain(own(&["status", "error", "method"], Kind::Text))
+            .chain(own(&["t"], Kind::Number))
+            .chain(own(&COUNTS, Kind::Count))
+            .chain(own(&NUMBERS, Kind::Number))
+            .chain(of(&self.bodies, &STATE))
+            .chain(of(&self.reactions, &EXTREME))
+            .collect()
+    }
+
+    /// A row under [`SweepPlan::columns`].
+    pub(super) fn cells(&self, row: &SweepRow) -> Vec<Cell> {
+        let motion = row.motion.as_ref();
+        let number = |x: fn(&SweepMotion) -> f64| Cell::Number(motion.map_or(f64::NAN, x));
+        let count = |n: fn(&SweepMotion) -> u64| Cell::Count(motion.map(n));
+        let mut cells = vec![Cell::Count(Some(row.run))];
+        cells.extend(row.varied.iter().copied().map(Cell::Number));
+        cells.push(Cell::Text(row.status.name().to_owned()));
+        cells.push(Cell::line(&row.error));
+        cells.push(Cell::line(motion.map_or("", |m| m.method)));
+        cells.push(number(|m| m.t));
+        cells.extend([
+            count(|m| m.steps),
+            count(|m| m.rejected),
+            count(|m| m.evaluations),
+            count(|m| m.projections),
+            count(|m| m.events),
+            count(|m| m.rank),
+            count(|m| m.redundancy),
+            count(|m| m.not_unique),
+            number(|m| m.seconds),
+            number(|m| m.max_position_residual),
+            number(|m| m.max_velocity_residual),
+            number(|m| m.energy_balance),
+            number(|m| m.start_correction),
+            number(|m| m.t_state),
+        ]);
+        match motion {
+            Some(m) => {
+                cells.extend(m.state.iter().copied().map(Cell::Number));
+                let values = |e: &Extreme| [e.force, e.force_time, e.torque, e.torque_time];
+                cells.extend(m.extremes.iter().flat_map(values).map(Cell::Number));
+            }
+            None => {
+                let n = STATE.len() * self.bodies.len() + EXTREME.len() * self.reactions.len();
+                cells.extend(std::iter::repeat_n(Cell::Number(f64::NAN), n));
+            }
+        }
+        cells
+    }
+}

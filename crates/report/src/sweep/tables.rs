@@ -1,0 +1,46 @@
+//! The tables of a sweep, made of its journals: in the order of the grid, whoever made the runs.
+
+use std::fs::File;
+
+use super::{Journals, SweepDocument};
+use crate::documents::write_json;
+use crate::files::{FileError, OutputDirectory};
+use crate::tables::{Table, TableError};
+
+/// Held while tables are written, by one process at a time.
+const LOCK: &str = "tables.lock";
+
+/// Writes `sweep.csv`, `sweep.parquet` where this is compiled, and `summary.json`. `read` reads the journals once nobody else
+/// is writing tables: of several shards that end at the same time, the last one has all rows.
+///
+/// # Errors
+/// Those of `read`, and if something could not be written; whole older tables stay.
+pub fn write_sweep<E: From<FileError> + From<TableError>>(
+    directory: &OutputDirectory,
+    read: impl FnOnce() -> Result<Journals, E>,
+) -> Result<SweepDocument, E> {
+    let path = directory.path().join(LOCK);
+    let lock = File::create(&path).map_err(FileError::refused("make", &path))?;
+    lock.lock().map_err(FileError::refused("lock", &path))?;
+    let Journals { plan, rows } = read()?;
+    let columns = plan.columns();
+    let names: Vec<String> = columns.iter().map(|c| c.name.clone()).collect();
+    let mut table = Table::new("sweep.csv", directory.file("sweep.csv")?, &names)?;
+    for cells in rows.values() {
+        table.record(cells)?;
+    }
+    table.finish()?.finish()?;
+    #[cfg(feature = "parquet")]
+    {
+        let file = directory.file("sweep.parquet")?;
+        super::parquet::write(file, &plan, &columns, &rows)?.finish()?;
+    }
+    let document = SweepDocument::new(&plan, &columns, &rows);
+    let mut text = Vec::new();
+    write_json(&mut text, &document).map_err(|source| TableError::Write {
+        table: "summary.json",
+        source,
+    })?;
+    directory.write("summary.json", &text)?;
+    Ok(document)
+}

@@ -1,0 +1,29 @@
+//! For build scripts: modules that follow their scenes.
+
+use std::path::{Path, PathBuf};
+
+use crate::error::CodeError;
+use crate::module::Choices;
+
+/// Writes the module of a scene file as `NAME.rs` into the folder that cargo gives to build scripts, to be included as an item, and
+/// returns what the script has to tell cargo.
+///
+/// ```no_run
+/// // build.rs
+/// let choices = scene_codegen::Choices { dynamics: Some("pfaff::dynamics".into()), libm: false };
+/// println!("{}", scene_codegen::to_out_dir("scenes/robot.toml".as_ref(), "robot", &choices).unwrap());
+/// // src/main.rs: include!(concat!(env!("OUT_DIR"), "/robot.rs")); with `pub mod robot { … }` in it
+/// ```
+///
+/// # Errors
+/// As [`crate::scene`]; also if the file cannot be written.
+pub fn to_out_dir(scene: &Path, name: &str, choices: &Choices) -> Result<String, CodeError> {
+    let folder = std::env::var_os("OUT_DIR").map_or_else(PathBuf::new, PathBuf::from);
+    let module = crate::scene(scene, None, choices)?.named(name);
+    let path = folder.join(format!("{name}.rs"));
+    std::fs::write(&path, module.as_item()).map_err(|source| CodeError::File {
+        path: path.display().to_string(),
+        source,
+    })?;
+    Ok(format!("cargo:rerun-if-changed={}", scene.display()))
+}

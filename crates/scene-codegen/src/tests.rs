@@ -1,0 +1,292 @@
+//! Code against the interpreter, which solves the same equations by another elimination in another order.
+
+use dynamics::{KeptRowMotion, Motion};
+use linalg::KeptRowSaddle;
+use model::System;
+use pfaff::{Blueprint, Overrides, Study};
+use symbolic::Symbol;
+
+use crate::equations::Source;
+use crate::functions::{Function, Functions};
+use crate::subject::{State, Subject};
+
+/// Relative difference of two eliminations in `f64`.
+const SAME: f64 = 1e-13;
+
+/// States per scene; the robot has a thousand.
+const STATES: usize = 40;
+
+pub(crate) const ROBOT: &str = include_str!("../../robot-trolley/robot-trolley.toml");
+
+/// Two bodies in space that nothing holds, tied by a spring.
+const FREE: &str = r#"
+scene = { name = "free", space = "plane", gravity = [0.0, -1.0] }
+body = [
+    { name = "a", mass = 1.0, inertia = 0.2, angular_velocity = 2.0 },
+    { name = "b", mass = 2.0, inertia = 0.1, position = [1.0, 0.5], velocity = [0.0, 1.0] },
+]
+force = [{ name = "s", type = "spring-damper", bodies = ["a", "b"], points = { a = [0.2, 0.1], b = [0.0, 0.3] }, stiffness = 30.0, damping = 0.5 }]
+simulate = { t_end = 2.0 }
+"#;
+
+/// A crank without freedom, driven by a table through which the drive's rate bends.
+const DRIVEN: &str = r#"
+scene = { name = "driven", space = "plane", gravity = [0.0, -9.81] }
+body = [{ name = "crank", mass = 1.0, inertia = 0.2, position = [0.5, 0.0] }]
+joint = [{ name = "A", type = "revolute", bodies = ["ground", "crank"], at = [0.0, 0.0] }]
+drive = [{ name = "D", joint = "A", type = "angle", motion = { type = "table", times = [0.0, 1.0, 2.5], values = [0.0, 0.7, -0.4] } }]
+force = [{ name = "T", type = "torque", body = "crank", torque = { type = "harmonic", amplitude = 2.0, omega = 3.0, phase = 0.1, offset = 0.5 } }]
+simulate = { t_end = 2.0 }
+"#;
+
+pub(crate) fn scenes() -> Vec<(String, String)> {
+    let mut scenes: Vec<(String, String)> = suite::all()
+        // The same mechanism as the shorter one.
+        .filter(|case| case.name != "a01-pendulum-2000s")
+        .map(|case| (case.name.to_owned(), case.scene.to_owned()))
+        .collect();
+    scenes.push(("free".into(), FREE.into()));
+    scenes.push(("driven".into(), DRIVEN.into()));
+    scenes
+}
+
+pub(crate) fn study(name: &str, text: &str) -> Study {
+    Blueprint::read(name, text, &model::Registry::planar())
+        .and_then(|b| b.prepare(&Overrides::default()))
+        .unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+pub(crate) fn subject<'a>(study: &'a Study, name: &str) -> Subject<'a> {
+    let options = study.options.as_ref().expect("the scene has a run");
+    Subject::of_run(&study.prepared, options).unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+/// What a function of a module gives at a state, and its health; `extra` gives the other inputs.
+fn run(
+    functions: &Functions,
+    subject: &Subject<'_>,
+    name: &str,
+    state: &State,
+    extra: impl Fn(Source) -> f64,
+) -> (Vec<f64>, f64) {
+    let f: &Function = functions
+        .list
+        .iter()
+        .find(|f| f.signature.name == name)
+        .expect("every module has it");
+    let input = |s: Symbol| match functions.equations.sources[s.index()] {
+        Source::Mechanism(input) => subject.input(input, state),
+        other => extra(other),
+    };
+    let mut values = f.program.run(input);
+    let shares = values.split_off(f.n_out);
+    (values, shares.into_iter().fold(f64::INFINITY, f64::min))
+}
+
+/// States on the constraints around the motion.
+fn states(study: &Study, subject: &Subject<'_>, n: usize) -> Vec<State> {
+    let mut motion = KeptRowMotion::new(&study.prepared).expect("moves");
+    let (mechanism, size) = (&study.prepared.mechanism, study.prepared.assembly.size);
+    let mut found = Vec::new();
+    let mut seed = 0.5_f64;
+    let mut random = || {
+        seed = (seed * 12.9898 + 78.233).sin() * 43758.5453;
+        seed -= seed.floor();
+        2.0 * seed - 1.0
+    };
+    for k in 0..4 * n {
+        let State { t, mut q, mut v } = subject.states[k % subject.states.len()].clone();
+        for (j, q) in q.iter_mut().enumerate() {
+            *q += 0.02 * random() * mechanism.unit(j, size);
+        }
+        for (j, v) in v.iter_mut().enumerate() {
+            *v += random() * mechanism.unit(j, size);
+        }
+        if found.len() < n && motion.project(t, &mut q, &mut v).is_ok() {
+            found.push(State { t, q, v });
+        }
+    }
+    found
+}
+
+fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |a, x| a.max(x.abs()))
+}
+
+/// Largest difference of accelerations and multipliers, relative, over states where neither is near a singular configuration.
+fn compare(name: &str, text: &str, n: usize) -> (usize, f64) {
+    let study = study(name, text);
+    let subject = subject(&study, name);
+    let functions = Functions::new(&subject).unwrap_or_else(|e| panic!("{name}: {e}"));
+    let mechanism = &study.prepared.mechanism;
+    let layout = mechanism.layout();
+    let mut motion = KeptRowMotion::new(&study.prepared).expect("moves");
+    let (mut compared, mut worst) = (0, 0.0_f64);
+    for state in states(&study, &subject, n) {
+        let (t, q, v) = (state.t, &state.q, &state.v);
+        let none = |_| 0.0;
+        let (a, health) = run(&functions, &subject, "acceleration", &state, none);
+        let mut expected = vec![0.0; layout.n_v];
+        if health < 0.1 || motion.acceleration(t, q, v, &mut expected).is_err() {
+            continue;
+        }
+        compared += 1;
+        // What cancels in an acceleration is as large as the squares of velocities and the accelerations of forces.
+        let size = largest(&expected).max(largest(v).powi(2)).max(1e-3);
+        let differences = a.iter().zip(&expected).map(|(a, e)| (a - e).abs() / size);
+        let apart = differences.fold(0.0, f64::max);
+        let (lambda, _) = run(&functions, &subject, "multipliers", &state, none);
+        let mut expected = vec![0.0; layout.rows()];
+        motion.multipliers(t, q, v, &mut expected).expect("solves");
+        let size = largest(&expected).max(largest(mechanism.mass()) * size);
+        let differences = lambda
+            .iter()
+            .zip(&expected)
+            .map(|(a, e)| (a - e).abs() / size);
+        let apart = differences.fold(apart, f64::max);
+        worst = worst.max(apart);
+
+        let mut s = mechanism.scratch();
+        mechanism.pose(t, q, &mut s);
+        mechanism.phi(&mut s);
+        mechanism.c(&mut s);
+        mechanism.b(&mut s);
+        let (phi, _) = run(&functions, &subject, "phi", &state, none);
+        let (residual, _) = run(&functions, &subject, "velocity_residual", &state, none);
+        for i in 0..layout.rows() {
+            let expected = layout.velocity_residual(&s, i, v);
+            assert!(
+                (residual[i] - expected).abs() < 1e-12 * (1.0 + largest(v)),
+                "{name}"
+            );
+            if i < layout.m {
+                assert!(
+                    (phi[i] - s.phi[i]).abs() < 1e-13 * (1.0 + largest(q)),
+                    "{name}"
+                );
+            }
+        }
+    }
+    (compared, worst)
+}
+
+#[test]
+fn code_equals_the_interpreter_on_every_scene() {
+    for (name, text) in scenes() {
+        let (compared, worst) = compare(&name, &text, STATES);
+        println!("{name}: {compared} states, {worst:.1e}");
+        assert!(compared >= STATES / 4, "{name}: {compared} states");
+        assert!(worst < 100.0 * SAME, "{name}: {worst:e}");
+    }
+}
+
+#[test]
+fn code_equals_the_interpreter_at_a_thousand_states_of_the_robot() {
+    let (compared, worst) = compare("robot-trolley", ROBOT, 1000);
+    println!("{compared} states, {worst:.1e}");
+    assert!(compared >= 900);
+    assert!(worst < SAME, "{worst:e}");
+}
+
+/// Corrections against a saddle solve; derivatives against differences.
+#[test]
+fn corrections_and_derivatives() {
+    for (name, text) in scenes() {
+        let study = study(&name, &text);
+        let subject = subject(&study, &name);
+        let functions = Functions::new(&subject).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let mechanism = &study.prepared.mechanism;
+        let layout = mechanism.layout();
+        let rhs = |i: usize| 1e-3 * (1.0 + i as f64).sin();
+        let extra = |source| match source {
+            Source::Rhs(i) => rhs(i),
+            Source::AlongQ(k) => (2.0 * k as f64).cos(),
+            Source::AlongV(k) => (3.0 * k as f64).sin(),
+            Source::Mechanism(_) => 0.0,
+        };
+        for state in states(&study, &subject, 5) {
+            let mut s = mechanism.scratch();
+            mechanism.pose(state.t, &state.q, &mut s);
+            mechanism.c(&mut s);
+            let dense = layout.dense(&s);
+            let levels = [
+                (
+                    "position_correction",
+                    &study.prepared.position_decision.kept,
+                ),
+                ("velocity_correction", &study.prepared.decision.kept),
+            ];
+            for (level, kept) in levels {
+                let (d, health) = run(&functions, &subject, level, &state, extra);
+                if health < 0.3 {
+                    continue;
+                }
+                let mut saddle = KeptRowSaddle::new(layout.n_v, kept.len()).expect("sizes");
+                saddle
+                    .factor_above(0.0, |k| dense.row(kept[k]), mechanism.mass())
+                    .expect("independent");
+                let missing: Vec<f64> = kept.iter().map(|&i| -rhs(i)).collect();
+                let mut expected = vec![0.0; layout.n_v];
+                let mut lambda = vec![0.0; kept.len()];
+                let zero = vec![0.0; layout.n_v];
+                saddle
+                    .solve(&zero, &missing, &mut expected, &mut lambda)
+                    .expect("solves");
+                for (d, e) in d.iter().zip(&expected) {
+                    let size = largest(&expected).max(1e-12);
+                    assert!((d - e).abs() < 1e-10 * size, "{name} {level}: {d} {e}");
+                }
+            }
+            let (da, health) = run(&functions, &subject, "jacobian_action", &state, extra);
+            if health < 0.3 {
+                continue;
+            }
+            let at = |h: f64| {
+                let mut moved = state.clone();
+                for (k, q) in moved.q.iter_mut().enumerate() {
+                    *q += h * extra(Source::AlongQ(k));
+                }
+                for (k, v) in moved.v.iter_mut().enumerate() {
+                    *v += h * extra(Source::AlongV(k));
+                }
+                run(&functions, &subject, "acceleration", &moved, |_| 0.0).0
+            };
+            // Fourth order: the error is h⁴ and rounding/h.
+            let h = 1e-4;
+            let [a, b, c, d] = [at(-2.0 * h), at(-h), at(h), at(2.0 * h)];
+            let scale = largest(&da).max(largest(&b)).max(1.0);
+            for k in 0..da.len() {
+                let difference = (a[k] - 8.0 * b[k] + 8.0 * c[k] - d[k]) / (12.0 * h);
+                assert!(
+                    (da[k] - difference).abs() < 1e-6 * scale,
+                    "{name} {k}: {} {difference} of {scale}",
+                    da[k]
+                );
+            }
+        }
+    }
+}
+
+/// What the robot costs: a change that needs more operations has to say so here.
+#[test]
+fn the_robot_needs_no_more_operations_than_it_did() {
+    let study = study("robot-trolley", ROBOT);
+    let functions = Functions::new(&subject(&study, "robot-trolley")).expect("code");
+    for (name, most) in [
+        ("acceleration", 635),
+        ("multipliers", 797),
+        ("phi", 102),
+        ("velocity_residual", 158),
+        ("position_correction", 495),
+        ("velocity_correction", 547),
+        ("jacobian_action", 1758),
+    ] {
+        let f = functions.list.iter().find(|f| f.signature.name == name);
+        let counts = f.expect("every module has it").program.counts();
+        assert!(
+            counts.total() <= most,
+            "{name}: {} > {most}",
+            counts.total()
+        );
+    }
+}

@@ -1,0 +1,113 @@
+//! A scene in which some numbers are open: the text with other values in their places. The rest of the text stays as it is, so that
+//! [`read`](crate::read()) judges what comes out like any other scene, line by line.
+//!
+//! Not here: which values; and whether a value makes sense.
+
+mod key;
+#[cfg(test)]
+mod tests;
+
+use std::ops::Range;
+
+use toml::de::DeTable;
+
+pub use key::KeyError;
+
+/// Whole numbers below this are written without a point: some keys take nothing else.
+const WHOLE: f64 = 9_007_199_254_740_992.0;
+
+/// The text of a scene with places for numbers.
+///
+/// A key is written as people say it: `body.platform.mass`, `joint.H.axis[0]`, `drive.steer.motion.steps[0].by`, `scene.gravity[1]`,
+/// `simulate.rtol`. Things with names go by their names or by `[0]`, `[1]`, …; entries of lists are counted from 0. A key that the text leaves out is
+/// added to its table, which must be there.
+///
+/// ```
+/// let text = "[scene]\nname = \"drop\"\n[[body]]\nname = \"bob\"\nmass = 1.0 # kg\n";
+/// let template = scene::Template::new(text, &["body.bob.mass", "body.bob.angle"])?;
+/// let changed = template.with(&[2.5, 0.1]);
+/// assert_eq!(changed, "[scene]\nname = \"drop\"\n[[body]]\nangle = 0.1\nname = \"bob\"\nmass = 2.5 # kg\n");
+///
+/// let wrong = scene::Template::new(text, &["body.bib.mass"]).err().unwrap();
+/// assert_eq!(wrong.to_string(), "`body.bib.mass`: there is no `bib` in `body`; did you mean `bob`?");
+/// # Ok::<(), scene::KeyError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Template {
+    text: String,
+    /// In the order of the text, each with the position of its key.
+    slots: Vec<(usize, Slot)>,
+}
+
+/// Where a number goes, and what else is written there.
+#[derive(Clone, Debug)]
+struct Slot {
+    span: Range<usize>,
+    before: String,
+    after: &'static str,
+}
+
+impl Template {
+    /// Opens the numbers under these keys.
+    ///
+    /// # Errors
+    /// - [`KeyError::NotToml`]: the text cannot be taken apart; [`read`](crate::read()) says why.
+    /// - [`KeyError::Unknown`], [`KeyError::Index`]: a key names nothing.
+    /// - [`KeyError::NotANumber`], [`KeyError::NoRoom`]: there is no number, and none can be put there.
+    /// - [`KeyError::Repeated`]: two keys name the same number.
+    pub fn new(text: &str, keys: &[&str]) -> Result<Self, KeyError> {
+        let root = DeTable::parse(text).map_err(|_| KeyError::NotToml)?;
+        let find = |key: &&str| key::find(key, text, root.get_ref());
+        let found = keys.iter().map(find).collect::<Result<Vec<_>, _>>()?;
+        let mut slots: Vec<(usize, Slot)> = found.into_iter().enumerate().collect();
+        slots.sort_by_key(|(k, slot)| (slot.span.start, *k));
+        let same = |pair: &&[(usize, Slot)]| {
+            let [(_, a), (_, b)] = pair else { return false };
+            a.span == b.span && a.before == b.before
+        };
+        if let Some([(first, _), (second, _)]) = slots.windows(2).find(same) {
+            return Err(KeyError::Repeated {
+                key: keys[*second].to_owned(),
+                first: keys[*first].to_owned(),
+            });
+        }
+        Ok(Self {
+            text: text.to_owned(),
+            slots,
+        })
+    }
+
+    /// The text with these values, in the order of the keys.
+    ///
+    /// # Panics
+    /// If there are not as many values as keys.
+    #[must_use]
+    pub fn with(&self, values: &[f64]) -> String {
+        let n = self.slots.len();
+        assert!(
+            values.len() == n,
+            "{} values for {n} keys of a template",
+            values.len()
+        );
+        let mut out = String::with_capacity(self.text.len() + 32 * n);
+        let mut at = 0;
+        for (k, slot) in &self.slots {
+            out.push_str(&self.text[at..slot.span.start]);
+            out.push_str(&slot.before);
+            out.push_str(&number(values[*k]));
+            out.push_str(slot.after);
+            at = slot.span.end;
+        }
+        out.push_str(&self.text[at..]);
+        out
+    }
+}
+
+/// The shortest text that reads back to the same bits.
+fn number(value: f64) -> String {
+    match value.fract() == 0.0 && value.abs() < WHOLE {
+        true => format!("{value:.0}"),
+        false if value.is_nan() => "nan".to_owned(),
+        false => format!("{value:?}"),
+    }
+}

@@ -1,0 +1,282 @@
+//! From a key to the place of its number in the text.
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::Slot;
+use crate::field::{as_number, found};
+use crate::nearest::{list, nearest};
+
+/// Names that a message lists.
+const LISTED: usize = 12;
+
+/// Why a key names no number of a scene.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum KeyError {
+    /// The text is not TOML.
+    #[error("the scene cannot be read")]
+    NotToml,
+    /// A part of the key that does not exist.
+    #[error("`{key}`: there is no `{part}` in `{within}`{}", advice(.nearest.as_deref(), .known))]
+    Unknown {
+        /// The key.
+        key: String,
+        /// The part that does not exist.
+        part: String,
+        /// What was found up to there.
+        within: String,
+        /// The name that was probably meant.
+        nearest: Option<String>,
+        /// The names that exist.
+        known: Vec<String>,
+    },
+    /// An entry beyond the end of a list.
+    #[error(
+        "`{key}`: `{within}` has {length} entries, counted from 0; there is no entry `{index}`"
+    )]
+    Index {
+        /// The key.
+        key: String,
+        /// The list.
+        within: String,
+        /// What stands in brackets.
+        index: String,
+        /// How many there are.
+        length: usize,
+    },
+    /// Something else than a number.
+    #[error("`{key}` is {found}, not a number{}", inside(.parts))]
+    NotANumber {
+        /// The key.
+        key: String,
+        /// What it is.
+        found: String,
+        /// How its parts are named.
+        parts: Vec<String>,
+    },
+    /// A key that the text leaves out, in a table that has neither a header nor braces.
+    #[error("`{key}` is not in the scene; write it there, with any number")]
+    NoRoom {
+        /// The key.
+        key: String,
+    },
+    /// The same number twice.
+    #[error("`{key}` and `{first}` are the same number")]
+    Repeated {
+        /// The second key.
+        key: String,
+        /// The first one.
+        first: String,
+    },
+}
+
+fn advice(nearest: Option<&str>, known: &[String]) -> String {
+    match (nearest, known) {
+        (Some(near), _) => format!("; did you mean `{near}`?"),
+        (None, []) => String::new(),
+        (None, known) => {
+            let more = if known.len() > LISTED { ", …" } else { "" };
+            let names = list(known.iter().take(LISTED).map(String::as_str));
+            format!("; there are {names}{more}")
+        }
+    }
+}
+
+fn inside(parts: &[String]) -> String {
+    match parts {
+        [] => String::new(),
+        parts => format!("; its parts are {}", list(parts.iter().map(String::as_str))),
+    }
+}
+
+/// The place of a key in the text.
+pub(super) fn find(key: &str, text: &str, root: &DeTable) -> Result<Slot, KeyError> {
+    let mut walk = Walk { key, rest: key };
+    let mut node = walk.entry(root)?;
+    loop {
+        node = match node.get_ref() {
+            _ if walk.rest.is_empty() => return walk.number(node),
+            DeValue::Table(table) => match walk.entry(table) {
+                Ok(next) => next,
+                Err(unknown) => return walk.addition(node, table, text, unknown),
+            },
+            DeValue::Array(items) => walk.item(items)?,
+            // A number or a text has no parts.
+            _ => return Err(walk.unknown(&[])),
+        };
+    }
+}
+
+/// How far a key has been followed.
+struct Walk<'k> {
+    key: &'k str,
+    /// What is left of it.
+    rest: &'k str,
+}
+
+impl<'k> Walk<'k> {
+    /// The key up to here.
+    fn within(&self) -> &'k str {
+        let within = &self.key[..self.key.len() - self.rest.len()];
+        within.strip_suffix('.').unwrap_or(within)
+    }
+
+    /// The part that comes next, if it is a plain one.
+    fn part(&self) -> &'k str {
+        let end = self.rest.find(['.', '[']).filter(|end| *end > 0);
+        &self.rest[..end.unwrap_or(self.rest.len())]
+    }
+
+    /// Whether the rest begins with this name; names may have dots and brackets in them.
+    fn begins_with(&self, name: &str) -> bool {
+        let after = self.rest.strip_prefix(name).map(|rest| rest.bytes().next());
+        !name.is_empty() && matches!(after, Some(None | Some(b'.' | b'[')))
+    }
+
+    /// Goes on behind so many bytes.
+    fn pass(&mut self, length: usize) {
+        let rest = &self.rest[length..];
+        self.rest = match rest.strip_prefix('.') {
+            // A dot at the end is part of what is not found.
+            Some(next) if !next.is_empty() => next,
+            _ => rest,
+        };
+    }
+
+    fn unknown(&self, known: &[&str]) -> KeyError {
+        let part = self.part();
+        KeyError::Unknown {
+            key: self.key.to_owned(),
+            part: part.to_owned(),
+            within: match self.within() {
+                "" => "the scene".to_owned(),
+                within => within.to_owned(),
+            },
+            nearest: nearest(part, known.iter().copied()).map(str::to_owned),
+            known: known.iter().map(|name| (*name).to_owned()).collect(),
+        }
+    }
+
+    /// The value under the next part, the longest name that fits.
+    fn named<'t, X>(&mut self, items: &[(&str, &'t X)]) -> Result<&'t X, KeyError> {
+        let fitting = items.iter().filter(|(name, _)| self.begins_with(name));
+        let Some((name, item)) = fitting.max_by_key(|(name, _)| name.len()) else {
+            let known: Vec<&str> = items.iter().map(|(name, _)| *name).collect();
+            return Err(self.unknown(&known));
+        };
+        self.pass(name.len());
+        Ok(item)
+    }
+
+    fn entry<'t>(&mut self, table: &'t DeTable<'t>) -> Result<&'t Spanned<DeValue<'t>>, KeyError> {
+        let entries = table.iter().map(|(key, value)| (&**key.get_ref(), value));
+        self.named(&entries.collect::<Vec<_>>())
+    }
+
+    /// An entry of a list, by its number or by its name.
+    fn item<'t>(
+        &mut self,
+        items: &'t [Spanned<DeValue<'t>>],
+    ) -> Result<&'t Spanned<DeValue<'t>>, KeyError> {
+        let bracket = self.rest.strip_prefix('[').and_then(|r| r.split_once(']'));
+        if let Some((index, _)) = bracket {
+            let found = index.parse().ok().and_then(|k: usize| items.get(k));
+            let item = found.ok_or_else(|| KeyError::Index {
+                key: self.key.to_owned(),
+                within: self.within().to_owned(),
+                index: index.to_owned(),
+                length: items.len(),
+            })?;
+            self.pass(index.len() + 2);
+            return Ok(item);
+        }
+        let name = |item: &'t Spanned<DeValue<'t>>| {
+            let name = item.get_ref().as_table()?.get("name")?;
+            Some((name.get_ref().as_str()?, item))
+        };
+        let named: Vec<_> = items.iter().filter_map(name).collect();
+        match named.is_empty() {
+            true => Err(not_a_number(self.within(), items)),
+            false => self.named(&named),
+        }
+    }
+
+    /// The number at the end of the key.
+    fn number(&self, node: &Spanned<DeValue>) -> Result<Slot, KeyError> {
+        match node.get_ref() {
+            value if as_number(value).is_some() => Ok(Slot {
+                span: node.span(),
+                before: String::new(),
+                after: "",
+            }),
+            DeValue::Array(items) => Err(not_a_number(self.key, items)),
+            value => Err(KeyError::NotANumber {
+                key: self.key.to_owned(),
+                found: found(value),
+                parts: match value.as_table() {
+                    Some(table) => table
+                        .keys()
+                        .map(|part| format!("{}.{}", self.key, part.get_ref()))
+                        .collect(),
+                    None => Vec::new(),
+                },
+            }),
+        }
+    }
+
+    /// A place for a last key that the text leaves out: behind the header of its table, or its brace. Whether there is such a key is for
+    /// the reader of scenes to say.
+    fn addition(
+        &self,
+        node: &Spanned<DeValue>,
+        table: &DeTable,
+        text: &str,
+        unknown: KeyError,
+    ) -> Result<Slot, KeyError> {
+        let letter = |c: char| c.is_ascii_alphanumeric() || "_-".contains(c);
+        let name = self.rest;
+        if !name.chars().all(letter) {
+            return Err(unknown);
+        }
+        let span = node.span();
+        let written = &text[span.clone()];
+        let (at, before, after) = match (written.as_bytes().first(), table.is_empty()) {
+            (Some(b'['), _) => (span.end, format!("\n{name} = "), ""),
+            (Some(b'{'), false) => (span.start + 1, format!(" {name} = "), ","),
+            (Some(b'{'), true) => (span.start + 1, format!(" {name} = "), " "),
+            _ => {
+                return Err(KeyError::NoRoom {
+                    key: self.key.to_owned(),
+                });
+            }
+        };
+        Ok(Slot {
+            span: at..at,
+            before,
+            after,
+        })
+    }
+}
+
+/// A list where a number is needed.
+fn not_a_number(key: &str, items: &[Spanned<DeValue>]) -> KeyError {
+    let part = |(k, item): (usize, &Spanned<DeValue>)| {
+        let name = item
+            .get_ref()
+            .as_table()
+            .and_then(|table| table.get("name"));
+        match name.and_then(|name| name.get_ref().as_str()) {
+            Some(name) => format!("{key}.{name}"),
+            None => format!("{key}[{k}]"),
+        }
+    };
+    KeyError::NotANumber {
+        key: key.to_owned(),
+        found: match items.len() {
+            1 => "a list of 1 value".to_owned(),
+            n => format!("a list of {n} values"),
+        },
+        parts: items.iter().enumerate().take(LISTED).map(part).collect(),
+    }
+}

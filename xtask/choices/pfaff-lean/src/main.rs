@@ -1,0 +1,17 @@
+//! Reads a scene, tells its verdicts and writes its motion.
+
+use pfaff::model::Registry;
+use pfaff::report::OutputDirectory;
+use pfaff::{Overrides, Study};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let path = std::env::args().nth(1).ok_or("which scene?")?;
+    let text = std::fs::read_to_string(&path)?;
+    let study = Study::read(&path, &text, &Registry::planar(), &Overrides::default())?;
+    for reaction in study.analyse_at(0.0, None, &[])?.analysis.reactions {
+        println!("{}: {:?}", reaction.name, reaction.wrench.verdict);
+    }
+    let directory = OutputDirectory::create("out")?;
+    study.simulate_into(&directory, |_| std::ops::ControlFlow::Continue(()))?;
+    Ok(())
+}

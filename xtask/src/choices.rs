@@ -1,0 +1,218 @@
+//! What a program pays that uses a part of the house: clean build time, size and dependencies of the small programs in `xtask/choices` and of
+//! the command itself, one at a time in an empty target folder.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+use std::time::Instant;
+
+use crate::tree::{cargo, machine, root, run, said_by};
+
+const REPORT: &str = "docs/reports/choices/table.md";
+
+/// A program and what it uses.
+struct Choice {
+    package: &'static str,
+    /// Its binary.
+    binary: &'static str,
+    uses: &'static str,
+    /// The workspace it is in, from the root.
+    workspace: &'static str,
+}
+
+const fn small(package: &'static str, uses: &'static str) -> Choice {
+    Choice {
+        package,
+        binary: package,
+        uses,
+        workspace: "xtask/choices",
+    }
+}
+
+const CHOICES: [Choice; 8] = [
+    small(
+        "choice-integrators",
+        "`integrators`: a differential equation",
+    ),
+    small(
+        "choice-linalg",
+        "`linalg`: rank and dependent rows of a matrix",
+    ),
+    small("choice-linalg-faer", "the same with feature `faer`"),
+    small(
+        "choice-solvability",
+        "`solvability`: unique multipliers of a matrix",
+    ),
+    small(
+        "choice-dynamics",
+        "`dynamics`: a mechanism built in code moves",
+    ),
+    small(
+        "choice-pfaff-lean",
+        "`pfaff` without features: a scene file to verdicts, motion and files",
+    ),
+    small(
+        "choice-pfaff",
+        "`pfaff` with `faer` and `macros`, the default",
+    ),
+    Choice {
+        package: "pfaff-cli",
+        binary: "pfaff",
+        uses: "the command `pfaff`",
+        workspace: ".",
+    },
+];
+
+/// What one choice costs.
+struct Cost {
+    house: usize,
+    others: usize,
+    debug: Build,
+    release: Build,
+    /// Of the stripped binary (bytes).
+    size: u64,
+}
+
+/// A clean build.
+struct Build {
+    /// From start to end (s).
+    wall: f64,
+    /// Of all processors, where the system tells it (s).
+    processor: Option<f64>,
+}
+
+/// Builds everything and writes the table.
+pub(crate) fn report() -> Result<String, String> {
+    let target = std::env::temp_dir().join(format!("pfaff-choices-{}", std::process::id()));
+    let table = table(&target);
+    remove(&target)?;
+    let path = root().join(REPORT);
+    fs::create_dir_all(path.parent().unwrap_or(&path)).map_err(|e| format!("{REPORT}: {e}"))?;
+    fs::write(&path, table?).map_err(|e| format!("{REPORT}: {e}"))?;
+    Ok(format!("written to {REPORT}"))
+}
+
+fn table(target: &Path) -> Result<String, String> {
+    let mut text = format!(
+        "# What a part costs\n\nWritten by `cargo xtask choices` from the programs in `xtask/choices`: clean builds, one at a time, downloads not counted.\n\n{}\n\
+         | program uses | crates of ours | others | release build | processor | debug build | processor | stripped binary |\n\
+         | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+        machine()?
+    );
+    for choice in &CHOICES {
+        let cost = measure(choice, target)?;
+        let Cost {
+            house,
+            others,
+            debug,
+            release,
+            size,
+        } = cost;
+        let seconds = |s: Option<f64>| s.map_or(String::new(), |s| format!("{s:.1} s"));
+        let line = format!(
+            "| {} | {house} | {others} | {} | {} | {} | {} | {:.2} MB |",
+            choice.uses,
+            seconds(Some(release.wall)),
+            seconds(release.processor),
+            seconds(Some(debug.wall)),
+            seconds(debug.processor),
+            size as f64 / 1e6
+        );
+        println!("{line}");
+        writeln!(text, "{line}").map_err(|e| e.to_string())?;
+    }
+    text += "\nBuild times are those of the machine and its neighbours; processor seconds are of all cores together. Crates include procedural macros and \
+             what only build scripts use. Profiles are cargo's own, `release` stripped; the debug profile of the command is that of the workspace, which optimises.\n";
+    Ok(text)
+}
+
+fn measure(choice: &Choice, target: &Path) -> Result<Cost, String> {
+    let folder = root().join(choice.workspace);
+    run(cargo(&folder).args(["fetch", "--quiet", "--locked"]))?;
+    let (house, others) = dependencies(choice, &folder)?;
+    let debug = build(choice, &folder, target, "dev")?;
+    let release = build(choice, &folder, target, "release")?;
+    let binary = target.join("release").join(choice.binary);
+    let size = fs::metadata(&binary)
+        .map_err(|e| format!("{}: {e}", binary.display()))?
+        .len();
+    Ok(Cost {
+        house,
+        others,
+        debug,
+        release,
+        size,
+    })
+}
+
+/// Crates that are compiled besides the program: ours, and others.
+fn dependencies(choice: &Choice, folder: &Path) -> Result<(usize, usize), String> {
+    let tree = [
+        "tree",
+        "--locked",
+        "--edges",
+        "normal,build",
+        "--prefix",
+        "none",
+        "--package",
+    ];
+    let lines = said_by(cargo(folder).args(tree).arg(choice.package))?;
+    let crates: BTreeSet<&str> = lines.lines().map(|l| l.trim_end_matches(" (*)")).collect();
+    let others = crates
+        .iter()
+        .filter(|l| !l.contains("(/") && !l.contains(":\\"))
+        .count();
+    // The program is one of ours, but no dependency.
+    Ok((crates.len() - others - 1, others))
+}
+
+/// A build in an empty folder.
+fn build(choice: &Choice, folder: &Path, target: &Path, profile: &str) -> Result<Build, String> {
+    remove(target)?;
+    let (clock, before) = (Instant::now(), processor_seconds());
+    let mut command = cargo(folder);
+    command
+        .args([
+            "build",
+            "--quiet",
+            "--locked",
+            "--package",
+            choice.package,
+            "--profile",
+            profile,
+        ])
+        .env("CARGO_TARGET_DIR", target)
+        .env("CARGO_PROFILE_RELEASE_STRIP", "true")
+        .env("CARGO_PROFILE_RELEASE_DEBUG", "false");
+    run(&mut command)?;
+    let wall = clock.elapsed().as_secs_f64();
+    let processor = before.zip(processor_seconds()).map(|(a, b)| b - a);
+    Ok(Build { wall, processor })
+}
+
+fn remove(folder: &Path) -> Result<(), String> {
+    match fs::remove_dir_all(folder) {
+        Err(e) if e.kind() != std::io::ErrorKind::NotFound => {
+            Err(format!("{}: {e}", folder.display()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// User and system time of all children that have ended (s); Linux counts it in hundredths.
+fn processor_seconds() -> Option<f64> {
+    let stat = fs::read_to_string("/proc/self/stat").ok()?;
+    // The name, in parentheses, may contain spaces; children's times are the 14th and 15th value behind it.
+    let (_, values) = stat.rsplit_once(')')?;
+    let ticks: Vec<f64> = values
+        .split_whitespace()
+        .skip(13)
+        .take(2)
+        .filter_map(|v| v.parse().ok())
+        .collect();
+    match ticks[..] {
+        [user, system] => Some((user + system) / 100.0),
+        _ => None,
+    }
+}

@@ -1,0 +1,53 @@
+//! How long the commands take from a cold start, process included: the robot with its trolley, optimised build.
+
+use std::fmt::Write;
+use std::process::{Command, Stdio};
+use std::time::Instant;
+
+use crate::tree::{cargo, root, run, said_by};
+
+/// Runs of each command.
+const RUNS: usize = 50;
+
+const SCENE: &str = "crates/robot-trolley/robot-trolley.toml";
+
+/// Least and median time of each command.
+pub(crate) fn tell() -> Result<String, String> {
+    let root = root();
+    run(cargo(&root).args(["build", "--release", "-p", "pfaff-cli"]))?;
+    let metadata = said_by(cargo(&root).args(["metadata", "--format-version=1", "--no-deps"]))?;
+    let target = metadata
+        .split_once("\"target_directory\":\"")
+        .and_then(|(_, rest)| rest.split_once('"'))
+        .map(|(target, _)| target)
+        .ok_or("cargo metadata does not tell the target directory")?;
+    let program = format!("{target}/release/pfaff");
+    let out = format!("{target}/cold-start");
+    let commands: [(&str, &[&str]); 5] = [
+        ("nothing: --version", &["--version"]),
+        ("check", &["check", SCENE]),
+        ("analyze", &["analyze", SCENE]),
+        ("analyze --json", &["analyze", SCENE, "--json"]),
+        ("simulate, 10 s", &["simulate", SCENE, "--out", &out]),
+    ];
+    let mut text = format!("{:<22}{:>12}{:>12}\n", "command", "least", "median");
+    for (name, arguments) in commands {
+        let mut command = Command::new(&program);
+        command.args(arguments).current_dir(&root);
+        let mut times = Vec::with_capacity(RUNS);
+        for _ in 0..RUNS {
+            let clock = Instant::now();
+            run(command.stdout(Stdio::null()).stderr(Stdio::null()))?;
+            times.push(clock.elapsed().as_secs_f64() * 1e3);
+        }
+        times.sort_by(f64::total_cmp);
+        writeln!(
+            text,
+            "{name:<22}{:>9.2} ms{:>9.2} ms",
+            times[0],
+            times[RUNS / 2]
+        )
+        .map_err(|e| e.to_string())?;
+    }
+    Ok(text)
+}

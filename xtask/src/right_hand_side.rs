@@ -1,0 +1,22 @@
+//! The benchmark of right-hand sides and its report; what is compared is in `crates/bench/benches/right_hand_side`.
+
+use crate::tree::{cargo, root, run};
+
+const REPORT: &str = "docs/reports/right-hand-side";
+
+/// Times and instructions, into the report.
+pub(crate) fn report() -> Result<String, String> {
+    bench(&["--out", REPORT])?;
+    Ok(format!("written to {REPORT}"))
+}
+
+/// Times and instructions, told only.
+pub(crate) fn instructions() -> Result<String, String> {
+    bench(&["--instructions"])?;
+    Ok("instructions by callgrind".to_owned())
+}
+
+fn bench(arguments: &[&str]) -> Result<(), String> {
+    let bench = ["bench", "-p", "bench", "--bench", "right_hand_side", "--"];
+    run(cargo(&root()).args(bench).args(arguments))
+}
