@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use dynamics::{
-    CodeMismatch, EventKind, Facts, Formulation, Method, MotionOptions, NoCode, Prepared,
-    RowChoice, SceneCode, Stabilisation, Summary, prepare, simulate,
+    CodeMismatch, EventKind, Facts, Formulation, Method, MotionOptions, NoCode, Plan, Prepared,
+    RowChoice, SceneCode, Stabilisation, Summary, Wanted, prepare, simulate,
 };
 use linalg::KeptRowSaddle;
 use model::start::CorrectionLimit;
@@ -452,6 +452,33 @@ fn a_healthy_run_asks_the_interpreter_nothing() {
     let counted = code.evaluations.load(Ordering::Relaxed) as u64;
     assert_eq!(counted, summary.evaluations);
     assert_eq!(counted, 2 + 12 * summary.steps + 11 * summary.rejected);
+}
+
+#[test]
+fn the_plan_says_whether_code_is_used_and_why_not() {
+    let p = trolley();
+    let coded = p.clone().with_code(Elimination::new(&p, Fault::None));
+    let coded = coded.expect("its own");
+    let planned = |p: &Prepared, method| {
+        let options = MotionOptions {
+            method,
+            ..MotionOptions::to(1.0)
+        };
+        let plan = Plan::new(p, &options, &Wanted::default()).expect("a plan");
+        (plan.code.value, plan.code.reason, plan.apart.reason)
+    };
+    let (used, _, apart) = planned(&coded, Method::Auto);
+    assert_eq!(
+        (used, apart.as_str()),
+        (true, "the generated code has all bodies")
+    );
+    for (p, method, no_code) in [
+        (&p, Method::Auto, NoCode::None),
+        (&coded, Method::Radau5, NoCode::Method("radau5")),
+    ] {
+        let (used, reason, _) = planned(p, method);
+        assert_eq!((used, reason), (false, no_code.to_string()));
+    }
 }
 
 #[test]

@@ -251,7 +251,7 @@ fn code(prepared: &Prepared, options: &MotionOptions) -> Result<Decided<bool>, M
             value: true,
             taken: format!("`{}`", code.facts().name),
             reason: format!(
-                "its values are those of this mechanism; {}",
+                "its values are those of this mechanism ({}); kernels and elimination below are what it falls back to",
                 code.facts().operations
             ),
             saves: None,
