@@ -6,8 +6,8 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};
 
 use dynamics::{
-    CodeMismatch, EventKind, Facts, Formulation, Method, MotionOptions, NoCode, Prepared,
-    RowChoice, SceneCode, Stabilisation, Summary, prepare, simulate,
+    CodeMismatch, EventKind, Facts, Formulation, Method, MotionOptions, NoCode, Plan, Prepared,
+    RowChoice, SceneCode, Stabilisation, Summary, Wanted, prepare, simulate,
 };
 use linalg::KeptRowSaddle;
 use model::start::CorrectionLimit;
@@ -582,6 +582,33 @@ fn steps_on_code_allocate_nothing() {
     let (few, many) = (count(10.0), count(1000.0));
     assert!(few.0 < 20 && many.0 >= 1000, "{few:?} {many:?}");
     assert_eq!(few.1, many.1);
+}
+
+#[test]
+fn the_plan_says_whether_code_is_used_and_why_not() {
+    let p = trolley();
+    let coded = p.clone().with_code(Elimination::new(&p, Fault::None));
+    let coded = coded.expect("its own");
+    let planned = |p: &Prepared, method| {
+        let options = MotionOptions {
+            method,
+            ..MotionOptions::to(1.0)
+        };
+        let plan = Plan::new(p, &options, &Wanted::default()).expect("a plan");
+        (plan.code.value, plan.code.reason, plan.apart.reason)
+    };
+    let (used, _, apart) = planned(&coded, Method::Auto);
+    assert_eq!(
+        (used, apart.as_str()),
+        (true, "the generated code has all bodies")
+    );
+    for (p, method, no_code) in [
+        (&p, Method::Auto, NoCode::None),
+        (&coded, Method::Radau5, NoCode::Method("radau5")),
+    ] {
+        let (used, reason, _) = planned(p, method);
+        assert_eq!((used, reason), (false, no_code.to_string()));
+    }
 }
 
 #[test]

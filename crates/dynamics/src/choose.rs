@@ -5,6 +5,7 @@ use linalg::Matrix;
 use crate::error::Trip;
 use crate::motion::{KeptRowMotion, Reduced};
 use crate::options::{Formulation, Method, MotionOptions, Stabilisation};
+use crate::plan::Decided;
 use crate::prepare::Prepared;
 
 /// A motion for which an explicit method would need more steps than this, only to stay stable, is stiff.
@@ -20,22 +21,42 @@ const ITERATIONS: usize = 64;
 ///
 /// # Errors
 /// If the motion has no Jacobian at the start.
-pub(crate) fn method(prepared: &Prepared, options: &MotionOptions) -> Result<Method, Trip> {
+pub(crate) fn method(
+    prepared: &Prepared,
+    options: &MotionOptions,
+) -> Result<Decided<Method>, Trip> {
     if options.method != Method::Auto {
-        return Ok(options.method);
+        return Ok(decided(options.method, "asked for".to_owned()));
+    }
+    let explicit = |why: &str| Ok(decided(Method::Dop853, why.to_owned()));
+    if !prepared.mechanism.has_applied_forces() {
+        return explicit("no applied forces, so that nothing can be stiff");
     }
     let may_be_implicit = options.stabilisation == Stabilisation::Projection
         && matches!(
             options.formulation,
             Formulation::KeptRows | Formulation::NullSpace
         );
-    if !(may_be_implicit && prepared.mechanism.has_applied_forces()) {
-        return Ok(Method::Dop853);
+    if !may_be_implicit {
+        return explicit("implicit methods need kept rows and projection");
     }
-    let rate = fastest_rate(prepared)?;
-    match rate * options.t_end > STIFF * STABLE {
-        true => Ok(Method::Radau5),
-        false => Ok(Method::Dop853),
+    let steps = fastest_rate(prepared)? * options.t_end / STABLE;
+    let (method, is) = match steps > STIFF {
+        true => (Method::Radau5, "more"),
+        false => (Method::Dop853, "not more"),
+    };
+    let why = format!(
+        "measured at the start: for stability alone an explicit method needs {steps:.1e} steps, {is} than {STIFF:.0e}"
+    );
+    Ok(decided(method, why))
+}
+
+fn decided(value: Method, reason: String) -> Decided<Method> {
+    Decided {
+        value,
+        taken: value.name().to_owned(),
+        reason,
+        saves: None,
     }
 }
 

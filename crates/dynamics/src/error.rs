@@ -240,6 +240,28 @@ pub enum MotionError {
     /// The equations could not be solved at the start.
     #[error(transparent)]
     Trip(#[from] Trip),
+    /// A reaction is wanted of a joint or drive that does not exist.
+    #[error("the reaction of `{name}` is wanted, but no joint or drive has this name")]
+    NoReaction {
+        /// The name.
+        name: String,
+    },
+    /// One of several components that do not feel each other stopped; the others were stopped there.
+    #[error("{component}: {source}")]
+    Component {
+        /// Its bodies.
+        component: String,
+        /// Why it stopped.
+        source: Box<MotionError>,
+    },
+    /// The operating system refused a thread for a component.
+    #[error("no thread for {component}: {source}")]
+    Thread {
+        /// Its bodies.
+        component: String,
+        /// What the operating system said.
+        source: std::io::Error,
+    },
     /// The integration stopped.
     #[error("{0}")]
     Integration(Box<IntegrationError<Trip>>),

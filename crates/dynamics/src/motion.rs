@@ -27,6 +27,7 @@ use std::sync::Arc;
 use linalg::ProximalTuning;
 use model::{Mechanism, Scratch, System};
 
+use crate::counts::{Counted, note};
 use crate::error::Trip;
 use crate::events::Event;
 use crate::options::{MotionOptions, RowChoice, Stabilisation};
@@ -330,6 +331,7 @@ impl Motion for KeptRowMotion<'_> {
         v: &[f64],
         lambda: &mut [f64],
     ) -> Result<(), Trip> {
+        note(Counted::Multipliers);
         if self.all_rows.is_some() {
             return self.multipliers_of_all(t, q, v, lambda);
         }

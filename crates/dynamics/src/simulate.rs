@@ -1,5 +1,5 @@
-//! A run: integration of q̇ = T·v and the solved accelerations, projection after each step, projected rows of output,
-//! and the balance of energy.
+//! A run as planned: integration of q̇ = T·v and the solved accelerations, projection after each step, projected rows of output, and the
+//! balance of energy.
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -8,174 +8,120 @@ mod constrained;
 mod energy;
 mod equations;
 mod passages;
+mod sample;
+mod several;
 mod span;
+mod summary;
 
 use integrators::{
     Cause, Dop853, Dopri5, Gbs, GeneralizedAlpha, Hem4, IntegrationError, Interval, Options,
     Outcome, OutputTimes, Radau5, Rows, Tsit5, integrate,
 };
-use linalg::ProximalTuning;
-use model::{Reaction, System};
+use model::System;
 
-use crate::choose;
 use crate::error::{MotionError, Trip};
-use crate::events::Event;
-use crate::motion::{KeptRowMotion, Motion};
+use crate::motion::KeptRowMotion;
 use crate::options::{Method, MotionOptions};
+use crate::plan::{self, Plan, Wanted};
 use crate::prepare::Prepared;
 use equations::Equations;
+use sample::AtRows;
 
-/// Numbers of a run.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Summary {
-    /// Last time reached (s).
-    pub t: f64,
-    /// The integrator: the one asked for, or the one chosen.
-    pub method: Method,
-    /// Accepted steps.
-    pub steps: u64,
-    /// Rejected steps.
-    pub rejected: u64,
-    /// Evaluations of accelerations: rejected steps, start, projections and output included.
-    pub evaluations: u64,
-    /// Projections of steps.
-    pub projections: u64,
-    /// Factorisations of iteration matrices of implicit methods.
-    pub factorisations: u64,
-    /// Time of the integration alone (s).
-    pub wall_seconds: f64,
-    /// Largest |Φ| at accepted steps and written rows.
-    pub max_position_residual: f64,
-    /// Largest |C·v − b| at accepted steps and written rows.
-    pub max_velocity_residual: f64,
-    /// Largest |E − E₀ − work of drives and applied forces| relative to the largest kinetic energy.
-    pub energy_balance: f64,
-    /// Smallest pivot ratio of the kept rows at the start and at accepted steps that were interpreted.
-    pub min_pivot_ratio: f64,
-    /// What happened on the way.
-    pub events: Vec<Event>,
-    /// The last tuning of proximal iterations, where accelerations come from them.
-    pub proximal: Option<ProximalTuning>,
-}
+pub use sample::Sample;
+pub use summary::{ComponentSummary, Failure, Summary};
 
-/// A run that stopped early, with what was reached.
-#[derive(Debug, thiserror::Error)]
-#[error("{error}")]
-pub struct Failure {
-    /// Why it stopped.
-    pub error: MotionError,
-    /// What was reached.
-    pub summary: Summary,
-}
-
-/// One row of output: a state on the constraints, and what follows from it on demand.
-pub struct Sample<'s, 'm> {
-    /// Time (s).
-    pub t: f64,
-    /// The same, or the last number before a break time.
-    t_before: f64,
-    /// Coordinates. At a break time all values are those just before.
-    pub q: &'s [f64],
-    /// Velocities.
-    pub v: &'s [f64],
-    /// Share of the reference pivots below which reactions are not told.
-    blind: f64,
-    motion: &'s mut KeptRowMotion<'m>,
-}
-
-impl Sample<'_, '_> {
-    /// Accelerations; allocates.
-    ///
-    /// # Errors
-    /// If the equations have no unique solution here.
-    pub fn acceleration(&mut self) -> Result<Vec<f64>, Trip> {
-        let mut a = vec![0.0; self.v.len()];
-        self.motion
-            .acceleration(self.t_before, self.q, self.v, &mut a)?;
-        Ok(a)
-    }
-
-    /// Multipliers of all rows as [`Motion::multipliers`] gives them; allocates.
-    ///
-    /// # Errors
-    /// If the equations have no unique solution here.
-    pub fn multipliers(&mut self) -> Result<Vec<f64>, Trip> {
-        let mut lambda = vec![0.0; self.motion.mechanism().layout().rows()];
-        self.motion
-            .multipliers(self.t_before, self.q, self.v, &mut lambda)?;
-        if self.motion.relative_pivot() < self.blind {
-            lambda.fill(f64::NAN);
-        }
-        Ok(lambda)
-    }
-
-    /// Reactions of all joints and drives in the order of their rows. Those of non-unique joints belong to the choice
-    /// of this run (its kept rows, or the norm of its formulation) and to no other; allocates.
-    ///
-    /// # Errors
-    /// If the equations have no unique solution here.
-    pub fn reactions(&mut self) -> Result<Vec<Reaction>, Trip> {
-        let lambda = self.multipliers()?;
-        let mechanism = self.motion.mechanism();
-        let s = self.motion.scratch();
-        Ok(mechanism
-            .constraint_ids()
-            .map(|id| mechanism.reaction(id, s, &lambda))
-            .collect())
-    }
-}
-
-/// Runs a prepared mechanism from t = 0 and shows rows at 0, every output step and the end.
+/// Runs a prepared mechanism from t = 0 and shows rows at 0, every output step and the end: its plan with everything wanted.
 ///
 /// # Errors
 /// With the summary of what was reached; rows shown before stand.
 pub fn simulate(
     prepared: &Prepared,
     options: &MotionOptions,
+    row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+) -> Result<Summary, Box<Failure>> {
+    Plan::new(prepared, options, &Wanted::default())
+        .map_err(not_begun)?
+        .simulate(row)
+}
+
+/// Sees the time (s) of each accepted step of each component, and may end the run there.
+pub type Watch<'w> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'w;
+
+impl Plan<'_> {
+    /// Runs it from t = 0 and shows its rows.
+    ///
+    /// # Errors
+    /// With the summary of what was reached; rows shown before stand.
+    pub fn simulate(
+        &self,
+        row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+    ) -> Result<Summary, Box<Failure>> {
+        self.simulate_watched(&|_| ControlFlow::Continue(()), row)
+    }
+
+    /// The same, watched between rows, too.
+    ///
+    /// # Errors
+    /// As [`Plan::simulate`].
+    pub fn simulate_watched(
+        &self,
+        watch: &Watch<'_>,
+        row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+    ) -> Result<Summary, Box<Failure>> {
+        match self.components.len() {
+            1 => run_component(self, 0, watch, row),
+            _ => several::run(self, watch, row),
+        }
+    }
+}
+
+/// A run that has not begun.
+fn not_begun(error: MotionError) -> Box<Failure> {
+    let summary = Summary::default();
+    Box::new(Failure { error, summary })
+}
+
+/// Runs one component of a plan.
+fn run_component(
+    plan: &Plan<'_>,
+    component: usize,
+    watch: &Watch<'_>,
     mut row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
 ) -> Result<Summary, Box<Failure>> {
-    let mechanism = &prepared.mechanism;
-    let fail = |error: MotionError| {
-        Box::new(Failure {
-            error,
-            summary: Summary::default(),
-        })
-    };
-    options.check().map_err(fail)?;
-    options.check_rows(&prepared.choice).map_err(fail)?;
-    let method = choose::method(prepared, options).map_err(|e| fail(e.into()))?;
+    let component = &plan.components[component];
+    let prepared = component.prepared();
+    let method = component.decisions.method.value;
     let options = &MotionOptions {
         method,
-        ..options.clone()
+        ..plan.options().clone()
     };
-    let motion = KeptRowMotion::with(prepared, options).map_err(|e| fail(e.into()))?;
-    let mut equations = Equations::new(motion, prepared, options);
+    let motion = KeptRowMotion::with(prepared, options).map_err(|e| not_begun(e.into()))?;
+    let wanted = AtRows {
+        accelerations: plan.accelerations.value,
+        reactions: component.decisions.reactions.value.clone(),
+    };
+    let mut equations = Equations::new(motion, prepared, options, wanted);
     equations
         .motion
         .begin(0.0, &mut prepared.q.clone())
-        .map_err(|e| fail(e.into()))?;
+        .map_err(|e| not_begun(e.into()))?;
     let y0 = equations.initial_state(&prepared.q, &prepared.v);
-    let layout = mechanism.layout();
     let interval = Interval {
         t0: 0.0,
         t_end: options.t_end,
-        break_times: &layout.break_times,
+        break_times: &prepared.mechanism.layout().break_times,
     };
     let settings = Options {
         tolerance: equations.tolerance(options),
         max_step: options.max_step,
         ..Options::with_tolerance(options.rtol, options.atol)
     };
-    // A run that takes no time has one row.
-    let times = match options.t_end > 0.0 {
-        true => OutputTimes::Every(options.output_step),
-        false => OutputTimes::At(vec![0.0]),
-    };
-    let rows = Rows::new(times, &interval).map_err(|e| fail(named(e)))?;
+    let rows = Rows::new(output_times(plan), &interval).map_err(|e| not_begun(named(e)))?;
     let mut run = Run {
         equations,
         rows,
         row: &mut row,
+        watch,
         stopped: None,
     };
     let clock = Instant::now();
@@ -212,11 +158,23 @@ pub fn simulate(
     Err(Box::new(Failure { error, summary }))
 }
 
+/// The times of the rows.
+fn output_times(plan: &Plan<'_>) -> OutputTimes {
+    let t_end = plan.options().t_end;
+    match plan.rows.value {
+        // A run that takes no time has one row.
+        _ if t_end <= 0.0 => OutputTimes::At(vec![0.0]),
+        plan::Rows::Ends => OutputTimes::At(vec![0.0, t_end]),
+        plan::Rows::Every => OutputTimes::Every(plan.options().output_step),
+    }
+}
+
 /// A run on its way: the equations, the rows that are still to be shown, and why it was stopped.
 struct Run<'r, 'm, F> {
     equations: Equations<'m>,
     rows: Rows,
     row: &'r mut F,
+    watch: &'r Watch<'r>,
     stopped: Option<MotionError>,
 }
 
@@ -237,6 +195,7 @@ where
             equations,
             rows,
             row,
+            watch,
             stopped,
         } = self;
         let mut show = |e: &mut Equations<'m>, t: f64, y: &mut [f64]| match e.show(t, y, row) {
@@ -264,7 +223,8 @@ where
             rows.emit(step, &mut show).unwrap_or_else(|error| {
                 refused = Some(error);
                 ControlFlow::Break(())
-            })
+            })?;
+            watch(step.t1())
         });
         if let Some(error) = refused {
             *stopped = Some(named(error));

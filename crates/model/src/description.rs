@@ -58,6 +58,17 @@ pub enum BodyRef {
     Body(usize),
 }
 
+impl BodyRef {
+    /// Its place in the list; nothing for the ground.
+    #[must_use]
+    pub fn moving(self) -> Option<usize> {
+        match self {
+            Self::Ground => None,
+            Self::Body(k) => Some(k),
+        }
+    }
+}
+
 /// A joint between bodies.
 #[derive(Clone)]
 pub struct Joint {

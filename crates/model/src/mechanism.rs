@@ -4,6 +4,8 @@
 mod build;
 mod derivatives;
 mod kernels;
+mod part;
+mod work;
 
 use std::ops::Range;
 
@@ -16,6 +18,8 @@ use crate::system::{Layout, System};
 
 pub use build::BuildError;
 pub use derivatives::{Derivatives, Sparse};
+pub use part::{Part, Places};
+pub use work::Work;
 
 /// Coordinates and velocities of a planar body.
 pub(crate) const N_BODY: usize = 3;
@@ -65,6 +69,8 @@ pub struct Mechanism {
     entries: Vec<f64>,
     /// Longest arm of each body in the initial configuration (m).
     reach: Vec<f64>,
+    /// Bodies whose angle rows of angles hold.
+    held: Vec<bool>,
     n_slots: usize,
     /// Largest number of values of one kernel.
     block: usize,
@@ -84,6 +90,23 @@ pub(crate) struct PlacedConstraint {
     pub(crate) varying: Vec<usize>,
     pub(crate) rows: Range<usize>,
     pub(crate) functions: Range<usize>,
+}
+
+impl PlacedConstraint {
+    /// Whether its block of C depends on the configuration.
+    pub(crate) fn has_varying_entries(&self) -> bool {
+        !self.varying.is_empty()
+    }
+
+    /// Whether b and Φt of its rows may differ from zero.
+    pub(crate) fn depends_on_time(&self) -> bool {
+        self.element.element().spec().rheonomic
+    }
+
+    /// Whether Γ of its rows may differ from zero: C of the others is constant, so that `C·v̇ = 0`.
+    pub(crate) fn has_gamma(&self) -> bool {
+        self.has_varying_entries() || self.depends_on_time()
+    }
 }
 
 /// A force in its place.
@@ -174,6 +197,12 @@ impl Mechanism {
             &self.bodies[column / N_BODY].name,
             ["x", "y", "angle"][column % N_BODY],
         )
+    }
+
+    /// Generalised forces of gravity, n_v.
+    #[must_use]
+    pub fn weight(&self) -> &[f64] {
+        &self.weight
     }
 
     /// Potential energy of the weight (J).
@@ -271,11 +300,6 @@ impl Mechanism {
 
     pub(crate) fn forces(&self) -> &[PlacedForce] {
         &self.forces
-    }
-
-    /// Q without applied forces.
-    pub(crate) fn weight(&self) -> &[f64] {
-        &self.weight
     }
 
     pub(crate) fn time_functions(&self) -> &[TimeFunction] {

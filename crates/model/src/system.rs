@@ -134,13 +134,16 @@ impl std::fmt::Display for RowLabel {
     }
 }
 
-/// Storage of one evaluation. Made by [`System::scratch`]; holds the results of the kernels.
+/// Storage of one evaluation. Made by [`System::scratch`]; holds the results of the kernels, and serves the mechanism that made it: what
+/// is known from the last evaluation is not computed again.
 #[derive(Clone, Debug)]
 pub struct Scratch {
     /// Time of the poses.
     pub t: f64,
     /// Pose of each body.
     pub poses: Vec<Pose>,
+    /// Angles of their sines and cosines; NaN at the beginning.
+    pub(crate) turned_to: Vec<f64>,
     /// Φ, m values.
     pub phi: Vec<f64>,
     /// Entries of the blocks of C, constraint by constraint, ground columns included.
@@ -157,6 +160,8 @@ pub struct Scratch {
     pub(crate) slot_twists: Vec<Twist>,
     /// Values of the functions of time.
     pub(crate) jets: Vec<[f64; 3]>,
+    /// Their time; NaN at the beginning.
+    pub(crate) jets_at: f64,
     /// Results of one kernel.
     pub(crate) block: Vec<f64>,
 }

@@ -55,6 +55,9 @@ pub(crate) enum Command {
     /// Motion and reactions, written into a directory
     #[command(after_help = "Example: pfaff simulate robot-trolley.toml --out run --drop 6,21")]
     Simulate(Simulate),
+    /// What a run of the scene needs, what is left out, and why
+    #[command(after_help = "Example: pfaff plan robot-trolley.toml --method radau5")]
+    Plan(Plan),
     /// Many runs with other numbers in the scene: parallel, resumable, in shards
     #[command(after_help = SWEEP_EXAMPLES)]
     Sweep(Sweep),
@@ -71,6 +74,7 @@ impl Command {
     pub(crate) fn answer(&self) -> Answer {
         let (Self::Analyze(Analyze { json, .. })
         | Self::Simulate(Simulate { json, .. })
+        | Self::Plan(Plan { json, .. })
         | Self::Sweep(Sweep { json, .. })
         | Self::WorkPrecision(WorkPrecision { json, .. })
         | Self::Check(Check { json, .. })) = self;
@@ -165,6 +169,30 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
     pub(crate) drop: Option<Vec<usize>>,
     /// The summary as one JSON document on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct Plan {
+    /// Scene file, or - for standard input
+    pub(crate) scene: PathBuf,
+    /// Last time (s)
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub(crate) t_end: Option<f64>,
+    /// Integrator
+    #[arg(long, value_name = "M", value_parser = named(Method::ALL, Method::name))]
+    pub(crate) method: Option<Method>,
+    /// Treatment of redundant rows
+    #[arg(long, value_name = "F", value_parser = named(Formulation::ALL, Formulation::name))]
+    pub(crate) formulation: Option<Formulation>,
+    /// Treatment of drift; baumgarte has the gains of the scene, or 5 and 5 (1/s)
+    #[arg(long, value_name = "S", value_parser = named(Stabilisation::ALL, Stabilisation::name))]
+    pub(crate) stabilisation: Option<Stabilisation>,
+    /// Rows to eliminate, counted from 1
+    #[arg(long, value_name = "ROWS", value_delimiter = ',')]
+    pub(crate) drop: Option<Vec<usize>>,
+    /// The plan as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
 }

@@ -9,6 +9,7 @@ mod args;
 mod check;
 mod input;
 mod output;
+mod plan;
 mod simulate;
 mod sweep;
 mod work_precision;
@@ -24,6 +25,7 @@ fn main() -> ExitCode {
     let outcome = match &arguments.command {
         Command::Analyze(a) => analyze::run(a),
         Command::Simulate(a) => simulate::run(a),
+        Command::Plan(a) => plan::run(a),
         Command::Sweep(a) => sweep::run(a),
         Command::WorkPrecision(a) => work_precision::run(a),
         Command::Check(a) => check::run(a),

@@ -2,17 +2,20 @@
 //! printing.
 
 use std::ops::ControlFlow;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
 
+use dynamics::plan::{Reactions, Rows};
 use dynamics::{
-    Failure, Formulation, Method, MotionOptions, Prepared, Sample, Stabilisation, Summary, Trip,
-    simulate,
+    Failure, Formulation, Method, MotionOptions, Plan, Prepared, Sample, Stabilisation, Summary,
+    Trip, Wanted, simulate,
 };
 use model::{Known, Registry};
 use report::{
     Ending, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
     TrajectoryTable, write_json,
 };
-use scene::{Scene, WantedReactions};
+use scene::{Output, Scene, WantedReactions};
 use solvability::{Analysis, Judgement, State, analyse, is_permanent};
 
 use crate::blueprint::Blueprint;
@@ -162,9 +165,41 @@ impl Study {
         simulate(&self.prepared, options, row)
     }
 
+    /// What a run of the scene does and leaves out, with what its `[output]` wants.
+    ///
+    /// ```
+    /// use pfaff::model::Registry;
+    /// use pfaff::{Overrides, Study};
+    ///
+    /// let scene = r#"
+    /// scene = { name = "pendulum", space = "plane", gravity = [0.0, -9.81] }
+    /// body = [{ name = "bob", mass = 1.0, inertia = 0.1, position = [1.0, 0.0] }]
+    /// joint = [{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [0.0, 0.0] }]
+    /// simulate = { t_end = 1.0 }
+    /// output = { reactions = false }
+    /// "#;
+    /// let study = Study::read("pendulum.toml", scene, &Registry::planar(), &Overrides::default())?;
+    /// let plan = study.plan()?;
+    /// assert_eq!(plan.components[0].decisions.reactions.taken, "none");
+    /// assert_eq!(plan.components[0].decisions.method.reason, "no applied forces, so that nothing can be stiff");
+    /// # Ok::<(), pfaff::StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`StudyError::NoEnd`]: nobody says how long the run takes.
+    /// - [`StudyError::Motion`]: the options are none, or the motion cannot be judged at its start.
+    pub fn plan(&self) -> Result<Plan<'_>, StudyError> {
+        let options = self.options.as_ref().ok_or(StudyError::NoEnd)?;
+        Ok(Plan::new(
+            &self.prepared,
+            options,
+            &wanted(&self.scene.output),
+        )?)
+    }
+
     /// Runs the scene and writes `trajectory.csv`, `reactions.csv` and `summary.json` into a directory, each if the scene
-    /// wants it. `progress` sees the time of each row and may stop the run. What a stopped run has written stays, and
-    /// its summary says `partial`.
+    /// wants it. `progress` sees the time of each row, or of each step where no rows are written, and may stop the run. What a stopped run
+    /// has written stays, and its summary says `partial`.
     ///
     /// # Errors
     /// - [`StudyError::NoEnd`]: nobody says how long the run takes.
@@ -173,11 +208,10 @@ impl Study {
     pub fn simulate_into(
         &self,
         directory: &OutputDirectory,
-        mut progress: impl FnMut(f64) -> ControlFlow<()>,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<RunDocument, StudyError> {
-        let options = self.options.as_ref().ok_or(StudyError::NoEnd)?;
         // Before anything of an earlier run is touched.
-        options.check()?;
+        let plan = self.plan()?;
         let mechanism = &self.prepared.mechanism;
         let output = &self.scene.output;
         let analysis = analyse(mechanism, 0.0, &self.prepared.q)?;
@@ -196,28 +230,39 @@ impl Study {
             )?),
             None => None,
         };
-        let (mut unwritten, mut interrupted) = (None, false);
-        let outcome = self.run(options, |sample| {
+        let interrupted = AtomicBool::new(false);
+        let progress = Mutex::new(progress);
+        let go_on = |t: f64| {
+            // A lock is poisoned by a panic only, which goes on elsewhere.
+            let flow = progress.lock().map_or(ControlFlow::Break(()), |mut p| p(t));
+            interrupted.fetch_or(flow.is_break(), Ordering::Relaxed);
+            flow
+        };
+        let watch = |t: f64| match plan.rows.value {
+            Rows::Every => ControlFlow::Continue(()),
+            Rows::Ends => go_on(t),
+        };
+        let mut unwritten = None;
+        let outcome = plan.simulate_watched(&watch, |sample| {
             let written = write_row(sample, trajectory.as_mut(), reactions.as_mut())?;
-            interrupted = progress(sample.t).is_break();
+            let flow = go_on(sample.t);
             unwritten = written.err();
-            Ok(match interrupted || unwritten.is_some() {
+            Ok(match unwritten.is_some() {
                 true => ControlFlow::Break(()),
-                false => ControlFlow::Continue(()),
+                false => flow,
             })
         });
         let (summary, error) = match outcome {
             Ok(summary) => (summary, None),
             Err(failure) => (failure.summary, Some(failure.error)),
         };
-        let ending = match (&error, interrupted) {
+        let ending = match (&error, interrupted.into_inner()) {
             (Some(error), _) => Ending::Stopped(error),
             (None, true) => Ending::Interrupted,
             (None, false) => Ending::Complete,
         };
         let run = Run {
-            prepared: &self.prepared,
-            options,
+            plan: &plan,
             analysis: &analysis,
             summary: &summary,
             ending,
@@ -245,6 +290,25 @@ impl Study {
             (None, Some(e)) => Err(e.into()),
             (None, None) => Ok(document),
         }
+    }
+}
+
+/// What a run has to compute for this output.
+fn wanted(output: &Output) -> Wanted {
+    let reactions = match &output.reactions {
+        WantedReactions::All => Reactions::All,
+        WantedReactions::Of(names) => Reactions::Of(names.clone()),
+        WantedReactions::None => Reactions::None,
+    };
+    let rows = match (output.trajectory, &reactions) {
+        (false, Reactions::None) => Rows::Ends,
+        _ => Rows::Every,
+    };
+    Wanted {
+        rows,
+        // No table has them.
+        accelerations: false,
+        reactions,
     }
 }
 

@@ -2,6 +2,7 @@
 //! everywhere a user sees them. JSON knows no NaN and no infinity: such numbers are `null`.
 
 mod analysis;
+mod plan;
 mod run;
 #[cfg(test)]
 mod tests;
@@ -20,7 +21,11 @@ pub use analysis::{
     PassageDocument, PointDocument, Proof, ReactionDocument, RowDocument, StretchDocument,
     ValueDocument, ValuesDocument, WayDocument,
 };
-pub use run::{ChoiceDocument, Ending, EventDocument, Run, RunDocument, RunReactionDocument};
+pub use plan::{DecisionDocument, PlanDocument, PlannedComponentDocument, SavingDocument};
+pub use run::{
+    ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Run, RunDocument,
+    RunReactionDocument,
+};
 
 /// Writes a document, indented, with a line feed at the end.
 ///

@@ -5,7 +5,7 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`tables`] | `trajectory.csv` and `reactions.csv`, row by row |
-//! | [`documents`] | `analyze --json` and `summary.json` |
+//! | [`documents`] | `analyze --json`, `plan --json` and `summary.json` |
 //! | [`figures`] | the mechanism with its verdicts, histories, paths in the plane: SVG |
 //! | [`mod@work_precision`] | error against run time: table, figure, page |
 //! | [`mod@sweep`] | many runs: a journal that survives interruptions, CSV and Parquet |
@@ -18,7 +18,7 @@ pub mod sweep;
 pub mod tables;
 pub mod work_precision;
 
-pub use documents::{AnalysisDocument, Ending, Proof, Run, RunDocument, write_json};
+pub use documents::{AnalysisDocument, Ending, PlanDocument, Proof, Run, RunDocument, write_json};
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Series, Style};
 pub use files::{FileError, OutputDirectory, OutputFile};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};

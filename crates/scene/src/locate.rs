@@ -83,6 +83,7 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
 pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
     let (span, label) = match error {
         MotionError::Start(error) => return start(map, error),
+        MotionError::Component { source, .. } => return motion(map, source),
         MotionError::Contradiction(error) => {
             let marks = ["contradicts the others", "contradicts too"];
             return at_rows(map, &error.rows, error, marks);

@@ -9,6 +9,7 @@ use linalg::{Lu, Matrix};
 use model::{Derivatives, System};
 
 use super::KeptRowMotion;
+use crate::counts::{Counted, note};
 use crate::error::Trip;
 
 /// Storage for these systems.
@@ -32,6 +33,7 @@ pub(crate) struct Aim<'a> {
 
 impl SaddlePoint {
     pub(crate) fn new(motion: &KeptRowMotion<'_>) -> Self {
+        note(Counted::LinearSystems);
         let layout = motion.mechanism.layout();
         let n = layout.n_v + motion.velocity.kept.len();
         Self {

@@ -5,6 +5,7 @@ use model::System;
 
 use super::rows::KeptRows;
 use super::{Correction, KeptRowMotion};
+use crate::counts::{Counted, note};
 use crate::error::Trip;
 use crate::events::Event;
 
@@ -291,6 +292,7 @@ impl KeptRowMotion<'_> {
         residual: f64,
         tolerance: f64,
     ) -> Result<(), Trip> {
+        note(Counted::Monitors);
         if residual <= tolerance {
             return Ok(());
         }

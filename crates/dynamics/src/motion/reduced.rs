@@ -18,6 +18,7 @@ use model::{Derivatives, System};
 
 use super::KeptRowMotion;
 use super::chart::Origin;
+use crate::counts::{Counted, note};
 use crate::error::Trip;
 
 /// The Jacobian at one instant, and factors of shifted ones.
@@ -78,6 +79,7 @@ impl Reduced {
     /// Storage for a motion; nothing is linearised yet.
     #[must_use]
     pub fn new(motion: &KeptRowMotion<'_>) -> Self {
+        note(Counted::LinearSystems);
         let mechanism = motion.mechanism();
         let layout = mechanism.layout();
         Self {

@@ -123,7 +123,7 @@ impl KeptRowMotion<'_> {
             .velocity
             .dropped
             .iter()
-            .map(|i| (i + 1).to_string())
+            .map(|&i| self.mechanism.layout().labels[i].number.to_string())
             .collect();
         let redundancy = dropped.len();
         Event {

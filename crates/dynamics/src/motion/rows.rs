@@ -3,6 +3,7 @@
 use linalg::{KeptRowSaddle, Matrix, PivotedQr, SaddleError, Scaling};
 use model::{Mechanism, Scratch, System};
 
+use crate::counts::{Counted, note};
 use crate::error::Trip;
 
 /// Kept rows, their dense block of C, and the factored saddle matrix.
@@ -216,6 +217,7 @@ impl KeptRows {
     /// The largest coefficient by which a kept row enters a dropped one, at the entries of C in the scratch where the rows are freshly
     /// factored: rounding of the kept rows reaches the dropped ones multiplied by it.
     pub(super) fn largest_coefficient(&mut self, mechanism: &Mechanism, s: &Scratch) -> f64 {
+        note(Counted::Coefficients);
         let mut largest = 0.0_f64;
         let [mut row, x] = std::mem::take(&mut self.vectors);
         for d in 0..self.dropped.len() {
@@ -296,7 +298,7 @@ impl KeptRows {
     /// Whether the rows imply the dropped ones by large coefficients, at the entries of C in the scratch, where they are freshly
     /// factored.
     pub(super) fn are_poor(&mut self, mechanism: &Mechanism, s: &Scratch) -> bool {
-        self.largest_coefficient(mechanism, s) > LARGE_COEFFICIENT
+        !self.dropped.is_empty() && self.largest_coefficient(mechanism, s) > LARGE_COEFFICIENT
     }
 
     /// Whether rows that were lost are as independent as before.

@@ -46,8 +46,8 @@ impl Constrained for Equations<'_> {
             w: target.w,
             tau: target.tau,
         };
-        self.saddle_point
-            .acceleration_towards(&mut self.motion, (t, q, v), &aim, a)?;
+        let (motion, saddle_point) = self.constrained();
+        saddle_point.acceleration_towards(motion, (t, q, v), &aim, a)?;
         if let Some(work) = work.first_mut() {
             *work = self.motion.mechanism().energy_rate(v, a);
         }
@@ -70,15 +70,16 @@ impl Constrained for Equations<'_> {
         out: &mut [f64],
     ) -> Result<(), Trip> {
         let (q, v) = parts(y, self.n_q, self.n_v);
-        self.saddle_point
-            .residual(&mut self.motion, (t, q, v), (a, lambda), out);
+        let (motion, saddle_point) = self.constrained();
+        saddle_point.residual(motion, (t, q, v), (a, lambda), out);
         Ok(())
     }
 
     fn factor(&mut self, point: &Linearisation<'_>) -> Result<(), Trip> {
         let (q, v) = parts(point.y, self.n_q, self.n_v);
-        self.saddle_point.linearise(
-            &mut self.motion,
+        let (motion, saddle_point) = self.constrained();
+        saddle_point.linearise(
+            motion,
             (point.t, q, v),
             (point.a, point.lambda),
             (point.c_v, point.c_q),
@@ -86,6 +87,6 @@ impl Constrained for Equations<'_> {
     }
 
     fn solve(&mut self, x: &mut [f64]) {
-        self.saddle_point.solve(x);
+        self.constrained().1.solve(x);
     }
 }

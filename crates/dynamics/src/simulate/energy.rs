@@ -29,11 +29,21 @@ impl EnergyBalance {
         self.largest_gap = self.largest_gap.max(gap.abs());
     }
 
-    /// Largest gap relative to the largest kinetic energy.
-    pub(super) fn relative_gap(&self) -> f64 {
-        match self.largest_gap > 0.0 {
-            true => self.largest_gap / self.largest_kinetic,
-            false => 0.0,
-        }
+    /// The largest gap (J).
+    pub(super) fn largest_gap(&self) -> f64 {
+        self.largest_gap
+    }
+
+    /// The largest kinetic energy (J).
+    pub(super) fn largest_kinetic(&self) -> f64 {
+        self.largest_kinetic
+    }
+}
+
+/// A gap relative to a kinetic energy; none is none.
+pub(super) fn relative(gap: f64, kinetic: f64) -> f64 {
+    match gap > 0.0 || gap.is_nan() {
+        true => gap / kinetic,
+        false => 0.0,
     }
 }

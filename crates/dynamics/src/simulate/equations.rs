@@ -6,8 +6,8 @@ use std::ops::ControlFlow;
 use integrators::{Delicate, Implicit, Ode, StepEnd, StepInfo, Tolerance};
 use model::System;
 
-use super::Sample;
-use super::energy::EnergyBalance;
+use super::energy::{self, EnergyBalance};
+use super::sample::{AtRows, OfMotion, Sample, Source};
 use super::span::Span;
 use crate::error::Trip;
 use crate::events::Event;
@@ -43,10 +43,12 @@ const SMOOTH: f64 = 0.01;
 /// The equations of a run with what is noted on the way.
 pub(super) struct Equations<'m> {
     pub(super) motion: KeptRowMotion<'m>,
-    /// Of implicit methods.
-    reduced: Reduced,
-    /// The constraints as equations of their own.
-    pub(super) saddle_point: SaddlePoint,
+    /// What is wanted at rows of output.
+    wanted: AtRows,
+    /// Of implicit methods, from their first step on.
+    reduced: Option<Reduced>,
+    /// The constraints as equations of their own, from the first step that needs them.
+    saddle_point: Option<SaddlePoint>,
     pub(super) n_q: usize,
     pub(super) n_v: usize,
     /// Whether y carries the work.
@@ -82,6 +84,7 @@ impl<'m> Equations<'m> {
         motion: KeptRowMotion<'m>,
         prepared: &Prepared,
         options: &MotionOptions,
+        wanted: AtRows,
     ) -> Self {
         let (q, v) = (&prepared.q, &prepared.v);
         let mechanism = motion.mechanism();
@@ -106,8 +109,9 @@ impl<'m> Equations<'m> {
             last: Span::default(),
             before: Vec::new(),
             stage: Vec::new(),
-            reduced: Reduced::new(&motion),
-            saddle_point: SaddlePoint::new(&motion),
+            wanted,
+            reduced: None,
+            saddle_point: None,
             motion,
         }
     }
@@ -150,7 +154,12 @@ impl<'m> Equations<'m> {
         super::Summary {
             max_position_residual: self.max_position_residual,
             max_velocity_residual: self.max_velocity_residual,
-            energy_balance: self.energy.relative_gap(),
+            energy_balance: energy::relative(
+                self.energy.largest_gap(),
+                self.energy.largest_kinetic(),
+            ),
+            energy_gap: self.energy.largest_gap(),
+            largest_kinetic_energy: self.energy.largest_kinetic(),
             min_pivot_ratio: self.min_pivot_ratio,
             events: self.events.clone(),
             proximal: self.motion.proximal_tuning(),
@@ -176,14 +185,33 @@ impl<'m> Equations<'m> {
         self.last.check(mechanism, self.motion.size(), t, y)?;
         self.note(y, found);
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+        let blind = (BLIND_TOLERANCES * self.rtol).clamp(BLIND, BLIND_MAX);
+        let source = OfMotion {
+            t_before,
+            blind,
+            wanted: &self.wanted,
+            motion: &mut self.motion,
+        };
         row(&mut Sample {
             t,
-            t_before,
             q,
             v,
-            blind: (BLIND_TOLERANCES * self.rtol).clamp(BLIND, BLIND_MAX),
-            motion: &mut self.motion,
+            source: Source::Motion(source),
         })
+    }
+
+    /// The motion with its linear systems.
+    fn implicit(&mut self) -> (&mut KeptRowMotion<'m>, &mut Reduced) {
+        let new = || Reduced::new(&self.motion);
+        let reduced = self.reduced.get_or_insert_with(new);
+        (&mut self.motion, reduced)
+    }
+
+    /// The motion with its constraints as equations of their own.
+    pub(super) fn constrained(&mut self) -> (&mut KeptRowMotion<'m>, &mut SaddlePoint) {
+        let new = || SaddlePoint::new(&self.motion);
+        let saddle_point = self.saddle_point.get_or_insert_with(new);
+        (&mut self.motion, saddle_point)
     }
 
     /// Takes an accepted step, for the rows in it.
@@ -290,7 +318,10 @@ impl Ode for Equations<'_> {
         }
         if !self.is_careful {
             self.motion.derivative(t, y, dy)?;
-            return self.reduced.follow(&mut self.motion);
+            return match &mut self.reduced {
+                Some(reduced) => reduced.follow(&mut self.motion),
+                None => Ok(()),
+            };
         }
         let mut stage = std::mem::take(&mut self.stage);
         stage.copy_from_slice(y);
@@ -400,18 +431,19 @@ impl Ode for Equations<'_> {
 
 impl Implicit for Equations<'_> {
     fn linearise(&mut self, t: f64, y: &[f64]) -> Result<(), Trip> {
-        self.reduced.linearise(&mut self.motion, t, y)
+        let (motion, reduced) = self.implicit();
+        reduced.linearise(motion, t, y)
     }
 
     fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), Trip> {
-        self.reduced.factor(real, complex)
+        self.implicit().1.factor(real, complex)
     }
 
     fn solve(&mut self, x: &mut [f64]) {
-        self.reduced.solve(x);
+        self.implicit().1.solve(x);
     }
 
     fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
-        self.reduced.solve_complex(re, im);
+        self.implicit().1.solve_complex(re, im);
     }
 }

@@ -9,7 +9,7 @@ use super::{Mechanism, N_BODY, PlacedConstraint, PlacedForce, TimeFunction};
 use crate::description::{Body, BodyRef, Description};
 use crate::function::Function;
 use crate::reaction::{ConstraintGroup, ConstraintKind};
-use crate::registry::PlaneConstraint;
+use crate::registry::{PlaneConstraint, PlaneForce};
 use crate::system::{Layout, RowLabel};
 
 /// One fault of a description.
@@ -167,9 +167,17 @@ impl Mechanism {
         }
         b.layout.h = b.layout.labels.len() - b.layout.m;
         for f in &d.forces {
-            b.force(f);
+            b.force(&f.name, &f.bodies, f.element.as_ref(), &f.functions);
         }
-        Ok(b.finish(d))
+        let [gx, gy] = d.gravity;
+        let weight = d.bodies.iter();
+        let weight = weight
+            .flat_map(|b| [b.mass * gx, b.mass * gy, 0.0])
+            .collect();
+        let mut mechanism = b.finish(&d.name, d.bodies.clone(), weight);
+        let (q, _) = mechanism.described_state();
+        mechanism.initialise(&q);
+        Ok(mechanism)
     }
 }
 
@@ -322,18 +330,18 @@ fn check_place(
 
 /// Grows the lists of a mechanism, element by element.
 #[derive(Default)]
-struct Builder {
+pub(super) struct Builder {
     constraints: Vec<PlacedConstraint>,
     forces: Vec<PlacedForce>,
     functions: Vec<TimeFunction>,
     entries: Vec<f64>,
     n_slots: usize,
     block: usize,
-    layout: Layout,
+    pub(super) layout: Layout,
 }
 
 impl Builder {
-    fn constraint(
+    pub(super) fn constraint(
         &mut self,
         name: &str,
         kind: ConstraintKind,
@@ -395,18 +403,24 @@ impl Builder {
         self.constraints.push(placed);
     }
 
-    fn force(&mut self, f: &crate::description::Force) {
-        let spec = f.element.element().spec();
-        let column = |k: &usize| match f.bodies[k / N_BODY] {
+    pub(super) fn force(
+        &mut self,
+        name: &str,
+        bodies: &[BodyRef],
+        element: &dyn PlaneForce,
+        functions: &[Function],
+    ) {
+        let spec = element.element().spec();
+        let column = |k: &usize| match bodies[k / N_BODY] {
             BodyRef::Ground => None,
             BodyRef::Body(body) => Some(N_BODY * body + k % N_BODY),
         };
         let placed = PlacedForce {
-            name: f.name.clone(),
-            element: f.element.clone(),
-            bodies: f.bodies.clone(),
-            slots: self.take_slots(f.bodies.len()),
-            functions: self.take_functions(&f.functions, |_| 0.0),
+            name: name.to_owned(),
+            element: element.boxed(),
+            bodies: bodies.to_vec(),
+            slots: self.take_slots(bodies.len()),
+            functions: self.take_functions(functions, |_| 0.0),
             columns: spec.q.iter().map(column).collect(),
         };
         self.block = self.block.max(spec.q.len());
@@ -454,39 +468,32 @@ impl Builder {
         first..self.functions.len()
     }
 
-    fn finish(mut self, d: &Description) -> Mechanism {
-        self.layout.n_q = N_BODY * d.bodies.len();
+    /// The mechanism of these bodies; no initial values are taken and no arms are measured.
+    pub(super) fn finish(mut self, name: &str, bodies: Vec<Body>, weight: Vec<f64>) -> Mechanism {
+        self.layout.n_q = N_BODY * bodies.len();
         self.layout.n_v = self.layout.n_q;
         if self.layout.pattern.start.is_empty() {
             self.layout.pattern.start.push(0);
         }
         self.layout.break_times.sort_by(f64::total_cmp);
         self.layout.break_times.dedup();
-        let [gx, gy] = d.gravity;
+        let mass = bodies.iter();
         let mut mechanism = Mechanism {
-            name: d.name.clone(),
-            bodies: d.bodies.clone(),
+            name: name.to_owned(),
             constraints: self.constraints,
             forces: self.forces,
             functions: self.functions,
-            mass: d
-                .bodies
-                .iter()
-                .flat_map(|b| [b.mass, b.mass, b.inertia])
-                .collect(),
-            weight: d
-                .bodies
-                .iter()
-                .flat_map(|b| [b.mass * gx, b.mass * gy, 0.0])
-                .collect(),
+            mass: mass.flat_map(|b| [b.mass, b.mass, b.inertia]).collect(),
+            weight,
             entries: self.entries,
-            reach: vec![0.0; d.bodies.len()],
+            reach: vec![0.0; bodies.len()],
+            held: Vec::new(),
             n_slots: self.n_slots,
             block: self.block,
             layout: self.layout,
+            bodies,
         };
-        let (q, _) = mechanism.described_state();
-        mechanism.initialise(&q);
+        mechanism.held = mechanism.held_bodies();
         mechanism
     }
 }

@@ -1,4 +1,6 @@
-//! The kernels of an assembled mechanism: every element in turn, on the caller's storage.
+//! The kernels of an assembled mechanism: every element in turn, on the caller's storage. What does not change from one call to the
+//! next is not computed again: functions at the time of the last call, sines and cosines of angles that have stayed, entries of C that
+//! are constant, Γ of rows that are linear in q.
 
 use std::ops::Range;
 
@@ -7,6 +9,9 @@ use joints::{Pose, Twist};
 use super::{Mechanism, N_BODY, pose_of};
 use crate::description::BodyRef;
 use crate::system::{Layout, Scratch, System};
+
+/// What rounding moves an angle by that is held.
+const HELD: f64 = 4.0 * f64::EPSILON;
 
 impl System for Mechanism {
     fn layout(&self) -> &Layout {
@@ -22,6 +27,7 @@ impl System for Mechanism {
         Scratch {
             t: 0.0,
             poses: vec![Pose::GROUND; self.bodies.len()],
+            turned_to: vec![f64::NAN; self.bodies.len()],
             phi: vec![0.0; layout.m],
             entries: self.entries.clone(),
             b: vec![0.0; layout.rows()],
@@ -30,14 +36,20 @@ impl System for Mechanism {
             slot_poses: vec![Pose::GROUND; self.n_slots],
             slot_twists: vec![Twist::zero(); self.n_slots],
             jets: vec![[0.0; 3]; self.functions.len()],
+            jets_at: f64::NAN,
             block: vec![0.0; self.block],
         }
     }
 
     fn pose(&self, t: f64, q: &[f64], s: &mut Scratch) {
         s.t = t;
-        for (pose, q) in s.poses.iter_mut().zip(q.chunks_exact(N_BODY)) {
-            *pose = Pose::new(q[0], q[1], q[2]);
+        for (k, (pose, q)) in s.poses.iter_mut().zip(q.chunks_exact(N_BODY)).enumerate() {
+            (pose.x, pose.y, pose.angle) = (q[0], q[1], q[2]);
+            if !self.stays(k, s.turned_to[k], q[2]) {
+                s.turned_to[k] = q[2];
+                (pose.sin, pose.cos) = q[2].sin_cos();
+                note(Counted::Trigonometry);
+            }
         }
         let (poses, slot_poses) = (&s.poses, &mut s.slot_poses);
         for (slots, bodies) in self.places() {
@@ -45,8 +57,12 @@ impl System for Mechanism {
                 *pose = pose_of(poses, body);
             }
         }
-        for (jet, f) in s.jets.iter_mut().zip(&self.functions) {
-            *jet = f.jet(t);
+        if s.jets_at != t {
+            s.jets_at = t;
+            for (jet, f) in s.jets.iter_mut().zip(&self.functions) {
+                *jet = f.jet(t);
+                note(Counted::Function);
+            }
         }
     }
 
@@ -61,7 +77,7 @@ impl System for Mechanism {
 
     fn c(&self, s: &mut Scratch) {
         for c in &self.constraints {
-            if !c.varying.is_empty() {
+            if c.has_varying_entries() {
                 let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
                 c.element
                     .element()
@@ -73,7 +89,7 @@ impl System for Mechanism {
     fn b(&self, s: &mut Scratch) {
         for c in &self.constraints {
             let element = c.element.element();
-            if element.spec().rheonomic {
+            if c.depends_on_time() {
                 let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
                 element.b(x, f, &mut s.b[c.rows.clone()]);
             }
@@ -86,6 +102,10 @@ impl System for Mechanism {
 
     fn gamma(&self, s: &mut Scratch) {
         for c in &self.constraints {
+            if !c.has_gamma() {
+                s.gamma[c.rows.clone()].fill(0.0);
+                continue;
+            }
             let (x, v) = (
                 &s.slot_poses[c.slots.clone()],
                 &s.slot_twists[c.slots.clone()],
@@ -120,6 +140,15 @@ impl System for Mechanism {
 }
 
 impl Mechanism {
+    /// Whether a body has the sine and cosine at an angle that it had at another one. Where rows of angles hold it, rounding may move the
+    /// angle, but does not turn it; elsewhere bits count: the sine of −0 is not that of 0.
+    fn stays(&self, body: usize, from: f64, to: f64) -> bool {
+        match self.held[body] {
+            true => (to - from).abs() <= HELD * from.abs().max(1.0),
+            false => to.to_bits() == from.to_bits(),
+        }
+    }
+
     /// Writes velocities or accelerations of the bodies to the slots; those of the ground stay zero.
     pub(super) fn spread(&self, v: &[f64], slot_twists: &mut [Twist]) {
         for (slots, bodies) in self.places() {
@@ -137,7 +166,7 @@ impl Mechanism {
     }
 
     /// Slots and bodies of all constraints and forces.
-    fn places(&self) -> impl Iterator<Item = (Range<usize>, &[BodyRef])> {
+    pub(super) fn places(&self) -> impl Iterator<Item = (Range<usize>, &[BodyRef])> {
         let constraints = self
             .constraints
             .iter()
@@ -149,3 +178,23 @@ impl Mechanism {
         constraints.chain(forces)
     }
 }
+
+/// What tests count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Counted {
+    /// A sine and a cosine.
+    Trigonometry,
+    /// A function of time with its derivatives.
+    Function,
+}
+
+/// Counts one piece of work, in tests of this crate only.
+#[inline]
+fn note(work: Counted) {
+    #[cfg(test)]
+    tests::COUNTS.with_borrow_mut(|counts| counts[work as usize] += 1);
+    let _ = work;
+}
+
+#[cfg(test)]
+mod tests;

@@ -5,6 +5,7 @@ mod bad_input;
 mod cold_start;
 mod documents;
 mod failures;
+mod plan;
 mod singular;
 mod sweep;
 mod work_precision;

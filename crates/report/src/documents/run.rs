@@ -3,20 +3,19 @@
 use std::fmt;
 
 use dynamics::{
-    Event, EventKind, Formulation, MotionError, MotionOptions, Prepared, RowChoice, Summary,
+    ComponentSummary, Event, EventKind, Formulation, MotionError, Plan, RowChoice, Summary,
 };
 use serde::Serialize;
 use solvability::Analysis;
 
+use super::plan::{short, short_of};
 use super::{Named, VerdictDocument, from_one};
 
 /// What a run was and what came out.
 #[derive(Clone, Copy)]
 pub struct Run<'a> {
-    /// Start and kept rows.
-    pub prepared: &'a Prepared,
-    /// What was asked.
-    pub options: &'a MotionOptions,
+    /// Start, kept rows, and how it was to run.
+    pub plan: &'a Plan<'a>,
     /// Verdicts at the start.
     pub analysis: &'a Analysis,
     /// What came out.
@@ -39,7 +38,7 @@ pub enum Ending<'a> {
 /// Numbers, events and verdicts of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RunDocument {
-    /// Integrator.
+    /// Integrator; `auto` where components have different ones.
     pub method: &'static str,
     /// Treatment of redundancy.
     pub formulation: &'static str,
@@ -65,7 +64,7 @@ pub struct RunDocument {
     pub max_position_residual: f64,
     /// Largest |C·v − b|.
     pub max_velocity_residual: f64,
-    /// Largest |E − E₀ − work| relative to the largest kinetic energy.
+    /// Largest |E − E₀ − work| relative to the largest kinetic energy, or a bound of it where there are components.
     pub energy_balance: f64,
     /// Largest change of a coordinate by the assembly (m or rad).
     pub start_correction: f64,
@@ -75,6 +74,38 @@ pub struct RunDocument {
     pub events: Vec<EventDocument>,
     /// Verdict of every joint and drive at the start, by name.
     pub reactions: Named<RunReactionDocument>,
+    /// What was decided before the run, in short.
+    pub plan: Named<String>,
+    /// Components that were run apart.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub components: Vec<ComponentRunDocument>,
+}
+
+/// Numbers of a component that was run apart.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ComponentRunDocument {
+    /// Its bodies in words.
+    pub name: String,
+    /// Integrator.
+    pub method: &'static str,
+    /// Last time reached (s).
+    pub t_end: f64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Evaluations of accelerations.
+    pub evaluations: u64,
+    /// Projections of steps.
+    pub projections: u64,
+    /// Largest |Φ|.
+    pub max_position_residual: f64,
+    /// Largest |C·v − b|.
+    pub max_velocity_residual: f64,
+    /// Largest |E − E₀ − work| relative to its largest kinetic energy.
+    pub energy_balance: f64,
+    /// What was decided about it, in short.
+    pub plan: Named<String>,
 }
 
 /// An event.
@@ -141,9 +172,13 @@ const OF_MULTIPLIERS: &str =
     "multipliers divided by the root of the mass that their row moves at the start";
 
 impl ChoiceDocument {
-    fn new(run: &Run<'_>) -> Self {
-        let (prepared, summary) = (run.prepared, run.summary);
-        match (run.options.formulation, summary.proximal) {
+    /// The choice that the reaction of a joint or drive belongs to: that of its component, where there are several.
+    fn of(run: &Run<'_>, group: usize) -> Self {
+        let prepared = run.plan.prepared();
+        let components = &run.summary.components;
+        let own = components.iter().find(|c| c.places.groups.contains(&group));
+        let summary = own.map_or(run.summary, |component| &component.summary);
+        match (run.plan.options().formulation, summary.proximal) {
             (Formulation::MinimumNorm, _) => Self::MinimumNorm { norm: OF_REACTIONS },
             (_, Some(tuning)) => Self::Proximal {
                 mu: tuning.mu,
@@ -154,8 +189,10 @@ impl ChoiceDocument {
                 // Rows that the user asked for stay those of the reactions, whatever is kept for the motion.
                 let automatic = prepared.choice == RowChoice::Automatic;
                 let exchange = |e: &&Event| automatic && e.kind == EventKind::RowsExchanged;
+                let belongs = |row: &&usize| own.is_none_or(|c| c.places.rows.contains(row));
+                let dropped = prepared.decision.dropped.iter().filter(belongs);
                 Self::KeptRows {
-                    deleted_rows: from_one(&prepared.decision.dropped),
+                    deleted_rows: dropped.map(|row| row + 1).collect(),
                     valid_until: summary.events.iter().find(exchange).map(|e| e.time),
                 }
             }
@@ -187,24 +224,25 @@ impl RunDocument {
     /// The document of a run.
     #[must_use]
     pub fn new(run: &Run<'_>) -> Self {
-        let (prepared, summary) = (run.prepared, run.summary);
+        let (prepared, summary) = (run.plan.prepared(), run.summary);
+        let options = run.plan.options();
         let (partial, error) = match run.ending {
             Ending::Complete => (false, None),
             Ending::Interrupted => (true, None),
             Ending::Stopped(error) => (true, Some(error.to_string())),
         };
-        let choice = ChoiceDocument::new(run);
         let reactions = run.analysis.reactions.iter().map(|r| {
+            let is_unique = r.wrench.verdict.is_unique();
             let document = RunReactionDocument {
                 verdict: (&r.wrench).into(),
-                choice: (!r.wrench.verdict.is_unique()).then(|| choice.clone()),
+                choice: (!is_unique).then(|| ChoiceDocument::of(run, r.id.0)),
             };
             (r.name.clone(), document)
         });
         Self {
             method: run.summary.method.name(),
-            formulation: run.options.formulation.name(),
-            stabilisation: run.options.stabilisation.name(),
+            formulation: options.formulation.name(),
+            stabilisation: options.stabilisation.name(),
             partial,
             error,
             t_end: summary.t,
@@ -220,6 +258,32 @@ impl RunDocument {
             start_velocity_correction: largest(&prepared.velocity_correction),
             events: summary.events.iter().map(Into::into).collect(),
             reactions: Named(reactions.collect()),
+            plan: short(run.plan),
+            components: summary
+                .components
+                .iter()
+                .zip(&run.plan.components)
+                .map(|(component, plan)| ComponentRunDocument::new(component, short_of(plan)))
+                .collect(),
+        }
+    }
+}
+
+impl ComponentRunDocument {
+    fn new(component: &ComponentSummary, plan: Named<String>) -> Self {
+        let summary = &component.summary;
+        Self {
+            name: component.name.clone(),
+            method: summary.method.name(),
+            t_end: summary.t,
+            steps: summary.steps,
+            rejected: summary.rejected,
+            evaluations: summary.evaluations,
+            projections: summary.projections,
+            max_position_residual: summary.max_position_residual,
+            max_velocity_residual: summary.max_velocity_residual,
+            energy_balance: summary.energy_balance,
+            plan,
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Whole documents of small runs, byte for byte.
 
 use dynamics::{
-    Event, EventKind, Method, MotionError, MotionOptions, Prepared, RowChoice, Summary, prepare,
+    Event, EventKind, Method, MotionError, MotionOptions, Plan, Prepared, RowChoice, Summary,
+    Wanted, prepare,
 };
 use joints::Revolute;
 use linalg::{
@@ -283,6 +284,11 @@ fn prepared() -> Prepared {
     prepare(mechanism, &StartOptions::default(), &rows).expect("the door hangs")
 }
 
+/// Two seconds of it.
+fn planned(prepared: &Prepared) -> Plan<'_> {
+    Plan::new(prepared, &MotionOptions::to(2.0), &Wanted::default()).expect("the door has a plan")
+}
+
 #[test]
 fn summary_has_the_keys_of_the_contract() {
     let mut analysis = analysis();
@@ -299,14 +305,17 @@ fn summary_has_the_keys_of_the_contract() {
         max_position_residual: 0.0,
         max_velocity_residual: f64::NAN,
         energy_balance: 0.0,
+        energy_gap: 0.0,
+        largest_kinetic_energy: 0.0,
         min_pivot_ratio: 1.0,
         events: Vec::new(),
         proximal: None,
+        components: Vec::new(),
     };
-    let (prepared, options) = (prepared(), MotionOptions::to(2.0));
+    let prepared = prepared();
+    let plan = planned(&prepared);
     let run = Run {
-        prepared: &prepared,
-        options: &options,
+        plan: &plan,
         analysis: &analysis,
         summary: &summary,
         ending: Ending::Complete,
@@ -321,15 +330,20 @@ fn summary_has_the_keys_of_the_contract() {
         "reactions": {
             "upper": { "verdict": "unique", "margin": 0.0 },
             "lower \"2\"": { "verdict": "not_unique", "margin": 0.5,
-                "choice": { "method": "kept-rows", "deleted_rows": [4] } } } }"#;
+                "choice": { "method": "kept-rows", "deleted_rows": [4] } } },
+        "plan": { "components": "solved as one", "generated_code": "interpreted", "rows_of_output": "201", "accelerations": "at rows of output", "method": "dop853", "linear_systems": "none",
+            "elimination": "dense, 3 × 3", "freedom": "none", "nonholonomic_rows": "none", "dropped_rows": "1 monitored",
+            "rows_of_time": "b = 0", "varying_entries": "4 evaluated", "rows_of_gamma": "4 evaluated", "turning_bodies": "1 of 1",
+            "forces": "Q = 0", "reactions": "all 2" } }"#;
     assert_eq!(squeezed(&found), squeezed(expected));
 }
 
 #[test]
 fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
-    let (options, analysis) = (MotionOptions::to(2.0), analysis());
+    let analysis = analysis();
     let mut prepared = prepared();
     prepared.choice = RowChoice::Automatic;
+    let plan = planned(&prepared);
     let summary = Summary {
         t: 1.5,
         events: vec![Event {
@@ -344,8 +358,7 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
     };
     let error = MotionError::Rows("no rows".into());
     let run = |ending| Run {
-        prepared: &prepared,
-        options: &options,
+        plan: &plan,
         analysis: &analysis,
         summary: &summary,
         ending,
@@ -363,7 +376,7 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
     let mut asked = prepared.clone();
     asked.choice = RowChoice::Drop(vec![3]);
     let explicit = RunDocument::new(&Run {
-        prepared: &asked,
+        plan: &planned(&asked),
         ..run(Ending::Complete)
     });
     let choices = explicit

@@ -1,0 +1,299 @@
+//! What a run does and what it leaves out, decided once from a prepared mechanism, its options and the output that is wanted. Each
+//! decision has its reason and what it saves; a run does what its plan says ([`mod@crate::simulate`]). Not here: how anything is computed.
+
+mod component;
+mod decisions;
+mod saving;
+mod split;
+#[cfg(test)]
+mod tests;
+
+use model::{Places, System};
+
+use crate::choose;
+use crate::code::NoCode;
+use crate::error::MotionError;
+use crate::options::MotionOptions;
+use crate::prepare::Prepared;
+
+pub use component::{ComponentPlan, Sizes};
+pub use decisions::Decisions;
+pub use saving::{Cost, Saving};
+
+/// What of a motion is wanted. What is not is not computed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// Whether rows of output are: states on the constraints at the times of output.
+    pub rows: Rows,
+    /// Whether accelerations are, at these rows.
+    pub accelerations: bool,
+    /// Whose reactions are, at these rows.
+    pub reactions: Reactions,
+}
+
+impl Default for Wanted {
+    /// Everything.
+    fn default() -> Self {
+        Self {
+            rows: Rows::Every,
+            accelerations: true,
+            reactions: Reactions::All,
+        }
+    }
+}
+
+/// Which rows of output.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rows {
+    /// At 0, every output step, and the end.
+    #[default]
+    Every,
+    /// At 0 and the end.
+    Ends,
+}
+
+/// Whose reactions.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Reactions {
+    /// Those of all joints and drives.
+    #[default]
+    All,
+    /// Those of these joints and drives.
+    Of(Vec<String>),
+    /// Nobody's.
+    None,
+}
+
+/// A decision.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decided<T> {
+    /// What was decided.
+    pub value: T,
+    /// The same in a few words.
+    pub taken: String,
+    /// Why.
+    pub reason: String,
+    /// What it saves, where that can be counted.
+    pub saves: Option<Saving>,
+}
+
+/// A decision as a line of a table.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line<'p> {
+    /// The component that it is of; nothing if it is of the whole.
+    pub component: Option<&'p str>,
+    /// What was to be decided.
+    pub decision: &'static str,
+    /// What was decided.
+    pub taken: &'p str,
+    /// Why.
+    pub reason: &'p str,
+    /// What it saves.
+    pub saves: Option<Saving>,
+}
+
+/// The plan of a run.
+///
+/// ```
+/// use dynamics::{MotionOptions, Plan, RowChoice, Wanted, prepare};
+/// use joints::Revolute;
+/// use model::{Body, BodyRef, Description, Joint, Mechanism, StartOptions};
+/// // Two pendulums on one ground do not feel each other.
+/// let body = |name: &str| Body { name: name.into(), mass: 1.0, inertia: 1.0, ..Body::default() };
+/// let pin = |name: &str, k| {
+///     Joint::new(name, &[BodyRef::Ground, BodyRef::Body(k)], Revolute { s_i: [0.0; 2], s_j: [0.0, 1.0] })
+/// };
+/// let pendulums = Description {
+///     gravity: [0.0, -9.81],
+///     bodies: vec![body("left"), body("right")],
+///     joints: vec![pin("a", 0), pin("b", 1)],
+///     ..Description::default()
+/// };
+/// let start = StartOptions { correction: model::start::CorrectionLimit::Any, ..StartOptions::default() };
+/// let prepared = prepare(Mechanism::build(&pendulums).unwrap(), &start, &RowChoice::Automatic)?;
+/// let plan = Plan::new(&prepared, &MotionOptions::to(1.0), &Wanted::default())?;
+/// assert_eq!(plan.components.len(), 2);
+/// assert_eq!(plan.components[1].name, "right");
+/// assert_eq!(plan.components[1].decisions.method.taken, "dop853");
+/// # Ok::<(), dynamics::MotionError>(())
+/// ```
+pub struct Plan<'a> {
+    prepared: &'a Prepared,
+    options: MotionOptions,
+    /// Whether the mechanism is taken apart.
+    pub apart: Decided<bool>,
+    /// Whether code that was generated for the mechanism is used.
+    pub code: Decided<bool>,
+    /// Which rows of output are computed.
+    pub rows: Decided<Rows>,
+    /// Whether accelerations are computed there.
+    pub accelerations: Decided<bool>,
+    /// Its components, or the whole as the only one.
+    pub components: Vec<ComponentPlan<'a>>,
+}
+
+impl<'a> Plan<'a> {
+    /// Decides everything that can be decided before the motion begins.
+    ///
+    /// # Errors
+    /// - [`MotionError::Option`], [`MotionError::Combination`], [`MotionError::NothingToDrop`]: the options are none.
+    /// - [`MotionError::NoReaction`]: a reaction is wanted of a joint that does not exist.
+    /// - [`MotionError::Trip`]: the motion cannot be judged at its start.
+    pub fn new(
+        prepared: &'a Prepared,
+        options: &MotionOptions,
+        wanted: &Wanted,
+    ) -> Result<Self, MotionError> {
+        options.check()?;
+        options.check_rows(&prepared.choice)?;
+        let groups = wanted_groups(prepared, &wanted.reactions)?;
+        let code = code(prepared, options)?;
+        let (apart, parts) = match code.value {
+            true => split::stays("the generated code has all bodies".to_owned()),
+            false => split::split(prepared)?,
+        };
+        let components = match parts.is_empty() {
+            true => vec![ComponentPlan::whole(prepared, options, &groups)?],
+            false => parts
+                .into_iter()
+                .map(|part| ComponentPlan::part(part, options, &groups))
+                .collect::<Result<_, _>>()?,
+        };
+        Ok(Self {
+            prepared,
+            options: options.clone(),
+            apart,
+            code,
+            rows: rows(options, wanted.rows),
+            accelerations: accelerations(wanted.accelerations),
+            components,
+        })
+    }
+
+    /// What is to move.
+    #[must_use]
+    pub fn prepared(&self) -> &'a Prepared {
+        self.prepared
+    }
+
+    /// What was asked; methods are those of the components.
+    #[must_use]
+    pub fn options(&self) -> &MotionOptions {
+        &self.options
+    }
+
+    /// All decisions, those of the whole first.
+    #[must_use]
+    pub fn lines(&self) -> Vec<Line<'_>> {
+        let of_whole = [
+            line("components", &self.apart),
+            line("generated code", &self.code),
+            line("rows of output", &self.rows),
+            line("accelerations", &self.accelerations),
+        ];
+        let several = self.components.len() > 1;
+        let of_components = self.components.iter().flat_map(|component| {
+            let name = several.then_some(component.name.as_str());
+            let lines = component.decisions.lines().into_iter();
+            lines.map(move |line| Line {
+                component: name,
+                ..line
+            })
+        });
+        of_whole.into_iter().chain(of_components).collect()
+    }
+}
+
+/// A line of the whole.
+fn line<'p, T>(decision: &'static str, decided: &'p Decided<T>) -> Line<'p> {
+    Line {
+        component: None,
+        decision,
+        taken: &decided.taken,
+        reason: &decided.reason,
+        saves: decided.saves,
+    }
+}
+
+/// For each joint and drive, whether its reaction is wanted.
+fn wanted_groups(prepared: &Prepared, reactions: &Reactions) -> Result<Vec<bool>, MotionError> {
+    let groups = &prepared.mechanism.layout().groups;
+    let names = match reactions {
+        Reactions::All => return Ok(vec![true; groups.len()]),
+        Reactions::None => return Ok(vec![false; groups.len()]),
+        Reactions::Of(names) => names,
+    };
+    match names.iter().find(|n| groups.iter().all(|g| g.name != **n)) {
+        Some(name) => Err(MotionError::NoReaction { name: name.clone() }),
+        None => Ok(groups.iter().map(|g| names.contains(&g.name)).collect()),
+    }
+}
+
+/// Whether a run of the whole is one on generated code.
+fn code(prepared: &Prepared, options: &MotionOptions) -> Result<Decided<bool>, MotionError> {
+    let interpreted = |why: NoCode| Decided {
+        value: false,
+        taken: "interpreted".to_owned(),
+        reason: why.to_string(),
+        saves: None,
+    };
+    // What has no code need not choose a method for the whole.
+    if let Err(why @ NoCode::None) = prepared.code_for(options) {
+        return Ok(interpreted(why));
+    }
+    let options = MotionOptions {
+        method: choose::method(prepared, options)?.value,
+        ..options.clone()
+    };
+    Ok(match prepared.code_for(&options) {
+        Err(why) => interpreted(why),
+        Ok(code) => Decided {
+            value: true,
+            taken: format!("`{}`", code.facts().name),
+            reason: format!(
+                "its values are those of this mechanism ({}); kernels and elimination below are what it falls back to",
+                code.facts().operations
+            ),
+            saves: None,
+        },
+    })
+}
+
+fn rows(options: &MotionOptions, rows: Rows) -> Decided<Rows> {
+    let every = (options.t_end / options.output_step).ceil().max(0.0) as u64 + 1;
+    match rows {
+        Rows::Every => Decided {
+            value: rows,
+            taken: format!("{every}"),
+            reason: format!("wanted every {} s", options.output_step),
+            saves: None,
+        },
+        Rows::Ends => Decided {
+            value: rows,
+            taken: "the ends only".to_owned(),
+            reason: "nothing is written of the others".to_owned(),
+            saves: Saving::of(every.saturating_sub(2), every, Cost::Rows),
+        },
+    }
+}
+
+fn accelerations(wanted: bool) -> Decided<bool> {
+    let (taken, reason) = match wanted {
+        true => ("at rows of output", "wanted"),
+        false => ("within steps only", "not wanted at rows of output"),
+    };
+    Decided {
+        value: wanted,
+        taken: taken.to_owned(),
+        reason: reason.to_owned(),
+        saves: None,
+    }
+}
+
+/// What of a list of the whole belongs to a part.
+fn pick<T: Copy>(x: &[T], places: &[usize]) -> Vec<T> {
+    places.iter().map(|&k| x[k]).collect()
+}
+
+/// A prepared part and where it is in the whole.
+type PreparedPart = (Prepared, Places);

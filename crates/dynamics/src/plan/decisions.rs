@@ -1,0 +1,311 @@
+//! The decisions about one component: each from a fact of its mechanism or its options, by the same question that the code asks which
+//! obeys it.
+
+use model::{System, Work};
+
+use super::component::Sizes;
+use super::saving::{Cost, Saving};
+use super::split::elimination;
+use super::{Decided, Line, line};
+use crate::choose;
+use crate::error::MotionError;
+use crate::options::{Formulation, Method, MotionOptions};
+use crate::prepare::Prepared;
+
+/// What was decided for one component.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Decisions {
+    /// Its integrator.
+    pub method: Decided<Method>,
+    /// Whether there is storage for linear systems of the integrator; it is made by the first step that needs it.
+    pub linear_systems: Decided<bool>,
+    /// Rows and columns of what is eliminated densely.
+    pub elimination: Decided<[usize; 2]>,
+    /// Degrees of freedom; without one the motion is a function of time.
+    pub mobility: Decided<usize>,
+    /// Rows that have a velocity level only.
+    pub nonholonomic: Decided<usize>,
+    /// Dropped rows: monitored, and exchanged for kept ones where these become nearly dependent.
+    pub dropped: Decided<usize>,
+    /// Rows whose b and Φt are evaluated.
+    pub of_time: Decided<usize>,
+    /// Entries of C that are evaluated.
+    pub entries: Decided<usize>,
+    /// Rows whose Γ is evaluated.
+    pub gamma: Decided<usize>,
+    /// Bodies whose sine and cosine change.
+    pub turning: Decided<usize>,
+    /// Applied forces.
+    pub forces: Decided<usize>,
+    /// Joints and drives whose reactions are computed at rows of output, among those of the component.
+    pub reactions: Decided<Vec<usize>>,
+}
+
+impl Decisions {
+    pub(super) fn new(
+        prepared: &Prepared,
+        options: &MotionOptions,
+        reactions: Vec<usize>,
+    ) -> Result<Self, MotionError> {
+        let sizes = Sizes::of(prepared);
+        let work = prepared.mechanism.work();
+        let method = choose::method(prepared, options)?;
+        Ok(Self {
+            linear_systems: linear_systems(method.value, &sizes),
+            elimination: dense(prepared, options.formulation, &sizes, &work),
+            mobility: mobility(&sizes, &work),
+            nonholonomic: nonholonomic(&sizes),
+            dropped: dropped(options.formulation, &sizes),
+            of_time: of_time(&sizes, &work),
+            entries: entries(&work),
+            gamma: gamma(&sizes, &work),
+            turning: turning(prepared, &work),
+            forces: forces(prepared, &work),
+            reactions: wanted(prepared, reactions),
+            method,
+        })
+    }
+
+    /// One line for each.
+    #[must_use]
+    pub fn lines(&self) -> Vec<Line<'_>> {
+        vec![
+            line("method", &self.method),
+            line("linear systems", &self.linear_systems),
+            line("elimination", &self.elimination),
+            line("freedom", &self.mobility),
+            line("nonholonomic rows", &self.nonholonomic),
+            line("dropped rows", &self.dropped),
+            line("rows of time", &self.of_time),
+            line("varying entries", &self.entries),
+            line("rows of gamma", &self.gamma),
+            line("turning bodies", &self.turning),
+            line("forces", &self.forces),
+            line("reactions", &self.reactions),
+        ]
+    }
+}
+
+fn linear_systems(method: Method, sizes: &Sizes) -> Decided<bool> {
+    let (n, r, w) = (sizes.velocities, sizes.rank, 2 * sizes.mobility());
+    // Derivatives along each independent entry, of [q; v]; the real system, and the complex one as a real one of twice the order.
+    let reduced = 2 * w * 2 * n + w * w + 4 * w * w;
+    // The matrix and its factors.
+    let saddle_point = 2 * (n + r) * (n + r);
+    let (value, taken, why, left_out) = match method {
+        Method::Radau5 => (
+            true,
+            "on independent coordinates",
+            "is implicit",
+            saddle_point,
+        ),
+        Method::Hem4 | Method::GeneralizedAlpha => (
+            true,
+            "with the kept rows",
+            "takes the constraints as equations of their own",
+            reduced,
+        ),
+        _ => (false, "none", "is explicit", reduced + saddle_point),
+    };
+    Decided {
+        value,
+        taken: taken.to_owned(),
+        reason: format!("{} {why}", method.name()),
+        saves: Saving::of_sizes(left_out, reduced + saddle_point, Cost::Storage),
+    }
+}
+
+fn dense(
+    prepared: &Prepared,
+    formulation: Formulation,
+    sizes: &Sizes,
+    work: &Work,
+) -> Decided<[usize; 2]> {
+    let rows = match formulation.drops_rows() {
+        true => sizes.rank,
+        false => sizes.rows(),
+    };
+    let (all, n) = (elimination(&prepared.mechanism, rows), sizes.velocities);
+    // Of the whole saddle matrix, by LU.
+    let order = (n + rows) as u64;
+    let whole = order * order * order / 3;
+    Decided {
+        value: [rows, n],
+        taken: format!("dense, {rows} × {n}"),
+        reason: format!(
+            "{}, {} entries of C; saved against LU of the whole saddle matrix",
+            formulation.name(),
+            work.entries
+        ),
+        saves: Saving::of(whole.saturating_sub(all), whole, Cost::Elimination),
+    }
+}
+
+fn mobility(sizes: &Sizes, work: &Work) -> Decided<usize> {
+    let value = sizes.mobility();
+    let (taken, reason) = match (value, work.rows_of_time) {
+        (0, 0) => ("none".to_owned(), "the constraints hold it where it is"),
+        (0, _) => (
+            "a function of time".to_owned(),
+            "driven, and nothing is free; functions are evaluated once at each time",
+        ),
+        (n, _) => (format!("{n}"), "velocities less independent rows"),
+    };
+    Decided {
+        value,
+        taken,
+        reason: reason.to_owned(),
+        saves: None,
+    }
+}
+
+fn nonholonomic(sizes: &Sizes) -> Decided<usize> {
+    let value = sizes.nonholonomic;
+    let (taken, reason) = match value {
+        0 => (
+            "none".to_owned(),
+            "every row has a position level: no projection of velocities alone",
+        ),
+        n => (
+            format!("{n}"),
+            "rows without position level: projected on velocity level",
+        ),
+    };
+    Decided {
+        value,
+        taken,
+        reason: reason.to_owned(),
+        saves: None,
+    }
+}
+
+fn dropped(formulation: Formulation, sizes: &Sizes) -> Decided<usize> {
+    let value = sizes.redundancy();
+    let (taken, reason) = match (value, formulation.drops_rows()) {
+        (0, _) => (
+            "none".to_owned(),
+            "all rows are independent: no row is monitored or exchanged",
+        ),
+        (p, true) => (
+            format!("{p} monitored"),
+            "implied by the kept ones; not solved for",
+        ),
+        (p, false) => (
+            format!("{p} monitored"),
+            "implied by the others; accelerations are those of all rows",
+        ),
+    };
+    Decided {
+        value,
+        taken,
+        reason: reason.to_owned(),
+        saves: match value {
+            0 => Saving::of_sizes(sizes.rows(), sizes.rows(), Cost::Monitors),
+            _ => None,
+        },
+    }
+}
+
+fn of_time(sizes: &Sizes, work: &Work) -> Decided<usize> {
+    let (value, all) = (work.rows_of_time, sizes.rows());
+    let (taken, reason) = match (value, work.functions) {
+        (0, 0) => ("b = 0".to_owned(), "nothing depends on time".to_owned()),
+        (0, n) => (
+            "b = 0".to_owned(),
+            format!("no constraint depends on time; functions of forces: {n}"),
+        ),
+        (rows, n) => (
+            format!("b and Φt of {rows}"),
+            format!("driven; functions, evaluated once at each time: {n}"),
+        ),
+    };
+    Decided {
+        value,
+        taken,
+        reason,
+        saves: Saving::of_sizes(all - value, all, Cost::TimeRows),
+    }
+}
+
+fn entries(work: &Work) -> Decided<usize> {
+    let (value, all) = (work.varying_entries, work.entries);
+    Decided {
+        value,
+        taken: format!("{value} evaluated"),
+        reason: match all - value {
+            0 => "all depend on the configuration".to_owned(),
+            n => format!("{n} are constant"),
+        },
+        saves: Saving::of_sizes(all - value, all, Cost::Entries),
+    }
+}
+
+fn gamma(sizes: &Sizes, work: &Work) -> Decided<usize> {
+    let (value, all) = (work.rows_of_gamma, sizes.rows());
+    Decided {
+        value,
+        taken: format!("{value} evaluated"),
+        reason: match all - value {
+            0 => "no joint has constant C".to_owned(),
+            n => format!("{n} belong to joints with constant C: Γ = 0"),
+        },
+        saves: Saving::of_sizes(all - value, all, Cost::Gamma),
+    }
+}
+
+fn turning(prepared: &Prepared, work: &Work) -> Decided<usize> {
+    let bodies = prepared.mechanism.bodies();
+    let held = &work.without_turning;
+    let names: Vec<&str> = held.iter().map(|&k| bodies[k].name.as_str()).collect();
+    Decided {
+        value: bodies.len() - held.len(),
+        taken: format!("{} of {}", bodies.len() - held.len(), bodies.len()),
+        reason: match names.is_empty() {
+            true => "no row holds an angle; sine and cosine of one that stays are kept".to_owned(),
+            false => format!("rows of angles hold {}", names.join(", ")),
+        },
+        saves: Saving::of_sizes(held.len(), bodies.len(), Cost::Trigonometry),
+    }
+}
+
+fn forces(prepared: &Prepared, work: &Work) -> Decided<usize> {
+    let weight = prepared.mechanism.weight().iter().any(|w| *w != 0.0);
+    let (taken, reason) = match (work.forces, weight) {
+        (0, false) => ("Q = 0".to_owned(), "no forces, no gravity"),
+        (0, true) => (
+            "the weight alone".to_owned(),
+            "no applied forces: Q is constant",
+        ),
+        (n, false) => (format!("{n}"), "no gravity"),
+        (n, true) => (format!("{n} and the weight"), "applied forces"),
+    };
+    Decided {
+        value: work.forces,
+        taken,
+        reason: reason.to_owned(),
+        saves: None,
+    }
+}
+
+fn wanted(prepared: &Prepared, value: Vec<usize>) -> Decided<Vec<usize>> {
+    let groups = &prepared.mechanism.layout().groups;
+    let (all, n) = (groups.len(), value.len());
+    let names: Vec<&str> = value.iter().map(|&k| groups[k].name.as_str()).collect();
+    let (taken, reason) = match n {
+        0 => (
+            "none".to_owned(),
+            "none is wanted: no multipliers are solved for at rows of output".to_owned(),
+        ),
+        n if n == all => (format!("all {n}"), "wanted at rows of output".to_owned()),
+        n => (
+            format!("{n} of {all}"),
+            format!("wanted at rows of output: {}", names.join(", ")),
+        ),
+    };
+    Decided {
+        value,
+        taken,
+        reason,
+        saves: Saving::of_sizes(all - n, all, Cost::Reactions),
+    }
+}

@@ -1,0 +1,73 @@
+//! What a decision saves, in numbers that can be counted.
+
+use std::fmt;
+
+/// So many of so many are left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Saving {
+    /// How many are left out.
+    pub left_out: u64,
+    /// Of how many.
+    pub of: u64,
+    /// Of what.
+    pub what: Cost,
+}
+
+/// What can be left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cost {
+    /// Rows of output: accurate dense output, projection.
+    Rows,
+    /// Multiply-adds of the dense elimination of an evaluation.
+    Elimination,
+    /// Pairs of sine and cosine of an evaluation.
+    Trigonometry,
+    /// Entries of C of an evaluation.
+    Entries,
+    /// Values of b and Φt of an evaluation.
+    TimeRows,
+    /// Values of Γ of an evaluation.
+    Gamma,
+    /// Stored numbers.
+    Storage,
+    /// Rows whose residuals are compared with a limit at each accepted step.
+    Monitors,
+    /// Reactions at each row of output.
+    Reactions,
+}
+
+impl Saving {
+    /// Nothing where nothing is left out.
+    pub(super) fn of(left_out: u64, of: u64, what: Cost) -> Option<Self> {
+        (left_out > 0).then_some(Self { left_out, of, what })
+    }
+
+    /// The same for sizes.
+    pub(super) fn of_sizes(left_out: usize, of: usize, what: Cost) -> Option<Self> {
+        Self::of(left_out as u64, of as u64, what)
+    }
+}
+
+impl Cost {
+    /// What it is, and how often.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Rows => "rows",
+            Self::Elimination => "multiply-adds an evaluation",
+            Self::Trigonometry => "sines and cosines an evaluation",
+            Self::Entries => "entries of C an evaluation",
+            Self::TimeRows => "values of b",
+            Self::Gamma => "values of Γ an evaluation",
+            Self::Storage => "stored numbers",
+            Self::Monitors => "compared rows a step",
+            Self::Reactions => "reactions a row",
+        }
+    }
+}
+
+impl fmt::Display for Saving {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {} {}", self.left_out, self.of, self.what.name())
+    }
+}

@@ -1,0 +1,127 @@
+//! Taking a prepared mechanism apart into prepared components. Ranks are decided for each at the start of the whole, with the rows that
+//! the whole drops, so that what is said of its choice holds for each of them.
+
+use linalg::RankDecision;
+use model::start::scene_size;
+use model::{Assembly, Mechanism, Part, Places, System};
+use solvability::{decide, decide_dropping, decide_holonomic};
+
+use super::saving::{Cost, Saving};
+use super::{Decided, PreparedPart, pick};
+use crate::error::MotionError;
+use crate::options::RowChoice;
+use crate::prepare::Prepared;
+
+/// Components that are run at the same time at most, each on its own thread.
+const MOST: usize = 64;
+
+/// Whether the mechanism is taken apart, and its components; none where it stays whole.
+pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart>), MotionError> {
+    let sets = whole.mechanism.components();
+    let n = sets.len();
+    if n == 1 {
+        return Ok(stays(match whole.mechanism.bodies().len() {
+            1 => "there is one body".to_owned(),
+            _ => "all bodies are connected".to_owned(),
+        }));
+    }
+    if n > MOST {
+        return Ok(stays(format!(
+            "{n} do not feel each other, more than {MOST}: a thread for each would cost more"
+        )));
+    }
+    let mut parts = Vec::with_capacity(n);
+    for set in &sets {
+        let Some(part) = prepared(whole, whole.mechanism.part(set))? else {
+            return Ok(stays(format!(
+                "{n} do not feel each other, but the rank of one is doubtful alone"
+            )));
+        };
+        parts.push(part);
+    }
+    let of = elimination(&whole.mechanism, whole.decision.rank);
+    let own = |(p, _): &PreparedPart| elimination(&p.mechanism, p.decision.rank);
+    let apart: u64 = parts.iter().map(own).sum();
+    let decided = Decided {
+        value: true,
+        taken: format!("{n}, each with its own method and steps"),
+        reason: "no joint, drive or force connects them".to_owned(),
+        saves: Saving::of(of.saturating_sub(apart), of, Cost::Elimination),
+    };
+    Ok((decided, parts))
+}
+
+/// The mechanism stays whole.
+pub(super) fn stays(reason: String) -> (Decided<bool>, Vec<PreparedPart>) {
+    let decided = Decided {
+        value: false,
+        taken: "solved as one".to_owned(),
+        reason,
+        saves: None,
+    };
+    (decided, Vec::new())
+}
+
+/// Multiply-adds of a dense elimination of r rows of n velocities, and of what is left.
+pub(super) fn elimination(mechanism: &Mechanism, r: usize) -> u64 {
+    let (n, r) = (mechanism.layout().n_v as u64, r as u64);
+    let free = n.saturating_sub(r);
+    r * r * n - r * r * r / 3 + free * free * n + free * free * free / 6
+}
+
+/// A part with the start and the rows of the whole; nothing if its rank alone does not agree with these.
+fn prepared(whole: &Prepared, part: Part) -> Result<Option<PreparedPart>, MotionError> {
+    let Part { mechanism, places } = part;
+    let (q, v) = (
+        pick(&whole.q, &places.coordinates),
+        pick(&whole.v, &places.velocities),
+    );
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, &q, &mut s);
+    mechanism.phi(&mut s);
+    mechanism.c(&mut s);
+    let mut decision = decide(&mechanism, &s, &q)?;
+    let position_decision = decide_holonomic(&mechanism, &s, &q)?;
+    let dropped = own_rows(&whole.decision.dropped, &places);
+    let agree = |d: &RankDecision, dropped: usize| d.is_decided() && d.redundancy == dropped;
+    let position_dropped = own_rows(&whole.position_decision.dropped, &places).len();
+    if !(agree(&decision, dropped.len()) && agree(&position_decision, position_dropped)) {
+        return Ok(None);
+    }
+    if decision.dropped != dropped {
+        match decide_dropping(&mechanism, &s, &q, &dropped) {
+            Ok(same) => decision = same,
+            Err(_) => return Ok(None),
+        }
+    }
+    let choice = match &whole.choice {
+        RowChoice::Automatic => RowChoice::Automatic,
+        RowChoice::Drop(rows) => RowChoice::Drop(own_rows(rows, &places)),
+    };
+    let of_whole = &whole.assembly;
+    let assembly = Assembly {
+        q: pick(&of_whole.q, &places.coordinates),
+        v: pick(&of_whole.v, &places.velocities),
+        correction: pick(&of_whole.correction, &places.coordinates),
+        residual: s.phi.iter().fold(0.0, |a, phi| f64::max(a, phi.abs())),
+        size: scene_size(&mechanism, &q),
+    };
+    let own = Prepared {
+        velocity_correction: pick(&whole.velocity_correction, &places.velocities),
+        mechanism,
+        q,
+        v,
+        choice,
+        decision,
+        position_decision,
+        assembly,
+        code: None,
+    };
+    Ok(Some((own, places)))
+}
+
+/// Those of some rows of the whole that belong to a part, counted there.
+fn own_rows(rows: &[usize], places: &Places) -> Vec<usize> {
+    let own = |row: &usize| places.rows.binary_search(row).ok();
+    rows.iter().filter_map(own).collect()
+}

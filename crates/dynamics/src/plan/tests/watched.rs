@@ -1,0 +1,130 @@
+//! A constraint that tells how often each of its kernels was called, and with which sines.
+
+use std::collections::BTreeSet;
+use std::sync::{Arc, Mutex};
+
+use joints::spec::ConstraintSpec;
+use joints::{Element, Magnitude, Pose, Recorded, Twist};
+use linalg::Dd;
+use model::{Joint, PlaneConstraint};
+
+/// Calls of kernels.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Calls {
+    pub(super) phi: usize,
+    pub(super) c: usize,
+    pub(super) b: usize,
+    pub(super) gamma: usize,
+    pub(super) wrench: usize,
+    pub(super) derivatives: usize,
+    /// Bits of all sines of the last slot.
+    pub(super) sines: BTreeSet<u64>,
+}
+
+/// Where calls are noted.
+pub(super) type Notes = Arc<Mutex<Calls>>;
+
+/// A constraint and its notes.
+#[derive(Clone)]
+struct Watched {
+    inner: Box<dyn PlaneConstraint>,
+    notes: Notes,
+}
+
+/// Watches a joint from now on.
+pub(super) fn watch(joint: &mut Joint) -> Notes {
+    let notes = Notes::default();
+    joint.element = Box::new(Watched {
+        inner: joint.element.clone(),
+        notes: Arc::clone(&notes),
+    });
+    notes
+}
+
+/// What was noted, and nothing any more.
+pub(super) fn take(notes: &Notes) -> Calls {
+    std::mem::take(&mut notes.lock().expect("nobody panicked"))
+}
+
+impl Watched {
+    fn note(&self, x: &[Pose], kernel: impl FnOnce(&mut Calls) -> &mut usize) {
+        let mut calls = self.notes.lock().expect("nobody panicked");
+        *kernel(&mut calls) += 1;
+        calls.sines.extend(x.last().map(|pose| pose.sin.to_bits()));
+    }
+}
+
+impl PlaneConstraint for Watched {
+    fn element(&self) -> &dyn Element<f64> {
+        self
+    }
+    fn element_mut(&mut self) -> &mut dyn Element<f64> {
+        self
+    }
+    fn extended(&self) -> &dyn Element<Dd> {
+        self.inner.extended()
+    }
+    fn magnitude(&self) -> &dyn Element<Magnitude> {
+        self.inner.magnitude()
+    }
+    fn recorded(&self) -> &dyn Element<Recorded> {
+        self.inner.recorded()
+    }
+    fn boxed(&self) -> Box<dyn PlaneConstraint> {
+        Box::new(self.clone())
+    }
+}
+
+impl Element for Watched {
+    fn spec(&self) -> &'static ConstraintSpec {
+        self.inner.element().spec()
+    }
+    fn initialise(&mut self, x: &[Pose]) {
+        self.inner.element_mut().initialise(x);
+    }
+    fn requirement(&self, k: usize, x: &[Pose]) -> bool {
+        self.inner.element().requirement(k, x)
+    }
+    fn phi(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
+        self.note(x, |calls| &mut calls.phi);
+        self.inner.element().phi(x, f, out);
+    }
+    fn c_constant(&self, out: &mut [f64]) {
+        self.inner.element().c_constant(out);
+    }
+    fn c(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
+        self.note(x, |calls| &mut calls.c);
+        self.inner.element().c(x, f, out);
+    }
+    fn b(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
+        self.note(x, |calls| &mut calls.b);
+        self.inner.element().b(x, f, out);
+    }
+    fn gamma(&self, x: &[Pose], v: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
+        self.note(x, |calls| &mut calls.gamma);
+        self.inner.element().gamma(x, v, f, out);
+    }
+    fn wrench(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
+        self.note(x, |calls| &mut calls.wrench);
+        self.inner.element().wrench(x, f, out);
+    }
+    fn component(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
+        self.inner.element().component(x, f, out);
+    }
+    fn place(&self, x: &[Pose]) -> [f64; 2] {
+        self.inner.element().place(x)
+    }
+    fn d_force_dx(&self, x: &[Pose], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
+        self.note(x, |calls| &mut calls.derivatives);
+        self.inner.element().d_force_dx(x, f, lambda, out);
+    }
+    fn d_residual_dx(&self, x: &[Pose], v: &[Twist], a: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
+        self.inner.element().d_residual_dx(x, v, a, f, out);
+    }
+    fn d_gamma_dv(&self, x: &[Pose], v: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
+        self.inner.element().d_gamma_dv(x, v, f, out);
+    }
+    fn d_velocity_dx(&self, x: &[Pose], v: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
+        self.inner.element().d_velocity_dx(x, v, f, out);
+    }
+}

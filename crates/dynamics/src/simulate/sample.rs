@@ -1,0 +1,169 @@
+//! One row of output: a state, and what follows from it on demand.
+
+use model::{Mechanism, Reaction, System};
+
+use crate::error::Trip;
+use crate::motion::{KeptRowMotion, Motion};
+
+/// One row of output: a state on the constraints, and what follows from it on demand.
+pub struct Sample<'s, 'm> {
+    /// Time (s).
+    pub t: f64,
+    /// Coordinates. At a break time all values are those just before.
+    pub q: &'s [f64],
+    /// Velocities.
+    pub v: &'s [f64],
+    pub(super) source: Source<'s, 'm>,
+}
+
+/// What the rest is computed by.
+pub(super) enum Source<'s, 'm> {
+    /// The motion of all bodies.
+    Motion(OfMotion<'s, 'm>),
+    /// Motions of components, which have computed it already.
+    Several(&'s Values),
+}
+
+/// A motion, and what is wanted of it.
+pub(super) struct OfMotion<'s, 'm> {
+    /// The time of the row, or the last number before a break time.
+    pub(super) t_before: f64,
+    /// Share of the reference pivots below which reactions are not told.
+    pub(super) blind: f64,
+    pub(super) wanted: &'s AtRows,
+    pub(super) motion: &'s mut KeptRowMotion<'m>,
+}
+
+/// What is wanted at rows of output of a component.
+#[derive(Clone, Debug)]
+pub(super) struct AtRows {
+    pub(super) accelerations: bool,
+    /// Joints and drives whose reactions are wanted, ascending.
+    pub(super) reactions: Vec<usize>,
+}
+
+/// Values at a row, of a component or of the whole.
+#[derive(Clone)]
+pub(super) struct Values {
+    pub(super) acceleration: Result<Vec<f64>, Trip>,
+    pub(super) multipliers: Result<Vec<f64>, Trip>,
+    pub(super) reactions: Result<Vec<Reaction>, Trip>,
+}
+
+impl Sample<'_, '_> {
+    /// All that is wanted of the row.
+    pub(super) fn values(&mut self) -> Values {
+        match &mut self.source {
+            Source::Motion(source) => source.values(self.q, self.v),
+            Source::Several(values) => (*values).clone(),
+        }
+    }
+
+    /// Accelerations, NaN where the plan leaves them out; allocates.
+    ///
+    /// # Errors
+    /// If the equations have no unique solution here.
+    pub fn acceleration(&mut self) -> Result<Vec<f64>, Trip> {
+        match &mut self.source {
+            Source::Motion(source) => source.acceleration(self.q, self.v),
+            Source::Several(values) => values.acceleration.clone(),
+        }
+    }
+
+    /// Multipliers of all rows as [`Motion::multipliers`] gives them, NaN for rows of joints and drives whose reactions the plan leaves
+    /// out; allocates.
+    ///
+    /// # Errors
+    /// If the equations have no unique solution here.
+    pub fn multipliers(&mut self) -> Result<Vec<f64>, Trip> {
+        match &mut self.source {
+            Source::Motion(source) => source.multipliers(self.q, self.v),
+            Source::Several(values) => values.multipliers.clone(),
+        }
+    }
+
+    /// Reactions of all joints and drives in the order of their rows; those that the plan leaves out are NaN. Those of non-unique joints
+    /// belong to the choice of this run (its kept rows, or the norm of its formulation) and to no other; allocates.
+    ///
+    /// # Errors
+    /// If the equations have no unique solution here.
+    pub fn reactions(&mut self) -> Result<Vec<Reaction>, Trip> {
+        match &mut self.source {
+            Source::Motion(source) => source.reactions(self.q, self.v),
+            Source::Several(values) => values.reactions.clone(),
+        }
+    }
+}
+
+impl OfMotion<'_, '_> {
+    fn acceleration(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, Trip> {
+        let mut a = vec![f64::NAN; v.len()];
+        if self.wanted.accelerations {
+            self.motion.acceleration(self.t_before, q, v, &mut a)?;
+        }
+        Ok(a)
+    }
+
+    fn multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, Trip> {
+        let mechanism = self.motion.mechanism();
+        let mut lambda = vec![f64::NAN; mechanism.layout().rows()];
+        if self.wanted.reactions.is_empty() {
+            return Ok(lambda);
+        }
+        self.motion.multipliers(self.t_before, q, v, &mut lambda)?;
+        if self.motion.relative_pivot() < self.blind {
+            lambda.fill(f64::NAN);
+        }
+        for (k, group) in mechanism.layout().groups.iter().enumerate() {
+            if !self.wants(k) {
+                lambda[group.rows.clone()].fill(f64::NAN);
+            }
+        }
+        Ok(lambda)
+    }
+
+    fn reactions(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<Reaction>, Trip> {
+        let lambda = self.multipliers(q, v)?;
+        Ok(self.reactions_of(&lambda))
+    }
+
+    /// Those of the multipliers that were just solved for.
+    fn reactions_of(&self, lambda: &[f64]) -> Vec<Reaction> {
+        let mechanism = self.motion.mechanism();
+        let s = self.motion.scratch();
+        let reaction = |(k, id)| match self.wants(k) {
+            true => mechanism.reaction(id, s, lambda),
+            false => left_out(mechanism, k),
+        };
+        let ids = mechanism.constraint_ids().enumerate();
+        ids.map(reaction).collect()
+    }
+
+    fn values(&mut self, q: &[f64], v: &[f64]) -> Values {
+        let acceleration = self.acceleration(q, v);
+        let multipliers = self.multipliers(q, v);
+        let reactions = match &multipliers {
+            Ok(lambda) => Ok(self.reactions_of(lambda)),
+            Err(trip) => Err(trip.clone()),
+        };
+        Values {
+            acceleration,
+            multipliers,
+            reactions,
+        }
+    }
+
+    fn wants(&self, group: usize) -> bool {
+        self.wanted.reactions.binary_search(&group).is_ok()
+    }
+}
+
+/// The reaction of a joint or drive that is not computed.
+pub(super) fn left_out(mechanism: &Mechanism, group: usize) -> Reaction {
+    let component = mechanism.layout().groups[group].spec.component;
+    Reaction {
+        force: [f64::NAN; 2],
+        torque: f64::NAN,
+        component: component.map(|_| f64::NAN),
+    }
+}

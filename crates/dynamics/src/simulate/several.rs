@@ -1,0 +1,196 @@
+//! Components that do not feel each other, run at the same time: each on its own thread with its own method, steps, events and break
+//! times. Each computes what the plan wants at its rows and runs ahead of the others by some rows at most; rows are shown once all have
+//! reached them. Not here: who belongs to which component (`plan::split`).
+
+use std::ops::ControlFlow;
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::thread::{self, ScopedJoinHandle};
+use std::time::Instant;
+
+use model::{Places, Reaction, System};
+
+use super::sample::{Sample, Source, Values, left_out};
+use super::summary::{ComponentSummary, Failure, Summary};
+use super::{Watch, run_component};
+use crate::error::{MotionError, Trip};
+use crate::plan::Plan;
+
+/// Rows that a component may be ahead.
+const AHEAD: usize = 64;
+
+/// A row of a component with all that is wanted of it.
+struct Row {
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    values: Values,
+}
+
+/// A component on its thread, as seen from the rows.
+struct Link<'p> {
+    places: &'p Places,
+    rows: Receiver<Row>,
+}
+
+type Integrated = Result<Summary, Box<Failure>>;
+
+/// Runs all components of a plan and shows their rows together.
+pub(super) fn run<F>(plan: &Plan<'_>, watch: &Watch<'_>, row: F) -> Integrated
+where
+    F: FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+{
+    let clock = Instant::now();
+    let whole = Places::default();
+    let (outcomes, stopped) = thread::scope(|scope| {
+        let mut links = Vec::with_capacity(plan.components.len());
+        let mut handles = Vec::with_capacity(plan.components.len());
+        let mut refused = None;
+        for (k, component) in plan.components.iter().enumerate() {
+            let (told, rows) = sync_channel(AHEAD);
+            let work = move || run_component(plan, k, watch, |sample| Ok(tell(sample, &told)));
+            match thread::Builder::new().spawn_scoped(scope, work) {
+                Ok(handle) => handles.push(handle),
+                Err(source) => {
+                    let component = component.name.clone();
+                    refused = Some(MotionError::Thread { component, source });
+                    break;
+                }
+            }
+            let places = component.places().unwrap_or(&whole);
+            links.push(Link { places, rows });
+        }
+        let stopped = match refused {
+            Some(error) => Some(error),
+            None => show(plan, &links, row).map(Into::into),
+        };
+        // Nobody listens any more: who is ahead stops at its next row.
+        drop(links);
+        (handles.into_iter().map(joined).collect::<Vec<_>>(), stopped)
+    });
+    conclude(plan, outcomes, stopped, clock.elapsed().as_secs_f64())
+}
+
+/// The result of a thread; a panic of it is one of ours.
+fn joined(handle: ScopedJoinHandle<'_, Integrated>) -> Integrated {
+    handle
+        .join()
+        .unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+}
+
+/// Tells a row, as long as somebody listens.
+fn tell(sample: &mut Sample<'_, '_>, told: &SyncSender<Row>) -> ControlFlow<()> {
+    let row = Row {
+        t: sample.t,
+        q: sample.q.to_vec(),
+        v: sample.v.to_vec(),
+        values: sample.values(),
+    };
+    match told.send(row) {
+        Ok(()) => ControlFlow::Continue(()),
+        Err(_) => ControlFlow::Break(()),
+    }
+}
+
+/// Shows rows as long as all components reach them and more are wanted. Why it was stopped by a row, if it was.
+fn show<F>(plan: &Plan<'_>, links: &[Link<'_>], mut row: F) -> Option<Trip>
+where
+    F: FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+{
+    let mechanism = &plan.prepared().mechanism;
+    let layout = mechanism.layout();
+    let nobody: Vec<Reaction> = (0..layout.groups.len())
+        .map(|k| left_out(mechanism, k))
+        .collect();
+    let (mut q, mut v) = (vec![0.0; layout.n_q], vec![0.0; layout.n_v]);
+    loop {
+        let mut time = None;
+        let mut values = Values {
+            acceleration: Ok(vec![f64::NAN; layout.n_v]),
+            multipliers: Ok(vec![f64::NAN; layout.rows()]),
+            reactions: Ok(nobody.clone()),
+        };
+        for Link { places, rows } in links {
+            // One that has ended has no more rows.
+            let Ok(own) = rows.recv() else { return None };
+            assert!(
+                time.is_none_or(|known| known == own.t),
+                "rows of components at {time:?} and {} s",
+                own.t
+            );
+            time = Some(own.t);
+            spread(&own.q, &places.coordinates, &mut q);
+            spread(&own.v, &places.velocities, &mut v);
+            let (own, all) = (own.values, &mut values);
+            gather(own.acceleration, &places.velocities, &mut all.acceleration);
+            gather(own.multipliers, &places.rows, &mut all.multipliers);
+            gather(own.reactions, &places.groups, &mut all.reactions);
+        }
+        let shown = row(&mut Sample {
+            t: time?,
+            q: &q,
+            v: &v,
+            source: Source::Several(&values),
+        });
+        match shown {
+            Ok(ControlFlow::Continue(())) => {}
+            Ok(ControlFlow::Break(())) => return None,
+            Err(trip) => return Some(trip),
+        }
+    }
+}
+
+/// Puts values of a part to their places in the whole; the first failure stands for all.
+fn gather<T: Copy>(own: Result<Vec<T>, Trip>, places: &[usize], whole: &mut Result<Vec<T>, Trip>) {
+    match (own, &mut *whole) {
+        (Ok(own), Ok(whole)) => spread(&own, places, whole),
+        (Err(trip), Ok(_)) => *whole = Err(trip),
+        (_, Err(_)) => {}
+    }
+}
+
+/// Puts values of a part to their places in the whole.
+fn spread<T: Copy>(own: &[T], places: &[usize], whole: &mut [T]) {
+    for (x, &place) in own.iter().zip(places) {
+        whole[place] = *x;
+    }
+}
+
+/// The outcome of the whole from those of its components.
+fn conclude(
+    plan: &Plan<'_>,
+    outcomes: Vec<Integrated>,
+    stopped: Option<MotionError>,
+    wall_seconds: f64,
+) -> Integrated {
+    let mut components = Vec::with_capacity(outcomes.len());
+    let mut earliest: Option<(f64, MotionError)> = None;
+    for (component, outcome) in plan.components.iter().zip(outcomes) {
+        let (summary, error) = match outcome {
+            Ok(summary) => (summary, None),
+            Err(failure) => (failure.summary, Some(failure.error)),
+        };
+        if let Some(error) = error
+            && earliest.as_ref().is_none_or(|(t, _)| summary.t < *t)
+        {
+            let source = Box::new(error);
+            let component = component.name.clone();
+            earliest = Some((summary.t, MotionError::Component { component, source }));
+        }
+        // Where a thread was refused there are fewer outcomes than components.
+        components.push(ComponentSummary {
+            name: component.name.clone(),
+            places: component.places().cloned().unwrap_or_default(),
+            summary,
+        });
+    }
+    let dropped: Vec<&[usize]> = plan
+        .components
+        .iter()
+        .map(|c| c.prepared().decision.dropped.as_slice())
+        .collect();
+    let summary = Summary::of_components(components, &dropped, wall_seconds);
+    match stopped.or(earliest.map(|(_, error)| error)) {
+        Some(error) => Err(Box::new(Failure { error, summary })),
+        None => Ok(summary),
+    }
+}

@@ -1,0 +1,198 @@
+//! Numbers of a run, and of one whose components were run apart.
+
+use linalg::ProximalTuning;
+use model::Places;
+
+use super::energy;
+use crate::error::MotionError;
+use crate::events::Event;
+use crate::options::Method;
+
+/// Numbers of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Summary {
+    /// Last time reached (s).
+    pub t: f64,
+    /// The integrator: the one asked for, or the one chosen; `auto` where components have different ones.
+    pub method: Method,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Evaluations of accelerations: rejected steps, start, projections and output included.
+    pub evaluations: u64,
+    /// Projections of steps.
+    pub projections: u64,
+    /// Factorisations of iteration matrices of implicit methods.
+    pub factorisations: u64,
+    /// Time of the integration alone (s).
+    pub wall_seconds: f64,
+    /// Largest |Φ| at accepted steps and written rows.
+    pub max_position_residual: f64,
+    /// Largest |C·v − b| at accepted steps and written rows.
+    pub max_velocity_residual: f64,
+    /// Largest |E − E₀ − work of drives and applied forces| relative to the largest kinetic energy. Of components run apart, at least
+    /// that: the sum of their largest gaps relative to the largest of their largest kinetic energies.
+    pub energy_balance: f64,
+    /// Largest |E − E₀ − work| (J).
+    pub energy_gap: f64,
+    /// Largest kinetic energy (J); of components run apart the largest of theirs.
+    pub largest_kinetic_energy: f64,
+    /// Smallest pivot ratio of the kept rows at the start and at accepted steps that were interpreted.
+    pub min_pivot_ratio: f64,
+    /// What happened on the way.
+    pub events: Vec<Event>,
+    /// The last tuning of proximal iterations, where accelerations come from them; of components run apart each has its own.
+    pub proximal: Option<ProximalTuning>,
+    /// Components that were run apart; none where all bodies were one.
+    pub components: Vec<ComponentSummary>,
+}
+
+/// Numbers of a component that was run apart.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ComponentSummary {
+    /// Its bodies.
+    pub name: String,
+    /// Where it is in the whole.
+    pub places: Places,
+    /// Its numbers; rows and degrees of redundancy are its own.
+    pub summary: Summary,
+}
+
+/// A run that stopped early, with what was reached.
+#[derive(Debug, thiserror::Error)]
+#[error("{error}")]
+pub struct Failure {
+    /// Why it stopped.
+    pub error: MotionError,
+    /// What was reached.
+    pub summary: Summary,
+}
+
+impl Summary {
+    /// The numbers of the whole: sums of work, the worst residuals, all events by their times. It has reached what all components have.
+    /// `dropped` are the rows that each component dropped at the start, counted there.
+    pub(super) fn of_components(
+        components: Vec<ComponentSummary>,
+        dropped: &[&[usize]],
+        wall_seconds: f64,
+    ) -> Self {
+        let all = || components.iter().map(|c| &c.summary);
+        let sum = |count: fn(&Self) -> u64| all().map(count).sum();
+        let largest = |x: fn(&Self) -> f64| all().map(x).fold(0.0, f64::max);
+        let smallest = |x: fn(&Self) -> f64| all().map(x).fold(f64::INFINITY, f64::min);
+        let method = all().next().map_or(Method::Auto, |s| s.method);
+        let same = all().all(|s| s.method == method);
+        let gap = all().map(|s| s.energy_gap).sum();
+        let kinetic = largest(|s| s.largest_kinetic_energy);
+        Self {
+            t: smallest(|s| s.t),
+            method: if same { method } else { Method::Auto },
+            steps: sum(|s| s.steps),
+            rejected: sum(|s| s.rejected),
+            evaluations: sum(|s| s.evaluations),
+            projections: sum(|s| s.projections),
+            factorisations: sum(|s| s.factorisations),
+            wall_seconds,
+            max_position_residual: largest(|s| s.max_position_residual),
+            max_velocity_residual: largest(|s| s.max_velocity_residual),
+            energy_balance: energy::relative(gap, kinetic),
+            energy_gap: gap,
+            largest_kinetic_energy: kinetic,
+            min_pivot_ratio: smallest(|s| s.min_pivot_ratio),
+            events: events(&components, dropped),
+            proximal: None,
+            components,
+        }
+    }
+}
+
+/// Events of components in the order of time, with the rows and the degree of redundancy that the whole has then.
+fn events(components: &[ComponentSummary], dropped: &[&[usize]]) -> Vec<Event> {
+    let of_whole = |k: usize, rows: &[usize]| -> Vec<usize> {
+        rows.iter().map(|&i| components[k].places.rows[i]).collect()
+    };
+    let mut now: Vec<Vec<usize>> = (0..components.len())
+        .map(|k| of_whole(k, dropped[k]))
+        .collect();
+    let mut all: Vec<(usize, &Event)> = components
+        .iter()
+        .enumerate()
+        .flat_map(|(k, c)| c.summary.events.iter().map(move |e| (k, e)))
+        .collect();
+    all.sort_by(|(_, a), (_, b)| a.time.total_cmp(&b.time));
+    all.into_iter()
+        .map(|(k, event)| {
+            now[k] = of_whole(k, &event.dropped);
+            let mut dropped = now.concat();
+            dropped.sort_unstable();
+            let others = dropped.len() - event.dropped.len();
+            Event {
+                redundancy_before: event.redundancy_before + others,
+                redundancy_after: event.redundancy_after + others,
+                dropped,
+                ..event.clone()
+            }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::events::EventKind;
+
+    fn event(time: f64, before: usize, dropped: &[usize]) -> Event {
+        Event {
+            time,
+            kind: EventKind::RowsExchanged,
+            redundancy_before: before,
+            redundancy_after: dropped.len(),
+            dropped: dropped.to_vec(),
+            text: String::new(),
+        }
+    }
+
+    fn component(rows: &[usize], t: f64, events: Vec<Event>) -> ComponentSummary {
+        ComponentSummary {
+            name: String::new(),
+            places: Places {
+                rows: rows.to_vec(),
+                ..Places::default()
+            },
+            summary: Summary {
+                t,
+                steps: 10,
+                energy_gap: 0.25,
+                largest_kinetic_energy: t,
+                events,
+                ..Summary::default()
+            },
+        }
+    }
+
+    #[test]
+    fn events_of_components_are_told_with_the_rows_of_the_whole() {
+        // Rows 0, 2, 4 of which the second is dropped at first, and rows 1, 3 of which the first is.
+        let components = vec![
+            component(
+                &[0, 2, 4],
+                2.0,
+                vec![event(0.5, 1, &[0]), event(1.5, 1, &[2])],
+            ),
+            component(&[1, 3], 1.0, vec![event(1.0, 1, &[1])]),
+        ];
+        let whole = Summary::of_components(components, &[&[1], &[0]], 0.125);
+        let told: Vec<(f64, &[usize])> = whole
+            .events
+            .iter()
+            .map(|e| (e.time, e.dropped.as_slice()))
+            .collect();
+        assert_eq!(told, [(0.5, &[0, 1][..]), (1.0, &[0, 3]), (1.5, &[3, 4])]);
+        let redundancy = |e: &Event| [e.redundancy_before, e.redundancy_after];
+        assert!(whole.events.iter().all(|e| redundancy(e) == [2, 2]));
+        // All have reached what the slower one has; the balance is a bound.
+        assert_eq!((whole.t, whole.steps), (1.0, 20));
+        assert_eq!(whole.energy_balance, (0.25 + 0.25) / 2.0);
+    }
+}

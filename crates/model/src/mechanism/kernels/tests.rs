@@ -1,0 +1,159 @@
+//! What is not computed again, by counting.
+
+use std::cell::RefCell;
+
+use joints::{Angle, Direction, Revolute, Translational, TranslationalDisplacementDrive};
+
+use super::{Counted, System};
+use crate::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism};
+
+thread_local! {
+    /// How often each kind of work was done on this thread.
+    pub(super) static COUNTS: RefCell<[usize; 2]> = const { RefCell::new([0; 2]) };
+}
+
+/// Pieces of work of one kind that `run` does.
+fn count(work: Counted, run: impl FnOnce()) -> usize {
+    let now = || COUNTS.with_borrow(|counts| counts[work as usize]);
+    let before = now();
+    run();
+    now() - before
+}
+
+fn body(name: &str) -> Body {
+    Body {
+        name: name.into(),
+        mass: 1.0,
+        inertia: 1.0,
+        ..Body::default()
+    }
+}
+
+const GROUND: BodyRef = BodyRef::Ground;
+
+fn guide() -> Translational {
+    Translational {
+        s_i: [0.0; 2],
+        s_j: [0.0; 2],
+        axis: Direction::X,
+        angle_0: 0.0,
+    }
+}
+
+/// A driven slider on the ground, a second body held against its rotation, and a pendulum on the slider.
+fn trolley() -> Mechanism {
+    let [slider, held, bob] = [0, 1, 2].map(BodyRef::Body);
+    let drive = TranslationalDisplacementDrive {
+        s_i: [0.0; 2],
+        s_j: [0.0; 2],
+        axis: Direction::X,
+        angle_0: 0.0,
+        measure_0: 0.0,
+    };
+    let pin = Revolute {
+        s_i: [0.0; 2],
+        s_j: [0.0, 1.0],
+    };
+    let d = Description {
+        bodies: vec![body("slider"), body("held"), body("bob")],
+        joints: vec![
+            // Before the guide that makes it known that nothing turns.
+            Joint::new("hold", &[slider, held], Angle { angle_0: 0.0 }),
+            Joint::new("guide", &[GROUND, slider], guide()),
+            Joint::new("pin", &[slider, bob], pin),
+        ],
+        drives: vec![Drive {
+            name: "motor".into(),
+            bodies: vec![GROUND, slider],
+            element: Box::new(drive),
+            motion: Function::harmonic(1.0, 2.0, 0.0, 0.0).expect("finite"),
+        }],
+        ..Description::default()
+    };
+    Mechanism::build(&d).expect("builds")
+}
+
+#[test]
+fn angles_that_stay_have_their_sine_and_cosine_already() {
+    let m = trolley();
+    let mut s = m.scratch();
+    let mut q = [0.0; 9];
+    (q[2], q[5], q[8]) = (0.3, 0.3, 0.1);
+    assert_eq!(count(Counted::Trigonometry, || m.pose(0.0, &q, &mut s)), 3);
+    let mut later = |s: &mut _, angle: f64| {
+        (q[0], q[3], q[8]) = (0.5, 1.5, angle);
+        count(Counted::Trigonometry, || m.pose(0.1, &q, s))
+    };
+    assert_eq!(later(&mut s, 0.2), 1, "only the bob has turned");
+    assert_eq!(later(&mut s, 0.2), 0);
+    assert_eq!((s.poses[0].x, s.poses[2].sin), (0.5, 0.2_f64.sin()));
+    assert_eq!(s.poses[1].cos, 0.3_f64.cos());
+    // −0 is another number, with another sine.
+    later(&mut s, 0.0);
+    assert_eq!(later(&mut s, -0.0), 1);
+    assert!(s.poses[2].sin.is_sign_negative());
+}
+
+#[test]
+fn rounding_does_not_turn_what_is_held() {
+    let m = trolley();
+    let mut s = m.scratch();
+    m.pose(0.0, &[0.0; 9], &mut s);
+    let mut q = [0.0; 9];
+    // Each by one rounding: the slider is held, the bob is not.
+    (q[2], q[8]) = (f64::EPSILON, f64::EPSILON);
+    assert_eq!(count(Counted::Trigonometry, || m.pose(0.0, &q, &mut s)), 1);
+    assert_eq!([s.poses[0].sin, s.poses[2].sin], [0.0, f64::EPSILON]);
+    assert_eq!(s.poses[0].angle, f64::EPSILON, "rows of angles see it");
+    // Roundings do not add up unseen.
+    for k in 2..8 {
+        q[2] = f64::EPSILON * f64::from(k);
+        m.pose(0.0, &q, &mut s);
+    }
+    assert_eq!(s.poses[0].sin, 5.0 * f64::EPSILON);
+    q[2] = 1e-9;
+    m.pose(0.0, &q, &mut s);
+    assert_eq!(s.poses[0].sin, 1e-9);
+}
+
+#[test]
+fn functions_are_evaluated_once_at_each_time() {
+    let m = trolley();
+    let mut s = m.scratch();
+    let mut q = [0.0; 9];
+    let mut at = |t: f64| {
+        q[0] += 0.1;
+        count(Counted::Function, || m.pose(t, &q, &mut s))
+    };
+    assert_eq!(
+        [at(0.0), at(0.0), at(0.5), at(0.5), at(0.0)],
+        [1, 0, 1, 0, 1]
+    );
+    m.b(&mut s);
+    // b = −Φt of measure − (f(t) − f(0)) = 0 is ḟ = 2·cos(0).
+    assert_eq!(s.b[m.layout().m - 1], 2.0);
+}
+
+#[test]
+fn the_work_is_told_from_the_structure() {
+    let work = trolley().work();
+    assert_eq!(work.without_turning, [0, 1]);
+    // Γ of the row of angles alone is zero; b is that of the drive.
+    assert_eq!(
+        (work.rows_of_gamma, work.rows_of_time, work.functions),
+        (5, 1, 1)
+    );
+    // hold and the row `angle` of the guide are constant, and the translations of the pin, two in each of its rows.
+    assert_eq!(work.entries - work.varying_entries, 2 + 1 + 4);
+}
+
+#[test]
+fn rows_of_constant_entries_have_no_gamma_whatever_stood_there() {
+    let m = trolley();
+    let mut s = m.scratch();
+    m.pose(0.0, &[0.0; 9], &mut s);
+    m.twist(&[1.0; 9], &mut s);
+    s.gamma.fill(7.0);
+    m.gamma(&mut s);
+    assert_eq!(s.gamma[0], 0.0);
+}

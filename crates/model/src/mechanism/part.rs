@@ -1,0 +1,162 @@
+//! Taking a mechanism apart into mechanisms that do not feel each other: bodies belong together where a joint, a drive or a force
+//! connects them. The ground connects nothing: it takes any force and does not move.
+
+use joints::spec::Level;
+
+use super::build::Builder;
+use super::{Mechanism, N_BODY, TimeFunction};
+use crate::description::BodyRef;
+use crate::function::Function;
+
+/// A mechanism that is a part of another one.
+#[derive(Clone)]
+pub struct Part {
+    /// The part. Its rows are named and numbered as in the whole.
+    pub mechanism: Mechanism,
+    /// Where it is in the whole.
+    pub places: Places,
+}
+
+/// Where a part is in the whole; all lists ascending.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Places {
+    /// Its bodies.
+    pub bodies: Vec<usize>,
+    /// Its coordinates.
+    pub coordinates: Vec<usize>,
+    /// Its velocities.
+    pub velocities: Vec<usize>,
+    /// Its rows of C.
+    pub rows: Vec<usize>,
+    /// Its joints and drives among the groups.
+    pub groups: Vec<usize>,
+}
+
+impl Mechanism {
+    /// Bodies that belong together, each set ascending, ordered by their first bodies.
+    ///
+    /// ```
+    /// use joints::Revolute;
+    /// use model::{Body, BodyRef, Description, Joint, Mechanism};
+    /// // Two pendulums on the same ground, the first of two bodies.
+    /// let body = |name: &str| Body { name: name.into(), mass: 1.0, inertia: 1.0, ..Body::default() };
+    /// let pin = |name: &str, i, j| Joint::new(name, &[i, j], Revolute { s_i: [0.0; 2], s_j: [0.0; 2] });
+    /// let d = Description {
+    ///     bodies: vec![body("arm"), body("other"), body("hand")],
+    ///     joints: vec![
+    ///         pin("shoulder", BodyRef::Ground, BodyRef::Body(0)),
+    ///         pin("elsewhere", BodyRef::Ground, BodyRef::Body(1)),
+    ///         pin("wrist", BodyRef::Body(0), BodyRef::Body(2)),
+    ///     ],
+    ///     ..Description::default()
+    /// };
+    /// let mechanism = Mechanism::build(&d).unwrap();
+    /// assert_eq!(mechanism.components(), [vec![0, 2], vec![1]]);
+    /// let places = mechanism.part(&[0, 2]).places;
+    /// assert_eq!((places.rows, places.groups), (vec![0, 1, 4, 5], vec![0, 2]));
+    /// ```
+    #[must_use]
+    pub fn components(&self) -> Vec<Vec<usize>> {
+        let mut leader: Vec<usize> = (0..self.bodies.len()).collect();
+        for (_, bodies) in self.places() {
+            let members: Vec<usize> = bodies.iter().filter_map(|b| b.moving()).collect();
+            for pair in members.windows(2) {
+                let [a, b] = [pair[0], pair[1]].map(|k| find(&mut leader, k));
+                leader[a.max(b)] = a.min(b);
+            }
+        }
+        let mut sets: Vec<Vec<usize>> = vec![Vec::new(); self.bodies.len()];
+        for k in 0..self.bodies.len() {
+            let first = find(&mut leader, k);
+            sets[first].push(k);
+        }
+        sets.retain(|set| !set.is_empty());
+        sets
+    }
+
+    /// The mechanism of some bodies with all joints, drives and forces on them, which must not reach other bodies:
+    /// a set of [`Mechanism::components`], or several of them. Initial values are those of the whole.
+    ///
+    /// # Panics
+    /// If the bodies are not ascending, do not exist, or a joint, drive or force connects them to others.
+    #[must_use]
+    pub fn part(&self, bodies: &[usize]) -> Part {
+        assert!(
+            bodies.is_sorted_by(|a, b| a < b),
+            "bodies {bodies:?} are not in order"
+        );
+        let here = |body: &BodyRef| match *body {
+            BodyRef::Ground => Some(BodyRef::Ground),
+            BodyRef::Body(k) => bodies.binary_search(&k).ok().map(BodyRef::Body),
+        };
+        let belongs = |of: &[BodyRef]| {
+            of.iter()
+                .any(|b| *b != BodyRef::Ground && here(b).is_some())
+        };
+        let translated = |name: &str, of: &[BodyRef]| -> Vec<BodyRef> {
+            let here: Option<Vec<BodyRef>> = of.iter().map(here).collect();
+            assert!(here.is_some(), "`{name}` reaches beyond bodies {bodies:?}");
+            here.unwrap_or_default()
+        };
+        let mut b = Builder::default();
+        let (mut rows, mut groups) = (Vec::new(), Vec::new());
+        for (k, (c, group)) in self.constraints.iter().zip(&self.layout.groups).enumerate() {
+            if !belongs(&c.bodies) {
+                continue;
+            }
+            b.constraint(
+                &group.name,
+                group.kind,
+                &translated(&group.name, &c.bodies),
+                c.element.as_ref(),
+                &laws(&self.functions[c.functions.clone()]),
+            );
+            rows.extend(c.rows.clone());
+            groups.push(k);
+            match group.spec.level {
+                Level::Holonomic => b.layout.m = rows.len(),
+                Level::Nonholonomic => b.layout.h = rows.len() - b.layout.m,
+            }
+        }
+        for (label, &row) in b.layout.labels.iter_mut().zip(&rows) {
+            label.clone_from(&self.layout.labels[row]);
+        }
+        for f in self.forces.iter().filter(|f| belongs(&f.bodies)) {
+            let functions = laws(&self.functions[f.functions.clone()]);
+            let to = translated(&f.name, &f.bodies);
+            b.force(&f.name, &to, f.element.as_ref(), &functions);
+        }
+        let velocities: Vec<usize> = bodies
+            .iter()
+            .flat_map(|k| N_BODY * k..N_BODY * (k + 1))
+            .collect();
+        let own = bodies.iter().map(|&k| self.bodies[k].clone()).collect();
+        let weight = velocities.iter().map(|&j| self.weight[j]).collect();
+        let mut mechanism = b.finish(&self.name, own, weight);
+        mechanism.reach = bodies.iter().map(|&k| self.reach[k]).collect();
+        let places = Places {
+            bodies: bodies.to_vec(),
+            coordinates: velocities.clone(),
+            velocities,
+            rows,
+            groups,
+        };
+        Part { mechanism, places }
+    }
+}
+
+/// The first body of a set, with shorter ways to it from now on.
+fn find(leader: &mut [usize], mut k: usize) -> usize {
+    while leader[k] != k {
+        leader[k] = leader[leader[k]];
+        k = leader[k];
+    }
+    k
+}
+
+fn laws(functions: &[TimeFunction]) -> Vec<Function> {
+    functions.iter().map(|f| f.function.clone()).collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,76 @@
+//! `pfaff plan`: what a run needs, what it leaves out, and why.
+
+use pfaff::Overrides;
+use pfaff::dynamics::Plan;
+use pfaff::dynamics::plan::Line;
+use pfaff::report::{PlanDocument, write_json};
+
+use crate::Outcome;
+use crate::args;
+use crate::input::{Source, rows_from_zero};
+use crate::output::{Failure, columns, count, print};
+
+pub(crate) fn run(arguments: &args::Plan) -> Outcome {
+    let source = Source::read(&arguments.scene)?;
+    let overrides = Overrides {
+        t_end: arguments.t_end,
+        method: arguments.method,
+        formulation: arguments.formulation,
+        stabilisation: arguments.stabilisation,
+        drop: rows_from_zero(arguments.drop.as_deref())?,
+        ..Overrides::default()
+    };
+    let study = source.study(&overrides)?;
+    let plan = study.plan().map_err(|e| source.failure(e))?;
+    if !arguments.json {
+        return print(&describe(study.scene.name(), &plan));
+    }
+    let mut out = Vec::new();
+    write_json(&mut out, &PlanDocument::new(&plan)).map_err(|e| Failure::stopped(e.to_string()))?;
+    print(&String::from_utf8_lossy(&out))
+}
+
+/// A table for the whole, and one for each of several components.
+fn describe(name: &str, plan: &Plan<'_>) -> String {
+    let options = plan.options();
+    let lines = plan.lines();
+    let mut text = format!(
+        "{name}: the plan of a run to t = {} s ({}, {})\n\n",
+        options.t_end,
+        options.formulation.name(),
+        options.stabilisation.name(),
+    );
+    let of = |component| lines.iter().filter(move |line| line.component == component);
+    text.push_str(&table(of(None)));
+    if plan.components.len() == 1 {
+        return text;
+    }
+    for component in &plan.components {
+        let sizes = &component.sizes;
+        text.push_str(&format!(
+            "\n{}: {}, {}, rank {}\n",
+            component.name,
+            count(sizes.velocities, "velocity", "velocities"),
+            count(sizes.rows(), "row", "rows"),
+            sizes.rank,
+        ));
+        text.push_str(&table(of(Some(component.name.as_str()))));
+    }
+    text
+}
+
+fn table<'p>(lines: impl Iterator<Item = &'p Line<'p>>) -> String {
+    let header = ["decision", "taken", "saves", "reason"]
+        .map(str::to_owned)
+        .to_vec();
+    let cells = lines.map(|line| {
+        let saves = line.saves.map_or(String::new(), |saves| saves.to_string());
+        vec![
+            line.decision.to_owned(),
+            line.taken.to_owned(),
+            saves,
+            line.reason.to_owned(),
+        ]
+    });
+    columns(&std::iter::once(header).chain(cells).collect::<Vec<_>>())
+}
