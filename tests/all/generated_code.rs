@@ -50,26 +50,19 @@ struct Work {
     reference: f64,
 }
 
-fn leak<T>(x: &[T]) -> &'static [T]
-where
-    T: Clone,
-{
-    Box::leak(x.to_vec().into_boxed_slice())
-}
-
 impl Elimination {
     fn new(p: &Prepared, fault: Fault) -> Arc<Self> {
         let layout = p.mechanism.layout();
         let facts = Facts {
-            name: "elimination",
+            name: "elimination".into(),
             n_q: layout.n_q,
             n_v: layout.n_v,
             m: layout.m,
             h: layout.h,
-            kept: leak(&p.decision.kept),
-            position_kept: leak(&p.position_decision.kept),
-            break_times: leak(&layout.break_times),
-            operations: "",
+            kept: p.decision.kept.clone().into(),
+            position_kept: p.position_decision.kept.clone().into(),
+            break_times: layout.break_times.clone().into(),
+            operations: "".into(),
         };
         let code = Self {
             facts,
@@ -86,7 +79,7 @@ impl Elimination {
         {
             let mut work = code.work.lock().expect("one thread");
             code.pose(&mut work, 0.0, &p.q);
-            let saddle = code.factor(&mut work, code.facts.kept);
+            let saddle = code.factor(&mut work, &code.facts.kept);
             let mut frame = vec![0.0; (layout.n_v - code.facts.kept.len()) * layout.n_v];
             saddle.null_frame(&mut frame);
             work.frame = frame;
@@ -129,7 +122,7 @@ impl Elimination {
         saddle
             .solve(force, gamma, &mut x, &mut lambda)
             .expect("factored");
-        let health = match kept == self.facts.kept {
+        let health = match *kept == *self.facts.kept {
             true => saddle.orientation_of(&work.frame) * saddle.pivot_ratio() / work.reference,
             false => 1.0,
         };
@@ -144,7 +137,7 @@ impl Elimination {
         self.mechanism.force(&mut work.s);
         let gamma: Vec<f64> = self.facts.kept.iter().map(|&i| work.s.gamma[i]).collect();
         let force = work.s.force.clone();
-        let (a, lambda, health) = self.solve(work, self.facts.kept, &force, &gamma);
+        let (a, lambda, health) = self.solve(work, &self.facts.kept, &force, &gamma);
         let health = match self.fault {
             Fault::Health(health) if is_faulty(t) => health,
             _ => health,
@@ -218,7 +211,7 @@ impl SceneCode for Elimination {
     fn position_correction(&self, t: f64, q: &[f64], phi: &[f64], dq: &mut [f64]) -> f64 {
         let work = &mut *self.work.lock().expect("one thread");
         self.pose(work, t, q);
-        let kept = self.facts.position_kept;
+        let kept = &*self.facts.position_kept;
         let rhs: Vec<f64> = kept.iter().map(|&i| -phi[i]).collect();
         let (found, _, _) = self.solve(work, kept, &vec![0.0; dq.len()], &rhs);
         dq.copy_from_slice(&found);
@@ -233,7 +226,7 @@ impl SceneCode for Elimination {
         let work = &mut *self.work.lock().expect("one thread");
         self.pose(work, t, q);
         let rhs: Vec<f64> = self.facts.kept.iter().map(|&i| -residual[i]).collect();
-        let (found, _, health) = self.solve(work, self.facts.kept, &vec![0.0; dv.len()], &rhs);
+        let (found, _, health) = self.solve(work, &self.facts.kept, &vec![0.0; dv.len()], &rhs);
         dv.copy_from_slice(&found);
         health
     }
@@ -555,15 +548,15 @@ fn steps_on_code_allocate_nothing() {
         ..Description::default()
     });
     let code = Falling(Facts {
-        name: "falling",
+        name: "falling".into(),
         n_q: 21,
         n_v: 21,
         m: 0,
         h: 0,
-        kept: &[],
-        position_kept: &[],
-        break_times: &[],
-        operations: "",
+        kept: Vec::new().into(),
+        position_kept: Vec::new().into(),
+        break_times: Vec::new().into(),
+        operations: "".into(),
     });
     let p = p.with_code(Arc::new(code)).expect("its own");
     let count = |steps: f64| {

@@ -7,13 +7,15 @@
 
 mod belongs;
 
+use std::borrow::Cow;
+
 pub use belongs::{CodeMismatch, NoCode};
 
 /// What code was generated for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Facts {
     /// Name of the scene.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Coordinates.
     pub n_q: usize,
     /// Velocities.
@@ -23,13 +25,13 @@ pub struct Facts {
     /// Nonholonomic rows.
     pub h: usize,
     /// Kept rows of C, from 0, ascending.
-    pub kept: &'static [usize],
+    pub kept: Cow<'static, [usize]>,
     /// Kept rows of Φq, from 0, ascending.
-    pub position_kept: &'static [usize],
+    pub position_kept: Cow<'static, [usize]>,
     /// Times at which a function of time is not smooth (s), ascending.
-    pub break_times: &'static [f64],
+    pub break_times: Cow<'static, [f64]>,
     /// Operations of each function, in words.
-    pub operations: &'static str,
+    pub operations: Cow<'static, str>,
 }
 
 /// Straight-line code for one mechanism on fixed kept rows.
@@ -61,8 +63,8 @@ pub struct Facts {
 /// let described = Description { gravity: [0.0, -10.0], bodies: vec![stone], ..Description::default() };
 /// let mechanism = Mechanism::build(&described).unwrap();
 /// let facts = Facts {
-///     name: "stone", n_q: 3, n_v: 3, m: 0, h: 0,
-///     kept: &[], position_kept: &[], break_times: &[], operations: "",
+///     name: "stone".into(), n_q: 3, n_v: 3, m: 0, h: 0,
+///     kept: vec![].into(), position_kept: vec![].into(), break_times: vec![].into(), operations: "".into(),
 /// };
 /// let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)?.with_code(Arc::new(Stone(facts)))?;
 /// let mut y = 0.0;

@@ -1,3 +1,3 @@
-#![doc = include_str!("../README.md")]
+//! The equations of the robot with its trolley as straight-line code, for the program of this package and for benchmarks.
 
 pub mod generated;

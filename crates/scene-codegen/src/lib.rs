@@ -9,12 +9,14 @@ mod sampled;
 mod script;
 mod subject;
 mod support;
+mod tape;
 mod time;
 
 pub use error::CodeError;
 pub use module::{Choices, Module, generate};
 pub use script::to_out_dir;
 pub use subject::{State, Subject};
+pub use tape::Tape;
 
 use std::path::Path;
 

@@ -477,15 +477,15 @@ fn face(functions: &Functions, path: &str) -> Result<TokenStream, CodeError> {
         #[derive(Clone, Copy, Debug)]
         pub struct Code;
         static FACTS: #path::code::Facts = #path::code::Facts {
-            name: NAME,
+            name: ::std::borrow::Cow::Borrowed(NAME),
             n_q: N_Q,
             n_v: N_V,
             m: M,
             h: H,
-            kept: &KEPT,
-            position_kept: &POSITION_KEPT,
-            break_times: &BREAK_TIMES,
-            operations: OPERATIONS,
+            kept: ::std::borrow::Cow::Borrowed(&KEPT),
+            position_kept: ::std::borrow::Cow::Borrowed(&POSITION_KEPT),
+            break_times: ::std::borrow::Cow::Borrowed(&BREAK_TIMES),
+            operations: ::std::borrow::Cow::Borrowed(OPERATIONS),
         };
         impl #path::SceneCode for Code {
             fn facts(&self) -> &#path::code::Facts { &FACTS }

@@ -31,7 +31,7 @@ pub enum CodeMismatch {
     #[error("the code `{name}` has {found} {what}, the mechanism {expected}")]
     Size {
         /// Of the code.
-        name: &'static str,
+        name: String,
         /// What was counted.
         what: &'static str,
         /// In the code.
@@ -47,7 +47,7 @@ pub enum CodeMismatch {
     )]
     Rows {
         /// Of the code.
-        name: &'static str,
+        name: String,
         /// Positions or velocities.
         level: &'static str,
         /// Rows of the code, from 0.
@@ -59,7 +59,7 @@ pub enum CodeMismatch {
     #[error("the code `{name}` has break times at {found:?} s, the mechanism at {expected:?} s")]
     BreakTimes {
         /// Of the code.
-        name: &'static str,
+        name: String,
         /// In the code (s).
         found: Vec<f64>,
         /// In the mechanism (s).
@@ -71,7 +71,7 @@ pub enum CodeMismatch {
     )]
     Value {
         /// Of the code.
-        name: &'static str,
+        name: String,
         /// Which function.
         what: &'static str,
         /// Component, from 0.
@@ -89,7 +89,7 @@ pub enum CodeMismatch {
     )]
     Unhealthy {
         /// Of the code.
-        name: &'static str,
+        name: String,
         /// Its health.
         health: f64,
     },
@@ -159,7 +159,7 @@ impl Prepared {
 
 fn check_facts(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMismatch> {
     let (facts, layout) = (code.facts(), prepared.mechanism.layout());
-    let name = facts.name;
+    let name = || facts.name.to_string();
     let sizes = [
         ("coordinates", facts.n_q, layout.n_q),
         ("velocities", facts.n_v, layout.n_v),
@@ -169,7 +169,7 @@ fn check_facts(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMism
     for (what, found, expected) in sizes {
         if found != expected {
             return Err(CodeMismatch::Size {
-                name,
+                name: name(),
                 what,
                 found,
                 expected,
@@ -177,27 +177,27 @@ fn check_facts(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMism
         }
     }
     let rows = [
-        ("velocity", facts.kept, &prepared.decision.kept),
+        ("velocity", &facts.kept, &prepared.decision.kept),
         (
             "position",
-            facts.position_kept,
+            &facts.position_kept,
             &prepared.position_decision.kept,
         ),
     ];
     for (level, found, expected) in rows {
-        if found != expected {
+        if found.as_ref() != expected.as_slice() {
             return Err(CodeMismatch::Rows {
-                name,
+                name: name(),
                 level,
                 found: found.to_vec(),
                 expected: expected.clone(),
             });
         }
     }
-    match facts.break_times == layout.break_times {
+    match *facts.break_times == *layout.break_times {
         true => Ok(()),
         false => Err(CodeMismatch::BreakTimes {
-            name,
+            name: name(),
             found: facts.break_times.to_vec(),
             expected: layout.break_times.clone(),
         }),
@@ -206,7 +206,7 @@ fn check_facts(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMism
 
 /// Values of code and interpreter at one instant.
 struct Comparison<'a> {
-    name: &'static str,
+    name: &'a str,
     time: f64,
     what: &'static str,
     found: &'a [f64],
@@ -223,7 +223,7 @@ impl Comparison<'_> {
         match (0..self.expected.len()).find(differs) {
             None => Ok(()),
             Some(index) => Err(CodeMismatch::Value {
-                name: self.name,
+                name: self.name.to_owned(),
                 what: self.what,
                 index,
                 time: self.time,
@@ -249,7 +249,7 @@ fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMis
     let health = code.acceleration(0.0, &prepared.q, &prepared.v, &mut a);
     if health.is_nan() || health < SOUND {
         return Err(CodeMismatch::Unhealthy {
-            name: code.facts().name,
+            name: code.facts().name.to_string(),
             health,
         });
     }
@@ -276,7 +276,7 @@ fn compare(
     (t, q, v): (f64, &[f64], &[f64]),
 ) -> Result<(), CodeMismatch> {
     let mechanism = motion.mechanism();
-    let (layout, name) = (mechanism.layout(), code.facts().name);
+    let (layout, name) = (mechanism.layout(), code.facts().name.as_ref());
     let mut s = mechanism.scratch();
     mechanism.pose(t, q, &mut s);
     mechanism.phi(&mut s);

@@ -424,8 +424,8 @@ impl KeptRowMotion<'_> {
         *steps += 1;
         let facts = coded.code.facts();
         let has_its_rows = self.aside.is_none()
-            && self.velocity.kept == facts.kept
-            && self.position.kept == facts.position_kept;
+            && *self.velocity.kept == *facts.kept
+            && *self.position.kept == *facts.position_kept;
         if *steps < coded.patience || !has_its_rows || self.velocity.are_delicate() {
             return None;
         }

@@ -2450,15 +2450,15 @@ pub fn constraint_matrix_of<const L: usize>(
 #[derive(Clone, Copy, Debug)]
 pub struct Code;
 static FACTS: pfaff::dynamics::code::Facts = pfaff::dynamics::code::Facts {
-    name: NAME,
+    name: ::std::borrow::Cow::Borrowed(NAME),
     n_q: N_Q,
     n_v: N_V,
     m: M,
     h: H,
-    kept: &KEPT,
-    position_kept: &POSITION_KEPT,
-    break_times: &BREAK_TIMES,
-    operations: OPERATIONS,
+    kept: ::std::borrow::Cow::Borrowed(&KEPT),
+    position_kept: ::std::borrow::Cow::Borrowed(&POSITION_KEPT),
+    break_times: ::std::borrow::Cow::Borrowed(&BREAK_TIMES),
+    operations: ::std::borrow::Cow::Borrowed(OPERATIONS),
 };
 impl pfaff::dynamics::SceneCode for Code {
     fn facts(&self) -> &pfaff::dynamics::code::Facts {

@@ -1,0 +1,248 @@
+//! The same code without a compiler: operations in a list, carried out one after the other. For scenes that are met at run time, and for
+//! tests of runs on code; a compiled module is about five times faster.
+
+use std::cell::RefCell;
+
+use dynamics::SceneCode;
+use dynamics::code::Facts;
+use model::record::Input;
+use model::{Function as TimeFunction, System};
+use symbolic::{Op, Program};
+
+use crate::equations::Source;
+use crate::error::CodeError;
+use crate::functions::{Function, Functions};
+use crate::subject::Subject;
+
+/// The code of one mechanism as lists of operations.
+///
+/// ```
+/// use std::sync::Arc;
+/// use pfaff::{Overrides, Study};
+/// use scene_codegen::{Subject, Tape};
+/// let scene = r#"
+/// scene = { name = "pendulum", space = "plane", gravity = [0.0, -10.0] }
+/// body = [{ name = "bob", mass = 1.0, inertia = 0.0, position = [2.0, 0.0] }]
+/// joint = [{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [0.0, 0.0] }]
+/// "#;
+/// let registry = pfaff::model::Registry::planar();
+/// let mut study = Study::read("pendulum.toml", scene, &registry, &Overrides::default())?;
+/// let tape = Tape::of(&Subject::at_start(&study.prepared))?;
+/// study.prepared = study.prepared.with_code(Arc::new(tape))?; // its runs are on the tape from now on
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Tape {
+    facts: Facts,
+    functions: Vec<(&'static str, List)>,
+    times: Vec<(TimeFunction, f64)>,
+}
+
+/// One function: where its inputs come from, and what is done with them.
+struct List {
+    sources: Vec<Source>,
+    program: Program,
+    n_out: usize,
+}
+
+/// What a function is called with.
+#[derive(Clone, Copy, Default)]
+struct Arguments<'a> {
+    t: f64,
+    q: &'a [f64],
+    v: &'a [f64],
+    rhs: &'a [f64],
+    dq: &'a [f64],
+    dv: &'a [f64],
+}
+
+thread_local! {
+    /// Values of all operations of the last function of this thread.
+    static VALUES: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
+}
+
+impl Tape {
+    /// The code of a subject.
+    ///
+    /// # Errors
+    /// As [`crate::generate`].
+    pub fn of(subject: &Subject<'_>) -> Result<Self, CodeError> {
+        let functions = Functions::new(subject)?;
+        let prepared = subject.prepared;
+        let layout = prepared.mechanism.layout();
+        let Functions {
+            equations, list, ..
+        } = functions;
+        let operations = list
+            .iter()
+            .map(|f| format!("{}: {}", f.signature.name, f.program.counts()));
+        let operations: Vec<String> = operations.collect();
+        let list = list.into_iter().map(|f: Function| {
+            let list = List {
+                sources: equations.sources.clone(),
+                program: f.program,
+                n_out: f.n_out,
+            };
+            (f.signature.name, list)
+        });
+        let facts = Facts {
+            name: prepared.mechanism.name().to_owned().into(),
+            n_q: layout.n_q,
+            n_v: layout.n_v,
+            m: layout.m,
+            h: layout.h,
+            kept: prepared.decision.kept.clone().into(),
+            position_kept: prepared.position_decision.kept.clone().into(),
+            break_times: layout.break_times.clone().into(),
+            operations: operations.join("; ").into(),
+        };
+        let times = prepared.mechanism.functions();
+        Ok(Self {
+            facts,
+            functions: list.collect(),
+            times: times.map(|(f, offset)| (f.clone(), offset)).collect(),
+        })
+    }
+
+    /// Carries out one function; the health.
+    fn run(&self, name: &str, arguments: Arguments<'_>, out: &mut [f64]) -> f64 {
+        let Some((_, list)) = self.functions.iter().find(|(n, _)| *n == name) else {
+            return f64::NAN;
+        };
+        let mut jets = [[0.0; 3]; 1];
+        let jets: &[[f64; 3]] = match self.times.as_slice() {
+            [] => &[],
+            [one] => {
+                jets[0] = jet(one, arguments.t);
+                &jets
+            }
+            several => &several
+                .iter()
+                .map(|f| jet(f, arguments.t))
+                .collect::<Vec<_>>(),
+        };
+        VALUES.with_borrow_mut(|values| {
+            values.clear();
+            for op in list.program.ops() {
+                let value = match op {
+                    Op::Input(s) => read(list.sources[s.index()], arguments, jets),
+                    op => op.evaluate(|v| values[v.index()], |_| f64::NAN),
+                };
+                values.push(value);
+            }
+            let outputs = list.program.outputs();
+            for (out, v) in out.iter_mut().zip(&outputs[..list.n_out]) {
+                *out = values[v.index()];
+            }
+            let shares = outputs[list.n_out..].iter();
+            shares.fold(f64::INFINITY, |health, v| health.min(values[v.index()]))
+        })
+    }
+}
+
+fn jet((f, offset): &(TimeFunction, f64), t: f64) -> [f64; 3] {
+    let [value, rate, second] = f.jet(t);
+    [value - offset, rate, second]
+}
+
+/// The value of an input; NaN where the caller's arrays are too short.
+fn read(source: Source, a: Arguments<'_>, jets: &[[f64; 3]]) -> f64 {
+    let of = |x: &[f64], k: usize| x.get(k).copied().unwrap_or(f64::NAN);
+    match source {
+        Source::Mechanism(Input::Coordinate(k)) => of(a.q, k),
+        Source::Mechanism(Input::Cos(k)) => of(a.q, k).cos(),
+        Source::Mechanism(Input::Sin(k)) => of(a.q, k).sin(),
+        Source::Mechanism(Input::Velocity(k)) => of(a.v, k),
+        Source::Mechanism(Input::Function {
+            function,
+            derivative,
+        }) => jets.get(function).map_or(f64::NAN, |jet| jet[derivative]),
+        Source::Rhs(k) => of(a.rhs, k),
+        Source::AlongQ(k) => of(a.dq, k),
+        Source::AlongV(k) => of(a.dv, k),
+    }
+}
+
+impl SceneCode for Tape {
+    fn facts(&self) -> &Facts {
+        &self.facts
+    }
+
+    fn acceleration(&self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> f64 {
+        let arguments = Arguments {
+            t,
+            q,
+            v,
+            ..Arguments::default()
+        };
+        self.run("acceleration", arguments, a)
+    }
+
+    fn multipliers(&self, t: f64, q: &[f64], v: &[f64], lambda: &mut [f64]) -> f64 {
+        let arguments = Arguments {
+            t,
+            q,
+            v,
+            ..Arguments::default()
+        };
+        self.run("multipliers", arguments, lambda)
+    }
+
+    fn phi(&self, t: f64, q: &[f64], phi: &mut [f64]) {
+        let arguments = Arguments {
+            t,
+            q,
+            ..Arguments::default()
+        };
+        self.run("phi", arguments, phi);
+    }
+
+    fn velocity_residual(&self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]) {
+        let arguments = Arguments {
+            t,
+            q,
+            v,
+            ..Arguments::default()
+        };
+        self.run("velocity_residual", arguments, out);
+    }
+
+    fn position_correction(&self, t: f64, q: &[f64], phi: &[f64], dq: &mut [f64]) -> f64 {
+        let arguments = Arguments {
+            t,
+            q,
+            rhs: phi,
+            ..Arguments::default()
+        };
+        self.run("position_correction", arguments, dq)
+    }
+
+    fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64 {
+        let arguments = Arguments {
+            t,
+            q,
+            rhs: residual,
+            ..Arguments::default()
+        };
+        self.run("velocity_correction", arguments, dv)
+    }
+
+    fn jacobian_action(
+        &self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        dq: &[f64],
+        dv: &[f64],
+        da: &mut [f64],
+    ) -> f64 {
+        let arguments = Arguments {
+            t,
+            q,
+            v,
+            dq,
+            dv,
+            ..Arguments::default()
+        };
+        self.run("jacobian_action", arguments, da)
+    }
+}

@@ -1,0 +1,74 @@
+//! Runs on code of every scene: the motion is that of the interpreter, whatever happens on the way.
+
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+use dynamics::{EventKind, Method, MotionOptions, Plan, Prepared, Summary, Wanted, simulate};
+use pfaff::model::Registry;
+use pfaff::{Blueprint, Overrides};
+use scene_codegen::{Subject, Tape};
+
+/// Two runs at this tolerance …
+const RTOL: f64 = 1e-10;
+
+/// … may differ by this share of the largest coordinate or velocity: stiff cranks forget nothing in their run.
+const SAME: f64 = 1e-6;
+
+fn run(prepared: &Prepared, options: &MotionOptions) -> (Vec<Vec<f64>>, Summary) {
+    let mut rows = Vec::new();
+    let summary = simulate(prepared, options, |row| {
+        rows.push([row.q, row.v].concat());
+        Ok(ControlFlow::Continue(()))
+    });
+    (rows, summary.unwrap_or_else(|failure| panic!("{failure}")))
+}
+
+#[test]
+fn runs_on_code_are_those_of_the_interpreter_on_every_scene() {
+    for case in suite::all().filter(|case| case.name != "a01-pendulum-2000s") {
+        let study = Blueprint::read(case.name, case.scene, &Registry::planar())
+            .and_then(|b| b.prepare(&Overrides::default()))
+            .unwrap_or_else(|e| panic!("{}: {e}", case.name));
+        let own = study.options.expect("the scene has a run");
+        let options = MotionOptions {
+            rtol: RTOL,
+            atol: 0.01 * RTOL,
+            ..own
+        };
+        let tape = Tape::of(&Subject::of_run(&study.prepared, &options).expect("runs"));
+        let tape = tape.unwrap_or_else(|e| panic!("{}: {e}", case.name));
+        let (expected, interpreted) = run(&study.prepared, &options);
+        let coded = study
+            .prepared
+            .with_code(Arc::new(tape))
+            .expect("its own code");
+        let plan = Plan::new(&coded, &options, &Wanted::default()).expect("plans");
+        let is_stiff = interpreted.method == Method::Radau5;
+        assert_eq!(plan.code.value, !is_stiff, "{}", case.name);
+        let (found, summary) = run(&coded, &options);
+        let kinds = |kind| summary.events.iter().filter(|e| e.kind == kind).count();
+        println!(
+            "{}: {} evaluations of {}, left {}, used again {}",
+            case.name,
+            summary.evaluations,
+            interpreted.evaluations,
+            kinds(EventKind::CodeLeft),
+            kinds(EventKind::CodeUsed),
+        );
+        assert_eq!(found.len(), expected.len(), "{}", case.name);
+        let n = found[0].len() / 2;
+        for part in [0..n, n..2 * n] {
+            let largest = |rows: &[Vec<f64>]| {
+                let values = rows.iter().flat_map(|row| &row[part.clone()]);
+                values.fold(0.0, |a: f64, x| a.max(x.abs()))
+            };
+            let pairs = found.iter().zip(&expected);
+            let difference = |(a, b): (&Vec<f64>, &Vec<f64>)| -> Vec<f64> {
+                a.iter().zip(b).map(|(a, b)| a - b).collect()
+            };
+            let differences: Vec<Vec<f64>> = pairs.map(difference).collect();
+            let by = largest(&differences) / largest(&expected);
+            assert!(by < SAME, "{}: {by:e}", case.name);
+        }
+    }
+}
