@@ -28,6 +28,7 @@ pub(crate) struct Equations {
     pub(crate) names: Graph,
     pub(crate) sources: Vec<Source>,
     inputs: Vec<Value>,
+    pub(crate) recording: Recording,
     pub(crate) phi: Vec<Value>,
     /// Rows of C, dense, zeros as the constant 0.
     pub(crate) c: Vec<Vec<Value>>,
@@ -85,6 +86,7 @@ impl Equations {
             names,
             sources,
             inputs,
+            recording,
         }
     }
 
@@ -106,7 +108,7 @@ impl Equations {
 }
 
 /// The operations of a tape in a program, which folds what is known.
-fn replay(code: &mut Sampled, recording: &Recording, inputs: &[Value]) -> Vec<Value> {
+pub(crate) fn replay(code: &mut Sampled, recording: &Recording, inputs: &[Value]) -> Vec<Value> {
     let p = &mut code.program;
     let mut values: Vec<Value> = Vec::with_capacity(recording.tape.len());
     for operation in &recording.tape {

@@ -57,6 +57,9 @@ pub enum CodeError {
         /// Why.
         source: std::io::Error,
     },
+    /// Rows are kept of which the frame of a body has no part.
+    #[error("the kept rows have one component of a vector without the other")]
+    NoView,
     /// Rows count from 1.
     #[error("rows to drop are counted from 1, found 0")]
     RowZero,

@@ -7,10 +7,14 @@ use symbolic::{Program, Value};
 use crate::eliminate::Factored;
 use crate::equations::{Equations, Source};
 use crate::error::CodeError;
+use crate::frame::{Seen, may_be_seen_from};
 use crate::subject::Subject;
 
 /// Longest function that is generated. A compiler takes about a minute for it.
 const LIMIT: usize = 60_000;
+
+/// Bodies from which a mechanism is looked at, at most.
+const VIEWS: usize = 12;
 
 /// This part of its median counts as the smallest size of a divisor.
 const OF_MEDIAN: f64 = 0.5;
@@ -113,37 +117,76 @@ const CONSTRAINT_MATRIX: Signature = Signature {
 pub(crate) struct Functions {
     pub(crate) equations: Equations,
     pub(crate) list: Vec<Function>,
+    /// The body in whose frame the equations are solved, if it is not the ground.
+    pub(crate) seen_from: Option<String>,
     /// Row and column of the entries of C that are not always zero.
     pub(crate) pattern: Vec<[usize; 2]>,
 }
 
 impl Functions {
+    /// From the ground, or from the body from which accelerations cost least, if the mechanism may be seen from its bodies.
     pub(crate) fn new(subject: &Subject<'_>) -> Result<Self, CodeError> {
+        let from_ground = Self::seen_from(subject, None);
+        let angles: Vec<usize> = (2..subject.prepared.mechanism.layout().n_q)
+            .step_by(3)
+            .take(VIEWS)
+            .filter(|&angle| may_be_seen_from(subject, angle))
+            .collect();
+        let views = angles
+            .into_iter()
+            .map(|angle| Self::seen_from(subject, Some(angle)));
+        let cost = |f: &Self| f.list[0].program.counts().total();
+        let best = views.flatten().min_by_key(cost);
+        let functions = match (best, from_ground) {
+            (Some(best), _) => best,
+            (None, from_ground) => from_ground?,
+        };
+        let longest = functions
+            .list
+            .iter()
+            .map(|f| f.program.counts().total())
+            .max();
+        match longest {
+            Some(operations) if operations > LIMIT => Err(CodeError::TooLong {
+                operations,
+                limit: LIMIT,
+            }),
+            _ => Ok(functions),
+        }
+    }
+
+    /// All functions, with the equations solved from the ground or in the frame of the body whose angle has this place in q.
+    fn seen_from(subject: &Subject<'_>, angle: Option<usize>) -> Result<Self, CodeError> {
         let mut e = Equations::new(subject);
         let prepared = subject.prepared;
         let mechanism = &prepared.mechanism;
         let (layout, mass) = (mechanism.layout(), mechanism.mass());
+        let (kept, position_kept) = (&prepared.decision.kept, &prepared.position_decision.kept);
+        let seen = match angle {
+            None => Seen::from_ground(&e),
+            Some(angle) => Seen::from_body(&mut e, subject, angle)
+                .filter(|seen| seen.keeps_pairs(kept) && seen.keeps_pairs(position_kept))
+                .ok_or(CodeError::NoView)?,
+        };
+        let frame = &seen.frame;
         let scaling = mechanism.dimension_scaling(prepared.assembly.size);
         let scale: Vec<f64> = scaling.cols.iter().map(|&x| f64::from(x).exp2()).collect();
-        let rows = |e: &Equations, kept: &[usize]| kept.iter().map(|&i| e.c[i].clone()).collect();
-        let (kept, position_kept) = (&prepared.decision.kept, &prepared.position_decision.kept);
-        let c = rows(&e, kept);
-        let velocity = Factored::new(&mut e.code, c, mass, &scale)?;
-        let c = rows(&e, position_kept);
-        let position = Factored::new(&mut e.code, c, mass, &scale)?;
+        let rows = |kept: &[usize]| kept.iter().map(|&i| seen.c[i].clone()).collect();
+        let velocity = Factored::new(&mut e.code, rows(kept), mass, &scale)?;
+        let position = Factored::new(&mut e.code, rows(position_kept), mass, &scale)?;
         let velocity_shares = shares(&mut e, &velocity);
         let position_shares = shares(&mut e, &position);
 
-        let gamma: Vec<Value> = kept.iter().map(|&i| e.gamma[i]).collect();
-        let force = e.force.clone();
-        let a = velocity.solve(&mut e.code, mass, &gamma, &force);
+        let gamma: Vec<Value> = kept.iter().map(|&i| seen.gamma[i]).collect();
+        let a_seen = velocity.solve(&mut e.code, mass, &gamma, &seen.force);
+        let a = frame.velocities_out(&mut e.code, &a_seen);
 
         let p = &mut e.code.program;
         let excess: Vec<Value> = (0..layout.n_v)
             .map(|i| {
                 let m = p.number(mass[i]);
-                let inertia = p.mul(m, a[i]);
-                p.sub(force[i], inertia)
+                let inertia = p.mul(m, a_seen[i]);
+                p.sub(seen.force[i], inertia)
             })
             .collect();
         let kept_lambda = velocity.multipliers(&mut e.code, &excess);
@@ -152,6 +195,7 @@ impl Functions {
         for (&i, l) in kept.iter().zip(kept_lambda) {
             lambda[i] = l;
         }
+        let lambda = frame.rows_out(&mut e.code, &lambda);
 
         let v: Vec<Value> = (0..layout.n_v)
             .filter_map(|k| e.input(Source::Mechanism(Input::Velocity(k))))
@@ -163,16 +207,19 @@ impl Functions {
             residual.push(e.code.program.sub(rate, b));
         }
 
+        let missed = (0..layout.rows()).filter_map(|i| e.input(Source::Rhs(i)));
+        let missed: Vec<Value> = missed.collect();
+        let p = &mut e.code.program;
+        let missing: Vec<Value> = missed.into_iter().map(|r| p.neg(r)).collect();
+        let missing = frame.rows_in(&mut e.code, &missing);
         let no_force = vec![zero; layout.n_v];
-        let rhs = |e: &mut Equations, kept: &[usize]| -> Vec<Value> {
-            let rhs = kept.iter().filter_map(|&i| e.input(Source::Rhs(i)));
-            let rhs: Vec<Value> = rhs.collect();
-            rhs.into_iter().map(|r| e.code.program.neg(r)).collect()
+        let mut correct = |factored: &Factored, kept: &[usize]| {
+            let rhs: Vec<Value> = kept.iter().map(|&i| missing[i]).collect();
+            let d = factored.solve(&mut e.code, mass, &rhs, &no_force);
+            frame.velocities_out(&mut e.code, &d)
         };
-        let missing = rhs(&mut e, position_kept);
-        let dq = position.solve(&mut e.code, mass, &missing, &no_force);
-        let missing = rhs(&mut e, kept);
-        let dv = velocity.solve(&mut e.code, mass, &missing, &no_force);
+        let dq = correct(&position, position_kept);
+        let dv = correct(&velocity, kept);
         let da = tangent(&mut e, &a);
 
         let (pattern, entries) = sparse(&e);
@@ -193,17 +240,10 @@ impl Functions {
             n_out: outputs.len(),
             program: program.with_outputs(&[outputs, shares].concat()),
         });
-        let longest = list.iter().map(|f| f.program.counts().total()).max();
-        let operations = longest.unwrap_or(0);
-        if operations > LIMIT {
-            return Err(CodeError::TooLong {
-                operations,
-                limit: LIMIT,
-            });
-        }
         Ok(Self {
             equations: e,
             list: list.into(),
+            seen_from: angle.map(|k| mechanism.coordinate(k).0.to_owned()),
             pattern,
         })
     }

@@ -3,6 +3,7 @@
 mod eliminate;
 mod equations;
 mod error;
+mod frame;
 mod functions;
 mod module;
 mod sampled;

@@ -265,6 +265,10 @@ fn docs(subject: &Subject<'_>, functions: &Functions) -> Vec<String> {
             numbers(&prepared.decision.dropped),
             numbers(&prepared.position_decision.dropped)
         ),
+        match &functions.seen_from {
+            Some(body) => format!("Solved in the frame of the body `{body}`: it does not matter which way the whole points."),
+            None => "Solved in the frame of the ground.".to_owned(),
+        },
         String::new(),
         "Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that"
             .to_owned(),

@@ -2,6 +2,7 @@
 //!
 //! The mechanism `robot-trolley`: 21 coordinates, 21 velocities, 17 holonomic and 5 nonholonomic rows of rank 20.
 //! Rows (from 1) that are dropped and only monitored: 20, 21; that do not hold the position: none.
+//! Solved in the frame of the body `platform`: it does not matter which way the whole points.
 //!
 //! Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that
 //! divide return a health: the smallest divisor as a signed share of what it was at the states that the code was made for. Near 0 the
@@ -9,13 +10,13 @@
 //!
 //! | function | operations |
 //! | --- | --- |
-//! | `acceleration` | 347 mul, 275 add, 4 neg, 8 div |
-//! | `multipliers` | 430 mul, 354 add, 4 neg, 8 div |
+//! | `acceleration` | 364 mul, 291 add, 3 neg, 10 div |
+//! | `multipliers` | 438 mul, 365 add, 5 neg, 10 div |
 //! | `phi` | 36 mul, 65 add, 1 neg |
 //! | `velocity_residual` | 79 mul, 79 add |
-//! | `position_correction` | 247 mul, 239 add, 8 div |
-//! | `velocity_correction` | 291 mul, 244 add, 3 neg, 8 div |
-//! | `jacobian_action` | 953 mul, 784 add, 4 neg, 16 div |
+//! | `position_correction` | 301 mul, 257 add, 5 neg, 8 div |
+//! | `velocity_correction` | 330 mul, 278 add, 3 neg, 10 div |
+//! | `jacobian_action` | 983 mul, 828 add, 3 neg, 20 div |
 //! | `constraint_matrix` | 36 mul, 20 add, 15 neg |
 
 #![forbid(unsafe_code)]
@@ -133,7 +134,7 @@ pub const PATTERN: [[usize; 2]; ENTRIES] = [
 /// Times at which a derivative of a function of time jumps (s).
 pub const BREAK_TIMES: [f64; 8usize] = [1f64, 2f64, 3f64, 4f64, 6f64, 7f64, 8f64, 9f64];
 /// Operations of each function; sines and functions of time are not counted.
-pub const OPERATIONS: &str = "acceleration: 347 mul, 275 add, 4 neg, 8 div; multipliers: 430 mul, 354 add, 4 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 247 mul, 239 add, 8 div; velocity_correction: 291 mul, 244 add, 3 neg, 8 div; jacobian_action: 953 mul, 784 add, 4 neg, 16 div; constraint_matrix: 36 mul, 20 add, 15 neg";
+pub const OPERATIONS: &str = "acceleration: 364 mul, 291 add, 3 neg, 10 div; multipliers: 438 mul, 365 add, 5 neg, 10 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 301 mul, 257 add, 5 neg, 8 div; velocity_correction: 330 mul, 278 add, 3 neg, 10 div; jacobian_action: 983 mul, 828 add, 3 neg, 20 div; constraint_matrix: 36 mul, 20 add, 15 neg";
 /// Functions of time, each with two derivatives.
 #[inline]
 fn jets(t: f64) -> [f64; 3usize] {
@@ -284,228 +285,255 @@ fn acceleration_core(
     let v19 = v(19usize);
     let v20 = v(20usize);
     let ddf0 = f(2usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = v2 * v2;
-    let t5 = v20 * v20;
-    let t6 = t0 * t4 + t1 * t5;
-    let t7 = t2 * t4 + t3 * t5;
-    let t8 = 0.3 * cos2;
-    let t9 = 0.025 * sin5;
-    let t10 = 0.044999999999999984 * cos5 + t9;
-    let t11 = 0.3 * sin2;
-    let t12 = 0.025 * cos5;
-    let t13 = 0.044999999999999984 * sin5;
-    let t14 = t13 - t12;
-    let t15 = v5 * v5;
-    let t16 = t4 * t8;
-    let t17 = t10 * t15;
-    let t18 = t16 - t17;
-    let t19 = t4 * t11;
-    let t20 = t14 * t15;
-    let t21 = t19 - t20;
-    let t22 = 0.044999999999999984 * cos8;
-    let t23 = 0.025 * sin8;
-    let t24 = t23 - t22;
-    let t25 = 0.025 * cos8;
-    let t26 = t25 + 0.044999999999999984 * sin8;
-    let t27 = t22 - t23;
-    let t28 = v8 * v8;
-    let t29 = t16 + t24 * t28;
-    let t30 = t26 * t28;
-    let t31 = t30 - t19;
-    let t32 = t9 + 0.04500000000000001 * cos5;
-    let t33 = 0.0050000000000000044 * cos11;
-    let t34 = 0.125 * sin11;
-    let t35 = t33 - t34;
-    let t36 = 0.04500000000000001 * sin5;
-    let t37 = 0.125 * cos11;
-    let t38 = t37 + 0.0050000000000000044 * sin11;
-    let t39 = t36 - t12;
-    let t40 = t34 - t33;
-    let t41 = v11 * v11;
-    let t42 = t15 * t32 + t35 * t41;
-    let t43 = t15 * (t12 - t36);
-    let t44 = t38 * t41;
-    let t45 = 0.04500000000000001 * cos8 - t23;
-    let t46 = 0.125 * sin14;
-    let t47 = 0.0050000000000000044 * cos14 + t46;
-    let t48 = t25 + 0.04500000000000001 * sin8;
-    let t49 = 0.125 * cos14;
-    let t50 = 0.0050000000000000044 * sin14;
-    let t51 = t49 - t50;
-    let t52 = v14 * v14;
-    let t53 = t28 * t45 + t47 * t52;
-    let t54 = t28 * t48;
-    let t55 = t51 * t52;
-    let t56 = t34 - 0.004999999999999977 * cos11;
-    let t57 = 0.2 * cos17;
-    let t58 = t37 + 0.004999999999999977 * sin11;
-    let t59 = 0.2 * sin17;
-    let t60 = v17 * v17;
-    let t61 = t57 * t60;
-    let t62 = t59 * t60;
-    let t63 = t46 + 0.004999999999999977 * cos14;
-    let t64 = 0.004999999999999977 * sin14;
-    let t65 = q1 - q16;
-    let t66 = q0 - q15;
-    let t67 = sin2 * v2;
-    let t68 = v16 - v1;
-    let t69 = cos2 * v2;
-    let t70 = v0 - v15;
-    let t71 = sin20 * t2 + cos20 * t0;
-    let t72 = -0.050000000000000044 - sin20 * t3 - cos20 * t1;
-    let t73 = 1.0 / t72;
-    let t74 = t38 + t58;
-    let t75 = t56 - t35;
-    let t76 = t47 + t63;
-    let t77 = t59 - t11;
-    let t78 = t12 - t13;
-    let t79 = t39 - t78;
-    let t80 = t8 - t57;
-    let t81 = t10 + t32;
-    let t82 = t45 - t24;
-    let t83 = cos2 * t65 - sin2 * t66 - cos2 * t77 - sin2 * t80;
-    let t84 = sin2 * t81 - cos2 * t79;
-    let t85 = cos2 * t74 + sin2 * t75;
-    let t86 = 1.0 / t85;
-    let t87 = t74 * t86;
-    let t88 = (t35 - t56) * t86;
-    let t89 = (cos2 * t75 - sin2 * t74) * t86;
-    let t90 = sin2 * t65 + cos2 * t66 - sin2 * t77 + cos2 * t80 + t83 * t89;
-    let t91 = t84 * t89 - (sin2 * t79 + cos2 * t81);
-    let t92 = 1.0 / t91;
-    let t93 = (t78 - t39 - t84 * t87) * t92;
-    let t94 = (t81 + t84 * t88) * t92;
-    let t95 = t57 - t8 - t80 + t83 * t88 - t90 * t94;
-    let t96 = (0.044999999999999984 - sin5 * t14 - cos5 * t10) * t92;
-    let t97 = sin5 * t11 + cos5 * t8 - t90 * t96;
-    let t98 = 1.0 / t82;
-    let t99 = (t26 + t48) * t98;
-    let t100 = t11 - t59 - t77 - t83 * t87 - t90 * t93 + t95 * t99;
-    let t101 = t49 - t64 - (t50 - t49) + t76 * t99;
-    let t102 = (-0.044999999999999984 + sin8 * t26 + cos8 * t27) * t98;
-    let t103 = 1.0 / t101;
-    let t104 = t76 * t102 * t103;
-    let t105 = 1.0 / t97;
-    let t106 = (t100 * t104 - (sin8 * t11 + cos8 * t8 + t95 * t102)) * t105;
-    let t107 = cos8 - cos5 * t106;
-    let t108 = 1.0 / t107;
-    let t109 = t108 * (sin8 - sin5 * t106);
-    let t110 = t105 * (sin5 - cos5 * t109);
-    let t111 = t103 * (t100 * t110);
-    let t112 = t98 * (t76 * t111 - t95 * t110);
-    let t113 = t92 * (t90 * t110);
-    let t114 = t86 * (t84 * t113 - t83 * t110);
-    let t115 = t109 - (t75 * t114 - t81 * t113 - t80 * t110);
-    let t116 = t77 * t110 - (-1.0 + t74 * t114 + t79 * t113);
-    let t117 = t8 * t110;
-    let t118 = t117 - t27 * t112;
-    let t119 = t109 - t118;
-    let t120 = -1.0 + t26 * t112;
-    let t121 = t11 * t110;
-    let t122 = t121 - t120;
-    let t123 = t109 + (t117 + t10 * t113);
-    let t124 = t121 + (-1.0 + t14 * t113);
-    let t125 = t118 - t109 - t45 * t112 + t47 * t111;
-    let t126 = t120 - t121 + t48 * t112 + t51 * t111;
-    let t127 = t32 * t113 - (t40 * t114 - t123);
-    let t128 = t124 + t38 * t114 + t39 * t113;
-    let t129 = t73 * (sin20 + t71 * t110 - cos20 * t109);
-    let t130 = t109 - (t1 * t129 + t0 * t110);
-    let t131 = t2 * t110 - (-1.0 - t3 * t129);
-    let t132 = 20.0 + t109 * (20.0 * t109) + t110 * (1.2 * t110) + t124 * (0.5 * t124)
-        + t123 * (0.5 * t123) + t113 * (0.002 * t113) + t122 * (0.5 * t122)
-        + t119 * (0.5 * t119) + t112 * (0.002 * t112) + t128 * (0.3 * t128)
-        + t127 * (0.3 * t127) + t114 * (0.0016 * t114) + t126 * (0.3 * t126)
-        + t125 * (0.3 * t125) + t111 * (0.0016 * t111) + t116 * t116 + t115 * t115
-        + t110 * (0.02 * t110) + t131 * (8.0 * t131) + t130 * (8.0 * t130)
-        + t129 * (0.5 * t129);
-    let t133 = t41 * t56 - t61 - t42 - (t17 - t16);
-    let t134 = t41 * t58 + t62 + (t44 - t43) + (t20 - t19);
-    let t135 = v2 * (t65 * t67 + cos2 * t68) + t68 * t69
-        + (v2 * (t66 * t69 + sin2 * t70) + t67 * t70) - cos2 * t133 + sin2 * t134;
-    let t136 = ddf0
-        - (v2 * (cos2 * t70 - t66 * t67) + t69 * t70
-            + (v2 * (t65 * t69 - sin2 * t68) - t67 * t68)) - sin2 * t133 - cos2 * t134
-        + t89 * t135;
-    let t137 = t134 + (t62 + t52 * (t64 - t49) - (t55 - t54) - (t19 - t30)) + t88 * t135
-        - t94 * t136;
-    let t138 = v5 * (cos5 * v3 + sin5 * v4) - sin5 * t18 + cos5 * t21 - t96 * t136;
-    let t139 = t53 + (t61 + t52 * t63) - t29 - t133 - t87 * t135 - t93 * t136
-        + t99 * t137;
-    let t140 = t108
-        * (v8 * (cos8 * v6 + sin8 * v7) + sin8 * t29 + cos8 * t31 - t102 * t137
-            + t104 * t139 - t106 * t138);
-    let t141 = t105 * (t138 - cos5 * t140);
-    let t142 = t103 * (t139 - t100 * t141);
-    let t143 = t98 * (t137 - t76 * t142 - t95 * t141);
-    let t144 = t92 * (t136 - t90 * t141);
-    let t145 = t86 * (t135 - t84 * t144 - t83 * t141);
-    let t146 = t75 * t145 - t134 + t81 * t144 - t80 * t141;
-    let t147 = t133 + t74 * t145 - t79 * t144;
-    let t148 = t77 * t141;
-    let t149 = t8 * t141;
-    let t150 = t140 - (t31 - t27 * t143 + t149);
-    let t151 = t11 * t141;
-    let t152 = t151 - (t26 * t143 - t29);
-    let t153 = t140 - (t21 + t10 * t144 - t149);
-    let t154 = t151 + (t18 - t14 * t144);
-    let t155 = t47 * t142 - (t54 - t55 - t150 - t45 * t143);
-    let t156 = t51 * t142 - (t53 - t152 + t48 * t143);
-    let t157 = t43 - t44 - t153 + t40 * t145 + t32 * t144;
-    let t158 = t39 * t144 - (t154 - t42 + t38 * t145);
-    let t159 = t73
-        * (v20 * (cos20 * v18 + sin20 * v19) + sin20 * t6 - cos20 * t7 + t71 * t141
-            - cos20 * t140);
-    let t160 = t140 - (t1 * t159 - t7 + t0 * t141);
-    let t161 = t6 + t3 * t159 + t2 * t141;
-    let t162 = 1.0 / t132
-        * (t113 * (0.002 * t144)
-            - (t109 * (20.0 * t140) + t110 * (1.2 * t141) + t124 * (0.5 * t154)
-                + t123 * (0.5 * t153)) - t122 * (0.5 * t152) - t119 * (0.5 * t150)
-            - t112 * (0.002 * t143) + t128 * (0.3 * t158) + t127 * (0.3 * t157)
-            - t114 * (0.0016 * t145) + t126 * (0.3 * t156) + t125 * (0.3 * t155)
-            + t111 * (0.0016 * t142) + t116 * (t147 - t148) + t115 * (t146 - t140)
-            - t110 * (0.02 * t141) - t131 * (8.0 * t161) - t130 * (8.0 * t160)
-            - t129 * (0.5 * t159));
-    let t163 = t141 + t110 * t162;
-    out(0usize, t162);
-    out(1usize, t140 + t109 * t162);
-    out(2usize, t163);
-    out(3usize, -(t154 + t124 * t162));
-    out(4usize, t153 + t123 * t162);
-    out(5usize, t144 - t113 * t162);
-    out(6usize, t152 + t122 * t162);
-    out(7usize, t150 + t119 * t162);
-    out(8usize, t143 + t112 * t162);
-    out(9usize, t158 - t128 * t162);
-    out(10usize, t127 * t162 - t157);
-    out(11usize, -(t145 + t114 * t162));
-    out(12usize, t156 - t126 * t162);
-    out(13usize, t155 - t125 * t162);
-    out(14usize, t142 - t111 * t162);
-    out(15usize, t148 - t147 + t116 * t162);
-    out(16usize, t140 - t146 + t115 * t162);
-    out(17usize, t163);
-    out(18usize, t161 + t131 * t162);
-    out(19usize, t160 + t130 * t162);
-    out(20usize, t159 + t129 * t162);
+    let t0 = v2 * v2;
+    let t1 = v20 * v20;
+    let t2 = v5 * v5;
+    let t3 = v8 * v8;
+    let t4 = v11 * v11;
+    let t5 = v14 * v14;
+    let t6 = v17 * v17;
+    let t7 = q15 - q0;
+    let t8 = q16 - q1;
+    let t9 = cos2 * t7 + sin2 * t8;
+    let t10 = cos2 * v1 - sin2 * v0;
+    let t11 = cos2 * v16 - sin2 * v15;
+    let t12 = cos2 * cos5 + sin2 * sin5;
+    let t13 = cos2 * sin5;
+    let t14 = sin2 * cos5;
+    let t15 = t13 - t14;
+    let t16 = cos2 * cos8 + sin2 * sin8;
+    let t17 = cos2 * sin8;
+    let t18 = sin2 * cos8;
+    let t19 = t17 - t18;
+    let t20 = cos2 * cos11 + sin2 * sin11;
+    let t21 = cos2 * sin11 - sin2 * cos11;
+    let t22 = cos2 * cos14 + sin2 * sin14;
+    let t23 = cos2 * sin14 - sin2 * cos14;
+    let t24 = cos2 * cos20 + sin2 * sin20;
+    let t25 = cos2 * sin20;
+    let t26 = sin2 * cos20;
+    let t27 = t25 - t26;
+    let t28 = 0.35 * t24;
+    let t29 = 0.35 * t27;
+    let t30 = 0.4 * t0 + t1 * t28;
+    let t31 = 0.025 * t15;
+    let t32 = 0.044999999999999984 * t12 + t31;
+    let t33 = 0.025 * t12;
+    let t34 = 0.044999999999999984 * t15;
+    let t35 = t34 - t33;
+    let t36 = 0.3 * t0;
+    let t37 = t36 - t2 * t32;
+    let t38 = 0.044999999999999984 * t16;
+    let t39 = 0.025 * t19;
+    let t40 = 0.025 * t16;
+    let t41 = t40 + 0.044999999999999984 * t19;
+    let t42 = t31 + 0.04500000000000001 * t12;
+    let t43 = 0.0050000000000000044 * t20;
+    let t44 = 0.125 * t21;
+    let t45 = t43 - t44;
+    let t46 = 0.04500000000000001 * t15;
+    let t47 = 0.125 * t20;
+    let t48 = t47 + 0.0050000000000000044 * t21;
+    let t49 = t46 - t33;
+    let t50 = t44 - t43;
+    let t51 = t2 * t42 + t4 * t45;
+    let t52 = t2 * (t33 - t46);
+    let t53 = t4 * t48;
+    let t54 = 0.04500000000000001 * t16 - t39;
+    let t55 = 0.125 * t23;
+    let t56 = 0.0050000000000000044 * t22 + t55;
+    let t57 = t40 + 0.04500000000000001 * t19;
+    let t58 = 0.125 * t22;
+    let t59 = 0.0050000000000000044 * t23;
+    let t60 = t58 - t59;
+    let t61 = t3 * t54 + t5 * t56;
+    let t62 = t3 * t57;
+    let t63 = t5 * t60;
+    let t64 = t44 - 0.004999999999999977 * t20;
+    let t65 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t66 = t47 + 0.004999999999999977 * t21;
+    let t67 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t68 = t6 * t65;
+    let t69 = t6 * t67;
+    let t70 = t55 + 0.004999999999999977 * t22;
+    let t71 = 0.004999999999999977 * t23;
+    let t72 = sin2 * t7 - cos2 * t8;
+    let t73 = v2 * (cos2 * v0 + sin2 * v1 - (cos2 * v15 + sin2 * v16));
+    let t74 = t73 + t73 + v2 * (v2 * t72);
+    let t75 = t14 - t13;
+    let t76 = v5 * ((cos2 * v3 + sin2 * v4) * t12 - (cos2 * v4 - sin2 * v3) * t75);
+    let t77 = t18 - t17;
+    let t78 = v8 * ((cos2 * v6 + sin2 * v7) * t16 - (cos2 * v7 - sin2 * v6) * t77);
+    let t79 = t26 - t25;
+    let t80 = -0.050000000000000044 - t27 * t29;
+    let t81 = 1.0 / t24;
+    let t82 = t79 * t81;
+    let t83 = t80 * t81 - t28;
+    let t84 = 1.0 / t83;
+    let t85 = t48 + t66;
+    let t86 = t58 - t71 - (t59 - t58);
+    let t87 = t33 - t34;
+    let t88 = 0.3 - t9;
+    let t89 = 1.0 / t85;
+    let t90 = (t64 - t45) * t89;
+    let t91 = 1.0 / t86;
+    let t92 = (t56 + t70) * t91;
+    let t93 = 1.0 / t12;
+    let t94 = t75 * t93;
+    let t95 = 0.044999999999999984 * t93;
+    let t96 = t95 - t32;
+    let t97 = 1.0 / t16;
+    let t98 = t77 * t97;
+    let t99 = 0.044999999999999984 * t97;
+    let t100 = t92 + t98;
+    let t101 = t54 + t57 * t92 + t99 + t41 * t100;
+    let t102 = t98 - t94;
+    let t103 = t32 - t95;
+    let t104 = t9 - 0.3;
+    let t105 = t94 + (t92 - t100);
+    let t106 = t87 * t92 - t87 * t100 - t103;
+    let t107 = t65 + t67 * t92 + t72 * t92 - t104;
+    let t108 = 1.0 / t101;
+    let t109 = (t38 - t39 - t99 - t41 * t98) * t108;
+    let t110 = t105 * t109;
+    let t111 = t87 * t98 - t96 - t106 * t109;
+    let t112 = -0.3 - t9 - t88 - t107 * t109;
+    let t113 = 1.0 / t112;
+    let t114 = (t72 * t90 - (t65 + t67 * t90) - t104) * t113;
+    let t115 = t87 * t90 - (t42 + t49 * t90 + t95) - t103 - t111 * t114;
+    let t116 = 1.0 / t115;
+    let t117 = t116 * ((t102 - t110) * t114 - (t94 + (t90 - (t90 + t94))));
+    let t118 = t113 * (t110 - t102 - t111 * t117);
+    let t119 = t108 * (t105 + t107 * t118 + t106 * t117);
+    let t120 = t94 + t88 * t118 + t96 * t117;
+    let t121 = -1.0 - t72 * t118;
+    let t122 = t87 * t117;
+    let t123 = t121 - t122;
+    let t124 = t122 - t121;
+    let t125 = -1.0 - t41 * t119;
+    let t126 = t122 - t125;
+    let t127 = t97 * (t77 * t126 + 0.044999999999999984 * t119);
+    let t128 = t93 * (t15 - 0.044999999999999984 * t117);
+    let t129 = t57 * t119;
+    let t130 = t67 * t118;
+    let t131 = t91 * (t125 - t122 - t123 - t129 + t130);
+    let t132 = t49 * t117;
+    let t133 = t89 * (-1.0 - t123 - t130 - t132);
+    let t134 = t120 + t9 * t118;
+    let t135 = 1.0 - t35 * t117;
+    let t136 = t127 - t56 * t131 + t54 * t119;
+    let t137 = t129 + (t126 + t60 * t131);
+    let t138 = t128 + t50 * t133 - t42 * t117;
+    let t139 = t132 - (-1.0 - t48 * t133);
+    let t140 = t84 * (t134 + (0.4 * t118 - t82 * t135));
+    let t141 = t81 * (t80 * t140 + t79 * t135);
+    let t142 = t135 + t29 * t140;
+    let t143 = 0.5 + (t135 * (20.0 * t135) + t134 * (20.0 * t134) + t118 * (1.2 * t118))
+        + t128 * (0.5 * t128) + t117 * (0.002 * t117) + t126 * (0.5 * t126)
+        + t127 * (0.5 * t127) + t119 * (0.002 * t119) + t139 * (0.3 * t139)
+        + t138 * (0.3 * t138) + t133 * (0.0016 * t133) + t137 * (0.3 * t137)
+        + t136 * (0.3 * t136) + t131 * (0.0016 * t131) + t124 * t124 + t120 * t120
+        + t118 * (0.02 * t118) + t142 * (8.0 * t142) + t141 * (8.0 * t141)
+        + t140 * (0.5 * t140);
+    let t144 = v20 * ((cos2 * v18 + sin2 * v19) * t24 - (cos2 * v19 - sin2 * v18) * t79)
+        + t27 * t30;
+    let t145 = t4 * t64 - t68 - t51;
+    let t146 = t61 + (t68 + t5 * t70);
+    let t147 = t37 + (t36 + t3 * (t39 - t38));
+    let t148 = t37 + (v2 * (t10 - t11) - v2 * (t11 - t10) + v2 * (v2 * t9));
+    let t149 = t74 - ddf0;
+    let t150 = t2 * t35 + t149;
+    let t151 = t76 * t93;
+    let t152 = t151 - t150;
+    let t153 = t78 * t97;
+    let t154 = t150 - t151;
+    let t155 = t69 + t5 * (t71 - t58) - (t63 - t62) - t92 * t146 - t153 + t100 * t147
+        - t92 * t148 - t154;
+    let t156 = t3 * t41 - t149 + t153 - t98 * t147 - t152 - t109 * t155;
+    let t157 = t116
+        * (t4 * t66 + t69 + (t53 - t52) + t90 * t145 + t151 + t90 * t148 + t154
+            + t114 * t156);
+    let t158 = t113 * (t156 + t111 * t157);
+    let t159 = t108 * (t155 - t107 * t158 + t106 * t157);
+    let t160 = t152 - t88 * t158 + t96 * t157;
+    let t161 = t148 + t72 * t158;
+    let t162 = t87 * t157;
+    let t163 = t162 - t161;
+    let t164 = t162 + (t41 * t159 - t147);
+    let t165 = t97 * (t78 + t77 * t164 + 0.044999999999999984 * t159);
+    let t166 = t93 * (t76 + 0.044999999999999984 * t157);
+    let t167 = t57 * t159;
+    let t168 = t67 * t158;
+    let t169 = t91 * (t146 + t164 - t163 + t167 + t168);
+    let t170 = t49 * t157;
+    let t171 = t89 * (t145 - t163 - t168 + t170);
+    let t172 = ddf0 - t74 - t160 + t9 * t158;
+    let t173 = t37 + t35 * t157;
+    let t174 = t54 * t159 - (t62 - t63 - t56 * t169 - t165);
+    let t175 = t167 + (t164 + (t61 - t60 * t169));
+    let t176 = t42 * t157 - (t52 - t53 - t50 * t171 - t166);
+    let t177 = t51 + t48 * t171 - t170;
+    let t178 = t84 * (t172 + (t81 * t144 - t1 * t29 - t82 * t173 + 0.4 * t158));
+    let t179 = t81 * (t144 - t80 * t178 - t79 * t173);
+    let t180 = t173 + (t30 + t29 * t178);
+    let t181 = 1.0 / t143
+        * (t117 * (0.002 * t157)
+            - (t135 * (20.0 * t173) + t134 * (20.0 * t172) + t118 * (1.2 * t158)
+                + t128 * (0.5 * t166)) + t126 * (0.5 * t164) + t127 * (0.5 * t165)
+            + t119 * (0.002 * t159) - t139 * (0.3 * t177) - t138 * (0.3 * t176)
+            - t133 * (0.0016 * t171) + t137 * (0.3 * t175) + t136 * (0.3 * t174)
+            - t131 * (0.0016 * t169) + t124 * t163 + t120 * t160 - t118 * (0.02 * t158)
+            - t142 * (8.0 * t180) + t141 * (8.0 * t179) - t140 * (0.5 * t178));
+    let t182 = t173 + t135 * t181;
+    let t183 = t172 + t134 * t181;
+    let t184 = t158 + t118 * t181;
+    let t185 = t166 + t128 * t181;
+    let t186 = t126 * t181 - t164;
+    let t187 = t165 - t127 * t181;
+    let t188 = t177 + t139 * t181;
+    let t189 = t176 + t138 * t181;
+    let t190 = t137 * t181 - t175;
+    let t191 = t174 - t136 * t181;
+    let t192 = t161 - t162 + t124 * t181;
+    let t193 = t160 - t120 * t181;
+    let t194 = t180 + t142 * t181;
+    let t195 = t179 - t141 * t181;
+    out(0usize, cos2 * t182 + sin2 * t183);
+    out(1usize, sin2 * t182 - cos2 * t183);
+    out(2usize, t184);
+    out(3usize, cos2 * t181 - sin2 * t185);
+    out(4usize, sin2 * t181 + cos2 * t185);
+    out(5usize, t117 * t181 - t157);
+    out(6usize, cos2 * t186 - sin2 * t187);
+    out(7usize, sin2 * t186 + cos2 * t187);
+    out(8usize, t159 - t119 * t181);
+    out(9usize, cos2 * t188 - sin2 * t189);
+    out(10usize, sin2 * t188 + cos2 * t189);
+    out(11usize, t171 + t133 * t181);
+    out(12usize, cos2 * t190 - sin2 * t191);
+    out(13usize, sin2 * t190 + cos2 * t191);
+    out(14usize, t169 + t131 * t181);
+    out(15usize, cos2 * t192 - sin2 * t193);
+    out(16usize, sin2 * t192 + cos2 * t193);
+    out(17usize, t184);
+    out(18usize, cos2 * t194 - sin2 * t195);
+    out(19usize, sin2 * t194 + cos2 * t195);
+    out(20usize, t178 + t140 * t181);
     f64::INFINITY
-        .min(-(2.0 * t72))
+        .min(t24)
+        .min(-(2.0 * t83))
         .min(4.0 * t85)
-        .min(-(16.0 * t91))
-        .min(16.0 * t82)
-        .min(4.0 * t101)
-        .min(4.0 * t97)
-        .min(t107)
-        .min(0.03125 * t132)
+        .min(4.0 * t86)
+        .min(t12)
+        .min(t16)
+        .min(16.0 * t101)
+        .min(-(2.0 * t112))
+        .min(-(16.0 * t115))
+        .min(0.03125 * t143)
 }
 ///Accelerations a of `M·a + Cᵀ·λ = Q`, `C·a = Γ` on the kept rows.
 ///
-///Operations: 347 mul, 275 add, 4 neg, 8 div.
+///Operations: 364 mul, 291 add, 3 neg, 10 div.
 pub fn acceleration(t: f64, q: &[f64; N_Q], v: &[f64; N_V], a: &mut [f64; N_V]) -> f64 {
     let f = jets(t);
     let x = rotations(q);
@@ -577,272 +605,293 @@ fn multipliers_core(
     let v19 = v(19usize);
     let v20 = v(20usize);
     let ddf0 = f(2usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = v2 * v2;
-    let t5 = v20 * v20;
-    let t6 = t0 * t4 + t1 * t5;
-    let t7 = t2 * t4 + t3 * t5;
-    let t8 = 0.3 * cos2;
-    let t9 = 0.025 * sin5;
-    let t10 = 0.044999999999999984 * cos5 + t9;
-    let t11 = 0.3 * sin2;
-    let t12 = 0.025 * cos5;
-    let t13 = 0.044999999999999984 * sin5;
-    let t14 = t13 - t12;
-    let t15 = v5 * v5;
-    let t16 = t4 * t8;
-    let t17 = t10 * t15;
-    let t18 = t16 - t17;
-    let t19 = t4 * t11;
-    let t20 = t14 * t15;
+    let t0 = v2 * v2;
+    let t1 = v20 * v20;
+    let t2 = v5 * v5;
+    let t3 = v8 * v8;
+    let t4 = v11 * v11;
+    let t5 = v14 * v14;
+    let t6 = v17 * v17;
+    let t7 = q15 - q0;
+    let t8 = q16 - q1;
+    let t9 = sin2 * t7;
+    let t10 = cos2 * t8;
+    let t11 = cos2 * t7 + sin2 * t8;
+    let t12 = cos2 * v1 - sin2 * v0;
+    let t13 = cos2 * v16 - sin2 * v15;
+    let t14 = cos2 * cos5 + sin2 * sin5;
+    let t15 = cos2 * sin5;
+    let t16 = sin2 * cos5;
+    let t17 = t15 - t16;
+    let t18 = cos2 * cos8 + sin2 * sin8;
+    let t19 = cos2 * sin8;
+    let t20 = sin2 * cos8;
     let t21 = t19 - t20;
-    let t22 = 0.044999999999999984 * cos8;
-    let t23 = 0.025 * sin8;
-    let t24 = t23 - t22;
-    let t25 = 0.025 * cos8;
-    let t26 = t25 + 0.044999999999999984 * sin8;
-    let t27 = t22 - t23;
-    let t28 = v8 * v8;
-    let t29 = t16 + t24 * t28;
-    let t30 = t26 * t28;
-    let t31 = t30 - t19;
-    let t32 = t9 + 0.04500000000000001 * cos5;
-    let t33 = 0.0050000000000000044 * cos11;
-    let t34 = 0.125 * sin11;
-    let t35 = t33 - t34;
-    let t36 = 0.04500000000000001 * sin5;
-    let t37 = 0.125 * cos11;
-    let t38 = t37 + 0.0050000000000000044 * sin11;
-    let t39 = t36 - t12;
-    let t40 = t34 - t33;
-    let t41 = v11 * v11;
-    let t42 = t15 * t32 + t35 * t41;
-    let t43 = t15 * (t12 - t36);
-    let t44 = t38 * t41;
-    let t45 = 0.04500000000000001 * cos8 - t23;
-    let t46 = 0.125 * sin14;
-    let t47 = 0.0050000000000000044 * cos14 + t46;
-    let t48 = t25 + 0.04500000000000001 * sin8;
-    let t49 = 0.125 * cos14;
-    let t50 = 0.0050000000000000044 * sin14;
-    let t51 = t49 - t50;
-    let t52 = v14 * v14;
-    let t53 = t28 * t45 + t47 * t52;
-    let t54 = t28 * t48;
-    let t55 = t51 * t52;
-    let t56 = t34 - 0.004999999999999977 * cos11;
-    let t57 = 0.2 * cos17;
-    let t58 = t37 + 0.004999999999999977 * sin11;
-    let t59 = 0.2 * sin17;
-    let t60 = v17 * v17;
-    let t61 = t57 * t60;
-    let t62 = t59 * t60;
-    let t63 = t46 + 0.004999999999999977 * cos14;
-    let t64 = 0.004999999999999977 * sin14;
-    let t65 = q1 - q16;
-    let t66 = q0 - q15;
-    let t67 = sin2 * v2;
-    let t68 = v16 - v1;
-    let t69 = cos2 * v2;
-    let t70 = v0 - v15;
-    let t71 = sin20 * t2 + cos20 * t0;
-    let t72 = -0.050000000000000044 - sin20 * t3 - cos20 * t1;
-    let t73 = 1.0 / t72;
-    let t74 = t38 + t58;
-    let t75 = t56 - t35;
-    let t76 = t47 + t63;
-    let t77 = t59 - t11;
-    let t78 = t12 - t13;
-    let t79 = t39 - t78;
-    let t80 = t8 - t57;
-    let t81 = t10 + t32;
-    let t82 = t45 - t24;
-    let t83 = cos2 * t65 - sin2 * t66 - cos2 * t77 - sin2 * t80;
-    let t84 = sin2 * t81 - cos2 * t79;
-    let t85 = cos2 * t74 + sin2 * t75;
+    let t22 = cos2 * cos11 + sin2 * sin11;
+    let t23 = cos2 * sin11 - sin2 * cos11;
+    let t24 = cos2 * cos14 + sin2 * sin14;
+    let t25 = cos2 * sin14 - sin2 * cos14;
+    let t26 = cos2 * cos20 + sin2 * sin20;
+    let t27 = cos2 * sin20;
+    let t28 = sin2 * cos20;
+    let t29 = t27 - t28;
+    let t30 = 0.35 * t26;
+    let t31 = 0.35 * t29;
+    let t32 = 0.4 * t0 + t1 * t30;
+    let t33 = 0.025 * t17;
+    let t34 = 0.044999999999999984 * t14 + t33;
+    let t35 = 0.025 * t14;
+    let t36 = 0.044999999999999984 * t17;
+    let t37 = t36 - t35;
+    let t38 = 0.3 * t0;
+    let t39 = t38 - t2 * t34;
+    let t40 = 0.044999999999999984 * t18;
+    let t41 = 0.025 * t21;
+    let t42 = 0.025 * t18;
+    let t43 = t42 + 0.044999999999999984 * t21;
+    let t44 = t33 + 0.04500000000000001 * t14;
+    let t45 = 0.0050000000000000044 * t22;
+    let t46 = 0.125 * t23;
+    let t47 = t45 - t46;
+    let t48 = 0.04500000000000001 * t17;
+    let t49 = 0.125 * t22;
+    let t50 = t49 + 0.0050000000000000044 * t23;
+    let t51 = t48 - t35;
+    let t52 = t46 - t45;
+    let t53 = t2 * t44 + t4 * t47;
+    let t54 = t2 * (t35 - t48);
+    let t55 = t4 * t50;
+    let t56 = 0.04500000000000001 * t18 - t41;
+    let t57 = 0.125 * t25;
+    let t58 = 0.0050000000000000044 * t24 + t57;
+    let t59 = t42 + 0.04500000000000001 * t21;
+    let t60 = 0.125 * t24;
+    let t61 = 0.0050000000000000044 * t25;
+    let t62 = t60 - t61;
+    let t63 = t3 * t56 + t5 * t58;
+    let t64 = t3 * t59;
+    let t65 = t5 * t62;
+    let t66 = t46 - 0.004999999999999977 * t22;
+    let t67 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t68 = t49 + 0.004999999999999977 * t23;
+    let t69 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t70 = t6 * t67;
+    let t71 = t6 * t69;
+    let t72 = t57 + 0.004999999999999977 * t24;
+    let t73 = 0.004999999999999977 * t25;
+    let t74 = t9 - t10;
+    let t75 = v2 * (cos2 * v0 + sin2 * v1 - (cos2 * v15 + sin2 * v16));
+    let t76 = t75 + t75 + v2 * (v2 * t74);
+    let t77 = t16 - t15;
+    let t78 = v5 * ((cos2 * v3 + sin2 * v4) * t14 - (cos2 * v4 - sin2 * v3) * t77);
+    let t79 = t20 - t19;
+    let t80 = v8 * ((cos2 * v6 + sin2 * v7) * t18 - (cos2 * v7 - sin2 * v6) * t79);
+    let t81 = t28 - t27;
+    let t82 = -0.050000000000000044 - t29 * t31;
+    let t83 = 1.0 / t26;
+    let t84 = t81 * t83;
+    let t85 = t82 * t83 - t30;
     let t86 = 1.0 / t85;
-    let t87 = t74 * t86;
-    let t88 = (t35 - t56) * t86;
-    let t89 = (cos2 * t75 - sin2 * t74) * t86;
-    let t90 = sin2 * t65 + cos2 * t66 - sin2 * t77 + cos2 * t80 + t83 * t89;
-    let t91 = t84 * t89 - (sin2 * t79 + cos2 * t81);
-    let t92 = 1.0 / t91;
-    let t93 = (t78 - t39 - t84 * t87) * t92;
-    let t94 = (t81 + t84 * t88) * t92;
-    let t95 = t57 - t8 - t80 + t83 * t88 - t90 * t94;
-    let t96 = (0.044999999999999984 - sin5 * t14 - cos5 * t10) * t92;
-    let t97 = sin5 * t11 + cos5 * t8 - t90 * t96;
-    let t98 = 1.0 / t82;
-    let t99 = (t26 + t48) * t98;
-    let t100 = t11 - t59 - t77 - t83 * t87 - t90 * t93 + t95 * t99;
-    let t101 = t49 - t64 - (t50 - t49) + t76 * t99;
-    let t102 = (-0.044999999999999984 + sin8 * t26 + cos8 * t27) * t98;
-    let t103 = 1.0 / t101;
-    let t104 = t76 * t102 * t103;
-    let t105 = 1.0 / t97;
-    let t106 = (t100 * t104 - (sin8 * t11 + cos8 * t8 + t95 * t102)) * t105;
-    let t107 = cos8 - cos5 * t106;
-    let t108 = 1.0 / t107;
-    let t109 = t108 * (sin8 - sin5 * t106);
-    let t110 = t105 * (sin5 - cos5 * t109);
-    let t111 = t103 * (t100 * t110);
-    let t112 = t98 * (t76 * t111 - t95 * t110);
-    let t113 = t92 * (t90 * t110);
-    let t114 = t86 * (t84 * t113 - t83 * t110);
-    let t115 = t109 - (t75 * t114 - t81 * t113 - t80 * t110);
-    let t116 = t77 * t110 - (-1.0 + t74 * t114 + t79 * t113);
-    let t117 = t8 * t110;
-    let t118 = t117 - t27 * t112;
-    let t119 = t109 - t118;
-    let t120 = -1.0 + t26 * t112;
-    let t121 = t11 * t110;
-    let t122 = t121 - t120;
-    let t123 = t109 + (t117 + t10 * t113);
-    let t124 = t121 + (-1.0 + t14 * t113);
-    let t125 = t118 - t109 - t45 * t112 + t47 * t111;
-    let t126 = t120 - t121 + t48 * t112 + t51 * t111;
-    let t127 = t32 * t113 - (t40 * t114 - t123);
-    let t128 = t124 + t38 * t114 + t39 * t113;
-    let t129 = t73 * (sin20 + t71 * t110 - cos20 * t109);
-    let t130 = t109 - (t1 * t129 + t0 * t110);
-    let t131 = t2 * t110 - (-1.0 - t3 * t129);
-    let t132 = 20.0 + t109 * (20.0 * t109) + t110 * (1.2 * t110) + t124 * (0.5 * t124)
-        + t123 * (0.5 * t123) + t113 * (0.002 * t113) + t122 * (0.5 * t122)
-        + t119 * (0.5 * t119) + t112 * (0.002 * t112) + t128 * (0.3 * t128)
-        + t127 * (0.3 * t127) + t114 * (0.0016 * t114) + t126 * (0.3 * t126)
-        + t125 * (0.3 * t125) + t111 * (0.0016 * t111) + t116 * t116 + t115 * t115
-        + t110 * (0.02 * t110) + t131 * (8.0 * t131) + t130 * (8.0 * t130)
-        + t129 * (0.5 * t129);
-    let t133 = t41 * t56 - t61 - t42 - (t17 - t16);
-    let t134 = t41 * t58 + t62 + (t44 - t43) + (t20 - t19);
-    let t135 = v2 * (t65 * t67 + cos2 * t68) + t68 * t69
-        + (v2 * (t66 * t69 + sin2 * t70) + t67 * t70) - cos2 * t133 + sin2 * t134;
-    let t136 = ddf0
-        - (v2 * (cos2 * t70 - t66 * t67) + t69 * t70
-            + (v2 * (t65 * t69 - sin2 * t68) - t67 * t68)) - sin2 * t133 - cos2 * t134
-        + t89 * t135;
-    let t137 = t134 + (t62 + t52 * (t64 - t49) - (t55 - t54) - (t19 - t30)) + t88 * t135
-        - t94 * t136;
-    let t138 = v5 * (cos5 * v3 + sin5 * v4) - sin5 * t18 + cos5 * t21 - t96 * t136;
-    let t139 = t53 + (t61 + t52 * t63) - t29 - t133 - t87 * t135 - t93 * t136
-        + t99 * t137;
-    let t140 = t108
-        * (v8 * (cos8 * v6 + sin8 * v7) + sin8 * t29 + cos8 * t31 - t102 * t137
-            + t104 * t139 - t106 * t138);
-    let t141 = t105 * (t138 - cos5 * t140);
-    let t142 = t103 * (t139 - t100 * t141);
-    let t143 = t98 * (t137 - t76 * t142 - t95 * t141);
-    let t144 = t92 * (t136 - t90 * t141);
-    let t145 = t86 * (t135 - t84 * t144 - t83 * t141);
-    let t146 = t75 * t145 - t134 + t81 * t144 - t80 * t141;
-    let t147 = t133 + t74 * t145 - t79 * t144;
-    let t148 = t77 * t141;
-    let t149 = t8 * t141;
-    let t150 = t140 - (t31 - t27 * t143 + t149);
-    let t151 = t11 * t141;
-    let t152 = t151 - (t26 * t143 - t29);
-    let t153 = t140 - (t21 + t10 * t144 - t149);
-    let t154 = t151 + (t18 - t14 * t144);
-    let t155 = t47 * t142 - (t54 - t55 - t150 - t45 * t143);
-    let t156 = t51 * t142 - (t53 - t152 + t48 * t143);
-    let t157 = t43 - t44 - t153 + t40 * t145 + t32 * t144;
-    let t158 = t39 * t144 - (t154 - t42 + t38 * t145);
-    let t159 = t73
-        * (v20 * (cos20 * v18 + sin20 * v19) + sin20 * t6 - cos20 * t7 + t71 * t141
-            - cos20 * t140);
-    let t160 = t140 - (t1 * t159 - t7 + t0 * t141);
-    let t161 = t6 + t3 * t159 + t2 * t141;
-    let t162 = 1.0 / t132
-        * (t113 * (0.002 * t144)
-            - (t109 * (20.0 * t140) + t110 * (1.2 * t141) + t124 * (0.5 * t154)
-                + t123 * (0.5 * t153)) - t122 * (0.5 * t152) - t119 * (0.5 * t150)
-            - t112 * (0.002 * t143) + t128 * (0.3 * t158) + t127 * (0.3 * t157)
-            - t114 * (0.0016 * t145) + t126 * (0.3 * t156) + t125 * (0.3 * t155)
-            + t111 * (0.0016 * t142) + t116 * (t147 - t148) + t115 * (t146 - t140)
-            - t110 * (0.02 * t141) - t131 * (8.0 * t161) - t130 * (8.0 * t160)
-            - t129 * (0.5 * t159));
-    let t163 = t141 + t110 * t162;
-    let t164 = t148 - t147 + t116 * t162;
-    let t165 = t140 - t146 + t115 * t162;
-    let t166 = 0.3 * (t158 - t128 * t162);
-    let t167 = 0.3 * (t127 * t162 - t157);
-    let t168 = 0.3 * (t156 - t126 * t162);
-    let t169 = 0.3 * (t155 - t125 * t162);
-    let t170 = 0.02 * t163;
-    let t171 = 8.0 * (t161 + t131 * t162);
-    let t172 = 8.0 * (t160 + t130 * t162);
-    let t173 = t73 * (t1 * t172 - (0.5 * (t159 + t129 * t162) + t3 * t171));
-    let t174 = cos20 * t173;
-    let t175 = 0.5 * (t153 + t123 * t162) + t167;
-    let t176 = 0.5 * (t152 + t122 * t162) + t168;
-    let t177 = 0.5 * (t150 + t119 * t162) + t169;
-    let t178 = t166 - 0.5 * (t154 + t124 * t162);
-    let t179 = t86
-        * (0.0016 * (t145 + t114 * t162) - t38 * t166 - t40 * t167 - t74 * t164
-            - t75 * t165);
-    let t180 = t92
-        * (t32 * t167 - (0.002 * (t144 - t113 * t162) + t39 * t166) - t14 * t178
-            + t10 * t175 - t79 * t164 + t81 * t165 + t84 * t179);
-    let t181 = t98
-        * (t48 * t168 - 0.002 * (t143 + t112 * t162) - t45 * t169 + t26 * t176
-            - t27 * t177);
-    let t182 = t103
-        * (0.0016 * (t142 - t111 * t162) + t51 * t168 + t47 * t169 + t76 * t181);
-    let t183 = t105
-        * (t0 * t172 - (1.2 * t163 + t2 * t171) + t71 * t173 - t170 + t11 * t178
-            - t8 * t175 - t11 * t176 + t8 * t177 - t77 * t164 - t80 * t165 + t83 * t179
-            - t90 * t180 - t95 * t181 + t100 * t182);
-    let t184 = t108
-        * (t165 + (t177 + (20.0 * (t140 + t109 * t162) + t172 + t174 + t175))
-            + cos5 * t183);
-    let t185 = t183 + t106 * t184;
-    let t186 = t182 + t104 * t184;
-    let t187 = t181 - t99 * t186 + t102 * t184;
-    let t188 = t180 + t93 * t186 - t94 * t187 - t96 * t185;
-    let t189 = t87 * t186 - t179 + t88 * t187 + t89 * t188;
-    let t190 = t165 - t187 - sin2 * t189 + cos2 * t188;
-    let t191 = t164 + t186 - cos2 * t189;
-    let t192 = sin2 * t188;
-    let t193 = t191 - t192;
-    let t194 = t192 - t191;
-    out(0usize, t171 - sin20 * t173);
-    out(1usize, t172 + t174);
-    out(2usize, t178 - t194 - sin5 * t185);
-    out(3usize, t175 + t190 + cos5 * t185);
-    out(4usize, t176 - t186 + sin8 * t184);
-    out(5usize, t177 + t187 - cos8 * t184);
-    out(6usize, t166 - t194);
-    out(7usize, t167 + t190);
-    out(8usize, t168 - t186);
-    out(9usize, t169 + t187);
-    out(10usize, t193);
-    out(11usize, t190);
-    out(12usize, -t186);
-    out(13usize, t187);
-    out(14usize, t189);
-    out(15usize, t57 * t190 - (t170 + t59 * t193) - t59 * t186 - t57 * t187);
-    out(16usize, t188);
-    out(17usize, t185);
-    out(18usize, -t184);
+    let t87 = t50 + t68;
+    let t88 = t60 - t73 - (t61 - t60);
+    let t89 = t35 - t36;
+    let t90 = 0.3 - t11;
+    let t91 = 1.0 / t87;
+    let t92 = (t66 - t47) * t91;
+    let t93 = 1.0 / t88;
+    let t94 = (t58 + t72) * t93;
+    let t95 = 1.0 / t14;
+    let t96 = t77 * t95;
+    let t97 = 0.044999999999999984 * t95;
+    let t98 = t97 - t34;
+    let t99 = 1.0 / t18;
+    let t100 = t79 * t99;
+    let t101 = 0.044999999999999984 * t99;
+    let t102 = t94 + t100;
+    let t103 = t56 + t59 * t94 + t101 + t43 * t102;
+    let t104 = t100 - t96;
+    let t105 = t34 - t97;
+    let t106 = t11 - 0.3;
+    let t107 = t96 + (t94 - t102);
+    let t108 = t89 * t94 - t89 * t102 - t105;
+    let t109 = t67 + t69 * t94 + t74 * t94 - t106;
+    let t110 = 1.0 / t103;
+    let t111 = (t40 - t41 - t101 - t43 * t100) * t110;
+    let t112 = t107 * t111;
+    let t113 = t89 * t100 - t98 - t108 * t111;
+    let t114 = -0.3 - t11 - t90 - t109 * t111;
+    let t115 = 1.0 / t114;
+    let t116 = (t74 * t92 - (t67 + t69 * t92) - t106) * t115;
+    let t117 = t89 * t92 - (t44 + t51 * t92 + t97) - t105 - t113 * t116;
+    let t118 = 1.0 / t117;
+    let t119 = t118 * ((t104 - t112) * t116 - (t96 + (t92 - (t92 + t96))));
+    let t120 = t115 * (t112 - t104 - t113 * t119);
+    let t121 = t110 * (t107 + t109 * t120 + t108 * t119);
+    let t122 = t96 + t90 * t120 + t98 * t119;
+    let t123 = -1.0 - t74 * t120;
+    let t124 = t89 * t119;
+    let t125 = t123 - t124;
+    let t126 = t124 - t123;
+    let t127 = -1.0 - t43 * t121;
+    let t128 = t124 - t127;
+    let t129 = t99 * (t79 * t128 + 0.044999999999999984 * t121);
+    let t130 = t95 * (t17 - 0.044999999999999984 * t119);
+    let t131 = t59 * t121;
+    let t132 = t69 * t120;
+    let t133 = t93 * (t127 - t124 - t125 - t131 + t132);
+    let t134 = t51 * t119;
+    let t135 = t91 * (-1.0 - t125 - t132 - t134);
+    let t136 = t122 + t11 * t120;
+    let t137 = 1.0 - t37 * t119;
+    let t138 = t129 - t58 * t133 + t56 * t121;
+    let t139 = t131 + (t128 + t62 * t133);
+    let t140 = t130 + t52 * t135 - t44 * t119;
+    let t141 = t134 - (-1.0 - t50 * t135);
+    let t142 = t86 * (t136 + (0.4 * t120 - t84 * t137));
+    let t143 = t83 * (t82 * t142 + t81 * t137);
+    let t144 = t137 + t31 * t142;
+    let t145 = 0.5 + (t137 * (20.0 * t137) + t136 * (20.0 * t136) + t120 * (1.2 * t120))
+        + t130 * (0.5 * t130) + t119 * (0.002 * t119) + t128 * (0.5 * t128)
+        + t129 * (0.5 * t129) + t121 * (0.002 * t121) + t141 * (0.3 * t141)
+        + t140 * (0.3 * t140) + t135 * (0.0016 * t135) + t139 * (0.3 * t139)
+        + t138 * (0.3 * t138) + t133 * (0.0016 * t133) + t126 * t126 + t122 * t122
+        + t120 * (0.02 * t120) + t144 * (8.0 * t144) + t143 * (8.0 * t143)
+        + t142 * (0.5 * t142);
+    let t146 = v20 * ((cos2 * v18 + sin2 * v19) * t26 - (cos2 * v19 - sin2 * v18) * t81)
+        + t29 * t32;
+    let t147 = t4 * t66 - t70 - t53;
+    let t148 = t63 + (t70 + t5 * t72);
+    let t149 = t39 + (t38 + t3 * (t41 - t40));
+    let t150 = t39 + (v2 * (t12 - t13) - v2 * (t13 - t12) + v2 * (v2 * t11));
+    let t151 = t76 - ddf0;
+    let t152 = t2 * t37 + t151;
+    let t153 = t78 * t95;
+    let t154 = t153 - t152;
+    let t155 = t80 * t99;
+    let t156 = t152 - t153;
+    let t157 = t71 + t5 * (t73 - t60) - (t65 - t64) - t94 * t148 - t155 + t102 * t149
+        - t94 * t150 - t156;
+    let t158 = t3 * t43 - t151 + t155 - t100 * t149 - t154 - t111 * t157;
+    let t159 = t118
+        * (t4 * t68 + t71 + (t55 - t54) + t92 * t147 + t153 + t92 * t150 + t156
+            + t116 * t158);
+    let t160 = t115 * (t158 + t113 * t159);
+    let t161 = t110 * (t157 - t109 * t160 + t108 * t159);
+    let t162 = t154 - t90 * t160 + t98 * t159;
+    let t163 = t150 + t74 * t160;
+    let t164 = t89 * t159;
+    let t165 = t164 - t163;
+    let t166 = t164 + (t43 * t161 - t149);
+    let t167 = t99 * (t80 + t79 * t166 + 0.044999999999999984 * t161);
+    let t168 = t95 * (t78 + 0.044999999999999984 * t159);
+    let t169 = t59 * t161;
+    let t170 = t69 * t160;
+    let t171 = t93 * (t148 + t166 - t165 + t169 + t170);
+    let t172 = t51 * t159;
+    let t173 = t91 * (t147 - t165 - t170 + t172);
+    let t174 = ddf0 - t76 - t162 + t11 * t160;
+    let t175 = t39 + t37 * t159;
+    let t176 = t56 * t161 - (t64 - t65 - t58 * t171 - t167);
+    let t177 = t169 + (t166 + (t63 - t62 * t171));
+    let t178 = t44 * t159 - (t54 - t55 - t52 * t173 - t168);
+    let t179 = t53 + t50 * t173 - t172;
+    let t180 = t86 * (t174 + (t83 * t146 - t1 * t31 - t84 * t175 + 0.4 * t160));
+    let t181 = t83 * (t146 - t82 * t180 - t81 * t175);
+    let t182 = t175 + (t32 + t31 * t180);
+    let t183 = 1.0 / t145
+        * (t119 * (0.002 * t159)
+            - (t137 * (20.0 * t175) + t136 * (20.0 * t174) + t120 * (1.2 * t160)
+                + t130 * (0.5 * t168)) + t128 * (0.5 * t166) + t129 * (0.5 * t167)
+            + t121 * (0.002 * t161) - t141 * (0.3 * t179) - t140 * (0.3 * t178)
+            - t135 * (0.0016 * t173) + t139 * (0.3 * t177) + t138 * (0.3 * t176)
+            - t133 * (0.0016 * t171) + t126 * t165 + t122 * t162 - t120 * (0.02 * t160)
+            - t144 * (8.0 * t182) + t143 * (8.0 * t181) - t142 * (0.5 * t180));
+    let t184 = t160 + t120 * t183;
+    let t185 = 0.3 * (t179 + t141 * t183);
+    let t186 = 0.3 * (t178 + t140 * t183);
+    let t187 = 0.3 * (t139 * t183 - t177);
+    let t188 = 0.3 * (t176 - t138 * t183);
+    let t189 = 8.0 * (t182 + t144 * t183);
+    let t190 = t83 * (8.0 * (t181 - t143 * t183));
+    let t191 = t86 * (t82 * t190 - (0.5 * (t180 + t142 * t183) + t31 * t189));
+    let t192 = t81 * t190 - (20.0 * (t175 + t137 * t183) + t189) - t84 * t191;
+    let t193 = 1.2 * t184 - 0.4 * t191;
+    let t194 = t191 - 20.0 * (t174 + t136 * t183);
+    let t195 = t122 * t183 - t162 - t194;
+    let t196 = t91 * (0.0016 * (t173 + t135 * t183) + t50 * t185 + t52 * t186);
+    let t197 = t93 * (0.0016 * (t171 + t133 * t183) + t62 * t187 + t58 * t188);
+    let t198 = t163 - t164 + t126 * t183 + t196 + t197;
+    let t199 = t95 * (0.5 * (t168 + t130 * t183) + t186);
+    let t200 = t99 * (0.5 * (t167 - t129 * t183) + t188);
+    let t201 = t197 - (0.5 * (t128 * t183 - t166) + t187) + t79 * t200;
+    let t202 = t110
+        * (t59 * t187 - 0.002 * (t161 - t121 * t183) - t56 * t188 - t59 * t197
+            - 0.044999999999999984 * t200 - t43 * t201);
+    let t203 = t115
+        * (t11 * t194 - (0.02 * t184 + t193) + t69 * t196 - t69 * t197 - t74 * t198
+            - t90 * t195 - t109 * t202);
+    let t204 = t118
+        * (t44 * t186 - (0.002 * (t119 * t183 - t159) + t51 * t185) - t37 * t192
+            + t51 * t196 + 0.044999999999999984 * t199 + t89 * t201 - t89 * t198
+            - t98 * t195 - t108 * t202 - t113 * t203);
+    let t205 = t116 * t204;
+    let t206 = t203 - t205;
+    let t207 = t111 * t206;
+    let t208 = t202 - t207;
+    let t209 = t204 + (t195 - t206);
+    let t210 = t207 - t202;
+    let t211 = t209 - t210;
+    let t212 = t92 * t204;
+    let t213 = t94 * t208;
+    let t214 = t198 + t212 + t213;
+    let t215 = t100 * t206 - t201 - t102 * t208;
+    let t216 = t197 + t213;
+    let t217 = t196 + t212;
+    let t218 = t194 - (t210 - t209) - (t205 - t203);
+    let t219 = t192 - t215 - t214;
+    let t220 = t188 - t210;
+    let t221 = t187 - t216;
+    let t222 = t186 + t204;
+    let t223 = t185 - t217;
+    let t224 = t83 * t191 - t190;
+    let t225 = t189 - t29 * t224;
+    out(0usize, cos2 * t225 - sin2 * t191);
+    out(1usize, sin2 * t225 + cos2 * t191);
+    out(2usize, cos2 * t219 - sin2 * t211);
+    out(3usize, sin2 * t219 + cos2 * t211);
+    out(4usize, cos2 * t215 - sin2 * t206);
+    out(5usize, sin2 * t215 + cos2 * t206);
+    out(6usize, cos2 * t223 - sin2 * t222);
+    out(7usize, sin2 * t223 + cos2 * t222);
+    out(8usize, cos2 * t221 - sin2 * t220);
+    out(9usize, sin2 * t221 + cos2 * t220);
+    out(10usize, -(cos2 * t217 + sin2 * t204));
+    out(11usize, cos2 * t204 - sin2 * t217);
+    out(12usize, -(cos2 * t216 + sin2 * t208));
+    out(13usize, cos2 * t208 - sin2 * t216);
+    out(14usize, t214);
+    out(15usize, t193 + 0.3 * t211 - 0.3 * t206 - (t10 - t9) * t214 - t11 * t218);
+    out(16usize, t218);
+    out(17usize, t95 * t211 - t199 - t95 * t204);
+    out(18usize, t99 * t206 - t200 - t99 * t208);
     out(19usize, 0.0);
     out(20usize, 0.0);
-    out(21usize, t173);
+    out(21usize, t224);
     f64::INFINITY
-        .min(-(2.0 * t72))
-        .min(4.0 * t85)
-        .min(-(16.0 * t91))
-        .min(16.0 * t82)
-        .min(4.0 * t101)
-        .min(4.0 * t97)
-        .min(t107)
-        .min(0.03125 * t132)
+        .min(t26)
+        .min(-(2.0 * t85))
+        .min(4.0 * t87)
+        .min(4.0 * t88)
+        .min(t14)
+        .min(t18)
+        .min(16.0 * t103)
+        .min(-(2.0 * t114))
+        .min(-(16.0 * t117))
+        .min(0.03125 * t145)
 }
 ///Their multipliers λ of all rows, 0 for dropped ones.
 ///
-///Operations: 430 mul, 354 add, 4 neg, 8 div.
+///Operations: 438 mul, 365 add, 5 neg, 10 div.
 pub fn multipliers(
     t: f64,
     q: &[f64; N_Q],
@@ -1046,19 +1095,19 @@ fn velocity_residual_core(
     let t7 = 0.125 * cos14;
     let t8 = q1 - q16;
     let t9 = q0 - q15;
-    let t10 = v2 * (0.3 * sin2);
-    let t11 = v2 * (0.3 * cos2);
-    let t12 = v17 * (0.2 * sin17);
-    let t13 = v17 * (0.2 * cos17);
-    let t14 = sin2 * v0;
-    let t15 = cos2 * v1;
-    let t16 = t15 - t14;
+    let t10 = sin2 * v0;
+    let t11 = cos2 * v1;
+    let t12 = t11 - t10;
+    let t13 = v2 * (0.3 * sin2);
+    let t14 = v2 * (0.3 * cos2);
+    let t15 = v17 * (0.2 * sin17);
+    let t16 = v17 * (0.2 * cos17);
     out(0usize, v0 + v2 * (0.4 * sin2) - v18 + v20 * (0.35 * sin20));
     out(1usize, v1 - v2 * (0.4 * cos2) - v19 - v20 * (0.35 * cos20));
-    out(2usize, v0 - t10 - v3 + v5 * (0.044999999999999984 * sin5 - t1));
-    out(3usize, v1 + t11 - v4 - v5 * (0.044999999999999984 * cos5 + t0));
-    out(4usize, v0 + t10 - v6 - v8 * (t3 + 0.044999999999999984 * sin8));
-    out(5usize, v1 - t11 - v7 + v8 * (0.044999999999999984 * cos8 - t2));
+    out(2usize, v0 - t13 - v3 + v5 * (0.044999999999999984 * sin5 - t1));
+    out(3usize, v1 + t14 - v4 - v5 * (0.044999999999999984 * cos5 + t0));
+    out(4usize, v0 + t13 - v6 - v8 * (t3 + 0.044999999999999984 * sin8));
+    out(5usize, v1 - t14 - v7 + v8 * (0.044999999999999984 * cos8 - t2));
     out(
         6usize,
         v3 + v5 * (0.04500000000000001 * sin5 - t1) - v9
@@ -1079,10 +1128,10 @@ fn velocity_residual_core(
         v7 + v8 * (0.04500000000000001 * cos8 - t2) - v13
             + v14 * (0.0050000000000000044 * cos14 + t6),
     );
-    out(10usize, v9 + v11 * (t5 + 0.004999999999999977 * sin11) - v15 + t12);
-    out(11usize, v10 + v11 * (t4 - 0.004999999999999977 * cos11) - v16 - t13);
-    out(12usize, v12 + v14 * (t7 - 0.004999999999999977 * sin14) - v15 - t12);
-    out(13usize, t13 + (v13 + v14 * (t6 + 0.004999999999999977 * cos14) - v16));
+    out(10usize, v9 + v11 * (t5 + 0.004999999999999977 * sin11) - v15 + t15);
+    out(11usize, v10 + v11 * (t4 - 0.004999999999999977 * cos11) - v16 - t16);
+    out(12usize, v12 + v14 * (t7 - 0.004999999999999977 * sin14) - v15 - t15);
+    out(13usize, t16 + (v13 + v14 * (t6 + 0.004999999999999977 * cos14) - v16));
     out(
         14usize,
         cos2 * v0 + sin2 * v1 + v2 * (cos2 * t8 - sin2 * t9) - cos2 * v15 - sin2 * v16,
@@ -1090,12 +1139,12 @@ fn velocity_residual_core(
     out(15usize, v17 - v2);
     out(
         16usize,
-        t14 - t15 + v2 * (sin2 * t8 + cos2 * t9) - sin2 * v15 + cos2 * v16 - df0,
+        cos2 * v16 + (t10 - t11 + v2 * (sin2 * t8 + cos2 * t9) - sin2 * v15) - df0,
     );
     out(17usize, cos5 * v4 - sin5 * v3 + 0.044999999999999984 * v5);
     out(18usize, cos8 * v7 - sin8 * v6 - 0.044999999999999984 * v8);
-    out(19usize, t16);
-    out(20usize, t16);
+    out(19usize, t12);
+    out(20usize, t12);
     out(21usize, cos20 * v19 - sin20 * v18 - 0.050000000000000044 * v20);
 }
 ///`C·v − b` of all rows.
@@ -1179,206 +1228,220 @@ fn position_correction_core(
     let r14 = r(14usize);
     let r15 = r(15usize);
     let r16 = r(16usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = 0.3 * cos2;
-    let t5 = 0.025 * sin5;
-    let t6 = 0.044999999999999984 * cos5 + t5;
-    let t7 = 0.3 * sin2;
-    let t8 = 0.025 * cos5;
-    let t9 = 0.044999999999999984 * sin5;
-    let t10 = t9 - t8;
-    let t11 = 0.044999999999999984 * cos8;
-    let t12 = 0.025 * sin8;
-    let t13 = 0.025 * cos8;
-    let t14 = t13 + 0.044999999999999984 * sin8;
-    let t15 = t11 - t12;
-    let t16 = 0.125 * sin11;
-    let t17 = 0.125 * cos11;
-    let t18 = 0.04500000000000001 * sin5 - t8;
-    let t19 = t16 - 0.0050000000000000044 * cos11;
-    let t20 = 0.125 * sin14;
-    let t21 = 0.125 * cos14;
-    let t22 = 0.2 * cos17;
-    let t23 = t17 + 0.004999999999999977 * sin11;
-    let t24 = 0.2 * sin17;
-    let t25 = t20 + 0.004999999999999977 * cos14;
-    let t26 = 0.004999999999999977 * sin14;
-    let t27 = t21 - t26;
-    let t28 = q1 - q16;
-    let t29 = q0 - q15;
-    let t30 = t17 + 0.0050000000000000044 * sin11 + t23;
-    let t31 = 0.0050000000000000044 * cos14 + t20 + t25;
-    let t32 = t24 - t7;
-    let t33 = t8 - t9;
-    let t34 = t18 - t33;
-    let t35 = t4 - t22;
-    let t36 = t6 + (t5 + 0.04500000000000001 * cos5);
-    let t37 = 0.04500000000000001 * cos8 - t12 - (t12 - t11);
-    let t38 = t22 - t4 - t35;
-    let t39 = cos2 * t28 - sin2 * t29 - cos2 * t32 - sin2 * t35;
-    let t40 = sin2 * t36 - cos2 * t34;
-    let t41 = 1.0 / t37;
-    let t42 = (t14 + (t13 + 0.04500000000000001 * sin8)) * t41;
-    let t43 = 0.004999999999999977 * cos11 - t16;
-    let t44 = t19 - t43;
-    let t45 = t43 - t19;
-    let t46 = cos2 * t30 + sin2 * t44;
-    let t47 = t7 - t24 - t32 + t38 * t42;
-    let t48 = t33 - t18 + t36 * t42;
-    let t49 = t31 * t42 + (t21 - 0.0050000000000000044 * sin14 - (t26 - t21));
+    let t0 = q15 - q0;
+    let t1 = q16 - q1;
+    let t2 = sin2 * t0;
+    let t3 = cos2 * t1;
+    let t4 = cos2 * t0 + sin2 * t1;
+    let t5 = t3 - t2;
+    let t6 = cos2 * cos5 + sin2 * sin5;
+    let t7 = cos2 * sin5 - sin2 * cos5;
+    let t8 = cos2 * cos8 + sin2 * sin8;
+    let t9 = cos2 * sin8 - sin2 * cos8;
+    let t10 = cos2 * cos11 + sin2 * sin11;
+    let t11 = cos2 * sin11 - sin2 * cos11;
+    let t12 = cos2 * cos14 + sin2 * sin14;
+    let t13 = cos2 * sin14 - sin2 * cos14;
+    let t14 = 0.35 * (cos2 * cos20 + sin2 * sin20);
+    let t15 = 0.35 * (cos2 * sin20 - sin2 * cos20);
+    let t16 = 0.025 * t7;
+    let t17 = 0.044999999999999984 * t6 + t16;
+    let t18 = 0.025 * t6;
+    let t19 = 0.044999999999999984 * t7;
+    let t20 = t19 - t18;
+    let t21 = 0.044999999999999984 * t8;
+    let t22 = 0.025 * t9;
+    let t23 = 0.025 * t8;
+    let t24 = t23 + 0.044999999999999984 * t9;
+    let t25 = t21 - t22;
+    let t26 = 0.125 * t11;
+    let t27 = 0.125 * t10;
+    let t28 = t27 + 0.0050000000000000044 * t11;
+    let t29 = 0.125 * t13;
+    let t30 = 0.125 * t12;
+    let t31 = 0.004999999999999977 * t10;
+    let t32 = t26 - t31;
+    let t33 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t34 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t35 = t29 + 0.004999999999999977 * t12;
+    let t36 = t2 - t3;
+    let t37 = t28 + (t27 + 0.004999999999999977 * t11);
+    let t38 = 0.0050000000000000044 * t13 - t30;
+    let t39 = 0.0050000000000000044 * t12 + t29 + t35;
+    let t40 = 0.04500000000000001 * t7 - t18 - (t18 - t19);
+    let t41 = t24 + (t23 + 0.04500000000000001 * t9);
+    let t42 = 0.04500000000000001 * t8 - t22 - (t22 - t21);
+    let t43 = 1.0 / t40;
+    let t44 = (t17 + (t16 + 0.04500000000000001 * t6)) * t43;
+    let t45 = 0.3 + t5 * t44;
+    let t46 = t26 - 0.0050000000000000044 * t10 - (t31 - t26) + t37 * t44;
+    let t47 = t34 * t44 - t33;
+    let t48 = 1.0 / t46;
+    let t49 = -0.3 + t33 - t4;
     let t50 = 1.0 / t49;
-    let t51 = 1.0 / t39;
-    let t52 = (sin2 * t28 + cos2 * t29 - sin2 * t32 + cos2 * t35) * t51;
-    let t53 = sin2 * t34 + cos2 * t36 + t40 * t52;
-    let t54 = 1.0 / t53;
-    let t55 = (cos2 * t44 - sin2 * t30 + t46 * t52) * t54;
-    let t56 = t51 * (t46 - t40 * t55);
-    let t57 = t50 * (t30 - t42 * t45 - t47 * t56 - t48 * t55);
-    let t58 = t36 * t55;
-    let t59 = t41 * (t44 - t31 * t57 - t38 * t56 - t58);
-    let t60 = t58 + (t45 - t35 * t56);
-    let t61 = t30 + t32 * t56 + t34 * t55;
-    let t62 = t22 * t56;
-    let t63 = t62 + t25 * t57;
-    let t64 = t24 * t56;
-    let t65 = t64 - t27 * t57;
-    let t66 = t43 + t62;
-    let t67 = t23 + t64;
-    let t68 = t4 * t56;
-    let t69 = t60 + t15 * t59 - t68;
-    let t70 = t7 * t56;
-    let t71 = t70 - (t61 + t14 * t59);
-    let t72 = t60 + t68 - t6 * t55;
-    let t73 = t10 * t55 - (t61 + t70);
-    let t74 = t60 - t0 * t56;
-    let t75 = t2 * t56 - t61;
-    let t76 = 20.0 * t61;
-    let t77 = 20.0 * t60;
-    let t78 = 0.5 * t73;
-    let t79 = 0.5 * t72;
-    let t80 = 0.5 * t71;
-    let t81 = 0.5 * t69;
-    let t82 = 0.3 * t67;
-    let t83 = 0.3 * t66;
-    let t84 = 0.3 * t65;
-    let t85 = 0.3 * t63;
-    let t86 = 8.0 * t75;
-    let t87 = 8.0 * t74;
-    let t88 = 8.0 * t3;
-    let t89 = 8.0 * t1;
-    let t90 = 0.0016
-        + (t61 * t76 + t60 * t77 + t56 * (1.2 * t56) + t73 * t78 + t72 * t79
-            + t55 * (0.002 * t55) + t71 * t80 + t69 * t81 + t59 * (0.002 * t59)
-            + t67 * t82 + t66 * t83) + t65 * t84 + t63 * t85 + t57 * (0.0016 * t57)
-        + t56 * (0.02 * t56) + t75 * t86 + t74 * t87;
-    let t91 = 1.0 / t90;
-    let t92 = t86 + (t84 + (t80 + (t78 - t76) - t82));
-    let t93 = t91 * t92;
-    let t94 = 30.6 - t92 * t93;
-    let t95 = 1.0 / t94;
-    let t96 = t87 + (t83 + (t81 + (t77 + t79)) - t85);
-    let t97 = t93 * t96;
-    let t98 = t91 * t96;
-    let t99 = t95 * t97;
-    let t100 = 30.6 - t96 * t98 - t97 * t99;
-    let t101 = 1.0 / t100;
-    let t102 = t3 * t86 - t1 * t87;
-    let t103 = t88 - t93 * t102;
-    let t104 = t99 * t103 - (t89 + t98 * t102);
-    let t105 = t91 * t102;
-    let t106 = t95 * t103;
-    let t107 = t101 * t104;
-    let t108 = 0.5 + (t3 * t88 + t1 * t89) - t102 * t105 - t103 * t106 - t104 * t107;
-    let t109 = r15 * t24;
-    let t110 = t109 - (r10 + (r2 + r6));
-    let t111 = r15 * t22;
-    let t112 = r11 + (r3 + r7) + t111;
-    let t113 = t112 + (t111 - (r13 + (r5 + r9)));
-    let t114 = sin2 * t112 - (r14 + cos2 * t110);
-    let t115 = t54 * (r16 + sin2 * t110 + cos2 * t112 + t52 * t114);
-    let t116 = t51 * (t114 - t40 * t115);
-    let t117 = t50
-        * (t42 * t113 - (t110 + (r12 + (r4 + r8) + t109)) - t47 * t116 - t48 * t115);
-    let t118 = t36 * t115;
-    let t119 = t41 * (t113 - t31 * t117 - t38 * t116 - t118);
-    let t120 = t118 - (t112 + t35 * t116);
-    let t121 = t110 - t32 * t116 - t34 * t115;
-    let t122 = t116 - r15;
-    let t123 = t22 * t122;
-    let t124 = r13 + t123 + t25 * t117;
-    let t125 = t24 * t122;
-    let t126 = t125 - r12 - t27 * t117;
-    let t127 = t123 - r11;
-    let t128 = r10 + t125;
-    let t129 = t4 * t116;
-    let t130 = r5 + t120 + t15 * t119 - t129;
-    let t131 = t7 * t116;
-    let t132 = t131 - (t14 * t119 - (r4 + t121));
-    let t133 = t129 + (r3 + t120) - t6 * t115;
-    let t134 = t10 * t115 - (t131 - (r2 + t121));
-    let t135 = r1 + t120 - t0 * t116;
-    let t136 = r0 + t121 + t2 * t116;
-    let t137 = 20.0 * t121;
+    let t51 = (t5 - t34) * t50;
+    let t52 = t41 + t42 * t51;
+    let t53 = 1.0 / t52;
+    let t54 = t53 * (t39 * t51 - (t30 - 0.004999999999999977 * t13 - t38));
+    let t55 = t50 * (t42 * t54 - t39);
+    let t56 = t4 * t55;
+    let t57 = t48 * (t56 - t47 * t55 - t45 * t55);
+    let t58 = t43 * (t37 * t57 + t34 * t55 + t5 * t55);
+    let t59 = t36 * t55;
+    let t60 = t33 * t55;
+    let t61 = t35 + t60;
+    let t62 = t60 - t32 * t57;
+    let t63 = t41 * t54 - (t38 + t59);
+    let t64 = t28 * t57 - (t59 + t40 * t58);
+    let t65 = 0.3 * t55;
+    let t66 = t56 + t65 + t25 * t54;
+    let t67 = t65 - (t56 - t17 * t58);
+    let t68 = t24 * t54 - t59;
+    let t69 = t59 + t20 * t58;
+    let t70 = t56 + 0.4 * t55;
+    let t71 = 20.0 * t59;
+    let t72 = 20.0 * t56;
+    let t73 = 0.5 * t69;
+    let t74 = 0.5 * t67;
+    let t75 = 0.5 * t68;
+    let t76 = 0.5 * t66;
+    let t77 = 0.3 * t64;
+    let t78 = 0.3 * t62;
+    let t79 = 0.3 * t63;
+    let t80 = 0.3 * t61;
+    let t81 = 8.0 * t59;
+    let t82 = 8.0 * t70;
+    let t83 = 8.0 * t15;
+    let t84 = 8.0 * t14;
+    let t85 = 0.0016
+        + (t59 * t71 + t56 * t72 + t55 * (1.2 * t55) + t69 * t73 + t67 * t74
+            + t58 * (0.002 * t58) + t68 * t75 + t66 * t76 + t54 * (0.002 * t54)
+            + t64 * t77 + t62 * t78 + t57 * (0.0016 * t57) + t63 * t79 + t61 * t80)
+        + t55 * (0.02 * t55) + t59 * t81 + t70 * t82;
+    let t86 = 1.0 / t85;
+    let t87 = t79 + (t77 + (t75 - (t71 + t73))) - t81;
+    let t88 = t86 * t87;
+    let t89 = 30.6 - t87 * t88;
+    let t90 = 1.0 / t89;
+    let t91 = t78 + (t74 - t72 - t76) - t80 - t82;
+    let t92 = t88 * t91;
+    let t93 = t86 * t91;
+    let t94 = t90 * t92;
+    let t95 = 30.6 - t91 * t93 - t92 * t94;
+    let t96 = 1.0 / t95;
+    let t97 = t14 * t82 - t15 * t81;
+    let t98 = t83 - t88 * t97;
+    let t99 = t94 * t98 - (t84 + t93 * t97);
+    let t100 = t86 * t97;
+    let t101 = t90 * t98;
+    let t102 = t96 * t99;
+    let t103 = 0.5 + (t15 * t83 + t14 * t84) - t97 * t100 - t98 * t101 - t99 * t102;
+    let t104 = sin2 * r2;
+    let t105 = cos2 * r3;
+    let t106 = cos2 * r2 + sin2 * r3;
+    let t107 = sin2 * r4;
+    let t108 = cos2 * r5;
+    let t109 = cos2 * r4 + sin2 * r5;
+    let t110 = sin2 * r10;
+    let t111 = cos2 * r11;
+    let t112 = sin2 * r12;
+    let t113 = cos2 * r13;
+    let t114 = t106 + (cos2 * r6 + sin2 * r7);
+    let t115 = t109 + (cos2 * r8 + sin2 * r9);
+    let t116 = r14 - (cos2 * r10 + sin2 * r11 + t114);
+    let t117 = sin2 * r8 - cos2 * r9 - (t108 - t107) - (t113 - t112) + r15 * t33 - r16;
+    let t118 = t53 * (r14 - (cos2 * r12 + sin2 * r13 + t115) - r15 * t34 - t51 * t117);
+    let t119 = t50 * (t117 + t42 * t118);
+    let t120 = r16 - t4 * t119;
+    let t121 = t119 - r15;
+    let t122 = t48
+        * (sin2 * r6 - cos2 * r7 - (t105 - t104) - (t111 - t110) + t44 * t116
+            - t47 * t121 - t120 - t45 * t119);
+    let t123 = t43 * (t116 - t37 * t122 - t34 * t121 - t5 * t119);
+    let t124 = r14 + t36 * t119;
+    let t125 = t33 * t121;
+    let t126 = t112 - t113 - t125;
+    let t127 = t125 + (t110 - t111 - t32 * t122);
+    let t128 = t41 * t118 - (t124 - t115);
+    let t129 = t28 * t122 - (t124 - t114 - t40 * t123);
+    let t130 = 0.3 * t119;
+    let t131 = t107 - t108 - t120 + t130 + t25 * t118;
+    let t132 = t130 - (t104 - t105 + t17 * t123 - t120);
+    let t133 = t24 * t118 - (t124 - t109);
+    let t134 = t20 * t123 - (t124 - t106);
+    let t135 = sin2 * r0 - cos2 * r1 - t120 + 0.4 * t119;
+    let t136 = cos2 * r0 + sin2 * r1 - t124;
+    let t137 = 20.0 * t124;
     let t138 = 20.0 * t120;
     let t139 = 0.5 * t134;
-    let t140 = 0.5 * t133;
-    let t141 = 0.5 * t132;
-    let t142 = 0.5 * t130;
-    let t143 = 0.3 * t128;
+    let t140 = 0.5 * t132;
+    let t141 = 0.5 * t133;
+    let t142 = 0.5 * t131;
+    let t143 = 0.3 * t129;
     let t144 = 0.3 * t127;
-    let t145 = 0.3 * t126;
-    let t146 = 0.3 * t124;
+    let t145 = 0.3 * t128;
+    let t146 = 0.3 * t126;
     let t147 = 8.0 * t136;
     let t148 = 8.0 * t135;
-    let t149 = t61 * t137 - t60 * t138 - t56 * (1.2 * t116) - t73 * t139 - t72 * t140
-        - t55 * (0.002 * t115) - t71 * t141 - t69 * t142 - t59 * (0.002 * t119)
-        - t67 * t143 - t66 * t144 - t65 * t145 - t63 * t146 - t57 * (0.0016 * t117)
-        - t56 * (0.02 * t122) - t75 * t147 - t74 * t148;
-    let t150 = t143 - (t141 + (t137 + t139)) - t145 - t147 - t93 * t149;
-    let t151 = t146 - (t144 + (t142 + (t138 + t140))) - t148 - t98 * t149 + t99 * t150;
-    let t152 = 1.0 / t108
-        * (t1 * t148 - t3 * t147 - t105 * t149 - t106 * t150 - t107 * t151);
-    let t153 = t101 * t151 - t107 * t152;
-    let t154 = t95 * t150 + t99 * t153 - t106 * t152;
-    let t155 = t91 * t149 - t93 * t154 - t98 * t153 - t105 * t152;
-    let t156 = t56 * t155;
-    out(0usize, t154 + (t121 - t61 * t155));
-    out(1usize, t153 + (t120 + t60 * t155));
-    out(2usize, t116 + t156);
-    out(3usize, t154 + (t134 + t73 * t155));
-    out(4usize, t153 + (t133 + t72 * t155));
-    out(5usize, t115 + t55 * t155);
-    out(6usize, t154 + (t132 + t71 * t155));
-    out(7usize, t153 + (t130 + t69 * t155));
-    out(8usize, t119 + t59 * t155);
-    out(9usize, t154 - (t128 + t67 * t155));
-    out(10usize, t153 + (t127 + t66 * t155));
-    out(11usize, t155);
-    out(12usize, t154 + (t126 + t65 * t155));
-    out(13usize, t153 - (t124 + t63 * t155));
-    out(14usize, t117 + t57 * t155);
-    out(15usize, t154);
-    out(16usize, t153);
-    out(17usize, t122 + t156);
-    out(18usize, t154 + (t136 + t75 * t155) + t3 * t152);
-    out(19usize, t153 + (t135 + t74 * t155) - t1 * t152);
-    out(20usize, t152);
+    let t149 = t56 * t138 - t59 * t137 - t55 * (1.2 * t119) + t69 * t139 - t67 * t140
+        + t58 * (0.002 * t123) - t68 * t141 - t66 * t142 - t54 * (0.002 * t118)
+        - t64 * t143 - t62 * t144 - t57 * (0.0016 * t122) - t63 * t145 + t61 * t146
+        - t55 * (0.02 * t121) + t59 * t147 - t70 * t148;
+    let t150 = t137 - t139 - t141 - t143 - t145 - t147 - t88 * t149;
+    let t151 = t148 + (t142 - (t138 + t140) - t144 - t146) - t93 * t149 + t94 * t150;
+    let t152 = 1.0 / t103
+        * (t15 * t147 + t14 * t148 + t100 * t149 + t101 * t150 + t102 * t151);
+    let t153 = t96 * t151 + t102 * t152;
+    let t154 = t90 * t150 + t94 * t153 + t101 * t152;
+    let t155 = t86 * t149 - t88 * t154 - t93 * t153 + t100 * t152;
+    let t156 = t59 * t155;
+    let t157 = t55 * t155;
+    let t158 = t154 - (t124 + t156);
+    let t159 = t154 + (t134 - t69 * t155);
+    let t160 = t154 + (t133 + t68 * t155);
+    let t161 = t154 + (t129 + t64 * t155);
+    let t162 = t154 + (t128 + t63 * t155);
+    let t163 = t153 + (t120 - t56 * t155);
+    let t164 = t153 + (t132 + t67 * t155);
+    let t165 = t153 - (t131 + t66 * t155);
+    let t166 = t153 + (t127 + t62 * t155);
+    let t167 = t153 + (t126 - t61 * t155);
+    let t168 = t154 + (t136 - t156) - t15 * t152;
+    let t169 = t153 - (t135 + t70 * t155) + t14 * t152;
+    out(0usize, cos2 * t158 - sin2 * t163);
+    out(1usize, sin2 * t158 + cos2 * t163);
+    out(2usize, t119 + t157);
+    out(3usize, cos2 * t159 - sin2 * t164);
+    out(4usize, sin2 * t159 + cos2 * t164);
+    out(5usize, t123 - t58 * t155);
+    out(6usize, cos2 * t160 - sin2 * t165);
+    out(7usize, sin2 * t160 + cos2 * t165);
+    out(8usize, -(t118 + t54 * t155));
+    out(9usize, cos2 * t161 - sin2 * t166);
+    out(10usize, sin2 * t161 + cos2 * t166);
+    out(11usize, t122 + t57 * t155);
+    out(12usize, cos2 * t162 - sin2 * t167);
+    out(13usize, sin2 * t162 + cos2 * t167);
+    out(14usize, t155);
+    out(15usize, cos2 * t154 - sin2 * t153);
+    out(16usize, sin2 * t154 + cos2 * t153);
+    out(17usize, t121 + t157);
+    out(18usize, cos2 * t168 - sin2 * t169);
+    out(19usize, sin2 * t168 + cos2 * t169);
+    out(20usize, -t152);
     f64::INFINITY
-        .min(16.0 * t37)
-        .min(4.0 * t49)
-        .min(4.0 * t39)
-        .min(8.0 * t53)
-        .min(0.25 * t90)
-        .min(0.0625 * t94)
-        .min(0.0625 * t100)
-        .min(t108)
+        .min(-(32.0 * t40))
+        .min(-(4.0 * t46))
+        .min(-(8.0 * t49))
+        .min(4.0 * t52)
+        .min(0.25 * t85)
+        .min(0.0625 * t89)
+        .min(0.03125 * t95)
+        .min(t103)
 }
 ///The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.
 ///
-///Operations: 247 mul, 239 add, 8 div.
+///Operations: 301 mul, 257 add, 5 neg, 8 div.
 pub fn position_correction(
     t: f64,
     q: &[f64; N_Q],
@@ -1453,185 +1516,237 @@ fn velocity_correction_core(
     let r17 = r(17usize);
     let r18 = r(18usize);
     let r21 = r(21usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = 0.3 * cos2;
-    let t5 = 0.025 * sin5;
-    let t6 = 0.044999999999999984 * cos5 + t5;
-    let t7 = 0.3 * sin2;
-    let t8 = 0.025 * cos5;
-    let t9 = 0.044999999999999984 * sin5;
-    let t10 = t9 - t8;
-    let t11 = 0.044999999999999984 * cos8;
-    let t12 = 0.025 * sin8;
-    let t13 = 0.025 * cos8;
-    let t14 = t13 + 0.044999999999999984 * sin8;
-    let t15 = t11 - t12;
-    let t16 = t5 + 0.04500000000000001 * cos5;
-    let t17 = 0.0050000000000000044 * cos11;
-    let t18 = 0.125 * sin11;
-    let t19 = t17 - t18;
-    let t20 = 0.125 * cos11;
-    let t21 = t20 + 0.0050000000000000044 * sin11;
-    let t22 = 0.04500000000000001 * sin5 - t8;
-    let t23 = t18 - t17;
-    let t24 = 0.04500000000000001 * cos8 - t12;
-    let t25 = 0.125 * sin14;
-    let t26 = 0.0050000000000000044 * cos14 + t25;
-    let t27 = t13 + 0.04500000000000001 * sin8;
-    let t28 = 0.125 * cos14;
-    let t29 = 0.0050000000000000044 * sin14;
-    let t30 = t28 - t29;
-    let t31 = t18 - 0.004999999999999977 * cos11;
-    let t32 = 0.2 * cos17;
-    let t33 = 0.2 * sin17;
-    let t34 = q1 - q16;
-    let t35 = q0 - q15;
-    let t36 = sin20 * t2 + cos20 * t0;
-    let t37 = -0.050000000000000044 - sin20 * t3 - cos20 * t1;
-    let t38 = 1.0 / t37;
-    let t39 = t21 + (t20 + 0.004999999999999977 * sin11);
-    let t40 = t31 - t19;
-    let t41 = t26 + (t25 + 0.004999999999999977 * cos14);
-    let t42 = t33 - t7;
-    let t43 = t8 - t9;
-    let t44 = t22 - t43;
-    let t45 = t4 - t32;
-    let t46 = t6 + t16;
-    let t47 = t24 - (t12 - t11);
-    let t48 = cos2 * t34 - sin2 * t35 - cos2 * t42 - sin2 * t45;
-    let t49 = sin2 * t46 - cos2 * t44;
-    let t50 = cos2 * t39 + sin2 * t40;
-    let t51 = 1.0 / t50;
-    let t52 = t39 * t51;
-    let t53 = (t19 - t31) * t51;
-    let t54 = (cos2 * t40 - sin2 * t39) * t51;
-    let t55 = sin2 * t34 + cos2 * t35 - sin2 * t42 + cos2 * t45 + t48 * t54;
-    let t56 = t49 * t54 - (sin2 * t44 + cos2 * t46);
-    let t57 = 1.0 / t56;
-    let t58 = (t43 - t22 - t49 * t52) * t57;
-    let t59 = (t46 + t49 * t53) * t57;
-    let t60 = t32 - t4 - t45 + t48 * t53 - t55 * t59;
-    let t61 = (0.044999999999999984 - sin5 * t10 - cos5 * t6) * t57;
-    let t62 = sin5 * t7 + cos5 * t4 - t55 * t61;
-    let t63 = 1.0 / t47;
-    let t64 = (t14 + t27) * t63;
-    let t65 = t7 - t33 - t42 - t48 * t52 - t55 * t58 + t60 * t64;
-    let t66 = t28 - 0.004999999999999977 * sin14 - (t29 - t28) + t41 * t64;
-    let t67 = (-0.044999999999999984 + sin8 * t14 + cos8 * t15) * t63;
-    let t68 = 1.0 / t66;
-    let t69 = t41 * t67 * t68;
-    let t70 = 1.0 / t62;
-    let t71 = (t65 * t69 - (sin8 * t7 + cos8 * t4 + t60 * t67)) * t70;
-    let t72 = cos8 - cos5 * t71;
-    let t73 = 1.0 / t72;
-    let t74 = t73 * (sin8 - sin5 * t71);
-    let t75 = t70 * (sin5 - cos5 * t74);
-    let t76 = t68 * (t65 * t75);
-    let t77 = t63 * (t41 * t76 - t60 * t75);
-    let t78 = t57 * (t55 * t75);
-    let t79 = t51 * (t49 * t78 - t48 * t75);
-    let t80 = t74 - (t40 * t79 - t46 * t78 - t45 * t75);
-    let t81 = t42 * t75 - (-1.0 + t39 * t79 + t44 * t78);
-    let t82 = t4 * t75;
-    let t83 = t82 - t15 * t77;
-    let t84 = t74 - t83;
-    let t85 = -1.0 + t14 * t77;
-    let t86 = t7 * t75;
-    let t87 = t86 - t85;
-    let t88 = t74 + (t82 + t6 * t78);
-    let t89 = t86 + (-1.0 + t10 * t78);
-    let t90 = t83 - t74 - t24 * t77 + t26 * t76;
-    let t91 = t85 - t86 + t27 * t77 + t30 * t76;
-    let t92 = t16 * t78 - (t23 * t79 - t88);
-    let t93 = t89 + t21 * t79 + t22 * t78;
-    let t94 = t38 * (sin20 + t36 * t75 - cos20 * t74);
-    let t95 = t74 - (t1 * t94 + t0 * t75);
-    let t96 = t2 * t75 - (-1.0 - t3 * t94);
-    let t97 = 20.0 + t74 * (20.0 * t74) + t75 * (1.2 * t75) + t89 * (0.5 * t89)
-        + t88 * (0.5 * t88) + t78 * (0.002 * t78) + t87 * (0.5 * t87) + t84 * (0.5 * t84)
-        + t77 * (0.002 * t77) + t93 * (0.3 * t93) + t92 * (0.3 * t92)
-        + t79 * (0.0016 * t79) + t91 * (0.3 * t91) + t90 * (0.3 * t90)
-        + t76 * (0.0016 * t76) + t81 * t81 + t80 * t80 + t75 * (0.02 * t75)
-        + t96 * (8.0 * t96) + t95 * (8.0 * t95) + t94 * (0.5 * t94);
-    let t98 = r15 * t33;
-    let t99 = r15 * t32;
-    let t100 = t98 - (r6 + r10) - r2;
-    let t101 = r3 + (t99 + (r7 + r11));
-    let t102 = sin2 * t101 - (r14 + cos2 * t100);
-    let t103 = t54 * t102 - (r16 + sin2 * t100 + cos2 * t101);
-    let t104 = t101 + (t99 - (r9 + r13) - r5) + t53 * t102 - t59 * t103;
-    let t105 = sin5 * r2 - r17 - cos5 * r3 - t61 * t103;
-    let t106 = t64 * t104 - (t100 + (r4 + (t98 + (r8 + r12))) + t52 * t102 + t58 * t103);
-    let t107 = t73
-        * (sin8 * r4 - r18 - cos8 * r5 - t67 * t104 + t69 * t106 - t71 * t105);
-    let t108 = t70 * (t105 - cos5 * t107);
-    let t109 = t68 * (t106 - t65 * t108);
-    let t110 = t63 * (t104 - t41 * t109 - t60 * t108);
-    let t111 = t57 * (t103 - t55 * t108);
-    let t112 = t51 * (t102 - t49 * t111 - t48 * t108);
-    let t113 = t40 * t112 - t101 + t46 * t111 - t45 * t108;
-    let t114 = t100 + t39 * t112 - t44 * t111;
-    let t115 = t42 * t108;
-    let t116 = t4 * t108;
-    let t117 = t107 - (t116 - (r5 + t15 * t110));
-    let t118 = t7 * t108;
-    let t119 = t118 - (t14 * t110 - r4);
-    let t120 = t107 - (t6 * t111 - r3 - t116);
-    let t121 = r2 + t10 * t111 - t118;
-    let t122 = t108 - r15;
-    let t123 = r9 + t117 + t24 * t110 + t26 * t109;
-    let t124 = t30 * t109 - (t27 * t110 - (r8 + t119));
-    let t125 = t23 * t112 - (r7 + t120) + t16 * t111;
-    let t126 = t22 * t111 - (t21 * t112 - (r6 + t121));
-    let t127 = t38 * (sin20 * r0 - r21 - cos20 * r1 + t36 * t108 - cos20 * t107);
-    let t128 = t107 - (t1 * t127 - r1 + t0 * t108);
-    let t129 = r0 + t3 * t127 + t2 * t108;
-    let t130 = 1.0 / t97
-        * (t89 * (0.5 * t121) - (t74 * (20.0 * t107) + t75 * (1.2 * t108))
-            - t88 * (0.5 * t120) + t78 * (0.002 * t111) - t87 * (0.5 * t119)
-            - t84 * (0.5 * t117) - t77 * (0.002 * t110) + t93 * (0.3 * t126)
-            + t92 * (0.3 * t125) - t79 * (0.0016 * t112) + t91 * (0.3 * t124)
-            + t90 * (0.3 * t123) + t76 * (0.0016 * t109) + t81 * (t114 - t115)
-            + t80 * (t113 - t107) - t75 * (0.02 * t122) - t96 * (8.0 * t129)
-            - t95 * (8.0 * t128) - t94 * (0.5 * t127));
-    let t131 = t75 * t130;
-    out(0usize, t130);
-    out(1usize, t107 + t74 * t130);
-    out(2usize, t108 + t131);
-    out(3usize, t121 - t89 * t130);
-    out(4usize, t120 + t88 * t130);
-    out(5usize, t111 - t78 * t130);
-    out(6usize, t119 + t87 * t130);
-    out(7usize, t117 + t84 * t130);
-    out(8usize, t110 + t77 * t130);
-    out(9usize, t126 - t93 * t130);
-    out(10usize, t92 * t130 - t125);
-    out(11usize, -(t112 + t79 * t130));
-    out(12usize, t124 - t91 * t130);
-    out(13usize, t123 - t90 * t130);
-    out(14usize, t109 - t76 * t130);
-    out(15usize, t115 - t114 + t81 * t130);
-    out(16usize, t107 - t113 + t80 * t130);
-    out(17usize, t122 + t131);
-    out(18usize, t129 + t96 * t130);
-    out(19usize, t128 + t95 * t130);
-    out(20usize, t127 + t94 * t130);
+    let t0 = q15 - q0;
+    let t1 = q16 - q1;
+    let t2 = sin2 * t0;
+    let t3 = cos2 * t1;
+    let t4 = cos2 * t0 + sin2 * t1;
+    let t5 = cos2 * cos5 + sin2 * sin5;
+    let t6 = cos2 * sin5;
+    let t7 = sin2 * cos5;
+    let t8 = t6 - t7;
+    let t9 = cos2 * cos8 + sin2 * sin8;
+    let t10 = cos2 * sin8;
+    let t11 = sin2 * cos8;
+    let t12 = t10 - t11;
+    let t13 = cos2 * cos11 + sin2 * sin11;
+    let t14 = cos2 * sin11 - sin2 * cos11;
+    let t15 = cos2 * cos14 + sin2 * sin14;
+    let t16 = cos2 * sin14 - sin2 * cos14;
+    let t17 = cos2 * cos20 + sin2 * sin20;
+    let t18 = cos2 * sin20;
+    let t19 = sin2 * cos20;
+    let t20 = t18 - t19;
+    let t21 = 0.35 * t20;
+    let t22 = 0.025 * t8;
+    let t23 = 0.044999999999999984 * t5 + t22;
+    let t24 = 0.025 * t5;
+    let t25 = 0.044999999999999984 * t8;
+    let t26 = t25 - t24;
+    let t27 = 0.025 * t12;
+    let t28 = 0.025 * t9;
+    let t29 = t28 + 0.044999999999999984 * t12;
+    let t30 = t22 + 0.04500000000000001 * t5;
+    let t31 = 0.0050000000000000044 * t13;
+    let t32 = 0.125 * t14;
+    let t33 = 0.125 * t13;
+    let t34 = t33 + 0.0050000000000000044 * t14;
+    let t35 = 0.04500000000000001 * t8 - t24;
+    let t36 = t32 - t31;
+    let t37 = 0.04500000000000001 * t9 - t27;
+    let t38 = 0.125 * t16;
+    let t39 = 0.0050000000000000044 * t15 + t38;
+    let t40 = t28 + 0.04500000000000001 * t12;
+    let t41 = 0.125 * t15;
+    let t42 = 0.0050000000000000044 * t16;
+    let t43 = t41 - t42;
+    let t44 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t45 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t46 = t2 - t3;
+    let t47 = t11 - t10;
+    let t48 = t19 - t18;
+    let t49 = -0.050000000000000044 - t20 * t21;
+    let t50 = 1.0 / t17;
+    let t51 = t48 * t50;
+    let t52 = t49 * t50 - 0.35 * t17;
+    let t53 = 1.0 / t52;
+    let t54 = t34 + (t33 + 0.004999999999999977 * t14);
+    let t55 = t41 - 0.004999999999999977 * t16 - (t42 - t41);
+    let t56 = t24 - t25;
+    let t57 = 0.3 - t4;
+    let t58 = 1.0 / t54;
+    let t59 = (t32 - 0.004999999999999977 * t13 - (t31 - t32)) * t58;
+    let t60 = 1.0 / t55;
+    let t61 = (t39 + (t38 + 0.004999999999999977 * t15)) * t60;
+    let t62 = 1.0 / t5;
+    let t63 = (t7 - t6) * t62;
+    let t64 = 0.044999999999999984 * t62;
+    let t65 = t64 - t23;
+    let t66 = 1.0 / t9;
+    let t67 = t47 * t66;
+    let t68 = 0.044999999999999984 * t66;
+    let t69 = t61 + t67;
+    let t70 = t37 + t40 * t61 + t68 + t29 * t69;
+    let t71 = t67 - t63;
+    let t72 = t23 - t64;
+    let t73 = t4 - 0.3;
+    let t74 = t63 + (t61 - t69);
+    let t75 = t56 * t61 - t56 * t69 - t72;
+    let t76 = t44 + t45 * t61 + t46 * t61 - t73;
+    let t77 = 1.0 / t70;
+    let t78 = (0.044999999999999984 * t9 - t27 - t68 - t29 * t67) * t77;
+    let t79 = t74 * t78;
+    let t80 = t56 * t67 - t65 - t75 * t78;
+    let t81 = -0.3 - t4 - t57 - t76 * t78;
+    let t82 = 1.0 / t81;
+    let t83 = (t46 * t59 - (t44 + t45 * t59) - t73) * t82;
+    let t84 = t56 * t59 - (t30 + t35 * t59 + t64) - t72 - t80 * t83;
+    let t85 = 1.0 / t84;
+    let t86 = t85 * ((t71 - t79) * t83 - (t63 + (t59 - (t59 + t63))));
+    let t87 = t82 * (t79 - t71 - t80 * t86);
+    let t88 = t77 * (t74 + t76 * t87 + t75 * t86);
+    let t89 = t63 + t57 * t87 + t65 * t86;
+    let t90 = -1.0 - t46 * t87;
+    let t91 = t56 * t86;
+    let t92 = t90 - t91;
+    let t93 = t91 - t90;
+    let t94 = -1.0 - t29 * t88;
+    let t95 = t91 - t94;
+    let t96 = t66 * (t47 * t95 + 0.044999999999999984 * t88);
+    let t97 = t62 * (t8 - 0.044999999999999984 * t86);
+    let t98 = t40 * t88;
+    let t99 = t45 * t87;
+    let t100 = t60 * (t94 - t91 - t92 - t98 + t99);
+    let t101 = t35 * t86;
+    let t102 = t58 * (-1.0 - t92 - t99 - t101);
+    let t103 = t89 + t4 * t87;
+    let t104 = 1.0 - t26 * t86;
+    let t105 = t96 - t39 * t100 + t37 * t88;
+    let t106 = t98 + (t95 + t43 * t100);
+    let t107 = t97 + t36 * t102 - t30 * t86;
+    let t108 = t101 - (-1.0 - t34 * t102);
+    let t109 = t53 * (t103 + (0.4 * t87 - t51 * t104));
+    let t110 = t50 * (t49 * t109 + t48 * t104);
+    let t111 = t104 + t21 * t109;
+    let t112 = 0.5 + (t104 * (20.0 * t104) + t103 * (20.0 * t103) + t87 * (1.2 * t87))
+        + t97 * (0.5 * t97) + t86 * (0.002 * t86) + t95 * (0.5 * t95) + t96 * (0.5 * t96)
+        + t88 * (0.002 * t88) + t108 * (0.3 * t108) + t107 * (0.3 * t107)
+        + t102 * (0.0016 * t102) + t106 * (0.3 * t106) + t105 * (0.3 * t105)
+        + t100 * (0.0016 * t100) + t93 * t93 + t89 * t89 + t87 * (0.02 * t87)
+        + t111 * (8.0 * t111) + t110 * (8.0 * t110) + t109 * (0.5 * t109);
+    let t113 = cos2 * r0 + sin2 * r1;
+    let t114 = cos2 * r2 + sin2 * r3;
+    let t115 = sin2 * r6;
+    let t116 = cos2 * r7;
+    let t117 = cos2 * r6 + sin2 * r7;
+    let t118 = sin2 * r8;
+    let t119 = cos2 * r9;
+    let t120 = cos2 * r8 + sin2 * r9;
+    let t121 = t20 * t113 - r21;
+    let t122 = t117 + (cos2 * r10 + sin2 * r11);
+    let t123 = t120 + (cos2 * r12 + sin2 * r13);
+    let t124 = t114 - (cos2 * r4 + sin2 * r5);
+    let t125 = 0.3 * r15;
+    let t126 = t114 - r14 + r15 * (t3 - t2);
+    let t127 = r15 * t4;
+    let t128 = r16 - t127;
+    let t129 = sin2 * r2 - cos2 * r3 - t125 - t128;
+    let t130 = r17 * t62;
+    let t131 = t129 - t130;
+    let t132 = r18 * t66;
+    let t133 = t130 - t129;
+    let t134 = sin2 * r12 - cos2 * r13 - (t119 - t118) + t61 * t123 + t132 - t69 * t124
+        + t61 * t126 - t133;
+    let t135 = sin2 * r4 - cos2 * r5 + t125 - t128 - t132 + t67 * t124 - t131
+        - t78 * t134;
+    let t136 = t85
+        * (sin2 * r10 - cos2 * r11 - (t116 - t115) + t59 * t122 + t130 + t59 * t126
+            - t133 - t83 * t135);
+    let t137 = t82 * (t135 - t80 * t136);
+    let t138 = t77 * (t134 - t76 * t137 - t75 * t136);
+    let t139 = t131 - t57 * t137;
+    let t140 = t65 * t136;
+    let t141 = t139 - t140;
+    let t142 = t126 - t46 * t137;
+    let t143 = t56 * t136;
+    let t144 = t142 - t143;
+    let t145 = t143 - (t124 + t29 * t138);
+    let t146 = t66 * (0.044999999999999984 * t138 - (r18 + t47 * t145));
+    let t147 = t62 * (r17 + 0.044999999999999984 * t136);
+    let t148 = t40 * t138;
+    let t149 = t45 * t137;
+    let t150 = t60 * (t148 - (t144 + (t123 + t145)) + t149);
+    let t151 = t35 * t136;
+    let t152 = t58 * (t149 + (t122 + t144) + t151);
+    let t153 = t127 - r16 - t141 + t4 * t137;
+    let t154 = r15 + t137;
+    let t155 = t114 + t26 * t136;
+    let t156 = t37 * t138 - (t118 - t119 - t39 * t150 - t146);
+    let t157 = t145 + (t120 + t43 * t150) - t148;
+    let t158 = t147 + (t115 - t116 + t36 * t152) + t30 * t136;
+    let t159 = t151 - (t34 * t152 - t117);
+    let t160 = t53
+        * (t153 + (sin2 * r0 - cos2 * r1 + t50 * t121 + t51 * t155 + 0.4 * t154));
+    let t161 = t50 * (t121 - t49 * t160 + t48 * t155);
+    let t162 = t113 + t21 * t160 - t155;
+    let t163 = 1.0 / t112
+        * (t104 * (20.0 * t155) - t103 * (20.0 * t153) - t87 * (1.2 * t154)
+            + t97 * (0.5 * t147) - t86 * (0.002 * t136) - t95 * (0.5 * t145)
+            + t96 * (0.5 * t146) + t88 * (0.002 * t138) - t108 * (0.3 * t159)
+            + t107 * (0.3 * t158) + t102 * (0.0016 * t152) - t106 * (0.3 * t157)
+            + t105 * (0.3 * t156) - t100 * (0.0016 * t150) + t93 * t144
+            - t89 * (t140 - t139) - t87 * (0.02 * t137) - t111 * (8.0 * t162)
+            + t110 * (8.0 * t161) - t109 * (0.5 * t160));
+    let t164 = t104 * t163 - t155;
+    let t165 = t153 + t103 * t163;
+    let t166 = t87 * t163;
+    let t167 = t97 * t163 - t147;
+    let t168 = t145 + t95 * t163;
+    let t169 = t146 - t96 * t163;
+    let t170 = t159 + t108 * t163;
+    let t171 = t107 * t163 - t158;
+    let t172 = t157 + t106 * t163;
+    let t173 = t156 - t105 * t163;
+    let t174 = t143 - t142 + t93 * t163;
+    let t175 = t141 - t89 * t163;
+    let t176 = t162 + t111 * t163;
+    let t177 = t161 - t110 * t163;
+    out(0usize, cos2 * t164 + sin2 * t165);
+    out(1usize, sin2 * t164 - cos2 * t165);
+    out(2usize, t154 + t166);
+    out(3usize, cos2 * t163 - sin2 * t167);
+    out(4usize, sin2 * t163 + cos2 * t167);
+    out(5usize, t136 + t86 * t163);
+    out(6usize, cos2 * t168 - sin2 * t169);
+    out(7usize, sin2 * t168 + cos2 * t169);
+    out(8usize, t138 - t88 * t163);
+    out(9usize, cos2 * t170 - sin2 * t171);
+    out(10usize, sin2 * t170 + cos2 * t171);
+    out(11usize, t102 * t163 - t152);
+    out(12usize, cos2 * t172 - sin2 * t173);
+    out(13usize, sin2 * t172 + cos2 * t173);
+    out(14usize, t150 + t100 * t163);
+    out(15usize, cos2 * t174 - sin2 * t175);
+    out(16usize, sin2 * t174 + cos2 * t175);
+    out(17usize, t137 + t166);
+    out(18usize, cos2 * t176 - sin2 * t177);
+    out(19usize, sin2 * t176 + cos2 * t177);
+    out(20usize, t160 + t109 * t163);
     f64::INFINITY
-        .min(-(2.0 * t37))
-        .min(4.0 * t50)
-        .min(-(16.0 * t56))
-        .min(16.0 * t47)
-        .min(4.0 * t66)
-        .min(4.0 * t62)
-        .min(t72)
-        .min(0.03125 * t97)
+        .min(t17)
+        .min(-(2.0 * t52))
+        .min(4.0 * t54)
+        .min(4.0 * t55)
+        .min(t5)
+        .min(t9)
+        .min(16.0 * t70)
+        .min(-(2.0 * t81))
+        .min(-(16.0 * t84))
+        .min(0.03125 * t112)
 }
 ///The smallest dv in the mass metric with `C·dv = −r` on the kept rows.
 ///
-///Operations: 291 mul, 244 add, 3 neg, 8 div.
+///Operations: 330 mul, 278 add, 3 neg, 10 div.
 pub fn velocity_correction(
     t: f64,
     q: &[f64; N_Q],
@@ -1735,526 +1850,606 @@ fn jacobian_action_core(
     let dv18 = dv(18usize);
     let dv19 = dv(19usize);
     let dv20 = dv(20usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = v2 * v2;
-    let t5 = v20 * v20;
-    let t6 = t0 * t4 + t1 * t5;
-    let t7 = t2 * t4 + t3 * t5;
-    let t8 = 0.3 * cos2;
-    let t9 = 0.025 * sin5;
-    let t10 = 0.044999999999999984 * cos5 + t9;
-    let t11 = 0.3 * sin2;
-    let t12 = 0.025 * cos5;
-    let t13 = 0.044999999999999984 * sin5;
-    let t14 = t13 - t12;
-    let t15 = v5 * v5;
-    let t16 = t4 * t8;
-    let t17 = t10 * t15;
-    let t18 = t16 - t17;
-    let t19 = t4 * t11;
-    let t20 = t14 * t15;
+    let t0 = v2 * v2;
+    let t1 = v20 * v20;
+    let t2 = v5 * v5;
+    let t3 = v8 * v8;
+    let t4 = v11 * v11;
+    let t5 = v14 * v14;
+    let t6 = v17 * v17;
+    let t7 = q15 - q0;
+    let t8 = q16 - q1;
+    let t9 = cos2 * t7 + sin2 * t8;
+    let t10 = cos2 * v1 - sin2 * v0;
+    let t11 = cos2 * v3 + sin2 * v4;
+    let t12 = cos2 * v4 - sin2 * v3;
+    let t13 = cos2 * v6 + sin2 * v7;
+    let t14 = cos2 * v7 - sin2 * v6;
+    let t15 = cos2 * v16 - sin2 * v15;
+    let t16 = cos2 * v18 + sin2 * v19;
+    let t17 = cos2 * v19 - sin2 * v18;
+    let t18 = cos2 * cos5 + sin2 * sin5;
+    let t19 = cos2 * sin5;
+    let t20 = sin2 * cos5;
     let t21 = t19 - t20;
-    let t22 = 0.044999999999999984 * cos8;
-    let t23 = 0.025 * sin8;
-    let t24 = t23 - t22;
-    let t25 = 0.025 * cos8;
-    let t26 = t25 + 0.044999999999999984 * sin8;
-    let t27 = t22 - t23;
-    let t28 = v8 * v8;
-    let t29 = t16 + t24 * t28;
-    let t30 = t26 * t28;
-    let t31 = t30 - t19;
-    let t32 = t9 + 0.04500000000000001 * cos5;
-    let t33 = 0.0050000000000000044 * cos11;
-    let t34 = 0.125 * sin11;
-    let t35 = t33 - t34;
-    let t36 = 0.04500000000000001 * sin5;
-    let t37 = t12 - t36;
-    let t38 = 0.125 * cos11;
-    let t39 = t38 + 0.0050000000000000044 * sin11;
-    let t40 = t36 - t12;
-    let t41 = t34 - t33;
-    let t42 = v11 * v11;
-    let t43 = t15 * t32 + t35 * t42;
-    let t44 = t15 * t37;
-    let t45 = t39 * t42;
-    let t46 = 0.04500000000000001 * cos8 - t23;
-    let t47 = 0.125 * sin14;
-    let t48 = 0.0050000000000000044 * cos14 + t47;
-    let t49 = t25 + 0.04500000000000001 * sin8;
-    let t50 = 0.125 * cos14;
-    let t51 = 0.0050000000000000044 * sin14;
+    let t22 = cos2 * cos8 + sin2 * sin8;
+    let t23 = cos2 * sin8;
+    let t24 = sin2 * cos8;
+    let t25 = t23 - t24;
+    let t26 = cos2 * cos11 + sin2 * sin11;
+    let t27 = cos2 * sin11 - sin2 * cos11;
+    let t28 = cos2 * cos14 + sin2 * sin14;
+    let t29 = cos2 * sin14 - sin2 * cos14;
+    let t30 = cos2 * cos20 + sin2 * sin20;
+    let t31 = cos2 * sin20;
+    let t32 = sin2 * cos20;
+    let t33 = t31 - t32;
+    let t34 = 0.35 * t30;
+    let t35 = 0.35 * t33;
+    let t36 = 0.4 * t0 + t1 * t34;
+    let t37 = 0.025 * t21;
+    let t38 = 0.044999999999999984 * t18 + t37;
+    let t39 = 0.025 * t18;
+    let t40 = 0.044999999999999984 * t21;
+    let t41 = t40 - t39;
+    let t42 = 0.3 * t0;
+    let t43 = t42 - t2 * t38;
+    let t44 = 0.044999999999999984 * t22;
+    let t45 = 0.025 * t25;
+    let t46 = t45 - t44;
+    let t47 = 0.025 * t22;
+    let t48 = t47 + 0.044999999999999984 * t25;
+    let t49 = t37 + 0.04500000000000001 * t18;
+    let t50 = 0.0050000000000000044 * t26;
+    let t51 = 0.125 * t27;
     let t52 = t50 - t51;
-    let t53 = v14 * v14;
-    let t54 = t28 * t46 + t48 * t53;
-    let t55 = t28 * t49;
-    let t56 = t52 * t53;
-    let t57 = t34 - 0.004999999999999977 * cos11;
-    let t58 = 0.2 * cos17;
-    let t59 = t38 + 0.004999999999999977 * sin11;
-    let t60 = 0.2 * sin17;
-    let t61 = v17 * v17;
-    let t62 = t58 * t61;
-    let t63 = t60 * t61;
-    let t64 = t47 + 0.004999999999999977 * cos14;
-    let t65 = 0.004999999999999977 * sin14;
-    let t66 = t65 - t50;
-    let t67 = q1 - q16;
-    let t68 = q0 - q15;
-    let t69 = sin2 * v2;
-    let t70 = v16 - v1;
-    let t71 = cos2 * v2;
-    let t72 = v0 - v15;
-    let t73 = t67 * t69 + cos2 * t70;
-    let t74 = t68 * t71 + sin2 * t72;
-    let t75 = cos2 * t72 - t68 * t69;
-    let t76 = t67 * t71 - sin2 * t70;
-    let t77 = cos5 * v3 + sin5 * v4;
-    let t78 = cos8 * v6 + sin8 * v7;
-    let t79 = cos20 * v18 + sin20 * v19;
-    let t80 = sin20 * t2 + cos20 * t0;
-    let t81 = -0.050000000000000044 - sin20 * t3 - cos20 * t1;
-    let t82 = 1.0 / t81;
-    let t83 = t39 + t59;
-    let t84 = t57 - t35;
-    let t85 = t48 + t64;
-    let t86 = t60 - t11;
-    let t87 = t12 - t13;
-    let t88 = t40 - t87;
-    let t89 = t8 - t58;
-    let t90 = t10 + t32;
-    let t91 = 0.044999999999999984 - sin5 * t14 - cos5 * t10;
-    let t92 = t26 + t49;
-    let t93 = t46 - t24;
-    let t94 = -0.044999999999999984 + sin8 * t26 + cos8 * t27;
-    let t95 = t35 - t57;
-    let t96 = cos2 * t67 - sin2 * t68 - cos2 * t86 - sin2 * t89;
-    let t97 = sin2 * t90 - cos2 * t88;
-    let t98 = cos2 * t83 + sin2 * t84;
-    let t99 = cos2 * t84 - sin2 * t83;
-    let t100 = 1.0 / t98;
-    let t101 = t83 * t100;
-    let t102 = t87 - t40 - t97 * t101;
-    let t103 = t95 * t100;
-    let t104 = t90 + t97 * t103;
-    let t105 = t99 * t100;
-    let t106 = sin2 * t67 + cos2 * t68 - sin2 * t86 + cos2 * t89 + t96 * t105;
-    let t107 = t97 * t105 - (sin2 * t88 + cos2 * t90);
-    let t108 = 1.0 / t107;
-    let t109 = t102 * t108;
-    let t110 = t104 * t108;
-    let t111 = t58 - t8 - t89 + t96 * t103 - t106 * t110;
-    let t112 = t91 * t108;
-    let t113 = sin5 * t11 + cos5 * t8 - t106 * t112;
-    let t114 = 1.0 / t93;
-    let t115 = t92 * t114;
-    let t116 = t11 - t60 - t86 - t96 * t101 - t106 * t109 + t111 * t115;
-    let t117 = t50 - t65 - (t51 - t50) + t85 * t115;
-    let t118 = t94 * t114;
-    let t119 = t85 * t118;
-    let t120 = 1.0 / t117;
-    let t121 = t119 * t120;
-    let t122 = t116 * t121 - (sin8 * t11 + cos8 * t8 + t111 * t118);
-    let t123 = 1.0 / t113;
-    let t124 = t122 * t123;
-    let t125 = cos8 - cos5 * t124;
-    let t126 = 1.0 / t125;
-    let t127 = sin8 - sin5 * t124;
-    let t128 = t126 * t127;
-    let t129 = sin5 - cos5 * t128;
-    let t130 = t123 * t129;
-    let t131 = t116 * t130;
-    let t132 = t120 * t131;
-    let t133 = t85 * t132 - t111 * t130;
-    let t134 = t114 * t133;
-    let t135 = t106 * t130;
-    let t136 = t108 * t135;
-    let t137 = t97 * t136 - t96 * t130;
-    let t138 = t100 * t137;
-    let t139 = t128 - (t84 * t138 - t90 * t136 - t89 * t130);
-    let t140 = t86 * t130 - (-1.0 + t83 * t138 + t88 * t136);
-    let t141 = t8 * t130;
-    let t142 = t141 - t27 * t134;
-    let t143 = t128 - t142;
-    let t144 = -1.0 + t26 * t134;
-    let t145 = t11 * t130;
-    let t146 = t145 - t144;
-    let t147 = t128 + (t141 + t10 * t136);
-    let t148 = t145 + (-1.0 + t14 * t136);
-    let t149 = t142 - t128 - t46 * t134 + t48 * t132;
-    let t150 = t144 - t145 + t49 * t134 + t52 * t132;
-    let t151 = t32 * t136 - (t41 * t138 - t147);
-    let t152 = t148 + t39 * t138 + t40 * t136;
-    let t153 = sin20 + t80 * t130 - cos20 * t128;
-    let t154 = t82 * t153;
-    let t155 = t128 - (t1 * t154 + t0 * t130);
-    let t156 = t2 * t130 - (-1.0 - t3 * t154);
-    let t157 = 20.0 * t128;
-    let t158 = 1.2 * t130;
-    let t159 = 0.5 * t148;
-    let t160 = 0.5 * t147;
-    let t161 = 0.002 * t136;
-    let t162 = 0.5 * t146;
-    let t163 = 0.5 * t143;
-    let t164 = 0.002 * t134;
-    let t165 = 0.3 * t152;
-    let t166 = 0.3 * t151;
-    let t167 = 0.0016 * t138;
-    let t168 = 0.3 * t150;
-    let t169 = 0.3 * t149;
-    let t170 = 0.0016 * t132;
-    let t171 = 0.02 * t130;
-    let t172 = 8.0 * t156;
-    let t173 = 8.0 * t155;
-    let t174 = 0.5 * t154;
-    let t175 = 20.0 + t128 * t157 + t130 * t158 + t148 * t159 + t147 * t160 + t136 * t161
-        + t146 * t162 + t143 * t163 + t134 * t164 + t152 * t165 + t151 * t166
-        + t138 * t167 + t150 * t168 + t149 * t169 + t132 * t170 + t140 * t140
-        + t139 * t139 + t130 * t171 + t156 * t172 + t155 * t173 + t154 * t174;
-    let t176 = 1.0 / t175;
-    let t177 = t42 * t57 - t62 - t43 - (t17 - t16);
-    let t178 = t42 * t59 + t63 + (t45 - t44) + (t20 - t19);
-    let t179 = v2 * t73 + t70 * t71 + (v2 * t74 + t69 * t72) - cos2 * t177 + sin2 * t178;
-    let t180 = ddf0 - (v2 * t75 + t71 * t72 + (v2 * t76 - t69 * t70)) - sin2 * t177
-        - cos2 * t178 + t105 * t179;
-    let t181 = t178 + (t63 + t53 * t66 - (t56 - t55) - (t19 - t30)) + t103 * t179
-        - t110 * t180;
-    let t182 = v5 * t77 - sin5 * t18 + cos5 * t21 - t112 * t180;
-    let t183 = t54 + (t62 + t53 * t64) - t29 - t177 - t101 * t179 - t109 * t180
-        + t115 * t181;
-    let t184 = v8 * t78 + sin8 * t29 + cos8 * t31 - t118 * t181 + t121 * t183
-        - t124 * t182;
-    let t185 = t126 * t184;
-    let t186 = t182 - cos5 * t185;
-    let t187 = t123 * t186;
-    let t188 = t183 - t116 * t187;
-    let t189 = t120 * t188;
-    let t190 = t181 - t85 * t189 - t111 * t187;
-    let t191 = t114 * t190;
-    let t192 = t180 - t106 * t187;
-    let t193 = t108 * t192;
-    let t194 = t179 - t97 * t193 - t96 * t187;
-    let t195 = t100 * t194;
-    let t196 = t84 * t195 - t178 + t90 * t193 - t89 * t187 - t185;
-    let t197 = t177 + t83 * t195 - t88 * t193 - t86 * t187;
-    let t198 = t8 * t187;
-    let t199 = t185 - (t31 - t27 * t191 + t198);
-    let t200 = t11 * t187;
-    let t201 = t200 - (t26 * t191 - t29);
-    let t202 = t185 - (t21 + t10 * t193 - t198);
-    let t203 = t200 + (t18 - t14 * t193);
-    let t204 = v20 * t79 + sin20 * t6 - cos20 * t7 + t80 * t187 - cos20 * t185;
-    let t205 = t82 * t204;
-    let t206 = 20.0 * t185;
-    let t207 = 1.2 * t187;
-    let t208 = 0.5 * t203;
-    let t209 = 0.5 * t202;
-    let t210 = 0.002 * t193;
-    let t211 = 0.5 * t201;
-    let t212 = 0.5 * t199;
-    let t213 = 0.002 * t191;
-    let t214 = 0.3 * (t40 * t193 - (t203 - t43 + t39 * t195));
-    let t215 = 0.3 * (t44 - t45 - t202 + t41 * t195 + t32 * t193);
-    let t216 = 0.0016 * t195;
-    let t217 = 0.3 * (t52 * t189 - (t54 - t201 + t49 * t191));
-    let t218 = 0.3 * (t48 * t189 - (t55 - t56 - t199 - t46 * t191));
-    let t219 = 0.0016 * t189;
-    let t220 = 0.02 * t187;
-    let t221 = 8.0 * (t6 + t3 * t205 + t2 * t187);
-    let t222 = 8.0 * (t185 - (t1 * t205 - t7 + t0 * t187));
-    let t223 = 0.5 * t205;
-    let t224 = t136 * t210 - (t128 * t206 + t130 * t207 + t148 * t208 + t147 * t209)
-        - t146 * t211 - t143 * t212 - t134 * t213 + t152 * t214 + t151 * t215
-        - t138 * t216 + t150 * t217 + t149 * t218 + t132 * t219 + t140 * t197
-        + t139 * t196 - t130 * t220 - t156 * t221 - t155 * t222 - t154 * t223;
-    let t225 = t176 * t224;
-    let t226 = sin2 * dq2;
-    let t227 = cos2 * dq2;
-    let t228 = sin5 * dq5;
-    let t229 = cos5 * dq5;
-    let t230 = sin8 * dq8;
-    let t231 = cos8 * dq8;
-    let t232 = sin11 * dq11;
-    let t233 = cos11 * dq11;
-    let t234 = sin14 * dq14;
-    let t235 = cos14 * dq14;
-    let t236 = sin20 * dq20;
-    let t237 = cos20 * dq20;
-    let t238 = 0.4 * t226;
-    let t239 = 0.35 * t236;
-    let t240 = 0.4 * t227;
-    let t241 = 0.35 * t237;
-    let t242 = v2 * dv2;
-    let t243 = t242 + t242;
-    let t244 = v20 * dv20;
-    let t245 = t244 + t244;
-    let t246 = t0 * t243 - t4 * t238 + (t1 * t245 - t5 * t239);
-    let t247 = t4 * t240 + t2 * t243 + (t5 * t241 + t3 * t245);
-    let t248 = 0.3 * t226;
-    let t249 = 0.025 * t229;
-    let t250 = t249 - 0.044999999999999984 * t228;
-    let t251 = 0.3 * t227;
-    let t252 = 0.025 * t228;
-    let t253 = t252 + 0.044999999999999984 * t229;
-    let t254 = v5 * dv5;
-    let t255 = t254 + t254;
-    let t256 = t8 * t243 - t4 * t248;
-    let t257 = t15 * t250 + t10 * t255;
-    let t258 = t256 - t257;
-    let t259 = t11 * t243 + t4 * t251;
-    let t260 = t15 * t253 + t14 * t255;
-    let t261 = t259 - t260;
-    let t262 = 0.025 * t231;
-    let t263 = 0.044999999999999984 * t230 + t262;
-    let t264 = 0.025 * t230;
-    let t265 = 0.044999999999999984 * t231 - t264;
-    let t266 = v8 * dv8;
-    let t267 = t266 + t266;
-    let t268 = t256 + (t28 * t263 + t24 * t267);
-    let t269 = t28 * t265 + t26 * t267;
-    let t270 = t269 - t259;
-    let t271 = t249 - 0.04500000000000001 * t228;
-    let t272 = 0.125 * t233;
-    let t273 = 0.0050000000000000044 * t232 + t272;
-    let t274 = t252 + 0.04500000000000001 * t229;
-    let t275 = 0.125 * t232;
-    let t276 = 0.0050000000000000044 * t233 - t275;
-    let t277 = v11 * dv11;
-    let t278 = t277 + t277;
-    let t279 = t32 * t255 + t15 * t271 + (t35 * t278 - t42 * t273);
-    let t280 = t37 * t255 - t15 * t274;
-    let t281 = t42 * t276 + t39 * t278;
-    let t282 = t262 + 0.04500000000000001 * t230;
-    let t283 = 0.125 * t235;
-    let t284 = t283 - 0.0050000000000000044 * t234;
-    let t285 = 0.04500000000000001 * t231 - t264;
-    let t286 = 0.125 * t234;
-    let t287 = t286 + 0.0050000000000000044 * t235;
-    let t288 = v14 * dv14;
-    let t289 = t288 + t288;
-    let t290 = t46 * t267 - t28 * t282 + (t53 * t284 + t48 * t289);
-    let t291 = t49 * t267 + t28 * t285;
-    let t292 = t52 * t289 - t53 * t287;
-    let t293 = t272 + 0.004999999999999977 * t232;
-    let t294 = 0.2 * (sin17 * dq17);
-    let t295 = 0.004999999999999977 * t233 - t275;
-    let t296 = 0.2 * (cos17 * dq17);
-    let t297 = v17 * dv17;
+    let t53 = 0.04500000000000001 * t21;
+    let t54 = t39 - t53;
+    let t55 = 0.125 * t26;
+    let t56 = t55 + 0.0050000000000000044 * t27;
+    let t57 = t53 - t39;
+    let t58 = t51 - t50;
+    let t59 = t2 * t49 + t4 * t52;
+    let t60 = t2 * t54;
+    let t61 = t4 * t56;
+    let t62 = 0.04500000000000001 * t22 - t45;
+    let t63 = 0.125 * t29;
+    let t64 = 0.0050000000000000044 * t28 + t63;
+    let t65 = t47 + 0.04500000000000001 * t25;
+    let t66 = 0.125 * t28;
+    let t67 = 0.0050000000000000044 * t29;
+    let t68 = t66 - t67;
+    let t69 = t3 * t62 + t5 * t64;
+    let t70 = t3 * t65;
+    let t71 = t5 * t68;
+    let t72 = t51 - 0.004999999999999977 * t26;
+    let t73 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t74 = t55 + 0.004999999999999977 * t27;
+    let t75 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t76 = t6 * t73;
+    let t77 = t6 * t75;
+    let t78 = t63 + 0.004999999999999977 * t28;
+    let t79 = 0.004999999999999977 * t29;
+    let t80 = t79 - t66;
+    let t81 = sin2 * t7 - cos2 * t8;
+    let t82 = t10 - t15;
+    let t83 = t15 - t10;
+    let t84 = cos2 * v0 + sin2 * v1 - (cos2 * v15 + sin2 * v16);
+    let t85 = v2 * t9;
+    let t86 = v2 * t84;
+    let t87 = v2 * t81;
+    let t88 = t86 + t86 + v2 * t87;
+    let t89 = t20 - t19;
+    let t90 = t11 * t18 - t12 * t89;
+    let t91 = v5 * t90;
+    let t92 = t24 - t23;
+    let t93 = t13 * t22 - t14 * t92;
+    let t94 = v8 * t93;
+    let t95 = t32 - t31;
+    let t96 = t16 * t30 - t17 * t95;
+    let t97 = -0.050000000000000044 - t33 * t35;
+    let t98 = 1.0 / t30;
+    let t99 = t95 * t98;
+    let t100 = t97 * t98 - t34;
+    let t101 = 1.0 / t100;
+    let t102 = t56 + t74;
+    let t103 = t72 - t52;
+    let t104 = t66 - t79 - (t67 - t66);
+    let t105 = t64 + t78;
+    let t106 = t39 - t40;
+    let t107 = 0.3 - t9;
+    let t108 = 1.0 / t102;
+    let t109 = t103 * t108;
+    let t110 = 1.0 / t104;
+    let t111 = t105 * t110;
+    let t112 = 1.0 / t18;
+    let t113 = t89 * t112;
+    let t114 = 0.044999999999999984 * t112;
+    let t115 = t114 - t38;
+    let t116 = 1.0 / t22;
+    let t117 = t92 * t116;
+    let t118 = 0.044999999999999984 * t116;
+    let t119 = t111 + t117;
+    let t120 = t44 - t45 - t118 - t48 * t117;
+    let t121 = t62 + t65 * t111 + t118 + t48 * t119;
+    let t122 = t117 - t113;
+    let t123 = t38 - t114;
+    let t124 = t9 - 0.3;
+    let t125 = t81 * t109 - (t73 + t75 * t109) - t124;
+    let t126 = t113 + (t111 - t119);
+    let t127 = t106 * t111 - t106 * t119 - t123;
+    let t128 = t73 + t75 * t111 + t81 * t111 - t124;
+    let t129 = 1.0 / t121;
+    let t130 = t120 * t129;
+    let t131 = t126 * t130;
+    let t132 = t122 - t131;
+    let t133 = t106 * t117 - t115 - t127 * t130;
+    let t134 = -0.3 - t9 - t107 - t128 * t130;
+    let t135 = 1.0 / t134;
+    let t136 = t125 * t135;
+    let t137 = t106 * t109 - (t49 + t57 * t109 + t114) - t123 - t133 * t136;
+    let t138 = 1.0 / t137;
+    let t139 = t132 * t136 - (t113 + (t109 - (t109 + t113)));
+    let t140 = t138 * t139;
+    let t141 = t131 - t122 - t133 * t140;
+    let t142 = t135 * t141;
+    let t143 = t126 + t128 * t142 + t127 * t140;
+    let t144 = t129 * t143;
+    let t145 = t113 + t107 * t142 + t115 * t140;
+    let t146 = -1.0 - t81 * t142;
+    let t147 = t106 * t140;
+    let t148 = t146 - t147;
+    let t149 = t147 - t146;
+    let t150 = -1.0 - t48 * t144;
+    let t151 = t147 - t150;
+    let t152 = t92 * t151 + 0.044999999999999984 * t144;
+    let t153 = t116 * t152;
+    let t154 = t21 - 0.044999999999999984 * t140;
+    let t155 = t112 * t154;
+    let t156 = t65 * t144;
+    let t157 = t75 * t142;
+    let t158 = t150 - t147 - t148 - t156 + t157;
+    let t159 = t110 * t158;
+    let t160 = t57 * t140;
+    let t161 = -1.0 - t148 - t157 - t160;
+    let t162 = t108 * t161;
+    let t163 = t145 + t9 * t142;
+    let t164 = 1.0 - t41 * t140;
+    let t165 = t153 - t64 * t159 + t62 * t144;
+    let t166 = t156 + (t151 + t68 * t159);
+    let t167 = t155 + t58 * t162 - t49 * t140;
+    let t168 = t160 - (-1.0 - t56 * t162);
+    let t169 = t163 + (0.4 * t142 - t99 * t164);
+    let t170 = t101 * t169;
+    let t171 = t97 * t170 + t95 * t164;
+    let t172 = t98 * t171;
+    let t173 = t164 + t35 * t170;
+    let t174 = 20.0 * t164;
+    let t175 = 20.0 * t163;
+    let t176 = 1.2 * t142;
+    let t177 = 0.5 * t155;
+    let t178 = 0.002 * t140;
+    let t179 = 0.5 * t151;
+    let t180 = 0.5 * t153;
+    let t181 = 0.002 * t144;
+    let t182 = 0.3 * t168;
+    let t183 = 0.3 * t167;
+    let t184 = 0.0016 * t162;
+    let t185 = 0.3 * t166;
+    let t186 = 0.3 * t165;
+    let t187 = 0.0016 * t159;
+    let t188 = 0.02 * t142;
+    let t189 = 8.0 * t173;
+    let t190 = 8.0 * t172;
+    let t191 = 0.5 * t170;
+    let t192 = 0.5 + (t164 * t174 + t163 * t175 + t142 * t176) + t155 * t177
+        + t140 * t178 + t151 * t179 + t153 * t180 + t144 * t181 + t168 * t182
+        + t167 * t183 + t162 * t184 + t166 * t185 + t165 * t186 + t159 * t187
+        + t149 * t149 + t145 * t145 + t142 * t188 + t173 * t189 + t172 * t190
+        + t170 * t191;
+    let t193 = 1.0 / t192;
+    let t194 = v20 * t96 + t33 * t36;
+    let t195 = t4 * t72 - t76 - t59;
+    let t196 = t69 + (t76 + t5 * t78);
+    let t197 = t43 + (t42 + t3 * t46);
+    let t198 = t43 + (v2 * t82 - v2 * t83 + v2 * t85);
+    let t199 = t88 - ddf0;
+    let t200 = t2 * t41 + t199;
+    let t201 = t91 * t112;
+    let t202 = t201 - t200;
+    let t203 = t94 * t116;
+    let t204 = t200 - t201;
+    let t205 = t77 + t5 * t80 - (t71 - t70) - t111 * t196 - t203 + t119 * t197
+        - t111 * t198 - t204;
+    let t206 = t3 * t48 - t199 + t203 - t117 * t197 - t202 - t130 * t205;
+    let t207 = t4 * t74 + t77 + (t61 - t60) + t109 * t195 + t201 + t109 * t198 + t204
+        + t136 * t206;
+    let t208 = t138 * t207;
+    let t209 = t206 + t133 * t208;
+    let t210 = t135 * t209;
+    let t211 = t205 - t128 * t210 + t127 * t208;
+    let t212 = t129 * t211;
+    let t213 = t202 - t107 * t210 + t115 * t208;
+    let t214 = t198 + t81 * t210;
+    let t215 = t106 * t208;
+    let t216 = t215 - t214;
+    let t217 = t215 + (t48 * t212 - t197);
+    let t218 = t94 + t92 * t217 + 0.044999999999999984 * t212;
+    let t219 = t116 * t218;
+    let t220 = t91 + 0.044999999999999984 * t208;
+    let t221 = t112 * t220;
+    let t222 = t65 * t212;
+    let t223 = t75 * t210;
+    let t224 = t196 + t217 - t216 + t222 + t223;
+    let t225 = t110 * t224;
+    let t226 = t57 * t208;
+    let t227 = t195 - t216 - t223 + t226;
+    let t228 = t108 * t227;
+    let t229 = ddf0 - t88 - t213 + t9 * t210;
+    let t230 = t43 + t41 * t208;
+    let t231 = t62 * t212 - (t70 - t71 - t64 * t225 - t219);
+    let t232 = t222 + (t217 + (t69 - t68 * t225));
+    let t233 = t49 * t208 - (t60 - t61 - t58 * t228 - t221);
+    let t234 = t59 + t56 * t228 - t226;
+    let t235 = t229 + (t98 * t194 - t1 * t35 - t99 * t230 + 0.4 * t210);
+    let t236 = t101 * t235;
+    let t237 = t194 - t97 * t236 - t95 * t230;
+    let t238 = t98 * t237;
+    let t239 = t230 + (t36 + t35 * t236);
+    let t240 = 20.0 * t230;
+    let t241 = 20.0 * t229;
+    let t242 = 1.2 * t210;
+    let t243 = 0.5 * t221;
+    let t244 = 0.002 * t208;
+    let t245 = 0.5 * t217;
+    let t246 = 0.5 * t219;
+    let t247 = 0.002 * t212;
+    let t248 = 0.3 * t234;
+    let t249 = 0.3 * t233;
+    let t250 = 0.0016 * t228;
+    let t251 = 0.3 * t232;
+    let t252 = 0.3 * t231;
+    let t253 = 0.0016 * t225;
+    let t254 = 0.02 * t210;
+    let t255 = 8.0 * t239;
+    let t256 = 8.0 * t238;
+    let t257 = 0.5 * t236;
+    let t258 = t140 * t244 - (t164 * t240 + t163 * t241 + t142 * t242 + t155 * t243)
+        + t151 * t245 + t153 * t246 + t144 * t247 - t168 * t248 - t167 * t249
+        - t162 * t250 + t166 * t251 + t165 * t252 - t159 * t253 + t149 * t216
+        + t145 * t213 - t142 * t254 - t173 * t255 + t172 * t256 - t170 * t257;
+    let t259 = t193 * t258;
+    let t260 = t230 + t164 * t259;
+    let t261 = t229 + t163 * t259;
+    let t262 = t221 + t155 * t259;
+    let t263 = t151 * t259 - t217;
+    let t264 = t219 - t153 * t259;
+    let t265 = t234 + t168 * t259;
+    let t266 = t233 + t167 * t259;
+    let t267 = t166 * t259 - t232;
+    let t268 = t231 - t165 * t259;
+    let t269 = t214 - t215 + t149 * t259;
+    let t270 = t213 - t145 * t259;
+    let t271 = t239 + t173 * t259;
+    let t272 = t238 - t172 * t259;
+    let t273 = sin2 * dq2;
+    let t274 = cos2 * dq2;
+    let t275 = sin5 * dq5;
+    let t276 = cos5 * dq5;
+    let t277 = sin8 * dq8;
+    let t278 = cos8 * dq8;
+    let t279 = sin11 * dq11;
+    let t280 = cos11 * dq11;
+    let t281 = sin14 * dq14;
+    let t282 = cos14 * dq14;
+    let t283 = sin17 * dq17;
+    let t284 = cos17 * dq17;
+    let t285 = sin20 * dq20;
+    let t286 = cos20 * dq20;
+    let t287 = v2 * dv2;
+    let t288 = t287 + t287;
+    let t289 = v20 * dv20;
+    let t290 = t289 + t289;
+    let t291 = v5 * dv5;
+    let t292 = t291 + t291;
+    let t293 = v8 * dv8;
+    let t294 = t293 + t293;
+    let t295 = v11 * dv11;
+    let t296 = t295 + t295;
+    let t297 = v14 * dv14;
     let t298 = t297 + t297;
-    let t299 = t58 * t298 - t61 * t294;
-    let t300 = t61 * t296 + t60 * t298;
-    let t301 = t283 - 0.004999999999999977 * t234;
-    let t302 = t286 + 0.004999999999999977 * t235;
-    let t303 = dq1 - dq16;
-    let t304 = dq0 - dq15;
-    let t305 = v2 * t227 + sin2 * dv2;
-    let t306 = dv16 - dv1;
-    let t307 = cos2 * dv2 - v2 * t226;
-    let t308 = dv0 - dv15;
-    let t309 = t2 * t237 + sin20 * t240 - (t0 * t236 + cos20 * t238);
-    let t310 = t82 * (t1 * t236 + cos20 * t239 - (t3 * t237 + sin20 * t241)) / t81;
-    let t311 = t276 + t295;
-    let t312 = t273 + t293;
-    let t313 = t284 + t301;
-    let t314 = t296 - t251;
-    let t315 = t253 + t274;
-    let t316 = t294 - t248;
-    let t317 = t250 + t271;
-    let t318 = cos2 * t303 - t67 * t226 - (t68 * t227 + sin2 * t304)
-        - (cos2 * t314 - t86 * t226) - (t89 * t227 + sin2 * t316);
-    let t319 = t90 * t227 + sin2 * t317 - (cos2 * t315 - t88 * t226);
-    let t320 = t100 * (cos2 * t311 - t83 * t226 + (t84 * t227 + sin2 * t312)) / t98;
-    let t321 = t100 * t311 - t83 * t320;
-    let t322 = t100 * t312 + t95 * t320;
-    let t323 = t100 * (cos2 * t312 - t84 * t226 - (t83 * t227 + sin2 * t311))
-        - t99 * t320;
-    let t324 = t67 * t227 + sin2 * t303 + (cos2 * t304 - t68 * t226)
-        - (t86 * t227 + sin2 * t314) + (cos2 * t316 - t89 * t226)
-        + (t105 * t318 + t96 * t323);
-    let t325 = t108
-        * (t105 * t319 + t97 * t323
-            - (t88 * t227 + sin2 * t315 + (cos2 * t317 - t90 * t226))) / t107;
-    let t326 = t108 * (t315 + (t101 * t319 + t97 * t321)) + t102 * t325;
-    let t327 = t108 * (t317 + (t103 * t319 - t97 * t322)) - t104 * t325;
-    let t328 = t248 - t294 - t316 + (t103 * t318 - t96 * t322)
-        - (t110 * t324 + t106 * t327);
-    let t329 = t108 * (t14 * t229 + sin5 * t253 + (cos5 * t250 - t10 * t228))
-        + t91 * t325;
-    let t330 = t114 * (t263 + t282) / t93;
-    let t331 = t114 * (t265 + t285) + t92 * t330;
-    let t332 = t251 - t296 - t314 - (t101 * t318 + t96 * t321)
-        - (t109 * t324 - t106 * t326) + (t115 * t328 + t111 * t331);
-    let t333 = t114 * (t26 * t231 + sin8 * t265 - (t27 * t230 + cos8 * t263))
-        + t94 * t330;
-    let t334 = t120 * (t115 * t313 + t85 * t331 - (t287 + t302)) / t117;
-    let t335 = t120 * (t118 * t313 + t85 * t333) - t119 * t334;
-    let t336 = t123
-        * (t11 * t229 + sin5 * t251 - (t8 * t228 + cos5 * t248)
-            - (t112 * t324 - t106 * t329)) / t113;
-    let t337 = t123
-        * (t121 * t332 + t116 * t335
-            - (t11 * t231 + sin8 * t251 - (t8 * t230 + cos8 * t248)
-                + (t118 * t328 + t111 * t333))) - t122 * t336;
-    let t338 = t126 * (t230 + (cos5 * t337 - t124 * t228)) / t125;
-    let t339 = t127 * t338 + t126 * (t231 - (t124 * t229 + sin5 * t337));
-    let t340 = t123 * (t229 - (cos5 * t339 - t128 * t228)) - t129 * t336;
-    let t341 = t120 * (t130 * t332 + t116 * t340) - t131 * t334;
-    let t342 = t133 * t330
-        + t114 * (t132 * t313 + t85 * t341 - (t130 * t328 + t111 * t340));
-    let t343 = t108 * (t130 * t324 + t106 * t340) - t135 * t325;
-    let t344 = t100 * (t136 * t319 + t97 * t343 - (t130 * t318 + t96 * t340))
-        - t137 * t320;
-    let t345 = t339
-        - (t138 * t312 + t84 * t344 - (t136 * t317 + t90 * t343)
-            - (t130 * t316 + t89 * t340));
-    let t346 = t130 * t314 + t86 * t340
-        - (t138 * t311 + t83 * t344 + (t136 * t315 + t88 * t343));
-    let t347 = t8 * t340 - t130 * t248;
-    let t348 = t347 - (t27 * t342 - t134 * t263);
-    let t349 = t339 - t348;
-    let t350 = t134 * t265 + t26 * t342;
-    let t351 = t130 * t251 + t11 * t340;
-    let t352 = t351 - t350;
-    let t353 = t339 + (t347 + (t136 * t250 + t10 * t343));
-    let t354 = t351 + (t136 * t253 + t14 * t343);
-    let t355 = t348 - t339 - (t46 * t342 - t134 * t282) + (t132 * t284 + t48 * t341);
-    let t356 = t350 - t351 + (t134 * t285 + t49 * t342) + (t52 * t341 - t132 * t287);
-    let t357 = t136 * t271 + t32 * t343 - (t138 * t273 + t41 * t344 - t353);
-    let t358 = t354 + (t138 * t276 + t39 * t344) + (t136 * t274 + t40 * t343);
-    let t359 = t82 * (t237 + (t130 * t309 + t80 * t340) - (cos20 * t339 - t128 * t236))
-        - t153 * t310;
-    let t360 = t339 - (t1 * t359 - t154 * t239 + (t0 * t340 - t130 * t238));
-    let t361 = t154 * t241 + t3 * t359 + (t130 * t240 + t2 * t340);
-    let t362 = t140 * t346;
-    let t363 = t139 * t345;
-    let t364 = t57 * t278 + t42 * t293 - t299 - t279 - (t257 - t256);
-    let t365 = t59 * t278 + t42 * t295 + t300 + (t281 - t280) + (t260 - t259);
-    let t366 = dv2 * t73 + v2 * (t69 * t303 + t67 * t305 + (cos2 * t306 - t70 * t226))
-        + (t71 * t306 + t70 * t307)
-        + (dv2 * t74 + v2 * (t71 * t304 + t68 * t307 + (t72 * t227 + sin2 * t308))
-            + (t72 * t305 + t69 * t308)) - (cos2 * t364 - t177 * t226)
-        + (t178 * t227 + sin2 * t365);
-    let t367 = t179 * t323 + t105 * t366
-        - (dv2 * t75 + v2 * (cos2 * t308 - t72 * t226 - (t69 * t304 + t68 * t305))
-            + (t72 * t307 + t71 * t308)
-            + (dv2 * t76 + v2 * (t71 * t303 + t67 * t307 - (t70 * t227 + sin2 * t306))
-                - (t70 * t305 + t69 * t306)) + (t177 * t227 + sin2 * t364)
-            + (cos2 * t365 - t178 * t226));
-    let t368 = t365 + (t300 + (t66 * t289 + t53 * t302) - (t292 - t291) - (t259 - t269))
-        + (t103 * t366 - t179 * t322) - (t180 * t327 + t110 * t367);
-    let t369 = dv5 * t77 + v5 * (cos5 * dv3 - v3 * t228 + (v4 * t229 + sin5 * dv4))
-        - (t18 * t229 + sin5 * t258) + (cos5 * t261 - t21 * t228)
-        - (t112 * t367 - t180 * t329);
-    let t370 = t290 + (t299 + (t64 * t289 + t53 * t301)) - t268 - t364
-        - (t179 * t321 + t101 * t366) - (t109 * t367 - t180 * t326)
-        + (t181 * t331 + t115 * t368);
-    let t371 = t184 * t338
-        + t126
-            * (dv8 * t78 + v8 * (cos8 * dv6 - v6 * t230 + (v7 * t231 + sin8 * dv7))
-                + (t29 * t231 + sin8 * t268) + (cos8 * t270 - t31 * t230)
-                - (t181 * t333 + t118 * t368) + (t183 * t335 + t121 * t370)
-                - (t182 * t337 + t124 * t369));
-    let t372 = t123 * (t369 - (cos5 * t371 - t185 * t228)) - t186 * t336;
-    let t373 = t120 * (t370 - (t187 * t332 + t116 * t372)) - t188 * t334;
-    let t374 = t190 * t330
-        + t114 * (t368 - (t189 * t313 + t85 * t373) - (t187 * t328 + t111 * t372));
-    let t375 = t108 * (t367 - (t187 * t324 + t106 * t372)) - t192 * t325;
-    let t376 = t100 * (t366 - (t193 * t319 + t97 * t375) - (t187 * t318 + t96 * t372))
-        - t194 * t320;
-    let t377 = t195 * t312 + t84 * t376 - t365 + (t193 * t317 + t90 * t375)
-        - (t187 * t316 + t89 * t372);
-    let t378 = t364 + (t195 * t311 + t83 * t376) - (t193 * t315 + t88 * t375);
-    let t379 = t187 * t314 + t86 * t372;
-    let t380 = t8 * t372 - t187 * t248;
-    let t381 = t371 - (t270 - (t27 * t374 - t191 * t263) + t380);
-    let t382 = t187 * t251 + t11 * t372;
-    let t383 = t382 - (t191 * t265 + t26 * t374 - t268);
-    let t384 = t371 - (t261 + (t193 * t250 + t10 * t375) - t380);
-    let t385 = t382 + (t258 - (t193 * t253 + t14 * t375));
-    let t386 = t189 * t284 + t48 * t373
-        - (t291 - t292 - t381 - (t46 * t374 - t191 * t282));
-    let t387 = t52 * t373 - t189 * t287 - (t290 - t383 + (t191 * t285 + t49 * t374));
-    let t388 = t280 - t281 - t384 + (t195 * t273 + t41 * t376)
-        + (t193 * t271 + t32 * t375);
-    let t389 = t193 * t274 + t40 * t375 - (t385 - t279 + (t195 * t276 + t39 * t376));
-    let t390 = t82
-        * (dv20 * t79 + v20 * (cos20 * dv18 - v18 * t236 + (v19 * t237 + sin20 * dv19))
-            + (t6 * t237 + sin20 * t246) - (cos20 * t247 - t7 * t236)
-            + (t187 * t309 + t80 * t372) - (cos20 * t371 - t185 * t236)) - t204 * t310;
-    let t391 = t371 - (t1 * t390 - t205 * t239 - t247 + (t0 * t372 - t187 * t238));
-    let t392 = t246 + (t205 * t241 + t3 * t390) + (t187 * t240 + t2 * t372);
-    let t393 = t176
-        * (t210 * t343 + t136 * (0.002 * t375)
-            - (t206 * t339 + t128 * (20.0 * t371) + (t207 * t340 + t130 * (1.2 * t372))
-                + (t208 * t354 + t148 * (0.5 * t385))
-                + (t209 * t353 + t147 * (0.5 * t384)))
-            - (t211 * t352 + t146 * (0.5 * t383)) - (t212 * t349 + t143 * (0.5 * t381))
-            - (t213 * t342 + t134 * (0.002 * t374)) + (t214 * t358 + t152 * (0.3 * t389))
-            + (t215 * t357 + t151 * (0.3 * t388))
-            - (t216 * t344 + t138 * (0.0016 * t376))
-            + (t217 * t356 + t150 * (0.3 * t387)) + (t218 * t355 + t149 * (0.3 * t386))
-            + (t219 * t341 + t132 * (0.0016 * t373))
-            + (t197 * t346 + t140 * (t378 - t379)) + (t196 * t345 + t139 * (t377 - t371))
-            - (t220 * t340 + t130 * (0.02 * t372)) - (t221 * t361 + t156 * (8.0 * t392))
-            - (t222 * t360 + t155 * (8.0 * t391)) - (t223 * t359 + t154 * (0.5 * t390)))
-        - t224
-            * (t176
-                * (t157 * t339 + t128 * (20.0 * t339)
-                    + (t158 * t340 + t130 * (1.2 * t340))
-                    + (t159 * t354 + t148 * (0.5 * t354))
-                    + (t160 * t353 + t147 * (0.5 * t353))
-                    + (t161 * t343 + t136 * (0.002 * t343))
-                    + (t162 * t352 + t146 * (0.5 * t352))
-                    + (t163 * t349 + t143 * (0.5 * t349))
-                    + (t164 * t342 + t134 * (0.002 * t342))
-                    + (t165 * t358 + t152 * (0.3 * t358))
-                    + (t166 * t357 + t151 * (0.3 * t357))
-                    + (t167 * t344 + t138 * (0.0016 * t344))
-                    + (t168 * t356 + t150 * (0.3 * t356))
-                    + (t169 * t355 + t149 * (0.3 * t355))
-                    + (t170 * t341 + t132 * (0.0016 * t341)) + (t362 + t362)
-                    + (t363 + t363) + (t171 * t340 + t130 * (0.02 * t340))
-                    + (t172 * t361 + t156 * (8.0 * t361))
-                    + (t173 * t360 + t155 * (8.0 * t360))
-                    + (t174 * t359 + t154 * (0.5 * t359))) / t175);
-    let t394 = t372 + (t225 * t340 + t130 * t393);
-    out(0usize, t393);
-    out(1usize, t371 + (t225 * t339 + t128 * t393));
-    out(2usize, t394);
-    out(3usize, -(t385 + (t225 * t354 + t148 * t393)));
-    out(4usize, t384 + (t225 * t353 + t147 * t393));
-    out(5usize, t375 - (t225 * t343 + t136 * t393));
-    out(6usize, t383 + (t225 * t352 + t146 * t393));
-    out(7usize, t381 + (t225 * t349 + t143 * t393));
-    out(8usize, t374 + (t225 * t342 + t134 * t393));
-    out(9usize, t389 - (t225 * t358 + t152 * t393));
-    out(10usize, t225 * t357 + t151 * t393 - t388);
-    out(11usize, -(t376 + (t225 * t344 + t138 * t393)));
-    out(12usize, t387 - (t225 * t356 + t150 * t393));
-    out(13usize, t386 - (t225 * t355 + t149 * t393));
-    out(14usize, t373 - (t225 * t341 + t132 * t393));
-    out(15usize, t379 - t378 + (t225 * t346 + t140 * t393));
-    out(16usize, t371 - t377 + (t225 * t345 + t139 * t393));
-    out(17usize, t394);
-    out(18usize, t392 + (t225 * t361 + t156 * t393));
-    out(19usize, t391 + (t225 * t360 + t155 * t393));
-    out(20usize, t390 + (t225 * t359 + t154 * t393));
+    let t299 = v17 * dv17;
+    let t300 = t299 + t299;
+    let t301 = dq15 - dq0;
+    let t302 = dq16 - dq1;
+    let t303 = cos2 * t301 - t7 * t273 + (t8 * t274 + sin2 * t302);
+    let t304 = cos2 * dv1 - v1 * t273 - (v0 * t274 + sin2 * dv0);
+    let t305 = cos2 * dv16 - v16 * t273 - (v15 * t274 + sin2 * dv15);
+    let t306 = sin5 * t274 + sin2 * t276 - (cos5 * t273 + cos2 * t275);
+    let t307 = cos2 * t276 - sin5 * t273;
+    let t308 = cos5 * t274 - sin2 * t275;
+    let t309 = t307 - t308;
+    let t310 = sin8 * t274 + sin2 * t278 - (cos8 * t273 + cos2 * t277);
+    let t311 = cos2 * t278 - sin8 * t273;
+    let t312 = cos8 * t274 - sin2 * t277;
+    let t313 = t311 - t312;
+    let t314 = sin11 * t274 + sin2 * t280 - (cos11 * t273 + cos2 * t279);
+    let t315 = cos2 * t280 - sin11 * t273 - (cos11 * t274 - sin2 * t279);
+    let t316 = sin14 * t274 + sin2 * t282 - (cos14 * t273 + cos2 * t281);
+    let t317 = cos2 * t282 - sin14 * t273 - (cos14 * t274 - sin2 * t281);
+    let t318 = sin20 * t274 + sin2 * t286 - (cos20 * t273 + cos2 * t285);
+    let t319 = cos2 * t286 - sin20 * t273;
+    let t320 = cos20 * t274 - sin2 * t285;
+    let t321 = t319 - t320;
+    let t322 = 0.35 * t318;
+    let t323 = 0.35 * t321;
+    let t324 = 0.4 * t288 + (t34 * t290 + t1 * t322);
+    let t325 = 0.025 * t309;
+    let t326 = 0.044999999999999984 * t306 + t325;
+    let t327 = 0.025 * t306;
+    let t328 = 0.044999999999999984 * t309;
+    let t329 = t328 - t327;
+    let t330 = 0.3 * t288;
+    let t331 = t330 - (t38 * t292 + t2 * t326);
+    let t332 = 0.044999999999999984 * t310;
+    let t333 = 0.025 * t313;
+    let t334 = 0.025 * t310;
+    let t335 = t334 + 0.044999999999999984 * t313;
+    let t336 = t325 + 0.04500000000000001 * t306;
+    let t337 = 0.0050000000000000044 * t314;
+    let t338 = 0.125 * t315;
+    let t339 = t337 - t338;
+    let t340 = 0.04500000000000001 * t309;
+    let t341 = 0.125 * t314;
+    let t342 = t341 + 0.0050000000000000044 * t315;
+    let t343 = t340 - t327;
+    let t344 = t338 - t337;
+    let t345 = t49 * t292 + t2 * t336 + (t52 * t296 + t4 * t339);
+    let t346 = t54 * t292 + t2 * (t327 - t340);
+    let t347 = t56 * t296 + t4 * t342;
+    let t348 = 0.04500000000000001 * t310 - t333;
+    let t349 = 0.125 * t317;
+    let t350 = 0.0050000000000000044 * t316 + t349;
+    let t351 = t334 + 0.04500000000000001 * t313;
+    let t352 = 0.125 * t316;
+    let t353 = 0.0050000000000000044 * t317;
+    let t354 = t352 - t353;
+    let t355 = t62 * t294 + t3 * t348 + (t64 * t298 + t5 * t350);
+    let t356 = t65 * t294 + t3 * t351;
+    let t357 = t68 * t298 + t5 * t354;
+    let t358 = t338 - 0.004999999999999977 * t314;
+    let t359 = 0.2 * (sin17 * t274 + sin2 * t284 - (cos17 * t273 + cos2 * t283));
+    let t360 = t341 + 0.004999999999999977 * t315;
+    let t361 = 0.2 * (cos2 * t284 - sin17 * t273 - (cos17 * t274 - sin2 * t283));
+    let t362 = t73 * t300 + t6 * t359;
+    let t363 = t75 * t300 + t6 * t361;
+    let t364 = t349 + 0.004999999999999977 * t316;
+    let t365 = 0.004999999999999977 * t317;
+    let t366 = t7 * t274 + sin2 * t301 - (cos2 * t302 - t8 * t273);
+    let t367 = dv2 * t84
+        + v2
+            * (cos2 * dv0 - v0 * t273 + (v1 * t274 + sin2 * dv1)
+                - (cos2 * dv15 - v15 * t273 + (v16 * t274 + sin2 * dv16)));
+    let t368 = t367 + t367 + (dv2 * t87 + v2 * (dv2 * t81 + v2 * t366));
+    let t369 = t308 - t307;
+    let t370 = dv5 * t90
+        + v5
+            * (t18 * (cos2 * dv3 - v3 * t273 + (v4 * t274 + sin2 * dv4)) + t11 * t306
+                - (t89 * (cos2 * dv4 - v4 * t273 - (v3 * t274 + sin2 * dv3))
+                    + t12 * t369));
+    let t371 = t312 - t311;
+    let t372 = dv8 * t93
+        + v8
+            * (t22 * (cos2 * dv6 - v6 * t273 + (v7 * t274 + sin2 * dv7)) + t13 * t310
+                - (t92 * (cos2 * dv7 - v7 * t273 - (v6 * t274 + sin2 * dv6))
+                    + t14 * t371));
+    let t373 = t320 - t319;
+    let t374 = t35 * t321 + t33 * t323;
+    let t375 = t98 * t318 / t30;
+    let t376 = t98 * t373 - t95 * t375;
+    let t377 = t101 * (t322 + (t98 * t374 + t97 * t375)) / t100;
+    let t378 = t327 - t328;
+    let t379 = t108 * (t342 + t360) / t102;
+    let t380 = t108 * (t358 - t339) - t103 * t379;
+    let t381 = t110 * (t352 - t365 - (t353 - t352)) / t104;
+    let t382 = t110 * (t350 + t364) - t105 * t381;
+    let t383 = t112 * t306 / t18;
+    let t384 = t112 * t369 - t89 * t383;
+    let t385 = 0.044999999999999984 * t383;
+    let t386 = t326 + t385;
+    let t387 = t116 * t310 / t22;
+    let t388 = t116 * t371 - t92 * t387;
+    let t389 = 0.044999999999999984 * t387;
+    let t390 = t382 + t388;
+    let t391 = t388 - t384;
+    let t392 = t384 + (t382 - t390);
+    let t393 = t111 * t378 + t106 * t382 - (t119 * t378 + t106 * t390) - t386;
+    let t394 = t359 + (t111 * t361 + t75 * t382) + (t111 * t366 + t81 * t382) - t303;
+    let t395 = t129
+        * (t348 + (t111 * t351 + t65 * t382) - t389 + (t119 * t335 + t48 * t390)) / t121;
+    let t396 = t129 * (t332 - t333 + t389 - (t117 * t335 + t48 * t388)) - t120 * t395;
+    let t397 = t130 * t392 + t126 * t396;
+    let t398 = t386 + (t117 * t378 + t106 * t388) - (t130 * t393 + t127 * t396);
+    let t399 = t135 * (t130 * t394 + t128 * t396) / t134;
+    let t400 = t135
+        * (t109 * t366 + t81 * t380 - (t359 + (t109 * t361 + t75 * t380)) - t303)
+        + t125 * t399;
+    let t401 = t138
+        * (t109 * t378 + t106 * t380 - (t336 + (t109 * t343 + t57 * t380) - t385) - t386
+            - (t136 * t398 + t133 * t400)) / t137;
+    let t402 = t138
+        * (t136 * (t391 - t397) + t132 * t400 - (t384 + (t380 - (t380 + t384))))
+        - t139 * t401;
+    let t403 = t141 * t399 + t135 * (t397 - t391 - (t140 * t398 + t133 * t402));
+    let t404 = t129 * (t392 + (t142 * t394 + t128 * t403) + (t140 * t393 + t127 * t402))
+        - t143 * t395;
+    let t405 = t142 * t303;
+    let t406 = t384 + (t107 * t403 - t405) + (t115 * t402 - t140 * t386);
+    let t407 = t140 * t378 + t106 * t402;
+    let t408 = t142 * t366 + t81 * t403 + t407;
+    let t409 = t407 + (t144 * t335 + t48 * t404);
+    let t410 = t116 * (t151 * t371 + t92 * t409 + 0.044999999999999984 * t404)
+        - t152 * t387;
+    let t411 = t112 * (t309 - 0.044999999999999984 * t402) - t154 * t383;
+    let t412 = t144 * t351 + t65 * t404;
+    let t413 = t142 * t361 + t75 * t403;
+    let t414 = t110 * (t408 - t409 - t412 + t413) - t158 * t381;
+    let t415 = t140 * t343 + t57 * t402;
+    let t416 = t108 * (t408 - t413 - t415) - t161 * t379;
+    let t417 = t406 + (t405 + t9 * t403);
+    let t418 = t140 * t329 + t41 * t402;
+    let t419 = t410 - (t159 * t350 + t64 * t414) + (t144 * t348 + t62 * t404);
+    let t420 = t412 + (t409 + (t159 * t354 + t68 * t414));
+    let t421 = t411 + (t162 * t344 + t58 * t416) - (t140 * t336 + t49 * t402);
+    let t422 = t415 + (t162 * t342 + t56 * t416);
+    let t423 = t169 * t377 + t101 * (t417 + (0.4 * t403 - (t164 * t376 - t99 * t418)));
+    let t424 = t98 * (t97 * t423 - t170 * t374 + (t164 * t373 - t95 * t418))
+        - t171 * t375;
+    let t425 = t170 * t323 + t35 * t423 - t418;
+    let t426 = t149 * t408;
+    let t427 = t145 * t406;
+    let t428 = dv20 * t96
+        + v20
+            * (t30 * (cos2 * dv18 - v18 * t273 + (v19 * t274 + sin2 * dv19)) + t16 * t318
+                - (t95 * (cos2 * dv19 - v19 * t273 - (v18 * t274 + sin2 * dv18))
+                    + t17 * t373)) + (t36 * t321 + t33 * t324);
+    let t429 = t72 * t296 + t4 * t358 - t362 - t345;
+    let t430 = t355 + (t362 + (t78 * t298 + t5 * t364));
+    let t431 = t331 + (t330 + (t46 * t294 + t3 * (t333 - t332)));
+    let t432 = t331
+        + (dv2 * t82 + v2 * (t304 - t305) - (dv2 * t83 + v2 * (t305 - t304))
+            + (dv2 * t85 + v2 * (dv2 * t9 + v2 * t303)));
+    let t433 = t41 * t292 + t2 * t329 + t368;
+    let t434 = t112 * t370 - t91 * t383;
+    let t435 = t434 - t433;
+    let t436 = t116 * t372 - t94 * t387;
+    let t437 = t433 - t434;
+    let t438 = t363 + (t80 * t298 + t5 * (t365 - t352)) - (t357 - t356)
+        - (t196 * t382 + t111 * t430) - t436 + (t197 * t390 + t119 * t431)
+        - (t198 * t382 + t111 * t432) - t437;
+    let t439 = t48 * t294 + t3 * t335 - t368 + t436 - (t197 * t388 + t117 * t431) - t435
+        - (t205 * t396 + t130 * t438);
+    let t440 = t138
+        * (t74 * t296 + t4 * t360 + t363 + (t347 - t346) + (t195 * t380 + t109 * t429)
+            + t434 + (t198 * t380 + t109 * t432) + t437 + (t206 * t400 + t136 * t439))
+        - t207 * t401;
+    let t441 = t209 * t399 + t135 * (t439 + (t208 * t398 + t133 * t440));
+    let t442 = t129 * (t438 - (t210 * t394 + t128 * t441) + (t208 * t393 + t127 * t440))
+        - t211 * t395;
+    let t443 = t210 * t303;
+    let t444 = t435 - (t107 * t441 - t443) + (t115 * t440 - t208 * t386);
+    let t445 = t432 + (t210 * t366 + t81 * t441);
+    let t446 = t208 * t378 + t106 * t440;
+    let t447 = t446 - t445;
+    let t448 = t446 + (t212 * t335 + t48 * t442 - t431);
+    let t449 = t116 * (t372 + (t217 * t371 + t92 * t448) + 0.044999999999999984 * t442)
+        - t218 * t387;
+    let t450 = t112 * (t370 + 0.044999999999999984 * t440) - t220 * t383;
+    let t451 = t212 * t351 + t65 * t442;
+    let t452 = t210 * t361 + t75 * t441;
+    let t453 = t110 * (t430 + t448 - t447 + t451 + t452) - t224 * t381;
+    let t454 = t208 * t343 + t57 * t440;
+    let t455 = t108 * (t429 - t447 - t452 + t454) - t227 * t379;
+    let t456 = t443 + t9 * t441 - (t368 + t444);
+    let t457 = t331 + (t208 * t329 + t41 * t440);
+    let t458 = t212 * t348 + t62 * t442
+        - (t356 - t357 - (t225 * t350 + t64 * t453) - t449);
+    let t459 = t451 + (t448 + (t355 - (t225 * t354 + t68 * t453)));
+    let t460 = t208 * t336 + t49 * t440
+        - (t346 - t347 - (t228 * t344 + t58 * t455) - t450);
+    let t461 = t345 + (t228 * t342 + t56 * t455) - t454;
+    let t462 = t235 * t377
+        + t101
+            * (t456
+                + (t98 * t428 - t194 * t375 - (t35 * t290 + t1 * t323)
+                    - (t230 * t376 + t99 * t457) + 0.4 * t441));
+    let t463 = t98 * (t428 - (t97 * t462 - t236 * t374) - (t230 * t373 + t95 * t457))
+        - t237 * t375;
+    let t464 = t457 + (t324 + (t236 * t323 + t35 * t462));
+    let t465 = t193
+        * (t244 * t402 + t140 * (0.002 * t440)
+            - (t164 * (20.0 * t457) - t240 * t418 + (t241 * t417 + t163 * (20.0 * t456))
+                + (t242 * t403 + t142 * (1.2 * t441))
+                + (t243 * t411 + t155 * (0.5 * t450)))
+            + (t245 * t409 + t151 * (0.5 * t448)) + (t246 * t410 + t153 * (0.5 * t449))
+            + (t247 * t404 + t144 * (0.002 * t442)) - (t248 * t422 + t168 * (0.3 * t461))
+            - (t249 * t421 + t167 * (0.3 * t460))
+            - (t250 * t416 + t162 * (0.0016 * t455))
+            + (t251 * t420 + t166 * (0.3 * t459)) + (t252 * t419 + t165 * (0.3 * t458))
+            - (t253 * t414 + t159 * (0.0016 * t453)) + (t216 * t408 + t149 * t447)
+            + (t213 * t406 + t145 * t444) - (t254 * t403 + t142 * (0.02 * t441))
+            - (t255 * t425 + t173 * (8.0 * t464)) + (t256 * t424 + t172 * (8.0 * t463))
+            - (t257 * t423 + t170 * (0.5 * t462)))
+        - t258
+            * (t193
+                * (t175 * t417 + t163 * (20.0 * t417)
+                    - (t174 * t418 + t164 * (20.0 * t418))
+                    + (t176 * t403 + t142 * (1.2 * t403))
+                    + (t177 * t411 + t155 * (0.5 * t411))
+                    + (t178 * t402 + t140 * (0.002 * t402))
+                    + (t179 * t409 + t151 * (0.5 * t409))
+                    + (t180 * t410 + t153 * (0.5 * t410))
+                    + (t181 * t404 + t144 * (0.002 * t404))
+                    + (t182 * t422 + t168 * (0.3 * t422))
+                    + (t183 * t421 + t167 * (0.3 * t421))
+                    + (t184 * t416 + t162 * (0.0016 * t416))
+                    + (t185 * t420 + t166 * (0.3 * t420))
+                    + (t186 * t419 + t165 * (0.3 * t419))
+                    + (t187 * t414 + t159 * (0.0016 * t414)) + (t426 + t426)
+                    + (t427 + t427) + (t188 * t403 + t142 * (0.02 * t403))
+                    + (t189 * t425 + t173 * (8.0 * t425))
+                    + (t190 * t424 + t172 * (8.0 * t424))
+                    + (t191 * t423 + t170 * (0.5 * t423))) / t192);
+    let t466 = t457 + (t164 * t465 - t259 * t418);
+    let t467 = t456 + (t259 * t417 + t163 * t465);
+    let t468 = t441 + (t259 * t403 + t142 * t465);
+    let t469 = t450 + (t259 * t411 + t155 * t465);
+    let t470 = t259 * t409 + t151 * t465 - t448;
+    let t471 = t449 - (t259 * t410 + t153 * t465);
+    let t472 = t461 + (t259 * t422 + t168 * t465);
+    let t473 = t460 + (t259 * t421 + t167 * t465);
+    let t474 = t259 * t420 + t166 * t465 - t459;
+    let t475 = t458 - (t259 * t419 + t165 * t465);
+    let t476 = t445 - t446 + (t259 * t408 + t149 * t465);
+    let t477 = t444 - (t259 * t406 + t145 * t465);
+    let t478 = t464 + (t259 * t425 + t173 * t465);
+    let t479 = t463 - (t259 * t424 + t172 * t465);
+    out(0usize, cos2 * t466 - t260 * t273 + (t261 * t274 + sin2 * t467));
+    out(1usize, t260 * t274 + sin2 * t466 - (cos2 * t467 - t261 * t273));
+    out(2usize, t468);
+    out(3usize, cos2 * t465 - t259 * t273 - (t262 * t274 + sin2 * t469));
+    out(4usize, t259 * t274 + sin2 * t465 + (cos2 * t469 - t262 * t273));
+    out(5usize, t259 * t402 + t140 * t465 - t440);
+    out(6usize, cos2 * t470 - t263 * t273 - (t264 * t274 + sin2 * t471));
+    out(7usize, t263 * t274 + sin2 * t470 + (cos2 * t471 - t264 * t273));
+    out(8usize, t442 - (t259 * t404 + t144 * t465));
+    out(9usize, cos2 * t472 - t265 * t273 - (t266 * t274 + sin2 * t473));
+    out(10usize, t265 * t274 + sin2 * t472 + (cos2 * t473 - t266 * t273));
+    out(11usize, t455 + (t259 * t416 + t162 * t465));
+    out(12usize, cos2 * t474 - t267 * t273 - (t268 * t274 + sin2 * t475));
+    out(13usize, t267 * t274 + sin2 * t474 + (cos2 * t475 - t268 * t273));
+    out(14usize, t453 + (t259 * t414 + t159 * t465));
+    out(15usize, cos2 * t476 - t269 * t273 - (t270 * t274 + sin2 * t477));
+    out(16usize, t269 * t274 + sin2 * t476 + (cos2 * t477 - t270 * t273));
+    out(17usize, t468);
+    out(18usize, cos2 * t478 - t271 * t273 - (t272 * t274 + sin2 * t479));
+    out(19usize, t271 * t274 + sin2 * t478 + (cos2 * t479 - t272 * t273));
+    out(20usize, t462 + (t259 * t423 + t170 * t465));
     f64::INFINITY
-        .min(-(2.0 * t81))
-        .min(4.0 * t98)
-        .min(-(16.0 * t107))
-        .min(16.0 * t93)
-        .min(4.0 * t117)
-        .min(4.0 * t113)
-        .min(t125)
-        .min(0.03125 * t175)
+        .min(t30)
+        .min(-(2.0 * t100))
+        .min(4.0 * t102)
+        .min(4.0 * t104)
+        .min(t18)
+        .min(t22)
+        .min(16.0 * t121)
+        .min(-(2.0 * t134))
+        .min(-(16.0 * t137))
+        .min(0.03125 * t192)
 }
 ///The derivative of accelerations along (dq, dv).
 ///
-///Operations: 953 mul, 784 add, 4 neg, 16 div.
+///Operations: 983 mul, 828 add, 3 neg, 20 div.
 pub fn jacobian_action(
     t: f64,
     q: &[f64; N_Q],

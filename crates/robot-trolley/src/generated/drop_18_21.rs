@@ -2,6 +2,7 @@
 //!
 //! The mechanism `robot-trolley`: 21 coordinates, 21 velocities, 17 holonomic and 5 nonholonomic rows of rank 20.
 //! Rows (from 1) that are dropped and only monitored: 18, 21; that do not hold the position: none.
+//! Solved in the frame of the body `platform`: it does not matter which way the whole points.
 //!
 //! Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that
 //! divide return a health: the smallest divisor as a signed share of what it was at the states that the code was made for. Near 0 the
@@ -9,13 +10,13 @@
 //!
 //! | function | operations |
 //! | --- | --- |
-//! | `acceleration` | 335 mul, 266 add, 4 neg, 8 div |
-//! | `multipliers` | 413 mul, 343 add, 6 neg, 8 div |
+//! | `acceleration` | 331 mul, 243 add, 4 neg, 7 div |
+//! | `multipliers` | 394 mul, 305 add, 4 neg, 7 div |
 //! | `phi` | 36 mul, 65 add, 1 neg |
 //! | `velocity_residual` | 79 mul, 79 add |
-//! | `position_correction` | 247 mul, 239 add, 8 div |
-//! | `velocity_correction` | 279 mul, 234 add, 4 neg, 8 div |
-//! | `jacobian_action` | 915 mul, 754 add, 4 neg, 16 div |
+//! | `position_correction` | 301 mul, 257 add, 5 neg, 8 div |
+//! | `velocity_correction` | 302 mul, 224 add, 3 neg, 7 div |
+//! | `jacobian_action` | 883 mul, 708 add, 4 neg, 14 div |
 //! | `constraint_matrix` | 36 mul, 20 add, 15 neg |
 
 #![forbid(unsafe_code)]
@@ -133,7 +134,7 @@ pub const PATTERN: [[usize; 2]; ENTRIES] = [
 /// Times at which a derivative of a function of time jumps (s).
 pub const BREAK_TIMES: [f64; 8usize] = [1f64, 2f64, 3f64, 4f64, 6f64, 7f64, 8f64, 9f64];
 /// Operations of each function; sines and functions of time are not counted.
-pub const OPERATIONS: &str = "acceleration: 335 mul, 266 add, 4 neg, 8 div; multipliers: 413 mul, 343 add, 6 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 247 mul, 239 add, 8 div; velocity_correction: 279 mul, 234 add, 4 neg, 8 div; jacobian_action: 915 mul, 754 add, 4 neg, 16 div; constraint_matrix: 36 mul, 20 add, 15 neg";
+pub const OPERATIONS: &str = "acceleration: 331 mul, 243 add, 4 neg, 7 div; multipliers: 394 mul, 305 add, 4 neg, 7 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 301 mul, 257 add, 5 neg, 8 div; velocity_correction: 302 mul, 224 add, 3 neg, 7 div; jacobian_action: 883 mul, 708 add, 4 neg, 14 div; constraint_matrix: 36 mul, 20 add, 15 neg";
 /// Functions of time, each with two derivatives.
 #[inline]
 fn jets(t: f64) -> [f64; 3usize] {
@@ -282,222 +283,222 @@ fn acceleration_core(
     let v19 = v(19usize);
     let v20 = v(20usize);
     let ddf0 = f(2usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = v2 * v2;
-    let t5 = v20 * v20;
-    let t6 = t0 * t4 + t1 * t5;
-    let t7 = t2 * t4 + t3 * t5;
-    let t8 = 0.3 * cos2;
-    let t9 = 0.025 * sin5;
-    let t10 = 0.044999999999999984 * cos5 + t9;
-    let t11 = 0.3 * sin2;
-    let t12 = 0.025 * cos5;
-    let t13 = 0.044999999999999984 * sin5;
-    let t14 = t13 - t12;
-    let t15 = v5 * v5;
-    let t16 = t4 * t8;
-    let t17 = t10 * t15;
-    let t18 = t4 * t11;
-    let t19 = t14 * t15;
-    let t20 = 0.044999999999999984 * cos8;
-    let t21 = 0.025 * sin8;
-    let t22 = t21 - t20;
-    let t23 = 0.025 * cos8;
-    let t24 = t23 + 0.044999999999999984 * sin8;
-    let t25 = t20 - t21;
-    let t26 = v8 * v8;
-    let t27 = t16 + t22 * t26;
-    let t28 = t24 * t26;
-    let t29 = t28 - t18;
-    let t30 = t9 + 0.04500000000000001 * cos5;
-    let t31 = 0.0050000000000000044 * cos11;
-    let t32 = 0.125 * sin11;
-    let t33 = 0.04500000000000001 * sin5;
-    let t34 = 0.125 * cos11;
-    let t35 = t34 + 0.0050000000000000044 * sin11;
-    let t36 = t33 - t12;
-    let t37 = t32 - t31;
-    let t38 = v11 * v11;
-    let t39 = 0.04500000000000001 * cos8 - t21;
-    let t40 = 0.125 * sin14;
-    let t41 = 0.0050000000000000044 * cos14 + t40;
-    let t42 = t23 + 0.04500000000000001 * sin8;
-    let t43 = 0.125 * cos14;
-    let t44 = 0.0050000000000000044 * sin14;
-    let t45 = t43 - t44;
-    let t46 = v14 * v14;
-    let t47 = t26 * t39 + t41 * t46;
-    let t48 = t26 * t42;
-    let t49 = t45 * t46;
-    let t50 = 0.004999999999999977 * cos11;
-    let t51 = t32 - t50;
-    let t52 = 0.2 * cos17;
-    let t53 = t34 + 0.004999999999999977 * sin11;
-    let t54 = 0.2 * sin17;
-    let t55 = v17 * v17;
-    let t56 = t38 * t51;
-    let t57 = t52 * t55;
-    let t58 = t54 * t55;
-    let t59 = t38 * t53 + t58;
-    let t60 = t40 + 0.004999999999999977 * cos14;
-    let t61 = 0.004999999999999977 * sin14;
-    let t62 = q1 - q16;
-    let t63 = q0 - q15;
-    let t64 = sin2 * v2;
-    let t65 = v16 - v1;
-    let t66 = cos2 * v2;
-    let t67 = v0 - v15;
-    let t68 = sin20 * t2 + cos20 * t0;
-    let t69 = -0.050000000000000044 - sin20 * t3 - cos20 * t1;
-    let t70 = 1.0 / t69;
-    let t71 = t12 - t13;
-    let t72 = t36 - t71;
-    let t73 = t10 + t30;
-    let t74 = t43 - t61 - (t44 - t43);
-    let t75 = t35 + t53;
-    let t76 = t50 - t32;
-    let t77 = t37 - t76;
-    let t78 = t54 - t11;
-    let t79 = t8 - t52;
-    let t80 = t24 + t42;
-    let t81 = cos2 * t62 - sin2 * t63 - cos2 * t78 - sin2 * t79;
-    let t82 = sin2 * t73 - cos2 * t72;
-    let t83 = cos2 * t75 + sin2 * t77;
-    let t84 = 1.0 / t82;
-    let t85 = (t71 - t36) * t84;
-    let t86 = t73 * t84;
-    let t87 = (sin2 * t72 + cos2 * t73) * t84;
-    let t88 = sin2 * t62 + cos2 * t63 - sin2 * t78 + cos2 * t79 + t81 * t87;
-    let t89 = cos2 * t77 - sin2 * t75 - t83 * t87;
-    let t90 = 1.0 / t89;
-    let t91 = (t83 * t85 - t75) * t90;
-    let t92 = t11 - t54 - t78 - t81 * t85 - t88 * t91;
-    let t93 = (t76 - t37 + t83 * t86) * t90;
-    let t94 = 1.0 / t92;
-    let t95 = (t52 - t8 - t79 - t81 * t86 - t88 * t93) * t94;
-    let t96 = t39 - t22 + t80 * t95;
-    let t97 = t41 + t60 - t74 * t95;
-    let t98 = (sin8 * t11 + cos8 * t8) * t94;
-    let t99 = 1.0 / t96;
-    let t100 = (-0.044999999999999984 + sin8 * t24 + cos8 * t25 - t80 * t98) * t99;
-    let t101 = t74 * t98 - t97 * t100;
-    let t102 = 1.0 / t101;
-    let t103 = 1.0 / cos2;
-    let t104 = sin2 * t103;
-    let t105 = t102 * (sin8 - cos8 * t104);
-    let t106 = t99 * (t97 * t105);
-    let t107 = t94 * (t80 * t106 + t74 * t105);
-    let t108 = t90 * (t88 * t107);
-    let t109 = t84 * (t83 * t108 + t81 * t107);
-    let t110 = t73 * t109 - t77 * t108 + t79 * t107;
-    let t111 = t104 - t110;
-    let t112 = -1.0 - t72 * t109 - t75 * t108 + t78 * t107;
-    let t113 = t8 * t107;
-    let t114 = t25 * t106 - t113;
-    let t115 = t104 - t114;
-    let t116 = t11 * t107;
-    let t117 = -1.0 + t116;
-    let t118 = t24 * t106;
-    let t119 = t118 - t117;
-    let t120 = t110 - t104 + t52 * t107 + t51 * t108;
-    let t121 = t54 * t107 - t112 - t53 * t108;
-    let t122 = t41 * t105 - (t114 - t104 + t39 * t106);
-    let t123 = t45 * t105 - (t117 - t118 - t42 * t106);
-    let t124 = t104 - (t113 + t10 * t109);
-    let t125 = t116 - (-1.0 - t14 * t109);
-    let t126 = t70 * (sin20 - t68 * t107 - cos20 * t104);
-    let t127 = t104 - (t1 * t126 - t0 * t107);
-    let t128 = -1.0 - t3 * t126 + t2 * t107;
-    let t129 = 20.0 + t104 * (20.0 * t104) + t107 * (1.2 * t107) + t125 * (0.5 * t125)
-        + t124 * (0.5 * t124) + t109 * (0.002 * t109) + t119 * (0.5 * t119)
-        + t115 * (0.5 * t115) + t106 * (0.002 * t106) + t121 * (0.3 * t121)
-        + t120 * (0.3 * t120) + t108 * (0.0016 * t108) + t123 * (0.3 * t123)
-        + t122 * (0.3 * t122) + t105 * (0.0016 * t105) + t112 * t112 + t111 * t111
-        + t107 * (0.02 * t107) + t128 * (8.0 * t128) + t127 * (8.0 * t127)
-        + t126 * (0.5 * t126);
-    let t130 = t15 * t30 + (t31 - t32) * t38 + (t17 - t16) + (t57 - t56);
-    let t131 = t15 * (t12 - t33) - t35 * t38 - (t19 - t18) - t59;
-    let t132 = v2 * (t62 * t64 + cos2 * t65) + t65 * t66
-        + (v2 * (t63 * t66 + sin2 * t67) + t64 * t67) + cos2 * t130 - sin2 * t131;
-    let t133 = ddf0
-        - (v2 * (cos2 * t67 - t63 * t64) + t66 * t67
-            + (v2 * (t62 * t66 - sin2 * t65) - t64 * t65)) + sin2 * t130 + cos2 * t131
-        + t87 * t132;
-    let t134 = t130 + (t47 + (t57 + t46 * t60) - t27) - t85 * t132 - t91 * t133;
-    let t135 = t58 + t46 * (t61 - t43) - (t49 - t48) - (t18 - t28) - t131 - t86 * t132
-        - t93 * t133 - t95 * t134;
-    let t136 = v2 * (cos2 * v0 + sin2 * v1) * t103;
-    let t137 = t102
-        * (v8 * (cos8 * v6 + sin8 * v7) + sin8 * t27 + cos8 * t29 + t98 * t134
-            - t100 * t135 - cos8 * t136);
-    let t138 = t99 * (t135 - t97 * t137);
-    let t139 = t94 * (t134 + t80 * t138 - t74 * t137);
-    let t140 = t90 * (t133 - t88 * t139);
-    let t141 = t84 * (t132 + t83 * t140 - t81 * t139);
-    let t142 = t131 + t73 * t141 - t77 * t140 - t79 * t139;
-    let t143 = t142 - t136;
-    let t144 = t130 + t72 * t141 + t75 * t140 + t78 * t139;
-    let t145 = t8 * t139;
-    let t146 = t136 - (t29 + t145 - t25 * t138);
-    let t147 = t11 * t139;
-    let t148 = t27 + t147 - t24 * t138;
-    let t149 = t52 * t139 - t59 - t143 - t51 * t140;
-    let t150 = t144 + (t56 - t57 - t54 * t139) - t53 * t140;
-    let t151 = t41 * t137 - (t48 - t49 - t146 - t39 * t138);
-    let t152 = t45 * t137 - (t47 - t148 + t42 * t138);
-    let t153 = t136 - (t18 - t19 + t10 * t141 - t145);
-    let t154 = t147 + (t16 - t17 - t14 * t141);
-    let t155 = t70
-        * (v20 * (cos20 * v18 + sin20 * v19) + sin20 * t6 - cos20 * t7 + t68 * t139
-            - cos20 * t136);
-    let t156 = t136 - (t1 * t155 - t7 + t0 * t139);
-    let t157 = t6 + t3 * t155 + t2 * t139;
-    let t158 = 1.0 / t129
-        * (t107 * (1.2 * t139) - t104 * (20.0 * t136) + t125 * (0.5 * t154)
-            - t124 * (0.5 * t153) - t109 * (0.002 * t141) - t119 * (0.5 * t148)
-            - t115 * (0.5 * t146) + t106 * (0.002 * t138) - t121 * (0.3 * t150)
-            + t120 * (0.3 * t149) - t108 * (0.0016 * t140) - t123 * (0.3 * t152)
-            - t122 * (0.3 * t151) - t105 * (0.0016 * t137) + t112 * t144 + t111 * t143
-            + t107 * (0.02 * t139) + t128 * (8.0 * t157) - t127 * (8.0 * t156)
-            - t126 * (0.5 * t155));
-    let t159 = t139 - t107 * t158;
-    out(0usize, t158);
-    out(1usize, t136 + t104 * t158);
-    out(2usize, t159);
-    out(3usize, t125 * t158 - t154);
-    out(4usize, t153 + t124 * t158);
-    out(5usize, t141 + t109 * t158);
-    out(6usize, t148 + t119 * t158);
-    out(7usize, t146 + t115 * t158);
-    out(8usize, t138 - t106 * t158);
-    out(9usize, t150 + t121 * t158);
-    out(10usize, t149 - t120 * t158);
-    out(11usize, t140 + t108 * t158);
-    out(12usize, t152 + t123 * t158);
-    out(13usize, t151 + t122 * t158);
-    out(14usize, t137 + t105 * t158);
-    out(15usize, t144 - t112 * t158);
-    out(16usize, t136 - t142 + t111 * t158);
-    out(17usize, t159);
-    out(18usize, t157 - t128 * t158);
-    out(19usize, t156 + t127 * t158);
-    out(20usize, t155 + t126 * t158);
+    let t0 = v2 * v2;
+    let t1 = v20 * v20;
+    let t2 = v5 * v5;
+    let t3 = v8 * v8;
+    let t4 = v11 * v11;
+    let t5 = v14 * v14;
+    let t6 = v17 * v17;
+    let t7 = cos2 * v0 + sin2 * v1;
+    let t8 = v2 * t7;
+    let t9 = q15 - q0;
+    let t10 = q16 - q1;
+    let t11 = cos2 * t9 + sin2 * t10;
+    let t12 = cos2 * v1 - sin2 * v0;
+    let t13 = cos2 * v16 - sin2 * v15;
+    let t14 = cos2 * cos5 + sin2 * sin5;
+    let t15 = cos2 * sin5 - sin2 * cos5;
+    let t16 = cos2 * cos8 + sin2 * sin8;
+    let t17 = cos2 * sin8;
+    let t18 = sin2 * cos8;
+    let t19 = t17 - t18;
+    let t20 = cos2 * cos11 + sin2 * sin11;
+    let t21 = cos2 * sin11 - sin2 * cos11;
+    let t22 = cos2 * cos14 + sin2 * sin14;
+    let t23 = cos2 * sin14 - sin2 * cos14;
+    let t24 = cos2 * cos20 + sin2 * sin20;
+    let t25 = cos2 * sin20;
+    let t26 = sin2 * cos20;
+    let t27 = t25 - t26;
+    let t28 = 0.35 * t24;
+    let t29 = 0.35 * t27;
+    let t30 = 0.4 * t0 + t1 * t28;
+    let t31 = 0.025 * t15;
+    let t32 = 0.044999999999999984 * t14 + t31;
+    let t33 = 0.025 * t14;
+    let t34 = 0.044999999999999984 * t15;
+    let t35 = t34 - t33;
+    let t36 = 0.3 * t0;
+    let t37 = t2 * t32;
+    let t38 = 0.044999999999999984 * t16;
+    let t39 = 0.025 * t19;
+    let t40 = 0.025 * t16;
+    let t41 = t40 + 0.044999999999999984 * t19;
+    let t42 = t38 - t39;
+    let t43 = t36 + t3 * (t39 - t38);
+    let t44 = t31 + 0.04500000000000001 * t14;
+    let t45 = 0.0050000000000000044 * t20;
+    let t46 = 0.125 * t21;
+    let t47 = t45 - t46;
+    let t48 = 0.04500000000000001 * t15;
+    let t49 = 0.125 * t20;
+    let t50 = t49 + 0.0050000000000000044 * t21;
+    let t51 = t46 - t45;
+    let t52 = t2 * (t33 - t48) - t4 * t50;
+    let t53 = 0.04500000000000001 * t16 - t39;
+    let t54 = 0.125 * t23;
+    let t55 = 0.0050000000000000044 * t22 + t54;
+    let t56 = t40 + 0.04500000000000001 * t19;
+    let t57 = 0.125 * t22;
+    let t58 = 0.0050000000000000044 * t23;
+    let t59 = t57 - t58;
+    let t60 = t3 * t53 + t5 * t55;
+    let t61 = t3 * t56;
+    let t62 = t5 * t59;
+    let t63 = t46 - 0.004999999999999977 * t20;
+    let t64 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t65 = t49 + 0.004999999999999977 * t21;
+    let t66 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t67 = t6 * t64;
+    let t68 = t6 * t66;
+    let t69 = t54 + 0.004999999999999977 * t22;
+    let t70 = 0.004999999999999977 * t23;
+    let t71 = sin2 * t9 - cos2 * t10;
+    let t72 = v2 * (t7 - (cos2 * v15 + sin2 * v16));
+    let t73 = t26 - t25;
+    let t74 = 0.4 * t24;
+    let t75 = -0.050000000000000044 - t27 * t29 - t24 * t28;
+    let t76 = 1.0 / t75;
+    let t77 = t48 - t33 - (t33 - t34);
+    let t78 = t32 + t44;
+    let t79 = -0.3 + t11;
+    let t80 = t63 - t47;
+    let t81 = t57 - t70 - (t58 - t57);
+    let t82 = 1.0 / t78;
+    let t83 = t77 * t82;
+    let t84 = t79 * t83;
+    let t85 = t50 + t65 + t80 * t83;
+    let t86 = t66 - t64 * t83;
+    let t87 = 1.0 / t85;
+    let t88 = t66 + t71;
+    let t89 = t41 + t56;
+    let t90 = 1.0 / t81;
+    let t91 = (t55 + t69) * t90;
+    let t92 = 3.3333333333333335 * (t64 - t11 + t88 * t91);
+    let t93 = 1.0 - t92;
+    let t94 = t53 + t89 * t91 + t42 * t92;
+    let t95 = 1.0 / t93;
+    let t96 = t16 * t95;
+    let t97 = -0.044999999999999984 - t94 * t96;
+    let t98 = 1.0 / t97;
+    let t99 = t19 * t98;
+    let t100 = t95 * (t94 * t99);
+    let t101 = 3.3333333333333335 * (t100 + t42 * t99);
+    let t102 = t90 * (t88 * t101 + t89 * t99);
+    let t103 = -1.0 - t71 * t101;
+    let t104 = t41 * t99;
+    let t105 = t104 - t103;
+    let t106 = 1.0 + t104;
+    let t107 = t87 * (t84 * t101 - (t103 - t104 + (t106 + t86 * t101)));
+    let t108 = t82 * (t64 * t101 - t80 * t107 + t79 * t101);
+    let t109 = t53 * t99 - (t100 - t55 * t102);
+    let t110 = -1.0 - t59 * t102 + t56 * t99;
+    let t111 = 0.3 * t101;
+    let t112 = t78 * t108 + t51 * t107 + t111;
+    let t113 = t106 - (t77 * t108 - t50 * t107);
+    let t114 = t11 * t101;
+    let t115 = t111 + t32 * t108;
+    let t116 = t106 - t35 * t108;
+    let t117 = t76 * (t74 * t101 - t73 * t106);
+    let t118 = t28 * t117 + 0.4 * t101;
+    let t119 = t106 + t29 * t117;
+    let t120 = 0.5
+        + (t106 * (20.0 * t106) + t101 * (1.2 * t101) + t116 * (0.5 * t116)
+            + t115 * (0.5 * t115) + t108 * (0.002 * t108)) + t100 * (0.5 * t100)
+        + t99 * (0.002 * t99) + t113 * (0.3 * t113) + t112 * (0.3 * t112)
+        + t107 * (0.0016 * t107) + t110 * (0.3 * t110) + t109 * (0.3 * t109)
+        + t102 * (0.0016 * t102) + t105 * t105 + t114 * t114 + t101 * (0.02 * t101)
+        + t119 * (8.0 * t119) + t118 * (8.0 * t118) + t117 * (0.5 * t117);
+    let t121 = t8 + t1 * t29;
+    let t122 = t8 + t2 * t35;
+    let t123 = t3 * t41 - t8;
+    let t124 = t8 + (ddf0 - (t72 + t72 + v2 * (v2 * t71)));
+    let t125 = t2 * t44 + t4 * t47 + (t37 - t36);
+    let t126 = t124 - (t4 * t65 + t68) - (t122 - t52);
+    let t127 = t43 - (v2 * (t12 - t13) - v2 * (t13 - t12) + v2 * (v2 * t11));
+    let t128 = t60 + (t67 + t5 * t69) - t127;
+    let t129 = t68 + t5 * (t70 - t57) + t124 - (t62 - t61) - t91 * t128 + t92 * t123;
+    let t130 = t98
+        * (v8 * ((cos2 * v6 + sin2 * v7) * t16 - (cos2 * v7 - sin2 * v6) * (t18 - t17))
+            - t96 * t129);
+    let t131 = t95 * (t129 - t94 * t130);
+    let t132 = 3.3333333333333335 * (t123 + t131 - t42 * t130);
+    let t133 = t90 * (t128 - t88 * t132 + t89 * t130);
+    let t134 = t127 + t71 * t132;
+    let t135 = t41 * t130;
+    let t136 = t134 - t135;
+    let t137 = t135 - t43;
+    let t138 = t87
+        * (t4 * t63 - t67 - t125 + t83 * t126 - t137 + t86 * t132 - t136 - t84 * t132);
+    let t139 = t82 * (t126 - t80 * t138 - t64 * t132 - t79 * t132);
+    let t140 = t53 * t130 - (t61 - t62 - t55 * t133 - t131);
+    let t141 = t60 - t59 * t133 + t56 * t130;
+    let t142 = 0.3 * t132;
+    let t143 = t52 - t122 - t78 * t139 - t51 * t138 + t142;
+    let t144 = t137 - (t77 * t139 - t125 - t50 * t138);
+    let t145 = t11 * t132;
+    let t146 = t122 + t32 * t139 - t142;
+    let t147 = t137 - (t36 - t37 + t35 * t139);
+    let t148 = t76
+        * (v20 * ((cos2 * v18 + sin2 * v19) * t24 - (cos2 * v19 - sin2 * v18) * t73)
+            + t27 * t30 - t24 * t121 - t73 * t137 - t74 * t132);
+    let t149 = 0.4 * t132 - (t28 * t148 - t121);
+    let t150 = t137 + (t30 + t29 * t148);
+    let t151 = 1.0 / t120
+        * (t101 * (1.2 * t132) - t106 * (20.0 * t137) - t116 * (0.5 * t147)
+            - t115 * (0.5 * t146) - t108 * (0.002 * t139) + t100 * (0.5 * t131)
+            - t99 * (0.002 * t130) - t113 * (0.3 * t144) + t112 * (0.3 * t143)
+            - t107 * (0.0016 * t138) - t110 * (0.3 * t141) - t109 * (0.3 * t140)
+            - t102 * (0.0016 * t133) + t105 * t136 + t114 * (t145 - t124)
+            + t101 * (0.02 * t132) - t119 * (8.0 * t150) + t118 * (8.0 * t149)
+            - t117 * (0.5 * t148));
+    let t152 = t137 + t106 * t151;
+    let t153 = t101 * t151 - t132;
+    let t154 = t147 + t116 * t151;
+    let t155 = t146 + t115 * t151;
+    let t156 = t131 - t100 * t151;
+    let t157 = t144 + t113 * t151;
+    let t158 = t112 * t151 - t143;
+    let t159 = t141 + t110 * t151;
+    let t160 = t140 + t109 * t151;
+    let t161 = t135 - t134 + t105 * t151;
+    let t162 = t124 - t145 + t114 * t151;
+    let t163 = t150 + t119 * t151;
+    let t164 = t149 - t118 * t151;
+    out(0usize, cos2 * t152 - sin2 * t8);
+    out(1usize, sin2 * t152 + cos2 * t8);
+    out(2usize, t153);
+    out(3usize, cos2 * t154 - sin2 * t155);
+    out(4usize, sin2 * t154 + cos2 * t155);
+    out(5usize, -(t139 + t108 * t151));
+    out(6usize, cos2 * t151 - sin2 * t156);
+    out(7usize, sin2 * t151 + cos2 * t156);
+    out(8usize, t130 + t99 * t151);
+    out(9usize, cos2 * t157 - sin2 * t158);
+    out(10usize, sin2 * t157 + cos2 * t158);
+    out(11usize, t138 + t107 * t151);
+    out(12usize, -(cos2 * t159 + sin2 * t160));
+    out(13usize, cos2 * t160 - sin2 * t159);
+    out(14usize, t133 + t102 * t151);
+    out(15usize, cos2 * t161 - sin2 * t162);
+    out(16usize, sin2 * t161 + cos2 * t162);
+    out(17usize, t153);
+    out(18usize, cos2 * t163 - sin2 * t164);
+    out(19usize, sin2 * t163 + cos2 * t164);
+    out(20usize, t148 + t117 * t151);
     f64::INFINITY
-        .min(-(2.0 * t69))
-        .min(32.0 * t82)
-        .min(-(4.0 * t89))
-        .min(-(8.0 * t92))
-        .min(8.0 * t96)
-        .min(-(4.0 * t101))
-        .min(2.0 * cos2)
-        .min(0.03125 * t129)
+        .min(-(2.0 * t75))
+        .min(16.0 * t78)
+        .min(4.0 * t85)
+        .min(4.0 * t81)
+        .min(4.0 * t93)
+        .min(-(4.0 * t97))
+        .min(0.03125 * t120)
 }
 ///Accelerations a of `M·a + Cᵀ·λ = Q`, `C·a = Γ` on the kept rows.
 ///
-///Operations: 335 mul, 266 add, 4 neg, 8 div.
+///Operations: 331 mul, 243 add, 4 neg, 7 div.
 pub fn acceleration(t: f64, q: &[f64; N_Q], v: &[f64; N_V], a: &mut [f64; N_V]) -> f64 {
     let f = jets(t);
     let x = rotations(q);
@@ -567,273 +568,255 @@ fn multipliers_core(
     let v19 = v(19usize);
     let v20 = v(20usize);
     let ddf0 = f(2usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = v2 * v2;
-    let t5 = v20 * v20;
-    let t6 = t0 * t4 + t1 * t5;
-    let t7 = t2 * t4 + t3 * t5;
-    let t8 = 0.3 * cos2;
-    let t9 = 0.025 * sin5;
-    let t10 = 0.044999999999999984 * cos5 + t9;
-    let t11 = 0.3 * sin2;
-    let t12 = 0.025 * cos5;
-    let t13 = 0.044999999999999984 * sin5;
-    let t14 = t13 - t12;
-    let t15 = v5 * v5;
-    let t16 = t4 * t8;
-    let t17 = t10 * t15;
-    let t18 = t4 * t11;
-    let t19 = t14 * t15;
-    let t20 = 0.044999999999999984 * cos8;
-    let t21 = 0.025 * sin8;
-    let t22 = t21 - t20;
-    let t23 = 0.025 * cos8;
-    let t24 = t23 + 0.044999999999999984 * sin8;
-    let t25 = t20 - t21;
-    let t26 = v8 * v8;
-    let t27 = t16 + t22 * t26;
-    let t28 = t24 * t26;
-    let t29 = t28 - t18;
-    let t30 = t9 + 0.04500000000000001 * cos5;
-    let t31 = 0.0050000000000000044 * cos11;
-    let t32 = 0.125 * sin11;
-    let t33 = 0.04500000000000001 * sin5;
-    let t34 = 0.125 * cos11;
-    let t35 = t34 + 0.0050000000000000044 * sin11;
-    let t36 = t33 - t12;
-    let t37 = t32 - t31;
-    let t38 = v11 * v11;
-    let t39 = 0.04500000000000001 * cos8 - t21;
-    let t40 = 0.125 * sin14;
-    let t41 = 0.0050000000000000044 * cos14 + t40;
-    let t42 = t23 + 0.04500000000000001 * sin8;
-    let t43 = 0.125 * cos14;
-    let t44 = 0.0050000000000000044 * sin14;
-    let t45 = t43 - t44;
-    let t46 = v14 * v14;
-    let t47 = t26 * t39 + t41 * t46;
-    let t48 = t26 * t42;
-    let t49 = t45 * t46;
-    let t50 = 0.004999999999999977 * cos11;
-    let t51 = t32 - t50;
-    let t52 = 0.2 * cos17;
-    let t53 = t34 + 0.004999999999999977 * sin11;
-    let t54 = 0.2 * sin17;
-    let t55 = v17 * v17;
-    let t56 = t38 * t51;
-    let t57 = t52 * t55;
-    let t58 = t54 * t55;
-    let t59 = t38 * t53 + t58;
-    let t60 = t40 + 0.004999999999999977 * cos14;
-    let t61 = 0.004999999999999977 * sin14;
-    let t62 = q1 - q16;
-    let t63 = q0 - q15;
-    let t64 = sin2 * v2;
-    let t65 = v16 - v1;
-    let t66 = cos2 * v2;
-    let t67 = v0 - v15;
-    let t68 = sin20 * t2 + cos20 * t0;
-    let t69 = -0.050000000000000044 - sin20 * t3 - cos20 * t1;
-    let t70 = 1.0 / t69;
-    let t71 = t12 - t13;
-    let t72 = t36 - t71;
-    let t73 = t10 + t30;
-    let t74 = t43 - t61 - (t44 - t43);
-    let t75 = t35 + t53;
-    let t76 = t50 - t32;
-    let t77 = t37 - t76;
-    let t78 = t54 - t11;
-    let t79 = t8 - t52;
-    let t80 = t24 + t42;
-    let t81 = cos2 * t62 - sin2 * t63 - cos2 * t78 - sin2 * t79;
-    let t82 = sin2 * t73 - cos2 * t72;
-    let t83 = cos2 * t75 + sin2 * t77;
-    let t84 = 1.0 / t82;
-    let t85 = (t71 - t36) * t84;
-    let t86 = t73 * t84;
-    let t87 = (sin2 * t72 + cos2 * t73) * t84;
-    let t88 = sin2 * t62 + cos2 * t63 - sin2 * t78 + cos2 * t79 + t81 * t87;
-    let t89 = cos2 * t77 - sin2 * t75 - t83 * t87;
-    let t90 = 1.0 / t89;
-    let t91 = (t83 * t85 - t75) * t90;
-    let t92 = t11 - t54 - t78 - t81 * t85 - t88 * t91;
-    let t93 = (t76 - t37 + t83 * t86) * t90;
-    let t94 = 1.0 / t92;
-    let t95 = (t52 - t8 - t79 - t81 * t86 - t88 * t93) * t94;
-    let t96 = t39 - t22 + t80 * t95;
-    let t97 = t41 + t60 - t74 * t95;
-    let t98 = (sin8 * t11 + cos8 * t8) * t94;
-    let t99 = 1.0 / t96;
-    let t100 = (-0.044999999999999984 + sin8 * t24 + cos8 * t25 - t80 * t98) * t99;
-    let t101 = t74 * t98 - t97 * t100;
-    let t102 = 1.0 / t101;
-    let t103 = 1.0 / cos2;
-    let t104 = sin2 * t103;
-    let t105 = t102 * (sin8 - cos8 * t104);
-    let t106 = t99 * (t97 * t105);
-    let t107 = t94 * (t80 * t106 + t74 * t105);
-    let t108 = t90 * (t88 * t107);
-    let t109 = t84 * (t83 * t108 + t81 * t107);
-    let t110 = t73 * t109 - t77 * t108 + t79 * t107;
-    let t111 = t104 - t110;
-    let t112 = -1.0 - t72 * t109 - t75 * t108 + t78 * t107;
-    let t113 = t8 * t107;
-    let t114 = t25 * t106 - t113;
-    let t115 = t104 - t114;
-    let t116 = t11 * t107;
-    let t117 = -1.0 + t116;
-    let t118 = t24 * t106;
-    let t119 = t118 - t117;
-    let t120 = t110 - t104 + t52 * t107 + t51 * t108;
-    let t121 = t54 * t107 - t112 - t53 * t108;
-    let t122 = t41 * t105 - (t114 - t104 + t39 * t106);
-    let t123 = t45 * t105 - (t117 - t118 - t42 * t106);
-    let t124 = t104 - (t113 + t10 * t109);
-    let t125 = t116 - (-1.0 - t14 * t109);
-    let t126 = t70 * (sin20 - t68 * t107 - cos20 * t104);
-    let t127 = t104 - (t1 * t126 - t0 * t107);
-    let t128 = -1.0 - t3 * t126 + t2 * t107;
-    let t129 = 20.0 + t104 * (20.0 * t104) + t107 * (1.2 * t107) + t125 * (0.5 * t125)
-        + t124 * (0.5 * t124) + t109 * (0.002 * t109) + t119 * (0.5 * t119)
-        + t115 * (0.5 * t115) + t106 * (0.002 * t106) + t121 * (0.3 * t121)
-        + t120 * (0.3 * t120) + t108 * (0.0016 * t108) + t123 * (0.3 * t123)
-        + t122 * (0.3 * t122) + t105 * (0.0016 * t105) + t112 * t112 + t111 * t111
-        + t107 * (0.02 * t107) + t128 * (8.0 * t128) + t127 * (8.0 * t127)
-        + t126 * (0.5 * t126);
-    let t130 = t15 * t30 + (t31 - t32) * t38 + (t17 - t16) + (t57 - t56);
-    let t131 = t15 * (t12 - t33) - t35 * t38 - (t19 - t18) - t59;
-    let t132 = v2 * (t62 * t64 + cos2 * t65) + t65 * t66
-        + (v2 * (t63 * t66 + sin2 * t67) + t64 * t67) + cos2 * t130 - sin2 * t131;
-    let t133 = ddf0
-        - (v2 * (cos2 * t67 - t63 * t64) + t66 * t67
-            + (v2 * (t62 * t66 - sin2 * t65) - t64 * t65)) + sin2 * t130 + cos2 * t131
-        + t87 * t132;
-    let t134 = t130 + (t47 + (t57 + t46 * t60) - t27) - t85 * t132 - t91 * t133;
-    let t135 = t58 + t46 * (t61 - t43) - (t49 - t48) - (t18 - t28) - t131 - t86 * t132
-        - t93 * t133 - t95 * t134;
-    let t136 = v2 * (cos2 * v0 + sin2 * v1) * t103;
-    let t137 = t102
-        * (v8 * (cos8 * v6 + sin8 * v7) + sin8 * t27 + cos8 * t29 + t98 * t134
-            - t100 * t135 - cos8 * t136);
-    let t138 = t99 * (t135 - t97 * t137);
-    let t139 = t94 * (t134 + t80 * t138 - t74 * t137);
-    let t140 = t90 * (t133 - t88 * t139);
-    let t141 = t84 * (t132 + t83 * t140 - t81 * t139);
-    let t142 = t131 + t73 * t141 - t77 * t140 - t79 * t139;
-    let t143 = t142 - t136;
-    let t144 = t130 + t72 * t141 + t75 * t140 + t78 * t139;
-    let t145 = t8 * t139;
-    let t146 = t136 - (t29 + t145 - t25 * t138);
-    let t147 = t11 * t139;
-    let t148 = t27 + t147 - t24 * t138;
-    let t149 = t52 * t139 - t59 - t143 - t51 * t140;
-    let t150 = t144 + (t56 - t57 - t54 * t139) - t53 * t140;
-    let t151 = t41 * t137 - (t48 - t49 - t146 - t39 * t138);
-    let t152 = t45 * t137 - (t47 - t148 + t42 * t138);
-    let t153 = t136 - (t18 - t19 + t10 * t141 - t145);
-    let t154 = t147 + (t16 - t17 - t14 * t141);
-    let t155 = t70
-        * (v20 * (cos20 * v18 + sin20 * v19) + sin20 * t6 - cos20 * t7 + t68 * t139
-            - cos20 * t136);
-    let t156 = t136 - (t1 * t155 - t7 + t0 * t139);
-    let t157 = t6 + t3 * t155 + t2 * t139;
-    let t158 = 1.0 / t129
-        * (t107 * (1.2 * t139) - t104 * (20.0 * t136) + t125 * (0.5 * t154)
-            - t124 * (0.5 * t153) - t109 * (0.002 * t141) - t119 * (0.5 * t148)
-            - t115 * (0.5 * t146) + t106 * (0.002 * t138) - t121 * (0.3 * t150)
-            + t120 * (0.3 * t149) - t108 * (0.0016 * t140) - t123 * (0.3 * t152)
-            - t122 * (0.3 * t151) - t105 * (0.0016 * t137) + t112 * t144 + t111 * t143
-            + t107 * (0.02 * t139) + t128 * (8.0 * t157) - t127 * (8.0 * t156)
-            - t126 * (0.5 * t155));
-    let t159 = t139 - t107 * t158;
-    let t160 = 0.5 * (t125 * t158 - t154);
-    let t161 = 0.5 * (t153 + t124 * t158);
-    let t162 = 0.3 * (t150 + t121 * t158);
-    let t163 = 0.3 * (t149 - t120 * t158);
-    let t164 = 0.3 * (t152 + t123 * t158);
-    let t165 = 0.3 * (t151 + t122 * t158);
-    let t166 = 8.0 * (t157 - t128 * t158);
-    let t167 = 8.0 * (t156 + t127 * t158);
-    let t168 = t70 * (t1 * t167 - (0.5 * (t155 + t126 * t158) + t3 * t166));
-    let t169 = cos20 * t168;
-    let t170 = 0.5 * (t148 + t119 * t158) + t164;
-    let t171 = 0.5 * (t146 + t115 * t158) + t165;
-    let t172 = t54 * t162 - 0.02 * t159;
-    let t173 = t52 * t163;
-    let t174 = t136 - t142 + t111 * t158 + t163;
-    let t175 = t162 - (t112 * t158 - t144);
-    let t176 = t84
-        * (t10 * t161 - (0.002 * (t141 + t109 * t158) + t14 * t160) - t72 * t175
-            + t73 * t174);
-    let t177 = t90
-        * (t53 * t162 - 0.0016 * (t140 + t108 * t158) + t51 * t163 - t75 * t175
-            - t77 * t174 + t83 * t176);
-    let t178 = t94
-        * (t0 * t167 - (1.2 * t159 + t2 * t166) + t68 * t168 + t11 * t160 - t8 * t161
-            - (t173 - t172) - t11 * t170 + t8 * t171 - t78 * t175 - t79 * t174
-            - t81 * t176 - t88 * t177);
-    let t179 = t99
-        * (t42 * t164 - 0.002 * (t138 - t106 * t158) - t39 * t165 + t24 * t170
-            - t25 * t171 + t80 * t178);
-    let t180 = t102
-        * (0.0016 * (t137 + t105 * t158) + t45 * t164 + t41 * t165 + t74 * t178
-            + t97 * t179);
-    let t181 = cos8 * t180;
-    let t182 = t179 + t100 * t180;
-    let t183 = t178 - t95 * t182;
-    let t184 = t98 * t180;
-    let t185 = t183 - t184;
-    let t186 = t177 - t91 * t185 - t93 * t182;
-    let t187 = t176 - t85 * t185 - t86 * t182 + t87 * t186;
-    let t188 = t174 - t182 - sin2 * t187 + cos2 * t186;
-    let t189 = t175 - t185 - cos2 * t187;
-    let t190 = sin2 * t186;
-    let t191 = t189 - t190;
-    let t192 = t184 - t183;
-    let t193 = t190 - t189;
-    out(0usize, t166 - sin20 * t168);
-    out(1usize, t167 + t169);
-    out(2usize, t160 - t193);
-    out(3usize, t161 + t188);
-    out(4usize, t170 - t192 + sin8 * t180);
-    out(5usize, t171 + t182 - t181);
-    out(6usize, t191);
-    out(7usize, t188);
-    out(8usize, t164 - t192);
-    out(9usize, t165 + t182);
-    out(10usize, -(t162 + t193));
-    out(11usize, t188 - t163);
-    out(12usize, t185);
-    out(13usize, t182);
-    out(14usize, t187);
-    out(15usize, t172 - t173 - t54 * t191 + t52 * t188 + t54 * t185 - t52 * t182);
-    out(16usize, t186);
+    let t0 = v2 * v2;
+    let t1 = v20 * v20;
+    let t2 = v5 * v5;
+    let t3 = v8 * v8;
+    let t4 = v11 * v11;
+    let t5 = v14 * v14;
+    let t6 = v17 * v17;
+    let t7 = cos2 * v0 + sin2 * v1;
+    let t8 = v2 * t7;
+    let t9 = q15 - q0;
+    let t10 = q16 - q1;
+    let t11 = cos2 * t9 + sin2 * t10;
+    let t12 = cos2 * v1 - sin2 * v0;
+    let t13 = cos2 * v16 - sin2 * v15;
+    let t14 = cos2 * cos5 + sin2 * sin5;
+    let t15 = cos2 * sin5 - sin2 * cos5;
+    let t16 = cos2 * cos8 + sin2 * sin8;
+    let t17 = cos2 * sin8;
+    let t18 = sin2 * cos8;
+    let t19 = t17 - t18;
+    let t20 = cos2 * cos11 + sin2 * sin11;
+    let t21 = cos2 * sin11 - sin2 * cos11;
+    let t22 = cos2 * cos14 + sin2 * sin14;
+    let t23 = cos2 * sin14 - sin2 * cos14;
+    let t24 = cos2 * cos20 + sin2 * sin20;
+    let t25 = cos2 * sin20;
+    let t26 = sin2 * cos20;
+    let t27 = t25 - t26;
+    let t28 = 0.35 * t24;
+    let t29 = 0.35 * t27;
+    let t30 = 0.4 * t0 + t1 * t28;
+    let t31 = 0.025 * t15;
+    let t32 = 0.044999999999999984 * t14 + t31;
+    let t33 = 0.025 * t14;
+    let t34 = 0.044999999999999984 * t15;
+    let t35 = t34 - t33;
+    let t36 = 0.3 * t0;
+    let t37 = t2 * t32;
+    let t38 = 0.044999999999999984 * t16;
+    let t39 = 0.025 * t19;
+    let t40 = 0.025 * t16;
+    let t41 = t40 + 0.044999999999999984 * t19;
+    let t42 = t38 - t39;
+    let t43 = t36 + t3 * (t39 - t38);
+    let t44 = t31 + 0.04500000000000001 * t14;
+    let t45 = 0.0050000000000000044 * t20;
+    let t46 = 0.125 * t21;
+    let t47 = t45 - t46;
+    let t48 = 0.04500000000000001 * t15;
+    let t49 = 0.125 * t20;
+    let t50 = t49 + 0.0050000000000000044 * t21;
+    let t51 = t46 - t45;
+    let t52 = t2 * (t33 - t48) - t4 * t50;
+    let t53 = 0.04500000000000001 * t16 - t39;
+    let t54 = 0.125 * t23;
+    let t55 = 0.0050000000000000044 * t22 + t54;
+    let t56 = t40 + 0.04500000000000001 * t19;
+    let t57 = 0.125 * t22;
+    let t58 = 0.0050000000000000044 * t23;
+    let t59 = t57 - t58;
+    let t60 = t3 * t53 + t5 * t55;
+    let t61 = t3 * t56;
+    let t62 = t5 * t59;
+    let t63 = t46 - 0.004999999999999977 * t20;
+    let t64 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t65 = t49 + 0.004999999999999977 * t21;
+    let t66 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t67 = t6 * t64;
+    let t68 = t6 * t66;
+    let t69 = t54 + 0.004999999999999977 * t22;
+    let t70 = 0.004999999999999977 * t23;
+    let t71 = sin2 * t9 - cos2 * t10;
+    let t72 = v2 * (t7 - (cos2 * v15 + sin2 * v16));
+    let t73 = t26 - t25;
+    let t74 = 0.4 * t24;
+    let t75 = -0.050000000000000044 - t27 * t29 - t24 * t28;
+    let t76 = 1.0 / t75;
+    let t77 = t48 - t33 - (t33 - t34);
+    let t78 = t32 + t44;
+    let t79 = -0.3 + t11;
+    let t80 = t63 - t47;
+    let t81 = t57 - t70 - (t58 - t57);
+    let t82 = 1.0 / t78;
+    let t83 = t77 * t82;
+    let t84 = t79 * t83;
+    let t85 = t50 + t65 + t80 * t83;
+    let t86 = t66 - t64 * t83;
+    let t87 = 1.0 / t85;
+    let t88 = t66 + t71;
+    let t89 = t41 + t56;
+    let t90 = 1.0 / t81;
+    let t91 = (t55 + t69) * t90;
+    let t92 = 3.3333333333333335 * (t64 - t11 + t88 * t91);
+    let t93 = 1.0 - t92;
+    let t94 = t53 + t89 * t91 + t42 * t92;
+    let t95 = 1.0 / t93;
+    let t96 = t16 * t95;
+    let t97 = -0.044999999999999984 - t94 * t96;
+    let t98 = 1.0 / t97;
+    let t99 = t19 * t98;
+    let t100 = t95 * (t94 * t99);
+    let t101 = 3.3333333333333335 * (t100 + t42 * t99);
+    let t102 = t90 * (t88 * t101 + t89 * t99);
+    let t103 = -1.0 - t71 * t101;
+    let t104 = t41 * t99;
+    let t105 = t104 - t103;
+    let t106 = 1.0 + t104;
+    let t107 = t87 * (t84 * t101 - (t103 - t104 + (t106 + t86 * t101)));
+    let t108 = t82 * (t64 * t101 - t80 * t107 + t79 * t101);
+    let t109 = t53 * t99 - (t100 - t55 * t102);
+    let t110 = -1.0 - t59 * t102 + t56 * t99;
+    let t111 = 0.3 * t101;
+    let t112 = t78 * t108 + t51 * t107 + t111;
+    let t113 = t106 - (t77 * t108 - t50 * t107);
+    let t114 = t11 * t101;
+    let t115 = t111 + t32 * t108;
+    let t116 = t106 - t35 * t108;
+    let t117 = t76 * (t74 * t101 - t73 * t106);
+    let t118 = t28 * t117 + 0.4 * t101;
+    let t119 = t106 + t29 * t117;
+    let t120 = 0.5
+        + (t106 * (20.0 * t106) + t101 * (1.2 * t101) + t116 * (0.5 * t116)
+            + t115 * (0.5 * t115) + t108 * (0.002 * t108)) + t100 * (0.5 * t100)
+        + t99 * (0.002 * t99) + t113 * (0.3 * t113) + t112 * (0.3 * t112)
+        + t107 * (0.0016 * t107) + t110 * (0.3 * t110) + t109 * (0.3 * t109)
+        + t102 * (0.0016 * t102) + t105 * t105 + t114 * t114 + t101 * (0.02 * t101)
+        + t119 * (8.0 * t119) + t118 * (8.0 * t118) + t117 * (0.5 * t117);
+    let t121 = t8 + t1 * t29;
+    let t122 = t8 + t2 * t35;
+    let t123 = t3 * t41 - t8;
+    let t124 = t8 + (ddf0 - (t72 + t72 + v2 * (v2 * t71)));
+    let t125 = t2 * t44 + t4 * t47 + (t37 - t36);
+    let t126 = t124 - (t4 * t65 + t68) - (t122 - t52);
+    let t127 = t43 - (v2 * (t12 - t13) - v2 * (t13 - t12) + v2 * (v2 * t11));
+    let t128 = t60 + (t67 + t5 * t69) - t127;
+    let t129 = t68 + t5 * (t70 - t57) + t124 - (t62 - t61) - t91 * t128 + t92 * t123;
+    let t130 = t98
+        * (v8 * ((cos2 * v6 + sin2 * v7) * t16 - (cos2 * v7 - sin2 * v6) * (t18 - t17))
+            - t96 * t129);
+    let t131 = t95 * (t129 - t94 * t130);
+    let t132 = 3.3333333333333335 * (t123 + t131 - t42 * t130);
+    let t133 = t90 * (t128 - t88 * t132 + t89 * t130);
+    let t134 = t127 + t71 * t132;
+    let t135 = t41 * t130;
+    let t136 = t134 - t135;
+    let t137 = t135 - t43;
+    let t138 = t87
+        * (t4 * t63 - t67 - t125 + t83 * t126 - t137 + t86 * t132 - t136 - t84 * t132);
+    let t139 = t82 * (t126 - t80 * t138 - t64 * t132 - t79 * t132);
+    let t140 = t53 * t130 - (t61 - t62 - t55 * t133 - t131);
+    let t141 = t60 - t59 * t133 + t56 * t130;
+    let t142 = 0.3 * t132;
+    let t143 = t52 - t122 - t78 * t139 - t51 * t138 + t142;
+    let t144 = t137 - (t77 * t139 - t125 - t50 * t138);
+    let t145 = t11 * t132;
+    let t146 = t122 + t32 * t139 - t142;
+    let t147 = t137 - (t36 - t37 + t35 * t139);
+    let t148 = t76
+        * (v20 * ((cos2 * v18 + sin2 * v19) * t24 - (cos2 * v19 - sin2 * v18) * t73)
+            + t27 * t30 - t24 * t121 - t73 * t137 - t74 * t132);
+    let t149 = 0.4 * t132 - (t28 * t148 - t121);
+    let t150 = t137 + (t30 + t29 * t148);
+    let t151 = 1.0 / t120
+        * (t101 * (1.2 * t132) - t106 * (20.0 * t137) - t116 * (0.5 * t147)
+            - t115 * (0.5 * t146) - t108 * (0.002 * t139) + t100 * (0.5 * t131)
+            - t99 * (0.002 * t130) - t113 * (0.3 * t144) + t112 * (0.3 * t143)
+            - t107 * (0.0016 * t138) - t110 * (0.3 * t141) - t109 * (0.3 * t140)
+            - t102 * (0.0016 * t133) + t105 * t136 + t114 * (t145 - t124)
+            + t101 * (0.02 * t132) - t119 * (8.0 * t150) + t118 * (8.0 * t149)
+            - t117 * (0.5 * t148));
+    let t152 = t101 * t151 - t132;
+    let t153 = t124 - t145 + t114 * t151;
+    let t154 = 0.5 * (t147 + t116 * t151);
+    let t155 = 0.5 * (t146 + t115 * t151);
+    let t156 = 0.3 * (t144 + t113 * t151);
+    let t157 = 0.3 * (t112 * t151 - t143);
+    let t158 = 0.3 * (t141 + t110 * t151);
+    let t159 = 0.3 * (t140 + t109 * t151);
+    let t160 = 8.0 * (t150 + t119 * t151);
+    let t161 = 8.0 * (t149 - t118 * t151);
+    let t162 = t76 * (t28 * t161 - (0.5 * (t148 + t117 * t151) + t29 * t160));
+    let t163 = t82
+        * (0.002 * (t139 + t108 * t151) - t35 * t154 + t32 * t155 - t77 * t156
+            + t78 * t157);
+    let t164 = t87
+        * (t80 * t163 - (0.0016 * (t138 + t107 * t151) + t50 * t156 + t51 * t157));
+    let t165 = t156 + (t154 + (20.0 * (t137 + t106 * t151) + t160 + t73 * t162)) + t164;
+    let t166 = 0.02 * t152 + t64 * t163 + t86 * t164;
+    let t167 = t135 - t134 + t105 * t151 - t164;
+    let t168 = t90 * (t59 * t158 - 0.0016 * (t133 + t102 * t151) - t55 * t159);
+    let t169 = 3.3333333333333335
+        * (0.4 * t161 - 1.2 * t152 + t74 * t162 - 0.3 * t155 - t11 * t153 - 0.3 * t157
+            - t79 * t163 + t84 * t164 - t166 - t71 * t167 + t88 * t168);
+    let t170 = t95 * (0.5 * (t131 - t100 * t151) + t159 + t169);
+    let t171 = t98
+        * (t89 * t168
+            - (0.002 * (t130 + t99 * t151) + t56 * t158 + t53 * t159 + t41 * t165
+                + t41 * t167) + t42 * t169 + t94 * t170);
+    let t172 = t170 + t96 * t171;
+    let t173 = t169 + t92 * t172;
+    let t174 = t168 + t91 * t172;
+    let t175 = t167 - t174;
+    let t176 = t165 + t175;
+    let t177 = t83 * t164;
+    let t178 = t177 - t163;
+    let t179 = t159 - t172;
+    let t180 = t174 - t158;
+    let t181 = t163 - t177;
+    let t182 = t157 - t181;
+    let t183 = t156 + t164;
+    let t184 = t172 + (t153 + t181);
+    let t185 = t155 - (t181 - t157);
+    let t186 = t154 + t183;
+    let t187 = t161 + t24 * t162;
+    let t188 = t160 - t27 * t162;
+    out(0usize, cos2 * t188 - sin2 * t187);
+    out(1usize, sin2 * t188 + cos2 * t187);
+    out(2usize, cos2 * t186 - sin2 * t185);
+    out(3usize, sin2 * t186 + cos2 * t185);
+    out(4usize, sin2 * t173 - cos2 * t176);
+    out(5usize, -(sin2 * t176 + cos2 * t173));
+    out(6usize, cos2 * t183 - sin2 * t182);
+    out(7usize, sin2 * t183 + cos2 * t182);
+    out(8usize, cos2 * t180 - sin2 * t179);
+    out(9usize, sin2 * t180 + cos2 * t179);
+    out(10usize, cos2 * t164 - sin2 * t178);
+    out(11usize, sin2 * t164 + cos2 * t178);
+    out(12usize, cos2 * t174 + sin2 * t172);
+    out(13usize, sin2 * t174 - cos2 * t172);
+    out(14usize, t175);
+    out(15usize, t66 * t174 - t166 + t64 * t172);
+    out(16usize, -t184);
     out(17usize, 0.0);
-    out(18usize, -t180);
-    out(
-        19usize,
-        t103
-            * (t181
-                - (t174 + (t161 + (20.0 * (t136 + t104 * t158) + t167 + t169) + t171))),
-    );
+    out(18usize, t171);
+    out(19usize, t173 - (t185 + (20.0 * t8 + t187)) - t184);
     out(20usize, 0.0);
-    out(21usize, t168);
+    out(21usize, t162);
     f64::INFINITY
-        .min(-(2.0 * t69))
-        .min(32.0 * t82)
-        .min(-(4.0 * t89))
-        .min(-(8.0 * t92))
-        .min(8.0 * t96)
-        .min(-(4.0 * t101))
-        .min(2.0 * cos2)
-        .min(0.03125 * t129)
+        .min(-(2.0 * t75))
+        .min(16.0 * t78)
+        .min(4.0 * t85)
+        .min(4.0 * t81)
+        .min(4.0 * t93)
+        .min(-(4.0 * t97))
+        .min(0.03125 * t120)
 }
 ///Their multipliers λ of all rows, 0 for dropped ones.
 ///
-///Operations: 413 mul, 343 add, 6 neg, 8 div.
+///Operations: 394 mul, 305 add, 4 neg, 7 div.
 pub fn multipliers(
     t: f64,
     q: &[f64; N_Q],
@@ -1037,19 +1020,19 @@ fn velocity_residual_core(
     let t7 = 0.125 * cos14;
     let t8 = q1 - q16;
     let t9 = q0 - q15;
-    let t10 = v2 * (0.3 * sin2);
-    let t11 = v2 * (0.3 * cos2);
-    let t12 = v17 * (0.2 * sin17);
-    let t13 = v17 * (0.2 * cos17);
-    let t14 = sin2 * v0;
-    let t15 = cos2 * v1;
-    let t16 = t15 - t14;
+    let t10 = sin2 * v0;
+    let t11 = cos2 * v1;
+    let t12 = t11 - t10;
+    let t13 = v2 * (0.3 * sin2);
+    let t14 = v2 * (0.3 * cos2);
+    let t15 = v17 * (0.2 * sin17);
+    let t16 = v17 * (0.2 * cos17);
     out(0usize, v0 + v2 * (0.4 * sin2) - v18 + v20 * (0.35 * sin20));
     out(1usize, v1 - v2 * (0.4 * cos2) - v19 - v20 * (0.35 * cos20));
-    out(2usize, v0 - t10 - v3 + v5 * (0.044999999999999984 * sin5 - t1));
-    out(3usize, v1 + t11 - v4 - v5 * (0.044999999999999984 * cos5 + t0));
-    out(4usize, v0 + t10 - v6 - v8 * (t3 + 0.044999999999999984 * sin8));
-    out(5usize, v1 - t11 - v7 + v8 * (0.044999999999999984 * cos8 - t2));
+    out(2usize, v0 - t13 - v3 + v5 * (0.044999999999999984 * sin5 - t1));
+    out(3usize, v1 + t14 - v4 - v5 * (0.044999999999999984 * cos5 + t0));
+    out(4usize, v0 + t13 - v6 - v8 * (t3 + 0.044999999999999984 * sin8));
+    out(5usize, v1 - t14 - v7 + v8 * (0.044999999999999984 * cos8 - t2));
     out(
         6usize,
         v3 + v5 * (0.04500000000000001 * sin5 - t1) - v9
@@ -1070,10 +1053,10 @@ fn velocity_residual_core(
         v7 + v8 * (0.04500000000000001 * cos8 - t2) - v13
             + v14 * (0.0050000000000000044 * cos14 + t6),
     );
-    out(10usize, v9 + v11 * (t5 + 0.004999999999999977 * sin11) - v15 + t12);
-    out(11usize, v10 + v11 * (t4 - 0.004999999999999977 * cos11) - v16 - t13);
-    out(12usize, v12 + v14 * (t7 - 0.004999999999999977 * sin14) - v15 - t12);
-    out(13usize, t13 + (v13 + v14 * (t6 + 0.004999999999999977 * cos14) - v16));
+    out(10usize, v9 + v11 * (t5 + 0.004999999999999977 * sin11) - v15 + t15);
+    out(11usize, v10 + v11 * (t4 - 0.004999999999999977 * cos11) - v16 - t16);
+    out(12usize, v12 + v14 * (t7 - 0.004999999999999977 * sin14) - v15 - t15);
+    out(13usize, t16 + (v13 + v14 * (t6 + 0.004999999999999977 * cos14) - v16));
     out(
         14usize,
         cos2 * v0 + sin2 * v1 + v2 * (cos2 * t8 - sin2 * t9) - cos2 * v15 - sin2 * v16,
@@ -1081,12 +1064,12 @@ fn velocity_residual_core(
     out(15usize, v17 - v2);
     out(
         16usize,
-        t14 - t15 + v2 * (sin2 * t8 + cos2 * t9) - sin2 * v15 + cos2 * v16 - df0,
+        cos2 * v16 + (t10 - t11 + v2 * (sin2 * t8 + cos2 * t9) - sin2 * v15) - df0,
     );
     out(17usize, cos5 * v4 - sin5 * v3 + 0.044999999999999984 * v5);
     out(18usize, cos8 * v7 - sin8 * v6 - 0.044999999999999984 * v8);
-    out(19usize, t16);
-    out(20usize, t16);
+    out(19usize, t12);
+    out(20usize, t12);
     out(21usize, cos20 * v19 - sin20 * v18 - 0.050000000000000044 * v20);
 }
 ///`C·v − b` of all rows.
@@ -1170,206 +1153,220 @@ fn position_correction_core(
     let r14 = r(14usize);
     let r15 = r(15usize);
     let r16 = r(16usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = 0.3 * cos2;
-    let t5 = 0.025 * sin5;
-    let t6 = 0.044999999999999984 * cos5 + t5;
-    let t7 = 0.3 * sin2;
-    let t8 = 0.025 * cos5;
-    let t9 = 0.044999999999999984 * sin5;
-    let t10 = t9 - t8;
-    let t11 = 0.044999999999999984 * cos8;
-    let t12 = 0.025 * sin8;
-    let t13 = 0.025 * cos8;
-    let t14 = t13 + 0.044999999999999984 * sin8;
-    let t15 = t11 - t12;
-    let t16 = 0.125 * sin11;
-    let t17 = 0.125 * cos11;
-    let t18 = 0.04500000000000001 * sin5 - t8;
-    let t19 = t16 - 0.0050000000000000044 * cos11;
-    let t20 = 0.125 * sin14;
-    let t21 = 0.125 * cos14;
-    let t22 = 0.2 * cos17;
-    let t23 = t17 + 0.004999999999999977 * sin11;
-    let t24 = 0.2 * sin17;
-    let t25 = t20 + 0.004999999999999977 * cos14;
-    let t26 = 0.004999999999999977 * sin14;
-    let t27 = t21 - t26;
-    let t28 = q1 - q16;
-    let t29 = q0 - q15;
-    let t30 = t8 - t9;
-    let t31 = t18 - t30;
-    let t32 = t6 + (t5 + 0.04500000000000001 * cos5);
-    let t33 = 0.0050000000000000044 * cos14 + t20 + t25;
-    let t34 = t17 + 0.0050000000000000044 * sin11 + t23;
-    let t35 = 0.004999999999999977 * cos11 - t16;
-    let t36 = t19 - t35;
-    let t37 = t24 - t7;
-    let t38 = t4 - t22;
-    let t39 = 0.04500000000000001 * cos8 - t12 - (t12 - t11);
-    let t40 = t22 - t4 - t38;
-    let t41 = t35 - t19;
-    let t42 = cos2 * t28 - sin2 * t29 - cos2 * t37 - sin2 * t38;
-    let t43 = sin2 * t32 - cos2 * t31;
-    let t44 = cos2 * t34 + sin2 * t36;
-    let t45 = 1.0 / t39;
-    let t46 = (t14 + (t13 + 0.04500000000000001 * sin8)) * t45;
-    let t47 = t7 - t24 - t37 + t40 * t46;
-    let t48 = t30 - t18 + t32 * t46;
-    let t49 = t21 - 0.0050000000000000044 * sin14 - (t26 - t21) + t33 * t46;
+    let t0 = q15 - q0;
+    let t1 = q16 - q1;
+    let t2 = sin2 * t0;
+    let t3 = cos2 * t1;
+    let t4 = cos2 * t0 + sin2 * t1;
+    let t5 = t3 - t2;
+    let t6 = cos2 * cos5 + sin2 * sin5;
+    let t7 = cos2 * sin5 - sin2 * cos5;
+    let t8 = cos2 * cos8 + sin2 * sin8;
+    let t9 = cos2 * sin8 - sin2 * cos8;
+    let t10 = cos2 * cos11 + sin2 * sin11;
+    let t11 = cos2 * sin11 - sin2 * cos11;
+    let t12 = cos2 * cos14 + sin2 * sin14;
+    let t13 = cos2 * sin14 - sin2 * cos14;
+    let t14 = 0.35 * (cos2 * cos20 + sin2 * sin20);
+    let t15 = 0.35 * (cos2 * sin20 - sin2 * cos20);
+    let t16 = 0.025 * t7;
+    let t17 = 0.044999999999999984 * t6 + t16;
+    let t18 = 0.025 * t6;
+    let t19 = 0.044999999999999984 * t7;
+    let t20 = t19 - t18;
+    let t21 = 0.044999999999999984 * t8;
+    let t22 = 0.025 * t9;
+    let t23 = 0.025 * t8;
+    let t24 = t23 + 0.044999999999999984 * t9;
+    let t25 = t21 - t22;
+    let t26 = 0.125 * t11;
+    let t27 = 0.125 * t10;
+    let t28 = t27 + 0.0050000000000000044 * t11;
+    let t29 = 0.125 * t13;
+    let t30 = 0.125 * t12;
+    let t31 = 0.004999999999999977 * t10;
+    let t32 = t26 - t31;
+    let t33 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t34 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t35 = t29 + 0.004999999999999977 * t12;
+    let t36 = t2 - t3;
+    let t37 = 0.04500000000000001 * t7 - t18 - (t18 - t19);
+    let t38 = t28 + (t27 + 0.004999999999999977 * t11);
+    let t39 = 0.0050000000000000044 * t13 - t30;
+    let t40 = 0.0050000000000000044 * t12 + t29 + t35;
+    let t41 = t24 + (t23 + 0.04500000000000001 * t9);
+    let t42 = 0.04500000000000001 * t8 - t22 - (t22 - t21);
+    let t43 = 1.0 / t37;
+    let t44 = (t17 + (t16 + 0.04500000000000001 * t6)) * t43;
+    let t45 = 0.3 + t5 * t44;
+    let t46 = t26 - 0.0050000000000000044 * t10 - (t31 - t26) + t38 * t44;
+    let t47 = t34 * t44 - t33;
+    let t48 = 1.0 / t46;
+    let t49 = -0.3 + t33 - t4;
     let t50 = 1.0 / t49;
-    let t51 = 1.0 / t42;
-    let t52 = (sin2 * t28 + cos2 * t29 - sin2 * t37 + cos2 * t38) * t51;
-    let t53 = sin2 * t31 + cos2 * t32 + t43 * t52;
-    let t54 = 1.0 / t53;
-    let t55 = (cos2 * t36 - sin2 * t34 + t44 * t52) * t54;
-    let t56 = t51 * (t44 - t43 * t55);
-    let t57 = t50 * (t34 - t41 * t46 - t47 * t56 - t48 * t55);
-    let t58 = t32 * t55;
-    let t59 = t45 * (t36 - t33 * t57 - t40 * t56 - t58);
-    let t60 = t58 + (t41 - t38 * t56);
-    let t61 = t34 + t37 * t56 + t31 * t55;
-    let t62 = t22 * t56;
-    let t63 = t62 + t25 * t57;
-    let t64 = t24 * t56;
-    let t65 = t64 - t27 * t57;
-    let t66 = t35 + t62;
-    let t67 = t23 + t64;
-    let t68 = t4 * t56;
-    let t69 = t60 + t15 * t59 - t68;
-    let t70 = t7 * t56;
-    let t71 = t70 - (t61 + t14 * t59);
-    let t72 = t60 + t68 - t6 * t55;
-    let t73 = t10 * t55 - (t61 + t70);
-    let t74 = t60 - t0 * t56;
-    let t75 = t2 * t56 - t61;
-    let t76 = 20.0 * t61;
-    let t77 = 20.0 * t60;
-    let t78 = 0.5 * t73;
-    let t79 = 0.5 * t72;
-    let t80 = 0.5 * t71;
-    let t81 = 0.5 * t69;
-    let t82 = 0.3 * t67;
-    let t83 = 0.3 * t66;
-    let t84 = 0.3 * t65;
-    let t85 = 0.3 * t63;
-    let t86 = 8.0 * t75;
-    let t87 = 8.0 * t74;
-    let t88 = 8.0 * t3;
-    let t89 = 8.0 * t1;
-    let t90 = 0.0016
-        + (t61 * t76 + t60 * t77 + t56 * (1.2 * t56) + t73 * t78 + t72 * t79
-            + t55 * (0.002 * t55) + t71 * t80 + t69 * t81 + t59 * (0.002 * t59)
-            + t67 * t82 + t66 * t83) + t65 * t84 + t63 * t85 + t57 * (0.0016 * t57)
-        + t56 * (0.02 * t56) + t75 * t86 + t74 * t87;
-    let t91 = 1.0 / t90;
-    let t92 = t86 + (t84 + (t80 + (t78 - t76) - t82));
-    let t93 = t91 * t92;
-    let t94 = 30.6 - t92 * t93;
-    let t95 = 1.0 / t94;
-    let t96 = t87 + (t83 + (t81 + (t77 + t79)) - t85);
-    let t97 = t93 * t96;
-    let t98 = t91 * t96;
-    let t99 = t95 * t97;
-    let t100 = 30.6 - t96 * t98 - t97 * t99;
-    let t101 = 1.0 / t100;
-    let t102 = t3 * t86 - t1 * t87;
-    let t103 = t88 - t93 * t102;
-    let t104 = t99 * t103 - (t89 + t98 * t102);
-    let t105 = t91 * t102;
-    let t106 = t95 * t103;
-    let t107 = t101 * t104;
-    let t108 = 0.5 + (t3 * t88 + t1 * t89) - t102 * t105 - t103 * t106 - t104 * t107;
-    let t109 = r15 * t24;
-    let t110 = t109 - (r10 + (r2 + r6));
-    let t111 = r15 * t22;
-    let t112 = r11 + (r3 + r7) + t111;
-    let t113 = t112 + (t111 - (r13 + (r5 + r9)));
-    let t114 = sin2 * t112 - (r14 + cos2 * t110);
-    let t115 = t54 * (r16 + sin2 * t110 + cos2 * t112 + t52 * t114);
-    let t116 = t51 * (t114 - t43 * t115);
-    let t117 = t50
-        * (t46 * t113 - (t110 + (r12 + (r4 + r8) + t109)) - t47 * t116 - t48 * t115);
-    let t118 = t32 * t115;
-    let t119 = t45 * (t113 - t33 * t117 - t40 * t116 - t118);
-    let t120 = t118 - (t112 + t38 * t116);
-    let t121 = t110 - t37 * t116 - t31 * t115;
-    let t122 = t116 - r15;
-    let t123 = t22 * t122;
-    let t124 = r13 + t123 + t25 * t117;
-    let t125 = t24 * t122;
-    let t126 = t125 - r12 - t27 * t117;
-    let t127 = t123 - r11;
-    let t128 = r10 + t125;
-    let t129 = t4 * t116;
-    let t130 = r5 + t120 + t15 * t119 - t129;
-    let t131 = t7 * t116;
-    let t132 = t131 - (t14 * t119 - (r4 + t121));
-    let t133 = t129 + (r3 + t120) - t6 * t115;
-    let t134 = t10 * t115 - (t131 - (r2 + t121));
-    let t135 = r1 + t120 - t0 * t116;
-    let t136 = r0 + t121 + t2 * t116;
-    let t137 = 20.0 * t121;
+    let t51 = (t5 - t34) * t50;
+    let t52 = t41 + t42 * t51;
+    let t53 = 1.0 / t52;
+    let t54 = t53 * (t40 * t51 - (t30 - 0.004999999999999977 * t13 - t39));
+    let t55 = t50 * (t42 * t54 - t40);
+    let t56 = t4 * t55;
+    let t57 = t48 * (t56 - t47 * t55 - t45 * t55);
+    let t58 = t43 * (t38 * t57 + t34 * t55 + t5 * t55);
+    let t59 = t36 * t55;
+    let t60 = t33 * t55;
+    let t61 = t35 + t60;
+    let t62 = t60 - t32 * t57;
+    let t63 = t41 * t54 - (t39 + t59);
+    let t64 = t28 * t57 - (t59 + t37 * t58);
+    let t65 = 0.3 * t55;
+    let t66 = t56 + t65 + t25 * t54;
+    let t67 = t65 - (t56 - t17 * t58);
+    let t68 = t24 * t54 - t59;
+    let t69 = t59 + t20 * t58;
+    let t70 = t56 + 0.4 * t55;
+    let t71 = 20.0 * t59;
+    let t72 = 20.0 * t56;
+    let t73 = 0.5 * t69;
+    let t74 = 0.5 * t67;
+    let t75 = 0.5 * t68;
+    let t76 = 0.5 * t66;
+    let t77 = 0.3 * t64;
+    let t78 = 0.3 * t62;
+    let t79 = 0.3 * t63;
+    let t80 = 0.3 * t61;
+    let t81 = 8.0 * t59;
+    let t82 = 8.0 * t70;
+    let t83 = 8.0 * t15;
+    let t84 = 8.0 * t14;
+    let t85 = 0.0016
+        + (t59 * t71 + t56 * t72 + t55 * (1.2 * t55) + t69 * t73 + t67 * t74
+            + t58 * (0.002 * t58) + t68 * t75 + t66 * t76 + t54 * (0.002 * t54)
+            + t64 * t77 + t62 * t78 + t57 * (0.0016 * t57) + t63 * t79 + t61 * t80)
+        + t55 * (0.02 * t55) + t59 * t81 + t70 * t82;
+    let t86 = 1.0 / t85;
+    let t87 = t79 + (t77 + (t75 - (t71 + t73))) - t81;
+    let t88 = t86 * t87;
+    let t89 = 30.6 - t87 * t88;
+    let t90 = 1.0 / t89;
+    let t91 = t78 + (t74 - t72 - t76) - t80 - t82;
+    let t92 = t88 * t91;
+    let t93 = t86 * t91;
+    let t94 = t90 * t92;
+    let t95 = 30.6 - t91 * t93 - t92 * t94;
+    let t96 = 1.0 / t95;
+    let t97 = t14 * t82 - t15 * t81;
+    let t98 = t83 - t88 * t97;
+    let t99 = t94 * t98 - (t84 + t93 * t97);
+    let t100 = t86 * t97;
+    let t101 = t90 * t98;
+    let t102 = t96 * t99;
+    let t103 = 0.5 + (t15 * t83 + t14 * t84) - t97 * t100 - t98 * t101 - t99 * t102;
+    let t104 = sin2 * r2;
+    let t105 = cos2 * r3;
+    let t106 = cos2 * r2 + sin2 * r3;
+    let t107 = sin2 * r4;
+    let t108 = cos2 * r5;
+    let t109 = cos2 * r4 + sin2 * r5;
+    let t110 = sin2 * r10;
+    let t111 = cos2 * r11;
+    let t112 = sin2 * r12;
+    let t113 = cos2 * r13;
+    let t114 = t106 + (cos2 * r6 + sin2 * r7);
+    let t115 = t109 + (cos2 * r8 + sin2 * r9);
+    let t116 = r14 - (cos2 * r10 + sin2 * r11 + t114);
+    let t117 = sin2 * r8 - cos2 * r9 - (t108 - t107) - (t113 - t112) + r15 * t33 - r16;
+    let t118 = t53 * (r14 - (cos2 * r12 + sin2 * r13 + t115) - r15 * t34 - t51 * t117);
+    let t119 = t50 * (t117 + t42 * t118);
+    let t120 = r16 - t4 * t119;
+    let t121 = t119 - r15;
+    let t122 = t48
+        * (sin2 * r6 - cos2 * r7 - (t105 - t104) - (t111 - t110) + t44 * t116
+            - t47 * t121 - t120 - t45 * t119);
+    let t123 = t43 * (t116 - t38 * t122 - t34 * t121 - t5 * t119);
+    let t124 = r14 + t36 * t119;
+    let t125 = t33 * t121;
+    let t126 = t112 - t113 - t125;
+    let t127 = t125 + (t110 - t111 - t32 * t122);
+    let t128 = t41 * t118 - (t124 - t115);
+    let t129 = t28 * t122 - (t124 - t114 - t37 * t123);
+    let t130 = 0.3 * t119;
+    let t131 = t107 - t108 - t120 + t130 + t25 * t118;
+    let t132 = t130 - (t104 - t105 + t17 * t123 - t120);
+    let t133 = t24 * t118 - (t124 - t109);
+    let t134 = t20 * t123 - (t124 - t106);
+    let t135 = sin2 * r0 - cos2 * r1 - t120 + 0.4 * t119;
+    let t136 = cos2 * r0 + sin2 * r1 - t124;
+    let t137 = 20.0 * t124;
     let t138 = 20.0 * t120;
     let t139 = 0.5 * t134;
-    let t140 = 0.5 * t133;
-    let t141 = 0.5 * t132;
-    let t142 = 0.5 * t130;
-    let t143 = 0.3 * t128;
+    let t140 = 0.5 * t132;
+    let t141 = 0.5 * t133;
+    let t142 = 0.5 * t131;
+    let t143 = 0.3 * t129;
     let t144 = 0.3 * t127;
-    let t145 = 0.3 * t126;
-    let t146 = 0.3 * t124;
+    let t145 = 0.3 * t128;
+    let t146 = 0.3 * t126;
     let t147 = 8.0 * t136;
     let t148 = 8.0 * t135;
-    let t149 = t61 * t137 - t60 * t138 - t56 * (1.2 * t116) - t73 * t139 - t72 * t140
-        - t55 * (0.002 * t115) - t71 * t141 - t69 * t142 - t59 * (0.002 * t119)
-        - t67 * t143 - t66 * t144 - t65 * t145 - t63 * t146 - t57 * (0.0016 * t117)
-        - t56 * (0.02 * t122) - t75 * t147 - t74 * t148;
-    let t150 = t143 - (t141 + (t137 + t139)) - t145 - t147 - t93 * t149;
-    let t151 = t146 - (t144 + (t142 + (t138 + t140))) - t148 - t98 * t149 + t99 * t150;
-    let t152 = 1.0 / t108
-        * (t1 * t148 - t3 * t147 - t105 * t149 - t106 * t150 - t107 * t151);
-    let t153 = t101 * t151 - t107 * t152;
-    let t154 = t95 * t150 + t99 * t153 - t106 * t152;
-    let t155 = t91 * t149 - t93 * t154 - t98 * t153 - t105 * t152;
-    let t156 = t56 * t155;
-    out(0usize, t154 + (t121 - t61 * t155));
-    out(1usize, t153 + (t120 + t60 * t155));
-    out(2usize, t116 + t156);
-    out(3usize, t154 + (t134 + t73 * t155));
-    out(4usize, t153 + (t133 + t72 * t155));
-    out(5usize, t115 + t55 * t155);
-    out(6usize, t154 + (t132 + t71 * t155));
-    out(7usize, t153 + (t130 + t69 * t155));
-    out(8usize, t119 + t59 * t155);
-    out(9usize, t154 - (t128 + t67 * t155));
-    out(10usize, t153 + (t127 + t66 * t155));
-    out(11usize, t155);
-    out(12usize, t154 + (t126 + t65 * t155));
-    out(13usize, t153 - (t124 + t63 * t155));
-    out(14usize, t117 + t57 * t155);
-    out(15usize, t154);
-    out(16usize, t153);
-    out(17usize, t122 + t156);
-    out(18usize, t154 + (t136 + t75 * t155) + t3 * t152);
-    out(19usize, t153 + (t135 + t74 * t155) - t1 * t152);
-    out(20usize, t152);
+    let t149 = t56 * t138 - t59 * t137 - t55 * (1.2 * t119) + t69 * t139 - t67 * t140
+        + t58 * (0.002 * t123) - t68 * t141 - t66 * t142 - t54 * (0.002 * t118)
+        - t64 * t143 - t62 * t144 - t57 * (0.0016 * t122) - t63 * t145 + t61 * t146
+        - t55 * (0.02 * t121) + t59 * t147 - t70 * t148;
+    let t150 = t137 - t139 - t141 - t143 - t145 - t147 - t88 * t149;
+    let t151 = t148 + (t142 - (t138 + t140) - t144 - t146) - t93 * t149 + t94 * t150;
+    let t152 = 1.0 / t103
+        * (t15 * t147 + t14 * t148 + t100 * t149 + t101 * t150 + t102 * t151);
+    let t153 = t96 * t151 + t102 * t152;
+    let t154 = t90 * t150 + t94 * t153 + t101 * t152;
+    let t155 = t86 * t149 - t88 * t154 - t93 * t153 + t100 * t152;
+    let t156 = t59 * t155;
+    let t157 = t55 * t155;
+    let t158 = t154 - (t124 + t156);
+    let t159 = t154 + (t134 - t69 * t155);
+    let t160 = t154 + (t133 + t68 * t155);
+    let t161 = t154 + (t129 + t64 * t155);
+    let t162 = t154 + (t128 + t63 * t155);
+    let t163 = t153 + (t120 - t56 * t155);
+    let t164 = t153 + (t132 + t67 * t155);
+    let t165 = t153 - (t131 + t66 * t155);
+    let t166 = t153 + (t127 + t62 * t155);
+    let t167 = t153 + (t126 - t61 * t155);
+    let t168 = t154 + (t136 - t156) - t15 * t152;
+    let t169 = t153 - (t135 + t70 * t155) + t14 * t152;
+    out(0usize, cos2 * t158 - sin2 * t163);
+    out(1usize, sin2 * t158 + cos2 * t163);
+    out(2usize, t119 + t157);
+    out(3usize, cos2 * t159 - sin2 * t164);
+    out(4usize, sin2 * t159 + cos2 * t164);
+    out(5usize, t123 - t58 * t155);
+    out(6usize, cos2 * t160 - sin2 * t165);
+    out(7usize, sin2 * t160 + cos2 * t165);
+    out(8usize, -(t118 + t54 * t155));
+    out(9usize, cos2 * t161 - sin2 * t166);
+    out(10usize, sin2 * t161 + cos2 * t166);
+    out(11usize, t122 + t57 * t155);
+    out(12usize, cos2 * t162 - sin2 * t167);
+    out(13usize, sin2 * t162 + cos2 * t167);
+    out(14usize, t155);
+    out(15usize, cos2 * t154 - sin2 * t153);
+    out(16usize, sin2 * t154 + cos2 * t153);
+    out(17usize, t121 + t157);
+    out(18usize, cos2 * t168 - sin2 * t169);
+    out(19usize, sin2 * t168 + cos2 * t169);
+    out(20usize, -t152);
     f64::INFINITY
-        .min(16.0 * t39)
-        .min(4.0 * t49)
-        .min(4.0 * t42)
-        .min(8.0 * t53)
-        .min(0.25 * t90)
-        .min(0.0625 * t94)
-        .min(0.0625 * t100)
-        .min(t108)
+        .min(-(32.0 * t37))
+        .min(-(4.0 * t46))
+        .min(-(8.0 * t49))
+        .min(4.0 * t52)
+        .min(0.25 * t85)
+        .min(0.0625 * t89)
+        .min(0.03125 * t95)
+        .min(t103)
 }
 ///The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.
 ///
-///Operations: 247 mul, 239 add, 8 div.
+///Operations: 301 mul, 257 add, 5 neg, 8 div.
 pub fn position_correction(
     t: f64,
     q: &[f64; N_Q],
@@ -1444,183 +1441,194 @@ fn velocity_correction_core(
     let r18 = r(18usize);
     let r19 = r(19usize);
     let r21 = r(21usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = 0.3 * cos2;
-    let t5 = 0.025 * sin5;
-    let t6 = 0.044999999999999984 * cos5 + t5;
-    let t7 = 0.3 * sin2;
-    let t8 = 0.025 * cos5;
-    let t9 = 0.044999999999999984 * sin5;
-    let t10 = t9 - t8;
-    let t11 = 0.044999999999999984 * cos8;
-    let t12 = 0.025 * sin8;
-    let t13 = 0.025 * cos8;
-    let t14 = t13 + 0.044999999999999984 * sin8;
-    let t15 = t11 - t12;
-    let t16 = 0.125 * sin11;
-    let t17 = 0.125 * cos11;
-    let t18 = 0.04500000000000001 * sin5 - t8;
-    let t19 = t16 - 0.0050000000000000044 * cos11;
-    let t20 = 0.04500000000000001 * cos8 - t12;
-    let t21 = 0.125 * sin14;
-    let t22 = 0.0050000000000000044 * cos14 + t21;
-    let t23 = t13 + 0.04500000000000001 * sin8;
-    let t24 = 0.125 * cos14;
-    let t25 = 0.0050000000000000044 * sin14;
-    let t26 = t24 - t25;
-    let t27 = 0.004999999999999977 * cos11;
-    let t28 = t16 - t27;
-    let t29 = 0.2 * cos17;
-    let t30 = t17 + 0.004999999999999977 * sin11;
-    let t31 = 0.2 * sin17;
-    let t32 = q1 - q16;
-    let t33 = q0 - q15;
-    let t34 = sin20 * t2 + cos20 * t0;
-    let t35 = -0.050000000000000044 - sin20 * t3 - cos20 * t1;
-    let t36 = 1.0 / t35;
-    let t37 = t8 - t9;
-    let t38 = t18 - t37;
-    let t39 = t6 + (t5 + 0.04500000000000001 * cos5);
-    let t40 = t24 - 0.004999999999999977 * sin14 - (t25 - t24);
-    let t41 = t17 + 0.0050000000000000044 * sin11 + t30;
-    let t42 = t27 - t16;
-    let t43 = t19 - t42;
-    let t44 = t31 - t7;
-    let t45 = t4 - t29;
-    let t46 = t14 + t23;
-    let t47 = cos2 * t32 - sin2 * t33 - cos2 * t44 - sin2 * t45;
-    let t48 = sin2 * t39 - cos2 * t38;
-    let t49 = cos2 * t41 + sin2 * t43;
-    let t50 = 1.0 / t48;
-    let t51 = (t37 - t18) * t50;
-    let t52 = t39 * t50;
-    let t53 = (sin2 * t38 + cos2 * t39) * t50;
-    let t54 = sin2 * t32 + cos2 * t33 - sin2 * t44 + cos2 * t45 + t47 * t53;
-    let t55 = cos2 * t43 - sin2 * t41 - t49 * t53;
-    let t56 = 1.0 / t55;
-    let t57 = (t49 * t51 - t41) * t56;
-    let t58 = t7 - t31 - t44 - t47 * t51 - t54 * t57;
-    let t59 = (t42 - t19 + t49 * t52) * t56;
-    let t60 = 1.0 / t58;
-    let t61 = (t29 - t4 - t45 - t47 * t52 - t54 * t59) * t60;
-    let t62 = t20 - (t12 - t11) + t46 * t61;
-    let t63 = t22 + (t21 + 0.004999999999999977 * cos14) - t40 * t61;
-    let t64 = (sin8 * t7 + cos8 * t4) * t60;
-    let t65 = 1.0 / t62;
-    let t66 = (-0.044999999999999984 + sin8 * t14 + cos8 * t15 - t46 * t64) * t65;
-    let t67 = t40 * t64 - t63 * t66;
-    let t68 = 1.0 / t67;
-    let t69 = 1.0 / cos2;
-    let t70 = sin2 * t69;
-    let t71 = t68 * (sin8 - cos8 * t70);
-    let t72 = t65 * (t63 * t71);
-    let t73 = t60 * (t46 * t72 + t40 * t71);
-    let t74 = t56 * (t54 * t73);
-    let t75 = t50 * (t49 * t74 + t47 * t73);
-    let t76 = t39 * t75 - t43 * t74 + t45 * t73;
-    let t77 = t70 - t76;
-    let t78 = -1.0 - t38 * t75 - t41 * t74 + t44 * t73;
-    let t79 = t4 * t73;
-    let t80 = t15 * t72 - t79;
-    let t81 = t70 - t80;
-    let t82 = t7 * t73;
-    let t83 = -1.0 + t82;
-    let t84 = t14 * t72;
-    let t85 = t84 - t83;
-    let t86 = t76 - t70 + t29 * t73 + t28 * t74;
-    let t87 = t31 * t73 - t78 - t30 * t74;
-    let t88 = t22 * t71 - (t80 - t70 + t20 * t72);
-    let t89 = t26 * t71 - (t83 - t84 - t23 * t72);
-    let t90 = t70 - (t79 + t6 * t75);
-    let t91 = t82 - (-1.0 - t10 * t75);
-    let t92 = t36 * (sin20 - t34 * t73 - cos20 * t70);
-    let t93 = t70 - (t1 * t92 - t0 * t73);
-    let t94 = -1.0 - t3 * t92 + t2 * t73;
-    let t95 = 20.0 + t70 * (20.0 * t70) + t73 * (1.2 * t73) + t91 * (0.5 * t91)
-        + t90 * (0.5 * t90) + t75 * (0.002 * t75) + t85 * (0.5 * t85) + t81 * (0.5 * t81)
-        + t72 * (0.002 * t72) + t87 * (0.3 * t87) + t86 * (0.3 * t86)
-        + t74 * (0.0016 * t74) + t89 * (0.3 * t89) + t88 * (0.3 * t88)
-        + t71 * (0.0016 * t71) + t78 * t78 + t77 * t77 + t73 * (0.02 * t73)
-        + t94 * (8.0 * t94) + t93 * (8.0 * t93) + t92 * (0.5 * t92);
-    let t96 = r15 * t31;
-    let t97 = t96 - (r10 + (r2 + r6));
-    let t98 = r15 * t29;
-    let t99 = r11 + (r3 + r7) + t98;
-    let t100 = sin2 * t99 - (r14 + cos2 * t97);
-    let t101 = t53 * t100 - (r16 + sin2 * t97 + cos2 * t99);
-    let t102 = t97 + (r4 + (t96 + (r8 + r12))) + t51 * t100 + t57 * t101;
-    let t103 = t99 + (t98 - (r9 + r13) - r5) - t52 * t100 - t59 * t101 + t61 * t102;
-    let t104 = r19 * t69;
-    let t105 = t68
-        * (sin8 * r4 - r18 - cos8 * r5 - t64 * t102 - t66 * t103 + cos8 * t104);
-    let t106 = t65 * (t103 - t63 * t105);
-    let t107 = t60 * (t46 * t106 - t102 - t40 * t105);
-    let t108 = t56 * (t101 - t54 * t107);
-    let t109 = t50 * (t100 + t49 * t108 - t47 * t107);
-    let t110 = t104 + (t39 * t109 - t99 - t43 * t108 - t45 * t107);
-    let t111 = t97 - t38 * t109 - t41 * t108;
-    let t112 = t44 * t107;
-    let t113 = t111 - t112;
-    let t114 = t4 * t107;
-    let t115 = t104 + (t114 - r5 - t15 * t106);
-    let t116 = t7 * t107;
-    let t117 = r4 + t116 - t14 * t106;
-    let t118 = t107 - r15;
-    let t119 = t29 * t118 - r11 - t110 - t28 * t108;
-    let t120 = t113 + (r10 + t31 * t118) + t30 * t108;
-    let t121 = t22 * t105 - (t115 - r9 - t20 * t106);
-    let t122 = t26 * t105 - (t23 * t106 - (r8 + t117));
-    let t123 = t104 + (t6 * t109 - r3 - t114);
-    let t124 = r2 + t10 * t109 - t116;
-    let t125 = t36 * (sin20 * r0 - r21 - cos20 * r1 + t34 * t107 + cos20 * t104);
-    let t126 = t104 + (t1 * t125 - r1 + t0 * t107);
-    let t127 = r0 + t3 * t125 + t2 * t107;
-    let t128 = 1.0 / t95
-        * (t70 * (20.0 * t104) + t73 * (1.2 * t107) - t91 * (0.5 * t124)
-            + t90 * (0.5 * t123) - t75 * (0.002 * t109) - t85 * (0.5 * t117)
-            + t81 * (0.5 * t115) + t72 * (0.002 * t106) + t87 * (0.3 * t120)
-            + t86 * (0.3 * t119) - t74 * (0.0016 * t108) - t89 * (0.3 * t122)
-            - t88 * (0.3 * t121) - t71 * (0.0016 * t105) - t78 * t113 + t77 * t110
-            + t73 * (0.02 * t118) + t94 * (8.0 * t127) + t93 * (8.0 * t126)
-            - t92 * (0.5 * t125));
-    let t129 = t73 * t128;
-    out(0usize, t128);
-    out(1usize, t70 * t128 - t104);
-    out(2usize, t107 - t129);
-    out(3usize, t124 + t91 * t128);
-    out(4usize, t90 * t128 - t123);
-    out(5usize, t109 + t75 * t128);
-    out(6usize, t117 + t85 * t128);
-    out(7usize, t81 * t128 - t115);
-    out(8usize, t106 - t72 * t128);
-    out(9usize, t87 * t128 - t120);
-    out(10usize, t119 - t86 * t128);
-    out(11usize, t108 + t74 * t128);
-    out(12usize, t122 + t89 * t128);
-    out(13usize, t121 + t88 * t128);
-    out(14usize, t105 + t71 * t128);
-    out(15usize, t112 - t111 - t78 * t128);
-    out(16usize, t77 * t128 - t110);
-    out(17usize, t118 - t129);
-    out(18usize, t127 - t94 * t128);
-    out(19usize, t93 * t128 - t126);
-    out(20usize, t125 + t92 * t128);
+    let t0 = q15 - q0;
+    let t1 = q16 - q1;
+    let t2 = cos2 * t0 + sin2 * t1;
+    let t3 = cos2 * cos5 + sin2 * sin5;
+    let t4 = cos2 * sin5 - sin2 * cos5;
+    let t5 = cos2 * cos8 + sin2 * sin8;
+    let t6 = cos2 * sin8 - sin2 * cos8;
+    let t7 = cos2 * cos11 + sin2 * sin11;
+    let t8 = cos2 * sin11 - sin2 * cos11;
+    let t9 = cos2 * cos14 + sin2 * sin14;
+    let t10 = cos2 * sin14 - sin2 * cos14;
+    let t11 = cos2 * cos20 + sin2 * sin20;
+    let t12 = cos2 * sin20;
+    let t13 = sin2 * cos20;
+    let t14 = t12 - t13;
+    let t15 = 0.35 * t11;
+    let t16 = 0.35 * t14;
+    let t17 = 0.025 * t4;
+    let t18 = 0.044999999999999984 * t3 + t17;
+    let t19 = 0.025 * t3;
+    let t20 = 0.044999999999999984 * t4;
+    let t21 = t20 - t19;
+    let t22 = 0.025 * t6;
+    let t23 = 0.025 * t5;
+    let t24 = t23 + 0.044999999999999984 * t6;
+    let t25 = 0.044999999999999984 * t5 - t22;
+    let t26 = 0.0050000000000000044 * t7;
+    let t27 = 0.125 * t8;
+    let t28 = 0.125 * t7;
+    let t29 = t28 + 0.0050000000000000044 * t8;
+    let t30 = t27 - t26;
+    let t31 = 0.04500000000000001 * t5 - t22;
+    let t32 = 0.125 * t10;
+    let t33 = 0.0050000000000000044 * t9 + t32;
+    let t34 = t23 + 0.04500000000000001 * t6;
+    let t35 = 0.125 * t9;
+    let t36 = 0.0050000000000000044 * t10;
+    let t37 = t35 - t36;
+    let t38 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t39 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t40 = sin2 * t0 - cos2 * t1;
+    let t41 = t13 - t12;
+    let t42 = 0.4 * t11;
+    let t43 = -0.050000000000000044 - t14 * t16 - t11 * t15;
+    let t44 = 1.0 / t43;
+    let t45 = 0.04500000000000001 * t4 - t19 - (t19 - t20);
+    let t46 = t18 + (t17 + 0.04500000000000001 * t3);
+    let t47 = -0.3 + t2;
+    let t48 = t27 - 0.004999999999999977 * t7 - (t26 - t27);
+    let t49 = t35 - 0.004999999999999977 * t10 - (t36 - t35);
+    let t50 = 1.0 / t46;
+    let t51 = t45 * t50;
+    let t52 = t47 * t51;
+    let t53 = t29 + (t28 + 0.004999999999999977 * t8) + t48 * t51;
+    let t54 = t39 - t38 * t51;
+    let t55 = 1.0 / t53;
+    let t56 = t39 + t40;
+    let t57 = t24 + t34;
+    let t58 = 1.0 / t49;
+    let t59 = (t33 + (t32 + 0.004999999999999977 * t9)) * t58;
+    let t60 = 3.3333333333333335 * (t38 - t2 + t56 * t59);
+    let t61 = 1.0 - t60;
+    let t62 = t31 + t57 * t59 + t25 * t60;
+    let t63 = 1.0 / t61;
+    let t64 = t5 * t63;
+    let t65 = -0.044999999999999984 - t62 * t64;
+    let t66 = 1.0 / t65;
+    let t67 = t6 * t66;
+    let t68 = t63 * (t62 * t67);
+    let t69 = 3.3333333333333335 * (t68 + t25 * t67);
+    let t70 = t58 * (t56 * t69 + t57 * t67);
+    let t71 = -1.0 - t40 * t69;
+    let t72 = t24 * t67;
+    let t73 = t72 - t71;
+    let t74 = 1.0 + t72;
+    let t75 = t55 * (t52 * t69 - (t71 - t72 + (t74 + t54 * t69)));
+    let t76 = t50 * (t38 * t69 - t48 * t75 + t47 * t69);
+    let t77 = t31 * t67 - (t68 - t33 * t70);
+    let t78 = -1.0 - t37 * t70 + t34 * t67;
+    let t79 = 0.3 * t69;
+    let t80 = t46 * t76 + t30 * t75 + t79;
+    let t81 = t74 - (t45 * t76 - t29 * t75);
+    let t82 = t2 * t69;
+    let t83 = t79 + t18 * t76;
+    let t84 = t74 - t21 * t76;
+    let t85 = t44 * (t42 * t69 - t41 * t74);
+    let t86 = t15 * t85 + 0.4 * t69;
+    let t87 = t74 + t16 * t85;
+    let t88 = 0.5
+        + (t74 * (20.0 * t74) + t69 * (1.2 * t69) + t84 * (0.5 * t84) + t83 * (0.5 * t83)
+            + t76 * (0.002 * t76)) + t68 * (0.5 * t68) + t67 * (0.002 * t67)
+        + t81 * (0.3 * t81) + t80 * (0.3 * t80) + t75 * (0.0016 * t75)
+        + t78 * (0.3 * t78) + t77 * (0.3 * t77) + t70 * (0.0016 * t70) + t73 * t73
+        + t82 * t82 + t69 * (0.02 * t69) + t87 * (8.0 * t87) + t86 * (8.0 * t86)
+        + t85 * (0.5 * t85);
+    let t89 = cos2 * r0 + sin2 * r1;
+    let t90 = cos2 * r2 + sin2 * r3;
+    let t91 = cos2 * r4 + sin2 * r5;
+    let t92 = sin2 * r8;
+    let t93 = cos2 * r9;
+    let t94 = cos2 * r8 + sin2 * r9;
+    let t95 = t90 + (cos2 * r6 + sin2 * r7);
+    let t96 = r19 + (sin2 * r0 - cos2 * r1);
+    let t97 = r19 + (sin2 * r2 - cos2 * r3);
+    let t98 = r19 + (sin2 * r4 - cos2 * r5);
+    let t99 = r16 + r19;
+    let t100 = sin2 * r6 - cos2 * r7 + t97;
+    let t101 = t100 + (sin2 * r10 - cos2 * r11 - t99);
+    let t102 = t91 - r14;
+    let t103 = t102 + (r15 * t39 + (t94 + (cos2 * r12 + sin2 * r13)));
+    let t104 = r15 * t38 + (sin2 * r12 - cos2 * r13 - t99 - (t93 - t92)) + t59 * t103
+        + t60 * t98;
+    let t105 = t66 * (r18 + t64 * t104);
+    let t106 = t63 * (t104 + t62 * t105);
+    let t107 = 3.3333333333333335 * (t98 + t106 + t25 * t105);
+    let t108 = t58 * (t103 + t56 * t107 + t57 * t105);
+    let t109 = t24 * t105;
+    let t110 = t102 + t40 * t107 + t109;
+    let t111 = r15 + t107;
+    let t112 = t91 + t109;
+    let t113 = t55
+        * (t51 * t101 - (cos2 * r10 + sin2 * r11 + t95) + t112 + t54 * t111 - t110
+            - t52 * t107);
+    let t114 = t50 * (t101 - t48 * t113 - t38 * t111 - t47 * t107);
+    let t115 = t92 - t93 + t33 * t108 - t106 + t31 * t105;
+    let t116 = t34 * t105 - (t37 * t108 - t94);
+    let t117 = 0.3 * t107;
+    let t118 = t100 - t46 * t114 - t30 * t113 + t117;
+    let t119 = t112 + (t45 * t114 - t95 - t29 * t113);
+    let t120 = t99 + t2 * t107;
+    let t121 = t117 + (t97 - t18 * t114);
+    let t122 = t112 + (t21 * t114 - t90);
+    let t123 = t44 * (t14 * t89 - r21 + t11 * t96 + t41 * t112 - t42 * t107);
+    let t124 = 0.4 * t107 - (t96 + t15 * t123);
+    let t125 = t89 + t16 * t123 - t112;
+    let t126 = 1.0 / t88
+        * (t74 * (20.0 * t112) + t69 * (1.2 * t107) + t84 * (0.5 * t122)
+            + t83 * (0.5 * t121) - t76 * (0.002 * t114) + t68 * (0.5 * t106)
+            + t67 * (0.002 * t105) + t81 * (0.3 * t119) + t80 * (0.3 * t118)
+            - t75 * (0.0016 * t113) + t78 * (0.3 * t116) + t77 * (0.3 * t115)
+            + t70 * (0.0016 * t108) + t73 * t110 + t82 * t120 + t69 * (0.02 * t111)
+            - t87 * (8.0 * t125) + t86 * (8.0 * t124) - t85 * (0.5 * t123));
+    let t127 = t74 * t126 - t112;
+    let t128 = t69 * t126;
+    let t129 = t84 * t126 - t122;
+    let t130 = t83 * t126 - t121;
+    let t131 = t106 - t68 * t126;
+    let t132 = t81 * t126 - t119;
+    let t133 = t80 * t126 - t118;
+    let t134 = t116 - t78 * t126;
+    let t135 = t77 * t126 - t115;
+    let t136 = t73 * t126 - t110;
+    let t137 = t82 * t126 - t120;
+    let t138 = t125 + t87 * t126;
+    let t139 = t124 - t86 * t126;
+    out(0usize, cos2 * t127 + sin2 * r19);
+    out(1usize, sin2 * t127 - cos2 * r19);
+    out(2usize, t128 - t107);
+    out(3usize, cos2 * t129 - sin2 * t130);
+    out(4usize, sin2 * t129 + cos2 * t130);
+    out(5usize, -(t114 + t76 * t126));
+    out(6usize, cos2 * t126 - sin2 * t131);
+    out(7usize, sin2 * t126 + cos2 * t131);
+    out(8usize, t67 * t126 - t105);
+    out(9usize, cos2 * t132 - sin2 * t133);
+    out(10usize, sin2 * t132 + cos2 * t133);
+    out(11usize, t113 + t75 * t126);
+    out(12usize, cos2 * t134 - sin2 * t135);
+    out(13usize, sin2 * t134 + cos2 * t135);
+    out(14usize, t70 * t126 - t108);
+    out(15usize, cos2 * t136 - sin2 * t137);
+    out(16usize, sin2 * t136 + cos2 * t137);
+    out(17usize, t128 - t111);
+    out(18usize, cos2 * t138 - sin2 * t139);
+    out(19usize, sin2 * t138 + cos2 * t139);
+    out(20usize, t123 + t85 * t126);
     f64::INFINITY
-        .min(-(2.0 * t35))
-        .min(32.0 * t48)
-        .min(-(4.0 * t55))
-        .min(-(8.0 * t58))
-        .min(8.0 * t62)
-        .min(-(4.0 * t67))
-        .min(2.0 * cos2)
-        .min(0.03125 * t95)
+        .min(-(2.0 * t43))
+        .min(16.0 * t46)
+        .min(4.0 * t53)
+        .min(4.0 * t49)
+        .min(4.0 * t61)
+        .min(-(4.0 * t65))
+        .min(0.03125 * t88)
 }
 ///The smallest dv in the mass metric with `C·dv = −r` on the kept rows.
 ///
-///Operations: 279 mul, 234 add, 4 neg, 8 div.
+///Operations: 302 mul, 224 add, 3 neg, 7 div.
 pub fn velocity_correction(
     t: f64,
     q: &[f64; N_Q],
@@ -1720,509 +1728,520 @@ fn jacobian_action_core(
     let dv18 = dv(18usize);
     let dv19 = dv(19usize);
     let dv20 = dv(20usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = v2 * v2;
-    let t5 = v20 * v20;
-    let t6 = t0 * t4 + t1 * t5;
-    let t7 = t2 * t4 + t3 * t5;
-    let t8 = 0.3 * cos2;
-    let t9 = 0.025 * sin5;
-    let t10 = 0.044999999999999984 * cos5 + t9;
-    let t11 = 0.3 * sin2;
-    let t12 = 0.025 * cos5;
-    let t13 = 0.044999999999999984 * sin5;
-    let t14 = t13 - t12;
-    let t15 = v5 * v5;
-    let t16 = t4 * t8;
-    let t17 = t10 * t15;
-    let t18 = t4 * t11;
-    let t19 = t14 * t15;
-    let t20 = 0.044999999999999984 * cos8;
-    let t21 = 0.025 * sin8;
-    let t22 = t21 - t20;
-    let t23 = 0.025 * cos8;
-    let t24 = t23 + 0.044999999999999984 * sin8;
-    let t25 = t20 - t21;
-    let t26 = v8 * v8;
-    let t27 = t16 + t22 * t26;
-    let t28 = t24 * t26;
-    let t29 = t28 - t18;
-    let t30 = t9 + 0.04500000000000001 * cos5;
-    let t31 = 0.0050000000000000044 * cos11;
-    let t32 = 0.125 * sin11;
-    let t33 = t31 - t32;
-    let t34 = 0.04500000000000001 * sin5;
-    let t35 = t12 - t34;
-    let t36 = 0.125 * cos11;
-    let t37 = t36 + 0.0050000000000000044 * sin11;
-    let t38 = t34 - t12;
-    let t39 = t32 - t31;
-    let t40 = v11 * v11;
-    let t41 = 0.04500000000000001 * cos8 - t21;
-    let t42 = 0.125 * sin14;
-    let t43 = 0.0050000000000000044 * cos14 + t42;
-    let t44 = t23 + 0.04500000000000001 * sin8;
-    let t45 = 0.125 * cos14;
-    let t46 = 0.0050000000000000044 * sin14;
-    let t47 = t45 - t46;
-    let t48 = v14 * v14;
-    let t49 = t26 * t41 + t43 * t48;
-    let t50 = t26 * t44;
-    let t51 = t47 * t48;
-    let t52 = 0.004999999999999977 * cos11;
-    let t53 = t32 - t52;
-    let t54 = 0.2 * cos17;
-    let t55 = t36 + 0.004999999999999977 * sin11;
-    let t56 = 0.2 * sin17;
-    let t57 = v17 * v17;
-    let t58 = t40 * t53;
-    let t59 = t54 * t57;
-    let t60 = t56 * t57;
-    let t61 = t40 * t55 + t60;
-    let t62 = t42 + 0.004999999999999977 * cos14;
-    let t63 = 0.004999999999999977 * sin14;
-    let t64 = t63 - t45;
-    let t65 = q1 - q16;
-    let t66 = q0 - q15;
-    let t67 = sin2 * v2;
-    let t68 = v16 - v1;
-    let t69 = cos2 * v2;
-    let t70 = v0 - v15;
-    let t71 = t65 * t67 + cos2 * t68;
-    let t72 = t66 * t69 + sin2 * t70;
-    let t73 = cos2 * t70 - t66 * t67;
-    let t74 = t65 * t69 - sin2 * t68;
-    let t75 = cos8 * v6 + sin8 * v7;
-    let t76 = cos2 * v0 + sin2 * v1;
-    let t77 = v2 * t76;
-    let t78 = cos20 * v18 + sin20 * v19;
-    let t79 = sin20 * t2 + cos20 * t0;
-    let t80 = -0.050000000000000044 - sin20 * t3 - cos20 * t1;
-    let t81 = 1.0 / t80;
-    let t82 = t12 - t13;
-    let t83 = t38 - t82;
-    let t84 = t10 + t30;
-    let t85 = t45 - t63 - (t46 - t45);
-    let t86 = t37 + t55;
-    let t87 = t52 - t32;
-    let t88 = t39 - t87;
-    let t89 = t56 - t11;
-    let t90 = t8 - t54;
-    let t91 = t24 + t44;
-    let t92 = sin8 * t11 + cos8 * t8;
-    let t93 = t82 - t38;
-    let t94 = cos2 * t65 - sin2 * t66 - cos2 * t89 - sin2 * t90;
-    let t95 = sin2 * t84 - cos2 * t83;
-    let t96 = cos2 * t86 + sin2 * t88;
-    let t97 = sin2 * t83 + cos2 * t84;
-    let t98 = 1.0 / t95;
-    let t99 = t93 * t98;
-    let t100 = t96 * t99 - t86;
-    let t101 = t84 * t98;
-    let t102 = t87 - t39 + t96 * t101;
-    let t103 = t97 * t98;
-    let t104 = sin2 * t65 + cos2 * t66 - sin2 * t89 + cos2 * t90 + t94 * t103;
-    let t105 = cos2 * t88 - sin2 * t86 - t96 * t103;
-    let t106 = 1.0 / t105;
-    let t107 = t100 * t106;
-    let t108 = t11 - t56 - t89 - t94 * t99 - t104 * t107;
-    let t109 = t102 * t106;
-    let t110 = t54 - t8 - t90 - t94 * t101 - t104 * t109;
-    let t111 = 1.0 / t108;
-    let t112 = t110 * t111;
-    let t113 = t41 - t22 + t91 * t112;
-    let t114 = t43 + t62 - t85 * t112;
-    let t115 = t92 * t111;
-    let t116 = -0.044999999999999984 + sin8 * t24 + cos8 * t25 - t91 * t115;
-    let t117 = 1.0 / t113;
-    let t118 = t116 * t117;
-    let t119 = t85 * t115 - t114 * t118;
-    let t120 = 1.0 / t119;
-    let t121 = 1.0 / cos2;
-    let t122 = sin2 * t121;
-    let t123 = sin8 - cos8 * t122;
-    let t124 = t120 * t123;
-    let t125 = t114 * t124;
-    let t126 = t117 * t125;
-    let t127 = t91 * t126 + t85 * t124;
-    let t128 = t111 * t127;
-    let t129 = t104 * t128;
-    let t130 = t106 * t129;
-    let t131 = t96 * t130 + t94 * t128;
-    let t132 = t98 * t131;
-    let t133 = t84 * t132 - t88 * t130 + t90 * t128;
-    let t134 = t122 - t133;
-    let t135 = -1.0 - t83 * t132 - t86 * t130 + t89 * t128;
-    let t136 = t8 * t128;
-    let t137 = t25 * t126 - t136;
-    let t138 = t122 - t137;
-    let t139 = t11 * t128;
-    let t140 = -1.0 + t139;
-    let t141 = t24 * t126;
-    let t142 = t141 - t140;
-    let t143 = t133 - t122 + t54 * t128 + t53 * t130;
-    let t144 = t56 * t128 - t135 - t55 * t130;
-    let t145 = t43 * t124 - (t137 - t122 + t41 * t126);
-    let t146 = t47 * t124 - (t140 - t141 - t44 * t126);
-    let t147 = t122 - (t136 + t10 * t132);
-    let t148 = t139 - (-1.0 - t14 * t132);
-    let t149 = sin20 - t79 * t128 - cos20 * t122;
-    let t150 = t81 * t149;
-    let t151 = t122 - (t1 * t150 - t0 * t128);
-    let t152 = -1.0 - t3 * t150 + t2 * t128;
-    let t153 = 20.0 * t122;
-    let t154 = 1.2 * t128;
-    let t155 = 0.5 * t148;
-    let t156 = 0.5 * t147;
-    let t157 = 0.002 * t132;
-    let t158 = 0.5 * t142;
-    let t159 = 0.5 * t138;
-    let t160 = 0.002 * t126;
-    let t161 = 0.3 * t144;
-    let t162 = 0.3 * t143;
-    let t163 = 0.0016 * t130;
-    let t164 = 0.3 * t146;
-    let t165 = 0.3 * t145;
-    let t166 = 0.0016 * t124;
-    let t167 = 0.02 * t128;
-    let t168 = 8.0 * t152;
-    let t169 = 8.0 * t151;
-    let t170 = 0.5 * t150;
-    let t171 = 20.0 + t122 * t153 + t128 * t154 + t148 * t155 + t147 * t156 + t132 * t157
-        + t142 * t158 + t138 * t159 + t126 * t160 + t144 * t161 + t143 * t162
-        + t130 * t163 + t146 * t164 + t145 * t165 + t124 * t166 + t135 * t135
-        + t134 * t134 + t128 * t167 + t152 * t168 + t151 * t169 + t150 * t170;
-    let t172 = 1.0 / t171;
-    let t173 = t15 * t30 + t33 * t40 + (t17 - t16) + (t59 - t58);
-    let t174 = t15 * t35 - t37 * t40 - (t19 - t18) - t61;
-    let t175 = v2 * t71 + t68 * t69 + (v2 * t72 + t67 * t70) + cos2 * t173 - sin2 * t174;
-    let t176 = ddf0 - (v2 * t73 + t69 * t70 + (v2 * t74 - t67 * t68)) + sin2 * t173
-        + cos2 * t174 + t103 * t175;
-    let t177 = t173 + (t49 + (t59 + t48 * t62) - t27) - t99 * t175 - t107 * t176;
-    let t178 = t60 + t48 * t64 - (t51 - t50) - (t18 - t28) - t174 - t101 * t175
-        - t109 * t176 - t112 * t177;
-    let t179 = t77 * t121;
-    let t180 = v8 * t75 + sin8 * t27 + cos8 * t29 + t115 * t177 - t118 * t178
-        - cos8 * t179;
-    let t181 = t120 * t180;
-    let t182 = t178 - t114 * t181;
-    let t183 = t117 * t182;
-    let t184 = t177 + t91 * t183 - t85 * t181;
-    let t185 = t111 * t184;
-    let t186 = t176 - t104 * t185;
-    let t187 = t106 * t186;
-    let t188 = t175 + t96 * t187 - t94 * t185;
-    let t189 = t98 * t188;
-    let t190 = t174 + t84 * t189 - t88 * t187 - t90 * t185 - t179;
-    let t191 = t173 + t83 * t189 + t86 * t187 + t89 * t185;
-    let t192 = t8 * t185;
-    let t193 = t179 - (t29 + t192 - t25 * t183);
-    let t194 = t11 * t185;
-    let t195 = t27 + t194 - t24 * t183;
-    let t196 = v20 * t78 + sin20 * t6 - cos20 * t7 + t79 * t185 - cos20 * t179;
-    let t197 = t81 * t196;
-    let t198 = 20.0 * t179;
-    let t199 = 1.2 * t185;
-    let t200 = 0.5 * (t194 + (t16 - t17 - t14 * t189));
-    let t201 = 0.5 * (t179 - (t18 - t19 + t10 * t189 - t192));
-    let t202 = 0.002 * t189;
-    let t203 = 0.5 * t195;
-    let t204 = 0.5 * t193;
-    let t205 = 0.002 * t183;
-    let t206 = 0.3 * (t191 + (t58 - t59 - t56 * t185) - t55 * t187);
-    let t207 = 0.3 * (t54 * t185 - t61 - t190 - t53 * t187);
-    let t208 = 0.0016 * t187;
-    let t209 = 0.3 * (t47 * t181 - (t49 - t195 + t44 * t183));
-    let t210 = 0.3 * (t43 * t181 - (t50 - t51 - t193 - t41 * t183));
-    let t211 = 0.0016 * t181;
-    let t212 = 0.02 * t185;
-    let t213 = 8.0 * (t6 + t3 * t197 + t2 * t185);
-    let t214 = 8.0 * (t179 - (t1 * t197 - t7 + t0 * t185));
-    let t215 = 0.5 * t197;
-    let t216 = t128 * t199 - t122 * t198 + t148 * t200 - t147 * t201 - t132 * t202
-        - t142 * t203 - t138 * t204 + t126 * t205 - t144 * t206 + t143 * t207
-        - t130 * t208 - t146 * t209 - t145 * t210 - t124 * t211 + t135 * t191
-        + t134 * t190 + t128 * t212 + t152 * t213 - t151 * t214 - t150 * t215;
-    let t217 = t172 * t216;
-    let t218 = sin2 * dq2;
-    let t219 = cos2 * dq2;
-    let t220 = sin5 * dq5;
-    let t221 = cos5 * dq5;
-    let t222 = sin8 * dq8;
-    let t223 = cos8 * dq8;
-    let t224 = sin11 * dq11;
-    let t225 = cos11 * dq11;
-    let t226 = sin14 * dq14;
-    let t227 = cos14 * dq14;
-    let t228 = sin20 * dq20;
-    let t229 = cos20 * dq20;
-    let t230 = 0.4 * t218;
-    let t231 = 0.35 * t228;
-    let t232 = 0.4 * t219;
-    let t233 = 0.35 * t229;
-    let t234 = v2 * dv2;
-    let t235 = t234 + t234;
-    let t236 = v20 * dv20;
-    let t237 = t236 + t236;
-    let t238 = t0 * t235 - t4 * t230 + (t1 * t237 - t5 * t231);
-    let t239 = t4 * t232 + t2 * t235 + (t5 * t233 + t3 * t237);
-    let t240 = 0.3 * t218;
-    let t241 = 0.025 * t221;
-    let t242 = t241 - 0.044999999999999984 * t220;
-    let t243 = 0.3 * t219;
-    let t244 = 0.025 * t220;
-    let t245 = t244 + 0.044999999999999984 * t221;
+    let t0 = v2 * v2;
+    let t1 = v20 * v20;
+    let t2 = v5 * v5;
+    let t3 = v8 * v8;
+    let t4 = v11 * v11;
+    let t5 = v14 * v14;
+    let t6 = v17 * v17;
+    let t7 = cos2 * v0 + sin2 * v1;
+    let t8 = v2 * t7;
+    let t9 = q15 - q0;
+    let t10 = q16 - q1;
+    let t11 = cos2 * t9 + sin2 * t10;
+    let t12 = cos2 * v1 - sin2 * v0;
+    let t13 = cos2 * v6 + sin2 * v7;
+    let t14 = cos2 * v7 - sin2 * v6;
+    let t15 = cos2 * v16 - sin2 * v15;
+    let t16 = cos2 * v18 + sin2 * v19;
+    let t17 = cos2 * v19 - sin2 * v18;
+    let t18 = cos2 * cos5 + sin2 * sin5;
+    let t19 = cos2 * sin5 - sin2 * cos5;
+    let t20 = cos2 * cos8 + sin2 * sin8;
+    let t21 = cos2 * sin8;
+    let t22 = sin2 * cos8;
+    let t23 = t21 - t22;
+    let t24 = cos2 * cos11 + sin2 * sin11;
+    let t25 = cos2 * sin11 - sin2 * cos11;
+    let t26 = cos2 * cos14 + sin2 * sin14;
+    let t27 = cos2 * sin14 - sin2 * cos14;
+    let t28 = cos2 * cos20 + sin2 * sin20;
+    let t29 = cos2 * sin20;
+    let t30 = sin2 * cos20;
+    let t31 = t29 - t30;
+    let t32 = 0.35 * t28;
+    let t33 = 0.35 * t31;
+    let t34 = 0.4 * t0 + t1 * t32;
+    let t35 = 0.025 * t19;
+    let t36 = 0.044999999999999984 * t18 + t35;
+    let t37 = 0.025 * t18;
+    let t38 = 0.044999999999999984 * t19;
+    let t39 = t38 - t37;
+    let t40 = 0.3 * t0;
+    let t41 = t2 * t36;
+    let t42 = 0.044999999999999984 * t20;
+    let t43 = 0.025 * t23;
+    let t44 = t43 - t42;
+    let t45 = 0.025 * t20;
+    let t46 = t45 + 0.044999999999999984 * t23;
+    let t47 = t42 - t43;
+    let t48 = t40 + t3 * t44;
+    let t49 = t35 + 0.04500000000000001 * t18;
+    let t50 = 0.0050000000000000044 * t24;
+    let t51 = 0.125 * t25;
+    let t52 = t50 - t51;
+    let t53 = 0.04500000000000001 * t19;
+    let t54 = t37 - t53;
+    let t55 = 0.125 * t24;
+    let t56 = t55 + 0.0050000000000000044 * t25;
+    let t57 = t51 - t50;
+    let t58 = t2 * t54 - t4 * t56;
+    let t59 = 0.04500000000000001 * t20 - t43;
+    let t60 = 0.125 * t27;
+    let t61 = 0.0050000000000000044 * t26 + t60;
+    let t62 = t45 + 0.04500000000000001 * t23;
+    let t63 = 0.125 * t26;
+    let t64 = 0.0050000000000000044 * t27;
+    let t65 = t63 - t64;
+    let t66 = t3 * t59 + t5 * t61;
+    let t67 = t3 * t62;
+    let t68 = t5 * t65;
+    let t69 = t51 - 0.004999999999999977 * t24;
+    let t70 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t71 = t55 + 0.004999999999999977 * t25;
+    let t72 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t73 = t6 * t70;
+    let t74 = t6 * t72;
+    let t75 = t60 + 0.004999999999999977 * t26;
+    let t76 = 0.004999999999999977 * t27;
+    let t77 = t76 - t63;
+    let t78 = sin2 * t9 - cos2 * t10;
+    let t79 = t12 - t15;
+    let t80 = t15 - t12;
+    let t81 = t7 - (cos2 * v15 + sin2 * v16);
+    let t82 = v2 * t11;
+    let t83 = v2 * t81;
+    let t84 = v2 * t78;
+    let t85 = t22 - t21;
+    let t86 = t13 * t20 - t14 * t85;
+    let t87 = t30 - t29;
+    let t88 = t16 * t28 - t17 * t87;
+    let t89 = 0.4 * t28;
+    let t90 = -0.050000000000000044 - t31 * t33 - t28 * t32;
+    let t91 = 1.0 / t90;
+    let t92 = t53 - t37 - (t37 - t38);
+    let t93 = t36 + t49;
+    let t94 = -0.3 + t11;
+    let t95 = t69 - t52;
+    let t96 = t63 - t76 - (t64 - t63);
+    let t97 = t61 + t75;
+    let t98 = 1.0 / t93;
+    let t99 = t92 * t98;
+    let t100 = t94 * t99;
+    let t101 = t56 + t71 + t95 * t99;
+    let t102 = t72 - t70 * t99;
+    let t103 = 1.0 / t101;
+    let t104 = t72 + t78;
+    let t105 = t46 + t62;
+    let t106 = 1.0 / t96;
+    let t107 = t97 * t106;
+    let t108 = 3.3333333333333335 * (t70 - t11 + t104 * t107);
+    let t109 = 1.0 - t108;
+    let t110 = t59 + t105 * t107 + t47 * t108;
+    let t111 = 1.0 / t109;
+    let t112 = t20 * t111;
+    let t113 = -0.044999999999999984 - t110 * t112;
+    let t114 = 1.0 / t113;
+    let t115 = t23 * t114;
+    let t116 = t110 * t115;
+    let t117 = t111 * t116;
+    let t118 = 3.3333333333333335 * (t117 + t47 * t115);
+    let t119 = t104 * t118 + t105 * t115;
+    let t120 = t106 * t119;
+    let t121 = -1.0 - t78 * t118;
+    let t122 = t46 * t115;
+    let t123 = t122 - t121;
+    let t124 = 1.0 + t122;
+    let t125 = t100 * t118 - (t121 - t122 + (t124 + t102 * t118));
+    let t126 = t103 * t125;
+    let t127 = t70 * t118 - t95 * t126 + t94 * t118;
+    let t128 = t98 * t127;
+    let t129 = t59 * t115 - (t117 - t61 * t120);
+    let t130 = -1.0 - t65 * t120 + t62 * t115;
+    let t131 = 0.3 * t118;
+    let t132 = t93 * t128 + t57 * t126 + t131;
+    let t133 = t124 - (t92 * t128 - t56 * t126);
+    let t134 = t11 * t118;
+    let t135 = t131 + t36 * t128;
+    let t136 = t124 - t39 * t128;
+    let t137 = t89 * t118 - t87 * t124;
+    let t138 = t91 * t137;
+    let t139 = t32 * t138 + 0.4 * t118;
+    let t140 = t124 + t33 * t138;
+    let t141 = 20.0 * t124;
+    let t142 = 1.2 * t118;
+    let t143 = 0.5 * t136;
+    let t144 = 0.5 * t135;
+    let t145 = 0.002 * t128;
+    let t146 = 0.5 * t117;
+    let t147 = 0.002 * t115;
+    let t148 = 0.3 * t133;
+    let t149 = 0.3 * t132;
+    let t150 = 0.0016 * t126;
+    let t151 = 0.3 * t130;
+    let t152 = 0.3 * t129;
+    let t153 = 0.0016 * t120;
+    let t154 = 0.02 * t118;
+    let t155 = 8.0 * t140;
+    let t156 = 8.0 * t139;
+    let t157 = 0.5 * t138;
+    let t158 = 0.5
+        + (t124 * t141 + t118 * t142 + t136 * t143 + t135 * t144 + t128 * t145)
+        + t117 * t146 + t115 * t147 + t133 * t148 + t132 * t149 + t126 * t150
+        + t130 * t151 + t129 * t152 + t120 * t153 + t123 * t123 + t134 * t134
+        + t118 * t154 + t140 * t155 + t139 * t156 + t138 * t157;
+    let t159 = 1.0 / t158;
+    let t160 = t8 + t1 * t33;
+    let t161 = t8 + t2 * t39;
+    let t162 = t3 * t46 - t8;
+    let t163 = t8 + (ddf0 - (t83 + t83 + v2 * t84));
+    let t164 = t2 * t49 + t4 * t52 + (t41 - t40);
+    let t165 = t163 - (t4 * t71 + t74) - (t161 - t58);
+    let t166 = t48 - (v2 * t79 - v2 * t80 + v2 * t82);
+    let t167 = t66 + (t73 + t5 * t75) - t166;
+    let t168 = t74 + t5 * t77 + t163 - (t68 - t67) - t107 * t167 + t108 * t162;
+    let t169 = v8 * t86 - t112 * t168;
+    let t170 = t114 * t169;
+    let t171 = t168 - t110 * t170;
+    let t172 = t111 * t171;
+    let t173 = 3.3333333333333335 * (t162 + t172 - t47 * t170);
+    let t174 = t167 - t104 * t173 + t105 * t170;
+    let t175 = t106 * t174;
+    let t176 = t166 + t78 * t173;
+    let t177 = t46 * t170;
+    let t178 = t176 - t177;
+    let t179 = t177 - t48;
+    let t180 = t4 * t69 - t73 - t164 + t99 * t165 - t179 + t102 * t173 - t178
+        - t100 * t173;
+    let t181 = t103 * t180;
+    let t182 = t165 - t95 * t181 - t70 * t173 - t94 * t173;
+    let t183 = t98 * t182;
+    let t184 = t59 * t170 - (t67 - t68 - t61 * t175 - t172);
+    let t185 = t66 - t65 * t175 + t62 * t170;
+    let t186 = 0.3 * t173;
+    let t187 = t58 - t161 - t93 * t183 - t57 * t181 + t186;
+    let t188 = t179 - (t92 * t183 - t164 - t56 * t181);
+    let t189 = t11 * t173;
+    let t190 = t161 + t36 * t183 - t186;
+    let t191 = t179 - (t40 - t41 + t39 * t183);
+    let t192 = v20 * t88 + t31 * t34 - t28 * t160 - t87 * t179 - t89 * t173;
+    let t193 = t91 * t192;
+    let t194 = 0.4 * t173 - (t32 * t193 - t160);
+    let t195 = t179 + (t34 + t33 * t193);
+    let t196 = 20.0 * t179;
+    let t197 = 1.2 * t173;
+    let t198 = 0.5 * t191;
+    let t199 = 0.5 * t190;
+    let t200 = 0.002 * t183;
+    let t201 = 0.5 * t172;
+    let t202 = 0.002 * t170;
+    let t203 = 0.3 * t188;
+    let t204 = 0.3 * t187;
+    let t205 = 0.0016 * t181;
+    let t206 = 0.3 * t185;
+    let t207 = 0.3 * t184;
+    let t208 = 0.0016 * t175;
+    let t209 = t189 - t163;
+    let t210 = 0.02 * t173;
+    let t211 = 8.0 * t195;
+    let t212 = 8.0 * t194;
+    let t213 = 0.5 * t193;
+    let t214 = t118 * t197 - t124 * t196 - t136 * t198 - t135 * t199 - t128 * t200
+        + t117 * t201 - t115 * t202 - t133 * t203 + t132 * t204 - t126 * t205
+        - t130 * t206 - t129 * t207 - t120 * t208 + t123 * t178 + t134 * t209
+        + t118 * t210 - t140 * t211 + t139 * t212 - t138 * t213;
+    let t215 = t159 * t214;
+    let t216 = t179 + t124 * t215;
+    let t217 = t191 + t136 * t215;
+    let t218 = t190 + t135 * t215;
+    let t219 = t172 - t117 * t215;
+    let t220 = t188 + t133 * t215;
+    let t221 = t132 * t215 - t187;
+    let t222 = t185 + t130 * t215;
+    let t223 = t184 + t129 * t215;
+    let t224 = t177 - t176 + t123 * t215;
+    let t225 = t163 - t189 + t134 * t215;
+    let t226 = t195 + t140 * t215;
+    let t227 = t194 - t139 * t215;
+    let t228 = sin2 * dq2;
+    let t229 = cos2 * dq2;
+    let t230 = sin5 * dq5;
+    let t231 = cos5 * dq5;
+    let t232 = sin8 * dq8;
+    let t233 = cos8 * dq8;
+    let t234 = sin11 * dq11;
+    let t235 = cos11 * dq11;
+    let t236 = sin14 * dq14;
+    let t237 = cos14 * dq14;
+    let t238 = sin17 * dq17;
+    let t239 = cos17 * dq17;
+    let t240 = sin20 * dq20;
+    let t241 = cos20 * dq20;
+    let t242 = v2 * dv2;
+    let t243 = t242 + t242;
+    let t244 = v20 * dv20;
+    let t245 = t244 + t244;
     let t246 = v5 * dv5;
     let t247 = t246 + t246;
-    let t248 = t8 * t235 - t4 * t240;
-    let t249 = t15 * t242 + t10 * t247;
-    let t250 = t11 * t235 + t4 * t243;
-    let t251 = t15 * t245 + t14 * t247;
-    let t252 = 0.025 * t223;
-    let t253 = 0.044999999999999984 * t222 + t252;
-    let t254 = 0.025 * t222;
-    let t255 = 0.044999999999999984 * t223 - t254;
-    let t256 = v8 * dv8;
-    let t257 = t256 + t256;
-    let t258 = t248 + (t26 * t253 + t22 * t257);
-    let t259 = t26 * t255 + t24 * t257;
-    let t260 = t259 - t250;
-    let t261 = t241 - 0.04500000000000001 * t220;
-    let t262 = 0.125 * t225;
-    let t263 = 0.0050000000000000044 * t224 + t262;
-    let t264 = t244 + 0.04500000000000001 * t221;
-    let t265 = 0.125 * t224;
-    let t266 = 0.0050000000000000044 * t225 - t265;
-    let t267 = v11 * dv11;
-    let t268 = t267 + t267;
-    let t269 = t252 + 0.04500000000000001 * t222;
-    let t270 = 0.125 * t227;
-    let t271 = t270 - 0.0050000000000000044 * t226;
-    let t272 = 0.04500000000000001 * t223 - t254;
-    let t273 = 0.125 * t226;
-    let t274 = t273 + 0.0050000000000000044 * t227;
-    let t275 = v14 * dv14;
-    let t276 = t275 + t275;
-    let t277 = t41 * t257 - t26 * t269 + (t48 * t271 + t43 * t276);
-    let t278 = t44 * t257 + t26 * t272;
-    let t279 = t47 * t276 - t48 * t274;
-    let t280 = t262 + 0.004999999999999977 * t224;
-    let t281 = 0.2 * (sin17 * dq17);
-    let t282 = 0.004999999999999977 * t225 - t265;
-    let t283 = 0.2 * (cos17 * dq17);
-    let t284 = v17 * dv17;
-    let t285 = t284 + t284;
-    let t286 = t53 * t268 + t40 * t280;
-    let t287 = t54 * t285 - t57 * t281;
-    let t288 = t57 * t283 + t56 * t285;
-    let t289 = t55 * t268 + t40 * t282 + t288;
-    let t290 = t270 - 0.004999999999999977 * t226;
-    let t291 = t273 + 0.004999999999999977 * t227;
-    let t292 = dq1 - dq16;
-    let t293 = dq0 - dq15;
-    let t294 = v2 * t219 + sin2 * dv2;
-    let t295 = dv16 - dv1;
-    let t296 = cos2 * dv2 - v2 * t218;
-    let t297 = dv0 - dv15;
-    let t298 = t2 * t229 + sin20 * t232 - (t0 * t228 + cos20 * t230);
-    let t299 = t81 * (t1 * t228 + cos20 * t231 - (t3 * t229 + sin20 * t233)) / t80;
-    let t300 = t245 + t264;
-    let t301 = t242 + t261;
-    let t302 = t274 + t291;
-    let t303 = t266 + t282;
-    let t304 = t263 + t280;
-    let t305 = t283 - t243;
-    let t306 = t281 - t240;
-    let t307 = t255 + t272;
-    let t308 = cos2 * t292 - t65 * t218 - (t66 * t219 + sin2 * t293)
-        - (cos2 * t305 - t89 * t218) - (t90 * t219 + sin2 * t306);
-    let t309 = cos2 * t303 - t86 * t218 + (t88 * t219 + sin2 * t304);
-    let t310 = t98 * (t84 * t219 + sin2 * t301 - (cos2 * t300 - t83 * t218)) / t95;
-    let t311 = t98 * t300 + t93 * t310;
-    let t312 = t98 * t301 - t84 * t310;
-    let t313 = t98 * (t83 * t219 + sin2 * t300 + (cos2 * t301 - t84 * t218))
-        - t97 * t310;
-    let t314 = t65 * t219 + sin2 * t292 + (cos2 * t293 - t66 * t218)
-        - (t89 * t219 + sin2 * t305) + (cos2 * t306 - t90 * t218)
-        + (t103 * t308 + t94 * t313);
-    let t315 = t106
-        * (cos2 * t304 - t88 * t218 - (t86 * t219 + sin2 * t303)
-            - (t103 * t309 + t96 * t313)) / t105;
-    let t316 = t106 * (t99 * t309 - t96 * t311 - t303) - t100 * t315;
-    let t317 = t106 * (t101 * t309 + t96 * t312 - t304) - t102 * t315;
-    let t318 = t111
-        * (t243 - t283 - t305 - (t99 * t308 - t94 * t311) - (t107 * t314 + t104 * t316))
-        / t108;
-    let t319 = t111
-        * (t240 - t281 - t306 - (t101 * t308 + t94 * t312) - (t109 * t314 + t104 * t317))
-        - t110 * t318;
-    let t320 = t271 + t290 - (t85 * t319 - t112 * t302);
-    let t321 = t111 * (t11 * t223 + sin8 * t243 - (t8 * t222 + cos8 * t240))
-        - t92 * t318;
-    let t322 = t117 * (t112 * t307 + t91 * t319 - (t253 + t269)) / t113;
-    let t323 = t117
-        * (t24 * t223 + sin8 * t255 - (t25 * t222 + cos8 * t253)
-            - (t115 * t307 + t91 * t321)) - t116 * t322;
-    let t324 = t120 * (t85 * t321 - t115 * t302 - (t118 * t320 + t114 * t323)) / t119;
-    let t325 = t121 * t218 / cos2;
-    let t326 = t121 * t219 + sin2 * t325;
-    let t327 = t120 * (t223 - (cos8 * t326 - t122 * t222)) - t123 * t324;
-    let t328 = t117 * (t124 * t320 + t114 * t327) - t125 * t322;
-    let t329 = t111 * (t126 * t307 + t91 * t328 + (t85 * t327 - t124 * t302))
-        - t127 * t318;
-    let t330 = t106 * (t128 * t314 + t104 * t329) - t129 * t315;
-    let t331 = t98 * (t130 * t309 + t96 * t330 + (t128 * t308 + t94 * t329))
-        - t131 * t310;
-    let t332 = t132 * t301 + t84 * t331 - (t130 * t304 + t88 * t330)
-        + (t128 * t306 + t90 * t329);
-    let t333 = t326 - t332;
-    let t334 = t128 * t305 + t89 * t329
-        - (t132 * t300 + t83 * t331 + (t130 * t303 + t86 * t330));
-    let t335 = t8 * t329 - t128 * t240;
-    let t336 = t25 * t328 - t126 * t253 - t335;
-    let t337 = t326 - t336;
-    let t338 = t128 * t243 + t11 * t329;
-    let t339 = t126 * t255 + t24 * t328;
-    let t340 = t339 - t338;
-    let t341 = t332 - t326 + (t54 * t329 - t128 * t281) + (t130 * t280 + t53 * t330);
-    let t342 = t128 * t283 + t56 * t329 - t334 - (t130 * t282 + t55 * t330);
-    let t343 = t124 * t271 + t43 * t327 - (t336 - t326 + (t41 * t328 - t126 * t269));
-    let t344 = t47 * t327 - t124 * t274 - (t338 - t339 - (t126 * t272 + t44 * t328));
-    let t345 = t326 - (t335 + (t132 * t242 + t10 * t331));
-    let t346 = t338 + (t132 * t245 + t14 * t331);
-    let t347 = t81 * (t229 - (t128 * t298 + t79 * t329) - (cos20 * t326 - t122 * t228))
-        - t149 * t299;
-    let t348 = t326 - (t1 * t347 - t150 * t231 - (t0 * t329 - t128 * t230));
-    let t349 = t128 * t232 + t2 * t329 - (t150 * t233 + t3 * t347);
-    let t350 = t135 * t334;
-    let t351 = t134 * t333;
-    let t352 = t30 * t247 + t15 * t261 + (t33 * t268 - t40 * t263) + (t249 - t248)
-        + (t287 - t286);
-    let t353 = t35 * t247 - t15 * t264 - (t40 * t266 + t37 * t268) - (t251 - t250)
-        - t289;
-    let t354 = dv2 * t71 + v2 * (t67 * t292 + t65 * t294 + (cos2 * t295 - t68 * t218))
-        + (t69 * t295 + t68 * t296)
-        + (dv2 * t72 + v2 * (t69 * t293 + t66 * t296 + (t70 * t219 + sin2 * t297))
-            + (t70 * t294 + t67 * t297)) + (cos2 * t352 - t173 * t218)
-        - (t174 * t219 + sin2 * t353);
-    let t355 = t173 * t219 + sin2 * t352
-        - (dv2 * t73 + v2 * (cos2 * t297 - t70 * t218 - (t67 * t293 + t66 * t294))
-            + (t70 * t296 + t69 * t297)
-            + (dv2 * t74 + v2 * (t69 * t292 + t65 * t296 - (t68 * t219 + sin2 * t295))
-                - (t68 * t294 + t67 * t295))) + (cos2 * t353 - t174 * t218)
-        + (t175 * t313 + t103 * t354);
-    let t356 = t352 + (t277 + (t287 + (t62 * t276 + t48 * t290)) - t258)
-        - (t99 * t354 - t175 * t311) - (t176 * t316 + t107 * t355);
-    let t357 = t288 + (t64 * t276 + t48 * t291) - (t279 - t278) - (t250 - t259) - t353
-        - (t175 * t312 + t101 * t354) - (t176 * t317 + t109 * t355)
-        - (t177 * t319 + t112 * t356);
-    let t358 = t121
-        * (dv2 * t76 + v2 * (cos2 * dv0 - v0 * t218 + (v1 * t219 + sin2 * dv1)))
-        + t77 * t325;
-    let t359 = t120
-        * (dv8 * t75 + v8 * (cos8 * dv6 - v6 * t222 + (v7 * t223 + sin8 * dv7))
-            + (t27 * t223 + sin8 * t258) + (cos8 * t260 - t29 * t222)
-            + (t177 * t321 + t115 * t356) - (t178 * t323 + t118 * t357)
-            - (cos8 * t358 - t179 * t222)) - t180 * t324;
-    let t360 = t117 * (t357 - (t181 * t320 + t114 * t359)) - t182 * t322;
-    let t361 = t111 * (t356 + (t183 * t307 + t91 * t360) - (t85 * t359 - t181 * t302))
-        - t184 * t318;
-    let t362 = t106 * (t355 - (t185 * t314 + t104 * t361)) - t186 * t315;
-    let t363 = t98 * (t354 + (t187 * t309 + t96 * t362) - (t185 * t308 + t94 * t361))
-        - t188 * t310;
-    let t364 = t353 + (t189 * t301 + t84 * t363) - (t187 * t304 + t88 * t362)
-        - (t185 * t306 + t90 * t361);
-    let t365 = t364 - t358;
-    let t366 = t352 + (t189 * t300 + t83 * t363) + (t187 * t303 + t86 * t362)
-        + (t185 * t305 + t89 * t361);
-    let t367 = t8 * t361 - t185 * t240;
-    let t368 = t358 - (t260 + t367 - (t25 * t360 - t183 * t253));
-    let t369 = t185 * t243 + t11 * t361;
-    let t370 = t258 + t369 - (t183 * t255 + t24 * t360);
-    let t371 = t54 * t361 - t185 * t281 - t289 - t365 - (t187 * t280 + t53 * t362);
-    let t372 = t366 + (t286 - t287 - (t185 * t283 + t56 * t361))
-        - (t187 * t282 + t55 * t362);
-    let t373 = t181 * t271 + t43 * t359
-        - (t278 - t279 - t368 - (t41 * t360 - t183 * t269));
-    let t374 = t47 * t359 - t181 * t274 - (t277 - t370 + (t183 * t272 + t44 * t360));
-    let t375 = t358 - (t250 - t251 + (t189 * t242 + t10 * t363) - t367);
-    let t376 = t369 + (t248 - t249 - (t189 * t245 + t14 * t363));
-    let t377 = t81
-        * (dv20 * t78 + v20 * (cos20 * dv18 - v18 * t228 + (v19 * t229 + sin20 * dv19))
-            + (t6 * t229 + sin20 * t238) - (cos20 * t239 - t7 * t228)
-            + (t185 * t298 + t79 * t361) - (cos20 * t358 - t179 * t228)) - t196 * t299;
-    let t378 = t358 - (t1 * t377 - t197 * t231 - t239 + (t0 * t361 - t185 * t230));
-    let t379 = t238 + (t197 * t233 + t3 * t377) + (t185 * t232 + t2 * t361);
-    let t380 = t172
-        * (t199 * t329 + t128 * (1.2 * t361) - (t198 * t326 + t122 * (20.0 * t358))
-            + (t200 * t346 + t148 * (0.5 * t376)) - (t201 * t345 + t147 * (0.5 * t375))
-            - (t202 * t331 + t132 * (0.002 * t363)) - (t203 * t340 + t142 * (0.5 * t370))
-            - (t204 * t337 + t138 * (0.5 * t368)) + (t205 * t328 + t126 * (0.002 * t360))
-            - (t206 * t342 + t144 * (0.3 * t372)) + (t207 * t341 + t143 * (0.3 * t371))
-            - (t208 * t330 + t130 * (0.0016 * t362))
-            - (t209 * t344 + t146 * (0.3 * t374)) - (t210 * t343 + t145 * (0.3 * t373))
-            - (t211 * t327 + t124 * (0.0016 * t359)) + (t191 * t334 + t135 * t366)
-            + (t190 * t333 + t134 * t365) + (t212 * t329 + t128 * (0.02 * t361))
-            + (t213 * t349 + t152 * (8.0 * t379)) - (t214 * t348 + t151 * (8.0 * t378))
-            - (t215 * t347 + t150 * (0.5 * t377)))
-        - t216
-            * (t172
-                * (t153 * t326 + t122 * (20.0 * t326)
-                    + (t154 * t329 + t128 * (1.2 * t329))
-                    + (t155 * t346 + t148 * (0.5 * t346))
-                    + (t156 * t345 + t147 * (0.5 * t345))
-                    + (t157 * t331 + t132 * (0.002 * t331))
-                    + (t158 * t340 + t142 * (0.5 * t340))
-                    + (t159 * t337 + t138 * (0.5 * t337))
-                    + (t160 * t328 + t126 * (0.002 * t328))
-                    + (t161 * t342 + t144 * (0.3 * t342))
-                    + (t162 * t341 + t143 * (0.3 * t341))
-                    + (t163 * t330 + t130 * (0.0016 * t330))
-                    + (t164 * t344 + t146 * (0.3 * t344))
-                    + (t165 * t343 + t145 * (0.3 * t343))
-                    + (t166 * t327 + t124 * (0.0016 * t327)) + (t350 + t350)
-                    + (t351 + t351) + (t167 * t329 + t128 * (0.02 * t329))
-                    + (t168 * t349 + t152 * (8.0 * t349))
-                    + (t169 * t348 + t151 * (8.0 * t348))
-                    + (t170 * t347 + t150 * (0.5 * t347))) / t171);
-    let t381 = t361 - (t217 * t329 + t128 * t380);
-    out(0usize, t380);
-    out(1usize, t358 + (t217 * t326 + t122 * t380));
-    out(2usize, t381);
-    out(3usize, t217 * t346 + t148 * t380 - t376);
-    out(4usize, t375 + (t217 * t345 + t147 * t380));
-    out(5usize, t363 + (t217 * t331 + t132 * t380));
-    out(6usize, t370 + (t217 * t340 + t142 * t380));
-    out(7usize, t368 + (t217 * t337 + t138 * t380));
-    out(8usize, t360 - (t217 * t328 + t126 * t380));
-    out(9usize, t372 + (t217 * t342 + t144 * t380));
-    out(10usize, t371 - (t217 * t341 + t143 * t380));
-    out(11usize, t362 + (t217 * t330 + t130 * t380));
-    out(12usize, t374 + (t217 * t344 + t146 * t380));
-    out(13usize, t373 + (t217 * t343 + t145 * t380));
-    out(14usize, t359 + (t217 * t327 + t124 * t380));
-    out(15usize, t366 - (t217 * t334 + t135 * t380));
-    out(16usize, t358 - t364 + (t217 * t333 + t134 * t380));
-    out(17usize, t381);
-    out(18usize, t379 - (t217 * t349 + t152 * t380));
-    out(19usize, t378 + (t217 * t348 + t151 * t380));
-    out(20usize, t377 + (t217 * t347 + t150 * t380));
+    let t248 = v8 * dv8;
+    let t249 = t248 + t248;
+    let t250 = v11 * dv11;
+    let t251 = t250 + t250;
+    let t252 = v14 * dv14;
+    let t253 = t252 + t252;
+    let t254 = v17 * dv17;
+    let t255 = t254 + t254;
+    let t256 = cos2 * dv0 - v0 * t228 + (v1 * t229 + sin2 * dv1);
+    let t257 = dv2 * t7 + v2 * t256;
+    let t258 = dq15 - dq0;
+    let t259 = dq16 - dq1;
+    let t260 = cos2 * t258 - t9 * t228 + (t10 * t229 + sin2 * t259);
+    let t261 = cos2 * dv1 - v1 * t228 - (v0 * t229 + sin2 * dv0);
+    let t262 = cos2 * dv16 - v16 * t228 - (v15 * t229 + sin2 * dv15);
+    let t263 = sin5 * t229 + sin2 * t231 - (cos5 * t228 + cos2 * t230);
+    let t264 = cos2 * t231 - sin5 * t228 - (cos5 * t229 - sin2 * t230);
+    let t265 = sin8 * t229 + sin2 * t233 - (cos8 * t228 + cos2 * t232);
+    let t266 = cos2 * t233 - sin8 * t228;
+    let t267 = cos8 * t229 - sin2 * t232;
+    let t268 = t266 - t267;
+    let t269 = sin11 * t229 + sin2 * t235 - (cos11 * t228 + cos2 * t234);
+    let t270 = cos2 * t235 - sin11 * t228 - (cos11 * t229 - sin2 * t234);
+    let t271 = sin14 * t229 + sin2 * t237 - (cos14 * t228 + cos2 * t236);
+    let t272 = cos2 * t237 - sin14 * t228 - (cos14 * t229 - sin2 * t236);
+    let t273 = sin20 * t229 + sin2 * t241 - (cos20 * t228 + cos2 * t240);
+    let t274 = cos2 * t241 - sin20 * t228;
+    let t275 = cos20 * t229 - sin2 * t240;
+    let t276 = t274 - t275;
+    let t277 = 0.35 * t273;
+    let t278 = 0.35 * t276;
+    let t279 = 0.4 * t243 + (t32 * t245 + t1 * t277);
+    let t280 = 0.025 * t264;
+    let t281 = 0.044999999999999984 * t263 + t280;
+    let t282 = 0.025 * t263;
+    let t283 = 0.044999999999999984 * t264;
+    let t284 = t283 - t282;
+    let t285 = 0.3 * t243;
+    let t286 = t36 * t247 + t2 * t281;
+    let t287 = 0.044999999999999984 * t265;
+    let t288 = 0.025 * t268;
+    let t289 = 0.025 * t265;
+    let t290 = t289 + 0.044999999999999984 * t268;
+    let t291 = t287 - t288;
+    let t292 = t285 + (t44 * t249 + t3 * (t288 - t287));
+    let t293 = t280 + 0.04500000000000001 * t263;
+    let t294 = 0.0050000000000000044 * t269;
+    let t295 = 0.125 * t270;
+    let t296 = t294 - t295;
+    let t297 = 0.04500000000000001 * t264;
+    let t298 = 0.125 * t269;
+    let t299 = t298 + 0.0050000000000000044 * t270;
+    let t300 = t295 - t294;
+    let t301 = t54 * t247 + t2 * (t282 - t297) - (t56 * t251 + t4 * t299);
+    let t302 = 0.04500000000000001 * t265 - t288;
+    let t303 = 0.125 * t272;
+    let t304 = 0.0050000000000000044 * t271 + t303;
+    let t305 = t289 + 0.04500000000000001 * t268;
+    let t306 = 0.125 * t271;
+    let t307 = 0.0050000000000000044 * t272;
+    let t308 = t306 - t307;
+    let t309 = t59 * t249 + t3 * t302 + (t61 * t253 + t5 * t304);
+    let t310 = t62 * t249 + t3 * t305;
+    let t311 = t65 * t253 + t5 * t308;
+    let t312 = t295 - 0.004999999999999977 * t269;
+    let t313 = 0.2 * (sin17 * t229 + sin2 * t239 - (cos17 * t228 + cos2 * t238));
+    let t314 = t298 + 0.004999999999999977 * t270;
+    let t315 = 0.2 * (cos2 * t239 - sin17 * t228 - (cos17 * t229 - sin2 * t238));
+    let t316 = t70 * t255 + t6 * t313;
+    let t317 = t72 * t255 + t6 * t315;
+    let t318 = t303 + 0.004999999999999977 * t271;
+    let t319 = 0.004999999999999977 * t272;
+    let t320 = t9 * t229 + sin2 * t258 - (cos2 * t259 - t10 * t228);
+    let t321 = dv2 * t81
+        + v2 * (t256 - (cos2 * dv15 - v15 * t228 + (v16 * t229 + sin2 * dv16)));
+    let t322 = t275 - t274;
+    let t323 = 0.4 * t273;
+    let t324 = t91 * (t33 * t276 + t31 * t278 + (t32 * t273 + t28 * t277)) / t90;
+    let t325 = t297 - t282 - (t282 - t283);
+    let t326 = t281 + t293;
+    let t327 = t312 - t296;
+    let t328 = t98 * t326 / t93;
+    let t329 = t98 * t325 - t92 * t328;
+    let t330 = t99 * t260 + t94 * t329;
+    let t331 = t315 - (t99 * t313 + t70 * t329);
+    let t332 = t103 * (t299 + t314 + (t99 * t327 + t95 * t329)) / t101;
+    let t333 = t315 + t320;
+    let t334 = t290 + t305;
+    let t335 = t106 * (t306 - t319 - (t307 - t306)) / t96;
+    let t336 = t106 * (t304 + t318) - t97 * t335;
+    let t337 = 3.3333333333333335 * (t313 - t260 + (t107 * t333 + t104 * t336));
+    let t338 = t302 + (t107 * t334 + t105 * t336) + (t108 * t291 + t47 * t337);
+    let t339 = t111 * t337 / t109;
+    let t340 = t111 * t265 + t20 * t339;
+    let t341 = t114 * (t112 * t338 + t110 * t340) / t113;
+    let t342 = t114 * t268 + t23 * t341;
+    let t343 = t116 * t339 + t111 * (t115 * t338 + t110 * t342);
+    let t344 = 3.3333333333333335 * (t343 + (t115 * t291 + t47 * t342));
+    let t345 = t106 * (t118 * t333 + t104 * t344 + (t115 * t334 + t105 * t342))
+        - t119 * t335;
+    let t346 = t115 * t290 + t46 * t342;
+    let t347 = t118 * t320 + t78 * t344 + t346;
+    let t348 = t103
+        * (t118 * t330 + t100 * t344 - (t346 + (t118 * t331 + t102 * t344) - t347))
+        - t125 * t332;
+    let t349 = t118 * t260;
+    let t350 = t98
+        * (t118 * t313 + t70 * t344 - (t126 * t327 + t95 * t348) + (t349 + t94 * t344))
+        - t127 * t328;
+    let t351 = t115 * t302 + t59 * t342 - (t343 - (t120 * t304 + t61 * t345));
+    let t352 = t115 * t305 + t62 * t342 - (t120 * t308 + t65 * t345);
+    let t353 = 0.3 * t344;
+    let t354 = t128 * t326 + t93 * t350 + (t126 * t300 + t57 * t348) + t353;
+    let t355 = t346 - (t128 * t325 + t92 * t350 - (t126 * t299 + t56 * t348));
+    let t356 = t349 + t11 * t344;
+    let t357 = t353 + (t128 * t281 + t36 * t350);
+    let t358 = t346 - (t128 * t284 + t39 * t350);
+    let t359 = t137 * t324
+        + t91 * (t118 * t323 + t89 * t344 - (t124 * t322 + t87 * t346));
+    let t360 = t138 * t277 + t32 * t359 + 0.4 * t344;
+    let t361 = t346 + (t138 * t278 + t33 * t359);
+    let t362 = t123 * t347;
+    let t363 = t134 * t356;
+    let t364 = t257 + (t33 * t245 + t1 * t278);
+    let t365 = t257 + (t39 * t247 + t2 * t284);
+    let t366 = t46 * t249 + t3 * t290 - t257;
+    let t367 = t257 - (t321 + t321 + (dv2 * t84 + v2 * (dv2 * t78 + v2 * t320)));
+    let t368 = t49 * t247 + t2 * t293 + (t52 * t251 + t4 * t296) + (t286 - t285);
+    let t369 = t367 - (t71 * t251 + t4 * t314 + t317) - (t365 - t301);
+    let t370 = t292
+        - (dv2 * t79 + v2 * (t261 - t262) - (dv2 * t80 + v2 * (t262 - t261))
+            + (dv2 * t82 + v2 * (dv2 * t11 + v2 * t260)));
+    let t371 = t309 + (t316 + (t75 * t253 + t5 * t318)) - t370;
+    let t372 = t317 + (t77 * t253 + t5 * (t319 - t306)) + t367 - (t311 - t310)
+        - (t167 * t336 + t107 * t371) + (t162 * t337 + t108 * t366);
+    let t373 = t169 * t341
+        + t114
+            * (dv8 * t86
+                + v8
+                    * (t20 * (cos2 * dv6 - v6 * t228 + (v7 * t229 + sin2 * dv7))
+                        + t13 * t265
+                        - (t85 * (cos2 * dv7 - v7 * t228 - (v6 * t229 + sin2 * dv6))
+                            + t14 * (t267 - t266))) - (t168 * t340 + t112 * t372));
+    let t374 = t171 * t339 + t111 * (t372 - (t170 * t338 + t110 * t373));
+    let t375 = 3.3333333333333335 * (t366 + t374 - (t170 * t291 + t47 * t373));
+    let t376 = t106 * (t371 - (t173 * t333 + t104 * t375) + (t170 * t334 + t105 * t373))
+        - t174 * t335;
+    let t377 = t370 + (t173 * t320 + t78 * t375);
+    let t378 = t170 * t290 + t46 * t373;
+    let t379 = t377 - t378;
+    let t380 = t378 - t292;
+    let t381 = t103
+        * (t69 * t251 + t4 * t312 - t316 - t368 + (t165 * t329 + t99 * t369) - t380
+            + (t173 * t331 + t102 * t375) - t379 - (t173 * t330 + t100 * t375))
+        - t180 * t332;
+    let t382 = t173 * t260;
+    let t383 = t98
+        * (t369 - (t181 * t327 + t95 * t381) - (t173 * t313 + t70 * t375)
+            - (t382 + t94 * t375)) - t182 * t328;
+    let t384 = t170 * t302 + t59 * t373
+        - (t310 - t311 - (t175 * t304 + t61 * t376) - t374);
+    let t385 = t309 - (t175 * t308 + t65 * t376) + (t170 * t305 + t62 * t373);
+    let t386 = 0.3 * t375;
+    let t387 = t301 - t365 - (t183 * t326 + t93 * t383) - (t181 * t300 + t57 * t381)
+        + t386;
+    let t388 = t380 - (t183 * t325 + t92 * t383 - t368 - (t181 * t299 + t56 * t381));
+    let t389 = t382 + t11 * t375;
+    let t390 = t365 + (t183 * t281 + t36 * t383) - t386;
+    let t391 = t380 - (t285 - t286 + (t183 * t284 + t39 * t383));
+    let t392 = t192 * t324
+        + t91
+            * (dv20 * t88
+                + v20
+                    * (t28 * (cos2 * dv18 - v18 * t228 + (v19 * t229 + sin2 * dv19))
+                        + t16 * t273
+                        - (t87 * (cos2 * dv19 - v19 * t228 - (v18 * t229 + sin2 * dv18))
+                            + t17 * t322)) + (t34 * t276 + t31 * t279)
+                - (t160 * t273 + t28 * t364) - (t179 * t322 + t87 * t380)
+                - (t173 * t323 + t89 * t375));
+    let t393 = 0.4 * t375 - (t193 * t277 + t32 * t392 - t364);
+    let t394 = t380 + (t279 + (t193 * t278 + t33 * t392));
+    let t395 = t159
+        * (t197 * t344 + t118 * (1.2 * t375) - (t196 * t346 + t124 * (20.0 * t380))
+            - (t198 * t358 + t136 * (0.5 * t391)) - (t199 * t357 + t135 * (0.5 * t390))
+            - (t200 * t350 + t128 * (0.002 * t383)) + (t201 * t343 + t117 * (0.5 * t374))
+            - (t202 * t342 + t115 * (0.002 * t373)) - (t203 * t355 + t133 * (0.3 * t388))
+            + (t204 * t354 + t132 * (0.3 * t387))
+            - (t205 * t348 + t126 * (0.0016 * t381))
+            - (t206 * t352 + t130 * (0.3 * t385)) - (t207 * t351 + t129 * (0.3 * t384))
+            - (t208 * t345 + t120 * (0.0016 * t376)) + (t178 * t347 + t123 * t379)
+            + (t209 * t356 + t134 * (t389 - t367)) + (t210 * t344 + t118 * (0.02 * t375))
+            - (t211 * t361 + t140 * (8.0 * t394)) + (t212 * t360 + t139 * (8.0 * t393))
+            - (t213 * t359 + t138 * (0.5 * t392)))
+        - t214
+            * (t159
+                * (t141 * t346 + t124 * (20.0 * t346)
+                    + (t142 * t344 + t118 * (1.2 * t344))
+                    + (t143 * t358 + t136 * (0.5 * t358))
+                    + (t144 * t357 + t135 * (0.5 * t357))
+                    + (t145 * t350 + t128 * (0.002 * t350))
+                    + (t146 * t343 + t117 * (0.5 * t343))
+                    + (t147 * t342 + t115 * (0.002 * t342))
+                    + (t148 * t355 + t133 * (0.3 * t355))
+                    + (t149 * t354 + t132 * (0.3 * t354))
+                    + (t150 * t348 + t126 * (0.0016 * t348))
+                    + (t151 * t352 + t130 * (0.3 * t352))
+                    + (t152 * t351 + t129 * (0.3 * t351))
+                    + (t153 * t345 + t120 * (0.0016 * t345)) + (t362 + t362)
+                    + (t363 + t363) + (t154 * t344 + t118 * (0.02 * t344))
+                    + (t155 * t361 + t140 * (8.0 * t361))
+                    + (t156 * t360 + t139 * (8.0 * t360))
+                    + (t157 * t359 + t138 * (0.5 * t359))) / t158);
+    let t396 = t380 + (t215 * t346 + t124 * t395);
+    let t397 = t215 * t344 + t118 * t395 - t375;
+    let t398 = t391 + (t215 * t358 + t136 * t395);
+    let t399 = t390 + (t215 * t357 + t135 * t395);
+    let t400 = t374 - (t215 * t343 + t117 * t395);
+    let t401 = t388 + (t215 * t355 + t133 * t395);
+    let t402 = t215 * t354 + t132 * t395 - t387;
+    let t403 = t385 + (t215 * t352 + t130 * t395);
+    let t404 = t384 + (t215 * t351 + t129 * t395);
+    let t405 = t378 - t377 + (t215 * t347 + t123 * t395);
+    let t406 = t367 - t389 + (t215 * t356 + t134 * t395);
+    let t407 = t394 + (t215 * t361 + t140 * t395);
+    let t408 = t393 - (t215 * t360 + t139 * t395);
+    out(0usize, cos2 * t396 - t216 * t228 - (t8 * t229 + sin2 * t257));
+    out(1usize, t216 * t229 + sin2 * t396 + (cos2 * t257 - t8 * t228));
+    out(2usize, t397);
+    out(3usize, cos2 * t398 - t217 * t228 - (t218 * t229 + sin2 * t399));
+    out(4usize, t217 * t229 + sin2 * t398 + (cos2 * t399 - t218 * t228));
+    out(5usize, -(t383 + (t215 * t350 + t128 * t395)));
+    out(6usize, cos2 * t395 - t215 * t228 - (t219 * t229 + sin2 * t400));
+    out(7usize, t215 * t229 + sin2 * t395 + (cos2 * t400 - t219 * t228));
+    out(8usize, t373 + (t215 * t342 + t115 * t395));
+    out(9usize, cos2 * t401 - t220 * t228 - (t221 * t229 + sin2 * t402));
+    out(10usize, t220 * t229 + sin2 * t401 + (cos2 * t402 - t221 * t228));
+    out(11usize, t381 + (t215 * t348 + t126 * t395));
+    out(12usize, -(cos2 * t403 - t222 * t228 + (t223 * t229 + sin2 * t404)));
+    out(13usize, cos2 * t404 - t223 * t228 - (t222 * t229 + sin2 * t403));
+    out(14usize, t376 + (t215 * t345 + t120 * t395));
+    out(15usize, cos2 * t405 - t224 * t228 - (t225 * t229 + sin2 * t406));
+    out(16usize, t224 * t229 + sin2 * t405 + (cos2 * t406 - t225 * t228));
+    out(17usize, t397);
+    out(18usize, cos2 * t407 - t226 * t228 - (t227 * t229 + sin2 * t408));
+    out(19usize, t226 * t229 + sin2 * t407 + (cos2 * t408 - t227 * t228));
+    out(20usize, t392 + (t215 * t359 + t138 * t395));
     f64::INFINITY
-        .min(-(2.0 * t80))
-        .min(32.0 * t95)
-        .min(-(4.0 * t105))
-        .min(-(8.0 * t108))
-        .min(8.0 * t113)
-        .min(-(4.0 * t119))
-        .min(2.0 * cos2)
-        .min(0.03125 * t171)
+        .min(-(2.0 * t90))
+        .min(16.0 * t93)
+        .min(4.0 * t101)
+        .min(4.0 * t96)
+        .min(4.0 * t109)
+        .min(-(4.0 * t113))
+        .min(0.03125 * t158)
 }
 ///The derivative of accelerations along (dq, dv).
 ///
-///Operations: 915 mul, 754 add, 4 neg, 16 div.
+///Operations: 883 mul, 708 add, 4 neg, 14 div.
 pub fn jacobian_action(
     t: f64,
     q: &[f64; N_Q],

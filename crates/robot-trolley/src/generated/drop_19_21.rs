@@ -2,6 +2,7 @@
 //!
 //! The mechanism `robot-trolley`: 21 coordinates, 21 velocities, 17 holonomic and 5 nonholonomic rows of rank 20.
 //! Rows (from 1) that are dropped and only monitored: 19, 21; that do not hold the position: none.
+//! Solved in the frame of the body `platform`: it does not matter which way the whole points.
 //!
 //! Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that
 //! divide return a health: the smallest divisor as a signed share of what it was at the states that the code was made for. Near 0 the
@@ -9,13 +10,13 @@
 //!
 //! | function | operations |
 //! | --- | --- |
-//! | `acceleration` | 344 mul, 276 add, 4 neg, 8 div |
-//! | `multipliers` | 425 mul, 359 add, 5 neg, 8 div |
+//! | `acceleration` | 333 mul, 243 add, 1 neg, 7 div |
+//! | `multipliers` | 396 mul, 309 add, 4 neg, 7 div |
 //! | `phi` | 36 mul, 65 add, 1 neg |
 //! | `velocity_residual` | 79 mul, 79 add |
-//! | `position_correction` | 247 mul, 239 add, 8 div |
-//! | `velocity_correction` | 288 mul, 246 add, 4 neg, 8 div |
-//! | `jacobian_action` | 940 mul, 784 add, 4 neg, 16 div |
+//! | `position_correction` | 301 mul, 257 add, 5 neg, 8 div |
+//! | `velocity_correction` | 304 mul, 227 add, 1 neg, 7 div |
+//! | `jacobian_action` | 889 mul, 709 add, 1 neg, 14 div |
 //! | `constraint_matrix` | 36 mul, 20 add, 15 neg |
 
 #![forbid(unsafe_code)]
@@ -133,7 +134,7 @@ pub const PATTERN: [[usize; 2]; ENTRIES] = [
 /// Times at which a derivative of a function of time jumps (s).
 pub const BREAK_TIMES: [f64; 8usize] = [1f64, 2f64, 3f64, 4f64, 6f64, 7f64, 8f64, 9f64];
 /// Operations of each function; sines and functions of time are not counted.
-pub const OPERATIONS: &str = "acceleration: 344 mul, 276 add, 4 neg, 8 div; multipliers: 425 mul, 359 add, 5 neg, 8 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 247 mul, 239 add, 8 div; velocity_correction: 288 mul, 246 add, 4 neg, 8 div; jacobian_action: 940 mul, 784 add, 4 neg, 16 div; constraint_matrix: 36 mul, 20 add, 15 neg";
+pub const OPERATIONS: &str = "acceleration: 333 mul, 243 add, 1 neg, 7 div; multipliers: 396 mul, 309 add, 4 neg, 7 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 301 mul, 257 add, 5 neg, 8 div; velocity_correction: 304 mul, 227 add, 1 neg, 7 div; jacobian_action: 889 mul, 709 add, 1 neg, 14 div; constraint_matrix: 36 mul, 20 add, 15 neg";
 /// Functions of time, each with two derivatives.
 #[inline]
 fn jets(t: f64) -> [f64; 3usize] {
@@ -282,227 +283,225 @@ fn acceleration_core(
     let v19 = v(19usize);
     let v20 = v(20usize);
     let ddf0 = f(2usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = v2 * v2;
-    let t5 = v20 * v20;
-    let t6 = t0 * t4 + t1 * t5;
-    let t7 = t2 * t4 + t3 * t5;
-    let t8 = 0.3 * cos2;
-    let t9 = 0.025 * sin5;
-    let t10 = 0.044999999999999984 * cos5 + t9;
-    let t11 = 0.3 * sin2;
-    let t12 = 0.025 * cos5;
-    let t13 = 0.044999999999999984 * sin5;
-    let t14 = t13 - t12;
-    let t15 = v5 * v5;
-    let t16 = t4 * t8;
-    let t17 = t10 * t15;
-    let t18 = t16 - t17;
-    let t19 = t4 * t11;
-    let t20 = t14 * t15;
-    let t21 = t19 - t20;
-    let t22 = 0.044999999999999984 * cos8;
-    let t23 = 0.025 * sin8;
-    let t24 = t23 - t22;
-    let t25 = 0.025 * cos8;
-    let t26 = t25 + 0.044999999999999984 * sin8;
-    let t27 = t22 - t23;
-    let t28 = v8 * v8;
-    let t29 = t16 + t24 * t28;
-    let t30 = t26 * t28;
-    let t31 = t9 + 0.04500000000000001 * cos5;
-    let t32 = 0.0050000000000000044 * cos11;
-    let t33 = 0.125 * sin11;
-    let t34 = t32 - t33;
-    let t35 = 0.04500000000000001 * sin5;
-    let t36 = 0.125 * cos11;
-    let t37 = t36 + 0.0050000000000000044 * sin11;
-    let t38 = t35 - t12;
-    let t39 = t33 - t32;
-    let t40 = v11 * v11;
-    let t41 = t15 * t31 + t34 * t40;
-    let t42 = t15 * (t12 - t35);
-    let t43 = t37 * t40;
-    let t44 = 0.04500000000000001 * cos8 - t23;
-    let t45 = 0.125 * sin14;
-    let t46 = 0.0050000000000000044 * cos14 + t45;
-    let t47 = t25 + 0.04500000000000001 * sin8;
-    let t48 = 0.125 * cos14;
-    let t49 = t48 - 0.0050000000000000044 * sin14;
-    let t50 = v14 * v14;
-    let t51 = t33 - 0.004999999999999977 * cos11;
-    let t52 = 0.2 * cos17;
-    let t53 = t36 + 0.004999999999999977 * sin11;
-    let t54 = 0.2 * sin17;
-    let t55 = v17 * v17;
-    let t56 = t52 * t55;
-    let t57 = t54 * t55;
-    let t58 = t45 + 0.004999999999999977 * cos14;
-    let t59 = 0.004999999999999977 * sin14;
-    let t60 = t59 - t48;
-    let t61 = t48 - t59;
-    let t62 = t56 + t50 * t58;
-    let t63 = t57 + t50 * t60;
-    let t64 = q1 - q16;
-    let t65 = q0 - q15;
-    let t66 = sin2 * v2;
-    let t67 = v16 - v1;
-    let t68 = cos2 * v2;
-    let t69 = v0 - v15;
-    let t70 = sin20 * t2 + cos20 * t0;
-    let t71 = -0.050000000000000044 - sin20 * t3 - cos20 * t1;
-    let t72 = 1.0 / t71;
-    let t73 = t26 + t47;
-    let t74 = t44 - t24;
-    let t75 = t37 + t53;
-    let t76 = t49 - t60;
-    let t77 = t46 + t58;
-    let t78 = t11 - t54;
-    let t79 = t52 - t8;
-    let t80 = t38 - (t12 - t13);
-    let t81 = t54 - t11 - t78;
-    let t82 = t60 - t49;
-    let t83 = 1.0 / t80;
-    let t84 = (t10 + t31) * t83;
-    let t85 = t8 - t52 + t81 * t84;
-    let t86 = t73 * t84;
-    let t87 = t51 - t34 + t75 * t84;
-    let t88 = t82 * t84;
-    let t89 = (0.044999999999999984 - sin5 * t14 - cos5 * t10) * t83;
-    let t90 = 1.0 / t87;
-    let t91 = t75 * t89 * t90;
-    let t92 = cos2 * t64 - sin2 * t65 - cos2 * t78 - sin2 * t79;
-    let t93 = cos2 * t73 - sin2 * t74;
-    let t94 = cos2 * t76 + sin2 * t77;
-    let t95 = cos5 + t91 - t91;
-    let t96 = 1.0 / t92;
-    let t97 = (sin2 * t64 + cos2 * t65 - sin2 * t78 + cos2 * t79) * t96;
-    let t98 = sin2 * t73 + cos2 * t74 - t93 * t97;
-    let t99 = cos2 * t77 - sin2 * t76 + t94 * t97;
-    let t100 = (sin5 * t11 + cos5 * t8 - t81 * t89 + t85 * t91 - t79 * t91) * t96;
-    let t101 = 1.0 / t98;
-    let t102 = (t86 * t91 - t73 * t89 - t74 * t91 - t93 * t100) * t101;
-    let t103 = t88 * t91 - t82 * t89 - t77 * t91 + t94 * t100 - t99 * t102;
-    let t104 = 1.0 / t103;
-    let t105 = 1.0 / cos2;
-    let t106 = sin2 * t105;
-    let t107 = t104 * (sin5 - t95 * t106);
-    let t108 = t101 * (t99 * t107);
-    let t109 = t96 * (t93 * t108 + t94 * t107);
-    let t110 = t74 * t108 - t79 * t109 - t77 * t107;
-    let t111 = t106 - t110;
-    let t112 = t90 * (t111 - t85 * t109 + t86 * t108 - t88 * t107 - t106);
-    let t113 = t73 * t108;
-    let t114 = t83 * (t113 - (t75 * t112 + t81 * t109) - t82 * t107);
-    let t115 = -1.0 - t78 * t109 - t113;
-    let t116 = t76 * t107;
-    let t117 = t116 - t115;
-    let t118 = t8 * t109;
-    let t119 = t10 * t114 - t118;
-    let t120 = t106 - t119;
-    let t121 = t11 * t109;
-    let t122 = -1.0 - t14 * t114 + t121;
-    let t123 = t110 - t106 + t52 * t109 + t58 * t107;
-    let t124 = t54 * t109 - (t115 - t116) - t61 * t107;
-    let t125 = t39 * t112 - (t119 - t106 + t31 * t114);
-    let t126 = t37 * t112 - (t122 - t38 * t114);
-    let t127 = t106 - (t118 + t27 * t108);
-    let t128 = t26 * t108 - (-1.0 - t121);
-    let t129 = t72 * (sin20 + t70 * t109 - cos20 * t106);
-    let t130 = t106 - (t1 * t129 + t0 * t109);
-    let t131 = t2 * t109 - (-1.0 - t3 * t129);
-    let t132 = 20.0 + t106 * (20.0 * t106) + t109 * (1.2 * t109) + t122 * (0.5 * t122)
-        + t120 * (0.5 * t120) + t114 * (0.002 * t114) + t128 * (0.5 * t128)
-        + t127 * (0.5 * t127) + t108 * (0.002 * t108) + t126 * (0.3 * t126)
-        + t125 * (0.3 * t125) + t112 * (0.0016 * t112) + t124 * (0.3 * t124)
-        + t123 * (0.3 * t123) + t107 * (0.0016 * t107) + t117 * t117 + t111 * t111
-        + t109 * (0.02 * t109) + t131 * (8.0 * t131) + t130 * (8.0 * t130)
-        + t129 * (0.5 * t129);
-    let t133 = t62 + (t28 * t44 + t46 * t50 - t29);
-    let t134 = t63 + (t28 * t47 - t49 * t50 - (t19 - t30));
-    let t135 = t40 * t51 - t56 - t41 - (t17 - t16) - t133;
-    let t136 = t84 * t135 - (t40 * t53 + t57 + (t43 - t42) + (t20 - t19));
-    let t137 = v2 * (t64 * t66 + cos2 * t67) + t67 * t68
-        + (v2 * (t65 * t68 + sin2 * t69) + t66 * t69) - cos2 * t133 - sin2 * t134;
-    let t138 = ddf0
-        - (v2 * (cos2 * t69 - t65 * t66) + t68 * t69
-            + (v2 * (t64 * t68 - sin2 * t67) - t66 * t67)) - sin2 * t133 + cos2 * t134
-        - t97 * t137;
-    let t139 = v2 * (cos2 * v0 + sin2 * v1) * t105;
-    let t140 = t104
-        * (v5 * (cos5 * v3 + sin5 * v4) - sin5 * t18 + cos5 * t21 - t89 * t135
-            + t91 * t136 - t91 * t134 - t100 * t137 - t102 * t138 - t95 * t139);
-    let t141 = t101 * (t138 - t99 * t140);
-    let t142 = t96 * (t137 - t93 * t141 + t94 * t140);
-    let t143 = t134 - t79 * t142 - t74 * t141 - t77 * t140;
-    let t144 = t143 - t139;
-    let t145 = t90 * (t136 - t144 - t85 * t142 - t86 * t141 - t88 * t140 - t139);
-    let t146 = t73 * t141;
-    let t147 = t83 * (t135 - t75 * t145 - t81 * t142 - t146 - t82 * t140);
-    let t148 = t146 + (t133 - t78 * t142);
-    let t149 = t76 * t140;
-    let t150 = t148 - t149;
-    let t151 = t8 * t142;
-    let t152 = t139 - (t21 + t10 * t147 - t151);
-    let t153 = t11 * t142;
-    let t154 = t18 - t14 * t147 + t153;
-    let t155 = t63 - t52 * t142 - t144 - t58 * t140;
-    let t156 = t62 + t54 * t142 - t150 - t61 * t140;
-    let t157 = t39 * t145 - (t42 - t43 - t152 + t31 * t147);
-    let t158 = t37 * t145 - (t154 - t41 - t38 * t147);
-    let t159 = t139 - (t30 - t19 + t151 - t27 * t141);
-    let t160 = t29 + t153 - t26 * t141;
-    let t161 = t72
-        * (v20 * (cos20 * v18 + sin20 * v19) + sin20 * t6 - cos20 * t7 + t70 * t142
-            - cos20 * t139);
-    let t162 = t139 - (t1 * t161 - t7 + t0 * t142);
-    let t163 = t6 + t3 * t161 + t2 * t142;
-    let t164 = 1.0 / t132
-        * (t108 * (0.002 * t141)
-            - (t106 * (20.0 * t139) + t109 * (1.2 * t142) + t122 * (0.5 * t154)
-                + t120 * (0.5 * t152) + t114 * (0.002 * t147) + t128 * (0.5 * t160)
-                + t127 * (0.5 * t159)) - t126 * (0.3 * t158) - t125 * (0.3 * t157)
-            - t112 * (0.0016 * t145) - t124 * (0.3 * t156) + t123 * (0.3 * t155)
-            - t107 * (0.0016 * t140) + t117 * t150 + t111 * t144 - t109 * (0.02 * t142)
-            - t131 * (8.0 * t163) - t130 * (8.0 * t162) - t129 * (0.5 * t161));
-    let t165 = t142 + t109 * t164;
-    out(0usize, t164);
-    out(1usize, t139 + t106 * t164);
-    out(2usize, t165);
-    out(3usize, -(t154 + t122 * t164));
-    out(4usize, t152 + t120 * t164);
-    out(5usize, t147 + t114 * t164);
-    out(6usize, t160 + t128 * t164);
-    out(7usize, t159 + t127 * t164);
-    out(8usize, t141 - t108 * t164);
-    out(9usize, t158 + t126 * t164);
-    out(10usize, t157 + t125 * t164);
-    out(11usize, t145 + t112 * t164);
-    out(12usize, t156 + t124 * t164);
-    out(13usize, t155 - t123 * t164);
-    out(14usize, t140 + t107 * t164);
-    out(15usize, t149 - t148 + t117 * t164);
-    out(16usize, t139 - t143 + t111 * t164);
-    out(17usize, t165);
-    out(18usize, t163 + t131 * t164);
-    out(19usize, t162 + t130 * t164);
-    out(20usize, t161 + t129 * t164);
+    let t0 = v2 * v2;
+    let t1 = v20 * v20;
+    let t2 = v5 * v5;
+    let t3 = v8 * v8;
+    let t4 = v11 * v11;
+    let t5 = v14 * v14;
+    let t6 = v17 * v17;
+    let t7 = cos2 * v0 + sin2 * v1;
+    let t8 = v2 * t7;
+    let t9 = q15 - q0;
+    let t10 = q16 - q1;
+    let t11 = cos2 * t9 + sin2 * t10;
+    let t12 = cos2 * v1 - sin2 * v0;
+    let t13 = cos2 * v16 - sin2 * v15;
+    let t14 = cos2 * cos5 + sin2 * sin5;
+    let t15 = cos2 * sin5;
+    let t16 = sin2 * cos5;
+    let t17 = t15 - t16;
+    let t18 = cos2 * cos8 + sin2 * sin8;
+    let t19 = cos2 * sin8 - sin2 * cos8;
+    let t20 = cos2 * cos11 + sin2 * sin11;
+    let t21 = cos2 * sin11 - sin2 * cos11;
+    let t22 = cos2 * cos14 + sin2 * sin14;
+    let t23 = cos2 * sin14 - sin2 * cos14;
+    let t24 = cos2 * cos20 + sin2 * sin20;
+    let t25 = cos2 * sin20;
+    let t26 = sin2 * cos20;
+    let t27 = t25 - t26;
+    let t28 = 0.35 * t24;
+    let t29 = 0.35 * t27;
+    let t30 = 0.4 * t0 + t1 * t28;
+    let t31 = 0.025 * t17;
+    let t32 = 0.044999999999999984 * t14 + t31;
+    let t33 = 0.025 * t14;
+    let t34 = 0.044999999999999984 * t17;
+    let t35 = t34 - t33;
+    let t36 = 0.3 * t0;
+    let t37 = t36 - t2 * t32;
+    let t38 = 0.044999999999999984 * t18;
+    let t39 = 0.025 * t19;
+    let t40 = t39 - t38;
+    let t41 = 0.025 * t18;
+    let t42 = t41 + 0.044999999999999984 * t19;
+    let t43 = t38 - t39;
+    let t44 = t36 + t3 * t40;
+    let t45 = t3 * t42;
+    let t46 = t31 + 0.04500000000000001 * t14;
+    let t47 = 0.0050000000000000044 * t20;
+    let t48 = 0.125 * t21;
+    let t49 = t47 - t48;
+    let t50 = 0.04500000000000001 * t17;
+    let t51 = 0.125 * t20;
+    let t52 = t51 + 0.0050000000000000044 * t21;
+    let t53 = t50 - t33;
+    let t54 = t48 - t47;
+    let t55 = t2 * t46 + t4 * t49;
+    let t56 = t2 * (t33 - t50);
+    let t57 = t4 * t52;
+    let t58 = 0.04500000000000001 * t18 - t39;
+    let t59 = 0.125 * t23;
+    let t60 = 0.0050000000000000044 * t22 + t59;
+    let t61 = t41 + 0.04500000000000001 * t19;
+    let t62 = 0.125 * t22;
+    let t63 = 0.0050000000000000044 * t23;
+    let t64 = t62 - t63;
+    let t65 = t3 * t58 + t5 * t60;
+    let t66 = t3 * t61 - t5 * t64;
+    let t67 = t48 - 0.004999999999999977 * t20;
+    let t68 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t69 = t51 + 0.004999999999999977 * t21;
+    let t70 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t71 = t6 * t68;
+    let t72 = t6 * t70;
+    let t73 = t59 + 0.004999999999999977 * t22;
+    let t74 = 0.004999999999999977 * t23;
+    let t75 = sin2 * t9 - cos2 * t10;
+    let t76 = v2 * (t7 - (cos2 * v15 + sin2 * v16));
+    let t77 = t26 - t25;
+    let t78 = 0.4 * t24;
+    let t79 = -0.050000000000000044 - t27 * t29 - t24 * t28;
+    let t80 = 1.0 / t79;
+    let t81 = t42 + t61;
+    let t82 = t58 - t40;
+    let t83 = t52 + t69;
+    let t84 = 0.3 + t11;
+    let t85 = t60 + t73;
+    let t86 = 1.0 / t82;
+    let t87 = t81 * t86;
+    let t88 = t84 * t87;
+    let t89 = t62 - t74 - (t63 - t62) + t85 * t87;
+    let t90 = t68 * t87 - t70;
+    let t91 = 1.0 / t89;
+    let t92 = t33 - t34;
+    let t93 = t70 - t75;
+    let t94 = t53 - t92;
+    let t95 = 1.0 / t83;
+    let t96 = (t67 - t49) * t95;
+    let t97 = 3.3333333333333335 * (t11 + t68 + t93 * t96);
+    let t98 = 1.0 - t97;
+    let t99 = t46 + t94 * t96 + t32 * t97;
+    let t100 = 1.0 / t98;
+    let t101 = t14 * t100;
+    let t102 = 0.044999999999999984 + t99 * t101;
+    let t103 = 1.0 / t102;
+    let t104 = t17 * t103;
+    let t105 = t100 * (t99 * t104);
+    let t106 = 3.3333333333333335 * (t105 + t32 * t104);
+    let t107 = t95 * (t93 * t106 + t94 * t104);
+    let t108 = -1.0 - t75 * t106;
+    let t109 = t92 * t104;
+    let t110 = t109 - t108;
+    let t111 = t35 * t104;
+    let t112 = 1.0 - t111;
+    let t113 = t91 * (t111 - 1.0 - t90 * t106 - (t108 - t109) + t88 * t106);
+    let t114 = t86 * (t84 * t106 - (t85 * t113 + t68 * t106));
+    let t115 = 0.3 * t106;
+    let t116 = t82 * t114 + t60 * t113 - t115;
+    let t117 = t112 - (t81 * t114 - t64 * t113);
+    let t118 = t54 * t107 - t105 + t46 * t104;
+    let t119 = t53 * t104 - (-1.0 + t52 * t107);
+    let t120 = t11 * t106;
+    let t121 = t43 * t114 - t115;
+    let t122 = t112 - t42 * t114;
+    let t123 = t80 * (t78 * t106 - t77 * t112);
+    let t124 = t28 * t123 + 0.4 * t106;
+    let t125 = t112 + t29 * t123;
+    let t126 = 0.5 + (t112 * (20.0 * t112) + t106 * (1.2 * t106)) + t105 * (0.5 * t105)
+        + t104 * (0.002 * t104) + t122 * (0.5 * t122) + t121 * (0.5 * t121)
+        + t114 * (0.002 * t114) + t119 * (0.3 * t119) + t118 * (0.3 * t118)
+        + t107 * (0.0016 * t107) + t117 * (0.3 * t117) + t116 * (0.3 * t116)
+        + t113 * (0.0016 * t113) + t110 * t110 + t120 * t120 + t106 * (0.02 * t106)
+        + t125 * (8.0 * t125) + t124 * (8.0 * t124) + t123 * (0.5 * t123);
+    let t127 = t8 + t1 * t29;
+    let t128 = t8 + t2 * t35;
+    let t129 = t8 + (ddf0 - (t76 + t76 + v2 * (v2 * t75)));
+    let t130 = t8 - t45;
+    let t131 = t72 + t5 * (t74 - t62) + t129 - (t130 - t66);
+    let t132 = t37 + (v2 * (t12 - t13) - v2 * (t13 - t12) + v2 * (v2 * t11));
+    let t133 = t4 * t67 - t71 - t55 + t132;
+    let t134 = t129 - (t4 * t69 + t72) - (t57 - t56) - t96 * t133 - t97 * t128;
+    let t135 = t103
+        * (v5 * ((cos2 * v3 + sin2 * v4) * t14 - (cos2 * v4 - sin2 * v3) * (t16 - t15))
+            - t101 * t134);
+    let t136 = t100 * (t134 + t99 * t135);
+    let t137 = 3.3333333333333335 * (t136 - t128 + t32 * t135);
+    let t138 = t95 * (t133 - t93 * t137 - t94 * t135);
+    let t139 = t132 + t75 * t137 + t92 * t135;
+    let t140 = t37 - t35 * t135;
+    let t141 = t91
+        * (t139 + (t71 + t5 * t73 - (t44 - t65) + t87 * t131 - t140 - t90 * t137)
+            + t88 * t137);
+    let t142 = t86 * (t131 - t85 * t141 - t68 * t137 + t84 * t137);
+    let t143 = 0.3 * t137;
+    let t144 = t66 - t130 - t82 * t142 - t60 * t141 + t143;
+    let t145 = t140 - (t65 - t44 + t81 * t142 - t64 * t141);
+    let t146 = t56 - t57 - t54 * t138 - t136 + t46 * t135;
+    let t147 = t55 + t52 * t138 + t53 * t135;
+    let t148 = t129 + t11 * t137;
+    let t149 = t143 + (t45 - t8 - t43 * t142);
+    let t150 = t140 - (t42 * t142 - t44);
+    let t151 = t80
+        * (v20 * ((cos2 * v18 + sin2 * v19) * t24 - (cos2 * v19 - sin2 * v18) * t77)
+            + t27 * t30 - t24 * t127 - t77 * t140 + t78 * t137);
+    let t152 = t28 * t151 - t127 + 0.4 * t137;
+    let t153 = t140 + (t30 + t29 * t151);
+    let t154 = 1.0 / t126
+        * (t121 * (0.5 * t149)
+            - (t112 * (20.0 * t140) + t106 * (1.2 * t137) + t105 * (0.5 * t136)
+                + t104 * (0.002 * t135) + t122 * (0.5 * t150)) - t114 * (0.002 * t142)
+            - t119 * (0.3 * t147) - t118 * (0.3 * t146) + t107 * (0.0016 * t138)
+            - t117 * (0.3 * t145) + t116 * (0.3 * t144) - t113 * (0.0016 * t141)
+            - t110 * t139 - t120 * t148 - t106 * (0.02 * t137) - t125 * (8.0 * t153)
+            - t124 * (8.0 * t152) - t123 * (0.5 * t151));
+    let t155 = t140 + t112 * t154;
+    let t156 = t137 + t106 * t154;
+    let t157 = t136 + t105 * t154;
+    let t158 = t150 + t122 * t154;
+    let t159 = t121 * t154 - t149;
+    let t160 = t147 + t119 * t154;
+    let t161 = t146 + t118 * t154;
+    let t162 = t145 + t117 * t154;
+    let t163 = t116 * t154 - t144;
+    let t164 = t139 + t110 * t154;
+    let t165 = t148 + t120 * t154;
+    let t166 = t153 + t125 * t154;
+    let t167 = t152 + t124 * t154;
+    out(0usize, cos2 * t155 - sin2 * t8);
+    out(1usize, sin2 * t155 + cos2 * t8);
+    out(2usize, t156);
+    out(3usize, cos2 * t154 - sin2 * t157);
+    out(4usize, sin2 * t154 + cos2 * t157);
+    out(5usize, t135 + t104 * t154);
+    out(6usize, cos2 * t158 - sin2 * t159);
+    out(7usize, sin2 * t158 + cos2 * t159);
+    out(8usize, t142 + t114 * t154);
+    out(9usize, cos2 * t160 + sin2 * t161);
+    out(10usize, sin2 * t160 - cos2 * t161);
+    out(11usize, t138 - t107 * t154);
+    out(12usize, cos2 * t162 - sin2 * t163);
+    out(13usize, sin2 * t162 + cos2 * t163);
+    out(14usize, t141 + t113 * t154);
+    out(15usize, cos2 * t164 - sin2 * t165);
+    out(16usize, sin2 * t164 + cos2 * t165);
+    out(17usize, t156);
+    out(18usize, cos2 * t166 + sin2 * t167);
+    out(19usize, sin2 * t166 - cos2 * t167);
+    out(20usize, t151 + t123 * t154);
     f64::INFINITY
-        .min(-(2.0 * t71))
-        .min(-(16.0 * t80))
-        .min(-(4.0 * t87))
-        .min(4.0 * t92)
-        .min(8.0 * t98)
-        .min(4.0 * t103)
-        .min(2.0 * cos2)
-        .min(0.03125 * t132)
+        .min(-(2.0 * t79))
+        .min(16.0 * t82)
+        .min(4.0 * t89)
+        .min(4.0 * t83)
+        .min(4.0 * t98)
+        .min(4.0 * t102)
+        .min(0.03125 * t126)
 }
 ///Accelerations a of `M·a + Cᵀ·λ = Q`, `C·a = Γ` on the kept rows.
 ///
-///Operations: 344 mul, 276 add, 4 neg, 8 div.
+///Operations: 333 mul, 243 add, 1 neg, 7 div.
 pub fn acceleration(t: f64, q: &[f64; N_Q], v: &[f64; N_V], a: &mut [f64; N_V]) -> f64 {
     let f = jets(t);
     let x = rotations(q);
@@ -572,280 +571,262 @@ fn multipliers_core(
     let v19 = v(19usize);
     let v20 = v(20usize);
     let ddf0 = f(2usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = v2 * v2;
-    let t5 = v20 * v20;
-    let t6 = t0 * t4 + t1 * t5;
-    let t7 = t2 * t4 + t3 * t5;
-    let t8 = 0.3 * cos2;
-    let t9 = 0.025 * sin5;
-    let t10 = 0.044999999999999984 * cos5 + t9;
-    let t11 = 0.3 * sin2;
-    let t12 = 0.025 * cos5;
-    let t13 = 0.044999999999999984 * sin5;
-    let t14 = t13 - t12;
-    let t15 = v5 * v5;
-    let t16 = t4 * t8;
-    let t17 = t10 * t15;
-    let t18 = t16 - t17;
-    let t19 = t4 * t11;
-    let t20 = t14 * t15;
-    let t21 = t19 - t20;
-    let t22 = 0.044999999999999984 * cos8;
-    let t23 = 0.025 * sin8;
-    let t24 = t23 - t22;
-    let t25 = 0.025 * cos8;
-    let t26 = t25 + 0.044999999999999984 * sin8;
-    let t27 = t22 - t23;
-    let t28 = v8 * v8;
-    let t29 = t16 + t24 * t28;
-    let t30 = t26 * t28;
-    let t31 = t9 + 0.04500000000000001 * cos5;
-    let t32 = 0.0050000000000000044 * cos11;
-    let t33 = 0.125 * sin11;
-    let t34 = t32 - t33;
-    let t35 = 0.04500000000000001 * sin5;
-    let t36 = 0.125 * cos11;
-    let t37 = t36 + 0.0050000000000000044 * sin11;
-    let t38 = t35 - t12;
-    let t39 = t33 - t32;
-    let t40 = v11 * v11;
-    let t41 = t15 * t31 + t34 * t40;
-    let t42 = t15 * (t12 - t35);
-    let t43 = t37 * t40;
-    let t44 = 0.04500000000000001 * cos8 - t23;
-    let t45 = 0.125 * sin14;
-    let t46 = 0.0050000000000000044 * cos14 + t45;
-    let t47 = t25 + 0.04500000000000001 * sin8;
-    let t48 = 0.125 * cos14;
-    let t49 = t48 - 0.0050000000000000044 * sin14;
-    let t50 = v14 * v14;
-    let t51 = t33 - 0.004999999999999977 * cos11;
-    let t52 = 0.2 * cos17;
-    let t53 = t36 + 0.004999999999999977 * sin11;
-    let t54 = 0.2 * sin17;
-    let t55 = v17 * v17;
-    let t56 = t52 * t55;
-    let t57 = t54 * t55;
-    let t58 = t45 + 0.004999999999999977 * cos14;
-    let t59 = 0.004999999999999977 * sin14;
-    let t60 = t59 - t48;
-    let t61 = t48 - t59;
-    let t62 = t56 + t50 * t58;
-    let t63 = t57 + t50 * t60;
-    let t64 = q1 - q16;
-    let t65 = q0 - q15;
-    let t66 = sin2 * v2;
-    let t67 = v16 - v1;
-    let t68 = cos2 * v2;
-    let t69 = v0 - v15;
-    let t70 = sin20 * t2 + cos20 * t0;
-    let t71 = -0.050000000000000044 - sin20 * t3 - cos20 * t1;
-    let t72 = 1.0 / t71;
-    let t73 = t26 + t47;
-    let t74 = t44 - t24;
-    let t75 = t37 + t53;
-    let t76 = t49 - t60;
-    let t77 = t46 + t58;
-    let t78 = t11 - t54;
-    let t79 = t52 - t8;
-    let t80 = t38 - (t12 - t13);
-    let t81 = t54 - t11 - t78;
-    let t82 = t60 - t49;
-    let t83 = 1.0 / t80;
-    let t84 = (t10 + t31) * t83;
-    let t85 = t8 - t52 + t81 * t84;
-    let t86 = t73 * t84;
-    let t87 = t51 - t34 + t75 * t84;
-    let t88 = t82 * t84;
-    let t89 = (0.044999999999999984 - sin5 * t14 - cos5 * t10) * t83;
-    let t90 = 1.0 / t87;
-    let t91 = t75 * t89 * t90;
-    let t92 = cos2 * t64 - sin2 * t65 - cos2 * t78 - sin2 * t79;
-    let t93 = cos2 * t73 - sin2 * t74;
-    let t94 = cos2 * t76 + sin2 * t77;
-    let t95 = cos5 + t91 - t91;
-    let t96 = 1.0 / t92;
-    let t97 = (sin2 * t64 + cos2 * t65 - sin2 * t78 + cos2 * t79) * t96;
-    let t98 = sin2 * t73 + cos2 * t74 - t93 * t97;
-    let t99 = cos2 * t77 - sin2 * t76 + t94 * t97;
-    let t100 = (sin5 * t11 + cos5 * t8 - t81 * t89 + t85 * t91 - t79 * t91) * t96;
-    let t101 = 1.0 / t98;
-    let t102 = (t86 * t91 - t73 * t89 - t74 * t91 - t93 * t100) * t101;
-    let t103 = t88 * t91 - t82 * t89 - t77 * t91 + t94 * t100 - t99 * t102;
-    let t104 = 1.0 / t103;
-    let t105 = 1.0 / cos2;
-    let t106 = sin2 * t105;
-    let t107 = t104 * (sin5 - t95 * t106);
-    let t108 = t101 * (t99 * t107);
-    let t109 = t96 * (t93 * t108 + t94 * t107);
-    let t110 = t74 * t108 - t79 * t109 - t77 * t107;
-    let t111 = t106 - t110;
-    let t112 = t90 * (t111 - t85 * t109 + t86 * t108 - t88 * t107 - t106);
-    let t113 = t73 * t108;
-    let t114 = t83 * (t113 - (t75 * t112 + t81 * t109) - t82 * t107);
-    let t115 = -1.0 - t78 * t109 - t113;
-    let t116 = t76 * t107;
-    let t117 = t116 - t115;
-    let t118 = t8 * t109;
-    let t119 = t10 * t114 - t118;
-    let t120 = t106 - t119;
-    let t121 = t11 * t109;
-    let t122 = -1.0 - t14 * t114 + t121;
-    let t123 = t110 - t106 + t52 * t109 + t58 * t107;
-    let t124 = t54 * t109 - (t115 - t116) - t61 * t107;
-    let t125 = t39 * t112 - (t119 - t106 + t31 * t114);
-    let t126 = t37 * t112 - (t122 - t38 * t114);
-    let t127 = t106 - (t118 + t27 * t108);
-    let t128 = t26 * t108 - (-1.0 - t121);
-    let t129 = t72 * (sin20 + t70 * t109 - cos20 * t106);
-    let t130 = t106 - (t1 * t129 + t0 * t109);
-    let t131 = t2 * t109 - (-1.0 - t3 * t129);
-    let t132 = 20.0 + t106 * (20.0 * t106) + t109 * (1.2 * t109) + t122 * (0.5 * t122)
-        + t120 * (0.5 * t120) + t114 * (0.002 * t114) + t128 * (0.5 * t128)
-        + t127 * (0.5 * t127) + t108 * (0.002 * t108) + t126 * (0.3 * t126)
-        + t125 * (0.3 * t125) + t112 * (0.0016 * t112) + t124 * (0.3 * t124)
-        + t123 * (0.3 * t123) + t107 * (0.0016 * t107) + t117 * t117 + t111 * t111
-        + t109 * (0.02 * t109) + t131 * (8.0 * t131) + t130 * (8.0 * t130)
-        + t129 * (0.5 * t129);
-    let t133 = t62 + (t28 * t44 + t46 * t50 - t29);
-    let t134 = t63 + (t28 * t47 - t49 * t50 - (t19 - t30));
-    let t135 = t40 * t51 - t56 - t41 - (t17 - t16) - t133;
-    let t136 = t84 * t135 - (t40 * t53 + t57 + (t43 - t42) + (t20 - t19));
-    let t137 = v2 * (t64 * t66 + cos2 * t67) + t67 * t68
-        + (v2 * (t65 * t68 + sin2 * t69) + t66 * t69) - cos2 * t133 - sin2 * t134;
-    let t138 = ddf0
-        - (v2 * (cos2 * t69 - t65 * t66) + t68 * t69
-            + (v2 * (t64 * t68 - sin2 * t67) - t66 * t67)) - sin2 * t133 + cos2 * t134
-        - t97 * t137;
-    let t139 = v2 * (cos2 * v0 + sin2 * v1) * t105;
-    let t140 = t104
-        * (v5 * (cos5 * v3 + sin5 * v4) - sin5 * t18 + cos5 * t21 - t89 * t135
-            + t91 * t136 - t91 * t134 - t100 * t137 - t102 * t138 - t95 * t139);
-    let t141 = t101 * (t138 - t99 * t140);
-    let t142 = t96 * (t137 - t93 * t141 + t94 * t140);
-    let t143 = t134 - t79 * t142 - t74 * t141 - t77 * t140;
-    let t144 = t143 - t139;
-    let t145 = t90 * (t136 - t144 - t85 * t142 - t86 * t141 - t88 * t140 - t139);
-    let t146 = t73 * t141;
-    let t147 = t83 * (t135 - t75 * t145 - t81 * t142 - t146 - t82 * t140);
-    let t148 = t146 + (t133 - t78 * t142);
-    let t149 = t76 * t140;
-    let t150 = t148 - t149;
-    let t151 = t8 * t142;
-    let t152 = t139 - (t21 + t10 * t147 - t151);
-    let t153 = t11 * t142;
-    let t154 = t18 - t14 * t147 + t153;
-    let t155 = t63 - t52 * t142 - t144 - t58 * t140;
-    let t156 = t62 + t54 * t142 - t150 - t61 * t140;
-    let t157 = t39 * t145 - (t42 - t43 - t152 + t31 * t147);
-    let t158 = t37 * t145 - (t154 - t41 - t38 * t147);
-    let t159 = t139 - (t30 - t19 + t151 - t27 * t141);
-    let t160 = t29 + t153 - t26 * t141;
-    let t161 = t72
-        * (v20 * (cos20 * v18 + sin20 * v19) + sin20 * t6 - cos20 * t7 + t70 * t142
-            - cos20 * t139);
-    let t162 = t139 - (t1 * t161 - t7 + t0 * t142);
-    let t163 = t6 + t3 * t161 + t2 * t142;
-    let t164 = 1.0 / t132
-        * (t108 * (0.002 * t141)
-            - (t106 * (20.0 * t139) + t109 * (1.2 * t142) + t122 * (0.5 * t154)
-                + t120 * (0.5 * t152) + t114 * (0.002 * t147) + t128 * (0.5 * t160)
-                + t127 * (0.5 * t159)) - t126 * (0.3 * t158) - t125 * (0.3 * t157)
-            - t112 * (0.0016 * t145) - t124 * (0.3 * t156) + t123 * (0.3 * t155)
-            - t107 * (0.0016 * t140) + t117 * t150 + t111 * t144 - t109 * (0.02 * t142)
-            - t131 * (8.0 * t163) - t130 * (8.0 * t162) - t129 * (0.5 * t161));
-    let t165 = t142 + t109 * t164;
-    let t166 = 0.5 * (t160 + t128 * t164);
-    let t167 = 0.5 * (t159 + t127 * t164);
-    let t168 = 0.3 * (t158 + t126 * t164);
-    let t169 = 0.3 * (t157 + t125 * t164);
-    let t170 = 0.3 * (t156 + t124 * t164);
-    let t171 = 0.3 * (t155 - t123 * t164);
-    let t172 = 8.0 * (t163 + t131 * t164);
-    let t173 = 8.0 * (t162 + t130 * t164);
-    let t174 = t72 * (t1 * t173 - (0.5 * (t161 + t129 * t164) + t3 * t172));
-    let t175 = cos20 * t174;
-    let t176 = 0.5 * (t152 + t120 * t164) + t169;
-    let t177 = 0.02 * t165 + t54 * t170;
-    let t178 = t149 - t148 + t117 * t164 + t170;
-    let t179 = t52 * t171;
-    let t180 = t168 - 0.5 * (t154 + t122 * t164);
-    let t181 = t83
-        * (t31 * t169 - (0.002 * (t147 + t114 * t164) + t38 * t168) - t14 * t180
-            + t10 * t176);
-    let t182 = t90
-        * (0.0016 * (t145 + t112 * t164) + t37 * t168 + t39 * t169 + t75 * t181);
-    let t183 = t139 - t143 + t111 * t164 + t171 + t182;
-    let t184 = t96
-        * (t0 * t173 - (1.2 * t165 + t2 * t172) + t70 * t174 - t11 * t166 + t8 * t167
-            - (t177 - t179) + t11 * t180 - t8 * t176 - t78 * t178 - t81 * t181
-            + t85 * t182 - t79 * t183);
-    let t185 = t101
-        * (t26 * t166 - 0.002 * (t141 - t108 * t164) - t27 * t167 + t73 * t178
-            - t73 * t181 + t86 * t182 - t74 * t183 - t93 * t184);
-    let t186 = t104
-        * (t61 * t170 - 0.0016 * (t140 + t107 * t164) + t58 * t171 - t76 * t178
-            - t82 * t181 + t88 * t182 - t77 * t183 + t94 * t184 - t99 * t185);
-    let t187 = t185 - t102 * t186;
-    let t188 = t184 - t97 * t187 - t100 * t186;
-    let t189 = t183 - sin2 * t188 + cos2 * t187;
-    let t190 = t91 * t186;
-    let t191 = t189 - t190;
-    let t192 = t190 - t182;
-    let t193 = t181 + t84 * t192;
-    let t194 = t89 * t186;
-    let t195 = t193 - t194;
-    let t196 = t178 - t195 - cos2 * t188;
-    let t197 = sin2 * t187;
-    let t198 = t196 - t197;
-    let t199 = t182 - t190;
-    let t200 = t194 - t193;
-    let t201 = t190 - t189;
-    let t202 = t197 - t196;
-    out(0usize, t172 - sin20 * t174);
-    out(1usize, t173 + t175);
-    out(2usize, t180 - t200 - sin5 * t186);
-    out(3usize, t176 - t199 + cos5 * t186);
-    out(4usize, t166 - t202);
-    out(5usize, t167 - t201);
-    out(6usize, t168 - t200);
-    out(7usize, t169 - t199);
-    out(8usize, t198);
-    out(9usize, t191);
-    out(10usize, t195);
-    out(11usize, t192);
-    out(12usize, -(t170 + t202));
-    out(13usize, -(t171 + t201));
-    out(14usize, t188);
-    out(15usize, t179 - t177 + t54 * t198 - t52 * t191 - t54 * t195 + t52 * t192);
-    out(16usize, t187);
-    out(17usize, t186);
+    let t0 = v2 * v2;
+    let t1 = v20 * v20;
+    let t2 = v5 * v5;
+    let t3 = v8 * v8;
+    let t4 = v11 * v11;
+    let t5 = v14 * v14;
+    let t6 = v17 * v17;
+    let t7 = cos2 * v0 + sin2 * v1;
+    let t8 = v2 * t7;
+    let t9 = q15 - q0;
+    let t10 = q16 - q1;
+    let t11 = cos2 * t9 + sin2 * t10;
+    let t12 = cos2 * v1 - sin2 * v0;
+    let t13 = cos2 * v16 - sin2 * v15;
+    let t14 = cos2 * cos5 + sin2 * sin5;
+    let t15 = cos2 * sin5;
+    let t16 = sin2 * cos5;
+    let t17 = t15 - t16;
+    let t18 = cos2 * cos8 + sin2 * sin8;
+    let t19 = cos2 * sin8 - sin2 * cos8;
+    let t20 = cos2 * cos11 + sin2 * sin11;
+    let t21 = cos2 * sin11 - sin2 * cos11;
+    let t22 = cos2 * cos14 + sin2 * sin14;
+    let t23 = cos2 * sin14 - sin2 * cos14;
+    let t24 = cos2 * cos20 + sin2 * sin20;
+    let t25 = cos2 * sin20;
+    let t26 = sin2 * cos20;
+    let t27 = t25 - t26;
+    let t28 = 0.35 * t24;
+    let t29 = 0.35 * t27;
+    let t30 = 0.4 * t0 + t1 * t28;
+    let t31 = 0.025 * t17;
+    let t32 = 0.044999999999999984 * t14 + t31;
+    let t33 = 0.025 * t14;
+    let t34 = 0.044999999999999984 * t17;
+    let t35 = t34 - t33;
+    let t36 = 0.3 * t0;
+    let t37 = t36 - t2 * t32;
+    let t38 = 0.044999999999999984 * t18;
+    let t39 = 0.025 * t19;
+    let t40 = t39 - t38;
+    let t41 = 0.025 * t18;
+    let t42 = t41 + 0.044999999999999984 * t19;
+    let t43 = t38 - t39;
+    let t44 = t36 + t3 * t40;
+    let t45 = t3 * t42;
+    let t46 = t31 + 0.04500000000000001 * t14;
+    let t47 = 0.0050000000000000044 * t20;
+    let t48 = 0.125 * t21;
+    let t49 = t47 - t48;
+    let t50 = 0.04500000000000001 * t17;
+    let t51 = 0.125 * t20;
+    let t52 = t51 + 0.0050000000000000044 * t21;
+    let t53 = t50 - t33;
+    let t54 = t48 - t47;
+    let t55 = t2 * t46 + t4 * t49;
+    let t56 = t2 * (t33 - t50);
+    let t57 = t4 * t52;
+    let t58 = 0.04500000000000001 * t18 - t39;
+    let t59 = 0.125 * t23;
+    let t60 = 0.0050000000000000044 * t22 + t59;
+    let t61 = t41 + 0.04500000000000001 * t19;
+    let t62 = 0.125 * t22;
+    let t63 = 0.0050000000000000044 * t23;
+    let t64 = t62 - t63;
+    let t65 = t3 * t58 + t5 * t60;
+    let t66 = t3 * t61 - t5 * t64;
+    let t67 = t48 - 0.004999999999999977 * t20;
+    let t68 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t69 = t51 + 0.004999999999999977 * t21;
+    let t70 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t71 = t6 * t68;
+    let t72 = t6 * t70;
+    let t73 = t59 + 0.004999999999999977 * t22;
+    let t74 = 0.004999999999999977 * t23;
+    let t75 = sin2 * t9 - cos2 * t10;
+    let t76 = v2 * (t7 - (cos2 * v15 + sin2 * v16));
+    let t77 = t26 - t25;
+    let t78 = 0.4 * t24;
+    let t79 = -0.050000000000000044 - t27 * t29 - t24 * t28;
+    let t80 = 1.0 / t79;
+    let t81 = t42 + t61;
+    let t82 = t58 - t40;
+    let t83 = t52 + t69;
+    let t84 = 0.3 + t11;
+    let t85 = t60 + t73;
+    let t86 = 1.0 / t82;
+    let t87 = t81 * t86;
+    let t88 = t84 * t87;
+    let t89 = t62 - t74 - (t63 - t62) + t85 * t87;
+    let t90 = t68 * t87 - t70;
+    let t91 = 1.0 / t89;
+    let t92 = t33 - t34;
+    let t93 = t70 - t75;
+    let t94 = t53 - t92;
+    let t95 = 1.0 / t83;
+    let t96 = (t67 - t49) * t95;
+    let t97 = 3.3333333333333335 * (t11 + t68 + t93 * t96);
+    let t98 = 1.0 - t97;
+    let t99 = t46 + t94 * t96 + t32 * t97;
+    let t100 = 1.0 / t98;
+    let t101 = t14 * t100;
+    let t102 = 0.044999999999999984 + t99 * t101;
+    let t103 = 1.0 / t102;
+    let t104 = t17 * t103;
+    let t105 = t100 * (t99 * t104);
+    let t106 = 3.3333333333333335 * (t105 + t32 * t104);
+    let t107 = t95 * (t93 * t106 + t94 * t104);
+    let t108 = -1.0 - t75 * t106;
+    let t109 = t92 * t104;
+    let t110 = t109 - t108;
+    let t111 = t35 * t104;
+    let t112 = 1.0 - t111;
+    let t113 = t91 * (t111 - 1.0 - t90 * t106 - (t108 - t109) + t88 * t106);
+    let t114 = t86 * (t84 * t106 - (t85 * t113 + t68 * t106));
+    let t115 = 0.3 * t106;
+    let t116 = t82 * t114 + t60 * t113 - t115;
+    let t117 = t112 - (t81 * t114 - t64 * t113);
+    let t118 = t54 * t107 - t105 + t46 * t104;
+    let t119 = t53 * t104 - (-1.0 + t52 * t107);
+    let t120 = t11 * t106;
+    let t121 = t43 * t114 - t115;
+    let t122 = t112 - t42 * t114;
+    let t123 = t80 * (t78 * t106 - t77 * t112);
+    let t124 = t28 * t123 + 0.4 * t106;
+    let t125 = t112 + t29 * t123;
+    let t126 = 0.5 + (t112 * (20.0 * t112) + t106 * (1.2 * t106)) + t105 * (0.5 * t105)
+        + t104 * (0.002 * t104) + t122 * (0.5 * t122) + t121 * (0.5 * t121)
+        + t114 * (0.002 * t114) + t119 * (0.3 * t119) + t118 * (0.3 * t118)
+        + t107 * (0.0016 * t107) + t117 * (0.3 * t117) + t116 * (0.3 * t116)
+        + t113 * (0.0016 * t113) + t110 * t110 + t120 * t120 + t106 * (0.02 * t106)
+        + t125 * (8.0 * t125) + t124 * (8.0 * t124) + t123 * (0.5 * t123);
+    let t127 = t8 + t1 * t29;
+    let t128 = t8 + t2 * t35;
+    let t129 = t8 + (ddf0 - (t76 + t76 + v2 * (v2 * t75)));
+    let t130 = t8 - t45;
+    let t131 = t72 + t5 * (t74 - t62) + t129 - (t130 - t66);
+    let t132 = t37 + (v2 * (t12 - t13) - v2 * (t13 - t12) + v2 * (v2 * t11));
+    let t133 = t4 * t67 - t71 - t55 + t132;
+    let t134 = t129 - (t4 * t69 + t72) - (t57 - t56) - t96 * t133 - t97 * t128;
+    let t135 = t103
+        * (v5 * ((cos2 * v3 + sin2 * v4) * t14 - (cos2 * v4 - sin2 * v3) * (t16 - t15))
+            - t101 * t134);
+    let t136 = t100 * (t134 + t99 * t135);
+    let t137 = 3.3333333333333335 * (t136 - t128 + t32 * t135);
+    let t138 = t95 * (t133 - t93 * t137 - t94 * t135);
+    let t139 = t132 + t75 * t137 + t92 * t135;
+    let t140 = t37 - t35 * t135;
+    let t141 = t91
+        * (t139 + (t71 + t5 * t73 - (t44 - t65) + t87 * t131 - t140 - t90 * t137)
+            + t88 * t137);
+    let t142 = t86 * (t131 - t85 * t141 - t68 * t137 + t84 * t137);
+    let t143 = 0.3 * t137;
+    let t144 = t66 - t130 - t82 * t142 - t60 * t141 + t143;
+    let t145 = t140 - (t65 - t44 + t81 * t142 - t64 * t141);
+    let t146 = t56 - t57 - t54 * t138 - t136 + t46 * t135;
+    let t147 = t55 + t52 * t138 + t53 * t135;
+    let t148 = t129 + t11 * t137;
+    let t149 = t143 + (t45 - t8 - t43 * t142);
+    let t150 = t140 - (t42 * t142 - t44);
+    let t151 = t80
+        * (v20 * ((cos2 * v18 + sin2 * v19) * t24 - (cos2 * v19 - sin2 * v18) * t77)
+            + t27 * t30 - t24 * t127 - t77 * t140 + t78 * t137);
+    let t152 = t28 * t151 - t127 + 0.4 * t137;
+    let t153 = t140 + (t30 + t29 * t151);
+    let t154 = 1.0 / t126
+        * (t121 * (0.5 * t149)
+            - (t112 * (20.0 * t140) + t106 * (1.2 * t137) + t105 * (0.5 * t136)
+                + t104 * (0.002 * t135) + t122 * (0.5 * t150)) - t114 * (0.002 * t142)
+            - t119 * (0.3 * t147) - t118 * (0.3 * t146) + t107 * (0.0016 * t138)
+            - t117 * (0.3 * t145) + t116 * (0.3 * t144) - t113 * (0.0016 * t141)
+            - t110 * t139 - t120 * t148 - t106 * (0.02 * t137) - t125 * (8.0 * t153)
+            - t124 * (8.0 * t152) - t123 * (0.5 * t151));
+    let t155 = t137 + t106 * t154;
+    let t156 = t148 + t120 * t154;
+    let t157 = 0.5 * (t150 + t122 * t154);
+    let t158 = 0.5 * (t121 * t154 - t149);
+    let t159 = 0.3 * (t147 + t119 * t154);
+    let t160 = 0.3 * (t146 + t118 * t154);
+    let t161 = 0.3 * (t145 + t117 * t154);
+    let t162 = 0.3 * (t116 * t154 - t144);
+    let t163 = 8.0 * (t153 + t125 * t154);
+    let t164 = 8.0 * (t152 + t124 * t154);
+    let t165 = t80 * (0.5 * (t151 + t123 * t154) + t29 * t163 + t28 * t164);
+    let t166 = t86
+        * (t42 * t157 - 0.002 * (t142 + t114 * t154) - t43 * t158 + t81 * t161
+            - t82 * t162);
+    let t167 = 0.02 * t155 + t68 * t166;
+    let t168 = t91
+        * (0.0016 * (t141 + t113 * t154) + t64 * t161 + t60 * t162 + t85 * t166);
+    let t169 = t77 * t165 - (20.0 * (t140 + t112 * t154) + t163) - t157 - t161 + t168;
+    let t170 = t90 * t168;
+    let t171 = t139 + t110 * t154 + t168;
+    let t172 = t95 * (t54 * t160 - (0.0016 * (t138 - t107 * t154) + t52 * t159));
+    let t173 = 3.3333333333333335
+        * (0.3 * t158 - (1.2 * t155 + 0.4 * t164 + t78 * t165) - t11 * t156 + 0.3 * t162
+            + t84 * t166 - t88 * t168 - (t167 - t170) - t75 * t171 - t93 * t172);
+    let t174 = t100 * (t160 - 0.5 * (t136 + t105 * t154) + t173);
+    let t175 = t103
+        * (t32 * t173
+            - (0.002 * (t135 + t104 * t154) + t53 * t159 + t46 * t160 + t35 * t169
+                + t92 * t171 + t94 * t172) + t99 * t174);
+    let t176 = t101 * t175;
+    let t177 = t174 - t176;
+    let t178 = t173 + t97 * t177;
+    let t179 = t96 * t177;
+    let t180 = t172 - t179;
+    let t181 = t171 - t180;
+    let t182 = t169 - t181;
+    let t183 = t87 * t168;
+    let t184 = t166 - t183;
+    let t185 = t183 - t166;
+    let t186 = t162 - t185;
+    let t187 = t161 - t168;
+    let t188 = t176 - t174;
+    let t189 = t160 + t188;
+    let t190 = t159 - (t179 - t172);
+    let t191 = t185 + (t156 + t188);
+    let t192 = t158 - (t185 - t162);
+    let t193 = t157 - (t168 - t161);
+    let t194 = t164 + t24 * t165;
+    let t195 = t163 + t27 * t165;
+    out(0usize, cos2 * t195 + sin2 * t194);
+    out(1usize, sin2 * t195 - cos2 * t194);
+    out(2usize, cos2 * t182 - sin2 * t178);
+    out(3usize, sin2 * t182 + cos2 * t178);
+    out(4usize, cos2 * t193 - sin2 * t192);
+    out(5usize, sin2 * t193 + cos2 * t192);
+    out(6usize, cos2 * t190 + sin2 * t189);
+    out(7usize, sin2 * t190 - cos2 * t189);
+    out(8usize, cos2 * t187 - sin2 * t186);
+    out(9usize, sin2 * t187 + cos2 * t186);
+    out(10usize, cos2 * t180 - sin2 * t177);
+    out(11usize, sin2 * t180 + cos2 * t177);
+    out(12usize, -(cos2 * t168 + sin2 * t184));
+    out(13usize, cos2 * t184 - sin2 * t168);
+    out(14usize, t181);
+    out(15usize, t170 - t167 - t70 * t180 + t68 * t177);
+    out(16usize, -t191);
+    out(17usize, t175);
     out(18usize, 0.0);
-    out(
-        19usize,
-        t105
-            * (t182 - (t167 + (20.0 * (t139 + t106 * t164) + t173 + t175) + t176) - t183
-                - t95 * t186),
-    );
+    out(19usize, t194 - 20.0 * t8 - t178 - t192 - t191);
     out(20usize, 0.0);
-    out(21usize, t174);
+    out(21usize, -t165);
     f64::INFINITY
-        .min(-(2.0 * t71))
-        .min(-(16.0 * t80))
-        .min(-(4.0 * t87))
-        .min(4.0 * t92)
-        .min(8.0 * t98)
-        .min(4.0 * t103)
-        .min(2.0 * cos2)
-        .min(0.03125 * t132)
+        .min(-(2.0 * t79))
+        .min(16.0 * t82)
+        .min(4.0 * t89)
+        .min(4.0 * t83)
+        .min(4.0 * t98)
+        .min(4.0 * t102)
+        .min(0.03125 * t126)
 }
 ///Their multipliers λ of all rows, 0 for dropped ones.
 ///
-///Operations: 425 mul, 359 add, 5 neg, 8 div.
+///Operations: 396 mul, 309 add, 4 neg, 7 div.
 pub fn multipliers(
     t: f64,
     q: &[f64; N_Q],
@@ -1049,19 +1030,19 @@ fn velocity_residual_core(
     let t7 = 0.125 * cos14;
     let t8 = q1 - q16;
     let t9 = q0 - q15;
-    let t10 = v2 * (0.3 * sin2);
-    let t11 = v2 * (0.3 * cos2);
-    let t12 = v17 * (0.2 * sin17);
-    let t13 = v17 * (0.2 * cos17);
-    let t14 = sin2 * v0;
-    let t15 = cos2 * v1;
-    let t16 = t15 - t14;
+    let t10 = sin2 * v0;
+    let t11 = cos2 * v1;
+    let t12 = t11 - t10;
+    let t13 = v2 * (0.3 * sin2);
+    let t14 = v2 * (0.3 * cos2);
+    let t15 = v17 * (0.2 * sin17);
+    let t16 = v17 * (0.2 * cos17);
     out(0usize, v0 + v2 * (0.4 * sin2) - v18 + v20 * (0.35 * sin20));
     out(1usize, v1 - v2 * (0.4 * cos2) - v19 - v20 * (0.35 * cos20));
-    out(2usize, v0 - t10 - v3 + v5 * (0.044999999999999984 * sin5 - t1));
-    out(3usize, v1 + t11 - v4 - v5 * (0.044999999999999984 * cos5 + t0));
-    out(4usize, v0 + t10 - v6 - v8 * (t3 + 0.044999999999999984 * sin8));
-    out(5usize, v1 - t11 - v7 + v8 * (0.044999999999999984 * cos8 - t2));
+    out(2usize, v0 - t13 - v3 + v5 * (0.044999999999999984 * sin5 - t1));
+    out(3usize, v1 + t14 - v4 - v5 * (0.044999999999999984 * cos5 + t0));
+    out(4usize, v0 + t13 - v6 - v8 * (t3 + 0.044999999999999984 * sin8));
+    out(5usize, v1 - t14 - v7 + v8 * (0.044999999999999984 * cos8 - t2));
     out(
         6usize,
         v3 + v5 * (0.04500000000000001 * sin5 - t1) - v9
@@ -1082,10 +1063,10 @@ fn velocity_residual_core(
         v7 + v8 * (0.04500000000000001 * cos8 - t2) - v13
             + v14 * (0.0050000000000000044 * cos14 + t6),
     );
-    out(10usize, v9 + v11 * (t5 + 0.004999999999999977 * sin11) - v15 + t12);
-    out(11usize, v10 + v11 * (t4 - 0.004999999999999977 * cos11) - v16 - t13);
-    out(12usize, v12 + v14 * (t7 - 0.004999999999999977 * sin14) - v15 - t12);
-    out(13usize, t13 + (v13 + v14 * (t6 + 0.004999999999999977 * cos14) - v16));
+    out(10usize, v9 + v11 * (t5 + 0.004999999999999977 * sin11) - v15 + t15);
+    out(11usize, v10 + v11 * (t4 - 0.004999999999999977 * cos11) - v16 - t16);
+    out(12usize, v12 + v14 * (t7 - 0.004999999999999977 * sin14) - v15 - t15);
+    out(13usize, t16 + (v13 + v14 * (t6 + 0.004999999999999977 * cos14) - v16));
     out(
         14usize,
         cos2 * v0 + sin2 * v1 + v2 * (cos2 * t8 - sin2 * t9) - cos2 * v15 - sin2 * v16,
@@ -1093,12 +1074,12 @@ fn velocity_residual_core(
     out(15usize, v17 - v2);
     out(
         16usize,
-        t14 - t15 + v2 * (sin2 * t8 + cos2 * t9) - sin2 * v15 + cos2 * v16 - df0,
+        cos2 * v16 + (t10 - t11 + v2 * (sin2 * t8 + cos2 * t9) - sin2 * v15) - df0,
     );
     out(17usize, cos5 * v4 - sin5 * v3 + 0.044999999999999984 * v5);
     out(18usize, cos8 * v7 - sin8 * v6 - 0.044999999999999984 * v8);
-    out(19usize, t16);
-    out(20usize, t16);
+    out(19usize, t12);
+    out(20usize, t12);
     out(21usize, cos20 * v19 - sin20 * v18 - 0.050000000000000044 * v20);
 }
 ///`C·v − b` of all rows.
@@ -1182,206 +1163,220 @@ fn position_correction_core(
     let r14 = r(14usize);
     let r15 = r(15usize);
     let r16 = r(16usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = 0.3 * cos2;
-    let t5 = 0.025 * sin5;
-    let t6 = 0.044999999999999984 * cos5 + t5;
-    let t7 = 0.3 * sin2;
-    let t8 = 0.025 * cos5;
-    let t9 = 0.044999999999999984 * sin5;
-    let t10 = t9 - t8;
-    let t11 = 0.044999999999999984 * cos8;
-    let t12 = 0.025 * sin8;
-    let t13 = 0.025 * cos8;
-    let t14 = t13 + 0.044999999999999984 * sin8;
-    let t15 = t11 - t12;
-    let t16 = 0.125 * sin11;
-    let t17 = 0.125 * cos11;
-    let t18 = 0.04500000000000001 * sin5 - t8;
-    let t19 = t16 - 0.0050000000000000044 * cos11;
-    let t20 = 0.125 * sin14;
-    let t21 = 0.125 * cos14;
-    let t22 = 0.2 * cos17;
-    let t23 = t17 + 0.004999999999999977 * sin11;
-    let t24 = 0.2 * sin17;
-    let t25 = t20 + 0.004999999999999977 * cos14;
-    let t26 = 0.004999999999999977 * sin14;
-    let t27 = t21 - t26;
-    let t28 = q1 - q16;
-    let t29 = q0 - q15;
-    let t30 = 0.04500000000000001 * cos8 - t12 - (t12 - t11);
-    let t31 = t17 + 0.0050000000000000044 * sin11 + t23;
-    let t32 = 0.0050000000000000044 * cos14 + t20 + t25;
-    let t33 = t24 - t7;
-    let t34 = t8 - t9;
-    let t35 = t18 - t34;
-    let t36 = t4 - t22;
-    let t37 = t6 + (t5 + 0.04500000000000001 * cos5);
-    let t38 = 0.004999999999999977 * cos11 - t16;
-    let t39 = t19 - t38;
-    let t40 = t22 - t4 - t36;
-    let t41 = t38 - t19;
-    let t42 = cos2 * t28 - sin2 * t29 - cos2 * t33 - sin2 * t36;
-    let t43 = sin2 * t37 - cos2 * t35;
-    let t44 = cos2 * t31 + sin2 * t39;
-    let t45 = 1.0 / t30;
-    let t46 = (t14 + (t13 + 0.04500000000000001 * sin8)) * t45;
-    let t47 = t7 - t24 - t33 + t40 * t46;
-    let t48 = t34 - t18 + t37 * t46;
-    let t49 = t21 - 0.0050000000000000044 * sin14 - (t26 - t21) + t32 * t46;
+    let t0 = q15 - q0;
+    let t1 = q16 - q1;
+    let t2 = sin2 * t0;
+    let t3 = cos2 * t1;
+    let t4 = cos2 * t0 + sin2 * t1;
+    let t5 = t3 - t2;
+    let t6 = cos2 * cos5 + sin2 * sin5;
+    let t7 = cos2 * sin5 - sin2 * cos5;
+    let t8 = cos2 * cos8 + sin2 * sin8;
+    let t9 = cos2 * sin8 - sin2 * cos8;
+    let t10 = cos2 * cos11 + sin2 * sin11;
+    let t11 = cos2 * sin11 - sin2 * cos11;
+    let t12 = cos2 * cos14 + sin2 * sin14;
+    let t13 = cos2 * sin14 - sin2 * cos14;
+    let t14 = 0.35 * (cos2 * cos20 + sin2 * sin20);
+    let t15 = 0.35 * (cos2 * sin20 - sin2 * cos20);
+    let t16 = 0.025 * t7;
+    let t17 = 0.044999999999999984 * t6 + t16;
+    let t18 = 0.025 * t6;
+    let t19 = 0.044999999999999984 * t7;
+    let t20 = t19 - t18;
+    let t21 = 0.044999999999999984 * t8;
+    let t22 = 0.025 * t9;
+    let t23 = 0.025 * t8;
+    let t24 = t23 + 0.044999999999999984 * t9;
+    let t25 = t21 - t22;
+    let t26 = 0.125 * t11;
+    let t27 = 0.125 * t10;
+    let t28 = t27 + 0.0050000000000000044 * t11;
+    let t29 = 0.125 * t13;
+    let t30 = 0.125 * t12;
+    let t31 = 0.004999999999999977 * t10;
+    let t32 = t26 - t31;
+    let t33 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t34 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t35 = t29 + 0.004999999999999977 * t12;
+    let t36 = t2 - t3;
+    let t37 = t24 + (t23 + 0.04500000000000001 * t9);
+    let t38 = 0.04500000000000001 * t8 - t22 - (t22 - t21);
+    let t39 = t28 + (t27 + 0.004999999999999977 * t11);
+    let t40 = 0.0050000000000000044 * t13 - t30;
+    let t41 = 0.0050000000000000044 * t12 + t29 + t35;
+    let t42 = 0.04500000000000001 * t7 - t18 - (t18 - t19);
+    let t43 = 1.0 / t42;
+    let t44 = (t17 + (t16 + 0.04500000000000001 * t6)) * t43;
+    let t45 = 0.3 + t5 * t44;
+    let t46 = t26 - 0.0050000000000000044 * t10 - (t31 - t26) + t39 * t44;
+    let t47 = t34 * t44 - t33;
+    let t48 = 1.0 / t46;
+    let t49 = -0.3 + t33 - t4;
     let t50 = 1.0 / t49;
-    let t51 = 1.0 / t42;
-    let t52 = (sin2 * t28 + cos2 * t29 - sin2 * t33 + cos2 * t36) * t51;
-    let t53 = sin2 * t35 + cos2 * t37 + t43 * t52;
-    let t54 = 1.0 / t53;
-    let t55 = (cos2 * t39 - sin2 * t31 + t44 * t52) * t54;
-    let t56 = t51 * (t44 - t43 * t55);
-    let t57 = t50 * (t31 - t41 * t46 - t47 * t56 - t48 * t55);
-    let t58 = t37 * t55;
-    let t59 = t45 * (t39 - t32 * t57 - t40 * t56 - t58);
-    let t60 = t58 + (t41 - t36 * t56);
-    let t61 = t31 + t33 * t56 + t35 * t55;
-    let t62 = t22 * t56;
-    let t63 = t62 + t25 * t57;
-    let t64 = t24 * t56;
-    let t65 = t64 - t27 * t57;
-    let t66 = t38 + t62;
-    let t67 = t23 + t64;
-    let t68 = t4 * t56;
-    let t69 = t60 + t15 * t59 - t68;
-    let t70 = t7 * t56;
-    let t71 = t70 - (t61 + t14 * t59);
-    let t72 = t60 + t68 - t6 * t55;
-    let t73 = t10 * t55 - (t61 + t70);
-    let t74 = t60 - t0 * t56;
-    let t75 = t2 * t56 - t61;
-    let t76 = 20.0 * t61;
-    let t77 = 20.0 * t60;
-    let t78 = 0.5 * t73;
-    let t79 = 0.5 * t72;
-    let t80 = 0.5 * t71;
-    let t81 = 0.5 * t69;
-    let t82 = 0.3 * t67;
-    let t83 = 0.3 * t66;
-    let t84 = 0.3 * t65;
-    let t85 = 0.3 * t63;
-    let t86 = 8.0 * t75;
-    let t87 = 8.0 * t74;
-    let t88 = 8.0 * t3;
-    let t89 = 8.0 * t1;
-    let t90 = 0.0016
-        + (t61 * t76 + t60 * t77 + t56 * (1.2 * t56) + t73 * t78 + t72 * t79
-            + t55 * (0.002 * t55) + t71 * t80 + t69 * t81 + t59 * (0.002 * t59)
-            + t67 * t82 + t66 * t83) + t65 * t84 + t63 * t85 + t57 * (0.0016 * t57)
-        + t56 * (0.02 * t56) + t75 * t86 + t74 * t87;
-    let t91 = 1.0 / t90;
-    let t92 = t86 + (t84 + (t80 + (t78 - t76) - t82));
-    let t93 = t91 * t92;
-    let t94 = 30.6 - t92 * t93;
-    let t95 = 1.0 / t94;
-    let t96 = t87 + (t83 + (t81 + (t77 + t79)) - t85);
-    let t97 = t93 * t96;
-    let t98 = t91 * t96;
-    let t99 = t95 * t97;
-    let t100 = 30.6 - t96 * t98 - t97 * t99;
-    let t101 = 1.0 / t100;
-    let t102 = t3 * t86 - t1 * t87;
-    let t103 = t88 - t93 * t102;
-    let t104 = t99 * t103 - (t89 + t98 * t102);
-    let t105 = t91 * t102;
-    let t106 = t95 * t103;
-    let t107 = t101 * t104;
-    let t108 = 0.5 + (t3 * t88 + t1 * t89) - t102 * t105 - t103 * t106 - t104 * t107;
-    let t109 = r15 * t24;
-    let t110 = t109 - (r10 + (r2 + r6));
-    let t111 = r15 * t22;
-    let t112 = r11 + (r3 + r7) + t111;
-    let t113 = t112 + (t111 - (r13 + (r5 + r9)));
-    let t114 = sin2 * t112 - (r14 + cos2 * t110);
-    let t115 = t54 * (r16 + sin2 * t110 + cos2 * t112 + t52 * t114);
-    let t116 = t51 * (t114 - t43 * t115);
-    let t117 = t50
-        * (t46 * t113 - (t110 + (r12 + (r4 + r8) + t109)) - t47 * t116 - t48 * t115);
-    let t118 = t37 * t115;
-    let t119 = t45 * (t113 - t32 * t117 - t40 * t116 - t118);
-    let t120 = t118 - (t112 + t36 * t116);
-    let t121 = t110 - t33 * t116 - t35 * t115;
-    let t122 = t116 - r15;
-    let t123 = t22 * t122;
-    let t124 = r13 + t123 + t25 * t117;
-    let t125 = t24 * t122;
-    let t126 = t125 - r12 - t27 * t117;
-    let t127 = t123 - r11;
-    let t128 = r10 + t125;
-    let t129 = t4 * t116;
-    let t130 = r5 + t120 + t15 * t119 - t129;
-    let t131 = t7 * t116;
-    let t132 = t131 - (t14 * t119 - (r4 + t121));
-    let t133 = t129 + (r3 + t120) - t6 * t115;
-    let t134 = t10 * t115 - (t131 - (r2 + t121));
-    let t135 = r1 + t120 - t0 * t116;
-    let t136 = r0 + t121 + t2 * t116;
-    let t137 = 20.0 * t121;
+    let t51 = (t5 - t34) * t50;
+    let t52 = t37 + t38 * t51;
+    let t53 = 1.0 / t52;
+    let t54 = t53 * (t41 * t51 - (t30 - 0.004999999999999977 * t13 - t40));
+    let t55 = t50 * (t38 * t54 - t41);
+    let t56 = t4 * t55;
+    let t57 = t48 * (t56 - t47 * t55 - t45 * t55);
+    let t58 = t43 * (t39 * t57 + t34 * t55 + t5 * t55);
+    let t59 = t36 * t55;
+    let t60 = t33 * t55;
+    let t61 = t35 + t60;
+    let t62 = t60 - t32 * t57;
+    let t63 = t37 * t54 - (t40 + t59);
+    let t64 = t28 * t57 - (t59 + t42 * t58);
+    let t65 = 0.3 * t55;
+    let t66 = t56 + t65 + t25 * t54;
+    let t67 = t65 - (t56 - t17 * t58);
+    let t68 = t24 * t54 - t59;
+    let t69 = t59 + t20 * t58;
+    let t70 = t56 + 0.4 * t55;
+    let t71 = 20.0 * t59;
+    let t72 = 20.0 * t56;
+    let t73 = 0.5 * t69;
+    let t74 = 0.5 * t67;
+    let t75 = 0.5 * t68;
+    let t76 = 0.5 * t66;
+    let t77 = 0.3 * t64;
+    let t78 = 0.3 * t62;
+    let t79 = 0.3 * t63;
+    let t80 = 0.3 * t61;
+    let t81 = 8.0 * t59;
+    let t82 = 8.0 * t70;
+    let t83 = 8.0 * t15;
+    let t84 = 8.0 * t14;
+    let t85 = 0.0016
+        + (t59 * t71 + t56 * t72 + t55 * (1.2 * t55) + t69 * t73 + t67 * t74
+            + t58 * (0.002 * t58) + t68 * t75 + t66 * t76 + t54 * (0.002 * t54)
+            + t64 * t77 + t62 * t78 + t57 * (0.0016 * t57) + t63 * t79 + t61 * t80)
+        + t55 * (0.02 * t55) + t59 * t81 + t70 * t82;
+    let t86 = 1.0 / t85;
+    let t87 = t79 + (t77 + (t75 - (t71 + t73))) - t81;
+    let t88 = t86 * t87;
+    let t89 = 30.6 - t87 * t88;
+    let t90 = 1.0 / t89;
+    let t91 = t78 + (t74 - t72 - t76) - t80 - t82;
+    let t92 = t88 * t91;
+    let t93 = t86 * t91;
+    let t94 = t90 * t92;
+    let t95 = 30.6 - t91 * t93 - t92 * t94;
+    let t96 = 1.0 / t95;
+    let t97 = t14 * t82 - t15 * t81;
+    let t98 = t83 - t88 * t97;
+    let t99 = t94 * t98 - (t84 + t93 * t97);
+    let t100 = t86 * t97;
+    let t101 = t90 * t98;
+    let t102 = t96 * t99;
+    let t103 = 0.5 + (t15 * t83 + t14 * t84) - t97 * t100 - t98 * t101 - t99 * t102;
+    let t104 = sin2 * r2;
+    let t105 = cos2 * r3;
+    let t106 = cos2 * r2 + sin2 * r3;
+    let t107 = sin2 * r4;
+    let t108 = cos2 * r5;
+    let t109 = cos2 * r4 + sin2 * r5;
+    let t110 = sin2 * r10;
+    let t111 = cos2 * r11;
+    let t112 = sin2 * r12;
+    let t113 = cos2 * r13;
+    let t114 = t106 + (cos2 * r6 + sin2 * r7);
+    let t115 = t109 + (cos2 * r8 + sin2 * r9);
+    let t116 = r14 - (cos2 * r10 + sin2 * r11 + t114);
+    let t117 = sin2 * r8 - cos2 * r9 - (t108 - t107) - (t113 - t112) + r15 * t33 - r16;
+    let t118 = t53 * (r14 - (cos2 * r12 + sin2 * r13 + t115) - r15 * t34 - t51 * t117);
+    let t119 = t50 * (t117 + t38 * t118);
+    let t120 = r16 - t4 * t119;
+    let t121 = t119 - r15;
+    let t122 = t48
+        * (sin2 * r6 - cos2 * r7 - (t105 - t104) - (t111 - t110) + t44 * t116
+            - t47 * t121 - t120 - t45 * t119);
+    let t123 = t43 * (t116 - t39 * t122 - t34 * t121 - t5 * t119);
+    let t124 = r14 + t36 * t119;
+    let t125 = t33 * t121;
+    let t126 = t112 - t113 - t125;
+    let t127 = t125 + (t110 - t111 - t32 * t122);
+    let t128 = t37 * t118 - (t124 - t115);
+    let t129 = t28 * t122 - (t124 - t114 - t42 * t123);
+    let t130 = 0.3 * t119;
+    let t131 = t107 - t108 - t120 + t130 + t25 * t118;
+    let t132 = t130 - (t104 - t105 + t17 * t123 - t120);
+    let t133 = t24 * t118 - (t124 - t109);
+    let t134 = t20 * t123 - (t124 - t106);
+    let t135 = sin2 * r0 - cos2 * r1 - t120 + 0.4 * t119;
+    let t136 = cos2 * r0 + sin2 * r1 - t124;
+    let t137 = 20.0 * t124;
     let t138 = 20.0 * t120;
     let t139 = 0.5 * t134;
-    let t140 = 0.5 * t133;
-    let t141 = 0.5 * t132;
-    let t142 = 0.5 * t130;
-    let t143 = 0.3 * t128;
+    let t140 = 0.5 * t132;
+    let t141 = 0.5 * t133;
+    let t142 = 0.5 * t131;
+    let t143 = 0.3 * t129;
     let t144 = 0.3 * t127;
-    let t145 = 0.3 * t126;
-    let t146 = 0.3 * t124;
+    let t145 = 0.3 * t128;
+    let t146 = 0.3 * t126;
     let t147 = 8.0 * t136;
     let t148 = 8.0 * t135;
-    let t149 = t61 * t137 - t60 * t138 - t56 * (1.2 * t116) - t73 * t139 - t72 * t140
-        - t55 * (0.002 * t115) - t71 * t141 - t69 * t142 - t59 * (0.002 * t119)
-        - t67 * t143 - t66 * t144 - t65 * t145 - t63 * t146 - t57 * (0.0016 * t117)
-        - t56 * (0.02 * t122) - t75 * t147 - t74 * t148;
-    let t150 = t143 - (t141 + (t137 + t139)) - t145 - t147 - t93 * t149;
-    let t151 = t146 - (t144 + (t142 + (t138 + t140))) - t148 - t98 * t149 + t99 * t150;
-    let t152 = 1.0 / t108
-        * (t1 * t148 - t3 * t147 - t105 * t149 - t106 * t150 - t107 * t151);
-    let t153 = t101 * t151 - t107 * t152;
-    let t154 = t95 * t150 + t99 * t153 - t106 * t152;
-    let t155 = t91 * t149 - t93 * t154 - t98 * t153 - t105 * t152;
-    let t156 = t56 * t155;
-    out(0usize, t154 + (t121 - t61 * t155));
-    out(1usize, t153 + (t120 + t60 * t155));
-    out(2usize, t116 + t156);
-    out(3usize, t154 + (t134 + t73 * t155));
-    out(4usize, t153 + (t133 + t72 * t155));
-    out(5usize, t115 + t55 * t155);
-    out(6usize, t154 + (t132 + t71 * t155));
-    out(7usize, t153 + (t130 + t69 * t155));
-    out(8usize, t119 + t59 * t155);
-    out(9usize, t154 - (t128 + t67 * t155));
-    out(10usize, t153 + (t127 + t66 * t155));
-    out(11usize, t155);
-    out(12usize, t154 + (t126 + t65 * t155));
-    out(13usize, t153 - (t124 + t63 * t155));
-    out(14usize, t117 + t57 * t155);
-    out(15usize, t154);
-    out(16usize, t153);
-    out(17usize, t122 + t156);
-    out(18usize, t154 + (t136 + t75 * t155) + t3 * t152);
-    out(19usize, t153 + (t135 + t74 * t155) - t1 * t152);
-    out(20usize, t152);
+    let t149 = t56 * t138 - t59 * t137 - t55 * (1.2 * t119) + t69 * t139 - t67 * t140
+        + t58 * (0.002 * t123) - t68 * t141 - t66 * t142 - t54 * (0.002 * t118)
+        - t64 * t143 - t62 * t144 - t57 * (0.0016 * t122) - t63 * t145 + t61 * t146
+        - t55 * (0.02 * t121) + t59 * t147 - t70 * t148;
+    let t150 = t137 - t139 - t141 - t143 - t145 - t147 - t88 * t149;
+    let t151 = t148 + (t142 - (t138 + t140) - t144 - t146) - t93 * t149 + t94 * t150;
+    let t152 = 1.0 / t103
+        * (t15 * t147 + t14 * t148 + t100 * t149 + t101 * t150 + t102 * t151);
+    let t153 = t96 * t151 + t102 * t152;
+    let t154 = t90 * t150 + t94 * t153 + t101 * t152;
+    let t155 = t86 * t149 - t88 * t154 - t93 * t153 + t100 * t152;
+    let t156 = t59 * t155;
+    let t157 = t55 * t155;
+    let t158 = t154 - (t124 + t156);
+    let t159 = t154 + (t134 - t69 * t155);
+    let t160 = t154 + (t133 + t68 * t155);
+    let t161 = t154 + (t129 + t64 * t155);
+    let t162 = t154 + (t128 + t63 * t155);
+    let t163 = t153 + (t120 - t56 * t155);
+    let t164 = t153 + (t132 + t67 * t155);
+    let t165 = t153 - (t131 + t66 * t155);
+    let t166 = t153 + (t127 + t62 * t155);
+    let t167 = t153 + (t126 - t61 * t155);
+    let t168 = t154 + (t136 - t156) - t15 * t152;
+    let t169 = t153 - (t135 + t70 * t155) + t14 * t152;
+    out(0usize, cos2 * t158 - sin2 * t163);
+    out(1usize, sin2 * t158 + cos2 * t163);
+    out(2usize, t119 + t157);
+    out(3usize, cos2 * t159 - sin2 * t164);
+    out(4usize, sin2 * t159 + cos2 * t164);
+    out(5usize, t123 - t58 * t155);
+    out(6usize, cos2 * t160 - sin2 * t165);
+    out(7usize, sin2 * t160 + cos2 * t165);
+    out(8usize, -(t118 + t54 * t155));
+    out(9usize, cos2 * t161 - sin2 * t166);
+    out(10usize, sin2 * t161 + cos2 * t166);
+    out(11usize, t122 + t57 * t155);
+    out(12usize, cos2 * t162 - sin2 * t167);
+    out(13usize, sin2 * t162 + cos2 * t167);
+    out(14usize, t155);
+    out(15usize, cos2 * t154 - sin2 * t153);
+    out(16usize, sin2 * t154 + cos2 * t153);
+    out(17usize, t121 + t157);
+    out(18usize, cos2 * t168 - sin2 * t169);
+    out(19usize, sin2 * t168 + cos2 * t169);
+    out(20usize, -t152);
     f64::INFINITY
-        .min(16.0 * t30)
-        .min(4.0 * t49)
-        .min(4.0 * t42)
-        .min(8.0 * t53)
-        .min(0.25 * t90)
-        .min(0.0625 * t94)
-        .min(0.0625 * t100)
-        .min(t108)
+        .min(-(32.0 * t42))
+        .min(-(4.0 * t46))
+        .min(-(8.0 * t49))
+        .min(4.0 * t52)
+        .min(0.25 * t85)
+        .min(0.0625 * t89)
+        .min(0.03125 * t95)
+        .min(t103)
 }
 ///The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.
 ///
-///Operations: 247 mul, 239 add, 8 div.
+///Operations: 301 mul, 257 add, 5 neg, 8 div.
 pub fn position_correction(
     t: f64,
     q: &[f64; N_Q],
@@ -1456,186 +1451,196 @@ fn velocity_correction_core(
     let r17 = r(17usize);
     let r19 = r(19usize);
     let r21 = r(21usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = 0.3 * cos2;
-    let t5 = 0.025 * sin5;
-    let t6 = 0.044999999999999984 * cos5 + t5;
-    let t7 = 0.3 * sin2;
-    let t8 = 0.025 * cos5;
-    let t9 = 0.044999999999999984 * sin5;
-    let t10 = t9 - t8;
-    let t11 = 0.044999999999999984 * cos8;
-    let t12 = 0.025 * sin8;
-    let t13 = 0.025 * cos8;
-    let t14 = t13 + 0.044999999999999984 * sin8;
-    let t15 = t11 - t12;
-    let t16 = t5 + 0.04500000000000001 * cos5;
-    let t17 = 0.0050000000000000044 * cos11;
-    let t18 = 0.125 * sin11;
-    let t19 = 0.125 * cos11;
-    let t20 = t19 + 0.0050000000000000044 * sin11;
-    let t21 = 0.04500000000000001 * sin5 - t8;
-    let t22 = t18 - t17;
-    let t23 = 0.125 * sin14;
-    let t24 = 0.125 * cos14;
-    let t25 = t24 - 0.0050000000000000044 * sin14;
-    let t26 = 0.2 * cos17;
-    let t27 = 0.2 * sin17;
-    let t28 = t23 + 0.004999999999999977 * cos14;
-    let t29 = 0.004999999999999977 * sin14;
-    let t30 = t29 - t24;
-    let t31 = t24 - t29;
-    let t32 = q1 - q16;
-    let t33 = q0 - q15;
-    let t34 = sin20 * t2 + cos20 * t0;
-    let t35 = -0.050000000000000044 - sin20 * t3 - cos20 * t1;
-    let t36 = 1.0 / t35;
-    let t37 = t14 + (t13 + 0.04500000000000001 * sin8);
-    let t38 = 0.04500000000000001 * cos8 - t12 - (t12 - t11);
-    let t39 = t20 + (t19 + 0.004999999999999977 * sin11);
-    let t40 = t25 - t30;
-    let t41 = 0.0050000000000000044 * cos14 + t23 + t28;
-    let t42 = t7 - t27;
-    let t43 = t26 - t4;
-    let t44 = t21 - (t8 - t9);
-    let t45 = t27 - t7 - t42;
-    let t46 = t30 - t25;
-    let t47 = 1.0 / t44;
-    let t48 = (t6 + t16) * t47;
-    let t49 = t4 - t26 + t45 * t48;
-    let t50 = t37 * t48;
-    let t51 = t18 - 0.004999999999999977 * cos11 - (t17 - t18) + t39 * t48;
-    let t52 = t46 * t48;
-    let t53 = (0.044999999999999984 - sin5 * t10 - cos5 * t6) * t47;
-    let t54 = 1.0 / t51;
-    let t55 = t39 * t53 * t54;
-    let t56 = cos2 * t32 - sin2 * t33 - cos2 * t42 - sin2 * t43;
-    let t57 = cos2 * t37 - sin2 * t38;
-    let t58 = cos2 * t40 + sin2 * t41;
-    let t59 = cos5 + t55 - t55;
-    let t60 = 1.0 / t56;
-    let t61 = (sin2 * t32 + cos2 * t33 - sin2 * t42 + cos2 * t43) * t60;
-    let t62 = sin2 * t37 + cos2 * t38 - t57 * t61;
-    let t63 = cos2 * t41 - sin2 * t40 + t58 * t61;
-    let t64 = (sin5 * t7 + cos5 * t4 - t45 * t53 + t49 * t55 - t43 * t55) * t60;
-    let t65 = 1.0 / t62;
-    let t66 = (t50 * t55 - t37 * t53 - t38 * t55 - t57 * t64) * t65;
-    let t67 = t52 * t55 - t46 * t53 - t41 * t55 + t58 * t64 - t63 * t66;
+    let t0 = q15 - q0;
+    let t1 = q16 - q1;
+    let t2 = cos2 * t0 + sin2 * t1;
+    let t3 = cos2 * cos5 + sin2 * sin5;
+    let t4 = cos2 * sin5 - sin2 * cos5;
+    let t5 = cos2 * cos8 + sin2 * sin8;
+    let t6 = cos2 * sin8 - sin2 * cos8;
+    let t7 = cos2 * cos11 + sin2 * sin11;
+    let t8 = cos2 * sin11 - sin2 * cos11;
+    let t9 = cos2 * cos14 + sin2 * sin14;
+    let t10 = cos2 * sin14 - sin2 * cos14;
+    let t11 = cos2 * cos20 + sin2 * sin20;
+    let t12 = cos2 * sin20;
+    let t13 = sin2 * cos20;
+    let t14 = t12 - t13;
+    let t15 = 0.35 * t11;
+    let t16 = 0.35 * t14;
+    let t17 = 0.025 * t4;
+    let t18 = 0.044999999999999984 * t3 + t17;
+    let t19 = 0.025 * t3;
+    let t20 = 0.044999999999999984 * t4;
+    let t21 = t20 - t19;
+    let t22 = 0.044999999999999984 * t5;
+    let t23 = 0.025 * t6;
+    let t24 = 0.025 * t5;
+    let t25 = t24 + 0.044999999999999984 * t6;
+    let t26 = t22 - t23;
+    let t27 = t17 + 0.04500000000000001 * t3;
+    let t28 = 0.0050000000000000044 * t7;
+    let t29 = 0.125 * t8;
+    let t30 = 0.125 * t7;
+    let t31 = t30 + 0.0050000000000000044 * t8;
+    let t32 = 0.04500000000000001 * t4 - t19;
+    let t33 = t29 - t28;
+    let t34 = 0.125 * t10;
+    let t35 = 0.0050000000000000044 * t9 + t34;
+    let t36 = 0.125 * t9;
+    let t37 = 0.0050000000000000044 * t10;
+    let t38 = t36 - t37;
+    let t39 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t40 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t41 = sin2 * t0 - cos2 * t1;
+    let t42 = t13 - t12;
+    let t43 = 0.4 * t11;
+    let t44 = -0.050000000000000044 - t14 * t16 - t11 * t15;
+    let t45 = 1.0 / t44;
+    let t46 = t25 + (t24 + 0.04500000000000001 * t6);
+    let t47 = 0.04500000000000001 * t5 - t23 - (t23 - t22);
+    let t48 = t31 + (t30 + 0.004999999999999977 * t8);
+    let t49 = 0.3 + t2;
+    let t50 = t35 + (t34 + 0.004999999999999977 * t9);
+    let t51 = 1.0 / t47;
+    let t52 = t46 * t51;
+    let t53 = t49 * t52;
+    let t54 = t36 - 0.004999999999999977 * t10 - (t37 - t36) + t50 * t52;
+    let t55 = t39 * t52 - t40;
+    let t56 = 1.0 / t54;
+    let t57 = t19 - t20;
+    let t58 = t40 - t41;
+    let t59 = t32 - t57;
+    let t60 = 1.0 / t48;
+    let t61 = (t29 - 0.004999999999999977 * t7 - (t28 - t29)) * t60;
+    let t62 = 3.3333333333333335 * (t2 + t39 + t58 * t61);
+    let t63 = 1.0 - t62;
+    let t64 = t27 + t59 * t61 + t18 * t62;
+    let t65 = 1.0 / t63;
+    let t66 = t3 * t65;
+    let t67 = 0.044999999999999984 + t64 * t66;
     let t68 = 1.0 / t67;
-    let t69 = 1.0 / cos2;
-    let t70 = sin2 * t69;
-    let t71 = t68 * (sin5 - t59 * t70);
-    let t72 = t65 * (t63 * t71);
-    let t73 = t60 * (t57 * t72 + t58 * t71);
-    let t74 = t38 * t72 - t43 * t73 - t41 * t71;
-    let t75 = t70 - t74;
-    let t76 = t54 * (t75 - t49 * t73 + t50 * t72 - t52 * t71 - t70);
-    let t77 = t37 * t72;
-    let t78 = t47 * (t77 - (t39 * t76 + t45 * t73) - t46 * t71);
-    let t79 = -1.0 - t42 * t73 - t77;
-    let t80 = t40 * t71;
-    let t81 = t80 - t79;
-    let t82 = t4 * t73;
-    let t83 = t6 * t78 - t82;
-    let t84 = t70 - t83;
-    let t85 = t7 * t73;
-    let t86 = -1.0 - t10 * t78 + t85;
-    let t87 = t74 - t70 + t26 * t73 + t28 * t71;
-    let t88 = t27 * t73 - (t79 - t80) - t31 * t71;
-    let t89 = t22 * t76 - (t83 - t70 + t16 * t78);
-    let t90 = t20 * t76 - (t86 - t21 * t78);
-    let t91 = t70 - (t82 + t15 * t72);
-    let t92 = t14 * t72 - (-1.0 - t85);
-    let t93 = t36 * (sin20 + t34 * t73 - cos20 * t70);
-    let t94 = t70 - (t1 * t93 + t0 * t73);
-    let t95 = t2 * t73 - (-1.0 - t3 * t93);
-    let t96 = 20.0 + t70 * (20.0 * t70) + t73 * (1.2 * t73) + t86 * (0.5 * t86)
-        + t84 * (0.5 * t84) + t78 * (0.002 * t78) + t92 * (0.5 * t92) + t91 * (0.5 * t91)
-        + t72 * (0.002 * t72) + t90 * (0.3 * t90) + t89 * (0.3 * t89)
-        + t76 * (0.0016 * t76) + t88 * (0.3 * t88) + t87 * (0.3 * t87)
-        + t71 * (0.0016 * t71) + t81 * t81 + t75 * t75 + t73 * (0.02 * t73)
-        + t95 * (8.0 * t95) + t94 * (8.0 * t94) + t93 * (0.5 * t93);
-    let t97 = r15 * t27;
-    let t98 = r15 * t26;
-    let t99 = r12 + (r4 + r8) + t97;
-    let t100 = t98 - (r13 + (r5 + r9));
-    let t101 = t99 + (t97 - (r6 + r10) - r2);
-    let t102 = t48 * t101 - (r3 + (t98 + (r7 + r11)));
-    let t103 = cos2 * t99 - r14 - sin2 * t100;
-    let t104 = sin2 * t99 - r16 + cos2 * t100 - t61 * t103;
-    let t105 = r19 * t69;
-    let t106 = t68
-        * (sin5 * r2 - r17 - cos5 * r3 - t53 * t101 + t55 * t102 - t55 * t100
-            - t64 * t103 - t66 * t104 + t59 * t105);
-    let t107 = t65 * (t104 - t63 * t106);
-    let t108 = t60 * (t103 - t57 * t107 + t58 * t106);
-    let t109 = t105 + (t100 - t43 * t108 - t38 * t107 - t41 * t106);
-    let t110 = t54 * (t105 + (t102 - t109 - t49 * t108 - t50 * t107 - t52 * t106));
-    let t111 = t37 * t107;
-    let t112 = t47 * (t101 - t39 * t110 - t45 * t108 - t111 - t46 * t106);
-    let t113 = t111 - (t99 + t42 * t108);
-    let t114 = t40 * t106;
-    let t115 = t113 - t114;
-    let t116 = t4 * t108;
-    let t117 = t105 + (t6 * t112 - r3 - t116);
-    let t118 = t7 * t108;
-    let t119 = r2 + t10 * t112 - t118;
-    let t120 = t108 - r15;
-    let t121 = t109 + (r13 + t26 * t120) + t28 * t106;
-    let t122 = t27 * t120 - r12 - t115 - t31 * t106;
-    let t123 = t22 * t110 - (t117 - r7 + t16 * t112);
-    let t124 = r6 + t119 + t21 * t112 + t20 * t110;
-    let t125 = t105 + (t116 - r5 - t15 * t107);
-    let t126 = r4 + t118 - t14 * t107;
-    let t127 = t36 * (sin20 * r0 - r21 - cos20 * r1 + t34 * t108 + cos20 * t105);
-    let t128 = t105 + (t1 * t127 - r1 + t0 * t108);
-    let t129 = r0 + t3 * t127 + t2 * t108;
-    let t130 = 1.0 / t96
-        * (t70 * (20.0 * t105) - t73 * (1.2 * t108) + t86 * (0.5 * t119)
-            + t84 * (0.5 * t117) - t78 * (0.002 * t112) - t92 * (0.5 * t126)
-            + t91 * (0.5 * t125) + t72 * (0.002 * t107) - t90 * (0.3 * t124)
-            - t89 * (0.3 * t123) - t76 * (0.0016 * t110) - t88 * (0.3 * t122)
-            - t87 * (0.3 * t121) - t71 * (0.0016 * t106) + t81 * t115 + t75 * t109
-            - t73 * (0.02 * t120) - t95 * (8.0 * t129) + t94 * (8.0 * t128)
-            - t93 * (0.5 * t127));
-    let t131 = t73 * t130;
-    out(0usize, t130);
-    out(1usize, t70 * t130 - t105);
-    out(2usize, t108 + t131);
-    out(3usize, t119 - t86 * t130);
-    out(4usize, t84 * t130 - t117);
-    out(5usize, t112 + t78 * t130);
-    out(6usize, t126 + t92 * t130);
-    out(7usize, t91 * t130 - t125);
-    out(8usize, t107 - t72 * t130);
-    out(9usize, t124 + t90 * t130);
-    out(10usize, t123 + t89 * t130);
-    out(11usize, t110 + t76 * t130);
-    out(12usize, t122 + t88 * t130);
-    out(13usize, -(t121 + t87 * t130));
-    out(14usize, t106 + t71 * t130);
-    out(15usize, t114 - t113 + t81 * t130);
-    out(16usize, t75 * t130 - t109);
-    out(17usize, t120 + t131);
-    out(18usize, t129 + t95 * t130);
-    out(19usize, t94 * t130 - t128);
-    out(20usize, t127 + t93 * t130);
+    let t69 = t4 * t68;
+    let t70 = t65 * (t64 * t69);
+    let t71 = 3.3333333333333335 * (t70 + t18 * t69);
+    let t72 = t60 * (t58 * t71 + t59 * t69);
+    let t73 = -1.0 - t41 * t71;
+    let t74 = t57 * t69;
+    let t75 = t74 - t73;
+    let t76 = t21 * t69;
+    let t77 = 1.0 - t76;
+    let t78 = t56 * (t76 - 1.0 - t55 * t71 - (t73 - t74) + t53 * t71);
+    let t79 = t51 * (t49 * t71 - (t50 * t78 + t39 * t71));
+    let t80 = 0.3 * t71;
+    let t81 = t47 * t79 + t35 * t78 - t80;
+    let t82 = t77 - (t46 * t79 - t38 * t78);
+    let t83 = t33 * t72 - t70 + t27 * t69;
+    let t84 = t32 * t69 - (-1.0 + t31 * t72);
+    let t85 = t2 * t71;
+    let t86 = t26 * t79 - t80;
+    let t87 = t77 - t25 * t79;
+    let t88 = t45 * (t43 * t71 - t42 * t77);
+    let t89 = t15 * t88 + 0.4 * t71;
+    let t90 = t77 + t16 * t88;
+    let t91 = 0.5 + (t77 * (20.0 * t77) + t71 * (1.2 * t71)) + t70 * (0.5 * t70)
+        + t69 * (0.002 * t69) + t87 * (0.5 * t87) + t86 * (0.5 * t86)
+        + t79 * (0.002 * t79) + t84 * (0.3 * t84) + t83 * (0.3 * t83)
+        + t72 * (0.0016 * t72) + t82 * (0.3 * t82) + t81 * (0.3 * t81)
+        + t78 * (0.0016 * t78) + t75 * t75 + t85 * t85 + t71 * (0.02 * t71)
+        + t90 * (8.0 * t90) + t89 * (8.0 * t89) + t88 * (0.5 * t88);
+    let t92 = cos2 * r0 + sin2 * r1;
+    let t93 = cos2 * r2 + sin2 * r3;
+    let t94 = cos2 * r4 + sin2 * r5;
+    let t95 = sin2 * r6;
+    let t96 = cos2 * r7;
+    let t97 = cos2 * r6 + sin2 * r7;
+    let t98 = t94 + (cos2 * r8 + sin2 * r9);
+    let t99 = r19 + (sin2 * r0 - cos2 * r1);
+    let t100 = r19 + (sin2 * r2 - cos2 * r3);
+    let t101 = r19 + (sin2 * r4 - cos2 * r5);
+    let t102 = r16 + r19;
+    let t103 = sin2 * r8 - cos2 * r9 + t101;
+    let t104 = t103 + (sin2 * r12 - cos2 * r13 - t102);
+    let t105 = t93 - r14;
+    let t106 = r15 * t40 - (t97 + (cos2 * r10 + sin2 * r11)) - t105;
+    let t107 = sin2 * r10 - cos2 * r11 - t102 - (t96 - t95) - r15 * t39 - t61 * t106
+        + t62 * t100;
+    let t108 = t68 * (r17 + t66 * t107);
+    let t109 = t65 * (t107 - t64 * t108);
+    let t110 = 3.3333333333333335 * (t100 + t109 - t18 * t108);
+    let t111 = t60 * (t106 - t58 * t110 + t59 * t108);
+    let t112 = t105 - t41 * t110 + t57 * t108;
+    let t113 = t110 - r15;
+    let t114 = t21 * t108 - t93;
+    let t115 = t56
+        * (t52 * t104 - (cos2 * r12 + sin2 * r13 + t98) - t114 - t55 * t113 - t112
+            + t53 * t110);
+    let t116 = t51 * (t104 - t50 * t115 - t39 * t113 + t49 * t110);
+    let t117 = 0.3 * t110;
+    let t118 = t103 - t47 * t116 - t35 * t115 + t117;
+    let t119 = t114 - (t46 * t116 - t98 - t38 * t115);
+    let t120 = t27 * t108 - (t95 - t96 - t33 * t111 - t109);
+    let t121 = t97 + t31 * t111 - t32 * t108;
+    let t122 = t2 * t110;
+    let t123 = t117 + (t101 - t26 * t116);
+    let t124 = t114 - (t25 * t116 - t94);
+    let t125 = t45 * (t14 * t92 - r21 + t11 * t99 - t42 * t114 + t43 * t110);
+    let t126 = t99 + t15 * t125 + 0.4 * t110;
+    let t127 = t114 + (t92 + t16 * t125);
+    let t128 = 1.0 / t91
+        * (t69 * (0.002 * t108)
+            - (t77 * (20.0 * t114) + t71 * (1.2 * t110) + t70 * (0.5 * t109))
+            - t87 * (0.5 * t124) + t86 * (0.5 * t123) - t79 * (0.002 * t116)
+            - t84 * (0.3 * t121) + t83 * (0.3 * t120) + t72 * (0.0016 * t111)
+            - t82 * (0.3 * t119) + t81 * (0.3 * t118) - t78 * (0.0016 * t115)
+            + t75 * t112 + t85 * (t102 - t122) - t71 * (0.02 * t113) - t90 * (8.0 * t127)
+            - t89 * (8.0 * t126) - t88 * (0.5 * t125));
+    let t129 = t114 + t77 * t128;
+    let t130 = t71 * t128;
+    let t131 = t109 + t70 * t128;
+    let t132 = t124 + t87 * t128;
+    let t133 = t86 * t128 - t123;
+    let t134 = t121 + t84 * t128;
+    let t135 = t120 - t83 * t128;
+    let t136 = t119 + t82 * t128;
+    let t137 = t81 * t128 - t118;
+    let t138 = t75 * t128 - t112;
+    let t139 = t122 - t102 + t85 * t128;
+    let t140 = t127 + t90 * t128;
+    let t141 = t126 + t89 * t128;
+    out(0usize, cos2 * t129 + sin2 * r19);
+    out(1usize, sin2 * t129 - cos2 * r19);
+    out(2usize, t110 + t130);
+    out(3usize, cos2 * t128 - sin2 * t131);
+    out(4usize, sin2 * t128 + cos2 * t131);
+    out(5usize, t69 * t128 - t108);
+    out(6usize, cos2 * t132 - sin2 * t133);
+    out(7usize, sin2 * t132 + cos2 * t133);
+    out(8usize, t116 + t79 * t128);
+    out(9usize, cos2 * t134 - sin2 * t135);
+    out(10usize, sin2 * t134 + cos2 * t135);
+    out(11usize, t111 - t72 * t128);
+    out(12usize, cos2 * t136 - sin2 * t137);
+    out(13usize, sin2 * t136 + cos2 * t137);
+    out(14usize, t115 + t78 * t128);
+    out(15usize, cos2 * t138 - sin2 * t139);
+    out(16usize, sin2 * t138 + cos2 * t139);
+    out(17usize, t113 + t130);
+    out(18usize, cos2 * t140 + sin2 * t141);
+    out(19usize, sin2 * t140 - cos2 * t141);
+    out(20usize, t125 + t88 * t128);
     f64::INFINITY
-        .min(-(2.0 * t35))
-        .min(-(16.0 * t44))
-        .min(-(4.0 * t51))
-        .min(4.0 * t56)
-        .min(8.0 * t62)
+        .min(-(2.0 * t44))
+        .min(16.0 * t47)
+        .min(4.0 * t54)
+        .min(4.0 * t48)
+        .min(4.0 * t63)
         .min(4.0 * t67)
-        .min(2.0 * cos2)
-        .min(0.03125 * t96)
+        .min(0.03125 * t91)
 }
 ///The smallest dv in the mass metric with `C·dv = −r` on the kept rows.
 ///
-///Operations: 288 mul, 246 add, 4 neg, 8 div.
+///Operations: 304 mul, 227 add, 1 neg, 7 div.
 pub fn velocity_correction(
     t: f64,
     q: &[f64; N_Q],
@@ -1735,524 +1740,526 @@ fn jacobian_action_core(
     let dv18 = dv(18usize);
     let dv19 = dv(19usize);
     let dv20 = dv(20usize);
-    let t0 = 0.4 * cos2;
-    let t1 = 0.35 * cos20;
-    let t2 = 0.4 * sin2;
-    let t3 = 0.35 * sin20;
-    let t4 = v2 * v2;
-    let t5 = v20 * v20;
-    let t6 = t0 * t4 + t1 * t5;
-    let t7 = t2 * t4 + t3 * t5;
-    let t8 = 0.3 * cos2;
-    let t9 = 0.025 * sin5;
-    let t10 = 0.044999999999999984 * cos5 + t9;
-    let t11 = 0.3 * sin2;
-    let t12 = 0.025 * cos5;
-    let t13 = 0.044999999999999984 * sin5;
-    let t14 = t13 - t12;
-    let t15 = v5 * v5;
-    let t16 = t4 * t8;
-    let t17 = t10 * t15;
-    let t18 = t16 - t17;
-    let t19 = t4 * t11;
-    let t20 = t14 * t15;
+    let t0 = v2 * v2;
+    let t1 = v20 * v20;
+    let t2 = v5 * v5;
+    let t3 = v8 * v8;
+    let t4 = v11 * v11;
+    let t5 = v14 * v14;
+    let t6 = v17 * v17;
+    let t7 = cos2 * v0 + sin2 * v1;
+    let t8 = v2 * t7;
+    let t9 = q15 - q0;
+    let t10 = q16 - q1;
+    let t11 = cos2 * t9 + sin2 * t10;
+    let t12 = cos2 * v1 - sin2 * v0;
+    let t13 = cos2 * v3 + sin2 * v4;
+    let t14 = cos2 * v4 - sin2 * v3;
+    let t15 = cos2 * v16 - sin2 * v15;
+    let t16 = cos2 * v18 + sin2 * v19;
+    let t17 = cos2 * v19 - sin2 * v18;
+    let t18 = cos2 * cos5 + sin2 * sin5;
+    let t19 = cos2 * sin5;
+    let t20 = sin2 * cos5;
     let t21 = t19 - t20;
-    let t22 = 0.044999999999999984 * cos8;
-    let t23 = 0.025 * sin8;
-    let t24 = t23 - t22;
-    let t25 = 0.025 * cos8;
-    let t26 = t25 + 0.044999999999999984 * sin8;
-    let t27 = t22 - t23;
-    let t28 = v8 * v8;
-    let t29 = t16 + t24 * t28;
-    let t30 = t26 * t28;
-    let t31 = t9 + 0.04500000000000001 * cos5;
-    let t32 = 0.0050000000000000044 * cos11;
-    let t33 = 0.125 * sin11;
-    let t34 = t32 - t33;
-    let t35 = 0.04500000000000001 * sin5;
-    let t36 = t12 - t35;
-    let t37 = 0.125 * cos11;
-    let t38 = t37 + 0.0050000000000000044 * sin11;
-    let t39 = t35 - t12;
-    let t40 = t33 - t32;
-    let t41 = v11 * v11;
-    let t42 = t15 * t31 + t34 * t41;
-    let t43 = t15 * t36;
-    let t44 = t38 * t41;
-    let t45 = 0.04500000000000001 * cos8 - t23;
-    let t46 = 0.125 * sin14;
-    let t47 = 0.0050000000000000044 * cos14 + t46;
-    let t48 = t25 + 0.04500000000000001 * sin8;
-    let t49 = 0.125 * cos14;
-    let t50 = t49 - 0.0050000000000000044 * sin14;
-    let t51 = v14 * v14;
-    let t52 = t33 - 0.004999999999999977 * cos11;
-    let t53 = 0.2 * cos17;
-    let t54 = t37 + 0.004999999999999977 * sin11;
-    let t55 = 0.2 * sin17;
-    let t56 = v17 * v17;
-    let t57 = t53 * t56;
-    let t58 = t55 * t56;
-    let t59 = t46 + 0.004999999999999977 * cos14;
-    let t60 = 0.004999999999999977 * sin14;
-    let t61 = t60 - t49;
-    let t62 = t49 - t60;
-    let t63 = t57 + t51 * t59;
-    let t64 = t58 + t51 * t61;
-    let t65 = q1 - q16;
-    let t66 = q0 - q15;
-    let t67 = sin2 * v2;
-    let t68 = v16 - v1;
-    let t69 = cos2 * v2;
-    let t70 = v0 - v15;
-    let t71 = t65 * t67 + cos2 * t68;
-    let t72 = t66 * t69 + sin2 * t70;
-    let t73 = cos2 * t70 - t66 * t67;
-    let t74 = t65 * t69 - sin2 * t68;
-    let t75 = cos5 * v3 + sin5 * v4;
-    let t76 = cos2 * v0 + sin2 * v1;
-    let t77 = v2 * t76;
-    let t78 = cos20 * v18 + sin20 * v19;
-    let t79 = sin20 * t2 + cos20 * t0;
-    let t80 = -0.050000000000000044 - sin20 * t3 - cos20 * t1;
-    let t81 = 1.0 / t80;
-    let t82 = t26 + t48;
-    let t83 = t45 - t24;
-    let t84 = t38 + t54;
-    let t85 = t50 - t61;
-    let t86 = t47 + t59;
-    let t87 = t11 - t55;
-    let t88 = t53 - t8;
-    let t89 = t39 - (t12 - t13);
-    let t90 = t10 + t31;
-    let t91 = 0.044999999999999984 - sin5 * t14 - cos5 * t10;
-    let t92 = t55 - t11 - t87;
-    let t93 = t61 - t50;
-    let t94 = 1.0 / t89;
-    let t95 = t90 * t94;
-    let t96 = t8 - t53 + t92 * t95;
-    let t97 = t82 * t95;
-    let t98 = t52 - t34 + t84 * t95;
-    let t99 = t93 * t95;
-    let t100 = t91 * t94;
-    let t101 = t84 * t100;
-    let t102 = 1.0 / t98;
-    let t103 = t101 * t102;
-    let t104 = cos2 * t65 - sin2 * t66 - cos2 * t87 - sin2 * t88;
-    let t105 = cos2 * t82 - sin2 * t83;
-    let t106 = cos2 * t85 + sin2 * t86;
-    let t107 = sin2 * t65 + cos2 * t66 - sin2 * t87 + cos2 * t88;
-    let t108 = cos5 + t103 - t103;
-    let t109 = sin5 * t11 + cos5 * t8 - t92 * t100 + t96 * t103 - t88 * t103;
-    let t110 = 1.0 / t104;
-    let t111 = t107 * t110;
-    let t112 = sin2 * t82 + cos2 * t83 - t105 * t111;
-    let t113 = cos2 * t86 - sin2 * t85 + t106 * t111;
-    let t114 = t109 * t110;
-    let t115 = t97 * t103 - t82 * t100 - t83 * t103 - t105 * t114;
-    let t116 = 1.0 / t112;
-    let t117 = t115 * t116;
-    let t118 = t99 * t103 - t93 * t100 - t86 * t103 + t106 * t114 - t113 * t117;
-    let t119 = 1.0 / t118;
-    let t120 = 1.0 / cos2;
-    let t121 = sin2 * t120;
-    let t122 = sin5 - t108 * t121;
-    let t123 = t119 * t122;
-    let t124 = t113 * t123;
-    let t125 = t116 * t124;
-    let t126 = t105 * t125 + t106 * t123;
-    let t127 = t110 * t126;
-    let t128 = t83 * t125 - t88 * t127 - t86 * t123;
-    let t129 = t121 - t128;
-    let t130 = t129 - t96 * t127 + t97 * t125 - t99 * t123 - t121;
-    let t131 = t102 * t130;
-    let t132 = t82 * t125;
-    let t133 = t132 - (t84 * t131 + t92 * t127) - t93 * t123;
-    let t134 = t94 * t133;
-    let t135 = -1.0 - t87 * t127 - t132;
-    let t136 = t85 * t123;
-    let t137 = t136 - t135;
-    let t138 = t8 * t127;
-    let t139 = t10 * t134 - t138;
-    let t140 = t121 - t139;
-    let t141 = t11 * t127;
-    let t142 = -1.0 - t14 * t134 + t141;
-    let t143 = t128 - t121 + t53 * t127 + t59 * t123;
-    let t144 = t55 * t127 - (t135 - t136) - t62 * t123;
-    let t145 = t40 * t131 - (t139 - t121 + t31 * t134);
-    let t146 = t38 * t131 - (t142 - t39 * t134);
-    let t147 = t121 - (t138 + t27 * t125);
-    let t148 = t26 * t125 - (-1.0 - t141);
-    let t149 = sin20 + t79 * t127 - cos20 * t121;
-    let t150 = t81 * t149;
-    let t151 = t121 - (t1 * t150 + t0 * t127);
-    let t152 = t2 * t127 - (-1.0 - t3 * t150);
-    let t153 = 20.0 * t121;
-    let t154 = 1.2 * t127;
-    let t155 = 0.5 * t142;
-    let t156 = 0.5 * t140;
-    let t157 = 0.002 * t134;
-    let t158 = 0.5 * t148;
-    let t159 = 0.5 * t147;
-    let t160 = 0.002 * t125;
-    let t161 = 0.3 * t146;
-    let t162 = 0.3 * t145;
-    let t163 = 0.0016 * t131;
-    let t164 = 0.3 * t144;
-    let t165 = 0.3 * t143;
-    let t166 = 0.0016 * t123;
-    let t167 = 0.02 * t127;
-    let t168 = 8.0 * t152;
-    let t169 = 8.0 * t151;
-    let t170 = 0.5 * t150;
-    let t171 = 20.0 + t121 * t153 + t127 * t154 + t142 * t155 + t140 * t156 + t134 * t157
-        + t148 * t158 + t147 * t159 + t125 * t160 + t146 * t161 + t145 * t162
-        + t131 * t163 + t144 * t164 + t143 * t165 + t123 * t166 + t137 * t137
-        + t129 * t129 + t127 * t167 + t152 * t168 + t151 * t169 + t150 * t170;
-    let t172 = 1.0 / t171;
-    let t173 = t63 + (t28 * t45 + t47 * t51 - t29);
-    let t174 = t64 + (t28 * t48 - t50 * t51 - (t19 - t30));
-    let t175 = t41 * t52 - t57 - t42 - (t17 - t16) - t173;
-    let t176 = t95 * t175 - (t41 * t54 + t58 + (t44 - t43) + (t20 - t19));
-    let t177 = v2 * t71 + t68 * t69 + (v2 * t72 + t67 * t70) - cos2 * t173 - sin2 * t174;
-    let t178 = ddf0 - (v2 * t73 + t69 * t70 + (v2 * t74 - t67 * t68)) - sin2 * t173
-        + cos2 * t174 - t111 * t177;
-    let t179 = t77 * t120;
-    let t180 = v5 * t75 - sin5 * t18 + cos5 * t21 - t100 * t175 + t103 * t176
-        - t103 * t174 - t114 * t177 - t117 * t178 - t108 * t179;
-    let t181 = t119 * t180;
-    let t182 = t178 - t113 * t181;
-    let t183 = t116 * t182;
-    let t184 = t177 - t105 * t183 + t106 * t181;
-    let t185 = t110 * t184;
-    let t186 = t174 - t88 * t185 - t83 * t183 - t86 * t181 - t179;
-    let t187 = t176 - t186 - t96 * t185 - t97 * t183 - t99 * t181 - t179;
-    let t188 = t102 * t187;
-    let t189 = t82 * t183;
-    let t190 = t175 - t84 * t188 - t92 * t185 - t189 - t93 * t181;
-    let t191 = t94 * t190;
-    let t192 = t189 + (t173 - t87 * t185) - t85 * t181;
-    let t193 = t8 * t185;
-    let t194 = t179 - (t21 + t10 * t191 - t193);
-    let t195 = t11 * t185;
-    let t196 = t18 - t14 * t191 + t195;
-    let t197 = v20 * t78 + sin20 * t6 - cos20 * t7 + t79 * t185 - cos20 * t179;
-    let t198 = t81 * t197;
-    let t199 = 20.0 * t179;
-    let t200 = 1.2 * t185;
-    let t201 = 0.5 * t196;
-    let t202 = 0.5 * t194;
-    let t203 = 0.002 * t191;
-    let t204 = 0.5 * (t29 + t195 - t26 * t183);
-    let t205 = 0.5 * (t179 - (t30 - t19 + t193 - t27 * t183));
-    let t206 = 0.002 * t183;
-    let t207 = 0.3 * (t38 * t188 - (t196 - t42 - t39 * t191));
-    let t208 = 0.3 * (t40 * t188 - (t43 - t44 - t194 + t31 * t191));
-    let t209 = 0.0016 * t188;
-    let t210 = 0.3 * (t63 + t55 * t185 - t192 - t62 * t181);
-    let t211 = 0.3 * (t64 - t53 * t185 - t186 - t59 * t181);
-    let t212 = 0.0016 * t181;
-    let t213 = 0.02 * t185;
-    let t214 = 8.0 * (t6 + t3 * t198 + t2 * t185);
-    let t215 = 8.0 * (t179 - (t1 * t198 - t7 + t0 * t185));
-    let t216 = 0.5 * t198;
-    let t217 = t125 * t206
-        - (t121 * t199 + t127 * t200 + t142 * t201 + t140 * t202 + t134 * t203
-            + t148 * t204 + t147 * t205) - t146 * t207 - t145 * t208 - t131 * t209
-        - t144 * t210 + t143 * t211 - t123 * t212 + t137 * t192 + t129 * t186
-        - t127 * t213 - t152 * t214 - t151 * t215 - t150 * t216;
-    let t218 = t172 * t217;
-    let t219 = sin2 * dq2;
-    let t220 = cos2 * dq2;
-    let t221 = sin5 * dq5;
-    let t222 = cos5 * dq5;
-    let t223 = sin8 * dq8;
-    let t224 = cos8 * dq8;
-    let t225 = sin11 * dq11;
-    let t226 = cos11 * dq11;
-    let t227 = sin14 * dq14;
-    let t228 = cos14 * dq14;
-    let t229 = sin20 * dq20;
-    let t230 = cos20 * dq20;
-    let t231 = 0.4 * t219;
-    let t232 = 0.35 * t229;
-    let t233 = 0.4 * t220;
-    let t234 = 0.35 * t230;
-    let t235 = v2 * dv2;
-    let t236 = t235 + t235;
-    let t237 = v20 * dv20;
-    let t238 = t237 + t237;
-    let t239 = t0 * t236 - t4 * t231 + (t1 * t238 - t5 * t232);
-    let t240 = t4 * t233 + t2 * t236 + (t5 * t234 + t3 * t238);
-    let t241 = 0.3 * t219;
-    let t242 = 0.025 * t222;
-    let t243 = t242 - 0.044999999999999984 * t221;
-    let t244 = 0.3 * t220;
-    let t245 = 0.025 * t221;
-    let t246 = t245 + 0.044999999999999984 * t222;
+    let t22 = cos2 * cos8 + sin2 * sin8;
+    let t23 = cos2 * sin8 - sin2 * cos8;
+    let t24 = cos2 * cos11 + sin2 * sin11;
+    let t25 = cos2 * sin11 - sin2 * cos11;
+    let t26 = cos2 * cos14 + sin2 * sin14;
+    let t27 = cos2 * sin14 - sin2 * cos14;
+    let t28 = cos2 * cos20 + sin2 * sin20;
+    let t29 = cos2 * sin20;
+    let t30 = sin2 * cos20;
+    let t31 = t29 - t30;
+    let t32 = 0.35 * t28;
+    let t33 = 0.35 * t31;
+    let t34 = 0.4 * t0 + t1 * t32;
+    let t35 = 0.025 * t21;
+    let t36 = 0.044999999999999984 * t18 + t35;
+    let t37 = 0.025 * t18;
+    let t38 = 0.044999999999999984 * t21;
+    let t39 = t38 - t37;
+    let t40 = 0.3 * t0;
+    let t41 = t40 - t2 * t36;
+    let t42 = 0.044999999999999984 * t22;
+    let t43 = 0.025 * t23;
+    let t44 = t43 - t42;
+    let t45 = 0.025 * t22;
+    let t46 = t45 + 0.044999999999999984 * t23;
+    let t47 = t42 - t43;
+    let t48 = t40 + t3 * t44;
+    let t49 = t3 * t46;
+    let t50 = t35 + 0.04500000000000001 * t18;
+    let t51 = 0.0050000000000000044 * t24;
+    let t52 = 0.125 * t25;
+    let t53 = t51 - t52;
+    let t54 = 0.04500000000000001 * t21;
+    let t55 = t37 - t54;
+    let t56 = 0.125 * t24;
+    let t57 = t56 + 0.0050000000000000044 * t25;
+    let t58 = t54 - t37;
+    let t59 = t52 - t51;
+    let t60 = t2 * t50 + t4 * t53;
+    let t61 = t2 * t55;
+    let t62 = t4 * t57;
+    let t63 = 0.04500000000000001 * t22 - t43;
+    let t64 = 0.125 * t27;
+    let t65 = 0.0050000000000000044 * t26 + t64;
+    let t66 = t45 + 0.04500000000000001 * t23;
+    let t67 = 0.125 * t26;
+    let t68 = 0.0050000000000000044 * t27;
+    let t69 = t67 - t68;
+    let t70 = t3 * t63 + t5 * t65;
+    let t71 = t3 * t66 - t5 * t69;
+    let t72 = t52 - 0.004999999999999977 * t24;
+    let t73 = 0.2 * (cos2 * cos17 + sin2 * sin17);
+    let t74 = t56 + 0.004999999999999977 * t25;
+    let t75 = 0.2 * (cos2 * sin17 - sin2 * cos17);
+    let t76 = t6 * t73;
+    let t77 = t6 * t75;
+    let t78 = t64 + 0.004999999999999977 * t26;
+    let t79 = 0.004999999999999977 * t27;
+    let t80 = t79 - t67;
+    let t81 = sin2 * t9 - cos2 * t10;
+    let t82 = t12 - t15;
+    let t83 = t15 - t12;
+    let t84 = t7 - (cos2 * v15 + sin2 * v16);
+    let t85 = v2 * t11;
+    let t86 = v2 * t84;
+    let t87 = v2 * t81;
+    let t88 = t20 - t19;
+    let t89 = t13 * t18 - t14 * t88;
+    let t90 = t30 - t29;
+    let t91 = t16 * t28 - t17 * t90;
+    let t92 = 0.4 * t28;
+    let t93 = -0.050000000000000044 - t31 * t33 - t28 * t32;
+    let t94 = 1.0 / t93;
+    let t95 = t46 + t66;
+    let t96 = t63 - t44;
+    let t97 = t57 + t74;
+    let t98 = t72 - t53;
+    let t99 = 0.3 + t11;
+    let t100 = t65 + t78;
+    let t101 = 1.0 / t96;
+    let t102 = t95 * t101;
+    let t103 = t99 * t102;
+    let t104 = t67 - t79 - (t68 - t67) + t100 * t102;
+    let t105 = t73 * t102 - t75;
+    let t106 = 1.0 / t104;
+    let t107 = t37 - t38;
+    let t108 = t75 - t81;
+    let t109 = t58 - t107;
+    let t110 = 1.0 / t97;
+    let t111 = t98 * t110;
+    let t112 = 3.3333333333333335 * (t11 + t73 + t108 * t111);
+    let t113 = 1.0 - t112;
+    let t114 = t50 + t109 * t111 + t36 * t112;
+    let t115 = 1.0 / t113;
+    let t116 = t18 * t115;
+    let t117 = 0.044999999999999984 + t114 * t116;
+    let t118 = 1.0 / t117;
+    let t119 = t21 * t118;
+    let t120 = t114 * t119;
+    let t121 = t115 * t120;
+    let t122 = 3.3333333333333335 * (t121 + t36 * t119);
+    let t123 = t108 * t122 + t109 * t119;
+    let t124 = t110 * t123;
+    let t125 = -1.0 - t81 * t122;
+    let t126 = t107 * t119;
+    let t127 = t126 - t125;
+    let t128 = t39 * t119;
+    let t129 = 1.0 - t128;
+    let t130 = t128 - 1.0 - t105 * t122 - (t125 - t126) + t103 * t122;
+    let t131 = t106 * t130;
+    let t132 = t99 * t122 - (t100 * t131 + t73 * t122);
+    let t133 = t101 * t132;
+    let t134 = 0.3 * t122;
+    let t135 = t96 * t133 + t65 * t131 - t134;
+    let t136 = t129 - (t95 * t133 - t69 * t131);
+    let t137 = t59 * t124 - t121 + t50 * t119;
+    let t138 = t58 * t119 - (-1.0 + t57 * t124);
+    let t139 = t11 * t122;
+    let t140 = t47 * t133 - t134;
+    let t141 = t129 - t46 * t133;
+    let t142 = t92 * t122 - t90 * t129;
+    let t143 = t94 * t142;
+    let t144 = t32 * t143 + 0.4 * t122;
+    let t145 = t129 + t33 * t143;
+    let t146 = 20.0 * t129;
+    let t147 = 1.2 * t122;
+    let t148 = 0.5 * t121;
+    let t149 = 0.002 * t119;
+    let t150 = 0.5 * t141;
+    let t151 = 0.5 * t140;
+    let t152 = 0.002 * t133;
+    let t153 = 0.3 * t138;
+    let t154 = 0.3 * t137;
+    let t155 = 0.0016 * t124;
+    let t156 = 0.3 * t136;
+    let t157 = 0.3 * t135;
+    let t158 = 0.0016 * t131;
+    let t159 = 0.02 * t122;
+    let t160 = 8.0 * t145;
+    let t161 = 8.0 * t144;
+    let t162 = 0.5 * t143;
+    let t163 = 0.5 + (t129 * t146 + t122 * t147) + t121 * t148 + t119 * t149
+        + t141 * t150 + t140 * t151 + t133 * t152 + t138 * t153 + t137 * t154
+        + t124 * t155 + t136 * t156 + t135 * t157 + t131 * t158 + t127 * t127
+        + t139 * t139 + t122 * t159 + t145 * t160 + t144 * t161 + t143 * t162;
+    let t164 = 1.0 / t163;
+    let t165 = t8 + t1 * t33;
+    let t166 = t8 + t2 * t39;
+    let t167 = t8 + (ddf0 - (t86 + t86 + v2 * t87));
+    let t168 = t8 - t49;
+    let t169 = t77 + t5 * t80 + t167 - (t168 - t71);
+    let t170 = t41 + (v2 * t82 - v2 * t83 + v2 * t85);
+    let t171 = t4 * t72 - t76 - t60 + t170;
+    let t172 = t167 - (t4 * t74 + t77) - (t62 - t61) - t111 * t171 - t112 * t166;
+    let t173 = v5 * t89 - t116 * t172;
+    let t174 = t118 * t173;
+    let t175 = t172 + t114 * t174;
+    let t176 = t115 * t175;
+    let t177 = 3.3333333333333335 * (t176 - t166 + t36 * t174);
+    let t178 = t171 - t108 * t177 - t109 * t174;
+    let t179 = t110 * t178;
+    let t180 = t170 + t81 * t177 + t107 * t174;
+    let t181 = t41 - t39 * t174;
+    let t182 = t180 + (t76 + t5 * t78 - (t48 - t70) + t102 * t169 - t181 - t105 * t177)
+        + t103 * t177;
+    let t183 = t106 * t182;
+    let t184 = t169 - t100 * t183 - t73 * t177 + t99 * t177;
+    let t185 = t101 * t184;
+    let t186 = 0.3 * t177;
+    let t187 = t71 - t168 - t96 * t185 - t65 * t183 + t186;
+    let t188 = t181 - (t70 - t48 + t95 * t185 - t69 * t183);
+    let t189 = t61 - t62 - t59 * t179 - t176 + t50 * t174;
+    let t190 = t60 + t57 * t179 + t58 * t174;
+    let t191 = t167 + t11 * t177;
+    let t192 = t186 + (t49 - t8 - t47 * t185);
+    let t193 = t181 - (t46 * t185 - t48);
+    let t194 = v20 * t91 + t31 * t34 - t28 * t165 - t90 * t181 + t92 * t177;
+    let t195 = t94 * t194;
+    let t196 = t32 * t195 - t165 + 0.4 * t177;
+    let t197 = t181 + (t34 + t33 * t195);
+    let t198 = 20.0 * t181;
+    let t199 = 1.2 * t177;
+    let t200 = 0.5 * t176;
+    let t201 = 0.002 * t174;
+    let t202 = 0.5 * t193;
+    let t203 = 0.5 * t192;
+    let t204 = 0.002 * t185;
+    let t205 = 0.3 * t190;
+    let t206 = 0.3 * t189;
+    let t207 = 0.0016 * t179;
+    let t208 = 0.3 * t188;
+    let t209 = 0.3 * t187;
+    let t210 = 0.0016 * t183;
+    let t211 = 0.02 * t177;
+    let t212 = 8.0 * t197;
+    let t213 = 8.0 * t196;
+    let t214 = 0.5 * t195;
+    let t215 = t140 * t203
+        - (t129 * t198 + t122 * t199 + t121 * t200 + t119 * t201 + t141 * t202)
+        - t133 * t204 - t138 * t205 - t137 * t206 + t124 * t207 - t136 * t208
+        + t135 * t209 - t131 * t210 - t127 * t180 - t139 * t191 - t122 * t211
+        - t145 * t212 - t144 * t213 - t143 * t214;
+    let t216 = t164 * t215;
+    let t217 = t181 + t129 * t216;
+    let t218 = t176 + t121 * t216;
+    let t219 = t193 + t141 * t216;
+    let t220 = t140 * t216 - t192;
+    let t221 = t190 + t138 * t216;
+    let t222 = t189 + t137 * t216;
+    let t223 = t188 + t136 * t216;
+    let t224 = t135 * t216 - t187;
+    let t225 = t180 + t127 * t216;
+    let t226 = t191 + t139 * t216;
+    let t227 = t197 + t145 * t216;
+    let t228 = t196 + t144 * t216;
+    let t229 = sin2 * dq2;
+    let t230 = cos2 * dq2;
+    let t231 = sin5 * dq5;
+    let t232 = cos5 * dq5;
+    let t233 = sin8 * dq8;
+    let t234 = cos8 * dq8;
+    let t235 = sin11 * dq11;
+    let t236 = cos11 * dq11;
+    let t237 = sin14 * dq14;
+    let t238 = cos14 * dq14;
+    let t239 = sin17 * dq17;
+    let t240 = cos17 * dq17;
+    let t241 = sin20 * dq20;
+    let t242 = cos20 * dq20;
+    let t243 = v2 * dv2;
+    let t244 = t243 + t243;
+    let t245 = v20 * dv20;
+    let t246 = t245 + t245;
     let t247 = v5 * dv5;
     let t248 = t247 + t247;
-    let t249 = t8 * t236 - t4 * t241;
-    let t250 = t15 * t243 + t10 * t248;
-    let t251 = t249 - t250;
-    let t252 = t11 * t236 + t4 * t244;
-    let t253 = t15 * t246 + t14 * t248;
-    let t254 = t252 - t253;
-    let t255 = 0.025 * t224;
-    let t256 = 0.044999999999999984 * t223 + t255;
-    let t257 = 0.025 * t223;
-    let t258 = 0.044999999999999984 * t224 - t257;
-    let t259 = v8 * dv8;
-    let t260 = t259 + t259;
-    let t261 = t249 + (t28 * t256 + t24 * t260);
-    let t262 = t28 * t258 + t26 * t260;
-    let t263 = t242 - 0.04500000000000001 * t221;
-    let t264 = 0.125 * t226;
-    let t265 = 0.0050000000000000044 * t225 + t264;
-    let t266 = t245 + 0.04500000000000001 * t222;
-    let t267 = 0.125 * t225;
-    let t268 = 0.0050000000000000044 * t226 - t267;
-    let t269 = v11 * dv11;
-    let t270 = t269 + t269;
-    let t271 = t31 * t248 + t15 * t263 + (t34 * t270 - t41 * t265);
-    let t272 = t36 * t248 - t15 * t266;
-    let t273 = t41 * t268 + t38 * t270;
-    let t274 = t255 + 0.04500000000000001 * t223;
-    let t275 = 0.125 * t228;
-    let t276 = t275 - 0.0050000000000000044 * t227;
-    let t277 = 0.04500000000000001 * t224 - t257;
-    let t278 = 0.125 * t227;
-    let t279 = t278 + 0.0050000000000000044 * t228;
-    let t280 = v14 * dv14;
-    let t281 = t280 + t280;
-    let t282 = t264 + 0.004999999999999977 * t225;
-    let t283 = 0.2 * (sin17 * dq17);
-    let t284 = 0.004999999999999977 * t226 - t267;
-    let t285 = 0.2 * (cos17 * dq17);
-    let t286 = v17 * dv17;
-    let t287 = t286 + t286;
-    let t288 = t53 * t287 - t56 * t283;
-    let t289 = t56 * t285 + t55 * t287;
-    let t290 = t275 - 0.004999999999999977 * t227;
-    let t291 = t278 + 0.004999999999999977 * t228;
-    let t292 = t288 + (t59 * t281 + t51 * t290);
-    let t293 = t289 + (t61 * t281 + t51 * t291);
-    let t294 = dq1 - dq16;
-    let t295 = dq0 - dq15;
-    let t296 = v2 * t220 + sin2 * dv2;
-    let t297 = dv16 - dv1;
-    let t298 = cos2 * dv2 - v2 * t219;
-    let t299 = dv0 - dv15;
-    let t300 = t2 * t230 + sin20 * t233 - (t0 * t229 + cos20 * t231);
-    let t301 = t81 * (t1 * t229 + cos20 * t232 - (t3 * t230 + sin20 * t234)) / t80;
-    let t302 = t258 + t277;
-    let t303 = t256 + t274;
-    let t304 = t268 + t284;
-    let t305 = t279 + t291;
-    let t306 = t276 + t290;
-    let t307 = t244 - t285;
-    let t308 = t241 - t283;
-    let t309 = t285 - t244 - t307;
-    let t310 = t94 * (t246 + t266) / t89;
-    let t311 = t94 * (t243 + t263) - t90 * t310;
-    let t312 = t283 - t241 + (t95 * t309 + t92 * t311);
-    let t313 = t95 * t302 + t82 * t311;
-    let t314 = t95 * t305 + t93 * t311;
-    let t315 = t94 * (t14 * t222 + sin5 * t246 + (cos5 * t243 - t10 * t221))
-        + t91 * t310;
-    let t316 = t102 * (t265 + t282 + (t95 * t304 + t84 * t311)) / t98;
-    let t317 = t102 * (t100 * t304 - t84 * t315) - t101 * t316;
-    let t318 = cos2 * t302 - t82 * t219 - (t83 * t220 - sin2 * t303);
-    let t319 = t86 * t220 + sin2 * t306 - (t85 * t219 + cos2 * t305);
-    let t320 = t317 - t221 - t317;
-    let t321 = t110
-        * (cos2 * t294 - t65 * t219 - (t66 * t220 + sin2 * t295)
-            - (cos2 * t307 - t87 * t219) - (t88 * t220 + sin2 * t308)) / t104;
-    let t322 = t110
-        * (t65 * t220 + sin2 * t294 + (cos2 * t295 - t66 * t219)
-            - (t87 * t220 + sin2 * t307) + (cos2 * t308 - t88 * t219)) - t107 * t321;
-    let t323 = cos2 * t306 - t86 * t219 - (t85 * t220 - sin2 * t305)
-        + (t111 * t319 + t106 * t322);
-    let t324 = t110
-        * (t11 * t222 + sin5 * t244 - (t8 * t221 + cos5 * t241)
-            - (t100 * t309 - t92 * t315) + (t103 * t312 + t96 * t317)
-            - (t103 * t308 + t88 * t317)) - t109 * t321;
-    let t325 = t116
-        * (t82 * t220 + sin2 * t302 - (t83 * t219 + cos2 * t303)
-            - (t111 * t318 + t105 * t322)) / t112;
-    let t326 = t116
-        * (t103 * t313 + t97 * t317 - (t100 * t302 - t82 * t315)
-            - (t83 * t317 - t103 * t303) - (t114 * t318 + t105 * t324)) - t115 * t325;
-    let t327 = t119
-        * (t103 * t314 + t99 * t317 - (t100 * t305 - t93 * t315)
-            - (t103 * t306 + t86 * t317) + (t114 * t319 + t106 * t324)
-            - (t117 * t323 + t113 * t326)) / t118;
-    let t328 = t120 * t219 / cos2;
-    let t329 = t120 * t220 + sin2 * t328;
-    let t330 = t119 * (t222 - (t121 * t320 + t108 * t329)) - t122 * t327;
-    let t331 = t116 * (t123 * t323 + t113 * t330) - t124 * t325;
-    let t332 = t110 * (t125 * t318 + t105 * t331 + (t123 * t319 + t106 * t330))
-        - t126 * t321;
-    let t333 = t83 * t331 - t125 * t303 - (t127 * t308 + t88 * t332)
-        - (t123 * t306 + t86 * t330);
-    let t334 = t329 - t333;
-    let t335 = t102
-        * (t334 - (t127 * t312 + t96 * t332) + (t125 * t313 + t97 * t331)
-            - (t123 * t314 + t99 * t330) - t329) - t130 * t316;
-    let t336 = t125 * t302 + t82 * t331;
-    let t337 = t123 * t305;
-    let t338 = t94
-        * (t336 - (t131 * t304 + t84 * t335 + (t127 * t309 + t92 * t332))
-            - (t337 + t93 * t330)) - t133 * t310;
-    let t339 = t336 + (t127 * t307 + t87 * t332) + (t85 * t330 - t337);
-    let t340 = t8 * t332 - t127 * t241;
-    let t341 = t134 * t243 + t10 * t338 - t340;
-    let t342 = t329 - t341;
-    let t343 = t127 * t244 + t11 * t332;
-    let t344 = t343 - (t134 * t246 + t14 * t338);
-    let t345 = t333 - t329 + (t53 * t332 - t127 * t283) + (t123 * t290 + t59 * t330);
-    let t346 = t339 + (t127 * t285 + t55 * t332) - (t62 * t330 - t123 * t291);
-    let t347 = t131 * t265 + t40 * t335 - (t341 - t329 + (t134 * t263 + t31 * t338));
-    let t348 = t131 * t268 + t38 * t335 - (t344 - (t134 * t266 + t39 * t338));
-    let t349 = t329 - (t340 + (t27 * t331 - t125 * t256));
-    let t350 = t343 + (t125 * t258 + t26 * t331);
-    let t351 = t81 * (t230 + (t127 * t300 + t79 * t332) - (cos20 * t329 - t121 * t229))
-        - t149 * t301;
-    let t352 = t329 - (t1 * t351 - t150 * t232 + (t0 * t332 - t127 * t231));
-    let t353 = t150 * t234 + t3 * t351 + (t127 * t233 + t2 * t332);
-    let t354 = t137 * t339;
-    let t355 = t129 * t334;
-    let t356 = t292 + (t45 * t260 - t28 * t274 + (t51 * t276 + t47 * t281) - t261);
-    let t357 = t293
-        + (t48 * t260 + t28 * t277 - (t50 * t281 - t51 * t279) - (t252 - t262));
-    let t358 = t52 * t270 + t41 * t282 - t288 - t271 - (t250 - t249) - t356;
-    let t359 = t175 * t311 + t95 * t358
-        - (t54 * t270 + t41 * t284 + t289 + (t273 - t272) + (t253 - t252));
-    let t360 = dv2 * t71 + v2 * (t67 * t294 + t65 * t296 + (cos2 * t297 - t68 * t219))
-        + (t69 * t297 + t68 * t298)
-        + (dv2 * t72 + v2 * (t69 * t295 + t66 * t298 + (t70 * t220 + sin2 * t299))
-            + (t70 * t296 + t67 * t299)) - (cos2 * t356 - t173 * t219)
-        - (t174 * t220 + sin2 * t357);
-    let t361 = cos2 * t357 - t174 * t219
-        - (dv2 * t73 + v2 * (cos2 * t299 - t70 * t219 - (t67 * t295 + t66 * t296))
-            + (t70 * t298 + t69 * t299)
-            + (dv2 * t74 + v2 * (t69 * t294 + t65 * t298 - (t68 * t220 + sin2 * t297))
-                - (t68 * t296 + t67 * t297)) + (t173 * t220 + sin2 * t356))
-        - (t177 * t322 + t111 * t360);
-    let t362 = t120
-        * (dv2 * t76 + v2 * (cos2 * dv0 - v0 * t219 + (v1 * t220 + sin2 * dv1)))
-        + t77 * t328;
-    let t363 = t119
-        * (dv5 * t75 + v5 * (cos5 * dv3 - v3 * t221 + (v4 * t222 + sin5 * dv4))
-            - (t18 * t222 + sin5 * t251) + (cos5 * t254 - t21 * t221)
-            - (t100 * t358 - t175 * t315) + (t176 * t317 + t103 * t359)
-            - (t174 * t317 + t103 * t357) - (t177 * t324 + t114 * t360)
-            - (t178 * t326 + t117 * t361) - (t179 * t320 + t108 * t362)) - t180 * t327;
-    let t364 = t116 * (t361 - (t181 * t323 + t113 * t363)) - t182 * t325;
-    let t365 = t110 * (t360 - (t183 * t318 + t105 * t364) + (t181 * t319 + t106 * t363))
-        - t184 * t321;
-    let t366 = t357 - (t185 * t308 + t88 * t365) - (t83 * t364 - t183 * t303)
-        - (t181 * t306 + t86 * t363);
-    let t367 = t366 - t362;
-    let t368 = t102
-        * (t359 - t367 - (t185 * t312 + t96 * t365) - (t183 * t313 + t97 * t364)
-            - (t181 * t314 + t99 * t363) - t362) - t187 * t316;
-    let t369 = t183 * t302 + t82 * t364;
-    let t370 = t181 * t305;
-    let t371 = t94
-        * (t358 - (t188 * t304 + t84 * t368) - (t185 * t309 + t92 * t365) - t369
-            - (t370 + t93 * t363)) - t190 * t310;
-    let t372 = t369 + (t356 - (t185 * t307 + t87 * t365));
-    let t373 = t85 * t363 - t370;
-    let t374 = t372 - t373;
-    let t375 = t8 * t365 - t185 * t241;
-    let t376 = t362 - (t254 + (t191 * t243 + t10 * t371) - t375);
-    let t377 = t185 * t244 + t11 * t365;
-    let t378 = t251 - (t191 * t246 + t14 * t371) + t377;
-    let t379 = t293 - (t53 * t365 - t185 * t283) - t367 - (t181 * t290 + t59 * t363);
-    let t380 = t292 + (t185 * t285 + t55 * t365) - t374 - (t62 * t363 - t181 * t291);
-    let t381 = t188 * t265 + t40 * t368
-        - (t272 - t273 - t376 + (t191 * t263 + t31 * t371));
-    let t382 = t188 * t268 + t38 * t368 - (t378 - t271 - (t191 * t266 + t39 * t371));
-    let t383 = t362 - (t262 - t252 + t375 - (t27 * t364 - t183 * t256));
-    let t384 = t261 + t377 - (t183 * t258 + t26 * t364);
-    let t385 = t81
-        * (dv20 * t78 + v20 * (cos20 * dv18 - v18 * t229 + (v19 * t230 + sin20 * dv19))
-            + (t6 * t230 + sin20 * t239) - (cos20 * t240 - t7 * t229)
-            + (t185 * t300 + t79 * t365) - (cos20 * t362 - t179 * t229)) - t197 * t301;
-    let t386 = t362 - (t1 * t385 - t198 * t232 - t240 + (t0 * t365 - t185 * t231));
-    let t387 = t239 + (t198 * t234 + t3 * t385) + (t185 * t233 + t2 * t365);
-    let t388 = t172
-        * (t206 * t331 + t125 * (0.002 * t364)
-            - (t199 * t329 + t121 * (20.0 * t362) + (t200 * t332 + t127 * (1.2 * t365))
-                + (t201 * t344 + t142 * (0.5 * t378))
-                + (t202 * t342 + t140 * (0.5 * t376))
-                + (t203 * t338 + t134 * (0.002 * t371))
-                + (t204 * t350 + t148 * (0.5 * t384))
-                + (t205 * t349 + t147 * (0.5 * t383)))
-            - (t207 * t348 + t146 * (0.3 * t382)) - (t208 * t347 + t145 * (0.3 * t381))
-            - (t209 * t335 + t131 * (0.0016 * t368))
-            - (t210 * t346 + t144 * (0.3 * t380)) + (t211 * t345 + t143 * (0.3 * t379))
-            - (t212 * t330 + t123 * (0.0016 * t363)) + (t192 * t339 + t137 * t374)
-            + (t186 * t334 + t129 * t367) - (t213 * t332 + t127 * (0.02 * t365))
-            - (t214 * t353 + t152 * (8.0 * t387)) - (t215 * t352 + t151 * (8.0 * t386))
-            - (t216 * t351 + t150 * (0.5 * t385)))
-        - t217
-            * (t172
-                * (t153 * t329 + t121 * (20.0 * t329)
-                    + (t154 * t332 + t127 * (1.2 * t332))
-                    + (t155 * t344 + t142 * (0.5 * t344))
-                    + (t156 * t342 + t140 * (0.5 * t342))
-                    + (t157 * t338 + t134 * (0.002 * t338))
-                    + (t158 * t350 + t148 * (0.5 * t350))
-                    + (t159 * t349 + t147 * (0.5 * t349))
-                    + (t160 * t331 + t125 * (0.002 * t331))
-                    + (t161 * t348 + t146 * (0.3 * t348))
-                    + (t162 * t347 + t145 * (0.3 * t347))
-                    + (t163 * t335 + t131 * (0.0016 * t335))
-                    + (t164 * t346 + t144 * (0.3 * t346))
-                    + (t165 * t345 + t143 * (0.3 * t345))
-                    + (t166 * t330 + t123 * (0.0016 * t330)) + (t354 + t354)
-                    + (t355 + t355) + (t167 * t332 + t127 * (0.02 * t332))
-                    + (t168 * t353 + t152 * (8.0 * t353))
-                    + (t169 * t352 + t151 * (8.0 * t352))
-                    + (t170 * t351 + t150 * (0.5 * t351))) / t171);
-    let t389 = t365 + (t218 * t332 + t127 * t388);
-    out(0usize, t388);
-    out(1usize, t362 + (t218 * t329 + t121 * t388));
-    out(2usize, t389);
-    out(3usize, -(t378 + (t218 * t344 + t142 * t388)));
-    out(4usize, t376 + (t218 * t342 + t140 * t388));
-    out(5usize, t371 + (t218 * t338 + t134 * t388));
-    out(6usize, t384 + (t218 * t350 + t148 * t388));
-    out(7usize, t383 + (t218 * t349 + t147 * t388));
-    out(8usize, t364 - (t218 * t331 + t125 * t388));
-    out(9usize, t382 + (t218 * t348 + t146 * t388));
-    out(10usize, t381 + (t218 * t347 + t145 * t388));
-    out(11usize, t368 + (t218 * t335 + t131 * t388));
-    out(12usize, t380 + (t218 * t346 + t144 * t388));
-    out(13usize, t379 - (t218 * t345 + t143 * t388));
-    out(14usize, t363 + (t218 * t330 + t123 * t388));
-    out(15usize, t373 - t372 + (t218 * t339 + t137 * t388));
-    out(16usize, t362 - t366 + (t218 * t334 + t129 * t388));
-    out(17usize, t389);
-    out(18usize, t387 + (t218 * t353 + t152 * t388));
-    out(19usize, t386 + (t218 * t352 + t151 * t388));
-    out(20usize, t385 + (t218 * t351 + t150 * t388));
+    let t249 = v8 * dv8;
+    let t250 = t249 + t249;
+    let t251 = v11 * dv11;
+    let t252 = t251 + t251;
+    let t253 = v14 * dv14;
+    let t254 = t253 + t253;
+    let t255 = v17 * dv17;
+    let t256 = t255 + t255;
+    let t257 = cos2 * dv0 - v0 * t229 + (v1 * t230 + sin2 * dv1);
+    let t258 = dv2 * t7 + v2 * t257;
+    let t259 = dq15 - dq0;
+    let t260 = dq16 - dq1;
+    let t261 = cos2 * t259 - t9 * t229 + (t10 * t230 + sin2 * t260);
+    let t262 = cos2 * dv1 - v1 * t229 - (v0 * t230 + sin2 * dv0);
+    let t263 = cos2 * dv16 - v16 * t229 - (v15 * t230 + sin2 * dv15);
+    let t264 = sin5 * t230 + sin2 * t232 - (cos5 * t229 + cos2 * t231);
+    let t265 = cos2 * t232 - sin5 * t229;
+    let t266 = cos5 * t230 - sin2 * t231;
+    let t267 = t265 - t266;
+    let t268 = sin8 * t230 + sin2 * t234 - (cos8 * t229 + cos2 * t233);
+    let t269 = cos2 * t234 - sin8 * t229 - (cos8 * t230 - sin2 * t233);
+    let t270 = sin11 * t230 + sin2 * t236 - (cos11 * t229 + cos2 * t235);
+    let t271 = cos2 * t236 - sin11 * t229 - (cos11 * t230 - sin2 * t235);
+    let t272 = sin14 * t230 + sin2 * t238 - (cos14 * t229 + cos2 * t237);
+    let t273 = cos2 * t238 - sin14 * t229 - (cos14 * t230 - sin2 * t237);
+    let t274 = sin20 * t230 + sin2 * t242 - (cos20 * t229 + cos2 * t241);
+    let t275 = cos2 * t242 - sin20 * t229;
+    let t276 = cos20 * t230 - sin2 * t241;
+    let t277 = t275 - t276;
+    let t278 = 0.35 * t274;
+    let t279 = 0.35 * t277;
+    let t280 = 0.4 * t244 + (t32 * t246 + t1 * t278);
+    let t281 = 0.025 * t267;
+    let t282 = 0.044999999999999984 * t264 + t281;
+    let t283 = 0.025 * t264;
+    let t284 = 0.044999999999999984 * t267;
+    let t285 = t284 - t283;
+    let t286 = 0.3 * t244;
+    let t287 = t286 - (t36 * t248 + t2 * t282);
+    let t288 = 0.044999999999999984 * t268;
+    let t289 = 0.025 * t269;
+    let t290 = t289 - t288;
+    let t291 = 0.025 * t268;
+    let t292 = t291 + 0.044999999999999984 * t269;
+    let t293 = t288 - t289;
+    let t294 = t286 + (t44 * t250 + t3 * t290);
+    let t295 = t46 * t250 + t3 * t292;
+    let t296 = t281 + 0.04500000000000001 * t264;
+    let t297 = 0.0050000000000000044 * t270;
+    let t298 = 0.125 * t271;
+    let t299 = t297 - t298;
+    let t300 = 0.04500000000000001 * t267;
+    let t301 = 0.125 * t270;
+    let t302 = t301 + 0.0050000000000000044 * t271;
+    let t303 = t300 - t283;
+    let t304 = t298 - t297;
+    let t305 = t50 * t248 + t2 * t296 + (t53 * t252 + t4 * t299);
+    let t306 = t55 * t248 + t2 * (t283 - t300);
+    let t307 = t57 * t252 + t4 * t302;
+    let t308 = 0.04500000000000001 * t268 - t289;
+    let t309 = 0.125 * t273;
+    let t310 = 0.0050000000000000044 * t272 + t309;
+    let t311 = t291 + 0.04500000000000001 * t269;
+    let t312 = 0.125 * t272;
+    let t313 = 0.0050000000000000044 * t273;
+    let t314 = t312 - t313;
+    let t315 = t63 * t250 + t3 * t308 + (t65 * t254 + t5 * t310);
+    let t316 = t66 * t250 + t3 * t311 - (t69 * t254 + t5 * t314);
+    let t317 = t298 - 0.004999999999999977 * t270;
+    let t318 = 0.2 * (sin17 * t230 + sin2 * t240 - (cos17 * t229 + cos2 * t239));
+    let t319 = t301 + 0.004999999999999977 * t271;
+    let t320 = 0.2 * (cos2 * t240 - sin17 * t229 - (cos17 * t230 - sin2 * t239));
+    let t321 = t73 * t256 + t6 * t318;
+    let t322 = t75 * t256 + t6 * t320;
+    let t323 = t309 + 0.004999999999999977 * t272;
+    let t324 = 0.004999999999999977 * t273;
+    let t325 = t9 * t230 + sin2 * t259 - (cos2 * t260 - t10 * t229);
+    let t326 = dv2 * t84
+        + v2 * (t257 - (cos2 * dv15 - v15 * t229 + (v16 * t230 + sin2 * dv16)));
+    let t327 = t276 - t275;
+    let t328 = 0.4 * t274;
+    let t329 = t94 * (t33 * t277 + t31 * t279 + (t32 * t274 + t28 * t278)) / t93;
+    let t330 = t292 + t311;
+    let t331 = t308 - t290;
+    let t332 = t310 + t323;
+    let t333 = t101 * t331 / t96;
+    let t334 = t101 * t330 - t95 * t333;
+    let t335 = t102 * t261 + t99 * t334;
+    let t336 = t102 * t318 + t73 * t334 - t320;
+    let t337 = t106 * (t312 - t324 - (t313 - t312) + (t102 * t332 + t100 * t334)) / t104;
+    let t338 = t283 - t284;
+    let t339 = t320 - t325;
+    let t340 = t303 - t338;
+    let t341 = t110 * (t302 + t319) / t97;
+    let t342 = t110 * (t317 - t299) - t98 * t341;
+    let t343 = 3.3333333333333335 * (t261 + t318 + (t111 * t339 + t108 * t342));
+    let t344 = t296 + (t111 * t340 + t109 * t342) + (t112 * t282 + t36 * t343);
+    let t345 = t115 * t343 / t113;
+    let t346 = t115 * t264 + t18 * t345;
+    let t347 = t118 * (t116 * t344 + t114 * t346) / t117;
+    let t348 = t118 * t267 - t21 * t347;
+    let t349 = t120 * t345 + t115 * (t119 * t344 + t114 * t348);
+    let t350 = 3.3333333333333335 * (t349 + (t119 * t282 + t36 * t348));
+    let t351 = t110 * (t122 * t339 + t108 * t350 + (t119 * t340 + t109 * t348))
+        - t123 * t341;
+    let t352 = t122 * t325 + t81 * t350 + (t119 * t338 + t107 * t348);
+    let t353 = t119 * t285 + t39 * t348;
+    let t354 = t106
+        * (t352 + (t353 - (t122 * t336 + t105 * t350)) + (t122 * t335 + t103 * t350))
+        - t130 * t337;
+    let t355 = t122 * t261;
+    let t356 = t101
+        * (t355 + t99 * t350 - (t131 * t332 + t100 * t354 + (t122 * t318 + t73 * t350)))
+        - t132 * t333;
+    let t357 = 0.3 * t350;
+    let t358 = t133 * t331 + t96 * t356 + (t131 * t310 + t65 * t354) - t357;
+    let t359 = t353 + (t133 * t330 + t95 * t356 - (t131 * t314 + t69 * t354));
+    let t360 = t124 * t304 + t59 * t351 - t349 + (t119 * t296 + t50 * t348);
+    let t361 = t119 * t303 + t58 * t348 - (t124 * t302 + t57 * t351);
+    let t362 = t355 + t11 * t350;
+    let t363 = t133 * t293 + t47 * t356 - t357;
+    let t364 = t353 + (t133 * t292 + t46 * t356);
+    let t365 = t142 * t329
+        + t94 * (t122 * t328 + t92 * t350 - (t129 * t327 - t90 * t353));
+    let t366 = t143 * t278 + t32 * t365 + 0.4 * t350;
+    let t367 = t143 * t279 + t33 * t365 - t353;
+    let t368 = t127 * t352;
+    let t369 = t139 * t362;
+    let t370 = t258 + (t33 * t246 + t1 * t279);
+    let t371 = t258 + (t39 * t248 + t2 * t285);
+    let t372 = t258 - (t326 + t326 + (dv2 * t87 + v2 * (dv2 * t81 + v2 * t325)));
+    let t373 = t258 - t295;
+    let t374 = t322 + (t80 * t254 + t5 * (t324 - t312)) + t372 - (t373 - t316);
+    let t375 = t287
+        + (dv2 * t82 + v2 * (t262 - t263) - (dv2 * t83 + v2 * (t263 - t262))
+            + (dv2 * t85 + v2 * (dv2 * t11 + v2 * t261)));
+    let t376 = t72 * t252 + t4 * t317 - t321 - t305 + t375;
+    let t377 = t372 - (t74 * t252 + t4 * t319 + t322) - (t307 - t306)
+        - (t171 * t342 + t111 * t376) - (t166 * t343 + t112 * t371);
+    let t378 = t118
+        * (dv5 * t89
+            + v5
+                * (t18 * (cos2 * dv3 - v3 * t229 + (v4 * t230 + sin2 * dv4)) + t13 * t264
+                    - (t88 * (cos2 * dv4 - v4 * t229 - (v3 * t230 + sin2 * dv3))
+                        + t14 * (t266 - t265))) - (t172 * t346 + t116 * t377))
+        - t173 * t347;
+    let t379 = t175 * t345 + t115 * (t377 + (t174 * t344 + t114 * t378));
+    let t380 = 3.3333333333333335 * (t379 - t371 + (t174 * t282 + t36 * t378));
+    let t381 = t110 * (t376 - (t177 * t339 + t108 * t380) - (t174 * t340 + t109 * t378))
+        - t178 * t341;
+    let t382 = t375 + (t177 * t325 + t81 * t380) + (t174 * t338 + t107 * t378);
+    let t383 = t287 - (t174 * t285 + t39 * t378);
+    let t384 = t106
+        * (t382
+            + (t321 + (t78 * t254 + t5 * t323) - (t294 - t315)
+                + (t169 * t334 + t102 * t374) - t383 - (t177 * t336 + t105 * t380))
+            + (t177 * t335 + t103 * t380)) - t182 * t337;
+    let t385 = t177 * t261;
+    let t386 = t101
+        * (t374 - (t183 * t332 + t100 * t384) - (t177 * t318 + t73 * t380)
+            + (t385 + t99 * t380)) - t184 * t333;
+    let t387 = 0.3 * t380;
+    let t388 = t316 - t373 - (t185 * t331 + t96 * t386) - (t183 * t310 + t65 * t384)
+        + t387;
+    let t389 = t383
+        - (t315 - t294 + (t185 * t330 + t95 * t386) - (t183 * t314 + t69 * t384));
+    let t390 = t306 - t307 - (t179 * t304 + t59 * t381) - t379
+        + (t174 * t296 + t50 * t378);
+    let t391 = t305 + (t179 * t302 + t57 * t381) + (t174 * t303 + t58 * t378);
+    let t392 = t372 + (t385 + t11 * t380);
+    let t393 = t387 + (t295 - t258 - (t185 * t293 + t47 * t386));
+    let t394 = t383 - (t185 * t292 + t46 * t386 - t294);
+    let t395 = t194 * t329
+        + t94
+            * (dv20 * t91
+                + v20
+                    * (t28 * (cos2 * dv18 - v18 * t229 + (v19 * t230 + sin2 * dv19))
+                        + t16 * t274
+                        - (t90 * (cos2 * dv19 - v19 * t229 - (v18 * t230 + sin2 * dv18))
+                            + t17 * t327)) + (t34 * t277 + t31 * t280)
+                - (t165 * t274 + t28 * t370) - (t181 * t327 + t90 * t383)
+                + (t177 * t328 + t92 * t380));
+    let t396 = t195 * t278 + t32 * t395 - t370 + 0.4 * t380;
+    let t397 = t383 + (t280 + (t195 * t279 + t33 * t395));
+    let t398 = t164
+        * (t203 * t363 + t140 * (0.5 * t393)
+            - (t129 * (20.0 * t383) - t198 * t353 + (t199 * t350 + t122 * (1.2 * t380))
+                + (t200 * t349 + t121 * (0.5 * t379))
+                + (t201 * t348 + t119 * (0.002 * t378))
+                + (t141 * (0.5 * t394) - t202 * t364))
+            - (t204 * t356 + t133 * (0.002 * t386)) - (t205 * t361 + t138 * (0.3 * t391))
+            - (t206 * t360 + t137 * (0.3 * t390))
+            + (t207 * t351 + t124 * (0.0016 * t381))
+            - (t136 * (0.3 * t389) - t208 * t359) + (t209 * t358 + t135 * (0.3 * t388))
+            - (t210 * t354 + t131 * (0.0016 * t384)) - (t180 * t352 + t127 * t382)
+            - (t191 * t362 + t139 * t392) - (t211 * t350 + t122 * (0.02 * t380))
+            - (t212 * t367 + t145 * (8.0 * t397)) - (t213 * t366 + t144 * (8.0 * t396))
+            - (t214 * t365 + t143 * (0.5 * t395)))
+        - t215
+            * (t164
+                * (t147 * t350 + t122 * (1.2 * t350)
+                    - (t146 * t353 + t129 * (20.0 * t353))
+                    + (t148 * t349 + t121 * (0.5 * t349))
+                    + (t149 * t348 + t119 * (0.002 * t348))
+                    - (t150 * t364 + t141 * (0.5 * t364))
+                    + (t151 * t363 + t140 * (0.5 * t363))
+                    + (t152 * t356 + t133 * (0.002 * t356))
+                    + (t153 * t361 + t138 * (0.3 * t361))
+                    + (t154 * t360 + t137 * (0.3 * t360))
+                    + (t155 * t351 + t124 * (0.0016 * t351))
+                    - (t156 * t359 + t136 * (0.3 * t359))
+                    + (t157 * t358 + t135 * (0.3 * t358))
+                    + (t158 * t354 + t131 * (0.0016 * t354)) + (t368 + t368)
+                    + (t369 + t369) + (t159 * t350 + t122 * (0.02 * t350))
+                    + (t160 * t367 + t145 * (8.0 * t367))
+                    + (t161 * t366 + t144 * (8.0 * t366))
+                    + (t162 * t365 + t143 * (0.5 * t365))) / t163);
+    let t399 = t383 + (t129 * t398 - t216 * t353);
+    let t400 = t380 + (t216 * t350 + t122 * t398);
+    let t401 = t379 + (t216 * t349 + t121 * t398);
+    let t402 = t394 + (t141 * t398 - t216 * t364);
+    let t403 = t216 * t363 + t140 * t398 - t393;
+    let t404 = t391 + (t216 * t361 + t138 * t398);
+    let t405 = t390 + (t216 * t360 + t137 * t398);
+    let t406 = t389 + (t136 * t398 - t216 * t359);
+    let t407 = t216 * t358 + t135 * t398 - t388;
+    let t408 = t382 + (t216 * t352 + t127 * t398);
+    let t409 = t392 + (t216 * t362 + t139 * t398);
+    let t410 = t397 + (t216 * t367 + t145 * t398);
+    let t411 = t396 + (t216 * t366 + t144 * t398);
+    out(0usize, cos2 * t399 - t217 * t229 - (t8 * t230 + sin2 * t258));
+    out(1usize, t217 * t230 + sin2 * t399 + (cos2 * t258 - t8 * t229));
+    out(2usize, t400);
+    out(3usize, cos2 * t398 - t216 * t229 - (t218 * t230 + sin2 * t401));
+    out(4usize, t216 * t230 + sin2 * t398 + (cos2 * t401 - t218 * t229));
+    out(5usize, t378 + (t216 * t348 + t119 * t398));
+    out(6usize, cos2 * t402 - t219 * t229 - (t220 * t230 + sin2 * t403));
+    out(7usize, t219 * t230 + sin2 * t402 + (cos2 * t403 - t220 * t229));
+    out(8usize, t386 + (t216 * t356 + t133 * t398));
+    out(9usize, cos2 * t404 - t221 * t229 + (t222 * t230 + sin2 * t405));
+    out(10usize, t221 * t230 + sin2 * t404 - (cos2 * t405 - t222 * t229));
+    out(11usize, t381 - (t216 * t351 + t124 * t398));
+    out(12usize, cos2 * t406 - t223 * t229 - (t224 * t230 + sin2 * t407));
+    out(13usize, t223 * t230 + sin2 * t406 + (cos2 * t407 - t224 * t229));
+    out(14usize, t384 + (t216 * t354 + t131 * t398));
+    out(15usize, cos2 * t408 - t225 * t229 - (t226 * t230 + sin2 * t409));
+    out(16usize, t225 * t230 + sin2 * t408 + (cos2 * t409 - t226 * t229));
+    out(17usize, t400);
+    out(18usize, cos2 * t410 - t227 * t229 + (t228 * t230 + sin2 * t411));
+    out(19usize, t227 * t230 + sin2 * t410 - (cos2 * t411 - t228 * t229));
+    out(20usize, t395 + (t216 * t365 + t143 * t398));
     f64::INFINITY
-        .min(-(2.0 * t80))
-        .min(-(16.0 * t89))
-        .min(-(4.0 * t98))
+        .min(-(2.0 * t93))
+        .min(16.0 * t96)
         .min(4.0 * t104)
-        .min(8.0 * t112)
-        .min(4.0 * t118)
-        .min(2.0 * cos2)
-        .min(0.03125 * t171)
+        .min(4.0 * t97)
+        .min(4.0 * t113)
+        .min(4.0 * t117)
+        .min(0.03125 * t163)
 }
 ///The derivative of accelerations along (dq, dv).
 ///
-///Operations: 940 mul, 784 add, 4 neg, 16 div.
+///Operations: 889 mul, 709 add, 1 neg, 14 div.
 pub fn jacobian_action(
     t: f64,
     q: &[f64; N_Q],

@@ -2,6 +2,7 @@
 //!
 //! The mechanism `robot-trolley`: 21 coordinates, 21 velocities, 17 holonomic and 5 nonholonomic rows of rank 20.
 //! Rows (from 1) that are dropped and only monitored: 6, 21; that do not hold the position: none.
+//! Solved in the frame of the ground.
 //!
 //! Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that
 //! divide return a health: the smallest divisor as a signed share of what it was at the states that the code was made for. Near 0 the

@@ -1,0 +1,292 @@
+//! The equations in the frame of one of the bodies. What moves freely in the plane has the same accelerations whichever way it points; seen
+//! from a body, the arms on that body are constants, fewer products are left, and no pivot wears out because the whole has turned.
+//!
+//! The frame stands still and is turned by the angle θ of the body: positions and velocities are turned by −θ, and accelerations back. Rows
+//! that are components x and y of one vector are turned in pairs. Whether a mechanism may be seen like this is not told from its parts: its C, Γ and Q
+//! are compared with the turned ones at states far from any motion, to rounding.
+
+use model::record::Input;
+use model::{Recording, System};
+use symbolic::Value;
+
+use crate::equations::{Equations, Source, replay};
+use crate::sampled::Sampled;
+use crate::subject::{State, Subject};
+
+/// Turned equations may differ from those in the frame by this share of their largest number.
+const SAME: f64 = 1e-10;
+
+/// States at which they are compared.
+const STATES: usize = 8;
+
+/// A frame that is turned by θ.
+#[derive(Clone)]
+pub(crate) struct Frame {
+    /// cos θ and sin θ.
+    turn: Option<[Value; 2]>,
+    /// Places of x and y of each body, in q and in v.
+    bodies: Vec<[usize; 2]>,
+    /// Rows that are x and y of one vector.
+    rows: Vec<[usize; 2]>,
+}
+
+/// C, Γ and Q in a frame.
+#[derive(Clone)]
+pub(crate) struct Seen {
+    pub(crate) frame: Frame,
+    /// Rows of C, dense.
+    pub(crate) c: Vec<Vec<Value>>,
+    pub(crate) gamma: Vec<Value>,
+    pub(crate) force: Vec<Value>,
+}
+
+impl Frame {
+    /// From the ground: nothing is turned.
+    fn ground() -> Self {
+        Self {
+            turn: None,
+            bodies: Vec::new(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// The components of row quantities in the frame.
+    pub(crate) fn rows_in(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+        self.turned(code, x, &self.rows, false)
+    }
+
+    /// Row quantities of the frame in ground components.
+    pub(crate) fn rows_out(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+        self.turned(code, x, &self.rows, true)
+    }
+
+    /// Velocities or accelerations of the frame in ground components.
+    pub(crate) fn velocities_out(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+        self.turned(code, x, &self.bodies, true)
+    }
+
+    /// The components of velocities or forces in the frame.
+    fn velocities_in(&self, code: &mut Sampled, x: &[Value]) -> Vec<Value> {
+        self.turned(code, x, &self.bodies, false)
+    }
+
+    fn turned(
+        &self,
+        code: &mut Sampled,
+        x: &[Value],
+        pairs: &[[usize; 2]],
+        out: bool,
+    ) -> Vec<Value> {
+        let mut turned = x.to_vec();
+        if let Some([cos, sin]) = self.turn {
+            let p = &mut code.program;
+            let sin = if out { p.neg(sin) } else { sin };
+            for &[i, j] in pairs {
+                let [cx, sx, cy, sy] =
+                    [(cos, x[i]), (sin, x[i]), (cos, x[j]), (sin, x[j])].map(|(a, b)| p.mul(a, b));
+                turned[i] = p.add(cx, sy);
+                turned[j] = p.sub(cy, sx);
+            }
+        }
+        turned
+    }
+}
+
+impl Seen {
+    /// From the ground.
+    pub(crate) fn from_ground(e: &Equations) -> Self {
+        Self {
+            frame: Frame::ground(),
+            c: e.c.clone(),
+            gamma: e.gamma.clone(),
+            force: e.force.clone(),
+        }
+    }
+
+    /// In the frame of the body whose angle has this place in q.
+    pub(crate) fn from_body(
+        e: &mut Equations,
+        subject: &Subject<'_>,
+        angle: usize,
+    ) -> Option<Self> {
+        let recording = &e.recording;
+        let mechanism = &subject.prepared.mechanism;
+        let angles: Vec<usize> = recording
+            .inputs
+            .iter()
+            .filter_map(|i| match i {
+                Input::Cos(k) => Some(*k),
+                _ => None,
+            })
+            .collect();
+        let labels = &mechanism.layout().labels;
+        let is_pair = |i: &usize| {
+            let [a, b] = [&labels[*i], &labels[i + 1]];
+            a.joint == b.joint && (a.row, b.row) == ("x", "y")
+        };
+        let rows = (0..labels.len().saturating_sub(1)).filter(is_pair);
+        let of = |input| e.input(Source::Mechanism(input));
+        let frame = Frame {
+            turn: Some([of(Input::Cos(angle))?, of(Input::Sin(angle))?]),
+            bodies: angles.iter().map(|&k| [k - 2, k - 1]).collect(),
+            rows: rows.map(|i| [i, i + 1]).collect(),
+        };
+        let inputs = inputs_in(e, &frame, angle)?;
+        let recording = e.recording.clone();
+        let values = replay(&mut e.code, &recording, &inputs);
+        let (c, gamma, mut force) = results(e, &recording, &values);
+        // The weight has the direction of the ground.
+        let weight: Vec<Value> = mechanism
+            .weight()
+            .iter()
+            .map(|&w| e.code.program.number(w))
+            .collect();
+        let seen = frame.velocities_in(&mut e.code, &weight);
+        for ((force, weight), seen) in force.iter_mut().zip(weight).zip(seen) {
+            let applied = e.code.program.sub(*force, weight);
+            *force = e.code.program.add(applied, seen);
+        }
+        Some(Self {
+            frame,
+            c,
+            gamma,
+            force,
+        })
+    }
+
+    /// Whether the kept rows have both components of a vector or none.
+    pub(crate) fn keeps_pairs(&self, kept: &[usize]) -> bool {
+        let pairs = self.frame.rows.iter();
+        pairs
+            .into_iter()
+            .all(|[i, j]| kept.contains(i) == kept.contains(j))
+    }
+}
+
+/// The inputs of the mechanism as seen from a body.
+fn inputs_in(e: &mut Equations, frame: &Frame, angle: usize) -> Option<Vec<Value>> {
+    let recording = e.recording.clone();
+    let all: Vec<Value> = recording
+        .inputs
+        .iter()
+        .map(|&i| e.input(Source::Mechanism(i)))
+        .collect::<Option<_>>()?;
+    let at = |input: Input| recording.inputs.iter().position(|&i| i == input);
+    let (n_q, n_v) = (3 * frame.bodies.len(), 3 * frame.bodies.len());
+    let gather = |make: fn(usize) -> Input, n: usize| -> Option<Vec<Value>> {
+        (0..n).map(|k| Some(all[at(make(k))?])).collect()
+    };
+    let (q, v) = (
+        gather(Input::Coordinate, n_q)?,
+        gather(Input::Velocity, n_v)?,
+    );
+    let p = &mut e.code.program;
+    let mut away = q.clone();
+    for &[i, j] in &frame.bodies {
+        away[i] = p.sub(q[i], q[angle - 2]);
+        away[j] = p.sub(q[j], q[angle - 1]);
+        away[j + 1] = p.sub(q[j + 1], q[angle]);
+    }
+    let q = frame.velocities_in(&mut e.code, &away);
+    let v = frame.velocities_in(&mut e.code, &v);
+    let [cos, sin] = frame.turn?;
+    let p = &mut e.code.program;
+    let (one, zero) = (p.number(1.0), p.number(0.0));
+    let mut seen = all.clone();
+    for (k, input) in recording.inputs.iter().enumerate() {
+        seen[k] = match *input {
+            Input::Coordinate(i) => q[i],
+            Input::Velocity(i) => v[i],
+            Input::Cos(i) if i == angle => one,
+            Input::Sin(i) if i == angle => zero,
+            Input::Cos(i) => {
+                let (c, s) = (all[k], all[at(Input::Sin(i))?]);
+                let (a, b) = (p.mul(c, cos), p.mul(s, sin));
+                p.add(a, b)
+            }
+            Input::Sin(i) => {
+                let (s, c) = (all[k], all[at(Input::Cos(i))?]);
+                let (a, b) = (p.mul(s, cos), p.mul(c, sin));
+                p.sub(a, b)
+            }
+            Input::Function { .. } => all[k],
+        };
+    }
+    Some(seen)
+}
+
+/// C, Γ and Q of replayed operations.
+fn results(
+    e: &mut Equations,
+    recording: &Recording,
+    values: &[Value],
+) -> (Vec<Vec<Value>>, Vec<Value>, Vec<Value>) {
+    let n = recording.force.len();
+    let zero = e.code.program.number(0.0);
+    let row = |entries: &Vec<(usize, joints::Recorded)>| {
+        let mut row = vec![zero; n];
+        for (column, r) in entries {
+            row[*column] = e.code.program.add(row[*column], values[r.place()]);
+        }
+        row
+    };
+    let c = recording.c.iter().map(row).collect();
+    let of = |list: &[joints::Recorded]| list.iter().map(|r| values[r.place()]).collect();
+    (c, of(&recording.gamma), of(&recording.force))
+}
+
+/// Whether a mechanism may be seen from the body whose angle has this place: C, Γ and Q in its frame are the turned ones, at states that no
+/// constraint holds.
+pub(crate) fn may_be_seen_from(subject: &Subject<'_>, angle: usize) -> bool {
+    let elsewhere = Subject {
+        prepared: subject.prepared,
+        states: (0..STATES).map(|k| anywhere(subject, k)).collect(),
+    };
+    let mut e = Equations::new(&elsewhere);
+    let Some(seen) = Seen::from_body(&mut e, &elsewhere, angle) else {
+        return false;
+    };
+    let frame = &seen.frame;
+    let code = &mut e.code;
+    let mut pairs: Vec<(Vec<Value>, Vec<Value>)> = vec![
+        (frame.rows_in(code, &e.gamma), seen.gamma.clone()),
+        (frame.velocities_in(code, &e.force), seen.force.clone()),
+    ];
+    // S·C·T: rows in the frame, then columns.
+    for j in 0..e.force.len() {
+        let column: Vec<Value> = e.c.iter().map(|row| row[j]).collect();
+        let column = frame.rows_in(code, &column);
+        for (i, value) in column.into_iter().enumerate() {
+            e.c[i][j] = value;
+        }
+    }
+    for (row, seen) in e.c.iter().zip(&seen.c) {
+        pairs.push((frame.velocities_in(code, row), seen.clone()));
+    }
+    pairs.iter().all(|(turned, seen)| {
+        let mut by = 0.0_f64;
+        let mut size = 1.0_f64;
+        for (a, b) in turned.iter().zip(seen) {
+            let (a, b) = (code.at(*a).to_vec(), code.at(*b).to_vec());
+            for (a, b) in a.iter().zip(b) {
+                by = by.max((a - b).abs());
+                size = size.max(b.abs());
+            }
+        }
+        by <= SAME * size
+    })
+}
+
+/// A state that nothing holds: far from the k-th of the motion.
+fn anywhere(subject: &Subject<'_>, k: usize) -> State {
+    let State { t, mut q, mut v } = subject.states[k % subject.states.len()].clone();
+    let mechanism = &subject.prepared.mechanism;
+    let size = subject.prepared.assembly.size;
+    // No symmetry of a mechanism is one of these numbers.
+    let shift = |i: usize| (1.3 * (i + 1) as f64 + 2.3 * (k + 1) as f64).sin();
+    for (i, (q, v)) in q.iter_mut().zip(&mut v).enumerate() {
+        *q += shift(i) * mechanism.unit(i, size);
+        *v += shift(i + 7) * mechanism.unit(i, size);
+    }
+    State { t, q, v }
+}
