@@ -20,6 +20,9 @@ const THRESHOLD: f64 = 0.1;
 /// Below this share no pivot is taken: the motion has no fixed order of elimination.
 const SMALLEST: f64 = 1e-3;
 
+/// A free motion has no mass of its own if this share of it is left when the others have theirs: rounding.
+const MASSLESS: f64 = 1e-13;
+
 /// Rows in factored form, and the mass of the motions that they leave free.
 pub(crate) struct Factored {
     n: usize,
@@ -226,6 +229,7 @@ impl Factored {
             let mut row: Vec<Value> = (0..=i)
                 .map(|j| dot(code, &self.frame[i], &heavy[j]))
                 .collect();
+            let whole = row[i];
             let mut factors = Vec::with_capacity(i);
             let p = &mut code.program;
             for j in 0..i {
@@ -241,11 +245,9 @@ impl Factored {
                 factors.push(factor);
             }
             let diagonal = row[i];
-            let smallest = code
-                .at(diagonal)
-                .iter()
-                .fold(f64::INFINITY, |a, d| a.min(*d));
-            if !(smallest > 0.0) {
+            let (left, all) = (code.at(diagonal).to_vec(), code.at(whole));
+            let mut shares = left.iter().zip(all);
+            if !shares.all(|(left, all)| *left > MASSLESS * all) {
                 return Err(CodeError::Massless {
                     column: self.free[i],
                 });

@@ -185,7 +185,6 @@ fn compare(name: &str, text: &str, n: usize) -> (usize, f64) {
 fn code_equals_the_interpreter_on_every_scene() {
     for (name, text) in scenes() {
         let (compared, worst) = compare(&name, &text, STATES);
-        println!("{name}: {compared} states, {worst:.1e}");
         assert!(compared >= STATES / 4, "{name}: {compared} states");
         assert!(worst < 100.0 * SAME, "{name}: {worst:e}");
     }
@@ -194,7 +193,6 @@ fn code_equals_the_interpreter_on_every_scene() {
 #[test]
 fn code_equals_the_interpreter_at_a_thousand_states_of_the_robot() {
     let (compared, worst) = compare("robot-trolley", ROBOT, 1000);
-    println!("{compared} states, {worst:.1e}");
     assert!(compared >= 900);
     assert!(worst < SAME, "{worst:e}");
 }

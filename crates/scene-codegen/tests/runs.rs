@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use dynamics::{EventKind, Method, MotionOptions, Plan, Prepared, Summary, Wanted, simulate};
+use dynamics::{Method, MotionOptions, Plan, Prepared, Summary, Wanted, simulate};
 use pfaff::model::Registry;
 use pfaff::{Blueprint, Overrides};
 use scene_codegen::{Subject, Tape};
@@ -45,16 +45,7 @@ fn runs_on_code_are_those_of_the_interpreter_on_every_scene() {
         let plan = Plan::new(&coded, &options, &Wanted::default()).expect("plans");
         let is_stiff = interpreted.method == Method::Radau5;
         assert_eq!(plan.code.value, !is_stiff, "{}", case.name);
-        let (found, summary) = run(&coded, &options);
-        let kinds = |kind| summary.events.iter().filter(|e| e.kind == kind).count();
-        println!(
-            "{}: {} evaluations of {}, left {}, used again {}",
-            case.name,
-            summary.evaluations,
-            interpreted.evaluations,
-            kinds(EventKind::CodeLeft),
-            kinds(EventKind::CodeUsed),
-        );
+        let (found, _) = run(&coded, &options);
         assert_eq!(found.len(), expected.len(), "{}", case.name);
         let n = found[0].len() / 2;
         for part in [0..n, n..2 * n] {

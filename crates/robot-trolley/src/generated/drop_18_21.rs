@@ -2537,14 +2537,14 @@ fn cos_sin_of_small(x: f64) -> [f64; 2] {
     let shifted = x * core::f64::consts::FRAC_2_PI + ROUND;
     let quadrant = shifted.to_bits();
     let turns = shifted - ROUND;
-    let far = x - turns * 1.570_796_326_734_125_614_17;
-    let near = turns * 6.077_100_506_506_192_249_32e-11;
+    let far = x - turns * 1.570_796_326_734_125_6;
+    let near = turns * 6.077_100_506_506_192e-11;
     let y = far - near;
     let rest = (far - y) - near;
     let z = y * y;
     let w = z * z;
     let cube = z * y;
-    let r = (8.333_333_333_322_489e-3 + z * (-1.984_126_982_985_795e-4 + z * 2.755_731_370_707_006_8e-6))
+    let r = (8.333_333_333_322_49e-3 + z * (-1.984_126_982_985_795e-4 + z * 2.755_731_370_707_006_8e-6))
         + z * w * (-2.505_076_025_340_686_3e-8 + z * 1.589_690_995_211_55e-10);
     let sin = y - ((z * (0.5 * rest - cube * r) - rest) + cube * 1.666_666_666_666_663_2e-1);
     let r = z
