@@ -12,15 +12,43 @@ impl Mechanism {
     /// it, and a position at least the longest arm of its body, because it is where the arms put it. Needs C at the pose of the scratch.
     #[must_use]
     pub fn position_scale(&self, s: &Scratch, i: usize, q: &[f64]) -> f64 {
-        let term = |(j, c): (usize, f64)| {
-            let least = if j % N_BODY == 2 {
-                1.0
-            } else {
-                self.reach(j / N_BODY)
-            };
-            c.abs() * q[j].abs().max(least)
-        };
+        let term = |(j, c): (usize, f64)| c.abs() * q[j].abs().max(self.least(j));
         self.layout().row(s, i).map(term).sum()
+    }
+
+    /// What the entries of row `i` of C are at most whichever way the bodies point: column and bound. A force on a body has one size in all
+    /// directions, and an arm is no longer than the body's longest one. Needs C at the pose of the scratch; allocates.
+    #[must_use]
+    pub fn entry_bounds(&self, s: &Scratch, i: usize) -> Vec<(usize, f64)> {
+        let row: Vec<(usize, f64)> = self.layout().row(s, i).collect();
+        let bodies: std::collections::BTreeSet<usize> =
+            row.iter().map(|(j, _)| j / N_BODY).collect();
+        let bounds = bodies.into_iter().flat_map(|body| {
+            let entry = |k: usize| {
+                let entries = row.iter().filter(|(j, _)| *j == N_BODY * body + k);
+                entries.map(|(_, c)| c).sum::<f64>().abs()
+            };
+            let force = entry(0).hypot(entry(1));
+            let turn = entry(2).max(force * self.reach(body));
+            let first = N_BODY * body;
+            [(first, force), (first + 1, force), (first + 2, turn)]
+        });
+        bounds.collect()
+    }
+
+    /// Size of the terms of row `i` of Φ for entries below `bounds`: as [`Mechanism::position_scale`].
+    #[must_use]
+    pub fn bounded_position_scale(&self, bounds: &[(usize, f64)], q: &[f64]) -> f64 {
+        let term = |&(j, c): &(usize, f64)| c * q[j].abs().max(self.least(j));
+        bounds.iter().map(term).sum()
+    }
+
+    /// What a coordinate counts at least.
+    fn least(&self, j: usize) -> f64 {
+        match j % N_BODY == 2 {
+            true => 1.0,
+            false => self.reach(j / N_BODY),
+        }
     }
 
     /// Size of the terms of row `i` of `C·v − b`. Needs C and b at the pose of the scratch.

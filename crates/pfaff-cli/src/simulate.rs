@@ -118,15 +118,17 @@ fn describe(name: &str, d: &RunDocument, out: &str) -> String {
     for event in &d.events {
         text.push_str(&format!("t = {:.6} s: {}\n", event.time, event.text));
     }
-    let choice = d.reactions.0.iter().find_map(|(_, r)| r.choice.as_ref());
-    if let Some(choice) = choice {
-        let names: Vec<&str> = d
-            .reactions
-            .0
-            .iter()
-            .filter(|(_, r)| r.choice.is_some())
-            .map(|(name, _)| name.as_str())
-            .collect();
+    let mut choices: Vec<(String, Vec<&str>)> = Vec::new();
+    for (name, r) in &d.reactions.0 {
+        let Some(choice) = r.choice.as_ref().map(ToString::to_string) else {
+            continue;
+        };
+        match choices.iter_mut().find(|(c, _)| *c == choice) {
+            Some((_, names)) => names.push(name),
+            None => choices.push((choice, vec![name])),
+        }
+    }
+    for (choice, names) in choices {
         text.push_str(&format!(
             "not determined by the model: {}. Their columns in reactions.csv belong to one choice ({choice}), not to the \
              mechanism.\n",

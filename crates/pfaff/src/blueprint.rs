@@ -127,12 +127,14 @@ fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
         (None, None) => return None,
     };
     if let Some(t_end) = overrides.t_end {
+        let by_default = |t_end: f64| t_end / MotionOptions::OUTPUT_STEPS;
+        let is_default = options.output_step == by_default(options.t_end);
         options.t_end = t_end;
-        options.output_step = options.output_step.min(if t_end > 0.0 {
-            t_end
-        } else {
-            options.output_step
-        });
+        if is_default {
+            options.output_step = by_default(t_end);
+        } else if t_end > 0.0 {
+            options.output_step = options.output_step.min(t_end);
+        }
     }
     options.rtol = overrides.rtol.unwrap_or(options.rtol);
     options.atol = overrides.atol.unwrap_or(options.atol);

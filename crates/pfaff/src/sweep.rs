@@ -200,11 +200,13 @@ impl<'r> Sweep<'r> {
         interrupted: impl Fn() -> bool + Sync,
         mut progress: impl FnMut(SweepProgress<'_>) + Send,
     ) -> Result<SweepDocument, SweepError> {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(settings.threads);
-        let pool = pool.build().map_err(|source| SweepError::Threads {
-            threads: settings.threads,
-            source,
-        })?;
+        // More threads than runs have nothing to do.
+        let runs = usize::try_from(self.runs()).unwrap_or(usize::MAX);
+        let threads = settings.threads.min(runs);
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = pool
+            .build()
+            .map_err(|source| SweepError::Threads { threads, source })?;
         pool.install(|| self.check(&interrupted))?;
         let output = OutputDirectory::create(directory)?;
         let journal = Journal::open(directory, &settings.shard.journal(), &self.plan)?;

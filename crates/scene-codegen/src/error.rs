@@ -50,7 +50,7 @@ pub enum CodeError {
         limit: usize,
     },
     /// A file cannot be read or written.
-    #[error("{path}: {source}")]
+    #[error("{path} cannot be read or written: {source}")]
     File {
         /// The file.
         path: String,
@@ -60,6 +60,22 @@ pub enum CodeError {
     /// Rows are kept of which the frame of a body has no part.
     #[error("the kept rows have one component of a vector without the other")]
     NoView,
+    /// What should be the path of a crate is none.
+    #[error(
+        "`{path}` is no path of a crate; `--dynamics` wants one as the module sees it, such as `pfaff::dynamics`"
+    )]
+    Path {
+        /// What was given.
+        path: String,
+    },
+    /// A module cannot be compared with a file that is not there.
+    #[error("{path} cannot be read ({source}): write it first, without `--check`")]
+    Unwritten {
+        /// The file.
+        path: String,
+        /// Why.
+        source: std::io::Error,
+    },
     /// Rows count from 1.
     #[error("rows to drop are counted from 1, found 0")]
     RowZero,

@@ -119,6 +119,8 @@ pub(crate) struct Functions {
     pub(crate) list: Vec<Function>,
     /// The body in whose frame the equations are solved, if it is not the ground.
     pub(crate) seen_from: Option<String>,
+    /// At how many of the sampled states the health of accelerations is below what runs ask for.
+    pub(crate) unhealthy: usize,
     /// Row and column of the entries of C that are not always zero.
     pub(crate) pattern: Vec<[usize; 2]>,
 }
@@ -224,6 +226,14 @@ impl Functions {
 
         let (pattern, entries) = sparse(&e);
         let shares = velocity_shares;
+        let health = |e: &mut Equations, state: usize| {
+            let shares = shares.iter().map(|share| e.code.at(*share)[state]);
+            shares.fold(f64::INFINITY, f64::min)
+        };
+        let states = 0..subject.states.len();
+        let unhealthy = states
+            .filter(|&k| health(&mut e, k) < crate::module::LEAVE)
+            .count();
         let plan = [
             (ACCELERATION, a, shares.clone()),
             (MULTIPLIERS, lambda, shares.clone()),
@@ -243,6 +253,7 @@ impl Functions {
         Ok(Self {
             equations: e,
             list: list.into(),
+            unhealthy,
             seen_from: angle.map(|k| mechanism.coordinate(k).0.to_owned()),
             pattern,
         })

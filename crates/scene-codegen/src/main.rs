@@ -66,7 +66,10 @@ fn run(arguments: &Arguments) -> Result<String, CodeError> {
     let out = &arguments.out;
     let text = module.as_file(&format!("`{}`", command(arguments)));
     if arguments.check {
-        let found = std::fs::read_to_string(out).map_err(|e| file(out, e))?;
+        let found = std::fs::read_to_string(out).map_err(|source| CodeError::Unwritten {
+            path: out.display().to_string(),
+            source,
+        })?;
         return match found == text {
             true => Ok(format!("{} agrees with its scene", out.display())),
             false => Err(CodeError::Stale {

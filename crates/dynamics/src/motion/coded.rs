@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use model::System;
+use model::{Mechanism, System};
 
 use super::{Correction, KeptRowMotion};
 use crate::code::SceneCode;
@@ -32,10 +32,13 @@ const CORRECTIONS: usize = 6;
 /// Corrections of the velocity per projection.
 const VELOCITY_PASSES: usize = 3;
 
-/// Kept rows count as satisfied below this many roundings of the largest terms of a row.
+/// Kept rows count as satisfied below this many roundings of their terms.
 const ROUNDINGS: f64 = 50.0;
 
-/// Dropped rows count as implied by the kept ones below this share of these terms: as for the interpreter.
+/// Rows of bodies at rest feel the rounding of others: their terms count as this share of the largest.
+const AT_REST: f64 = 1e-4;
+
+/// Dropped rows count as implied by the kept ones below this share of the largest terms: as for the interpreter.
 const DROPPED_MISFIT: f64 = 1e-11;
 
 /// Why code is not sure.
@@ -116,8 +119,10 @@ pub(super) struct Coded {
     keeps: Vec<bool>,
     /// What coordinates are measured by.
     units: Vec<f64>,
-    /// The largest row of C with columns in these units: what its terms are at most, for coordinates of one unit.
-    row_size: f64,
+    /// For each row columns of C and what its entries there are at most.
+    bounds: Vec<Vec<(usize, f64)>>,
+    /// Sizes of the terms of each row.
+    sizes: Vec<f64>,
     phi: Vec<f64>,
     residual: Vec<f64>,
     dq: Vec<f64>,
@@ -160,22 +165,27 @@ fn largest(x: &[f64], units: &[f64]) -> f64 {
     shares.fold(0.0, f64::max)
 }
 
-/// The row that misses most of those that are kept, or of the others, and by how much; infinite where that is not a number.
-fn worst(x: &[f64], keeps: &[bool], kept: bool) -> (usize, f64) {
-    let rows = x.iter().zip(keeps).enumerate();
-    let rows = rows.filter(|(_, (_, keeps))| **keeps == kept);
-    rows.fold((0, 0.0), |worst, (i, (x, _))| match x.abs() {
-        by if by > worst.1 => (i, by),
-        by if by.is_nan() => (i, f64::INFINITY),
-        _ => worst,
+/// The row that misses most of those that are kept, by how much, and as share of the size of its terms; infinite where that is not a number.
+fn worst_kept(x: &[f64], keeps: &[bool], sizes: &[f64]) -> (usize, f64, f64) {
+    let rows = x.iter().zip(keeps).zip(sizes).enumerate();
+    let rows = rows.filter(|(_, ((x, keeps), _))| **keeps && **x != 0.0);
+    rows.fold((0, 0.0, 0.0), |worst, (i, ((x, _), size))| {
+        match (x.abs(), x.abs() / size) {
+            (by, share) if share > worst.2 => (i, by, share),
+            (_, share) if share.is_nan() => (i, f64::INFINITY, f64::INFINITY),
+            _ => worst,
+        }
     })
 }
 
-/// Dropped rows that miss what the kept ones imply.
-fn check_dropped(x: &[f64], keeps: &[bool], size: f64) -> Result<(), Doubt> {
-    match worst(x, keeps, false) {
-        (row, by) if by > DROPPED_MISFIT * size => Err(Doubt::DroppedRow { row, by }),
-        _ => Ok(()),
+/// Dropped rows that miss what the kept ones imply: beside the largest row, because rounding of all of them reaches these.
+fn check_dropped(x: &[f64], keeps: &[bool], sizes: &[f64]) -> Result<(), Doubt> {
+    let largest = sizes.iter().fold(0.0, |a, size| f64::max(a, *size));
+    let misses = |x: &f64| x.is_nan() || x.abs() > DROPPED_MISFIT * largest;
+    let mut dropped = x.iter().zip(keeps).enumerate();
+    match dropped.find(|(_, (x, keeps))| !**keeps && misses(x)) {
+        Some((row, (x, _))) => Err(Doubt::DroppedRow { row, by: x.abs() }),
+        None => Ok(()),
     }
 }
 
@@ -189,7 +199,8 @@ impl Coded {
         let units: Vec<f64> = (0..layout.n_v)
             .map(|j| mechanism.unit(j, motion.size))
             .collect();
-        let row_size = |i: usize| layout.row(&s, i).map(|(j, c)| c.abs() * units[j]).sum();
+        let bounds = (0..layout.rows()).map(|i| mechanism.entry_bounds(&s, i));
+        let bounds: Vec<Vec<(usize, f64)>> = bounds.collect();
         let keeps = |kept: &[usize], rows: usize| (0..rows).map(|i| kept.contains(&i)).collect();
         Self {
             phase: Phase::Code,
@@ -200,7 +211,8 @@ impl Coded {
             departure: None,
             keeps_position: keeps(&motion.position.kept, layout.m),
             keeps: keeps(&motion.velocity.kept, layout.rows()),
-            row_size: (0..layout.rows()).map(row_size).fold(0.0, f64::max),
+            sizes: vec![0.0; bounds.len()],
+            bounds,
             units,
             phi: vec![0.0; layout.m],
             residual: vec![0.0; layout.rows()],
@@ -211,20 +223,28 @@ impl Coded {
     }
 
     /// Moves q and v onto the constraints and checks all rows.
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, Doubt> {
+    fn project(
+        &mut self,
+        mechanism: &Mechanism,
+        t: f64,
+        q: &mut [f64],
+        v: &mut [f64],
+    ) -> Result<Correction, Doubt> {
         let Self {
             code,
             keeps_position,
             keeps,
-            units,
-            row_size,
+            bounds,
+            sizes,
             phi,
             residual,
             dq,
             dv,
             ..
         } = self;
-        let size = *row_size * largest(q, units).max(1.0);
+        for (size, bounds) in sizes.iter_mut().zip(&*bounds) {
+            *size = mechanism.bounded_position_scale(bounds, q);
+        }
         let mut iterations = 0;
         code.phi(t, q, phi);
         loop {
@@ -232,32 +252,38 @@ impl Coded {
             check(code.position_correction(t, q, phi, dq), dq)?;
             add(q, dq);
             code.phi(t, q, phi);
-            let (row, by) = worst(phi, keeps_position, true);
-            if by <= ROUNDINGS * f64::EPSILON * size {
+            let (row, by, share) = worst_kept(phi, keeps_position, sizes);
+            if share <= ROUNDINGS * f64::EPSILON {
                 break;
             }
             if iterations == CORRECTIONS {
                 return Err(Doubt::OffConstraints { row, by });
             }
         }
-        check_dropped(phi, keeps_position, size)?;
+        check_dropped(phi, keeps_position, &sizes[..phi.len()])?;
         let mut passes = 0;
         code.velocity_residual(t, q, v, residual);
-        let size = loop {
+        loop {
             passes += 1;
             check(code.velocity_correction(t, q, residual, dv), dv)?;
             add(v, dv);
             code.velocity_residual(t, q, v, residual);
-            let size = *row_size * largest(v, units);
-            let (row, by) = worst(residual, keeps, true);
-            if by <= ROUNDINGS * f64::EPSILON * size {
-                break size;
+            for (size, bounds) in sizes.iter_mut().zip(&*bounds) {
+                *size = bounds.iter().map(|&(j, c)| c * v[j].abs()).sum();
+            }
+            let least = AT_REST * sizes.iter().fold(0.0, |a, size| f64::max(a, *size));
+            for size in sizes.iter_mut() {
+                *size = size.max(least);
+            }
+            let (row, by, share) = worst_kept(residual, keeps, sizes);
+            if share <= ROUNDINGS * f64::EPSILON {
+                break;
             }
             if passes == VELOCITY_PASSES {
                 return Err(Doubt::OffConstraints { row, by });
             }
-        };
-        check_dropped(residual, keeps, size)?;
+        }
+        check_dropped(residual, keeps, sizes)?;
         let largest = |x: &[f64]| x.iter().fold(0.0, |a, x| f64::max(a, x.abs()));
         Ok(Correction {
             iterations,
@@ -342,7 +368,7 @@ impl KeptRowMotion<'_> {
         let coded = self.coded.as_mut().filter(|c| c.phase == Phase::Code)?;
         self.guess.copy_from_slice(q);
         self.delta.copy_from_slice(v);
-        match coded.project(t, q, v) {
+        match coded.project(self.mechanism, t, q, v) {
             Ok(found) => Some(found),
             Err(_) => {
                 q.copy_from_slice(&self.guess);
@@ -367,7 +393,7 @@ impl KeptRowMotion<'_> {
         };
         let (q, rest) = y.split_at_mut(n_q);
         let v = &mut rest[..n_v];
-        match coded.project(t, q, v) {
+        match coded.project(self.mechanism, t, q, v) {
             Ok(found) => {
                 self.derivative(t, y, dy)?;
                 Ok(self.is_coded().then_some(found))

@@ -2,6 +2,7 @@
 //! an accepted step that was suspect.
 
 use model::{Mechanism, Scratch, System};
+use solvability::decide;
 
 use super::KeptRowMotion;
 use super::rows::KeptRows;
@@ -154,6 +155,23 @@ impl Search<'_> {
             t,
             dependent: self.rows.n_left_out().max(1),
         })
+    }
+
+    /// Whether all rows lose rank at a time at which the kept ones do: rows that somebody chose to keep may become dependent where
+    /// the mechanism is not singular. In doubt they do.
+    pub(crate) fn loses_rank(&mut self, t: f64, mut state: impl FnMut(f64, &mut [f64])) -> bool {
+        if self.rows.dropped.is_empty() {
+            return true;
+        }
+        let mut q = vec![0.0; self.mechanism.layout().n_q];
+        state(t, &mut q);
+        self.mechanism.pose(t, &q, &mut self.s);
+        self.mechanism.phi(&mut self.s);
+        self.mechanism.c(&mut self.s);
+        match decide(self.mechanism, &self.s, &q) {
+            Ok(decision) => !decision.is_decided() || decision.rank < self.rows.kept.len(),
+            Err(_) => true,
+        }
     }
 
     /// What is told of it; `uniqueness` says in words whether the motion is unique there.

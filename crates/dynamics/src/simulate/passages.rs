@@ -54,7 +54,9 @@ fn found(step: &mut Step<'_, Equations<'_>>) -> Vec<Singular> {
         }
         if let Some(singular) = search.find([from, to], noise, &mut state) {
             intervals.extend([[from, singular.t - beside], [singular.t + beside, to]]);
-            found.push(singular);
+            if search.loses_rank(singular.t, &mut state) {
+                found.push(singular);
+            }
         }
     }
     found.sort_by(|a, b| a.t.total_cmp(&b.t));

@@ -205,7 +205,8 @@ impl fmt::Display for ChoiceDocument {
         match self {
             Self::KeptRows { deleted_rows, .. } => {
                 let rows: Vec<String> = deleted_rows.iter().map(usize::to_string).collect();
-                write!(f, "kept-rows, rows {} deleted", rows.join(", "))
+                let word = if rows.len() == 1 { "row" } else { "rows" };
+                write!(f, "kept-rows, {word} {} deleted", rows.join(", "))
             }
             Self::MinimumNorm { norm } => write!(f, "minimum-norm, {norm}"),
             Self::Proximal {

@@ -7,6 +7,7 @@
 //! Straight-line code on arrays, without allocation and without imports. SI units, radians; `M·v̇ + Cᵀ·λ = Q`, `C·v̇ = Γ`. Functions that
 //! divide return a health: the smallest divisor as a signed share of what it was at the states that the code was made for. Near 0 the
 //! order of elimination has worn out, below 0 a divisor has passed zero.
+//! At all 49 states that it was made for the health is above 0.1.
 //!
 //! | function | operations |
 //! | --- | --- |
@@ -135,6 +136,11 @@ pub const PATTERN: [[usize; 2]; ENTRIES] = [
 pub const BREAK_TIMES: [f64; 8usize] = [1f64, 2f64, 3f64, 4f64, 6f64, 7f64, 8f64, 9f64];
 /// Operations of each function; sines and functions of time are not counted.
 pub const OPERATIONS: &str = "acceleration: 331 mul, 243 add, 4 neg, 7 div; multipliers: 394 mul, 305 add, 4 neg, 7 div; phi: 36 mul, 65 add, 1 neg; velocity_residual: 79 mul, 79 add; position_correction: 301 mul, 257 add, 5 neg, 8 div; velocity_correction: 302 mul, 224 add, 3 neg, 7 div; jacobian_action: 883 mul, 708 add, 4 neg, 14 div; constraint_matrix: 36 mul, 20 add, 15 neg";
+/// The smaller one; NaN if one is.
+#[inline(always)]
+fn least(a: f64, b: f64) -> f64 {
+    if b < a || b.is_nan() { b } else { a }
+}
 /// Functions of time, each with two derivatives.
 #[inline]
 fn jets(t: f64) -> [f64; 3usize] {
