@@ -13,7 +13,7 @@ use crate::options::RowChoice;
 use crate::prepare::Prepared;
 
 /// Components that are run at the same time at most, each on its own thread.
-const MOST: usize = 1024;
+const MOST: usize = 256;
 
 /// Whether the mechanism is taken apart, and its components; none where it stays whole.
 pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart>), MotionError> {

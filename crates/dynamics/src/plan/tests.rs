@@ -472,14 +472,14 @@ fn too_many_components_stay_one() {
         let plan = Plan::new(p, &to(1.0), &Wanted::default()).expect("a plan");
         (plan.components.len(), plan.apart.reason)
     };
-    assert_eq!(components(&free(64)).0, 64);
-    let (n, reason) = components(&free(65));
+    assert_eq!(components(&free(256)).0, 256);
+    let (n, reason) = components(&free(257));
     assert_eq!(
         (n, reason.split(',').next()),
-        (1, Some("65 do not feel each other"))
+        (1, Some("257 do not feel each other"))
     );
     // They fall all the same.
-    let (rows, _) = record(&free(64), &to(1.0));
+    let (rows, _) = record(&free(256), &to(1.0));
     let fallen = rows.last().expect("there are rows").1[3 * 40 + 1];
     assert!((fallen + 0.5 * 9.81).abs() < 1e-12, "{fallen}");
 }
