@@ -422,7 +422,7 @@ fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
     }
     let health = shares.iter().fold(
         quote!(f64::INFINITY),
-        |health, share| quote!(#health.min(#share)),
+        |health, share| quote!(least(#health, #share)),
     );
     quote! {
         #[inline(always)]

@@ -134,9 +134,14 @@ impl Tape {
                 *out = values[v.index()];
             }
             let shares = outputs[list.n_out..].iter();
-            shares.fold(f64::INFINITY, |health, v| health.min(values[v.index()]))
+            shares.fold(f64::INFINITY, |health, v| least(health, values[v.index()]))
         })
     }
+}
+
+/// The smaller one; NaN if one is.
+fn least(a: f64, b: f64) -> f64 {
+    if b < a || b.is_nan() { b } else { a }
 }
 
 fn jet((f, offset): &(TimeFunction, f64), t: f64) -> [f64; 3] {

@@ -525,17 +525,31 @@ fn acceleration_core(
     out(18usize, cos2 * t194 - sin2 * t195);
     out(19usize, sin2 * t194 + cos2 * t195);
     out(20usize, t178 + t140 * t181);
-    f64::INFINITY
-        .min(t24)
-        .min(-(2.0 * t83))
-        .min(4.0 * t85)
-        .min(4.0 * t86)
-        .min(t12)
-        .min(t16)
-        .min(16.0 * t101)
-        .min(-(2.0 * t112))
-        .min(-(16.0 * t115))
-        .min(0.03125 * t143)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(
+                            least(
+                                least(
+                                    least(least(f64::INFINITY, t24), -(2.0 * t83)),
+                                    4.0 * t85,
+                                ),
+                                4.0 * t86,
+                            ),
+                            t12,
+                        ),
+                        t16,
+                    ),
+                    16.0 * t101,
+                ),
+                -(2.0 * t112),
+            ),
+            -(16.0 * t115),
+        ),
+        0.03125 * t143,
+    )
 }
 ///Accelerations a of `M·a + Cᵀ·λ = Q`, `C·a = Γ` on the kept rows.
 ///
@@ -883,17 +897,31 @@ fn multipliers_core(
     out(19usize, 0.0);
     out(20usize, 0.0);
     out(21usize, t224);
-    f64::INFINITY
-        .min(t26)
-        .min(-(2.0 * t85))
-        .min(4.0 * t87)
-        .min(4.0 * t88)
-        .min(t14)
-        .min(t18)
-        .min(16.0 * t103)
-        .min(-(2.0 * t114))
-        .min(-(16.0 * t117))
-        .min(0.03125 * t145)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(
+                            least(
+                                least(
+                                    least(least(f64::INFINITY, t26), -(2.0 * t85)),
+                                    4.0 * t87,
+                                ),
+                                4.0 * t88,
+                            ),
+                            t14,
+                        ),
+                        t18,
+                    ),
+                    16.0 * t103,
+                ),
+                -(2.0 * t114),
+            ),
+            -(16.0 * t117),
+        ),
+        0.03125 * t145,
+    )
 }
 ///Their multipliers λ of all rows, 0 for dropped ones.
 ///
@@ -1435,15 +1463,25 @@ fn position_correction_core(
     out(18usize, cos2 * t168 - sin2 * t169);
     out(19usize, sin2 * t168 + cos2 * t169);
     out(20usize, -t152);
-    f64::INFINITY
-        .min(-(32.0 * t40))
-        .min(-(4.0 * t46))
-        .min(-(8.0 * t49))
-        .min(4.0 * t52)
-        .min(0.25 * t85)
-        .min(0.0625 * t89)
-        .min(0.03125 * t95)
-        .min(t103)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(
+                            least(least(f64::INFINITY, -(32.0 * t40)), -(4.0 * t46)),
+                            -(8.0 * t49),
+                        ),
+                        4.0 * t52,
+                    ),
+                    0.25 * t85,
+                ),
+                0.0625 * t89,
+            ),
+            0.03125 * t95,
+        ),
+        t103,
+    )
 }
 ///The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.
 ///
@@ -1738,17 +1776,31 @@ fn velocity_correction_core(
     out(18usize, cos2 * t176 - sin2 * t177);
     out(19usize, sin2 * t176 + cos2 * t177);
     out(20usize, t160 + t109 * t163);
-    f64::INFINITY
-        .min(t17)
-        .min(-(2.0 * t52))
-        .min(4.0 * t54)
-        .min(4.0 * t55)
-        .min(t5)
-        .min(t9)
-        .min(16.0 * t70)
-        .min(-(2.0 * t81))
-        .min(-(16.0 * t84))
-        .min(0.03125 * t112)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(
+                            least(
+                                least(
+                                    least(least(f64::INFINITY, t17), -(2.0 * t52)),
+                                    4.0 * t54,
+                                ),
+                                4.0 * t55,
+                            ),
+                            t5,
+                        ),
+                        t9,
+                    ),
+                    16.0 * t70,
+                ),
+                -(2.0 * t81),
+            ),
+            -(16.0 * t84),
+        ),
+        0.03125 * t112,
+    )
 }
 ///The smallest dv in the mass metric with `C·dv = −r` on the kept rows.
 ///
@@ -2441,17 +2493,31 @@ fn jacobian_action_core(
     out(18usize, cos2 * t478 - t271 * t273 - (t272 * t274 + sin2 * t479));
     out(19usize, t271 * t274 + sin2 * t478 + (cos2 * t479 - t272 * t273));
     out(20usize, t462 + (t259 * t423 + t170 * t465));
-    f64::INFINITY
-        .min(t30)
-        .min(-(2.0 * t100))
-        .min(4.0 * t102)
-        .min(4.0 * t104)
-        .min(t18)
-        .min(t22)
-        .min(16.0 * t121)
-        .min(-(2.0 * t134))
-        .min(-(16.0 * t137))
-        .min(0.03125 * t192)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(
+                            least(
+                                least(
+                                    least(least(f64::INFINITY, t30), -(2.0 * t100)),
+                                    4.0 * t102,
+                                ),
+                                4.0 * t104,
+                            ),
+                            t18,
+                        ),
+                        t22,
+                    ),
+                    16.0 * t121,
+                ),
+                -(2.0 * t134),
+            ),
+            -(16.0 * t137),
+        ),
+        0.03125 * t192,
+    )
 }
 ///The derivative of accelerations along (dq, dv).
 ///

@@ -493,14 +493,22 @@ fn acceleration_core(
     out(18usize, cos2 * t163 - sin2 * t164);
     out(19usize, sin2 * t163 + cos2 * t164);
     out(20usize, t148 + t117 * t151);
-    f64::INFINITY
-        .min(-(2.0 * t75))
-        .min(16.0 * t78)
-        .min(4.0 * t85)
-        .min(4.0 * t81)
-        .min(4.0 * t93)
-        .min(-(4.0 * t97))
-        .min(0.03125 * t120)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(least(f64::INFINITY, -(2.0 * t75)), 16.0 * t78),
+                        4.0 * t85,
+                    ),
+                    4.0 * t81,
+                ),
+                4.0 * t93,
+            ),
+            -(4.0 * t97),
+        ),
+        0.03125 * t120,
+    )
 }
 ///Accelerations a of `M·a + Cᵀ·λ = Q`, `C·a = Γ` on the kept rows.
 ///
@@ -811,14 +819,22 @@ fn multipliers_core(
     out(19usize, t173 - (t185 + (20.0 * t8 + t187)) - t184);
     out(20usize, 0.0);
     out(21usize, t162);
-    f64::INFINITY
-        .min(-(2.0 * t75))
-        .min(16.0 * t78)
-        .min(4.0 * t85)
-        .min(4.0 * t81)
-        .min(4.0 * t93)
-        .min(-(4.0 * t97))
-        .min(0.03125 * t120)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(least(f64::INFINITY, -(2.0 * t75)), 16.0 * t78),
+                        4.0 * t85,
+                    ),
+                    4.0 * t81,
+                ),
+                4.0 * t93,
+            ),
+            -(4.0 * t97),
+        ),
+        0.03125 * t120,
+    )
 }
 ///Their multipliers λ of all rows, 0 for dropped ones.
 ///
@@ -1360,15 +1376,25 @@ fn position_correction_core(
     out(18usize, cos2 * t168 - sin2 * t169);
     out(19usize, sin2 * t168 + cos2 * t169);
     out(20usize, -t152);
-    f64::INFINITY
-        .min(-(32.0 * t37))
-        .min(-(4.0 * t46))
-        .min(-(8.0 * t49))
-        .min(4.0 * t52)
-        .min(0.25 * t85)
-        .min(0.0625 * t89)
-        .min(0.03125 * t95)
-        .min(t103)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(
+                            least(least(f64::INFINITY, -(32.0 * t37)), -(4.0 * t46)),
+                            -(8.0 * t49),
+                        ),
+                        4.0 * t52,
+                    ),
+                    0.25 * t85,
+                ),
+                0.0625 * t89,
+            ),
+            0.03125 * t95,
+        ),
+        t103,
+    )
 }
 ///The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.
 ///
@@ -1623,14 +1649,22 @@ fn velocity_correction_core(
     out(18usize, cos2 * t138 - sin2 * t139);
     out(19usize, sin2 * t138 + cos2 * t139);
     out(20usize, t123 + t85 * t126);
-    f64::INFINITY
-        .min(-(2.0 * t43))
-        .min(16.0 * t46)
-        .min(4.0 * t53)
-        .min(4.0 * t49)
-        .min(4.0 * t61)
-        .min(-(4.0 * t65))
-        .min(0.03125 * t88)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(least(f64::INFINITY, -(2.0 * t43)), 16.0 * t46),
+                        4.0 * t53,
+                    ),
+                    4.0 * t49,
+                ),
+                4.0 * t61,
+            ),
+            -(4.0 * t65),
+        ),
+        0.03125 * t88,
+    )
 }
 ///The smallest dv in the mass metric with `C·dv = −r` on the kept rows.
 ///
@@ -2236,14 +2270,22 @@ fn jacobian_action_core(
     out(18usize, cos2 * t407 - t226 * t228 - (t227 * t229 + sin2 * t408));
     out(19usize, t226 * t229 + sin2 * t407 + (cos2 * t408 - t227 * t228));
     out(20usize, t392 + (t215 * t359 + t138 * t395));
-    f64::INFINITY
-        .min(-(2.0 * t90))
-        .min(16.0 * t93)
-        .min(4.0 * t101)
-        .min(4.0 * t96)
-        .min(4.0 * t109)
-        .min(-(4.0 * t113))
-        .min(0.03125 * t158)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(least(f64::INFINITY, -(2.0 * t90)), 16.0 * t93),
+                        4.0 * t101,
+                    ),
+                    4.0 * t96,
+                ),
+                4.0 * t109,
+            ),
+            -(4.0 * t113),
+        ),
+        0.03125 * t158,
+    )
 }
 ///The derivative of accelerations along (dq, dv).
 ///

@@ -496,14 +496,22 @@ fn acceleration_core(
     out(18usize, cos2 * t166 + sin2 * t167);
     out(19usize, sin2 * t166 - cos2 * t167);
     out(20usize, t151 + t123 * t154);
-    f64::INFINITY
-        .min(-(2.0 * t79))
-        .min(16.0 * t82)
-        .min(4.0 * t89)
-        .min(4.0 * t83)
-        .min(4.0 * t98)
-        .min(4.0 * t102)
-        .min(0.03125 * t126)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(least(f64::INFINITY, -(2.0 * t79)), 16.0 * t82),
+                        4.0 * t89,
+                    ),
+                    4.0 * t83,
+                ),
+                4.0 * t98,
+            ),
+            4.0 * t102,
+        ),
+        0.03125 * t126,
+    )
 }
 ///Accelerations a of `M·a + Cᵀ·λ = Q`, `C·a = Γ` on the kept rows.
 ///
@@ -821,14 +829,22 @@ fn multipliers_core(
     out(19usize, t194 - 20.0 * t8 - t178 - t192 - t191);
     out(20usize, 0.0);
     out(21usize, -t165);
-    f64::INFINITY
-        .min(-(2.0 * t79))
-        .min(16.0 * t82)
-        .min(4.0 * t89)
-        .min(4.0 * t83)
-        .min(4.0 * t98)
-        .min(4.0 * t102)
-        .min(0.03125 * t126)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(least(f64::INFINITY, -(2.0 * t79)), 16.0 * t82),
+                        4.0 * t89,
+                    ),
+                    4.0 * t83,
+                ),
+                4.0 * t98,
+            ),
+            4.0 * t102,
+        ),
+        0.03125 * t126,
+    )
 }
 ///Their multipliers λ of all rows, 0 for dropped ones.
 ///
@@ -1370,15 +1386,25 @@ fn position_correction_core(
     out(18usize, cos2 * t168 - sin2 * t169);
     out(19usize, sin2 * t168 + cos2 * t169);
     out(20usize, -t152);
-    f64::INFINITY
-        .min(-(32.0 * t42))
-        .min(-(4.0 * t46))
-        .min(-(8.0 * t49))
-        .min(4.0 * t52)
-        .min(0.25 * t85)
-        .min(0.0625 * t89)
-        .min(0.03125 * t95)
-        .min(t103)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(
+                            least(least(f64::INFINITY, -(32.0 * t42)), -(4.0 * t46)),
+                            -(8.0 * t49),
+                        ),
+                        4.0 * t52,
+                    ),
+                    0.25 * t85,
+                ),
+                0.0625 * t89,
+            ),
+            0.03125 * t95,
+        ),
+        t103,
+    )
 }
 ///The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.
 ///
@@ -1635,14 +1661,22 @@ fn velocity_correction_core(
     out(18usize, cos2 * t140 + sin2 * t141);
     out(19usize, sin2 * t140 - cos2 * t141);
     out(20usize, t125 + t88 * t128);
-    f64::INFINITY
-        .min(-(2.0 * t44))
-        .min(16.0 * t47)
-        .min(4.0 * t54)
-        .min(4.0 * t48)
-        .min(4.0 * t63)
-        .min(4.0 * t67)
-        .min(0.03125 * t91)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(least(f64::INFINITY, -(2.0 * t44)), 16.0 * t47),
+                        4.0 * t54,
+                    ),
+                    4.0 * t48,
+                ),
+                4.0 * t63,
+            ),
+            4.0 * t67,
+        ),
+        0.03125 * t91,
+    )
 }
 ///The smallest dv in the mass metric with `C·dv = −r` on the kept rows.
 ///
@@ -2254,14 +2288,22 @@ fn jacobian_action_core(
     out(18usize, cos2 * t410 - t227 * t229 + (t228 * t230 + sin2 * t411));
     out(19usize, t227 * t230 + sin2 * t410 - (cos2 * t411 - t228 * t229));
     out(20usize, t395 + (t216 * t365 + t143 * t398));
-    f64::INFINITY
-        .min(-(2.0 * t93))
-        .min(16.0 * t96)
-        .min(4.0 * t104)
-        .min(4.0 * t97)
-        .min(4.0 * t113)
-        .min(4.0 * t117)
-        .min(0.03125 * t163)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(least(f64::INFINITY, -(2.0 * t93)), 16.0 * t96),
+                        4.0 * t104,
+                    ),
+                    4.0 * t97,
+                ),
+                4.0 * t113,
+            ),
+            4.0 * t117,
+        ),
+        0.03125 * t163,
+    )
 }
 ///The derivative of accelerations along (dq, dv).
 ///

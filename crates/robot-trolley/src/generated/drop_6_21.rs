@@ -495,15 +495,25 @@ fn acceleration_core(
     out(18usize, t158 - t127 * t159);
     out(19usize, t157 + t126 * t159);
     out(20usize, t156 + t125 * t159);
-    f64::INFINITY
-        .min(-(2.0 * t68))
-        .min(8.0 * t72)
-        .min(4.0 * t86)
-        .min(16.0 * t89)
-        .min(4.0 * t94)
-        .min(2.0 * cos2)
-        .min(-(32.0 * t83))
-        .min(0.03125 * t128)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(
+                            least(least(f64::INFINITY, -(2.0 * t68)), 8.0 * t72),
+                            4.0 * t86,
+                        ),
+                        16.0 * t89,
+                    ),
+                    4.0 * t94,
+                ),
+                2.0 * cos2,
+            ),
+            -(32.0 * t83),
+        ),
+        0.03125 * t128,
+    )
 }
 ///Accelerations a of `M·a + Cᵀ·λ = Q`, `C·a = Γ` on the kept rows.
 ///
@@ -831,15 +841,25 @@ fn multipliers_core(
     );
     out(20usize, 0.0);
     out(21usize, t170);
-    f64::INFINITY
-        .min(-(2.0 * t68))
-        .min(8.0 * t72)
-        .min(4.0 * t87)
-        .min(16.0 * t90)
-        .min(4.0 * t95)
-        .min(2.0 * cos2)
-        .min(-(32.0 * t84))
-        .min(0.03125 * t129)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(
+                            least(least(f64::INFINITY, -(2.0 * t68)), 8.0 * t72),
+                            4.0 * t87,
+                        ),
+                        16.0 * t90,
+                    ),
+                    4.0 * t95,
+                ),
+                2.0 * cos2,
+            ),
+            -(32.0 * t84),
+        ),
+        0.03125 * t129,
+    )
 }
 ///Their multipliers λ of all rows, 0 for dropped ones.
 ///
@@ -1367,15 +1387,25 @@ fn position_correction_core(
     out(18usize, t154 + (t136 + t75 * t155) + t3 * t152);
     out(19usize, t153 + (t135 + t74 * t155) - t1 * t152);
     out(20usize, t152);
-    f64::INFINITY
-        .min(16.0 * t38)
-        .min(4.0 * t49)
-        .min(4.0 * t36)
-        .min(8.0 * t53)
-        .min(0.25 * t90)
-        .min(0.0625 * t94)
-        .min(0.0625 * t100)
-        .min(t108)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(
+                            least(least(f64::INFINITY, 16.0 * t38), 4.0 * t49),
+                            4.0 * t36,
+                        ),
+                        8.0 * t53,
+                    ),
+                    0.25 * t90,
+                ),
+                0.0625 * t94,
+            ),
+            0.0625 * t100,
+        ),
+        t108,
+    )
 }
 ///The smallest dq in the mass metric with `Φq·dq = −r` on the rows that hold the position.
 ///
@@ -1616,15 +1646,25 @@ fn velocity_correction_core(
     out(18usize, t124 - t93 * t125);
     out(19usize, t92 * t125 - t123);
     out(20usize, t122 + t91 * t125);
-    f64::INFINITY
-        .min(-(2.0 * t33))
-        .min(8.0 * t37)
-        .min(4.0 * t52)
-        .min(16.0 * t55)
-        .min(4.0 * t60)
-        .min(2.0 * cos2)
-        .min(-(32.0 * t49))
-        .min(0.03125 * t94)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(
+                            least(least(f64::INFINITY, -(2.0 * t33)), 8.0 * t37),
+                            4.0 * t52,
+                        ),
+                        16.0 * t55,
+                    ),
+                    4.0 * t60,
+                ),
+                2.0 * cos2,
+            ),
+            -(32.0 * t49),
+        ),
+        0.03125 * t94,
+    )
 }
 ///The smallest dv in the mass metric with `C·dv = −r` on the kept rows.
 ///
@@ -2230,15 +2270,25 @@ fn jacobian_action_core(
     out(18usize, t383 - (t218 * t350 + t151 * t384));
     out(19usize, t382 + (t218 * t349 + t150 * t384));
     out(20usize, t381 + (t218 * t348 + t149 * t384));
-    f64::INFINITY
-        .min(-(2.0 * t79))
-        .min(8.0 * t83)
-        .min(4.0 * t99)
-        .min(16.0 * t104)
-        .min(4.0 * t110)
-        .min(2.0 * cos2)
-        .min(-(32.0 * t96))
-        .min(0.03125 * t170)
+    least(
+        least(
+            least(
+                least(
+                    least(
+                        least(
+                            least(least(f64::INFINITY, -(2.0 * t79)), 8.0 * t83),
+                            4.0 * t99,
+                        ),
+                        16.0 * t104,
+                    ),
+                    4.0 * t110,
+                ),
+                2.0 * cos2,
+            ),
+            -(32.0 * t96),
+        ),
+        0.03125 * t170,
+    )
 }
 ///The derivative of accelerations along (dq, dv).
 ///
