@@ -36,11 +36,15 @@ fn main() -> ExitCode {
         ["instructions"] => right_hand_side::instructions(),
         ["choices"] => choices::report(),
         ["cold-start"] => cold_start::tell(),
-        _ => Err(USAGE.to_owned()),
+        ["help" | "--help" | "-h"] => Ok(USAGE.to_owned()),
+        [] => Err(USAGE.to_owned()),
+        other => Err(format!("no command `{}`\n{USAGE}", other.join(" "))),
     };
     match outcome {
         Ok(summary) => {
-            println!("{summary}");
+            if !summary.is_empty() {
+                println!("{summary}");
+            }
             ExitCode::SUCCESS
         }
         Err(message) => {

@@ -14,6 +14,6 @@ pub(crate) fn generate(scene: &str, rest: &[&str]) -> Result<String, String> {
         .map_err(|e| format!("{cargo}: {e}"))?;
     match status.success() {
         true => Ok(String::new()),
-        false => Err("no module was written".to_owned()),
+        false => Err("`scene-codegen` stopped".to_owned()),
     }
 }

@@ -261,7 +261,7 @@ fn turning(prepared: &Prepared, work: &Work) -> Decided<usize> {
         value: bodies.len() - held.len(),
         taken: format!("{} of {}", bodies.len() - held.len(), bodies.len()),
         reason: match names.is_empty() {
-            true => "no row holds an angle; sine and cosine of one that stays are kept".to_owned(),
+            true => "no row of angles holds one at its start; sine and cosine are computed again where an angle has changed".to_owned(),
             false => format!("rows of angles hold {}", names.join(", ")),
         },
         saves: Saving::of_sizes(held.len(), bodies.len(), Cost::Trigonometry),
