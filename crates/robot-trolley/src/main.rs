@@ -54,7 +54,10 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     }
     let instants = variants[0].rows.len();
     println!("{}", text::verdicts(&start, agreeing, instants));
-    println!("{}", text::variants(mechanism, &variants));
+    println!(
+        "{}",
+        text::variants(mechanism, &variants, arguments.interpreted)
+    );
 
     let directory = OutputDirectory::create(&arguments.out)?;
     for path in figures::write(mechanism, &start, &variants, &directory)? {

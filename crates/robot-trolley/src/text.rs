@@ -77,9 +77,13 @@ pub(crate) fn verdicts(a: &Analysis, agreeing: usize, instants: usize) -> String
 }
 
 /// The variants side by side.
-pub(crate) fn variants(mechanism: &Mechanism, variants: &[Variant]) -> String {
+pub(crate) fn variants(mechanism: &Mechanism, variants: &[Variant], interpreted: bool) -> String {
+    let how = match interpreted {
+        true => "interpreted",
+        false => "on code generated for each",
+    };
     let mut out = format!(
-        "Elimination of redundant rows: three variants, rtol = atol = {TOLERANCE:e}, t = 0 … 10 s\n\n"
+        "Elimination of redundant rows: three variants, rtol = atol = {TOLERANCE:e}, t = 0 … 10 s, {how}\n\n"
     );
     let labels = &mechanism.layout().labels;
     for (k, v) in variants.iter().enumerate() {
