@@ -66,16 +66,7 @@ impl Equations {
             }
         }
         let values = replay(&mut code, &recording, &inputs);
-        let of = |list: &[Recorded]| list.iter().map(|r| values[r.place()]).collect();
-        let zero = code.program.number(0.0);
-        let row = |entries: &Vec<(usize, Recorded)>, code: &mut Sampled| {
-            let mut row = vec![zero; layout.n_v];
-            for (column, r) in entries {
-                row[*column] = code.program.add(row[*column], values[r.place()]);
-            }
-            row
-        };
-        let c = recording.c.iter().map(|e| row(e, &mut code)).collect();
+        let (c, of) = results(&mut code, &recording, &values);
         Self {
             phi: of(&recording.phi),
             c,
@@ -105,6 +96,28 @@ impl Equations {
             p.add(sum, product)
         })
     }
+}
+
+/// C by dense rows of a replayed recording, and what looks up its other results.
+pub(crate) fn results<'v>(
+    code: &mut Sampled,
+    recording: &Recording,
+    values: &'v [Value],
+) -> (
+    Vec<Vec<Value>>,
+    impl Fn(&[Recorded]) -> Vec<Value> + use<'v>,
+) {
+    let zero = code.program.number(0.0);
+    let row = |entries: &Vec<(usize, Recorded)>| {
+        let mut row = vec![zero; recording.force.len()];
+        for (column, r) in entries {
+            row[*column] = code.program.add(row[*column], values[r.place()]);
+        }
+        row
+    };
+    let c = recording.c.iter().map(row).collect();
+    let of = |list: &[Recorded]| list.iter().map(|r| values[r.place()]).collect();
+    (c, of)
 }
 
 /// The operations of a tape in a program, which folds what is known.

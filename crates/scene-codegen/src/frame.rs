@@ -5,11 +5,11 @@
 //! that are components x and y of one vector are turned in pairs. Whether a mechanism may be seen like this is not told from its parts: its C, Γ and Q
 //! are compared with the turned ones at states far from any motion, to rounding.
 
+use model::System;
 use model::record::Input;
-use model::{Recording, System};
 use symbolic::Value;
 
-use crate::equations::{Equations, Source, replay};
+use crate::equations::{Equations, Source, replay, results};
 use crate::sampled::Sampled;
 use crate::subject::{State, Subject};
 
@@ -134,7 +134,8 @@ impl Seen {
         let inputs = inputs_in(e, &frame, angle)?;
         let recording = e.recording.clone();
         let values = replay(&mut e.code, &recording, &inputs);
-        let (c, gamma, mut force) = results(e, &recording, &values);
+        let (c, of) = results(&mut e.code, &recording, &values);
+        let (gamma, mut force) = (of(&recording.gamma), of(&recording.force));
         // The weight has the direction of the ground.
         let weight: Vec<Value> = mechanism
             .weight()
@@ -213,26 +214,6 @@ fn inputs_in(e: &mut Equations, frame: &Frame, angle: usize) -> Option<Vec<Value
         };
     }
     Some(seen)
-}
-
-/// C, Γ and Q of replayed operations.
-fn results(
-    e: &mut Equations,
-    recording: &Recording,
-    values: &[Value],
-) -> (Vec<Vec<Value>>, Vec<Value>, Vec<Value>) {
-    let n = recording.force.len();
-    let zero = e.code.program.number(0.0);
-    let row = |entries: &Vec<(usize, joints::Recorded)>| {
-        let mut row = vec![zero; n];
-        for (column, r) in entries {
-            row[*column] = e.code.program.add(row[*column], values[r.place()]);
-        }
-        row
-    };
-    let c = recording.c.iter().map(row).collect();
-    let of = |list: &[joints::Recorded]| list.iter().map(|r| values[r.place()]).collect();
-    (c, of(&recording.gamma), of(&recording.force))
 }
 
 /// Whether a mechanism may be seen from the body whose angle has this place: C, Γ and Q in its frame are the turned ones, at states that no

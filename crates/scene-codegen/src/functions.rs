@@ -1,5 +1,6 @@
 //! The functions of a module as programs: accelerations, multipliers, projection, derivatives, residuals.
 
+use dynamics::code::LEAVE;
 use model::System;
 use model::record::Input;
 use symbolic::{Program, Value};
@@ -231,9 +232,7 @@ impl Functions {
             shares.fold(f64::INFINITY, f64::min)
         };
         let states = 0..subject.states.len();
-        let unhealthy = states
-            .filter(|&k| health(&mut e, k) < crate::module::LEAVE)
-            .count();
+        let unhealthy = states.filter(|&k| health(&mut e, k) < LEAVE).count();
         let plan = [
             (ACCELERATION, a, shares.clone()),
             (MULTIPLIERS, lambda, shares.clone()),

@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use dynamics::code::LEAVE;
 use model::System;
 use model::record::Input;
 use proc_macro2::TokenStream;
@@ -35,9 +36,6 @@ pub struct Module {
     docs: Vec<String>,
     items: String,
 }
-
-/// Runs leave code below this health.
-pub(crate) const LEAVE: f64 = 0.1;
 
 const ATTRIBUTES: [&str; 2] = [
     "forbid(unsafe_code)",

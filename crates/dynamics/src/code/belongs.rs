@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use model::{Mechanism, System};
 
-use super::SceneCode;
+use super::{LEAVE, SceneCode};
 use crate::error::Trip;
 use crate::motion::{KeptRowMotion, Motion};
 use crate::options::{Formulation, Method, MotionOptions, Stabilisation};
@@ -13,9 +13,6 @@ use crate::prepare::Prepared;
 
 /// Values of code and interpreter may differ by this share of the terms that they are made of.
 const SAME: f64 = 1e-9;
-
-/// Smallest health at the start.
-const SOUND: f64 = 0.1;
 
 /// States around the start at which values are compared, and how far they are from it in units of the mechanism (its size, or a radian),
 /// and in such units per second: terms in squares of velocities have to count.
@@ -85,7 +82,7 @@ pub enum CodeMismatch {
     },
     /// It is not sure of itself at the start.
     #[error(
-        "the code `{name}` has a health of {health:.3} at the start, need {SOUND}: it was generated for other configurations"
+        "the code `{name}` has a health of {health:.3} at the start, need {LEAVE}: it was generated for other configurations"
     )]
     Unhealthy {
         /// Of the code.
@@ -247,7 +244,7 @@ fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMis
     let mut motion = KeptRowMotion::new(prepared)?;
     let mut a = vec![0.0; prepared.v.len()];
     let health = code.acceleration(0.0, &prepared.q, &prepared.v, &mut a);
-    if health.is_nan() || health < SOUND {
+    if health.is_nan() || health < LEAVE {
         return Err(CodeMismatch::Unhealthy {
             name: code.facts().name.to_string(),
             health,
@@ -307,7 +304,7 @@ fn compare(
     let (mut a, mut expected) = (vec![f64::NAN; v.len()], vec![0.0; v.len()]);
     let health = code.acceleration(t, q, v, &mut a);
     let solved = motion.acceleration(t, q, v, &mut expected);
-    if health.is_nan() || health < SOUND || solved.is_err() {
+    if health.is_nan() || health < LEAVE || solved.is_err() {
         return Ok(());
     }
     let scene_size = motion.size();

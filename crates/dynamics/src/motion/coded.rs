@@ -10,12 +10,9 @@ use std::sync::Arc;
 use model::{Mechanism, System};
 
 use super::{Correction, KeptRowMotion};
-use crate::code::SceneCode;
+use crate::code::{LEAVE, SceneCode};
 use crate::error::Trip;
 use crate::events::{Event, EventKind};
-
-/// Code is left below this health: the interpreter has to see a singular configuration from afar.
-const LEAVE: f64 = 0.1;
 
 /// Code comes back above this health.
 const RETURN: f64 = 0.3;
