@@ -1,5 +1,10 @@
 //! What a run is asked to do.
 
+#[cfg(test)]
+mod tests;
+
+use std::ops::RangeInclusive;
+
 use crate::error::MotionError;
 
 /// How the equations of motion are integrated.
@@ -170,6 +175,8 @@ pub struct MotionOptions {
     pub atol: f64,
     /// Largest step (s); infinite where error control alone decides.
     pub max_step: f64,
+    /// Accepted and rejected steps of a component at most.
+    pub max_steps: u64,
     /// Integrator.
     pub method: Method,
     /// Treatment of redundancy.
@@ -187,6 +194,14 @@ impl MotionOptions {
     pub const RTOL: f64 = 1e-8;
     /// Absolute tolerance where none is given.
     pub const ATOL: f64 = 1e-10;
+    /// Relative tolerances that can be asked for: below, rounding of a step is larger; above, its error is no longer small.
+    pub const RTOL_RANGE: RangeInclusive<f64> = 1e-15..=0.1;
+    /// That in words.
+    pub const RTOL_EXPECTED: &str = "a number from 1e-15 (rounding) to 0.1";
+    /// Most rows of output: a hundred bodies of six numbers then take some 100 GB.
+    pub const MOST_ROWS: f64 = 1e7;
+    /// Accepted and rejected steps at most, where no other limit is given.
+    pub const MAX_STEPS: u64 = 1_000_000;
 
     /// Whether the motion is one of independent coordinates alone.
     #[must_use]
@@ -203,6 +218,7 @@ impl MotionOptions {
             rtol: Self::RTOL,
             atol: Self::ATOL,
             max_step: f64::INFINITY,
+            max_steps: Self::MAX_STEPS,
             method: Method::default(),
             formulation: Formulation::default(),
             stabilisation: Stabilisation::default(),
@@ -225,7 +241,18 @@ impl MotionOptions {
                 self.output_step > 0.0 || self.t_end == 0.0,
                 "a time > 0",
             ),
-            ("rtol", self.rtol, self.rtol > 0.0, "a number > 0"),
+            (
+                "output_step",
+                self.output_step,
+                self.t_end / self.output_step <= Self::MOST_ROWS || self.t_end == 0.0,
+                "at least t_end/1e7: more rows are too many to write",
+            ),
+            (
+                "rtol",
+                self.rtol,
+                Self::RTOL_RANGE.contains(&self.rtol),
+                Self::RTOL_EXPECTED,
+            ),
             ("atol", self.atol, self.atol > 0.0, "a number > 0"),
         ];
         let gains = match self.stabilisation {
@@ -240,12 +267,18 @@ impl MotionOptions {
                 "a number ≥ 0 (1/s)",
             )
         });
-        if self.max_step.is_nan() || self.max_step <= 0.0 {
-            return Err(MotionError::Option {
+        let max_step = |expected| {
+            Err(MotionError::Option {
                 name: "max_step",
                 value: self.max_step,
-                expected: "a time > 0",
-            });
+                expected,
+            })
+        };
+        if self.max_step.is_nan() || self.max_step <= 0.0 {
+            return max_step("a time > 0");
+        }
+        if self.t_end / self.max_step > self.max_steps as f64 {
+            return max_step("at least t_end/max_steps: the run would never end");
         }
         for (name, value, right, expected) in numbers.into_iter().chain(gains) {
             if !(right && value.is_finite()) {

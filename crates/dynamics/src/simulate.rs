@@ -114,6 +114,7 @@ fn run_component(
     let settings = Options {
         tolerance: equations.tolerance(options),
         max_step: options.max_step,
+        max_steps: options.max_steps,
         ..Options::with_tolerance(options.rtol, options.atol)
     };
     let rows = Rows::new(output_times(plan), &interval).map_err(|e| not_begun(named(e)))?;

@@ -36,9 +36,6 @@ const STABILISATIONS: Choice<Stabilisation> = Choice {
     name: Stabilisation::name,
 };
 
-/// Most rows that a run may be asked to write: a hundred bodies of six numbers then take some 100 GB.
-const MOST_ROWS: f64 = 1e7;
-
 /// Rows of the step that a refusal proposes.
 const USEFUL_ROWS: f64 = 1e4;
 
@@ -65,13 +62,23 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate
     if let (Some(_), Some(end), Some(step)) = (t_end, &end, &step) {
         check_length(&options, step, end, findings);
     }
+    if let Some(field) = table.optional("rtol") {
+        let is_right = |x| MotionOptions::RTOL_RANGE.contains(&x);
+        let read = bounded(
+            &field,
+            "rtol",
+            is_right,
+            MotionOptions::RTOL_EXPECTED,
+            findings,
+        );
+        options.rtol = read.unwrap_or(options.rtol);
+    }
     let mut positive = |name: &'static str, expected: &'static str, value: &mut f64| {
         let read = table
             .optional(name)
             .and_then(|field| bounded(&field, name, |x| x > 0.0, expected, findings));
         *value = read.unwrap_or(*value);
     };
-    positive("rtol", "a number > 0", &mut options.rtol);
     positive("atol", "a number > 0", &mut options.atol);
     positive("max_step", "a time > 0", &mut options.max_step);
     options.method = choose(&mut table, &METHODS, findings).unwrap_or_default();
@@ -111,11 +118,12 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field, findings: &m
         t_end, output_step, ..
     } = *options;
     let rows = t_end / output_step;
-    if rows <= MOST_ROWS {
+    let most = MotionOptions::MOST_ROWS;
+    if rows <= most {
         return;
     }
     let message = format!(
-        "{}: output_step is {output_step} s: up to t = {t_end} s this would write {rows:.3e} rows, more than {MOST_ROWS:e}",
+        "{}: output_step is {output_step} s: up to t = {t_end} s this would write {rows:.3e} rows, more than {most:e}",
         step.subject
     );
     let source = findings.source;

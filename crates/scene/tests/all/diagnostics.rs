@@ -463,8 +463,8 @@ fn runs_starts_and_groups() {
         (
             "t_end = 2.0",
             "t_end = 2.0\nrtol = «0.0»",
-            "`[simulate]`: rtol is 0, need a number > 0",
-            "expected a number > 0",
+            "`[simulate]`: rtol is 0, need a number from 1e-15 (rounding) to 0.1",
+            "expected a number from 1e-15 (rounding) to 0.1",
         ),
         (
             "t_end = 2.0",
