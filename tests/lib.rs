@@ -2,7 +2,6 @@
 //! are in `all/`.
 
 pub mod cranks;
-pub mod exact;
 pub mod numbers;
 pub mod robot;
 pub mod sketch;
