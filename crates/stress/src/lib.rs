@@ -7,6 +7,7 @@
 //! | [`mod@case`] | a case with its right answer; a family of cases |
 //! | [`judge`] | what is to be thought of an outcome |
 //! | [`mod@run`] | many cases on some threads, each with a time limit |
+//! | [`mechanisms`] | mechanisms that cases and tests use |
 //! | [`motion`] | scenes to the last row of their motion, by every method and formulation |
 //! | [`mod@families`] | the list of families, each in a file of its own |
 //! | [`reference`] | what is right, in exact arithmetic |
@@ -14,6 +15,7 @@
 pub mod case;
 pub mod families;
 pub mod judge;
+pub mod mechanisms;
 pub mod motion;
 pub mod reference;
 pub mod run;
