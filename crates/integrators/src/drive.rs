@@ -48,7 +48,7 @@ where
         }
         while run.t != leg.end {
             if let Some(delicate) = ode.delicate_time() {
-                run.step_over(delicate.t, stepper.widest_gap());
+                run.step_over(delicate, stepper.widest_gap(), stepper.order());
             }
             let trial = match run.next_trial(leg) {
                 Ok(trial) => trial,
@@ -234,22 +234,22 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         finite(&self.y0).map_err(|component| failed(Cause::NonFinite { component }))
     }
 
-    /// Shortens a step that would reach a delicate time, so that it or the next one passes it with the time in the widest gap between
-    /// its nodes.
-    fn step_over(&mut self, delicate: f64, gap: f64) {
-        let (distance, reach) = ((delicate - self.t) / self.h, gap);
+    /// Changes a step that would reach a delicate time, so that it or the next one passes it with the time in the widest gap between
+    /// its nodes. A step that may miss its tolerance passes from as far away as that allows.
+    fn step_over(&mut self, delicate: Delicate, gap: f64, order: i32) {
+        let longest = delicate.slack.powf(1.0 / f64::from(order + 1));
+        let longest = longest.min(self.options.max_step / self.h.abs());
+        let (distance, reach) = ((delicate.t - self.t) / self.h, gap * longest);
         if distance <= 0.0 || distance >= 1.0 + reach {
             return;
         }
         // In units of h: this step passes if it may be so long, else it leaves the next one a little less than its reach.
         let share = match distance <= reach {
-            true => distance / reach,
-            false => distance - LEFT_TO_PASS * reach,
+            true => distance / gap,
+            false => (distance - LEFT_TO_PASS * reach).min(1.0),
         };
-        if share < 1.0 {
-            self.uncut = Some(self.h);
-            self.h *= share;
-        }
+        self.uncut = Some(self.h);
+        self.h *= share;
     }
 
     /// The next trial, ending exactly at the end of the leg if it reaches so far.
@@ -305,7 +305,9 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         start.tolerance.scale(&self.y0, &self.y1, &mut self.scale);
         let norm = stepper.error_norm(ode, trial, &start, &self.scale, statistics)?;
         self.error_norm = Some(norm);
-        let is_delicate = |d: &Delicate| (d.t - trial.t) * (trial.t1 - d.t) > 0.0;
+        // Over the time, or so near that the next step of this size would be.
+        let is_delicate =
+            |d: &Delicate| (d.t - trial.t) / trial.h > 0.0 && (d.t - trial.t1) / trial.h < 1.0;
         let permitted = ode
             .delicate_time()
             .filter(is_delicate)

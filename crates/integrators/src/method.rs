@@ -154,14 +154,18 @@ pub struct Start<'a> {
     pub(crate) tolerance: &'a Tolerance,
 }
 
-/// The middle of the widest gap between nodes, 0 and 1 included.
+/// A delicate time lies at most so far into the step that passes it: then it ends farther behind the time than it began before it, so that a
+/// place that was far enough to begin is not too near to end.
+const AHEAD: f64 = 0.45;
+
+/// A place in the widest gap between nodes, 0 and 1 included: its middle, if a step that passes it there ends farther away than it began.
 pub(crate) fn widest_gap(nodes: &[f64]) -> f64 {
     let all = || nodes.iter().copied().chain([0.0, 1.0]);
     let gap = |from: f64| (from, all().filter(|c| *c > from).fold(1.0, f64::min));
     let (from, to) = all().map(gap).fold((0.0, 0.0), |best, g| {
         if g.1 - g.0 > best.1 - best.0 { g } else { best }
     });
-    0.5 * (from + to)
+    (0.5 * (from + to)).min(AHEAD.max(from))
 }
 
 /// What the shared loop needs from a method: a trial step, its error, the derivative at its end, the next step size.
@@ -169,9 +173,9 @@ pub trait Stepper<O: Ode>: Dense<O> {
     /// Order of the solution that is carried on.
     fn order(&self) -> i32;
 
-    /// The middle of the widest gap between nodes: where in a step f is not looked at.
+    /// A place in the widest gap between nodes: where in a step f is not looked at.
     fn widest_gap(&self) -> f64 {
-        0.5
+        AHEAD
     }
 
     /// The controller of the step size.

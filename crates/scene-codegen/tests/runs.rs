@@ -63,3 +63,57 @@ fn runs_on_code_are_those_of_the_interpreter_on_every_scene() {
         }
     }
 }
+
+/// The cranks that turn over without the third one.
+fn two_turning_cranks(three: &str) -> String {
+    let blocks = three.split("\n\n");
+    blocks
+        .filter(|b| !b.contains("crank-3"))
+        .collect::<Vec<_>>()
+        .join("\n\n")
+}
+
+/// Where cranks are in line branches of the motion meet. Code is left on the way there, at another place for every tolerance; the
+/// interpreter, alone or after it, passes at all of them and stays on the branch of parallel cranks.
+#[test]
+fn passages_do_not_depend_on_tolerances_or_on_who_evaluates() {
+    let three = suite::find("turning-cranks").expect("a case").scene;
+    let two = two_turning_cranks(three);
+    for (scene, drop) in [
+        (two.as_str(), None),
+        (three, None),
+        (three, Some(vec![1])),
+        (three, Some(vec![9])),
+    ] {
+        let overrides = Overrides {
+            drop: drop.clone(),
+            t_end: Some(3.0),
+            ..Overrides::default()
+        };
+        let study = Blueprint::read("cranks", scene, &Registry::planar())
+            .and_then(|b| b.prepare(&overrides))
+            .unwrap_or_else(|e| panic!("{e}"));
+        let own = study.options.expect("the scene has a run");
+        let tape = Tape::of(&Subject::at_start(&study.prepared)).expect("code");
+        let coded = study.prepared.clone().with_code(Arc::new(tape));
+        let coded = coded.expect("its own code");
+        for method in [Method::Dopri5, Method::Tsit5, Method::Dop853] {
+            for exponent in 3..=11 {
+                let rtol = 10_f64.powi(-exponent);
+                let options = MotionOptions {
+                    rtol,
+                    atol: rtol,
+                    method,
+                    ..own.clone()
+                };
+                for prepared in [&study.prepared, &coded] {
+                    let (rows, summary) = run(prepared, &options);
+                    let what = format!("{drop:?}, {method:?}, rtol {rtol:e}");
+                    let last = rows.last().expect("rows");
+                    assert!((last[2] - last[5]).abs() < 1e-10, "{what}: {last:?}");
+                    assert!(summary.energy_balance < 100.0 * rtol, "{what}: {summary:?}");
+                }
+            }
+        }
+    }
+}
