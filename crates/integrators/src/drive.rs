@@ -47,8 +47,9 @@ where
             return Err(run.fail(error));
         }
         while run.t != leg.end {
-            if let Some(delicate) = ode.delicate_time() {
-                run.step_over(delicate, stepper.widest_gap(), stepper.order());
+            match ode.delicate_time() {
+                Some(delicate) => run.step_over(delicate, stepper.widest_gap(), stepper.order()),
+                None => run.noise = Noise::None,
             }
             let trial = match run.next_trial(leg) {
                 Ok(trial) => trial,
@@ -106,6 +107,12 @@ pub(crate) fn check<O: Ode>(
     interval.legs()
 }
 
+/// Whether a step goes over a delicate time, or so near that the next one of its size would.
+fn is_near(delicate: &Delicate, trial: &Trial<'_>) -> bool {
+    let ahead = |t: f64| (delicate.t - t) / trial.h;
+    ahead(trial.t) > 0.0 && ahead(trial.t1) < 1.0
+}
+
 /// A failure before anything was done.
 pub(crate) fn refuse<E: std::error::Error>(
     error: IntegrationError<E>,
@@ -126,6 +133,15 @@ pub(crate) fn finite(v: &[f64]) -> Result<(), usize> {
     v.iter().position(|x| !x.is_finite()).map_or(Ok(()), Err)
 }
 
+/// Whether error control has failed so near a delicate time that smaller steps would be no better.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Noise {
+    None,
+    /// By the last trial: the same size is tried once more with what is permitted then.
+    Found,
+    Known,
+}
+
 /// State of an integration. Index 0: start of the step, 1: its end.
 struct Run<'a, E: std::error::Error + 'static> {
     options: &'a Options,
@@ -133,8 +149,9 @@ struct Run<'a, E: std::error::Error + 'static> {
     t: f64,
     /// Signed size of the next trial.
     h: f64,
-    /// What it was before it was shortened for a reason that has nothing to do with its error.
+    /// What it was before it was changed for a reason that has nothing to do with its error.
     uncut: Option<f64>,
+    noise: Noise,
     y0: Vec<f64>,
     f0: Vec<f64>,
     y1: Vec<f64>,
@@ -157,6 +174,7 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
             t,
             h: 0.0,
             uncut: None,
+            noise: Noise::None,
             y0: y0.to_vec(),
             f0: zeros(),
             y1: zeros(),
@@ -235,9 +253,12 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
     }
 
     /// Changes a step that would reach a delicate time, so that it or the next one passes it with the time in the widest gap between
-    /// its nodes. A step that may miss its tolerance passes from as far away as that allows.
+    /// its nodes. Where smaller steps would be no better, it passes from as far away as its slack allows.
     fn step_over(&mut self, delicate: Delicate, gap: f64, order: i32) {
-        let longest = delicate.slack.powf(1.0 / f64::from(order + 1));
+        let longest = match self.noise {
+            Noise::None => 1.0,
+            Noise::Found | Noise::Known => delicate.slack.powf(1.0 / f64::from(order + 1)),
+        };
         let longest = longest.min(self.options.max_step / self.h.abs());
         let (distance, reach) = ((delicate.t - self.t) / self.h, gap * longest);
         if distance <= 0.0 || distance >= 1.0 + reach {
@@ -305,14 +326,16 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         start.tolerance.scale(&self.y0, &self.y1, &mut self.scale);
         let norm = stepper.error_norm(ode, trial, &start, &self.scale, statistics)?;
         self.error_norm = Some(norm);
-        // Over the time, or so near that the next step of this size would be.
-        let is_delicate =
-            |d: &Delicate| (d.t - trial.t) / trial.h > 0.0 && (d.t - trial.t1) / trial.h < 1.0;
-        let permitted = ode
-            .delicate_time()
-            .filter(is_delicate)
-            .map_or(1.0, |d| d.slack);
+        let near = ode.delicate_time().filter(|d| is_near(d, trial));
+        let is_over = |d: &Delicate| (trial.t1 - d.t) / trial.h > 0.0;
+        let permitted = match near {
+            Some(d) if is_over(&d) || self.noise == Noise::Known => d.slack,
+            _ => 1.0,
+        };
         if norm.is_nan() || norm > permitted {
+            if self.noise == Noise::None && near.is_some_and(|d| d.slack > 1.0) {
+                self.noise = Noise::Found;
+            }
             return Err(Cause::ErrorTest { norm });
         }
         let info = StepInfo {
@@ -387,12 +410,19 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         cause: Cause<E>,
     ) {
         self.failures += 1;
-        self.uncut = None;
+        let uncut = self.uncut.take();
         let statistics = &mut self.statistics;
         self.h = match cause {
             Cause::ErrorTest { norm } if !norm.is_nan() => {
                 statistics.rejected_by_error += 1;
-                stepper.after_rejection(trial.h, norm)
+                let shorter = stepper.after_rejection(trial.h, norm);
+                match self.noise {
+                    Noise::Found => {
+                        self.noise = Noise::Known;
+                        uncut.unwrap_or(trial.h)
+                    }
+                    Noise::None | Noise::Known => shorter,
+                }
             }
             Cause::RejectedByHook => {
                 statistics.rejected_by_hook += 1;

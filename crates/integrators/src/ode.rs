@@ -65,8 +65,8 @@ pub trait Ode {
 pub struct Delicate {
     /// The time.
     pub t: f64,
-    /// Factor ≥ 1 by which a step over it, and one that leaves less than its size before it, may miss its tolerance: smaller steps would come
-    /// nearer to it and be worse.
+    /// Factor ≥ 1 by which a step over it may miss its tolerance: smaller steps would come nearer to it and be worse. For the same reason, once
+    /// error control has failed within a step before it, steps up to it may, too.
     pub slack: f64,
 }
 

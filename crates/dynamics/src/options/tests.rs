@@ -1,3 +1,5 @@
+//! Numbers that no run can have are refused by name, before anything is computed.
+
 use super::MotionOptions;
 
 /// What a run over 10 s says of changed options.
