@@ -256,12 +256,26 @@ impl<'a> KeptRowMotion<'a> {
             ..
         } = self;
         if let Some(all) = all_rows {
-            return all.solve(mechanism, s, a);
+            let solved = all.solve(mechanism, s, a);
+            return solved.map_err(|trip| self.named(trip));
         }
         for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
             *rhs = s.gamma[i];
         }
-        velocity.solve(mechanism, s, &s.force, a)
+        let solved = velocity.solve(mechanism, s, &s.force, a);
+        solved.map_err(|trip| self.named(trip))
+    }
+
+    /// An error at the state just evaluated, with the name of the force that has no value, if there is one.
+    fn named(&mut self, trip: Trip) -> Trip {
+        match trip {
+            Trip::NotFinite { time, what } => {
+                let force = self.mechanism.undefined_force(&mut self.s);
+                let what = force.map_or(what, |name| format!("the force `{name}`"));
+                Trip::NotFinite { time, what }
+            }
+            other => other,
+        }
     }
 
     /// Multipliers of all rows for accelerations a from the last solve; those of dropped rows are zero.

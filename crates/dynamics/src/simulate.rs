@@ -154,7 +154,13 @@ fn run_component(
     let error = match (outcome, run.stopped) {
         (_, Some(error)) => error,
         (Ok(_), None) => return Ok(summary),
-        (Err(f), None) => named(f.error),
+        (Err(f), None) => match named(f.error) {
+            // Error control fails beside a singular configuration because accelerations are rounding there.
+            MotionError::Integration(e) if run.equations.is_lost(&e) => {
+                run.equations.motion.no_way_over(f.t).into()
+            }
+            error => error,
+        },
     };
     Err(Box::new(Failure { error, summary }))
 }

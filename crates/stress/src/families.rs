@@ -1,5 +1,14 @@
 //! The list of families: one line each, and a file of its own for each.
 
+mod drives;
+mod far_away;
+mod freedom;
+mod long_runs;
+mod not_finite;
+mod passages;
+mod rotation;
+mod steering;
+mod stiff;
 mod trivial;
 
 use crate::case::Family;
@@ -7,7 +16,18 @@ use crate::case::Family;
 /// All families, in the order of the report.
 #[must_use]
 pub fn families() -> Vec<Family> {
-    vec![trivial::FAMILY]
+    vec![
+        trivial::FAMILY,
+        passages::FAMILY,
+        steering::FAMILY,
+        rotation::FAMILY,
+        stiff::FAMILY,
+        drives::FAMILY,
+        far_away::FAMILY,
+        freedom::FAMILY,
+        not_finite::FAMILY,
+        long_runs::FAMILY,
+    ]
 }
 
 /// The family of this name.

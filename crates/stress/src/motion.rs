@@ -6,7 +6,7 @@ use dynamics::{Formulation, Method, MotionOptions, RowChoice, Summary, prepare, 
 use model::{Description, Mechanism, Registry, StartOptions};
 use pfaff::{Overrides, Study, StudyError};
 
-use crate::case::Outcome;
+use crate::case::{Case, Expected, Outcome};
 
 /// A row of a motion.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,6 +32,19 @@ pub fn combinations(base: &MotionOptions) -> Vec<MotionOptions> {
             })
     });
     all.filter(|options| options.check().is_ok()).collect()
+}
+
+/// How many steps a method of its order takes for a motion by this phase (rad) at a relative tolerance, up to a factor: the local error of a
+/// step h is h to the power of the order and one more. What the errors of all steps add up to is judged by it.
+#[must_use]
+pub fn steps(method: Method, phase: f64, rtol: f64) -> f64 {
+    let order = match method {
+        Method::GeneralizedAlpha => 2.0,
+        Method::Hem4 => 4.0,
+        Method::Dopri5 | Method::Tsit5 | Method::Radau5 => 5.0,
+        _ => 8.0,
+    };
+    phase.max(1.0) * rtol.powf(-1.0 / (order + 1.0))
 }
 
 /// What the commands make of a text, up to its start.
@@ -74,6 +87,48 @@ pub fn last_row(
     match summary {
         Ok(summary) => Ok((last, summary)),
         Err(failure) => Err(Outcome::refused(&failure.error)),
+    }
+}
+
+/// A case of a scene that moves: `error` says how far the last row is from right.
+pub fn case(
+    name: impl Into<String>,
+    text: impl Into<String>,
+    options: MotionOptions,
+    expected: Expected,
+    error: impl Fn(&Row, &Summary) -> f64 + Send + Sync + 'static,
+) -> Case {
+    let (method, formulation) = (options.method.name(), options.formulation.name());
+    let text = text.into();
+    Case::new(name, method, formulation, expected, move || {
+        outcome(&text, &options, &error)
+    })
+}
+
+/// What comes out of a scene that moves.
+pub fn outcome(
+    text: &str,
+    options: &MotionOptions,
+    error: impl Fn(&Row, &Summary) -> f64,
+) -> Outcome {
+    match study(text) {
+        Ok(study) => outcome_of(&study.prepared, options, error),
+        Err(e) => refused(&e),
+    }
+}
+
+/// The same for a prepared mechanism.
+pub fn outcome_of(
+    prepared: &dynamics::Prepared,
+    options: &MotionOptions,
+    error: impl Fn(&Row, &Summary) -> f64,
+) -> Outcome {
+    match last_row(prepared, options) {
+        Err(refusal) => refusal,
+        Ok((row, summary)) => {
+            let detail = format!("{} steps", summary.steps);
+            Outcome::answer(error(&row, &summary), detail)
+        }
     }
 }
 

@@ -71,6 +71,10 @@ impl SaddlePoint {
         mechanism.c(&mut motion.s);
         mechanism.twist(v, &mut motion.s);
         mechanism.force(&mut motion.s);
+        if motion.s.force.iter().any(|f| !f.is_finite()) {
+            let what = "a force".into();
+            return Err(motion.named(Trip::NotFinite { time: t, what }));
+        }
         self.add_columns(motion, n);
         self.factor(t)?;
         self.x[..n].copy_from_slice(&motion.s.force);
@@ -144,7 +148,7 @@ impl SaddlePoint {
                 self.matrix[(i, j)] += weight * value;
             }
         }
-        self.factor(t)
+        self.factor(t).map_err(|trip| motion.named(trip))
     }
 
     /// Solves with the factors of [`SaddlePoint::linearise`].
@@ -184,8 +188,13 @@ impl SaddlePoint {
 
     fn factor(&mut self, t: f64) -> Result<(), Trip> {
         let matrix = &self.matrix;
-        self.lu
-            .factor(|i, j| matrix[(i, j)])
-            .map_err(|source| Trip::IterationMatrix { time: t, source })
+        let factored = self.lu.factor(|i, j| matrix[(i, j)]);
+        factored.map_err(|source| match source.pivot.is_finite() {
+            true => Trip::IterationMatrix { time: t, source },
+            false => Trip::NotFinite {
+                time: t,
+                what: "the iteration matrix of the step".into(),
+            },
+        })
     }
 }

@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use integrators::{Delicate, Implicit, Ode, StepEnd, StepInfo, Tolerance};
+use integrators::{Delicate, Implicit, IntegrationError, Ode, StepEnd, StepInfo, Tolerance};
 use model::System;
 
 use super::energy::{self, EnergyBalance};
@@ -227,6 +227,12 @@ impl<'m> Equations<'m> {
     /// Share of the reference to which a pivot falls that vanishes, as well as this run knows.
     pub(super) fn passage_noise(&self) -> f64 {
         self.nearest
+    }
+
+    /// Whether steps have collapsed because of a singular configuration nearby.
+    pub(super) fn is_lost(&self, error: &IntegrationError<Trip>) -> bool {
+        let has_collapsed = matches!(error, IntegrationError::StepSizeCollapsed { .. });
+        has_collapsed && self.motion.is_delicate()
     }
 
     /// What is known of passages where so many rows are dependent.

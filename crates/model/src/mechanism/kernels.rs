@@ -140,6 +140,22 @@ impl System for Mechanism {
 }
 
 impl Mechanism {
+    /// The first force whose law has no finite value at the pose and the twist of the scratch.
+    #[must_use]
+    pub fn undefined_force(&self, s: &mut Scratch) -> Option<&str> {
+        let undefined = self.forces.iter().find(|force| {
+            let (x, v) = (
+                &s.slot_poses[force.slots.clone()],
+                &s.slot_twists[force.slots.clone()],
+            );
+            let f = &s.jets[force.functions.clone()];
+            force.element.element().q(x, v, f, &mut s.block);
+            let mut values = s.block[..force.columns.len()].iter();
+            values.any(|value| !value.is_finite())
+        });
+        undefined.map(|force| force.name.as_str())
+    }
+
     /// Whether a body has the sine and cosine at an angle that it had at another one. Where rows of angles hold it, rounding may move the
     /// angle, but does not turn it; elsewhere bits count: the sine of −0 is not that of 0.
     fn stays(&self, body: usize, from: f64, to: f64) -> bool {
