@@ -15,7 +15,17 @@ use crate::case::Family;
 /// All families, in the order of the report.
 #[must_use]
 pub fn families() -> Vec<Family> {
-    vec![trivial::FAMILY, starts::FAMILY, contradictions::FAMILY]
+    vec![
+        trivial::FAMILY,
+        bad_numbers::FAMILY,
+        starts::FAMILY,
+        contradictions::FAMILY,
+        duplicates::FAMILY,
+        near_redundancy::FAMILY,
+        singular::FAMILY,
+        massless::FAMILY,
+        invariance::FAMILY,
+    ]
 }
 
 /// The family of this name.
