@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use dynamics::{Formulation, MotionOptions, Prepared, simulate};
 
 use crate::case::{Case, Expected, Family, Outcome};
-use crate::motion::{combinations, refused, study, worst};
+use crate::motion::{combinations, moving, study, worst};
 
 /// A crank under gravity with one motor, or with two.
 pub(super) const FAMILY: Family = Family {
@@ -28,7 +28,6 @@ fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for options in combinations(&MotionOptions::to(2.0)) {
         for motors in [1, 2] {
-            let (method, formulation) = (options.method.name(), options.formulation.name());
             let right = match options.formulation {
                 Formulation::Proximal => Expected::answer(
                     10.0 * options.rtol,
@@ -39,13 +38,10 @@ fn cases() -> Vec<Case> {
                     "moments about the pin, (J + m·a²)·φ̈ + m·g·a·cos φ, the sum of both motors; some thousand roundings",
                 ),
             };
-            let options = options.clone();
             let name = format!("{motors} motors");
-            let run = move || match study(&crank(motors)) {
-                Ok(study) => torque(&study.prepared, &options),
-                Err(e) => refused(&e),
-            };
-            cases.push(Case::new(name, method, formulation, right, run));
+            cases.push(moving(name, options.clone(), right, move |options| {
+                Ok(torque(&study(&crank(motors))?.prepared, options))
+            }));
         }
     }
     cases

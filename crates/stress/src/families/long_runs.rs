@@ -5,7 +5,7 @@ use std::time::Duration;
 use dynamics::{Formulation, Method, MotionOptions, Prepared};
 
 use crate::case::{Case, Expected, Family, Outcome};
-use crate::motion::{last_row, refused, study, worst};
+use crate::motion::{last_row, moving, study, worst};
 
 /// A pendulum in a million steps.
 pub(super) const FAMILY: Family = Family {
@@ -42,38 +42,26 @@ fn cases() -> Vec<Case> {
             "in units of what is allowed: 1e-12 for every |Φ| and |C·v − b|; 1e-12 for energy, on which no work is done; 1e-8 rad and rad/s against \
              Jacobi's elliptic functions: a speed off by the energy's 1e-12 moves the phase of 500 swings by 1e-9",
         );
-        let run = move || match study(&pendulum()) {
-            Ok(study) => drifted(&study.prepared, &options),
-            Err(e) => refused(&e),
-        };
-        let made = Case::new(
-            "a million steps",
-            method.name(),
-            formulation.name(),
-            right,
-            run,
-        );
+        let made = moving("a million steps", options, right, |options| {
+            drifted(&study(&pendulum())?.prepared, options)
+        });
         cases.push(made.within(TIME_LIMIT));
     }
     cases
 }
 
 /// What has drifted in a run, in units of what is allowed.
-fn drifted(prepared: &Prepared, options: &MotionOptions) -> Outcome {
-    match last_row(prepared, options) {
-        Err(refusal) => refusal,
-        Ok((row, s)) => {
-            let [angle, omega] = swing(row.t);
-            let phase = worst([row.q[2] - angle, row.v[2] - omega]);
-            let residual = worst([s.max_position_residual, s.max_velocity_residual]);
-            let detail = format!(
-                "{} steps, residuals {residual:.1e}, energy {:.1e}, phase {phase:.1e} rad",
-                s.steps, s.energy_balance
-            );
-            let error = worst([residual / 1e-12, s.energy_balance / 1e-12, phase / 1e-8]);
-            Outcome::answer(error, detail)
-        }
-    }
+fn drifted(prepared: &Prepared, options: &MotionOptions) -> Result<Outcome, Outcome> {
+    let (row, s) = last_row(prepared, options)?;
+    let [angle, omega] = swing(row.t);
+    let phase = worst([row.q[2] - angle, row.v[2] - omega]);
+    let residual = worst([s.max_position_residual, s.max_velocity_residual]);
+    let detail = format!(
+        "{} steps, residuals {residual:.1e}, energy {:.1e}, phase {phase:.1e} rad",
+        s.steps, s.energy_balance
+    );
+    let error = worst([residual / 1e-12, s.energy_balance / 1e-12, phase / 1e-8]);
+    Ok(Outcome::answer(error, detail))
 }
 
 /// A point mass on a massless rod of 1 m, released level.

@@ -7,7 +7,7 @@ use joints::{Argument, ArgumentError, Force as Law, ForceSpec, Pose, Real, Twist
 use model::{Body, BodyRef, Description, Force, Mechanism, StartOptions};
 
 use crate::case::{Case, Expected, Family, Outcome};
-use crate::motion::combinations;
+use crate::motion::{combinations, moving};
 
 /// A body that a force pulls to where it is not defined.
 pub(super) const FAMILY: Family = Family {
@@ -25,15 +25,10 @@ fn cases() -> Vec<Case> {
         ..MotionOptions::to(T_END)
     };
     let made = combinations(&base).into_iter().map(|options| {
-        let (method, formulation) = (options.method.name(), options.formulation.name());
         let right = Expected::refusal(&["at t = ", "the force `root` is not finite"]);
-        Case::new(
-            "√ of a negative number",
-            method,
-            formulation,
-            right,
-            move || pulled(&options),
-        )
+        moving("√ of a negative number", options, right, |options| {
+            Ok(pulled(options))
+        })
     });
     made.collect()
 }

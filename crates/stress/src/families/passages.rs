@@ -7,7 +7,7 @@ use model::{BodyRef, Description, Drive, Function};
 
 use crate::case::{Case, Expected, Family};
 use crate::mechanisms::cranks::cranks;
-use crate::motion::{Row, combinations, outcome_of, prepared, worst};
+use crate::motion::{Row, combinations, moving, outcome_of, prepared, worst};
 
 /// Two and three cranks driven through the flat pose.
 pub(super) const FAMILY: Family = Family {
@@ -74,13 +74,9 @@ fn passed(pivots: &'static [f64], offset: f64, options: &MotionOptions) -> Case 
         },
     };
     let name = format!("{} cranks, offset {offset:.1e}", pivots.len());
-    let (method, formulation) = (options.method.name(), options.formulation.name());
-    let options = options.clone();
-    let case = Case::new(name, method, formulation, right, move || {
-        match prepared(&driven(pivots, offset)) {
-            Ok(p) => outcome_of(&p, &options, |row, _| off(row, END)),
-            Err(refusal) => refusal,
-        }
+    let case = moving(name, options.clone(), right, move |options| {
+        let p = prepared(&driven(pivots, offset))?;
+        Ok(outcome_of(&p, options, |row, _| off(row, END)))
     });
     case.at("offset of the break time", offset.abs().max(1e-17))
 }
