@@ -260,12 +260,16 @@ mod tests {
 
     #[test]
     fn a_softer_spring_is_silently_wrong() {
-        let softer = Oscillator {
-            stiffness: 0.99e4,
+        let released = Oscillator {
+            start: [0.1, 0.0],
             ..DAMPED
         };
+        let softer = Oscillator {
+            stiffness: 0.99e4,
+            ..released
+        };
         let options = MotionOptions::to(0.05);
-        let found = outcome(&softer.scene(), &options, |row, _| DAMPED.off(row));
+        let found = outcome(&softer.scene(), &options, |row, _| released.off(row));
         let right = Expected::answer(1e-6, "closed form");
         assert_eq!(judge(&right, &found), Judgement::SilentlyWrong);
     }
