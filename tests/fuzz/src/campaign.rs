@@ -18,7 +18,7 @@ use crate::{input, minimise};
 const CHUNK: u64 = 2000;
 
 /// Longest time for making one text short: those that hang take a deadline for each trial.
-const SHORTEN: Duration = Duration::from_secs(60);
+const SHORTEN: Duration = Duration::from_secs(20);
 
 /// What is tried.
 #[derive(Clone, Debug)]
