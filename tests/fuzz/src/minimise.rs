@@ -58,6 +58,6 @@ mod tests {
     fn only_what_matters_is_left() {
         let text = "a\nb = [1, 2, 3]\nc\nd\ne\n";
         let fails = |text: &str| text.contains('2') && text.contains('d');
-        assert_eq!(shortest(text, fails), "2, \nd\n");
+        assert_eq!(shortest(text, fails), "2,\nd\n");
     }
 }
