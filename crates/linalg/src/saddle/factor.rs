@@ -1,10 +1,13 @@
 //! Factorisation: LU of Cᵀ row by row, null space basis, reduced mass.
 
-use super::{KeptRowSaddle, SaddleError, State, check_finite, check_length};
+use super::{GRADED, KeptRowSaddle, SaddleError, State, check_finite, check_length, mass_spread};
 use crate::kernels::{axpy, dot, max_abs};
 
 /// A pivot below this fraction of its row is rounding noise, whatever the configuration.
 const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
+
+/// Graded masses choose among the entries above this share of the largest one: multipliers of the elimination stay below its inverse.
+const CANDIDATE: f64 = 0.1;
 
 /// What became of a row.
 enum Elimination {
@@ -39,7 +42,7 @@ impl KeptRowSaddle {
         self.prepare(mass)?;
         for j in 0..self.rows {
             if let Elimination::Dependent { pivot, scale } =
-                self.eliminate(j, row(j), PIVOT_FLOOR)?
+                self.eliminate(j, row(j), mass, PIVOT_FLOOR)?
             {
                 return Err(SaddleError::RankLost {
                     row: j,
@@ -76,7 +79,7 @@ impl KeptRowSaddle {
     ) -> Result<(), SaddleError> {
         self.prepare(mass)?;
         for j in 0..self.rows {
-            self.eliminate(j, row(j), floor.max(PIVOT_FLOOR))?;
+            self.eliminate(j, row(j), mass, floor.max(PIVOT_FLOOR))?;
         }
         self.finish(mass)
     }
@@ -91,6 +94,7 @@ impl KeptRowSaddle {
                 value: mass[index],
             });
         }
+        self.is_graded = mass_spread(mass) >= GRADED;
         self.permutation.copy_from_slice(&self.order);
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
@@ -112,6 +116,7 @@ impl KeptRowSaddle {
         &mut self,
         row: usize,
         c_j: &[f64],
+        mass: &[f64],
         floor: f64,
     ) -> Result<Elimination, SaddleError> {
         let (n, j) = (self.n, self.r);
@@ -133,7 +138,18 @@ impl KeptRowSaddle {
 
         // No entry is the largest one if all are NaN.
         let largest = max_abs(&x[j..self.solvable]);
-        let at = (j..self.solvable).find(|&i| x[i].abs() == largest);
+        let at = match self.is_graded {
+            false => (j..self.solvable).find(|&i| x[i].abs() == largest),
+            true => {
+                let candidates = (j..self.solvable).filter(|&i| x[i].abs() >= CANDIDATE * largest);
+                let mass = |i: usize| mass[self.permutation[i]];
+                // Compares c²/m without quotients: masses may be zero.
+                candidates.reduce(|a, b| match x[b] * x[b] * mass(a) > x[a] * x[a] * mass(b) {
+                    true => b,
+                    false => a,
+                })
+            }
+        };
         let at = at.unwrap_or(j);
         let pivot = x[at];
         if scale > 0.0 {
@@ -183,9 +199,10 @@ impl KeptRowSaddle {
     fn factor_reduced_mass(&mut self) -> Result<(), SaddleError> {
         let (r, k) = (self.r, self.n - self.r);
         let heaviest = max_abs(&self.mass);
-        // What cancels in NᵀMN, and what rounding of N turns from zero into mass.
+        // What cancels in NᵀMN, and what rounding of N, which has no rounding in the free coordinates, turns from zero into mass.
         let cancelled = k as f64 * f64::EPSILON;
-        let spurious = (self.n as f64 * f64::EPSILON).powi(2) * heaviest;
+        let spurious = (self.n as f64 * f64::EPSILON).powi(2) * max_abs(&self.mass[..r]);
+        self.mass_ratio = f64::INFINITY;
         for i in 0..k {
             let y_i = &self.null_basis[i * r..(i + 1) * r];
             let (above, rest) = self.reduced_mass.split_at_mut(i * k);
@@ -219,6 +236,7 @@ impl KeptRowSaddle {
                     motion: self.massless_motion(i),
                 });
             }
+            self.mass_ratio = self.mass_ratio.min(reduced / size);
             l_i[i] = reduced;
         }
         Ok(())
