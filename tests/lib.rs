@@ -1,11 +1,8 @@
-//! Mechanisms that several tests use, built with the library alone. Test data live beside this crate; the tests
-//! are in `all/`.
+//! What several tests use: numbers, and the mechanisms of `stress`. Test data live beside this crate; the tests are in `all/`.
 
-pub mod cranks;
-pub mod exact;
 pub mod numbers;
-pub mod robot;
-pub mod sketch;
+
+pub use stress::mechanisms::{cranks, revolute, robot, rod, sketch};
 
 /// Examples of pages that belong to no library, compiled as doc tests.
 #[cfg(doctest)]
@@ -16,36 +13,6 @@ mod pages {
     mod command {}
     #[doc = include_str!("../crates/robot-trolley/README.md")]
     mod robot_trolley {}
-}
-
-use joints::{Pose, Revolute};
-use model::{Body, BodyRef, Joint};
-
-/// The pose of a body or the ground at the described start.
-fn pose(bodies: &[Body], body: BodyRef) -> Pose {
-    match body {
-        BodyRef::Ground => Pose::GROUND,
-        BodyRef::Body(k) => bodies[k].pose(),
-    }
-}
-
-/// A revolute joint at a global point of the described start.
-pub fn revolute(name: &str, bodies: &[Body], pair: [BodyRef; 2], at: [f64; 2]) -> Joint {
-    let [s_i, s_j] = pair.map(|b| pose(bodies, b).to_local(at));
-    Joint::new(name, &pair, Revolute { s_i, s_j })
-}
-
-/// A uniform rod between two points.
-pub fn rod(name: &str, mass: f64, from: [f64; 2], to: [f64; 2]) -> Body {
-    let (dx, dy) = (to[0] - from[0], to[1] - from[1]);
-    Body {
-        name: name.into(),
-        mass,
-        inertia: mass * (dx * dx + dy * dy) / 12.0,
-        position: [0.5 * (from[0] + to[0]), 0.5 * (from[1] + to[1])],
-        angle: dy.atan2(dx),
-        ..Body::default()
-    }
 }
 
 /// The largest absolute value.

@@ -2,7 +2,7 @@
 
 use linalg::{Matrix, RankError};
 use solvability::{QueryError, Solvability, Verdict};
-use tests::exact::Exact;
+use stress::reference::Exact;
 use tests::numbers::Numbers;
 
 use crate::plain::Plain;

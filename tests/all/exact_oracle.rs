@@ -1,6 +1,6 @@
 //! The judge judged: matrices worked out by hand, and every verdict by two derivations.
 
-use tests::exact::Exact;
+use stress::reference::Exact;
 use tests::numbers::Numbers;
 
 #[test]

@@ -27,4 +27,5 @@ mod singular_passages;
 mod tally;
 mod three_cranks;
 mod tidy;
+mod units;
 mod verdict_catalogue;

@@ -8,7 +8,7 @@ use joints::Revolute;
 use linalg::{Grounds, Matrix};
 use model::{Body, BodyRef, Description, Joint, Mechanism, System};
 use solvability::{Analysis, Verdict, analyse};
-use tests::exact::Exact;
+use stress::reference::Exact;
 
 use crate::plain::Plain;
 

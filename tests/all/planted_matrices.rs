@@ -6,7 +6,7 @@
 mod generate;
 
 use linalg::Matrix;
-use tests::exact::Exact;
+use stress::reference::Exact;
 use tests::numbers::Numbers;
 
 use crate::plain::Plain;

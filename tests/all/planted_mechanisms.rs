@@ -7,7 +7,7 @@ pub(crate) mod generate;
 
 use model::Mechanism;
 use solvability::analyse;
-use tests::exact::{Dyadic, Exact};
+use stress::reference::{Dyadic, Exact};
 use tests::numbers::Numbers;
 use tests::sketch::{Sketch, Tie};
 

@@ -142,8 +142,13 @@ impl<'a> KeptRowMotion<'a> {
     ) -> Result<Self, Trip> {
         let n = prepared.mechanism.layout().n_v;
         let rows = |d: &linalg::RankDecision| {
-            KeptRows::new(n, &d.kept, &d.dropped)
-                .map_err(|source| Trip::Saddle { time: 0.0, source })
+            KeptRows::new(
+                &prepared.mechanism,
+                prepared.assembly.size,
+                &d.kept,
+                &d.dropped,
+            )
+            .map_err(|source| Trip::Saddle { time: 0.0, source })
         };
         Ok(Self {
             mechanism: &prepared.mechanism,

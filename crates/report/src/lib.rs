@@ -8,12 +8,14 @@
 //! | [`documents`] | `analyze --json`, `plan --json` and `summary.json` |
 //! | [`figures`] | the mechanism with its verdicts, histories, paths in the plane: SVG |
 //! | [`mod@work_precision`] | error against run time: table, figure, page |
+//! | [`stress`] | stiff and extreme cases: what is right, and what came out |
 //! | [`mod@sweep`] | many runs: a journal that survives interruptions, CSV and Parquet |
 //! | [`files`] | an output directory in which no half-written file is taken for a whole one |
 
 pub mod documents;
 pub mod figures;
 pub mod files;
+pub mod stress;
 pub mod sweep;
 pub mod tables;
 pub mod work_precision;

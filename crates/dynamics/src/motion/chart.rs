@@ -317,8 +317,8 @@ impl KeptRowMotion<'_> {
     /// Partitions the rows at the pose of the scratch, which is that of the origin.
     fn choose_chart(&mut self, origin: Origin) -> Result<(), Trip> {
         let (mechanism, s) = (self.mechanism, &self.s);
-        let z = self.position.partition(mechanism, s, self.size)?;
-        let u = self.velocity.partition(mechanism, s, self.size)?;
+        let z = self.position.partition(mechanism, s)?;
+        let u = self.velocity.partition(mechanism, s)?;
         // Rows set aside are only solved on, at single instants.
         if let Some(aside) = &mut self.aside {
             aside.forget_partition();

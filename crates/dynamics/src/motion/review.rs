@@ -109,8 +109,8 @@ impl KeptRowMotion<'_> {
         if !decision.is_decided() || decision.rank != old.kept.len() || decision.kept == old.kept {
             return Ok(None);
         }
-        let n = self.mechanism.layout().n_v;
-        let mut rows = KeptRows::new(n, &decision.kept, &decision.dropped)
+        let (kept, dropped) = (&decision.kept, &decision.dropped);
+        let mut rows = KeptRows::new(self.mechanism, self.size, kept, dropped)
             .map_err(|source| Trip::Saddle { time, source })?;
         rows.factor(self.mechanism, &self.s)?;
         rows.compare_as(old);

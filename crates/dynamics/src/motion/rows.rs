@@ -1,6 +1,10 @@
 //! Independent rows of C with everything that solving on them needs.
+//!
+//! They are factored in units of the mechanism: lengths in its size, rounded to a power of two, so that scaling rounds nothing. Otherwise a
+//! pivot of a rotation, a length, would be compared with one of a translation, which has no unit: pivots would fall and determinants change
+//! their signs where nothing happens but that metres are large or small. Callers see their own units only.
 
-use linalg::{KeptRowSaddle, Matrix, PivotedQr, SaddleError, Scaling};
+use linalg::{KeptRowSaddle, Matrix, PivotedQr, SaddleError};
 use model::{Mechanism, Scratch, System};
 
 use crate::counts::{Counted, note};
@@ -17,9 +21,14 @@ pub(super) struct KeptRows {
     pub(super) rhs: Vec<f64>,
     /// Multipliers, as they were found last.
     pub(super) lambda: Vec<f64>,
+    /// Kept rows of C in units of the mechanism.
     c: Matrix,
-    /// A row of C, and no motion, n_v each.
-    vectors: [Vec<f64>; 2],
+    /// What coordinates count in those units, and the masses there, n_v each.
+    units: Vec<f64>,
+    mass: Vec<f64>,
+    /// A force and a motion in those units, n_v each.
+    force: Vec<f64>,
+    motion: Vec<f64>,
     saddle: KeptRowSaddle,
     /// Pivot ratio when these rows were chosen: what later ones are compared with.
     reference_pivot: Option<f64>,
@@ -51,16 +60,27 @@ const PIVOT_RECOVERY: f64 = 0.2;
 const LARGE_COEFFICIENT: f64 = 10.0;
 
 impl KeptRows {
-    /// Storage for n velocities and these rows.
-    pub(super) fn new(n: usize, kept: &[usize], dropped: &[usize]) -> Result<Self, SaddleError> {
-        let r = kept.len();
+    /// Storage for these rows of a mechanism whose lengths are measured by `size`.
+    pub(super) fn new(
+        mechanism: &Mechanism,
+        size: f64,
+        kept: &[usize],
+        dropped: &[usize],
+    ) -> Result<Self, SaddleError> {
+        let (n, r) = (mechanism.layout().n_v, kept.len());
+        let exponents = mechanism.dimension_scaling(size).cols;
+        let units: Vec<f64> = exponents.iter().map(|&e| f64::from(e).exp2()).collect();
+        let mass = units.iter().zip(mechanism.mass());
         Ok(Self {
             kept: kept.to_vec(),
             dropped: dropped.to_vec(),
             rhs: vec![0.0; r],
             lambda: vec![0.0; r],
             c: Matrix::zeros(r, n),
-            vectors: [vec![0.0; n], vec![0.0; n]],
+            mass: mass.map(|(unit, m)| unit * m * unit).collect(),
+            units,
+            force: vec![0.0; n],
+            motion: vec![0.0; n],
             saddle: KeptRowSaddle::new(n, r)?,
             reference_pivot: None,
             partition: None,
@@ -88,23 +108,17 @@ impl KeptRows {
         }
     }
 
-    /// Solves from now on for the coordinates that these rows determine best at the entries of C in the scratch, with lengths measured
-    /// by `size`; factors there, and returns the others, ascending.
+    /// Solves from now on for the coordinates that these rows determine best at the entries of C in the scratch; factors there, and returns
+    /// the others, ascending.
     pub(super) fn partition(
         &mut self,
         mechanism: &Mechanism,
         s: &Scratch,
-        size: f64,
     ) -> Result<Vec<usize>, Trip> {
-        let r = self.kept.len();
         self.forget_partition();
         self.factor(mechanism, s)?;
-        let scaling = Scaling {
-            rows: vec![0; r],
-            cols: mechanism.dimension_scaling(size).cols,
-        };
-        let qr = PivotedQr::of_columns(&scaling.apply(&self.c));
-        let (dependent, free) = qr.permutation().split_at(r);
+        let qr = PivotedQr::of_columns(&self.c);
+        let (dependent, free) = qr.permutation().split_at(self.kept.len());
         if let Err(e) = self.saddle.partition(dependent) {
             return Err(self.trip(mechanism, s, e));
         }
@@ -149,8 +163,12 @@ impl KeptRows {
                 pivot: self.relative_pivot(),
             });
         }
-        match self.saddle.complete(&self.rhs, x) {
-            Ok(()) => Ok(()),
+        self.take_motion(x);
+        match self.saddle.complete(&self.rhs, &mut self.motion) {
+            Ok(()) => {
+                self.write_motion(x);
+                Ok(())
+            }
             Err(e) => Err(self.trip(mechanism, s, e)),
         }
     }
@@ -166,7 +184,7 @@ impl KeptRows {
                 row[column] = 0.0;
             }
             for (&column, &entry) in columns.iter().zip(&pattern.entry[entries]) {
-                row[column] += s.entries[entry];
+                row[column] += s.entries[entry] * self.units[column];
             }
         }
     }
@@ -182,10 +200,7 @@ impl KeptRows {
         let reference = self.reference().filter(|r| r.is_finite());
         let floor = share * reference.unwrap_or(0.0);
         let c = &self.c;
-        match self
-            .saddle
-            .factor_above(floor, |k| c.row(k), mechanism.mass())
-        {
+        match self.saddle.factor_above(floor, |k| c.row(k), &self.mass) {
             Ok(()) => Ok(()),
             Err(e) => Err(self.trip(mechanism, s, e)),
         }
@@ -219,16 +234,21 @@ impl KeptRows {
     pub(super) fn largest_coefficient(&mut self, mechanism: &Mechanism, s: &Scratch) -> f64 {
         note(Counted::Coefficients);
         let mut largest = 0.0_f64;
-        let [mut row, x] = std::mem::take(&mut self.vectors);
-        for d in 0..self.dropped.len() {
+        self.motion.fill(0.0);
+        for &dropped in &self.dropped {
             // A row that the kept ones imply, as a force, moves nothing: M·0 + C_Kᵀ·λ = c_Dᵀ.
-            mechanism.layout().scatter_row(s, self.dropped[d], &mut row);
-            largest = match self.saddle.multipliers(&row, &x, &mut self.lambda) {
+            mechanism.layout().scatter_row(s, dropped, &mut self.force);
+            for (entry, unit) in self.force.iter_mut().zip(&self.units) {
+                *entry *= unit;
+            }
+            let solved = self
+                .saddle
+                .multipliers(&self.force, &self.motion, &mut self.lambda);
+            largest = match solved {
                 Ok(()) => self.lambda.iter().fold(largest, |a, l| a.max(l.abs())),
                 Err(_) => f64::INFINITY,
             };
         }
-        self.vectors = [row, x];
         largest
     }
 
@@ -245,8 +265,12 @@ impl KeptRows {
         force: &[f64],
         x: &mut [f64],
     ) -> Result<(), Trip> {
-        match self.saddle.motion(force, &self.rhs, x) {
-            Ok(()) => Ok(()),
+        self.take_force(force);
+        match self.saddle.motion(&self.force, &self.rhs, &mut self.motion) {
+            Ok(()) => {
+                self.write_motion(x);
+                Ok(())
+            }
             Err(e) => Err(self.trip(mechanism, s, e)),
         }
     }
@@ -259,9 +283,32 @@ impl KeptRows {
         force: &[f64],
         x: &[f64],
     ) -> Result<(), Trip> {
-        match self.saddle.multipliers(force, x, &mut self.lambda) {
+        self.take_force(force);
+        self.take_motion(x);
+        match self
+            .saddle
+            .multipliers(&self.force, &self.motion, &mut self.lambda)
+        {
             Ok(()) => Ok(()),
             Err(e) => Err(self.trip(mechanism, s, e)),
+        }
+    }
+
+    fn take_force(&mut self, force: &[f64]) {
+        for ((scaled, f), unit) in self.force.iter_mut().zip(force).zip(&self.units) {
+            *scaled = f * unit;
+        }
+    }
+
+    fn take_motion(&mut self, x: &[f64]) {
+        for ((scaled, x), unit) in self.motion.iter_mut().zip(x).zip(&self.units) {
+            *scaled = x / unit;
+        }
+    }
+
+    fn write_motion(&self, x: &mut [f64]) {
+        for ((x, scaled), unit) in x.iter_mut().zip(&self.motion).zip(&self.units) {
+            *x = scaled * unit;
         }
     }
 
@@ -270,7 +317,7 @@ impl KeptRows {
         self.saddle.pivot_ratio()
     }
 
-    /// Writes a frame of the motions that the factored rows allow.
+    /// Writes a frame of the motions that the factored rows allow, in units of the mechanism.
     pub(super) fn null_frame(&self, frame: &mut Vec<f64>) {
         let n = self.saddle.n_coordinates();
         frame.resize(self.n_free() * n, 0.0);

@@ -1,21 +1,15 @@
-//! The judge of the suites: verdicts in exact arithmetic. An `f64` is a whole number times a power of two, so a matrix of them
-//! has one rank, one left null space and one verdict for each of its rows. Shares no code and no idea with the crates it judges:
-//! no floating point, no prime field, no singular value.
-
-mod dyadic;
-mod elimination;
-
-pub use dyadic::Dyadic;
+//! Rank, left null space and verdicts of a matrix of `f64`: exactly one of each.
 
 use num_bigint::BigInt;
 use num_traits::Zero;
 
-use elimination::eliminate;
+use super::dyadic::Dyadic;
+use super::elimination::eliminate;
 
 /// Rank and left null space of a matrix, exactly.
 ///
 /// ```
-/// use tests::exact::Exact;
+/// use stress::reference::Exact;
 /// // Rows 0 and 1 say the same but for one part in 2⁶⁶⁴; row 2 is their sum.
 /// let tiny = 2_f64.powi(-664);
 /// let exact = Exact::of(&[[1.0, 0.0], [1.0, tiny], [2.0, tiny]]);

@@ -2,7 +2,7 @@
 
 use model::{Body, BodyRef, Description, Joint};
 
-use crate::{revolute, rod};
+use super::{revolute, rod};
 
 /// Cranks of length `length` at angle θ (from the x-axis) on ground pivots `(x, 0)`, under one horizontal coupler.
 /// Body k is crank k, the last one the coupler; joint 2k is the ground pivot of crank k, joint 2k + 1 its tip.

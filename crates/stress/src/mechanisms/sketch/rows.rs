@@ -4,7 +4,7 @@
 use model::BodyRef;
 
 use super::{Link, Sketch, Tie, Vector};
-use crate::exact::Dyadic;
+use crate::reference::Dyadic;
 
 /// One row of C.
 type Row = Vec<Dyadic>;
