@@ -177,6 +177,25 @@ pub enum Trip {
         /// What is allowed.
         allowed: f64,
     },
+    /// With all rows the solution is not that of the kept ones, which is known better.
+    #[error(
+        "at t = {time} s the formulation with all rows misses {what} at the {coordinate} of `{body}` by {by:.1e} of its size, more than \
+         {allowed:.1e}: masses and inertias differ too much for it; use kept-rows"
+    )]
+    AllRows {
+        /// When.
+        time: f64,
+        /// Accelerations or forces of constraints.
+        what: &'static str,
+        /// The body where it misses most.
+        body: String,
+        /// Its coordinate.
+        coordinate: &'static str,
+        /// By how much.
+        by: f64,
+        /// What is allowed.
+        allowed: f64,
+    },
     /// The saddle equations were refused for another reason.
     #[error("at t = {time} s: {source}")]
     Saddle {

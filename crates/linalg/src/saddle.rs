@@ -36,8 +36,8 @@ use crate::kernels::all_finite;
 
 pub use refine::Refinement;
 
-/// Masses are graded from this spread on: see [`mass_spread`].
-const GRADED: f64 = 1e6;
+/// Masses are graded from this spread on, see [`mass_spread`]: below it plain solutions keep about ten digits, and normally twelve.
+pub const GRADED_MASSES: f64 = 1e6;
 
 /// Where elimination leaves less than this share of a reduced mass, so many digits are gone.
 const CANCELLED: f64 = 1e-3;
@@ -241,8 +241,7 @@ impl KeptRowSaddle {
     }
 
     /// Whether a plain solution of the last factorisation may miss digits that [`KeptRowSaddle::solve_refined`] has: masses are graded
-    /// ([`mass_spread`] from 1e6 on), or elimination has left less than 1e-3 of a reduced mass. Otherwise about thirteen digits are right, as
-    /// far as the rows are independent.
+    /// ([`mass_spread`] from [`GRADED_MASSES`] on), or elimination has left less than 1e-3 of a reduced mass.
     pub fn wants_refinement(&self) -> bool {
         self.is_graded || self.mass_ratio < CANCELLED
     }

@@ -1,6 +1,8 @@
 //! Factorisation: LU of Cᵀ row by row, null space basis, reduced mass.
 
-use super::{GRADED, KeptRowSaddle, SaddleError, State, check_finite, check_length, mass_spread};
+use super::{
+    GRADED_MASSES, KeptRowSaddle, SaddleError, State, check_finite, check_length, mass_spread,
+};
 use crate::kernels::{axpy, dot, max_abs};
 
 /// A pivot below this fraction of its row is rounding noise, whatever the configuration.
@@ -94,7 +96,7 @@ impl KeptRowSaddle {
                 value: mass[index],
             });
         }
-        self.is_graded = mass_spread(mass) >= GRADED;
+        self.is_graded = mass_spread(mass) >= GRADED_MASSES;
         self.permutation.copy_from_slice(&self.order);
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;

@@ -65,8 +65,8 @@ impl Unknowns {
             *x += Dd::from(*change);
             let by = change.abs();
             *size = size.max(by);
-            // NaN stays.
-            if !(by <= largest * *size) {
+            // NaN stays, and then nothing converges.
+            if by.is_nan() || by > largest * *size {
                 largest = by / *size;
             }
         }
