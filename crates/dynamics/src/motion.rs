@@ -39,7 +39,7 @@ use coded::Coded;
 pub(crate) use locate::Singular;
 use passage::Passage;
 use rows::KeptRows;
-pub(crate) use rows::mass_spread;
+pub(crate) use rows::{is_far, mass_spread};
 
 pub use reduced::Reduced;
 
@@ -126,7 +126,8 @@ impl<'a> KeptRowMotion<'a> {
     /// # Errors
     /// As [`KeptRowMotion::new`]; also if the formulation has no solution at the start.
     pub fn with(prepared: &'a Prepared, options: &MotionOptions) -> Result<Self, Trip> {
-        let all_rows = AllRows::new(prepared, options.formulation, options.rtol)?;
+        let all_rows = AllRows::new(prepared, options.formulation, options.rtol)
+            .map_err(|trip| agreement::unless_graded(prepared, trip))?;
         let mut motion = Self::kept(prepared, all_rows, options.stabilisation)?;
         if motion.all_rows.is_some() {
             let mut a = vec![0.0; prepared.v.len()];
@@ -280,7 +281,12 @@ impl<'a> KeptRowMotion<'a> {
             ..
         } = self;
         if let Some(all) = all_rows {
-            return all.solve(mechanism, s, a);
+            return all
+                .solve(mechanism, s, a)
+                .map_err(|trip| match velocity.are_refined() {
+                    true => agreement::too_graded(trip, mechanism.mass()),
+                    false => trip,
+                });
         }
         for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
             *rhs = s.gamma[i];
@@ -319,11 +325,10 @@ impl<'a> KeptRowMotion<'a> {
         let mut a = std::mem::take(&mut self.delta);
         let solved = self
             .solve(t, q, v, &mut a)
-            .and_then(|()| self.check_multipliers());
+            .and_then(|()| self.choose_multipliers());
         self.delta = a;
         solved?;
-        if let Some(all) = &mut self.all_rows {
-            all.choose(self.mechanism, &self.s);
+        if let Some(all) = &self.all_rows {
             lambda.copy_from_slice(&all.lambda);
         }
         Ok(())

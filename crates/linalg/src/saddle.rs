@@ -14,7 +14,7 @@
 //! [`KeptRowSaddle::new`], `factor` and `solve` allocate nothing. Not for redundant rows: choose
 //! the kept ones with [`decide`](crate::decide) first; no rank is decided here.
 //!
-//! Masses that differ by many powers of ten are graded: then, of the entries that are not much smaller than the largest, the pivot is that of the
+//! Masses that differ by many powers of ten, or are zero, are graded: then, of the entries that are not much smaller than the largest, the pivot is that of the
 //! lightest coordinate. So the heavy coordinates are free, `Nᵀ·M·N` is their masses and little more, and λ comes
 //! from the equations of light bodies, where no large inertia cancels. What is left is rounding, which [`KeptRowSaddle::solve_refined`] removes.
 //!
@@ -81,6 +81,7 @@ pub struct KeptRowSaddle {
     pivot_ratio: f64,
     /// Smallest share of a diagonal entry of NᵀMN that its elimination left, infinite for k = 0.
     mass_ratio: f64,
+    mass_spread: f64,
     is_graded: bool,
     /// Scratch of `orientation`: Nᵀ·B, k×k.
     bordered: Vec<f64>,
@@ -212,6 +213,7 @@ impl KeptRowSaddle {
             reduced_mass: vec![0.0; n * n],
             pivot_ratio: f64::INFINITY,
             mass_ratio: f64::INFINITY,
+            mass_spread: 1.0,
             is_graded: false,
             bordered: vec![0.0; n * n],
             state: State::Empty,
@@ -240,10 +242,16 @@ impl KeptRowSaddle {
         self.used[..self.r].binary_search(&k).is_ok()
     }
 
-    /// Whether a plain solution of the last factorisation may miss digits that [`KeptRowSaddle::solve_refined`] has: masses are graded
-    /// ([`mass_spread`] from [`GRADED_MASSES`] on), or elimination has left less than 1e-3 of a reduced mass.
+    /// Whether the masses of the last factorisation are graded, so that light coordinates are solved for: [`mass_spread`] from
+    /// [`GRADED_MASSES`] on, or masses that are zero.
+    pub fn is_graded(&self) -> bool {
+        self.is_graded
+    }
+
+    /// Whether a plain solution of the last factorisation may miss digits that [`KeptRowSaddle::solve_refined`] has: [`mass_spread`]
+    /// from [`GRADED_MASSES`] on, or elimination has left less than 1e-3 of a reduced mass.
     pub fn wants_refinement(&self) -> bool {
-        self.is_graded || self.mass_ratio < CANCELLED
+        self.mass_spread >= GRADED_MASSES || self.mass_ratio < CANCELLED
     }
 
     /// Smallest `|pivot| / largest entry of its row` of the last factorisation, rows left out included, infinite for r = 0:

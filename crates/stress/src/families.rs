@@ -1,5 +1,6 @@
 //! The list of families: one line each, and a file of its own for each.
 
+mod accelerations;
 mod trivial;
 
 use crate::case::Family;
@@ -7,7 +8,7 @@ use crate::case::Family;
 /// All families, in the order of the report.
 #[must_use]
 pub fn families() -> Vec<Family> {
-    vec![trivial::FAMILY]
+    vec![trivial::FAMILY, accelerations::FAMILY]
 }
 
 /// The family of this name.

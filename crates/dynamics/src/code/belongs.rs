@@ -8,7 +8,7 @@ use model::{Mechanism, System};
 
 use super::{LEAVE, SceneCode};
 use crate::error::Trip;
-use crate::motion::{KeptRowMotion, Motion, mass_spread};
+use crate::motion::{KeptRowMotion, Motion, is_far, mass_spread};
 use crate::options::{Formulation, Method, MotionOptions, Stabilisation};
 use crate::prepare::Prepared;
 
@@ -125,6 +125,12 @@ pub enum NoCode {
         /// The heaviest divided by the lightest.
         spread: f64,
     },
+    /// The same for another reason.
+    #[error("solutions of a mechanism of {size:.1e} m are refined, which code does not do")]
+    Size {
+        /// Its size (m).
+        size: f64,
+    },
 }
 
 impl Prepared {
@@ -160,9 +166,11 @@ impl Prepared {
             Stabilisation::Projection => {}
             other => return Err(NoCode::Stabilisation(other.name())),
         }
-        match mass_spread(self) {
-            spread if spread >= GRADED_MASSES => Err(NoCode::Refinement { spread }),
-            _ => Ok(code),
+        let (spread, size) = (mass_spread(self), self.assembly.size);
+        match (spread >= GRADED_MASSES, is_far(size)) {
+            (true, _) => Err(NoCode::Refinement { spread }),
+            (false, true) => Err(NoCode::Size { size }),
+            (false, false) => Ok(code),
         }
     }
 }

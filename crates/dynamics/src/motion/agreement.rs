@@ -6,6 +6,7 @@ use model::System;
 
 use super::KeptRowMotion;
 use crate::error::Trip;
+use crate::prepare::Prepared;
 
 /// Forces that are this much smaller than the largest are zero up to rounding.
 const NO_FORCE: f64 = 1e-12;
@@ -32,6 +33,32 @@ fn worst(x: &[f64], y: &[f64], size: impl Fn(usize) -> f64) -> Miss {
     worst
 }
 
+/// A massless motion that a solver with all rows finds where that on kept rows finds none: it takes graded masses for none.
+pub(super) fn too_graded(trip: Trip, mass: &[f64]) -> Trip {
+    match trip {
+        Trip::Massless {
+            time,
+            body,
+            coordinate,
+        } => Trip::Graded {
+            time,
+            body,
+            coordinate,
+            spread: linalg::mass_spread(mass),
+        },
+        other => other,
+    }
+}
+
+/// The same at the start, where kept rows have to be asked first.
+pub(super) fn unless_graded(prepared: &Prepared, trip: Trip) -> Trip {
+    let kept = KeptRowMotion::new(prepared);
+    match kept.and_then(|mut kept| kept.is_refined_at(0.0, &prepared.q)) {
+        Ok(true) => too_graded(trip, prepared.mechanism.mass()),
+        _ => trip,
+    }
+}
+
 impl KeptRowMotion<'_> {
     /// Compares accelerations with all rows, just solved for on the constraints, with refined ones on kept rows, beside the largest that there
     /// are or that forces and velocities ask for.
@@ -52,9 +79,13 @@ impl KeptRowMotion<'_> {
         self.judge("the acceleration", &miss, allowed)
     }
 
-    /// The same for the forces of constraints. Where the formulation chooses among all multipliers, it starts from the refined ones.
-    pub(super) fn check_multipliers(&mut self) -> Result<(), Trip> {
+    /// Turns the multipliers of the last solve into those that the formulation reports. Where kept rows are refined, it begins with theirs, and the
+    /// forces of the constraints are compared, beside the terms that they are the sum of.
+    pub(super) fn choose_multipliers(&mut self) -> Result<(), Trip> {
         let Some(allowed) = self.allowed_miss() else {
+            if let Some(all) = &mut self.all_rows {
+                all.choose(self.mechanism, &self.s);
+            }
             return Ok(());
         };
         let n = self.mechanism.layout().n_v;
@@ -65,17 +96,18 @@ impl KeptRowMotion<'_> {
             return Ok(());
         };
         all.start_from(kept, lambda);
+        all.choose(self.mechanism, &self.s);
         let c: Matrix = self.mechanism.layout().dense(&self.s);
         let (mut forces, mut expected, mut sizes) = (vec![0.0; n], vec![0.0; n], vec![0.0; n]);
         for (i, l) in all.lambda.iter().enumerate() {
-            for (force, c) in forces.iter_mut().zip(c.row(i)) {
+            for ((force, size), c) in forces.iter_mut().zip(&mut sizes).zip(c.row(i)) {
                 *force += c * l;
+                *size += (c * l).abs();
             }
         }
         for (&i, l) in kept.iter().zip(lambda) {
-            for ((force, size), c) in expected.iter_mut().zip(&mut sizes).zip(c.row(i)) {
+            for (force, c) in expected.iter_mut().zip(c.row(i)) {
                 *force += c * l;
-                *size += (c * l).abs();
             }
         }
         let least = NO_FORCE * sizes.iter().fold(0.0, |a, size| f64::max(a, *size));

@@ -32,6 +32,8 @@ pub(super) struct KeptRows {
     motion: Vec<f64>,
     saddle: KeptRowSaddle,
     refinement: Refinement,
+    /// Whether the mechanism is so large or small that solutions are refined.
+    is_far: bool,
     /// Pivot ratio when these rows were chosen: what later ones are compared with.
     reference_pivot: Option<f64>,
     /// The same for the present partition, if there is one.
@@ -61,6 +63,9 @@ const PIVOT_RECOVERY: f64 = 0.2;
 /// Rows chosen by themselves are exchanged above this coefficient in a dropped row.
 const LARGE_COEFFICIENT: f64 = 10.0;
 
+/// Solutions of mechanisms larger than this (m), or smaller than its inverse, are refined.
+const FAR: f64 = 1e5;
+
 impl KeptRows {
     /// Storage for these rows of a mechanism whose lengths are measured by `size`.
     pub(super) fn new(
@@ -83,6 +88,7 @@ impl KeptRows {
             motion: vec![0.0; n],
             saddle: KeptRowSaddle::new(n, r)?,
             refinement: Refinement::new(n, r),
+            is_far: is_far(size),
             reference_pivot: None,
             partition: None,
         })
@@ -118,15 +124,18 @@ impl KeptRows {
     ) -> Result<Vec<usize>, Trip> {
         self.forget_partition();
         self.factor(mechanism, s)?;
-        let qr = PivotedQr::of_columns(&self.c);
-        let (dependent, free) = qr.permutation().split_at(self.kept.len());
-        if let Err(e) = self.saddle.partition(dependent) {
+        let dependent = match self.saddle.is_graded() {
+            // Heavy coordinates are independent, whatever the rows would determine best.
+            true => self.saddle.solved_for().to_vec(),
+            false => PivotedQr::of_columns(&self.c).permutation()[..self.kept.len()].to_vec(),
+        };
+        let free = (0..self.units.len()).filter(|i| !dependent.contains(i));
+        let free = free.collect();
+        if let Err(e) = self.saddle.partition(&dependent) {
             return Err(self.trip(mechanism, s, e));
         }
         self.partition = Some(PartitionPivot(None));
         self.factor(mechanism, s)?;
-        let mut free = free.to_vec();
-        free.sort_unstable();
         Ok(free)
     }
 
@@ -278,7 +287,7 @@ impl KeptRows {
 
     /// Whether accelerations and their multipliers are refined at the last factorisation.
     pub(super) fn are_refined(&self) -> bool {
-        self.saddle.wants_refinement()
+        self.is_far || self.saddle.wants_refinement()
     }
 
     /// Accelerations from `M·a + Cᵀ·λ = Q`, `C·a = rhs` with Q of the scratch, refined where plain ones may miss digits.
@@ -427,6 +436,12 @@ fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
 fn mass_in_units(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
     let mass = units.iter().zip(mechanism.mass());
     mass.map(|(unit, m)| unit * m * unit).collect()
+}
+
+/// Whether a mechanism of this size (m) is far larger or smaller than those of people: what is added up then, weights and centrifugal terms,
+/// differs by many powers of ten as well.
+pub(crate) fn is_far(size: f64) -> bool {
+    size > FAR || size < 1.0 / FAR
 }
 
 /// The largest mass divided by the smallest that is not zero, moments of inertia divided by the square of the mechanism's size: the spread that

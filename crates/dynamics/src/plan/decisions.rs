@@ -10,7 +10,7 @@ use super::split::elimination;
 use super::{Decided, Line, line};
 use crate::choose;
 use crate::error::MotionError;
-use crate::motion::{KeptRowMotion, mass_spread};
+use crate::motion::{KeptRowMotion, is_far, mass_spread};
 use crate::options::{Formulation, Method, MotionOptions};
 use crate::prepare::Prepared;
 
@@ -173,6 +173,14 @@ fn refinement(
     if spread >= GRADED_MASSES {
         let why = format!("{factor}, from {GRADED_MASSES:.0e} on plain solutions miss digits");
         return Ok(decided(true, why));
+    }
+    let size = prepared.assembly.size;
+    if is_far(size) {
+        let why = "far from a metre: weights and centrifugal terms differ by many powers of ten";
+        return Ok(decided(
+            true,
+            format!("the mechanism measures {size:.1e} m, {why}"),
+        ));
     }
     let value = KeptRowMotion::new(prepared)?.is_refined_at(0.0, &prepared.q)?;
     let why = match value {

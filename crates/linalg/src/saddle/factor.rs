@@ -53,7 +53,7 @@ impl KeptRowSaddle {
                 });
             }
         }
-        self.finish(mass)
+        self.finish(row, mass)
     }
 
     /// As [`KeptRowSaddle::factor`], but a row whose pivot is at most `floor` of its largest entry is left out: where rows are
@@ -83,7 +83,7 @@ impl KeptRowSaddle {
         for j in 0..self.rows {
             self.eliminate(j, row(j), mass, floor.max(PIVOT_FLOOR))?;
         }
-        self.finish(mass)
+        self.finish(row, mass)
     }
 
     fn prepare(&mut self, mass: &[f64]) -> Result<(), SaddleError> {
@@ -96,19 +96,24 @@ impl KeptRowSaddle {
                 value: mass[index],
             });
         }
-        self.is_graded = mass_spread(mass) >= GRADED_MASSES;
+        self.mass_spread = mass_spread(mass);
+        self.is_graded = self.mass_spread >= GRADED_MASSES || mass.contains(&0.0);
         self.permutation.copy_from_slice(&self.order);
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
         Ok(())
     }
 
-    fn finish(&mut self, mass: &[f64]) -> Result<(), SaddleError> {
+    fn finish<'c>(
+        &mut self,
+        row: impl Fn(usize) -> &'c [f64],
+        mass: &[f64],
+    ) -> Result<(), SaddleError> {
         for (m, &coordinate) in self.mass.iter_mut().zip(&self.permutation) {
             *m = mass[coordinate];
         }
         self.fill_null_basis();
-        self.factor_reduced_mass()?;
+        self.factor_reduced_mass(row)?;
         self.state = State::Factored;
         Ok(())
     }
@@ -198,7 +203,10 @@ impl KeptRowSaddle {
     }
 
     /// Cholesky factorisation of `NᵀMN` without roots, L·D·Lᵀ.
-    fn factor_reduced_mass(&mut self) -> Result<(), SaddleError> {
+    fn factor_reduced_mass<'c>(
+        &mut self,
+        row: impl Fn(usize) -> &'c [f64],
+    ) -> Result<(), SaddleError> {
         let (r, k) = (self.r, self.n - self.r);
         let heaviest = max_abs(&self.mass);
         // What cancels in NᵀMN, and what rounding of N, which has no rounding in the free coordinates, turns from zero into mass.
@@ -230,8 +238,15 @@ impl KeptRowSaddle {
                 l_i[j] /= above[j * k + j];
                 reduced -= v_j * l_i[j];
             }
-            let floor = (cancelled * size).max(spurious * (1.0 + dot(y_i, y_i)));
-            if reduced.is_nan() || reduced <= floor {
+            let floor =
+                |share: f64| (cancelled * size).max(spurious * (share * share + dot(y_i, y_i)));
+            let is_lost = reduced <= floor(1.0) && {
+                // What a coordinate has in the rows, rounding of its null vector is relative to.
+                let rows = self.used[..r].iter().map(|&j| row(j));
+                let share = |c: &[f64]| c[self.permutation[r + i]].abs() / max_abs(c);
+                reduced <= floor(rows.map(share).fold(0.0, f64::max))
+            };
+            if reduced.is_nan() || is_lost {
                 return Err(SaddleError::MasslessMotion {
                     reduced,
                     size: size.max(heaviest),

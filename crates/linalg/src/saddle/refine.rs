@@ -152,7 +152,8 @@ impl KeptRowSaddle {
                 ..
             } = refinement;
             self.solve(f, gamma, &mut to_a.change, &mut to_lambda.change)?;
-            let change = to_a.add().max(to_lambda.add());
+            // A sum, which keeps NaN.
+            let change = to_a.add() + to_lambda.add();
             rounds += 1;
             // The next round would change what this one did times the ratio of the two.
             if change * change <= SETTLED * before {
