@@ -3,7 +3,7 @@
 use super::{
     GRADED_MASSES, KeptRowSaddle, SaddleError, State, check_finite, check_length, mass_spread,
 };
-use crate::kernels::{axpy, dot, max_abs};
+use crate::kernels::{axpy, dot, extremes, max_abs};
 
 /// A pivot below this fraction of its row is rounding noise, whatever the configuration.
 const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
@@ -90,14 +90,18 @@ impl KeptRowSaddle {
         self.state = State::Empty;
         check_length("mass", mass, self.n)?;
         check_finite("mass", mass, 0)?;
-        if let Some(index) = mass.iter().position(|&m| m < 0.0) {
+        let [lightest, heaviest] = extremes(mass);
+        if let (true, Some(index)) = (lightest < 0.0, mass.iter().position(|&m| m < 0.0)) {
             return Err(SaddleError::NegativeMass {
                 index,
                 value: mass[index],
             });
         }
-        self.mass_spread = mass_spread(mass);
-        self.is_graded = self.mass_spread >= GRADED_MASSES || mass.contains(&0.0);
+        self.mass_spread = match lightest > 0.0 {
+            true => heaviest / lightest,
+            false => mass_spread(mass),
+        };
+        self.is_graded = self.mass_spread >= GRADED_MASSES || lightest == 0.0;
         self.permutation.copy_from_slice(&self.order);
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
