@@ -17,7 +17,8 @@ const STABLE: f64 = 6.0;
 /// Iterations for the largest |λ|; the second half counts.
 const ITERATIONS: usize = 64;
 
-/// The method of a run: the one asked for, or Dormand–Prince 8(5,3), or Radau IIA where forces make the motion stiff at its start.
+/// The method of a run: the one asked for, or Dormand–Prince 8(5,3), or Radau IIA where forces make the motion stiff at its start. Where
+/// nothing is free there is no equation for an implicit method to solve.
 ///
 /// # Errors
 /// If the motion has no Jacobian at the start.
@@ -25,10 +26,16 @@ pub(crate) fn method(
     prepared: &Prepared,
     options: &MotionOptions,
 ) -> Result<Decided<Method>, Trip> {
+    let explicit = |why: &str| Ok(decided(Method::Dop853, why.to_owned()));
+    let may_be_implicit = matches!(options.method, Method::Auto | Method::Radau5);
+    if may_be_implicit && prepared.is_function_of_time(options) {
+        return explicit(
+            "the state is a function of time: nothing is free, so that nothing can be stiff",
+        );
+    }
     if options.method != Method::Auto {
         return Ok(decided(options.method, "asked for".to_owned()));
     }
-    let explicit = |why: &str| Ok(decided(Method::Dop853, why.to_owned()));
     if !prepared.mechanism.has_applied_forces() {
         return explicit("no applied forces, so that nothing can be stiff");
     }

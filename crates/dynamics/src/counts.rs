@@ -11,6 +11,8 @@ pub(crate) enum Counted {
     Monitors,
     /// Coefficients of dropped rows are solved for, to see whether others should be kept.
     Coefficients,
+    /// Accelerations are solved for on kept rows.
+    Accelerations,
 }
 
 /// Notes one piece of work.
@@ -24,7 +26,7 @@ pub(crate) fn note(work: Counted) {
 #[cfg(test)]
 thread_local! {
     /// How often each kind of work was done on this thread.
-    static COUNTS: std::cell::RefCell<[usize; 4]> = const { std::cell::RefCell::new([0; 4]) };
+    static COUNTS: std::cell::RefCell<[usize; 5]> = const { std::cell::RefCell::new([0; 5]) };
 }
 
 /// Pieces of work that `run` does on this thread, by kind.

@@ -269,6 +269,7 @@ impl<'a> KeptRowMotion<'a> {
 
     /// The same where the pose is taken and the rows are factored.
     fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), Trip> {
+        note(Counted::Accelerations);
         self.mechanism.twist(v, &mut self.s);
         self.mechanism.gamma(&mut self.s);
         self.mechanism.force(&mut self.s);

@@ -10,7 +10,7 @@ use solvability::{Ranks, contradictions, decide, decide_dropping, decide_holonom
 
 use crate::code::SceneCode;
 use crate::error::MotionError;
-use crate::options::RowChoice;
+use crate::options::{Method, MotionOptions, RowChoice, Stabilisation};
 
 /// A mechanism with a consistent start and kept rows.
 #[derive(Clone)]
@@ -33,6 +33,21 @@ pub struct Prepared {
     pub velocity_correction: Vec<f64>,
     /// Code generated for this mechanism on these rows, if there is some: see [`Prepared::with_code`].
     pub(crate) code: Option<Arc<dyn SceneCode>>,
+}
+
+impl Prepared {
+    /// Whether a run evaluates the state as a function of time: no coordinate and no velocity is free, and the run evaluates derivatives
+    /// of states alone, on kept rows.
+    pub(crate) fn is_function_of_time(&self, options: &MotionOptions) -> bool {
+        let layout = self.mechanism.layout();
+        let is_held = self.decision.rank == layout.n_v && self.position_decision.rank == layout.n_q;
+        let evaluates_states = !matches!(options.method, Method::Hem4 | Method::GeneralizedAlpha);
+        let on_kept_rows = options.formulation.drops_rows();
+        is_held
+            && evaluates_states
+            && on_kept_rows
+            && options.stabilisation == Stabilisation::Projection
+    }
 }
 
 /// Assembles the start, decides the rank there, chooses rows, and makes the velocities consistent.

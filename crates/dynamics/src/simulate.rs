@@ -4,6 +4,7 @@
 use std::ops::ControlFlow;
 use std::time::Instant;
 
+mod by_time;
 mod constrained;
 mod energy;
 mod equations;

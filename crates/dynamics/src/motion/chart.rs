@@ -208,9 +208,12 @@ impl KeptRowMotion<'_> {
     }
 
     /// Completes a state on a chart: from the state completed last or, if that was too far away, from the one accepted last, or from what
-    /// the integrator carries.
+    /// the integrator carries. Where nothing is free that comes first, because nothing else tells how far the motion has gone.
     fn complete_on(&mut self, chart: &mut Chart, t: f64, q: &[f64], v: &[f64]) -> Result<(), Trip> {
         let far = FAR + WAY * chart.way_to(t, |i| self.mechanism.unit(i, self.size));
+        if chart.z.is_empty() {
+            chart.q.copy_from_slice(q);
+        }
         chart.take_independent(q, v);
         let near = self.complete(t, far, &mut chart.q, &mut chart.v);
         if near.is_ok() {

@@ -58,7 +58,7 @@ impl Decisions {
             linear_systems: linear_systems(method.value, &sizes),
             elimination: dense(prepared, options.formulation, &sizes, &work),
             refinement: refinement(prepared, options.formulation, method.value)?,
-            mobility: mobility(&sizes, &work),
+            mobility: mobility(prepared, options, &sizes, &work),
             nonholonomic: nonholonomic(&sizes),
             dropped: dropped(options.formulation, &sizes),
             of_time: of_time(&sizes, &work),
@@ -190,10 +190,20 @@ fn refinement(
     Ok(decided(value, format!("{factor}, {why}")))
 }
 
-fn mobility(sizes: &Sizes, work: &Work) -> Decided<usize> {
+fn mobility(
+    prepared: &Prepared,
+    options: &MotionOptions,
+    sizes: &Sizes,
+    work: &Work,
+) -> Decided<usize> {
     let value = sizes.mobility();
+    let by_time = prepared.code_for(options).is_err() && prepared.is_function_of_time(options);
     let (taken, reason) = match (value, work.rows_of_time) {
         (0, 0) => ("none".to_owned(), "the constraints hold it where it is"),
+        (0, _) if by_time => (
+            "a function of time".to_owned(),
+            "driven, and nothing is free: stages lie on the constraints, and each time of a step is evaluated once",
+        ),
         (0, _) => (
             "a function of time".to_owned(),
             "driven, and nothing is free; functions are evaluated once at each time",

@@ -1,5 +1,6 @@
 //! What a plan leaves out is not done, and components that are run apart move as they do alone.
 
+mod driven;
 mod watched;
 
 use std::ops::ControlFlow;

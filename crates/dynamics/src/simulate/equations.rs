@@ -6,6 +6,7 @@ use std::ops::ControlFlow;
 use integrators::{Delicate, Implicit, Ode, StepEnd, StepInfo, Tolerance};
 use model::System;
 
+use super::by_time::ByTime;
 use super::energy::{self, EnergyBalance};
 use super::sample::{AtRows, OfMotion, Sample, Source};
 use super::span::Span;
@@ -68,6 +69,8 @@ pub(super) struct Equations<'m> {
     uniqueness: Vec<(usize, String)>,
     /// Whether the stages of the present step are moved onto the constraints.
     is_careful: bool,
+    /// Derivatives by time, where nothing is free.
+    by_time: Option<ByTime>,
     /// Whether stages of the present step were evaluated by code that has been left since: it begins again.
     is_void: bool,
     /// When the motion is expected to pass a singular configuration.
@@ -104,6 +107,7 @@ impl<'m> Equations<'m> {
             is_suspect: false,
             uniqueness: Vec::new(),
             is_careful: false,
+            by_time: ByTime::for_run(prepared, options),
             is_void: false,
             delicate: None,
             last: Span::default(),
@@ -127,10 +131,16 @@ impl<'m> Equations<'m> {
         y
     }
 
-    /// Whether the next stages have to be moved onto the constraints. On a chart all of them lie there; without projection none shall.
+    /// Whether stages are functions of time. On the way to a singular configuration, where branches meet, the integrator leads them.
+    fn is_by_time(&self) -> bool {
+        self.by_time.is_some() && self.delicate.is_none()
+    }
+
+    /// Whether the next stages have to be moved onto the constraints: near singular configurations, and where they become functions of time
+    /// by that. On a chart all of them lie there; without projection none shall.
     fn wants_care(&self) -> bool {
         let off = self.motion.projects() && self.motion.independent().is_none();
-        off && self.motion.is_delicate()
+        off && (self.is_by_time() || self.motion.is_delicate())
     }
 
     /// The work is measured, not controlled: its error has no weight. It still counts as a component of the mean, which makes the
@@ -284,8 +294,28 @@ impl<'m> Equations<'m> {
         };
         self.events.push(departure.event);
         self.is_void = departure.is_within_step;
-        self.is_careful = self.wants_care();
         self.delicate = self.motion.foresee_from_code(FORESIGHT);
+        self.is_careful = self.wants_care();
+    }
+
+    /// f(t, y) by the interpreter.
+    fn evaluate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
+        if !self.is_careful {
+            self.motion.derivative(t, y, dy)?;
+            return match &mut self.reduced {
+                Some(reduced) => reduced.follow(&mut self.motion),
+                None => Ok(()),
+            };
+        }
+        let mut stage = std::mem::take(&mut self.stage);
+        stage.copy_from_slice(y);
+        let (q, rest) = stage.split_at_mut(self.n_q);
+        let result = self
+            .motion
+            .approach(t, q, &mut rest[..self.n_v])
+            .and_then(|()| self.motion.derivative(t, &stage, dy));
+        self.stage = stage;
+        result
     }
 
     fn is_break(&self, t: f64) -> bool {
@@ -316,22 +346,13 @@ impl Ode for Equations<'_> {
             self.note_departure();
             return evaluated;
         }
-        if !self.is_careful {
-            self.motion.derivative(t, y, dy)?;
-            return match &mut self.reduced {
-                Some(reduced) => reduced.follow(&mut self.motion),
-                None => Ok(()),
-            };
-        }
-        let mut stage = std::mem::take(&mut self.stage);
-        stage.copy_from_slice(y);
-        let (q, rest) = stage.split_at_mut(self.n_q);
-        let result = self
-            .motion
-            .approach(t, q, &mut rest[..self.n_v])
-            .and_then(|()| self.motion.derivative(t, &stage, dy));
-        self.stage = stage;
-        result
+        let by_time = self.is_by_time();
+        let Some(mut known) = self.by_time.take_if(|_| by_time) else {
+            return self.evaluate(t, y, dy);
+        };
+        let evaluated = known.recall(t, dy, |dy| self.evaluate(t, y, dy));
+        self.by_time = Some(known);
+        evaluated
     }
 
     fn end_of_step(
@@ -341,6 +362,8 @@ impl Ode for Equations<'_> {
         dy: &mut [f64],
     ) -> Result<StepEnd, Trip> {
         self.before.copy_from_slice(y);
+        let known = self.by_time.as_mut();
+        let is_known = known.is_some_and(|known| known.take(step.t_rhs, dy));
         if std::mem::take(&mut self.is_void) {
             return Ok(StepEnd::Reject);
         }
@@ -373,7 +396,9 @@ impl Ode for Equations<'_> {
             return Err(self.motion.no_way_over(step.t));
         }
         if self.motion.projects() {
-            self.motion.derivative_of_projected(step.t_rhs, y, dy)?;
+            if is_suspect || !is_known {
+                self.motion.derivative_of_projected(step.t_rhs, y, dy)?;
+            }
             let a = &mut dy[self.n_q..self.n_q + self.n_v];
             self.motion.review_acceleration(a)?;
             let now = (step.t, &y[self.n_q..self.n_q + self.n_v], &*a);
@@ -388,7 +413,6 @@ impl Ode for Equations<'_> {
         }
         // From here on the step stands.
         self.is_suspect = is_suspect;
-        self.is_careful = self.wants_care();
         self.note(y, found);
         self.events.extend(self.motion.accept(step.t));
         self.min_pivot_ratio = self.min_pivot_ratio.min(pivot_ratio);
@@ -400,6 +424,7 @@ impl Ode for Equations<'_> {
         self.delicate = self
             .motion
             .foresee(now, step.t + FORESIGHT * (step.t - step.t0));
+        self.is_careful = self.wants_care();
         if !is_suspect && self.delicate.is_none() {
             let returned = self.motion.return_to_code(now);
             self.events.extend(returned);
@@ -419,6 +444,7 @@ impl Ode for Equations<'_> {
     fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trip> {
         let (q, rest) = y.split_at_mut(self.n_q);
         let (v, work) = rest.split_at_mut(self.n_v);
+        self.by_time.iter_mut().for_each(ByTime::forget);
         if let Some(impulse) = self.motion.cross_break(t, q, v)? {
             if let Some(work) = work.first_mut() {
                 *work += impulse.energy;

@@ -1,0 +1,64 @@
+//! Where nothing is free, the state is a function of time: stages are moved onto the constraints, and in a step none is evaluated twice at
+//! a time. For mechanisms with a freedom there is nothing of this.
+
+use crate::error::Trip;
+use crate::options::MotionOptions;
+use crate::prepare::Prepared;
+
+/// A step that is tried again and again forgets what it has seen after so many times.
+const REMEMBERED: usize = 256;
+
+/// Derivatives at the times of a step.
+#[derive(Default)]
+pub(super) struct ByTime {
+    times: Vec<f64>,
+    /// One after the other.
+    derivatives: Vec<f64>,
+}
+
+impl ByTime {
+    /// Room for derivatives in a run that evaluates them as functions of time.
+    pub(super) fn for_run(prepared: &Prepared, options: &MotionOptions) -> Option<Self> {
+        prepared.is_function_of_time(options).then(Self::default)
+    }
+
+    /// The derivative at time t: the known one, or what `evaluate` writes.
+    pub(super) fn recall(
+        &mut self,
+        t: f64,
+        dy: &mut [f64],
+        evaluate: impl FnOnce(&mut [f64]) -> Result<(), Trip>,
+    ) -> Result<(), Trip> {
+        if self.copy(t, dy) {
+            return Ok(());
+        }
+        if self.times.len() == REMEMBERED {
+            self.forget();
+        }
+        evaluate(dy).inspect_err(|_| self.forget())?;
+        self.times.push(t);
+        self.derivatives.extend_from_slice(dy);
+        Ok(())
+    }
+
+    /// The derivative at the end of a step, if a stage lay there; from then on all is forgotten.
+    pub(super) fn take(&mut self, t: f64, dy: &mut [f64]) -> bool {
+        let is_known = self.copy(t, dy);
+        self.forget();
+        is_known
+    }
+
+    fn copy(&self, t: f64, dy: &mut [f64]) -> bool {
+        let Some(k) = self.times.iter().position(|known| *known == t) else {
+            return false;
+        };
+        dy.copy_from_slice(&self.derivatives[k * dy.len()..][..dy.len()]);
+        true
+    }
+
+    /// Forgets all, where the state jumps.
+    pub(super) fn forget(&mut self) {
+        self.times.clear();
+        self.derivatives.clear();
+    }
+}
