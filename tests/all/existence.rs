@@ -3,43 +3,19 @@
 use std::f64::consts::FRAC_PI_2;
 
 use dynamics::{MotionError, RowChoice, prepare};
-use joints::RevoluteAngleDrive;
 use model::start::nearest_configuration;
-use model::{BodyRef, Description, Drive, Function, Mechanism, StartOptions, System};
+use model::{BodyRef, Function, Mechanism, StartOptions, System};
 use solvability::{
     ConstraintLevel, Contradiction, Ranks, StateError, contradictions, decide, decide_holonomic,
 };
-use tests::cranks::cranks;
-
-/// The angle of crank k follows a function of time.
-fn motor(name: &str, k: usize, motion: Function) -> Drive {
-    let element = RevoluteAngleDrive {
-        s_i: [0.0; 2],
-        s_j: [0.0; 2],
-        measure_0: 0.0,
-    };
-    Drive {
-        name: name.into(),
-        bodies: vec![BodyRef::Ground, BodyRef::Body(k)],
-        element: Box::new(element),
-        motion,
-    }
-}
-
-/// A parallelogram at θ = 1: both cranks turn by the same angle, so two drives are one too many.
-fn driven(motions: [Function; 2]) -> Description {
-    let mut d = cranks(&[0.0, 1.0], 0.5, 1.0);
-    let [one, other] = motions;
-    d.drives = vec![motor("one", 0, one), motor("other", 1, other)];
-    d
-}
+use tests::cranks::{cranks, driven_parallelogram, motor};
 
 fn polynomial(coefficients: &[f64]) -> Function {
     Function::polynomial(coefficients).expect("finite")
 }
 
 fn refused(motions: [Function; 2]) -> Option<Contradiction> {
-    let mechanism = Mechanism::build(&driven(motions)).expect("builds");
+    let mechanism = Mechanism::build(&driven_parallelogram(motions)).expect("builds");
     match prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic) {
         Ok(_) => None,
         Err(MotionError::Contradiction(found)) => Some(found),
@@ -109,7 +85,7 @@ fn nearly_singular_rows_give_no_false_alarm() {
 /// A check that measured rates by the largest function of the model would be blind beside it.
 #[test]
 fn a_large_function_of_another_drive_hides_nothing() {
-    let mut d = driven([polynomial(&[0.0, 1.0]), polynomial(&[0.0, 1.0, 1e-3])]);
+    let mut d = driven_parallelogram([polynomial(&[0.0, 1.0]), polynomial(&[0.0, 1.0, 1e-3])]);
     let far = cranks(&[10.0], 0.5, 1.0);
     d.bodies.push(far.bodies[0].clone());
     d.bodies[3].name = "far crank".into();
@@ -130,7 +106,8 @@ fn a_large_function_of_another_drive_hides_nothing() {
 #[test]
 fn positions_contradict_later() {
     let late = Function::steps(0.0, &[[1.0, 2.0, 1e-5]]).expect("ordered");
-    let mechanism = Mechanism::build(&driven([late, polynomial(&[0.0])])).expect("builds");
+    let mechanism =
+        Mechanism::build(&driven_parallelogram([late, polynomial(&[0.0])])).expect("builds");
     let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("agree");
     let m = &p.mechanism;
     let holds = &p.position_decision.kept;

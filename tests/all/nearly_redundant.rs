@@ -1,19 +1,13 @@
 //! The third of three parallel cranks misaligned by ε, from 1e-3 to 1e-20: full rank in exact arithmetic for every ε, with reactions of
 //! size 1/ε, until ε is less than what the data are known to. No answer in between may be wrong.
-//!
-//! ε stands in place of a zero in the frames of the crank and of the coupler, and their axes are those of the ground, so that the
-//! constraint matrix holds it whatever its size.
 
-use joints::Revolute;
 use linalg::{Grounds, Matrix};
-use model::{Body, BodyRef, Description, Joint, Mechanism, System};
+use model::{Mechanism, System};
 use solvability::{Analysis, Verdict, analyse};
 use stress::reference::Exact;
+use tests::cranks;
 
 use crate::plain::Plain;
-
-/// Length of the cranks and distance of their pivots (m).
-const LENGTH: f64 = 1.0;
 
 /// Some thousand roundings of numbers of size one: σ₁₂ is about ε/10, and the noise of 12 × 12 entries about 10⁻¹⁴. Above it no
 /// misalignment may be taken for rounding.
@@ -22,39 +16,8 @@ const ROUNDING: f64 = 1e-12;
 /// Misalignments that may stay undecided where the rank is certified: between what the data are known to and four times as much.
 const UNDECIDED: usize = 2;
 
-/// Vertical cranks under a coupler whose frame is at the tip of the third crank. That tip misses by ε on both bodies, so
-/// all points coincide but the crank is not parallel to the others.
 fn misaligned(error: f64) -> Mechanism {
-    let body = |name: String, position: [f64; 2]| Body {
-        name,
-        mass: 1.0,
-        inertia: 0.1,
-        position,
-        ..Body::default()
-    };
-    let pivots = [-2.0 * LENGTH, -LENGTH, 0.0];
-    let (half, coupler) = (0.5 * LENGTH, BodyRef::Body(3));
-    let mut d = Description {
-        name: "misaligned cranks".into(),
-        ..Description::default()
-    };
-    for (k, x) in pivots.into_iter().enumerate() {
-        let (crank, miss) = (BodyRef::Body(k), if k == 2 { error } else { 0.0 });
-        d.bodies.push(body(format!("crank {k}"), [x, half]));
-        let (s_i, s_j) = ([x, 0.0], [0.0, -half]);
-        let pivot = Revolute { s_i, s_j };
-        d.joints.push(Joint::new(
-            &format!("pivot {k}"),
-            &[BodyRef::Ground, crank],
-            pivot,
-        ));
-        let (s_i, s_j) = ([miss, half], [x + miss, 0.0]);
-        let tip = Revolute { s_i, s_j };
-        d.joints
-            .push(Joint::new(&format!("tip {k}"), &[crank, coupler], tip));
-    }
-    d.bodies.push(body("coupler".into(), [0.0, LENGTH]));
-    Mechanism::build(&d).expect("the cranks build")
+    Mechanism::build(&cranks::misaligned(error)).expect("the cranks build")
 }
 
 /// C of the mechanism at its described configuration.

@@ -47,6 +47,13 @@ const WORK_PRECISION_EXAMPLES: &str = "Examples:
 
 Build with --release, and keep the machine idle: seconds are compared.";
 
+const STRESS_EXAMPLES: &str = "Examples:
+  pfaff stress --list                                the families of cases
+  pfaff stress --out stress                          all of them
+  pfaff stress --family trivial --out stress         one; may be given several times
+
+Each case has its right answer. Exit code 1 if something is silently wrong, or refused although there is an answer. Build with --release.";
+
 #[derive(Subcommand)]
 pub(crate) enum Command {
     /// Rank, redundancy, and the verdict of every reaction
@@ -64,6 +71,9 @@ pub(crate) enum Command {
     /// Error against run time, for every method and tolerance
     #[command(after_help = WORK_PRECISION_EXAMPLES)]
     WorkPrecision(WorkPrecision),
+    /// The stiff and extreme cases, each with its right answer and what came out
+    #[command(after_help = STRESS_EXAMPLES)]
+    Stress(Stress),
     /// Read and assemble only: every problem of the file, with its place
     #[command(after_help = "Example: pfaff check robot-trolley.toml")]
     Check(Check),
@@ -77,6 +87,7 @@ impl Command {
         | Self::Plan(Plan { json, .. })
         | Self::Sweep(Sweep { json, .. })
         | Self::WorkPrecision(WorkPrecision { json, .. })
+        | Self::Stress(Stress { json, .. })
         | Self::Check(Check { json, .. })) = self;
         match json {
             true => Answer::Json,
@@ -238,6 +249,22 @@ pub(crate) struct WorkPrecision {
     /// Every method with every formulation and every stabilisation
     #[arg(long)]
     pub(crate) all: bool,
+    /// All results as one JSON document on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct Stress {
+    /// Directory for the results
+    #[arg(long, value_name = "DIR", required_unless_present = "list")]
+    pub(crate) out: Option<PathBuf>,
+    /// Cases of this family only; may be given several times
+    #[arg(long, value_name = "NAME")]
+    pub(crate) family: Vec<String>,
+    /// Name the families
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) list: bool,
     /// All results as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,

@@ -11,6 +11,7 @@ mod input;
 mod output;
 mod plan;
 mod simulate;
+mod stress;
 mod sweep;
 mod work_precision;
 
@@ -27,6 +28,7 @@ fn main() -> ExitCode {
         Command::Simulate(a) => simulate::run(a),
         Command::Plan(a) => plan::run(a),
         Command::Sweep(a) => sweep::run(a),
+        Command::Stress(a) => stress::run(a),
         Command::WorkPrecision(a) => work_precision::run(a),
         Command::Check(a) => check::run(a),
     };

@@ -136,21 +136,26 @@ fn compare(
     }
     bar.finish_and_clear();
     let document = WorkPrecisionDocument {
-        provenance: Provenance {
-            machine: provenance::machine(),
-            versions: format!(
-                "pfaff {}, {}",
-                env!("CARGO_PKG_VERSION"),
-                env!("PFAFF_COMPILER")
-            ),
-            date: provenance::date(),
-            command: command(),
-        },
+        provenance: provenance(),
         partial,
         summary: overview(&scenes),
         scenes,
     };
     Ok((document, table))
+}
+
+/// Where, when and by which command results are made.
+pub(crate) fn provenance() -> Provenance {
+    Provenance {
+        machine: provenance::machine(),
+        versions: format!(
+            "pfaff {}, {}",
+            env!("CARGO_PKG_VERSION"),
+            env!("PFAFF_COMPILER")
+        ),
+        date: provenance::date(),
+        command: command(),
+    }
 }
 
 /// What was typed.

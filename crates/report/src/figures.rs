@@ -7,10 +7,14 @@
 //! | [`history()`], [`histories`] | quantities over time |
 //! | [`paths()`] | paths in the plane, with equal axes |
 //! | [`work_precision()`] | error against run time, scene by scene |
+//! | [`extremes()`] | error against what is made extreme, family by family |
 //!
 //! Not here: which quantities are worth a figure, and pages around them.
 
 mod axis;
+mod curve;
+mod decades;
+mod extremes;
 mod geometry;
 mod history;
 mod label;
@@ -23,6 +27,7 @@ mod svg;
 mod symbol;
 mod work_precision;
 
+pub use extremes::extremes;
 pub use history::{Panel, Series, histories, history};
 pub use mechanism::{Marking, mechanism};
 pub use paths::{Path, PathRecorder, paths};

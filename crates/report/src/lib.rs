@@ -15,6 +15,7 @@
 pub mod documents;
 pub mod figures;
 pub mod files;
+mod page;
 pub mod stress;
 pub mod sweep;
 pub mod tables;
@@ -23,6 +24,9 @@ pub mod work_precision;
 pub use documents::{AnalysisDocument, Ending, PlanDocument, Proof, Run, RunDocument, write_json};
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Series, Style};
 pub use files::{FileError, OutputDirectory, OutputFile};
+pub use stress::{
+    Judgement, StressDocument, StressFamily, StressRow, StressTable, Tally, stress_page,
+};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
 pub use tables::{ReactionTable, Selection, TableError, TrajectoryTable};
 pub use work_precision::{

@@ -1,8 +1,18 @@
-//! Stiff and extreme cases: what is right, what came out, and how that is judged.
+//! Stiff and extreme cases: what is right and what came out, as a table, a document and a page.
 //!
 //! Not here: the cases, and the judge.
 
+mod page;
+mod table;
+#[cfg(test)]
+mod tests;
+
 use serde::Serialize;
+
+use crate::work_precision::Provenance;
+
+pub use page::stress_page;
+pub use table::StressTable;
 
 /// What is to be thought of one outcome.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -65,6 +75,32 @@ pub struct StressRow {
     pub judgement: Judgement,
     /// What it took (s).
     pub seconds: f64,
+}
+
+/// Cases of one kind.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StressFamily {
+    /// Its name.
+    pub name: &'static str,
+    /// What it asks.
+    pub about: &'static str,
+    /// Its outcomes.
+    pub tally: Tally,
+    /// Its cases, in their order.
+    pub rows: Vec<StressRow>,
+}
+
+/// Everything that `pfaff stress` has found.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StressDocument {
+    /// How it was made.
+    pub provenance: Provenance,
+    /// Whether cases are missing, because somebody asked to stop.
+    pub partial: bool,
+    /// All outcomes.
+    pub tally: Tally,
+    /// All families.
+    pub families: Vec<StressFamily>,
 }
 
 /// How many outcomes there are of each kind.

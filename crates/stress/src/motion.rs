@@ -2,11 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{Formulation, Method, MotionOptions, RowChoice, Summary, prepare, simulate};
+use dynamics::{
+    Formulation, Method, MotionOptions, Prepared, RowChoice, Summary, prepare, simulate,
+};
 use model::{Description, Mechanism, Registry, StartOptions};
 use pfaff::{Overrides, Study, StudyError};
+use solvability::{Analysis, analyse};
 
-use crate::case::Outcome;
+use crate::case::{Case, Expected, Outcome};
 
 /// A row of a motion.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -34,34 +37,92 @@ pub fn combinations(base: &MotionOptions) -> Vec<MotionOptions> {
     all.filter(|options| options.check().is_ok()).collect()
 }
 
+/// A case of a motion with these options.
+pub fn moving(
+    name: impl Into<String>,
+    options: MotionOptions,
+    expected: Expected,
+    run: impl Fn(&MotionOptions) -> Result<Outcome, Outcome> + Send + Sync + 'static,
+) -> Case {
+    let (method, formulation) = (options.method.name(), options.formulation.name());
+    let made = move || run(&options).unwrap_or_else(|refusal| refusal);
+    Case::new(name, method, formulation, expected, made)
+}
+
+/// A case in which something is asked and nothing moves.
+pub fn asking(
+    name: impl Into<String>,
+    question: &str,
+    expected: Expected,
+    run: impl Fn() -> Result<Outcome, Outcome> + Send + Sync + 'static,
+) -> Case {
+    let made = move || run().unwrap_or_else(|refusal| refusal);
+    Case::new(name, question, "-", expected, made)
+}
+
 /// What the commands make of a text, up to its start.
 ///
 /// # Errors
-/// As [`Study::read`].
-pub fn study(text: &str) -> Result<Study, StudyError> {
-    Study::read("scene", text, &Registry::planar(), &Overrides::default())
+/// The refusal, with all its problems.
+pub fn study(text: &str) -> Result<Study, Outcome> {
+    Study::read("scene", text, &Registry::planar(), &Overrides::default()).map_err(|e| refused(&e))
 }
 
-/// The same for a described mechanism, without a scene.
+/// A described mechanism.
 ///
 /// # Errors
-/// The first fault of the description, or why it cannot move.
-pub fn prepared(description: &Description) -> Result<dynamics::Prepared, Outcome> {
-    let mechanism = Mechanism::build(description).map_err(|errors| {
+/// All faults of the description.
+pub fn built(description: &Description) -> Result<Mechanism, Outcome> {
+    Mechanism::build(description).map_err(|errors| {
         let texts: Vec<String> = errors.iter().map(ToString::to_string).collect();
         Outcome::refused(texts.join("; "))
-    })?;
-    prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).map_err(Outcome::refused)
+    })
+}
+
+/// A described mechanism with its start, without a scene.
+///
+/// # Errors
+/// The faults of the description, or why it cannot move.
+pub fn prepared(description: &Description) -> Result<Prepared, Outcome> {
+    let start = StartOptions::default();
+    prepare(built(description)?, &start, &RowChoice::Automatic).map_err(Outcome::refused)
+}
+
+/// The verdicts of a described mechanism at its described configuration.
+///
+/// # Errors
+/// The faults of the description, or why it cannot be judged.
+pub fn analysed(description: &Description) -> Result<Analysis, Outcome> {
+    let mechanism = built(description)?;
+    let (q, _) = mechanism.described_state();
+    analyse(&mechanism, 0.0, &q).map_err(Outcome::refused)
+}
+
+/// Accelerations at the start.
+///
+/// # Errors
+/// Why there are none.
+pub fn acceleration(prepared: &Prepared, formulation: Formulation) -> Result<Vec<f64>, Outcome> {
+    let options = MotionOptions {
+        formulation,
+        ..MotionOptions::to(1.0)
+    };
+    let mut found = Vec::new();
+    let run = simulate(prepared, &options, |sample| {
+        found = sample.acceleration()?;
+        Ok(ControlFlow::Break(()))
+    });
+    match run {
+        Ok(_) => Ok(found),
+        Err(failure) => Err(Outcome::refused(&failure.error)),
+    }
 }
 
 /// The last row of a motion, with the numbers of the run.
 ///
 /// # Errors
 /// Why it stopped.
-pub fn last_row(
-    prepared: &dynamics::Prepared,
-    options: &MotionOptions,
-) -> Result<(Row, Summary), Outcome> {
+pub fn last_row(prepared: &Prepared, options: &MotionOptions) -> Result<(Row, Summary), Outcome> {
     let mut last = Row::default();
     let summary = simulate(prepared, options, |sample| {
         last = Row {

@@ -7,6 +7,7 @@ mod documents;
 mod failures;
 mod plan;
 mod singular;
+mod stress;
 mod sweep;
 mod work_precision;
 

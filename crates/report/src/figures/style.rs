@@ -14,6 +14,19 @@ pub(super) const TITLE_SIZE: f64 = 14.0;
 /// Size of all other text (px).
 pub(super) const TEXT_SIZE: f64 = 12.0;
 
+/// Colours of the light scheme of pages with those of the dark one.
+const DARK: [(&str, &str); 9] = [
+    ("#ffffff", "#14171a"),
+    ("#222222", "#e8eaec"),
+    ("#5f6870", "#a3abb3"),
+    ("#e3e6e9", "#2b3036"),
+    ("#8a939b", "#59626b"),
+    ("#000000", "#ffffff"),
+    ("#0072b2", "#2b8ad6"),
+    ("#56b4e9", "#9bdcff"),
+    ("#f1f3f5", "#1d2125"),
+];
+
 /// Colours of curves.
 const CURVES: [&str; 7] = [
     "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000",
@@ -66,6 +79,15 @@ impl Style {
     pub(super) fn colour(self) -> &'static str {
         CURVES[self.colour % CURVES.len()]
     }
+}
+
+/// Rules that exchange the colours where the reader prefers a dark page.
+pub(super) fn dark_scheme() -> String {
+    let rule = |(light, dark): (&str, &str)| {
+        format!("[fill=\"{light}\"]{{fill:{dark}}}[stroke=\"{light}\"]{{stroke:{dark}}}")
+    };
+    let rules: String = DARK.into_iter().map(rule).collect();
+    format!("@media (prefers-color-scheme: dark){{{rules}}}")
 }
 
 /// How a symbol is filled, by the verdict of its reaction.

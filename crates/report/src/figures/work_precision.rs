@@ -1,15 +1,12 @@
 //! Error against time and against evaluations: three panels for each scene, doubly logarithmic. Down and to the left is better.
 //! Curves are told apart by colour and by marker; the page follows the light or dark scheme of the reader.
 
-mod curve;
-mod decades;
-
+use super::curve::{Curve, Look, legend, legend_height};
+use super::decades::{Unit, decades};
 use super::plot::{Frame, Labels, line};
-use super::style::{GREY, INK, TEXT_SIZE, TITLE_SIZE};
+use super::style::{GREY, INK, TEXT_SIZE, TITLE_SIZE, dark_scheme};
 use super::svg::Svg;
 use crate::work_precision::{CurveName, WorkPrecisionRow, WorkPrecisionScene};
-use curve::{Curve, Look, legend, legend_height};
-use decades::{Unit, decades};
 
 /// Width of the figure (px).
 const WIDTH: f64 = 1120.0;
@@ -30,19 +27,6 @@ const COLUMNS: usize = 3;
 
 /// Errors shown, as powers of ten; what lies beyond is drawn at the edge.
 const SHOWN: [f64; 2] = [-16.0, 1.0];
-
-/// Colours of the light scheme with those of the dark one.
-const DARK: [(&str, &str); 9] = [
-    ("#ffffff", "#14171a"),
-    ("#222222", "#e8eaec"),
-    ("#5f6870", "#a3abb3"),
-    ("#e3e6e9", "#2b3036"),
-    ("#8a939b", "#59626b"),
-    ("#000000", "#ffffff"),
-    ("#0072b2", "#2b8ad6"),
-    ("#56b4e9", "#9bdcff"),
-    ("#f1f3f5", "#1d2125"),
-];
 
 /// A colour by which the area that the reference does not resolve is filled.
 const UNRESOLVED: &str = "#f1f3f5";
@@ -210,15 +194,6 @@ fn label(svg: &mut Svg, [x, y]: [f64; 2], text: &str, colour: &str) {
         .with("font-weight", "bold")
         .with("fill", colour)
         .text(text);
-}
-
-/// Rules that exchange the colours where the reader prefers a dark page.
-fn dark_scheme() -> String {
-    let rule = |(light, dark): (&str, &str)| {
-        format!("[fill=\"{light}\"]{{fill:{dark}}}[stroke=\"{light}\"]{{stroke:{dark}}}")
-    };
-    let rules: String = DARK.into_iter().map(rule).collect();
-    format!("@media (prefers-color-scheme: dark){{{rules}}}")
 }
 
 /// Curves that are drawn in the same panels, with their names in the legend.

@@ -155,6 +155,6 @@ fn the_figure_has_a_point_for_every_finished_run_and_none_for_others() {
 
 #[test]
 fn times_have_three_digits() {
-    let said = [1.234, 0.0123456, 4.56e-4, 7.8e-7].map(page::duration);
+    let said = [1.234, 0.0123456, 4.56e-4, 7.8e-7].map(crate::page::duration);
     assert_eq!(said, ["1.23 s", "12.3 ms", "456 µs", "0.78 µs"]);
 }

@@ -3,7 +3,7 @@
 use dynamics::MotionOptions;
 
 use crate::case::{Case, Expected, Family, Outcome};
-use crate::motion::{combinations, last_row, refused, study, worst};
+use crate::motion::{asking, combinations, last_row, moving, refused, study, worst};
 
 /// No body, one body, no rows.
 pub(super) const FAMILY: Family = Family {
@@ -22,57 +22,39 @@ body = [{ name = "stone", mass = 2.0, inertia = 0.5, velocity = [3.0, 4.0], angu
 fn cases() -> Vec<Case> {
     let empty = Expected::refusal(&["a mechanism needs at least one body"]);
     let free = Expected::answer(0.0, "rank 0 of 0 rows, no verdicts");
-    let analyze =
-        |name, text, right| Case::new(name, "analyze", "-", right, move || nothing_found(text));
     let mut cases = vec![
-        analyze("empty scene", EMPTY, empty),
-        analyze("free body", THROWN, free),
+        asking("empty scene", "analyze", empty, || nothing_found(EMPTY)),
+        asking("free body", "analyze", free, || nothing_found(THROWN)),
     ];
     for options in combinations(&MotionOptions::to(2.0)) {
         let right = Expected::answer(
             100.0 * f64::EPSILON,
             "parabola, which every method follows exactly; rounding of a few hundred sums",
         );
-        let (method, formulation) = (options.method.name(), options.formulation.name());
-        let run = move || parabola(THROWN, &options);
-        cases.push(Case::new("free body", method, formulation, right, run));
+        let run = |options: &MotionOptions| parabola(THROWN, options);
+        cases.push(moving("free body", options, right, run));
     }
     cases
 }
 
-fn nothing_found(text: &str) -> Outcome {
-    let found = study(text).and_then(|study| study.analyse_at(0.0, None, &[]));
-    match found {
-        Err(e) => refused(&e),
-        Ok(found) => {
-            let a = &found.analysis;
-            let sizes = [a.decision.rank, a.decision.redundancy, a.reactions.len()];
-            let detail = format!("rank, redundancy, verdicts {sizes:?}");
-            Outcome::fact(sizes == [0, 0, 0] && a.decision.is_decided(), detail)
-        }
-    }
+fn nothing_found(text: &str) -> Result<Outcome, Outcome> {
+    let found = study(text)?.analyse_at(0.0, None, &[]);
+    let a = found.map_err(|e| refused(&e))?.analysis;
+    let sizes = [a.decision.rank, a.decision.redundancy, a.reactions.len()];
+    let detail = format!("rank, redundancy, verdicts {sizes:?}");
+    let right = sizes == [0, 0, 0] && a.decision.is_decided();
+    Ok(Outcome::fact(right, detail))
 }
 
-fn parabola(text: &str, options: &MotionOptions) -> Outcome {
-    let study = match study(text) {
-        Ok(study) => study,
-        Err(e) => return refused(&e),
-    };
-    match last_row(&study.prepared, options) {
-        Err(refusal) => refusal,
-        Ok((row, summary)) => {
-            let t = options.t_end;
-            let q = [3.0 * t, 4.0 * t - 0.5 * 9.81 * t * t, -5.0 * t];
-            let v = [3.0, 4.0 - 9.81 * t, -5.0];
-            let off = |found: &[f64], right: [f64; 3]| {
-                worst(found.iter().zip(right).map(|(a, b)| (a - b) / b))
-            };
-            Outcome::answer(
-                worst([off(&row.q, q), off(&row.v, v)]),
-                format!("{} steps", summary.steps),
-            )
-        }
-    }
+fn parabola(text: &str, options: &MotionOptions) -> Result<Outcome, Outcome> {
+    let (row, summary) = last_row(&study(text)?.prepared, options)?;
+    let t = options.t_end;
+    let q = [3.0 * t, 4.0 * t - 0.5 * 9.81 * t * t, -5.0 * t];
+    let v = [3.0, 4.0 - 9.81 * t, -5.0];
+    let off =
+        |found: &[f64], right: [f64; 3]| worst(found.iter().zip(right).map(|(a, b)| (a - b) / b));
+    let error = worst([off(&row.q, q), off(&row.v, v)]);
+    Ok(Outcome::answer(error, format!("{} steps", summary.steps)))
 }
 
 #[cfg(test)]
@@ -88,7 +70,7 @@ mod tests {
     #[test]
     fn a_stone_in_another_field_is_silently_wrong() {
         let heavier = THROWN.replace("9.81", "9.8100000001");
-        let found = parabola(&heavier, &MotionOptions::to(2.0));
+        let found = parabola(&heavier, &MotionOptions::to(2.0)).expect("it flies");
         let right = Expected::answer(1e-13, "parabola");
         assert_eq!(
             judge(&right, &found),

@@ -1,6 +1,7 @@
 //! Parallel cranks under one coupler.
 
-use model::{Body, BodyRef, Description, Joint};
+use joints::{Revolute, RevoluteAngleDrive};
+use model::{Body, BodyRef, Description, Drive, Function, Joint};
 
 use super::{revolute, rod};
 
@@ -42,4 +43,62 @@ pub fn cranks(pivots: &[f64], length: f64, theta: f64) -> Description {
         joints,
         ..Description::default()
     }
+}
+
+/// A drive of the angle of body k.
+pub fn motor(name: &str, k: usize, motion: Function) -> Drive {
+    // The angle needs no points.
+    let element = RevoluteAngleDrive {
+        s_i: [0.0; 2],
+        s_j: [0.0; 2],
+        measure_0: 0.0,
+    };
+    Drive {
+        name: name.into(),
+        bodies: vec![BodyRef::Ground, BodyRef::Body(k)],
+        element: Box::new(element),
+        motion,
+    }
+}
+
+/// A parallelogram at θ = 1 with a drive on either crank, `one` and `other`: one drive too many.
+pub fn driven_parallelogram(motions: [Function; 2]) -> Description {
+    let mut d = cranks(&[0.0, 1.0], 0.5, 1.0);
+    let [one, other] = motions;
+    d.drives = vec![motor("one", 0, one), motor("other", 1, other)];
+    d
+}
+
+/// Three vertical cranks of 1 m under a coupler whose frame is at the tip of the third. That tip misses by ε on both bodies, so all points coincide
+/// but the crank is not parallel to the others. ε stands in place of a zero in frames with the axes of the ground, so that the constraint matrix holds it
+/// whatever its size.
+pub fn misaligned(error: f64) -> Description {
+    let body = |name: String, position: [f64; 2]| Body {
+        name,
+        mass: 1.0,
+        inertia: 0.1,
+        position,
+        ..Body::default()
+    };
+    let mut d = Description {
+        name: "misaligned cranks".into(),
+        ..Description::default()
+    };
+    for (k, x) in [-2.0, -1.0, 0.0].into_iter().enumerate() {
+        let (crank, miss) = (BodyRef::Body(k), if k == 2 { error } else { 0.0 });
+        d.bodies.push(body(format!("crank {k}"), [x, 0.5]));
+        let (s_i, s_j) = ([x, 0.0], [0.0, -0.5]);
+        let pivot = Revolute { s_i, s_j };
+        d.joints.push(Joint::new(
+            &format!("pivot {k}"),
+            &[BodyRef::Ground, crank],
+            pivot,
+        ));
+        let (s_i, s_j) = ([miss, 0.5], [x + miss, 0.0]);
+        let tip = Revolute { s_i, s_j };
+        let pair = [crank, BodyRef::Body(3)];
+        d.joints.push(Joint::new(&format!("tip {k}"), &pair, tip));
+    }
+    d.bodies.push(body("coupler".into(), [0.0, 1.0]));
+    d
 }

@@ -1,8 +1,8 @@
 //! Curves with markers, and their legend.
 
-use crate::figures::plot::{Frame, LEGEND_LINE};
-use crate::figures::style::{INK, Style, TEXT_SIZE};
-use crate::figures::svg::{Svg, point_list, text_width};
+use super::plot::{Frame, LEGEND_LINE};
+use super::style::{INK, Style, TEXT_SIZE};
+use super::svg::{Svg, point_list, text_width};
 
 /// Half the size of a marker (px).
 const HALF: f64 = 3.4;

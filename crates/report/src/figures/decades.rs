@@ -1,6 +1,6 @@
 //! Axes of powers of ten.
 
-use crate::figures::axis::{Axis, Tick, power_of_ten, range};
+use super::axis::{Axis, Tick, power_of_ten, range};
 
 /// What the values of an axis are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

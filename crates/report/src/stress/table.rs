@@ -1,0 +1,63 @@
+//! `stress.csv`, row by row as the cases end.
+
+use std::io::Write;
+
+use super::StressRow;
+use crate::tables::{Table, TableError};
+
+/// Columns; more may follow.
+const HEADER: [&str; 12] = [
+    "family",
+    "case",
+    "varied",
+    "value",
+    "method",
+    "formulation",
+    "expected",
+    "bound",
+    "error",
+    "judgement",
+    "outcome",
+    "seconds",
+];
+
+/// One line per case. Each line is handed to the writer at once: an interruption loses nothing.
+pub struct StressTable<W: Write> {
+    table: Table<W>,
+}
+
+impl<W: Write> StressTable<W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn new(out: W) -> Result<Self, TableError> {
+        let mut table = Table::new("stress.csv", out, &HEADER.map(str::to_owned))?;
+        table.flush()?;
+        Ok(Self { table })
+    }
+
+    /// Writes a case. What does not exist is `NaN`, or empty where it is no number.
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn row(&mut self, row: &StressRow) -> Result<(), TableError> {
+        let (varied, value) = row.varied.unwrap_or(("", f64::NAN));
+        self.table.record((
+            (row.family, &row.case, varied, value),
+            (&row.method, &row.formulation),
+            (&row.expected, row.bound),
+            (row.error, row.judgement.words(), &row.outcome),
+            row.seconds,
+        ))?;
+        self.table.flush()
+    }
+
+    /// Gives the writer back.
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn finish(self) -> Result<W, TableError> {
+        self.table.finish()
+    }
+}
