@@ -16,8 +16,8 @@ const ROUNDS: usize = 8;
 /// What the next round would change, as a share: below the rounding of an `f64` there is nothing to gain.
 const SETTLED: f64 = 0.0625 * f64::EPSILON;
 
-/// An unknown this much smaller than the largest of its kind is zero up to the rounding of double-double numbers: 2⁻⁹⁰.
-const ZERO: f64 = 8.077_935_669_463_161e-28;
+/// Changes this much smaller than the largest unknown of their kind, twice running, are rounding of double-double numbers: 2⁻⁹⁶.
+const NOISE: f64 = 1.262_177_448_353_619e-29;
 
 /// Storage for the refinement of solutions of n coordinates and r rows.
 #[derive(Debug, Clone)]
@@ -37,8 +37,12 @@ struct Unknowns {
     x: Vec<Dd>,
     /// What a round adds.
     change: Vec<f64>,
-    /// Sizes that changes are compared with.
+    /// Size of what the round before added.
+    before: Vec<f64>,
+    /// Sizes that changes are compared with: the largest of each.
     size: Vec<f64>,
+    /// Size of changes that are rounding.
+    noise: f64,
 }
 
 impl Unknowns {
@@ -46,29 +50,34 @@ impl Unknowns {
         Self {
             x: vec![Dd::ZERO; n],
             change: vec![0.0; n],
+            before: vec![0.0; n],
             size: vec![0.0; n],
+            noise: 0.0,
         }
     }
 
     /// The first solution is in `change`.
     fn begin(&mut self) {
         self.x.fill(Dd::ZERO);
-        let zero = ZERO * max_abs(&self.change);
-        self.size.fill(zero);
+        self.before.fill(0.0);
+        self.size.fill(0.0);
+        self.noise = NOISE * max_abs(&self.change);
         self.add();
     }
 
-    /// Adds the change; returns the largest share of a size that it is. An unknown that is zero but for rounding has the size of its rounding.
+    /// Adds the change; returns the largest share of a size that it is, or NaN. An unknown that is zero but for rounding has the size of its
+    /// rounding.
     fn add(&mut self) -> f64 {
         let mut largest = 0.0;
-        for ((x, change), size) in self.x.iter_mut().zip(&self.change).zip(&mut self.size) {
-            *x += Dd::from(*change);
+        for (i, change) in self.change.iter().enumerate() {
+            self.x[i] += Dd::from(*change);
             let by = change.abs();
-            *size = size.max(by);
-            // NaN stays, and then nothing converges.
-            if by.is_nan() || by > largest * *size {
-                largest = by / *size;
+            self.size[i] = self.size[i].max(by);
+            let is_noise = by <= self.noise && self.before[i] <= self.noise;
+            if by.is_nan() || !is_noise && by > largest * self.size[i] {
+                largest = by / self.size[i];
             }
+            self.before[i] = by;
         }
         largest
     }
@@ -296,6 +305,37 @@ mod tests {
                     );
                 }
             }
+        }
+    }
+
+    /// What is exactly zero in a plain solution is rounding of double-double numbers in a refined one, and stays that.
+    #[test]
+    fn unknowns_that_are_zero_do_not_keep_others_waiting() {
+        // The first two rows hold x and y; the third and fourth tie z and w to them by numbers that no binary fraction is.
+        let c = Matrix::from_rows(&[
+            [1.0, 0.0, 0.0, 0.0, 0.0],
+            [0.1, 0.3, 0.0, 0.0, 0.0],
+            [0.7, 0.1, 0.3, 0.0, 0.0],
+            [0.1, 0.7, 1.1, 0.9, 0.0],
+        ]);
+        let mut saddle = factored(&c, &[1.0, 3.0, 1e-7, 0.3, 1e3]);
+        let mut refinement = Refinement::new(5, 4);
+        for gamma in [[3e-9, 3e-10, 2.1e-9, 3e-10], [0.1, 0.01, 0.07, 0.01]] {
+            let (mut a, mut lambda) = ([0.0; 5], [0.0; 4]);
+            saddle
+                .solve_refined(
+                    &mut refinement,
+                    |k| c.row(k),
+                    &[0.0; 5],
+                    &gamma,
+                    &mut a,
+                    &mut lambda,
+                )
+                .unwrap();
+            assert!(
+                (a[0] / gamma[0] - 1.0).abs() < f64::EPSILON && a[4].abs() < 1e-30,
+                "{a:?}"
+            );
         }
     }
 
