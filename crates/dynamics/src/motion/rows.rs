@@ -441,7 +441,7 @@ fn mass_in_units(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
 /// Whether a mechanism of this size (m) is far larger or smaller than those of people: what is added up then, weights and centrifugal terms,
 /// differs by many powers of ten as well.
 pub(crate) fn is_far(size: f64) -> bool {
-    size > FAR || size < 1.0 / FAR
+    !(1.0 / FAR..=FAR).contains(&size)
 }
 
 /// The largest mass divided by the smallest that is not zero, moments of inertia divided by the square of the mechanism's size: the spread that
