@@ -2,6 +2,7 @@ joint! { plane Rolling(i, j) {
     /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:
     /// `(R·d)·v_s − radius·ω_j = 0`.
     params { s: Point in i, direction: Direction in i, radius: Length }
+    require "the radius is not zero": radius * radius > 0.0;
     rows: [along];
     psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(angle(j));
     place: point(i, s);

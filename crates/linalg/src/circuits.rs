@@ -54,7 +54,9 @@ pub fn short_circuits(decision: &RankDecision) -> Vec<Circuit> {
     let mut found: Vec<Sparse> = Vec::with_capacity(decision.redundancy);
     for rows in components(decision).coupled {
         let dual = Dual::new(decision, &support, &rows);
-        match shortest(&dual) {
+        // One dropped row has one circuit, and the support has decided on it.
+        let shortest = (dual.dimension() > 1).then(|| shortest(&dual)).flatten();
+        match shortest {
             Some(circuits) => found.extend(circuits),
             None => found.extend(
                 fundamental

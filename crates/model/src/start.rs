@@ -153,6 +153,10 @@ const NAMED_MISFIT: f64 = 1e-2;
 /// Iterations of the assembly; each gains digits linearly with the size of the correction.
 const ITERATIONS: usize = 60;
 
+/// A correction of the velocities has to leave less than this share of the residuals: one step is exact but for rounding, and for damping
+/// where velocities are held.
+const PROGRESS: f64 = 0.5;
+
 /// Damping of the least-squares step, relative to rows of size one: small against any row that matters,
 /// large against rounding.
 const DAMPING: f64 = 1e-10;
@@ -234,15 +238,16 @@ pub fn consistent_velocity(
             .fold(0.0, f64::max);
         let (worst, size) = largest(kept.iter().copied().zip(residual.iter().map(|r| r.abs())));
         let tolerance = ROUNDINGS * f64::EPSILON * scale;
+        let is_stuck = size.is_nan() || size > PROGRESS * best;
         // Rounding may leave a little more than the tolerance.
-        if size <= tolerance || (size >= best && size <= ROUNDINGS * tolerance) {
+        if size <= tolerance || (is_stuck && size <= ROUNDINGS * tolerance) {
             return Ok(v);
         }
         let missing = || StartError::NoVelocity {
             worst: layout.labels[worst].clone(),
             residual: size,
         };
-        if size >= best || !size.is_finite() {
+        if is_stuck || !size.is_finite() {
             return Err(missing());
         }
         best = size;

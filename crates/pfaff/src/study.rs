@@ -243,10 +243,12 @@ impl Study {
             Rows::Ends => go_on(t),
         };
         let mut unwritten = None;
+        let mut is_empty = true;
         let outcome = plan.simulate_watched(&watch, |sample| {
+            is_empty = false;
             let written = write_row(sample, trajectory.as_mut(), reactions.as_mut())?;
             let flow = go_on(sample.t);
-            unwritten = written.err();
+            unwritten = written.err().map(StudyError::from);
             Ok(match unwritten.is_some() {
                 true => ControlFlow::Break(()),
                 false => flow,
@@ -254,6 +256,8 @@ impl Study {
         });
         let (summary, error) = match outcome {
             Ok(summary) => (summary, None),
+            // Nothing of an earlier run is replaced by nothing.
+            Err(failure) if is_empty => return Err(failure.error.into()),
             Err(failure) => (failure.summary, Some(failure.error)),
         };
         let ending = match (&error, interrupted.into_inner()) {
@@ -273,11 +277,13 @@ impl Study {
             trajectory.map(TrajectoryTable::finish),
             reactions.map(ReactionTable::finish),
         ] {
-            match file {
-                Some(file) if whole => drop(file?.finish()?),
-                Some(file) => drop(file?.finish_partial()?),
-                None => {}
-            }
+            let Some(file) = file else { continue };
+            let finished = file.map_err(StudyError::from).and_then(|file| match whole {
+                true => Ok(file.finish()?),
+                false => Ok(file.finish_partial()?),
+            });
+            // The summary says what is there.
+            unwritten = unwritten.or(finished.err());
         }
         let mut text = Vec::new();
         write_json(&mut text, &document).map_err(|source| TableError::Write {
@@ -286,7 +292,7 @@ impl Study {
         })?;
         directory.write("summary.json", &text)?;
         match (unwritten, error) {
-            (Some(e), _) => Err(e.into()),
+            (Some(e), _) => Err(e),
             (None, Some(e)) => Err(e.into()),
             (None, None) => Ok(document),
         }

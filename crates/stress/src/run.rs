@@ -19,8 +19,8 @@ use crate::judge::judge;
 /// How often somebody is asked whether to stop.
 const ASK: Duration = Duration::from_millis(50);
 
-/// Runs all cases of some families on `threads` threads and shows each row when it is there; all rows, in the order of the families, come back. Where
-/// `interrupted` says to stop, those that are not there yet are left out.
+/// Runs all cases of some families on `threads` threads and shows each row when it is there; all rows, in the order of the families,
+/// come back. Where `interrupted` says to stop, those that are not there yet are left out.
 pub fn run(
     families: &[Family],
     threads: NonZeroUsize,

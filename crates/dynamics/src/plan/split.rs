@@ -62,11 +62,11 @@ pub(super) fn stays(reason: String) -> (Decided<bool>, Vec<PreparedPart>) {
     (decided, Vec::new())
 }
 
-/// Multiply-adds of a dense elimination of r rows of n velocities, and of what is left.
+/// Multiply-adds of a dense elimination of r rows of n velocities, of which there may be fewer, and of what is left.
 pub(super) fn elimination(mechanism: &Mechanism, r: usize) -> u64 {
     let (n, r) = (mechanism.layout().n_v as u64, r as u64);
-    let free = n.saturating_sub(r);
-    r * r * n - r * r * r / 3 + free * free * n + free * free * free / 6
+    let (k, free) = (r.min(n), n.saturating_sub(r));
+    2 * r * n * k + 2 * k * k * k / 3 - (r + n) * k * k + free * free * n + free * free * free / 6
 }
 
 /// A part with the start and the rows of the whole; nothing if its rank alone does not agree with these.

@@ -31,7 +31,7 @@ impl Constraint for Rolling {
             scene_type: "rolling",
             variant: None,
             doc: "The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j: `(R·d)·v_s − radius·ω_j = 0`.",
-            text: "joint! { plane Rolling(i, j) {\n    /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:\n    /// `(R·d)·v_s − radius·ω_j = 0`.\n    params { s: Point in i, direction: Direction in i, radius: Length }\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(angle(j));\n    place: point(i, s);\n} }",
+            text: "joint! { plane Rolling(i, j) {\n    /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:\n    /// `(R·d)·v_s − radius·ω_j = 0`.\n    params { s: Point in i, direction: Direction in i, radius: Length }\n    require \"the radius is not zero\": radius * radius > 0.0;\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(angle(j));\n    place: point(i, s);\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required("s", Shape::Point { slot: 0 }, ""),
@@ -39,7 +39,7 @@ impl Constraint for Rolling {
                 Parameter::required("radius", Shape::Numbers(&[Unit::Length]), ""),
             ],
             points_apart: false,
-            requirements: &[],
+            requirements: &["the radius is not zero"],
         },
         role: Role::Joint,
         level: Level::Nonholonomic,
@@ -69,7 +69,13 @@ impl Constraint for Rolling {
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
     fn initialise(&mut self, x: &[Pose]) {}
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
-        true
+        match k {
+            0 => {
+                let radius = self.radius;
+                radius * radius > 0.0
+            }
+            _ => true,
+        }
     }
     /// Φ. Operations: none.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}

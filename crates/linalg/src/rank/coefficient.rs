@@ -70,15 +70,18 @@ impl RankDecision {
         }
     }
 
-    /// How far row i of `[−T̃, I]` may be from its true value (norm): that of the entries it depends on, and rounding. At most about
-    /// [`RankDecision::coefficient_tolerance`], in a matrix of mixed sizes much less.
+    /// How far row i of `[−T̃, I]` may be from its true value (norm): that of the entries it depends on, that of dependencies which hold
+    /// within the data only, `10·‖C_D − T·C_K‖/σ_r`, and rounding. At most about [`RankDecision::coefficient_tolerance`], in a matrix of
+    /// mixed sizes much less.
     #[must_use]
     pub fn row_noise(&self, i: usize) -> f64 {
         let tolerance = self.coefficient_tolerance();
-        let certificate = self.evidence.certificate.as_ref();
+        let e = &self.evidence;
+        let certificate = e.certificate.as_ref();
         match certificate.and_then(|c| c.row_noise.get(i)) {
-            Some(noise) if self.evidence.sigma_r >= AS_READ => {
-                (NOISE_FACTOR * (f64::EPSILON + noise)).min(tolerance)
+            Some(noise) if e.sigma_r >= AS_READ => {
+                let inexact = SOLVE_FACTOR * e.dependence_residual / e.sigma_r.min(1.0);
+                (NOISE_FACTOR * (f64::EPSILON + noise) + inexact).min(tolerance)
             }
             _ => tolerance,
         }

@@ -52,7 +52,7 @@ fn cases() -> Vec<Case> {
             let right = differing(size, PARTED);
             let name = format!("laws part by {size:.0e} from t = 1 on");
             let case = moving(name, options.clone(), right, move |o| part(size, o));
-            cases.push(case.at("difference (rad)", size));
+            cases.push(case);
         }
         let right = Expected::refusal(PARTED);
         cases.push(moving(

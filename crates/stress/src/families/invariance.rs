@@ -271,7 +271,10 @@ fn motion(written: Written, change: &Change, options: &MotionOptions) -> Result<
     ];
     Ok(Outcome::answer(
         worst(errors),
-        format!("position, velocity, acceleration {errors:.1?}"),
+        format!(
+            "position, velocity, acceleration {:?}",
+            errors.map(|e| format!("{e:.1e}"))
+        ),
     ))
 }
 

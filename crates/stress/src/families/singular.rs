@@ -52,7 +52,7 @@ fn cases() -> Vec<Case> {
             right,
             move || near_redundancy::said(&d, theta),
         );
-        cases.push(case.at("angle (rad)", theta));
+        cases.push(case);
     }
     let right = Expected::AnswerOrRefusal {
         bound: 0.0,
