@@ -16,6 +16,7 @@ use pfaff::{Blueprint, Inquiry, Overrides, Study, StudyError};
 use crate::Outcome;
 use crate::args::Analyze;
 use crate::input::{Source, rows_from_zero};
+use crate::interrupt::Interrupt;
 use crate::output::{Failure, print};
 
 pub(crate) fn run(arguments: &Analyze) -> Outcome {
@@ -25,6 +26,7 @@ pub(crate) fn run(arguments: &Analyze) -> Outcome {
             arguments.at_time
         )));
     }
+    Interrupt::ends_at_once()?;
     let drop = rows_from_zero(arguments.drop.as_deref())?;
     let source = Source::read(&arguments.scene)?;
     let overrides = Overrides {

@@ -7,9 +7,11 @@ use serde_json::json;
 use crate::Outcome;
 use crate::args::Check;
 use crate::input::Source;
+use crate::interrupt::Interrupt;
 use crate::output::{count, print};
 
 pub(crate) fn run(arguments: &Check) -> Outcome {
+    Interrupt::ends_at_once()?;
     let source = Source::read(&arguments.scene)?;
     let study = source.study(&Overrides::default())?;
     match arguments.json {

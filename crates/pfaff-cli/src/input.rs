@@ -1,12 +1,17 @@
 //! A scene file from the command line, or standard input.
 
-use std::io::Read;
+use std::fs::File;
+use std::io::{self, Read};
 use std::path::Path;
 
 use pfaff::model::Registry;
 use pfaff::{Overrides, Study, StudyError};
 
 use crate::output::Failure;
+
+/// Largest scene that is read (bytes): ten times what a hundred thousand bodies take. A device that never ends
+/// must not fill the memory.
+const LARGEST: u64 = 1 << 28;
 
 /// The text of a scene with the name that messages call it by.
 pub(crate) struct Source {
@@ -24,12 +29,17 @@ impl Source {
             path.display().to_string()
         };
         let bytes = if standard_input {
-            let mut bytes = Vec::new();
-            std::io::stdin().read_to_end(&mut bytes).map(|_| bytes)
+            bounded(std::io::stdin())
         } else {
-            std::fs::read(path)
+            File::open(path).and_then(bounded)
         };
         let bytes = bytes.map_err(|e| Failure::input(format!("cannot read `{name}`: {e}")))?;
+        if bytes.len() as u64 > LARGEST {
+            let largest = LARGEST >> 20;
+            return Err(Failure::input(format!(
+                "`{name}` is too large for a scene: more than {largest} MiB"
+            )));
+        }
         let text = String::from_utf8(bytes).map_err(|e| {
             let at = e.utf8_error().valid_up_to();
             Failure::input(format!("`{name}` is no text: byte {at} is not UTF-8"))
@@ -58,6 +68,13 @@ impl Source {
             other => Failure::stopped(other.to_string()),
         }
     }
+}
+
+/// All bytes, or one more than a scene may have.
+fn bounded(reader: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    reader.take(LARGEST + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// Rows as the user counts them, from 0.

@@ -8,6 +8,7 @@ mod analyze;
 mod args;
 mod check;
 mod input;
+mod interrupt;
 mod output;
 mod plan;
 mod simulate;
@@ -22,7 +23,10 @@ use clap::Parser;
 use output::Failure;
 
 fn main() -> ExitCode {
-    let arguments = Arguments::parse();
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(e) => return output::usage(&e),
+    };
     let outcome = match &arguments.command {
         Command::Analyze(a) => analyze::run(a),
         Command::Simulate(a) => simulate::run(a),

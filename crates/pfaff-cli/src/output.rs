@@ -99,8 +99,33 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
     written.map_err(|e| match e.kind() {
         io::ErrorKind::BrokenPipe => Failure::Closed,
-        _ => Failure::Stopped(format!("cannot write to standard output: {e}")),
+        _ => unprintable(&e),
     })
+}
+
+/// Writes what was reached of something that was not done to its end. That it was not is the answer, whoever listens.
+pub(crate) fn incomplete(text: &str) -> Failure {
+    match print(text) {
+        Ok(()) | Err(Failure::Closed) => Failure::Incomplete,
+        Err(unsaid) => unsaid,
+    }
+}
+
+/// Help that was asked for, or what is wrong with the words of the command line.
+pub(crate) fn usage(message: &clap::Error) -> ExitCode {
+    if message.use_stderr() {
+        // Nothing can be said about an error of standard error.
+        let _ = message.print();
+        return ExitCode::from(2);
+    }
+    match message.print() {
+        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => unprintable(&e).report(Answer::Words),
+        _ => ExitCode::SUCCESS,
+    }
+}
+
+fn unprintable(e: &io::Error) -> Failure {
+    Failure::Stopped(format!("cannot write to standard output: {e}"))
 }
 
 /// Problems of a scene with its lines and carets.

@@ -8,9 +8,11 @@ use pfaff::report::{PlanDocument, write_json};
 use crate::Outcome;
 use crate::args;
 use crate::input::{Source, rows_from_zero};
+use crate::interrupt::Interrupt;
 use crate::output::{Failure, columns, count, print};
 
 pub(crate) fn run(arguments: &args::Plan) -> Outcome {
+    Interrupt::ends_at_once()?;
     let source = Source::read(&arguments.scene)?;
     let overrides = Overrides {
         t_end: arguments.t_end,

@@ -1,8 +1,6 @@
 //! `pfaff simulate`: motion and reactions into a directory, with progress on a terminal.
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::report::{OutputDirectory, RunDocument, write_json};
@@ -11,7 +9,8 @@ use pfaff::{Overrides, StudyError};
 use crate::Outcome;
 use crate::args::Simulate;
 use crate::input::{Source, rows_from_zero};
-use crate::output::{Failure, print};
+use crate::interrupt::Interrupt;
+use crate::output::{Failure, incomplete, print};
 
 /// Share of the largest kinetic energy by which a run may miss its energy balance without a warning. Default tolerances
 /// stay below a thousandth of this; what is above shows in a plot.
@@ -29,10 +28,7 @@ pub(crate) fn run(arguments: &Simulate) -> Outcome {
     };
     let directory =
         OutputDirectory::create(&arguments.out).map_err(|e| Failure::stopped(e.to_string()))?;
-    let interrupted = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&interrupted);
-    ctrlc::set_handler(move || flag.store(true, Ordering::Relaxed))
-        .map_err(|e| Failure::stopped(format!("cannot listen for interrupts: {e}")))?;
+    let interrupt = Interrupt::listen()?;
     // Hidden by itself where standard error is no terminal.
     let bar = ProgressBar::new(TICKS);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} t = {msg} s, {eta} left") {
@@ -42,27 +38,27 @@ pub(crate) fn run(arguments: &Simulate) -> Outcome {
     let outcome = study.simulate_into(&directory, |t| {
         bar.set_position((t / t_end * TICKS as f64) as u64);
         bar.set_message(format!("{t:.3}"));
-        match interrupted.load(Ordering::Relaxed) {
+        match interrupt.is_asked() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
         }
     });
     bar.finish_and_clear();
     let document = outcome.map_err(|e| source.failure(e))?;
-    if arguments.json {
+    let text = if arguments.json {
         let mut out = Vec::new();
         write_json(&mut out, &document).map_err(|e| Failure::stopped(e.to_string()))?;
-        print(&String::from_utf8_lossy(&out))?;
+        String::from_utf8_lossy(&out).into_owned()
     } else {
-        print(&describe(
+        describe(
             &study.scene.description.name,
             &document,
             &arguments.out.display().to_string(),
-        ))?;
-    }
+        )
+    };
     match document.partial {
-        true => Err(Failure::Incomplete),
-        false => Ok(()),
+        true => Err(incomplete(&text)),
+        false => print(&text),
     }
 }
 

@@ -1,8 +1,6 @@
 //! `pfaff sweep`: many runs of one scene with other numbers, in parallel, in parts, resumable; with progress on a terminal.
 
 use std::num::NonZeroUsize;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::model::Registry;
@@ -12,7 +10,8 @@ use pfaff::sweep::{Sweep, SweepError, SweepProgress, SweepSettings, merge};
 use crate::Outcome;
 use crate::args;
 use crate::input::Source;
-use crate::output::{Failure, count, print, wrapped};
+use crate::interrupt::Interrupt;
+use crate::output::{Failure, count, incomplete, print, wrapped};
 use crate::simulate::TRUSTED_BALANCE;
 
 pub(crate) fn run(arguments: &args::Sweep) -> Outcome {
@@ -35,10 +34,9 @@ pub(crate) fn run(arguments: &args::Sweep) -> Outcome {
         }
         false => describe(&document, ending, &arguments.out.display().to_string()),
     };
-    print(&text)?;
     match ending {
-        Ending::Whole if document.done == document.finished => Ok(()),
-        _ => Err(Failure::Incomplete),
+        Ending::Whole if document.done == document.finished => print(&text),
+        _ => Err(incomplete(&text)),
     }
 }
 
@@ -73,11 +71,8 @@ fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Endi
         shard: arguments.shard,
         threads: arguments.threads.map_or(0, NonZeroUsize::get),
     };
-    let flag = Arc::new(AtomicBool::new(false));
-    let setter = Arc::clone(&flag);
-    ctrlc::set_handler(move || setter.store(true, Ordering::Relaxed))
-        .map_err(|e| Failure::stopped(format!("cannot listen for interrupts: {e}")))?;
-    let interrupted = || flag.load(Ordering::Relaxed);
+    let interrupt = Interrupt::listen()?;
+    let interrupted = || interrupt.is_asked();
     // Hidden by itself where standard error is no terminal.
     let bar = ProgressBar::new(0);
     let template = "{bar:40} {pos}/{len} runs, {per_sec}, {eta} left{msg}";

@@ -1,8 +1,5 @@
 //! `pfaff work-precision`: error against run time, as a table, a figure and a page.
 
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
-
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::StudyError;
 use pfaff::report::{
@@ -15,7 +12,8 @@ use pfaff::work_precision::{Plan, Subject, overview, provenance};
 use crate::Outcome;
 use crate::args::WorkPrecision;
 use crate::input::Source;
-use crate::output::{Failure, print, wrapped};
+use crate::interrupt::Interrupt;
+use crate::output::{Failure, incomplete, print, wrapped};
 
 pub(crate) fn run(arguments: &WorkPrecision) -> Outcome {
     let plan = match (arguments.quick, arguments.all) {
@@ -45,17 +43,17 @@ pub(crate) fn run(arguments: &WorkPrecision) -> Outcome {
             .write(name, text.as_bytes())
             .map_err(|e| stopped(&e))?;
     }
-    match arguments.json {
+    let text = match arguments.json {
         true => {
             let mut out = Vec::new();
             write_json(&mut out, &document).map_err(|e| stopped(&e))?;
-            print(&String::from_utf8_lossy(&out))?;
+            String::from_utf8_lossy(&out).into_owned()
         }
-        false => print(&describe(&document, &arguments.out.display().to_string()))?,
-    }
+        false => describe(&document, &arguments.out.display().to_string()),
+    };
     match document.partial {
-        true => Err(Failure::Incomplete),
-        false => Ok(()),
+        true => Err(incomplete(&text)),
+        false => print(&text),
     }
 }
 
@@ -100,11 +98,8 @@ fn compare(
     plan: &Plan,
     mut table: WorkPrecisionTable<OutputFile>,
 ) -> Result<(WorkPrecisionDocument, WorkPrecisionTable<OutputFile>), Failure> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let setter = Arc::clone(&flag);
-    ctrlc::set_handler(move || setter.store(true, Ordering::Relaxed))
-        .map_err(|e| Failure::stopped(format!("cannot listen for interrupts: {e}")))?;
-    let interrupted = || flag.load(Ordering::Relaxed);
+    let interrupt = Interrupt::listen()?;
+    let interrupted = || interrupt.is_asked();
     // Hidden by itself where standard error is no terminal.
     let bar = ProgressBar::new((plan.runs() * subjects.len()) as u64);
     if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left") {

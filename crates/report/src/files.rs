@@ -1,8 +1,10 @@
 //! Files of an output directory. Each is written beside its place as `<name>.part` and renamed when it is finished: a
-//! file with its own name is always a whole one. What is abandoned keeps the name `.part` and what was written so far.
+//! file with its own name is always a whole one. What is abandoned keeps the name `.part` and what was written so far. Where the disk
+//! refuses, it is cut after the last line that is whole; an older file with its own name stays what it was.
 
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Write};
+use std::io::{self, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write};
+use std::mem;
 use std::path::{Component, Path, PathBuf};
 
 /// Why a file cannot be written.
@@ -81,9 +83,14 @@ impl OutputDirectory {
             });
         }
         let part = self.path.join(format!("{name}.part"));
-        let file = File::create(&part).map_err(FileError::refused("make", &part))?;
+        let mut options = File::options();
+        // Read, too: to find the last line that is whole.
+        let options = options.read(true).write(true).create(true).truncate(true);
+        let file = options
+            .open(&part)
+            .map_err(FileError::refused("make", &part))?;
         Ok(OutputFile {
-            buffer: BufWriter::new(file),
+            buffer: Ok(BufWriter::new(file)),
             part,
             path: self.path.join(name),
         })
@@ -95,9 +102,8 @@ impl OutputDirectory {
     /// As [`OutputDirectory::file`] and [`OutputFile::finish`].
     pub fn write(&self, name: &str, content: &[u8]) -> Result<PathBuf, FileError> {
         let mut file = self.file(name)?;
-        file.buffer
-            .write_all(content)
-            .map_err(FileError::refused("write", &file.part))?;
+        let written = file.with(|buffer| buffer.write_all(content));
+        written.map_err(FileError::refused("write", &file.part))?;
         file.finish()
     }
 }
@@ -105,7 +111,8 @@ impl OutputDirectory {
 /// A file that is being written, buffered. Errors of writing name its path.
 #[derive(Debug)]
 pub struct OutputFile {
-    buffer: BufWriter<File>,
+    /// What the operating system said once it refused: what came later would leave a gap.
+    buffer: Result<BufWriter<File>, io::Error>,
     part: PathBuf,
     path: PathBuf,
 }
@@ -116,18 +123,18 @@ impl OutputFile {
     /// # Errors
     /// - [`FileError::Refused`]: not everything could be written, and the file stays `.part`; or it could not be renamed.
     pub fn finish(mut self) -> Result<PathBuf, FileError> {
-        let flushed = self.buffer.flush();
+        let flushed = self.with(Write::flush);
         flushed.map_err(FileError::refused("write", &self.part))?;
         self.rename()
     }
 
-    /// The same for a run that stopped early: what reached the disk gets its name, even if the rest could not be
+    /// The same for a run that stopped early: what reached the disk gets its name, up to the last whole line if the rest could not be
     /// written. The summary of the run says that it is partial.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: the end is missing, or the file could not be renamed.
     pub fn finish_partial(mut self) -> Result<PathBuf, FileError> {
-        let flushed = self.buffer.flush();
+        let flushed = self.with(Write::flush);
         let flushed = flushed.map_err(FileError::refused("write the end of", &self.path));
         let renamed = self.rename();
         flushed.and(renamed)
@@ -138,37 +145,88 @@ impl OutputFile {
     /// # Errors
     /// - [`FileError::Refused`]: not everything could be written.
     pub fn sync(&mut self) -> Result<(), FileError> {
-        let synced = self
-            .buffer
-            .flush()
-            .and_then(|()| self.buffer.get_ref().sync_data());
+        let synced = self.with(|buffer| {
+            buffer.flush()?;
+            buffer.get_ref().sync_data()
+        });
         synced.map_err(FileError::refused("write", &self.part))
     }
 
     fn rename(self) -> Result<PathBuf, FileError> {
         let Self { buffer, part, path } = self;
         // Closed first: some systems do not rename open files. What could not be flushed is not tried again.
-        drop(buffer.into_parts());
+        drop(buffer.map(BufWriter::into_parts));
         fs::rename(&part, &path).map_err(FileError::refused("rename to", &path))?;
         Ok(path)
     }
 
+    /// Does something with the buffer; the first refusal is the end of it.
+    fn with<T>(
+        &mut self,
+        action: impl FnOnce(&mut BufWriter<File>) -> io::Result<T>,
+    ) -> io::Result<T> {
+        let buffer = match &mut self.buffer {
+            Ok(buffer) => buffer,
+            Err(e) => return Err(again(e)),
+        };
+        let done = action(buffer);
+        if let Err(e) = &done
+            // Callers try again.
+            && e.kind() != ErrorKind::Interrupted
+        {
+            self.close(again(e));
+        }
+        done
+    }
+
+    /// Cuts off what a refused write has left of a line, and writes no more.
+    fn close(&mut self, refusal: io::Error) {
+        if let Ok(buffer) = mem::replace(&mut self.buffer, Err(refusal)) {
+            let (mut file, _) = buffer.into_parts();
+            // Where this is refused, too, the name `.part` says enough.
+            let _ = end_of_last_line(&mut file).and_then(|end| file.set_len(end));
+        }
+    }
+
     fn named(&self, source: io::Error) -> io::Error {
-        let kind = source.kind();
-        io::Error::new(kind, FileError::refused("write", &self.part)(source))
+        match source.kind() {
+            ErrorKind::Interrupted => source,
+            kind => io::Error::new(kind, FileError::refused("write", &self.part)(source)),
+        }
     }
 }
 
 impl Write for OutputFile {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.buffer.write(bytes).map_err(|e| match e.kind() {
-            // Callers try again.
-            io::ErrorKind::Interrupted => e,
-            _ => self.named(e),
-        })
+        let written = self.with(|buffer| buffer.write(bytes));
+        written.map_err(|e| self.named(e))
     }
 
     fn flush(&mut self) -> io::Result<()> {
-        self.buffer.flush().map_err(|e| self.named(e))
+        let flushed = self.with(Write::flush);
+        flushed.map_err(|e| self.named(e))
     }
+}
+
+/// The same error once more.
+fn again(e: &io::Error) -> io::Error {
+    let code = e.raw_os_error();
+    code.map_or_else(|| e.kind().into(), io::Error::from_raw_os_error)
+}
+
+/// Where the last whole line of a file ends.
+fn end_of_last_line(file: &mut File) -> io::Result<u64> {
+    let mut block = [0; 4096];
+    let mut end = file.seek(SeekFrom::End(0))?;
+    while end > 0 {
+        let begin = end.saturating_sub(block.len() as u64);
+        let block = &mut block[..(end - begin) as usize];
+        file.seek(SeekFrom::Start(begin))?;
+        file.read_exact(block)?;
+        if let Some(k) = block.iter().rposition(|b| *b == b'\n') {
+            return Ok(begin + k as u64 + 1);
+        }
+        end = begin;
+    }
+    Ok(0)
 }

@@ -110,7 +110,9 @@ fn a_full_disk_names_the_file() {
         .expect_err("more than the buffer takes");
     assert_eq!(error.kind(), std::io::ErrorKind::StorageFull);
     assert!(error.to_string().contains("x.csv.part"), "{error}");
-    file.write_all(b"0").expect("again in the buffer");
+    // What came after a gap would be taken for its end.
+    let again = file.write_all(b"0").expect_err("it was refused");
+    assert_eq!(again.kind(), std::io::ErrorKind::StorageFull);
     let error = file.finish_partial().expect_err("the end is missing");
     assert!(error.to_string().contains("the end of"), "{error}");
     // What there is has its name all the same.

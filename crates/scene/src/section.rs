@@ -63,6 +63,11 @@ fn named<'t>(
                 findings.error(field.span(), message, "expected a name");
                 return None;
             }
+            if let Some(reason) = unfit(name) {
+                let message = format!("{}: `name` {reason}", table.subject);
+                findings.error(field.span(), message, "choose another name");
+                return None;
+            }
             Some(name)
         });
     let name = match name {
@@ -73,4 +78,17 @@ fn named<'t>(
         None => table.subject.clone(),
     };
     Some((table, name))
+}
+
+/// Why a name cannot stand at the head of a column, if it cannot: tables have one line for their header, and are opened by spreadsheets.
+fn unfit(name: &str) -> Option<String> {
+    if let Some(c) = name.chars().find(|c| c.is_control()) {
+        return Some(format!(
+            "has the control character {c:?}: names are of one line"
+        ));
+    }
+    let sign = name.chars().next().filter(|c| "=+-@".contains(*c))?;
+    Some(format!(
+        "begins with `{sign}`: spreadsheets take such names for formulas"
+    ))
 }

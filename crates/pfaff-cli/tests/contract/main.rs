@@ -5,6 +5,8 @@ mod bad_input;
 mod cold_start;
 mod documents;
 mod failures;
+#[cfg(target_os = "linux")]
+mod faults;
 mod plan;
 mod singular;
 mod stress;

@@ -196,6 +196,18 @@ fn names() {
             "expected a name",
         ),
         (
+            "[[force]]\nname = \"spring\"",
+            "[[force]]\nname = «\"two\\nlines\"»",
+            "force number 1: `name` has the control character '\\n': names are of one line",
+            "choose another name",
+        ),
+        (
+            "[[force]]\nname = \"spring\"",
+            "[[force]]\nname = «\"=1+2\"»",
+            "force number 1: `name` begins with `=`: spreadsheets take such names for formulas",
+            "choose another name",
+        ),
+        (
             "\"spring\"",
             "«\"W\"»",
             "the name `W` is used twice",

@@ -1,0 +1,44 @@
+//! Requests to stop from outside: Ctrl-C, the end of the terminal, and the signal that ends processes.
+
+use std::process;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use crate::output::Failure;
+
+/// Exit code of a program that was interrupted.
+const INTERRUPTED: i32 = 1;
+
+/// Whether somebody asked to stop. The first request is for the computation, which keeps what it has; a second one ends the program at
+/// once, wherever it is.
+#[derive(Clone)]
+pub(crate) struct Interrupt(Arc<AtomicBool>);
+
+impl Interrupt {
+    /// Listens from now on.
+    pub(crate) fn listen() -> Result<Self, Failure> {
+        let asked = Arc::new(AtomicBool::new(false));
+        let flag = Arc::clone(&asked);
+        on_request(move || {
+            if flag.swap(true, Ordering::Relaxed) {
+                process::exit(INTERRUPTED);
+            }
+        })?;
+        Ok(Self(asked))
+    }
+
+    /// Listens for a command that has nothing to keep: the first request ends it.
+    pub(crate) fn ends_at_once() -> Result<(), Failure> {
+        on_request(|| process::exit(INTERRUPTED))
+    }
+
+    /// Whether somebody asked.
+    pub(crate) fn is_asked(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+fn on_request(action: impl FnMut() + 'static + Send) -> Result<(), Failure> {
+    ctrlc::set_handler(action)
+        .map_err(|e| Failure::stopped(format!("cannot listen for interrupts: {e}")))
+}

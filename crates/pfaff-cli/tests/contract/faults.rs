@@ -1,0 +1,442 @@
+//! Faults of the surroundings: nobody listens, the disk is full, a directory takes nothing, somebody asks to stop. What was computed is
+//! kept and can be read, what looks whole is whole, and older results stay until newer ones are.
+
+use std::fs::{self, File};
+use std::io::{BufRead, BufReader};
+use std::os::unix::fs::symlink;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use super::bad_input::PENDULUM;
+use super::{Folder, ROBOT, pfaff, stderr, stdout};
+
+/// How long a test waits for what must happen.
+const PATIENCE: Duration = Duration::from_secs(120);
+
+/// A directory with the scene of a pendulum in it, which runs up to `t_end`.
+fn place(name: &str, t_end: &str) -> (Folder, String) {
+    let folder = Folder::new(name);
+    fs::create_dir_all(&folder.0).expect("writable");
+    let scene = folder.0.join("pendulum.toml");
+    let text = PENDULUM.replace(
+        "t_end = 1.0",
+        &format!("t_end = {t_end}\noutput_step = 0.01"),
+    );
+    fs::write(&scene, text).expect("writable");
+    let scene = scene.to_str().expect("UTF-8").to_owned();
+    (folder, scene)
+}
+
+/// Every command that prints, with what it needs.
+fn commands<'a>(scene: &'a str, out: &'a str) -> Vec<Vec<&'a str>> {
+    vec![
+        vec!["--help"],
+        vec!["--version"],
+        vec!["analyze", "--help"],
+        vec!["check", scene],
+        vec!["check", scene, "--json"],
+        vec!["analyze", scene],
+        vec!["analyze", scene, "--json"],
+        vec!["analyze", scene, "--along"],
+        vec!["plan", scene],
+        vec!["plan", scene, "--json"],
+        vec!["simulate", scene, "--out", out],
+        vec!["simulate", scene, "--out", out, "--json"],
+        vec!["sweep", scene, "--vary", "body.bob.mass=1,2", "--out", out],
+        vec![
+            "sweep",
+            scene,
+            "--vary",
+            "body.bob.mass=1,2",
+            "--out",
+            out,
+            "--json",
+        ],
+    ]
+}
+
+fn begun(arguments: &[&str], output: Stdio) -> Child {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pfaff"));
+    command
+        .args(arguments)
+        .stdout(output)
+        .stderr(Stdio::piped());
+    command.spawn().expect("the command starts")
+}
+
+/// Waits for something, and says what when it does not come.
+#[track_caller]
+fn wait_until(what: &str, mut is_true: impl FnMut() -> bool) {
+    let begin = Instant::now();
+    while !is_true() {
+        assert!(begin.elapsed() < PATIENCE, "{what}");
+        std::thread::sleep(Duration::from_millis(2));
+    }
+}
+
+fn send(signal: &str, child: &Child) {
+    let sent = Command::new("kill")
+        .args([signal, &child.id().to_string()])
+        .status();
+    assert!(sent.is_ok_and(|status| status.success()));
+}
+
+/// A table whose rows all have as many numbers as its header has names: how many, and the first number of the last.
+fn rows(path: &Path) -> (usize, f64) {
+    let text = fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    assert!(
+        text.ends_with('\n'),
+        "the last row is not whole: {:?}",
+        text.lines().last()
+    );
+    let mut reader = csv::Reader::from_reader(text.as_bytes());
+    let (mut count, mut last) = (0, f64::NAN);
+    for row in reader.records() {
+        let row = row.expect("as long as the header");
+        let numbers: Vec<f64> = row.iter().map(|x| x.parse().expect("a number")).collect();
+        (count, last) = (count + 1, numbers[0]);
+    }
+    (count, last)
+}
+
+/// Names and contents of a directory.
+fn contents(folder: &Folder) -> Vec<(String, Vec<u8>)> {
+    let entries = fs::read_dir(&folder.0).expect("readable").flatten();
+    let mut files: Vec<_> = entries
+        .map(|e| {
+            (
+                e.file_name().to_string_lossy().into_owned(),
+                fs::read(e.path()).unwrap_or_default(),
+            )
+        })
+        .collect();
+    files.sort();
+    files
+}
+
+#[test]
+fn nobody_has_to_listen_to_the_end() {
+    let (folder, scene) = place("faults-closed", "1.0");
+    let out = folder.0.join("out");
+    for command in commands(&scene, out.to_str().expect("UTF-8")) {
+        let mut child = begun(&command, Stdio::piped());
+        // Like `| head -1`, but the pipe is closed before anything is written.
+        drop(child.stdout.take());
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(
+            (output.status.code(), stderr(&output).as_str()),
+            (Some(0), ""),
+            "{command:?}"
+        );
+    }
+    let mut child = begun(&["plan", &scene], Stdio::piped());
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().expect("piped"))
+        .read_line(&mut line)
+        .expect("a line");
+    assert!(line.starts_with("pendulum"), "{line}");
+    assert_eq!(child.wait().expect("it ends").code(), Some(0));
+    // What is wrong stays wrong.
+    let mut child = begun(&["check", "no-such-file.toml", "--json"], Stdio::piped());
+    drop(child.stdout.take());
+    assert_eq!(child.wait().expect("it ends").code(), Some(2));
+}
+
+#[test]
+fn an_output_that_takes_nothing_is_named() {
+    let (folder, scene) = place("faults-full-output", "1.0");
+    let out = folder.0.join("out");
+    for command in commands(&scene, out.to_str().expect("UTF-8")) {
+        let full = File::options()
+            .write(true)
+            .open("/dev/full")
+            .expect("Linux has it");
+        let output = begun(&command, full.into())
+            .wait_with_output()
+            .expect("it ends");
+        let text = stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{command:?}: {text}");
+        assert!(
+            text.starts_with("error: cannot write to standard output: No space"),
+            "{command:?}: {text}"
+        );
+    }
+}
+
+#[test]
+fn a_full_disk_leaves_older_results_alone() {
+    let (folder, scene) = place("faults-full", "1.0");
+    let out = Folder(folder.0.join("out"));
+    let simulate = ["simulate", &scene, "--out", out.text()];
+    assert_eq!(pfaff(&simulate).status.code(), Some(0));
+    let before = contents(&out);
+    assert_eq!(before.len(), 3);
+    // Full at each of its files, when the first bytes go there.
+    for name in ["trajectory.csv", "reactions.csv"] {
+        let part = out.0.join(format!("{name}.part"));
+        // The other table of the run before.
+        let _ = fs::remove_file(&part);
+        symlink("/dev/full", &part).expect("links");
+        let output = pfaff(&simulate);
+        let text = stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{text}");
+        assert!(
+            text.contains(&format!("{name}.part`: No space left")),
+            "{text}"
+        );
+        fs::remove_file(part).expect("removes the link");
+        let whole: Vec<_> = contents(&out)
+            .into_iter()
+            .filter(|(name, _)| !name.ends_with(".part"))
+            .collect();
+        assert_eq!(whole, before, "after {name}");
+    }
+    // What an earlier run left lying is no obstacle.
+    fs::write(out.0.join("trajectory.csv.part"), "half a li").expect("writable");
+    assert_eq!(pfaff(&simulate).status.code(), Some(0));
+    let names: Vec<_> = contents(&out).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["reactions.csv", "summary.json", "trajectory.csv"]);
+}
+
+#[test]
+fn a_disk_that_fills_up_leaves_whole_rows() {
+    let (folder, scene) = place("faults-filling", "10.0");
+    let out = Folder(folder.0.join("out"));
+    // At most 8 blocks of 512 or 1024 bytes for each file; a signal that nobody waits for would end the program instead.
+    let script = "trap '' XFSZ; ulimit -f 8; exec \"$0\" \"$@\"";
+    let output = Command::new("sh")
+        .args([
+            "-c",
+            script,
+            env!("CARGO_BIN_EXE_pfaff"),
+            "simulate",
+            &scene,
+            "--out",
+            out.text(),
+        ])
+        .output()
+        .expect("it starts");
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(1), "{text}");
+    assert!(text.contains(".csv.part`: File too large"), "{text}");
+    // Nothing looks whole, and what there is can be read.
+    let names: Vec<_> = contents(&out).into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["reactions.csv.part", "trajectory.csv.part"]);
+    let (count, t) = rows(&out.0.join("trajectory.csv.part"));
+    assert!(count > 10 && t < 10.0, "{count} rows to {t} s");
+}
+
+#[test]
+fn a_sweep_without_a_disk_says_so_and_goes_on_later() {
+    let (folder, scene) = place("faults-sweep", "0.1");
+    let out = Folder(folder.0.join("out"));
+    let sweep = [
+        "sweep",
+        &scene,
+        "--vary",
+        "body.bob.mass=1:3:3",
+        "--out",
+        out.text(),
+    ];
+    fs::create_dir_all(&out.0).expect("writable");
+    for name in ["sweep.csv.part", "summary.json.part"] {
+        let path = out.0.join(name);
+        let _ = fs::remove_file(&path);
+        symlink("/dev/full", &path).expect("links");
+        let output = pfaff(&sweep);
+        let text = stderr(&output);
+        assert_eq!(output.status.code(), Some(1), "{name}: {text}");
+        assert!(text.contains(name), "{name}: {text}");
+        assert!(!text.contains("panicked"), "{text}");
+        fs::remove_file(&path).expect("removes the link");
+    }
+    assert_eq!(pfaff(&sweep).status.code(), Some(0));
+    assert_eq!(out.read("sweep.csv").lines().count(), 4);
+}
+
+#[test]
+fn places_that_take_no_files_are_named() {
+    let (folder, scene) = place("faults-places", "0.1");
+    let file = folder.0.join("file");
+    fs::write(&file, "here first").expect("writable");
+    let inside = file.join("deeper");
+    // Nobody, not even root, makes files in /proc.
+    for out in [
+        file.to_str(),
+        inside.to_str(),
+        Some("/proc/results"),
+        Some("/proc"),
+    ] {
+        let out = out.expect("UTF-8");
+        for mut command in [
+            vec!["simulate", &scene],
+            vec!["sweep", &scene, "--vary", "body.bob.mass=1,2"],
+            vec!["work-precision", &scene, "--quick"],
+        ] {
+            command.extend(["--out", out]);
+            let output = pfaff(&command);
+            let text = stderr(&output);
+            assert_eq!(output.status.code(), Some(1), "{command:?}: {text}");
+            assert!(
+                text.starts_with("error: cannot ") && text.contains(out),
+                "{text}"
+            );
+            assert_eq!(text.lines().count(), 1, "{text}");
+        }
+    }
+    assert_eq!(fs::read_to_string(file).expect("still there"), "here first");
+}
+
+#[test]
+fn an_interrupted_run_keeps_what_it_has() {
+    for signal in ["-INT", "-TERM", "-HUP"] {
+        let (folder, scene) = place(&format!("faults-interrupted{signal}"), "50000.0");
+        let out = Folder(folder.0.join("out"));
+        let child = begun(
+            &["simulate", &scene, "--out", out.text(), "--json"],
+            Stdio::piped(),
+        );
+        let part = out.0.join("trajectory.csv.part");
+        wait_until("rows are written", || {
+            fs::metadata(&part).is_ok_and(|m| m.len() > 100_000)
+        });
+        send(signal, &child);
+        let output = child.wait_with_output().expect("it ends");
+        assert_eq!(
+            (output.status.code(), stderr(&output).as_str()),
+            (Some(1), "")
+        );
+        let summary: Value = serde_json::from_str(&out.read("summary.json")).expect("JSON");
+        assert_eq!(summary["partial"], true);
+        assert_eq!(
+            serde_json::from_str::<Value>(&stdout(&output)).expect("JSON"),
+            summary
+        );
+        let (count, t) = rows(&out.0.join("trajectory.csv"));
+        assert!(count > 100 && t < 50_000.0);
+        assert_eq!(rows(&out.0.join("reactions.csv")), (count, t));
+        assert!(!part.exists());
+    }
+}
+
+#[test]
+fn an_interrupted_run_is_not_done_because_nobody_listens() {
+    let (folder, scene) = place("faults-interrupted-closed", "50000.0");
+    let out = Folder(folder.0.join("out"));
+    let mut child = begun(&["simulate", &scene, "--out", out.text()], Stdio::piped());
+    drop(child.stdout.take());
+    let part = out.0.join("trajectory.csv.part");
+    wait_until("rows are written", || {
+        fs::metadata(&part).is_ok_and(|m| m.len() > 100_000)
+    });
+    send("-INT", &child);
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(
+        (output.status.code(), stderr(&output).as_str()),
+        (Some(1), "")
+    );
+}
+
+#[test]
+fn a_second_request_ends_the_program_at_once() {
+    let (folder, scene) = place("faults-second", "50000.0");
+    let out = Folder(folder.0.join("out"));
+    fs::create_dir_all(&out.0).expect("writable");
+    // Nobody reads from this pipe: once it is full, the run waits for ever and cannot see that somebody asked.
+    let part = out.0.join("trajectory.csv.part");
+    assert!(
+        Command::new("mkfifo")
+            .arg(&part)
+            .status()
+            .is_ok_and(|s| s.success())
+    );
+    let mut child = begun(&["simulate", &scene, "--out", out.text()], Stdio::piped());
+    let state = format!("/proc/{}/wchan", child.id());
+    wait_until("the run waits for the pipe", || {
+        fs::read_to_string(&state).is_ok_and(|s| s.contains("pipe_w"))
+    });
+    send("-INT", &child);
+    std::thread::sleep(Duration::from_millis(100));
+    assert!(
+        child.try_wait().expect("it can be asked").is_none(),
+        "the first request is for the computation"
+    );
+    wait_until("it ends", || {
+        send("-INT", &child);
+        child.try_wait().expect("it can be asked").is_some()
+    });
+    assert_eq!(child.wait().expect("it ended").code(), Some(1));
+    assert!(!out.0.join("trajectory.csv").exists());
+}
+
+#[test]
+fn what_has_nothing_to_keep_ends_at_once() {
+    // A motion of days, judged along its way.
+    let (_folder, scene) = place("faults-along", "50000.0");
+    let mut child = begun(&["analyze", &scene, "--along"], Stdio::piped());
+    let state = format!("/proc/{}/status", child.id());
+    // Bit 1 of the caught signals is SIGINT.
+    wait_until("it listens", || {
+        let text = fs::read_to_string(&state).unwrap_or_default();
+        let mask = text.lines().find_map(|line| line.strip_prefix("SigCgt:"));
+        mask.and_then(|m| u64::from_str_radix(m.trim(), 16).ok())
+            .is_some_and(|m| m & 2 != 0)
+    });
+    send("-INT", &child);
+    assert_eq!(child.wait().expect("it ends").code(), Some(1));
+}
+
+#[test]
+fn a_killed_run_leaves_nothing_that_looks_whole() {
+    let (folder, scene) = place("faults-killed", "50000.0");
+    let out = Folder(folder.0.join("out"));
+    let short = ["simulate", &scene, "--t-end", "0.5", "--out", out.text()];
+    assert_eq!(pfaff(&short).status.code(), Some(0));
+    let before = contents(&out);
+    let mut child = begun(&["simulate", &scene, "--out", out.text()], Stdio::piped());
+    let part = out.0.join("trajectory.csv.part");
+    wait_until("rows are written", || {
+        fs::metadata(&part).is_ok_and(|m| m.len() > 100_000)
+    });
+    child.kill().expect("it runs");
+    child.wait().expect("it ends");
+    let names: Vec<_> = contents(&out)
+        .into_iter()
+        .filter(|(name, _)| !name.ends_with(".part"))
+        .collect();
+    assert_eq!(names, before);
+    // The same again replaces what was left.
+    assert_eq!(pfaff(&short).status.code(), Some(0));
+    assert!(
+        contents(&out)
+            .iter()
+            .all(|(name, _)| !name.ends_with(".part"))
+    );
+}
+
+#[test]
+fn an_interrupted_comparison_keeps_its_rows() {
+    let folder = Folder::new("faults-comparison");
+    let child = begun(
+        &["work-precision", ROBOT, "--out", folder.text(), "--json"],
+        Stdio::piped(),
+    );
+    let part = folder.0.join("work_precision.csv.part");
+    wait_until("rows are written", || {
+        fs::read_to_string(&part).is_ok_and(|text| text.lines().count() > 1)
+    });
+    send("-INT", &child);
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(
+        (output.status.code(), stderr(&output).as_str()),
+        (Some(1), "")
+    );
+    let document: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+    assert_eq!(document["partial"], true);
+    let text = folder.read("work_precision.csv");
+    assert!(text.ends_with('\n') && text.lines().count() > 1);
+    assert!(folder.read("report.html").ends_with("</html>\n"));
+}

@@ -1,0 +1,168 @@
+//! Many inputs, several at the same time. What fails is made short and kept in a file.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::PoisonError;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::trial::Reach;
+use crate::watch::{Fault, Limits, Worker, one};
+use crate::{input, minimise};
+
+/// Inputs that one process tries.
+const CHUNK: u64 = 2000;
+
+/// Longest time for making one text short: those that hang take a deadline for each trial.
+const SHORTEN: Duration = Duration::from_secs(20);
+
+/// What is tried.
+#[derive(Clone, Debug)]
+pub struct Campaign {
+    /// Seed of all inputs.
+    pub seed: u64,
+    /// The first input.
+    pub from: u64,
+    /// How many.
+    pub inputs: u64,
+    /// Processes at the same time.
+    pub threads: usize,
+    /// How they are begun and limited.
+    pub limits: Limits,
+    /// Where found texts are kept.
+    pub found: PathBuf,
+}
+
+/// What came out.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// How many texts came how far.
+    pub reached: BTreeMap<Reach, u64>,
+    /// By place: how many, and the first.
+    pub faults: BTreeMap<String, Found>,
+}
+
+/// Failures of one place.
+#[derive(Clone, Debug)]
+pub struct Found {
+    /// How many.
+    pub count: u64,
+    /// The number of the first input.
+    pub first: u64,
+    /// How it failed.
+    pub fault: Fault,
+    /// Its shortest text.
+    pub file: PathBuf,
+}
+
+impl Campaign {
+    /// Tries all inputs. `progress` sees how many are done from time to time.
+    ///
+    /// # Errors
+    /// If processes cannot be begun, or found texts not be kept.
+    pub fn run(&self, progress: impl Fn(u64) + Sync) -> io::Result<Tally> {
+        let next = AtomicU64::new(0);
+        let tally = Mutex::new(Tally::default());
+        let work = || -> io::Result<()> {
+            loop {
+                let at = next.fetch_add(CHUNK, Ordering::Relaxed);
+                if at >= self.inputs {
+                    return Ok(());
+                }
+                let to = (at + CHUNK).min(self.inputs);
+                self.stretch(self.from + at, self.from + to, &tally)?;
+                progress(to);
+            }
+        };
+        thread::scope(|scope| {
+            let threads: Vec<_> = (0..self.threads.max(1))
+                .map(|_| scope.spawn(work))
+                .collect();
+            let ends = threads.into_iter().map(|t| {
+                t.join()
+                    .unwrap_or_else(|_| Err(io::Error::other("a thread of the campaign panicked")))
+            });
+            ends.collect::<io::Result<()>>()
+        })?;
+        Ok(tally.into_inner().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Tries some inputs, in as many processes as it takes.
+    fn stretch(&self, from: u64, to: u64, tally: &Mutex<Tally>) -> io::Result<()> {
+        let mut at = from;
+        while at < to {
+            let numbers = [self.seed, at, to].map(|n| n.to_string());
+            let mut worker = Worker::begin(
+                &self.limits,
+                &["work", &numbers[0], &numbers[1], &numbers[2]],
+                None,
+            )?;
+            while at < to {
+                let answer = worker.answer(self.limits.deadline);
+                at += 1;
+                match answer {
+                    Ok(reach) => {
+                        let mut tally = tally.lock().unwrap_or_else(PoisonError::into_inner);
+                        *tally.reached.entry(reach).or_default() += 1;
+                    }
+                    Err(fault) => {
+                        self.note(at - 1, fault, tally)?;
+                        break;
+                    }
+                }
+            }
+            worker.end();
+        }
+        Ok(())
+    }
+
+    /// Keeps the first input of each place, made short.
+    fn note(&self, number: u64, fault: Fault, tally: &Mutex<Tally>) -> io::Result<()> {
+        let place = fault.place().to_owned();
+        {
+            let mut tally = tally.lock().unwrap_or_else(PoisonError::into_inner);
+            if let Some(found) = tally.faults.get_mut(&place) {
+                found.count += 1;
+                return Ok(());
+            }
+            let file = self.found.join(format!("{}-{number}.toml", self.seed));
+            tally.faults.insert(
+                place.clone(),
+                Found {
+                    count: 1,
+                    first: number,
+                    fault: fault.clone(),
+                    file,
+                },
+            );
+        }
+        let text = input::text(self.seed, number);
+        let clock = Instant::now();
+        let fails = |text: &str| {
+            clock.elapsed() < SHORTEN
+                && one(&self.limits, text)
+                    .is_ok_and(|answer| answer.is_err_and(|f| f.place() == place))
+        };
+        let (text, note) = match fails(&text) {
+            true => (minimise::shortest(&text, fails), ""),
+            false => (text, "# Does not fail again by itself.\n"),
+        };
+        let words = match &fault {
+            Fault::Died { words, .. } => words.replace('\n', "\n# "),
+            Fault::Hung { place } => place.clone(),
+        };
+        fs::create_dir_all(&self.found)?;
+        let file = self.found.join(format!("{}-{number}.toml", self.seed));
+        fs::write(
+            file,
+            format!(
+                "# Input {number} of seed {}:\n# {words}\n{note}{text}",
+                self.seed
+            ),
+        )
+    }
+}

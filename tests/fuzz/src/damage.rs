@@ -1,0 +1,203 @@
+//! What is done to a text: mostly such that it stays TOML, so that the reader of scenes and what follows are reached.
+
+use tests::numbers::Numbers;
+
+/// Numbers that are hard to hold, right in some places and wrong in most.
+pub(crate) const EXTREMES: [&str; 30] = [
+    "0",
+    "0.0",
+    "-0.0",
+    "-1",
+    "-1.0",
+    "1e-320",
+    "5e-324",
+    "-5e-324",
+    "2.3e-308",
+    "1e-200",
+    "1e-30",
+    "1e-16",
+    "1e-12",
+    "1e-9",
+    "1e-6",
+    "1e6",
+    "1e9",
+    "1e12",
+    "1e16",
+    "1e30",
+    "1e100",
+    "-1e100",
+    "1e160",
+    "1e308",
+    "-1.7976931348623157e308",
+    "1e400",
+    "nan",
+    "inf",
+    "-inf",
+    "9223372036854775807",
+];
+
+/// Values of all kinds.
+const VALUES: [&str; 24] = [
+    "true",
+    "\"\"",
+    "\" \"",
+    "\"ground\"",
+    "\"auto\"",
+    "[]",
+    "[0, 0]",
+    "[0.0, 1.0]",
+    "[1e308, -1e308]",
+    "[0, 1, 1, 99]",
+    "[[0, 0], [0, 0]]",
+    "[[1, 2], [3, 4], 5]",
+    "{}",
+    "{ ground = [0, 0] }",
+    "1979-05-27",
+    "0x1F",
+    "1_000",
+    "{ type = \"table\", times = [0, 1, 2], values = [1, 2, 1] }",
+    "{ type = \"steps\", steps = [{ from = 0.01, to = 0.01000000001, by = 1 }] }",
+    "{ type = \"polynomial\", coefficients = [0, 0, 1e9] }",
+    "{ type = \"harmonic\", amplitude = 1, omega = 1e9, phase = 0, offset = 0 }",
+    "{ type = \"constant-rate\", rate = 1e6 }",
+    "\"a\\nb\"",
+    "\"\\u0000\"",
+];
+
+/// Lines that make one kind of thing into another.
+const LINES: [&str; 26] = [
+    "type = \"revolute\"",
+    "type = \"translational\"",
+    "type = \"fixed\"",
+    "type = \"gear\"",
+    "type = \"distance\"",
+    "type = \"rolling\"",
+    "type = \"rack-and-pinion\"",
+    "type = \"point-on-line\"",
+    "type = \"velocity\"",
+    "type = \"bushing\"",
+    "type = \"knife-edge\"",
+    "type = \"angle\"",
+    "[[body]]",
+    "[[joint]]",
+    "[[drive]]",
+    "[[force]]",
+    "[[group]]",
+    "[start]",
+    "[output]",
+    "[simulate]",
+    "drop = [0, 99, 6, 6]",
+    "drop = [1]",
+    "at = [0.0, 0.0]",
+    "mass = 0",
+    "inertia = 0.0",
+    "allow_correction = true",
+];
+
+/// Signs that mean something to TOML, and some that mean nothing.
+const SIGNS: [&str; 16] = [
+    "[", "]", "{", "}", "=", ",", ".", "\"", "'", "\n", "#", "-", "é", "\u{feff}", "𝛗", "\u{0}",
+];
+
+/// The text with one damage.
+#[must_use]
+pub fn damaged(text: &str, numbers: &mut Numbers) -> String {
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    if lines.is_empty() {
+        return SIGNS[numbers.below(SIGNS.len())].to_owned();
+    }
+    let at = numbers.below(lines.len());
+    match numbers.below(32) {
+        0 => drop(lines.remove(at)),
+        1 => lines.insert(at, lines[at].clone()),
+        2 => {
+            let other = numbers.below(lines.len());
+            lines.swap(at, other);
+        }
+        3 => lines.insert(at, LINES[numbers.below(LINES.len())].to_owned()),
+        4 => {
+            // A stretch of lines once more: things with the same name, or arrays that are twice as long.
+            let end = (at + 1 + numbers.below(8)).min(lines.len());
+            let copy = lines[at..end].to_vec();
+            lines.splice(at..at, copy);
+        }
+        5 => {
+            let end = (at + 1 + numbers.below(8)).min(lines.len());
+            lines.drain(at..end);
+        }
+        6 => lines[at] = with_sign(&lines[at], numbers),
+        7..=9 => lines[at] = with_value(&lines[at], numbers),
+        10..=12 => lines[at] = with_value_of_another(&lines, at, numbers),
+        13..=17 => lines[at] = with_other_name(text, &lines[at], numbers),
+        _ => lines[at] = with_other_number(&lines[at], numbers),
+    }
+    lines.join("\n")
+}
+
+/// One sign more, less, or another.
+fn with_sign(line: &str, numbers: &mut Numbers) -> String {
+    let mut signs: Vec<String> = line.chars().map(String::from).collect();
+    let sign = SIGNS[numbers.below(SIGNS.len())].to_owned();
+    let at = numbers.below(signs.len() + 1);
+    match (numbers.below(3), at < signs.len()) {
+        (0, true) => drop(signs.remove(at)),
+        (1, true) => signs[at] = sign,
+        _ => signs.insert(at, sign),
+    }
+    signs.concat()
+}
+
+fn with_value(line: &str, numbers: &mut Numbers) -> String {
+    match line.split_once('=') {
+        Some((key, _)) => format!("{key}= {}", VALUES[numbers.below(VALUES.len())]),
+        None => line.to_owned(),
+    }
+}
+
+fn with_value_of_another(lines: &[String], at: usize, numbers: &mut Numbers) -> String {
+    let other = &lines[numbers.below(lines.len())];
+    match (lines[at].split_once('='), other.split_once('=')) {
+        (Some((key, _)), Some((_, value))) => format!("{key}={value}"),
+        _ => other.clone(),
+    }
+}
+
+/// One of the quoted texts of the line becomes another of the file.
+fn with_other_name(text: &str, line: &str, numbers: &mut Numbers) -> String {
+    let names: Vec<&str> = text.split('"').skip(1).step_by(2).collect();
+    let mut parts: Vec<&str> = line.split('"').collect();
+    let quoted = parts.len() / 2;
+    if quoted == 0 || names.is_empty() {
+        return line.to_owned();
+    }
+    parts[2 * numbers.below(quoted) + 1] = names[numbers.below(names.len())];
+    parts.join("\"")
+}
+
+/// One of the numbers of the line becomes an extreme one, or nearly what it was.
+fn with_other_number(line: &str, numbers: &mut Numbers) -> String {
+    let is_part = |c: char| c.is_ascii_digit() || "+-.eE".contains(c);
+    let mut pieces: Vec<String> = Vec::new();
+    let mut in_number = false;
+    for c in line.chars() {
+        match pieces.last_mut() {
+            Some(last) if in_number == is_part(c) => last.push(c),
+            _ => pieces.push(c.to_string()),
+        }
+        in_number = is_part(c);
+    }
+    let places: Vec<usize> = (0..pieces.len())
+        .filter(|&k| pieces[k].parse::<f64>().is_ok())
+        .collect();
+    if places.is_empty() {
+        return line.to_owned();
+    }
+    let place = places[numbers.below(places.len())];
+    let value: f64 = pieces[place].parse().unwrap_or(0.0);
+    pieces[place] = match numbers.below(4) {
+        0 => format!("{:?}", value * (1.0 + 1e-9 * numbers.unit())),
+        1 => format!("{:?}", value + numbers.unit()),
+        _ => EXTREMES[numbers.below(EXTREMES.len())].to_owned(),
+    };
+    pieces.concat()
+}

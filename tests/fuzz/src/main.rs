@@ -1,0 +1,176 @@
+//! `cargo run --release -p fuzz -- run --inputs 1000000 --seed 1`: random and damaged scenes through check, analyze and simulate.
+
+use std::fs;
+use std::io::{self, Read, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::{Duration, Instant};
+
+use clap::{Parser, Subcommand};
+use fuzz::campaign::{Campaign, Tally};
+use fuzz::watch::Limits;
+use fuzz::{input, trial};
+
+/// Random and damaged scenes through check, analyze and simulate
+#[derive(Parser)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Tries many inputs; exit code 1 if one of them fails
+    Run {
+        /// How many
+        #[arg(long)]
+        inputs: u64,
+        /// Seed of all inputs
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// The first input
+        #[arg(long, default_value_t = 0)]
+        from: u64,
+        /// Processes at the same time
+        #[arg(long, default_value_t = 2)]
+        threads: usize,
+        /// Longest time for one input (s)
+        #[arg(long, default_value_t = 10)]
+        deadline: u64,
+        /// Largest memory of a process (MiB)
+        #[arg(long, default_value_t = 2048)]
+        memory: u64,
+        /// Where found texts are kept
+        #[arg(long, default_value = "found")]
+        found: PathBuf,
+    },
+    /// Tries one text, or standard input for -
+    Try {
+        /// The file
+        file: PathBuf,
+    },
+    /// Writes the text of an input
+    Show {
+        /// Seed
+        seed: u64,
+        /// Number
+        number: u64,
+    },
+    /// Tries inputs one after the other and answers each with a letter: what `run` begins
+    #[command(hide = true)]
+    Work {
+        /// Seed
+        seed: u64,
+        /// The first one
+        from: u64,
+        /// The first one that is not tried
+        to: u64,
+    },
+}
+
+fn main() -> ExitCode {
+    match go() {
+        Ok(code) => code,
+        Err(e) => {
+            let _ = writeln!(io::stderr(), "error: {e}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn go() -> io::Result<ExitCode> {
+    let mut out = io::stdout().lock();
+    match Arguments::parse().command {
+        Command::Run {
+            inputs,
+            seed,
+            from,
+            threads,
+            deadline,
+            memory,
+            found,
+        } => {
+            drop(out);
+            let limits = Limits {
+                program: std::env::current_exe()?,
+                deadline: Duration::from_secs(deadline),
+                memory,
+            };
+            let campaign = Campaign {
+                seed,
+                from,
+                inputs,
+                threads,
+                limits,
+                found,
+            };
+            let clock = Instant::now();
+            let progress = |done: u64| {
+                let _ = write!(
+                    io::stderr(),
+                    "\r{done} of {inputs}, {:.0} inputs/s",
+                    done as f64 / clock.elapsed().as_secs_f64()
+                );
+            };
+            let tally = campaign.run(progress)?;
+            let seconds = clock.elapsed().as_secs_f64();
+            io::stdout().write_all(describe(&tally, seed, inputs, seconds).as_bytes())?;
+            return Ok(match tally.faults.is_empty() {
+                true => ExitCode::SUCCESS,
+                false => ExitCode::from(1),
+            });
+        }
+        Command::Try { file } => {
+            let mut bytes = Vec::new();
+            match file.as_os_str() == "-" {
+                true => io::stdin().read_to_end(&mut bytes)?,
+                false => {
+                    bytes = fs::read(file)?;
+                    bytes.len()
+                }
+            };
+            answer(&mut out, &String::from_utf8_lossy(&bytes))?;
+        }
+        Command::Show { seed, number } => out.write_all(input::text(seed, number).as_bytes())?,
+        Command::Work { seed, from, to } => {
+            for number in from..to {
+                answer(&mut out, &input::text(seed, number))?;
+            }
+        }
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+/// Tries a text: a letter for each stage that begins, and one for how far it came.
+fn answer(out: &mut impl Write, text: &str) -> io::Result<()> {
+    let mut written = Ok(());
+    let mut say = |letter: char| {
+        if written.is_ok() {
+            written = write!(out, "{letter}").and_then(|()| out.flush());
+        }
+    };
+    let reach = trial::of(text, |stage| say(stage.letter()));
+    say(reach.letter());
+    written
+}
+
+/// The tally in words.
+fn describe(tally: &Tally, seed: u64, inputs: u64, seconds: f64) -> String {
+    let mut text = format!(
+        "\nseed {seed}: {inputs} inputs in {seconds:.1} s, {:.0} each second\n",
+        inputs as f64 / seconds
+    );
+    for (reach, count) in &tally.reached {
+        text.push_str(&format!("{count:>10} {reach}\n"));
+    }
+    for (place, found) in &tally.faults {
+        text.push_str(&format!(
+            "{:>10} FAILED at {place}: first input {}, {}\n",
+            found.count,
+            found.first,
+            found.file.display()
+        ));
+    }
+    text.push_str(&format!("{} places of failure\n", tally.faults.len()));
+    text
+}

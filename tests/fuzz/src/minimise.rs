@@ -1,0 +1,63 @@
+//! The shortest text that still fails alike: stretches of lines are left out, long ones first, then parts of lines (Zeller and
+//! Hildebrandt 2002, doi 10.1109/32.988498, without complements).
+
+/// Makes a text shorter as long as `fails`.
+#[must_use]
+pub fn shortest(text: &str, mut fails: impl FnMut(&str) -> bool) -> String {
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    loop {
+        let before = lines.clone();
+        shorten(&mut lines, |lines| fails(&lines.join("\n")));
+        for k in 0..lines.len() {
+            let mut words: Vec<String> = words(&lines[k]);
+            shorten(&mut words, |words| {
+                let mut all = lines.clone();
+                all[k] = words.concat();
+                fails(&all.join("\n"))
+            });
+            lines[k] = words.concat();
+        }
+        if lines == before {
+            return lines.join("\n") + "\n";
+        }
+    }
+}
+
+/// Leaves out what can be left out, in stretches of half the length each time.
+fn shorten(pieces: &mut Vec<String>, mut fails: impl FnMut(&[String]) -> bool) {
+    let mut length = pieces.len().div_ceil(2);
+    while length > 0 {
+        let mut at = 0;
+        while at < pieces.len() {
+            let end = (at + length).min(pieces.len());
+            let rest = [&pieces[..at], &pieces[end..]].concat();
+            match fails(&rest) {
+                true => *pieces = rest,
+                false => at = end,
+            }
+        }
+        length = match length {
+            1 => 0,
+            n => n.div_ceil(2),
+        };
+    }
+}
+
+/// A line in words; what separates them stays with the word before.
+fn words(line: &str) -> Vec<String> {
+    line.split_inclusive([',', ' '])
+        .map(str::to_owned)
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_what_matters_is_left() {
+        let text = "a\nb = [1, 2, 3]\nc\nd\ne\n";
+        let fails = |text: &str| text.contains('2') && text.contains('d');
+        assert_eq!(shortest(text, fails), "2,\nd\n");
+    }
+}

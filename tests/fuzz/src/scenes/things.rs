@@ -1,0 +1,310 @@
+//! The tables of a random scene.
+
+use super::functions::{function, number_or_function};
+use super::{Draft, Values};
+
+/// `[scene]`.
+pub(super) fn head(draft: &mut Draft, values: &mut Values<'_>) {
+    let name = values.name("scene", 0);
+    let gravity = match values.numbers.below(4) {
+        0 => String::new(),
+        1 => format!("gravity = [{}, {}]", values.number(), values.number()),
+        _ => "gravity = [0.0, -9.81]".to_owned(),
+    };
+    draft.line(&format!(
+        "[scene]\nname = {name}\nspace = \"plane\"\n{gravity}"
+    ));
+}
+
+/// `[[body]]`.
+pub(super) fn body(draft: &mut Draft, values: &mut Values<'_>, k: usize) {
+    let name = values.name("b", k);
+    draft.line(&format!(
+        "[[body]]\nname = {name}\nmass = {}\ninertia = {}",
+        values.positive(),
+        values.positive()
+    ));
+    draft.line(&format!("position = {}", values.point()));
+    if values.numbers.once_in(3) {
+        draft.line(&format!("angle = {}", values.number()));
+    }
+    if values.numbers.once_in(4) {
+        draft.line(&format!("velocity = {}", values.point()));
+    }
+    if values.numbers.once_in(4) {
+        draft.line(&format!("angular_velocity = {}", values.number()));
+    }
+    draft.bodies.push(name);
+}
+
+/// Begins a joint.
+fn begin(draft: &mut Draft, values: &mut Values<'_>, kind: &'static str) {
+    let k = draft.joints.len();
+    let name = values.name("j", k);
+    draft.line(&format!("[[joint]]\nname = {name}\ntype = \"{kind}\""));
+    draft.joints.push((name, kind));
+}
+
+/// A place between two bodies: mostly a global point, which fits any start.
+fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 2]) {
+    let line = match values.numbers.once_in(8) {
+        true => format!(
+            "points = {{ {} = {}, {} = {} }}",
+            pair[0],
+            values.point(),
+            pair[1],
+            values.point()
+        ),
+        false => format!("at = {}", values.point()),
+    };
+    draft.line(&line);
+}
+
+/// A place of one body.
+fn own_place(draft: &mut Draft, values: &mut Values<'_>) {
+    let key = values.one(&["at", "point"]);
+    draft.line(&format!("{key} = {}", values.point()));
+}
+
+/// A holonomic joint of two bodies.
+pub(super) fn joint(draft: &mut Draft, values: &mut Values<'_>, pair: [String; 2]) {
+    let kinds = [
+        "revolute",
+        "revolute",
+        "revolute",
+        "revolute",
+        "translational",
+        "translational",
+        "pin-in-slot",
+        "fixed",
+        "angle",
+        "distance",
+        "gear",
+        "rack-and-pinion",
+        "point-on-line",
+    ];
+    let kind = kinds[values.numbers.below(kinds.len())];
+    begin(draft, values, kind);
+    if kind == "point-on-line" {
+        draft.line(&format!("body = {}", pair[1]));
+        own_place(draft, values);
+        draft.line(&format!("line = [{}, {}]", values.point(), values.point()));
+        return;
+    }
+    draft.line(&format!("bodies = [{}, {}]", pair[0], pair[1]));
+    match kind {
+        "angle" => {}
+        "gear" => {
+            draft.line(&format!("ratio = {}", values.number()));
+            if values.numbers.once_in(3) {
+                let carrier = draft.body(values.numbers, 3);
+                draft.line(&format!("carrier = {carrier}"));
+            }
+        }
+        "distance" => draft.line(&format!("at = [{}, {}]", values.point(), values.point())),
+        "rack-and-pinion" => {
+            draft.line(&format!(
+                "at = {}\naxis = {}\nradius = {}",
+                values.point(),
+                values.direction(),
+                values.number()
+            ));
+        }
+        "translational" | "pin-in-slot" => {
+            place(draft, values, &pair);
+            draft.line(&format!("axis = {}", values.direction()));
+        }
+        _ => place(draft, values, &pair),
+    }
+}
+
+/// A nonholonomic joint.
+pub(super) fn nonholonomic(draft: &mut Draft, values: &mut Values<'_>) {
+    let kind = values.one(&["knife-edge", "knife-edge", "velocity", "rolling"]);
+    let kind = ["knife-edge", "velocity", "rolling"]
+        .into_iter()
+        .find(|k| *k == kind)
+        .unwrap_or("knife-edge");
+    begin(draft, values, kind);
+    match kind {
+        "rolling" => {
+            let pair = draft.pair(values.numbers);
+            draft.line(&format!("bodies = [{}, {}]", pair[0], pair[1]));
+            draft.line(&format!("at = {}", values.point()));
+            draft.line(&format!(
+                "direction = {}\nradius = {}",
+                values.direction(),
+                values.number()
+            ));
+        }
+        _ => {
+            let body = draft.body(values.numbers, 100);
+            draft.line(&format!("body = {body}"));
+            own_place(draft, values);
+            let key = if kind == "velocity" {
+                "direction"
+            } else {
+                "normal"
+            };
+            draft.line(&format!("{key} = {}", values.direction()));
+            if kind == "velocity" {
+                let rate = number_or_function(values);
+                draft.line(&format!("rate = {rate}"));
+            }
+        }
+    }
+}
+
+/// `[[drive]]` of a joint.
+pub(super) fn drive(draft: &mut Draft, values: &mut Values<'_>, joint: &(String, &'static str)) {
+    let measure = match joint.1 {
+        "revolute" => "angle",
+        "translational" => "displacement",
+        "pin-in-slot" => values.one(&["angle", "displacement"]),
+        // Most joints have no measure, and say so.
+        _ if !values.numbers.once_in(20) => return,
+        _ => "angle",
+    };
+    let name = values.name("d", draft.drives.len());
+    draft.line(&format!(
+        "[[drive]]\nname = {name}\njoint = {}\ntype = \"{measure}\"",
+        joint.0
+    ));
+    draft.line(&format!("motion = {}", function(values)));
+    draft.drives.push(name);
+}
+
+/// `[[force]]`.
+pub(super) fn force(draft: &mut Draft, values: &mut Values<'_>) {
+    let kind = values.one(&[
+        "spring-damper",
+        "torsion-spring-damper",
+        "bushing",
+        "point-force",
+        "torque",
+    ]);
+    let k = draft.text.len();
+    let name = values.name("f", k);
+    draft.line(&format!("[[force]]\nname = {name}\ntype = \"{kind}\""));
+    let pair = [
+        draft.body(values.numbers, 3),
+        draft.body(values.numbers, 10),
+    ];
+    if matches!(kind, "point-force" | "torque") {
+        draft.line(&format!("body = {}", pair[1]));
+    } else {
+        draft.line(&format!("bodies = [{}, {}]", pair[0], pair[1]));
+    }
+    let stiff = |values: &mut Values<'_>| match values.numbers.once_in(6) {
+        true => format!("1e{}", values.numbers.between(3, 12)),
+        false => values.positive(),
+    };
+    match kind {
+        "spring-damper" => {
+            draft.line(&format!("at = [{}, {}]", values.point(), values.point()));
+            draft.line(&format!(
+                "stiffness = {}\ndamping = {}",
+                stiff(values),
+                stiff(values)
+            ));
+            if values.numbers.once_in(2) {
+                draft.line(&format!("free_length = {}", values.positive()));
+            }
+        }
+        "torsion-spring-damper" => {
+            draft.line(&format!(
+                "stiffness = {}\ndamping = {}",
+                stiff(values),
+                stiff(values)
+            ));
+            if values.numbers.once_in(2) {
+                draft.line(&format!("free_angle = {}", values.number()));
+            }
+        }
+        "bushing" => {
+            draft.line(&format!("at = {}", values.point()));
+            let [stiffness, damping] =
+                [0, 1].map(|_| [stiff(values), stiff(values), stiff(values)].join(", "));
+            draft.line(&format!("stiffness = [{stiffness}]\ndamping = [{damping}]"));
+        }
+        "point-force" => {
+            own_place(draft, values);
+            let force = [number_or_function(values), number_or_function(values)].join(", ");
+            draft.line(&format!("force = [{force}]"));
+            if values.numbers.once_in(3) {
+                draft.line(&format!("frame = \"{}\"", values.one(&["body", "global"])));
+            }
+        }
+        _ => draft.line(&format!("torque = {}", number_or_function(values))),
+    }
+}
+
+/// What is to be done: `[start]`, `[[group]]`, `[simulate]`, `[output]`.
+pub(super) fn wishes(draft: &mut Draft, values: &mut Values<'_>) {
+    if values.numbers.once_in(4) {
+        draft.line("[start]\nallow_correction = true");
+        let component = values.one(&["x", "y", "angle", "vx", "vy", "omega"]);
+        if values.numbers.once_in(2)
+            && let Some(body) = draft.bodies.first()
+            && !body.contains('\\')
+        {
+            draft.line(&format!(
+                "keep = [\"{}.{component}\"]",
+                body.trim_matches('"')
+            ));
+        }
+    }
+    if values.numbers.once_in(5) && draft.joints.len() > 1 {
+        draft.line(&format!(
+            "[[group]]\nname = \"g\"\nmembers = [{}, {}]",
+            draft.joints[0].0, draft.joints[1].0
+        ));
+    }
+    if !values.numbers.once_in(8) {
+        let end = values.one(&["0.05", "0.1", "0.2", "1.0", "10", "0"]);
+        draft.line(&format!("[simulate]\nt_end = {end}"));
+        let methods = [
+            "auto",
+            "auto",
+            "dopri5",
+            "dop853",
+            "tsit5",
+            "gbs",
+            "radau5",
+            "generalized-alpha",
+            "hem4",
+        ];
+        draft.line(&format!("method = \"{}\"", values.one(&methods)));
+        let formulations = [
+            "kept-rows",
+            "kept-rows",
+            "null-space",
+            "minimum-norm",
+            "proximal",
+        ];
+        draft.line(&format!("formulation = \"{}\"", values.one(&formulations)));
+        if values.numbers.once_in(4) {
+            draft.line(&format!(
+                "stabilisation = \"{}\"",
+                values.one(&["projection", "baumgarte", "none"])
+            ));
+        }
+        if values.numbers.once_in(4) {
+            draft.line(&format!(
+                "rtol = {}\natol = {}",
+                values.one(&["1e-3", "1e-6", "1e-12"]),
+                values.one(&["1e-6", "1e-14", "1e-30"])
+            ));
+        }
+        if values.numbers.once_in(4) {
+            draft.line(&format!("output_step = {}", values.positive()));
+        }
+    }
+    if values.numbers.once_in(6) {
+        draft.line(&format!(
+            "[output]\nreactions = {}\ntrajectory = {}",
+            values.one(&["true", "false"]),
+            values.one(&["true", "false"])
+        ));
+    }
+}

@@ -1,0 +1,185 @@
+//! One text through the library as the commands take it: check, analyze, simulate. What comes out must fit together.
+//!
+//! What is broken panics: a trial is made in a process that somebody watches.
+
+mod judged;
+mod moved;
+
+use std::fmt;
+
+use pfaff::dynamics::{MotionError, MotionOptions};
+use pfaff::model::Registry;
+use pfaff::scene::Diagnostic;
+use pfaff::{Blueprint, Overrides, StudyError};
+
+/// Runs go no farther than this (s), nor than so many steps or rows.
+pub(crate) const T_END: f64 = 0.25;
+pub(crate) const STEPS: usize = 60;
+pub(crate) const ROWS: usize = 60;
+
+/// How far a text came.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Reach {
+    /// It is no scene.
+    Refused,
+    /// It is a scene without a consistent start.
+    NoStart,
+    /// Its reactions were judged, but no motion begins there.
+    Judged,
+    /// A motion began, and stopped by name.
+    Stopped,
+    /// A motion went as far as it was let.
+    Cut,
+    /// A motion reached its end.
+    Moved,
+}
+
+impl Reach {
+    /// All of them, from near to far.
+    pub const ALL: [Self; 6] = [
+        Self::Refused,
+        Self::NoStart,
+        Self::Judged,
+        Self::Stopped,
+        Self::Cut,
+        Self::Moved,
+    ];
+
+    /// Its letter in the answers of a process.
+    #[must_use]
+    pub fn letter(self) -> char {
+        match self {
+            Self::Refused => 'r',
+            Self::NoStart => 'n',
+            Self::Judged => 'j',
+            Self::Stopped => 's',
+            Self::Cut => 'c',
+            Self::Moved => 'm',
+        }
+    }
+}
+
+impl fmt::Display for Reach {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Refused => "refused",
+            Self::NoStart => "without a start",
+            Self::Judged => "judged",
+            Self::Stopped => "stopped by name",
+            Self::Cut => "moved, cut off",
+            Self::Moved => "moved",
+        })
+    }
+}
+
+/// What a trial is about to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Read the text.
+    Read,
+    /// Find its start and choose rows.
+    Prepare,
+    /// Judge its reactions.
+    Judge,
+    /// Move it.
+    Move,
+}
+
+impl Stage {
+    /// All of them, in their order.
+    pub const ALL: [Self; 4] = [Self::Read, Self::Prepare, Self::Judge, Self::Move];
+
+    /// Its letter in the answers of a process.
+    #[must_use]
+    pub fn letter(self) -> char {
+        match self {
+            Self::Read => 'R',
+            Self::Prepare => 'P',
+            Self::Judge => 'J',
+            Self::Move => 'M',
+        }
+    }
+}
+
+/// Tries a text and says before each stage which one it is.
+///
+/// # Panics
+/// If the library does, or its results do not fit together.
+#[must_use]
+pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
+    begin(Stage::Read);
+    let registry = Registry::planar();
+    let read = || Blueprint::read("scene.toml", text, &registry);
+    let blueprint = match read() {
+        Ok(blueprint) => blueprint,
+        Err(StudyError::Scene(problems)) => {
+            places(text, &problems);
+            return Reach::Refused;
+        }
+        Err(other) => panic!("a text is refused without a place: {other}"),
+    };
+    begin(Stage::Prepare);
+    let mut study = match blueprint.prepare(&Overrides::default()) {
+        Ok(study) => study,
+        Err(e) => {
+            named(&e);
+            if let StudyError::Scene(problems) = &e {
+                places(text, problems);
+            }
+            let can_be_judged = matches!(
+                e,
+                StudyError::Motion(MotionError::RankUndecided(_)) | StudyError::SingularStart(_)
+            );
+            let Some(mut blueprint) = read().ok().filter(|_| can_be_judged) else {
+                return Reach::NoStart;
+            };
+            begin(Stage::Judge);
+            return match blueprint.inquire(None) {
+                Ok(inquiry) => {
+                    judged::check(&inquiry);
+                    Reach::Judged
+                }
+                Err(e) => {
+                    named(&e);
+                    Reach::NoStart
+                }
+            };
+        }
+    };
+    begin(Stage::Judge);
+    judged::start(&study);
+    match study.inquire(0.0, None) {
+        Ok(inquiry) => judged::check(&inquiry),
+        Err(e) => {
+            named(&e);
+            return Reach::NoStart;
+        }
+    }
+    let options = study
+        .options
+        .get_or_insert_with(|| MotionOptions::to(T_END));
+    options.t_end = options.t_end.min(T_END);
+    begin(Stage::Move);
+    moved::check(&study)
+}
+
+/// Problems are there, and lie in the text.
+fn places(text: &str, problems: &[Diagnostic]) {
+    assert!(!problems.is_empty(), "refused without a reason");
+    for problem in problems {
+        for label in std::iter::once(&problem.primary).chain(&problem.secondary) {
+            assert!(
+                text.get(label.span.clone()).is_some(),
+                "{problem}: outside of the text: {label:?}"
+            );
+        }
+    }
+}
+
+/// An error says something.
+fn named(error: &StudyError) {
+    assert!(
+        !error.to_string().trim().is_empty(),
+        "an error without words: {error:?}"
+    );
+}

@@ -1,0 +1,155 @@
+//! What must hold of a start and of the verdicts there.
+
+use pfaff::linalg::RankStatus;
+use pfaff::model::System;
+use pfaff::report::{AnalysisDocument, Proof, write_json};
+use pfaff::solvability::Verdict;
+use pfaff::{Inquiry, Study};
+
+use super::named;
+
+/// A consistent start has finite numbers, and as many kept rows as its rank.
+pub(super) fn start(study: &Study) {
+    let p = &study.prepared;
+    assert!(
+        p.q.iter().chain(&p.v).all(|x| x.is_finite()),
+        "the start is not finite"
+    );
+    let layout = p.mechanism.layout();
+    assert_eq!((p.q.len(), p.v.len()), (layout.n_q, layout.n_v));
+    assert_eq!(p.decision.kept.len(), p.decision.rank, "kept rows");
+    assert_eq!(p.decision.rank + p.decision.redundancy, layout.rows());
+}
+
+/// Verdicts fit the rank, the dependencies and each other; the document can be read.
+pub(super) fn check(inquiry: &Inquiry<'_>) {
+    let analysis = &inquiry.analysis;
+    let decision = &analysis.decision;
+    let rows = analysis.holonomic_rows + analysis.nonholonomic_rows;
+    assert_eq!(decision.rank + decision.redundancy, rows);
+    assert!(decision.rank <= analysis.velocities);
+    if matches!(decision.status, RankStatus::Undecided(_)) {
+        for r in &analysis.reactions {
+            assert!(
+                r.wrench.verdict != Verdict::NotUnique || decision.redundancy > 0,
+                "{}",
+                r.name
+            );
+        }
+    } else {
+        verdicts(inquiry);
+    }
+    if let Err(e) = inquiry.groups(&[]) {
+        named(&e);
+    }
+    document(inquiry);
+}
+
+fn verdicts(inquiry: &Inquiry<'_>) {
+    let analysis = &inquiry.analysis;
+    let decision = &analysis.decision;
+    let evidence = &decision.evidence;
+    if evidence.certificate.is_none() && decision.rank > 0 {
+        assert!(
+            evidence.sigma_r > evidence.tolerance,
+            "σ_r = {:e} ≤ {:e}",
+            evidence.sigma_r,
+            evidence.tolerance
+        );
+        assert!(
+            evidence.sigma_next <= evidence.tolerance,
+            "σ_next = {:e} > {:e}",
+            evidence.sigma_next,
+            evidence.tolerance
+        );
+    }
+    assert_eq!(
+        analysis.dependencies.len(),
+        decision.redundancy,
+        "as many dependencies as redundant rows"
+    );
+    for d in &analysis.dependencies {
+        let largest = d.coefficients.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        assert!((largest - 1.0).abs() < 1e-12, "{:?}", d.coefficients);
+        assert!(!d.text.is_empty());
+    }
+    let depends = |row: usize| analysis.dependencies.iter().any(|d| d.rows.contains(&row));
+    for r in &analysis.reactions {
+        if decision.redundancy == 0 {
+            assert_eq!(
+                r.wrench.verdict,
+                Verdict::Unique,
+                "`{}` without any redundancy",
+                r.name
+            );
+        }
+        // A row in a dependency has a free multiplier; one in none has not. The dependencies are found by another way.
+        for row in &r.rows {
+            match &row.judgement.verdict {
+                Verdict::Unique => assert!(
+                    !depends(row.row),
+                    "row {} is unique and depends on others",
+                    row.row + 1
+                ),
+                Verdict::NotUnique => assert!(
+                    depends(row.row),
+                    "row {} is not unique and depends on nothing",
+                    row.row + 1
+                ),
+                Verdict::Undecided { reason } => assert!(!reason.is_empty()),
+                other => panic!("a verdict that nobody knows: {other:?}"),
+            }
+        }
+        let free = r
+            .rows
+            .iter()
+            .any(|row| row.judgement.verdict == Verdict::NotUnique);
+        let sure = r
+            .rows
+            .iter()
+            .all(|row| row.judgement.verdict == Verdict::Unique);
+        assert!(
+            !(sure && r.wrench.verdict == Verdict::NotUnique),
+            "`{}`: all rows unique, the wrench not",
+            r.name
+        );
+        assert!(
+            !(free && r.multipliers.verdict == Verdict::Unique),
+            "`{}`: a row is free, the multipliers unique",
+            r.name
+        );
+        let component_free = r
+            .components
+            .iter()
+            .any(|c| c.judgement.verdict == Verdict::NotUnique);
+        assert!(
+            !(component_free && r.wrench.verdict == Verdict::Unique),
+            "`{}`: a component is free, the wrench unique",
+            r.name
+        );
+    }
+}
+
+/// The document of `analyze --json` is JSON.
+fn document(inquiry: &Inquiry<'_>) {
+    let generic = inquiry.generic();
+    let proof = Proof {
+        generic: generic.as_ref(),
+        certificate: inquiry.certificate.as_ref(),
+    };
+    let mut document = AnalysisDocument::new(inquiry.scene.name(), &inquiry.analysis, proof);
+    match inquiry.explanation() {
+        Ok(Some(explanation)) => document.explain(&explanation, inquiry.mechanism.layout()),
+        Ok(None) => {}
+        Err(e) => named(&e),
+    }
+    if let Some(generic) = &generic
+        && let Err(e) = inquiry.continuation(generic)
+    {
+        named(&e);
+    }
+    let mut text = Vec::new();
+    write_json(&mut text, &document).expect("a vector takes everything");
+    let read: Result<serde_json::Value, _> = serde_json::from_slice(&text);
+    assert!(read.is_ok_and(|d| d.is_object()), "no JSON document");
+}

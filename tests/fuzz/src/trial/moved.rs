@@ -1,0 +1,188 @@
+//! What must hold of a motion.
+
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use pfaff::Study;
+use pfaff::dynamics::{Sample, Stabilisation};
+use pfaff::model::start::scene_size;
+use pfaff::model::{Mechanism, Scratch, System};
+use pfaff::report::{ReactionTable, Selection, TrajectoryTable};
+
+use super::{ROWS, Reach, STEPS, named};
+
+/// Residuals of projected rows are at most this share of the terms of their row of Φ or C·v − b. Rows are brought onto the constraints
+/// to rounding of the longest row, which a nearly singular configuration makes larger; what is above is wrong.
+const RESIDUAL: f64 = 1e-6;
+
+/// Rates of what stands still, in sizes of the mechanism each second.
+const REST: f64 = 1e-14;
+
+/// Moves it, as far as a trial goes. Tables are written as `simulate` writes them, and must be readable.
+pub(super) fn check(study: &Study) -> Reach {
+    let plan = match study.plan() {
+        Ok(plan) => plan,
+        Err(e) => {
+            named(&e);
+            return Reach::Judged;
+        }
+    };
+    let mechanism = &study.prepared.mechanism;
+    let mut trajectory =
+        TrajectoryTable::new(Vec::new(), mechanism).expect("a vector takes everything");
+    let mut reactions = ReactionTable::new(Vec::new(), mechanism, &Selection::All)
+        .expect("a vector takes everything");
+    let mut checked = Rows {
+        mechanism,
+        scratch: mechanism.scratch(),
+        is_projected: plan.options().stabilisation == Stabilisation::Projection,
+        size: scene_size(mechanism, &study.prepared.q),
+        last: f64::NEG_INFINITY,
+    };
+    let (steps, mut rows, mut with_reactions) = (AtomicUsize::new(0), 0, 0);
+    let watch = |_: f64| match steps.fetch_add(1, Ordering::Relaxed) < STEPS {
+        true => ControlFlow::Continue(()),
+        false => ControlFlow::Break(()),
+    };
+    let outcome = plan.simulate_watched(&watch, |sample| {
+        rows += 1;
+        checked.row(sample);
+        trajectory
+            .row(sample.t, sample.q, sample.v)
+            .expect("a vector takes everything");
+        let forces = sample.reactions()?;
+        reactions
+            .row(sample.t, &forces)
+            .expect("a vector takes everything");
+        with_reactions += 1;
+        Ok(match rows < ROWS {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        })
+    });
+    readable(
+        trajectory.finish().expect("a vector takes everything"),
+        rows,
+        "trajectory",
+    );
+    let written = reactions.finish().expect("a vector takes everything");
+    readable(written, with_reactions, "reactions");
+    // A row without reactions is the end of a run.
+    assert!(
+        with_reactions == rows || outcome.is_err(),
+        "rows without reactions"
+    );
+    match outcome {
+        Ok(summary) if summary.t >= plan.options().t_end => {
+            assert!(rows >= 1, "a run without rows");
+            Reach::Moved
+        }
+        Ok(_) => {
+            assert!(
+                rows >= ROWS || steps.load(Ordering::Relaxed) > STEPS,
+                "a run ended before its end, without a reason"
+            );
+            Reach::Cut
+        }
+        Err(failure) => {
+            let text = failure.to_string();
+            assert!(
+                !text.trim().is_empty(),
+                "a run stopped without a reason: {:?}",
+                failure.error
+            );
+            Reach::Stopped
+        }
+    }
+}
+
+/// Rows of a run, one after the other.
+struct Rows<'m> {
+    mechanism: &'m Mechanism,
+    scratch: Scratch,
+    is_projected: bool,
+    size: f64,
+    last: f64,
+}
+
+impl Rows<'_> {
+    fn row(&mut self, sample: &Sample<'_, '_>) {
+        let Sample { t, q, v, .. } = *sample;
+        assert!(t > self.last, "rows at t = {t} s after {} s", self.last);
+        self.last = t;
+        assert!(
+            q.iter().chain(v).all(|x| x.is_finite()),
+            "the state at t = {t} s is not finite"
+        );
+        if self.is_projected {
+            self.residuals(t, q, v);
+        }
+    }
+
+    fn residuals(&mut self, t: f64, q: &[f64], v: &[f64]) {
+        let Self {
+            mechanism,
+            scratch: s,
+            size,
+            ..
+        } = self;
+        let layout = mechanism.layout();
+        // At a break time rows show the values just before.
+        let t_before = match t > 0.0 && layout.break_times.contains(&t) {
+            true => t.next_down(),
+            false => t,
+        };
+        mechanism.pose(t_before, q, s);
+        mechanism.phi(s);
+        mechanism.c(s);
+        mechanism.b(s);
+        for i in 0..layout.rows() {
+            if i < layout.m {
+                let (phi, scale) = (s.phi[i].abs(), mechanism.position_scale(s, i, q));
+                assert!(
+                    phi <= RESIDUAL * scale,
+                    "t = {t} s: |Φ| of row {} is {phi:e}, its terms {scale:e}",
+                    layout.labels[i]
+                );
+            }
+            let (rate, scale) = (
+                layout.velocity_residual(s, i, v).abs(),
+                mechanism.velocity_scale(s, i, v),
+            );
+            // What stands still is compared with the fastest row, and all of them with what rounding of accelerations leaves within a second.
+            let fastest = (0..layout.rows())
+                .map(|k| mechanism.velocity_scale(s, k, v))
+                .fold(scale, f64::max);
+            let limit = RESIDUAL * fastest + REST * mechanism.position_scale(s, i, q).max(*size);
+            assert!(
+                rate <= limit,
+                "t = {t} s: |C·v − b| of row {} is {rate:e}, the largest terms {fastest:e}",
+                layout.labels[i]
+            );
+        }
+    }
+}
+
+/// A table with a header of different names, and rows of as many numbers.
+fn readable(table: Vec<u8>, rows: usize, name: &str) {
+    let mut reader = csv::Reader::from_reader(table.as_slice());
+    let header = reader.headers().expect("a header").clone();
+    let mut names: Vec<&str> = header.iter().collect();
+    names.sort_unstable();
+    names.dedup();
+    assert_eq!(
+        names.len(),
+        header.len(),
+        "{name}: columns of one name: {header:?}"
+    );
+    let mut count = 0;
+    for row in reader.records() {
+        let row = row.unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert!(
+            row.iter().all(|x| x.parse::<f64>().is_ok()),
+            "{name}: {row:?}"
+        );
+        count += 1;
+    }
+    assert_eq!(count, rows, "{name}: rows");
+}

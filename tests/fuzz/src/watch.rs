@@ -1,0 +1,166 @@
+//! Processes that try texts, with limits of time and memory. A process that ends before it was asked to, or says nothing for too long,
+//! has found something.
+
+use std::io::{self, Read, Write};
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::trial::{Reach, Stage};
+
+/// How a process is begun, and what it may use.
+#[derive(Clone, Debug)]
+pub struct Limits {
+    /// The program.
+    pub program: PathBuf,
+    /// Longest time for one text.
+    pub deadline: Duration,
+    /// Largest memory (MiB); enforced where there is a shell that can.
+    pub memory: u64,
+}
+
+/// How a trial failed.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Fault {
+    /// The process ended: a panic, an overflow of the stack, no memory.
+    Died {
+        /// Where and why: the line of the panic, or how it ended.
+        place: String,
+        /// All of its last words.
+        words: String,
+    },
+    /// It took too long.
+    Hung {
+        /// At what.
+        place: String,
+    },
+}
+
+impl Fault {
+    /// What two faults of one cause have in common.
+    #[must_use]
+    pub fn place(&self) -> &str {
+        match self {
+            Self::Died { place, .. } | Self::Hung { place } => place,
+        }
+    }
+}
+
+/// Tries one text.
+///
+/// # Errors
+/// If the process cannot be begun.
+pub fn one(limits: &Limits, text: &str) -> io::Result<Result<Reach, Fault>> {
+    let mut worker = Worker::begin(limits, &["try", "-"], Some(text))?;
+    let answer = worker.answer(limits.deadline);
+    worker.end();
+    Ok(answer)
+}
+
+/// A process at work. It writes a letter for each [`Stage`] that begins and for the [`Reach`] of each text.
+pub struct Worker {
+    child: Child,
+    answers: Receiver<u8>,
+    words: Option<thread::JoinHandle<String>>,
+}
+
+impl Worker {
+    /// Begins it.
+    ///
+    /// # Errors
+    /// If there is no such program, or no process left.
+    pub fn begin(limits: &Limits, arguments: &[&str], input: Option<&str>) -> io::Result<Self> {
+        let mut command = match cfg!(unix) {
+            true => {
+                let mut shell = Command::new("sh");
+                let script = format!("ulimit -v {}; exec \"$0\" \"$@\"", 1024 * limits.memory);
+                shell.args(["-c", &script]).arg(&limits.program);
+                shell
+            }
+            false => Command::new(&limits.program),
+        };
+        let mut child = command
+            .args(arguments)
+            .env("RUST_BACKTRACE", "0")
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()?;
+        if let (Some(mut stdin), Some(text)) = (child.stdin.take(), input) {
+            // It may have died already: then it has no answer.
+            let _ = stdin.write_all(text.as_bytes());
+        }
+        let (send, answers) = channel();
+        if let Some(mut stdout) = child.stdout.take() {
+            thread::spawn(move || {
+                let mut bytes = [0; 256];
+                while let Ok(n @ 1..) = stdout.read(&mut bytes) {
+                    if bytes[..n].iter().any(|b| send.send(*b).is_err()) {
+                        return;
+                    }
+                }
+            });
+        }
+        let words = child.stderr.take().map(|mut stderr| {
+            thread::spawn(move || {
+                let mut bytes = Vec::new();
+                let _ = stderr.read_to_end(&mut bytes);
+                String::from_utf8_lossy(&bytes).into_owned()
+            })
+        });
+        Ok(Self {
+            child,
+            answers,
+            words,
+        })
+    }
+
+    /// The answer for the next text.
+    ///
+    /// # Errors
+    /// [`Fault`]: there is none.
+    pub fn answer(&mut self, deadline: Duration) -> Result<Reach, Fault> {
+        let (end, mut stage) = (Instant::now() + deadline, None);
+        loop {
+            let left = end.saturating_duration_since(Instant::now());
+            match self.answers.recv_timeout(left).map(char::from) {
+                Ok(letter) => match Reach::ALL.into_iter().find(|r| r.letter() == letter) {
+                    Some(reach) => return Ok(reach),
+                    None => stage = Stage::ALL.into_iter().find(|s| s.letter() == letter),
+                },
+                Err(RecvTimeoutError::Timeout) => {
+                    let place = format!("hang, stage {stage:?}");
+                    return Err(Fault::Hung { place });
+                }
+                Err(RecvTimeoutError::Disconnected) => return Err(self.died()),
+            }
+        }
+    }
+
+    fn died(&mut self) -> Fault {
+        let status = self.child.wait();
+        let words = self
+            .words
+            .take()
+            .and_then(|thread| thread.join().ok())
+            .unwrap_or_default();
+        let panicked = words
+            .lines()
+            .find_map(|line| line.split_once("panicked at "));
+        let place = match (panicked, status) {
+            (Some((_, place)), _) => place.trim_end_matches(':').to_owned(),
+            (None, Ok(status)) => status.to_string(),
+            (None, Err(e)) => e.to_string(),
+        };
+        Fault::Died { place, words }
+    }
+
+    /// Ends it, whatever it is doing.
+    pub fn end(mut self) {
+        // It may have ended by itself.
+        let _ = self.child.kill();
+        let _ = self.child.wait();
+    }
+}
