@@ -177,6 +177,40 @@ pub enum Trip {
         /// What is allowed.
         allowed: f64,
     },
+    /// With all rows the solution is not that of the kept ones, which is known better.
+    #[error(
+        "at t = {time} s the formulation with all rows misses {what} at the {coordinate} of `{body}` by {by:.1e} of its size, more than \
+         {allowed:.1e}: masses and inertias differ too much for it; use kept-rows"
+    )]
+    AllRows {
+        /// When.
+        time: f64,
+        /// Accelerations or forces of constraints.
+        what: &'static str,
+        /// The body where it misses most.
+        body: String,
+        /// Its coordinate.
+        coordinate: &'static str,
+        /// By how much.
+        by: f64,
+        /// What is allowed.
+        allowed: f64,
+    },
+    /// With all rows a mass is too small beside the others to be told from none.
+    #[error(
+        "at t = {time} s the formulation with all rows cannot tell the mass that moves with the {coordinate} of `{body}` from none: \
+         masses and inertias differ too much for it, by a factor of {spread:.1e}; use kept-rows"
+    )]
+    Graded {
+        /// When.
+        time: f64,
+        /// The body.
+        body: String,
+        /// Its coordinate.
+        coordinate: &'static str,
+        /// The heaviest divided by the lightest.
+        spread: f64,
+    },
     /// The saddle equations were refused for another reason.
     #[error("at t = {time} s: {source}")]
     Saddle {

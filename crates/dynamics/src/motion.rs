@@ -9,6 +9,7 @@
 //! Positions and velocities have rows of their own. A holonomic row may be dropped because knife edges imply its
 //! velocity; nothing implies its position, and without it the configuration would drift.
 
+mod agreement;
 mod all_rows;
 mod chart;
 mod coded;
@@ -38,6 +39,7 @@ use coded::Coded;
 pub(crate) use locate::Singular;
 use passage::Passage;
 use rows::KeptRows;
+pub(crate) use rows::{is_far, mass_spread};
 
 pub use reduced::Reduced;
 
@@ -124,8 +126,14 @@ impl<'a> KeptRowMotion<'a> {
     /// # Errors
     /// As [`KeptRowMotion::new`]; also if the formulation has no solution at the start.
     pub fn with(prepared: &'a Prepared, options: &MotionOptions) -> Result<Self, Trip> {
-        let all_rows = AllRows::new(prepared, options.formulation, options.rtol)?;
+        let all_rows = AllRows::new(prepared, options.formulation, options.rtol)
+            .map_err(|trip| agreement::unless_graded(prepared, trip))?;
         let mut motion = Self::kept(prepared, all_rows, options.stabilisation)?;
+        if motion.all_rows.is_some() {
+            let mut a = vec![0.0; prepared.v.len()];
+            motion.solve(0.0, &prepared.q, &prepared.v, &mut a)?;
+            motion.check_acceleration(&a)?;
+        }
         if options.is_on_chart() {
             motion.use_chart(0.0, &prepared.q)?;
         }
@@ -218,6 +226,23 @@ impl<'a> KeptRowMotion<'a> {
         [holonomic, kept.len() - holonomic]
     }
 
+    /// Whether accelerations at coordinates q are refined, were they solved for on kept rows.
+    ///
+    /// # Errors
+    /// If the equations have no unique solution here.
+    pub(crate) fn is_refined_at(&mut self, t: f64, q: &[f64]) -> Result<bool, Trip> {
+        let Self {
+            mechanism,
+            s,
+            velocity,
+            ..
+        } = self;
+        mechanism.pose(t, q, s);
+        mechanism.c(s);
+        velocity.factor(mechanism, s)?;
+        Ok(velocity.are_refined())
+    }
+
     /// b at the pose of the scratch.
     fn evaluate_b(&mut self) {
         if self.mechanism.layout().rheonomic {
@@ -257,13 +282,18 @@ impl<'a> KeptRowMotion<'a> {
             ..
         } = self;
         if let Some(all) = all_rows {
-            let solved = all.solve(mechanism, s, a);
+            let solved = all
+                .solve(mechanism, s, a)
+                .map_err(|trip| match velocity.are_refined() {
+                    true => agreement::too_graded(trip, mechanism.mass()),
+                    false => trip,
+                });
             return solved.map_err(|trip| self.named(trip));
         }
         for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
             *rhs = s.gamma[i];
         }
-        let solved = velocity.solve(mechanism, s, &s.force, a);
+        let solved = velocity.accelerate(mechanism, s, a);
         solved.map_err(|trip| self.named(trip))
     }
 
@@ -292,7 +322,7 @@ impl<'a> KeptRowMotion<'a> {
             lambda.copy_from_slice(&all.lambda);
             return Ok(());
         }
-        velocity.find_multipliers(mechanism, s, &s.force, a)?;
+        velocity.find_multipliers(mechanism, s, a)?;
         lambda.fill(0.0);
         for (&i, &l) in velocity.kept.iter().zip(&velocity.lambda) {
             lambda[i] = l;
@@ -308,11 +338,12 @@ impl<'a> KeptRowMotion<'a> {
         lambda: &mut [f64],
     ) -> Result<(), Trip> {
         let mut a = std::mem::take(&mut self.delta);
-        let solved = self.solve(t, q, v, &mut a);
+        let solved = self
+            .solve(t, q, v, &mut a)
+            .and_then(|()| self.choose_multipliers());
         self.delta = a;
         solved?;
-        if let Some(all) = &mut self.all_rows {
-            all.choose(self.mechanism, &self.s);
+        if let Some(all) = &self.all_rows {
             lambda.copy_from_slice(&all.lambda);
         }
         Ok(())
@@ -321,12 +352,12 @@ impl<'a> KeptRowMotion<'a> {
     /// Makes sure that the acceleration just evaluated, at a state on the constraints, is as good as asked for.
     ///
     /// # Errors
-    /// [`Trip::Unsettled`] if it cannot be.
+    /// [`Trip::Unsettled`], [`Trip::AllRows`] if it cannot be.
     pub(crate) fn review_acceleration(&mut self, a: &mut [f64]) -> Result<(), Trip> {
-        match &mut self.all_rows {
-            Some(all) => all.review(self.mechanism, &self.s, a),
-            None => Ok(()),
+        if let Some(all) = &mut self.all_rows {
+            all.review(self.mechanism, &self.s, a)?;
         }
+        self.check_acceleration(a)
     }
 }
 

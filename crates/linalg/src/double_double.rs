@@ -175,6 +175,16 @@ impl Mul for Dd {
     }
 }
 
+impl Mul<f64> for Dd {
+    type Output = Self;
+
+    /// `DWTimesFP2`, algorithm 8 of Joldes et al.
+    fn mul(self, y: f64) -> Self {
+        let (p, e) = two_product(self.hi, y);
+        Self::from_pair(fast_two_sum(p, e + self.lo * y))
+    }
+}
+
 impl Div for Dd {
     type Output = Self;
 

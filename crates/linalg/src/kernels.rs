@@ -61,6 +61,29 @@ pub(crate) fn max_abs(x: &[f64]) -> f64 {
         .fold(0.0, |largest, &a| larger(largest, a))
 }
 
+/// Smallest and largest entry, without branches: `[∞, −∞]` for an empty slice; NaN entries are skipped.
+pub(crate) fn extremes(x: &[f64]) -> [f64; 2] {
+    let smaller = |a: f64, b: f64| if b < a { b } else { a };
+    let larger = |a: f64, b: f64| if b > a { b } else { a };
+    let (x4, rest) = x.as_chunks::<4>();
+    let (mut least, mut most) = ([f64::INFINITY; 4], [f64::NEG_INFINITY; 4]);
+    for a in x4 {
+        for l in 0..4 {
+            least[l] = smaller(least[l], a[l]);
+            most[l] = larger(most[l], a[l]);
+        }
+    }
+    [
+        least
+            .iter()
+            .chain(rest)
+            .fold(f64::INFINITY, |a, &b| smaller(a, b)),
+        most.iter()
+            .chain(rest)
+            .fold(f64::NEG_INFINITY, |a, &b| larger(a, b)),
+    ]
+}
+
 /// Whether all entries are finite, without branches: x·0 is NaN exactly for NaN and infinities.
 pub(crate) fn all_finite(x: &[f64]) -> bool {
     let (x4, rest) = x.as_chunks::<4>();
@@ -89,11 +112,15 @@ mod tests {
         for n in 0..10 {
             let x: Vec<f64> = (1..=n).map(f64::from).collect();
             assert_eq!(max_abs(&x), f64::from(n));
+            if n > 0 {
+                assert_eq!(extremes(&x), [1.0, f64::from(n)]);
+            }
             assert!(all_finite(&x));
             for i in 0..x.len() {
                 let mut x = x.clone();
                 x[i] = -100.0;
                 assert_eq!(max_abs(&x), 100.0);
+                assert_eq!(extremes(&x)[0], -100.0);
                 for bad in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
                     x[i] = bad;
                     assert!(!all_finite(&x));

@@ -46,7 +46,7 @@ pub use rank::{
     Uncertainty, certify_exact, certify_within, decide, decide_dropping, decide_keeping,
 };
 pub use regularized::{StepError, least_squares_step};
-pub use saddle::{KeptRowSaddle, SaddleError};
+pub use saddle::{GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, mass_spread};
 pub use singular_values::singular_values;
 pub use structure::{Part, RowGroup, Settled, Structure, structure};
 pub use weakest::{WeakestCombination, weakest_combination};

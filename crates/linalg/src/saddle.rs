@@ -14,6 +14,10 @@
 //! [`KeptRowSaddle::new`], `factor` and `solve` allocate nothing. Not for redundant rows: choose
 //! the kept ones with [`decide`](crate::decide) first; no rank is decided here.
 //!
+//! Masses that differ by many powers of ten, or are zero, are graded: then, of the entries that are not much smaller than the largest, the pivot is that of the
+//! lightest coordinate. So the heavy coordinates are free, `Nᵀ·M·N` is their masses and little more, and λ comes
+//! from the equations of light bodies, where no large inertia cancels. What is left is rounding, which [`KeptRowSaddle::solve_refined`] removes.
+//!
 //! The algebra, with `P·Cᵀ = L·U`, `L = [L₁; L₂]` unit lower trapezoidal and y = P·a:
 //! `C·a = γ ⇔ Lᵀ·y = U⁻ᵀ·γ`, `N = Pᵀ·[−L₁⁻ᵀ·L₂ᵀ; I]`, `(NᵀMN)·z = Nᵀ·(f − M·a_p)`,
 //! `L·U·λ = P·(f − M·a)`. Source: null space method, M. Benzi, G. H. Golub, J. Liesen, Numerical
@@ -22,12 +26,21 @@
 mod factor;
 mod orientation;
 mod partition;
+mod refine;
 mod solve;
 #[cfg(test)]
 mod tests;
 
 use crate::Matrix;
 use crate::kernels::all_finite;
+
+pub use refine::Refinement;
+
+/// Masses are graded from this spread on, see [`mass_spread`]: below it plain solutions keep about ten digits, and normally twelve.
+pub const GRADED_MASSES: f64 = 1e6;
+
+/// Where elimination leaves less than this share of a reduced mass, so many digits are gone.
+const CANCELLED: f64 = 1e-3;
 
 /// Solver of the saddle equations of n coordinates and r independent constraint rows.
 ///
@@ -66,6 +79,10 @@ pub struct KeptRowSaddle {
     /// L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. k×k, row-major.
     reduced_mass: Vec<f64>,
     pivot_ratio: f64,
+    /// Smallest share of a diagonal entry of NᵀMN that its elimination left, infinite for k = 0.
+    mass_ratio: f64,
+    mass_spread: f64,
+    is_graded: bool,
     /// Scratch of `orientation`: Nᵀ·B, k×k.
     bordered: Vec<f64>,
     state: State,
@@ -154,6 +171,17 @@ pub enum SaddleError {
         /// The motion, largest entry 1.
         motion: Vec<f64>,
     },
+    /// Refinement does not converge: the equations are singular to working precision.
+    #[error(
+        "refinement of the solution does not converge: after {rounds} rounds it still changes by the share {change:.3e}; \
+         the equations are singular to working precision"
+    )]
+    Unrefined {
+        /// Rounds made.
+        rounds: usize,
+        /// Largest change of the last one, relative to the size of what changed.
+        change: f64,
+    },
     /// `solve` without a successful `factor`.
     #[error("nothing is factored: call `factor` and handle its error before `solve`")]
     NotFactored,
@@ -184,6 +212,9 @@ impl KeptRowSaddle {
             mass: vec![0.0; n],
             reduced_mass: vec![0.0; n * n],
             pivot_ratio: f64::INFINITY,
+            mass_ratio: f64::INFINITY,
+            mass_spread: 1.0,
+            is_graded: false,
             bordered: vec![0.0; n * n],
             state: State::Empty,
             y: vec![0.0; n],
@@ -211,11 +242,42 @@ impl KeptRowSaddle {
         self.used[..self.r].binary_search(&k).is_ok()
     }
 
+    /// Whether the masses of the last factorisation are graded, so that light coordinates are solved for: [`mass_spread`] from
+    /// [`GRADED_MASSES`] on, or masses that are zero.
+    pub fn is_graded(&self) -> bool {
+        self.is_graded
+    }
+
+    /// Whether a plain solution of the last factorisation may miss digits that [`KeptRowSaddle::solve_refined`] has: [`mass_spread`]
+    /// from [`GRADED_MASSES`] on, or elimination has left less than 1e-3 of a reduced mass.
+    pub fn wants_refinement(&self) -> bool {
+        self.mass_spread >= GRADED_MASSES || self.mass_ratio < CANCELLED
+    }
+
     /// Smallest `|pivot| / largest entry of its row` of the last factorisation, rows left out included, infinite for r = 0:
     /// the monitor for near-singular configurations. It changes smoothly along a motion except where
     /// the pivot order changes, and falls towards zero as the kept rows become dependent.
     pub fn pivot_ratio(&self) -> f64 {
         self.pivot_ratio
+    }
+}
+
+/// The heaviest mass divided by the lightest that is not zero; 1 where none is positive.
+///
+/// Moments of inertia count as they are, in kg·m²: lengths far from a metre show in it as well.
+///
+/// ```
+/// assert_eq!(linalg::mass_spread(&[8.0, 0.0, 2.0]), 4.0);
+/// ```
+pub fn mass_spread(mass: &[f64]) -> f64 {
+    let (mut lightest, mut heaviest) = (f64::INFINITY, 0.0);
+    for &m in mass {
+        lightest = if m > 0.0 && m < lightest { m } else { lightest };
+        heaviest = if m > heaviest { m } else { heaviest };
+    }
+    match heaviest > 0.0 {
+        true => heaviest / lightest,
+        false => 1.0,
     }
 }
 

@@ -1,5 +1,6 @@
 //! The list of families: one line each, and a file of its own for each.
 
+mod accelerations;
 mod bad_numbers;
 mod contradictions;
 mod drives;
@@ -43,6 +44,7 @@ pub fn families() -> Vec<Family> {
         singular::FAMILY,
         massless::FAMILY,
         invariance::FAMILY,
+        accelerations::FAMILY,
     ]
 }
 

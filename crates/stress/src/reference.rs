@@ -5,11 +5,14 @@
 //! | --- | --- |
 //! | `dyadic` | numbers `mantissa·2^exponent` |
 //! | `elimination` | elimination without fractions |
+//! | `solve` | accelerations and multipliers of the equations of motion |
 //! | `rank` | rank, left null space, and the verdicts that follow from it |
 
 mod dyadic;
 mod elimination;
 mod rank;
+mod solve;
 
 pub use dyadic::Dyadic;
 pub use rank::Exact;
+pub use solve::{Singular, Solution, solve};

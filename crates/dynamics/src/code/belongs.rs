@@ -3,11 +3,12 @@
 
 use std::sync::Arc;
 
+use linalg::GRADED_MASSES;
 use model::{Mechanism, System};
 
 use super::{LEAVE, SceneCode};
 use crate::error::Trip;
-use crate::motion::{KeptRowMotion, Motion};
+use crate::motion::{KeptRowMotion, Motion, is_far, mass_spread};
 use crate::options::{Formulation, Method, MotionOptions, Stabilisation};
 use crate::prepare::Prepared;
 
@@ -101,7 +102,7 @@ fn from_one(rows: &[usize]) -> String {
 }
 
 /// Why a run does not use generated code.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NoCode {
     /// There is none.
@@ -116,6 +117,20 @@ pub enum NoCode {
     /// States are not projected.
     #[error("code is watched by its projections, the stabilisation is {0}")]
     Stabilisation(&'static str),
+    /// Plain solutions may miss digits, and code has no others.
+    #[error(
+        "masses and inertias differ by a factor of {spread:.1e}, from {GRADED_MASSES:.0e} on solutions are refined, which code does not do"
+    )]
+    Refinement {
+        /// The heaviest divided by the lightest.
+        spread: f64,
+    },
+    /// The same for another reason.
+    #[error("solutions of a mechanism of {size:.1e} m are refined, which code does not do")]
+    Size {
+        /// Its size (m).
+        size: f64,
+    },
 }
 
 impl Prepared {
@@ -148,8 +163,14 @@ impl Prepared {
             return Err(NoCode::Formulation(options.formulation.name()));
         }
         match options.stabilisation {
-            Stabilisation::Projection => Ok(code),
-            other => Err(NoCode::Stabilisation(other.name())),
+            Stabilisation::Projection => {}
+            other => return Err(NoCode::Stabilisation(other.name())),
+        }
+        let (spread, size) = (mass_spread(self), self.assembly.size);
+        match (spread >= GRADED_MASSES, is_far(size)) {
+            (true, _) => Err(NoCode::Refinement { spread }),
+            (false, true) => Err(NoCode::Size { size }),
+            (false, false) => Ok(code),
         }
     }
 }

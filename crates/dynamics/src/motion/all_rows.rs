@@ -16,6 +16,9 @@ use crate::prepare::Prepared;
 /// Proximal iterations are tuned again once their last one changes more than so many tolerances, on the constraints.
 const UNSETTLED: f64 = 100.0;
 
+/// Accelerations with all rows are those of kept rows, on the constraints, but for this share.
+const AGREES: f64 = 1e-9;
+
 /// The first solve for the least reactions leaves its own rounding; the second removes what of it matters.
 const LEAST_SOLVES: usize = 2;
 
@@ -146,6 +149,24 @@ impl AllRows {
             Saddle::Proximal { saddle, tolerance } => {
                 let allowed = UNSETTLED * tolerance.max(f64::EPSILON);
                 (saddle.unsettled() > allowed).then_some(allowed)
+            }
+        }
+    }
+
+    /// The share by which accelerations may miss those of kept rows.
+    pub(super) fn allowed(&self) -> f64 {
+        match &self.saddle {
+            Saddle::MinimumNorm(_) => AGREES,
+            Saddle::Proximal { tolerance, .. } => AGREES.max(UNSETTLED * tolerance),
+        }
+    }
+
+    /// Takes other multipliers that solve the same equations, where the formulation chooses among all of them by itself afterwards.
+    pub(super) fn start_from(&mut self, kept: &[usize], lambda: &[f64]) {
+        if let Saddle::MinimumNorm(_) = self.saddle {
+            self.lambda.fill(0.0);
+            for (&row, &l) in kept.iter().zip(lambda) {
+                self.lambda[row] = l;
             }
         }
     }

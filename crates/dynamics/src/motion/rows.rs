@@ -4,11 +4,12 @@
 //! pivot of a rotation, a length, would be compared with one of a translation, which has no unit: pivots would fall and determinants change
 //! their signs where nothing happens but that metres are large or small. Callers see their own units only.
 
-use linalg::{KeptRowSaddle, Matrix, PivotedQr, SaddleError};
+use linalg::{KeptRowSaddle, Matrix, PivotedQr, Refinement, SaddleError};
 use model::{Mechanism, Scratch, System};
 
 use crate::counts::{Counted, note};
 use crate::error::Trip;
+use crate::prepare::Prepared;
 
 /// Kept rows, their dense block of C, and the factored saddle matrix.
 #[derive(Clone)]
@@ -30,6 +31,9 @@ pub(super) struct KeptRows {
     force: Vec<f64>,
     motion: Vec<f64>,
     saddle: KeptRowSaddle,
+    refinement: Refinement,
+    /// Whether the mechanism is so large or small that solutions are refined.
+    is_far: bool,
     /// Pivot ratio when these rows were chosen: what later ones are compared with.
     reference_pivot: Option<f64>,
     /// The same for the present partition, if there is one.
@@ -59,6 +63,9 @@ const PIVOT_RECOVERY: f64 = 0.2;
 /// Rows chosen by themselves are exchanged above this coefficient in a dropped row.
 const LARGE_COEFFICIENT: f64 = 10.0;
 
+/// Solutions of mechanisms larger than this (m), or smaller than its inverse, are refined.
+const FAR: f64 = 1e5;
+
 impl KeptRows {
     /// Storage for these rows of a mechanism whose lengths are measured by `size`.
     pub(super) fn new(
@@ -68,20 +75,20 @@ impl KeptRows {
         dropped: &[usize],
     ) -> Result<Self, SaddleError> {
         let (n, r) = (mechanism.layout().n_v, kept.len());
-        let exponents = mechanism.dimension_scaling(size).cols;
-        let units: Vec<f64> = exponents.iter().map(|&e| f64::from(e).exp2()).collect();
-        let mass = units.iter().zip(mechanism.mass());
+        let units = units(mechanism, size);
         Ok(Self {
             kept: kept.to_vec(),
             dropped: dropped.to_vec(),
             rhs: vec![0.0; r],
             lambda: vec![0.0; r],
             c: Matrix::zeros(r, n),
-            mass: mass.map(|(unit, m)| unit * m * unit).collect(),
+            mass: mass_in_units(mechanism, &units),
             units,
             force: vec![0.0; n],
             motion: vec![0.0; n],
             saddle: KeptRowSaddle::new(n, r)?,
+            refinement: Refinement::new(n, r),
+            is_far: is_far(size),
             reference_pivot: None,
             partition: None,
         })
@@ -117,15 +124,18 @@ impl KeptRows {
     ) -> Result<Vec<usize>, Trip> {
         self.forget_partition();
         self.factor(mechanism, s)?;
-        let qr = PivotedQr::of_columns(&self.c);
-        let (dependent, free) = qr.permutation().split_at(self.kept.len());
-        if let Err(e) = self.saddle.partition(dependent) {
+        let dependent = match self.saddle.is_graded() {
+            // Heavy coordinates are independent, whatever the rows would determine best.
+            true => self.saddle.solved_for().to_vec(),
+            false => PivotedQr::of_columns(&self.c).permutation()[..self.kept.len()].to_vec(),
+        };
+        let free = (0..self.units.len()).filter(|i| !dependent.contains(i));
+        let free = free.collect();
+        if let Err(e) = self.saddle.partition(&dependent) {
             return Err(self.trip(mechanism, s, e));
         }
         self.partition = Some(PartitionPivot(None));
         self.factor(mechanism, s)?;
-        let mut free = free.to_vec();
-        free.sort_unstable();
         Ok(free)
     }
 
@@ -275,16 +285,65 @@ impl KeptRows {
         }
     }
 
-    /// The λ that belongs to such a solution x.
+    /// Whether accelerations and their multipliers are refined at the last factorisation.
+    pub(super) fn are_refined(&self) -> bool {
+        self.is_far || self.saddle.wants_refinement()
+    }
+
+    /// Accelerations from `M·a + Cᵀ·λ = Q`, `C·a = rhs` with Q of the scratch, refined where plain ones may miss digits.
+    pub(super) fn accelerate(
+        &mut self,
+        mechanism: &Mechanism,
+        s: &Scratch,
+        a: &mut [f64],
+    ) -> Result<(), Trip> {
+        self.take_force(&s.force);
+        let c = &self.c;
+        let solved = match self.are_refined() {
+            false => self.saddle.motion(&self.force, &self.rhs, &mut self.motion),
+            true => self.saddle.solve_refined(
+                &mut self.refinement,
+                |k| c.row(k),
+                &self.force,
+                &self.rhs,
+                &mut self.motion,
+                &mut self.lambda,
+            ),
+        };
+        match solved {
+            Ok(()) => {
+                self.write_motion(a);
+                Ok(())
+            }
+            Err(e) => Err(self.trip(mechanism, s, e)),
+        }
+    }
+
+    /// The largest acceleration, in units of the mechanism, that one row alone asks for by its right-hand side.
+    pub(super) fn rate(&self) -> f64 {
+        let of_row = |(k, rhs): (usize, &f64)| {
+            let largest = self.c.row(k).iter().fold(0.0, |a, c| f64::max(a, c.abs()));
+            if largest > 0.0 {
+                rhs.abs() / largest
+            } else {
+                0.0
+            }
+        };
+        self.rhs.iter().enumerate().map(of_row).fold(0.0, f64::max)
+    }
+
+    /// The λ that belongs to the accelerations a just found by [`KeptRows::accelerate`]; refined, they have come with them.
     pub(super) fn find_multipliers(
         &mut self,
         mechanism: &Mechanism,
         s: &Scratch,
-        force: &[f64],
-        x: &[f64],
+        a: &[f64],
     ) -> Result<(), Trip> {
-        self.take_force(force);
-        self.take_motion(x);
+        if self.are_refined() {
+            return Ok(());
+        }
+        self.take_force(&s.force);
+        self.take_motion(a);
         match self
             .saddle
             .multipliers(&self.force, &self.motion, &mut self.lambda)
@@ -366,6 +425,30 @@ impl KeptRows {
     fn trip(&self, mechanism: &Mechanism, s: &Scratch, e: SaddleError) -> Trip {
         trip(mechanism, s, e, |row| self.kept[row])
     }
+}
+
+/// What coordinates count in units of a mechanism of this size.
+fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+    let exponents = mechanism.dimension_scaling(size).cols;
+    exponents.iter().map(|&e| f64::from(e).exp2()).collect()
+}
+
+fn mass_in_units(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
+    let mass = units.iter().zip(mechanism.mass());
+    mass.map(|(unit, m)| unit * m * unit).collect()
+}
+
+/// Whether a mechanism of this size (m) is far larger or smaller than those of people: what is added up then, weights and centrifugal terms,
+/// differs by many powers of ten as well.
+pub(crate) fn is_far(size: f64) -> bool {
+    !(1.0 / FAR..=FAR).contains(&size)
+}
+
+/// The largest mass divided by the smallest that is not zero, moments of inertia divided by the square of the mechanism's size: the spread that
+/// decides whether solutions are refined.
+pub(crate) fn mass_spread(prepared: &Prepared) -> f64 {
+    let units = units(&prepared.mechanism, prepared.assembly.size);
+    linalg::mass_spread(&mass_in_units(&prepared.mechanism, &units))
 }
 
 /// Why a solve at the instant of the scratch failed; `row_of` tells which row of C a row of the solver is.

@@ -1,6 +1,7 @@
 //! The decisions about one component: each from a fact of its mechanism or its options, by the same question that the code asks which
 //! obeys it.
 
+use linalg::GRADED_MASSES;
 use model::{System, Work};
 
 use super::component::Sizes;
@@ -9,6 +10,7 @@ use super::split::elimination;
 use super::{Decided, Line, line};
 use crate::choose;
 use crate::error::MotionError;
+use crate::motion::{KeptRowMotion, is_far, mass_spread};
 use crate::options::{Formulation, Method, MotionOptions};
 use crate::prepare::Prepared;
 
@@ -21,6 +23,8 @@ pub struct Decisions {
     pub linear_systems: Decided<bool>,
     /// Rows and columns of what is eliminated densely.
     pub elimination: Decided<[usize; 2]>,
+    /// Whether solutions are refined from the start on.
+    pub refinement: Decided<bool>,
     /// Degrees of freedom; without one the motion is a function of time.
     pub mobility: Decided<usize>,
     /// Rows that have a velocity level only.
@@ -53,6 +57,7 @@ impl Decisions {
         Ok(Self {
             linear_systems: linear_systems(method.value, &sizes),
             elimination: dense(prepared, options.formulation, &sizes, &work),
+            refinement: refinement(prepared, options.formulation, method.value)?,
             mobility: mobility(prepared, options, &sizes, &work),
             nonholonomic: nonholonomic(&sizes),
             dropped: dropped(options.formulation, &sizes),
@@ -73,6 +78,7 @@ impl Decisions {
             line("method", &self.method),
             line("linear systems", &self.linear_systems),
             line("elimination", &self.elimination),
+            line("refinement", &self.refinement),
             line("freedom", &self.mobility),
             line("nonholonomic rows", &self.nonholonomic),
             line("dropped rows", &self.dropped),
@@ -139,6 +145,49 @@ fn dense(
         ),
         saves: Saving::of(whole.saturating_sub(all), whole, Cost::Elimination),
     }
+}
+
+fn refinement(
+    prepared: &Prepared,
+    formulation: Formulation,
+    method: Method,
+) -> Result<Decided<bool>, MotionError> {
+    let decided = |value: bool, reason: String| Decided {
+        value,
+        taken: if value { "in double-double" } else { "none" }.to_owned(),
+        reason,
+        saves: None,
+    };
+    if !formulation.drops_rows() {
+        return Ok(decided(
+            false,
+            format!("{} solves with all rows", formulation.name()),
+        ));
+    }
+    if matches!(method, Method::Hem4 | Method::GeneralizedAlpha) {
+        let why = "takes the constraints as equations of their own";
+        return Ok(decided(false, format!("{} {why}", method.name())));
+    }
+    let spread = mass_spread(prepared);
+    let factor = format!("masses and inertias differ by a factor of {spread:.1e}");
+    if spread >= GRADED_MASSES {
+        let why = format!("{factor}, from {GRADED_MASSES:.0e} on plain solutions miss digits");
+        return Ok(decided(true, why));
+    }
+    let size = prepared.assembly.size;
+    if is_far(size) {
+        let why = "far from a metre: weights and centrifugal terms differ by many powers of ten";
+        return Ok(decided(
+            true,
+            format!("the mechanism measures {size:.1e} m, {why}"),
+        ));
+    }
+    let value = KeptRowMotion::new(prepared)?.is_refined_at(0.0, &prepared.q)?;
+    let why = match value {
+        true => "but at the start digits cancel in the reduced mass",
+        false => "and no digits cancel in the reduced mass at the start; watched at every solution",
+    };
+    Ok(decided(value, format!("{factor}, {why}")))
 }
 
 fn mobility(

@@ -13,7 +13,7 @@ use model::{Body, BodyRef, Description, Drive, Force, Function, Joint, Mechanism
 
 use super::*;
 use crate::counts::{Counted, counted};
-use crate::{Failure, Method, RowChoice, Summary, prepare};
+use crate::{Failure, Formulation, Method, RowChoice, Summary, prepare};
 use watched::{Calls, take, watch};
 
 const GROUND: BodyRef = BodyRef::Ground;
@@ -112,6 +112,46 @@ fn independent_rows_are_neither_monitored_nor_judged() {
             .iter()
             .all(|n| *n > 0)
     );
+}
+
+#[test]
+fn solutions_are_refined_where_digits_would_be_lost() {
+    let refinement = |p: &Prepared, formulation| {
+        let options = MotionOptions {
+            formulation,
+            ..to(1.0)
+        };
+        let plan = Plan::new(p, &options, &Wanted::default()).expect("a plan");
+        let decided = &plan.components[0].decisions.refinement;
+        (decided.value, decided.reason.clone())
+    };
+    let ordinary = scene(|d| pendulum(d, "bob", 0.0));
+    let (refined, why) = refinement(&ordinary, Formulation::KeptRows);
+    assert!(!refined && why.contains("no digits cancel"), "{why}");
+    let graded = scene(|d| {
+        pendulum(d, "bob", 0.0);
+        d.bodies[0].inertia = 1e-7;
+    });
+    let (refined, why) = refinement(&graded, Formulation::KeptRows);
+    let factor = "masses and inertias differ by a factor of 1.0e7, from 1e6 on";
+    assert!(refined && why.starts_with(factor), "{why}");
+    let (refined, why) = refinement(&graded, Formulation::Proximal);
+    assert_eq!(
+        (refined, why.as_str()),
+        (false, "proximal solves with all rows")
+    );
+    let large = scene(|d| {
+        pendulum(d, "bob", 0.0);
+        let pin = Revolute {
+            s_i: [0.0; 2],
+            s_j: [-1e7, 0.0],
+        };
+        d.bodies[0].position = [1e7, 0.0];
+        d.bodies[0].inertia = 1e13;
+        d.joints = vec![Joint::new("pin", &[GROUND, BodyRef::Body(0)], pin)];
+    });
+    let (refined, why) = refinement(&large, Formulation::KeptRows);
+    assert!(refined && why.contains("far from a metre"), "{why}");
 }
 
 #[test]

@@ -40,6 +40,14 @@ proptest! {
     }
 
     #[test]
+    fn product_with_a_single_number(a in 1i128 << 60..1i128 << 62, b in 1i64 << 40..1i64 << 53) {
+        let (p, exact) = (dd(a) * b as f64, a * i128::from(b));
+        // Joldes et al. bound algorithm 8 by 3·2⁻¹⁰⁶.
+        let error = (integer(p) - exact).unsigned_abs() as f64;
+        prop_assert!(error <= 3.0 * 2f64.powi(-106) * exact as f64);
+    }
+
+    #[test]
     fn quotients_by_long_division(a in 1i64 << 40..1i64 << 53, b in 1i64 << 20..1i64 << 30) {
         // floor(a·2⁶⁰ / b) in integers; the quotient lies between 2⁷⁰ and 2⁹³.
         let exact = (i128::from(a) << 60) / i128::from(b);

@@ -1,10 +1,15 @@
 //! Factorisation: LU of Cᵀ row by row, null space basis, reduced mass.
 
-use super::{KeptRowSaddle, SaddleError, State, check_finite, check_length};
-use crate::kernels::{axpy, dot, max_abs};
+use super::{
+    GRADED_MASSES, KeptRowSaddle, SaddleError, State, check_finite, check_length, mass_spread,
+};
+use crate::kernels::{axpy, dot, extremes, max_abs};
 
 /// A pivot below this fraction of its row is rounding noise, whatever the configuration.
 const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
+
+/// Graded masses choose among the entries above this share of the largest one: multipliers of the elimination stay below its inverse.
+const CANDIDATE: f64 = 0.1;
 
 /// What became of a row.
 enum Elimination {
@@ -39,7 +44,7 @@ impl KeptRowSaddle {
         self.prepare(mass)?;
         for j in 0..self.rows {
             if let Elimination::Dependent { pivot, scale } =
-                self.eliminate(j, row(j), PIVOT_FLOOR)?
+                self.eliminate(j, row(j), mass, PIVOT_FLOOR)?
             {
                 return Err(SaddleError::RankLost {
                     row: j,
@@ -48,7 +53,7 @@ impl KeptRowSaddle {
                 });
             }
         }
-        self.finish(mass)
+        self.finish(row, mass)
     }
 
     /// As [`KeptRowSaddle::factor`], but a row whose pivot is at most `floor` of its largest entry is left out: where rows are
@@ -76,33 +81,43 @@ impl KeptRowSaddle {
     ) -> Result<(), SaddleError> {
         self.prepare(mass)?;
         for j in 0..self.rows {
-            self.eliminate(j, row(j), floor.max(PIVOT_FLOOR))?;
+            self.eliminate(j, row(j), mass, floor.max(PIVOT_FLOOR))?;
         }
-        self.finish(mass)
+        self.finish(row, mass)
     }
 
     fn prepare(&mut self, mass: &[f64]) -> Result<(), SaddleError> {
         self.state = State::Empty;
         check_length("mass", mass, self.n)?;
         check_finite("mass", mass, 0)?;
-        if let Some(index) = mass.iter().position(|&m| m < 0.0) {
+        let [lightest, heaviest] = extremes(mass);
+        if let (true, Some(index)) = (lightest < 0.0, mass.iter().position(|&m| m < 0.0)) {
             return Err(SaddleError::NegativeMass {
                 index,
                 value: mass[index],
             });
         }
+        self.mass_spread = match lightest > 0.0 {
+            true => heaviest / lightest,
+            false => mass_spread(mass),
+        };
+        self.is_graded = self.mass_spread >= GRADED_MASSES || lightest == 0.0;
         self.permutation.copy_from_slice(&self.order);
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
         Ok(())
     }
 
-    fn finish(&mut self, mass: &[f64]) -> Result<(), SaddleError> {
+    fn finish<'c>(
+        &mut self,
+        row: impl Fn(usize) -> &'c [f64],
+        mass: &[f64],
+    ) -> Result<(), SaddleError> {
         for (m, &coordinate) in self.mass.iter_mut().zip(&self.permutation) {
             *m = mass[coordinate];
         }
         self.fill_null_basis();
-        self.factor_reduced_mass()?;
+        self.factor_reduced_mass(row)?;
         self.state = State::Factored;
         Ok(())
     }
@@ -112,6 +127,7 @@ impl KeptRowSaddle {
         &mut self,
         row: usize,
         c_j: &[f64],
+        mass: &[f64],
         floor: f64,
     ) -> Result<Elimination, SaddleError> {
         let (n, j) = (self.n, self.r);
@@ -133,7 +149,18 @@ impl KeptRowSaddle {
 
         // No entry is the largest one if all are NaN.
         let largest = max_abs(&x[j..self.solvable]);
-        let at = (j..self.solvable).find(|&i| x[i].abs() == largest);
+        let at = match self.is_graded {
+            false => (j..self.solvable).find(|&i| x[i].abs() == largest),
+            true => {
+                let candidates = (j..self.solvable).filter(|&i| x[i].abs() >= CANDIDATE * largest);
+                let mass = |i: usize| mass[self.permutation[i]];
+                // Compares c²/m without quotients: masses may be zero.
+                candidates.reduce(|a, b| match x[b] * x[b] * mass(a) > x[a] * x[a] * mass(b) {
+                    true => b,
+                    false => a,
+                })
+            }
+        };
         let at = at.unwrap_or(j);
         let pivot = x[at];
         if scale > 0.0 {
@@ -180,12 +207,16 @@ impl KeptRowSaddle {
     }
 
     /// Cholesky factorisation of `NᵀMN` without roots, L·D·Lᵀ.
-    fn factor_reduced_mass(&mut self) -> Result<(), SaddleError> {
+    fn factor_reduced_mass<'c>(
+        &mut self,
+        row: impl Fn(usize) -> &'c [f64],
+    ) -> Result<(), SaddleError> {
         let (r, k) = (self.r, self.n - self.r);
         let heaviest = max_abs(&self.mass);
-        // What cancels in NᵀMN, and what rounding of N turns from zero into mass.
+        // What cancels in NᵀMN, and what rounding of N, which has no rounding in the free coordinates, turns from zero into mass.
         let cancelled = k as f64 * f64::EPSILON;
-        let spurious = (self.n as f64 * f64::EPSILON).powi(2) * heaviest;
+        let spurious = (self.n as f64 * f64::EPSILON).powi(2) * max_abs(&self.mass[..r]);
+        self.mass_ratio = f64::INFINITY;
         for i in 0..k {
             let y_i = &self.null_basis[i * r..(i + 1) * r];
             let (above, rest) = self.reduced_mass.split_at_mut(i * k);
@@ -211,14 +242,22 @@ impl KeptRowSaddle {
                 l_i[j] /= above[j * k + j];
                 reduced -= v_j * l_i[j];
             }
-            let floor = (cancelled * size).max(spurious * (1.0 + dot(y_i, y_i)));
-            if reduced.is_nan() || reduced <= floor {
+            let floor =
+                |share: f64| (cancelled * size).max(spurious * (share * share + dot(y_i, y_i)));
+            let is_lost = reduced <= floor(1.0) && {
+                // What a coordinate has in the rows, rounding of its null vector is relative to.
+                let rows = self.used[..r].iter().map(|&j| row(j));
+                let share = |c: &[f64]| c[self.permutation[r + i]].abs() / max_abs(c);
+                reduced <= floor(rows.map(share).fold(0.0, f64::max))
+            };
+            if reduced.is_nan() || is_lost {
                 return Err(SaddleError::MasslessMotion {
                     reduced,
                     size: size.max(heaviest),
                     motion: self.massless_motion(i),
                 });
             }
+            self.mass_ratio = self.mass_ratio.min(reduced / size);
             l_i[i] = reduced;
         }
         Ok(())

@@ -31,6 +31,11 @@ impl KeptRowSaddle {
         Ok(())
     }
 
+    /// The coordinates that the last factorisation solved for, one for each row in use: with graded masses the light ones.
+    pub fn solved_for(&self) -> &[usize] {
+        &self.permutation[..self.r]
+    }
+
     /// From the next factorisation on, takes coordinates up in the order of the last one. Each still solves for the largest entries, but where
     /// these are the same, or as large, nothing has to be moved.
     pub fn keep_order(&mut self) {

@@ -1,0 +1,400 @@
+//! Iterative refinement: what a factorisation in double precision leaves of the equations is computed in double-double and solved for
+//! again, until the solution, which is double-double too, has all digits of an `f64`.
+//!
+//! One round multiplies the error by about that of the factorisation, so one or two are enough. The solution is that of C, M, f and γ
+//! as they are given; rounding that is in these stays. Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition,
+//! chapter 12; the extended iterate after J. Demmel et al., Error bounds from extra-precise iterative refinement, ACM TOMS 32
+//! (2006) 325–351.
+
+use super::{KeptRowSaddle, SaddleError, check_length};
+use crate::Dd;
+use crate::kernels::max_abs;
+
+/// More rounds than these only happen where the equations are singular.
+const ROUNDS: usize = 8;
+
+/// What the next round would change, as a share: below the rounding of an `f64` there is nothing to gain.
+const SETTLED: f64 = 0.0625 * f64::EPSILON;
+
+/// Changes this much smaller than the largest unknown of their kind, twice running, are rounding of double-double numbers: 2⁻⁹⁶.
+const NOISE: f64 = 1.262_177_448_353_619e-29;
+
+/// Storage for the refinement of solutions of n coordinates and r rows.
+#[derive(Debug, Clone)]
+pub struct Refinement {
+    a: Unknowns,
+    lambda: Unknowns,
+    /// f − M·a − Cᵀ·λ
+    force: Vec<Dd>,
+    /// The same and γ − C·a, rounded.
+    f: Vec<f64>,
+    gamma: Vec<f64>,
+}
+
+/// The iterate of a or of λ.
+#[derive(Debug, Clone)]
+struct Unknowns {
+    x: Vec<Dd>,
+    /// What a round adds.
+    change: Vec<f64>,
+    /// Size of what the round before added.
+    before: Vec<f64>,
+    /// Sizes that changes are compared with: the largest of each.
+    size: Vec<f64>,
+    /// Size of changes that are rounding.
+    noise: f64,
+}
+
+impl Unknowns {
+    fn new(n: usize) -> Self {
+        Self {
+            x: vec![Dd::ZERO; n],
+            change: vec![0.0; n],
+            before: vec![0.0; n],
+            size: vec![0.0; n],
+            noise: 0.0,
+        }
+    }
+
+    /// The first solution is in `change`.
+    fn begin(&mut self) {
+        self.x.fill(Dd::ZERO);
+        self.before.fill(0.0);
+        self.size.fill(0.0);
+        self.noise = NOISE * max_abs(&self.change);
+        self.add();
+    }
+
+    /// Adds the change; returns the largest share of a size that it is, or NaN. An unknown that is zero but for rounding has the size of its
+    /// rounding.
+    fn add(&mut self) -> f64 {
+        let mut largest = 0.0;
+        for (i, change) in self.change.iter().enumerate() {
+            self.x[i] += Dd::from(*change);
+            let by = change.abs();
+            self.size[i] = self.size[i].max(by);
+            let is_noise = by <= self.noise && self.before[i] <= self.noise;
+            if by.is_nan() || !is_noise && by > largest * self.size[i] {
+                largest = by / self.size[i];
+            }
+            self.before[i] = by;
+        }
+        largest
+    }
+
+    fn round_to(&self, x: &mut [f64]) {
+        for (rounded, x) in x.iter_mut().zip(&self.x) {
+            *rounded = x.to_f64();
+        }
+    }
+}
+
+impl Refinement {
+    /// Storage for n coordinates and r rows.
+    pub fn new(n: usize, r: usize) -> Self {
+        Self {
+            a: Unknowns::new(n),
+            lambda: Unknowns::new(r),
+            force: vec![Dd::ZERO; n],
+            f: vec![0.0; n],
+            gamma: vec![0.0; r],
+        }
+    }
+}
+
+impl KeptRowSaddle {
+    /// As [`KeptRowSaddle::solve`], with all digits of the equations as they are given; allocates nothing. Two to three times the work of a
+    /// factorisation, most of it in double-double: see [`KeptRowSaddle::wants_refinement`].
+    ///
+    /// | argument | shape | meaning |
+    /// | --- | --- | --- |
+    /// | `row` | r calls, each n | the rows of C of the last factorisation |
+    /// | others | | as for [`KeptRowSaddle::solve`] |
+    ///
+    /// ```
+    /// use linalg::{KeptRowSaddle, Refinement};
+    /// // Two carts tied together, 3 kg and 3e12 kg, and 6 N on the light one: it feels all but a trillionth of them.
+    /// let c = [1.0, -1.0];
+    /// let mut saddle = KeptRowSaddle::new(2, 1)?;
+    /// saddle.factor(|_| &c, &[3.0, 3e12])?;
+    /// let (mut a, mut lambda) = ([0.0; 2], [0.0; 1]);
+    /// saddle.solve_refined(&mut Refinement::new(2, 1), |_| &c, &[6.0, 0.0], &[0.0], &mut a, &mut lambda)?;
+    /// assert_eq!(a, [6.0 / 3_000_000_000_003.0; 2]);
+    /// assert_eq!(lambda, [18e12 / 3_000_000_000_003.0]);
+    /// # Ok::<(), linalg::SaddleError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`KeptRowSaddle::solve`]; also
+    /// - [`SaddleError::Length`]: storage for equations of another size.
+    /// - [`SaddleError::Unrefined`]: the rounds do not converge.
+    pub fn solve_refined<'c>(
+        &mut self,
+        refinement: &mut Refinement,
+        row: impl Fn(usize) -> &'c [f64],
+        f: &[f64],
+        gamma: &[f64],
+        a: &mut [f64],
+        lambda: &mut [f64],
+    ) -> Result<(), SaddleError> {
+        check_length("refinement of a", &refinement.force, self.n)?;
+        check_length("refinement of lambda", &refinement.gamma, self.rows)?;
+        check_length("a", a, self.n)?;
+        check_length("lambda", lambda, self.rows)?;
+        let Refinement {
+            a: to_a,
+            lambda: to_lambda,
+            ..
+        } = refinement;
+        self.solve(f, gamma, &mut to_a.change, &mut to_lambda.change)?;
+        to_a.begin();
+        to_lambda.begin();
+
+        let (mut rounds, mut before) = (0, 1.0);
+        loop {
+            self.find_residual(refinement, &row, f, gamma)?;
+            let Refinement {
+                a: to_a,
+                lambda: to_lambda,
+                f,
+                gamma,
+                ..
+            } = refinement;
+            self.solve(f, gamma, &mut to_a.change, &mut to_lambda.change)?;
+            // A sum, which keeps NaN.
+            let change = to_a.add() + to_lambda.add();
+            rounds += 1;
+            // The next round would change what this one did times the ratio of the two.
+            if change * change <= SETTLED * before {
+                to_a.round_to(a);
+                to_lambda.round_to(lambda);
+                return Ok(());
+            }
+            if rounds == ROUNDS {
+                return Err(SaddleError::Unrefined { rounds, change });
+            }
+            before = change;
+        }
+    }
+
+    /// f − M·a − Cᵀ·λ and, of the rows in use, γ − C·a.
+    fn find_residual<'c>(
+        &self,
+        refinement: &mut Refinement,
+        row: &impl Fn(usize) -> &'c [f64],
+        f: &[f64],
+        gamma: &[f64],
+    ) -> Result<(), SaddleError> {
+        let Refinement {
+            a, lambda, force, ..
+        } = refinement;
+        for (&coordinate, &m) in self.permutation.iter().zip(&self.mass) {
+            force[coordinate] = Dd::from(f[coordinate]) - a.x[coordinate] * m;
+        }
+        refinement.gamma.fill(0.0);
+        for &k in &self.used[..self.r] {
+            let c_k = row(k);
+            check_length("row of C", c_k, self.n)?;
+            let mut left = Dd::from(gamma[k]);
+            for (i, &c) in c_k.iter().enumerate().filter(|(_, c)| **c != 0.0) {
+                left -= a.x[i] * c;
+                force[i] -= lambda.x[k] * c;
+            }
+            refinement.gamma[k] = left.to_f64();
+        }
+        for (f, left) in refinement.f.iter_mut().zip(force) {
+            *f = left.to_f64();
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Matrix;
+
+    /// A solver with factors for these rows and masses.
+    fn factored(c: &Matrix, mass: &[f64]) -> KeptRowSaddle {
+        let mut saddle = KeptRowSaddle::new(c.ncols(), c.nrows()).unwrap();
+        saddle.factor(|k| c.row(k), mass).unwrap();
+        saddle
+    }
+
+    /// What double-double leaves of zero where other numbers are as large as 2⁵³.
+    const ZERO_LEFT: f64 = 1e-15 * f64::EPSILON;
+
+    /// All numbers are whole and below 2⁵³, so that f = M·a + Cᵀ·λ and γ = C·a are exact: every bit of a and λ must come back.
+    #[test]
+    fn whole_numbers_come_back_exactly() {
+        const N: usize = 9;
+        for seed in 0..40_i64 {
+            let whole = |k: i64, most: i64| {
+                ((k * k + 7 * k + 13 * seed * k + seed) % (2 * most + 1) - most) as f64
+            };
+            let r = 1 + seed as usize % 7;
+            let c = Matrix::from_fn(r, N, |i, j| match i == j {
+                true => 11.0,
+                false => whole((i * N + j) as i64, 3),
+            });
+            let mass: Vec<f64> = (0..N)
+                .map(|j| 3.0 * 2_f64.powi((j as i32 * (seed as i32 + 5)) % 41))
+                .collect();
+            let a: Vec<f64> = (0..N).map(|j| whole(j as i64 + 100, 9)).collect();
+            let lambda: Vec<f64> = (0..r).map(|j| whole(j as i64 + 200, 99)).collect();
+            let gamma = c.times(&a);
+            let f: Vec<f64> = (0..N)
+                .map(|j| mass[j] * a[j] + (0..r).map(|i| c[(i, j)] * lambda[i]).sum::<f64>())
+                .collect();
+            let mut saddle = factored(&c, &mass);
+            let (mut found_a, mut found_lambda) = (vec![0.0; N], vec![0.0; r]);
+            let mut refinement = Refinement::new(N, r);
+            saddle
+                .solve_refined(
+                    &mut refinement,
+                    |k| c.row(k),
+                    &f,
+                    &gamma,
+                    &mut found_a,
+                    &mut found_lambda,
+                )
+                .unwrap();
+            for (found, exact) in found_a
+                .iter()
+                .chain(&found_lambda)
+                .zip(a.iter().chain(&lambda))
+            {
+                let is_exact = found == exact || *exact == 0.0 && found.abs() < ZERO_LEFT;
+                assert!(is_exact, "seed {seed}: {found} instead of {exact}");
+            }
+        }
+    }
+
+    /// Five carts tied one to the next, pushed at the end: a = F/Σm, and each tie carries what the carts behind it weigh.
+    /// Plain solutions are good to rounding wherever the heavy carts stand.
+    #[test]
+    fn light_coordinates_are_solved_for() {
+        const N: usize = 5;
+        let c = Matrix::from_fn(N - 1, N, |i, j| {
+            f64::from(i8::from(i == j) - i8::from(i + 1 == j))
+        });
+        for heavy in [1e6, 1e-6, 1e12, 1e-12, 1e24, 1e-24] {
+            for places in 0_u32..1 << N {
+                let mass: Vec<f64> = (0..N)
+                    .map(|j| if places >> j & 1 == 1 { heavy } else { 1.0 })
+                    .collect();
+                let mut f = [0.0; N];
+                f[0] = 7.0;
+                let (mut a, mut lambda) = ([0.0; N], [0.0; N - 1]);
+                let mut saddle = factored(&c, &mass);
+                saddle
+                    .solve(&f, &[0.0; N - 1], &mut a, &mut lambda)
+                    .unwrap();
+                let total: f64 = mass.iter().sum();
+                for j in 0..N {
+                    assert!(
+                        (a[j] / (7.0 / total) - 1.0).abs() < 1e-14,
+                        "{mass:?}: {a:?}"
+                    );
+                }
+                for i in 0..N - 1 {
+                    let carried = 7.0 * (mass[i + 1..].iter().sum::<f64>() / total);
+                    assert!(
+                        (lambda[i] / carried - 1.0).abs() < 1e-14,
+                        "{mass:?}: {lambda:?}"
+                    );
+                }
+            }
+        }
+    }
+
+    /// What is exactly zero in a plain solution is rounding of double-double numbers in a refined one, and stays that.
+    #[test]
+    fn unknowns_that_are_zero_do_not_keep_others_waiting() {
+        // The first two rows hold x and y; the third and fourth tie z and w to them by numbers that no binary fraction is.
+        let c = Matrix::from_rows(&[
+            [1.0, 0.0, 0.0, 0.0, 0.0],
+            [0.1, 0.3, 0.0, 0.0, 0.0],
+            [0.7, 0.1, 0.3, 0.0, 0.0],
+            [0.1, 0.7, 1.1, 0.9, 0.0],
+        ]);
+        let mut saddle = factored(&c, &[1.0, 3.0, 1e-7, 0.3, 1e3]);
+        let mut refinement = Refinement::new(5, 4);
+        for gamma in [[3e-9, 3e-10, 2.1e-9, 3e-10], [0.1, 0.01, 0.07, 0.01]] {
+            let (mut a, mut lambda) = ([0.0; 5], [0.0; 4]);
+            saddle
+                .solve_refined(
+                    &mut refinement,
+                    |k| c.row(k),
+                    &[0.0; 5],
+                    &gamma,
+                    &mut a,
+                    &mut lambda,
+                )
+                .unwrap();
+            assert!(
+                (a[0] / gamma[0] - 1.0).abs() < f64::EPSILON && a[4].abs() < 1e-30,
+                "{a:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn refinement_is_wanted_where_digits_are_lost() {
+        let c = Matrix::from_rows(&[[1.0, -1.0]]);
+        assert!(!factored(&c, &[1.0, 9e5]).wants_refinement());
+        assert!(factored(&c, &[1.0, 2e6]).wants_refinement());
+        assert!(!factored(&c, &[1.0, 0.0]).wants_refinement());
+        // Free are x and y, which hardly move relative to each other but with the heavy z.
+        let c = Matrix::from_rows(&[[1.0, 1.0, 1.0]]);
+        let mut saddle = KeptRowSaddle::new(3, 1).unwrap();
+        saddle.partition(&[2]).unwrap();
+        saddle.factor(|k| c.row(k), &[1.0, 1.0, 1e5]).unwrap();
+        assert!(saddle.wants_refinement());
+    }
+
+    #[test]
+    fn rounds_that_do_not_converge_are_named() {
+        let rows = Matrix::from_rows(&[[1.0, -1.0, 0.0]]);
+        let mut saddle = factored(&rows, &[1.0; 3]);
+        let other = [1.0, 3.0, 0.5];
+        let (mut a, mut lambda) = ([7.0; 3], [7.0]);
+        let error = saddle
+            .solve_refined(
+                &mut Refinement::new(3, 1),
+                |_| &other,
+                &[1.0, 2.0, 3.0],
+                &[1.0],
+                &mut a,
+                &mut lambda,
+            )
+            .unwrap_err();
+        assert!(
+            matches!(error, SaddleError::Unrefined { rounds: ROUNDS, .. }),
+            "{error}"
+        );
+        assert_eq!((a, lambda), ([7.0; 3], [7.0]));
+        let text = error.to_string();
+        assert!(
+            text.starts_with("refinement of the solution does not converge: after 8 rounds"),
+            "{text}"
+        );
+    }
+
+    #[test]
+    fn storage_of_another_size_is_refused() {
+        let rows = Matrix::from_rows(&[[1.0, -1.0]]);
+        let mut saddle = factored(&rows, &[1.0; 2]);
+        let error = saddle
+            .solve_refined(
+                &mut Refinement::new(3, 1),
+                |k| rows.row(k),
+                &[0.0; 2],
+                &[0.0],
+                &mut [0.0; 2],
+                &mut [0.0],
+            )
+            .unwrap_err();
+        assert_eq!(error.to_string(), "refinement of a has 3 entries, need 2");
+    }
+}
