@@ -83,6 +83,8 @@ pub struct KeptRowMotion<'a> {
     s: Scratch,
     /// Length by which positions are measured (m).
     size: f64,
+    /// How long the run lasts (s); infinite where nobody has said.
+    horizon: f64,
     choice: RowChoice,
     /// Independent rows of C.
     velocity: KeptRows,
@@ -129,6 +131,7 @@ impl<'a> KeptRowMotion<'a> {
         let all_rows = AllRows::new(prepared, options.formulation, options.rtol)
             .map_err(|trip| agreement::unless_graded(prepared, trip))?;
         let mut motion = Self::kept(prepared, all_rows, options.stabilisation)?;
+        motion.horizon = options.t_end;
         if motion.all_rows.is_some() {
             let mut a = vec![0.0; prepared.v.len()];
             motion.solve(0.0, &prepared.q, &prepared.v, &mut a)?;
@@ -162,6 +165,7 @@ impl<'a> KeptRowMotion<'a> {
             mechanism: &prepared.mechanism,
             s: prepared.mechanism.scratch(),
             size: prepared.assembly.size,
+            horizon: f64::INFINITY,
             choice: prepared.choice.clone(),
             velocity: rows(&prepared.decision)?,
             aside: None,

@@ -1,5 +1,7 @@
 //! The equations of motion solved with all rows of C instead of the kept ones. Accelerations are the same; reactions that are not unique are
 //! another choice. Projection, monitors and passages stay with the kept rows.
+//!
+//! As on kept rows, the solvers see units of the mechanism (see [`super::rows`]) and callers their own.
 
 use linalg::{
     Matrix, MinimumNormSaddle, PivotedQr, ProximalSaddle, ProximalTuning, SaddleError,
@@ -8,7 +10,7 @@ use linalg::{
 use model::reaction::COMPONENTS;
 use model::{Mechanism, Scratch, System};
 
-use super::rows::trip;
+use super::rows::{mass_in_units, trip, units};
 use crate::error::Trip;
 use crate::options::Formulation;
 use crate::prepare::Prepared;
@@ -26,7 +28,14 @@ const LEAST_SOLVES: usize = 2;
 pub(super) struct AllRows {
     /// Multipliers of the last solve.
     pub(super) lambda: Vec<f64>,
+    /// All rows of C in units of the mechanism.
     c: Matrix,
+    /// What coordinates count in those units, and the masses there, n_v each.
+    units: Vec<f64>,
+    mass: Vec<f64>,
+    /// Q and accelerations in those units, n_v each.
+    force: Vec<f64>,
+    motion: Vec<f64>,
     saddle: Saddle,
     rank: usize,
     /// Shares below this one are rounding of the null space.
@@ -52,7 +61,10 @@ impl AllRows {
         let mut s = mechanism.scratch();
         mechanism.pose(0.0, &prepared.q, &mut s);
         mechanism.c(&mut s);
-        let c = mechanism.layout().dense(&s);
+        let units = units(mechanism, prepared.assembly.size);
+        let mass = mass_in_units(mechanism, &units);
+        let mut c = mechanism.layout().dense(&s);
+        scale_columns(&mut c, &units);
         let rank = prepared.decision.rank;
         let saddle = match formulation {
             Formulation::KeptRows | Formulation::NullSpace => return Ok(None),
@@ -60,7 +72,7 @@ impl AllRows {
                 MinimumNormSaddle::new(&c, rank).map(|saddle| Saddle::MinimumNorm(Box::new(saddle)))
             }
             Formulation::Proximal => {
-                let saddle = ProximalSaddle::new(&c, mechanism.mass(), rank, rtol);
+                let saddle = ProximalSaddle::new(&c, &mass, rank, rtol);
                 saddle.map(|saddle| Saddle::Proximal {
                     saddle: Box::new(saddle),
                     tolerance: rtol,
@@ -71,6 +83,10 @@ impl AllRows {
             lambda: vec![0.0; c.nrows()],
             saddle: saddle.map_err(|e| trip(mechanism, &s, e, |row| row))?,
             c,
+            force: vec![0.0; units.len()],
+            motion: vec![0.0; units.len()],
+            units,
+            mass,
             rank,
             tolerance: support_tolerance(&prepared.decision),
         }))
@@ -86,6 +102,7 @@ impl AllRows {
         for i in 0..self.c.nrows() {
             mechanism.layout().scatter_row(s, i, self.c.row_mut(i));
         }
+        scale_columns(&mut self.c, &self.units);
         self.solve_again(mechanism, s, a)
     }
 
@@ -96,16 +113,23 @@ impl AllRows {
         s: &Scratch,
         a: &mut [f64],
     ) -> Result<(), Trip> {
-        let (mass, lambda) = (mechanism.mass(), &mut self.lambda);
+        for ((scaled, f), unit) in self.force.iter_mut().zip(&s.force).zip(&self.units) {
+            *scaled = f * unit;
+        }
+        let (mass, motion, lambda) = (&self.mass, &mut self.motion, &mut self.lambda);
         let solved: Result<(), SaddleError> = match &mut self.saddle {
             Saddle::MinimumNorm(saddle) => saddle
                 .factor(&self.c, mass)
-                .and_then(|()| saddle.solve(&s.force, &s.gamma, a, lambda)),
+                .and_then(|()| saddle.solve(&self.force, &s.gamma, motion, lambda)),
             Saddle::Proximal { saddle, .. } => saddle
                 .factor(&self.c, mass)
-                .and_then(|()| saddle.solve(&s.force, &s.gamma, a, lambda)),
+                .and_then(|()| saddle.solve(&self.force, &s.gamma, motion, lambda)),
         };
-        solved.map_err(|e| trip(mechanism, s, e, |row| row))
+        solved.map_err(|e| trip(mechanism, s, e, |row| row))?;
+        for ((a, scaled), unit) in a.iter_mut().zip(&self.motion).zip(&self.units) {
+            *a = scaled * unit;
+        }
+        Ok(())
     }
 
     /// Whether the last solve, at a state on the constraints, reached its tolerance. If not, it is tuned again and `a` solved for again.
@@ -120,7 +144,7 @@ impl AllRows {
         };
         if let Saddle::Proximal { saddle, tolerance } = &mut self.saddle {
             saddle
-                .tune(&self.c, mechanism.mass(), self.rank, *tolerance)
+                .tune(&self.c, &self.mass, self.rank, *tolerance)
                 .map_err(|e| trip(mechanism, s, e, |row| row))?;
         }
         self.solve_again(mechanism, s, a)?;
@@ -198,6 +222,14 @@ impl AllRows {
                 let columns = qr.permutation().iter().map(|&k| free[(i, k)]);
                 *l -= columns.zip(&y).map(|(z, y)| z * y).sum::<f64>();
             }
+        }
+    }
+}
+
+fn scale_columns(c: &mut Matrix, units: &[f64]) {
+    for i in 0..c.nrows() {
+        for (c, unit) in c.row_mut(i).iter_mut().zip(units) {
+            *c *= unit;
         }
     }
 }

@@ -320,8 +320,10 @@ impl KeptRowMotion<'_> {
     /// Partitions the rows at the pose of the scratch, which is that of the origin.
     fn choose_chart(&mut self, origin: Origin) -> Result<(), Trip> {
         let (mechanism, s) = (self.mechanism, &self.s);
-        let z = self.position.partition(mechanism, s)?;
-        let u = self.velocity.partition(mechanism, s)?;
+        // Far from the origin places are known to fewer digits than angles.
+        let far = |j: usize| (origin.q[j].abs() / mechanism.unit(j, self.size)).max(1.0);
+        let z = self.position.partition(mechanism, s, far)?;
+        let u = self.velocity.partition(mechanism, s, |_| 1.0)?;
         // Rows set aside are only solved on, at single instants.
         if let Some(aside) = &mut self.aside {
             aside.forget_partition();

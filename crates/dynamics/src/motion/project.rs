@@ -154,7 +154,10 @@ impl KeptRowMotion<'_> {
             zero,
             ..
         } = self;
-        let enough = enough(position);
+        let enough = match correct {
+            Correct::AllCoordinates => enough(position),
+            Correct::DependentCoordinates => FEW_ROUNDINGS,
+        };
         let mut best = f64::INFINITY;
         let mut iteration = 0;
         loop {
@@ -268,10 +271,26 @@ impl KeptRowMotion<'_> {
             let limit = share * (0..layout.rows()).map(scale).fold(0.0, f64::max);
             for &i in &self.velocity.dropped {
                 let residual = layout.velocity_residual(&self.s, i, v).abs();
+                let limit = match residual <= limit {
+                    true => limit,
+                    false => limit.max(self.still(share)),
+                };
                 self.check_dropped(i, "velocity", residual, limit)?;
             }
         }
         Ok(found)
+    }
+
+    /// Rates of rows that move the mechanism by no more than this share of its size while the run lasts: as positions may, velocities may
+    /// part by these, however slow the motion is.
+    fn still(&self, share: f64) -> f64 {
+        let layout = self.mechanism.layout();
+        let size = |i: usize| {
+            let row = layout.row(&self.s, i);
+            row.map(|(j, c)| c.abs() * self.mechanism.unit(j, self.size))
+                .sum()
+        };
+        share * (0..layout.rows()).map(size).fold(0.0, f64::max) / self.horizon
     }
 
     /// Residuals of all rows at a state whose Φ, C and b stand in the scratch.

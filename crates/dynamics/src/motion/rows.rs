@@ -115,19 +115,27 @@ impl KeptRows {
         }
     }
 
-    /// Solves from now on for the coordinates that these rows determine best at the entries of C in the scratch; factors there, and returns
-    /// the others, ascending.
+    /// Solves from now on for the coordinates that these rows determine best at the entries of C in the scratch, as multiples of what each is
+    /// known to; factors there, and returns the others, ascending.
     pub(super) fn partition(
         &mut self,
         mechanism: &Mechanism,
         s: &Scratch,
+        known_to: impl Fn(usize) -> f64,
     ) -> Result<Vec<usize>, Trip> {
         self.forget_partition();
         self.factor(mechanism, s)?;
         let dependent = match self.saddle.is_graded() {
             // Heavy coordinates are independent, whatever the rows would determine best.
             true => self.saddle.solved_for().to_vec(),
-            false => PivotedQr::of_columns(&self.c).permutation()[..self.kept.len()].to_vec(),
+            false => {
+                let mut c = self.c.clone();
+                for k in 0..c.nrows() {
+                    let row = c.row_mut(k).iter_mut().enumerate();
+                    row.for_each(|(j, c)| *c *= known_to(j));
+                }
+                PivotedQr::of_columns(&c).permutation()[..self.kept.len()].to_vec()
+            }
         };
         let free = (0..self.units.len()).filter(|i| !dependent.contains(i));
         let free = free.collect();
@@ -428,12 +436,13 @@ impl KeptRows {
 }
 
 /// What coordinates count in units of a mechanism of this size.
-fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let exponents = mechanism.dimension_scaling(size).cols;
     exponents.iter().map(|&e| f64::from(e).exp2()).collect()
 }
 
-fn mass_in_units(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
+/// Masses and moments of inertia in those units.
+pub(super) fn mass_in_units(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
     let mass = units.iter().zip(mechanism.mass());
     mass.map(|(unit, m)| unit * m * unit).collect()
 }
