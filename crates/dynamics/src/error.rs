@@ -1,7 +1,7 @@
 //! Why a motion stops, or does not begin.
 
 use integrators::IntegrationError;
-use linalg::{Doubt, KeptRowsError, SaddleError, SingularPivot};
+use linalg::{Doubt, KeptRowsError, NearlyRedundant, SaddleError, SingularPivot};
 use model::{RowLabel, StartError};
 use solvability::{AnalysisError, Contradiction, StateError};
 
@@ -268,6 +268,20 @@ pub enum MotionError {
     /// The rank of the start is undecided.
     #[error("the rank of the start is undecided, so no rows can be chosen: {0}")]
     RankUndecided(Doubt),
+    /// Kept rows that only differ by what no motion can be computed with.
+    #[error(
+        "at the start the rows {} depend on each other but for {sigma:.1e}, need {required:.1e} to move: velocities would be known to {:.1e} of \
+         their size only. Correct the misalignment, or delete one of them",
+        rows.join(", "), f64::EPSILON / sigma
+    )]
+    Inseparable {
+        /// The rows.
+        rows: Vec<String>,
+        /// The smallest singular value of the kept rows, as bodies feel it.
+        sigma: f64,
+        /// What is needed.
+        required: f64,
+    },
     /// The rows asked to be dropped cannot be.
     #[error("{0}")]
     Rows(String),
@@ -301,7 +315,22 @@ pub enum MotionError {
     Integration(Box<IntegrationError<Trip>>),
 }
 
+/// Rows with a smaller share than this of the largest weight take no part in a combination.
+const TAKES_PART: f64 = 0.1;
+
 impl MotionError {
+    /// Rows that are too nearly redundant.
+    pub(crate) fn inseparable(found: &NearlyRedundant, labels: &[RowLabel]) -> Self {
+        let largest = found.direction.iter().fold(0.0, |a: f64, w| a.max(w.abs()));
+        let weights = found.direction.iter().zip(labels);
+        let rows = weights.filter(|(w, _)| w.abs() > TAKES_PART * largest);
+        Self::Inseparable {
+            rows: rows.map(|(_, label)| label.to_string()).collect(),
+            sigma: found.sigma,
+            required: linalg::NEARLY_SINGULAR,
+        }
+    }
+
     /// An inadmissible choice of dropped rows, with rows counted from 1.
     pub(crate) fn rows(error: &KeptRowsError, labels: &[RowLabel], redundancy: usize) -> Self {
         let label = |row: usize| {

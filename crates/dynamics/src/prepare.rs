@@ -6,7 +6,7 @@ use std::sync::Arc;
 use linalg::{RankDecision, RankStatus};
 use model::start::{assemble, consistent_velocity};
 use model::{Assembly, Mechanism, StartOptions, System};
-use solvability::{Ranks, contradictions, decide, decide_dropping, decide_holonomic};
+use solvability::{Ranks, contradictions, decide, decide_dropping, decide_holonomic, inseparable};
 
 use crate::code::SceneCode;
 use crate::error::MotionError;
@@ -55,6 +55,7 @@ impl Prepared {
 /// # Errors
 /// - [`MotionError::Start`]: no consistent configuration or velocities.
 /// - [`MotionError::Contradiction`]: redundant rows ask for different positions, velocities or accelerations.
+/// - [`MotionError::Inseparable`]: independent rows differ by too little to move on.
 /// - [`MotionError::RankUndecided`], [`MotionError::Rows`]: no rows can be chosen, or not the ones asked for.
 pub fn prepare(
     mut mechanism: Mechanism,
@@ -74,6 +75,9 @@ pub fn prepare(
     let position_decision = decide_holonomic(&mechanism, &s, &assembly.q)?;
     if let RankStatus::Undecided(doubt) = position_decision.status {
         return Err(MotionError::RankUndecided(doubt));
+    }
+    if let Some(found) = inseparable(&mechanism, &s, &assembly.q, &automatic) {
+        return Err(MotionError::inseparable(&found, &layout.labels));
     }
     let decision = match rows {
         RowChoice::Automatic => automatic.clone(),

@@ -42,8 +42,9 @@ pub use proximal::{ProximalSaddle, ProximalTuning};
 pub use qr::PivotedQr;
 pub use rank::{
     Certificate, CoefficientReading, Degraded, Doubt, Evidence, ExactNullSpace, Grounds,
-    KeptRowsError, NEARLY_REDUNDANT, NearlyRedundant, RankDecision, RankError, RankStatus,
-    Uncertainty, certify_exact, certify_within, decide, decide_dropping, decide_keeping,
+    KeptRowsError, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankError,
+    RankStatus, Uncertainty, certify_exact, certify_within, decide, decide_dropping,
+    decide_keeping,
 };
 pub use regularized::{StepError, least_squares_step};
 pub use saddle::{GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, mass_spread};

@@ -52,7 +52,7 @@ const CLEARANCE: f64 = 1e3;
 
 /// A configuration is known to about √eps near a singular one, whatever its residual: Newton's method stops there as at a
 /// double root. A smallest singular value below this may be zero at the true configuration.
-const NEARLY_SINGULAR: f64 = 1e-7;
+pub const NEARLY_SINGULAR: f64 = 1e-7;
 
 /// Rank of a constraint matrix C (m×n), with the rows to keep and the evidence for it.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,5 +1,6 @@
 //! The combination of rows that comes closest to zero: what nearly depends on each other, and by how much.
 
+use crate::rank::ROUNDING;
 use crate::{Matrix, PivotedQr, kernels};
 
 /// Weights of rows that nearly cancel.
@@ -14,8 +15,8 @@ pub struct WeakestCombination {
 /// Inverse iterations; each gains the square of the gap between the two smallest singular values.
 const ITERATIONS: usize = 3;
 
-/// The smallest singular value of independent rows and its left singular vector, by inverse iteration with `C·Cᵀ = P·Rᵀ·R·Pᵀ`.
-/// `None` without rows, or where they are dependent to the last digit of `f64`.
+/// The smallest singular value of rows and its left singular vector, by inverse iteration with `C·Cᵀ = P·Rᵀ·R·Pᵀ`. Where rows are dependent to
+/// the last digit of `f64`, by one with `C·Cᵀ + δ²·I`, where δ is the rounding of the largest row. `None` without rows.
 ///
 /// ```
 /// use linalg::{Matrix, weakest_combination};
@@ -26,6 +27,22 @@ const ITERATIONS: usize = 3;
 /// ```
 #[must_use]
 pub fn weakest_combination(rows: &Matrix) -> Option<WeakestCombination> {
+    by_inverse_iteration(rows).or_else(|| by_inverse_iteration(&beside_rounding(rows)))
+}
+
+/// `[C, δ·I]`.
+fn beside_rounding(rows: &Matrix) -> Matrix {
+    let (r, n) = (rows.nrows(), rows.ncols());
+    let largest = (0..r).map(|i| kernels::norm(rows.row(i)));
+    let rounding = ROUNDING * largest.fold(0.0, f64::max);
+    Matrix::from_fn(r, n + r, |i, j| match j.checked_sub(n) {
+        None => rows[(i, j)],
+        Some(k) if k == i => rounding,
+        Some(_) => 0.0,
+    })
+}
+
+fn by_inverse_iteration(rows: &Matrix) -> Option<WeakestCombination> {
     let r = rows.nrows();
     let qr = PivotedQr::of_rows(rows.clone());
     if r == 0 || r > qr.steps() || qr.r_diagonal().any(|d| d == 0.0) {
@@ -49,4 +66,28 @@ pub fn weakest_combination(rows: &Matrix) -> Option<WeakestCombination> {
         sigma: growth.sqrt().recip(),
         weights,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Two equal rows beside a third one: weights (1, −1, 0)/√2, whatever their scale.
+    #[test]
+    fn equal_rows_cancel() {
+        for scale in [1e-100, 1.0, 1e100] {
+            let rows = [[0.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.6, 0.8, 1.0]];
+            let c = Matrix::from_rows(&rows.map(|row| row.map(|x| x * scale)));
+            let weakest = weakest_combination(&c).expect("rows");
+            let [a, b, other] = [0, 1, 2].map(|i| weakest.weights[i]);
+            assert!((a.abs() - 0.5_f64.sqrt()).abs() < 1e-9 && (a + b).abs() < 1e-9);
+            assert!(other.abs() < 1e-9, "{other}");
+            assert!(
+                weakest.sigma <= 2.0 * ROUNDING * 1.5 * scale,
+                "{}",
+                weakest.sigma
+            );
+        }
+        assert_eq!(weakest_combination(&Matrix::zeros(0, 3)), None);
+    }
 }

@@ -3,7 +3,10 @@
 //!
 //! Not for motion: a run decides in `f64`, where a nearly redundant mechanism cannot be integrated anyway.
 
-use linalg::{DdMatrix, Matrix, NEARLY_REDUNDANT, NearlyRedundant, RankDecision, certify_within};
+use linalg::{
+    DdMatrix, Matrix, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision,
+    certify_within,
+};
 use model::start::scene_size;
 use model::{Known, Mechanism, Scratch, System};
 
@@ -108,27 +111,8 @@ impl Rows {
         if !decision.is_decided() {
             return None;
         }
-        let felt = mechanism.felt_scaling(s, self.size).apply(&self.matrix());
-        let mut kept = felt.select_rows(&decision.kept);
-        for i in 0..kept.nrows() {
-            let largest = kept.row(i).iter().fold(0.0_f64, |a, c| a.max(c.abs()));
-            if largest > 0.0 {
-                kept.row_mut(i).iter_mut().for_each(|c| *c /= largest);
-            }
-        }
-        let weakest =
-            linalg::weakest_combination(&kept).filter(|weakest| weakest.sigma < NEARLY_REDUNDANT);
-        let whole = |w: linalg::WeakestCombination| {
-            let mut direction = vec![0.0; decision.rank + decision.redundancy];
-            for (&row, weight) in decision.kept.iter().zip(w.weights) {
-                direction[row] = weight;
-            }
-            NearlyRedundant {
-                sigma: w.sigma,
-                direction,
-            }
-        };
-        let physical = weakest.map(whole);
+        let physical = weakest_as_felt(mechanism, s, (self.size, &self.matrix()), decision)
+            .filter(|weakest| weakest.sigma < NEARLY_REDUNDANT);
         // Below the resolution of `f64` the certificate knows better.
         let certified = decision.nearly_redundant().cloned();
         [physical, certified]
@@ -149,6 +133,49 @@ impl Rows {
             uncertainty: self.uncertainty.select_rows(rows),
         }
     }
+}
+
+/// The combination of kept rows that comes closest to zero as bodies feel it, at the pose of the scratch, where C without dimensions is that of a
+/// mechanism of this size: rows with largest entry 1, rotations measured by the arms of their bodies.
+fn weakest_as_felt(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    (size, c): (f64, &Matrix),
+    decision: &RankDecision,
+) -> Option<NearlyRedundant> {
+    let felt = mechanism.felt_scaling(s, size).apply(c);
+    let mut kept = felt.select_rows(&decision.kept);
+    for i in 0..kept.nrows() {
+        let largest = kept.row(i).iter().fold(0.0_f64, |a, c| a.max(c.abs()));
+        if largest > 0.0 {
+            kept.row_mut(i).iter_mut().for_each(|c| *c /= largest);
+        }
+    }
+    let weakest = linalg::weakest_combination(&kept)?;
+    let mut direction = vec![0.0; decision.rank + decision.redundancy];
+    for (&row, weight) in decision.kept.iter().zip(weakest.weights) {
+        direction[row] = weight;
+    }
+    Some(NearlyRedundant {
+        sigma: weakest.sigma,
+        direction,
+    })
+}
+
+/// Kept rows that cannot be told from dependent ones in `f64` as bodies feel them, at the pose of the scratch, where C has been evaluated
+/// at coordinates q. The rank may be decided nevertheless: equilibration scales up a column whose only entries are the misalignment. It is that of the
+/// data as read, but velocities on these rows are known to the rounding of the state divided by σ only. Allocates.
+#[must_use]
+pub fn inseparable(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+    decision: &RankDecision,
+) -> Option<NearlyRedundant> {
+    let size = scene_size(mechanism, q);
+    let c = dimensionless(mechanism, s, size);
+    weakest_as_felt(mechanism, s, (size, &c), decision)
+        .filter(|weakest| weakest.sigma < NEARLY_SINGULAR)
 }
 
 /// Decides the rank of C at time t and coordinates q, which satisfy the constraints, in double-double where that is possible

@@ -44,7 +44,7 @@ pub use along::{
     Along, AlongError, Difference, Part, Passage, PassageKind, Stretch, along_motion,
     singular_passages,
 };
-pub use certificate::certify;
+pub use certificate::{certify, inseparable};
 pub use choices::{
     Choice, ChoiceError, Compliance, Distribution, Equations, Label, NormWeights, ReactionValues,
     Value, minimise,
