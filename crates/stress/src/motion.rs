@@ -111,17 +111,13 @@ pub fn analysed(description: &Description) -> Result<Analysis, Outcome> {
     analyse(&mechanism, 0.0, &q).map_err(Outcome::refused)
 }
 
-/// Accelerations at the start.
+/// Accelerations at the start, as a run with these options has them: proximal iterations are tuned to its tolerance.
 ///
 /// # Errors
 /// Why there are none.
-pub fn acceleration(prepared: &Prepared, formulation: Formulation) -> Result<Vec<f64>, Outcome> {
-    let options = MotionOptions {
-        formulation,
-        ..MotionOptions::to(1.0)
-    };
+pub fn acceleration(prepared: &Prepared, options: &MotionOptions) -> Result<Vec<f64>, Outcome> {
     let mut found = Vec::new();
-    let run = simulate(prepared, &options, |sample| {
+    let run = simulate(prepared, options, |sample| {
         found = sample.acceleration()?;
         Ok(ControlFlow::Break(()))
     });

@@ -240,7 +240,7 @@ fn massless_cranks(name: &str, pivots: &[f64], massless: u8, options: &MotionOpt
 
 /// Error of the accelerations at the start, relative to the largest of the right ones.
 fn falling(d: &Description, right: &[f64], options: &MotionOptions) -> Result<Outcome, Outcome> {
-    let found = acceleration(&prepared(d)?, options.formulation)?;
+    let found = acceleration(&prepared(d)?, options)?;
     let scale = worst(right.iter().copied());
     let off = worst(found.iter().zip(right).map(|(a, b)| a - b));
     let whole = found.len() == right.len();
