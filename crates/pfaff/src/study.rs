@@ -248,7 +248,7 @@ impl Study {
             is_empty = false;
             let written = write_row(sample, trajectory.as_mut(), reactions.as_mut())?;
             let flow = go_on(sample.t);
-            unwritten = written.err().map(StudyError::from);
+            unwritten = written.err();
             Ok(match unwritten.is_some() {
                 true => ControlFlow::Break(()),
                 false => flow,
@@ -277,13 +277,12 @@ impl Study {
             trajectory.map(TrajectoryTable::finish),
             reactions.map(ReactionTable::finish),
         ] {
-            let Some(file) = file else { continue };
-            let finished = file.map_err(StudyError::from).and_then(|file| match whole {
-                true => Ok(file.finish()?),
-                false => Ok(file.finish_partial()?),
-            });
-            // The summary says what is there.
-            unwritten = unwritten.or(finished.err());
+            // Where a disk refuses a table, the summary of an earlier run stays beside its tables.
+            match file {
+                Some(file) if whole => drop(file?.finish()?),
+                Some(file) => drop(file?.finish_partial()?),
+                None => {}
+            }
         }
         let mut text = Vec::new();
         write_json(&mut text, &document).map_err(|source| TableError::Write {
@@ -292,7 +291,7 @@ impl Study {
         })?;
         directory.write("summary.json", &text)?;
         match (unwritten, error) {
-            (Some(e), _) => Err(e),
+            (Some(e), _) => Err(e.into()),
             (None, Some(e)) => Err(e.into()),
             (None, None) => Ok(document),
         }
