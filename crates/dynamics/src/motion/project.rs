@@ -1,7 +1,7 @@
 //! Projection onto the constraints: positions by Newton's method on the rows of Φq, velocities by one linear solve,
 //! both with the smallest correction in the mass metric.
 
-use model::System;
+use model::{Mechanism, Scratch, System};
 
 use super::rows::KeptRows;
 use super::{Correction, KeptRowMotion};
@@ -25,8 +25,9 @@ const WEAK: f64 = 0.5;
 /// The same where a further correction does not help.
 const STALLED_ROUNDINGS: f64 = 50.0;
 
-/// Dropped rows count as implied by the kept ones below this share of the largest row. Rounding of the kept rows, 1e-15,
-/// reaches them through coefficients of up to some hundreds.
+/// Dropped rows count as implied by the kept ones below this share of their own terms and of those of the kept rows, as much as these
+/// enter: a row with an arm of 1e30 m says nothing of what an angle may miss by. Rounding of the kept rows is 1e-15; the configuration
+/// is off them by as much.
 const DROPPED_MISFIT: f64 = 1e-11;
 
 /// Smallest share of the reference pivots that is taken into account there: nearer, rows are left out.
@@ -243,33 +244,35 @@ impl KeptRowMotion<'_> {
     }
 
     /// Residuals of all rows at a projected state, dropped rows refused above the limit.
-    fn monitor(&self, q: &[f64], v: &[f64], iterations: usize) -> Result<Correction, Trip> {
-        let layout = self.mechanism.layout();
+    fn monitor(&mut self, q: &[f64], v: &[f64], iterations: usize) -> Result<Correction, Trip> {
         let found = Correction {
             iterations,
             ..self.residuals(v)
         };
+        let (mechanism, s, size) = (self.mechanism, &self.s, self.size);
         // Rounding of the kept rows reaches the dropped ones through the inverse of their pivots, near a singular configuration
         // more than elsewhere.
         let misfit =
             |rows: &KeptRows| DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0);
         if !self.position.dropped.is_empty() {
-            let scale = |i: usize| self.mechanism.position_scale(&self.s, i, q);
-            let limit = misfit(&self.position) * (0..layout.m).map(scale).fold(0.0, f64::max);
-            for &i in &self.position.dropped {
-                self.check_dropped(i, "position", self.s.phi[i].abs(), limit)?;
-            }
+            let level = Level {
+                name: "position",
+                share: misfit(&self.position),
+                residual: |i: usize| s.phi[i].abs(),
+                scale: |i| mechanism.position_scale(s, i, q),
+            };
+            level.check(&mut self.position, mechanism, s)?;
         }
         if !self.velocity.dropped.is_empty() {
             // Off the constraints by rounding of its coordinates, the rows agree to the same share.
-            let rounding = self.mechanism.relative_residual(&self.s, q, self.size);
-            let share = misfit(&self.velocity).max(STALLED_ROUNDINGS * rounding);
-            let scale = |i: usize| self.mechanism.velocity_scale(&self.s, i, v);
-            let limit = share * (0..layout.rows()).map(scale).fold(0.0, f64::max);
-            for &i in &self.velocity.dropped {
-                let residual = layout.velocity_residual(&self.s, i, v).abs();
-                self.check_dropped(i, "velocity", residual, limit)?;
-            }
+            let rounding = mechanism.relative_residual(s, q, size);
+            let level = Level {
+                name: "velocity",
+                share: misfit(&self.velocity).max(STALLED_ROUNDINGS * rounding),
+                residual: |i| mechanism.layout().velocity_residual(s, i, v).abs(),
+                scale: |i| mechanism.velocity_scale(s, i, v),
+            };
+            level.check(&mut self.velocity, mechanism, s)?;
         }
         Ok(found)
     }
@@ -284,26 +287,41 @@ impl KeptRowMotion<'_> {
                 .fold(0.0, |a, i| f64::max(a, velocity(i).abs())),
         }
     }
+}
 
-    fn check_dropped(
-        &self,
-        i: usize,
-        level: &'static str,
-        residual: f64,
-        tolerance: f64,
-    ) -> Result<(), Trip> {
-        note(Counted::Monitors);
-        if residual <= tolerance {
-            return Ok(());
+/// Positions or velocities of rows: what row i misses by, and the size of its terms.
+struct Level<R, S> {
+    name: &'static str,
+    /// What dropped rows may miss by, as share of the terms.
+    share: f64,
+    residual: R,
+    scale: S,
+}
+
+impl<R: Fn(usize) -> f64, S: Fn(usize) -> f64> Level<R, S> {
+    /// Refuses the first dropped row that the kept ones do not imply.
+    fn check(&self, rows: &mut KeptRows, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
+        for k in 0..rows.dropped.len() {
+            note(Counted::Monitors);
+            let i = rows.dropped[k];
+            let residual = (self.residual)(i);
+            // Most rows agree to rounding of their own terms.
+            if residual <= self.share * (self.scale)(i) {
+                continue;
+            }
+            rows.factor(mechanism, s)?;
+            let tolerance = self.share * rows.implied_scale(mechanism, s, i, &self.scale)?;
+            if residual > tolerance || residual.is_nan() || tolerance.is_nan() {
+                return Err(Trip::DroppedRow {
+                    time: s.t,
+                    row: mechanism.layout().labels[i].clone(),
+                    level: self.name,
+                    residual,
+                    tolerance,
+                });
+            }
         }
-        let row = self.mechanism.layout().labels[i].clone();
-        Err(Trip::DroppedRow {
-            time: self.s.t,
-            row,
-            level,
-            residual,
-            tolerance,
-        })
+        Ok(())
     }
 }
 
