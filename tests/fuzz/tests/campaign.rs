@@ -56,8 +56,8 @@ fn a_fault_is_seen() {
 
 #[test]
 fn what_was_found_is_mended() {
-    // FIXME: these wait for `dynamics`; see the first line of each file.
-    let open = ["drive-rate-off.toml", "nan-row.toml", "phi-off.toml"];
+    // FIXME: a row of zeros without a verdict of its own; pivots that fall because the mechanism is large.
+    let open = ["zero-gear.toml", "phi-off-far.toml"];
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("found");
     let limits = Limits {
         deadline: Duration::from_secs(3),
