@@ -264,13 +264,18 @@ impl KeptRowMotion<'_> {
             level.check(&mut self.position, mechanism, s)?;
         }
         if !self.velocity.dropped.is_empty() {
-            // Off the constraints by rounding of its coordinates, the rows agree to the same share.
+            // Off the constraints by rounding of its coordinates, the rows agree to the same share. Kept rows are solved to rounding of the
+            // fastest of them, so that the others are no better.
             let rounding = mechanism.relative_residual(s, q, size);
+            let scale = |i: usize| mechanism.velocity_scale(s, i, v);
+            let fastest = (0..mechanism.layout().rows())
+                .map(scale)
+                .fold(0.0, f64::max);
             let level = Level {
                 name: "velocity",
                 share: misfit(&self.velocity).max(STALLED_ROUNDINGS * rounding),
                 residual: |i| mechanism.layout().velocity_residual(s, i, v).abs(),
-                scale: |i| mechanism.velocity_scale(s, i, v),
+                scale: |_| fastest,
             };
             level.check(&mut self.velocity, mechanism, s)?;
         }
