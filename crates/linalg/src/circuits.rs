@@ -22,8 +22,8 @@ pub struct Circuit {
 
 /// The fundamental circuit of each dropped row, in the order of `dropped`.
 ///
-/// The support is decided on equilibrated coefficients relative to the largest of the circuit, against
-/// [`support_tolerance`](crate::support_tolerance). A row of zeros is a circuit by itself.
+/// The support is decided on equilibrated coefficients relative to the largest of the circuit, against the noise of their rows
+/// ([`RankDecision::row_noise`]); a row whose margin is zero is in none. A row of zeros is a circuit by itself.
 #[must_use]
 pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
     fundamental(decision)
@@ -36,7 +36,7 @@ pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
 /// makes the total length smallest. Shortest first, equal lengths by rows; they do not depend on the rows that were dropped.
 ///
 /// A component (rows that mix) of redundancy p_c has at most as many circuits as subsets of p_c − 1 of its rows. Where that is more
-/// than 20 000, or where rounding hides which rows belong to one, the fundamental circuits of the component stand in: minimal and
+/// than 20 000, or where rounding hides which rows belong to one or that a row belongs to any, the fundamental circuits of the component stand in: minimal and
 /// independent too, but perhaps longer.
 ///
 /// ```
@@ -56,6 +56,8 @@ pub fn short_circuits(decision: &RankDecision) -> Vec<Circuit> {
         let dual = Dual::new(decision, &support, &rows);
         // One dropped row has one circuit, and the support has decided on it.
         let shortest = (dual.dimension() > 1).then(|| shortest(&dual)).flatten();
+        // Each row of a component is in one of its circuits; else the noise of all has hidden it.
+        let shortest = shortest.filter(|circuits| covers(circuits, &rows));
         match shortest {
             Some(circuits) => found.extend(circuits),
             None => found.extend(
@@ -82,6 +84,12 @@ type Sparse = Vec<(usize, f64)>;
 fn by_length(a: &Sparse, b: &Sparse) -> Ordering {
     let rows = |z: &Sparse| z.iter().map(|t| t.0).collect::<Vec<_>>();
     a.len().cmp(&b.len()).then_with(|| rows(a).cmp(&rows(b)))
+}
+
+/// Whether each of these rows has a coefficient.
+fn covers(circuits: &[Sparse], rows: &[usize]) -> bool {
+    let is_in = |row: usize| circuits.iter().flatten().any(|&(other, _)| other == row);
+    rows.iter().all(|&row| is_in(row))
 }
 
 /// The shortest independent circuits of one component, greedily, which is optimal in a matroid. `None` if they are too many or

@@ -4,7 +4,7 @@
 //! Columns z with `Cᵀ·z = 0` are the self-stresses: multipliers may change by them without any
 //! force on any body. Not here: verdicts on joints and reactions, which need the grouping of rows.
 
-use crate::{Matrix, PivotedQr, RankDecision};
+use crate::{CoefficientReading, Matrix, PivotedQr, RankDecision, kernels};
 
 /// Partition of the rows by common dependencies.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -86,22 +86,30 @@ pub fn components(decision: &RankDecision) -> Components {
     }
 }
 
-/// Which equilibrated coefficients count as non-zero.
+/// Which equilibrated coefficients count as non-zero. A row whose margin, the norm of its row of [`orthonormal`], reads as zero is in no
+/// circuit: verdicts ask that question, and circuits must not tell another story.
 pub(crate) struct Support {
     /// T of the equilibrated rows.
     pub(crate) t: Matrix,
     /// Largest coefficient for each dropped row, at least one.
     size: Vec<f64>,
-    /// Noise of the coefficients of each kept row, relative to it.
+    /// Noise of the coefficients of each kept row, relative to it; infinite where the margin is zero.
     noise: Vec<f64>,
 }
 
 impl Support {
     pub(crate) fn new(decision: &RankDecision) -> Self {
         let t = decision.equilibrated_dependence();
-        let noise = |&i: &usize| match decision.is_exact() {
-            true => 0.0,
-            false => decision.row_noise(i),
+        let z = orthonormal(decision);
+        let noise = |&i: &usize| {
+            if decision.is_exact() {
+                return 0.0;
+            }
+            let (margin, noise) = (kernels::norm(z.row(i)), decision.row_noise(i));
+            match decision.read_coefficient(margin, noise) {
+                CoefficientReading::Zero => f64::INFINITY,
+                _ => noise,
+            }
         };
         let noise = decision.kept.iter().map(noise).collect();
         let size = (0..t.nrows())
@@ -197,5 +205,30 @@ mod tests {
         assert_eq!(orthonormal(&decision), Matrix::zeros(3, 0));
         assert!(circuits(&decision).is_empty());
         assert_eq!(components(&decision).coloops, [0, 1, 2]);
+    }
+
+    #[test]
+    fn a_row_that_is_unique_is_in_no_circuit() {
+        // Sixteen unit rows and their sum, in which the last has the coefficient x beside fifteen of 1: the dependency has the length 4, so
+        // the margin is x/4. A coefficient of twice the noise is no rounding by itself, but its row is unique.
+        let matrix = |x: f64| {
+            Matrix::from_fn(17, 17, |i, j| match (i, j) {
+                (16, 15) => x,
+                (16, 16) => 0.0,
+                (16, _) => 1.0,
+                _ => f64::from(u8::from(i == j)),
+            })
+        };
+        let decide = |x: f64| crate::decide_dropping(&matrix(x), 1e-12, &[16]).unwrap();
+        let noise = decide(0.0).row_noise(15);
+        for (roundings, is_in) in [(0.5, false), (2.0, false), (5.0, true)] {
+            let decision = decide(roundings * noise);
+            let margin = kernels::norm(orthonormal(&decision).row(15));
+            let is_zero = decision.read_coefficient(margin, decision.row_noise(15))
+                == CoefficientReading::Zero;
+            assert_eq!(is_zero, !is_in, "{roundings}: {margin:e} of {noise:e}");
+            assert_eq!(circuits(&decision)[0].rows.contains(&15), is_in);
+            assert_eq!(components(&decision).coloops.contains(&15), !is_in);
+        }
     }
 }

@@ -56,8 +56,13 @@ fn a_fault_is_seen() {
 
 #[test]
 fn what_was_found_is_mended() {
-    // FIXME: these wait for `dynamics`; see the first line of each file.
-    let open = ["drive-rate-off.toml", "nan-row.toml", "phi-off.toml"];
+    // FIXME: a row of zeros without a verdict of its own; pivots that fall because the mechanism is large; a rank that is decided although
+    // the data hide every row.
+    let open = [
+        "phi-off-far.toml",
+        "rank-beyond-data.toml",
+        "zero-gear.toml",
+    ];
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("found");
     let limits = Limits {
         deadline: Duration::from_secs(3),

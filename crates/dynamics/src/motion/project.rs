@@ -1,7 +1,7 @@
 //! Projection onto the constraints: positions by Newton's method on the rows of Φq, velocities by one linear solve,
 //! both with the smallest correction in the mass metric.
 
-use model::System;
+use model::{Mechanism, Scratch, System};
 
 use super::rows::KeptRows;
 use super::{Correction, KeptRowMotion};
@@ -25,8 +25,9 @@ const WEAK: f64 = 0.5;
 /// The same where a further correction does not help.
 const STALLED_ROUNDINGS: f64 = 50.0;
 
-/// Dropped rows count as implied by the kept ones below this share of the largest row. Rounding of the kept rows, 1e-15,
-/// reaches them through coefficients of up to some hundreds.
+/// Dropped rows count as implied by the kept ones below this share of their own terms and of those of the kept rows, as much as these
+/// enter: a row with an arm of 1e30 m says nothing of what an angle may miss by. Rounding of the kept rows is 1e-15; the configuration
+/// is off them by as much.
 const DROPPED_MISFIT: f64 = 1e-11;
 
 /// Smallest share of the reference pivots that is taken into account there: nearer, rows are left out.
@@ -246,51 +247,46 @@ impl KeptRowMotion<'_> {
     }
 
     /// Residuals of all rows at a projected state, dropped rows refused above the limit.
-    fn monitor(&self, q: &[f64], v: &[f64], iterations: usize) -> Result<Correction, Trip> {
-        let layout = self.mechanism.layout();
+    fn monitor(&mut self, q: &[f64], v: &[f64], iterations: usize) -> Result<Correction, Trip> {
         let found = Correction {
             iterations,
             ..self.residuals(v)
         };
+        let (mechanism, s, size) = (self.mechanism, &self.s, self.size);
         // Rounding of the kept rows reaches the dropped ones through the inverse of their pivots, near a singular configuration
         // more than elsewhere.
         let misfit =
             |rows: &KeptRows| DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0);
         if !self.position.dropped.is_empty() {
-            let scale = |i: usize| self.mechanism.position_scale(&self.s, i, q);
-            let limit = misfit(&self.position) * (0..layout.m).map(scale).fold(0.0, f64::max);
-            for &i in &self.position.dropped {
-                self.check_dropped(i, "position", self.s.phi[i].abs(), limit)?;
-            }
+            let level = Level {
+                name: "position",
+                share: misfit(&self.position),
+                residual: |i: usize| s.phi[i].abs(),
+                scale: |i| mechanism.position_scale(s, i, q),
+                floor: || 0.0,
+            };
+            level.check(&mut self.position, mechanism, s)?;
         }
         if !self.velocity.dropped.is_empty() {
-            // Off the constraints by rounding of its coordinates, the rows agree to the same share.
-            let rounding = self.mechanism.relative_residual(&self.s, q, self.size);
+            // Off the constraints by rounding of its coordinates, the rows agree to the same share. Kept rows are solved to rounding of the
+            // fastest of them, so that the others are no better.
+            let rounding = mechanism.relative_residual(s, q, size);
+            let scale = |i: usize| mechanism.velocity_scale(s, i, v);
+            let fastest = (0..mechanism.layout().rows())
+                .map(scale)
+                .fold(0.0, f64::max);
             let share = misfit(&self.velocity).max(STALLED_ROUNDINGS * rounding);
-            let scale = |i: usize| self.mechanism.velocity_scale(&self.s, i, v);
-            let limit = share * (0..layout.rows()).map(scale).fold(0.0, f64::max);
-            for &i in &self.velocity.dropped {
-                let residual = layout.velocity_residual(&self.s, i, v).abs();
-                let limit = match residual <= limit {
-                    true => limit,
-                    false => limit.max(self.still(share)),
-                };
-                self.check_dropped(i, "velocity", residual, limit)?;
-            }
+            let horizon = self.horizon;
+            let level = Level {
+                name: "velocity",
+                share,
+                residual: |i| mechanism.layout().velocity_residual(s, i, v).abs(),
+                scale: |_| fastest,
+                floor: || share * size_of_rows(mechanism, s, size) / horizon,
+            };
+            level.check(&mut self.velocity, mechanism, s)?;
         }
         Ok(found)
-    }
-
-    /// Rates of rows that move the mechanism by no more than this share of its size while the run lasts: as positions may, velocities may
-    /// part by these, however slow the motion is.
-    fn still(&self, share: f64) -> f64 {
-        let layout = self.mechanism.layout();
-        let size = |i: usize| {
-            let row = layout.row(&self.s, i);
-            row.map(|(j, c)| c.abs() * self.mechanism.unit(j, self.size))
-                .sum()
-        };
-        share * (0..layout.rows()).map(size).fold(0.0, f64::max) / self.horizon
     }
 
     /// Residuals of all rows at a state whose Φ, C and b stand in the scratch.
@@ -303,26 +299,64 @@ impl KeptRowMotion<'_> {
                 .fold(0.0, |a, i| f64::max(a, velocity(i).abs())),
         }
     }
+}
 
-    fn check_dropped(
-        &self,
-        i: usize,
-        level: &'static str,
-        residual: f64,
-        tolerance: f64,
-    ) -> Result<(), Trip> {
-        note(Counted::Monitors);
-        if residual <= tolerance {
-            return Ok(());
+/// The largest row of C for motions of the size of the mechanism.
+fn size_of_rows(mechanism: &Mechanism, s: &Scratch, size: f64) -> f64 {
+    let layout = mechanism.layout();
+    let of_row = |i: usize| {
+        let row = layout.row(s, i);
+        row.map(|(j, c)| c.abs() * mechanism.unit(j, size)).sum()
+    };
+    (0..layout.rows()).map(of_row).fold(0.0, f64::max)
+}
+
+/// Positions or velocities of rows: what row i misses by, and the size of its terms.
+struct Level<R, S, F> {
+    name: &'static str,
+    /// What dropped rows may miss by, as share of the terms.
+    share: f64,
+    residual: R,
+    scale: S,
+    /// What they may miss by however small the terms are: as positions may, velocities may part by what moves the mechanism by no more than
+    /// that share of its size while the run lasts, however slow the motion is.
+    floor: F,
+}
+
+impl<R, S, F> Level<R, S, F>
+where
+    R: Fn(usize) -> f64,
+    S: Fn(usize) -> f64,
+    F: Fn() -> f64,
+{
+    /// Refuses the first dropped row that the kept ones do not imply.
+    fn check(&self, rows: &mut KeptRows, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
+        for k in 0..rows.dropped.len() {
+            note(Counted::Monitors);
+            let i = rows.dropped[k];
+            let residual = (self.residual)(i);
+            // Most rows agree to rounding of their own terms.
+            if residual <= self.share * (self.scale)(i) {
+                continue;
+            }
+            rows.factor(mechanism, s)?;
+            let implied = self.share * rows.implied_scale(mechanism, s, i, &self.scale)?;
+            let tolerance = if residual > implied {
+                implied.max((self.floor)())
+            } else {
+                implied
+            };
+            if residual > tolerance || residual.is_nan() || tolerance.is_nan() {
+                return Err(Trip::DroppedRow {
+                    time: s.t,
+                    row: mechanism.layout().labels[i].clone(),
+                    level: self.name,
+                    residual,
+                    tolerance,
+                });
+            }
         }
-        let row = self.mechanism.layout().labels[i].clone();
-        Err(Trip::DroppedRow {
-            time: self.s.t,
-            row,
-            level,
-            residual,
-            tolerance,
-        })
+        Ok(())
     }
 }
 

@@ -252,22 +252,47 @@ impl KeptRows {
     pub(super) fn largest_coefficient(&mut self, mechanism: &Mechanism, s: &Scratch) -> f64 {
         note(Counted::Coefficients);
         let mut largest = 0.0_f64;
-        self.motion.fill(0.0);
-        for &dropped in &self.dropped {
-            // A row that the kept ones imply, as a force, moves nothing: M·0 + C_Kᵀ·λ = c_Dᵀ.
-            mechanism.layout().scatter_row(s, dropped, &mut self.force);
-            for (entry, unit) in self.force.iter_mut().zip(&self.units) {
-                *entry *= unit;
-            }
-            let solved = self
-                .saddle
-                .multipliers(&self.force, &self.motion, &mut self.lambda);
-            largest = match solved {
+        for k in 0..self.dropped.len() {
+            largest = match self.imply(mechanism, s, self.dropped[k]) {
                 Ok(()) => self.lambda.iter().fold(largest, |a, l| a.max(l.abs())),
                 Err(_) => f64::INFINITY,
             };
         }
         largest
+    }
+
+    /// Size of row i, a dropped one, and of what the kept rows contribute to it: with `c_i = Σ T_ik·c_k` the sum of `scale(i)` and
+    /// `|T_ik|·scale(k)`. Rounding of these terms is what such a row may miss by. Needs the factorisation at the entries of C in the scratch.
+    pub(super) fn implied_scale(
+        &mut self,
+        mechanism: &Mechanism,
+        s: &Scratch,
+        i: usize,
+        scale: impl Fn(usize) -> f64,
+    ) -> Result<f64, Trip> {
+        if let Err(e) = self.imply(mechanism, s, i) {
+            return Err(self.trip(mechanism, s, e));
+        }
+        let terms = self.kept.iter().zip(&self.lambda);
+        let terms = terms.map(|(&k, coefficient)| coefficient.abs() * scale(k));
+        Ok(scale(i) + terms.sum::<f64>())
+    }
+
+    /// Leaves the coefficients of the kept rows in a dropped one as multipliers.
+    fn imply(
+        &mut self,
+        mechanism: &Mechanism,
+        s: &Scratch,
+        dropped: usize,
+    ) -> Result<(), SaddleError> {
+        // A row that the kept ones imply, as a force, moves nothing: M·0 + C_Kᵀ·λ = c_Dᵀ.
+        self.motion.fill(0.0);
+        mechanism.layout().scatter_row(s, dropped, &mut self.force);
+        for (entry, unit) in self.force.iter_mut().zip(&self.units) {
+            *entry *= unit;
+        }
+        self.saddle
+            .multipliers(&self.force, &self.motion, &mut self.lambda)
     }
 
     /// Compares pivots from now on with what those of other rows were compared with: this place may be a singular one.

@@ -25,8 +25,8 @@ impl EnergyBalance {
     pub(super) fn note(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64], work: f64) {
         let kinetic = mechanism.kinetic_energy(v);
         let gap = kinetic + mechanism.potential_energy(q) - self.start - work;
-        self.largest_kinetic = self.largest_kinetic.max(kinetic);
-        self.largest_gap = self.largest_gap.max(gap.abs());
+        self.largest_kinetic = larger(self.largest_kinetic, kinetic);
+        self.largest_gap = larger(self.largest_gap, gap.abs());
     }
 
     /// The largest gap (J).
@@ -40,10 +40,32 @@ impl EnergyBalance {
     }
 }
 
+/// The larger of two numbers; NaN, an energy that has left the range of numbers, is larger than all.
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    match b > a || b.is_nan() {
+        true => b,
+        false => a,
+    }
+}
+
 /// A gap relative to a kinetic energy; none is none.
 pub(super) fn relative(gap: f64, kinetic: f64) -> f64 {
     match gap > 0.0 || gap.is_nan() {
         true => gap / kinetic,
         false => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_balanced_is_not_balanced() {
+        assert_eq!(larger(larger(1.0, 2.0), 0.5), 2.0);
+        assert!(larger(larger(1.0, f64::NAN), 3.0).is_nan());
+        // ½·m·v² beyond the largest number: ∞ − ∞.
+        assert!(relative(f64::INFINITY - f64::INFINITY, f64::INFINITY).is_nan());
+        assert_eq!(relative(0.0, 0.0), 0.0);
     }
 }

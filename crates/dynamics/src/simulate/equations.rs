@@ -4,7 +4,7 @@
 use std::ops::ControlFlow;
 
 use integrators::{Delicate, Implicit, IntegrationError, Ode, StepEnd, StepInfo, Tolerance};
-use model::System;
+use model::{Mechanism, System};
 
 use super::by_time::ByTime;
 use super::energy::{self, EnergyBalance};
@@ -192,6 +192,7 @@ impl<'m> Equations<'m> {
         let (q, rest) = y.split_at_mut(self.n_q);
         let found = self.motion.end_row(t_before, q, &mut rest[..self.n_v])?;
         let mechanism = self.motion.mechanism();
+        finite(mechanism, t, y)?;
         self.last.check(mechanism, self.motion.size(), t, y)?;
         self.note(y, found);
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
@@ -337,6 +338,23 @@ impl<'m> Equations<'m> {
         let work = y.get(self.n_q + self.n_v).copied().unwrap_or(0.0);
         self.energy.note(self.motion.mechanism(), q, v, work);
     }
+}
+
+/// A row of output y = [q; v; …] has finite numbers: between the finite ends of a step, sums may leave their range.
+fn finite(mechanism: &Mechanism, t: f64, y: &[f64]) -> Result<(), Trip> {
+    let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
+    let Some(k) = y[..n_q + n_v].iter().position(|x| !x.is_finite()) else {
+        return Ok(());
+    };
+    let (column, what) = match k < n_q {
+        true => (k, ""),
+        false => (k - n_q, "rate of the "),
+    };
+    let (body, coordinate) = mechanism.coordinate(column);
+    Err(Trip::NotFinite {
+        time: t,
+        what: format!("the {what}{coordinate} of `{body}`"),
+    })
 }
 
 impl Ode for Equations<'_> {

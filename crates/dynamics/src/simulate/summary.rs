@@ -79,7 +79,7 @@ impl Summary {
     ) -> Self {
         let all = || components.iter().map(|c| &c.summary);
         let sum = |count: fn(&Self) -> u64| all().map(count).sum();
-        let largest = |x: fn(&Self) -> f64| all().map(x).fold(0.0, f64::max);
+        let largest = |x: fn(&Self) -> f64| all().map(x).fold(0.0, energy::larger);
         let smallest = |x: fn(&Self) -> f64| all().map(x).fold(f64::INFINITY, f64::min);
         let method = all().next().map_or(Method::Auto, |s| s.method);
         let same = all().all(|s| s.method == method);
