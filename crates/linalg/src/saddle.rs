@@ -14,7 +14,7 @@
 //! [`KeptRowSaddle::new`], `factor` and `solve` allocate nothing. Not for redundant rows: choose
 //! the kept ones with [`decide`](crate::decide) first; no rank is decided here.
 //!
-//! Masses that differ by many powers of ten, or are zero, are graded: then, of the entries that are not much smaller than the largest, the pivot is that of the
+//! Masses that differ by many powers of ten are graded: then, of the entries that are not much smaller than the largest, the pivot is that of the
 //! lightest coordinate. So the heavy coordinates are free, `Nᵀ·M·N` is their masses and little more, and λ comes
 //! from the equations of light bodies, where no large inertia cancels. What is left is rounding, which [`KeptRowSaddle::solve_refined`] removes.
 //!
@@ -243,7 +243,7 @@ impl KeptRowSaddle {
     }
 
     /// Whether the masses of the last factorisation are graded, so that light coordinates are solved for: [`mass_spread`] from
-    /// [`GRADED_MASSES`] on, or masses that are zero.
+    /// [`GRADED_MASSES`] on, and from a thousandth of it on beside masses that are zero.
     pub fn is_graded(&self) -> bool {
         self.is_graded
     }

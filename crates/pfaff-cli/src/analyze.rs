@@ -42,6 +42,9 @@ pub(crate) fn run(arguments: &Analyze) -> Outcome {
         StudyError::Motion(MotionError::RankUndecided(_)) => {
             "the rank of the start is undecided in double precision, so this mechanism cannot be moved".to_owned()
         }
+        StudyError::Motion(e @ MotionError::Inseparable { .. }) => {
+            format!("this mechanism cannot be moved: {e}")
+        }
         StudyError::SingularStart(diagnostic) => {
             format!("no motion begins with these velocities: {}", diagnostic.message)
         }

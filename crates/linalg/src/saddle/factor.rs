@@ -8,6 +8,10 @@ use crate::kernels::{axpy, dot, extremes, max_abs};
 /// A pivot below this fraction of its row is rounding noise, whatever the configuration.
 const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
 
+/// Where some masses are zero, the others are graded from this spread on: nothing of a massless coordinate's own is left in NᵀMN to stand
+/// against what cancels there. Below it pivots by mass would only be smaller.
+const GRADED_BESIDE_MASSLESS: f64 = 1e3;
+
 /// Graded masses choose among the entries above this share of the largest one: multipliers of the elimination stay below its inverse.
 const CANDIDATE: f64 = 0.1;
 
@@ -101,7 +105,11 @@ impl KeptRowSaddle {
             true => heaviest / lightest,
             false => mass_spread(mass),
         };
-        self.is_graded = self.mass_spread >= GRADED_MASSES || lightest == 0.0;
+        let from = match lightest > 0.0 {
+            true => GRADED_MASSES,
+            false => GRADED_BESIDE_MASSLESS,
+        };
+        self.is_graded = self.mass_spread >= from;
         self.permutation.copy_from_slice(&self.order);
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
