@@ -17,9 +17,11 @@ pub(super) struct ByTime {
 }
 
 impl ByTime {
-    /// Room for derivatives in a run that evaluates them as functions of time.
+    /// Room for derivatives in a run that evaluates them as functions of time. Where a run is on code, the interpreter is called near
+    /// singular configurations only, and there the integrator leads.
     pub(super) fn for_run(prepared: &Prepared, options: &MotionOptions) -> Option<Self> {
-        prepared.is_function_of_time(options).then(Self::default)
+        let is_interpreted = prepared.code_for(options).is_err();
+        (is_interpreted && prepared.is_function_of_time(options)).then(Self::default)
     }
 
     /// The derivative at time t: the known one, or what `evaluate` writes.
