@@ -56,13 +56,8 @@ fn a_fault_is_seen() {
 
 #[test]
 fn what_was_found_is_mended() {
-    // FIXME: a row of zeros without a verdict of its own; pivots that fall because the mechanism is large; a rank that is decided although
-    // the data hide every row.
-    let open = [
-        "phi-off-far.toml",
-        "rank-beyond-data.toml",
-        "zero-gear.toml",
-    ];
+    // FIXME: a row of zeros without a verdict of its own; a rank that is decided although the data hide every row.
+    let open = ["rank-beyond-data.toml", "zero-gear.toml"];
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("found");
     let limits = Limits {
         deadline: Duration::from_secs(3),
