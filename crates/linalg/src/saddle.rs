@@ -24,6 +24,7 @@
 //! solution of saddle point problems, Acta Numerica 14 (2005) 1–137, section 6.
 
 mod factor;
+mod fill;
 mod orientation;
 mod partition;
 mod refine;
@@ -33,6 +34,7 @@ mod tests;
 
 use crate::Matrix;
 use crate::kernels::all_finite;
+use fill::{Fill, Lists};
 
 pub use refine::Refinement;
 
@@ -63,6 +65,10 @@ pub struct KeptRowSaddle {
     rows: usize,
     /// The row of C behind each row in use, ascending.
     used: Vec<usize>,
+    /// The columns outside which each row of C is zero.
+    columns: Lists,
+    /// What elimination in the kept order leaves of that.
+    fill: Fill,
     /// Row j: `U_0j … U_jj`, then column j of L below its unit diagonal. r×n, row-major.
     lu: Vec<f64>,
     /// 1/U_jj of each row in use: a product costs less than a quotient.
@@ -70,14 +76,17 @@ pub struct KeptRowSaddle {
     /// Coordinates in the order in which a factorisation takes them up, and how many of them it may solve for.
     order: Vec<usize>,
     solvable: usize,
-    /// Position i of P·x is coordinate `permutation[i]`.
+    /// Position i of P·x is coordinate `permutation[i]`, coordinate j is at `place[j]`.
     permutation: Vec<usize>,
+    place: Vec<usize>,
     /// Row c: `−L₁⁻ᵀ·L₂ᵀ·e_c`, the dependent part of the null vector c. k×r, row-major.
     null_basis: Vec<f64>,
     /// diag(M) in the order of P.
     mass: Vec<f64>,
     /// L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. k×k, row-major.
     reduced_mass: Vec<f64>,
+    /// Whether no row of the present factorisation was solved for another coordinate than that of the order.
+    is_in_order: bool,
     pivot_ratio: f64,
     /// Smallest share of a diagonal entry of NᵀMN that its elimination left, infinite for k = 0.
     mass_ratio: f64,
@@ -118,6 +127,16 @@ pub enum SaddleError {
         found: usize,
         /// The length it must have.
         expected: usize,
+    },
+    /// A column that there is not.
+    #[error("row {row} has an entry in column {column}, need columns below {n}")]
+    Column {
+        /// Number of the row.
+        row: usize,
+        /// The column.
+        column: usize,
+        /// Coordinates.
+        n: usize,
     },
     /// Coordinates that cannot be solved for.
     #[error("coordinate {coordinate} cannot be solved for: need different coordinates below {n}")]
@@ -193,9 +212,37 @@ impl KeptRowSaddle {
     /// # Errors
     /// [`SaddleError::TooManyRows`] if r > n.
     pub fn new(n: usize, r: usize) -> Result<Self, SaddleError> {
+        Self::with_columns(n, &vec![Vec::from_iter(0..n); r])
+    }
+
+    /// Storage for n coordinates and rows of which each is zero outside its columns: entries there are not looked at. The same solutions as
+    /// with [`KeptRowSaddle::new`], bit for bit, for a third of the work where rows have few entries.
+    ///
+    /// ```
+    /// use linalg::KeptRowSaddle;
+    /// let mut saddle = KeptRowSaddle::with_columns(3, &[vec![0, 1], vec![2]])?;
+    /// let rows = [[1.0, -1.0, 0.0], [0.0, 0.0, 5.0]];
+    /// saddle.factor(|k| &rows[k], &[1.0; 3])?;
+    /// let (mut a, mut lambda) = ([0.0; 3], [0.0; 2]);
+    /// saddle.solve(&[1.0, 0.0, 7.0], &[0.0, 10.0], &mut a, &mut lambda)?;
+    /// assert_eq!((a, lambda), ([0.5, 0.5, 2.0], [0.5, 1.0]));
+    /// # Ok::<(), linalg::SaddleError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`SaddleError::TooManyRows`] if r > n, [`SaddleError::Column`] for a column that is not below n.
+    pub fn with_columns(n: usize, columns: &[Vec<usize>]) -> Result<Self, SaddleError> {
+        let r = columns.len();
         if r > n {
             return Err(SaddleError::TooManyRows { n, r });
         }
+        for (row, columns) in columns.iter().enumerate() {
+            if let Some(&column) = columns.iter().find(|&&column| column >= n) {
+                return Err(SaddleError::Column { row, column, n });
+            }
+        }
+        let columns = Lists::from_iter(columns);
+        let order = Vec::from_iter(0..n);
         // Left out, rows become free motions: the largest k·r and k².
         let most = |size: fn(usize, usize) -> usize| (0..=r).map(|r| size(n, r)).max().unwrap_or(0);
         Ok(Self {
@@ -203,14 +250,18 @@ impl KeptRowSaddle {
             r,
             rows: r,
             used: (0..r).collect(),
+            fill: Fill::new(&columns, &order),
+            columns,
             lu: vec![0.0; r * n],
             inverse: vec![0.0; r],
-            order: (0..n).collect(),
+            order,
             solvable: n,
             permutation: (0..n).collect(),
+            place: (0..n).collect(),
             null_basis: vec![0.0; most(|n, r| (n - r) * r)],
             mass: vec![0.0; n],
             reduced_mass: vec![0.0; n * n],
+            is_in_order: true,
             pivot_ratio: f64::INFINITY,
             mass_ratio: f64::INFINITY,
             mass_spread: 1.0,

@@ -24,6 +24,7 @@ pub(super) struct KeptRows {
     pub(super) lambda: Vec<f64>,
     /// Kept rows of C in units of the mechanism.
     c: Matrix,
+    gather: Gather,
     /// What coordinates count in those units, and the masses there, n_v each.
     units: Vec<f64>,
     mass: Vec<f64>,
@@ -76,17 +77,20 @@ impl KeptRows {
     ) -> Result<Self, SaddleError> {
         let (n, r) = (mechanism.layout().n_v, kept.len());
         let units = units(mechanism, size);
+        let gather = Gather::new(mechanism, kept, &units);
+        let columns = gather.columns(r, n);
         Ok(Self {
             kept: kept.to_vec(),
             dropped: dropped.to_vec(),
             rhs: vec![0.0; r],
             lambda: vec![0.0; r],
             c: Matrix::zeros(r, n),
+            gather,
             mass: mass_in_units(mechanism, &units),
             units,
             force: vec![0.0; n],
             motion: vec![0.0; n],
-            saddle: KeptRowSaddle::new(n, r)?,
+            saddle: KeptRowSaddle::with_columns(n, &columns)?,
             refinement: Refinement::new(n, r),
             is_far: is_far(size),
             reference_pivot: None,
@@ -191,22 +195,6 @@ impl KeptRows {
         }
     }
 
-    fn take_entries(&mut self, mechanism: &Mechanism, s: &Scratch) {
-        let pattern = &mechanism.layout().pattern;
-        for (k, &i) in self.kept.iter().enumerate() {
-            let row = self.c.row_mut(k);
-            let entries = pattern.start[i]..pattern.start[i + 1];
-            let columns = &pattern.column[entries.clone()];
-            // Other columns stay zero.
-            for &column in columns {
-                row[column] = 0.0;
-            }
-            for (&column, &entry) in columns.iter().zip(&pattern.entry[entries]) {
-                row[column] += s.entries[entry] * self.units[column];
-            }
-        }
-    }
-
     /// As [`KeptRows::factor`], leaving out rows whose pivot is below this share of the reference.
     pub(super) fn factor_above(
         &mut self,
@@ -214,7 +202,7 @@ impl KeptRows {
         mechanism: &Mechanism,
         s: &Scratch,
     ) -> Result<(), Trip> {
-        self.take_entries(mechanism, s);
+        self.gather.take(&s.entries, &mut self.c);
         let reference = self.reference().filter(|r| r.is_finite());
         let floor = share * reference.unwrap_or(0.0);
         let c = &self.c;
@@ -457,6 +445,62 @@ impl KeptRows {
 
     fn trip(&self, mechanism: &Mechanism, s: &Scratch, e: SaddleError) -> Trip {
         trip(mechanism, s, e, |row| self.kept[row])
+    }
+}
+
+/// Where the entries of kept rows go, and by which unit they are multiplied.
+#[derive(Clone)]
+struct Gather {
+    /// The first entries of their places.
+    first: Vec<Entry>,
+    /// What is added to them: a joint may reach a coordinate twice.
+    more: Vec<Entry>,
+}
+
+#[derive(Clone, Copy)]
+struct Entry {
+    /// In the matrix of kept rows, row-major.
+    place: usize,
+    /// Among the entries of C.
+    entry: usize,
+    unit: f64,
+}
+
+impl Gather {
+    fn new(mechanism: &Mechanism, kept: &[usize], units: &[f64]) -> Self {
+        let (n, pattern) = (mechanism.layout().n_v, &mechanism.layout().pattern);
+        let mut is_taken = vec![false; kept.len() * n];
+        let entries = kept.iter().enumerate().flat_map(|(k, &i)| {
+            let entry = move |at: usize| Entry {
+                place: k * n + pattern.column[at],
+                entry: pattern.entry[at],
+                unit: units[pattern.column[at]],
+            };
+            (pattern.start[i]..pattern.start[i + 1]).map(entry)
+        });
+        let (first, more) =
+            entries.partition(|entry| !std::mem::replace(&mut is_taken[entry.place], true));
+        Self { first, more }
+    }
+
+    /// Columns in which the rows have entries.
+    fn columns(&self, r: usize, n: usize) -> Vec<Vec<usize>> {
+        let mut columns = vec![Vec::new(); r];
+        for entry in &self.first {
+            columns[entry.place / n].push(entry.place % n);
+        }
+        columns
+    }
+
+    /// The rows, from the entries of C; other places stay zero.
+    fn take(&self, entries: &[f64], c: &mut Matrix) {
+        let c = c.as_mut_slice();
+        for entry in &self.first {
+            c[entry.place] = entries[entry.entry] * entry.unit;
+        }
+        for entry in &self.more {
+            c[entry.place] += entries[entry.entry] * entry.unit;
+        }
     }
 }
 

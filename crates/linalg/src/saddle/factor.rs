@@ -111,6 +111,10 @@ impl KeptRowSaddle {
         };
         self.is_graded = self.mass_spread >= from;
         self.permutation.copy_from_slice(&self.order);
+        for (i, &coordinate) in self.order.iter().enumerate() {
+            self.place[coordinate] = i;
+        }
+        self.is_in_order = true;
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
         Ok(())
@@ -140,26 +144,59 @@ impl KeptRowSaddle {
     ) -> Result<Elimination, SaddleError> {
         let (n, j) = (self.n, self.r);
         check_length("row of C", c_j, n)?;
-        check_finite("C", c_j, row * n)?;
-        let scale = max_abs(c_j);
-
         let (before, rest) = self.lu.split_at_mut(j * n);
         let x = &mut rest[..n];
-        for (x_i, &coordinate) in x.iter_mut().zip(&self.permutation) {
-            *x_i = c_j[coordinate];
+        x.fill(0.0);
+        // x·0 is NaN exactly for NaN and infinities.
+        let (mut scale, mut zero) = (0.0_f64, 0.0);
+        for &column in self.columns.of(row) {
+            let c = c_j[column];
+            x[self.place[column]] = c;
+            zero += c * 0.0;
+            scale = if c.abs() > scale { c.abs() } else { scale };
         }
-        for (k, l_k) in before.chunks_exact(n).enumerate() {
-            let u_kj = x[k];
-            if u_kj != 0.0 {
-                axpy(-u_kj, &l_k[k + 1..], &mut x[k + 1..]);
-            }
+        if zero != 0.0 {
+            check_finite("C", c_j, row * n)?;
         }
-
-        // No entry is the largest one if all are NaN.
-        let largest = max_abs(&x[j..self.solvable]);
-        let at = match self.is_graded {
-            false => (j..self.solvable).find(|&i| x[i].abs() == largest),
+        // As long as rows are solved for the coordinates of the order, their entries are those of the lists.
+        let below = match row == j && self.is_in_order {
             true => {
+                for &k in self.fill.upper.of(j) {
+                    let (u_kj, l_k) = (x[k], &before[k * n..(k + 1) * n]);
+                    for &i in self.fill.lower.of(k) {
+                        x[i] -= u_kj * l_k[i];
+                    }
+                }
+                Some(self.fill.lower.of(j))
+            }
+            false => {
+                for (k, l_k) in before.chunks_exact(n).enumerate() {
+                    let u_kj = x[k];
+                    if u_kj != 0.0 {
+                        axpy(-u_kj, &l_k[k + 1..], &mut x[k + 1..]);
+                    }
+                }
+                None
+            }
+        };
+
+        let at = match (self.is_graded, below) {
+            (false, Some(below)) => {
+                let (mut at, mut largest) = (j, max_abs(&x[j..=j]));
+                for &i in below {
+                    if i < self.solvable && x[i].abs() > largest {
+                        (at, largest) = (i, x[i].abs());
+                    }
+                }
+                Some(at)
+            }
+            (false, None) => {
+                // No entry is the largest one if all are NaN.
+                let largest = max_abs(&x[j..self.solvable]);
+                (j..self.solvable).find(|&i| x[i].abs() == largest)
+            }
+            (true, _) => {
+                let largest = max_abs(&x[j..self.solvable]);
                 let candidates = (j..self.solvable).filter(|&i| x[i].abs() >= CANDIDATE * largest);
                 let mass = |i: usize| mass[self.permutation[i]];
                 // Compares c²/m without quotients: masses may be zero.
@@ -184,10 +221,13 @@ impl KeptRowSaddle {
         self.r += 1;
         if at != j {
             self.permutation.swap(at, j);
+            self.place[self.permutation[at]] = at;
+            self.place[self.permutation[j]] = j;
             x.swap(at, j);
             for l_k in before.chunks_exact_mut(n) {
                 l_k.swap(at, j);
             }
+            self.is_in_order = false;
         }
         let inverse = 1.0 / pivot;
         self.inverse[j] = inverse;

@@ -2,6 +2,7 @@
 //! every factorisation chooses its own, which is safer and gives the same solutions; with it the free coordinates are
 //! coordinates of a manifold, and the rows determine the others.
 
+use super::fill::Fill;
 use super::{KeptRowSaddle, SaddleError, State, check_finite, check_length};
 
 impl KeptRowSaddle {
@@ -27,6 +28,7 @@ impl KeptRowSaddle {
         }
         let free = (0..self.n).filter(|&i| !is_dependent[i]);
         self.order = dependent.iter().copied().chain(free).collect();
+        self.fill = Fill::new(&self.columns, &self.order);
         self.solvable = self.rows;
         Ok(())
     }
@@ -40,11 +42,13 @@ impl KeptRowSaddle {
     /// these are the same, or as large, nothing has to be moved.
     pub fn keep_order(&mut self) {
         self.order.copy_from_slice(&self.permutation);
+        self.fill = Fill::new(&self.columns, &self.order);
     }
 
     /// From the next factorisation on, each one chooses for itself what it solves for.
     pub fn forget_partition(&mut self) {
         self.order = (0..self.n).collect();
+        self.fill = Fill::new(&self.columns, &self.order);
         self.solvable = self.n;
     }
 

@@ -1,0 +1,103 @@
+//! Which entries of L and U can be other than zero, for rows whose columns are known and an order in which coordinates are solved for.
+//!
+//! Elimination in that order visits these entries only, and skips nothing but products with zero: its results are those of visiting all.
+//! Where rows turn to other coordinates the lists say nothing; then all entries are visited.
+
+/// Lists of indices, those of list k at `start[k]..start[k + 1]`.
+#[derive(Debug, Clone)]
+pub(super) struct Lists {
+    start: Vec<usize>,
+    index: Vec<usize>,
+}
+
+impl Lists {
+    fn new() -> Self {
+        Self {
+            start: vec![0],
+            index: Vec::new(),
+        }
+    }
+
+    fn push(&mut self, list: impl Iterator<Item = usize>) {
+        self.index.extend(list);
+        self.start.push(self.index.len());
+    }
+
+    pub(super) fn of(&self, k: usize) -> &[usize] {
+        &self.index[self.start[k]..self.start[k + 1]]
+    }
+
+    fn len(&self) -> usize {
+        self.start.len() - 1
+    }
+}
+
+impl<'a> FromIterator<&'a Vec<usize>> for Lists {
+    fn from_iter<I: IntoIterator<Item = &'a Vec<usize>>>(lists: I) -> Self {
+        let mut all = Self::new();
+        lists
+            .into_iter()
+            .for_each(|list| all.push(list.iter().copied()));
+        all
+    }
+}
+
+/// Entries of the rows of `lu`, by position.
+#[derive(Debug, Clone)]
+pub(super) struct Fill {
+    /// Row j: the rows k < j that it is eliminated with, ascending.
+    pub(super) upper: Lists,
+    /// Row j: positions above j, ascending.
+    pub(super) lower: Lists,
+}
+
+impl Fill {
+    /// For rows with entries in these columns, row j solved for the coordinate `order[j]`.
+    pub(super) fn new(columns: &Lists, order: &[usize]) -> Self {
+        let n = order.len();
+        let mut place = vec![0; n];
+        for (i, &coordinate) in order.iter().enumerate() {
+            place[coordinate] = i;
+        }
+        let mut fill = Self {
+            upper: Lists::new(),
+            lower: Lists::new(),
+        };
+        let mut is_there = vec![false; n];
+        for j in 0..columns.len() {
+            is_there.fill(false);
+            for &column in columns.of(j) {
+                is_there[place[column]] = true;
+            }
+            for k in 0..j {
+                if is_there[k] {
+                    fill.lower.of(k).iter().for_each(|&i| is_there[i] = true);
+                }
+            }
+            fill.upper.push((0..j).filter(|&k| is_there[k]));
+            fill.lower.push((j + 1..n).filter(|&i| is_there[i]));
+        }
+        fill
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_chain_closed_by_its_last_row_fills_what_is_between() {
+        let columns = [vec![0, 1], vec![1, 2], vec![0, 3]];
+        let fill = Fill::new(&columns.iter().collect(), &[0, 1, 2, 3]);
+        let of = |lists: &Lists| -> Vec<Vec<usize>> {
+            (0..lists.len()).map(|k| lists.of(k).to_vec()).collect()
+        };
+        // Row 2 takes up column 1 from row 0, and with it column 2 from row 1.
+        assert_eq!(of(&fill.upper), [vec![], vec![], vec![0, 1]]);
+        assert_eq!(of(&fill.lower), [vec![1], vec![2], vec![3]]);
+        // Solved for its own column, the last row meets no other.
+        let fill = Fill::new(&columns.iter().collect(), &[1, 2, 3, 0]);
+        assert_eq!(of(&fill.upper), [vec![], vec![0], vec![]]);
+        assert_eq!(of(&fill.lower), [vec![3], vec![3], vec![3]]);
+    }
+}
