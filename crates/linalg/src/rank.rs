@@ -9,7 +9,7 @@
 //!
 //! The rule, with singular values σ of `D_r·C·D_c` (maxima of rows and columns near one):
 //! `τ = 10·max(eps·√(m·n), uncertainty)`, rank r is decided iff `σ_{r+1} ≤ τ` and
-//! `σ_r ≥ max(10³·τ, 10⁻⁷)`. Two other rules give a certificate: `exact` reads the entries as they stand, `within` reads them in
+//! `σ_r ≥ max(10³·τ, 10⁻⁷)`; where τ is above 0.01, only if σ_{r+1} is rounding. Two other rules give a certificate: `exact` reads the entries as they stand, `within` reads them in
 //! double-double and knows what the data are worth.
 
 mod again;
@@ -49,6 +49,12 @@ const NOISE_FACTOR: f64 = 10.0;
 
 /// The smallest non-zero singular value must clear τ by this factor, or the rank is undecided.
 const CLEARANCE: f64 = 1e3;
+
+/// Data that are known to less than this share of a row say nothing of it: what they hide is no redundancy.
+const HIDDEN: f64 = 0.01;
+
+/// What is above the root of eps in a matrix of size one is no rounding of its entries.
+const NOT_ROUNDING: f64 = 1.5e-8;
 
 /// A configuration is known to about √eps near a singular one, whatever its residual: Newton's method stops there as at a
 /// double root. A smallest singular value below this may be zero at the true configuration.
@@ -144,6 +150,17 @@ pub enum Doubt {
         tolerance: f64,
         /// 4·τ.
         required: f64,
+    },
+    /// Rows that are not zero are hidden by what the data are known to.
+    #[error(
+        "singular value {sigma:.3e} is not rounding, and lies below {tolerance:.3e}, what the uncertainty of the data explains, \
+         in a matrix of size one: nothing is known of these rows; place the mechanism nearer to the origin, or know the data better"
+    )]
+    Hidden {
+        /// The largest of those below the tolerance.
+        sigma: f64,
+        /// τ.
+        tolerance: f64,
     },
     /// The tolerance swallows every singular value of a matrix that is not zero.
     #[error(
@@ -285,6 +302,7 @@ impl Reading {
         let lower = singular_values.partition_point(|&sigma| sigma >= required);
         let lower = lower.min(upper);
         let sigma_max = singular_values.first().copied().unwrap_or(0.0);
+        let hidden = singular_values.get(upper).copied().unwrap_or(0.0);
         let status = if upper == 0 && sigma_max > 0.0 {
             RankStatus::Undecided(Doubt::NotPolished {
                 sigma_max,
@@ -297,6 +315,11 @@ impl Reading {
                 sigma: singular_values[upper - 1],
                 tolerance,
                 required,
+            })
+        } else if tolerance > HIDDEN && hidden > NOT_ROUNDING {
+            RankStatus::Undecided(Doubt::Hidden {
+                sigma: hidden,
+                tolerance,
             })
         } else {
             RankStatus::Decided

@@ -8,7 +8,7 @@ use model::{ConstraintId, Known, Mechanism, Scratch, System};
 use crate::certificate::Rows;
 use crate::matrices::{QueryError, Solvability};
 use crate::state::{StateError, check_configuration};
-use crate::verdict::Judgement;
+use crate::verdict::{Judgement, Verdict};
 use crate::words;
 
 /// The verdicts of one configuration.
@@ -61,7 +61,7 @@ pub struct ReactionVerdict {
     pub name: String,
     /// Its scene type.
     pub kind: &'static str,
-    /// The wrench: unique iff `B_X = 0`.
+    /// The wrench: unique iff `B_X = 0`, and no component is free where a row moves no body, as between two parts of the ground.
     pub wrench: Judgement,
     /// All its multipliers: unique iff `Z_X = 0`.
     pub multipliers: Judgement,
@@ -336,6 +336,15 @@ fn reaction(
             judgement: solvability.component(&map, i, rows.clone())?,
         })
     });
+    let components = judged.collect::<Result<Vec<_>, QueryError>>()?;
+    let on_bodies = solvability.group(rows.clone())?;
+    let free = components
+        .iter()
+        .find(|c| c.judgement.verdict == Verdict::NotUnique);
+    let wrench = match (free, on_bodies.verdict == Verdict::Unique) {
+        (Some(free), true) => free.judgement.clone(),
+        _ => on_bodies,
+    };
     // Where their number is undecided there are none to show; the verdicts above say so.
     let unique_directions = match solvability.unique_directions(&map, rows.clone()) {
         Err(QueryError::Rank(_) | QueryError::Directions { .. }) => Vec::new(),
@@ -351,10 +360,10 @@ fn reaction(
         id,
         name: group.name.clone(),
         kind: group.spec.common.scene_type,
-        wrench: solvability.group(rows.clone())?,
+        wrench,
         multipliers: solvability.multipliers(rows.clone())?,
         rows: rows.clone().map(row_verdict).collect::<Result<_, _>>()?,
-        components: judged.collect::<Result<_, _>>()?,
+        components,
         unique_directions,
     })
 }

@@ -7,8 +7,8 @@ use super::certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant
 use super::graded::Graded;
 use super::perturbation;
 use super::{
-    Doubt, Evidence, NOISE_FACTOR, RankDecision, RankError, RankStatus, Reading, Uncertainty,
-    check_finite, gap, projected,
+    Doubt, Evidence, HIDDEN, NOISE_FACTOR, RankDecision, RankError, RankStatus, Reading,
+    Uncertainty, check_finite, gap, projected,
 };
 use crate::strong_basis::{self, Basis};
 use crate::{Dd, DdMatrix};
@@ -28,7 +28,7 @@ const CLEAR_OF_DATA: f64 = 4.0;
 ///
 /// With u, the largest uncertainty of an equilibrated entry, s, the Frobenius norm of all, and `τ = max(10·u, s)`: a singular value below τ is zero for some matrix within the uncertainty, one above 4·τ is not zero for any. Then:
 /// redundant exactly (σ_{r+1} ≤ 1e-26, [`Grounds::Vanishes`]); redundant within the data ([`Grounds::WithinData`]); of full rank although
-/// [nearly redundant](RankDecision::nearly_redundant); or undecided between τ and 4·τ.
+/// [nearly redundant](RankDecision::nearly_redundant); or undecided between τ and 4·τ, and where τ is above 0.01: entries of size one would be hidden.
 ///
 /// ```
 /// use linalg::{Dd, DdMatrix, Grounds, Matrix, certify_within};
@@ -84,6 +84,11 @@ pub fn certify_within<'a>(
             sigma: sigma_r,
             tolerance,
             required,
+        })
+    } else if sigma_next > VANISHES && tolerance > HIDDEN {
+        RankStatus::Undecided(Doubt::Hidden {
+            sigma: sigma_next,
+            tolerance,
         })
     } else {
         RankStatus::Decided

@@ -26,6 +26,36 @@ fn cranks(epsilon: f64) -> DdMatrix {
     c
 }
 
+/// A row that is known to its own size only is not redundant: nothing is known of it.
+#[test]
+fn what_the_data_hide_is_undecided() {
+    let c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0]]));
+    let reading = |known: f64| {
+        let uncertainty = Matrix::from_rows(&[[0.0, 0.0], [0.0, known]]);
+        certify_within(&c, &uncertainty).unwrap()
+    };
+    assert_eq!((reading(1e-6).rank, reading(1e-6).is_decided()), (2, true));
+    let hidden = reading(3.0);
+    assert_eq!(hidden.rank, 0);
+    assert!(!hidden.is_decided());
+    // Rows that differ by less than the data are known to: redundant within them only as long as they are known to a hundredth of a row.
+    let c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 1.0], [1.0, 1.05]]));
+    let decision = certify_within(&c, 0.01).unwrap();
+    let RankStatus::Undecided(Doubt::Hidden { sigma, tolerance }) = decision.status else {
+        panic!("{:?}", decision.status);
+    };
+    assert!(
+        (0.02..0.03).contains(&sigma) && tolerance == 0.1,
+        "{sigma} {tolerance}"
+    );
+    let near = DdMatrix::from(&Matrix::from_rows(&[[1.0, 1.0], [1.0, 1.0005]]));
+    assert_eq!(
+        grounds(&certify_within(&near, 1e-3).unwrap()),
+        Grounds::WithinData
+    );
+    assert!(certify_within(&near, 1e-3).unwrap().is_decided());
+}
+
 /// numerics.md, 2.1: exactly redundant 8e-18 / 4e-34; misaligned by 1e-13: the same at every precision; by 1e-20: seen at 32 digits.
 #[test]
 fn exact_redundancy_falls_with_the_precision_and_misalignment_stays() {
