@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::process::{Command, Stdio};
 use std::time::Instant;
 
-use crate::tree::{cargo, root, run, said_by};
+use crate::tree::{cargo, root, run, target};
 
 /// Runs of each command.
 const RUNS: usize = 50;
@@ -15,12 +15,7 @@ const SCENE: &str = "crates/robot-trolley/robot-trolley.toml";
 pub(crate) fn tell() -> Result<String, String> {
     let root = root();
     run(cargo(&root).args(["build", "--release", "-p", "pfaff-cli"]))?;
-    let metadata = said_by(cargo(&root).args(["metadata", "--format-version=1", "--no-deps"]))?;
-    let target = metadata
-        .split_once("\"target_directory\":\"")
-        .and_then(|(_, rest)| rest.split_once('"'))
-        .map(|(target, _)| target)
-        .ok_or("cargo metadata does not tell the target directory")?;
+    let target = target(&root)?;
     let program = format!("{target}/release/pfaff");
     let out = format!("{target}/cold-start");
     let commands: [(&str, &[&str]); 5] = [

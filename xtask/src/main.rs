@@ -6,6 +6,7 @@
 mod choices;
 mod codegen;
 mod cold_start;
+mod guards;
 mod right_hand_side;
 mod scene;
 mod tree;
@@ -19,7 +20,8 @@ const USAGE: &str = "usage: cargo xtask COMMAND
   right-hand-side     times and instructions of one right-hand side, into docs/reports/right-hand-side
   instructions        the same, told only
   choices             build time, size and dependencies of programs that use a part, into docs/reports/choices
-  cold-start          times of the commands, process included";
+  cold-start          times of the commands, process included
+  guards              what monitors cost in a run: the same run with them and compiled without";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -36,6 +38,7 @@ fn main() -> ExitCode {
         ["instructions"] => right_hand_side::instructions(),
         ["choices"] => choices::report(),
         ["cold-start"] => cold_start::tell(),
+        ["guards"] => guards::tell(),
         ["help" | "--help" | "-h"] => Ok(USAGE.to_owned()),
         [] => Err(USAGE.to_owned()),
         other => Err(format!("no command `{}`\n{USAGE}", other.join(" "))),

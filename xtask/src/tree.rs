@@ -37,6 +37,16 @@ pub(crate) fn said_by(command: &mut Command) -> Result<String, String> {
     }
 }
 
+/// Where cargo writes what it builds.
+pub(crate) fn target(root: &Path) -> Result<String, String> {
+    let metadata = said_by(cargo(root).args(["metadata", "--format-version=1", "--no-deps"]))?;
+    metadata
+        .split_once("\"target_directory\":\"")
+        .and_then(|(_, rest)| rest.split_once('"'))
+        .map(|(target, _)| target.to_owned())
+        .ok_or_else(|| "cargo metadata does not tell the target directory".to_owned())
+}
+
 /// Processor, cores and compiler, as lines of a list.
 pub(crate) fn machine() -> Result<String, String> {
     let cpu = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();

@@ -17,6 +17,7 @@ pub mod code;
 mod counts;
 mod error;
 pub mod events;
+mod guards;
 pub mod motion;
 pub mod options;
 pub mod plan;

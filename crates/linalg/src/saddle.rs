@@ -76,9 +76,12 @@ pub struct KeptRowSaddle {
     /// Coordinates in the order in which a factorisation takes them up, and how many of them it may solve for.
     order: Vec<usize>,
     solvable: usize,
+    order_parity: f64,
     /// Position i of P·x is coordinate `permutation[i]`, coordinate j is at `place[j]`.
     permutation: Vec<usize>,
     place: Vec<usize>,
+    /// sign(P)
+    parity: f64,
     /// Row c: `−L₁⁻ᵀ·L₂ᵀ·e_c`, the dependent part of the null vector c. k×r, row-major.
     null_basis: Vec<f64>,
     /// diag(M) in the order of P.
@@ -258,6 +261,8 @@ impl KeptRowSaddle {
             solvable: n,
             permutation: (0..n).collect(),
             place: (0..n).collect(),
+            order_parity: 1.0,
+            parity: 1.0,
             null_basis: vec![0.0; most(|n, r| (n - r) * r)],
             mass: vec![0.0; n],
             reduced_mass: vec![0.0; n * n],

@@ -254,6 +254,7 @@ impl KeptRowMotion<'_> {
                 by,
             });
         }
+        self.check_positions(q)?;
         self.velocity.factor(self.mechanism, &self.s)?;
         self.evaluate_b();
         for (rhs, &i) in self.velocity.rhs.iter_mut().zip(&self.velocity.kept) {

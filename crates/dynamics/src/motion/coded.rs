@@ -13,6 +13,7 @@ use super::{Correction, KeptRowMotion};
 use crate::code::{LEAVE, SceneCode};
 use crate::error::Trip;
 use crate::events::{Event, EventKind};
+use crate::guards::GUARDED;
 
 /// Code comes back above this health.
 const RETURN: f64 = 0.3;
@@ -140,6 +141,9 @@ fn are_finite(x: &[f64]) -> bool {
 
 /// NaN is never healthy.
 fn check(health: f64, results: &[f64]) -> Result<(), Doubt> {
+    if !GUARDED {
+        return Ok(());
+    }
     if health.is_nan() || health < LEAVE {
         return Err(Doubt::Health { health });
     }
@@ -177,6 +181,9 @@ fn worst_kept(x: &[f64], keeps: &[bool], sizes: &[f64]) -> (usize, f64, f64) {
 
 /// Dropped rows that miss what the kept ones imply: beside the largest row, because rounding of all of them reaches these.
 fn check_dropped(x: &[f64], keeps: &[bool], sizes: &[f64]) -> Result<(), Doubt> {
+    if !GUARDED {
+        return Ok(());
+    }
     let largest = sizes.iter().fold(0.0, |a, size| f64::max(a, *size));
     let misses = |x: &f64| x.is_nan() || x.abs() > DROPPED_MISFIT * largest;
     let mut dropped = x.iter().zip(keeps).enumerate();
@@ -405,6 +412,9 @@ impl KeptRowMotion<'_> {
 
     /// Takes an accepted state of the code.
     pub(crate) fn accept_coded(&mut self, now: (f64, &[f64], &[f64], &[f64])) {
+        if !GUARDED {
+            return;
+        }
         if let Some(coded) = &mut self.coded {
             coded.accepted.swap(0, 1);
             coded.accepted[0].take(now);

@@ -9,6 +9,7 @@
 //! distance of the branches: the motion goes on as smoothly as it came.
 
 use super::rows::KeptRows;
+use crate::guards::GUARDED;
 
 /// Velocities behind a singular configuration may miss those that the accelerations on both sides explain by this share: a step over it
 /// is short beside the curvature of the motion, and another branch leads elsewhere.
@@ -52,6 +53,9 @@ impl Passage {
 
     /// Notes the pivots of a stage.
     pub(super) fn see(&mut self, rows: &KeptRows) {
+        if !GUARDED {
+            return;
+        }
         let pivot = rows.relative_pivot();
         self.lowest = Some(self.lowest.map_or(pivot, |lowest| lowest.min(pivot)));
     }
@@ -102,6 +106,10 @@ impl Passage {
 
     /// Takes the freshly factored rows of an accepted step at time t.
     pub(super) fn take(&mut self, rows: &mut KeptRows, t: f64) {
+        if !GUARDED {
+            self.t = t;
+            return;
+        }
         let pivot = rows.relative_pivot();
         self.rate = (pivot - self.pivot) / (t - self.t);
         self.pivot = pivot;

@@ -8,6 +8,7 @@ use super::{Correction, KeptRowMotion};
 use crate::counts::{Counted, note};
 use crate::error::Trip;
 use crate::events::Event;
+use crate::guards::GUARDED;
 
 /// Corrections of the position per projection; one or two are the rule, more where a tolerance is very loose.
 const CORRECTIONS: usize = 20;
@@ -29,6 +30,12 @@ const STALLED_ROUNDINGS: f64 = 50.0;
 /// enter: a row with an arm of 1e30 m says nothing of what an angle may miss by. Rounding of the kept rows is 1e-15; the configuration
 /// is off them by as much.
 const DROPPED_MISFIT: f64 = 1e-11;
+
+/// The share of the size of the mechanism by which velocities may part in the time of a run, however slow it is: some hundred roundings.
+const AT_REST: f64 = 1e-13;
+
+/// A dropped row of Φ never misses by more than this share of its own terms, however far away the places are from which the kept rows imply it.
+const POSITION_MISFIT: f64 = 1e-5;
 
 /// Smallest share of the reference pivots that is taken into account there: nearer, rows are left out.
 const NEAREST_PIVOT: f64 = 1e-6;
@@ -65,7 +72,8 @@ impl KeptRowMotion<'_> {
             return Err(self.no_way_over(t));
         }
         // On a chart rows are exchanged when the next step begins.
-        if self.chart.is_none()
+        if GUARDED
+            && self.chart.is_none()
             && let Some(event) = self.review(q)?
         {
             self.pending = Some(event);
@@ -79,23 +87,25 @@ impl KeptRowMotion<'_> {
     /// Moves a stage onto the constraints.
     pub(crate) fn approach(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Trip> {
         self.settle(t, q)?;
-        self.project_velocity(v)
+        self.project_velocity(v).map(drop)
     }
 
     /// Whether the step to the state just evaluated may have passed a singular configuration.
     pub(crate) fn may_have_passed(&mut self) -> bool {
-        self.passage.is_suspect(&mut self.velocity)
+        GUARDED && self.passage.is_suspect(&mut self.velocity)
     }
 
     /// Whether velocities v and accelerations a at the state just evaluated go on from where the motion came near a singular
     /// configuration; as long as it is near, that remains to be seen.
     pub(crate) fn goes_on_smoothly(&self, now: (f64, &[f64], &[f64])) -> bool {
-        self.velocity.are_delicate() || self.passage.is_continued_by(now, self.mechanism.mass())
+        !GUARDED
+            || self.velocity.are_delicate()
+            || self.passage.is_continued_by(now, self.mechanism.mass())
     }
 
     /// Notes an accepted state far from singular configurations.
     pub(crate) fn note_sound(&mut self, now: (f64, &[f64], &[f64])) {
-        if !self.velocity.are_delicate() {
+        if GUARDED && !self.velocity.are_delicate() {
             self.passage.enter(now);
         }
     }
@@ -136,8 +146,8 @@ impl KeptRowMotion<'_> {
         v: &mut [f64],
         iterations: usize,
     ) -> Result<Correction, Trip> {
-        self.project_velocity(v)?;
-        self.monitor(q, v, iterations)
+        let left = self.project_velocity(v)?;
+        self.monitor(q, v, iterations, left)
     }
 
     /// Newton's method on the kept rows of Φ.
@@ -215,8 +225,8 @@ impl KeptRowMotion<'_> {
         }
     }
 
-    /// Needs the factorisation of the projected position.
-    fn project_velocity(&mut self, v: &mut [f64]) -> Result<(), Trip> {
+    /// Needs the factorisation of the projected position. Returns what the kept rows miss by at most.
+    fn project_velocity(&mut self, v: &mut [f64]) -> Result<f64, Trip> {
         self.evaluate_b();
         let Self {
             mechanism,
@@ -229,64 +239,93 @@ impl KeptRowMotion<'_> {
         let layout = mechanism.layout();
         let enough = enough(velocity);
         // Further passes remove what rounding left of the first.
-        for _ in 0..VELOCITY_PASSES {
+        let mut passes = 0;
+        loop {
             for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
                 *rhs = -layout.velocity_residual(s, i, v);
             }
             let scale = |&i: &usize| mechanism.velocity_scale(s, i, v);
             let scale = velocity.kept.iter().map(scale).fold(0.0, f64::max);
-            if largest(&velocity.rhs) <= enough * f64::EPSILON * scale {
-                break;
+            let left = largest(&velocity.rhs);
+            if left <= enough * f64::EPSILON * scale || passes == VELOCITY_PASSES {
+                return Ok(left);
             }
+            passes += 1;
             velocity.solve(mechanism, s, zero, delta)?;
             for (v, d) in v.iter_mut().zip(&*delta) {
                 *v += d;
             }
         }
-        Ok(())
     }
 
-    /// Residuals of all rows at a projected state, dropped rows refused above the limit.
-    fn monitor(&mut self, q: &[f64], v: &[f64], iterations: usize) -> Result<Correction, Trip> {
+    /// Residuals of all rows at a projected state, the kept ones being off by `left`; dropped rows refused above the limit.
+    fn monitor(
+        &mut self,
+        q: &[f64],
+        v: &[f64],
+        iterations: usize,
+        left: f64,
+    ) -> Result<Correction, Trip> {
+        if !GUARDED {
+            return Ok(Correction {
+                iterations,
+                ..Correction::default()
+            });
+        }
+        let (mechanism, s, size) = (self.mechanism, &self.s, self.size);
+        let residual = |i: usize| mechanism.layout().velocity_residual(s, i, v).abs();
+        let dropped = self.velocity.dropped.iter();
         let found = Correction {
             iterations,
-            ..self.residuals(v)
+            position_residual: largest(&s.phi),
+            velocity_residual: dropped.fold(left, |a, &i| a.max(residual(i))),
         };
-        let (mechanism, s, size) = (self.mechanism, &self.s, self.size);
-        // Rounding of the kept rows reaches the dropped ones through the inverse of their pivots, near a singular configuration
-        // more than elsewhere.
-        let misfit =
-            |rows: &KeptRows| DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0);
-        if !self.position.dropped.is_empty() {
-            let level = Level {
-                name: "position",
-                share: misfit(&self.position),
-                residual: |i: usize| s.phi[i].abs(),
-                scale: |i| mechanism.position_scale(s, i, q),
-                floor: || 0.0,
-            };
-            level.check(&mut self.position, mechanism, s)?;
-        }
+        self.check_positions(q)?;
+        let s = &self.s;
         if !self.velocity.dropped.is_empty() {
+            let scale = |i: usize| mechanism.velocity_scale(s, i, v);
+            let residual = |i: usize| mechanism.layout().velocity_residual(s, i, v).abs();
+            let share = dropped_misfit(&self.velocity);
+            // Most rows agree to rounding of their own terms.
+            let agrees = |&i: &usize| residual(i) <= share * scale(i);
+            if self.velocity.dropped.iter().all(agrees) {
+                return Ok(found);
+            }
             // Off the constraints by rounding of its coordinates, the rows agree to the same share. Kept rows are solved to rounding of the
             // fastest of them, so that the others are no better.
             let rounding = mechanism.relative_residual(s, q, size);
-            let scale = |i: usize| mechanism.velocity_scale(s, i, v);
-            let fastest = (0..mechanism.layout().rows())
-                .map(scale)
-                .fold(0.0, f64::max);
-            let share = misfit(&self.velocity).max(STALLED_ROUNDINGS * rounding);
+            let rows = 0..mechanism.layout().rows();
+            let fastest = rows.map(scale).fold(0.0, f64::max);
+            let share = share.max(STALLED_ROUNDINGS * rounding);
             let horizon = self.horizon;
             let level = Level {
                 name: "velocity",
                 share,
-                residual: |i| mechanism.layout().velocity_residual(s, i, v).abs(),
+                residual,
                 scale: |_| fastest,
-                floor: || share * size_of_rows(mechanism, s, size) / horizon,
+                most: f64::INFINITY,
+                floor: || AT_REST * size_of_rows(mechanism, s, size) / horizon,
             };
             level.check(&mut self.velocity, mechanism, s)?;
         }
         Ok(found)
+    }
+
+    /// Dropped rows of Φ at a position on the kept ones: on another configuration of these they do not hold.
+    pub(super) fn check_positions(&mut self, q: &[f64]) -> Result<(), Trip> {
+        if self.position.dropped.is_empty() {
+            return Ok(());
+        }
+        let (mechanism, s) = (self.mechanism, &self.s);
+        let level = Level {
+            name: "position",
+            share: dropped_misfit(&self.position),
+            residual: |i: usize| s.phi[i].abs(),
+            scale: |i| mechanism.position_scale(s, i, q),
+            most: POSITION_MISFIT,
+            floor: || 0.0,
+        };
+        level.check(&mut self.position, mechanism, s)
     }
 
     /// Residuals of all rows at a state whose Φ, C and b stand in the scratch.
@@ -299,6 +338,12 @@ impl KeptRowMotion<'_> {
                 .fold(0.0, |a, i| f64::max(a, velocity(i).abs())),
         }
     }
+}
+
+/// What rows dropped from these may miss by, as share of their terms: rounding of the kept rows reaches them through the inverse of the
+/// pivots, near a singular configuration more than elsewhere.
+fn dropped_misfit(rows: &KeptRows) -> f64 {
+    DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0)
 }
 
 /// The largest row of C for motions of the size of the mechanism.
@@ -318,8 +363,10 @@ struct Level<R, S, F> {
     share: f64,
     residual: R,
     scale: S,
+    /// The same share whatever rounding of the kept rows explains: beyond it the row is not known to hold.
+    most: f64,
     /// What they may miss by however small the terms are: as positions may, velocities may part by what moves the mechanism by no more than
-    /// that share of its size while the run lasts, however slow the motion is.
+    /// a small share of its size while the run lasts, however slow the motion is.
     floor: F,
 }
 
@@ -341,6 +388,7 @@ where
             }
             rows.factor(mechanism, s)?;
             let implied = self.share * rows.implied_scale(mechanism, s, i, &self.scale)?;
+            let implied = implied.min(self.most * (self.scale)(i));
             let tolerance = if residual > implied {
                 implied.max((self.floor)())
             } else {

@@ -6,7 +6,11 @@ use solvability::{decide, decide_holonomic};
 use super::{KeptRowMotion, KeptRows};
 use crate::error::Trip;
 use crate::events::{Event, EventKind};
+use crate::guards::GUARDED;
 use crate::options::RowChoice;
+
+/// Rows of output are looked at below this share of the reference pivots only: what kept rows multiply rounding by is small above it.
+const SOUND: f64 = 0.5;
 
 /// Other rows are worth an exchange if their coefficients are so many times smaller.
 const WORTH_EXCHANGE: f64 = 3.0;
@@ -72,7 +76,8 @@ impl KeptRowMotion<'_> {
     /// Rows that imply the others better than the kept ones do at a settled row of output: between two steps that keep rows
     /// which suit both, the mechanism may pass where they do not.
     pub(super) fn better_for_row(&mut self, q: &[f64]) -> Result<Option<KeptRows>, Trip> {
-        if self.chart.is_some() || !self.want_exchange() {
+        let is_sound = !GUARDED || self.velocity.relative_pivot() >= SOUND;
+        if self.chart.is_some() || is_sound || !self.want_exchange() {
             return Ok(None);
         }
         let decision = decide(self.mechanism, &self.s, q);

@@ -17,12 +17,27 @@ const PEAK: f64 = 3.0;
 pub(super) struct Span {
     times: [f64; 2],
     ends: [Vec<f64>; 4],
+    /// What rows of this step are compared with, from its first row on.
+    sizes: Option<Sizes>,
+    units: Vec<f64>,
+    led: Vec<f64>,
+}
+
+/// Sizes of a step.
+#[derive(Clone, Copy)]
+struct Sizes {
+    /// The longest way of a coordinate, in its unit.
+    way: f64,
+    /// Momentum, in the metric of the masses: what the velocities of the step are, and what going that way evenly would need.
+    speed: f64,
+    mean: f64,
 }
 
 impl Span {
     /// Takes the last accepted step.
     pub(super) fn take(&mut self, times: [f64; 2], ends: [&[f64]; 4]) {
         self.times = times;
+        self.sizes = None;
         for (kept, x) in self.ends.iter_mut().zip(ends) {
             kept.clear();
             kept.extend_from_slice(x);
@@ -34,7 +49,7 @@ impl Span {
     /// # Errors
     /// [`Trip::FarRow`]
     pub(super) fn check(
-        &self,
+        &mut self,
         mechanism: &Mechanism,
         size: f64,
         t: f64,
@@ -44,28 +59,27 @@ impl Span {
         if !(t0 < t && t < t1) {
             return Ok(());
         }
-        let led = self.cubic(t);
-        let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
-        let [y0, f0, y1, f1] = &self.ends;
-        let h = t1 - t0;
-        let change = |i: usize| h * f0[i].abs().max(f1[i].abs());
-        let longest = |a: f64, i: usize| {
-            let way = change(i).max((y1[i] - y0[i]).abs());
-            a.max(way / mechanism.unit(i, size))
+        let Sizes { way, speed, mean } = match self.sizes {
+            Some(sizes) => sizes,
+            None => {
+                let sizes = self.measure(mechanism, size);
+                *self.sizes.insert(sizes)
+            }
         };
-        let way = (0..n_q).fold(0.0, longest);
-        let (place, by) = mechanism.largest_difference(&y[..n_q], &led[..n_q], size);
-        let norm = |x: &dyn Fn(usize) -> f64| -> f64 {
-            let terms = (n_q..n_q + n_v).zip(mechanism.mass());
-            terms.map(|(i, m)| m * x(i) * x(i)).sum::<f64>().sqrt()
-        };
-        let kink = norm(&|i| y[i] - led[i]);
-        let speed = norm(&|i| y0[i].abs().max(y1[i].abs()) + change(i));
-        // A long step of a drive may begin and end at rest.
-        let mean = norm(&|i| (way + LED_AT_REST) * mechanism.unit(i - n_q, size) / h);
+        self.lead(t);
+        let n_q = mechanism.layout().n_q;
+        let (q, v) = y.split_at(n_q);
+        let (led_q, led_v) = self.led.split_at(n_q);
+        let shares = q.iter().zip(led_q).zip(&self.units);
+        let by = shares.fold(0.0, |by, ((q, led), unit)| {
+            f64::max(by, (q - led).abs() / unit)
+        });
+        let off = v.iter().zip(led_v).map(|(v, led)| v - led);
+        let kink = momentum(mechanism.mass(), off);
         if by <= LED * way + LED_AT_REST && kink <= LED * speed + PEAK * mean {
             return Ok(());
         }
+        let (place, by) = mechanism.largest_difference(q, led_q, size);
         let (body, coordinate) = mechanism.coordinate(place);
         Err(Trip::FarRow {
             time: t,
@@ -75,14 +89,47 @@ impl Span {
         })
     }
 
+    fn measure(&mut self, mechanism: &Mechanism, size: f64) -> Sizes {
+        let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
+        self.units.clear();
+        self.units.extend((0..n_v).map(|i| mechanism.unit(i, size)));
+        let (units, mass) = (&self.units, mechanism.mass());
+        let [y0, f0, y1, f1] = &self.ends;
+        let h = self.times[1] - self.times[0];
+        let change = |i: usize| h * f0[i].abs().max(f1[i].abs());
+        let longest = |a: f64, i: usize| {
+            let way = change(i).max((y1[i] - y0[i]).abs());
+            a.max(way / units[i])
+        };
+        let way = (0..n_q).fold(0.0, longest);
+        let fastest = |i: usize| y0[i].abs().max(y1[i].abs()) + change(i);
+        Sizes {
+            way,
+            speed: momentum(mass, (n_q..n_q + n_v).map(fastest)),
+            // A long step of a drive may begin and end at rest.
+            mean: momentum(mass, units.iter().map(|u| (way + LED_AT_REST) * u / h)),
+        }
+    }
+
     /// The cubic Hermite interpolant of both ends at t.
-    fn cubic(&self, t: f64) -> Vec<f64> {
+    fn lead(&mut self, t: f64) {
         let [t0, t1] = self.times;
         let [y0, f0, y1, f1] = &self.ends;
         let (h, x) = (t1 - t0, (t - t0) / (t1 - t0));
         let rest = 1.0 - x;
         let (a, b, c) = (x * x * (3.0 - 2.0 * x), x * rest * rest, -x * x * rest);
-        let value = |i: usize| y0[i] + a * (y1[i] - y0[i]) + h * (b * f0[i] + c * f1[i]);
-        (0..y0.len()).map(value).collect()
+        let ends = y0.iter().zip(y1).zip(f0.iter().zip(f1));
+        let cubic = ends.map(|((y0, y1), (f0, f1))| y0 + a * (y1 - y0) + h * (b * f0 + c * f1));
+        self.led.clear();
+        self.led.extend(cubic);
     }
+}
+
+/// The norm of a velocity in the metric of the masses.
+fn momentum(mass: &[f64], v: impl Iterator<Item = f64>) -> f64 {
+    mass.iter()
+        .zip(v)
+        .map(|(m, v)| m * v * v)
+        .sum::<f64>()
+        .sqrt()
 }

@@ -115,6 +115,7 @@ impl KeptRowSaddle {
             self.place[coordinate] = i;
         }
         self.is_in_order = true;
+        self.parity = self.order_parity;
         self.pivot_ratio = f64::INFINITY;
         self.r = 0;
         Ok(())
@@ -228,6 +229,7 @@ impl KeptRowSaddle {
                 l_k.swap(at, j);
             }
             self.is_in_order = false;
+            self.parity = -self.parity;
         }
         let inverse = 1.0 / pivot;
         self.inverse[j] = inverse;

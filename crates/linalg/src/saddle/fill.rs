@@ -11,11 +11,18 @@ pub(super) struct Lists {
 }
 
 impl Lists {
-    fn new() -> Self {
+    fn with_capacity(lists: usize, indices: usize) -> Self {
+        let mut start = Vec::with_capacity(lists + 1);
+        start.push(0);
         Self {
-            start: vec![0],
-            index: Vec::new(),
+            start,
+            index: Vec::with_capacity(indices),
         }
+    }
+
+    fn clear(&mut self) {
+        self.start.truncate(1);
+        self.index.clear();
     }
 
     fn push(&mut self, list: impl Iterator<Item = usize>) {
@@ -34,7 +41,7 @@ impl Lists {
 
 impl<'a> FromIterator<&'a Vec<usize>> for Lists {
     fn from_iter<I: IntoIterator<Item = &'a Vec<usize>>>(lists: I) -> Self {
-        let mut all = Self::new();
+        let mut all = Self::with_capacity(0, 0);
         lists
             .into_iter()
             .for_each(|list| all.push(list.iter().copied()));
@@ -49,21 +56,37 @@ pub(super) struct Fill {
     pub(super) upper: Lists,
     /// Row j: positions above j, ascending.
     pub(super) lower: Lists,
+    place: Vec<usize>,
+    is_there: Vec<bool>,
 }
 
 impl Fill {
     /// For rows with entries in these columns, row j solved for the coordinate `order[j]`.
     pub(super) fn new(columns: &Lists, order: &[usize]) -> Self {
-        let n = order.len();
-        let mut place = vec![0; n];
+        let (r, n) = (columns.len(), order.len());
+        let mut fill = Self {
+            upper: Lists::with_capacity(r, r * r),
+            lower: Lists::with_capacity(r, r * n),
+            place: vec![0; n],
+            is_there: vec![false; n],
+        };
+        fill.follow(columns, order);
+        fill
+    }
+
+    /// The same for another order; allocates nothing.
+    pub(super) fn follow(&mut self, columns: &Lists, order: &[usize]) {
+        let Self {
+            upper,
+            lower,
+            place,
+            is_there,
+        } = self;
+        upper.clear();
+        lower.clear();
         for (i, &coordinate) in order.iter().enumerate() {
             place[coordinate] = i;
         }
-        let mut fill = Self {
-            upper: Lists::new(),
-            lower: Lists::new(),
-        };
-        let mut is_there = vec![false; n];
         for j in 0..columns.len() {
             is_there.fill(false);
             for &column in columns.of(j) {
@@ -71,13 +94,12 @@ impl Fill {
             }
             for k in 0..j {
                 if is_there[k] {
-                    fill.lower.of(k).iter().for_each(|&i| is_there[i] = true);
+                    lower.of(k).iter().for_each(|&i| is_there[i] = true);
                 }
             }
-            fill.upper.push((0..j).filter(|&k| is_there[k]));
-            fill.lower.push((j + 1..n).filter(|&i| is_there[i]));
+            upper.push((0..j).filter(|&k| is_there[k]));
+            lower.push((j + 1..order.len()).filter(|&i| is_there[i]));
         }
-        fill
     }
 }
 

@@ -60,12 +60,12 @@ impl KeptRowSaddle {
             }
         }
         let pivots: f64 = (0..r).map(|j| self.lu[j * n + j].signum()).product();
-        parity(&self.permutation) * pivots * determinant_sign(&mut self.bordered, k)
+        self.parity * pivots * determinant_sign(&mut self.bordered, k)
     }
 }
 
 /// +1 for even permutations, −1 for odd ones.
-fn parity(p: &[usize]) -> f64 {
+pub(super) fn parity(p: &[usize]) -> f64 {
     let inversions: usize = (0..p.len())
         .map(|i| p[i + 1..].iter().filter(|&&x| x < p[i]).count())
         .sum();

@@ -2,7 +2,7 @@
 //! every factorisation chooses its own, which is safer and gives the same solutions; with it the free coordinates are
 //! coordinates of a manifold, and the rows determine the others.
 
-use super::fill::Fill;
+use super::orientation::parity;
 use super::{KeptRowSaddle, SaddleError, State, check_finite, check_length};
 
 impl KeptRowSaddle {
@@ -28,7 +28,7 @@ impl KeptRowSaddle {
         }
         let free = (0..self.n).filter(|&i| !is_dependent[i]);
         self.order = dependent.iter().copied().chain(free).collect();
-        self.fill = Fill::new(&self.columns, &self.order);
+        self.order_is_new();
         self.solvable = self.rows;
         Ok(())
     }
@@ -42,14 +42,19 @@ impl KeptRowSaddle {
     /// these are the same, or as large, nothing has to be moved.
     pub fn keep_order(&mut self) {
         self.order.copy_from_slice(&self.permutation);
-        self.fill = Fill::new(&self.columns, &self.order);
+        self.order_is_new();
     }
 
     /// From the next factorisation on, each one chooses for itself what it solves for.
     pub fn forget_partition(&mut self) {
         self.order = (0..self.n).collect();
-        self.fill = Fill::new(&self.columns, &self.order);
+        self.order_is_new();
         self.solvable = self.n;
+    }
+
+    fn order_is_new(&mut self) {
+        self.fill.follow(&self.columns, &self.order);
+        self.order_parity = parity(&self.order);
     }
 
     /// Overwrites the dependent entries of `x` so that `C·x = γ`, and leaves the free ones alone. Needs no masses; allocates

@@ -4,12 +4,12 @@
 use dynamics::{MotionOptions, Summary};
 
 use crate::case::{Case, Expected, Family};
-use crate::motion::{Row, case, combinations, worst};
+use crate::motion::{Row, case, combinations, steps, worst};
 
 /// A wheel, and a parallelogram with two motors.
 pub(super) const FAMILY: Family = Family {
     name: "drives",
-    about: "jumps of a drive, of its rate and of a torque; two motors of a parallelogram that disagree from 1 s on",
+    about: "jumps of a drive, of its rate, of a torque and of the rate of a torque; two motors of a parallelogram that disagree from 1 s on",
     cases,
 };
 
@@ -64,6 +64,19 @@ fn cases() -> Vec<Case> {
             options.clone(),
             right,
             after_the_push,
+        ));
+
+        let tolerances = 10.0 * steps(options.method, T_END, RTOL);
+        let right = Expected::answer(
+            tolerances * RTOL,
+            "cubics, exact for order three and more where a step ends at the kink; ten tolerances a step",
+        );
+        cases.push(case(
+            "torque kinks",
+            swung(),
+            options.clone(),
+            right,
+            after_the_swing,
         ));
 
         for exponent in [0, -3, -6, -9] {
@@ -132,6 +145,25 @@ fn after_the_push(row: &Row, _: &Summary) -> f64 {
         omega + second * dt,
     ];
     worst([row.q[2] - right[0], row.v[2] - right[1]])
+}
+
+/// The same wheel with a torque that rises to 1 N·m at that time and falls to zero at 3 s.
+fn swung() -> String {
+    let jump = format!("[0.0, {JUMP}, {JUMP}, 3.0], values = [1.0, 1.0, -2.0, -2.0]");
+    let kink = format!("[0.0, {JUMP}, 3.0], values = [0.0, 1.0, 0.0]");
+    pushed().replace(&jump, &kink)
+}
+
+fn after_the_swing(row: &Row, _: &Summary) -> f64 {
+    // The torque is t/JUMP, then 1 − dt/(3 − JUMP).
+    let dt = row.t - JUMP;
+    let (angle, omega) = (JUMP * JUMP / 6.0, JUMP / 2.0);
+    let fall = 1.0 / (3.0 - JUMP);
+    let right = [
+        angle + omega * dt + dt * dt * (0.5 - fall * dt / 6.0),
+        omega + dt * (1.0 - 0.5 * fall * dt),
+    ];
+    worst([row.q[2] - right[0] / INERTIA, row.v[2] - right[1] / INERTIA])
 }
 
 /// Two parallel cranks, each with a motor of 0.4 rad/s; the rate of the second one grows from t = 1 s on.

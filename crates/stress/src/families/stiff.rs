@@ -1,4 +1,5 @@
-//! Springs and dampers up to the end of what can be integrated: a rotor behind a spring and a damper on a base that swings.
+//! Springs and dampers up to the end of what can be integrated: a rotor behind a spring and a damper on a base that swings, and a block on a
+//! bushing without damping.
 
 use dynamics::{Formulation, Method, MotionOptions};
 
@@ -9,7 +10,7 @@ use crate::motion::{Row, case, combinations, steps, worst};
 pub(super) const FAMILY: Family = Family {
     name: "stiff",
     about: "a rotor on a torsion spring up to 1e12 N·m/rad and a damper up to 1e9 N·m·s/rad, its foot swinging; undamped ones released off \
-            equilibrium are resolved or refused",
+            equilibrium, and a block moving off on an undamped bushing up to 1e12 N/m, are resolved or refused",
     cases,
 };
 
@@ -62,6 +63,12 @@ fn cases() -> Vec<Case> {
                 let name = format!("{name} spring {stiffness:e}");
                 cases.push(oscillator.case(name, &options).at("stiffness", stiffness));
             }
+        }
+        for exponent in (2..=12).step_by(2) {
+            let block = Block {
+                stiffness: 10.0_f64.powi(exponent),
+            };
+            cases.push(block.case(&options));
         }
         for exponent in (0..=9).step_by(3) {
             let damping = 10.0_f64.powi(exponent);
@@ -207,6 +214,75 @@ free_angle = 0.0
         let [angle, omega] = self.at(row.t);
         let rate = (self.start[0] * (self.stiffness / INERTIA).sqrt()).max(SWING);
         worst([(row.q[5] - angle) / SWING, (row.v[5] - omega) / rate])
+    }
+}
+
+/// `m·ẍ = −k·x`, `m·ÿ = −k·y/4` of a block on a bushing, which is at rest at the start: the block moves off.
+#[derive(Clone, Copy)]
+struct Block {
+    stiffness: f64,
+}
+
+impl Block {
+    /// Mass (kg) and first velocity (m/s).
+    const MASS: f64 = 3.0;
+    const VELOCITY: [f64; 2] = [0.3, -0.2];
+
+    fn case(self, options: &MotionOptions) -> Case {
+        let [fastest, _] = self.frequencies();
+        let least: f64 = match options.formulation {
+            Formulation::Proximal => 1e4,
+            _ => 1e3,
+        };
+        let tolerances = least.max(10.0 * steps(options.method, fastest * T_END, RTOL));
+        let right = Expected::AnswerOrRefusal {
+            bound: tolerances * RTOL,
+            source: "two harmonic oscillators; places and velocities in units of the largest; local errors of ten tolerances in \
+                     each step, of which there are as many as the phase asks for",
+            parts: vec!["step".into(), "at t = ".into()],
+        };
+        let name = format!("undamped bushing {:e}", self.stiffness);
+        let made = case(name, self.scene(), options.clone(), right, move |row, _| {
+            self.off(row)
+        });
+        made.at("stiffness", self.stiffness)
+    }
+
+    fn frequencies(self) -> [f64; 2] {
+        [1.0, 0.25].map(|share| (share * self.stiffness / Self::MASS).sqrt())
+    }
+
+    fn scene(self) -> String {
+        let (k, [x, y]) = (self.stiffness, Self::VELOCITY);
+        format!(
+            r#"
+scene = {{ name = "block", space = "plane" }}
+[[body]]
+name = "block"
+mass = {:?}
+inertia = 0.5
+velocity = [{x:?}, {y:?}]
+[[force]]
+name = "mount"
+type = "bushing"
+bodies = ["ground", "block"]
+at = [0.0, 0.0]
+stiffness = [{k:?}, {:?}, {k:?}]
+damping = [0.0, 0.0, 0.0]
+"#,
+            Self::MASS,
+            0.25 * k
+        )
+    }
+
+    fn off(self, row: &Row) -> f64 {
+        let frequencies = self.frequencies();
+        let parts = (0..2).flat_map(|i| {
+            let (omega, start) = (frequencies[i], Self::VELOCITY[i]);
+            let (sin, cos) = (omega * row.t).sin_cos();
+            [row.q[i] * omega / start - sin, row.v[i] / start - cos]
+        });
+        worst(parts)
     }
 }
 
