@@ -215,11 +215,14 @@ impl KeptRowSaddle {
     /// # Errors
     /// [`SaddleError::TooManyRows`] if r > n.
     pub fn new(n: usize, r: usize) -> Result<Self, SaddleError> {
+        if r > n {
+            return Err(SaddleError::TooManyRows { n, r });
+        }
         Self::with_columns(n, &vec![Vec::from_iter(0..n); r])
     }
 
     /// Storage for n coordinates and rows of which each is zero outside its columns: entries there are not looked at. The same solutions as
-    /// with [`KeptRowSaddle::new`], bit for bit, for a third of the work where rows have few entries.
+    /// with [`KeptRowSaddle::new`], bit for bit, for less work where rows have few entries.
     ///
     /// ```
     /// use linalg::KeptRowSaddle;

@@ -106,6 +106,56 @@ impl Fill {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{KeptRowSaddle, SaddleError};
+
+    /// Rows of four entries in twelve columns, in an order that is kept.
+    #[test]
+    fn known_columns_change_no_bit() {
+        const N: usize = 12;
+        let columns: Vec<Vec<usize>> = (0..8)
+            .map(|k| vec![k, (k + 3) % N, (2 * k + 5) % N, (3 * k + 7) % N])
+            .collect();
+        let mass = [
+            1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0, 12.0,
+        ];
+        let mut sparse = KeptRowSaddle::with_columns(N, &columns).unwrap();
+        let mut dense = KeptRowSaddle::new(N, columns.len()).unwrap();
+
+        for round in 0..20 {
+            let mut rows = vec![[0.0; N]; columns.len()];
+            for (k, columns) in columns.iter().enumerate() {
+                for (l, &column) in columns.iter().enumerate() {
+                    rows[k][column] = (0.02 * f64::from(round) + (5 * k + 11 * l) as f64).sin();
+                }
+            }
+            let [found, expected] = [&mut sparse, &mut dense].map(|saddle| {
+                saddle.factor(|k| &rows[k], &mass).unwrap();
+                let (mut a, mut lambda) = ([0.0; N], [0.0; 8]);
+                saddle.solve(&mass, &[0.5; 8], &mut a, &mut lambda).unwrap();
+                let solved_for = saddle.solved_for().to_vec();
+                if round == 0 {
+                    saddle.keep_order();
+                }
+                (a, lambda, saddle.pivot_ratio(), solved_for)
+            });
+            assert_eq!(found, expected, "round {round}");
+        }
+    }
+
+    #[test]
+    fn columns_and_rows_that_there_are_not() {
+        let wrong = KeptRowSaddle::with_columns(2, &[vec![0, 2]]).unwrap_err();
+        let text = "row 0 has an entry in column 2, need columns below 2";
+        assert_eq!(wrong.to_string(), text);
+        let many = KeptRowSaddle::new(2, usize::MAX).unwrap_err();
+        assert_eq!(
+            many,
+            SaddleError::TooManyRows {
+                n: 2,
+                r: usize::MAX
+            }
+        );
+    }
 
     #[test]
     fn a_chain_closed_by_its_last_row_fills_what_is_between() {
