@@ -83,7 +83,7 @@ pub struct KeptRowMotion<'a> {
     s: Scratch,
     /// Length by which positions are measured (m).
     size: f64,
-    /// How long the run lasts (s); infinite where nobody has said.
+    /// How long the run lasts (s); infinite where nobody has said, and where it takes no time: nothing may part then.
     horizon: f64,
     choice: RowChoice,
     /// Independent rows of C.
@@ -131,7 +131,9 @@ impl<'a> KeptRowMotion<'a> {
         let all_rows = AllRows::new(prepared, options.formulation, options.rtol)
             .map_err(|trip| agreement::unless_graded(prepared, trip))?;
         let mut motion = Self::kept(prepared, all_rows, options.stabilisation)?;
-        motion.horizon = options.t_end;
+        if options.t_end > 0.0 {
+            motion.horizon = options.t_end;
+        }
         if motion.all_rows.is_some() {
             let mut a = vec![0.0; prepared.v.len()];
             motion.solve(0.0, &prepared.q, &prepared.v, &mut a)?;

@@ -160,6 +160,10 @@ fn run_component(
             MotionError::Integration(e) if run.equations.is_lost(&e) => {
                 run.equations.motion.no_way_over(f.t).into()
             }
+            MotionError::Integration(e) => match run.equations.contradiction(&e, f.t) {
+                Some(trip) => trip.into(),
+                None => MotionError::Integration(e),
+            },
             error => error,
         },
     };

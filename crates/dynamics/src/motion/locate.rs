@@ -32,6 +32,9 @@ const BEYOND: f64 = 1.5;
 /// Where a pivot falls to this share of the present one and rises again, it vanishes: what is left is the error of a parabola.
 const VANISHES: f64 = 0.2;
 
+/// Where a pivot is above this share of the present one at the time at which a straight line has it vanish, it does not fall to zero.
+const STAYS: f64 = 0.5;
+
 /// Between two places a pivot falls at most by so many times what it changes by between any two neighbouring ones.
 const STEEPER: f64 = 2.0;
 
@@ -55,14 +58,18 @@ impl<'m> KeptRowMotion<'m> {
         self.mechanism.rate(q, v, &mut qd);
         // Of the derivative of T(q)·v the part that is new at this place: enough for a place to look for.
         self.mechanism.rate(q, a, &mut qdd);
-        let end = t + BEYOND * (expected - t);
-        let singular = self.search().find([t, end], noise, |time, out| {
+        let state = |time: f64, out: &mut [f64]| {
             let dt = time - t;
             for i in 0..out.len() {
                 out[i] = q[i] + dt * (qd[i] + 0.5 * dt * qdd[i]);
             }
-        })?;
-        Some(singular.t)
+        };
+        let end = t + BEYOND * (expected - t);
+        let mut search = self.search();
+        match search.is_promising([t, expected, end], state) {
+            true => search.find([t, end], noise, state).map(|found| found.t),
+            false => None,
+        }
     }
 
     /// A search on the present rows with storage of its own.
@@ -83,6 +90,42 @@ pub(crate) struct Search<'m> {
 }
 
 impl Search<'_> {
+    /// Whether the pivots fall or the bordered determinant has changed its sign at one of the two later times, at a price of three
+    /// factorisations; in doubt they do.
+    fn is_promising(
+        &mut self,
+        [now, expected, end]: [f64; 3],
+        mut state: impl FnMut(f64, &mut [f64]),
+    ) -> bool {
+        let mut q = vec![0.0; self.mechanism.layout().n_q];
+        let mut frame = Vec::new();
+        let mut at = |t: f64| -> Option<[f64; 2]> {
+            let pivot = self.pivot_at(t, &mut q, &mut state)?;
+            if frame.is_empty() {
+                self.rows.null_frame(&mut frame);
+            }
+            Some([pivot, self.rows.orientation(&frame)])
+        };
+        let mut seen = || Some([at(now)?, at(expected)?, at(end)?]);
+        seen().is_none_or(|[now, expected, end]| {
+            expected[0] < STAYS * now[0] || [expected, end].iter().any(|it| it[1] * now[1] < 0.0)
+        })
+    }
+
+    /// Smallest pivot at a time, relative to the reference.
+    fn pivot_at(
+        &mut self,
+        t: f64,
+        q: &mut [f64],
+        state: &mut impl FnMut(f64, &mut [f64]),
+    ) -> Option<f64> {
+        state(t, q);
+        self.mechanism.pose(t, q, &mut self.s);
+        self.mechanism.c(&mut self.s);
+        let factored = self.rows.factor_above(0.0, self.mechanism, &self.s);
+        factored.ok().map(|()| self.rows.relative_pivot())
+    }
+
     /// The singular configuration between t0 and t1, if there is one: where the sign of the bordered determinant changes, or where
     /// the smallest pivot falls below `noise` of its reference and rises again. `state` gives the coordinates on the way.
     pub(crate) fn find(
@@ -92,16 +135,7 @@ impl Search<'_> {
         mut state: impl FnMut(f64, &mut [f64]),
     ) -> Option<Singular> {
         let mut q = vec![0.0; self.mechanism.layout().n_q];
-        let mut at = |t: f64, search: &mut Self| -> Option<f64> {
-            state(t, &mut q);
-            search.mechanism.pose(t, &q, &mut search.s);
-            search.mechanism.c(&mut search.s);
-            search
-                .rows
-                .factor_above(0.0, search.mechanism, &search.s)
-                .ok()?;
-            Some(search.rows.relative_pivot())
-        };
+        let mut at = |t: f64, search: &mut Self| search.pivot_at(t, &mut q, &mut state);
         let time = |k: usize| t0 + (t1 - t0) * (k as f64 / PLACES as f64);
         let mut frame = Vec::new();
         let (mut pivots, mut signs) = ([0.0; PLACES + 1], [0.0; PLACES + 1]);

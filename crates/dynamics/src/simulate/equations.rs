@@ -33,6 +33,9 @@ const FORESIGHT: f64 = 12.0;
 /// generated code is left on the way to one.
 const PASSED: f64 = 1e-9;
 
+/// Steps that end at a contradiction collapse within this share of the run before it.
+const JUST_AHEAD: f64 = 1e-9;
+
 /// Reactions are not told nearer to a singular configuration than this share of the reference pivots, or so many relative tolerances:
 /// a row off its motion by δ has reactions that are wrong by δ divided by that share.
 const BLIND: f64 = 1e-6;
@@ -77,6 +80,8 @@ pub(super) struct Equations<'m> {
     is_void: bool,
     /// When the motion is expected to pass a singular configuration.
     delicate: Option<f64>,
+    /// When a step was refused last because of a dropped row, and which.
+    contradicted: Option<(f64, Trip)>,
     /// The last accepted step.
     last: Span,
     /// The state before a projection; a stage on the constraints.
@@ -112,6 +117,7 @@ impl<'m> Equations<'m> {
             by_time: ByTime::for_run(prepared, options),
             is_void: false,
             delicate: None,
+            contradicted: None,
             last: Span::default(),
             before: Vec::new(),
             stage: Vec::new(),
@@ -248,6 +254,14 @@ impl<'m> Equations<'m> {
     pub(super) fn is_lost(&self, error: &IntegrationError<Trip>) -> bool {
         let has_collapsed = matches!(error, IntegrationError::StepSizeCollapsed { .. });
         has_collapsed && self.motion.is_delicate()
+    }
+
+    /// The dropped row because of which steps have collapsed at time t: the ever smaller ones on this side of a contradiction are good, and
+    /// say nothing of it.
+    pub(super) fn contradiction(&mut self, error: &IntegrationError<Trip>, t: f64) -> Option<Trip> {
+        let has_collapsed = matches!(error, IntegrationError::StepSizeCollapsed { .. });
+        let (end, trip) = self.contradicted.take().filter(|_| has_collapsed)?;
+        (end - t <= JUST_AHEAD * self.t_end).then_some(trip)
     }
 
     /// What is known of passages where so many rows are dependent.
@@ -414,7 +428,11 @@ impl Ode for Equations<'_> {
         };
         let (q, rest) = y.split_at_mut(self.n_q);
         let v = &mut rest[..self.n_v];
-        let found = self.motion.end_step(step.t_rhs, q, v, nearest)?;
+        let ended = self.motion.end_step(step.t_rhs, q, v, nearest);
+        if let Err(trip @ Trip::DroppedRow { .. }) = &ended {
+            self.contradicted = Some((step.t, trip.clone()));
+        }
+        let found = ended?;
         let pivot_ratio = self.motion.pivot_ratio();
         for (before, y) in self.before.iter_mut().zip(&*y) {
             *before -= y;
