@@ -8,7 +8,7 @@
 //! Source of the iteration: D. Ruiz, A scaling algorithm to equilibrate both rows and columns norms
 //! in matrices, RAL-TR-2001-034 (2001), with the maximum norm.
 
-use crate::{Matrix, kernels};
+use crate::{Matrix, SparseMatrix, kernels};
 
 /// Sweeps of the iteration at most. Each one halves the exponents still to be balanced, and the
 /// exponents of `f64` span 2098 < 2¹², so more sweeps change nothing unless the pattern fights back.
@@ -36,17 +36,37 @@ pub struct Scaling {
 /// assert!(scaled.max_abs() < 4.0 && scaled[(1, 0)] >= 0.5);
 /// ```
 pub fn equilibrate(c: &Matrix) -> Scaling {
-    let mut scaling = Scaling {
-        rows: vec![0; c.nrows()],
-        cols: vec![0; c.ncols()],
-    };
-    let mut row_top = vec![None; c.nrows()];
-    let mut col_top = vec![None; c.ncols()];
+    ruiz(c.nrows(), c.ncols(), |i| {
+        c.row(i).iter().copied().enumerate()
+    })
+}
+
+/// [`equilibrate`] for the entries of a sparse matrix: the scaling is that of the same matrix with all its zeros.
+///
+/// ```
+/// use linalg::{SparseMatrix, equilibrate, equilibrate_sparse};
+/// let c = SparseMatrix::from_rows(2, [vec![(0, 1e8), (1, 2e8)], vec![(0, 3e-8)]])?;
+/// assert_eq!(equilibrate_sparse(&c), equilibrate(&c.dense()));
+/// # Ok::<(), linalg::SparseError>(())
+/// ```
+pub fn equilibrate_sparse(c: &SparseMatrix) -> Scaling {
+    ruiz(c.nrows(), c.ncols(), |i| c.entries(i))
+}
+
+/// The scaling of an m×n matrix given by the entries (j, value) of its rows.
+fn ruiz<Row: Iterator<Item = (usize, f64)>>(
+    m: usize,
+    n: usize,
+    row: impl Fn(usize) -> Row,
+) -> Scaling {
+    let mut scaling = Scaling::identity(m, n);
+    let mut row_top = vec![None; m];
+    let mut col_top = vec![None; n];
     for _ in 0..SWEEPS_MAX {
         row_top.fill(None);
         col_top.fill(None);
-        for i in 0..c.nrows() {
-            for (j, &c_ij) in c.row(i).iter().enumerate() {
+        for i in 0..m {
+            for (j, c_ij) in row(i) {
                 let top = exponent(c_ij).map(|e| e + scaling.rows[i] + scaling.cols[j]);
                 // `None` is less than any exponent.
                 row_top[i] = top.max(row_top[i]);
@@ -90,6 +110,15 @@ impl Scaling {
         self.map(c, 1)
     }
 
+    /// `D_r·C·D_c` of a sparse matrix.
+    ///
+    /// # Panics
+    /// If the shape of `c` is not that of the scaling.
+    pub fn apply_sparse(&self, c: &SparseMatrix) -> SparseMatrix {
+        self.check(c.nrows(), c.ncols());
+        c.map(|i, j, c_ij| scale(c_ij, self.rows[i] + self.cols[j]))
+    }
+
     /// `D_r⁻¹·C·D_c⁻¹`, the inverse of [`Scaling::apply`].
     ///
     /// # Panics
@@ -99,14 +128,18 @@ impl Scaling {
     }
 
     fn map(&self, c: &Matrix, sign: i32) -> Matrix {
-        assert_eq!(
-            (c.nrows(), c.ncols()),
-            (self.rows.len(), self.cols.len()),
-            "scaling and matrix differ in shape"
-        );
+        self.check(c.nrows(), c.ncols());
         Matrix::from_fn(c.nrows(), c.ncols(), |i, j| {
             scale(c[(i, j)], sign * (self.rows[i] + self.cols[j]))
         })
+    }
+
+    fn check(&self, m: usize, n: usize) {
+        assert_eq!(
+            (m, n),
+            (self.rows.len(), self.cols.len()),
+            "scaling and matrix differ in shape"
+        );
     }
 
     /// Row factor `2^rows[i]`.

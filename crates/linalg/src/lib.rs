@@ -21,6 +21,7 @@ mod rank;
 mod regularized;
 mod saddle;
 mod singular_values;
+mod sparse;
 mod strong_basis;
 mod structure;
 mod weakest;
@@ -33,7 +34,7 @@ pub use deletions::{
     DeletionError, Limits, Substitutes, count_deletions, deletions, making_unique,
 };
 pub use double_double::Dd;
-pub use equilibrate::{Scaling, equilibrate};
+pub use equilibrate::{Scaling, equilibrate, equilibrate_sparse};
 pub use lu::{Lu, SingularPivot};
 pub use matrix::{Matrix, ShapeError};
 pub use minimum_norm::MinimumNormSaddle;
@@ -49,5 +50,6 @@ pub use rank::{
 pub use regularized::{StepError, least_squares_step};
 pub use saddle::{GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, mass_spread};
 pub use singular_values::singular_values;
+pub use sparse::{SparseError, SparseMatrix, minimum_degree};
 pub use structure::{Part, RowGroup, Settled, Structure, structure};
 pub use weakest::{WeakestCombination, weakest_combination};

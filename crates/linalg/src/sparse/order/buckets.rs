@@ -1,0 +1,62 @@
+//! Nodes sorted by degree, as lists of nodes of equal degree.
+
+/// No node.
+const NONE: usize = usize::MAX;
+
+/// The nodes `0..n` that are in, each with a degree below n; of equal degree the latest comes first.
+pub(super) struct Buckets {
+    first: Vec<usize>,
+    next: Vec<usize>,
+    previous: Vec<usize>,
+    degree: Vec<usize>,
+    /// No list below this one has a node.
+    least: usize,
+}
+
+impl Buckets {
+    pub(super) fn new(n: usize) -> Self {
+        Self {
+            first: vec![NONE; n],
+            next: vec![NONE; n],
+            previous: vec![NONE; n],
+            degree: vec![0; n],
+            least: 0,
+        }
+    }
+
+    /// Puts a node in that is not in.
+    pub(super) fn insert(&mut self, node: usize, degree: usize) {
+        let degree = degree.min(self.first.len() - 1);
+        let after = std::mem::replace(&mut self.first[degree], node);
+        self.next[node] = after;
+        self.previous[node] = NONE;
+        if after != NONE {
+            self.previous[after] = node;
+        }
+        self.degree[node] = degree;
+        self.least = self.least.min(degree);
+    }
+
+    /// Takes a node out that is in; its degree.
+    pub(super) fn remove(&mut self, node: usize) -> usize {
+        let (before, after) = (self.previous[node], self.next[node]);
+        match before {
+            NONE => self.first[self.degree[node]] = after,
+            _ => self.next[before] = after,
+        }
+        if after != NONE {
+            self.previous[after] = before;
+        }
+        self.degree[node]
+    }
+
+    /// Takes out the first node of least degree.
+    pub(super) fn pop(&mut self) -> Option<usize> {
+        while *self.first.get(self.least)? == NONE {
+            self.least += 1;
+        }
+        let node = self.first[self.least];
+        self.remove(node);
+        Some(node)
+    }
+}
