@@ -20,6 +20,7 @@ mod qr;
 mod rank;
 mod regularized;
 mod saddle;
+mod schur;
 mod singular_values;
 mod sparse;
 mod strong_basis;
@@ -49,6 +50,7 @@ pub use rank::{
 };
 pub use regularized::{StepError, least_squares_step};
 pub use saddle::{GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, mass_spread};
+pub use schur::{SchurSaddle, SchurStructure};
 pub use singular_values::singular_values;
 pub use sparse::{SparseError, SparseMatrix, minimum_degree};
 pub use structure::{Part, RowGroup, Settled, Structure, structure};

@@ -167,6 +167,16 @@ pub enum SaddleError {
         /// Its mass.
         value: f64,
     },
+    /// A coordinate without mass, where every one needs some.
+    #[error(
+        "mass {index} is {value:.3e}: the solver of large mechanisms needs mass and inertia for every coordinate; give it some"
+    )]
+    ZeroMass {
+        /// Coordinate.
+        index: usize,
+        /// Its mass.
+        value: f64,
+    },
     /// A kept row depends on the rows before it.
     #[error(
         "kept row {row} depends on the rows before it: pivot {pivot:.3e} in a row of size \

@@ -120,6 +120,24 @@ impl SparseMatrix {
         (&self.column[entries.clone()], &self.value[entries])
     }
 
+    /// Values of all rows, one after the other.
+    pub fn values(&self) -> &[f64] {
+        &self.value
+    }
+
+    /// The same, for other values of the same pattern.
+    pub fn values_mut(&mut self) -> &mut [f64] {
+        &mut self.value
+    }
+
+    /// Where row `i` begins among all values.
+    ///
+    /// # Panics
+    /// If `i` is above `nrows`.
+    pub fn start(&self, i: usize) -> usize {
+        self.start[i]
+    }
+
     /// Entries (column, value) of row `i`.
     pub(crate) fn entries(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let (columns, values) = self.row(i);

@@ -1,0 +1,120 @@
+//! Constrained equations of motion with many independent rows, solved through the Schur complement of the masses:
+//!
+//! ```text
+//! | M  Cᵀ | | a |   | f |        S·λ = C·M⁻¹·f − γ,   a = M⁻¹·(f − Cᵀ·λ)
+//! | C  0  | | λ | = | γ |        S = C·M⁻¹·Cᵀ,        M = diag(m) > 0 (n), C of full row rank (r×n), sparse
+//! ```
+//!
+//! S is symmetric and positive definite, so that no pivot has to be searched: the order of elimination is chosen once, from the bodies alone,
+//! and with it the place of every entry of L. What is left for an evaluation is arithmetic on small dense fronts. The work grows with
+//! the square of the width of the graph of bodies: linearly for chains and ladders, as n^1.5 for lattices.
+//!
+//! The price: S has the square of the condition of C, and masses must not vanish. So every solution is compared with its rows, and what is missing
+//! is corrected by the same factors; rows that are dependent for an instant are left out. For small systems, zero masses and masses of many powers
+//! of ten there is [`KeptRowSaddle`](crate::KeptRowSaddle).
+//!
+//! Sources: range space method, M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14 (2005) 1–137, section 5;
+//! multifrontal elimination, I. S. Duff, J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM Trans.
+//! Math. Softw. 9 (1983) 302–325.
+
+mod factor;
+mod front;
+mod solve;
+mod structure;
+#[cfg(test)]
+mod tests;
+
+pub use structure::SchurStructure;
+
+/// Solver of the saddle equations of n coordinates and r independent, sparse constraint rows. All storage is made in [`SchurSaddle::new`];
+/// factorisations and solutions allocate nothing unless they fail.
+///
+/// ```
+/// use linalg::{SchurSaddle, SchurStructure, SparseMatrix};
+/// // Unit mass on the line x = y, pushed along x: a = (½, ½), λ = ½ on the row (1, −1).
+/// let c = SparseMatrix::from_rows(2, [[(0, 1.0), (1, -1.0)]])?;
+/// let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &[0..2]));
+/// saddle.factor(&c, &[1.0, 1.0])?;
+/// let (mut a, mut lambda) = ([0.0; 2], [0.0; 1]);
+/// saddle.solve(&c, &[1.0, 0.0], &[0.0], &mut a, &mut lambda)?;
+/// assert_eq!((a, lambda), ([0.5, 0.5], [0.5]));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SchurSaddle {
+    structure: SchurStructure,
+    /// Columns of L of each front, one after the other, the unit diagonal included.
+    l: Vec<f64>,
+    /// 1/D of each row in the order of elimination, 0 for a row left out.
+    inverse: Vec<f64>,
+    /// S_kk of each row in the order of elimination.
+    diagonal: Vec<f64>,
+    /// 1/m, n.
+    inverse_mass: Vec<f64>,
+    pivot_ratio: f64,
+    n_left_out: usize,
+    is_factored: bool,
+    /// The present front, and updates that wait for their parents, the last one on top.
+    front: Vec<f64>,
+    waiting: Vec<f64>,
+    /// C of one block, scaled by the roots of the inverse masses.
+    element: Vec<f64>,
+    /// A right-hand side and its solution in the order of elimination, r.
+    x: Vec<f64>,
+    /// Entries of one front.
+    local: Vec<f64>,
+    /// `M⁻¹·f`, and the larger of it and a, n each.
+    free: Vec<f64>,
+    terms: Vec<f64>,
+}
+
+impl SchurSaddle {
+    /// Storage for this structure.
+    #[must_use]
+    pub fn new(structure: SchurStructure) -> Self {
+        let (n, r) = (structure.n_coordinates(), structure.n_rows());
+        let widest = structure.largest_front();
+        Self {
+            l: vec![0.0; structure.n_entries()],
+            inverse: vec![0.0; r],
+            diagonal: vec![0.0; r],
+            inverse_mass: vec![0.0; n],
+            pivot_ratio: f64::INFINITY,
+            n_left_out: 0,
+            is_factored: false,
+            front: vec![0.0; widest * widest],
+            waiting: Vec::with_capacity(structure.n_waiting()),
+            element: vec![0.0; structure.largest_element()],
+            x: vec![0.0; r],
+            local: vec![0.0; widest],
+            free: vec![0.0; n],
+            terms: vec![0.0; n],
+            structure,
+        }
+    }
+
+    /// Where everything is.
+    #[must_use]
+    pub fn structure(&self) -> &SchurStructure {
+        &self.structure
+    }
+
+    /// Smallest share of a row, in the metric of the inverse masses, that the rows eliminated before it do not imply: small near singular
+    /// configurations, infinite without rows.
+    #[must_use]
+    pub fn pivot_ratio(&self) -> f64 {
+        self.pivot_ratio
+    }
+
+    /// Rows that the last factorisation left out.
+    #[must_use]
+    pub fn n_left_out(&self) -> usize {
+        self.n_left_out
+    }
+
+    /// Whether the last factorisation uses row k.
+    #[must_use]
+    pub fn uses(&self, k: usize) -> bool {
+        self.inverse[self.structure.place[k]] != 0.0
+    }
+}

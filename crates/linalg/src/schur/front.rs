@@ -1,0 +1,103 @@
+//! One dense front: what goes into it, and the elimination of its pivots.
+//!
+//! A front of order f is stored by columns, f numbers each, of which those from the diagonal on count.
+
+use super::structure::NONE;
+use crate::kernels::axpy;
+
+/// Adds the triangle that a child has left, `later` × `later` packed by columns, at these indices, which ascend.
+pub(super) fn add_update(front: &mut [f64], f: usize, update: &[f64], at: &[u32]) {
+    let mut from = 0;
+    for (k, &j) in at.iter().enumerate() {
+        let column = &mut front[j as usize * f..][..f];
+        let own = &at[k..];
+        for (u, &i) in update[from..from + own.len()].iter().zip(own) {
+            column[i as usize] += u;
+        }
+        from += own.len();
+    }
+}
+
+/// Adds `E·diag(weight)·Eᵀ` for a block: its rows at these indices, which ascend, and for each row and column the place of the entry in `values`.
+pub(super) fn add_element(
+    front: &mut [f64],
+    f: usize,
+    at: &[u32],
+    (entries, values): (&[u32], &[f64]),
+    weight: impl Fn(usize) -> f64,
+    scratch: &mut [f64],
+) {
+    let width = entries.len() / at.len().max(1);
+    for (x, &entry) in scratch.iter_mut().zip(entries) {
+        *x = if entry == NONE {
+            0.0
+        } else {
+            values[entry as usize]
+        };
+    }
+    let e = &scratch[..entries.len()];
+    for (k, &j) in at.iter().enumerate() {
+        let column = &mut front[j as usize * f..][..f];
+        let own = &e[k * width..];
+        if width == 3 {
+            let w = [own[0] * weight(0), own[1] * weight(1), own[2] * weight(2)];
+            for (x, &i) in own.as_chunks::<3>().0.iter().zip(&at[k..]) {
+                column[i as usize] += x[0] * w[0] + x[1] * w[1] + x[2] * w[2];
+            }
+            continue;
+        }
+        for (l, &i) in at[k..].iter().enumerate() {
+            let product = |c: usize| own[l * width + c] * weight(c) * own[c];
+            column[i as usize] += (0..width).map(product).sum::<f64>();
+        }
+    }
+}
+
+/// Eliminates the first pivots, as many as `inverse` has places: `F = L·D·Lᵀ + [0, 0; 0, update]`. A pivot at most `least[k]` is left out: its column
+/// of L is zero, and so is its inverse. The smallest share `D_k/size_k` of those that are not.
+pub(super) fn eliminate(
+    front: &mut [f64],
+    f: usize,
+    inverse: &mut [f64],
+    size: &[f64],
+    floor: f64,
+) -> Result<Eliminated, usize> {
+    let mut found = Eliminated {
+        smallest: f64::INFINITY,
+        n_left_out: 0,
+    };
+    for (k, (inverse, &size)) in inverse.iter_mut().zip(size).enumerate() {
+        let (head, tail) = front.split_at_mut((k + 1) * f);
+        let column = &mut head[k * f + k..];
+        let pivot = column[0];
+        if !pivot.is_finite() {
+            return Err(k);
+        }
+        let share = pivot / size;
+        // A row of zeros is dependent.
+        if !(share > floor) {
+            *inverse = 0.0;
+            column.fill(0.0);
+            found.n_left_out += 1;
+            continue;
+        }
+        found.smallest = found.smallest.min(share);
+        *inverse = 1.0 / pivot;
+        let column = &mut column[1..];
+        for (j, target) in tail.chunks_exact_mut(f).enumerate() {
+            let factor = column[j] * *inverse;
+            if factor != 0.0 {
+                axpy(-factor, &column[j..], &mut target[k + 1 + j..]);
+            }
+        }
+        column.iter_mut().for_each(|x| *x *= *inverse);
+    }
+    Ok(found)
+}
+
+/// What an elimination found.
+pub(super) struct Eliminated {
+    /// Smallest share of a pivot that was used.
+    pub(super) smallest: f64,
+    pub(super) n_left_out: usize,
+}

@@ -1,0 +1,259 @@
+//! Solution with the factors, and what rounding left of it.
+
+use super::SchurSaddle;
+use crate::kernels::all_finite;
+use crate::{SaddleError, SparseMatrix};
+
+/// Rows that miss by more than this share of their terms are corrected.
+const ENOUGH: f64 = 1e-14;
+
+/// Corrections at most.
+const ROUNDS: usize = 4;
+
+/// A correction has to leave less than this share, or it is of no use.
+const PROGRESS: f64 = 0.5;
+
+/// Rows that miss by more than this share of their terms after all corrections are not solved.
+const POOR: f64 = 1e-9;
+
+impl SchurSaddle {
+    /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the rows of the last factorisation. Rows that are not solved to rounding are corrected with the same
+    /// factors until they are, or nothing is gained; rows left out do not count.
+    ///
+    /// | argument | shape | meaning |
+    /// | --- | --- | --- |
+    /// | `c` | r × n | as in the factorisation |
+    /// | `f`, `gamma` | n, r | right-hand sides |
+    /// | `a`, `lambda` | n, r | overwritten |
+    ///
+    /// # Errors
+    /// - [`SaddleError::NotFactored`], [`SaddleError::Length`], [`SaddleError::NonFinite`].
+    /// - [`SaddleError::Unrefined`]: a row misses by more than 1e-9 of its terms whatever is corrected.
+    pub fn solve(
+        &mut self,
+        c: &SparseMatrix,
+        f: &[f64],
+        gamma: &[f64],
+        a: &mut [f64],
+        lambda: &mut [f64],
+    ) -> Result<(), SaddleError> {
+        self.check(
+            c,
+            [("f", f.len()), ("a", a.len())],
+            [("gamma", gamma.len()), ("lambda", lambda.len())],
+        )?;
+        for ((free, f), inverse) in self.free.iter_mut().zip(f).zip(&self.inverse_mass) {
+            *free = f * inverse;
+        }
+        a.copy_from_slice(&self.free);
+        lambda.fill(0.0);
+        let mut before = f64::INFINITY;
+        for round in 0..=ROUNDS {
+            let misfit = self.take_misfit(c, gamma, a);
+            if misfit <= ENOUGH && round > 0 {
+                return Ok(());
+            }
+            if !misfit.is_finite() {
+                return Err(first_non_finite([("f", f), ("gamma", gamma)]));
+            }
+            // The first round is the solution, which has nothing to be compared with.
+            if round > 1 && misfit > PROGRESS * before || round == ROUNDS {
+                return match misfit.min(before) <= POOR {
+                    true => Ok(()),
+                    false => Err(SaddleError::Unrefined {
+                        rounds: round,
+                        change: misfit,
+                    }),
+                };
+            }
+            before = misfit;
+            self.substitute();
+            self.add_solution(c, a, lambda);
+        }
+        Ok(())
+    }
+
+    /// λ of least `‖Cᵀ·λ − (f − M·a)‖` in the metric of the inverse masses, for a motion a that is known; not corrected.
+    ///
+    /// # Errors
+    /// As [`SchurSaddle::solve`].
+    pub fn multipliers(
+        &mut self,
+        c: &SparseMatrix,
+        f: &[f64],
+        a: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<(), SaddleError> {
+        self.check(
+            c,
+            [("f", f.len()), ("a", a.len())],
+            [("lambda", lambda.len()), ("lambda", lambda.len())],
+        )?;
+        for (k, free) in self.free.iter_mut().enumerate() {
+            *free = f[k] * self.inverse_mass[k] - a[k];
+        }
+        let s = &self.structure;
+        for (x, &row) in self.x.iter_mut().zip(&s.row) {
+            let (columns, values) = c.row(row);
+            let terms = columns.iter().zip(values);
+            *x = terms.map(|(&j, c)| c * self.free[j]).sum();
+        }
+        self.substitute();
+        for (x, &row) in self.x.iter().zip(&self.structure.row) {
+            lambda[row] = *x;
+        }
+        match all_finite(lambda) {
+            true => Ok(()),
+            false => Err(first_non_finite([("f", f), ("a", a)])),
+        }
+    }
+
+    fn check(
+        &self,
+        c: &SparseMatrix,
+        of_n: [(&'static str, usize); 2],
+        of_r: [(&'static str, usize); 2],
+    ) -> Result<(), SaddleError> {
+        if !self.is_factored {
+            return Err(SaddleError::NotFactored);
+        }
+        self.check_shape(c)?;
+        let (n, r) = (self.inverse_mass.len(), self.inverse.len());
+        let lengths = of_n.map(|a| (a, n)).into_iter().chain(of_r.map(|a| (a, r)));
+        match lengths
+            .into_iter()
+            .find(|((_, found), expected)| found != expected)
+        {
+            Some(((argument, found), expected)) => Err(SaddleError::Length {
+                argument,
+                found,
+                expected,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes `C·a − γ` of the rows in use to x, in the order of elimination; the largest as share of its terms.
+    fn take_misfit(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
+        for ((terms, free), a) in self.terms.iter_mut().zip(&self.free).zip(a) {
+            *terms = free.abs().max(a.abs());
+        }
+        let mut largest = 0.0_f64;
+        let places = self.x.iter_mut().zip(&self.inverse);
+        for ((x, &inverse), &row) in places.zip(&self.structure.row) {
+            if inverse == 0.0 {
+                *x = 0.0;
+                continue;
+            }
+            let (mut sum, mut size) = (-gamma[row], gamma[row].abs());
+            let (columns, values) = c.row(row);
+            for (&j, c) in columns.iter().zip(values) {
+                sum += c * a[j];
+                size += c.abs() * self.terms[j];
+            }
+            *x = sum;
+            let share = if sum == 0.0 { 0.0 } else { sum.abs() / size };
+            if share > largest || share.is_nan() {
+                largest = share;
+            }
+        }
+        largest
+    }
+
+    /// Adds the multipliers in x, and takes what they do to the motion.
+    fn add_solution(&mut self, c: &SparseMatrix, a: &mut [f64], lambda: &mut [f64]) {
+        for (&x, &row) in self.x.iter().zip(&self.structure.row) {
+            if x == 0.0 {
+                continue;
+            }
+            lambda[row] += x;
+            let (columns, values) = c.row(row);
+            for (&j, c) in columns.iter().zip(values) {
+                a[j] -= c * x * self.inverse_mass[j];
+            }
+        }
+    }
+
+    /// `x ← S⁻¹·x` in the order of elimination.
+    fn substitute(&mut self) {
+        let Self {
+            structure: s,
+            l,
+            inverse,
+            x,
+            local,
+            ..
+        } = self;
+        for front in &s.fronts {
+            let (p, later) = (front.pivots.clone(), &s.later[front.rest.clone()]);
+            let local = &mut local[..front.order()];
+            let (own, rest) = local.split_at_mut(p.len());
+            own.copy_from_slice(&x[p.clone()]);
+            rest.fill(0.0);
+            let mut at = front.l;
+            for k in 0..own.len() {
+                let value = own[k];
+                let (inside, outside) =
+                    l[at..at + own.len() - 1 - k + rest.len()].split_at(own.len() - 1 - k);
+                at += inside.len() + outside.len();
+                if value == 0.0 {
+                    continue;
+                }
+                own[k + 1..]
+                    .iter_mut()
+                    .zip(inside)
+                    .for_each(|(x, l)| *x -= l * value);
+                rest.iter_mut()
+                    .zip(outside)
+                    .for_each(|(x, l)| *x += l * value);
+            }
+            x[p].copy_from_slice(own);
+            for (&j, r) in later.iter().zip(&*rest) {
+                x[j as usize] -= r;
+            }
+        }
+        x.iter_mut().zip(&*inverse).for_each(|(x, d)| *x *= d);
+        for front in s.fronts.iter().rev() {
+            let (p, later) = (front.pivots.clone(), &s.later[front.rest.clone()]);
+            if p.is_empty() {
+                continue;
+            }
+            let local = &mut local[..front.order()];
+            let (own, rest) = local.split_at_mut(p.len());
+            own.copy_from_slice(&x[p.clone()]);
+            for (r, &j) in rest.iter_mut().zip(later) {
+                *r = x[j as usize];
+            }
+            let mut end = front.l
+                + (0..p.len())
+                    .map(|k| p.len() + rest.len() - 1 - k)
+                    .sum::<usize>();
+            for k in (0..own.len()).rev() {
+                let n = own.len() - 1 - k + rest.len();
+                let column = &l[end - n..end];
+                end -= n;
+                let (inside, outside) = column.split_at(own.len() - 1 - k);
+                let inner: f64 = own[k + 1..].iter().zip(inside).map(|(x, l)| x * l).sum();
+                own[k] -= inner + crate::kernels::dot(outside, rest);
+            }
+            x[p].copy_from_slice(own);
+        }
+    }
+}
+
+fn first_non_finite(arguments: [(&'static str, &[f64]); 2]) -> SaddleError {
+    let of = |(argument, values): (&'static str, &[f64])| {
+        let index = values.iter().position(|x| !x.is_finite())?;
+        Some((argument, index, values[index]))
+    };
+    let (argument, index, value) =
+        arguments
+            .into_iter()
+            .find_map(of)
+            .unwrap_or(("solution", 0, f64::INFINITY));
+    SaddleError::NonFinite {
+        argument,
+        index,
+        value,
+    }
+}

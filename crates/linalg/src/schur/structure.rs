@@ -1,0 +1,511 @@
+//! What depends on the pattern alone: an order of elimination, fronts, and where every number goes.
+//!
+//! Rows that touch the same blocks (bodies) are eliminated together. They are the nodes of a graph in which each block joins the rows that touch it,
+//! ordered by minimum degree. A front is a dense triangle over the rows that are eliminated in it, its pivots, and the later rows that they meet.
+//! `C_b·M_b⁻¹·C_bᵀ` of a block b goes into the front in which the first of its rows is a pivot; what elimination leaves of a front goes into
+//! the front of the first of its other rows, its parent. Fronts that are nearly as their parent become one with it.
+
+use std::ops::Range;
+
+use crate::{SparseMatrix, minimum_degree};
+
+/// A front becomes one with its parent where that leaves at most this share of zeros in the columns of both, or adds no more than a few entries:
+/// a front of its own costs as much as some ten products.
+const ZEROS: f64 = 0.15;
+const FEW_ZEROS: usize = 24;
+
+/// No entry of C.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// The pattern of `S = C·M⁻¹·Cᵀ` and of its factor.
+///
+/// ```
+/// use linalg::{SchurStructure, SparseMatrix};
+/// // A chain of three rows over four columns: each is a block, and L has no other entries than S.
+/// let row = |k: usize| [(k, 1.0), (k + 1, -1.0)];
+/// let c = SparseMatrix::from_rows(4, (0..3).map(row))?;
+/// let structure = SchurStructure::new(&c, &[0..1, 1..2, 2..3, 3..4]);
+/// assert_eq!((structure.n_rows(), structure.n_coordinates()), (3, 4));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct SchurStructure {
+    n: usize,
+    /// Entries of C.
+    pub(super) nnz: usize,
+    /// The row at each place of the order of elimination, and the place of each row.
+    pub(super) row: Vec<usize>,
+    pub(super) place: Vec<usize>,
+    /// In this order; children before their parents, and the last child just before.
+    pub(super) fronts: Vec<Front>,
+    /// Later rows of all fronts, as places.
+    pub(super) later: Vec<u32>,
+    /// For each later row its index in the parent.
+    pub(super) in_parent: Vec<u32>,
+    pub(super) elements: Vec<Element>,
+    /// Columns of all elements.
+    pub(super) columns: Vec<u32>,
+    /// For each row of all elements its index in the front.
+    pub(super) in_front: Vec<u32>,
+    /// For each row and column of all elements the entry of C, or [`NONE`].
+    pub(super) entries: Vec<u32>,
+    n_entries: usize,
+    n_waiting: usize,
+    largest_front: usize,
+    largest_element: usize,
+    multiplications: f64,
+}
+
+/// A dense triangle.
+#[derive(Clone, Debug)]
+pub(super) struct Front {
+    /// Places of its pivots.
+    pub(super) pivots: Range<usize>,
+    /// Its other rows in `later` and `in_parent`.
+    pub(super) rest: Range<usize>,
+    /// Blocks that go into it, in `elements`.
+    pub(super) elements: Range<usize>,
+    /// Fronts whose parent it is, the last one first.
+    pub(super) children: Vec<usize>,
+    /// Where its columns of L begin, below their unit diagonals.
+    pub(super) l: usize,
+}
+
+impl Front {
+    pub(super) fn order(&self) -> usize {
+        self.pivots.len() + self.rest.len()
+    }
+}
+
+/// A block of columns and the rows that touch it.
+#[derive(Clone, Debug)]
+pub(super) struct Element {
+    /// In `columns`.
+    pub(super) columns: Range<usize>,
+    /// In `in_front`.
+    pub(super) rows: Range<usize>,
+    /// Where its part of `entries` begins, row by row.
+    pub(super) entries: usize,
+}
+
+impl SchurStructure {
+    /// For rows with this pattern, whose values do not matter, and blocks of columns; a column of no block is one by itself, and a column of
+    /// several belongs to the first.
+    #[must_use]
+    pub fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Self {
+        let blocks = Blocks::new(c, blocks);
+        let nodes = Nodes::new(c, &blocks);
+        let tree = Tree::new(&nodes);
+        tree.into_structure(c, &blocks, &nodes)
+    }
+
+    /// Coordinates n.
+    #[must_use]
+    pub fn n_coordinates(&self) -> usize {
+        self.n
+    }
+
+    /// Rows r.
+    #[must_use]
+    pub fn n_rows(&self) -> usize {
+        self.row.len()
+    }
+
+    /// Entries of L that are stored, below its diagonal.
+    #[must_use]
+    pub fn n_entries(&self) -> usize {
+        self.n_entries
+    }
+
+    /// Multiplications of a factorisation, about.
+    #[must_use]
+    pub fn multiplications(&self) -> f64 {
+        self.multiplications
+    }
+
+    /// Memory of a [`SchurSaddle`](crate::SchurSaddle) on it, in bytes.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        let numbers = self.n_entries
+            + self.n_waiting
+            + self.largest_front * (self.largest_front + 1)
+            + 5 * self.n_rows()
+            + 3 * self.n;
+        let indices =
+            2 * self.later.len() + self.columns.len() + self.in_front.len() + self.entries.len();
+        let records =
+            self.fronts.len() * size_of::<Front>() + self.elements.len() * size_of::<Element>();
+        8 * numbers + 4 * indices + records
+    }
+
+    pub(super) fn n_waiting(&self) -> usize {
+        self.n_waiting
+    }
+
+    pub(super) fn largest_front(&self) -> usize {
+        self.largest_front
+    }
+
+    pub(super) fn largest_element(&self) -> usize {
+        self.largest_element
+    }
+}
+
+/// Blocks of columns, and which of them each row touches.
+struct Blocks {
+    columns: Vec<Vec<usize>>,
+    of_column: Vec<usize>,
+}
+
+impl Blocks {
+    fn new(c: &SparseMatrix, ranges: &[Range<usize>]) -> Self {
+        let free = usize::MAX;
+        let mut of_column = vec![free; c.ncols()];
+        let mut columns: Vec<Vec<usize>> = Vec::with_capacity(ranges.len());
+        let single = |j: usize| j..j + 1;
+        for range in ranges.iter().cloned().chain((0..c.ncols()).map(single)) {
+            let cut = range.start.min(c.ncols())..range.end.min(c.ncols());
+            let own: Vec<usize> = cut.filter(|&j| of_column[j] == free).collect();
+            if own.is_empty() {
+                continue;
+            }
+            own.iter().for_each(|&j| of_column[j] = columns.len());
+            columns.push(own);
+        }
+        Self { columns, of_column }
+    }
+
+    /// Blocks that a row touches, ascending.
+    fn of_row(&self, c: &SparseMatrix, row: usize, out: &mut Vec<usize>) {
+        out.clear();
+        out.extend(c.row(row).0.iter().map(|&j| self.of_column[j]));
+        out.sort_unstable();
+        out.dedup();
+    }
+}
+
+/// Rows that touch the same blocks.
+struct Nodes {
+    rows: Vec<Vec<usize>>,
+    /// Nodes that touch each block.
+    touching: Vec<Vec<usize>>,
+    /// Blocks that each node touches.
+    touched: Vec<Vec<usize>>,
+}
+
+impl Nodes {
+    fn new(c: &SparseMatrix, blocks: &Blocks) -> Self {
+        let mut touched = Vec::new();
+        let mut keyed: Vec<(Vec<usize>, usize)> = (0..c.nrows())
+            .map(|row| {
+                blocks.of_row(c, row, &mut touched);
+                (touched.clone(), row)
+            })
+            .collect();
+        keyed.sort();
+        let mut nodes = Self {
+            rows: Vec::new(),
+            touching: vec![Vec::new(); blocks.columns.len()],
+            touched: Vec::new(),
+        };
+        for (key, row) in keyed {
+            // Rows without entries have nothing to do with each other.
+            let is_same = !key.is_empty() && nodes.touched.last() == Some(&key);
+            if !is_same {
+                for &block in &key {
+                    nodes.touching[block].push(nodes.rows.len());
+                }
+                nodes.rows.push(Vec::new());
+                nodes.touched.push(key);
+            }
+            if let Some(rows) = nodes.rows.last_mut() {
+                rows.push(row);
+            }
+        }
+        nodes
+    }
+}
+
+/// Nodes in the order of elimination, with what they meet.
+struct Tree {
+    /// Nodes in this order.
+    order: Vec<usize>,
+    /// Of each place: the later places that it meets, ascending, and how many places before it are one with it.
+    meets: Vec<Vec<usize>>,
+    merged: Vec<usize>,
+}
+
+impl Tree {
+    fn new(nodes: &Nodes) -> Self {
+        let n = nodes.rows.len();
+        let order = minimum_degree(n, &nodes.touching);
+        let (order, meets) = postordered(nodes, &order);
+        let width = |k: usize| nodes.rows[order[k]].len();
+        // Rows of a front, its columns, and zeros among their entries so far.
+        let rows_of = |k: usize| meets[k].iter().map(|&j| width(j)).sum::<usize>();
+        let mut merged = vec![0; n];
+        let mut columns: Vec<usize> = (0..n).map(width).collect();
+        let mut zeros = vec![0; n];
+        for k in 1..n {
+            loop {
+                let last = k - merged[k];
+                // The front just before, if this one is its parent.
+                let is_child =
+                    |c: &usize| meets[*c].first().is_some_and(|j| (last..=k).contains(j));
+                let Some(child) = last.checked_sub(1).filter(is_child) else {
+                    break;
+                };
+                let (rest, own) = (rows_of(k), columns[k]);
+                let missing = columns[child] * ((rest + own).saturating_sub(rows_of(child)));
+                let all = zeros[k] + zeros[child] + missing;
+                let total = columns[child] + own;
+                let entries = total * (total + 1) / 2 + total * rest;
+                if all > FEW_ZEROS && all as f64 > ZEROS * entries as f64 {
+                    break;
+                }
+                merged[k] += 1 + merged[child];
+                columns[k] = total;
+                zeros[k] = all;
+            }
+        }
+        Self {
+            order,
+            meets,
+            merged,
+        }
+    }
+
+    fn into_structure(self, c: &SparseMatrix, blocks: &Blocks, nodes: &Nodes) -> SchurStructure {
+        let n = self.order.len();
+        let row: Vec<usize> = self
+            .order
+            .iter()
+            .flat_map(|&node| nodes.rows[node].iter().copied())
+            .collect();
+        let mut place = vec![0; row.len()];
+        row.iter().enumerate().for_each(|(k, &i)| place[i] = k);
+        // First place of a row of each node place, and the front of each.
+        let mut first = vec![0; n + 1];
+        for k in 0..n {
+            first[k + 1] = first[k] + nodes.rows[self.order[k]].len();
+        }
+        let mut s = SchurStructure {
+            n: c.ncols(),
+            nnz: c.nnz(),
+            row,
+            place,
+            fronts: Vec::new(),
+            later: Vec::new(),
+            in_parent: Vec::new(),
+            elements: Vec::new(),
+            columns: Vec::new(),
+            in_front: Vec::new(),
+            entries: Vec::new(),
+            n_entries: 0,
+            n_waiting: 0,
+            largest_front: 0,
+            largest_element: 0,
+            multiplications: 0.0,
+        };
+        let mut place_of_node = vec![0; n];
+        self.order
+            .iter()
+            .enumerate()
+            .for_each(|(k, &node)| place_of_node[node] = k);
+        // The place at which the first node of a block is eliminated.
+        let mut blocks_at: Vec<Vec<usize>> = vec![Vec::new(); n];
+        for (block, touching) in nodes.touching.iter().enumerate() {
+            if let Some(k) = touching.iter().map(|&node| place_of_node[node]).min() {
+                blocks_at[k].push(block);
+            }
+        }
+        // A place is the end of a front unless a later one has swallowed it.
+        let mut front_of = vec![usize::MAX; n];
+        let mut end = n;
+        let mut ends = Vec::new();
+        while end > 0 {
+            ends.push(end - 1);
+            end -= 1 + self.merged[end - 1];
+        }
+        ends.reverse();
+        let mut local = vec![0_u32; s.row.len()];
+        let mut from = 0;
+        for last in ends {
+            let index = s.fronts.len();
+            let pivots = first[from]..first[last + 1];
+            let rest = s.later.len();
+            for &j in &self.meets[last] {
+                s.later.extend((first[j]..first[j + 1]).map(|p| p as u32));
+            }
+            let rest = rest..s.later.len();
+            s.in_parent.resize(s.later.len(), 0);
+            (from..=last).for_each(|k| front_of[k] = index);
+            let order = pivots.len() + rest.len();
+            pivots
+                .clone()
+                .enumerate()
+                .for_each(|(k, p)| local[p] = k as u32);
+            for (k, at) in rest.clone().enumerate() {
+                local[s.later[at] as usize] = (pivots.len() + k) as u32;
+            }
+            let elements = s.elements.len();
+            for k in from..=last {
+                for &block in &blocks_at[k] {
+                    s.add_element(c, blocks, nodes, block, &local);
+                }
+            }
+            s.fronts.push(Front {
+                elements: elements..s.elements.len(),
+                children: Vec::new(),
+                l: s.n_entries,
+                pivots: pivots.clone(),
+                rest,
+            });
+            s.n_entries += (0..pivots.len()).map(|k| order - 1 - k).sum::<usize>();
+            s.largest_front = s.largest_front.max(order);
+            s.multiplications += (0..pivots.len())
+                .map(|k| 0.5 * ((order - k) * (order - k)) as f64)
+                .sum::<f64>();
+            from = last + 1;
+        }
+        s.join(&front_of, &first);
+        s
+    }
+}
+
+impl SchurStructure {
+    fn add_element(
+        &mut self,
+        c: &SparseMatrix,
+        blocks: &Blocks,
+        nodes: &Nodes,
+        block: usize,
+        local: &[u32],
+    ) {
+        let own = &blocks.columns[block];
+        let (columns, rows) = (self.columns.len(), self.in_front.len());
+        let entries = self.entries.len();
+        self.columns.extend(own.iter().map(|&j| j as u32));
+        let touching = nodes.touching[block].iter();
+        let mut of_block: Vec<usize> = touching
+            .flat_map(|&node| nodes.rows[node].iter().copied())
+            .collect();
+        of_block.sort_unstable_by_key(|&row| self.place[row]);
+        for row in of_block {
+            self.in_front.push(local[self.place[row]]);
+            let (start, of_row) = (c.start(row), c.row(row).0);
+            let entry = |j| of_row.binary_search(j).map_or(NONE, |k| (start + k) as u32);
+            self.entries.extend(own.iter().map(entry));
+        }
+        let rows = rows..self.in_front.len();
+        self.largest_element = self.largest_element.max(rows.len() * own.len());
+        self.elements.push(Element {
+            columns: columns..self.columns.len(),
+            rows,
+            entries,
+        });
+    }
+
+    /// Joins fronts with their parents, and counts what waits for them.
+    fn join(&mut self, front_of: &[usize], first: &[usize]) {
+        let node_of = |place: usize| first.partition_point(|&f| f <= place) - 1;
+        let mut waiting = 0;
+        let triangle = |front: &Front| front.rest.len() * (front.rest.len() + 1) / 2;
+        for k in 0..self.fronts.len() {
+            let children = self.fronts[k].children.iter();
+            waiting -= children.map(|&c| triangle(&self.fronts[c])).sum::<usize>();
+            let rest = self.fronts[k].rest.clone();
+            let Some(at) = rest.clone().next() else {
+                continue;
+            };
+            let parent = front_of[node_of(self.later[at] as usize)];
+            waiting += triangle(&self.fronts[k]);
+            self.n_waiting = self.n_waiting.max(waiting);
+            let to = &self.fronts[parent];
+            let (pivots, later) = (to.pivots.clone(), to.rest.clone());
+            let mut next = later.start;
+            for at in rest {
+                let p = self.later[at] as usize;
+                self.in_parent[at] = if pivots.contains(&p) {
+                    p - pivots.start
+                } else {
+                    while self.later[next] as usize != p {
+                        next += 1;
+                    }
+                    pivots.len() + next - later.start
+                } as u32;
+            }
+            // The last child waits on top.
+            self.fronts[parent].children.insert(0, k);
+        }
+    }
+}
+
+/// Places and what they meet, renumbered such that children stand just before their parents, the one with the widest front last.
+fn postordered(nodes: &Nodes, order: &[usize]) -> (Vec<usize>, Vec<Vec<usize>>) {
+    let n = order.len();
+    let mut place = vec![0; n];
+    order
+        .iter()
+        .enumerate()
+        .for_each(|(k, &node)| place[node] = k);
+    let mut meets: Vec<Vec<usize>> = vec![Vec::new(); n];
+    let mut children: Vec<Vec<usize>> = vec![Vec::new(); n];
+    let mut seen = vec![usize::MAX; n];
+    // Blocks are met once, at the first of their nodes; later ones inherit them.
+    let mut is_met = vec![false; nodes.touching.len()];
+    for k in 0..n {
+        seen[k] = k;
+        let mut met = Vec::new();
+        let mut meet = |j: usize, met: &mut Vec<usize>| {
+            if j > k && std::mem::replace(&mut seen[j], k) != k {
+                met.push(j);
+            }
+        };
+        for &block in &nodes.touched[order[k]] {
+            if !std::mem::replace(&mut is_met[block], true) {
+                nodes.touching[block]
+                    .iter()
+                    .for_each(|&node| meet(place[node], &mut met));
+            }
+        }
+        for &child in &children[k] {
+            meets[child].iter().for_each(|&j| meet(j, &mut met));
+        }
+        met.sort_unstable();
+        if let Some(&parent) = met.first() {
+            children[parent].push(k);
+        }
+        meets[k] = met;
+    }
+    // Depth first from the roots, without recursion.
+    let mut renumbered = Vec::with_capacity(n);
+    let is_root = |k: &usize| meets[*k].is_empty();
+    for root in (0..n).filter(is_root) {
+        let mut stack = vec![(root, false)];
+        while let Some((k, is_done)) = stack.pop() {
+            if is_done {
+                renumbered.push(k);
+                continue;
+            }
+            stack.push((k, true));
+            children[k].sort_by_key(|&c| meets[c].len());
+            stack.extend(children[k].iter().rev().map(|&c| (c, false)));
+        }
+    }
+    let mut now = vec![0; n];
+    renumbered
+        .iter()
+        .enumerate()
+        .for_each(|(new, &old)| now[old] = new);
+    let order = renumbered.iter().map(|&old| order[old]).collect();
+    let meets = renumbered
+        .iter()
+        .map(|&old| {
+            let mut met: Vec<usize> = meets[old].iter().map(|&j| now[j]).collect();
+            met.sort_unstable();
+            met
+        })
+        .collect();
+    (order, meets)
+}

@@ -1,0 +1,182 @@
+//! Against the dense solver, which eliminates without forming S, and against closed forms.
+
+use crate::{KeptRowSaddle, Matrix, SaddleError, SchurSaddle, SchurStructure, SparseMatrix};
+
+/// Numbers in [−1, 1), the same at every run.
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        ((self.next() + 1.0) * 0.5 * n as f64) as usize % n
+    }
+}
+
+/// Rows between random bodies of three columns each, fewer than columns.
+fn random(bodies: usize, numbers: &mut Numbers) -> SparseMatrix {
+    let joints = 1 + numbers.below(3 * bodies / 2);
+    let mut rows: Vec<Vec<(usize, f64)>> = Vec::new();
+    for _ in 0..joints {
+        let pair = [numbers.below(bodies), numbers.below(bodies)];
+        for _ in 0..1 + numbers.below(2) {
+            let columns = pair.iter().flat_map(|b| 3 * b..3 * b + 3);
+            rows.push(columns.map(|j| (j, numbers.next())).collect());
+        }
+    }
+    rows.truncate(3 * bodies - 1);
+    SparseMatrix::from_rows(3 * bodies, rows).expect("columns below 3·bodies")
+}
+
+fn blocks(bodies: usize) -> Vec<std::ops::Range<usize>> {
+    (0..bodies).map(|b| 3 * b..3 * b + 3).collect()
+}
+
+fn largest_difference(a: &[f64], b: &[f64]) -> f64 {
+    let size = b.iter().fold(1e-300, |m: f64, x| m.max(x.abs()));
+    a.iter()
+        .zip(b)
+        .map(|(x, y)| (x - y).abs() / size)
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn random_mechanisms_move_as_with_the_dense_solver() {
+    let mut numbers = Numbers(7);
+    let mut compared = 0;
+    for _ in 0..300 {
+        let bodies = 1 + numbers.below(12);
+        let c = random(bodies, &mut numbers);
+        let (n, r) = (c.ncols(), c.nrows());
+        let mass: Vec<f64> = (0..n).map(|_| 1.5 + numbers.next()).collect();
+        let f: Vec<f64> = (0..n).map(|_| numbers.next()).collect();
+        let gamma: Vec<f64> = (0..r).map(|_| numbers.next()).collect();
+        let dense: Matrix = c.dense();
+        let mut known = KeptRowSaddle::new(n, r).expect("fewer rows than columns");
+        if known.factor(|k| dense.row(k), &mass).is_err() || known.pivot_ratio() < 1e-3 {
+            continue;
+        }
+        let (mut a, mut lambda) = (vec![0.0; n], vec![0.0; r]);
+        known
+            .solve(&f, &gamma, &mut a, &mut lambda)
+            .expect("solved");
+        let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &blocks(bodies)));
+        saddle.factor(&c, &mass).expect("independent rows");
+        let (mut found, mut multipliers) = (vec![0.0; n], vec![0.0; r]);
+        saddle
+            .solve(&c, &f, &gamma, &mut found, &mut multipliers)
+            .expect("solved");
+        assert!(largest_difference(&found, &a) < 1e-11, "{found:?} {a:?}");
+        assert!(largest_difference(&multipliers, &lambda) < 1e-9);
+        let mut again = vec![0.0; r];
+        saddle.multipliers(&c, &f, &a, &mut again).expect("solved");
+        assert!(largest_difference(&again, &lambda) < 1e-8);
+        compared += 1;
+    }
+    assert!(compared > 200, "{compared}");
+}
+
+#[test]
+fn a_hanging_chain_of_point_masses_pulls_with_its_weight() {
+    // Row k holds the distance of masses k − 1 and k along the vertical; mass 0 hangs on the ground.
+    let n = 5000;
+    let row =
+        |k: usize| (k.saturating_sub(1)..=k).map(move |j| (j, if j == k { 1.0 } else { -1.0 }));
+    let c = SparseMatrix::from_rows(n, (0..n).map(row)).expect("columns below n");
+    let blocks: Vec<_> = (0..n).map(|j| j..j + 1).collect();
+    let structure = SchurStructure::new(&c, &blocks);
+    // S is tridiagonal: no fill, whatever the order.
+    assert!(structure.n_entries() < 5 * n, "{}", structure.n_entries());
+    let mut saddle = SchurSaddle::new(structure);
+    saddle.factor(&c, &vec![2.0; n]).expect("independent rows");
+    let (mut a, mut lambda) = (vec![1.0; n], vec![0.0; n]);
+    saddle
+        .solve(&c, &vec![-20.0; n], &vec![0.0; n], &mut a, &mut lambda)
+        .expect("solved");
+    for (k, lambda) in lambda.iter().enumerate() {
+        let weight = -20.0 * (n - k) as f64;
+        assert!((lambda - weight).abs() < 1e-9 * weight.abs());
+    }
+    assert!(a.iter().all(|a| a.abs() < 1e-9));
+}
+
+#[test]
+fn a_dependent_row_is_left_out_or_refused() {
+    let c = SparseMatrix::from_rows(2, [[(0, 1.0), (1, 0.0)], [(0, 1.0), (1, 1e-9)]])
+        .expect("two columns");
+    let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &[0..2]));
+    assert!(matches!(
+        saddle.factor(&c, &[1.0, 1.0]),
+        Err(SaddleError::RankLost { .. })
+    ));
+    assert_eq!(
+        saddle.solve(&c, &[0.0; 2], &[0.0; 2], &mut [0.0; 2], &mut [0.0; 2]),
+        Err(SaddleError::NotFactored)
+    );
+    saddle.factor_above(1e-6, &c, &[1.0, 1.0]).expect("finite");
+    assert_eq!(saddle.n_left_out(), 1);
+    let (mut a, mut lambda) = ([0.0; 2], [0.0; 2]);
+    saddle
+        .solve(&c, &[3.0, 5.0], &[2.0, 2.0], &mut a, &mut lambda)
+        .expect("solved");
+    assert_eq!(a, [2.0, 5.0]);
+    assert!(saddle.uses(0) != saddle.uses(1));
+}
+
+#[test]
+fn nothing_to_hold_is_free() {
+    let c = SparseMatrix::from_rows(2, std::iter::empty::<[(usize, f64); 0]>()).expect("no rows");
+    let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &[]));
+    saddle.factor(&c, &[2.0, 4.0]).expect("nothing to factor");
+    let mut a = [0.0; 2];
+    saddle
+        .solve(&c, &[2.0, 2.0], &[], &mut a, &mut [])
+        .expect("solved");
+    assert_eq!((a, saddle.pivot_ratio()), ([1.0, 0.5], f64::INFINITY));
+}
+
+#[test]
+fn bad_numbers_are_refused() {
+    let c = SparseMatrix::from_rows(2, [[(0, f64::NAN), (1, 1.0)]]).expect("two columns");
+    let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &[0..2]));
+    assert!(matches!(
+        saddle.factor(&c, &[1.0; 2]),
+        Err(SaddleError::NonFinite {
+            argument: "C",
+            index: 0,
+            ..
+        })
+    ));
+    assert!(matches!(
+        saddle.factor(&c, &[1.0, 0.0]),
+        Err(SaddleError::ZeroMass { index: 1, .. })
+    ));
+    assert!(matches!(
+        saddle.factor(&c, &[1.0, -1.0]),
+        Err(SaddleError::NegativeMass { index: 1, .. })
+    ));
+    assert!(matches!(
+        saddle.factor(&c, &[1.0]),
+        Err(SaddleError::Length {
+            argument: "mass",
+            ..
+        })
+    ));
+    let c = SparseMatrix::from_rows(2, [[(0, 1.0), (1, 1.0)]]).expect("two columns");
+    saddle.factor(&c, &[1.0; 2]).expect("one row");
+    let solved = saddle.solve(&c, &[f64::NAN, 0.0], &[0.0], &mut [0.0; 2], &mut [0.0]);
+    assert!(matches!(
+        solved,
+        Err(SaddleError::NonFinite {
+            argument: "f",
+            index: 0,
+            ..
+        })
+    ));
+}
