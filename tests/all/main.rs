@@ -24,6 +24,7 @@ mod planted_mechanisms;
 mod robot_trolley;
 mod second_order;
 mod singular_passages;
+mod survey;
 mod tally;
 mod three_cranks;
 mod tidy;

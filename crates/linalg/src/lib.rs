@@ -53,5 +53,5 @@ pub use saddle::{GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, mass_spr
 pub use schur::{SchurSaddle, SchurStructure};
 pub use singular_values::singular_values;
 pub use sparse::{SparseError, SparseMatrix, minimum_degree};
-pub use structure::{Part, RowGroup, Settled, Structure, structure};
+pub use structure::{Part, RowGroup, Settled, Structure, cycles, structure};
 pub use weakest::{WeakestCombination, weakest_combination};

@@ -13,6 +13,7 @@
 //! Ranks here are those of a few rows of the equilibrated matrix, by the rule of `rank`; what is not certain stays open. Not here:
 //! names of joints, and verdicts from ranks.
 
+mod cycles;
 mod graph;
 mod peel;
 #[cfg(test)]
@@ -21,6 +22,8 @@ mod tests;
 use std::ops::Range;
 
 use crate::{Matrix, RankError, Uncertainty};
+
+pub use cycles::cycles;
 
 /// Rows that belong together, as those of a joint.
 #[derive(Debug, Clone, PartialEq, Eq)]

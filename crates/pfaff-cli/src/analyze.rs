@@ -4,13 +4,15 @@ mod along;
 mod ask;
 mod choice;
 mod deletions;
+mod large;
 mod numbers;
 mod rank;
 mod text;
 
 use pfaff::dynamics::MotionError;
-use pfaff::model::Registry;
+use pfaff::model::{Registry, System};
 use pfaff::report::{AnalysisDocument, write_json};
+use pfaff::solvability::LARGE;
 use pfaff::{Blueprint, Inquiry, Overrides, Study, StudyError};
 
 use crate::Outcome;
@@ -29,11 +31,16 @@ pub(crate) fn run(arguments: &Analyze) -> Outcome {
     Interrupt::ends_at_once()?;
     let drop = rows_from_zero(arguments.drop.as_deref())?;
     let source = Source::read(&arguments.scene)?;
+    let read = Blueprint::read(&source.name, &source.text, &Registry::planar());
+    let blueprint = read.map_err(|e| source.failure(e))?;
+    if blueprint.mechanism.layout().rows() > LARGE {
+        return of_large(arguments, &source, blueprint);
+    }
     let overrides = Overrides {
         drop: drop.clone(),
         ..Overrides::default()
     };
-    let error = match Study::read(&source.name, &source.text, &Registry::planar(), &overrides) {
+    let error = match blueprint.prepare(&overrides) {
         Ok(study) => return of_study(arguments, &source, &study, drop.as_deref()),
         Err(e) => e,
     };
@@ -92,12 +99,24 @@ fn of_start(
     answer(arguments, &inquiry, &document)
 }
 
+fn of_large(arguments: &Analyze, source: &Source, mut blueprint: Blueprint) -> Outcome {
+    let (document, survey) = large::document(arguments, source, &mut blueprint)?;
+    match arguments.json {
+        true => json(&document),
+        false => print(&large::describe(&document, &survey)),
+    }
+}
+
 fn answer(arguments: &Analyze, inquiry: &Inquiry<'_>, document: &AnalysisDocument) -> Outcome {
     if arguments.json {
-        let mut out = Vec::new();
-        write_json(&mut out, document).map_err(|e| Failure::stopped(e.to_string()))?;
-        return print(&String::from_utf8_lossy(&out));
+        return json(document);
     }
     let hints = ask::hints(inquiry)?;
     print(&text::describe(document, &hints))
+}
+
+fn json(document: &AnalysisDocument) -> Outcome {
+    let mut out = Vec::new();
+    write_json(&mut out, document).map_err(|e| Failure::stopped(e.to_string()))?;
+    print(&String::from_utf8_lossy(&out))
 }

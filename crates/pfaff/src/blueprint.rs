@@ -5,7 +5,7 @@ use dynamics::{MotionError, MotionOptions, RowChoice, prepare};
 use model::start::{assemble, consistent_velocity};
 use model::{Known, Mechanism, Registry};
 use scene::Scene;
-use solvability::{ConstraintLevel, State};
+use solvability::{ConstraintLevel, State, Survey, survey};
 
 use crate::error::StudyError;
 use crate::inquiry::Inquiry;
@@ -111,6 +111,17 @@ impl Blueprint {
             inquiry.state.v = v.map_err(|e| refused(&self.scene, e))?;
         }
         Ok(inquiry)
+    }
+
+    /// The verdicts of the start by parts, for large mechanisms: see [`solvability::survey`]. Nothing is moved and no velocities are asked for.
+    ///
+    /// # Errors
+    /// As [`Blueprint::inquire`].
+    pub fn survey(&mut self, progress: impl FnMut(usize)) -> Result<Survey, StudyError> {
+        let start = &self.scene.start;
+        let assembly = assemble(&mut self.mechanism, start)
+            .map_err(|e| StudyError::Scene(vec![self.scene.locate_start(&e)]))?;
+        Ok(survey(&self.mechanism, 0.0, &assembly.q, progress)?)
     }
 }
 

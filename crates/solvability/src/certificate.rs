@@ -14,7 +14,7 @@ use crate::mechanism::{AnalysisError, decide_holonomic, dimensionless, evaluated
 use crate::state::check_configuration;
 
 /// Rows up to which a rank is certified: the work grows with their cube.
-const ROWS_MAX: usize = 600;
+pub(crate) const ROWS_MAX: usize = 600;
 
 /// C of a mechanism without dimensions, with what its entries are known to.
 pub(crate) struct Rows {

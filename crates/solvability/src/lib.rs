@@ -16,6 +16,7 @@
 //! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
 //! | `certificate` | the rank in double-double at a polished point |
 //! | [`mod@structure`] | what the shape settles before any rank |
+//! | [`mod@survey`] | large mechanisms, cycle by cycle |
 //! | [`mod@explain`] | mixing, free directions and sentences |
 //! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |
 //! | [`mod@second_order`] | is the motion unique where the rank drops? |
@@ -36,6 +37,7 @@ pub mod mechanism;
 pub mod second_order;
 pub mod state;
 pub mod structure;
+pub mod survey;
 pub mod units;
 pub mod verdict;
 mod words;
@@ -67,5 +69,6 @@ pub use mechanism::{
 pub use second_order::{Continuation, Undetermined, second_order};
 pub use state::{State, StateError};
 pub use structure::{judge_parts, structure};
+pub use survey::{LARGE, Survey, SurveyedPart, survey};
 pub use units::{Nature, UnitCheck, UnitError, Units, check_units};
 pub use verdict::{Judgement, Verdict};

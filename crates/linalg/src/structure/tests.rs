@@ -166,3 +166,86 @@ fn odd_input_has_an_answer() {
     let empty = structure(&Matrix::zeros(0, 0), 0.0, &[], &[]).unwrap();
     assert!(empty.parts.is_empty());
 }
+
+/// Groups are of one set iff, whichever vertex is left out, what is left of both hangs together, or they join the same vertices: from the
+/// definition, for every pair.
+#[test]
+fn cycles_are_what_no_single_vertex_separates() {
+    let mut seed = 5_u64;
+    let mut below = |n: usize| {
+        seed = seed
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) as usize % n
+    };
+    for _ in 0..400 {
+        let vertices = 2 + below(6);
+        let groups: Vec<Vec<usize>> = (0..1 + below(9))
+            .map(|_| {
+                let a = below(vertices);
+                vec![a, (a + 1 + below(vertices - 1)) % vertices]
+            })
+            .collect();
+        let found = super::cycles(vertices, &groups);
+        let set_of = |g: usize| found.iter().position(|set| set.contains(&g));
+        // Two edges lie on a common cycle iff no vertex, and no single edge, separates them.
+        let hang_together = |a: usize, b: usize, without: Option<usize>, edge: Option<usize>| {
+            let mut label: Vec<usize> = (0..vertices).collect();
+            for (g, pair) in groups.iter().enumerate() {
+                if edge == Some(g) || pair.iter().any(|v| Some(*v) == without) {
+                    continue;
+                }
+                let [x, y] = [label[pair[0]], label[pair[1]]];
+                label.iter_mut().for_each(|l| {
+                    if *l == y {
+                        *l = x
+                    }
+                });
+            }
+            let rest = |g: usize| {
+                groups[g]
+                    .iter()
+                    .copied()
+                    .filter(move |v| Some(*v) != without)
+            };
+            rest(a).any(|x| rest(b).any(|y| label[x] == label[y]))
+        };
+        for a in 0..groups.len() {
+            for b in 0..a {
+                let by_vertex = (0..vertices).all(|v| hang_together(a, b, Some(v), None));
+                // An edge that alone joins the ends of another is no cycle with it.
+                let is_bridge = |g: usize| {
+                    let [x, y] = [groups[g][0], groups[g][1]];
+                    let mut label: Vec<usize> = (0..vertices).collect();
+                    for (_, pair) in groups.iter().enumerate().filter(|(k, _)| *k != g) {
+                        let [p, q] = [label[pair[0]], label[pair[1]]];
+                        label.iter_mut().for_each(|l| {
+                            if *l == q {
+                                *l = p
+                            }
+                        });
+                    }
+                    label[x] != label[y]
+                };
+                let common = by_vertex && !is_bridge(a) && !is_bridge(b);
+                assert_eq!(set_of(a) == set_of(b), common, "{groups:?}: {a}, {b}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_group_on_three_vertices_holds_them_together() {
+    let groups = [vec![0, 1, 2], vec![2, 3], vec![1, 2], vec![4], vec![]];
+    let found = super::cycles(5, &groups);
+    assert_eq!(found, [vec![0, 2], vec![1], vec![3], vec![4]]);
+}
+
+#[test]
+fn a_long_chain_of_cycles_needs_no_stack() {
+    let n = 50_000;
+    let groups: Vec<Vec<usize>> = (0..2 * n).map(|k| vec![k / 2, k / 2 + 1]).collect();
+    let found = super::cycles(n + 1, &groups);
+    assert_eq!(found.len(), n);
+    assert!(found.iter().all(|set| set.len() == 2));
+}

@@ -4,7 +4,7 @@
 use joints::spec::Level;
 
 use super::build::Builder;
-use super::{Mechanism, N_BODY, TimeFunction};
+use super::{Mechanism, N_BODY, PlacedForce, TimeFunction};
 use crate::description::BodyRef;
 use crate::function::Function;
 
@@ -85,13 +85,47 @@ impl Mechanism {
             bodies.is_sorted_by(|a, b| a < b),
             "bodies {bodies:?} are not in order"
         );
+        let is_here = |b: &BodyRef| b.moving().is_some_and(|k| bodies.binary_search(&k).is_ok());
+        let constraints = self.constraints.iter().enumerate();
+        let groups: Vec<usize> = constraints
+            .filter(|(_, c)| c.bodies.iter().any(is_here))
+            .map(|(k, _)| k)
+            .collect();
+        let forces = self.forces.iter();
+        self.assembled(
+            bodies,
+            &groups,
+            forces.filter(|f| f.bodies.iter().any(is_here)),
+        )
+    }
+
+    /// The mechanism of some joints and drives, ascending, with the bodies that they join and no forces: for questions about constraints. Initial
+    /// values are those of the whole. The work is that of the part alone.
+    ///
+    /// # Panics
+    /// If the groups are not ascending or do not exist.
+    #[must_use]
+    pub fn part_of_groups(&self, groups: &[usize]) -> Part {
+        assert!(
+            groups.is_sorted_by(|a, b| a < b),
+            "groups {groups:?} are not in order"
+        );
+        let joined = groups.iter().flat_map(|&k| &self.constraints[k].bodies);
+        let mut bodies: Vec<usize> = joined.filter_map(|b| b.moving()).collect();
+        bodies.sort_unstable();
+        bodies.dedup();
+        self.assembled(&bodies, groups, std::iter::empty())
+    }
+
+    fn assembled<'a>(
+        &'a self,
+        bodies: &[usize],
+        groups: &[usize],
+        forces: impl Iterator<Item = &'a PlacedForce>,
+    ) -> Part {
         let here = |body: &BodyRef| match *body {
             BodyRef::Ground => Some(BodyRef::Ground),
             BodyRef::Body(k) => bodies.binary_search(&k).ok().map(BodyRef::Body),
-        };
-        let belongs = |of: &[BodyRef]| {
-            of.iter()
-                .any(|b| *b != BodyRef::Ground && here(b).is_some())
         };
         let translated = |name: &str, of: &[BodyRef]| -> Vec<BodyRef> {
             let here: Option<Vec<BodyRef>> = of.iter().map(here).collect();
@@ -99,11 +133,9 @@ impl Mechanism {
             here.unwrap_or_default()
         };
         let mut b = Builder::default();
-        let (mut rows, mut groups) = (Vec::new(), Vec::new());
-        for (k, (c, group)) in self.constraints.iter().zip(&self.layout.groups).enumerate() {
-            if !belongs(&c.bodies) {
-                continue;
-            }
+        let mut rows = Vec::new();
+        for &k in groups {
+            let (c, group) = (&self.constraints[k], &self.layout.groups[k]);
             b.constraint(
                 &group.name,
                 group.kind,
@@ -112,7 +144,6 @@ impl Mechanism {
                 &laws(&self.functions[c.functions.clone()]),
             );
             rows.extend(c.rows.clone());
-            groups.push(k);
             match group.spec.level {
                 Level::Holonomic => b.layout.m = rows.len(),
                 Level::Nonholonomic => b.layout.h = rows.len() - b.layout.m,
@@ -121,7 +152,7 @@ impl Mechanism {
         for (label, &row) in b.layout.labels.iter_mut().zip(&rows) {
             label.clone_from(&self.layout.labels[row]);
         }
-        for f in self.forces.iter().filter(|f| belongs(&f.bodies)) {
+        for f in forces {
             let functions = laws(&self.functions[f.functions.clone()]);
             let to = translated(&f.name, &f.bodies);
             b.force(&f.name, &to, f.element.as_ref(), &functions);
@@ -139,7 +170,7 @@ impl Mechanism {
             coordinates: velocities.clone(),
             velocities,
             rows,
-            groups,
+            groups: groups.to_vec(),
         };
         Part { mechanism, places }
     }

@@ -1,6 +1,7 @@
 //! The rank and what is behind it, in sentences.
 
 use pfaff::report::AnalysisDocument;
+use pfaff::solvability::Survey;
 
 use crate::output::{count, wrapped};
 
@@ -21,6 +22,29 @@ pub(super) fn describe(d: &AnalysisDocument) -> String {
     if let Some(continuation) = &d.continuation {
         out.push_str(&wrapped("  ", &continuation.text));
     }
+    out
+}
+
+/// The same for a mechanism that was judged by parts.
+pub(super) fn by_parts(d: &AnalysisDocument, survey: &Survey) -> String {
+    let mut out = format!(
+        "rank {} (Φq alone {}, Ψ alone {}), redundancy {}, mobility {}\n",
+        d.rank, d.rank_holonomic, d.rank_nonholonomic, d.redundancy, d.mobility,
+    );
+    let largest = survey.parts.iter().map(|part| part.places.rows.len()).max();
+    let parts = count(survey.parts.len(), "part", "parts");
+    let largest = count(largest.unwrap_or(0), "row", "rows");
+    let lead = format!("judged in {parts} that share no cycle, the largest of {largest}; ");
+    let e = &d.evidence;
+    let said = match &e.reason {
+        Some(reason) => format!("UNDECIDED in one of them: {reason}"),
+        None if e.certified => "the rank of each is proved".to_owned(),
+        None => format!(
+            "decided with a clear gap in double precision, not all proved: the smallest σ_r is {:.1e}",
+            e.sigma_r
+        ),
+    };
+    out.push_str(&wrapped("  ", &(lead + &said)));
     out
 }
 

@@ -8,7 +8,7 @@ mod reaction;
 
 use model::{ConstraintId, Layout};
 use serde::Serialize;
-use solvability::{Analysis, Dependency, Explanation, FrameVerdict, Mixing};
+use solvability::{Analysis, Dependency, Explanation, FrameVerdict, Mixing, Survey};
 
 pub use along::{
     AlongDocument, ContinuationDocument, DifferenceDocument, GenericVerdictsDocument,
@@ -149,6 +149,45 @@ impl AnalysisDocument {
             along: None,
             continuation: None,
             warnings: analysis.warnings.clone(),
+        }
+    }
+
+    /// The document of a survey. Evidence is that of the part whose rank is least certain.
+    #[must_use]
+    pub fn of_survey(scene: &str, survey: &Survey) -> Self {
+        let [kept, dropped] = survey.rows();
+        let rows = survey.holonomic_rows + survey.nonholonomic_rows;
+        let dependencies = survey.parts.iter().flat_map(|part| {
+            let all = part.analysis.dependencies.iter();
+            all.map(|d| DependencyDocument::new(d, &part.analysis))
+        });
+        Self {
+            scene: scene.to_owned(),
+            time: survey.time,
+            bodies: survey.bodies,
+            coordinates: survey.coordinates,
+            rows,
+            holonomic_rows: survey.holonomic_rows,
+            nonholonomic_rows: survey.nonholonomic_rows,
+            rank: survey.rank(),
+            rank_holonomic: survey.rank_holonomic(),
+            rank_nonholonomic: survey.rank_nonholonomic(),
+            redundancy: survey.redundancy(),
+            mobility: survey.mobility(),
+            kept_rows: from_one(&kept),
+            dropped_rows: from_one(&dropped),
+            evidence: EvidenceDocument::of_survey(survey),
+            generic: None,
+            reactions: survey.reactions().into_iter().map(Into::into).collect(),
+            groups: Vec::new(),
+            dependencies: dependencies.collect(),
+            mixing: Vec::new(),
+            eliminations: None,
+            make_unique: Vec::new(),
+            choices: Vec::new(),
+            along: None,
+            continuation: None,
+            warnings: survey.warnings().cloned().collect(),
         }
     }
 

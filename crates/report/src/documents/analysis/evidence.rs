@@ -2,7 +2,7 @@
 
 use linalg::{Certificate, Grounds, RankStatus};
 use serde::Serialize;
-use solvability::{Analysis, Generic};
+use solvability::{Analysis, Generic, Survey};
 
 /// What is known of the rank beyond the decision at one configuration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -122,6 +122,58 @@ impl EvidenceDocument {
                     change_per_micrometre: MICROMETRE / analysis.size / n.sigma,
                     direction: n.direction.clone(),
                 }),
+        }
+    }
+}
+
+impl EvidenceDocument {
+    /// That of the part whose rank is least certain; the rank of the whole is proved where those of all parts are.
+    pub(super) fn of_survey(survey: &Survey) -> Self {
+        let Some(weakest) = survey.weakest() else {
+            return Self::of_nothing();
+        };
+        let certificate = |a: &Analysis| a.decision.evidence.certificate.clone();
+        let own = certificate(&weakest.analysis);
+        let proof = Proof {
+            generic: None,
+            certificate: own.as_ref(),
+        };
+        let is_proved = |a: &Analysis| {
+            let proved = certificate(a).map(|c| c.rank_at_least);
+            a.decision.is_decided() && proved == Some(a.decision.rank)
+        };
+        let all_proved = survey.parts.iter().all(|part| is_proved(&part.analysis));
+        let mut document = Self::new(&weakest.analysis, proof);
+        document.certified = all_proved;
+        document.rank_at_least = all_proved.then(|| survey.rank());
+        if let Some(nearly) = &mut document.nearly_redundant {
+            let mut direction = vec![0.0; survey.holonomic_rows + survey.nonholonomic_rows];
+            for (&row, x) in weakest.places.rows.iter().zip(&nearly.direction) {
+                direction[row] = *x;
+            }
+            nearly.direction = direction;
+        }
+        document
+    }
+
+    /// Of no rows.
+    fn of_nothing() -> Self {
+        Self {
+            status: "decided",
+            reason: None,
+            sigma_r: f64::INFINITY,
+            sigma_next: 0.0,
+            gap: f64::INFINITY,
+            tolerance: 0.0,
+            constraint_residual: 0.0,
+            permanent: None,
+            certified: true,
+            rank_at_least: Some(0),
+            sigma_bound: None,
+            sigma_next_extended: None,
+            grounds: Some(grounds(Grounds::FullRank)),
+            uncertainty: None,
+            nearly_redundant: None,
         }
     }
 }
