@@ -272,6 +272,13 @@ pub(crate) fn judge(
     let solvability = Solvability::from_decision(&rows.matrix(), decision);
     let mut warnings = Vec::new();
     let mut rank_of = |what: &str, part: std::ops::Range<usize>| {
+        // What is nothing or everything needs no decision of its own.
+        if part.is_empty() {
+            return Ok(0);
+        }
+        if part == (0..layout.rows()) {
+            return Ok(solvability.decision().rank);
+        }
         let decision = rows.select(&part.collect::<Vec<_>>()).decide()?;
         if let linalg::RankStatus::Undecided(doubt) = &decision.status {
             warnings.push(format!("the rank of {what} alone is undecided: {doubt}"));

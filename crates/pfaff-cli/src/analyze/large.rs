@@ -12,8 +12,9 @@ use crate::args::Analyze;
 use crate::input::Source;
 use crate::output::{Failure, columns, count, wrapped};
 
-/// Names and dependencies that are listed.
+/// Names that are listed, and reasons.
 const LISTED: usize = 12;
+const REASONS: usize = 3;
 
 /// The questions that are answered by parts: the verdicts of the start.
 pub(super) fn document(
@@ -131,11 +132,11 @@ fn why(d: &AnalysisDocument) -> String {
         return String::new();
     }
     let mut out = "\nWhy:\n".to_owned();
-    for dependency in d.dependencies.iter().take(LISTED) {
+    for dependency in d.dependencies.iter().take(REASONS) {
         out.push_str(&wrapped("- ", &dependency.text));
     }
-    if d.dependencies.len() > LISTED {
-        let more = d.dependencies.len() - LISTED;
+    if d.dependencies.len() > REASONS {
+        let more = d.dependencies.len() - REASONS;
         out.push_str(&format!(
             "and {more} dependencies more (`--json` lists all)\n"
         ));
