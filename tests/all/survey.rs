@@ -30,6 +30,17 @@ fn parts_say_what_the_whole_says() {
         apart += usize::from(found.parts.len() > 1);
         let is_decided = |a: &solvability::Analysis| a.decision.is_decided();
         if found.parts.iter().all(|p| is_decided(&p.analysis)) {
+            for part in &found.parts {
+                let own: Vec<Vec<Dyadic>> =
+                    part.places.rows.iter().map(|&i| c[i].clone()).collect();
+                let d = &part.analysis.decision;
+                let rank = Exact::of_dyadic(&own).rank();
+                assert_eq!(
+                    d.rank, rank,
+                    "{:?} of {sketch:?}\n{:?}",
+                    part.places, d.evidence
+                );
+            }
             assert_eq!(found.rank(), Exact::of_dyadic(&c).rank(), "{sketch:?}");
             let [kept, dropped] = found.rows();
             assert_eq!(

@@ -154,7 +154,7 @@ impl<'a> KeptRowMotion<'a> {
         stabilisation: Stabilisation,
     ) -> Result<Self, Trip> {
         let n = prepared.mechanism.layout().n_v;
-        let rows = |d: &linalg::RankDecision| {
+        let rows = |d: &solvability::RowDecision| {
             KeptRows::new(
                 &prepared.mechanism,
                 prepared.assembly.size,

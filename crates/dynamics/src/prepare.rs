@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
-use linalg::{RankDecision, RankStatus};
+use linalg::RankStatus;
 use model::start::{assemble, consistent_velocity};
 use model::{Assembly, Mechanism, StartOptions, System};
-use solvability::{Ranks, contradictions, decide, decide_dropping, decide_holonomic, inseparable};
+use solvability::{RowDecision, decide_rows_dropping, rows as rows_of};
 
 use crate::code::SceneCode;
 use crate::error::MotionError;
@@ -24,9 +24,9 @@ pub struct Prepared {
     /// What was asked of the rows.
     pub choice: RowChoice,
     /// Rank and kept rows of C.
-    pub decision: RankDecision,
+    pub decision: RowDecision,
     /// Rank and kept rows of Φq alone: what holds the configuration.
-    pub position_decision: RankDecision,
+    pub position_decision: RowDecision,
     /// How the configuration was assembled.
     pub assembly: Assembly,
     /// Velocities at the start minus the described ones.
@@ -68,29 +68,23 @@ pub fn prepare(
     mechanism.pose(0.0, &assembly.q, &mut s);
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
-    let automatic = decide(&mechanism, &s, &assembly.q)?;
-    if let RankStatus::Undecided(doubt) = automatic.status {
-        return Err(MotionError::RankUndecided(doubt));
+    let found = rows_of(&mechanism, &s, &assembly.q)?;
+    for decision in [&found.all, &found.holonomic] {
+        if let RankStatus::Undecided(doubt) = decision.status {
+            return Err(MotionError::RankUndecided(doubt));
+        }
     }
-    let position_decision = decide_holonomic(&mechanism, &s, &assembly.q)?;
-    if let RankStatus::Undecided(doubt) = position_decision.status {
-        return Err(MotionError::RankUndecided(doubt));
-    }
-    if let Some(found) = inseparable(&mechanism, &s, &assembly.q, &automatic) {
-        return Err(MotionError::inseparable(&found, &layout.labels));
+    if let Some(nearly) = found.inseparable(&mechanism, &s, &assembly.q) {
+        return Err(MotionError::inseparable(&nearly, &layout.labels));
     }
     let decision = match rows {
-        RowChoice::Automatic => automatic.clone(),
-        RowChoice::Drop(dropped) => decide_dropping(&mechanism, &s, &assembly.q, dropped)
-            .map_err(|e| MotionError::rows(&e, &layout.labels, automatic.redundancy))?,
+        RowChoice::Automatic => found.all.clone(),
+        RowChoice::Drop(dropped) => decide_rows_dropping(&mechanism, &s, &assembly.q, dropped)
+            .map_err(|e| MotionError::rows(&e, &layout.labels, found.all.redundancy))?,
     };
     let v = consistent_velocity(&mechanism, start, &assembly.q, &assembly.v, &decision.kept)?;
-    let ranks = Ranks {
-        all: &automatic,
-        holonomic: &position_decision,
-    };
-    let found = contradictions(&mechanism, 0.0, &assembly.q, &v, ranks)?;
-    if let Some(worst) = found.into_iter().next() {
+    let contradictions = found.contradictions(&mechanism, 0.0, &assembly.q, &v)?;
+    if let Some(worst) = contradictions.into_iter().next() {
         return Err(worst.into());
     }
     let velocity_correction = v.iter().zip(&assembly.v).map(|(a, b)| a - b).collect();
@@ -101,7 +95,7 @@ pub fn prepare(
         v,
         choice: rows.clone(),
         decision,
-        position_decision,
+        position_decision: found.holonomic,
         assembly,
         velocity_correction,
         code: None,

@@ -6,6 +6,7 @@
 //! | --- | --- |
 //! | [`verdict`] | unique, not unique, undecided: with the number behind it |
 //! | [`matrices`] | solvability of a plain constraint matrix |
+//! | [`rows`] | what a motion needs: independent rows, also of large mechanisms |
 //! | [`state`] | a state that the caller gives |
 //! | [`existence`] | do the rows contradict each other? |
 //! | [`mod@generic`] | permanent, or only of this configuration? |
@@ -34,6 +35,7 @@ pub mod groups;
 pub mod make_unique;
 pub mod matrices;
 pub mod mechanism;
+pub mod rows;
 pub mod second_order;
 pub mod state;
 pub mod structure;
@@ -66,6 +68,7 @@ pub use mechanism::{
     Analysis, AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, analyse,
     analyse_dropping, analyse_known, decide, decide_dropping, decide_holonomic,
 };
+pub use rows::{RowDecision, Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows};
 pub use second_order::{Continuation, Undetermined, second_order};
 pub use state::{State, StateError};
 pub use structure::{judge_parts, structure};

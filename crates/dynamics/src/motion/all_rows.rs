@@ -3,10 +3,7 @@
 //!
 //! As on kept rows, the solvers see units of the mechanism (see [`super::rows`]) and callers their own.
 
-use linalg::{
-    Matrix, MinimumNormSaddle, PivotedQr, ProximalSaddle, ProximalTuning, SaddleError,
-    support_tolerance,
-};
+use linalg::{Matrix, MinimumNormSaddle, PivotedQr, ProximalSaddle, ProximalTuning, SaddleError};
 use model::reaction::COMPONENTS;
 use model::{Mechanism, Scratch, System};
 
@@ -57,6 +54,9 @@ impl AllRows {
         formulation: Formulation,
         rtol: f64,
     ) -> Result<Option<Self>, Trip> {
+        if formulation.drops_rows() {
+            return Ok(None);
+        }
         let mechanism = &prepared.mechanism;
         let mut s = mechanism.scratch();
         mechanism.pose(0.0, &prepared.q, &mut s);
@@ -88,7 +88,7 @@ impl AllRows {
             units,
             mass,
             rank,
-            tolerance: support_tolerance(&prepared.decision),
+            tolerance: prepared.decision.support_tolerance,
         }))
     }
 

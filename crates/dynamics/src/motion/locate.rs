@@ -2,7 +2,7 @@
 //! an accepted step that was suspect.
 
 use model::{Mechanism, Scratch, System};
-use solvability::decide;
+use solvability::decide_rows;
 
 use super::KeptRowMotion;
 use super::rows::KeptRows;
@@ -202,7 +202,7 @@ impl Search<'_> {
         self.mechanism.pose(t, &q, &mut self.s);
         self.mechanism.phi(&mut self.s);
         self.mechanism.c(&mut self.s);
-        match decide(self.mechanism, &self.s, &q) {
+        match decide_rows(self.mechanism, &self.s, &q) {
             Ok(decision) => !decision.is_decided() || decision.rank < self.rows.kept.len(),
             Err(_) => true,
         }

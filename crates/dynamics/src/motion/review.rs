@@ -1,7 +1,7 @@
 //! Exchange of kept rows that have become nearly dependent, at accepted and polished points only.
 
 use model::System;
-use solvability::{decide, decide_holonomic};
+use solvability::{RowDecision, decide_holonomic_rows, decide_rows};
 
 use super::{KeptRowMotion, KeptRows};
 use crate::error::Trip;
@@ -43,7 +43,7 @@ impl KeptRowMotion<'_> {
     /// Looks at the pivots of a settled position at coordinates q.
     pub(super) fn review(&mut self, q: &[f64]) -> Result<Option<Event>, Trip> {
         if self.position_wants_exchange() {
-            let decision = decide_holonomic(self.mechanism, &self.s, q);
+            let decision = decide_holonomic_rows(self.mechanism, &self.s, q);
             let mut old = self.position.clone();
             if let Some(better) = self.better(decision, &mut old)? {
                 self.position = better;
@@ -61,7 +61,7 @@ impl KeptRowMotion<'_> {
         if !self.want_exchange() {
             return Ok(None);
         }
-        let decision = decide(self.mechanism, &self.s, q);
+        let decision = decide_rows(self.mechanism, &self.s, q);
         let mut lost = self.velocity.clone();
         let Some(rows) = self.better(decision, &mut lost)? else {
             return Ok(None);
@@ -80,7 +80,7 @@ impl KeptRowMotion<'_> {
         if self.chart.is_some() || is_sound || !self.want_exchange() {
             return Ok(None);
         }
-        let decision = decide(self.mechanism, &self.s, q);
+        let decision = decide_rows(self.mechanism, &self.s, q);
         let mut kept = self.velocity.clone();
         self.better(decision, &mut kept)
     }
@@ -103,7 +103,7 @@ impl KeptRowMotion<'_> {
     /// coefficients. Another rank is that of a singular configuration nearby, not of the motion.
     fn better(
         &self,
-        decision: Result<linalg::RankDecision, solvability::AnalysisError>,
+        decision: Result<RowDecision, solvability::AnalysisError>,
         old: &mut KeptRows,
     ) -> Result<Option<KeptRows>, Trip> {
         let time = self.s.t;

@@ -1,10 +1,9 @@
 //! Taking a prepared mechanism apart into prepared components. Ranks are decided for each at the start of the whole, with the rows that
 //! the whole drops, so that what is said of its choice holds for each of them.
 
-use linalg::RankDecision;
 use model::start::scene_size;
 use model::{Assembly, Mechanism, Part, Places, System};
-use solvability::{decide, decide_dropping, decide_holonomic};
+use solvability::{RowDecision, decide_holonomic_rows, decide_rows, decide_rows_dropping};
 
 use super::saving::{Cost, Saving};
 use super::{Decided, PreparedPart, pick};
@@ -80,16 +79,16 @@ fn prepared(whole: &Prepared, part: Part) -> Result<Option<PreparedPart>, Motion
     mechanism.pose(0.0, &q, &mut s);
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
-    let mut decision = decide(&mechanism, &s, &q)?;
-    let position_decision = decide_holonomic(&mechanism, &s, &q)?;
+    let mut decision = decide_rows(&mechanism, &s, &q)?;
+    let position_decision = decide_holonomic_rows(&mechanism, &s, &q)?;
     let dropped = own_rows(&whole.decision.dropped, &places);
-    let agree = |d: &RankDecision, dropped: usize| d.is_decided() && d.redundancy == dropped;
+    let agree = |d: &RowDecision, dropped: usize| d.is_decided() && d.redundancy == dropped;
     let position_dropped = own_rows(&whole.position_decision.dropped, &places).len();
     if !(agree(&decision, dropped.len()) && agree(&position_decision, position_dropped)) {
         return Ok(None);
     }
     if decision.dropped != dropped {
-        match decide_dropping(&mechanism, &s, &q, &dropped) {
+        match decide_rows_dropping(&mechanism, &s, &q, &dropped) {
             Ok(same) => decision = same,
             Err(_) => return Ok(None),
         }
