@@ -1,0 +1,68 @@
+//! What is known of a generated mechanism at its start.
+
+/// Sizes and ranks.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Answer {
+    /// Number of bodies.
+    pub bodies: usize,
+    /// Number of joints, knife edges included.
+    pub joints: usize,
+    /// Number of drives.
+    pub drives: usize,
+    /// Number of rows of C, m + h.
+    pub rows: usize,
+    /// Rank r of C.
+    pub rank: usize,
+    /// Degree of redundancy p, rows − r.
+    pub redundancy: usize,
+    /// Freedoms of motion, 3·bodies − r.
+    pub mobility: usize,
+}
+
+impl Answer {
+    /// The answer for planar bodies with these rows, of which `redundancy` depend on the others.
+    pub(super) fn new(
+        bodies: usize,
+        joints: usize,
+        drives: usize,
+        rows: usize,
+        redundancy: usize,
+    ) -> Self {
+        let rank = rows - redundancy;
+        Self {
+            bodies,
+            joints,
+            drives,
+            rows,
+            rank,
+            redundancy,
+            mobility: 3 * bodies - rank,
+        }
+    }
+}
+
+/// A reaction that is not unique.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FreeReaction {
+    /// Name of the joint.
+    pub name: String,
+    /// What of it is not determined.
+    pub free: Free,
+}
+
+/// What of a reaction is not determined; the rest of it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Free {
+    /// The force, in every direction.
+    Force,
+    /// The force along this direction (global components, length 1); across it the force is determined.
+    Along([f64; 2]),
+    /// The force along this direction, and the torque.
+    AlongAndTorque([f64; 2]),
+}
+
+impl FreeReaction {
+    pub(super) fn new(name: String, free: Free) -> Self {
+        Self { name, free }
+    }
+}

@@ -1,0 +1,21 @@
+//! What the families have in common.
+
+use std::io;
+
+use super::answer::{Answer, FreeReaction};
+use super::text::SceneText;
+
+/// Mechanisms of one family and one size.
+pub(super) trait Family: Send + Sync {
+    /// Sizes and ranks.
+    fn answer(&self) -> Answer;
+
+    /// The reactions that are not unique at the start, in the order of the file.
+    fn free_reactions(&self) -> Vec<FreeReaction>;
+
+    /// In words, for the head of the file: what it is, and which reactions are not unique. One line each.
+    fn words(&self) -> Vec<String>;
+
+    /// Writes everything but the head of the file: gravity, bodies, joints, forces, and the run.
+    fn write(&self, name: &str, scene: &mut SceneText) -> io::Result<()>;
+}
