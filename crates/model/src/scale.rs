@@ -81,7 +81,10 @@ impl Mechanism {
     /// that is rounding beside it is zero.
     #[must_use]
     pub fn prescribed_scale(&self, s: &Scratch, i: usize) -> f64 {
-        let of_row = self.constraints().iter().find(|c| c.rows.contains(&i));
+        // Rows are numbered in the order of the constraints.
+        let constraints = self.constraints();
+        let at = constraints.partition_point(|c| c.rows.end <= i);
+        let of_row = constraints.get(at);
         let jets = of_row.map_or(&[][..], |c| &s.jets[c.functions.clone()]);
         jets.iter().flatten().map(|x| x.abs()).sum()
     }

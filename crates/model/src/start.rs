@@ -140,12 +140,19 @@ pub struct Misfit {
 }
 
 fn list(rows: &[Misfit]) -> String {
-    let parts: Vec<String> = rows
-        .iter()
+    let parts = rows.iter().take(NAMED_ROWS);
+    let parts: Vec<String> = parts
         .map(|m| format!("{} by {:.3e}", m.row, m.residual))
         .collect();
-    parts.join(", ")
+    let named = parts.join(", ");
+    match rows.len().saturating_sub(NAMED_ROWS) {
+        0 => named,
+        more => format!("{named}, and {more} more"),
+    }
 }
+
+/// Rows that a message names.
+const NAMED_ROWS: usize = 20;
 
 /// Rows that miss by less than this share of the worst one are not named.
 const NAMED_MISFIT: f64 = 1e-2;
@@ -224,7 +231,8 @@ pub fn consistent_velocity(
     mechanism.pose(0.0, q, &mut s);
     mechanism.c(&mut s);
     mechanism.b(&mut s);
-    let c = layout.dense(&s).select_rows(kept);
+    // A consistent start needs no matrix.
+    let mut c = None;
     let mut v = v.to_vec();
     let mut best = f64::INFINITY;
     loop {
@@ -251,11 +259,12 @@ pub fn consistent_velocity(
             return Err(missing());
         }
         best = size;
+        let c = c.get_or_insert_with(|| layout.dense(&s).select_rows(kept));
         // The kept rows are independent; they need no damping unless velocities are held.
-        let step = match least_squares_step(&c, &residual, &weights, 0.0) {
+        let step = match least_squares_step(c, &residual, &weights, 0.0) {
             Ok(step) => step,
             Err(StepError::Dependent { .. }) => {
-                least_squares_step(&c, &residual, &weights, DAMPING)?
+                least_squares_step(c, &residual, &weights, DAMPING)?
             }
             Err(e) => return Err(e.into()),
         };

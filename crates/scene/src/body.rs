@@ -1,6 +1,6 @@
 //! `[[body]]`, and the names of bodies elsewhere in the file.
 
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::ops::Range;
 
 use model::{Body, BodyRef};
@@ -16,27 +16,27 @@ pub(crate) struct Bodies {
     pub(crate) list: Vec<Body>,
     pub(crate) entries: Vec<Entry>,
     /// Places in the list; of a name that is used twice, the first.
-    by_name: BTreeMap<String, usize>,
+    by_name: HashMap<String, usize>,
 }
 
 impl Bodies {
     /// Reads one body. Numbers that cannot be read are zero; they have been reported.
     pub(crate) fn read(&mut self, mut table: Table, name: &str, findings: &mut Findings) {
-        let mut required = |key: &str| {
+        let mut required = |key: &'static str| {
             table
                 .required(key, "a number ≥ 0", findings)
                 .and_then(|field| field.number(findings))
                 .unwrap_or_default()
         };
         let (mass, inertia) = (required("mass"), required("inertia"));
-        let mut pair = |key: &str| {
+        let mut pair = |key: &'static str| {
             table
                 .optional(key)
                 .and_then(|field| field.pair("a pair [x, y]", findings))
                 .unwrap_or_default()
         };
         let (position, velocity) = (pair("position"), pair("velocity"));
-        let mut number = |key: &str| {
+        let mut number = |key: &'static str| {
             table
                 .optional(key)
                 .and_then(|field| field.number(findings))

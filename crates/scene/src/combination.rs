@@ -1,5 +1,6 @@
 //! Linear combinations of reactions: of components, as `W3.N + W4.N` or `2*A.Fx - B.T`, or of whole wrenches, as `W3 + W4`.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use crate::nearest::{list, nearest};
@@ -107,11 +108,57 @@ pub(crate) struct ReactionNames<'a> {
     pub(crate) components: Option<Vec<&'static str>>,
 }
 
+/// All joints and drives, found by name.
+pub(crate) struct Reactions<'a> {
+    list: Vec<ReactionNames<'a>>,
+    /// Places in the list; of a name that is used twice, the first.
+    by_name: HashMap<&'a str, usize>,
+    /// Bytes of the longest name.
+    longest: usize,
+}
+
+impl<'a> Reactions<'a> {
+    pub(crate) fn new(list: Vec<ReactionNames<'a>>) -> Self {
+        let mut by_name = HashMap::with_capacity(list.len());
+        for (at, reaction) in list.iter().enumerate() {
+            by_name.entry(reaction.name).or_insert(at);
+        }
+        let longest = list.iter().map(|r| r.name.len()).max().unwrap_or(0);
+        Self {
+            list,
+            by_name,
+            longest,
+        }
+    }
+
+    /// Their names, in the order of the file.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &'a str> + '_ {
+        self.list.iter().map(|reaction| reaction.name)
+    }
+
+    /// The name as it is kept here, if there is one.
+    pub(crate) fn find(&self, name: &str) -> Option<&ReactionNames<'a>> {
+        self.by_name.get(name).map(|&at| &self.list[at])
+    }
+
+    /// The longest name with which a text begins, if a term may end there.
+    fn longest_at(&self, text: &str) -> Option<&ReactionNames<'a>> {
+        let reach = text.floor_char_boundary(self.longest);
+        let end = (reach == text.len()).then_some(reach);
+        // One letter more: what follows the longest name.
+        let ends = text[reach..]
+            .chars()
+            .next()
+            .map_or(reach, |c| reach + c.len_utf8());
+        let ends = text[..ends].char_indices().rev();
+        let ends = ends.filter(|(_, c)| c.is_whitespace() || ['.', '+', '-'].contains(c));
+        let mut ends = end.into_iter().chain(ends.map(|(at, _)| at));
+        ends.find_map(|end| self.find(&text[..end]))
+    }
+}
+
 /// Reads an expression.
-pub(crate) fn parse(
-    text: &str,
-    reactions: &[ReactionNames],
-) -> Result<Combination, CombinationError> {
+pub(crate) fn parse(text: &str, reactions: &Reactions) -> Result<Combination, CombinationError> {
     let mut scanner = Scanner { text, at: 0 };
     scanner.skip_space();
     let sign = scanner.sign().unwrap_or(1.0);
@@ -190,21 +237,11 @@ impl<'a> Scanner<'a> {
         Some(sign)
     }
 
-    fn term(&mut self, sign: f64, all: &[ReactionNames]) -> Result<Read, CombinationError> {
+    fn term(&mut self, sign: f64, all: &Reactions) -> Result<Read, CombinationError> {
         let coefficient = sign * self.factor()?;
         let start = self.at;
         // Names may contain anything, so the longest known one that fits is meant.
-        let known = all
-            .iter()
-            .filter(|r| {
-                let rest = self.rest().strip_prefix(r.name);
-                rest.is_some_and(|rest| match rest.chars().next() {
-                    Some(next) => next.is_whitespace() || ['.', '+', '-'].contains(&next),
-                    None => true,
-                })
-            })
-            .max_by_key(|r| r.name.len());
-        let Some(known) = known else {
+        let Some(known) = all.longest_at(self.rest()) else {
             return Err(self.unknown(all));
         };
         let reaction = known.name.to_owned();
@@ -241,9 +278,13 @@ impl<'a> Scanner<'a> {
 
     /// A number before `*`, or 1.
     fn factor(&mut self) -> Result<f64, CombinationError> {
-        let Some((before, _)) = self.rest().split_once('*') else {
+        let rest = self.rest();
+        let in_number = |c: char| c.is_ascii_digit() || "+-.eE".contains(c) || c.is_whitespace();
+        let end = rest.find(|c| !in_number(c)).unwrap_or(rest.len());
+        let (before, after) = rest.split_at(end);
+        if !after.starts_with('*') {
             return Ok(1.0);
-        };
+        }
         let number = before.trim_end();
         if number.is_empty() || !number.starts_with(|c: char| c.is_ascii_digit() || c == '.') {
             return Ok(1.0);
@@ -265,7 +306,7 @@ impl<'a> Scanner<'a> {
     }
 
     /// What to say of a term that begins with no known name.
-    fn unknown(&self, all: &[ReactionNames]) -> CombinationError {
+    fn unknown(&self, all: &Reactions) -> CombinationError {
         let rest = self.rest();
         let end = |c: char| c.is_whitespace() || c == '+';
         let token = rest.split(end).next().unwrap_or(rest);
@@ -274,7 +315,7 @@ impl<'a> Scanner<'a> {
             "" => CombinationProblem::NoTerm,
             _ => CombinationProblem::UnknownReaction {
                 name: name.to_owned(),
-                nearest: nearest(name, all.iter().map(|r| r.name)).map(str::to_owned),
+                nearest: nearest(name, all.names()).map(str::to_owned),
             },
         };
         CombinationError {
@@ -293,7 +334,7 @@ mod tests {
             name,
             components: Some(vec!["Fx", "Fy", "N"]),
         });
-        parse(text, &names)
+        parse(text, &Reactions::new(names.into()))
             .map(|c| match c {
                 Combination::Components(terms) => {
                     let term = |t: Term| (t.coefficient, format!("{}|{}", t.reaction, t.component));

@@ -102,7 +102,7 @@ pub(crate) fn slots(
     bodies: &Bodies,
     findings: &mut Findings,
 ) -> Named {
-    for slot in &spec.slots[listed(spec)..] {
+    for &slot in &spec.slots[listed(spec)..] {
         named.push(match table.optional(slot) {
             Some(field) => bodies.find(&field, findings),
             None => Some(BodyRef::Ground),
@@ -149,7 +149,7 @@ pub(crate) fn choose(
     let Some(field) = table.optional(first.key) else {
         let default = variants().find(|(_, variant)| variant.default);
         if default.is_none() {
-            table.required(first.key, &expected, findings);
+            table.required(first.key, &*expected, findings);
         }
         return default.map(|(k, _)| k);
     };
@@ -175,7 +175,7 @@ pub(crate) fn forgive(table: &mut Table, specs: &[&'static Spec]) {
         table.optional(key);
     }
     for spec in specs {
-        for key in spec.slots.iter().skip(listed(spec)) {
+        for &key in spec.slots.iter().skip(listed(spec)) {
             table.optional(key);
         }
         for parameter in spec.parameters {

@@ -4,7 +4,7 @@
 use joints::ArgumentError;
 use joints::spec::Spec;
 use model::registry::{ConstraintDefinition, ForceDefinition};
-use model::{BodyRef, PlaneConstraint, PlaneForce};
+use model::{BodyRef, PlaneConstraint, PlaneForce, Registry};
 
 use crate::arguments::Arguments;
 use crate::body::Bodies;
@@ -54,12 +54,50 @@ pub(crate) struct Read<'r, D: Definition> {
 }
 
 /// Scene types of the registry.
-pub(crate) struct Types {
+pub(crate) struct Types<'r> {
+    pub(crate) registry: &'r Registry,
     /// What the section holds, for messages.
     pub(crate) kind: &'static str,
     pub(crate) known: Vec<&'static str>,
     /// The other section, its kind and its types.
     pub(crate) other: (&'static str, &'static str, Vec<&'static str>),
+}
+
+impl<'r> Types<'r> {
+    /// Those of joints.
+    pub(crate) fn of_joints(registry: &'r Registry) -> Self {
+        Self {
+            registry,
+            kind: "joint",
+            known: names(registry.constraint_specs()),
+            other: ("force", "force", names(registry.force_specs())),
+        }
+    }
+
+    /// Those of forces.
+    pub(crate) fn of_forces(registry: &'r Registry) -> Self {
+        Self {
+            registry,
+            kind: "force",
+            known: names(registry.force_specs()),
+            other: ("joint", "joint", names(registry.constraint_specs())),
+        }
+    }
+}
+
+/// Scene types, each once.
+fn names(specs: impl Iterator<Item = &'static Spec>) -> Vec<&'static str> {
+    let mut types: Vec<_> = specs.map(|spec| spec.scene_type).collect();
+    types.sort_unstable();
+    types.dedup();
+    types
+}
+
+/// The list of them.
+impl std::fmt::Display for Types<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&list(self.known.iter().copied()))
+    }
 }
 
 /// Reads `type`. `None`, reported, if it is missing or no definition has it.
@@ -68,7 +106,7 @@ pub(crate) fn scene_type(
     types: &Types,
     findings: &mut Findings,
 ) -> Option<&'static str> {
-    let field = table.required("type", &list(types.known.iter().copied()), findings)?;
+    let field = table.required("type", types, findings)?;
     let name = field.text("the name of a type", findings)?;
     if let Some(known) = types.known.iter().find(|known| **known == name) {
         return Some(known);
@@ -82,13 +120,7 @@ pub(crate) fn scene_type(
         ),
         None => ("unknown type".to_owned(), None),
     };
-    let all = || {
-        format!(
-            "the types of a {} are {}",
-            types.kind,
-            list(types.known.iter().copied())
-        )
-    };
+    let all = || format!("the types of a {} are {}", types.kind, types);
     findings.error_with_help(
         field.span(),
         format!("{} has the unknown type `{name}`", table.subject),

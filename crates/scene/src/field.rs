@@ -1,6 +1,8 @@
 //! One value of the file, read as what is expected there. What is not is reported with both.
 
+use std::borrow::Cow;
 use std::ops::Range;
+use std::rc::Rc;
 
 use toml::Spanned;
 use toml::de::{DeInteger, DeValue};
@@ -12,9 +14,9 @@ use crate::table::Table;
 #[derive(Clone)]
 pub(crate) struct Field<'t> {
     /// What the table describes that it stands in.
-    pub(crate) subject: String,
+    pub(crate) subject: Rc<str>,
     /// Its key.
-    pub(crate) key: String,
+    pub(crate) key: Cow<'t, str>,
     /// The value.
     pub(crate) value: &'t Spanned<DeValue<'t>>,
 }

@@ -1,5 +1,6 @@
 //! Problems found on the way. Reading goes on after each of them.
 
+use std::cell::Cell;
 use std::ops::Range;
 
 use crate::diagnostic::Diagnostic;
@@ -10,11 +11,20 @@ use crate::text::SourceText;
 /// thousands are wrong.
 const SUGGESTIONS: usize = 100;
 
+/// Names that may be compared for suggestions in one file.
+const COMPARED: usize = 1_000_000;
+
+/// Problems that are listed; the others are counted. Where one mistake is made in every line, that says enough.
+pub(crate) const LISTED: usize = 5000;
+
 /// The problems of a file, as they are found.
 pub(crate) struct Findings<'s> {
     /// Where they are.
     pub(crate) source: &'s SourceText,
     list: Vec<Diagnostic>,
+    /// Those that are not listed.
+    more: usize,
+    compared: Cell<usize>,
 }
 
 impl<'s> Findings<'s> {
@@ -22,12 +32,32 @@ impl<'s> Findings<'s> {
         Self {
             source,
             list: Vec::new(),
+            more: 0,
+            compared: Cell::new(0),
         }
     }
 
     /// Reports a problem.
     pub(crate) fn report(&mut self, diagnostic: Diagnostic) {
-        self.list.push(diagnostic);
+        match self.is_full() {
+            true => self.more += 1,
+            false => self.list.push(diagnostic),
+        }
+    }
+
+    /// Whether further problems are only counted: looking for their places is of no use.
+    pub(crate) fn is_full(&self) -> bool {
+        self.list.len() >= LISTED
+    }
+
+    /// Whether nothing is wrong so far.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// Counts problems that are not described.
+    pub(crate) fn count(&mut self, more: usize) {
+        self.more += more;
     }
 
     /// Reports an error with one place.
@@ -37,6 +67,9 @@ impl<'s> Findings<'s> {
         message: impl Into<String>,
         label: impl Into<String>,
     ) {
+        if self.is_full() {
+            return self.count(1);
+        }
         self.report(Diagnostic::error(self.source, span, message, label));
     }
 
@@ -48,6 +81,9 @@ impl<'s> Findings<'s> {
         label: impl Into<String>,
         help: impl Into<Option<String>>,
     ) {
+        if self.is_full() {
+            return self.count(1);
+        }
         self.report(Diagnostic::error(self.source, span, message, label).help(help));
     }
 
@@ -60,28 +96,35 @@ impl<'s> Findings<'s> {
         first: Range<usize>,
         first_label: &str,
     ) {
+        if self.is_full() {
+            return self.count(1);
+        }
         let first = self.source.label(first, first_label);
         self.report(Diagnostic::error(self.source, span, message, label).and(first));
     }
 
-    /// The known name that was probably meant, as long as there are few problems.
+    /// The known name that was probably meant, as long as there are few problems and few names.
     pub(crate) fn suggest<'a>(
         &self,
         name: &str,
         known: impl IntoIterator<Item = &'a str>,
     ) -> Option<&'a str> {
-        match self.list.len() < SUGGESTIONS {
-            true => nearest(name, known),
-            false => None,
+        let compared = self.compared.get();
+        if self.list.len() >= SUGGESTIONS || compared >= COMPARED {
+            return None;
         }
+        let mut n = 0;
+        let found = nearest(name, known.into_iter().inspect(|_| n += 1));
+        self.compared.set(compared + n);
+        found
     }
 
     /// The line of an offset, for texts that refer to another place.
     pub(crate) fn line(&self, offset: usize) -> usize {
-        self.source.position(offset).0
+        self.source.line(offset)
     }
 
-    /// All problems in the order of the file, each once.
+    /// All problems in the order of the file, each once; where there are too many, the last one says how many more there are.
     pub(crate) fn sorted(mut self) -> Vec<Diagnostic> {
         self.list.sort_by_key(|d| d.primary.span.start);
         let mut unique: Vec<Diagnostic> = Vec::with_capacity(self.list.len());
@@ -94,6 +137,19 @@ impl<'s> Findings<'s> {
             if here.all(|d| *d != diagnostic) {
                 unique.push(diagnostic);
             }
+        }
+        if self.more > 0 {
+            let place = unique.last().map_or(0..0, |last| last.primary.span.clone());
+            let message = format!(
+                "and {} more problems: only the first {LISTED} are listed",
+                self.more
+            );
+            unique.push(Diagnostic::error(
+                self.source,
+                place,
+                message,
+                "the last one of the list",
+            ));
         }
         unique
     }

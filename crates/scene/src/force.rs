@@ -1,13 +1,12 @@
 //! `[[force]]`: applied forces of the registry.
 
-use model::{Force, Registry};
+use model::Force;
 
 use crate::body::Bodies;
 use crate::connection;
 use crate::element::{self, Types};
 use crate::findings::Findings;
 use crate::function::Domain;
-use crate::joint::types;
 use crate::source_map::Entry;
 use crate::table::Table;
 
@@ -24,23 +23,18 @@ impl Forces {
         &mut self,
         mut table: Table,
         name: &str,
-        registry: &Registry,
+        types: &Types,
         bodies: &Bodies,
         domains: &mut Vec<Domain>,
         findings: &mut Findings,
     ) {
-        let entry = Entry::of(name, &table);
-        let types = Types {
-            kind: "force",
-            known: types(registry.force_specs()),
-            other: ("joint", "joint", types(registry.constraint_specs())),
-        };
-        let Some(scene_type) = element::scene_type(&mut table, &types, findings) else {
+        let Some(scene_type) = element::scene_type(&mut table, types, findings) else {
             connection::check_names(&mut table, bodies, findings);
             return;
         };
-        let definitions: Vec<_> = registry.forces(scene_type).collect();
+        let definitions: Vec<_> = types.registry.forces(scene_type).collect();
         let read = element::read(&mut table, &definitions, bodies, domains, findings);
+        let entry = Entry::of(name, &table);
         table.close(findings);
         if let Some(read) = read
             && let Some((bodies, element)) = read.element

@@ -1,6 +1,7 @@
 //! Functions of time: a number, or an inline table with a `type`.
 
 use std::ops::Range;
+use std::rc::Rc;
 
 use model::{Function, FunctionError};
 
@@ -21,7 +22,7 @@ const TYPES: [&str; 6] = [
 
 /// The times of a table: the run must not leave them.
 pub(crate) struct Domain {
-    pub(crate) subject: String,
+    pub(crate) subject: Rc<str>,
     pub(crate) span: Range<usize>,
     pub(crate) first: f64,
     pub(crate) last: f64,
@@ -39,7 +40,7 @@ pub(crate) fn read(
         return accept(Function::constant(value), field, findings);
     }
     let mut table = field.table(EXPECTED, findings)?;
-    let kind = table.required("type", &list(TYPES), findings)?;
+    let kind = table.required("type", list(TYPES), findings)?;
     let function = match kind.text(&list(TYPES), findings)? {
         "steps" => steps(&mut table, findings),
         "constant-rate" => {
@@ -67,7 +68,7 @@ pub(crate) fn read(
 /// The number under a key, or its default.
 fn number(
     table: &mut Table,
-    key: &str,
+    key: &'static str,
     default: Option<f64>,
     findings: &mut Findings,
 ) -> Option<f64> {
@@ -91,6 +92,9 @@ fn steps(table: &mut Table, findings: &mut Findings) -> Option<Function> {
     // The function names its first fault only: report it, put a harmless step there and ask again.
     let mut faultless = true;
     for _ in 0..=items.len() {
+        if findings.is_full() {
+            return None;
+        }
         match Function::steps(start, &steps) {
             Ok(function) => return faultless.then_some(function),
             Err(FunctionError::EmptyStep { step, from, to }) => {
@@ -160,7 +164,7 @@ fn points(
     };
     if let [first, .., last] = t[..] {
         domains.push(Domain {
-            subject: table.subject.clone(),
+            subject: Rc::clone(&table.subject),
             span: times.span(),
             first,
             last,

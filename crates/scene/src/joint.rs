@@ -1,8 +1,11 @@
 //! `[[joint]]` and `[[drive]]`: constraints of the registry, and prescribed measures of joints.
 
+use std::collections::HashMap;
+use std::ops::Range;
+
 use joints::Argument;
 use model::registry::ConstraintDefinition;
-use model::{BodyRef, Drive, Joint, Registry};
+use model::{BodyRef, Drive, Joint};
 
 use crate::body::Bodies;
 use crate::connection;
@@ -15,7 +18,9 @@ use crate::table::Table;
 
 /// What is known of a joint, for drives and groups that refer to it.
 pub(crate) struct Known<'r> {
-    pub(crate) entry: Entry,
+    pub(crate) name: String,
+    /// Where its name stands.
+    pub(crate) span: Range<usize>,
     /// Its definition, if its type could be told.
     pub(crate) definition: Option<&'r ConstraintDefinition>,
     /// Its bodies and arguments, if all could be read.
@@ -36,34 +41,27 @@ impl<'r> Joints<'r> {
         &mut self,
         mut table: Table,
         name: &str,
-        registry: &'r Registry,
+        types: &Types<'r>,
         bodies: &Bodies,
         domains: &mut Vec<Domain>,
         findings: &mut Findings,
     ) {
-        let entry = Entry::of(name, &table);
-        let types = Types {
-            kind: "joint",
-            known: types(registry.constraint_specs()),
-            other: ("force", "force", types(registry.force_specs())),
-        };
-        let Some(scene_type) = element::scene_type(&mut table, &types, findings) else {
-            connection::check_names(&mut table, bodies, findings);
-            self.known.push(Known {
-                entry,
-                definition: None,
-                complete: None,
-            });
-            return;
-        };
-        let definitions: Vec<_> = registry.constraints(scene_type).collect();
-        let read = element::read(&mut table, &definitions, bodies, domains, findings);
-        table.close(findings);
         let mut known = Known {
-            entry: entry.clone(),
-            definition: read.as_ref().map(|read| read.definition),
+            name: name.to_owned(),
+            span: table.span_of("name"),
+            definition: None,
             complete: None,
         };
+        let Some(scene_type) = element::scene_type(&mut table, types, findings) else {
+            connection::check_names(&mut table, bodies, findings);
+            self.known.push(known);
+            return;
+        };
+        let definitions: Vec<_> = types.registry.constraints(scene_type).collect();
+        let read = element::read(&mut table, &definitions, bodies, domains, findings);
+        let entry = Entry::of(name, &table);
+        table.close(findings);
+        known.definition = read.as_ref().map(|read| read.definition);
         if let Some(read) = read
             && let Some((bodies, element)) = read.element
         {
@@ -80,12 +78,26 @@ impl<'r> Joints<'r> {
     }
 }
 
-/// Scene types, each once.
-pub(crate) fn types(specs: impl Iterator<Item = &'static joints::spec::Spec>) -> Vec<&'static str> {
-    let mut types: Vec<_> = specs.map(|spec| spec.scene_type).collect();
-    types.sort_unstable();
-    types.dedup();
-    types
+/// The joints by name, for drives.
+pub(crate) struct JointNames<'j, 'r> {
+    list: &'j [Known<'r>],
+    /// Of a name that is used twice, the first.
+    by_name: HashMap<&'j str, &'j Known<'r>>,
+}
+
+impl<'j, 'r> JointNames<'j, 'r> {
+    pub(crate) fn of(joints: &'j Joints<'r>) -> Self {
+        let list = joints.known.as_slice();
+        let mut by_name = HashMap::with_capacity(list.len());
+        for joint in list {
+            by_name.entry(joint.name.as_str()).or_insert(joint);
+        }
+        Self { list, by_name }
+    }
+
+    fn get(&self, name: &str) -> Option<&'j Known<'r>> {
+        self.by_name.get(name).copied()
+    }
 }
 
 /// The drives that were read.
@@ -101,11 +113,10 @@ impl Drives {
         &mut self,
         mut table: Table,
         name: &str,
-        joints: &Joints,
+        joints: &JointNames,
         domains: &mut Vec<Domain>,
         findings: &mut Findings,
     ) {
-        let entry = Entry::of(name, &table);
         let joint = joint(&mut table, joints, findings);
         let measure = table.required("type", "a measure of the joint", findings);
         let motion = table.required("motion", "a function of time", findings);
@@ -116,6 +127,7 @@ impl Drives {
                 field.span(),
             ))
         });
+        let entry = Entry::of(name, &table);
         table.close(findings);
         let (Some(joint), Some((measure, span))) = (joint, measure) else {
             return;
@@ -137,7 +149,7 @@ impl Drives {
                 span,
                 format!(
                     "drive `{name}`: joint `{}` (`{}`) has no measure `{measure}`",
-                    joint.entry.name, definition.spec.common.scene_type
+                    joint.name, definition.spec.common.scene_type
                 ),
                 label,
                 Some(help),
@@ -181,20 +193,20 @@ impl Drives {
 /// The joint that a drive names.
 fn joint<'j, 'r>(
     table: &mut Table,
-    joints: &'j Joints<'r>,
+    joints: &JointNames<'j, 'r>,
     findings: &mut Findings,
 ) -> Option<&'j Known<'r>> {
     let field = table.required("joint", "the name of a joint", findings)?;
     let name = field.text("the name of a joint", findings)?;
-    let found = joints.known.iter().find(|joint| joint.entry.name == name);
+    let found = joints.get(name);
     if found.is_none() {
-        let near = findings.suggest(name, joints.known.iter().map(|j| j.entry.name.as_str()));
-        let near = near.and_then(|near| joints.known.iter().find(|j| j.entry.name == near));
+        let near = findings.suggest(name, joints.list.iter().map(|j| j.name.as_str()));
+        let near = near.and_then(|near| joints.get(near));
         let label = match near {
             Some(near) => format!(
                 "no such joint; `{}` is defined on line {}",
-                near.entry.name,
-                findings.line(near.entry.name_span().start)
+                near.name,
+                findings.line(near.span.start)
             ),
             None => "no such joint".to_owned(),
         };
@@ -202,7 +214,7 @@ fn joint<'j, 'r>(
             field.span(),
             format!("{} refers to the unknown joint `{name}`", table.subject),
             label,
-            near.map(|near| format!("did you mean `{}`?", near.entry.name)),
+            near.map(|near| format!("did you mean `{}`?", near.name)),
         );
     }
     found

@@ -4,6 +4,7 @@
 //!
 //! | module | content |
 //! | --- | --- |
+//! | `limits` | how large a text may be |
 //! | `read` | the whole file, and what the mechanism refuses |
 //! | `section`, `names` | tables of the first level; names that may occur only once |
 //! | `table`, `field` | a table that knows its keys; a value read as what is expected |
@@ -27,6 +28,7 @@ mod findings;
 mod force;
 mod function;
 mod joint;
+mod limits;
 mod locate;
 mod names;
 mod nearest;

@@ -1,5 +1,6 @@
 //! From errors that name bodies, joints and rows to places in the file.
 
+use std::collections::BTreeSet;
 use std::ops::Range;
 
 use dynamics::{MotionError, Trip};
@@ -106,6 +107,9 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
     at(map, span, error, label)
 }
 
+/// Places of one error that are marked.
+const MARKS: usize = 20;
+
 fn at(
     map: &SourceMap,
     span: Range<usize>,
@@ -122,13 +126,9 @@ fn at_rows<'a>(
     error: &impl std::error::Error,
     [first_mark, mark]: [&str; 2],
 ) -> Diagnostic {
-    let mut joints: Vec<&RowLabel> = Vec::new();
-    for label in labels {
-        if joints.iter().all(|known| known.joint != label.joint) {
-            joints.push(label);
-        }
-    }
-    let mut spans = joints.into_iter().map(|label| row(map, label));
+    let mut seen = BTreeSet::new();
+    let joints = labels.into_iter().filter(|label| seen.insert(&label.joint));
+    let mut spans = joints.take(MARKS).map(|label| row(map, label));
     let first = spans.next().unwrap_or_else(|| map.section("scene", ""));
     spans.fold(at(map, first, error, first_mark), |d, span| {
         d.and(map.text.label(span, mark))

@@ -1,6 +1,6 @@
 //! Names of bodies, of joints, drives and forces, and of groups: each space has each name once.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet, HashSet};
 use std::ops::Range;
 
 use model::BuildError;
@@ -8,34 +8,60 @@ use model::BuildError;
 use crate::body::GROUND;
 use crate::findings::Findings;
 use crate::locate;
-use crate::source_map::{Entry, SourceMap};
+use crate::source_map::SourceMap;
+use crate::table::Table;
 
 /// Names of everything, complete or not, in their spaces.
 #[derive(Default)]
 pub(crate) struct Names {
-    pub(crate) bodies: Vec<Entry>,
-    pub(crate) elements: Vec<Entry>,
-    pub(crate) groups: Vec<Entry>,
+    pub(crate) bodies: Vec<Use>,
+    pub(crate) elements: Vec<Use>,
+    pub(crate) groups: Vec<Use>,
+}
+
+/// A name, and where it is given.
+pub(crate) struct Use {
+    name: String,
+    span: Range<usize>,
+}
+
+impl Use {
+    pub(crate) fn of(name: &str, table: &Table) -> Self {
+        Self {
+            name: name.to_owned(),
+            span: table.span_of("name"),
+        }
+    }
 }
 
 impl Names {
     /// Reports names that are used twice, and `ground`.
     pub(crate) fn check(&self, map: &SourceMap, findings: &mut Findings) {
-        for entry in self.bodies.iter().chain(&self.elements) {
-            if entry.name == GROUND {
+        for used in self.bodies.iter().chain(&self.elements) {
+            if used.name == GROUND {
                 findings.error(
-                    entry.name_span(),
+                    used.span.clone(),
                     BuildError::Ground.to_string(),
                     "choose another name",
                 );
             }
         }
         for space in [&self.bodies, &self.elements, &self.groups] {
+            let named = || space.iter().filter(|used| used.name != GROUND);
+            let mut seen = HashSet::with_capacity(space.len());
+            let again = named().map(|used| used.name.as_str());
+            let twice: BTreeSet<&str> = again.filter(|name| !seen.insert(*name)).collect();
+            if twice.is_empty() {
+                continue;
+            }
             let mut uses: BTreeMap<&str, Vec<Range<usize>>> = BTreeMap::new();
-            for entry in space.iter().filter(|entry| entry.name != GROUND) {
-                uses.entry(&entry.name).or_default().push(entry.name_span());
+            for used in named().filter(|used| twice.contains(used.name.as_str())) {
+                uses.entry(&used.name).or_default().push(used.span.clone());
             }
             for (name, uses) in uses {
+                if findings.is_full() {
+                    return;
+                }
                 let name = name.to_owned();
                 let error = BuildError::DuplicateName { name };
                 for diagnostic in locate::duplicates(map, &uses, &error) {

@@ -9,15 +9,26 @@ pub(crate) fn nearest<'a>(
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
     let letters = name.chars().count();
-    candidates
-        .into_iter()
-        .filter(|candidate| letters.max(candidate.len()) <= LONGEST)
-        .map(|candidate| (distance(name, candidate), candidate))
-        .filter(|(distance, candidate)| {
-            *distance <= letters.max(candidate.chars().count()).div_ceil(3)
-        })
-        .min_by_key(|(distance, _)| *distance)
-        .map(|(_, candidate)| candidate)
+    let mut rows = Rows::default();
+    let (mut wanted, mut other) = (Vec::new(), Vec::new());
+    lower(name, &mut wanted);
+    let mut best: Option<(usize, &'a str)> = None;
+    for candidate in candidates {
+        if letters.max(candidate.len()) > LONGEST {
+            continue;
+        }
+        let allowed = letters.max(candidate.chars().count()).div_ceil(3);
+        let limit = match best {
+            Some((0, _)) => break,
+            Some((distance, _)) => allowed.min(distance - 1),
+            None => allowed,
+        };
+        lower(candidate, &mut other);
+        if let Some(distance) = rows.distance(&wanted, &other, limit) {
+            best = Some((distance, candidate));
+        }
+    }
+    best.map(|(_, candidate)| candidate)
 }
 
 /// The advice `did you mean …?`, if a candidate is near enough.
@@ -34,24 +45,59 @@ pub(crate) fn list<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
     names.join(", ")
 }
 
-/// Letters to insert, delete, replace or swap with their neighbour (optimal string alignment); case does not count.
-fn distance(a: &str, b: &str) -> usize {
-    let letters = |s: &str| s.chars().flat_map(char::to_lowercase).collect::<Vec<_>>();
-    let (a, b) = (letters(a), letters(b));
-    let mut before = vec![0; b.len() + 1];
-    let mut last: Vec<usize> = (0..=b.len()).collect();
-    for i in 1..=a.len() {
-        let mut row = vec![i; b.len() + 1];
-        for j in 1..=b.len() {
-            let replaced = last[j - 1] + usize::from(a[i - 1] != b[j - 1]);
-            row[j] = replaced.min(last[j] + 1).min(row[j - 1] + 1);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                row[j] = row[j].min(before[j - 2] + 1);
-            }
-        }
-        before = std::mem::replace(&mut last, row);
+/// Letters that are compared: case does not count.
+fn lower(text: &str, out: &mut Vec<char>) {
+    out.clear();
+    match text.is_ascii() {
+        true => out.extend(text.bytes().map(|b| char::from(b.to_ascii_lowercase()))),
+        false => out.extend(text.chars().flat_map(char::to_lowercase)),
     }
-    last[b.len()]
+}
+
+/// Three rows of the table of distances between beginnings of two texts.
+#[derive(Default)]
+struct Rows {
+    before: Vec<usize>,
+    last: Vec<usize>,
+    row: Vec<usize>,
+}
+
+impl Rows {
+    /// Letters to insert, delete, replace or swap with their neighbour (optimal string alignment), if not more than `limit`.
+    fn distance(&mut self, a: &[char], b: &[char], limit: usize) -> Option<usize> {
+        if a.len().abs_diff(b.len()) > limit {
+            return None;
+        }
+        for row in [&mut self.before, &mut self.last, &mut self.row] {
+            row.clear();
+            row.resize(b.len() + 1, 0);
+        }
+        for (j, x) in self.last.iter_mut().enumerate() {
+            *x = j;
+        }
+        // A swap reaches back two rows: no distance is below the smaller one of the least of the last two.
+        let mut least_before = 0;
+        for i in 1..=a.len() {
+            let Self { before, last, row } = self;
+            row[0] = i;
+            let mut least = i;
+            for j in 1..=b.len() {
+                let replaced = last[j - 1] + usize::from(a[i - 1] != b[j - 1]);
+                row[j] = replaced.min(last[j] + 1).min(row[j - 1] + 1);
+                if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                    row[j] = row[j].min(before[j - 2] + 1);
+                }
+                least = least.min(row[j]);
+            }
+            if least.min(least_before) > limit {
+                return None;
+            }
+            least_before = least;
+            std::mem::swap(before, last);
+            std::mem::swap(last, row);
+        }
+        Some(self.last[b.len()]).filter(|distance| *distance <= limit)
+    }
 }
 
 #[cfg(test)]
@@ -67,8 +113,16 @@ mod tests {
             ("", "abc", 3),
             ("kitten", "sitting", 3),
         ] {
-            assert_eq!(distance(a, b), expected, "{a} {b}");
-            assert_eq!(distance(b, a), expected, "{b} {a}");
+            let (mut x, mut y) = (Vec::new(), Vec::new());
+            lower(a, &mut x);
+            lower(b, &mut y);
+            for (x, y) in [(&x, &y), (&y, &x)] {
+                for limit in 0..6 {
+                    let found = Rows::default().distance(x, y, limit);
+                    let within = (expected <= limit).then_some(expected);
+                    assert_eq!(found, within, "{a} {b}, at most {limit}");
+                }
+            }
         }
     }
 
@@ -76,5 +130,8 @@ mod tests {
     fn far_names_are_not_suggested() {
         assert_eq!(nearest("revolut", ["fixed", "revolute"]), Some("revolute"));
         assert_eq!(nearest("hinge", ["fixed", "revolute"]), None);
+        // The first one of those that are equally near.
+        let near = nearest("crank-10", ["crank-1", "crank-20", "Crank-10", "crank-10"]);
+        assert_eq!(near, Some("Crank-10"));
     }
 }

@@ -1,11 +1,12 @@
 //! `[[group]]` and `[output]`: which reactions are wanted, and which combinations of them.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use joints::spec::ConstraintSpec;
 use model::reaction::COMPONENTS;
 
-use crate::combination::{self, Combination, ReactionNames};
+use crate::combination::{self, Combination, Reactions};
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::table::Table;
@@ -70,7 +71,7 @@ pub(crate) fn components(spec: &ConstraintSpec) -> Vec<&'static str> {
 pub(crate) fn group(
     mut table: Table,
     name: &str,
-    names: &[ReactionNames],
+    names: &Reactions,
     findings: &mut Findings,
 ) -> Option<GroupRequest> {
     let of = table.optional("members");
@@ -120,7 +121,7 @@ pub(crate) fn group(
 }
 
 /// Reads the section `[output]`.
-pub(crate) fn output(mut table: Table, names: &[ReactionNames], findings: &mut Findings) -> Output {
+pub(crate) fn output(mut table: Table, names: &Reactions, findings: &mut Findings) -> Output {
     let defaults = Output::default();
     let trajectory = table
         .optional("trajectory")
@@ -145,21 +146,22 @@ pub(crate) fn output(mut table: Table, names: &[ReactionNames], findings: &mut F
 }
 
 /// A list of joints and drives, each once.
-fn members(field: &Field, names: &[ReactionNames], findings: &mut Findings) -> Option<Vec<String>> {
-    let expected = match field.key.as_str() {
+fn members(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<Vec<String>> {
+    let expected = match &*field.key {
         "reactions" => "true, false, or a list of joints and drives",
         _ => "a list of joints and drives",
     };
-    let mut members: Vec<(&str, Range<usize>)> = Vec::new();
+    let mut members: Vec<String> = Vec::new();
+    let mut first: HashMap<&str, Range<usize>> = HashMap::new();
     let mut right = true;
     for item in field.items(expected, findings)? {
         let Some(name) = item.text("the name of a joint or drive", findings) else {
             right = false;
             continue;
         };
-        if !names.iter().any(|known| known.name == name) {
+        if names.find(name).is_none() {
             right = false;
-            let near = findings.suggest(name, names.iter().map(|known| known.name));
+            let near = findings.suggest(name, names.names());
             findings.error_with_help(
                 item.span(),
                 format!(
@@ -169,7 +171,7 @@ fn members(field: &Field, names: &[ReactionNames], findings: &mut Findings) -> O
                 "no such joint or drive",
                 near.map(|near| format!("did you mean `{near}`?")),
             );
-        } else if let Some((_, first)) = members.iter().find(|(known, _)| *known == name) {
+        } else if let Some(first) = first.get(name) {
             right = false;
             findings.collision(
                 item.span(),
@@ -179,14 +181,14 @@ fn members(field: &Field, names: &[ReactionNames], findings: &mut Findings) -> O
                 "first named here",
             );
         } else {
-            members.push((name, item.span()));
+            members.push(name.to_owned());
+            first.insert(name, item.span());
         }
     }
-    let names = members.into_iter().map(|(name, _)| name.to_owned());
-    right.then(|| names.collect())
+    right.then_some(members)
 }
 
-fn combine(field: &Field, names: &[ReactionNames], findings: &mut Findings) -> Option<Combination> {
+fn combine(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<Combination> {
     let text = field.text("a combination as \"A.Fx + B.Fx\"", findings)?;
     combination::parse(text, names)
         .map_err(|error| {

@@ -1,19 +1,21 @@
 //! From a text to a scene, or to everything that is wrong with it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 
 use model::{BuildError, Description, Mechanism, Registry};
 use toml::de::DeTable;
 
 use crate::body::Bodies;
-use crate::combination::ReactionNames;
+use crate::combination::{ReactionNames, Reactions};
 use crate::diagnostic::Diagnostic;
+use crate::element::Types;
 use crate::findings::Findings;
 use crate::force::Forces;
 use crate::function::Domain;
-use crate::joint::{Drives, Joints};
+use crate::joint::{Drives, JointNames, Joints};
+use crate::limits;
 use crate::locate;
-use crate::names::Names;
+use crate::names::{Names, Use};
 use crate::reactions::{self, GroupRequest, components};
 use crate::scene::Scene;
 use crate::section::{list, section};
@@ -46,13 +48,20 @@ use crate::text::SourceText;
 pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene, Vec<Diagnostic>> {
     let source = SourceText::new(source_name, text);
     let mut findings = Findings::new(&source);
+    limits::check(&mut findings);
+    if !findings.is_empty() {
+        return Err(findings.sorted());
+    }
     let (root, errors) = DeTable::parse_recoverable(text);
     syntax(&errors, &mut findings);
     if !errors.is_empty() {
         return Err(findings.sorted());
     }
-    let whole = Table::new("the scene".to_owned(), 0..0, root.get_ref());
+    let whole = Table::new("the scene", 0..0, root.get_ref());
     let scene = document(whole, registry, &mut findings);
+    // Large beside what was read from it.
+    drop(root);
+    check(&scene.description, &scene.source, &mut findings);
     let problems = findings.sorted();
     match problems.is_empty() {
         true => Ok(scene),
@@ -89,11 +98,10 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
     let (name, gravity) = head.map_or((String::new(), [0.0; 2]), |head| heading(head, findings));
     let mut parts = Parts::read(&mut root, registry, findings);
     let (groups, group_entries) = groups(&mut root, &mut parts, findings);
-    let reactions = parts.reactions();
     let start = section(&mut root, "start", &mut sections, findings)
         .map(|table| start::read(table, &parts.bodies, findings));
     let output = section(&mut root, "output", &mut sections, findings)
-        .map(|table| reactions::output(table, &reactions, findings));
+        .map(|table| reactions::output(table, &parts.reactions(), findings));
     let simulate = section(&mut root, "simulate", &mut sections, findings)
         .and_then(|table| simulate::read(table, findings));
     root.close(findings);
@@ -121,7 +129,6 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         sections,
     };
     parts.names.check(&source, findings);
-    check(&description, &source, findings);
     Scene {
         description,
         start: start.unwrap_or_default(),
@@ -158,37 +165,46 @@ impl<'r> Parts<'r> {
             domains,
         } = &mut parts;
         for (table, name) in list(root, "body", findings) {
-            names.bodies.push(Entry::of(&name, &table));
+            names.bodies.push(Use::of(&name, &table));
             bodies.read(table, &name, findings);
         }
+        let types = Types::of_joints(registry);
         for (table, name) in list(root, "joint", findings) {
-            names.elements.push(Entry::of(&name, &table));
-            joints.read(table, &name, registry, bodies, domains, findings);
+            names.elements.push(Use::of(&name, &table));
+            joints.read(table, &name, &types, bodies, domains, findings);
         }
-        for (table, name) in list(root, "drive", findings) {
-            names.elements.push(Entry::of(&name, &table));
-            drives.read(table, &name, joints, domains, findings);
-            drive_names.push(name);
+        let driven = list(root, "drive", findings);
+        if !driven.is_empty() {
+            let joints = JointNames::of(joints);
+            for (table, name) in driven {
+                names.elements.push(Use::of(&name, &table));
+                drives.read(table, &name, &joints, domains, findings);
+                drive_names.push(name);
+            }
         }
+        let types = Types::of_forces(registry);
         for (table, name) in list(root, "force", findings) {
-            names.elements.push(Entry::of(&name, &table));
-            forces.read(table, &name, registry, bodies, domains, findings);
+            names.elements.push(Use::of(&name, &table));
+            forces.read(table, &name, &types, bodies, domains, findings);
         }
         parts
     }
 
     /// Joints and drives by name, also those that could not be read.
-    fn reactions(&self) -> Vec<ReactionNames<'_>> {
+    fn reactions(&self) -> Reactions<'_> {
         let joints = self.joints.known.iter().map(|joint| ReactionNames {
-            name: &joint.entry.name,
+            name: &joint.name,
             components: joint.definition.map(|d| components(d.spec)),
         });
-        let drives = self.drive_names.iter().map(|name| {
-            let drive = self.drives.list.iter().find(|drive| drive.name == *name);
-            let components = drive.map(|drive| components(drive.element.element().spec()));
-            ReactionNames { name, components }
+        let complete = self.drives.list.iter();
+        let complete: HashMap<&str, _> = complete
+            .map(|drive| (drive.name.as_str(), drive.element.element().spec()))
+            .collect();
+        let drives = self.drive_names.iter().map(|name| ReactionNames {
+            name,
+            components: complete.get(name.as_str()).map(|spec| components(spec)),
         });
-        joints.chain(drives).collect()
+        Reactions::new(joints.chain(drives).collect())
     }
 
     /// Number of rows, if all joints and drives could be read.
@@ -209,7 +225,10 @@ fn groups(
 ) -> (Vec<GroupRequest>, Vec<Entry>) {
     let tables = list(root, "group", findings);
     let entries: Vec<_> = tables.iter().map(|(t, name)| Entry::of(name, t)).collect();
-    parts.names.groups.clone_from(&entries);
+    parts.names.groups = tables.iter().map(|(t, name)| Use::of(name, t)).collect();
+    if tables.is_empty() {
+        return (Vec::new(), entries);
+    }
     let reactions = parts.reactions();
     let groups = tables
         .into_iter()
@@ -248,13 +267,16 @@ fn heading(mut table: Table, findings: &mut Findings) -> (String, [f64; 2]) {
 fn check(description: &Description, source: &SourceMap, findings: &mut Findings) {
     let errors = Mechanism::build(description).err().unwrap_or_default();
     let of_drive = |of: &str| description.drives.iter().any(|drive| drive.name == of);
-    for error in errors {
-        match &error {
+    for (said, error) in errors.iter().enumerate() {
+        if findings.is_full() {
+            return findings.count(errors.len() - said);
+        }
+        match error {
             BuildError::DuplicateName { .. } | BuildError::Ground => {}
             // Its joint has them too.
             BuildError::SameBody { name, .. } | BuildError::GroundOnly { name }
                 if of_drive(name) => {}
-            _ => findings.report(locate::build(source, description, &error)),
+            _ => findings.report(locate::build(source, description, error)),
         }
     }
 }

@@ -3,7 +3,7 @@
 use dynamics::{MotionError, MotionOptions};
 use model::{BuildError, Description, StartError, StartOptions};
 
-use crate::combination::{self, Combination, CombinationError, ReactionNames};
+use crate::combination::{self, Combination, CombinationError, ReactionNames, Reactions};
 use crate::diagnostic::Diagnostic;
 use crate::locate;
 use crate::nearest::nearest;
@@ -65,7 +65,7 @@ impl Scene {
             name,
             components: Some(components(spec)),
         });
-        combination::parse(text, &names.collect::<Vec<_>>())
+        combination::parse(text, &Reactions::new(names.collect()))
     }
 
     /// The joint or drive whose name is nearest to a name that does not exist, if one is near.

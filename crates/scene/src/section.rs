@@ -10,13 +10,13 @@ use crate::table::Table;
 /// A table that occurs once, if it is given.
 pub(crate) fn section<'t>(
     root: &mut Table<'t>,
-    name: &str,
+    name: &'static str,
     sections: &mut BTreeMap<String, Entry>,
     findings: &mut Findings,
 ) -> Option<Table<'t>> {
     let field = root.optional(name)?;
     let mut table = field.table(&format!("one table `[{name}]`"), findings)?;
-    table.subject = format!("`[{name}]`");
+    table.subject = format!("`[{name}]`").into();
     sections.insert(name.to_owned(), Entry::of(name, &table));
     Some(table)
 }
@@ -24,7 +24,7 @@ pub(crate) fn section<'t>(
 /// Tables that may occur many times, with the names of what they describe.
 pub(crate) fn list<'t>(
     root: &mut Table<'t>,
-    kind: &str,
+    kind: &'static str,
     findings: &mut Findings,
 ) -> Vec<(Table<'t>, String)> {
     let expected = format!("a list of tables `[[{kind}]]`");
@@ -52,43 +52,49 @@ fn named<'t>(
     number: usize,
     findings: &mut Findings,
 ) -> Option<(Table<'t>, String)> {
-    let mut table = item.table(&format!("a list of tables `[[{kind}]]`"), findings)?;
-    table.subject = format!("{kind} number {number}");
-    let name = table
-        .required("name", "a text", findings)
-        .and_then(|field| {
-            let name = field.text("a text", findings)?;
-            if name.trim().is_empty() {
-                let message = format!("{}: `name` is empty", table.subject);
-                findings.error(field.span(), message, "expected a name");
-                return None;
-            }
-            if let Some(reason) = unfit(name) {
-                let message = format!("{}: `name` {reason}", table.subject);
-                findings.error(field.span(), message, "choose another name");
-                return None;
-            }
-            Some(name)
-        });
-    let name = match name {
-        Some(name) => {
-            table.subject = format!("{kind} `{name}`");
-            name.to_owned()
-        }
-        None => table.subject.clone(),
+    let Some(entries) = item.value.get_ref().as_table() else {
+        item.mismatch(&format!("a list of tables `[[{kind}]]`"), findings);
+        return None;
     };
+    let mut table = Table::new("", item.span(), entries);
+    if let Some(name) = table.peek("name").filter(|name| unfit(name).is_none()) {
+        table.optional("name");
+        table.subject = format!("{kind} `{name}`").into();
+        return Some((table, name.to_owned()));
+    }
+    table.subject = format!("{kind} number {number}").into();
+    let field = table.required("name", "a text", findings);
+    if let Some(field) = field
+        && let Some(name) = field.text("a text", findings)
+        && let Some((reason, label)) = unfit(name)
+    {
+        let message = format!("{}: `name` {reason}", table.subject);
+        findings.error(field.span(), message, label);
+    }
+    let name = table.subject.to_string();
     Some((table, name))
 }
 
-/// Why a name cannot stand at the head of a column, if it cannot: tables have one line for their header, and are opened by spreadsheets.
-fn unfit(name: &str) -> Option<String> {
+/// Letters of the longest name: it stands in every message and at the head of columns.
+const LONGEST_NAME: usize = 1000;
+
+/// Why a name cannot stand at the head of a column, if it cannot: tables have one line for their header, and are opened by spreadsheets. And
+/// what to say at its place.
+fn unfit(name: &str) -> Option<(String, &'static str)> {
+    if name.trim().is_empty() {
+        return Some(("is empty".to_owned(), "expected a name"));
+    }
+    let other = "choose another name";
     if let Some(c) = name.chars().find(|c| c.is_control()) {
-        return Some(format!(
-            "has the control character {c:?}: names are of one line"
-        ));
+        let reason = format!("has the control character {c:?}: names are of one line");
+        return Some((reason, other));
+    }
+    if name.len() > LONGEST_NAME && name.chars().count() > LONGEST_NAME {
+        let letters = name.chars().count();
+        let reason = format!("has {letters} letters, more than {LONGEST_NAME}");
+        return Some((reason, other));
     }
     let sign = name.chars().next().filter(|c| "=+-@".contains(*c))?;
-    Some(format!(
-        "begins with `{sign}`: spreadsheets take such names for formulas"
-    ))
+    let reason = format!("begins with `{sign}`: spreadsheets take such names for formulas");
+    Some((reason, other))
 }

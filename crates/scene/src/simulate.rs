@@ -1,5 +1,7 @@
 //! `[simulate]`: what a run is asked to do.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
 use std::ops::Range;
 
 use dynamics::{Formulation, Method, MotionError, MotionOptions, RowChoice, Stabilisation};
@@ -218,6 +220,7 @@ fn gains(field: &Field, stabilisation: &mut Stabilisation, findings: &mut Findin
 fn rows(field: &Field, findings: &mut Findings) -> Vec<(usize, Range<usize>)> {
     const EXPECTED: &str = "a list of rows, counted from 1";
     let mut rows: Vec<(usize, Range<usize>)> = Vec::new();
+    let mut first: HashMap<usize, Range<usize>> = HashMap::new();
     for item in field.items(EXPECTED, findings).unwrap_or_default() {
         let Some(number) = item.integer(EXPECTED, findings) else {
             continue;
@@ -233,15 +236,18 @@ fn rows(field: &Field, findings: &mut Findings) -> Vec<(usize, Range<usize>)> {
             );
             continue;
         };
-        match rows.iter().find(|(earlier, _)| *earlier == row) {
-            Some((_, first)) => findings.collision(
+        match first.entry(row) {
+            Entry::Occupied(first) => findings.collision(
                 item.span(),
                 format!("{}: `drop` names row {number} twice", field.subject),
                 "named again here",
-                first.clone(),
+                first.get().clone(),
                 "first named here",
             ),
-            None => rows.push((row, item.span())),
+            Entry::Vacant(place) => {
+                place.insert(item.span());
+                rows.push((row, item.span()));
+            }
         }
     }
     rows

@@ -1,5 +1,6 @@
 //! Where everything stands in the file, for problems that show only later.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
@@ -13,8 +14,8 @@ pub struct Entry {
     pub name: String,
     /// The header, as `[[body]]`.
     pub header: Range<usize>,
-    /// The values by key.
-    pub keys: BTreeMap<String, Range<usize>>,
+    /// The values with their keys, in the order of the keys.
+    pub keys: Box<[(Cow<'static, str>, Range<usize>)]>,
 }
 
 impl Entry {
@@ -29,24 +30,27 @@ impl Entry {
     /// The value of `name`, or the header where the table has no name.
     #[must_use]
     pub fn name_span(&self) -> Range<usize> {
-        self.keys
-            .get("name")
-            .map_or_else(|| self.header.clone(), Range::clone)
+        self.value("name").unwrap_or_else(|| self.header.clone())
     }
 
     /// The value of a key, or the name where the key is not given.
     #[must_use]
     pub fn span(&self, key: &str) -> Range<usize> {
-        self.keys
-            .get(key)
-            .map_or_else(|| self.name_span(), Range::clone)
+        self.value(key).unwrap_or_else(|| self.name_span())
+    }
+
+    /// The value of a key, if it is given.
+    fn value(&self, key: &str) -> Option<Range<usize>> {
+        let mut keys = self.keys.iter();
+        keys.find(|(name, _)| name == key)
+            .map(|(_, span)| span.clone())
     }
 
     /// The value of the first of these keys that is given, or the name.
     #[must_use]
     pub fn first_of(&self, keys: &[&str]) -> Range<usize> {
-        let given = keys.iter().find(|key| self.keys.contains_key(**key));
-        given.map_or_else(|| self.name_span(), |key| self.span(key))
+        let given = keys.iter().find_map(|key| self.value(key));
+        given.unwrap_or_else(|| self.name_span())
     }
 }
 
@@ -98,9 +102,8 @@ impl SourceMap {
         self.sections
             .get(section)
             .or_else(|| self.sections.get("scene"))
-            .map_or(0..0, |entry| match entry.keys.get(key) {
-                Some(span) => span.clone(),
-                None => entry.header.clone(),
+            .map_or(0..0, |entry| {
+                entry.value(key).unwrap_or_else(|| entry.header.clone())
             })
     }
 }

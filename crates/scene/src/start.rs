@@ -1,5 +1,9 @@
 //! `[start]`: what a start may and may not do.
 
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+use std::ops::Range;
+
 use model::StartOptions;
 use model::start::{Coordinate, CorrectionLimit, KeepLevel};
 
@@ -22,7 +26,8 @@ const COORDINATES: [(&str, usize, KeepLevel); 6] = [
 /// Reads the section.
 pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -> StartOptions {
     const KEEP: &str = "a list of coordinates [\"body.angle\", …]";
-    let mut kept: Vec<(Coordinate, Field)> = Vec::new();
+    let mut kept: Vec<Coordinate> = Vec::new();
+    let mut first: HashMap<(usize, usize, bool), Range<usize>> = HashMap::new();
     let items = table
         .optional("keep")
         .and_then(|field| field.items(KEEP, findings))
@@ -31,15 +36,19 @@ pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -
         let Some(coordinate) = coordinate(&item, bodies, findings) else {
             continue;
         };
-        match kept.iter().find(|(earlier, _)| *earlier == coordinate) {
-            Some((_, first)) => findings.collision(
+        let Coordinate { body, dof, level } = coordinate;
+        match first.entry((body, dof, level == KeepLevel::Position)) {
+            Entry::Occupied(first) => findings.collision(
                 item.span(),
                 "`[start]`: `keep` names a coordinate twice",
                 "named again here",
-                first.span(),
+                first.get().clone(),
                 "first named here",
             ),
-            None => kept.push((coordinate, item)),
+            Entry::Vacant(place) => {
+                place.insert(item.span());
+                kept.push(coordinate);
+            }
         }
     }
     let allowed = table
@@ -47,7 +56,7 @@ pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -
         .and_then(|field| field.boolean(findings));
     table.close(findings);
     StartOptions {
-        keep: kept.into_iter().map(|(coordinate, _)| coordinate).collect(),
+        keep: kept,
         correction: match allowed {
             Some(true) => CorrectionLimit::Any,
             _ => CorrectionLimit::Small,

@@ -1,6 +1,9 @@
 //! A table of the file. It remembers which keys were asked for: what is left over is unknown.
 
+use std::borrow::Cow;
+use std::fmt::Display;
 use std::ops::Range;
+use std::rc::Rc;
 
 use toml::de::DeTable;
 
@@ -11,17 +14,21 @@ use crate::nearest::{list, nearest};
 /// A table and what it describes.
 pub(crate) struct Table<'t> {
     /// What it describes, as messages begin: joint `A`, or `[simulate]`.
-    pub(crate) subject: String,
+    pub(crate) subject: Rc<str>,
     /// Its header, or the braces of an inline table.
     pub(crate) header: Range<usize>,
     entries: &'t DeTable<'t>,
-    known: Vec<String>,
+    known: Vec<&'static str>,
 }
 
 impl<'t> Table<'t> {
-    pub(crate) fn new(subject: String, header: Range<usize>, entries: &'t DeTable<'t>) -> Self {
+    pub(crate) fn new(
+        subject: impl Into<Rc<str>>,
+        header: Range<usize>,
+        entries: &'t DeTable<'t>,
+    ) -> Self {
         Self {
-            subject,
+            subject: subject.into(),
             header,
             entries,
             known: Vec::new(),
@@ -29,14 +36,14 @@ impl<'t> Table<'t> {
     }
 
     /// The value of a key that may be left out.
-    pub(crate) fn optional(&mut self, key: &str) -> Option<Field<'t>> {
-        if !self.known.iter().any(|known| known == key) {
-            self.known.push(key.to_owned());
+    pub(crate) fn optional(&mut self, key: &'static str) -> Option<Field<'t>> {
+        if !self.known.contains(&key) {
+            self.known.push(key);
         }
         let value = self.entries.get(key)?;
         Some(Field {
-            subject: self.subject.clone(),
-            key: key.to_owned(),
+            subject: Rc::clone(&self.subject),
+            key: Cow::Borrowed(key),
             value,
         })
     }
@@ -44,8 +51,8 @@ impl<'t> Table<'t> {
     /// The value of a key that must be there; `expected` says what it takes.
     pub(crate) fn required(
         &mut self,
-        key: &str,
-        expected: &str,
+        key: &'static str,
+        expected: impl Display,
         findings: &mut Findings,
     ) -> Option<Field<'t>> {
         let field = self.optional(key);
@@ -62,10 +69,10 @@ impl<'t> Table<'t> {
     /// All keys with their values, for tables whose keys are names.
     pub(crate) fn all(&self) -> Vec<(Range<usize>, Field<'t>)> {
         let field = |(key, value): (&'t toml::Spanned<_>, _)| {
-            let name: &std::borrow::Cow<str> = key.get_ref();
+            let name: &'t Cow<str> = key.get_ref();
             let field = Field {
-                subject: self.subject.clone(),
-                key: name.to_string(),
+                subject: Rc::clone(&self.subject),
+                key: Cow::Borrowed(name),
                 value,
             };
             (key.span(), field)
@@ -73,16 +80,30 @@ impl<'t> Table<'t> {
         self.entries.iter().map(field).collect()
     }
 
-    /// Spans of all values by key.
-    pub(crate) fn spans(&self) -> impl Iterator<Item = (String, Range<usize>)> {
-        self.entries
-            .iter()
-            .map(|(key, value)| (key.get_ref().to_string(), value.span()))
+    /// The text under a key, if there is one; the key does not become known.
+    pub(crate) fn peek(&self, key: &str) -> Option<&'t str> {
+        self.entries.get(key)?.get_ref().as_str()
+    }
+
+    /// Spans of all values by key. Keys that were asked for cost no memory.
+    pub(crate) fn spans(&self) -> impl Iterator<Item = (Cow<'static, str>, Range<usize>)> {
+        self.entries.iter().map(|(key, value)| {
+            let name: &str = key.get_ref();
+            let known = self.known.iter().find(|known| **known == name);
+            let name = known.map_or_else(|| Cow::Owned(name.to_owned()), |k| Cow::Borrowed(*k));
+            (name, value.span())
+        })
+    }
+
+    /// Where the value of a key stands, or the header where there is none.
+    pub(crate) fn span_of(&self, key: &str) -> Range<usize> {
+        let value = self.entries.get(key);
+        value.map_or_else(|| self.header.clone(), toml::Spanned::span)
     }
 
     /// Reports keys that nobody asked for.
     pub(crate) fn close(self, findings: &mut Findings) {
-        let known = || self.known.iter().map(String::as_str);
+        let known = || self.known.iter().copied();
         for key in self.entries.keys() {
             let name = key.get_ref();
             if known().any(|known| known == name) {

@@ -1,6 +1,7 @@
 //! The text of a scene file: from byte offsets to lines and columns.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::diagnostic::Label;
 
@@ -8,8 +9,8 @@ use crate::diagnostic::Label;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SourceText {
     name: String,
-    text: String,
-    line_starts: Vec<usize>,
+    text: Arc<str>,
+    line_starts: Arc<[usize]>,
 }
 
 impl SourceText {
@@ -19,7 +20,7 @@ impl SourceText {
         let after_breaks = text.match_indices('\n').map(|(at, _)| at + 1);
         Self {
             name: name.to_owned(),
-            text: text.to_owned(),
+            text: text.into(),
             line_starts: std::iter::once(0).chain(after_breaks).collect(),
         }
     }
@@ -40,9 +41,17 @@ impl SourceText {
     #[must_use]
     pub fn position(&self, offset: usize) -> (usize, usize) {
         let offset = self.boundary(offset);
-        let line = self.line_starts.partition_point(|&start| start <= offset);
-        let start = line.checked_sub(1).map_or(0, |k| self.line_starts[k]);
-        (line.max(1), self.text[start..offset].chars().count() + 1)
+        let line = self.line(offset);
+        let start = self.line_starts.get(line - 1).copied().unwrap_or(0);
+        (line, self.text[start..offset].chars().count() + 1)
+    }
+
+    /// Line of a byte offset, from 1.
+    pub(crate) fn line(&self, offset: usize) -> usize {
+        let offset = self.boundary(offset);
+        self.line_starts
+            .partition_point(|&start| start <= offset)
+            .max(1)
     }
 
     /// A label on a range of bytes. A range that leaves the text or cuts a character is shortened.

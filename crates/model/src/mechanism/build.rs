@@ -1,6 +1,6 @@
 //! From a description to a mechanism. All faults of a description are found in one go.
 
-use std::collections::BTreeMap;
+use std::collections::HashSet;
 use std::ops::Range;
 
 use joints::spec::{Level, Role, Spec};
@@ -212,7 +212,7 @@ fn check_bodies(d: &Description, errors: &mut Vec<BuildError>) {
 }
 
 fn check_names(d: &Description, errors: &mut Vec<BuildError>) {
-    let mut seen = BTreeMap::new();
+    let mut seen = HashSet::new();
     let bodies = d.bodies.iter().map(|b| (&b.name, "body"));
     let others = d
         .joints
@@ -224,7 +224,7 @@ fn check_names(d: &Description, errors: &mut Vec<BuildError>) {
     for (name, space) in bodies.chain(others) {
         if name == "ground" {
             errors.push(BuildError::Ground);
-        } else if seen.insert((name, space), ()).is_some() {
+        } else if !seen.insert((name, space)) {
             errors.push(BuildError::DuplicateName { name: name.clone() });
         }
     }

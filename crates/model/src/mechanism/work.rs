@@ -1,7 +1,7 @@
 //! What the kernels of a mechanism compute at each evaluation, and what they leave out, told from its structure. The kernels ask the same
 //! questions of the same elements.
 
-use super::{Mechanism, N_BODY};
+use super::{Mechanism, N_BODY, PlacedConstraint};
 use crate::system::System;
 
 /// What is computed at each evaluation.
@@ -72,31 +72,38 @@ impl Mechanism {
             .constraints
             .iter()
             .filter(|c| !c.depends_on_time())
-            .flat_map(|c| c.rows.clone())
-            .filter(|&i| i < self.layout.m && self.is_angular(i))
-            .filter_map(|i| self.constant_row(i))
+            .flat_map(|c| c.rows.clone().map(move |i| (c, i)))
+            .filter(|&(_, i)| i < self.layout.m && self.is_angular(i))
+            .filter_map(|(c, i)| self.constant_row(c, i))
             .collect();
+        let mut of_body = vec![Vec::new(); self.bodies.len()];
+        for (k, row) in rows.iter().enumerate() {
+            row.iter().for_each(|&body| of_body[body].push(k));
+        }
         let mut held = vec![false; self.bodies.len()];
-        loop {
-            let free = |row: &Vec<usize>| {
-                let mut free = row.iter().copied().filter(|&k| !held[k]);
-                free.next().filter(|_| free.next().is_none())
-            };
-            let Some(body) = rows.iter().find_map(free) else {
-                return held;
+        let mut free: Vec<usize> = rows.iter().map(Vec::len).collect();
+        // Rows with one free body, which they hold.
+        let mut holding: Vec<usize> = (0..rows.len()).filter(|&k| free[k] == 1).collect();
+        while let Some(k) = holding.pop() {
+            let Some(&body) = rows[k].iter().find(|&&body| !held[body]) else {
+                continue;
             };
             held[body] = true;
+            for &row in &of_body[body] {
+                free[row] -= 1;
+                if free[row] == 1 {
+                    holding.push(row);
+                }
+            }
         }
+        held
     }
 
-    /// Bodies in a row of C whose entries are constant, those with an entry of zero left out.
-    fn constant_row(&self, i: usize) -> Option<Vec<usize>> {
+    /// Bodies in a row of a constraint whose entries are constant, those with an entry of zero left out.
+    fn constant_row(&self, c: &PlacedConstraint, i: usize) -> Option<Vec<usize>> {
         let pattern = &self.layout.pattern;
         let places = pattern.start[i]..pattern.start[i + 1];
-        let varying = |entry: usize| {
-            let of = self.constraints.iter().find(|c| c.entries.contains(&entry));
-            of.is_some_and(|c| c.varying.contains(&(entry - c.entries.start)))
-        };
+        let varying = |entry: usize| c.varying.contains(&(entry - c.entries.start));
         let mut bodies = Vec::new();
         for k in places {
             let entry = pattern.entry[k];
