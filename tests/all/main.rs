@@ -12,6 +12,7 @@ mod exact_oracle;
 mod existence;
 mod formulations;
 mod generated_code;
+mod generated_scenes;
 mod generic;
 mod granularity;
 mod independent_coordinates;
