@@ -4,10 +4,10 @@
 //! No rank is decided here: away from the constraints a redundant row is not yet redundant. The correction is the
 //! regularised least-squares step of `linalg`, repeated to rounding.
 
-use linalg::{StepError, least_squares_step};
+use linalg::{Matrix, StepError, least_squares_step};
 
 use crate::mechanism::{Mechanism, N_BODY};
-use crate::system::{RowLabel, Scratch, System};
+use crate::system::{Layout, RowLabel, Scratch, System};
 
 /// What a start may and may not do.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -125,6 +125,19 @@ pub enum StartError {
         /// By how much.
         residual: f64,
     },
+    /// The start has to be corrected, and the matrix for it would fill the memory.
+    #[error(
+        "the start has to be corrected, which takes a dense matrix of {rows} × {columns} numbers, more than {most:e}; \
+         describe positions and velocities that satisfy the constraints"
+    )]
+    TooLarge {
+        /// Rows that have to be satisfied.
+        rows: usize,
+        /// Coordinates.
+        columns: usize,
+        /// Most entries of a matrix.
+        most: f64,
+    },
     /// The correction step failed.
     #[error("the start cannot be corrected: {0}")]
     Step(#[from] StepError),
@@ -174,6 +187,26 @@ const SMALL_CORRECTION: f64 = 1e-3;
 /// A row counts as satisfied below this many roundings of its terms.
 const ROUNDINGS: f64 = 10.0;
 
+/// Entries of the largest matrix of a correction: 1 GB.
+const MOST_ENTRIES: usize = 1 << 27;
+
+/// These rows of C; allocates.
+fn dense_rows(layout: &Layout, s: &Scratch, rows: &[usize]) -> Result<Matrix, StartError> {
+    let entries = rows.len().checked_mul(layout.n_v);
+    if entries.is_none_or(|entries| entries > MOST_ENTRIES) {
+        return Err(StartError::TooLarge {
+            rows: rows.len(),
+            columns: layout.n_v,
+            most: MOST_ENTRIES as f64,
+        });
+    }
+    let mut c = Matrix::zeros(rows.len(), layout.n_v);
+    for (k, &i) in rows.iter().enumerate() {
+        layout.scatter_row(s, i, c.row_mut(k));
+    }
+    Ok(c)
+}
+
 /// Finds a consistent configuration and takes the initial values of joints, drives and forces from it.
 ///
 /// The correction minimises `(q − q₀)ᵀ·M·(q − q₀)` under Φ(q, 0) = 0; coordinates without mass or inertia weigh as the
@@ -182,6 +215,7 @@ const ROUNDINGS: f64 = 10.0;
 /// # Errors
 /// - [`StartError::NoAssembly`]: the constraints contradict each other or the start is too far off.
 /// - [`StartError::LargeCorrection`]: the correction exceeds what `options` allow.
+/// - [`StartError::TooLarge`]: the correction takes a matrix beyond memory.
 /// - [`StartError::Requirement`]: a definition's requirement does not hold.
 /// - [`StartError::NoCoordinate`]: a coordinate that `options` keep does not exist.
 pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Assembly, StartError> {
@@ -217,6 +251,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
 ///
 /// # Errors
 /// - [`StartError::NoVelocity`]: the kept velocities leave no freedom for the constraints.
+/// - [`StartError::TooLarge`]: they have to be corrected, by a matrix beyond memory.
 /// - [`StartError::NoCoordinate`]: a velocity that `options` keep does not exist.
 pub fn consistent_velocity(
     mechanism: &Mechanism,
@@ -259,7 +294,10 @@ pub fn consistent_velocity(
             return Err(missing());
         }
         best = size;
-        let c = c.get_or_insert_with(|| layout.dense(&s).select_rows(kept));
+        let c = match &mut c {
+            Some(c) => c,
+            none => none.insert(dense_rows(layout, &s, kept)?),
+        };
         // The kept rows are independent; they need no damping unless velocities are held.
         let step = match least_squares_step(c, &residual, &weights, 0.0) {
             Ok(step) => step,
@@ -396,7 +434,7 @@ fn nearest(
                 iterations: iteration,
             });
         }
-        let c = mechanism.layout().dense(s).select_rows(rows);
+        let c = dense_rows(mechanism.layout(), s, rows)?;
         let shift: Vec<f64> = described.iter().zip(&q).map(|(a, b)| a - b).collect();
         // C·(q₀ + δ − q) + Φ = 0
         let moved = c.times(&shift);

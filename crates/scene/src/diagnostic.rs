@@ -16,6 +16,8 @@ pub enum Severity {
     Error,
     /// The scene can be used, but is probably not what was meant.
     Warning,
+    /// No problem of its own: how many more there are.
+    Note,
 }
 
 /// A marked part of the file.
@@ -95,6 +97,7 @@ impl fmt::Display for Diagnostic {
         let severity = match self.severity {
             Severity::Error => "error",
             Severity::Warning => "warning",
+            Severity::Note => "note",
         };
         write!(f, "{file}:{line}:{column}: {severity}: {message}")
     }

@@ -3,7 +3,7 @@
 use std::cell::Cell;
 use std::ops::Range;
 
-use crate::diagnostic::Diagnostic;
+use crate::diagnostic::{Diagnostic, Severity};
 use crate::nearest::nearest;
 use crate::text::SourceText;
 
@@ -144,12 +144,11 @@ impl<'s> Findings<'s> {
                 "and {} more problems: only the first {LISTED} are listed",
                 self.more
             );
-            unique.push(Diagnostic::error(
-                self.source,
-                place,
-                message,
-                "the last one of the list",
-            ));
+            let label = "the last one of the list";
+            unique.push(Diagnostic {
+                severity: Severity::Note,
+                ..Diagnostic::error(self.source, place, message, label)
+            });
         }
         unique
     }

@@ -6,8 +6,9 @@ use crate::findings::Findings;
 /// Longest line (bytes). A table of a hundred thousand values fits.
 pub(crate) const LONGEST_LINE: usize = 4 << 20;
 
-/// Signs `[`, `{`, `,` and `=`. A hundred thousand joints with their bodies have two million; each costs some 200 bytes while the file is read.
-pub(crate) const MOST_SIGNS: usize = 1 << 24;
+/// Signs `[`, `{`, `,` and `=`. A hundred thousand joints with their bodies have less than two million; each costs some 200 bytes while the file is
+/// read.
+pub(crate) const MOST_SIGNS: usize = 1 << 23;
 
 /// Reports a text that is beyond these limits, where it leaves them.
 pub(crate) fn check(findings: &mut Findings) {
