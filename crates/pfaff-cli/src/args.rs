@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
 use pfaff::dynamics::{Formulation, Method, Stabilisation};
+use pfaff::suite::generate::Kind;
 use pfaff::sweep::{Axis, Shard};
 
 /// Mechanisms with redundant constraints: how they move, and which of their joint reactions may be believed.
@@ -54,6 +55,20 @@ const STRESS_EXAMPLES: &str = "Examples:
 
 Each case has its right answer. Exit code 1 if something is silently wrong, or refused although there is an answer. Build with --release.";
 
+const GENERATE_EXAMPLES: &str = "Examples:
+  pfaff generate parallelograms --n 9000 --out chain.toml    48 000 revolutes, 6000 redundant rows
+  pfaff generate random --n 100 --seed 7 | pfaff analyze -
+
+Kinds, and what n counts:
+  n-four-bar       loops of unit rods in a row, one freedom
+  parallelograms   cells of a chain; with three cranks they are redundant (--redundant, two thirds of them)
+  lattice          cells along each side of a square grid that hangs from a corner; blocks along its diagonal are braced
+                   (--redundant, all of them)
+  fleet            robots with trolleys side by side
+  random           modules, each on an earlier body; some are doubled (--redundant, a third of them)
+
+Ranks, redundancy and what is not unique are known, and stand at the head of the file. Same words, same bytes.";
+
 #[derive(Subcommand)]
 pub(crate) enum Command {
     /// Rank, redundancy, and the verdict of every reaction
@@ -74,6 +89,9 @@ pub(crate) enum Command {
     /// The stiff and extreme cases, each with its right answer and what came out
     #[command(after_help = STRESS_EXAMPLES)]
     Stress(Stress),
+    /// Write a large scene whose answer is known
+    #[command(after_help = GENERATE_EXAMPLES)]
+    Generate(Generate),
     /// Read and assemble only: every problem of the file, with its place
     #[command(after_help = "Example: pfaff check robot-trolley.toml")]
     Check(Check),
@@ -88,6 +106,7 @@ impl Command {
         | Self::Sweep(Sweep { json, .. })
         | Self::WorkPrecision(WorkPrecision { json, .. })
         | Self::Stress(Stress { json, .. })
+        | Self::Generate(Generate { json, .. })
         | Self::Check(Check { json, .. })) = self;
         match json {
             true => Answer::Json,
@@ -271,6 +290,28 @@ pub(crate) struct Stress {
 }
 
 #[derive(Args)]
+pub(crate) struct Generate {
+    /// Family of mechanisms
+    #[arg(value_parser = named(Kind::ALL, Kind::name))]
+    pub(crate) kind: Kind,
+    /// How large: loops, cells, cells along each side, robots, modules
+    #[arg(long, value_name = "N")]
+    pub(crate) n: usize,
+    /// Seed of what is drawn at random (parallelograms, random); 1 where it is not given
+    #[arg(long, value_name = "SEED")]
+    pub(crate) seed: Option<u64>,
+    /// Share of the cells, blocks or modules that are redundant, 0 to 1
+    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
+    pub(crate) redundant: Option<f64>,
+    /// File for the scene; standard output where it is not given
+    #[arg(long, value_name = "FILE")]
+    pub(crate) out: Option<PathBuf>,
+    /// What is known of the scene as one JSON document on standard output
+    #[arg(long, requires = "out")]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
 pub(crate) struct Check {
     /// Scene file, or - for standard input
     pub(crate) scene: PathBuf,
@@ -279,7 +320,7 @@ pub(crate) struct Check {
     pub(crate) json: bool,
 }
 
-/// Reads one of the names of an enum of `dynamics`, and says what the names are where it is none.
+/// Reads one of the names of an enum, and says what the names are where it is none.
 fn named<T: Copy + Send + Sync + 'static>(
     all: &'static [T],
     name: fn(T) -> &'static str,

@@ -11,7 +11,7 @@ use crate::output::Failure;
 
 /// Largest scene that is read (bytes): ten times what a hundred thousand bodies take. A device that never ends
 /// must not fill the memory.
-const LARGEST: u64 = 1 << 28;
+pub(crate) const LARGEST: u64 = 1 << 28;
 
 /// The text of a scene with the name that messages call it by.
 pub(crate) struct Source {

@@ -7,6 +7,7 @@
 mod analyze;
 mod args;
 mod check;
+mod generate;
 mod input;
 mod interrupt;
 mod output;
@@ -34,6 +35,7 @@ fn main() -> ExitCode {
         Command::Sweep(a) => sweep::run(a),
         Command::Stress(a) => stress::run(a),
         Command::WorkPrecision(a) => work_precision::run(a),
+        Command::Generate(a) => generate::run(a),
         Command::Check(a) => check::run(a),
     };
     match outcome {

@@ -132,9 +132,17 @@ fn unprintable(e: &io::Error) -> Failure {
 pub(crate) fn render(name: &str, text: &str, diagnostics: &[Diagnostic]) -> String {
     let color = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
     let mut out = Vec::new();
+    // Lines are found once for all problems.
+    let mut source = (name, Source::from(text));
     for d in diagnostics {
+        let labels = || std::iter::once(&d.primary).chain(&d.secondary);
+        if labels().any(|label| line_around(text, label.span.start).len() > WIDEST) {
+            out.extend(narrow(text, d).bytes());
+            continue;
+        }
         let (kind, tint) = match d.severity {
             Severity::Warning => (ReportKind::Warning, Color::Yellow),
+            Severity::Note => (ReportKind::Advice, Color::Blue),
             _ => (ReportKind::Error, Color::Red),
         };
         let config = Config::default()
@@ -150,16 +158,52 @@ pub(crate) fn render(name: &str, text: &str, diagnostics: &[Diagnostic]) -> Stri
         if let Some(help) = &d.help {
             report = report.with_help(help);
         }
-        let written = report.finish().write((name, Source::from(text)), &mut out);
+        let written = report.finish().write(&mut source, &mut out);
         if written.is_err() {
             out.extend(format!("{d}\n").bytes());
         }
     }
     let mut rendered = String::from_utf8_lossy(&out).into_owned();
-    if diagnostics.len() > 1 {
+    // Where some are not listed, the last one says how many.
+    if diagnostics.len() > 1 && diagnostics.iter().all(|d| d.severity != Severity::Note) {
         rendered.push_str(&format!("{} problems in `{name}`\n", diagnostics.len()));
     }
     rendered
+}
+
+/// Bytes of a line that is shown whole.
+const WIDEST: usize = 2000;
+
+/// Bytes of a longer line that are shown on both sides of a place.
+const AROUND: usize = 40;
+
+/// The line of a place.
+fn line_around(text: &str, at: usize) -> &str {
+    let at = text.floor_char_boundary(at);
+    let (before, after) = text.split_at(at);
+    let begin = before.rfind('\n').map_or(0, |k| k + 1);
+    let end = after.find('\n').map_or(text.len(), |k| at + k);
+    &text[begin..end]
+}
+
+/// A problem in a line that is too long to be shown.
+fn narrow(text: &str, d: &Diagnostic) -> String {
+    let mut out = format!("{d}\n");
+    for label in std::iter::once(&d.primary).chain(&d.secondary) {
+        let begin = text.floor_char_boundary(label.span.start.saturating_sub(AROUND));
+        let end = text.ceil_char_boundary(label.span.start.saturating_add(AROUND));
+        let excerpt = text.get(begin..end).unwrap_or_default();
+        let (line, column) = (label.line, label.column);
+        let excerpt = excerpt.escape_debug();
+        out.push_str(&format!(
+            "  line {line}, column {column}: … {excerpt} …  {}\n",
+            label.text
+        ));
+    }
+    if let Some(help) = &d.help {
+        out.push_str(&format!("  help: {help}\n"));
+    }
+    out
 }
 
 fn label<'a>(name: &'a str, l: &pfaff::scene::Label) -> Label<(&'a str, std::ops::Range<usize>)> {

@@ -151,6 +151,44 @@ fn a_start_that_needs_a_large_correction() {
 }
 
 #[test]
+fn a_fault_in_a_long_line_is_shown_without_the_line() {
+    let times: Vec<String> = (0..200_000).map(|k| k.to_string()).collect();
+    let force = format!(
+        "[[force]]\nname = \"pull\"\ntype = \"torque\"\nbody = \"bob\"\ntorque = {{ type = \"table\", times = [{}, x], values = [] }}\n",
+        times.join(", ")
+    );
+    let output = with_scene(&["check", "-"], &format!("{PENDULUM}{force}"));
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        text.contains("<stdin>:25:") && text.contains("199999, x], values"),
+        "{text}"
+    );
+    assert!(text.len() < 2000, "{} bytes", text.len());
+}
+
+#[test]
+fn a_fault_in_every_line_is_listed_up_to_a_limit() {
+    let mut scene = PENDULUM.to_owned();
+    for k in 0..6000 {
+        scene.push_str(&format!(
+            "[[body]]\nname = \"b{k}\"\nmass = 1.0\ninertja = 1.0\n"
+        ));
+    }
+    let output = with_scene(&["check", "-"], &scene);
+    let text = stderr(&output);
+    assert_eq!(output.status.code(), Some(2));
+    // A key that is missing, and one that is unknown.
+    let more = "and 7000 more problems: only the first 5000 are listed";
+    assert!(
+        text.contains(more),
+        "{}",
+        &text[text.len().saturating_sub(1000)..]
+    );
+    assert!(!text.contains("problems in `"));
+}
+
+#[test]
 fn no_bodies() {
     let output = with_scene(
         &["check", "-"],

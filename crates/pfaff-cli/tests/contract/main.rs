@@ -7,6 +7,7 @@ mod documents;
 mod failures;
 #[cfg(target_os = "linux")]
 mod faults;
+mod generate;
 mod plan;
 mod singular;
 mod stress;
