@@ -50,11 +50,6 @@ impl<'s> Findings<'s> {
         self.list.len() >= LISTED
     }
 
-    /// Whether nothing is wrong so far.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.list.is_empty()
-    }
-
     /// Counts problems that are not described.
     pub(crate) fn count(&mut self, more: usize) {
         self.more += more;

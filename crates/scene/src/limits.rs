@@ -1,7 +1,7 @@
 //! What a text may have before it is taken apart: the parser needs memory for every value, and nothing is gained by lines that
 //! nobody can read.
 
-use crate::findings::Findings;
+use std::ops::Range;
 
 /// Longest line (bytes). A table of a hundred thousand values fits.
 pub(crate) const LONGEST_LINE: usize = 4 << 20;
@@ -10,27 +10,38 @@ pub(crate) const LONGEST_LINE: usize = 4 << 20;
 /// read.
 pub(crate) const MOST_SIGNS: usize = 1 << 23;
 
-/// Reports a text that is beyond these limits, where it leaves them.
-pub(crate) fn check(findings: &mut Findings) {
-    let text = findings.source.text();
+/// What is beyond a limit: where, what to say, and at its place.
+pub(crate) struct Excess {
+    pub(crate) span: Range<usize>,
+    pub(crate) message: String,
+    pub(crate) label: &'static str,
+}
+
+/// The first excess of a text, if there is one.
+pub(crate) fn excess(text: &str) -> Option<Excess> {
     let mut at = 0;
     for line in text.split('\n') {
         if line.len() > LONGEST_LINE {
-            let span = at + LONGEST_LINE..at + LONGEST_LINE + 1;
-            let message = format!(
-                "a line of {} bytes, more than {LONGEST_LINE}: write long lists in several lines",
-                line.len()
-            );
-            return findings.error(span, message, "too long");
+            let first = at + LONGEST_LINE;
+            let bytes = line.len();
+            return Some(Excess {
+                span: first..first + 1,
+                message: format!(
+                    "a line of {bytes} bytes, more than {LONGEST_LINE}: write long lists in several lines"
+                ),
+                label: "too long",
+            });
         }
         at += line.len() + 1;
     }
     let sign = |byte: &u8| matches!(byte, b'[' | b'{' | b',' | b'=');
     let mut signs = text.bytes().enumerate().filter(|(_, byte)| sign(byte));
-    if let Some((at, _)) = signs.nth(MOST_SIGNS) {
-        let message = format!(
+    let (at, _) = signs.nth(MOST_SIGNS)?;
+    Some(Excess {
+        span: at..at + 1,
+        message: format!(
             "more than {MOST_SIGNS} signs `[`, `{{`, `,` and `=`: too many values for one scene"
-        );
-        findings.error(at..at + 1, message, "these and those that follow");
-    }
+        ),
+        label: "this one and those that follow",
+    })
 }

@@ -48,8 +48,8 @@ use crate::text::SourceText;
 pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene, Vec<Diagnostic>> {
     let source = SourceText::new(source_name, text);
     let mut findings = Findings::new(&source);
-    limits::check(&mut findings);
-    if !findings.is_empty() {
+    if let Some(excess) = limits::excess(text) {
+        findings.error(excess.span, excess.message, excess.label);
         return Err(findings.sorted());
     }
     let (root, errors) = DeTable::parse_recoverable(text);

@@ -13,6 +13,8 @@ use toml::de::DeTable;
 
 pub use key::KeyError;
 
+use crate::limits;
+
 /// Whole numbers below this are written without a point: some keys take nothing else.
 const WHOLE: f64 = 9_007_199_254_740_992.0;
 
@@ -56,6 +58,9 @@ impl Template {
     /// - [`KeyError::NotANumber`], [`KeyError::NoRoom`]: there is no number, and none can be put there.
     /// - [`KeyError::Repeated`]: two keys name the same number.
     pub fn new(text: &str, keys: &[&str]) -> Result<Self, KeyError> {
+        if limits::excess(text).is_some() {
+            return Err(KeyError::NotToml);
+        }
         let root = DeTable::parse(text).map_err(|_| KeyError::NotToml)?;
         let find = |key: &&str| key::find(key, text, root.get_ref());
         let found = keys.iter().map(find).collect::<Result<Vec<_>, _>>()?;

@@ -191,6 +191,9 @@ fn the_same_number_twice_is_refused() {
         Template::new("a = = 1", &["a"]).err(),
         Some(KeyError::NotToml)
     );
+    // Nor one that the reader would refuse by its size.
+    let long = format!("a = 1\nb = [{}]", "0,".repeat(3_000_000));
+    assert_eq!(Template::new(&long, &["a"]).err(), Some(KeyError::NotToml));
     let dotted = "[scene]\nmotion.rate = 1.0\n";
     let error = Template::new(dotted, &["scene.motion.start"]).err();
     assert!(matches!(error, Some(KeyError::NoRoom { .. })), "{error:?}");
