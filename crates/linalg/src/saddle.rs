@@ -177,6 +177,14 @@ pub enum SaddleError {
         /// Its mass.
         value: f64,
     },
+    /// What only the dense solver can do.
+    #[error(
+        "{rows} rows are solved sparsely, without independent coordinates: take an explicit method on kept rows, with projection"
+    )]
+    Large {
+        /// Rows.
+        rows: usize,
+    },
     /// A kept row depends on the rows before it.
     #[error(
         "kept row {row} depends on the rows before it: pivot {pivot:.3e} in a row of size \

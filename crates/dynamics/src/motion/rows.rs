@@ -4,14 +4,21 @@
 //! pivot of a rotation, a length, would be compared with one of a translation, which has no unit: pivots would fall and determinants change
 //! their signs where nothing happens but that metres are large or small. Callers see their own units only.
 
-use linalg::{KeptRowSaddle, Matrix, PivotedQr, Refinement, SaddleError};
+mod dense;
+mod solver;
+mod sparse;
+
+use linalg::{PivotedQr, SaddleError};
 use model::{Mechanism, Scratch, System};
 
 use crate::counts::{Counted, note};
 use crate::error::Trip;
 use crate::prepare::Prepared;
+use solver::Solver;
 
-/// Kept rows, their dense block of C, and the factored saddle matrix.
+pub(crate) use solver::is_sparse;
+
+/// Kept rows and the factored saddle matrix.
 #[derive(Clone)]
 pub(super) struct KeptRows {
     /// Rows of C, ascending.
@@ -22,17 +29,14 @@ pub(super) struct KeptRows {
     pub(super) rhs: Vec<f64>,
     /// Multipliers, as they were found last.
     pub(super) lambda: Vec<f64>,
-    /// Kept rows of C in units of the mechanism.
-    c: Matrix,
-    gather: Gather,
     /// What coordinates count in those units, and the masses there, n_v each.
     units: Vec<f64>,
     mass: Vec<f64>,
     /// A force and a motion in those units, n_v each.
     force: Vec<f64>,
     motion: Vec<f64>,
-    saddle: KeptRowSaddle,
-    refinement: Refinement,
+    /// The rows in those units, and their factors.
+    solver: Solver,
     /// Whether the mechanism is so large or small that solutions are refined.
     is_far: bool,
     /// Pivot ratio when these rows were chosen: what later ones are compared with.
@@ -77,21 +81,16 @@ impl KeptRows {
     ) -> Result<Self, SaddleError> {
         let (n, r) = (mechanism.layout().n_v, kept.len());
         let units = units(mechanism, size);
-        let gather = Gather::new(mechanism, kept, &units);
-        let columns = gather.columns(r, n);
         Ok(Self {
             kept: kept.to_vec(),
             dropped: dropped.to_vec(),
             rhs: vec![0.0; r],
             lambda: vec![0.0; r],
-            c: Matrix::zeros(r, n),
-            gather,
+            solver: Solver::new(mechanism, kept, &units)?,
             mass: mass_in_units(mechanism, &units),
             units,
             force: vec![0.0; n],
             motion: vec![0.0; n],
-            saddle: KeptRowSaddle::with_columns(n, &columns)?,
-            refinement: Refinement::new(n, r),
             is_far: is_far(size),
             reference_pivot: None,
             partition: None,
@@ -102,15 +101,15 @@ impl KeptRows {
     pub(super) fn factor(&mut self, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
         let reference = self.reference();
         self.factor_above(PIVOT_SINGULAR, mechanism, s)?;
-        match (reference, self.saddle.n_left_out()) {
+        match (reference, self.solver.n_left_out()) {
             (None, 1..) => Err(self.rank_lost(mechanism, s)),
             (None, 0) => {
-                let pivot = Some(self.saddle.pivot_ratio());
+                let pivot = Some(self.solver.pivot_ratio());
                 match &mut self.partition {
                     Some(partition) => partition.0 = pivot,
                     None => {
                         self.reference_pivot = pivot;
-                        self.saddle.keep_order();
+                        self.solver.keep_order();
                     }
                 }
                 Ok(())
@@ -129,23 +128,25 @@ impl KeptRows {
     ) -> Result<Vec<usize>, Trip> {
         self.forget_partition();
         self.factor(mechanism, s)?;
-        let dependent = match self.saddle.is_graded() {
-            // Heavy coordinates are independent, whatever the rows would determine best.
-            true => self.saddle.solved_for().to_vec(),
-            false => {
-                let mut c = self.c.clone();
-                for k in 0..c.nrows() {
-                    let row = c.row_mut(k).iter_mut().enumerate();
-                    row.for_each(|(j, c)| *c *= known_to(j));
+        let chosen = self.solver.dense().and_then(|it| {
+            let dependent = match it.saddle.is_graded() {
+                // Heavy coordinates are independent, whatever the rows would determine best.
+                true => it.saddle.solved_for().to_vec(),
+                false => {
+                    let mut c = it.c.clone();
+                    for k in 0..c.nrows() {
+                        let row = c.row_mut(k).iter_mut().enumerate();
+                        row.for_each(|(j, c)| *c *= known_to(j));
+                    }
+                    PivotedQr::of_columns(&c).permutation()[..c.nrows()].to_vec()
                 }
-                PivotedQr::of_columns(&c).permutation()[..self.kept.len()].to_vec()
-            }
-        };
+            };
+            it.saddle.partition(&dependent)?;
+            Ok(dependent)
+        });
+        let dependent = chosen.map_err(|e| self.trip(mechanism, s, e))?;
         let free = (0..self.units.len()).filter(|i| !dependent.contains(i));
         let free = free.collect();
-        if let Err(e) = self.saddle.partition(&dependent) {
-            return Err(self.trip(mechanism, s, e));
-        }
         self.partition = Some(PartitionPivot(None));
         self.factor(mechanism, s)?;
         Ok(free)
@@ -153,7 +154,9 @@ impl KeptRows {
 
     /// Every factorisation chooses again what it solves for.
     pub(super) fn forget_partition(&mut self) {
-        self.saddle.forget_partition();
+        if let Ok(it) = self.solver.dense() {
+            it.saddle.forget_partition();
+        }
         self.partition = None;
     }
 
@@ -178,7 +181,7 @@ impl KeptRows {
         s: &Scratch,
         x: &mut [f64],
     ) -> Result<(), Trip> {
-        if let Some(row) = (0..self.kept.len()).find(|&k| !self.saddle.uses(k)) {
+        if let Some(row) = (0..self.kept.len()).find(|&k| !self.solver.uses(k)) {
             return Err(Trip::Chart {
                 time: s.t,
                 row: mechanism.layout().labels[self.kept[row]].clone(),
@@ -186,7 +189,12 @@ impl KeptRows {
             });
         }
         self.take_motion(x);
-        match self.saddle.complete(&self.rhs, &mut self.motion) {
+        let (rhs, motion) = (&self.rhs, &mut self.motion);
+        match self
+            .solver
+            .dense()
+            .and_then(|it| it.saddle.complete(rhs, motion))
+        {
             Ok(()) => {
                 self.write_motion(x);
                 Ok(())
@@ -202,11 +210,9 @@ impl KeptRows {
         mechanism: &Mechanism,
         s: &Scratch,
     ) -> Result<(), Trip> {
-        self.gather.take(&s.entries, &mut self.c);
         let reference = self.reference().filter(|r| r.is_finite());
         let floor = share * reference.unwrap_or(0.0);
-        let c = &self.c;
-        match self.saddle.factor_above(floor, |k| c.row(k), &self.mass) {
+        match self.solver.factor_above(floor, &s.entries, &self.mass) {
             Ok(()) => Ok(()),
             Err(e) => Err(self.trip(mechanism, s, e)),
         }
@@ -214,12 +220,12 @@ impl KeptRows {
 
     /// Rows of the last factorisation that are dependent for an instant and were left out: their number.
     pub(super) fn n_left_out(&self) -> usize {
-        self.saddle.n_left_out()
+        self.solver.n_left_out()
     }
 
     /// Whether the last factorisation uses the k-th kept row.
     pub(super) fn uses(&self, k: usize) -> bool {
-        self.saddle.uses(k)
+        self.solver.uses(k)
     }
 
     /// Smallest pivot relative to that when the rows were chosen, whatever they are solved for; infinite without rows.
@@ -239,9 +245,35 @@ impl KeptRows {
     /// factored: rounding of the kept rows reaches the dropped ones multiplied by it.
     pub(super) fn largest_coefficient(&mut self, mechanism: &Mechanism, s: &Scratch) -> f64 {
         note(Counted::Coefficients);
+        if self.solver.brings_multipliers() {
+            return self.sampled_coefficient(mechanism, s);
+        }
         let mut largest = 0.0_f64;
         for k in 0..self.dropped.len() {
             largest = match self.imply(mechanism, s, self.dropped[k]) {
+                Ok(()) => self.lambda.iter().fold(largest, |a, l| a.max(l.abs())),
+                Err(_) => f64::INFINITY,
+            };
+        }
+        largest
+    }
+
+    /// The same from two sums of all dropped rows with random signs: large mechanisms have thousands, each implied by a few rows of its own.
+    fn sampled_coefficient(&mut self, mechanism: &Mechanism, s: &Scratch) -> f64 {
+        let mut largest = 0.0_f64;
+        for seed in [1, 2] {
+            self.motion.fill(0.0);
+            self.force.fill(0.0);
+            for (k, &i) in self.dropped.iter().enumerate() {
+                let sign = sign_of(k, seed);
+                for (j, c) in mechanism.layout().row(s, i) {
+                    self.force[j] += sign * c * self.units[j];
+                }
+            }
+            let solved = self
+                .solver
+                .multipliers(&self.force, &self.motion, &mut self.lambda);
+            largest = match solved {
                 Ok(()) => self.lambda.iter().fold(largest, |a, l| a.max(l.abs())),
                 Err(_) => f64::INFINITY,
             };
@@ -279,7 +311,7 @@ impl KeptRows {
         for (entry, unit) in self.force.iter_mut().zip(&self.units) {
             *entry *= unit;
         }
-        self.saddle
+        self.solver
             .multipliers(&self.force, &self.motion, &mut self.lambda)
     }
 
@@ -297,7 +329,11 @@ impl KeptRows {
         x: &mut [f64],
     ) -> Result<(), Trip> {
         self.take_force(force);
-        match self.saddle.motion(&self.force, &self.rhs, &mut self.motion) {
+        let (force, rhs) = (&self.force, &self.rhs);
+        match self
+            .solver
+            .motion(force, rhs, &mut self.motion, &mut self.lambda)
+        {
             Ok(()) => {
                 self.write_motion(x);
                 Ok(())
@@ -308,7 +344,7 @@ impl KeptRows {
 
     /// Whether accelerations and their multipliers are refined at the last factorisation.
     pub(super) fn are_refined(&self) -> bool {
-        self.is_far || self.saddle.wants_refinement()
+        self.is_far || self.solver.wants_refinement()
     }
 
     /// Accelerations from `M·a + Cᵀ·λ = Q`, `C·a = rhs` with Q of the scratch, refined where plain ones may miss digits.
@@ -319,17 +355,12 @@ impl KeptRows {
         a: &mut [f64],
     ) -> Result<(), Trip> {
         self.take_force(&s.force);
-        let c = &self.c;
-        let solved = match self.are_refined() {
-            false => self.saddle.motion(&self.force, &self.rhs, &mut self.motion),
-            true => self.saddle.solve_refined(
-                &mut self.refinement,
-                |k| c.row(k),
-                &self.force,
-                &self.rhs,
-                &mut self.motion,
-                &mut self.lambda,
-            ),
+        let is_refined = self.are_refined();
+        let (force, rhs) = (&self.force, &self.rhs);
+        let (x, lambda) = (&mut self.motion, &mut self.lambda);
+        let solved = match is_refined {
+            false => self.solver.motion(force, rhs, x, lambda),
+            true => self.solver.refined(force, rhs, x, lambda),
         };
         match solved {
             Ok(()) => {
@@ -343,7 +374,7 @@ impl KeptRows {
     /// The largest acceleration, in units of the mechanism, that one row alone asks for by its right-hand side.
     pub(super) fn rate(&self) -> f64 {
         let of_row = |(k, rhs): (usize, &f64)| {
-            let largest = self.c.row(k).iter().fold(0.0, |a, c| f64::max(a, c.abs()));
+            let largest = self.solver.size_of_row(k);
             if largest > 0.0 {
                 rhs.abs() / largest
             } else {
@@ -360,13 +391,13 @@ impl KeptRows {
         s: &Scratch,
         a: &[f64],
     ) -> Result<(), Trip> {
-        if self.are_refined() {
+        if self.are_refined() || self.solver.brings_multipliers() {
             return Ok(());
         }
         self.take_force(&s.force);
         self.take_motion(a);
         match self
-            .saddle
+            .solver
             .multipliers(&self.force, &self.motion, &mut self.lambda)
         {
             Ok(()) => Ok(()),
@@ -394,27 +425,17 @@ impl KeptRows {
 
     /// Smallest pivot of the last factorisation relative to its row.
     pub(super) fn pivot_ratio(&self) -> f64 {
-        self.saddle.pivot_ratio()
+        self.solver.pivot_ratio()
     }
 
     /// Writes a frame of the motions that the factored rows allow, in units of the mechanism.
     pub(super) fn null_frame(&self, frame: &mut Vec<f64>) {
-        let n = self.saddle.n_coordinates();
-        frame.resize(self.n_free() * n, 0.0);
-        self.saddle.null_frame(frame);
+        self.solver.null_frame(frame);
     }
 
-    /// Sign of the determinant of the factored rows bordered by a frame, 0 for a frame of another size.
+    /// Sign of the determinant of the factored rows bordered by a frame, 0 where that is not known.
     pub(super) fn orientation(&mut self, frame: &[f64]) -> f64 {
-        match frame.len() == self.n_free() * self.saddle.n_coordinates() {
-            true => self.saddle.orientation(frame),
-            false => 0.0,
-        }
-    }
-
-    /// Number of free motions of the last factorisation.
-    fn n_free(&self) -> usize {
-        self.saddle.n_coordinates() - self.saddle.n_rows() + self.saddle.n_left_out()
+        self.solver.orientation(frame)
     }
 
     /// Whether the rows have become nearly dependent since they were chosen, and there are others.
@@ -434,11 +455,11 @@ impl KeptRows {
     }
 
     fn rank_lost(&self, mechanism: &Mechanism, s: &Scratch) -> Trip {
-        let dependent = (0..self.kept.len()).find(|&k| !self.saddle.uses(k));
+        let dependent = (0..self.kept.len()).find(|&k| !self.solver.uses(k));
         Trip::RankLost {
             time: s.t,
             row: mechanism.layout().labels[self.kept[dependent.unwrap_or(0)]].clone(),
-            pivot: self.saddle.pivot_ratio(),
+            pivot: self.solver.pivot_ratio(),
             scale: 1.0,
         }
     }
@@ -448,59 +469,15 @@ impl KeptRows {
     }
 }
 
-/// Where the entries of kept rows go, and by which unit they are multiplied.
-#[derive(Clone)]
-struct Gather {
-    /// The first entries of their places.
-    first: Vec<Entry>,
-    /// What is added to them: a joint may reach a coordinate twice.
-    more: Vec<Entry>,
-}
-
-#[derive(Clone, Copy)]
-struct Entry {
-    /// In the matrix of kept rows, row-major.
-    place: usize,
-    /// Among the entries of C.
-    entry: usize,
-    unit: f64,
-}
-
-impl Gather {
-    fn new(mechanism: &Mechanism, kept: &[usize], units: &[f64]) -> Self {
-        let (n, pattern) = (mechanism.layout().n_v, &mechanism.layout().pattern);
-        let mut is_taken = vec![false; kept.len() * n];
-        let entries = kept.iter().enumerate().flat_map(|(k, &i)| {
-            let entry = move |at: usize| Entry {
-                place: k * n + pattern.column[at],
-                entry: pattern.entry[at],
-                unit: units[pattern.column[at]],
-            };
-            (pattern.start[i]..pattern.start[i + 1]).map(entry)
-        });
-        let (first, more) =
-            entries.partition(|entry| !std::mem::replace(&mut is_taken[entry.place], true));
-        Self { first, more }
-    }
-
-    /// Columns in which the rows have entries.
-    fn columns(&self, r: usize, n: usize) -> Vec<Vec<usize>> {
-        let mut columns = vec![Vec::new(); r];
-        for entry in &self.first {
-            columns[entry.place / n].push(entry.place % n);
-        }
-        columns
-    }
-
-    /// The rows, from the entries of C; other places stay zero.
-    fn take(&self, entries: &[f64], c: &mut Matrix) {
-        let c = c.as_mut_slice();
-        for entry in &self.first {
-            c[entry.place] = entries[entry.entry] * entry.unit;
-        }
-        for entry in &self.more {
-            c[entry.place] += entries[entry.entry] * entry.unit;
-        }
+/// A sign, as good as random.
+fn sign_of(k: usize, seed: u64) -> f64 {
+    let mixed = (k as u64)
+        .wrapping_add(seed << 40)
+        .wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    if mixed.rotate_left(31).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 63 == 0 {
+        1.0
+    } else {
+        -1.0
     }
 }
 

@@ -1,0 +1,182 @@
+//! One of two solvers of kept rows: dense for small mechanisms, sparse for large ones.
+//!
+//! The dense one eliminates C itself, row by row, with a new choice of coordinates each time: it knows the sign of a bordered determinant, takes
+//! independent coordinates, and masses may vanish. The sparse one eliminates the Schur complement of the masses in an order that is chosen once.
+
+use linalg::SaddleError;
+use model::{Mechanism, System};
+
+use super::dense::Dense;
+use super::sparse::Sparse;
+
+/// From so many kept rows on they are solved sparsely.
+const SPARSE_FROM: usize = 160;
+
+/// Kept rows and their factors.
+#[derive(Clone)]
+pub(super) enum Solver {
+    Dense(Box<Dense>),
+    Sparse(Box<Sparse>),
+}
+
+/// Whether so many kept rows of a mechanism are solved sparsely: there are many of them, and every coordinate has a mass.
+pub(crate) fn is_sparse(mechanism: &Mechanism, rows: usize) -> bool {
+    rows >= SPARSE_FROM && mechanism.mass().iter().all(|&m| m > 0.0)
+}
+
+impl Solver {
+    pub(super) fn new(
+        mechanism: &Mechanism,
+        kept: &[usize],
+        units: &[f64],
+    ) -> Result<Self, SaddleError> {
+        Ok(match is_sparse(mechanism, kept.len()) {
+            true => Self::Sparse(Box::new(Sparse::new(mechanism, kept, units))),
+            false => Self::Dense(Box::new(Dense::new(mechanism, kept, units)?)),
+        })
+    }
+
+    pub(super) fn factor_above(
+        &mut self,
+        floor: f64,
+        entries: &[f64],
+        mass: &[f64],
+    ) -> Result<(), SaddleError> {
+        match self {
+            Self::Dense(it) => it.factor_above(floor, entries, mass),
+            Self::Sparse(it) => it.factor_above(floor, entries, mass),
+        }
+    }
+
+    /// Solves `M·x + Cᵀ·λ = force`, `C·x = rhs` for x.
+    pub(super) fn motion(
+        &mut self,
+        force: &[f64],
+        rhs: &[f64],
+        x: &mut [f64],
+        lambda: &mut [f64],
+    ) -> Result<(), SaddleError> {
+        match self {
+            Self::Dense(it) => it.saddle.motion(force, rhs, x),
+            Self::Sparse(it) => it.saddle.solve(&it.c, force, rhs, x, lambda),
+        }
+    }
+
+    /// The same with λ, refined in double-double where that is possible.
+    pub(super) fn refined(
+        &mut self,
+        force: &[f64],
+        rhs: &[f64],
+        x: &mut [f64],
+        lambda: &mut [f64],
+    ) -> Result<(), SaddleError> {
+        match self {
+            Self::Dense(it) => {
+                let Dense {
+                    c,
+                    saddle,
+                    refinement,
+                    ..
+                } = it.as_mut();
+                saddle.solve_refined(refinement, |k| c.row(k), force, rhs, x, lambda)
+            }
+            Self::Sparse(it) => it.saddle.solve(&it.c, force, rhs, x, lambda),
+        }
+    }
+
+    /// λ of a motion x.
+    pub(super) fn multipliers(
+        &mut self,
+        force: &[f64],
+        x: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<(), SaddleError> {
+        match self {
+            Self::Dense(it) => it.saddle.multipliers(force, x, lambda),
+            Self::Sparse(it) => it.saddle.multipliers(&it.c, force, x, lambda),
+        }
+    }
+
+    /// Whether solutions come with their multipliers.
+    pub(super) fn brings_multipliers(&self) -> bool {
+        matches!(self, Self::Sparse(_))
+    }
+
+    pub(super) fn wants_refinement(&self) -> bool {
+        match self {
+            Self::Dense(it) => it.saddle.wants_refinement(),
+            Self::Sparse(_) => false,
+        }
+    }
+
+    pub(super) fn pivot_ratio(&self) -> f64 {
+        match self {
+            Self::Dense(it) => it.saddle.pivot_ratio(),
+            Self::Sparse(it) => it.saddle.pivot_ratio(),
+        }
+    }
+
+    pub(super) fn n_left_out(&self) -> usize {
+        match self {
+            Self::Dense(it) => it.saddle.n_left_out(),
+            Self::Sparse(it) => it.saddle.n_left_out(),
+        }
+    }
+
+    pub(super) fn uses(&self, k: usize) -> bool {
+        match self {
+            Self::Dense(it) => it.saddle.uses(k),
+            Self::Sparse(it) => it.saddle.uses(k),
+        }
+    }
+
+    /// Takes the coordinates of the last factorisation first in the next ones; the sparse order is always the same.
+    pub(super) fn keep_order(&mut self) {
+        if let Self::Dense(it) = self {
+            it.saddle.keep_order();
+        }
+    }
+
+    /// The dense solver, which alone knows of independent coordinates.
+    pub(super) fn dense(&mut self) -> Result<&mut Dense, SaddleError> {
+        match self {
+            Self::Dense(it) => Ok(it),
+            Self::Sparse(it) => Err(SaddleError::Large { rows: it.c.nrows() }),
+        }
+    }
+
+    /// Largest entry of a row, in units of the mechanism.
+    pub(super) fn size_of_row(&self, k: usize) -> f64 {
+        let row = match self {
+            Self::Dense(it) => it.c.row(k),
+            Self::Sparse(it) => it.c.row(k).1,
+        };
+        row.iter().fold(0.0, |a, c| f64::max(a, c.abs()))
+    }
+
+    /// Writes a frame of the motions that the factored rows allow; nothing where they are solved sparsely.
+    pub(super) fn null_frame(&self, frame: &mut Vec<f64>) {
+        frame.clear();
+        if let Self::Dense(it) = self {
+            frame.resize(it.n_free() * it.saddle.n_coordinates(), 0.0);
+            it.saddle.null_frame(frame);
+        }
+    }
+
+    /// Sign of the determinant of the factored rows bordered by a frame, 0 for a frame of another size and where they are solved sparsely.
+    pub(super) fn orientation(&mut self, frame: &[f64]) -> f64 {
+        match self {
+            Self::Dense(it) if frame.len() == it.n_free() * it.saddle.n_coordinates() => {
+                it.saddle.orientation(frame)
+            }
+            _ => 0.0,
+        }
+    }
+}
+
+impl Dense {
+    /// Number of free motions of the last factorisation.
+    fn n_free(&self) -> usize {
+        self.saddle.n_coordinates() - self.saddle.n_rows() + self.saddle.n_left_out()
+    }
+}

@@ -1,0 +1,58 @@
+//! The sparse solver of kept rows, for large mechanisms.
+
+use linalg::{SaddleError, SchurSaddle, SchurStructure, SparseMatrix};
+use model::{Mechanism, System};
+
+/// Kept rows in units of the mechanism, and the factors of their Schur complement.
+#[derive(Clone)]
+pub(super) struct Sparse {
+    pub(super) c: SparseMatrix,
+    /// Where each entry goes among the values, which entry of C it is, and its unit.
+    entries: Vec<(usize, usize, f64)>,
+    pub(super) saddle: SchurSaddle,
+}
+
+impl Sparse {
+    pub(super) fn new(mechanism: &Mechanism, kept: &[usize], units: &[f64]) -> Self {
+        let layout = mechanism.layout();
+        let pattern = &layout.pattern;
+        let row = |&i: &usize| {
+            (pattern.start[i]..pattern.start[i + 1]).map(|at| (pattern.column[at], 0.0))
+        };
+        // Columns of a pattern are below n_v; without entries there is nothing to solve.
+        let c = SparseMatrix::from_rows(layout.n_v, kept.iter().map(row))
+            .unwrap_or_else(|_| unreachable!("columns of a pattern are below {}", layout.n_v));
+        let mut entries = Vec::with_capacity(c.nnz());
+        for (k, &i) in kept.iter().enumerate() {
+            let (start, columns) = (c.start(k), c.row(k).0);
+            for at in pattern.start[i]..pattern.start[i + 1] {
+                let column = pattern.column[at];
+                let place = start + columns.partition_point(|&j| j < column);
+                entries.push((place, pattern.entry[at], units[column]));
+            }
+        }
+        let blocks: Vec<_> = (0..mechanism.bodies().len())
+            .map(|b| layout.columns(b))
+            .collect();
+        Self {
+            saddle: SchurSaddle::new(SchurStructure::new(&c, &blocks)),
+            c,
+            entries,
+        }
+    }
+
+    /// Factors at these entries of C; rows of which at most the share `floor` is left are left out.
+    pub(super) fn factor_above(
+        &mut self,
+        floor: f64,
+        entries: &[f64],
+        mass: &[f64],
+    ) -> Result<(), SaddleError> {
+        let values = self.c.values_mut();
+        values.fill(0.0);
+        for &(place, entry, unit) in &self.entries {
+            values[place] += entries[entry] * unit;
+        }
+        self.saddle.factor_above(floor, &self.c, mass)
+    }
+}
