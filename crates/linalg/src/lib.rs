@@ -52,6 +52,9 @@ pub use regularized::{StepError, least_squares_step};
 pub use saddle::{GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, mass_spread};
 pub use schur::{SchurSaddle, SchurStructure};
 pub use singular_values::singular_values;
-pub use sparse::{SparseError, SparseMatrix, minimum_degree};
+pub use sparse::{
+    Sketch, SparseError, SparseEvidence, SparseMatrix, SparsePattern, SparseRank, SparseRankError,
+    decide_sparse, minimum_degree,
+};
 pub use structure::{Part, RowGroup, Settled, Structure, cycles, structure};
 pub use weakest::{WeakestCombination, weakest_combination};

@@ -40,6 +40,7 @@ pub use uncertainty::Uncertainty;
 pub use within::certify_within;
 
 pub(crate) use clear::{Size, independent, size};
+pub(crate) use coefficient::coefficient_noise;
 pub use explicit::{KeptRowsError, decide_dropping, decide_keeping};
 pub(crate) use truncation::{ROUNDING, TRUNCATION};
 
@@ -256,15 +257,20 @@ fn read(c: &Matrix, uncertainty: Uncertainty<'_>) -> Result<(Scaling, Matrix, Re
     let (scaling, spread) = uncertainty.equilibrate(c)?;
     let uncertainty = spread.largest;
     let scaled = scaling.apply(c);
-    let tolerance = tolerance(c, uncertainty);
+    let tolerance = tolerance(c.nrows(), c.ncols(), uncertainty);
     let reading = Reading::new(singular_values(&scaled), tolerance, uncertainty);
     Ok((scaling, scaled, reading))
 }
 
-/// τ of a matrix whose equilibrated entries are known to `uncertainty`.
-fn tolerance(c: &Matrix, uncertainty: f64) -> f64 {
-    let rounding = f64::EPSILON * (c.nrows() as f64 * c.ncols() as f64).sqrt();
+/// τ of an m×n matrix whose equilibrated entries are known to `uncertainty`.
+pub(crate) fn tolerance(m: usize, n: usize, uncertainty: f64) -> f64 {
+    let rounding = f64::EPSILON * (m as f64 * n as f64).sqrt();
     NOISE_FACTOR * rounding.max(uncertainty)
+}
+
+/// What the smallest singular value that counts as non-zero has to reach: max(10³·τ, 10⁻⁷).
+pub(crate) fn required(tolerance: f64) -> f64 {
+    (CLEARANCE * tolerance).max(NEARLY_SINGULAR)
 }
 
 /// σ_r / σ_{r+1}, infinite if σ_{r+1} = 0.
@@ -294,10 +300,21 @@ fn projected(decision: &RankDecision, mut direction: Vec<f64>) -> Vec<f64> {
     direction
 }
 
+/// The status of a rank with a clear gap: decided, unless the tolerance hides singular values that are no rounding.
+pub(crate) fn shown(sigma_next: f64, tolerance: f64) -> RankStatus {
+    match tolerance > HIDDEN && sigma_next > NOT_ROUNDING {
+        true => RankStatus::Undecided(Doubt::Hidden {
+            sigma: sigma_next,
+            tolerance,
+        }),
+        false => RankStatus::Decided,
+    }
+}
+
 impl Reading {
     fn new(singular_values: Vec<f64>, tolerance: f64, constraint_residual: f64) -> Self {
         let above = |limit: f64| singular_values.partition_point(|&sigma| sigma > limit);
-        let required = (CLEARANCE * tolerance).max(NEARLY_SINGULAR);
+        let required = required(tolerance);
         let upper = above(tolerance);
         let lower = singular_values.partition_point(|&sigma| sigma >= required);
         let lower = lower.min(upper);
@@ -316,13 +333,8 @@ impl Reading {
                 tolerance,
                 required,
             })
-        } else if tolerance > HIDDEN && hidden > NOT_ROUNDING {
-            RankStatus::Undecided(Doubt::Hidden {
-                sigma: hidden,
-                tolerance,
-            })
         } else {
-            RankStatus::Decided
+            shown(hidden, tolerance)
         };
 
         let sigma_r = |r: usize| {

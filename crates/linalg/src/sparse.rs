@@ -3,8 +3,19 @@
 //! The dense code of this crate answers the same questions with more evidence; this one answers them in a time that grows with the
 //! number of bodies. Not a sparse linear algebra library: there is what a rank needs, and no more.
 
+mod factor;
+mod front;
 mod matrix;
 mod order;
+mod random;
+mod rank;
+mod reflectors;
+mod sketch;
+mod smallest;
+mod symbolic;
+mod trapezoid;
 
 pub use matrix::{SparseError, SparseMatrix};
 pub use order::minimum_degree;
+pub use rank::{SparseEvidence, SparsePattern, SparseRank, SparseRankError, decide_sparse};
+pub use sketch::Sketch;

@@ -220,7 +220,10 @@ impl Incidence {
 }
 
 /// `0..n` split by ranges, the first range that has a number takes it; then one set for each number in no range.
-fn partition<'a>(n: usize, ranges: impl Iterator<Item = &'a Range<usize>>) -> Vec<Vec<usize>> {
+pub(crate) fn partition<'a>(
+    n: usize,
+    ranges: impl Iterator<Item = &'a Range<usize>>,
+) -> Vec<Vec<usize>> {
     let mut free = vec![true; n];
     let mut sets = Vec::new();
     for range in ranges {

@@ -99,7 +99,7 @@ impl RankDecision {
         }
         let scaled = self.scaling.apply(c);
         let constraint_residual = uncertainty.into().equilibrated(c, &self.scaling)?.largest;
-        let tolerance = tolerance(c, constraint_residual);
+        let tolerance = tolerance(c.nrows(), c.ncols(), constraint_residual);
         let qr = PivotedQr::of_rows(scaled.select_rows(&self.kept));
         let sigma = smallest_singular_value(&qr, self.rank);
         let required = (DEGRADED * self.evidence.sigma_r)

@@ -37,6 +37,28 @@ pub enum CoefficientReading {
     },
 }
 
+impl CoefficientReading {
+    /// Reads the size of a number known to `tolerance`.
+    pub(crate) fn of(size: f64, tolerance: f64) -> Self {
+        let required = (CLEARANCE * tolerance).max(CERTAIN);
+        if size <= tolerance && tolerance <= TOLERANCE_MAX {
+            Self::Zero
+        } else if size > required {
+            Self::NonZero
+        } else {
+            Self::Unclear {
+                tolerance,
+                required,
+            }
+        }
+    }
+}
+
+/// How far a coefficient may be from its true value where singular values are known to `tolerance`: `10·τ/σ_r`.
+pub(crate) fn coefficient_noise(tolerance: f64, sigma_r: f64) -> f64 {
+    SOLVE_FACTOR * tolerance / sigma_r.min(1.0)
+}
+
 impl RankDecision {
     /// Whether the entries of the matrix are meant exactly as they stand, so that T is zero exactly where it is zero.
     #[must_use]
@@ -66,7 +88,7 @@ impl RankDecision {
             }
             // T is right to double-double; what remains is the data: ‖δT‖ ≤ ‖δC‖·‖[T, I]‖/σ_r.
             Some(certificate) => rounding.max(certificate.spread / e.sigma_r.min(1.0)),
-            None => SOLVE_FACTOR * e.tolerance / e.sigma_r.min(1.0),
+            None => coefficient_noise(e.tolerance, e.sigma_r),
         }
     }
 
@@ -90,18 +112,13 @@ impl RankDecision {
     /// Reads the size of a coefficient, or of a norm of some, of which the noise is known.
     #[must_use]
     pub fn read_coefficient(&self, size: f64, noise: f64) -> CoefficientReading {
-        let tolerance = noise;
-        let vanished = self.evidence.certificate.is_some() && size <= VANISHED;
-        let required = (CLEARANCE * tolerance).max(CERTAIN);
-        if size <= tolerance && (tolerance <= TOLERANCE_MAX || vanished) {
-            CoefficientReading::Zero
-        } else if size > required {
-            CoefficientReading::NonZero
-        } else {
-            CoefficientReading::Unclear {
-                tolerance,
-                required,
+        match CoefficientReading::of(size, noise) {
+            CoefficientReading::Unclear { .. }
+                if size <= VANISHED.min(noise) && self.evidence.certificate.is_some() =>
+            {
+                CoefficientReading::Zero
             }
+            reading => reading,
         }
     }
 }

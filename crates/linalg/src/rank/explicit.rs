@@ -3,7 +3,7 @@
 //! A list D of dropped rows is admissible iff `|D| = p` and the other rows have full rank r;
 //! equivalently the rows D of a left null space basis Z form a nonsingular block.
 
-use super::{CLEARANCE, NEARLY_SINGULAR, RankDecision, RankError, Uncertainty, read};
+use super::{RankDecision, RankError, Uncertainty, read, required};
 use crate::strong_basis::{self, complement};
 use crate::{Matrix, singular_values};
 
@@ -110,7 +110,7 @@ fn decide_partition(
             rows: c.nrows(),
         });
     }
-    let required = (CLEARANCE * reading.evidence.tolerance).max(NEARLY_SINGULAR);
+    let required = required(reading.evidence.tolerance);
     if let Some(&smallest) = singular_values(&scaled.select_rows(&kept)).last()
         && smallest < required
     {

@@ -1,6 +1,6 @@
 //! `SparseMatrix`: rows of a few entries each, one after the other.
 
-use crate::Matrix;
+use crate::{Matrix, kernels};
 
 #[cfg(test)]
 mod tests;
@@ -231,6 +231,11 @@ impl SparseMatrix {
                 out[j] += a_ij * y_i;
             }
         }
+    }
+
+    /// Frobenius norm, without overflow.
+    pub(crate) fn norm(&self) -> f64 {
+        kernels::norm(&self.value)
     }
 
     /// Each entry a at (i, j) becomes `f(i, j, a)`.

@@ -1,0 +1,303 @@
+//! The rank of a sparse matrix, by the rule of dense rank decisions, with evidence that can be had for the price of a few factorisations.
+//!
+//! `C̃ = D_r·C·D_c` is equilibrated and factored twice:
+//!
+//! - `C̃ = Q·R` by columns gives r, and random combinations W of the left null space. What ‖C̃ᵀ·W‖ leaves is σ_{r+1}, from above.
+//! - `C̃ᵀ = Q'·R'` by rows gives as its live columns the kept rows K. `R'₁₁ᵀ·R'₁₁ = C̃_K·C̃_Kᵀ`, so that its smallest singular value is that
+//!   of the kept rows, and `σ_r(C̃) ≥ σ_min(C̃_K)`.
+//!
+//! The ranks are found by Heath's rule, which may be wrong; one that is too large shows in σ_min(C̃_K) or in the other rank, one that is
+//! too small in ‖C̃ᵀ·W‖. Then the rank is undecided, never silently wrong.
+//!
+//! Source: L. V. Foster, T. A. Davis, Algorithm 933: Reliable calculation of numerical rank, null space bases, pseudoinverse solutions,
+//! and basic solutions using SuiteSparseQR, ACM Trans. Math. Softw. 40 (2013) 7, for confirming a rank by inverse iteration.
+
+use std::ops::Range;
+
+use super::SparseMatrix;
+use super::factor::{OutsidePattern, Wanted};
+use super::sketch::{Sketch, sketch};
+use super::smallest::smallest_singular_value;
+use super::symbolic::Symbolic;
+use crate::rank::{coefficient_noise, required, shown, tolerance};
+use crate::{
+    CoefficientReading, Doubt, Matrix, RankError, RankStatus, Scaling, equilibrate_sparse, kernels,
+};
+
+#[cfg(test)]
+mod tests;
+
+/// Rank of a sparse constraint matrix, with the rows to keep, random combinations of its left null space, and the evidence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SparseRank {
+    /// r = rank C. If undecided: a guess.
+    pub rank: usize,
+    /// Degree of redundancy p = m − r.
+    pub redundancy: usize,
+    /// Independent rows K, ascending; r of them, unless the rank is undecided.
+    pub kept: Vec<usize>,
+    /// The other rows, ascending.
+    pub dropped: Vec<usize>,
+    /// The scaling under which the rank was decided.
+    pub scaling: Scaling,
+    /// W (m×k): random combinations of an orthonormal basis of the left null space of the equilibrated rows.
+    pub sketch: Matrix,
+    /// The numbers behind the decision.
+    pub evidence: SparseEvidence,
+    /// Decided, or why not.
+    pub status: RankStatus,
+}
+
+/// The numbers behind a sparse rank decision; all of them belong to the equilibrated matrix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SparseEvidence {
+    /// A lower bound of the smallest singular value of the kept rows, and so of σ_r; at most about four times too small. Infinite for
+    /// rank 0.
+    pub sigma_r: f64,
+    /// ‖Cᵀ·W‖ (Frobenius), which estimates ‖Cᵀ·Z‖ ≥ σ_{r+1}.
+    pub sigma_next: f64,
+    /// τ: below it a singular value counts as zero.
+    pub tolerance: f64,
+    /// What the equilibrated entries are known to, as it was stated.
+    pub uncertainty: f64,
+    /// ‖E‖ (Frobenius): what the factorisation by columns set to zero.
+    pub backward_error: f64,
+    /// Smallest norm of a row of W that is not zero over the largest of one that is; infinite if there are none of a kind.
+    pub spread: f64,
+    /// Bytes that the factors took.
+    pub bytes: usize,
+}
+
+/// Input that no sparse rank can be decided for.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SparseRankError {
+    /// The matrix has a bad entry, or the uncertainty is none.
+    #[error(transparent)]
+    Rank(#[from] RankError),
+    /// The matrix is not one of the pattern.
+    #[error("entry in row {row}, column {column}, where the pattern has no body")]
+    Pattern {
+        /// Row of the entry.
+        row: usize,
+        /// Column of the entry.
+        column: usize,
+    },
+    /// The matrix has another shape than the pattern.
+    #[error("matrix of {rows}×{columns} for a pattern of {expected_rows}×{expected_columns}")]
+    Shape {
+        /// Rows given.
+        rows: usize,
+        /// Columns given.
+        columns: usize,
+        /// Rows of the pattern.
+        expected_rows: usize,
+        /// Columns of the pattern.
+        expected_columns: usize,
+    },
+}
+
+/// Decides the rank of a sparse C whose columns come in blocks, the coordinates of a body each. A range beyond the matrix is cut, and a
+/// column in none is a block of its own.
+///
+/// `uncertainty` is what the entries of the equilibrated matrix are known to beyond rounding.
+///
+/// ```
+/// use linalg::{Sketch, SparseMatrix, decide_sparse};
+/// // Rows 0 and 2 say the same of the first body.
+/// let c = SparseMatrix::from_rows(2, [vec![(0, 1.0)], vec![(0, 1.0), (1, 1.0)], vec![(0, 3.0)]])?;
+/// let found = decide_sparse(&c, 0.0, &[0..1, 1..2], Sketch::default())?;
+/// assert!(found.is_decided());
+/// assert_eq!((found.rank, found.redundancy), (2, 1));
+/// assert!(found.margin(0) > 0.1 && found.margin(1) < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN or infinite.
+pub fn decide_sparse(
+    c: &SparseMatrix,
+    uncertainty: f64,
+    blocks: &[Range<usize>],
+    wanted: Sketch,
+) -> Result<SparseRank, SparseRankError> {
+    SparsePattern::new(c, blocks).decide(c, uncertainty, wanted)
+}
+
+/// Where matrices of one pattern have entries, and in which order they are factored: for many decisions on matrices of other values.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SparsePattern {
+    by_columns: Symbolic,
+    by_rows: Symbolic,
+}
+
+impl SparsePattern {
+    /// The pattern of the stored entries of `c`, whose columns come in blocks.
+    pub fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Self {
+        let by_columns = Symbolic::new(c, blocks);
+        let by_rows = Symbolic::new(&c.transpose(), &by_columns.row_blocks);
+        Self {
+            by_columns,
+            by_rows,
+        }
+    }
+
+    /// [`decide_sparse`] of another matrix with this pattern.
+    ///
+    /// # Errors
+    /// - [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN or infinite.
+    /// - [`SparseRankError::Pattern`], [`SparseRankError::Shape`]: the matrix is not one of the pattern.
+    pub fn decide(
+        &self,
+        c: &SparseMatrix,
+        uncertainty: f64,
+        wanted: Sketch,
+    ) -> Result<SparseRank, SparseRankError> {
+        self.check(c, uncertainty)?;
+        let (m, n) = (c.nrows(), c.ncols());
+        let tolerance = tolerance(m, n, uncertainty);
+        let scaling = equilibrate_sparse(c);
+        let scaled = scaling.apply_sparse(c);
+
+        let by_columns = self.by_columns.factor(&scaled, tolerance, Wanted::Q)?;
+        let rank = by_columns.rank;
+        let (sketch, sigma_next) = sketch(&by_columns, &scaled, wanted);
+        // A row of which less is left cannot be kept: the kept rows would not have the singular value that is required of them.
+        let by_rows = self
+            .by_rows
+            .factor(&scaled.transpose(), required(tolerance), Wanted::R)?;
+        let sigma_r = smallest_singular_value(&by_rows.r, m, wanted.seed);
+        let mut is_kept = vec![false; m];
+        by_rows.r.live().for_each(|i| is_kept[i] = true);
+        let (kept, dropped): (Vec<usize>, Vec<usize>) = (0..m).partition(|&i| is_kept[i]);
+
+        let mut found = SparseRank {
+            rank,
+            redundancy: m - rank,
+            kept,
+            dropped,
+            scaling,
+            sketch,
+            evidence: SparseEvidence {
+                sigma_r,
+                sigma_next,
+                tolerance,
+                uncertainty,
+                backward_error: by_columns.dropped,
+                spread: f64::INFINITY,
+                bytes: by_columns.bytes() + by_rows.bytes(),
+            },
+            status: RankStatus::Decided,
+        };
+        found.evidence.spread = found.spread();
+        found.status = found.read(scaled.norm());
+        Ok(found)
+    }
+
+    fn check(&self, c: &SparseMatrix, uncertainty: f64) -> Result<(), SparseRankError> {
+        let (expected_rows, expected_columns) = (self.by_columns.nrows, self.by_columns.ncols);
+        if (c.nrows(), c.ncols()) != (expected_rows, expected_columns) {
+            return Err(SparseRankError::Shape {
+                rows: c.nrows(),
+                columns: c.ncols(),
+                expected_rows,
+                expected_columns,
+            });
+        }
+        if let Some((row, col, value)) = c.first_non_finite() {
+            return Err(RankError::NonFinite { row, col, value }.into());
+        }
+        match uncertainty.is_finite() && uncertainty >= 0.0 {
+            true => Ok(()),
+            false => Err(RankError::Uncertainty { value: uncertainty }.into()),
+        }
+    }
+}
+
+impl From<OutsidePattern> for SparseRankError {
+    fn from(OutsidePattern { row, column }: OutsidePattern) -> Self {
+        Self::Pattern { row, column }
+    }
+}
+
+impl SparseRank {
+    /// Whether the rank is decided.
+    pub fn is_decided(&self) -> bool {
+        self.status == RankStatus::Decided
+    }
+
+    /// An estimate of the norm of row i of an orthonormal basis Z of the left null space: zero iff the multiplier of the row is unique,
+    /// one iff the row depends on nothing else.
+    ///
+    /// # Panics
+    /// If `i` is not a row.
+    pub fn margin(&self, i: usize) -> f64 {
+        kernels::norm(self.sketch.row(i))
+    }
+
+    /// Reads the margin of row i: whether its multiplier is unique.
+    ///
+    /// # Panics
+    /// If `i` is not a row.
+    pub fn read_row(&self, i: usize) -> CoefficientReading {
+        CoefficientReading::of(self.margin(i), self.noise())
+    }
+
+    /// How far a row of W may be from its true value (norm). The part of W outside the left null space is at most ‖Cᵀ·W‖/σ_r; that of the
+    /// matrix meant is off by the uncertainty over σ_r besides.
+    pub fn noise(&self) -> f64 {
+        let e = &self.evidence;
+        let known = e.sigma_next.max(tolerance(1, 1, e.uncertainty));
+        coefficient_noise(known, e.sigma_r)
+    }
+
+    fn spread(&self) -> f64 {
+        let (mut zero, mut other) = (0.0_f64, f64::INFINITY);
+        for i in 0..self.sketch.nrows() {
+            let margin = self.margin(i);
+            match margin <= self.noise() {
+                true => zero = zero.max(margin),
+                false => other = other.min(margin),
+            }
+        }
+        other / zero
+    }
+
+    /// The rule of rank decisions on what is known; `norm` is ‖C‖ (Frobenius).
+    fn read(&self, norm: f64) -> RankStatus {
+        let SparseEvidence {
+            sigma_r,
+            sigma_next,
+            tolerance,
+            ..
+        } = self.evidence;
+        let required = required(tolerance);
+        let unclear = |lower: usize, upper: usize, sigma: f64| {
+            RankStatus::Undecided(Doubt::NoClearGap {
+                lower,
+                upper,
+                sigma,
+                tolerance,
+                required,
+            })
+        };
+        let (fewer, more) = (
+            self.rank.min(self.kept.len()),
+            self.rank.max(self.kept.len()),
+        );
+        if more == 0 && norm > 0.0 {
+            RankStatus::Undecided(Doubt::NotPolished {
+                sigma_max: norm,
+                tolerance,
+            })
+        } else if fewer < more {
+            unclear(fewer, more, sigma_r)
+        } else if sigma_next > tolerance {
+            unclear(self.rank, self.rank + 1, sigma_next)
+        } else if sigma_r < required {
+            unclear(self.rank.saturating_sub(1), self.rank, sigma_r)
+        } else {
+            shown(sigma_next, tolerance)
+        }
+    }
+}
