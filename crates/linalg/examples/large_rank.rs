@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use linalg::{CoefficientReading, Sketch, SparsePattern};
+use linalg::{CoefficientReading, Sketch, SparsePattern, minimum_degree};
 use mechanisms::{Known, chain, grid};
 
 #[path = "../tests/mechanisms/mod.rs"]
@@ -34,6 +34,13 @@ fn write(known: &Known, directory: &Path) -> std::io::Result<()> {
 /// Runs one matrix; the seconds of everything.
 fn run(known: &Known) -> f64 {
     let seconds = |since: Instant| since.elapsed().as_secs_f64();
+    let cliques: Vec<Vec<usize>> = (0..known.c.nrows())
+        .map(|i| known.c.row(i).0.iter().map(|j| j / 3).collect())
+        .collect();
+    let start = Instant::now();
+    let order = minimum_degree(known.bodies.len(), &cliques);
+    let t_order = seconds(start);
+    assert_eq!(order.len(), known.bodies.len());
     let start = Instant::now();
     let pattern = SparsePattern::new(&known.c, &known.bodies);
     let t_pattern = seconds(start);
@@ -55,13 +62,14 @@ fn run(known: &Known) -> f64 {
         });
     let e = &found.evidence;
     println!(
-        "{:12} {:6} × {:6}, p {:5} (true {:5}) | pattern {:.4} s, decide {:.4} s, {:6.1} MB | wrong rows {}, {} | σ_r ≥ {:.1e}, \
+        "{:12} {:6} × {:6}, p {:5} (true {:5}) | order {:.4} s, pattern {:.4} s, decide {:.4} s, {:6.1} MB | wrong rows {}, {} | σ_r ≥ {:.1e}, \
          σ_next {:.1e}, E {:.1e}, spread {:.1e}",
         known.name,
         known.c.nrows(),
         known.c.ncols(),
         found.redundancy,
         known.redundancy,
+        t_order,
         t_pattern,
         t_decide,
         e.bytes as f64 / 1e6,
