@@ -42,7 +42,7 @@ fn run(known: &Known) -> f64 {
     let t_order = seconds(start);
     assert_eq!(order.len(), known.bodies.len());
     let start = Instant::now();
-    let pattern = SparsePattern::new(&known.c, &known.bodies);
+    let pattern = SparsePattern::new(&known.c, &known.bodies).expect("sparse");
     let t_pattern = seconds(start);
     let start = Instant::now();
     let found = pattern

@@ -11,10 +11,11 @@
 //! 223–237; T. A. Davis, Algorithm 915: SuiteSparseQR, ACM Trans. Math. Softw. 38 (2011) 8.
 
 use super::SparseMatrix;
-use super::front::Workspace;
+use super::front::{Assembly, OutsidePattern};
 use super::reflectors::Reflectors;
-use super::symbolic::Symbolic;
+use super::symbolic::{Front, Symbolic};
 use super::trapezoid::Trapezoid;
+use crate::kernels;
 
 #[cfg(test)]
 mod tests;
@@ -45,13 +46,6 @@ impl SparseQr {
     }
 }
 
-/// An entry where the pattern has none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct OutsidePattern {
-    pub(super) row: usize,
-    pub(super) column: usize,
-}
-
 impl Symbolic {
     /// Factors a matrix whose entries all lie in the pattern; what is left of a column below `tolerance` is zero.
     pub(super) fn factor(
@@ -60,11 +54,142 @@ impl Symbolic {
         tolerance: f64,
         wanted: Wanted,
     ) -> Result<SparseQr, OutsidePattern> {
-        let mut work = Workspace::new(self, tolerance, wanted);
+        let mut work = Householder {
+            front: Assembly::new(self),
+            tolerance,
+            wanted,
+            v: Vec::new(),
+            product: Vec::new(),
+            found: SparseQr {
+                q: Reflectors::default(),
+                r: Trapezoid::default(),
+                rank: 0,
+                is_live: vec![false; self.nrows],
+                dropped: 0.0,
+            },
+        };
         for front in &self.fronts {
-            work.assemble(front, c)?;
+            work.front.assemble(front, c)?;
             work.eliminate(front);
         }
-        Ok(work.finish())
+        work.found.dropped = work.found.dropped.sqrt();
+        Ok(work.found)
+    }
+}
+
+struct Householder {
+    front: Assembly,
+    tolerance: f64,
+    wanted: Wanted,
+    /// The vector v of the reflection in work: (row of the front, value).
+    v: Vec<(usize, f64)>,
+    product: Vec<f64>,
+    /// What is finished; `dropped` is ‖E‖² until the end.
+    found: SparseQr,
+}
+
+impl Householder {
+    /// Triangularises the front: rows of R for its pivots, and a rest without rows of zeros.
+    fn eliminate(&mut self, front: &Front) {
+        let (mut top, mut start) = (0, 0);
+        for &end in &front.ends {
+            for at in start..end {
+                let Some(norm) = self.largest_first(top, at, end) else {
+                    break;
+                };
+                self.reflect(top, at, norm);
+                self.finish_row(top, at);
+                top += 1;
+            }
+            start = end;
+        }
+        let (pivots, first) = (start, top);
+        for at in pivots..self.front.width() {
+            if let Some(norm) = self.largest_first(top, at, at + 1) {
+                self.reflect(top, at, norm);
+                top += 1;
+            }
+        }
+        self.front.leave(pivots, first..top);
+    }
+
+    /// Brings that of the columns `at..end` to `at` of which most is left from row `top` on, and gives its norm. If none has more than the
+    /// tolerance, what is left of them becomes zero.
+    fn largest_first(&mut self, top: usize, at: usize, end: usize) -> Option<f64> {
+        let width = self.front.width();
+        let rest = &mut self.front.values[top * width..];
+        let (mut square, mut largest, mut total) = (0.0, at, 0.0);
+        for j in at..end {
+            let column = rest.iter().skip(j).step_by(width);
+            let of_j: f64 = column.map(|a| a * a).sum();
+            total += of_j;
+            if of_j > square {
+                (square, largest) = (of_j, j);
+            }
+        }
+        if square.sqrt() > self.tolerance {
+            self.front.swap_columns(top, at, largest);
+            return Some(square.sqrt());
+        }
+        if total > 0.0 {
+            self.found.dropped += total;
+            for row in rest.chunks_exact_mut(width) {
+                row[at..end].fill(0.0);
+            }
+        }
+        None
+    }
+
+    /// Turns column `at`, of which `norm` is left from row `top` on, into that row; the rows in which it is zero stay as they are.
+    fn reflect(&mut self, top: usize, at: usize, norm: f64) {
+        let width = self.front.width();
+        let entry = |i: usize| (i, self.front.values[i * width + at]);
+        let rows = top..self.front.rows.len();
+        self.v.clear();
+        self.v
+            .extend(rows.map(entry).filter(|(_, value)| *value != 0.0));
+        let (first, head) = self.v[0];
+        self.front.swap_rows(top, first);
+        self.v[0].0 = top;
+        if self.v.len() == 1 {
+            return;
+        }
+        // v = (a − r·e₁)·√β with r = −sign(a₁)·‖a‖ and β = 1/(‖a‖·(‖a‖ + |a₁|)), so that ‖v‖² = 2.
+        let diagonal = -norm.copysign(head);
+        let scale = (norm * (norm + head.abs())).sqrt().recip();
+        self.v[0].1 = head - diagonal;
+        self.v.iter_mut().for_each(|(_, value)| *value *= scale);
+        if self.wanted == Wanted::Q {
+            let rows = &self.front.rows;
+            let entries = self.v.iter().map(|&(i, v_i)| (rows[i], v_i));
+            self.found.q.push(entries);
+        }
+        self.product.clear();
+        self.product.resize(width - at - 1, 0.0);
+        for &(i, v_i) in &self.v {
+            let row = &self.front.values[i * width..][at + 1..width];
+            kernels::axpy(v_i, row, &mut self.product);
+        }
+        for &(i, v_i) in &self.v {
+            let row = &mut self.front.values[i * width..][at..width];
+            row[0] = 0.0;
+            kernels::axpy(-v_i, &self.product, &mut row[1..]);
+        }
+        self.front.values[top * width + at] = diagonal;
+    }
+
+    /// Row `top` is the row of R with its pivot in column `at`.
+    fn finish_row(&mut self, top: usize, at: usize) {
+        self.found.rank += 1;
+        self.found.is_live[self.front.rows[top]] = true;
+        if self.wanted == Wanted::R {
+            let width = self.front.width();
+            let values = &self.front.values[top * width..][at..width];
+            let columns = &self.front.columns[at..];
+            let entries = columns.iter().copied().zip(values.iter().copied());
+            self.found
+                .r
+                .push(entries.filter(|(_, value)| *value != 0.0));
+        }
     }
 }

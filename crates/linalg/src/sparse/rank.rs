@@ -6,6 +6,9 @@
 //! - `C̃ᵀ = Q'·R'` by rows gives as its live columns the kept rows K. `R'₁₁ᵀ·R'₁₁ = C̃_K·C̃_Kᵀ`, so that its smallest singular value is that
 //!   of the kept rows, and `σ_r(C̃) ≥ σ_min(C̃_K)`.
 //!
+//! Not by the live columns of R: where a mechanism has many freedoms, coordinates chosen body by body may depend on each other
+//! exponentially, and rows that are well independent would look as if they were not.
+//!
 //! The ranks are found by Heath's rule, which may be wrong; one that is too large shows in σ_min(C̃_K) or in the other rank, one that is
 //! too small in ‖C̃ᵀ·W‖. Then the rank is undecided, never silently wrong.
 //!
@@ -15,10 +18,11 @@
 use std::ops::Range;
 
 use super::SparseMatrix;
-use super::factor::{OutsidePattern, Wanted};
+use super::factor::Wanted;
+use super::front::OutsidePattern;
 use super::sketch::{Sketch, sketch};
 use super::smallest::smallest_singular_value;
-use super::symbolic::Symbolic;
+use super::symbolic::{Symbolic, TooDense, WORK_MAX};
 use crate::rank::{coefficient_noise, required, shown, tolerance};
 use crate::{
     CoefficientReading, Doubt, Matrix, RankError, RankStatus, Scaling, equilibrate_sparse, kernels,
@@ -76,12 +80,22 @@ pub enum SparseRankError {
     #[error(transparent)]
     Rank(#[from] RankError),
     /// The matrix is not one of the pattern.
-    #[error("entry in row {row}, column {column}, where the pattern has no body")]
+    #[error("entry in row {row}, column {column}, where the pattern has none")]
     Pattern {
         /// Row of the entry.
         row: usize,
         /// Column of the entry.
         column: usize,
+    },
+    /// Too many bodies, or too many rows of one body, are joined to each other to be eliminated one by one.
+    #[error(
+        "elimination needs about {work:.1e} operations, at most {limit:.1e} are made; bodies or rows are joined too closely"
+    )]
+    TooDense {
+        /// Estimated operations, or those counted when the limit was passed.
+        work: f64,
+        /// The limit.
+        limit: f64,
     },
     /// The matrix has another shape than the pattern.
     #[error("matrix of {rows}×{columns} for a pattern of {expected_rows}×{expected_columns}")]
@@ -114,14 +128,15 @@ pub enum SparseRankError {
 /// ```
 ///
 /// # Errors
-/// [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN or infinite.
+/// - [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN or infinite.
+/// - [`SparseRankError::TooDense`]: see there.
 pub fn decide_sparse(
     c: &SparseMatrix,
     uncertainty: f64,
     blocks: &[Range<usize>],
     wanted: Sketch,
 ) -> Result<SparseRank, SparseRankError> {
-    SparsePattern::new(c, blocks).decide(c, uncertainty, wanted)
+    SparsePattern::new(c, blocks)?.decide(c, uncertainty, wanted)
 }
 
 /// Where matrices of one pattern have entries, and in which order they are factored: for many decisions on matrices of other values.
@@ -133,16 +148,19 @@ pub struct SparsePattern {
 
 impl SparsePattern {
     /// The pattern of the stored entries of `c`, whose columns come in blocks.
-    pub fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Self {
-        let by_columns = Symbolic::new(c, blocks);
-        let by_rows = Symbolic::new(&c.transpose(), &by_columns.row_blocks);
-        Self {
+    ///
+    /// # Errors
+    /// [`SparseRankError::TooDense`]: it would take longer than the dense code takes for some thousands of rows.
+    pub fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Result<Self, SparseRankError> {
+        let by_columns = Symbolic::new(c, blocks)?;
+        let by_rows = Symbolic::new(&c.transpose(), &by_columns.row_blocks)?;
+        Ok(Self {
             by_columns,
             by_rows,
-        }
+        })
     }
 
-    /// [`decide_sparse`] of another matrix with this pattern.
+    /// [`decide_sparse`] of a matrix with this pattern.
     ///
     /// # Errors
     /// - [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN or infinite.
@@ -210,6 +228,15 @@ impl SparsePattern {
         match uncertainty.is_finite() && uncertainty >= 0.0 {
             true => Ok(()),
             false => Err(RankError::Uncertainty { value: uncertainty }.into()),
+        }
+    }
+}
+
+impl From<TooDense> for SparseRankError {
+    fn from(TooDense { work }: TooDense) -> Self {
+        Self::TooDense {
+            work,
+            limit: WORK_MAX,
         }
     }
 }

@@ -16,6 +16,15 @@ use crate::structure::partition;
 /// A front of at most this many columns is not worth its own assembly.
 const SMALL: usize = 24;
 
+/// More operations than this take minutes, and their fronts gigabytes: a single dense front of 10⁴ columns.
+pub(super) const WORK_MAX: f64 = 1e12;
+
+/// Operations, counted or estimated, when the limit was passed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct TooDense {
+    pub(super) work: f64,
+}
+
 /// The fronts of matrices of one pattern.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Symbolic {
@@ -42,11 +51,11 @@ pub(super) struct Front {
 
 impl Symbolic {
     /// The fronts of a matrix whose columns come in blocks. Ranges beyond the matrix are cut; a column in no block is one.
-    pub(super) fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Self {
+    pub(super) fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Result<Self, TooDense> {
         let blocks = partition(c.ncols(), blocks.iter());
         let touched = Touched::new(c, &blocks);
         let order = minimum_degree(blocks.len(), &touched.sets);
-        let tree = Tree::new(&touched, &order);
+        let tree = Tree::new(&touched, &order, |k| blocks[order[k]].len())?;
         let supernodes = tree.amalgamate(|k| blocks[order[k]].len());
         let columns = |k: &usize| blocks[order[*k]].iter().copied();
         let mut fronts = Vec::with_capacity(supernodes.len());
@@ -72,12 +81,12 @@ impl Symbolic {
                 .extend(tree.beyond[top].iter().flat_map(columns));
             fronts.push(front);
         }
-        Self {
+        Ok(Self {
             nrows: c.nrows(),
             ncols: c.ncols(),
             row_blocks: touched.rows,
             fronts,
-        }
+        })
     }
 }
 
@@ -134,7 +143,12 @@ struct Supernode {
 }
 
 impl Tree {
-    fn new(touched: &Touched, order: &[usize]) -> Self {
+    /// `size` is the number of columns of a node.
+    fn new(
+        touched: &Touched,
+        order: &[usize],
+        size: impl Fn(usize) -> usize,
+    ) -> Result<Self, TooDense> {
         let n = order.len();
         let mut position = vec![0; n];
         for (k, &block) in order.iter().enumerate() {
@@ -149,6 +163,7 @@ impl Tree {
         let mut children = vec![Vec::new(); n];
         let mut beyond: Vec<Vec<usize>> = Vec::with_capacity(n);
         let mut mark = vec![usize::MAX; n];
+        let mut work = 0.0;
         for k in 0..n {
             mark[k] = k;
             let mut joined = Vec::new();
@@ -162,12 +177,18 @@ impl Tree {
                 }
             }
             joined.sort_unstable();
+            let pivots = size(k);
+            let width = pivots + joined.iter().map(|&j| size(j)).sum::<usize>();
+            work += pivots as f64 * (width as f64).powi(2);
+            if work > WORK_MAX {
+                return Err(TooDense { work });
+            }
             if let Some(&parent) = joined.first() {
                 children[parent].push(k);
             }
             beyond.push(joined);
         }
-        Self { led, beyond }
+        Ok(Self { led, beyond })
     }
 
     /// Puts small fronts, and those that fit exactly, into their parents; the fronts in an order in which the children of each come right
@@ -183,11 +204,10 @@ impl Tree {
         let mut merged = vec![Vec::new(); n];
         let mut roots = Vec::new();
         for k in 0..n {
-            let Some(&parent) = self.beyond[k].first() else {
-                roots.push(k);
-                continue;
-            };
-            children[parent].push(k);
+            match self.beyond[k].first() {
+                Some(&parent) => children[parent].push(k),
+                None => roots.push(k),
+            }
         }
         for k in 0..n {
             let mut apart = Vec::new();
@@ -197,7 +217,7 @@ impl Tree {
                     pivots[k] += pivots[child];
                     width[k] = together;
                     merged[k].push(child);
-                    let own: Vec<usize> = std::mem::take(&mut children[child]);
+                    let own = std::mem::take(&mut children[child]);
                     apart.extend(own);
                 } else {
                     apart.push(child);

@@ -251,16 +251,26 @@ fn bad_input_is_named() {
     let error = decide_sparse(&c, 0.0, &[], Sketch::default()).unwrap_err();
     assert!(error.to_string().contains("row 1, column 1"), "{error}");
 
-    let pattern = SparsePattern::new(&SparseMatrix::from_dense(&Matrix::identity(2)), &[]);
+    let pattern =
+        SparsePattern::new(&SparseMatrix::from_dense(&Matrix::identity(2)), &[]).expect("small");
     let other = SparseMatrix::from_rows(2, [vec![(0, 1.0)], vec![(0, 1.0)]]).expect("columns");
     let error = pattern.decide(&other, 0.0, Sketch::default()).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "entry in row 1, column 0, where the pattern has no body"
+        "entry in row 1, column 0, where the pattern has none"
     );
     let wide = SparseMatrix::from_dense(&Matrix::zeros(2, 3));
     let error = pattern.decide(&wide, 0.0, Sketch::default()).unwrap_err();
     assert_eq!(error.to_string(), "matrix of 2×3 for a pattern of 2×2");
+}
+
+#[test]
+fn what_would_take_hours_is_refused() {
+    // One row on 20 000 bodies joins each to each.
+    let c = SparseMatrix::from_rows(60_000, [(0..60_000).map(|j| (j, 1.0))]).expect("columns");
+    let bodies: Vec<_> = (0..20_000).map(|b| 3 * b..3 * b + 3).collect();
+    let error = decide_sparse(&c, 0.0, &bodies, Sketch::default()).unwrap_err();
+    assert!(matches!(error, SparseRankError::TooDense { .. }), "{error}");
 }
 
 #[test]
@@ -269,7 +279,7 @@ fn a_pattern_serves_other_values() {
     for _ in 0..20 {
         let (c, _, blocks) = planted(&mut dice);
         let c = SparseMatrix::from_dense(&c);
-        let pattern = SparsePattern::new(&c, &blocks);
+        let pattern = SparsePattern::new(&c, &blocks).expect("small");
         let other = c.map(|i, j, value| value * (1.0 + 0.3 * ((i * 7 + j) as f64).sin()));
         assert_eq!(
             pattern.decide(&other, 0.0, Sketch::default()),
