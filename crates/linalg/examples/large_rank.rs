@@ -82,7 +82,7 @@ fn run(known: &Known) -> f64 {
         e.sigma_r,
         e.sigma_next,
         e.backward_error,
-        e.spread
+        e.smallest_margin / e.largest_zero
     );
     t_pattern + t_decide
 }

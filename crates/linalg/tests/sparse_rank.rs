@@ -19,7 +19,7 @@ fn check(known: &Known) {
         assert_eq!(found.read_row(i), expected, "{name}: row {i}");
     }
     let e = &found.evidence;
-    assert!(e.spread > 1e8, "{name}: {e:?}");
+    assert!(e.smallest_margin > 1e8 * e.largest_zero, "{name}: {e:?}");
     assert!(e.backward_error < 1e-11, "{name}: {e:?}");
     // Rows of three bodies with a bounded number of joints: memory in proportion.
     assert!(e.bytes < 1200 * known.c.nrows(), "{name}: {e:?}");

@@ -3,12 +3,15 @@
 //! Each front is triangularised by Householder reflections. A pivot column of which less than the tolerance is left is *dead* and stepped
 //! over (Heath's rule); there is no exchange of columns but among those of one body. What is left of the front below its pivots is
 //! triangularised too, so that it has no more rows than columns when it goes up; rows that have nothing left are the left null space.
-//! All that is set to zero on the way is E: `C + E = Q·R` up to rounding, hence `σ_{r+1}(C) ≤ ‖E‖`.
+//! All that is set to zero on the way is E: `C + E = Q·R` up to rounding, hence `σ_{r+1}(C) ≤ ‖E‖`. The live columns lose nothing with the
+//! dead ones.
 //!
 //! Not here: whether to believe that rank. The live columns may be nearly dependent without one of them showing it.
 //!
 //! Source: M. T. Heath, Some extensions of an algorithm for sparse linear least squares problems, SIAM J. Sci. Stat. Comput. 3 (1982)
 //! 223–237; T. A. Davis, Algorithm 915: SuiteSparseQR, ACM Trans. Math. Softw. 38 (2011) 8.
+
+use std::ops::Range;
 
 use super::SparseMatrix;
 use super::front::{Assembly, OutsidePattern};
@@ -27,6 +30,15 @@ pub(super) enum Wanted {
     R,
 }
 
+/// What counts as zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tolerances {
+    /// What is left of a column when its body is eliminated.
+    pub(super) dead: f64,
+    /// What is left of a column in the rest of a front.
+    pub(super) rest: f64,
+}
+
 /// C = Q·R with r rows in R; one of the factors is empty.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct SparseQr {
@@ -37,6 +49,8 @@ pub(super) struct SparseQr {
     pub(super) is_live: Vec<bool>,
     /// ‖E‖, the Frobenius norm of what was set to zero.
     pub(super) dropped: f64,
+    /// That of its part in columns that were not dead then.
+    pub(super) dropped_from_rest: f64,
 }
 
 impl SparseQr {
@@ -47,16 +61,16 @@ impl SparseQr {
 }
 
 impl Symbolic {
-    /// Factors a matrix whose entries all lie in the pattern; what is left of a column below `tolerance` is zero.
+    /// Factors a matrix whose entries all lie in the pattern.
     pub(super) fn factor(
         &self,
         c: &SparseMatrix,
-        tolerance: f64,
+        tolerances: Tolerances,
         wanted: Wanted,
     ) -> Result<SparseQr, OutsidePattern> {
         let mut work = Householder {
             front: Assembly::new(self),
-            tolerance,
+            tolerances,
             wanted,
             v: Vec::new(),
             product: Vec::new(),
@@ -66,25 +80,29 @@ impl Symbolic {
                 rank: 0,
                 is_live: vec![false; self.nrows],
                 dropped: 0.0,
+                dropped_from_rest: 0.0,
             },
         };
         for front in &self.fronts {
             work.front.assemble(front, c)?;
             work.eliminate(front);
         }
-        work.found.dropped = work.found.dropped.sqrt();
-        Ok(work.found)
+        let mut found = work.found;
+        let dead = found.dropped.sqrt();
+        found.dropped_from_rest = found.dropped_from_rest.sqrt();
+        found.dropped = dead.hypot(found.dropped_from_rest);
+        Ok(found)
     }
 }
 
 struct Householder {
     front: Assembly,
-    tolerance: f64,
+    tolerances: Tolerances,
     wanted: Wanted,
     /// The vector v of the reflection in work: (row of the front, value).
     v: Vec<(usize, f64)>,
     product: Vec<f64>,
-    /// What is finished; `dropped` is ‖E‖² until the end.
+    /// What is finished; until the end squares are in place of what was dropped, and `dropped` is without the rest.
     found: SparseQr,
 }
 
@@ -94,9 +112,12 @@ impl Householder {
         let (mut top, mut start) = (0, 0);
         for &end in &front.ends {
             for at in start..end {
-                let Some(norm) = self.largest_first(top, at, end) else {
+                let (norm, total) = self.largest_first(top, at, end);
+                if norm <= self.tolerances.dead {
+                    self.found.dropped += total;
+                    self.clear(top, at..end);
                     break;
-                };
+                }
                 self.reflect(top, at, norm);
                 self.finish_row(top, at);
                 top += 1;
@@ -105,7 +126,11 @@ impl Householder {
         }
         let (pivots, first) = (start, top);
         for at in pivots..self.front.width() {
-            if let Some(norm) = self.largest_first(top, at, at + 1) {
+            let (norm, total) = self.largest_first(top, at, at + 1);
+            if norm <= self.tolerances.rest {
+                self.found.dropped_from_rest += total;
+                self.clear(top, at..at + 1);
+            } else {
                 self.reflect(top, at, norm);
                 top += 1;
             }
@@ -113,31 +138,31 @@ impl Householder {
         self.front.leave(pivots, first..top);
     }
 
-    /// Brings that of the columns `at..end` to `at` of which most is left from row `top` on, and gives its norm. If none has more than the
-    /// tolerance, what is left of them becomes zero.
-    fn largest_first(&mut self, top: usize, at: usize, end: usize) -> Option<f64> {
+    /// Brings that of the columns `at..end` to `at` of which most is left from row `top` on; its norm, and the square of that of all of them.
+    fn largest_first(&mut self, top: usize, at: usize, end: usize) -> (f64, f64) {
         let width = self.front.width();
-        let rest = &mut self.front.values[top * width..];
         let (mut square, mut largest, mut total) = (0.0, at, 0.0);
         for j in at..end {
-            let column = rest.iter().skip(j).step_by(width);
+            let column = self.front.values[top * width..]
+                .iter()
+                .skip(j)
+                .step_by(width);
             let of_j: f64 = column.map(|a| a * a).sum();
             total += of_j;
             if of_j > square {
                 (square, largest) = (of_j, j);
             }
         }
-        if square.sqrt() > self.tolerance {
-            self.front.swap_columns(top, at, largest);
-            return Some(square.sqrt());
+        self.front.swap_columns(top, at, largest);
+        (square.sqrt(), total)
+    }
+
+    /// Zeros in these columns from row `top` on.
+    fn clear(&mut self, top: usize, columns: Range<usize>) {
+        let width = self.front.width();
+        for row in self.front.values[top * width..].chunks_exact_mut(width) {
+            row[columns.clone()].fill(0.0);
         }
-        if total > 0.0 {
-            self.found.dropped += total;
-            for row in rest.chunks_exact_mut(width) {
-                row[at..end].fill(0.0);
-            }
-        }
-        None
     }
 
     /// Turns column `at`, of which `norm` is left from row `top` on, into that row; the rows in which it is zero stay as they are.

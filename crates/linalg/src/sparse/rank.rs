@@ -18,7 +18,7 @@
 use std::ops::Range;
 
 use super::SparseMatrix;
-use super::factor::Wanted;
+use super::factor::{SparseQr, Tolerances, Wanted};
 use super::front::OutsidePattern;
 use super::sketch::{Sketch, sketch};
 use super::smallest::smallest_singular_value;
@@ -30,6 +30,12 @@ use crate::{
 
 #[cfg(test)]
 mod tests;
+
+/// How much shall be left of a kept row beside those kept before it: tried in this order.
+const LEFT: [f64; 2] = [1e-2, 1e-4];
+
+/// Rows of W are zero and not zero only with this factor between them.
+const SPREAD: f64 = 1e4;
 
 /// Rank of a sparse constraint matrix, with the rows to keep, random combinations of its left null space, and the evidence.
 #[derive(Debug, Clone, PartialEq)]
@@ -66,8 +72,10 @@ pub struct SparseEvidence {
     pub uncertainty: f64,
     /// ‖E‖ (Frobenius): what the factorisation by columns set to zero.
     pub backward_error: f64,
-    /// Smallest norm of a row of W that is not zero over the largest of one that is; infinite if there are none of a kind.
-    pub spread: f64,
+    /// Largest norm of a row of W within its noise, 0 if there is none.
+    pub largest_zero: f64,
+    /// Smallest norm of a row of W beyond its noise, infinite if there is none.
+    pub smallest_margin: f64,
     /// Bytes that the factors took.
     pub bytes: usize,
 }
@@ -177,14 +185,16 @@ impl SparsePattern {
         let scaling = equilibrate_sparse(c);
         let scaled = scaling.apply_sparse(c);
 
-        let by_columns = self.by_columns.factor(&scaled, tolerance, Wanted::Q)?;
+        let exact = Tolerances {
+            dead: tolerance,
+            rest: tolerance,
+        };
+        let by_columns = self.by_columns.factor(&scaled, exact, Wanted::Q)?;
         let rank = by_columns.rank;
         let (sketch, sigma_next) = sketch(&by_columns, &scaled, wanted);
-        // A row of which less is left cannot be kept: the kept rows would not have the singular value that is required of them.
-        let by_rows = self
-            .by_rows
-            .factor(&scaled.transpose(), required(tolerance), Wanted::R)?;
+        let by_rows = self.kept_rows(&scaled.transpose(), rank, tolerance)?;
         let sigma_r = smallest_singular_value(&by_rows.r, m, wanted.seed);
+        let sigma_r = (sigma_r - by_rows.dropped_from_rest).max(0.0);
         let mut is_kept = vec![false; m];
         by_rows.r.live().for_each(|i| is_kept[i] = true);
         let (kept, dropped): (Vec<usize>, Vec<usize>) = (0..m).partition(|&i| is_kept[i]);
@@ -202,14 +212,40 @@ impl SparsePattern {
                 tolerance,
                 uncertainty,
                 backward_error: by_columns.dropped,
-                spread: f64::INFINITY,
+                largest_zero: 0.0,
+                smallest_margin: f64::INFINITY,
                 bytes: by_columns.bytes() + by_rows.bytes(),
             },
             status: RankStatus::Decided,
         };
-        found.evidence.spread = found.spread();
+        (found.evidence.largest_zero, found.evidence.smallest_margin) = found.margins();
         found.status = found.read(scaled.norm());
         Ok(found)
+    }
+
+    /// The factorisation of Cᵀ whose live columns are the kept rows: of rows that are enough, those of which as much is left as possible.
+    fn kept_rows(
+        &self,
+        transposed: &SparseMatrix,
+        rank: usize,
+        tolerance: f64,
+    ) -> Result<SparseQr, OutsidePattern> {
+        let factor = |dead: f64| {
+            let tolerances = Tolerances {
+                dead,
+                rest: tolerance,
+            };
+            self.by_rows.factor(transposed, tolerances, Wanted::R)
+        };
+        // If less is left than required, the kept rows cannot have the singular value that is required of them.
+        let required = required(tolerance);
+        for dead in LEFT.into_iter().filter(|&dead| dead > required) {
+            let found = factor(dead)?;
+            if found.rank == rank {
+                return Ok(found);
+            }
+        }
+        factor(required)
     }
 
     fn check(&self, c: &SparseMatrix, uncertainty: f64) -> Result<(), SparseRankError> {
@@ -262,12 +298,22 @@ impl SparseRank {
         kernels::norm(self.sketch.row(i))
     }
 
-    /// Reads the margin of row i: whether its multiplier is unique.
+    /// Reads the margin of row i: whether its multiplier is unique. Margins within the noise are zero if they are smaller than all others by
+    /// a factor of 10⁴, unclear otherwise.
     ///
     /// # Panics
     /// If `i` is not a row.
     pub fn read_row(&self, i: usize) -> CoefficientReading {
-        CoefficientReading::of(self.margin(i), self.noise())
+        let (margin, noise) = (self.margin(i), self.noise());
+        match CoefficientReading::of(margin, noise) {
+            CoefficientReading::Zero if margin > self.evidence.smallest_margin / SPREAD => {
+                CoefficientReading::Unclear {
+                    tolerance: self.evidence.smallest_margin / SPREAD,
+                    required: noise,
+                }
+            }
+            reading => reading,
+        }
     }
 
     /// How far a row of W may be from its true value (norm). The part of W outside the left null space is at most ‖Cᵀ·W‖/σ_r; that of the
@@ -278,16 +324,17 @@ impl SparseRank {
         coefficient_noise(known, e.sigma_r)
     }
 
-    fn spread(&self) -> f64 {
+    /// The largest margin within the noise, and the smallest beyond it.
+    fn margins(&self) -> (f64, f64) {
+        let noise = self.noise();
         let (mut zero, mut other) = (0.0_f64, f64::INFINITY);
-        for i in 0..self.sketch.nrows() {
-            let margin = self.margin(i);
-            match margin <= self.noise() {
+        for margin in (0..self.sketch.nrows()).map(|i| self.margin(i)) {
+            match margin <= noise {
                 true => zero = zero.max(margin),
                 false => other = other.min(margin),
             }
         }
-        other / zero
+        (zero, other)
     }
 
     /// The rule of rank decisions on what is known; `norm` is ‖C‖ (Frobenius).

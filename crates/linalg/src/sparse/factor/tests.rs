@@ -16,12 +16,17 @@ fn ring(bodies: usize) -> Matrix {
     })
 }
 
+const TOLERANCES: Tolerances = Tolerances {
+    dead: 1e-12,
+    rest: 1e-12,
+};
+
 fn factors(c: &Matrix, wanted: Wanted) -> SparseQr {
     let blocks: Vec<_> = (0..c.ncols()).step_by(3).map(|j| j..j + 3).collect();
     let c = SparseMatrix::from_dense(c);
     Symbolic::new(&c, &blocks)
         .expect("small")
-        .factor(&c, 1e-12, wanted)
+        .factor(&c, TOLERANCES, wanted)
         .expect("its own pattern")
 }
 

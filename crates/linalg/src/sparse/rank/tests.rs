@@ -126,6 +126,53 @@ fn planted_matrices_read_as_by_the_dense_code() {
     assert!(redundant > 100, "{redundant} redundant");
 }
 
+/// A row changed by 1e-17 … 1, and columns in units of 1e±8: undecided is allowed where the dense code decides, a contradiction is not.
+#[test]
+fn nearly_dependent_rows_are_never_misread() {
+    let mut dice = Dice(0x0fed_cba9_8765_4321);
+    let mut decided = 0;
+    for case in 0..1000 {
+        let (mut c, _, blocks) = planted(&mut dice);
+        let change = 10f64.powf(-17.0 * dice.number().abs());
+        let units: Vec<f64> = (0..c.ncols())
+            .map(|_| 10f64.powi(dice.below(17) as i32 - 8))
+            .collect();
+        let last = c.nrows() - 1;
+        for j in 0..c.ncols() {
+            if c[(last, j)] != 0.0 {
+                c[(last, j)] += change * dice.number();
+            }
+            if case % 2 == 0 {
+                (0..c.nrows()).for_each(|i| c[(i, j)] *= units[j]);
+            }
+        }
+        let dense = decide(&c, 0.0).expect("finite");
+        let found = sparse(&c, &blocks);
+        if !found.is_decided() {
+            continue;
+        }
+        decided += 1;
+        assert!(dense.is_decided(), "{case}: {:?}", dense.status);
+        assert_eq!(found.rank, dense.rank, "{case}");
+        let z = orthonormal(&dense);
+        for i in 0..c.nrows() {
+            let margin = crate::kernels::norm(z.row(i));
+            let expected = dense.read_coefficient(margin, dense.row_noise(i));
+            let contradiction = matches!(
+                (expected, found.read_row(i)),
+                (CoefficientReading::Zero, CoefficientReading::NonZero)
+                    | (CoefficientReading::NonZero, CoefficientReading::Zero)
+            );
+            assert!(
+                !contradiction,
+                "{case}: row {i}, {margin:e}: {:?}",
+                found.evidence
+            );
+        }
+    }
+    assert!(decided > 700, "{decided} decided");
+}
+
 #[test]
 fn trivial_matrices() {
     let body = std::slice::from_ref(&(0..3));
