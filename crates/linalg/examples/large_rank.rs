@@ -96,7 +96,7 @@ fn family(name: &str, members: Vec<Known>, directory: Option<&Path>) {
         let best = (0..3).map(|_| run(known)).fold(f64::INFINITY, f64::min);
         measured.push((known.c.nrows() as f64, best));
     }
-    if let [.., (small, fast), (large, slow)] = measured[..] {
+    if let [_, (small, fast), .., (large, slow)] = measured[..] {
         let exponent = (slow / fast).ln() / (large / small).ln();
         println!("{name}: time grows with the power {exponent:.2} of the rows\n");
     }

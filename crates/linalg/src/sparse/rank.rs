@@ -31,8 +31,9 @@ use crate::{
 #[cfg(test)]
 mod tests;
 
-/// How much shall be left of a kept row beside those kept before it: tried in this order.
-const LEFT: [f64; 2] = [1e-2, 1e-4];
+/// How much shall be left of a kept row beside those kept before it, if there are enough of them. Long chains have rows of which 1e-3 is
+/// left.
+const LEFT: f64 = 1e-4;
 
 /// Rows of W are zero and not zero only with this factor between them.
 const SPREAD: f64 = 1e4;
@@ -239,13 +240,11 @@ impl SparsePattern {
         };
         // If less is left than required, the kept rows cannot have the singular value that is required of them.
         let required = required(tolerance);
-        for dead in LEFT.into_iter().filter(|&dead| dead > required) {
-            let found = factor(dead)?;
-            if found.rank == rank {
-                return Ok(found);
-            }
+        let found = factor(required.max(LEFT))?;
+        match found.rank == rank {
+            true => Ok(found),
+            false => factor(required),
         }
-        factor(required)
     }
 
     fn check(&self, c: &SparseMatrix, uncertainty: f64) -> Result<(), SparseRankError> {
