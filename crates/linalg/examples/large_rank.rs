@@ -11,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use linalg::{CoefficientReading, Sketch, SparsePattern, minimum_degree};
-use mechanisms::{Known, chain, grid};
+use mechanisms::{Known, chain, grid, table};
 
 #[path = "../tests/mechanisms/mod.rs"]
 mod mechanisms;
@@ -106,6 +106,8 @@ fn main() {
     let directory = std::env::args().nth(1).map(PathBuf::from);
     let chains = [30, 300, 3_000, 9_000].map(chain);
     family("chains", chains.into(), directory.as_deref());
+    let tables = [30, 100, 300, 1_000].map(table);
+    family("tables", tables.into(), directory.as_deref());
     let grids = [10, 30, 60, 100].map(grid);
     family("grids", grids.into(), directory.as_deref());
 }

@@ -1,7 +1,7 @@
 //! Sparse rank decisions on large mechanisms whose answers are known without numerics.
 
 use linalg::{CoefficientReading, Sketch, SparseMatrix, decide_sparse};
-use mechanisms::{Known, chain, grid};
+use mechanisms::{Known, chain, grid, table};
 
 mod mechanisms;
 
@@ -29,6 +29,13 @@ fn check(known: &Known) {
 fn chains_of_parallelograms() {
     for cells in [1, 2, 3, 30, 3_000] {
         check(&chain(cells));
+    }
+}
+
+#[test]
+fn many_joints_at_one_body() {
+    for legs in [2, 3, 20, 60] {
+        check(&table(legs));
     }
 }
 

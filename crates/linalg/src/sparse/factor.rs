@@ -68,6 +68,11 @@ impl Symbolic {
         tolerances: Tolerances,
         wanted: Wanted,
     ) -> Result<SparseQr, OutsidePattern> {
+        for &row in &self.empty_rows {
+            if let Some(&column) = c.row(row).0.first() {
+                return Err(OutsidePattern { row, column });
+            }
+        }
         let mut work = Householder {
             front: Assembly::new(self),
             tolerances,

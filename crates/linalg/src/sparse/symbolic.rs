@@ -32,6 +32,8 @@ pub(super) struct Symbolic {
     pub(super) ncols: usize,
     /// Consecutive rows that touch the same blocks.
     pub(super) row_blocks: Vec<Range<usize>>,
+    /// Rows without entries, which are in no front.
+    pub(super) empty_rows: Vec<usize>,
     /// Those below a front come before it; the last ones before it are its children.
     pub(super) fronts: Vec<Front>,
 }
@@ -81,10 +83,12 @@ impl Symbolic {
                 .extend(tree.beyond[top].iter().flat_map(columns));
             fronts.push(front);
         }
+        let empty_rows = (0..c.nrows()).filter(|&i| c.row(i).0.is_empty()).collect();
         Ok(Self {
             nrows: c.nrows(),
             ncols: c.ncols(),
             row_blocks: touched.rows,
+            empty_rows,
             fronts,
         })
     }

@@ -29,14 +29,24 @@ fn revolute(sides: [Option<(usize, [f64; 2])>; 2]) -> [Row; 2] {
     rows
 }
 
-/// Couplers on top of each other, each on parallel cranks on the one below: three cranks (p = 1, all four multipliers of each crank shared)
-/// or, in every third cell, two (p = 0).
+/// Couplers on top of each other, each on parallel cranks on the one below: three cranks or, in every third cell, two.
 pub(crate) fn chain(cells: usize) -> Known {
+    let cranks = (0..cells).map(|cell| if cell % 3 == 2 { 2 } else { 3 });
+    parallelograms(format!("chain {cells}"), cranks)
+}
+
+/// One coupler on so many parallel cranks, which are grounded: all joints of the upper side meet at one body.
+pub(crate) fn table(legs: usize) -> Known {
+    parallelograms(format!("table {legs}"), [legs])
+}
+
+/// Cells of so many cranks each. Two of them hold the coupler parallel, each other one adds one redundancy in which all multipliers of the cell
+/// take part.
+fn parallelograms(name: String, cranks: impl IntoIterator<Item = usize>) -> Known {
     let (mut rows, mut is_unique) = (Vec::new(), Vec::new());
     let (mut bodies, mut redundancy) = (0, 0);
     let mut base = None;
-    for cell in 0..cells {
-        let cranks = if cell % 3 == 2 { 2 } else { 3 };
+    for (cell, cranks) in cranks.into_iter().enumerate() {
         redundancy += cranks - 2;
         let coupler = bodies + cranks;
         let angle = 0.3 + 0.9 * (1.7 * cell as f64).sin().abs();
@@ -58,13 +68,7 @@ pub(crate) fn chain(cells: usize) -> Known {
         base = Some(coupler);
         bodies = coupler + 1;
     }
-    known(
-        format!("chain {cells}"),
-        rows,
-        bodies,
-        redundancy,
-        is_unique,
-    )
+    known(name, rows, bodies, redundancy, is_unique)
 }
 
 /// Free bodies in a square grid, neighbours welded: a circuit for every edge that is not in a spanning tree, three rows each, and every

@@ -306,6 +306,10 @@ fn bad_input_is_named() {
         error.to_string(),
         "entry in row 1, column 0, where the pattern has none"
     );
+    let none = SparseMatrix::from_dense(&Matrix::zeros(2, 2));
+    let pattern = SparsePattern::new(&none, &[]).expect("small");
+    let error = pattern.decide(&other, 0.0, Sketch::default()).unwrap_err();
+    assert!(error.to_string().starts_with("entry in row 0, column 0"));
     let wide = SparseMatrix::from_dense(&Matrix::zeros(2, 3));
     let error = pattern.decide(&wide, 0.0, Sketch::default()).unwrap_err();
     assert_eq!(error.to_string(), "matrix of 2×3 for a pattern of 2×2");
