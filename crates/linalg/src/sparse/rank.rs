@@ -62,7 +62,8 @@ pub struct SparseEvidence {
     /// A lower bound of the smallest singular value of the kept rows, and so of σ_r; at most about four times too small. Infinite for
     /// rank 0.
     pub sigma_r: f64,
-    /// ‖Cᵀ·W‖ (Frobenius), which estimates ‖Cᵀ·Z‖ ≥ σ_{r+1}.
+    /// ‖Cᵀ·W‖ (Frobenius), which estimates ‖Cᵀ·Z‖ ≥ σ_{r+1}. Where all p dependencies hold only to the stated uncertainty it is up to √p
+    /// times larger than σ_{r+1}: undecided then, rather than wrong.
     pub sigma_next: f64,
     /// τ: below it a singular value counts as zero.
     pub tolerance: f64,
