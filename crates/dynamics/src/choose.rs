@@ -1,9 +1,9 @@
 //! Which method suits a motion where none is asked for.
 
-use linalg::Matrix;
+use linalg::{Matrix, SaddleError};
 
 use crate::error::Trip;
-use crate::motion::{KeptRowMotion, Reduced};
+use crate::motion::{KeptRowMotion, Reduced, is_sparse};
 use crate::options::{Formulation, Method, MotionOptions, Stabilisation};
 use crate::plan::Decided;
 use crate::prepare::Prepared;
@@ -33,11 +33,27 @@ pub(crate) fn method(
             "the state is a function of time: nothing is free, so that nothing can be stiff",
         );
     }
+    let needs_dense = matches!(
+        options.method,
+        Method::Radau5 | Method::Hem4 | Method::GeneralizedAlpha
+    );
+    if needs_dense && is_sparse(prepared) {
+        let rows = prepared.decision.kept.len();
+        return Err(Trip::Saddle {
+            time: 0.0,
+            source: SaddleError::Large { rows },
+        });
+    }
     if options.method != Method::Auto {
         return Ok(decided(options.method, "asked for".to_owned()));
     }
     if !prepared.mechanism.has_applied_forces() {
         return explicit("no applied forces, so that nothing can be stiff");
+    }
+    if is_sparse(prepared) {
+        return explicit(
+            "its rows are solved sparsely, for explicit methods alone; whether it is stiff was not measured",
+        );
     }
     let may_be_implicit = options.stabilisation == Stabilisation::Projection
         && matches!(

@@ -39,7 +39,7 @@ use coded::Coded;
 pub(crate) use locate::Singular;
 use passage::Passage;
 use rows::KeptRows;
-pub(crate) use rows::{is_far, mass_spread};
+pub(crate) use rows::{is_far, is_sparse, mass_spread};
 
 pub use reduced::Reduced;
 
@@ -230,6 +230,11 @@ impl<'a> KeptRowMotion<'a> {
         let kept = &self.velocity.kept;
         let holonomic = kept.partition_point(|&i| i < self.mechanism.layout().m);
         [holonomic, kept.len() - holonomic]
+    }
+
+    /// Degrees of freedom.
+    pub(crate) fn mobility(&self) -> usize {
+        self.mechanism.layout().n_v - self.velocity.kept.len()
     }
 
     /// Whether accelerations at coordinates q are refined, were they solved for on kept rows.

@@ -128,9 +128,21 @@ fn describe(name: &str, d: &RunDocument, out: &str) -> String {
         text.push_str(&format!(
             "not determined by the model: {}. Their columns in reactions.csv belong to one choice ({choice}), not to the \
              mechanism.\n",
-            names.join(", "),
+            listed(&names),
         ));
     }
     text.push_str(&format!("written to {out}\n"));
     text
 }
+
+/// Names, at most so many as can be read; summary.json has all.
+fn listed(names: &[&str]) -> String {
+    let few = &names[..names.len().min(LISTED)];
+    match names.len() - few.len() {
+        0 => few.join(", "),
+        more => format!("{} and {more} more", few.join(", ")),
+    }
+}
+
+/// Names that are listed.
+const LISTED: usize = 40;

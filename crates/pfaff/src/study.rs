@@ -16,7 +16,7 @@ use report::{
     TrajectoryTable, write_json,
 };
 use scene::{Output, Scene, WantedReactions};
-use solvability::{Analysis, Judgement, State, analyse, is_permanent};
+use solvability::{Analysis, Judgement, State, is_permanent, verdicts};
 
 use crate::blueprint::Blueprint;
 use crate::error::StudyError;
@@ -214,7 +214,7 @@ impl Study {
         let plan = self.plan()?;
         let mechanism = &self.prepared.mechanism;
         let output = &self.scene.output;
-        let analysis = analyse(mechanism, 0.0, &self.prepared.q)?;
+        let reactions_of_model = verdicts(mechanism, 0.0, &self.prepared.q)?;
         let mut trajectory = match output.trajectory {
             true => Some(TrajectoryTable::new(
                 directory.file("trajectory.csv")?,
@@ -267,7 +267,7 @@ impl Study {
         };
         let run = Run {
             plan: &plan,
-            analysis: &analysis,
+            reactions: &reactions_of_model,
             summary: &summary,
             ending,
         };

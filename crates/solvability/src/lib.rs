@@ -69,9 +69,9 @@ pub use mechanism::{
     analyse_dropping, analyse_known, decide, decide_dropping, decide_holonomic,
 };
 pub use rows::{RowDecision, Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows};
-pub use second_order::{Continuation, Undetermined, second_order};
+pub use second_order::{Continuation, KERNEL_MAX, Undetermined, second_order};
 pub use state::{State, StateError};
 pub use structure::{judge_parts, structure};
-pub use survey::{LARGE, Survey, SurveyedPart, survey};
+pub use survey::{LARGE, Survey, SurveyedPart, survey, verdicts};
 pub use units::{Nature, UnitCheck, UnitError, Units, check_units};
 pub use verdict::{Judgement, Verdict};

@@ -93,7 +93,7 @@ pub enum Undetermined {
 }
 
 /// New motions that are examined at once.
-const KERNEL_MAX: usize = 4;
+pub const KERNEL_MAX: usize = 4;
 
 /// The given motion may miss the equations by this share of their coefficients: its directions may come from
 /// neighbouring configurations.

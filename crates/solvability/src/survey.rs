@@ -1,7 +1,7 @@
 //! Verdicts of large mechanisms, cycle by cycle.
 //!
 //! Self-stresses live on cycles of the graph of bodies, ground and joints: every `z` with `Cᵀ·z = 0` is a sum of such vectors on single
-//! sets of [`linalg::cycles`]. So each set is a small mechanism that can be judged alone, by [`analyse`](crate::analyse), with all the evidence that it has; the
+//! sets of [`linalg::cycles`]. So each set is a small mechanism that can be judged alone, by [`analyse`], with all the evidence that it has; the
 //! redundancy of the whole is the sum of theirs, and no verdict depends on any other set. The work is linear in their number.
 //!
 //! Each part is measured by its own size: margins do not depend on how long the chain is in which it stands. Not here: mechanisms of one
@@ -12,7 +12,7 @@ use model::{BodyRef, ConstraintId, Known, Mechanism, Places, Scratch, System};
 
 use crate::certificate::ROWS_MAX;
 use crate::mechanism::{
-    Analysis, AnalysisError, Dependency, ReactionVerdict, analyse_known, evaluated,
+    Analysis, AnalysisError, Dependency, ReactionVerdict, analyse, analyse_known, evaluated,
 };
 use crate::state::check_configuration;
 
@@ -135,7 +135,7 @@ impl Survey {
 /// Verdicts at time t and coordinates q, which must satisfy the constraints; allocates. After each part `progress` is told how many joints are judged.
 ///
 /// # Errors
-/// As [`analyse`](crate::analyse).
+/// As [`analyse`].
 pub fn survey(
     mechanism: &Mechanism,
     t: f64,
@@ -167,6 +167,22 @@ pub fn survey(
         nonholonomic_rows: layout.h,
         parts: parts.collect::<Result<_, _>>()?,
     })
+}
+
+/// The verdicts of all joints and drives in the order of their rows, of the whole where it is small, by parts where it is large.
+///
+/// # Errors
+/// As [`analyse`].
+pub fn verdicts(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+) -> Result<Vec<ReactionVerdict>, AnalysisError> {
+    if mechanism.layout().rows() <= LARGE {
+        return Ok(analyse(mechanism, t, q)?.reactions);
+    }
+    let found = survey(mechanism, t, q, |_| ())?;
+    Ok(found.reactions().into_iter().cloned().collect())
 }
 
 /// Joints and drives that lie on common cycles, at the pose of the scratch, where C has been evaluated: sets that can be judged alone.

@@ -21,6 +21,9 @@ const AGREES: f64 = 1e-9;
 /// The first solve for the least reactions leaves its own rounding; the second removes what of it matters.
 const LEAST_SOLVES: usize = 2;
 
+/// Entries of all rows at most: half a gigabyte, and minutes for a single solution.
+const DENSE_MOST: usize = 1 << 26;
+
 /// All rows with the solver of a formulation.
 pub(super) struct AllRows {
     /// Multipliers of the last solve.
@@ -63,6 +66,11 @@ impl AllRows {
         mechanism.c(&mut s);
         let units = units(mechanism, prepared.assembly.size);
         let mass = mass_in_units(mechanism, &units);
+        let (rows, n) = (mechanism.layout().rows(), units.len());
+        if rows * n > DENSE_MOST {
+            let source = SaddleError::Large { rows };
+            return Err(Trip::Saddle { time: 0.0, source });
+        }
         let mut c = mechanism.layout().dense(&s);
         scale_columns(&mut c, &units);
         let rank = prepared.decision.rank;

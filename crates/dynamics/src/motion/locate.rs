@@ -11,8 +11,8 @@ use crate::events::{Event, EventKind};
 /// Places at which a step is first looked at.
 const PLACES: usize = 16;
 
-/// Intervals are divided so often: the place is then found to rounding.
-const DIVISIONS: usize = 60;
+/// Intervals are divided so often: the place is then found to 1e-10 of the step by halves, and to 1e-7 by golden sections, where a pivot is as small.
+const DIVISIONS: usize = 34;
 
 /// Share by which a golden section shortens an interval.
 const GOLDEN: f64 = 0.618_033_988_749_894_8;

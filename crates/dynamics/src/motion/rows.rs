@@ -16,8 +16,6 @@ use crate::error::Trip;
 use crate::prepare::Prepared;
 use solver::Solver;
 
-pub(crate) use solver::is_sparse;
-
 /// Kept rows and the factored saddle matrix.
 #[derive(Clone)]
 pub(super) struct KeptRows {
@@ -497,6 +495,12 @@ pub(super) fn mass_in_units(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
 /// differs by many powers of ten as well.
 pub(crate) fn is_far(size: f64) -> bool {
     !(1.0 / FAR..=FAR).contains(&size)
+}
+
+/// Whether the kept rows of a mechanism are solved sparsely.
+pub(crate) fn is_sparse(prepared: &Prepared) -> bool {
+    let units = units(&prepared.mechanism, prepared.assembly.size);
+    solver::is_sparse(&prepared.mechanism, &units, prepared.decision.kept.len())
 }
 
 /// The largest mass divided by the smallest that is not zero, moments of inertia divided by the square of the mechanism's size: the spread that

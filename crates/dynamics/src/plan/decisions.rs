@@ -10,7 +10,7 @@ use super::split::elimination;
 use super::{Decided, Line, line};
 use crate::choose;
 use crate::error::MotionError;
-use crate::motion::{KeptRowMotion, is_far, mass_spread};
+use crate::motion::{KeptRowMotion, is_far, is_sparse, mass_spread};
 use crate::options::{Formulation, Method, MotionOptions};
 use crate::prepare::Prepared;
 
@@ -131,6 +131,19 @@ fn dense(
         true => sizes.rank,
         false => sizes.rows(),
     };
+    let n = sizes.velocities;
+    if formulation.drops_rows() && is_sparse(prepared) {
+        return Decided {
+            value: [rows, n],
+            taken: format!("sparse, {rows} × {n}"),
+            reason: format!(
+                "{}, {} entries of C; Schur complement of the masses, in an order chosen once",
+                formulation.name(),
+                work.entries
+            ),
+            saves: None,
+        };
+    }
     let (all, n) = (elimination(&prepared.mechanism, rows), sizes.velocities);
     // Of the whole saddle matrix, by LU.
     let order = (n + rows) as u64;
@@ -167,6 +180,10 @@ fn refinement(
     if matches!(method, Method::Hem4 | Method::GeneralizedAlpha) {
         let why = "takes the constraints as equations of their own";
         return Ok(decided(false, format!("{} {why}", method.name())));
+    }
+    if is_sparse(prepared) {
+        let why = "solved sparsely: each solution is compared with its rows, and corrected";
+        return Ok(decided(false, why.to_owned()));
     }
     let spread = mass_spread(prepared);
     let factor = format!("masses and inertias differ by a factor of {spread:.1e}");

@@ -2,7 +2,7 @@
 //! motion is unique there.
 
 use integrators::Step;
-use solvability::{PassageKind, State, singular_passages};
+use solvability::{KERNEL_MAX, PassageKind, State, singular_passages};
 
 use super::equations::Equations;
 use crate::motion::Singular;
@@ -22,8 +22,13 @@ pub(super) fn note(step: &mut Step<'_, Equations<'_>>) {
     for singular in found(step) {
         // Passages of one kind are of one kind also later.
         if step.ode().uniqueness_of(singular.dependent).is_none() {
-            let words =
-                judge(step).unwrap_or_else(|| "whether it is unique there is not decided".into());
+            // Second order is not asked where it has no answer.
+            let kernel = step.ode().motion.mobility() + singular.dependent;
+            let words = match kernel <= KERNEL_MAX {
+                true => judge(step),
+                false => None,
+            };
+            let words = words.unwrap_or_else(|| "whether it is unique there is not decided".into());
             step.ode().remember_uniqueness(singular.dependent, words);
         }
         let search = step.ode().motion.search();

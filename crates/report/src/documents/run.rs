@@ -6,7 +6,7 @@ use dynamics::{
     ComponentSummary, Event, EventKind, Formulation, MotionError, Plan, RowChoice, Summary,
 };
 use serde::Serialize;
-use solvability::Analysis;
+use solvability::ReactionVerdict;
 
 use super::plan::{short, short_of};
 use super::{Named, VerdictDocument, from_one};
@@ -17,7 +17,7 @@ pub struct Run<'a> {
     /// Start, kept rows, and how it was to run.
     pub plan: &'a Plan<'a>,
     /// Verdicts at the start.
-    pub analysis: &'a Analysis,
+    pub reactions: &'a [ReactionVerdict],
     /// What came out.
     pub summary: &'a Summary,
     /// How it ended.
@@ -200,13 +200,21 @@ impl ChoiceDocument {
     }
 }
 
+/// Deleted rows that are listed in words; the document has all of them.
+const LISTED: usize = 24;
+
 impl fmt::Display for ChoiceDocument {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::KeptRows { deleted_rows, .. } => {
-                let rows: Vec<String> = deleted_rows.iter().map(usize::to_string).collect();
+                let listed = deleted_rows.iter().take(LISTED);
+                let rows: Vec<String> = listed.map(usize::to_string).collect();
                 let word = if rows.len() == 1 { "row" } else { "rows" };
-                write!(f, "kept-rows, {word} {} deleted", rows.join(", "))
+                write!(f, "kept-rows, {word} {}", rows.join(", "))?;
+                match deleted_rows.len().checked_sub(LISTED) {
+                    Some(more @ 1..) => write!(f, " and {more} more deleted"),
+                    _ => f.write_str(" deleted"),
+                }
             }
             Self::MinimumNorm { norm } => write!(f, "minimum-norm, {norm}"),
             Self::Proximal {
@@ -232,7 +240,7 @@ impl RunDocument {
             Ending::Interrupted => (true, None),
             Ending::Stopped(error) => (true, Some(error.to_string())),
         };
-        let reactions = run.analysis.reactions.iter().map(|r| {
+        let reactions = run.reactions.iter().map(|r| {
             let is_unique = r.wrench.verdict.is_unique();
             let document = RunReactionDocument {
                 verdict: (&r.wrench).into(),

@@ -316,7 +316,7 @@ fn summary_has_the_keys_of_the_contract() {
     let plan = planned(&prepared);
     let run = Run {
         plan: &plan,
-        analysis: &analysis,
+        reactions: &analysis.reactions,
         summary: &summary,
         ending: Ending::Complete,
     };
@@ -359,7 +359,7 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
     let error = MotionError::Rows("no rows".into());
     let run = |ending| Run {
         plan: &plan,
-        analysis: &analysis,
+        reactions: &analysis.reactions,
         summary: &summary,
         ending,
     };

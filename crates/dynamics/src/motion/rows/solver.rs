@@ -3,10 +3,12 @@
 //! The dense one eliminates C itself, row by row, with a new choice of coordinates each time: it knows the sign of a bordered determinant, takes
 //! independent coordinates, and masses may vanish. The sparse one eliminates the Schur complement of the masses in an order that is chosen once.
 
-use linalg::SaddleError;
+use linalg::{GRADED_MASSES, SaddleError};
 use model::{Mechanism, System};
+use solvability::LARGE;
 
 use super::dense::Dense;
+use super::mass_in_units;
 use super::sparse::Sparse;
 
 /// From so many kept rows on they are solved sparsely.
@@ -19,9 +21,13 @@ pub(super) enum Solver {
     Sparse(Box<Sparse>),
 }
 
-/// Whether so many kept rows of a mechanism are solved sparsely: there are many of them, and every coordinate has a mass.
-pub(crate) fn is_sparse(mechanism: &Mechanism, rows: usize) -> bool {
-    rows >= SPARSE_FROM && mechanism.mass().iter().all(|&m| m > 0.0)
+/// Whether so many kept rows of a mechanism are solved sparsely: there are many of them, every coordinate has a mass, and masses do not differ so
+/// much that solutions have to be refined, unless there are too many rows for anything else.
+pub(in crate::motion) fn is_sparse(mechanism: &Mechanism, units: &[f64], rows: usize) -> bool {
+    let is_graded = || linalg::mass_spread(&mass_in_units(mechanism, units)) >= GRADED_MASSES;
+    rows >= SPARSE_FROM
+        && mechanism.mass().iter().all(|&m| m > 0.0)
+        && (rows > LARGE || !is_graded())
 }
 
 impl Solver {
@@ -30,7 +36,7 @@ impl Solver {
         kept: &[usize],
         units: &[f64],
     ) -> Result<Self, SaddleError> {
-        Ok(match is_sparse(mechanism, kept.len()) {
+        Ok(match is_sparse(mechanism, units, kept.len()) {
             true => Self::Sparse(Box::new(Sparse::new(mechanism, kept, units))),
             false => Self::Dense(Box::new(Dense::new(mechanism, kept, units)?)),
         })
