@@ -40,16 +40,36 @@ impl Mechanism {
     #[must_use]
     pub fn uncertainty(&self, s: &Scratch, q: &[f64], size: f64, known: Known) -> Matrix {
         let layout = self.layout();
-        let entries = self.magnitudes(s);
-        let relative = known.relative() + self.relative_opening(s, size);
+        let of_entries = self.uncertainty_of_entries(s, q, size, known);
         let mut u = Matrix::zeros(layout.rows(), layout.n_v);
         for i in 0..layout.rows() {
             for k in layout.pattern.start[i]..layout.pattern.start[i + 1] {
-                let (column, entry) = (layout.pattern.column[k], layout.pattern.entry[k]);
-                u[(i, column)] += relative * entries[entry].value();
-                if column % N_BODY == 2 {
-                    u[(i, column)] += self.shift(s, i, q);
+                u[(i, layout.pattern.column[k])] += of_entries[k];
+            }
+        }
+        u
+    }
+
+    /// The same for each entry of the pattern of C, in its order.
+    #[must_use]
+    pub fn uncertainty_of_entries(
+        &self,
+        s: &Scratch,
+        q: &[f64],
+        size: f64,
+        known: Known,
+    ) -> Vec<f64> {
+        let layout = self.layout();
+        let entries = self.magnitudes(s);
+        let relative = known.relative() + self.relative_opening(s, size);
+        let mut u = Vec::with_capacity(layout.pattern.column.len());
+        for i in 0..layout.rows() {
+            for k in layout.pattern.start[i]..layout.pattern.start[i + 1] {
+                let mut by = relative * entries[layout.pattern.entry[k]].value();
+                if layout.pattern.column[k] % N_BODY == 2 {
+                    by += self.shift(s, i, q);
                 }
+                u.push(by);
             }
         }
         u

@@ -17,6 +17,7 @@
 //! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
 //! | `certificate` | the rank in double-double at a polished point |
 //! | [`mod@structure`] | what the shape settles before any rank |
+//! | `large` | the rank of one large set of joints, decided sparsely |
 //! | [`mod@survey`] | large mechanisms, cycle by cycle |
 //! | [`mod@explain`] | mixing, free directions and sentences |
 //! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |
@@ -32,6 +33,7 @@ pub mod explain;
 pub mod frames;
 pub mod generic;
 pub mod groups;
+mod large;
 pub mod make_unique;
 pub mod matrices;
 pub mod mechanism;

@@ -117,6 +117,30 @@ pub enum AnalysisError {
         /// Why.
         source: RankError,
     },
+    /// Joints that share cycles are too many for the rank of their rows.
+    #[error("at t = {time} s: {rows} rows share cycles: {source}")]
+    Large {
+        /// When.
+        time: f64,
+        /// Their rows.
+        rows: usize,
+        /// Why.
+        source: linalg::SparseRankError,
+    },
+    /// Reactions of so many rows that share cycles, some of them redundant, are not judged.
+    #[error(
+        "at t = {time} s: {rows} rows share cycles and {redundancy} of them are redundant; verdicts are told of sets of up to {most} rows only"
+    )]
+    LargeVerdicts {
+        /// When.
+        time: f64,
+        /// Their rows.
+        rows: usize,
+        /// Their redundancy.
+        redundancy: usize,
+        /// Rows of the largest set that is judged.
+        most: usize,
+    },
     /// A verdict cannot be asked for.
     #[error("at t = {time} s: {source}")]
     Query {
@@ -322,6 +346,65 @@ pub(crate) fn judge(
         dependencies,
         warnings,
     })
+}
+
+/// Verdicts of rows that are independent: all unique, at any size.
+pub(crate) fn judge_independent(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+    decision: RankDecision,
+) -> Analysis {
+    let layout = mechanism.layout();
+    let unique = || Judgement {
+        verdict: Verdict::Unique,
+        margin: 0.0,
+    };
+    let reaction = |id: ConstraintId| {
+        let group = &layout.groups[id.0];
+        let components = group.components();
+        let axis = |i: usize| {
+            (0..components.len())
+                .map(|k| f64::from(u8::from(k == i)))
+                .collect()
+        };
+        ReactionVerdict {
+            id,
+            name: group.name.clone(),
+            kind: group.spec.common.scene_type,
+            wrench: unique(),
+            multipliers: unique(),
+            rows: (group.rows.clone())
+                .map(|row| RowVerdict {
+                    row,
+                    judgement: unique(),
+                })
+                .collect(),
+            components: (components.iter())
+                .map(|&c| ComponentVerdict {
+                    name: COMPONENTS[c],
+                    judgement: unique(),
+                })
+                .collect(),
+            unique_directions: (0..components.len()).map(axis).collect(),
+        }
+    };
+    Analysis {
+        time: s.t,
+        bodies: mechanism.bodies().len(),
+        coordinates: layout.n_q,
+        velocities: layout.n_v,
+        size: scene_size(mechanism, q),
+        holonomic_rows: layout.m,
+        nonholonomic_rows: layout.h,
+        rank_holonomic: layout.m,
+        rank_nonholonomic: layout.h,
+        nearly_redundant: None,
+        decision,
+        reactions: mechanism.constraint_ids().map(reaction).collect(),
+        dependencies: Vec::new(),
+        warnings: Vec::new(),
+    }
 }
 
 fn reaction(

@@ -1,11 +1,12 @@
 //! What a motion needs of the rows: which are independent, of C and of Φq alone, and whether the others agree with them. Small mechanisms are
 //! decided as a whole, large ones part by part.
 
-use linalg::{KeptRowsError, NearlyRedundant, RankDecision, RankStatus};
+use linalg::{KeptRowsError, NearlyRedundant, RankDecision, RankStatus, SparseRank};
 use model::{Mechanism, Part, Scratch, System};
 
 use crate::certificate::inseparable;
 use crate::existence::{Contradiction, Ranks, contradictions};
+use crate::large::{SPARSE_FROM, decide_range};
 use crate::mechanism::{AnalysisError, decide, decide_dropping, decide_holonomic, evaluated};
 use crate::state::StateError;
 use crate::survey::{LARGE, parts};
@@ -47,7 +48,7 @@ impl RowDecision {
     }
 
     /// Adds the decision of a part with these rows of the whole.
-    fn add(&mut self, part: &RankDecision, rows: &[usize]) {
+    fn add(&mut self, part: &Self, rows: &[usize]) {
         self.rank += part.rank;
         self.redundancy += part.redundancy;
         self.kept.extend(part.kept.iter().map(|&k| rows[k]));
@@ -55,8 +56,7 @@ impl RowDecision {
         if self.is_decided() {
             self.status = part.status;
         }
-        let tolerance = linalg::support_tolerance(part);
-        self.support_tolerance = self.support_tolerance.max(tolerance);
+        self.support_tolerance = self.support_tolerance.max(part.support_tolerance);
     }
 
     fn sorted(mut self) -> Self {
@@ -79,6 +79,19 @@ impl From<&RankDecision> for RowDecision {
     }
 }
 
+impl From<&SparseRank> for RowDecision {
+    fn from(found: &SparseRank) -> Self {
+        Self {
+            rank: found.rank,
+            redundancy: found.redundancy,
+            kept: found.kept.clone(),
+            dropped: found.dropped.clone(),
+            status: found.status,
+            support_tolerance: found.noise(),
+        }
+    }
+}
+
 /// Rows of C, and of Φq alone, at one configuration, with what the questions after them need.
 pub struct Rows {
     /// Of all rows of C.
@@ -92,8 +105,10 @@ pub struct Rows {
 struct Piece {
     /// Nothing for the whole.
     part: Option<Part>,
-    all: RankDecision,
-    holonomic: RankDecision,
+    all: RowDecision,
+    holonomic: RowDecision,
+    /// The dense decisions, where it is not too large for them.
+    dense: Option<[RankDecision; 2]>,
 }
 
 impl Piece {
@@ -106,10 +121,34 @@ impl Piece {
         let part = mechanism.part_of_groups(groups);
         let own = own(q, &part.places.coordinates);
         let s = evaluated(&part.mechanism, t, &own);
-        Ok(Self {
-            all: decide(&part.mechanism, &s, &own)?,
-            holonomic: decide_holonomic(&part.mechanism, &s, &own)?,
+        Self::of(&part.mechanism, &s, &own).map(|piece| Self {
             part: Some(part),
+            ..piece
+        })
+    }
+
+    /// Of the whole.
+    fn of(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Self, AnalysisError> {
+        let layout = mechanism.layout();
+        if layout.rows() > SPARSE_FROM {
+            let all = decide_range(mechanism, s, q, 0..layout.rows())?;
+            let holonomic = match layout.h {
+                0 => (&all).into(),
+                _ => (&decide_range(mechanism, s, q, 0..layout.m)?).into(),
+            };
+            return Ok(Self {
+                part: None,
+                all: (&all).into(),
+                holonomic,
+                dense: None,
+            });
+        }
+        let dense = [decide(mechanism, s, q)?, decide_holonomic(mechanism, s, q)?];
+        Ok(Self {
+            part: None,
+            all: (&dense[0]).into(),
+            holonomic: (&dense[1]).into(),
+            dense: Some(dense),
         })
     }
 }
@@ -124,14 +163,17 @@ fn own(x: &[f64], places: &[usize]) -> Vec<f64> {
 /// If C is not finite.
 pub fn rows(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Rows, AnalysisError> {
     if mechanism.layout().rows() <= LARGE {
+        let dense = [decide(mechanism, s, q)?, decide_holonomic(mechanism, s, q)?];
+        let [all, holonomic] = [&dense[0], &dense[1]].map(RowDecision::from);
         let piece = Piece {
             part: None,
-            all: decide(mechanism, s, q)?,
-            holonomic: decide_holonomic(mechanism, s, q)?,
+            all: all.clone(),
+            holonomic: holonomic.clone(),
+            dense: Some(dense),
         };
         return Ok(Rows {
-            all: (&piece.all).into(),
-            holonomic: (&piece.holonomic).into(),
+            all,
+            holonomic,
             pieces: vec![piece],
         });
     }
@@ -140,7 +182,7 @@ pub fn rows(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Rows, Analy
         .iter()
         .map(|groups| Piece::of_part(mechanism, groups, s.t, q));
     let pieces: Vec<Piece> = pieces.collect::<Result<_, _>>()?;
-    let sum = |of: fn(&Piece) -> &RankDecision| {
+    let sum = |of: fn(&Piece) -> &RowDecision| {
         let mut sum = RowDecision::empty();
         for piece in &pieces {
             if let Some(part) = &piece.part {
@@ -165,7 +207,12 @@ pub fn decide_rows(
     s: &Scratch,
     q: &[f64],
 ) -> Result<RowDecision, AnalysisError> {
-    of_pieces(mechanism, s, q, |piece, s, q, _| decide(piece, s, q))
+    of_pieces(mechanism, s, q, |piece, s, q, places| {
+        match places.is_some() && piece.layout().rows() > SPARSE_FROM {
+            true => Ok((&decide_range(piece, s, q, 0..piece.layout().rows())?).into()),
+            false => Ok((&decide(piece, s, q)?).into()),
+        }
+    })
 }
 
 /// Rank and rows of Φq alone.
@@ -177,8 +224,11 @@ pub fn decide_holonomic_rows(
     s: &Scratch,
     q: &[f64],
 ) -> Result<RowDecision, AnalysisError> {
-    of_pieces(mechanism, s, q, |piece, s, q, _| {
-        decide_holonomic(piece, s, q)
+    of_pieces(mechanism, s, q, |piece, s, q, places| {
+        match places.is_some() && piece.layout().rows() > SPARSE_FROM {
+            true => Ok((&decide_range(piece, s, q, 0..piece.layout().m)?).into()),
+            false => Ok((&decide_holonomic(piece, s, q)?).into()),
+        }
     })
 }
 
@@ -198,12 +248,13 @@ pub fn decide_rows_dropping(
     }
     of_pieces(mechanism, s, q, |piece, s, q, places| {
         let Some(places) = places else {
-            return decide_dropping(piece, s, q, dropped);
+            return Ok((&decide_dropping(piece, s, q, dropped)?).into());
         };
         let own = dropped
             .iter()
             .filter_map(|row| places.binary_search(row).ok());
-        decide_dropping(piece, s, q, &own.collect::<Vec<_>>()).map_err(|e| match e {
+        let found = decide_dropping(piece, s, q, &own.collect::<Vec<_>>());
+        found.map(|d| (&d).into()).map_err(|e| match e {
             KeptRowsError::Duplicate { row } => KeptRowsError::Duplicate { row: places[row] },
             other => other,
         })
@@ -215,10 +266,10 @@ fn of_pieces<E>(
     mechanism: &Mechanism,
     s: &Scratch,
     q: &[f64],
-    decide: impl Fn(&Mechanism, &Scratch, &[f64], Option<&[usize]>) -> Result<RankDecision, E>,
+    decide: impl Fn(&Mechanism, &Scratch, &[f64], Option<&[usize]>) -> Result<RowDecision, E>,
 ) -> Result<RowDecision, E> {
     if mechanism.layout().rows() <= LARGE {
-        return Ok((&decide(mechanism, s, q, None)?).into());
+        return decide(mechanism, s, q, None);
     }
     let mut sum = RowDecision::empty();
     for groups in parts(mechanism, s) {
@@ -243,11 +294,12 @@ impl Rows {
         q: &[f64],
     ) -> Option<NearlyRedundant> {
         self.pieces.iter().find_map(|piece| match &piece.part {
-            None => inseparable(mechanism, s, q, &piece.all),
+            None => inseparable(mechanism, s, q, &piece.dense.as_ref()?[0]),
             Some(part) => {
                 let own_q = own(q, &part.places.coordinates);
                 let own_s = evaluated(&part.mechanism, s.t, &own_q);
-                let mut found = inseparable(&part.mechanism, &own_s, &own_q, &piece.all)?;
+                let mut found =
+                    inseparable(&part.mechanism, &own_s, &own_q, &piece.dense.as_ref()?[0])?;
                 let mut direction = vec![0.0; mechanism.layout().rows()];
                 for (&row, x) in part.places.rows.iter().zip(&found.direction) {
                     direction[row] = *x;
@@ -271,9 +323,13 @@ impl Rows {
     ) -> Result<Vec<Contradiction>, StateError> {
         let mut all = Vec::new();
         for piece in &self.pieces {
+            // The rows of larger ones are compared by the monitors of the motion.
+            let Some([decided, holonomic]) = &piece.dense else {
+                continue;
+            };
             let ranks = Ranks {
-                all: &piece.all,
-                holonomic: &piece.holonomic,
+                all: decided,
+                holonomic,
             };
             all.extend(match &piece.part {
                 None => contradictions(mechanism, t, q, v, ranks)?,

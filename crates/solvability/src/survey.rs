@@ -11,14 +11,19 @@ use linalg::{RankStatus, cycles};
 use model::{BodyRef, ConstraintId, Known, Mechanism, Places, Scratch, System};
 
 use crate::certificate::ROWS_MAX;
+use crate::large::{decide_range, full_rank};
 use crate::mechanism::{
     Analysis, AnalysisError, Dependency, ReactionVerdict, analyse, analyse_known, evaluated,
+    judge_independent,
 };
 use crate::state::check_configuration;
 
 /// Mechanisms of more rows are better judged by parts: matrices of all rows and columns cost memory with the square of their number, and time with
 /// its cube.
 pub const LARGE: usize = ROWS_MAX;
+
+/// Redundant sets of more rows are not judged: dense matrices of them take minutes.
+const DENSE_MOST: usize = 1500;
 
 /// The verdicts of a mechanism, part by part.
 #[derive(Clone, Debug)]
@@ -149,7 +154,7 @@ pub fn survey(
     let parts = parts(mechanism, &s).into_iter().map(|groups| {
         let part = mechanism.part_of_groups(&groups);
         let own: Vec<f64> = part.places.coordinates.iter().map(|&j| q[j]).collect();
-        let mut analysis = analyse_known(&part.mechanism, t, &own, Known::AsStored)?;
+        let mut analysis = judged_alone(&part.mechanism, t, &own)?;
         rename(&mut analysis, &part.places);
         judged += groups.len();
         progress(judged);
@@ -167,6 +172,27 @@ pub fn survey(
         nonholonomic_rows: layout.h,
         parts: parts.collect::<Result<_, _>>()?,
     })
+}
+
+/// A part by itself. A large one without redundancy has nothing to judge: all its reactions are unique.
+fn judged_alone(part: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
+    let rows = part.layout().rows();
+    if rows <= LARGE {
+        return analyse_known(part, t, q, Known::AsStored);
+    }
+    let s = evaluated(part, t, q);
+    let found = decide_range(part, &s, q, 0..rows)?;
+    let redundancy = found.redundancy;
+    match full_rank(found) {
+        Some(decision) => Ok(judge_independent(part, &s, q, decision)),
+        None if rows <= DENSE_MOST => analyse_known(part, t, q, Known::AsStored),
+        None => Err(AnalysisError::LargeVerdicts {
+            time: t,
+            rows,
+            redundancy,
+            most: DENSE_MOST,
+        }),
+    }
 }
 
 /// The verdicts of all joints and drives in the order of their rows, of the whole where it is small, by parts where it is large.

@@ -2,6 +2,7 @@
 //! motion is unique there.
 
 use integrators::Step;
+use model::System;
 use solvability::{KERNEL_MAX, PassageKind, State, singular_passages};
 
 use super::equations::Equations;
@@ -9,6 +10,9 @@ use crate::motion::Singular;
 
 /// States of a step by which the passage is judged.
 const STATES: usize = 8;
+
+/// Rows up to which the motion is judged: determinants at many instants grow with their cube.
+const JUDGED_MOST: usize = 64;
 
 /// Passages of one step that are told at most, and what they are apart at least, as share of the step.
 const MOST: usize = 8;
@@ -22,9 +26,11 @@ pub(super) fn note(step: &mut Step<'_, Equations<'_>>) {
     for singular in found(step) {
         // Passages of one kind are of one kind also later.
         if step.ode().uniqueness_of(singular.dependent).is_none() {
-            // Second order is not asked where it has no answer.
-            let kernel = step.ode().motion.mobility() + singular.dependent;
-            let words = match kernel <= KERNEL_MAX {
+            // Second order is not asked where it has no answer, or where that takes longer than the run.
+            let motion = &step.ode().motion;
+            let kernel = motion.mobility() + singular.dependent;
+            let rows = motion.mechanism().layout().rows();
+            let words = match kernel <= KERNEL_MAX && rows <= JUDGED_MOST {
                 true => judge(step),
                 false => None,
             };

@@ -12,7 +12,7 @@ use super::mass_in_units;
 use super::sparse::Sparse;
 
 /// From so many kept rows on they are solved sparsely.
-const SPARSE_FROM: usize = 160;
+const SPARSE_FROM: usize = 64;
 
 /// Kept rows and their factors.
 #[derive(Clone)]

@@ -1,3 +1,5 @@
+//! Closed forms and products: what a factorisation must give back.
+
 use super::*;
 use crate::sparse::reflectors::Lanes;
 use crate::sparse::smallest::smallest_singular_value;

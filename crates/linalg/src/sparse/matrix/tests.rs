@@ -1,3 +1,5 @@
+//! Against dense matrices.
+
 use super::*;
 
 fn example() -> SparseMatrix {

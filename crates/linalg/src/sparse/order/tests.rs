@@ -1,3 +1,5 @@
+//! Fill of known graphs, and an order that is one.
+
 use super::*;
 
 /// Entries of the Cholesky factor of a graph in an order: nodes are eliminated one by one, neighbour sets are kept outright.

@@ -1,3 +1,5 @@
+//! Against the dense decision, and matrices whose rank is known.
+
 use super::*;
 use crate::{CoefficientReading, Matrix, decide, orthonormal, singular_values};
 
