@@ -9,14 +9,14 @@ use pfaff::scene::Scene;
 use solvability::{ReactionVerdict, analyse};
 use suite::generate::{Answer, Free, Kind, Order, n_four_bar};
 
-fn text(order: &Order) -> String {
+pub(crate) fn text(order: &Order) -> String {
     let mut out = Vec::new();
     let generator = order.generate().expect("a possible order");
     generator.write(&mut out).expect("memory takes everything");
     String::from_utf8(out).expect("UTF-8")
 }
 
-fn read(text: &str) -> Scene {
+pub(crate) fn read(text: &str) -> Scene {
     pfaff::scene::read("generated.toml", text, &Registry::planar())
         .unwrap_or_else(|problems| panic!("{}", problems[0]))
 }
@@ -133,7 +133,7 @@ fn two_loops_are_the_case_of_the_suite() {
 }
 
 /// θ of one angle's equation after a time, by the classical Runge–Kutta method with steps of 0.1 ms: its error is below 1e-13.
-fn angle(n: usize, t: f64) -> f64 {
+pub(crate) fn angle(n: usize, t: f64) -> f64 {
     let steps = (t / 1e-4).round() as usize;
     let h = t / steps as f64;
     let f = |[theta, omega]: [f64; 2]| [omega, n_four_bar::acceleration(n, theta)];

@@ -17,6 +17,7 @@ mod generic;
 mod granularity;
 mod independent_coordinates;
 mod invariance;
+mod large;
 mod long_runs;
 mod nearly_redundant;
 mod plain;

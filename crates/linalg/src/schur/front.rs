@@ -75,7 +75,7 @@ pub(super) fn eliminate(
         }
         let share = pivot / size;
         // A row of zeros is dependent.
-        if !(share > floor) {
+        if share.is_nan() || share <= floor {
             *inverse = 0.0;
             column.fill(0.0);
             found.n_left_out += 1;

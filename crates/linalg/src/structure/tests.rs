@@ -198,7 +198,7 @@ fn cycles_are_what_no_single_vertex_separates() {
                 let [x, y] = [label[pair[0]], label[pair[1]]];
                 label.iter_mut().for_each(|l| {
                     if *l == y {
-                        *l = x
+                        *l = x;
                     }
                 });
             }
@@ -221,7 +221,7 @@ fn cycles_are_what_no_single_vertex_separates() {
                         let [p, q] = [label[pair[0]], label[pair[1]]];
                         label.iter_mut().for_each(|l| {
                             if *l == q {
-                                *l = p
+                                *l = p;
                             }
                         });
                     }

@@ -1,0 +1,139 @@
+//! Mechanisms of hundreds of rows: judged by parts, moved on sparse kept rows. References are the answers that generators state, the one angle of chains of
+//! four-bars, and the dense solver with all rows.
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+
+use dynamics::{Formulation, KeptRowMotion, Method, Motion, MotionOptions, simulate};
+use model::{Mechanism, Registry, System};
+use pfaff::{Overrides, Study};
+use solvability::{Verdict, survey};
+use suite::generate::{Kind, Order};
+
+use crate::generated_scenes::{angle, read, text};
+
+fn study(order: &Order) -> Study {
+    let overrides = Overrides::default();
+    Study::read(
+        "generated.toml",
+        &text(order),
+        &Registry::planar(),
+        &overrides,
+    )
+    .expect("starts")
+}
+
+/// Compares verdicts by parts with what the generator states.
+fn check(order: &Order) {
+    let mechanism = Mechanism::build(&read(&text(order)).description).expect("builds");
+    let (q, _) = mechanism.described_state();
+    let found = survey(&mechanism, 0.0, &q, |_| ()).expect("C is finite");
+    let generator = order.generate().expect("a possible order");
+    let answer = generator.answer();
+    assert!(mechanism.layout().rows() > solvability::LARGE, "{order:?}");
+    assert_eq!(
+        [found.rank(), found.redundancy(), found.mobility()],
+        [answer.rank, answer.redundancy, answer.mobility],
+        "{order:?}"
+    );
+    let free = generator.free_reactions();
+    let free: BTreeSet<&str> = free.iter().map(|f| f.name.as_str()).collect();
+    for reaction in found.reactions() {
+        let expected = match free.contains(reaction.name.as_str()) {
+            true => Verdict::NotUnique,
+            false => Verdict::Unique,
+        };
+        assert_eq!(reaction.wrench.verdict, expected, "{}", reaction.name);
+    }
+}
+
+#[test]
+fn large_scenes_have_the_answer_that_their_generator_states() {
+    for (kind, n) in [
+        (Kind::Parallelograms, 70),
+        (Kind::Fleet, 30),
+        (Kind::NFourBar, 110),
+        (Kind::Random, 300),
+    ] {
+        check(&Order::of(kind, n));
+    }
+}
+
+#[test]
+fn a_large_redundant_cycle_is_refused_by_name() {
+    let order = Order::of(Kind::Lattice, 17);
+    let mechanism = Mechanism::build(&read(&text(&order)).description).expect("builds");
+    let (q, _) = mechanism.described_state();
+    let refused = survey(&mechanism, 0.0, &q, |_| ())
+        .expect_err("too large")
+        .to_string();
+    assert!(refused.contains("share cycles and"), "{refused}");
+}
+
+#[test]
+fn sparse_rows_accelerate_as_dense_ones_do() {
+    let study = study(&Order::of(Kind::Fleet, 5));
+    let prepared = &study.prepared;
+    let n = prepared.v.len();
+    let accelerations = |formulation: Formulation| {
+        let options = MotionOptions {
+            formulation,
+            ..MotionOptions::to(1.0)
+        };
+        let mut motion = KeptRowMotion::with(prepared, &options).expect("regular");
+        let mut a = vec![0.0; n];
+        motion
+            .acceleration(0.0, &prepared.q, &prepared.v, &mut a)
+            .expect("regular");
+        a
+    };
+    let sparse = accelerations(Formulation::KeptRows);
+    let dense = accelerations(Formulation::MinimumNorm);
+    let largest = dense.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+    for (a, b) in sparse.iter().zip(&dense) {
+        assert!((a - b).abs() < 1e-11 * largest, "{a} {b}");
+    }
+}
+
+/// Twenty four-bars are flat at 0.72 s and 1.24 s, where 2²⁰ branches meet.
+#[test]
+fn flat_poses_of_many_four_bars_are_passed_on_the_branch() {
+    let n = 20;
+    let study = study(&Order::of(Kind::NFourBar, n));
+    for rtol in [0.9e-7, 1e-7, 1.1e-7] {
+        let options = MotionOptions {
+            rtol,
+            atol: rtol,
+            ..MotionOptions::to(2.0)
+        };
+        let mut last = Vec::new();
+        simulate(&study.prepared, &options, |sample| {
+            last = sample.q.to_vec();
+            Ok(ControlFlow::Continue(()))
+        })
+        .unwrap_or_else(|failure| panic!("{}", failure.error));
+        let expected = angle(n, 2.0);
+        for upright in 0..=n {
+            let theta = std::f64::consts::FRAC_PI_2 - last[3 * upright + 2];
+            let turns = ((theta - expected) / std::f64::consts::TAU).round();
+            let off = theta - expected - turns * std::f64::consts::TAU;
+            assert!(off.abs() < 1e-5, "{upright} at {rtol}: {theta}, {expected}");
+        }
+    }
+}
+
+#[test]
+fn implicit_methods_on_sparse_rows_are_refused_by_name() {
+    let study = study(&Order::of(Kind::Fleet, 5));
+    let options = MotionOptions {
+        method: Method::Radau5,
+        ..MotionOptions::to(1.0)
+    };
+    let refused = simulate(&study.prepared, &options, |_| Ok(ControlFlow::Continue(())))
+        .expect_err("sparse rows have no independent coordinates");
+    let text = refused.error.to_string();
+    assert!(
+        text.contains("solved sparsely") && text.contains("explicit"),
+        "{text}"
+    );
+}
