@@ -32,8 +32,10 @@ const BEYOND: f64 = 1.5;
 /// Where a pivot falls to this share of the present one and rises again, it vanishes: what is left is the error of a parabola.
 const VANISHES: f64 = 0.2;
 
-/// Where a pivot is above this share of the present one at the time at which a straight line has it vanish, it does not fall to zero.
-const STAYS: f64 = 0.5;
+/// A search is worth its price where a pivot falls below this share of the present one at one of so many places: between two of them a pivot that
+/// vanishes on the way shows itself, unless that is much earlier than expected.
+const STAYS: f64 = 0.75;
+const GLANCES: usize = 6;
 
 /// Between two places a pivot falls at most by so many times what it changes by between any two neighbouring ones.
 const STEEPER: f64 = 2.0;
@@ -66,7 +68,7 @@ impl<'m> KeptRowMotion<'m> {
         };
         let end = t + BEYOND * (expected - t);
         let mut search = self.search();
-        match search.is_promising([t, expected, end], state) {
+        match search.is_promising([t, end], state) {
             true => search.find([t, end], noise, state).map(|found| found.t),
             false => None,
         }
@@ -90,25 +92,25 @@ pub(crate) struct Search<'m> {
 }
 
 impl Search<'_> {
-    /// Whether the pivots fall or the bordered determinant has changed its sign at one of the two later times, at a price of three
-    /// factorisations; in doubt they do.
+    /// Whether the pivots fall or the bordered determinant has changed its sign at one of a few places, at a price of a factorisation for each until
+    /// they do; in doubt they do.
     fn is_promising(
         &mut self,
-        [now, expected, end]: [f64; 3],
+        [now, end]: [f64; 2],
         mut state: impl FnMut(f64, &mut [f64]),
     ) -> bool {
         let mut q = vec![0.0; self.mechanism.layout().n_q];
-        let mut frame = Vec::new();
-        let mut at = |t: f64| -> Option<[f64; 2]> {
-            let pivot = self.pivot_at(t, &mut q, &mut state)?;
-            if frame.is_empty() {
-                self.rows.null_frame(&mut frame);
-            }
-            Some([pivot, self.rows.orientation(&frame)])
+        let Some(first) = self.pivot_at(now, &mut q, &mut state) else {
+            return true;
         };
-        let mut seen = || Some([at(now)?, at(expected)?, at(end)?]);
-        seen().is_none_or(|[now, expected, end]| {
-            expected[0] < STAYS * now[0] || [expected, end].iter().any(|it| it[1] * now[1] < 0.0)
+        let mut frame = Vec::new();
+        self.rows.null_frame(&mut frame);
+        let sign = self.rows.orientation(&frame);
+        (1..=GLANCES).any(|k| {
+            let t = now + (end - now) * (k as f64 / GLANCES as f64);
+            let pivot = self.pivot_at(t, &mut q, &mut state);
+            pivot.is_none_or(|pivot| pivot < STAYS * first)
+                || self.rows.orientation(&frame) * sign < 0.0
         })
     }
 
