@@ -113,7 +113,7 @@ impl Blueprint {
         Ok(inquiry)
     }
 
-    /// The verdicts of the start by parts, for large mechanisms: see [`solvability::survey`]. Nothing is moved and no velocities are asked for.
+    /// The verdicts of the start by parts, for large mechanisms: see [`solvability::survey()`]. Nothing is moved and no velocities are asked for.
     ///
     /// # Errors
     /// As [`Blueprint::inquire`].

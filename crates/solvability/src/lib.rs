@@ -6,7 +6,7 @@
 //! | --- | --- |
 //! | [`verdict`] | unique, not unique, undecided: with the number behind it |
 //! | [`matrices`] | solvability of a plain constraint matrix |
-//! | [`rows`] | what a motion needs: independent rows, also of large mechanisms |
+//! | [`mod@rows`] | what a motion needs: independent rows, also of large mechanisms |
 //! | [`state`] | a state that the caller gives |
 //! | [`existence`] | do the rows contradict each other? |
 //! | [`mod@generic`] | permanent, or only of this configuration? |

@@ -235,7 +235,7 @@ pub fn decide_holonomic_rows(
 /// Rank and rows of C with the dropped rows given, from 0.
 ///
 /// # Errors
-/// As [`decide_dropping`](crate::decide_dropping).
+/// As [`decide_dropping`].
 pub fn decide_rows_dropping(
     mechanism: &Mechanism,
     s: &Scratch,
