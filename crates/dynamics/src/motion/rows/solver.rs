@@ -14,6 +14,9 @@ use super::sparse::Sparse;
 /// From so many kept rows on they are solved sparsely.
 const SPARSE_FROM: usize = 64;
 
+/// More rows are not solved densely: their matrices would take a gigabyte.
+const DENSE_MOST: usize = 5000;
+
 /// Kept rows and their factors.
 #[derive(Clone)]
 pub(super) enum Solver {
@@ -36,10 +39,15 @@ impl Solver {
         kept: &[usize],
         units: &[f64],
     ) -> Result<Self, SaddleError> {
-        Ok(match is_sparse(mechanism, units, kept.len()) {
-            true => Self::Sparse(Box::new(Sparse::new(mechanism, kept, units))),
-            false => Self::Dense(Box::new(Dense::new(mechanism, kept, units)?)),
-        })
+        if is_sparse(mechanism, units, kept.len()) {
+            return Ok(Self::Sparse(Box::new(Sparse::new(mechanism, kept, units))));
+        }
+        let massless = mechanism.mass().iter().position(|&m| m <= 0.0);
+        if let Some(index) = massless.filter(|_| kept.len() > DENSE_MOST) {
+            let value = mechanism.mass()[index];
+            return Err(SaddleError::ZeroMass { index, value });
+        }
+        Ok(Self::Dense(Box::new(Dense::new(mechanism, kept, units)?)))
     }
 
     pub(super) fn factor_above(
