@@ -7,10 +7,10 @@ use pfaff::Blueprint;
 use pfaff::report::AnalysisDocument;
 use pfaff::solvability::Survey;
 
-use super::rank;
+use super::{rank, text};
 use crate::args::Analyze;
 use crate::input::Source;
-use crate::output::{Failure, columns, count, wrapped};
+use crate::output::{Failure, columns, wrapped};
 
 /// Names that are listed, and reasons.
 const LISTED: usize = 12;
@@ -66,16 +66,7 @@ fn beyond(arguments: &Analyze) -> Option<&'static str> {
 
 /// The document in words.
 pub(super) fn describe(d: &AnalysisDocument, survey: &Survey) -> String {
-    let mut out = format!(
-        "{} at t = {} s\n{}, {}, {}: {} holonomic, {} nonholonomic\n",
-        d.scene,
-        d.time,
-        count(d.bodies, "body", "bodies"),
-        count(d.coordinates, "coordinate", "coordinates"),
-        count(d.rows, "row", "rows"),
-        d.holonomic_rows,
-        d.nonholonomic_rows,
-    );
+    let mut out = text::heading(d);
     out.push_str(&rank::by_parts(d, survey));
     out.push_str(&verdicts(d));
     out.push_str(&why(d));

@@ -12,16 +12,7 @@ use crate::output::{columns, count, wrapped};
 const REASONS: usize = 10;
 
 pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
-    let mut out = format!(
-        "{} at t = {} s\n{}, {}, {}: {} holonomic, {} nonholonomic\n",
-        d.scene,
-        d.time,
-        count(d.bodies, "body", "bodies"),
-        count(d.coordinates, "coordinate", "coordinates"),
-        count(d.rows, "row", "rows"),
-        d.holonomic_rows,
-        d.nonholonomic_rows,
-    );
+    let mut out = heading(d);
     out.push_str(&rank::describe(d));
     out.push_str(&verdicts(d));
     out.push_str(&groups(d));
@@ -39,6 +30,20 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
         out.push_str(&wrapped("warning: ", warning));
     }
     out
+}
+
+/// What was looked at, and how large it is.
+pub(super) fn heading(d: &AnalysisDocument) -> String {
+    format!(
+        "{} at t = {} s\n{}, {}, {}: {} holonomic, {} nonholonomic\n",
+        d.scene,
+        d.time,
+        count(d.bodies, "body", "bodies"),
+        count(d.coordinates, "coordinate", "coordinates"),
+        count(d.rows, "row", "rows"),
+        d.holonomic_rows,
+        d.nonholonomic_rows,
+    )
 }
 
 /// `not_unique` as it is said.
