@@ -36,7 +36,7 @@ fn parts_say_what_the_whole_says() {
         assert_eq!(told, whole.reactions.len());
         apart += usize::from(found.parts.len() > 1);
         let is_decided = |a: &solvability::Analysis| a.decision.is_decided();
-        if found.parts.iter().all(|p| is_decided(&p.analysis)) {
+        if found.parts.iter().all(|p| p.verdicts.rows.is_decided()) {
             let exact = Exact::of_dyadic(&c).rank();
             assert_eq!(found.rank(), exact, "{}", described(&found, &whole));
             let [kept, dropped] = found.rows();
@@ -73,12 +73,12 @@ fn parts_say_what_the_whole_says() {
 fn described(found: &solvability::Survey, whole: &solvability::Analysis) -> String {
     let parts = found.parts.iter().map(|part| {
         let names: Vec<&str> = part
-            .analysis
+            .verdicts
             .reactions
             .iter()
             .map(|r| r.name.as_str())
             .collect();
-        format!("{names:?}: {:?}\n", part.analysis.decision)
+        format!("{names:?}: {:?}\n", part.verdicts.rows)
     });
     format!("{}whole: {:?}", parts.collect::<String>(), whole.decision)
 }

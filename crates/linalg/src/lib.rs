@@ -45,7 +45,7 @@ pub use qr::PivotedQr;
 pub use rank::{
     Certificate, CoefficientReading, Degraded, Doubt, Evidence, ExactNullSpace, Grounds,
     KeptRowsError, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankError,
-    RankStatus, Uncertainty, certify_exact, certify_within, decide, decide_dropping,
+    RankStatus, Readings, Uncertainty, certify_exact, certify_within, decide, decide_dropping,
     decide_keeping,
 };
 pub use regularized::{StepError, least_squares_step};

@@ -33,7 +33,7 @@ use crate::{Matrix, PivotedQr, Scaling, equilibrate::scale, kernels, singular_va
 
 pub use again::Degraded;
 pub use certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant};
-pub use coefficient::CoefficientReading;
+pub use coefficient::{CoefficientReading, Readings};
 pub use exact::certify_exact;
 pub use modular::ExactNullSpace;
 pub use uncertainty::Uncertainty;

@@ -117,7 +117,7 @@ impl Blueprint {
     ///
     /// # Errors
     /// As [`Blueprint::inquire`].
-    pub fn survey(&mut self, progress: impl FnMut(usize)) -> Result<Survey, StudyError> {
+    pub fn survey(&mut self, progress: impl Fn(usize) + Sync) -> Result<Survey, StudyError> {
         let start = &self.scene.start;
         let assembly = assemble(&mut self.mechanism, start)
             .map_err(|e| StudyError::Scene(vec![self.scene.locate_start(&e)]))?;

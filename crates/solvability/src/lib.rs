@@ -74,6 +74,6 @@ pub use rows::{RowDecision, Rows, decide_holonomic_rows, decide_rows, decide_row
 pub use second_order::{Continuation, KERNEL_MAX, Undetermined, second_order};
 pub use state::{State, StateError};
 pub use structure::{judge_parts, structure};
-pub use survey::{LARGE, Survey, SurveyedPart, survey, verdicts};
+pub use survey::{LARGE, PartVerdicts, Survey, SurveyedPart, survey, verdicts};
 pub use units::{Nature, UnitCheck, UnitError, Units, check_units};
 pub use verdict::{Judgement, Verdict};

@@ -8,19 +8,15 @@
 //! of Q as Z, the reaction of a joint with rows X is unique iff `B_X = C_Xᵀ·Z_X = 0` (27). Here Z is an orthonormal
 //! basis of the left null space of the equilibrated C; it spans the same space, up to the scaling of rows.
 
-use linalg::{
-    CoefficientReading, Degraded, ExactNullSpace, Matrix, PivotedQr, RankDecision, RankError,
-    RankStatus, Uncertainty,
-};
+use linalg::{Degraded, ExactNullSpace, Matrix, RankDecision, RankError, Uncertainty};
 
 use crate::verdict::Judgement;
 
-/// Entries of the map from multipliers to a reaction are products of a few numbers near one; below this share of the
-/// largest row a row is their rounding.
-const ROUNDING_OF_MAP: f64 = 1e-14;
+mod basis;
+#[cfg(test)]
+mod tests;
 
-/// The same in multiples of what the entries of C are known to.
-const MAP_FACTOR: f64 = 10.0;
+pub(crate) use basis::{Basis, Known};
 
 /// What can be said of the multipliers of a constraint matrix.
 ///
@@ -40,12 +36,8 @@ const MAP_FACTOR: f64 = 10.0;
 #[derive(Clone, Debug)]
 pub struct Solvability {
     decision: RankDecision,
-    /// The equilibrated matrix, m × n.
-    c: Matrix,
-    /// Orthonormal basis of its left null space, m × p.
-    z: Matrix,
-    /// The left null space modulo primes, if the entries are meant exactly.
-    exact: Option<ExactNullSpace>,
+    /// All rows.
+    basis: Basis,
 }
 
 /// A question that cannot be answered.
@@ -126,16 +118,33 @@ impl Solvability {
     /// If the decision is that of a matrix of another shape.
     #[must_use]
     pub fn from_decision(c: &Matrix, decision: RankDecision) -> Self {
-        Self {
+        // An exact decision is that of a finite matrix.
+        let exact = decision.is_exact();
+        let exact = exact.then(|| ExactNullSpace::new(c).ok()).flatten();
+        Self::new(c, decision, exact)
+    }
+
+    fn new(c: &Matrix, decision: RankDecision, exact: Option<ExactNullSpace>) -> Self {
+        let certificate = decision.evidence.certificate.as_ref();
+        let rows = 0..c.nrows();
+        let basis = Basis {
             c: decision.scaling.apply(c),
             z: linalg::orthonormal(&decision),
-            // An exact decision is that of a finite matrix.
-            exact: decision
-                .is_exact()
-                .then(|| ExactNullSpace::new(c).ok())
-                .flatten(),
-            decision,
-        }
+            known: Known {
+                status: decision.status,
+                row_factor: rows
+                    .clone()
+                    .map(|i| decision.scaling.row_factor(i))
+                    .collect(),
+                row_noise: rows.map(|i| decision.row_noise(i)).collect(),
+                tolerance: decision.coefficient_tolerance(),
+                spread: certificate.map_or(0.0, |c| c.spread),
+                uncertainty: certificate.map_or(0.0, |c| c.uncertainty),
+                readings: decision.readings(),
+            },
+            exact,
+        };
+        Self { decision, basis }
     }
 
     /// The verdicts at another point of the same regime, where the matrix is `c`: rank and kept rows stay, nothing is decided anew. Much
@@ -149,12 +158,7 @@ impl Solvability {
         uncertainty: impl Into<Uncertainty<'a>>,
     ) -> Result<Self, Degraded> {
         let decision = self.decision.at(c, uncertainty)?;
-        Ok(Self {
-            c: decision.scaling.apply(c),
-            z: linalg::orthonormal(&decision),
-            exact: None,
-            decision,
-        })
+        Ok(Self::new(c, decision, None))
     }
 
     /// The rank and its evidence.
@@ -166,12 +170,17 @@ impl Solvability {
     /// Orthonormal basis of the left null space of the equilibrated matrix, m × p.
     #[must_use]
     pub fn null_space(&self) -> &Matrix {
-        &self.z
+        &self.basis.z
+    }
+
+    /// What its verdicts are read from.
+    pub(crate) fn basis(&self) -> &Basis {
+        &self.basis
     }
 
     /// `D_r·C·D_c`, the matrix that verdicts are about.
     pub(crate) fn equilibrated(&self) -> &Matrix {
-        &self.c
+        &self.basis.c
     }
 
     /// The multiplier of one row: unique iff `Z_i = 0`.
@@ -179,7 +188,7 @@ impl Solvability {
     /// # Errors
     /// If there is no such row.
     pub fn row(&self, i: usize) -> Result<Judgement, QueryError> {
-        self.multipliers([i])
+        self.basis.row(i)
     }
 
     /// All multipliers of a group of rows: unique iff `Z_X = 0`. Stronger than [`Solvability::group`] where the rows
@@ -191,15 +200,7 @@ impl Solvability {
         &self,
         rows: impl IntoIterator<Item = usize>,
     ) -> Result<Judgement, QueryError> {
-        let rows = self.set(rows)?;
-        let margin = rows
-            .iter()
-            .map(|&i| norm(self.z.row(i)))
-            .fold(0.0, f64::hypot);
-        let noise = self.noise(rows.iter().map(|&i| (i, 1.0)));
-        Ok(self.judge(margin, noise, |z| {
-            rows.iter().all(|&i| z.annihilates([(i, 1.0)]))
-        }))
+        self.basis.multipliers(rows)
     }
 
     /// `B_X = C_Xᵀ·Z_X` (n × p) of a group of rows, equilibrated.
@@ -207,7 +208,7 @@ impl Solvability {
     /// # Errors
     /// If a row does not exist.
     pub fn b_x(&self, rows: impl IntoIterator<Item = usize>) -> Result<Matrix, QueryError> {
-        Ok(self.product(&self.set(rows)?))
+        self.basis.b_x(rows)
     }
 
     /// The reaction of a group of rows: unique iff `B_X = 0`; the margin is ‖B_X‖ (Frobenius).
@@ -215,16 +216,7 @@ impl Solvability {
     /// # Errors
     /// If a row does not exist.
     pub fn group(&self, rows: impl IntoIterator<Item = usize>) -> Result<Judgement, QueryError> {
-        let rows = self.set(rows)?;
-        // Rows that cancel in C do so to what its entries are known to.
-        let spread = self.decision.evidence.certificate.as_ref();
-        let spread = spread.map_or(0.0, |certificate| certificate.spread);
-        let cancelled = rows.iter().map(|&i| norm(self.z.row(i)));
-        let noise = self
-            .noise(rows.iter().map(|&i| (i, norm(self.c.row(i)))))
-            .hypot(spread * cancelled.fold(0.0, f64::hypot));
-        let margin = self.product(&rows).frobenius_norm();
-        Ok(self.judge(margin, noise, |z| z.wrench_vanishes(&rows)))
+        self.basis.group(rows)
     }
 
     /// A linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin is relative to ‖ℓ‖, both
@@ -233,13 +225,7 @@ impl Solvability {
     /// # Errors
     /// If there are not m coefficients, or one is not finite.
     pub fn combination(&self, l: &[f64]) -> Result<Judgement, QueryError> {
-        let rows: Vec<usize> = (0..self.c.nrows()).collect();
-        check_coefficients(l, rows.len())?;
-        let (image, size) = self.scaled_row(l, &rows);
-        let noise = self.noise_of_row(l, &rows, size);
-        Ok(self.judge(norm(&image), noise, |z| {
-            z.annihilates(combination(l, &rows))
-        }))
+        self.basis.combination(l)
     }
 
     /// Component `k` of a reaction `W·λ_X`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest row of W.
@@ -253,27 +239,7 @@ impl Solvability {
         k: usize,
         rows: impl IntoIterator<Item = usize>,
     ) -> Result<Judgement, QueryError> {
-        let rows = self.list(rows)?;
-        check_map(map, &rows)?;
-        if k >= map.nrows() {
-            return Err(QueryError::ComponentOutOfRange {
-                component: k,
-                components: map.nrows(),
-            });
-        }
-        let (images, sizes) = self.images(map, &rows);
-        let largest = sizes.iter().copied().fold(0.0, f64::max);
-        // Zero over zero: a map of zeros has no reaction.
-        let share = if largest == 0.0 {
-            0.0
-        } else {
-            sizes[k] / largest
-        };
-        let margin = norm(images.row(k)) * share;
-        let noise = self.noise_of_row(map.row(k), &rows, largest);
-        Ok(self.judge(margin, noise, |z| {
-            z.annihilates(combination(map.row(k), &rows))
-        }))
+        self.basis.component(map, k, rows)
     }
 
     /// Directions in which a reaction is unique: a basis of the left null space of `W·Z_X` for the map W
@@ -286,211 +252,6 @@ impl Solvability {
         map: &Matrix,
         rows: impl IntoIterator<Item = usize>,
     ) -> Result<Vec<Vec<f64>>, QueryError> {
-        let rows = self.list(rows)?;
-        check_map(map, &rows)?;
-        if let RankStatus::Undecided(doubt) = self.decision.status {
-            return Err(QueryError::Rank(doubt));
-        }
-        let k = map.nrows();
-        let (images, sizes) = self.images(map, &rows);
-        let qr = PivotedQr::of_columns(&images);
-        let rank = match &self.exact {
-            Some(z) => z.rank_of(
-                &(0..k)
-                    .map(|i| combination(map.row(i), &rows))
-                    .collect::<Vec<_>>(),
-            ),
-            None => {
-                let noise = (0..k)
-                    .map(|i| self.noise_of_row(map.row(i), &rows, sizes[i]))
-                    .fold(0.0, f64::max);
-                self.clear_rank(&qr, noise)?
-            }
-        };
-        if rank == 0 {
-            return Ok((0..k).map(|i| unit(k, i)).collect());
-        }
-        let basis = qr.q_columns(rank..k);
-        Ok((0..k - rank)
-            .map(|j| {
-                // Back from components of equal size to the units of the map.
-                let scaled = |i: usize| if sizes[i] == 0.0 { 1.0 } else { sizes[i] };
-                let direction = (0..k).map(|i| basis[(i, j)] / scaled(i)).collect();
-                normalised(direction, self.decision.coefficient_tolerance())
-            })
-            .collect())
-    }
-
-    /// How many pivots are certainly not zero, if the others certainly are.
-    fn clear_rank(&self, qr: &PivotedQr, noise: f64) -> Result<usize, QueryError> {
-        let mut rank = 0;
-        for pivot in qr.r_diagonal().map(f64::abs) {
-            match self.decision.read_coefficient(pivot, noise) {
-                CoefficientReading::NonZero => rank += 1,
-                CoefficientReading::Zero => {}
-                CoefficientReading::Unclear {
-                    tolerance,
-                    required,
-                } => {
-                    return Err(QueryError::Directions {
-                        margin: pivot,
-                        tolerance,
-                        required,
-                    });
-                }
-            }
-        }
-        Ok(rank)
-    }
-
-    /// Rows in the order given, all of which exist.
-    fn list(&self, rows: impl IntoIterator<Item = usize>) -> Result<Vec<usize>, QueryError> {
-        let m = self.c.nrows();
-        rows.into_iter()
-            .map(|row| match row < m {
-                true => Ok(row),
-                false => Err(QueryError::RowOutOfRange { row, rows: m }),
-            })
-            .collect()
-    }
-
-    /// The same, each row once.
-    fn set(&self, rows: impl IntoIterator<Item = usize>) -> Result<Vec<usize>, QueryError> {
-        let mut rows = self.list(rows)?;
-        rows.sort_unstable();
-        rows.dedup();
-        Ok(rows)
-    }
-
-    fn product(&self, rows: &[usize]) -> Matrix {
-        let mut b = Matrix::zeros(self.c.ncols(), self.z.ncols());
-        for &i in rows {
-            for (k, &c) in self.c.row(i).iter().enumerate().filter(|(_, c)| **c != 0.0) {
-                for (b, z) in b.row_mut(k).iter_mut().zip(self.z.row(i)) {
-                    *b += c * z;
-                }
-            }
-        }
-        b
-    }
-
-    /// `W·Z_X` with rows divided by the norms of those of `W·D_r⁻¹`, and these norms; zero where a row is rounding beside the others.
-    fn images(&self, map: &Matrix, rows: &[usize]) -> (Matrix, Vec<f64>) {
-        let (mut images, mut sizes): (Vec<_>, Vec<_>) = (0..map.nrows())
-            .map(|i| self.scaled_row(map.row(i), rows))
-            .unzip();
-        let largest = sizes.iter().copied().fold(0.0, f64::max);
-        if self.exact.is_none() {
-            // A map is known as well as the entries of C, which stand at the same poses.
-            let certificate = self.decision.evidence.certificate.as_ref();
-            let rounding = certificate.map_or(0.0, |c| MAP_FACTOR * c.uncertainty);
-            let rounding = rounding.max(ROUNDING_OF_MAP);
-            for (image, size) in images.iter_mut().zip(&mut sizes) {
-                if *size <= rounding * largest {
-                    image.fill(0.0);
-                    *size = 0.0;
-                }
-            }
-        }
-        let images = Matrix::from_fn(map.nrows(), self.z.ncols(), |i, j| images[i][j]);
-        (images, sizes)
-    }
-
-    /// `wᵀ·D_r·Z_X / ‖wᵀ·D_r‖` and the norm that was divided by; zeros for w = 0.
-    fn scaled_row(&self, w: &[f64], rows: &[usize]) -> (Vec<f64>, f64) {
-        let scaled: Vec<f64> = rows
-            .iter()
-            .zip(w)
-            .map(|(&i, w)| w * self.decision.scaling.row_factor(i))
-            .collect();
-        let size = norm(&scaled);
-        let mut out = vec![0.0; self.z.ncols()];
-        if size > 0.0 {
-            for (&i, w) in rows.iter().zip(&scaled) {
-                for (o, z) in out.iter_mut().zip(self.z.row(i)) {
-                    *o += w / size * z;
-                }
-            }
-        }
-        (out, size)
-    }
-
-    /// Noise of a combination of rows of Z with these weights; Z is `[−T̃, I]` in a basis that makes no row longer.
-    fn noise(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
-        let term = |(i, weight): (usize, f64)| self.decision.row_noise(i) * weight.abs();
-        weights.map(term).fold(0.0, f64::hypot)
-    }
-
-    /// Noise of `wᵀ·D_r·Z_X / size`.
-    fn noise_of_row(&self, w: &[f64], rows: &[usize], size: f64) -> f64 {
-        if size == 0.0 {
-            return 0.0;
-        }
-        let scaled = |(&i, w): (&usize, &f64)| (i, w * self.decision.scaling.row_factor(i) / size);
-        self.noise(rows.iter().zip(w).map(scaled))
-    }
-
-    /// Judges a margin made of coefficients of Z with this noise.
-    fn judge(
-        &self,
-        margin: f64,
-        noise: f64,
-        vanishes: impl FnOnce(&ExactNullSpace) -> bool,
-    ) -> Judgement {
-        match (&self.exact, &self.decision.status) {
-            (Some(z), _) => Judgement::exact(margin, vanishes(z)),
-            (None, RankStatus::Undecided(doubt)) => Judgement::without_rank(margin, doubt),
-            (None, _) => Judgement::of(margin, self.decision.read_coefficient(margin, noise)),
-        }
+        self.basis.unique_directions(map, rows)
     }
 }
-
-fn check_coefficients(l: &[f64], expected: usize) -> Result<(), QueryError> {
-    if l.len() != expected {
-        return Err(QueryError::Length {
-            found: l.len(),
-            expected,
-        });
-    }
-    match l.iter().position(|x| !x.is_finite()) {
-        Some(index) => Err(QueryError::NonFinite {
-            index,
-            value: l[index],
-        }),
-        None => Ok(()),
-    }
-}
-
-fn check_map(map: &Matrix, rows: &[usize]) -> Result<(), QueryError> {
-    (0..map.nrows()).try_for_each(|i| check_coefficients(map.row(i), rows.len()))
-}
-
-fn combination(w: &[f64], rows: &[usize]) -> Vec<(usize, f64)> {
-    rows.iter().copied().zip(w.iter().copied()).collect()
-}
-
-fn norm(x: &[f64]) -> f64 {
-    x.iter().map(|x| x * x).sum::<f64>().sqrt()
-}
-
-fn unit(n: usize, i: usize) -> Vec<f64> {
-    (0..n).map(|k| if k == i { 1.0 } else { 0.0 }).collect()
-}
-
-/// The unit vector along x, the largest entry positive, rounding set to zero.
-fn normalised(mut x: Vec<f64>, rounding: f64) -> Vec<f64> {
-    let largest = x
-        .iter()
-        .fold(0.0_f64, |a, &b| if b.abs() > a.abs() { b } else { a });
-    let size = norm(&x) * largest.signum();
-    for x in &mut x {
-        *x /= size;
-        if x.abs() <= rounding {
-            *x = 0.0;
-        }
-    }
-    x
-}
-
-#[cfg(test)]
-mod tests;

@@ -1,12 +1,14 @@
 //! Solvability of a mechanism at one configuration: ranks, and a verdict for every joint, drive, row and direction.
 
+use std::ops::Range;
+
 use linalg::{KeptRowsError, Matrix, NearlyRedundant, RankDecision, RankError};
 use model::reaction::COMPONENTS;
 use model::start::scene_size;
 use model::{ConstraintId, Known, Mechanism, Scratch, System};
 
 use crate::certificate::Rows;
-use crate::matrices::{QueryError, Solvability};
+use crate::matrices::{Basis, QueryError, Solvability};
 use crate::state::{StateError, check_configuration};
 use crate::verdict::{Judgement, Verdict};
 use crate::words;
@@ -126,20 +128,6 @@ pub enum AnalysisError {
         rows: usize,
         /// Why.
         source: linalg::SparseRankError,
-    },
-    /// Reactions of so many rows that share cycles, some of them redundant, are not judged.
-    #[error(
-        "at t = {time} s: {rows} rows share cycles and {redundancy} of them are redundant; verdicts are told of sets of up to {most} rows only"
-    )]
-    LargeVerdicts {
-        /// When.
-        time: f64,
-        /// Their rows.
-        rows: usize,
-        /// Their redundancy.
-        redundancy: usize,
-        /// Rows of the largest set that is judged.
-        most: usize,
     },
     /// A verdict cannot be asked for.
     #[error("at t = {time} s: {source}")]
@@ -313,7 +301,10 @@ pub(crate) fn judge(
     let rank_nonholonomic = rank_of("Ψ", layout.m..layout.rows())?;
     let reactions = mechanism
         .constraint_ids()
-        .map(|id| reaction(mechanism, id, s, &solvability))
+        .map(|id| {
+            let rows = layout.groups[id.0].rows.clone();
+            reaction(mechanism, id, s, solvability.basis(), rows)
+        })
         .collect::<Result<_, _>>()
         .map_err(|source| AnalysisError::Query { time: t, source })?;
     let dependencies = linalg::short_circuits(solvability.decision())
@@ -348,73 +339,15 @@ pub(crate) fn judge(
     })
 }
 
-/// Verdicts of rows that are independent: all unique, at any size.
-pub(crate) fn judge_independent(
-    mechanism: &Mechanism,
-    s: &Scratch,
-    q: &[f64],
-    decision: RankDecision,
-) -> Analysis {
-    let layout = mechanism.layout();
-    let unique = || Judgement {
-        verdict: Verdict::Unique,
-        margin: 0.0,
-    };
-    let reaction = |id: ConstraintId| {
-        let group = &layout.groups[id.0];
-        let components = group.components();
-        let axis = |i: usize| {
-            (0..components.len())
-                .map(|k| f64::from(u8::from(k == i)))
-                .collect()
-        };
-        ReactionVerdict {
-            id,
-            name: group.name.clone(),
-            kind: group.spec.common.scene_type,
-            wrench: unique(),
-            multipliers: unique(),
-            rows: (group.rows.clone())
-                .map(|row| RowVerdict {
-                    row,
-                    judgement: unique(),
-                })
-                .collect(),
-            components: (components.iter())
-                .map(|&c| ComponentVerdict {
-                    name: COMPONENTS[c],
-                    judgement: unique(),
-                })
-                .collect(),
-            unique_directions: (0..components.len()).map(axis).collect(),
-        }
-    };
-    Analysis {
-        time: s.t,
-        bodies: mechanism.bodies().len(),
-        coordinates: layout.n_q,
-        velocities: layout.n_v,
-        size: scene_size(mechanism, q),
-        holonomic_rows: layout.m,
-        nonholonomic_rows: layout.h,
-        rank_holonomic: layout.m,
-        rank_nonholonomic: layout.h,
-        nearly_redundant: None,
-        decision,
-        reactions: mechanism.constraint_ids().map(reaction).collect(),
-        dependencies: Vec::new(),
-        warnings: Vec::new(),
-    }
-}
-
-fn reaction(
+/// The verdict of a joint or drive, whose rows are these of the basis.
+pub(crate) fn reaction(
     mechanism: &Mechanism,
     id: ConstraintId,
     s: &Scratch,
-    solvability: &Solvability,
+    basis: &Basis,
+    rows: Range<usize>,
 ) -> Result<ReactionVerdict, QueryError> {
     let group = &mechanism.layout().groups[id.0];
-    let rows = group.rows.clone();
     let components = group.components();
     let full = mechanism.wrench_map(id, s);
     let map = Matrix::from_fn(components.len(), rows.len(), |i, j| {
@@ -423,11 +356,11 @@ fn reaction(
     let judged = components.iter().enumerate().map(|(i, &c)| {
         Ok(ComponentVerdict {
             name: COMPONENTS[c],
-            judgement: solvability.component(&map, i, rows.clone())?,
+            judgement: basis.component(&map, i, rows.clone())?,
         })
     });
     let components = judged.collect::<Result<Vec<_>, QueryError>>()?;
-    let on_bodies = solvability.group(rows.clone())?;
+    let on_bodies = basis.group(rows.clone())?;
     let free = components
         .iter()
         .find(|c| c.judgement.verdict == Verdict::NotUnique);
@@ -436,14 +369,14 @@ fn reaction(
         _ => on_bodies,
     };
     // Where their number is undecided there are none to show; the verdicts above say so.
-    let unique_directions = match solvability.unique_directions(&map, rows.clone()) {
+    let unique_directions = match basis.unique_directions(&map, rows.clone()) {
         Err(QueryError::Rank(_) | QueryError::Directions { .. }) => Vec::new(),
         known => known?,
     };
-    let row_verdict = |row| {
+    let row_verdict = |(row, own)| {
         Ok(RowVerdict {
             row,
-            judgement: solvability.row(row)?,
+            judgement: basis.row(own)?,
         })
     };
     Ok(ReactionVerdict {
@@ -451,8 +384,10 @@ fn reaction(
         name: group.name.clone(),
         kind: group.spec.common.scene_type,
         wrench,
-        multipliers: solvability.multipliers(rows.clone())?,
-        rows: rows.clone().map(row_verdict).collect::<Result<_, _>>()?,
+        multipliers: basis.multipliers(rows.clone())?,
+        rows: (group.rows.clone().zip(rows))
+            .map(row_verdict)
+            .collect::<Result<_, _>>()?,
         components,
         unique_directions,
     })

@@ -3,6 +3,7 @@
 
 use linalg::{KeptRowsError, NearlyRedundant, RankDecision, RankStatus, SparseRank};
 use model::{Mechanism, Part, Scratch, System};
+use rayon::prelude::*;
 
 use crate::certificate::inseparable;
 use crate::existence::{Contradiction, Ranks, contradictions};
@@ -179,9 +180,11 @@ pub fn rows(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Rows, Analy
     }
     let pieces = parts(mechanism, s);
     let pieces = pieces
-        .iter()
+        .par_iter()
         .map(|groups| Piece::of_part(mechanism, groups, s.t, q));
-    let pieces: Vec<Piece> = pieces.collect::<Result<_, _>>()?;
+    // The first error by order of the parts, whoever was quicker.
+    let pieces: Vec<Result<Piece, AnalysisError>> = pieces.collect();
+    let pieces: Vec<Piece> = pieces.into_iter().collect::<Result<_, _>>()?;
     let sum = |of: fn(&Piece) -> &RowDecision| {
         let mut sum = RowDecision::empty();
         for piece in &pieces {
@@ -262,24 +265,26 @@ pub fn decide_rows_dropping(
 }
 
 /// Adds up what is decided of the whole, or of each part; `decide` gets its mechanism, scratch, coordinates, and its rows among those of the whole.
-fn of_pieces<E>(
+fn of_pieces<E: Send>(
     mechanism: &Mechanism,
     s: &Scratch,
     q: &[f64],
-    decide: impl Fn(&Mechanism, &Scratch, &[f64], Option<&[usize]>) -> Result<RowDecision, E>,
+    decide: impl Fn(&Mechanism, &Scratch, &[f64], Option<&[usize]>) -> Result<RowDecision, E> + Sync,
 ) -> Result<RowDecision, E> {
     if mechanism.layout().rows() <= LARGE {
         return decide(mechanism, s, q, None);
     }
-    let mut sum = RowDecision::empty();
-    for groups in parts(mechanism, s) {
-        let Part { mechanism, places } = mechanism.part_of_groups(&groups);
+    let pieces = parts(mechanism, s);
+    let pieces = pieces.par_iter().map(|groups| {
+        let Part { mechanism, places } = mechanism.part_of_groups(groups);
         let own_q = own(q, &places.coordinates);
         let own_s = evaluated(&mechanism, s.t, &own_q);
-        sum.add(
-            &decide(&mechanism, &own_s, &own_q, Some(&places.rows))?,
-            &places.rows,
-        );
+        let decision = decide(&mechanism, &own_s, &own_q, Some(&places.rows));
+        (decision, places.rows)
+    });
+    let mut sum = RowDecision::empty();
+    for (decision, rows) in pieces.collect::<Vec<_>>() {
+        sum.add(&decision?, &rows);
     }
     Ok(sum.sorted())
 }

@@ -4,26 +4,24 @@
 //! sets of [`linalg::cycles`]. So each set is a small mechanism that can be judged alone, by [`analyse`], with all the evidence that it has; the
 //! redundancy of the whole is the sum of theirs, and no verdict depends on any other set. The work is linear in their number.
 //!
-//! Each part is measured by its own size: margins do not depend on how long the chain is in which it stands. Not here: mechanisms of one
-//! large cycle.
+//! Each part is measured by its own size: margins do not depend on how long the chain is in which it stands. One large part, as a lattice, is
+//! judged by random combinations of its left null space.
 
-use linalg::{RankStatus, cycles};
-use model::{BodyRef, ConstraintId, Known, Mechanism, Places, Scratch, System};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use linalg::{Evidence, NearlyRedundant, RankStatus, cycles};
+use model::{BodyRef, ConstraintId, Mechanism, Places, Scratch, System};
+use rayon::prelude::*;
 
 use crate::certificate::ROWS_MAX;
-use crate::large::{decide_range, full_rank};
-use crate::mechanism::{
-    Analysis, AnalysisError, Dependency, ReactionVerdict, analyse, analyse_known, evaluated,
-    judge_independent,
-};
+use crate::large::judge_sparse;
+use crate::mechanism::{Analysis, AnalysisError, Dependency, ReactionVerdict, analyse, evaluated};
+use crate::rows::RowDecision;
 use crate::state::check_configuration;
 
 /// Mechanisms of more rows are better judged by parts: matrices of all rows and columns cost memory with the square of their number, and time with
 /// its cube.
 pub const LARGE: usize = ROWS_MAX;
-
-/// Redundant sets of more rows are not judged: dense matrices of them take minutes.
-const DENSE_MOST: usize = 1500;
 
 /// The verdicts of a mechanism, part by part.
 #[derive(Clone, Debug)]
@@ -49,15 +47,54 @@ pub struct Survey {
 pub struct SurveyedPart {
     /// Where it is.
     pub places: Places,
-    /// Ranks and verdicts; rows and joints are those of the whole.
-    pub analysis: Analysis,
+    /// Ranks and verdicts; rows and joints are those of the whole, but those of decision and evidence are its own.
+    pub verdicts: PartVerdicts,
+}
+
+/// What is known of a part.
+#[derive(Clone, Debug)]
+pub struct PartVerdicts {
+    /// Size of the part (m): its lengths are dimensionless by this.
+    pub size: f64,
+    /// Rank of Φq alone.
+    pub rank_holonomic: usize,
+    /// Rank of Ψ alone.
+    pub rank_nonholonomic: usize,
+    /// Rank, redundancy and kept rows of C.
+    pub rows: RowDecision,
+    /// The numbers behind them.
+    pub evidence: Evidence,
+    /// Kept rows that are independent, but only just; in large parts nothing is said of them.
+    pub nearly_redundant: Option<NearlyRedundant>,
+    /// Joints and drives in the order of their rows.
+    pub reactions: Vec<ReactionVerdict>,
+    /// As many as the degree of redundancy, short ones first; fewer where large sets of rows depend on each other.
+    pub dependencies: Vec<Dependency>,
+    /// What else the reader should know.
+    pub warnings: Vec<String>,
+}
+
+impl From<Analysis> for PartVerdicts {
+    fn from(analysis: Analysis) -> Self {
+        Self {
+            size: analysis.size,
+            rank_holonomic: analysis.rank_holonomic,
+            rank_nonholonomic: analysis.rank_nonholonomic,
+            rows: (&analysis.decision).into(),
+            evidence: analysis.decision.evidence,
+            nearly_redundant: analysis.nearly_redundant,
+            reactions: analysis.reactions,
+            dependencies: analysis.dependencies,
+            warnings: analysis.warnings,
+        }
+    }
 }
 
 impl Survey {
     /// r = rank C
     #[must_use]
     pub fn rank(&self) -> usize {
-        self.sum(|a| a.decision.rank)
+        self.sum(|a| a.rows.rank)
     }
 
     /// Rank of Φq alone.
@@ -75,7 +112,7 @@ impl Survey {
     /// p = m + h − r
     #[must_use]
     pub fn redundancy(&self) -> usize {
-        self.sum(|a| a.decision.redundancy)
+        self.sum(|a| a.rows.redundancy)
     }
 
     /// Freedoms of motion: n_v − r.
@@ -89,7 +126,7 @@ impl Survey {
     pub fn rows(&self) -> [Vec<usize>; 2] {
         let mut rows = [Vec::new(), Vec::new()];
         for part in &self.parts {
-            let decision = &part.analysis.decision;
+            let decision = &part.verdicts.rows;
             for (all, own) in rows.iter_mut().zip([&decision.kept, &decision.dropped]) {
                 all.extend(own.iter().map(|&k| part.places.rows[k]));
             }
@@ -101,8 +138,8 @@ impl Survey {
     /// The part whose rank is least certain: undecided, or else the one with the smallest σ_r. Nothing without joints.
     #[must_use]
     pub fn weakest(&self) -> Option<&SurveyedPart> {
-        let strength = |part: &SurveyedPart| match part.analysis.decision.status {
-            RankStatus::Decided => part.analysis.decision.evidence.sigma_r,
+        let strength = |part: &SurveyedPart| match part.verdicts.rows.status {
+            RankStatus::Decided => part.verdicts.evidence.sigma_r,
             _ => -1.0,
         };
         let parts = self.parts.iter();
@@ -112,32 +149,33 @@ impl Survey {
     /// The verdicts of all joints and drives, in the order of their rows.
     #[must_use]
     pub fn reactions(&self) -> Vec<&ReactionVerdict> {
-        let of_part = |part: &'_ SurveyedPart| part.analysis.reactions.len();
+        let of_part = |part: &'_ SurveyedPart| part.verdicts.reactions.len();
         let mut all: Vec<&ReactionVerdict> =
             Vec::with_capacity(self.parts.iter().map(of_part).sum());
-        all.extend(self.parts.iter().flat_map(|part| &part.analysis.reactions));
+        all.extend(self.parts.iter().flat_map(|part| &part.verdicts.reactions));
         all.sort_unstable_by_key(|r| r.id.0);
         all
     }
 
     /// What the reader should know of single parts.
     pub fn warnings(&self) -> impl Iterator<Item = &String> {
-        self.parts.iter().flat_map(|part| &part.analysis.warnings)
+        self.parts.iter().flat_map(|part| &part.verdicts.warnings)
     }
 
     /// As many minimal dependencies as the degree of redundancy, part by part.
     pub fn dependencies(&self) -> impl Iterator<Item = &Dependency> {
         self.parts
             .iter()
-            .flat_map(|part| &part.analysis.dependencies)
+            .flat_map(|part| &part.verdicts.dependencies)
     }
 
-    fn sum(&self, of: impl Fn(&Analysis) -> usize) -> usize {
-        self.parts.iter().map(|part| of(&part.analysis)).sum()
+    fn sum(&self, of: impl Fn(&PartVerdicts) -> usize) -> usize {
+        self.parts.iter().map(|part| of(&part.verdicts)).sum()
     }
 }
 
 /// Verdicts at time t and coordinates q, which must satisfy the constraints; allocates. After each part `progress` is told how many joints are judged.
+/// Parts are judged on the threads of the pool of `rayon` from which this is called; the result does not depend on them.
 ///
 /// # Errors
 /// As [`analyse`].
@@ -145,24 +183,25 @@ pub fn survey(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],
-    mut progress: impl FnMut(usize),
+    progress: impl Fn(usize) + Sync,
 ) -> Result<Survey, AnalysisError> {
     check_configuration(mechanism, t, q)?;
     let s = evaluated(mechanism, t, q);
     let layout = mechanism.layout();
-    let mut judged = 0;
-    let parts = parts(mechanism, &s).into_iter().map(|groups| {
+    let judged = AtomicUsize::new(0);
+    let parts = parts(mechanism, &s).into_par_iter().map(|groups| {
         let part = mechanism.part_of_groups(&groups);
         let own: Vec<f64> = part.places.coordinates.iter().map(|&j| q[j]).collect();
-        let mut analysis = judged_alone(&part.mechanism, t, &own)?;
-        rename(&mut analysis, &part.places);
-        judged += groups.len();
-        progress(judged);
+        let mut verdicts = judged_alone(&part.mechanism, t, &own)?;
+        rename(&mut verdicts, &part.places);
+        progress(judged.fetch_add(groups.len(), Ordering::Relaxed) + groups.len());
         Ok::<_, AnalysisError>(SurveyedPart {
             places: part.places,
-            analysis,
+            verdicts,
         })
     });
+    // The first error by order of the parts, whoever was quicker.
+    let parts: Vec<_> = parts.collect();
     Ok(Survey {
         time: t,
         bodies: mechanism.bodies().len(),
@@ -170,28 +209,15 @@ pub fn survey(
         velocities: layout.n_v,
         holonomic_rows: layout.m,
         nonholonomic_rows: layout.h,
-        parts: parts.collect::<Result<_, _>>()?,
+        parts: parts.into_iter().collect::<Result<_, _>>()?,
     })
 }
 
-/// A part by itself. A large one without redundancy has nothing to judge: all its reactions are unique.
-fn judged_alone(part: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
-    let rows = part.layout().rows();
-    if rows <= LARGE {
-        return analyse_known(part, t, q, Known::AsStored);
-    }
-    let s = evaluated(part, t, q);
-    let found = decide_range(part, &s, q, 0..rows)?;
-    let redundancy = found.redundancy;
-    match full_rank(found) {
-        Some(decision) => Ok(judge_independent(part, &s, q, decision)),
-        None if rows <= DENSE_MOST => analyse_known(part, t, q, Known::AsStored),
-        None => Err(AnalysisError::LargeVerdicts {
-            time: t,
-            rows,
-            redundancy,
-            most: DENSE_MOST,
-        }),
+/// A part by itself.
+fn judged_alone(part: &Mechanism, t: f64, q: &[f64]) -> Result<PartVerdicts, AnalysisError> {
+    match part.layout().rows() <= LARGE {
+        true => analyse(part, t, q).map(Into::into),
+        false => judge_sparse(part, &evaluated(part, t, q), q),
     }
 }
 
@@ -230,14 +256,14 @@ pub fn parts(mechanism: &Mechanism, s: &Scratch) -> Vec<Vec<usize>> {
 }
 
 /// Numbers of the part become those of the whole. Rows of the decision stay those of its matrix.
-fn rename(analysis: &mut Analysis, places: &Places) {
-    for reaction in &mut analysis.reactions {
+fn rename(verdicts: &mut PartVerdicts, places: &Places) {
+    for reaction in &mut verdicts.reactions {
         reaction.id = ConstraintId(places.groups[reaction.id.0]);
         for row in &mut reaction.rows {
             row.row = places.rows[row.row];
         }
     }
-    for dependency in &mut analysis.dependencies {
+    for dependency in &mut verdicts.dependencies {
         for row in &mut dependency.rows {
             *row = places.rows[*row];
         }

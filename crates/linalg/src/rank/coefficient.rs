@@ -21,6 +21,9 @@ const TOLERANCE_MAX: f64 = 1e-5;
 /// A coefficient that has come out as small as this in double-double is zero, whatever the data are known to.
 const VANISHED: f64 = 1e-13;
 
+/// Random combinations of coefficients are zero and not zero only with this factor between them.
+const SPREAD: f64 = 1e4;
+
 /// How a coefficient of the equilibrated dependencies reads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CoefficientReading {
@@ -112,9 +115,40 @@ impl RankDecision {
     /// Reads the size of a coefficient, or of a norm of some, of which the noise is known.
     #[must_use]
     pub fn read_coefficient(&self, size: f64, noise: f64) -> CoefficientReading {
+        self.readings().read(size, noise)
+    }
+
+    /// How its coefficients are read.
+    #[must_use]
+    pub fn readings(&self) -> Readings {
+        Readings {
+            is_certified: self.evidence.certificate.is_some(),
+            smallest: f64::INFINITY,
+        }
+    }
+}
+
+/// How coefficients are read: what is known of all of them beyond the noise of one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Readings {
+    /// Whether they came out in double-double.
+    pub(crate) is_certified: bool,
+    /// The smallest one that is not zero, where the noise is estimated from it; infinite otherwise.
+    pub(crate) smallest: f64,
+}
+
+impl Readings {
+    /// Reads the size of a coefficient, or of a norm of some, of which the noise is known.
+    #[must_use]
+    pub fn read(&self, size: f64, noise: f64) -> CoefficientReading {
+        let far_below = self.smallest / SPREAD;
         match CoefficientReading::of(size, noise) {
+            CoefficientReading::Zero if size > far_below => CoefficientReading::Unclear {
+                tolerance: far_below,
+                required: noise,
+            },
             CoefficientReading::Unclear { .. }
-                if size <= VANISHED.min(noise) && self.evidence.certificate.is_some() =>
+                if size <= VANISHED.min(noise) && self.is_certified =>
             {
                 CoefficientReading::Zero
             }

@@ -8,7 +8,9 @@ mod reaction;
 
 use model::{ConstraintId, Layout};
 use serde::Serialize;
-use solvability::{Analysis, Dependency, Explanation, FrameVerdict, Mixing, Survey};
+use solvability::{
+    Analysis, Dependency, Explanation, FrameVerdict, Mixing, ReactionVerdict, Survey,
+};
 
 pub use along::{
     AlongDocument, ContinuationDocument, DifferenceDocument, GenericVerdictsDocument,
@@ -140,7 +142,7 @@ impl AnalysisDocument {
             reactions: analysis.reactions.iter().map(Into::into).collect(),
             groups: Vec::new(),
             dependencies: dependencies
-                .map(|d| DependencyDocument::new(d, analysis))
+                .map(|d| DependencyDocument::new(d, &analysis.reactions))
                 .collect(),
             mixing: Vec::new(),
             eliminations: None,
@@ -158,8 +160,8 @@ impl AnalysisDocument {
         let [kept, dropped] = survey.rows();
         let rows = survey.holonomic_rows + survey.nonholonomic_rows;
         let dependencies = survey.parts.iter().flat_map(|part| {
-            let all = part.analysis.dependencies.iter();
-            all.map(|d| DependencyDocument::new(d, &part.analysis))
+            let all = part.verdicts.dependencies.iter();
+            all.map(|d| DependencyDocument::new(d, &part.verdicts.reactions))
         });
         Self {
             scene: scene.to_owned(),
@@ -232,8 +234,8 @@ impl AnalysisDocument {
 }
 
 impl DependencyDocument {
-    fn new(dependency: &Dependency, analysis: &Analysis) -> Self {
-        let reactions = analysis.reactions.iter();
+    fn new(dependency: &Dependency, reactions: &[ReactionVerdict]) -> Self {
+        let reactions = reactions.iter();
         let concerned =
             reactions.filter(|r| r.rows.iter().any(|row| dependency.rows.contains(&row.row)));
         Self {

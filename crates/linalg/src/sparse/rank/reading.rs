@@ -2,10 +2,7 @@
 
 use super::{SparseEvidence, SparseRank};
 use crate::rank::{coefficient_noise, required, shown, tolerance};
-use crate::{CoefficientReading, Doubt, RankStatus, kernels};
-
-/// Rows of W are zero and not zero only with this factor between them.
-const SPREAD: f64 = 1e4;
+use crate::{CoefficientReading, Doubt, RankStatus, Readings, kernels};
 
 impl SparseRank {
     /// Whether the rank is decided.
@@ -28,15 +25,14 @@ impl SparseRank {
     /// # Panics
     /// If `i` is not a row.
     pub fn read_row(&self, i: usize) -> CoefficientReading {
-        let (margin, noise) = (self.margin(i), self.noise());
-        match CoefficientReading::of(margin, noise) {
-            CoefficientReading::Zero if margin > self.evidence.smallest_margin / SPREAD => {
-                CoefficientReading::Unclear {
-                    tolerance: self.evidence.smallest_margin / SPREAD,
-                    required: noise,
-                }
-            }
-            reading => reading,
+        self.readings().read(self.margin(i), self.noise())
+    }
+
+    /// How margins are read.
+    pub fn readings(&self) -> Readings {
+        Readings {
+            is_certified: false,
+            smallest: self.evidence.smallest_margin,
         }
     }
 

@@ -1,8 +1,8 @@
 //! The numbers behind a rank: what was read, what was proved, what was compared.
 
-use linalg::{Certificate, Grounds, RankStatus};
+use linalg::{Certificate, Evidence, Grounds, NearlyRedundant, RankStatus};
 use serde::Serialize;
-use solvability::{Analysis, Generic, Survey};
+use solvability::{Analysis, Generic, PartVerdicts, Survey};
 
 /// What is known of the rank beyond the decision at one configuration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -85,17 +85,67 @@ pub struct PointDocument {
     pub redundancy: usize,
 }
 
+/// What was decided, of a mechanism or a part of one.
+#[derive(Clone, Copy)]
+struct Decided<'a> {
+    status: RankStatus,
+    rank: usize,
+    redundancy: usize,
+    evidence: &'a Evidence,
+    size: f64,
+    nearly_redundant: Option<&'a NearlyRedundant>,
+}
+
+impl<'a> From<&'a Analysis> for Decided<'a> {
+    fn from(analysis: &'a Analysis) -> Self {
+        Self {
+            status: analysis.decision.status,
+            rank: analysis.decision.rank,
+            redundancy: analysis.decision.redundancy,
+            evidence: &analysis.decision.evidence,
+            size: analysis.size,
+            nearly_redundant: analysis.nearly_redundant.as_ref(),
+        }
+    }
+}
+
+impl<'a> From<&'a PartVerdicts> for Decided<'a> {
+    fn from(part: &'a PartVerdicts) -> Self {
+        Self {
+            status: part.rows.status,
+            rank: part.rows.rank,
+            redundancy: part.rows.redundancy,
+            evidence: &part.evidence,
+            size: part.size,
+            nearly_redundant: part.nearly_redundant.as_ref(),
+        }
+    }
+}
+
+impl Decided<'_> {
+    fn is_certain(&self) -> bool {
+        self.status == RankStatus::Decided
+    }
+
+    /// Whether it is proved that the rank is not less.
+    fn is_proved_by(&self, certificate: Option<&Certificate>) -> bool {
+        self.is_certain() && certificate.is_some_and(|c| c.rank_at_least == self.rank)
+    }
+}
+
 impl EvidenceDocument {
     pub(super) fn new(analysis: &Analysis, proof: Proof<'_>) -> Self {
-        let decision = &analysis.decision;
-        let evidence = &decision.evidence;
-        let (status, reason) = match decision.status {
+        Self::of(analysis.into(), proof)
+    }
+
+    fn of(found: Decided<'_>, proof: Proof<'_>) -> Self {
+        let evidence = found.evidence;
+        let (status, reason) = match found.status {
             RankStatus::Decided => ("decided", None),
             RankStatus::Undecided(doubt) => ("undecided", Some(doubt.to_string())),
             _ => ("undecided", None),
         };
         let certificate = proof.certificate;
-        let decided = decision.is_decided();
         Self {
             status,
             reason,
@@ -106,22 +156,21 @@ impl EvidenceDocument {
             constraint_residual: evidence.constraint_residual,
             permanent: proof
                 .generic
-                .filter(|_| decided)
-                .map(|found| found.redundancy == decision.redundancy),
-            certified: decided && certificate.is_some_and(|c| c.rank_at_least == decision.rank),
+                .filter(|_| found.is_certain())
+                .map(|elsewhere| elsewhere.redundancy == found.redundancy),
+            certified: found.is_proved_by(certificate),
             rank_at_least: certificate.map(|c| c.rank_at_least),
             sigma_bound: certificate.map(|c| c.sigma_bound),
             sigma_next_extended: certificate.map(|c| c.sigma_next),
-            grounds: certificate.filter(|_| decided).map(|c| grounds(c.grounds)),
+            grounds: certificate
+                .filter(|_| found.is_certain())
+                .map(|c| grounds(c.grounds)),
             uncertainty: certificate.map(|c| c.uncertainty),
-            nearly_redundant: analysis
-                .nearly_redundant
-                .as_ref()
-                .map(|n| NearlyRedundantDocument {
-                    sigma: n.sigma,
-                    change_per_micrometre: MICROMETRE / analysis.size / n.sigma,
-                    direction: n.direction.clone(),
-                }),
+            nearly_redundant: found.nearly_redundant.map(|n| NearlyRedundantDocument {
+                sigma: n.sigma,
+                change_per_micrometre: MICROMETRE / found.size / n.sigma,
+                direction: n.direction.clone(),
+            }),
         }
     }
 }
@@ -132,18 +181,15 @@ impl EvidenceDocument {
         let Some(weakest) = survey.weakest() else {
             return Self::of_nothing();
         };
-        let certificate = |a: &Analysis| a.decision.evidence.certificate.clone();
-        let own = certificate(&weakest.analysis);
         let proof = Proof {
             generic: None,
-            certificate: own.as_ref(),
+            certificate: weakest.verdicts.evidence.certificate.as_ref(),
         };
-        let is_proved = |a: &Analysis| {
-            let proved = certificate(a).map(|c| c.rank_at_least);
-            a.decision.is_decided() && proved == Some(a.decision.rank)
-        };
-        let all_proved = survey.parts.iter().all(|part| is_proved(&part.analysis));
-        let mut document = Self::new(&weakest.analysis, proof);
+        let all_proved = survey.parts.iter().all(|part| {
+            let certificate = part.verdicts.evidence.certificate.as_ref();
+            Decided::from(&part.verdicts).is_proved_by(certificate)
+        });
+        let mut document = Self::of((&weakest.verdicts).into(), proof);
         document.certified = all_proved;
         document.rank_at_least = all_proved.then(|| survey.rank());
         if let Some(nearly) = &mut document.nearly_redundant {
