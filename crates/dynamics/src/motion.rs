@@ -39,7 +39,7 @@ use coded::Coded;
 pub(crate) use locate::Singular;
 use passage::Passage;
 use rows::KeptRows;
-pub(crate) use rows::{is_far, is_sparse, mass_spread};
+pub(crate) use rows::{is_far, is_sparse, mass_spread, memory};
 
 pub use reduced::Reduced;
 

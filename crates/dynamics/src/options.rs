@@ -3,6 +3,7 @@
 #[cfg(test)]
 mod tests;
 
+use std::num::NonZeroUsize;
 use std::ops::RangeInclusive;
 
 use crate::error::MotionError;
@@ -185,6 +186,8 @@ pub struct MotionOptions {
     pub stabilisation: Stabilisation,
     /// Rows to keep: what [`crate::prepare()`] is given. A run has the rows of its [`crate::Prepared`].
     pub rows: RowChoice,
+    /// Components that compute at the same time, where there are several; all of them if nothing is said. Results do not depend on it.
+    pub threads: Option<NonZeroUsize>,
 }
 
 impl MotionOptions {
@@ -223,6 +226,7 @@ impl MotionOptions {
             formulation: Formulation::default(),
             stabilisation: Stabilisation::default(),
             rows: RowChoice::default(),
+            threads: None,
         }
     }
 

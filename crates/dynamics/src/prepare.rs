@@ -36,6 +36,12 @@ pub struct Prepared {
 }
 
 impl Prepared {
+    /// Bytes that a run takes at most, about, beside the mechanism itself: solvers, stages, rows of output. An estimate from patterns alone.
+    #[must_use]
+    pub fn memory(&self) -> usize {
+        crate::motion::memory(self)
+    }
+
     /// Whether a run evaluates the state as a function of time: no coordinate and no velocity is free, and the run evaluates derivatives
     /// of states alone, on kept rows.
     pub(crate) fn is_function_of_time(&self, options: &MotionOptions) -> bool {

@@ -9,6 +9,7 @@ mod constrained;
 mod energy;
 mod equations;
 mod passages;
+mod permits;
 mod sample;
 mod several;
 mod span;

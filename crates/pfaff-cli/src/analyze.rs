@@ -31,8 +31,8 @@ pub(crate) fn run(arguments: &Analyze) -> Outcome {
     Interrupt::ends_at_once()?;
     let drop = rows_from_zero(arguments.drop.as_deref())?;
     let source = Source::read(&arguments.scene)?;
-    let read = Blueprint::read(&source.name, &source.text, &Registry::planar());
-    let blueprint = read.map_err(|e| source.failure(e))?;
+    arguments.resources.apply()?;
+    let blueprint = arguments.resources.blueprint(&source)?;
     if blueprint.mechanism.layout().rows() > LARGE {
         return of_large(arguments, &source, blueprint);
     }

@@ -9,6 +9,8 @@ use pfaff::dynamics::{Formulation, Method, Stabilisation};
 use pfaff::suite::generate::Kind;
 use pfaff::sweep::{Axis, Shard};
 
+use crate::resources::Resources;
+
 /// Mechanisms with redundant constraints: how they move, and which of their joint reactions may be believed.
 #[derive(Parser)]
 #[command(
@@ -162,6 +164,8 @@ pub(crate) struct Analyze {
     /// compliance:W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds rad/(N·m)), drop:6,21; may be given several times
     #[arg(long, value_name = "CHOICE")]
     pub(crate) choose: Vec<String>,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
     /// One JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
@@ -198,6 +202,8 @@ pub(crate) struct Simulate {
     /// Rows to eliminate, counted from 1
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
     pub(crate) drop: Option<Vec<usize>>,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
     /// The summary as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
@@ -222,6 +228,8 @@ pub(crate) struct Plan {
     /// Rows to eliminate, counted from 1
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
     pub(crate) drop: Option<Vec<usize>>,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
     /// The plan as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
@@ -315,6 +323,8 @@ pub(crate) struct Generate {
 pub(crate) struct Check {
     /// Scene file, or - for standard input
     pub(crate) scene: PathBuf,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
     /// Problems, or what was read, as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,

@@ -13,7 +13,7 @@ use crate::output::{count, print};
 pub(crate) fn run(arguments: &Check) -> Outcome {
     Interrupt::ends_at_once()?;
     let source = Source::read(&arguments.scene)?;
-    let study = source.study(&Overrides::default())?;
+    let study = source.study(&Overrides::default(), arguments.resources)?;
     match arguments.json {
         true => print(&format!("{:#}\n", facts(&study))),
         false => print(&describe(&study)),

@@ -4,10 +4,10 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use pfaff::model::Registry;
 use pfaff::{Overrides, Study, StudyError};
 
 use crate::output::Failure;
+use crate::resources::{Resources, Stage};
 
 /// Largest scene that is read (bytes): ten times what a hundred thousand bodies take. A device that never ends
 /// must not fill the memory.
@@ -47,10 +47,17 @@ impl Source {
         Ok(Self { name, text })
     }
 
-    /// Reads and assembles the scene.
-    pub(crate) fn study(&self, overrides: &Overrides) -> Result<Study, Failure> {
-        Study::read(&self.name, &self.text, &Registry::planar(), overrides)
-            .map_err(|e| self.failure(e))
+    /// Reads and assembles the scene, if it may use so much of the machine.
+    pub(crate) fn study(
+        &self,
+        overrides: &Overrides,
+        resources: Resources,
+    ) -> Result<Study, Failure> {
+        resources.apply()?;
+        let blueprint = resources.blueprint(self)?;
+        let _said = Stage::begin(self, "assembling and choosing rows");
+        let study = blueprint.prepare(overrides);
+        study.map_err(|e| self.failure(e))
     }
 
     /// An error with the places of this text.

@@ -12,6 +12,7 @@ mod input;
 mod interrupt;
 mod output;
 mod plan;
+mod resources;
 mod simulate;
 mod stress;
 mod sweep;

@@ -10,6 +10,7 @@ use crate::args;
 use crate::input::{Source, rows_from_zero};
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, columns, count, print};
+use crate::resources::Bytes;
 
 pub(crate) fn run(arguments: &args::Plan) -> Outcome {
     Interrupt::ends_at_once()?;
@@ -22,25 +23,30 @@ pub(crate) fn run(arguments: &args::Plan) -> Outcome {
         drop: rows_from_zero(arguments.drop.as_deref())?,
         ..Overrides::default()
     };
-    let study = source.study(&overrides)?;
+    let study = source.study(&overrides, arguments.resources)?;
     let plan = study.plan().map_err(|e| source.failure(e))?;
+    let memory = study
+        .memory(source.text.len())
+        .map_err(|e| source.failure(e))?;
     if !arguments.json {
-        return print(&describe(study.scene.name(), &plan));
+        return print(&describe(study.scene.name(), &plan, memory));
     }
     let mut out = Vec::new();
-    write_json(&mut out, &PlanDocument::new(&plan)).map_err(|e| Failure::stopped(e.to_string()))?;
+    write_json(&mut out, &PlanDocument::new(&plan, memory))
+        .map_err(|e| Failure::stopped(e.to_string()))?;
     print(&String::from_utf8_lossy(&out))
 }
 
 /// A table for the whole, and one for each of several components.
-fn describe(name: &str, plan: &Plan<'_>) -> String {
+fn describe(name: &str, plan: &Plan<'_>, memory: usize) -> String {
     let options = plan.options();
     let lines = plan.lines();
     let mut text = format!(
-        "{name}: the plan of a run to t = {} s ({}, {})\n\n",
+        "{name}: the plan of a run to t = {} s ({}, {}), about {} of memory\n\n",
         options.t_end,
         options.formulation.name(),
         options.stabilisation.name(),
+        Bytes(memory as u64),
     );
     let of = |component| lines.iter().filter(move |line| line.component == component);
     text.push_str(&table(of(None)));

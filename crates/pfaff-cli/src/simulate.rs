@@ -22,7 +22,11 @@ const TICKS: u64 = 1000;
 pub(crate) fn run(arguments: &Simulate) -> Outcome {
     let source = Source::read(&arguments.scene)?;
     let overrides = overrides(arguments)?;
-    let study = source.study(&overrides)?;
+    let study = source.study(&overrides, arguments.resources)?;
+    let memory = study
+        .memory(source.text.len())
+        .map_err(|e| source.failure(e))?;
+    arguments.resources.allow(memory, "this run")?;
     let Some(options) = &study.options else {
         return Err(source.failure(StudyError::NoEnd));
     };
@@ -72,6 +76,7 @@ fn overrides(arguments: &Simulate) -> Result<Overrides, Failure> {
         formulation: arguments.formulation,
         stabilisation: arguments.stabilisation,
         drop: rows_from_zero(arguments.drop.as_deref())?,
+        threads: arguments.resources.threads,
     })
 }
 

@@ -14,6 +14,7 @@ use crate::args::WorkPrecision;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, incomplete, print, wrapped};
+use crate::resources::Resources;
 
 pub(crate) fn run(arguments: &WorkPrecision) -> Outcome {
     let plan = match (arguments.quick, arguments.all) {
@@ -74,7 +75,7 @@ fn subjects(arguments: &WorkPrecision) -> Result<Vec<Subject>, Failure> {
             return Subject::of_case(case).map_err(unreadable);
         }
         let source = Source::read(path)?;
-        let study = source.study(&pfaff::Overrides::default())?;
+        let study = source.study(&pfaff::Overrides::default(), Resources::default())?;
         Subject::of_study(study).map_err(|e| source.failure(e))
     });
     scenes.collect()

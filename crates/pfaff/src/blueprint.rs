@@ -158,6 +158,7 @@ fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
         }
         _ => {}
     }
+    options.threads = overrides.threads.or(options.threads);
     if let Some(drop) = &overrides.drop {
         options.rows = RowChoice::Drop(drop.clone());
     }

@@ -12,12 +12,14 @@
 //! | [`journey`] | the verdicts along its motion |
 //! | [`mod@sweep`] | many runs with other numbers |
 //! | [`mod@work_precision`] | error against run time |
+//! | [`memory`] | what work on a scene takes |
 //! | [`error`] | why there are no results |
 
 pub mod blueprint;
 pub mod error;
 pub mod inquiry;
 pub mod journey;
+pub mod memory;
 pub mod study;
 pub mod sweep;
 pub mod work_precision;
@@ -37,6 +39,22 @@ pub use error::StudyError;
 pub use inquiry::Inquiry;
 pub use journey::{Journey, Progress};
 pub use study::{Findings, Overrides, Study};
+
+/// So many threads at most for all that this program computes in parallel from now on; runs of several components have an option of their
+/// own, [`dynamics::MotionOptions::threads`].
+///
+/// # Errors
+/// If threads have been started already, or cannot be.
+pub fn limit_threads(threads: std::num::NonZeroUsize) -> Result<(), rayon::ThreadPoolBuildError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads.get());
+    pool.build_global()
+}
+
+/// Threads on which this program computes in parallel.
+#[must_use]
+pub fn threads() -> usize {
+    rayon::current_num_threads()
+}
 
 #[cfg(feature = "macros")]
 #[doc(hidden)]

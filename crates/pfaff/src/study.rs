@@ -1,6 +1,7 @@
 //! A scene from its text to its results: read, assemble, decide, move, write. What the commands do, without their
 //! printing.
 
+use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -62,6 +63,8 @@ pub struct Overrides {
     pub stabilisation: Option<Stabilisation>,
     /// Rows to drop, from 0.
     pub drop: Option<Vec<usize>>,
+    /// Components that compute at the same time.
+    pub threads: Option<NonZeroUsize>,
 }
 
 impl Study {

@@ -28,6 +28,9 @@ const HALVINGS: i32 = 5;
 /// Points must be this far from each other and from the given one, in the same measure.
 const APART: f64 = 0.1;
 
+/// Rows up to which other configurations are looked for: the work grows with their cube, and 600 rows would take half a minute.
+pub const GENERIC_ROWS: usize = 250;
+
 /// Redundancy at other configurations of the same component.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Generic {
@@ -51,10 +54,13 @@ pub struct Elsewhere {
 }
 
 /// Ranks at other configurations than (t, q), which must lie on the constraints. `None` if none was found at which the rank is
-/// decided (a structure that cannot move has none), or if t and q are no configuration of this mechanism.
+/// decided (a structure that cannot move has none), if there are more than [`GENERIC_ROWS`], or if t and q are no configuration of this mechanism.
 #[must_use]
 pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     crate::state::check_configuration(mechanism, t, q).ok()?;
+    if mechanism.layout().rows() > GENERIC_ROWS {
+        return None;
+    }
     let rows = lasting_rows(mechanism);
     let size = scene_size(mechanism, q);
     let units = velocity_units(mechanism, size);
@@ -88,8 +94,7 @@ fn length(d: impl Iterator<Item = f64>, units: &[f64], size: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Whether the degree of redundancy is the same at other configurations. `None` if no other configuration was found, or the rank
-/// here is undecided.
+/// Whether the degree of redundancy is the same at other configurations. `None` where [`generic`] finds none, or the rank here is undecided.
 #[must_use]
 pub fn is_permanent(
     mechanism: &Mechanism,

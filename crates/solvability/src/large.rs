@@ -54,10 +54,7 @@ impl Decided {
         let (layout, size) = (mechanism.layout(), scene_size(mechanism, q));
         let dimensions = mechanism.dimension_scaling(size);
         let unit = |j: usize| f64::from(dimensions.cols[j]).exp2();
-        let row = |i: usize| layout.row(s, i).map(|(j, c)| (j, c * unit(j)));
-        // Columns of a pattern are below n_v.
-        let c = SparseMatrix::from_rows(layout.n_v, rows.clone().map(row))
-            .unwrap_or_else(|e| unreachable!("columns of a pattern: {e}"));
+        let c = rows_of(mechanism, s, rows.clone(), unit);
         let scaling = equilibrate_sparse(&c);
         let known = mechanism.uncertainty_of_entries(s, q, size, Known::AsStored);
         let pattern = &layout.pattern;
@@ -69,10 +66,7 @@ impl Decided {
                 largest = largest.max(known[k] * unit(j) * f64::from(exponent).exp2());
             }
         }
-        let blocks: Vec<_> = (0..mechanism.bodies().len())
-            .map(|b| layout.columns(b))
-            .collect();
-        let found = decide_sparse(&c, largest, &blocks, sketch_of(mechanism)).map_err(
+        let found = decide_sparse(&c, largest, &blocks(mechanism), sketch_of(mechanism)).map_err(
             |source| match source {
                 SparseRankError::Rank(source) => AnalysisError::Rank { time: s.t, source },
                 source => AnalysisError::Large {
@@ -127,8 +121,28 @@ impl Decided {
     }
 }
 
+/// Rows of C at the pose of the scratch, columns in these units.
+pub(crate) fn rows_of(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    rows: Range<usize>,
+    unit: impl Fn(usize) -> f64,
+) -> SparseMatrix {
+    let layout = mechanism.layout();
+    let row = |i: usize| layout.row(s, i).map(|(j, c)| (j, c * unit(j)));
+    // Columns of a pattern are below n_v.
+    SparseMatrix::from_rows(layout.n_v, rows.map(row))
+        .unwrap_or_else(|e| unreachable!("columns of a pattern: {e}"))
+}
+
+/// The columns of each body.
+pub(crate) fn blocks(mechanism: &Mechanism) -> Vec<Range<usize>> {
+    let bodies = 0..mechanism.bodies().len();
+    bodies.map(|b| mechanism.layout().columns(b)).collect()
+}
+
 /// Combinations enough for the joint of most rows, and some against chance.
-fn sketch_of(mechanism: &Mechanism) -> Sketch {
+pub(crate) fn sketch_of(mechanism: &Mechanism) -> Sketch {
     let groups = mechanism.layout().groups.iter();
     let most = groups.map(|group| group.rows.len()).max().unwrap_or(0);
     let default = Sketch::default();

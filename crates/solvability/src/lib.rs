@@ -37,6 +37,7 @@ mod large;
 pub mod make_unique;
 pub mod matrices;
 pub mod mechanism;
+pub mod memory;
 pub mod rows;
 pub mod second_order;
 pub mod state;
@@ -60,7 +61,7 @@ pub use explain::{
     Explanation, ExplanationError, FreeDirection, Mixing, ReactionExplanation, SelfStress, explain,
 };
 pub use frames::{FrameForms, FrameVerdict, judge_frames};
-pub use generic::{Elsewhere, Generic, generic, is_permanent};
+pub use generic::{Elsewhere, GENERIC_ROWS, Generic, generic, is_permanent};
 pub use groups::{
     Configuration, Group, GroupVerdict, LinearForm, RequestError, Term, judge_groups,
 };
@@ -70,6 +71,7 @@ pub use mechanism::{
     Analysis, AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, analyse,
     analyse_dropping, analyse_known, decide, decide_dropping, decide_holonomic,
 };
+pub use memory::memory_of_verdicts;
 pub use rows::{RowDecision, Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows};
 pub use second_order::{Continuation, KERNEL_MAX, Undetermined, second_order};
 pub use state::{State, StateError};

@@ -497,6 +497,22 @@ pub(crate) fn is_far(size: f64) -> bool {
     !(1.0 / FAR..=FAR).contains(&size)
 }
 
+/// Bytes that a motion of a prepared mechanism takes at most, about: solvers for velocities and for positions, stages, and rows of output.
+pub(crate) fn memory(prepared: &Prepared) -> usize {
+    let mechanism = &prepared.mechanism;
+    let units = units(mechanism, prepared.assembly.size);
+    let kept = [&prepared.decision.kept, &prepared.position_decision.kept];
+    let solvers: usize = kept
+        .iter()
+        .map(|kept| solver::memory(mechanism, kept, &units))
+        .sum();
+    let layout = mechanism.layout();
+    solvers + VECTORS * size_of::<f64>() * (layout.n_q + layout.n_v + layout.rows())
+}
+
+/// Vectors of all coordinates, velocities and rows that a run holds.
+const VECTORS: usize = 60;
+
 /// Whether the kept rows of a mechanism are solved sparsely.
 pub(crate) fn is_sparse(prepared: &Prepared) -> bool {
     let units = units(&prepared.mechanism, prepared.assembly.size);

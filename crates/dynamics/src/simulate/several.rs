@@ -9,6 +9,7 @@ use std::time::Instant;
 
 use model::{Places, Reaction, System};
 
+use super::permits::Permits;
 use super::sample::{Sample, Source, Values, left_out};
 use super::summary::{ComponentSummary, Failure, Summary};
 use super::{Watch, run_component};
@@ -41,13 +42,20 @@ where
 {
     let clock = Instant::now();
     let whole = Places::default();
+    let permits = Permits::new(plan.options().threads);
     let (outcomes, stopped) = thread::scope(|scope| {
         let mut links = Vec::with_capacity(plan.components.len());
         let mut handles = Vec::with_capacity(plan.components.len());
         let mut refused = None;
         for (k, component) in plan.components.iter().enumerate() {
             let (told, rows) = sync_channel(AHEAD);
-            let work = move || run_component(plan, k, watch, |sample| Ok(tell(sample, &told)));
+            let permits = &permits;
+            let work = move || {
+                let mut permit = permits.take();
+                run_component(plan, k, watch, |sample| {
+                    Ok(permit.leave_for(|| tell(sample, &told)))
+                })
+            };
             match thread::Builder::new().spawn_scoped(scope, work) {
                 Ok(handle) => handles.push(handle),
                 Err(source) => {

@@ -20,6 +20,7 @@ use std::ops::Range;
 use super::SparseMatrix;
 use super::factor::{SparseQr, Tolerances, Wanted};
 use super::front::OutsidePattern;
+use super::reflectors::WIDTH;
 use super::sketch::{Sketch, sketch};
 use super::smallest::smallest_singular_value;
 use super::symbolic::{Symbolic, TooDense, WORK_MAX};
@@ -165,6 +166,15 @@ impl SparsePattern {
             by_columns,
             by_rows,
         })
+    }
+
+    /// Memory of a decision with so many random combinations, about, in bytes: before it is taken.
+    pub fn bytes(&self, wanted: Sketch) -> usize {
+        let rows = self.by_columns.nrows;
+        let q = self.by_columns.bytes(Wanted::Q);
+        let vectors = size_of::<f64>() * rows * 2 * wanted.columns.next_multiple_of(WIDTH);
+        // The reflections of Cᵀ, a vector or two of the sketch, and then the triangle of the kept rows.
+        q + vectors + self.by_rows.bytes(Wanted::R)
     }
 
     /// [`decide_sparse`] of a matrix with this pattern.

@@ -10,6 +10,7 @@
 
 use std::ops::Range;
 
+use super::factor::Wanted;
 use super::{SparseMatrix, minimum_degree};
 use crate::structure::partition;
 
@@ -93,6 +94,48 @@ impl Symbolic {
         })
     }
 }
+
+impl Symbolic {
+    /// Bytes that a factorisation holds at most: the factor that is kept, and the front in work with the rests that wait. For fronts of full rank;
+    /// what dependent columns leave besides is little.
+    pub(super) fn bytes(&self, wanted: Wanted) -> usize {
+        let (mut factor, mut waiting, mut most) = (0, 0, 0);
+        // Rows and columns of the rests that wait.
+        let mut rests: Vec<[usize; 2]> = Vec::new();
+        for front in &self.fronts {
+            let width = front.columns.len();
+            let taken = rests.split_off(rests.len().saturating_sub(front.children));
+            let rows = front.rows.len() + taken.iter().map(|[rows, _]| rows).sum::<usize>();
+            most = most.max(factor + NUMBER * (waiting + rows * width));
+            waiting -= taken
+                .iter()
+                .map(|[rows, columns]| rows * columns)
+                .sum::<usize>();
+            let pivots = front.ends.last().map_or(0, |end| *end);
+            let rank = rows.min(width);
+            factor += ENTRY
+                * match wanted {
+                    // Reflections of all columns, those beyond the pivots included.
+                    Wanted::Q => rank * rows - rank * rank.saturating_sub(1) / 2,
+                    Wanted::R => {
+                        let own = rank.min(pivots);
+                        own * width - own * own.saturating_sub(1) / 2
+                    }
+                };
+            if pivots < width {
+                let rest = [rows.min(width).saturating_sub(pivots), width - pivots];
+                waiting += rest[0] * rest[1];
+                rests.push(rest);
+            }
+            most = most.max(factor + NUMBER * waiting);
+        }
+        most
+    }
+}
+
+/// Bytes of a number, and of a number with its place.
+const NUMBER: usize = size_of::<f64>();
+const ENTRY: usize = NUMBER + size_of::<usize>();
 
 /// The blocks that rows touch; consecutive rows of the same blocks are one set.
 struct Touched {

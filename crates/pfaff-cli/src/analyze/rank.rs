@@ -1,6 +1,7 @@
 //! The rank and what is behind it, in sentences.
 
 use pfaff::report::AnalysisDocument;
+use pfaff::solvability::GENERIC_ROWS;
 use pfaff::solvability::Survey;
 
 use crate::output::{count, wrapped};
@@ -141,6 +142,9 @@ fn elsewhere(d: &AnalysisDocument) -> String {
             format!("ONLY HERE: at {n} the redundancy falls to {p}; this configuration is singular")
         }
         (_, Some((p, n))) => format!("at {n} the redundancy is {p}"),
+        (_, None) if d.rows > GENERIC_ROWS => format!(
+            "not compared with other configurations: that takes long above {GENERIC_ROWS} rows"
+        ),
         (_, None) => "not compared with other configurations: none could be reached".to_owned(),
     }
 }

@@ -9,6 +9,7 @@ mod failures;
 mod faults;
 mod generate;
 mod plan;
+mod resources;
 mod singular;
 mod stress;
 mod sweep;

@@ -16,6 +16,8 @@ pub struct PlanDocument {
     pub formulation: &'static str,
     /// Treatment of drift.
     pub stabilisation: &'static str,
+    /// What a run takes of memory at most, about, reading included (bytes).
+    pub memory: usize,
     /// Components that do not feel each other; one, if all bodies do.
     pub components: Vec<PlannedComponentDocument>,
     /// What was decided.
@@ -75,13 +77,14 @@ pub struct SavingDocument {
 impl PlanDocument {
     /// The document of a plan.
     #[must_use]
-    pub fn new(plan: &Plan<'_>) -> Self {
+    pub fn new(plan: &Plan<'_>, memory: usize) -> Self {
         let options = plan.options();
         Self {
             scene: plan.prepared().mechanism.name().to_owned(),
             t_end: options.t_end,
             formulation: options.formulation.name(),
             stabilisation: options.stabilisation.name(),
+            memory,
             components: plan.components.iter().map(Into::into).collect(),
             decisions: plan.lines().into_iter().map(Into::into).collect(),
         }

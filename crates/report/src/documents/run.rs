@@ -3,10 +3,13 @@
 use std::fmt;
 
 use dynamics::{
-    ComponentSummary, Event, EventKind, Formulation, MotionError, Plan, RowChoice, Summary,
+    ComponentSummary, Event, EventKind, Formulation, MotionError, Plan, Prepared, RowChoice,
+    Summary,
 };
+use model::System;
 use serde::Serialize;
-use solvability::ReactionVerdict;
+use solvability::survey::parts;
+use solvability::{LARGE, ReactionVerdict};
 
 use super::plan::{short, short_of};
 use super::{Named, VerdictDocument, from_one};
@@ -173,7 +176,7 @@ const OF_MULTIPLIERS: &str =
 
 impl ChoiceDocument {
     /// The choice that the reaction of a joint or drive belongs to: that of its component, where there are several.
-    fn of(run: &Run<'_>, group: usize) -> Self {
+    fn of(run: &Run<'_>, parts: Option<&[Vec<usize>]>, group: usize) -> Self {
         let prepared = run.plan.prepared();
         let components = &run.summary.components;
         let own = components.iter().find(|c| c.places.groups.contains(&group));
@@ -190,7 +193,10 @@ impl ChoiceDocument {
                 let automatic = prepared.choice == RowChoice::Automatic;
                 let exchange = |e: &&Event| automatic && e.kind == EventKind::RowsExchanged;
                 let belongs = |row: &&usize| own.is_none_or(|c| c.places.rows.contains(row));
-                let dropped = prepared.decision.dropped.iter().filter(belongs);
+                let dropped = match parts {
+                    Some(parts) => parts[group].iter().filter(belongs),
+                    None => prepared.decision.dropped.iter().filter(belongs),
+                };
                 Self::KeptRows {
                     deleted_rows: dropped.map(|row| row + 1).collect(),
                     valid_until: summary.events.iter().find(exchange).map(|e| e.time),
@@ -198,6 +204,25 @@ impl ChoiceDocument {
             }
         }
     }
+}
+
+/// For each joint and drive of a large mechanism, the deleted rows on common cycles with it, from 0: no others bear on its reaction.
+fn dropped_by_group(prepared: &Prepared) -> Option<Vec<Vec<usize>>> {
+    let (mechanism, layout) = (&prepared.mechanism, prepared.mechanism.layout());
+    if layout.rows() <= LARGE {
+        return None;
+    }
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, &prepared.q, &mut s);
+    mechanism.c(&mut s);
+    let is_dropped = |row: &usize| prepared.decision.dropped.binary_search(row).is_ok();
+    let mut of_group = vec![Vec::new(); layout.groups.len()];
+    for part in parts(mechanism, &s) {
+        let rows = part.iter().flat_map(|&k| layout.groups[k].rows.clone());
+        let dropped: Vec<usize> = rows.filter(is_dropped).collect();
+        part.iter().for_each(|&k| of_group[k].clone_from(&dropped));
+    }
+    Some(of_group)
 }
 
 /// Deleted rows that are listed in words; the document has all of them.
@@ -240,11 +265,12 @@ impl RunDocument {
             Ending::Interrupted => (true, None),
             Ending::Stopped(error) => (true, Some(error.to_string())),
         };
+        let parts = dropped_by_group(prepared);
         let reactions = run.reactions.iter().map(|r| {
             let is_unique = r.wrench.verdict.is_unique();
             let document = RunReactionDocument {
                 verdict: (&r.wrench).into(),
-                choice: (!is_unique).then(|| ChoiceDocument::of(run, r.id.0)),
+                choice: (!is_unique).then(|| ChoiceDocument::of(run, parts.as_deref(), r.id.0)),
             };
             (r.name.clone(), document)
         });

@@ -9,7 +9,7 @@ use solvability::LARGE;
 
 use super::dense::Dense;
 use super::mass_in_units;
-use super::sparse::Sparse;
+use super::sparse::{self, Sparse};
 
 /// From so many kept rows on they are solved sparsely.
 const SPARSE_FROM: usize = 64;
@@ -32,6 +32,18 @@ pub(in crate::motion) fn is_sparse(mechanism: &Mechanism, units: &[f64], rows: u
         && mechanism.mass().iter().all(|&m| m > 0.0)
         && (rows > LARGE || !is_graded())
 }
+
+/// Bytes of the solver of so many kept rows.
+pub(super) fn memory(mechanism: &Mechanism, kept: &[usize], units: &[f64]) -> usize {
+    if is_sparse(mechanism, units, kept.len()) {
+        return sparse::memory(mechanism, kept);
+    }
+    let order = mechanism.layout().n_v + kept.len();
+    DENSE_MATRICES * size_of::<f64>() * order * order
+}
+
+/// Matrices of its order that a dense solver holds.
+const DENSE_MATRICES: usize = 3;
 
 impl Solver {
     pub(super) fn new(

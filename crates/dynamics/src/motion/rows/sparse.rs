@@ -14,14 +14,8 @@ pub(super) struct Sparse {
 
 impl Sparse {
     pub(super) fn new(mechanism: &Mechanism, kept: &[usize], units: &[f64]) -> Self {
-        let layout = mechanism.layout();
-        let pattern = &layout.pattern;
-        let row = |&i: &usize| {
-            (pattern.start[i]..pattern.start[i + 1]).map(|at| (pattern.column[at], 0.0))
-        };
-        // Columns of a pattern are below n_v; without entries there is nothing to solve.
-        let c = SparseMatrix::from_rows(layout.n_v, kept.iter().map(row))
-            .unwrap_or_else(|_| unreachable!("columns of a pattern are below {}", layout.n_v));
+        let pattern = &mechanism.layout().pattern;
+        let c = rows_of(mechanism, kept);
         let mut entries = Vec::with_capacity(c.nnz());
         for (k, &i) in kept.iter().enumerate() {
             let (start, columns) = (c.start(k), c.row(k).0);
@@ -31,11 +25,8 @@ impl Sparse {
                 entries.push((place, pattern.entry[at], units[column]));
             }
         }
-        let blocks: Vec<_> = (0..mechanism.bodies().len())
-            .map(|b| layout.columns(b))
-            .collect();
         Self {
-            saddle: SchurSaddle::new(SchurStructure::new(&c, &blocks)),
+            saddle: SchurSaddle::new(structure(mechanism, &c)),
             c,
             entries,
         }
@@ -56,3 +47,30 @@ impl Sparse {
         self.saddle.factor_above(floor, &self.c, mass)
     }
 }
+
+/// Kept rows with zeros for entries.
+fn rows_of(mechanism: &Mechanism, kept: &[usize]) -> SparseMatrix {
+    let layout = mechanism.layout();
+    let pattern = &layout.pattern;
+    let row =
+        |&i: &usize| (pattern.start[i]..pattern.start[i + 1]).map(|at| (pattern.column[at], 0.0));
+    // Columns of a pattern are below n_v; without entries there is nothing to solve.
+    SparseMatrix::from_rows(layout.n_v, kept.iter().map(row))
+        .unwrap_or_else(|_| unreachable!("columns of a pattern are below {}", layout.n_v))
+}
+
+fn structure(mechanism: &Mechanism, c: &SparseMatrix) -> SchurStructure {
+    let bodies = 0..mechanism.bodies().len();
+    let blocks: Vec<_> = bodies.map(|b| mechanism.layout().columns(b)).collect();
+    SchurStructure::new(c, &blocks)
+}
+
+/// Bytes of the solver of these rows.
+pub(super) fn memory(mechanism: &Mechanism, kept: &[usize]) -> usize {
+    let c = rows_of(mechanism, kept);
+    let entries = c.nnz() * (ENTRY + size_of::<(usize, usize, f64)>());
+    structure(mechanism, &c).bytes() + entries
+}
+
+/// Bytes of a number with its column.
+const ENTRY: usize = size_of::<(usize, f64)>();

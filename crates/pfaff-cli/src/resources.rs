@@ -1,0 +1,177 @@
+//! What a command may use of the machine: threads, and memory. More than there is is refused before it is taken, with the number.
+
+use std::fs;
+use std::num::NonZeroUsize;
+use std::str::FromStr;
+use std::time::Duration;
+
+use clap::Args;
+use indicatif::ProgressBar;
+use pfaff::Blueprint;
+use pfaff::memory::of_reading;
+use pfaff::model::Registry;
+
+use crate::input::Source;
+use crate::output::Failure;
+
+#[derive(Args, Clone, Copy, Default)]
+pub(crate) struct Resources {
+    /// Threads at most; as many as there are cores where it is not given
+    #[arg(long, value_name = "K")]
+    pub(crate) threads: Option<NonZeroUsize>,
+    /// Memory at most, as 500MB or 4GiB: more is refused beforehand; what the machine has left where it is not given
+    #[arg(long, value_name = "SIZE")]
+    pub(crate) max_memory: Option<Bytes>,
+}
+
+impl Resources {
+    /// So many threads for everything that is computed in parallel.
+    pub(crate) fn apply(self) -> Result<(), Failure> {
+        let Some(threads) = self.threads else {
+            return Ok(());
+        };
+        pfaff::limit_threads(threads).map_err(|e| Failure::stopped(e.to_string()))
+    }
+
+    /// Reads the scene and builds its mechanism, if there is memory for that and for its verdicts.
+    pub(crate) fn blueprint(self, source: &Source) -> Result<Blueprint, Failure> {
+        let text = source.text.len();
+        let reading = of_reading(text);
+        self.allow(reading, "reading this scene")?;
+        let _said = Stage::begin(source, "reading and building");
+        let read = Blueprint::read(&source.name, &source.text, &Registry::planar());
+        let blueprint = read.map_err(|e| source.failure(e))?;
+        let threads = pfaff::threads();
+        let verdicts = blueprint.memory_of_verdicts(threads);
+        let verdicts = verdicts.map_err(|e| source.failure(e))?;
+        self.allow(reading + verdicts, "deciding the ranks of this scene")?;
+        Ok(blueprint)
+    }
+
+    /// Refuses what takes more memory than there may be.
+    pub(crate) fn allow(self, bytes: usize, what: &str) -> Result<(), Failure> {
+        let needed = Bytes(bytes as u64);
+        let (allowed, by) = match (self.max_memory, available()) {
+            (Some(limit), _) => (limit, "--max-memory allows"),
+            (None, Some(left)) => (left, "the machine has left"),
+            (None, None) => return Ok(()),
+        };
+        match needed.0 <= allowed.0 {
+            true => Ok(()),
+            false => Err(Failure::stopped(format!(
+                "{what} takes about {needed} of memory, {by} {allowed}; nothing was computed{}",
+                match self.max_memory {
+                    Some(_) => "",
+                    None => " (--max-memory overrides this)",
+                }
+            ))),
+        }
+    }
+}
+
+/// A size in bytes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Bytes(pub(crate) u64);
+
+/// Units that are read, larger ones first.
+const UNITS: [(&str, u64); 9] = [
+    ("TiB", 1 << 40),
+    ("GiB", 1 << 30),
+    ("MiB", 1 << 20),
+    ("KiB", 1 << 10),
+    ("TB", 1_000_000_000_000),
+    ("GB", 1_000_000_000),
+    ("MB", 1_000_000),
+    ("kB", 1_000),
+    ("B", 1),
+];
+
+impl FromStr for Bytes {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let said = || {
+            format!(
+                "`{text}` is no size; write a number with B, kB, MB, GB, TB, KiB, MiB, GiB or TiB, as 4GB"
+            )
+        };
+        let (number, unit) = UNITS
+            .iter()
+            .find_map(|(name, bytes)| Some((text.strip_suffix(name)?, *bytes)))
+            .ok_or_else(said)?;
+        let number: f64 = number.trim().parse().map_err(|_| said())?;
+        let bytes = number * unit as f64;
+        match number > 0.0 && bytes < u64::MAX as f64 {
+            true => Ok(Self(bytes as u64)),
+            false => Err(said()),
+        }
+    }
+}
+
+impl std::fmt::Display for Bytes {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let bytes = self.0 as f64;
+        match self.0 {
+            1_000_000_000.. => write!(f, "{:.1} GB", bytes / 1e9),
+            _ => write!(f, "{:.0} MB", (bytes / 1e6).max(1.0)),
+        }
+    }
+}
+
+/// What may still be taken, where the system says so: of the machine, and of the group of processes that this one is in.
+fn available() -> Option<Bytes> {
+    let read = |path: &str| fs::read_to_string(path).ok();
+    let machine = read("/proc/meminfo").and_then(|text| {
+        let line = text.lines().find(|l| l.starts_with("MemAvailable:"))?;
+        let kibibytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
+        Some(kibibytes << 10)
+    });
+    let number = |path: &str| read(path)?.trim().parse::<u64>().ok();
+    let group = number("/sys/fs/cgroup/memory.max").and_then(|most| {
+        let used = number("/sys/fs/cgroup/memory.current")?;
+        Some(most.saturating_sub(used))
+    });
+    machine.into_iter().chain(group).min().map(Bytes)
+}
+
+/// Texts from this size on are long work.
+const LONG: usize = 1 << 20;
+
+/// Says on a terminal what takes so long, until it is dropped.
+pub(crate) struct Stage(Option<ProgressBar>);
+
+impl Stage {
+    pub(crate) fn begin(source: &Source, what: &str) -> Self {
+        let size = source.text.len();
+        Self((size >= LONG).then(|| {
+            let bar = ProgressBar::new_spinner();
+            bar.set_message(format!("{what}: {}", Bytes(size as u64)));
+            bar.enable_steady_tick(Duration::from_millis(100));
+            bar
+        }))
+    }
+}
+
+impl Drop for Stage {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.0 {
+            bar.finish_and_clear();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_are_read() {
+        let read = |text: &str| text.parse::<Bytes>().ok().map(|bytes| bytes.0);
+        assert_eq!(read("4GB"), Some(4_000_000_000));
+        assert_eq!(read("1.5 MiB"), Some(1_572_864));
+        assert_eq!(read("10B"), Some(10));
+        for wrong in ["", "4", "GB", "-1GB", "NaNGB", "0MB", "1e99TB", "4gb"] {
+            assert_eq!(read(wrong), None, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,60 @@
+//! How much memory ranks and verdicts take, before it is taken.
+
+use linalg::{SparsePattern, SparseRankError};
+use model::{Mechanism, System};
+
+use crate::large::{SPARSE_FROM, blocks, rows_of, sketch_of};
+use crate::mechanism::{AnalysisError, evaluated};
+use crate::survey::{LARGE, parts};
+
+/// Bytes of the verdict of a joint with its rows, its components and its name.
+const OF_VERDICT: usize = 1500;
+
+/// Matrices of all rows and columns that are held at once where a small mechanism is judged.
+const DENSE_MATRICES: usize = 24;
+
+/// Bytes that ranks, kept rows and verdicts of a mechanism take at most, about, beside the mechanism itself: the part with most rows, on
+/// each of `threads` threads, and all verdicts.
+///
+/// # Errors
+/// [`AnalysisError::Large`]: rows are joined too closely for a sparse decision.
+pub fn memory_of_verdicts(mechanism: &Mechanism, threads: usize) -> Result<usize, AnalysisError> {
+    let layout = mechanism.layout();
+    let results = OF_VERDICT * layout.groups.len();
+    if layout.rows() <= LARGE {
+        return Ok(results + dense(layout.rows(), layout.n_v));
+    }
+    let (q, _) = mechanism.described_state();
+    let s = evaluated(mechanism, 0.0, &q);
+    let mut most = 0;
+    for part in parts(mechanism, &s) {
+        let rows: usize = part.iter().map(|&k| layout.groups[k].rows.len()).sum();
+        // Fewer rows than those of another part take less than it.
+        if rows > SPARSE_FROM {
+            let part = mechanism.part_of_groups(&part).mechanism;
+            most = most.max(of_part(&part, s.t)?);
+        } else {
+            most = most.max(dense(rows, 3 * rows));
+        }
+    }
+    Ok(results + threads * most)
+}
+
+fn of_part(part: &Mechanism, time: f64) -> Result<usize, AnalysisError> {
+    let layout = part.layout();
+    let rows = layout.rows();
+    if rows <= LARGE {
+        return Ok(dense(rows, layout.n_v));
+    }
+    let c = rows_of(part, &part.scratch(), 0..rows, |_| 1.0);
+    let pattern = SparsePattern::new(&c, &blocks(part)).map_err(|source| AnalysisError::Large {
+        time,
+        rows,
+        source: SparseRankError::from(source),
+    })?;
+    Ok(pattern.bytes(sketch_of(part)))
+}
+
+fn dense(rows: usize, columns: usize) -> usize {
+    DENSE_MATRICES * size_of::<f64>() * rows * columns
+}
