@@ -114,6 +114,33 @@ fn flat_poses_of_many_four_bars_are_passed_on_the_branch() {
     }
 }
 
+/// The benchmark A02 of the IFToMM/LIM library with forty loops: twenty seconds, forty flat poses. The library allows 1e-3.
+#[test]
+fn forty_four_bars_are_where_one_angle_says() {
+    let n = 40;
+    let study = study(&Order::of(Kind::NFourBar, n));
+    let options = MotionOptions {
+        rtol: 1e-7,
+        atol: 1e-7,
+        output_step: 2.0,
+        ..MotionOptions::to(20.0)
+    };
+    let mut rows = 0;
+    simulate(&study.prepared, &options, |sample| {
+        // The first upright; its top is as far from its centre as its foot.
+        let (sin, cos) = sample.q[2].sin_cos();
+        let top = [sample.q[0] + 0.5 * cos, sample.q[1] + 0.5 * sin];
+        let theta = angle(n, sample.t.max(1e-4));
+        let theta = if sample.t == 0.0 { 0.0 } else { theta };
+        let off = (top[0] - theta.sin()).hypot(top[1] - theta.cos());
+        assert!(off < 1e-5, "{off:.1e} m at {} s", sample.t);
+        rows += 1;
+        Ok(ControlFlow::Continue(()))
+    })
+    .unwrap_or_else(|failure| panic!("{}", failure.error));
+    assert_eq!(rows, 11);
+}
+
 #[test]
 fn implicit_methods_on_sparse_rows_are_refused_by_name() {
     let study = study(&Order::of(Kind::Fleet, 5));

@@ -97,7 +97,7 @@ fn what_is_no_size_and_no_number_of_threads_is_named() {
         ("--threads", "0", "--threads"),
         ("--threads", "many", "--threads"),
     ] {
-        let output = with_scene(&["analyze", "-", &format!("{option}={value}")], APART);
+        let output = pfaff(&["analyze", super::ROBOT, &format!("{option}={value}")]);
         assert_eq!(output.status.code(), Some(2), "{option} {value}");
         assert!(stderr(&output).contains(said), "{}", stderr(&output));
     }
