@@ -9,6 +9,7 @@ mod constrained_methods;
 mod deletions;
 mod drives_that_jump;
 mod exact_oracle;
+mod examples;
 mod existence;
 mod formulations;
 mod generated_code;

@@ -3,6 +3,7 @@
 mod analyze;
 mod bad_input;
 mod cold_start;
+mod console;
 mod documents;
 mod failures;
 #[cfg(target_os = "linux")]
