@@ -104,7 +104,7 @@ fn car() {
         }
     }
     close(run.pose(run.last(), "car")[0], 0.0, 10.0);
-    says("car", mass * omega * omega * centre[0], 1);
+    says("car", -mass * omega * omega * centre[0], 1);
     says("car", mass * omega * omega * centre[1], 1);
 }
 
