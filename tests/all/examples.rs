@@ -4,6 +4,7 @@ mod answers;
 mod fixed;
 mod rolling;
 mod turning;
+mod variants;
 
 use std::collections::BTreeSet;
 use std::fs;
