@@ -1,8 +1,9 @@
 //! Examples in which geometry is the point: linkages and what they draw.
 
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::ops::ControlFlow;
 
-use super::{Run, close, read, says, scene};
+use super::{Run, close, read, says, scene, study};
 
 const G: f64 = 9.81;
 
@@ -97,16 +98,18 @@ fn pantograph() {
     says("pantograph", 1.8, 1);
 }
 
+/// A scene whose linkage is alone with its line.
+fn without_guide(text: &str) -> String {
+    let lines = text.lines().filter(|line| !line.contains("\"guide\""));
+    lines.flat_map(|line| [line, "\n"]).collect()
+}
+
 /// O, B and D lie on one line, OB·OD = 0.5² − 0.34², and B runs on the circle through O: D.x is constant.
 #[test]
 fn peaucellier() {
     // The straight line must come from the linkage, not from its guide.
     let text = read(&scene("peaucellier"));
-    let alone: String = text
-        .lines()
-        .filter(|l| !l.contains("\"guide\""))
-        .map(|l| format!("{l}\n"))
-        .collect();
+    let alone = without_guide(&text);
     for text in [text, alone] {
         let run = Run::of_text("peaucellier", &text);
         for row in &run.rows {
@@ -120,6 +123,16 @@ fn peaucellier() {
     says("peaucellier", 0.56 * 0.4_f64.tan(), 5);
 }
 
+/// To the right, on the middle of Chebyshev's coupler.
+const PUSH: &str = r#"
+[[force]]
+name = "push"
+type = "point-force"
+body = "coupler"
+at = [0.0, 0.4]
+force = [0.5, 0.0]
+"#;
+
 /// Height of the middle of the coupler at a tilt: two circles around O1 and O2, solved for y.
 fn height(tilt: f64) -> f64 {
     let u = tilt.cos();
@@ -131,15 +144,15 @@ fn chebyshev() {
     // With the guide it stands still.
     let run = Run::of("chebyshev");
     close(run.pose(run.last(), "coupler")[0], 0.0, 1.0);
-    // Without, and pushed, it moves and is not quite straight.
+    // Pushed, it cannot even begin.
     let text = read(&scene("chebyshev"));
-    let mut text: String = text
-        .lines()
-        .filter(|l| !l.contains("\"guide\""))
-        .map(|l| format!("{l}\n"))
-        .collect();
-    text.push_str("[[force]]\nname = \"push\"\ntype = \"point-force\"\nbody = \"coupler\"\nat = [0.0, 0.4]\nforce = [0.5, 0.0]\n");
-    let run = Run::of_text("chebyshev", &text);
+    let pushed = study("chebyshev", &format!("{text}{PUSH}"));
+    let options = pushed.options.clone().expect("it says how long");
+    let stopped = pushed.run(&options, |_| Ok(ControlFlow::Continue(())));
+    assert!(stopped.is_err(), "a locked linkage has moved");
+    // Without the guide it moves and is not quite straight.
+    let alone = without_guide(&text);
+    let run = Run::of_text("chebyshev", &format!("{alone}{PUSH}"));
     let mut highest: f64 = 0.0;
     for row in &run.rows {
         let [_, y, tilt] = run.pose(row, "coupler");
