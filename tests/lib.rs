@@ -15,6 +15,10 @@ mod pages {
     mod robot_trolley {}
 }
 
+/// The book, in the order of its contents: every Rust block is a doc test.
+#[cfg(doctest)]
+mod book;
+
 /// The largest absolute value.
 pub fn largest(x: impl IntoIterator<Item = f64>) -> f64 {
     x.into_iter().fold(0.0, |a: f64, x| a.max(x.abs()))
