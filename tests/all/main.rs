@@ -3,6 +3,7 @@
 mod allocations;
 mod along_motion;
 mod bad_matrices;
+mod book;
 mod cases;
 mod choices;
 mod constrained_methods;
