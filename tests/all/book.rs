@@ -7,6 +7,10 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use joints::spec::Shape;
+use pfaff::dynamics::{Formulation, Method, Stabilisation};
+use pfaff::model::Registry;
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .parent()
@@ -151,5 +155,48 @@ fn figures_are_those_of_their_command_and_all_are_shown() {
             svg == read(&format!("figures/{name}")),
             "docs/book/figures/{name} is old: cargo run --release -p tests --example book_figures"
         );
+    }
+}
+
+#[test]
+fn the_reference_of_scenes_is_complete() {
+    let text = read("scene-format.md");
+    let has = |piece: &str| assert!(text.contains(piece), "scene-format.md has no {piece}");
+    let registry = Registry::planar();
+    for spec in registry.constraint_specs().chain(registry.force_specs()) {
+        has(&format!("| `{}` |", spec.scene_type));
+        has(&format!("type = \"{}\"", spec.scene_type));
+        for parameter in spec.parameters {
+            if !matches!(parameter.shape, Shape::Point { .. }) {
+                has(parameter.name);
+            }
+        }
+        for definition in registry.constraints(spec.scene_type) {
+            let rows: Vec<_> = definition.spec.rows.iter().map(|row| row.name).collect();
+            has(&format!("| `{}` | {} |", spec.scene_type, rows.join(", ")));
+            for measure in definition.spec.measures {
+                has(&format!("`{}`", measure.name));
+            }
+        }
+    }
+    let choices = Method::ALL.iter().map(|m| m.name());
+    let choices = choices.chain(Formulation::ALL.iter().map(|f| f.name()));
+    for name in choices.chain(Stabilisation::ALL.iter().map(|s| s.name())) {
+        has(&format!("`{name}`"));
+    }
+}
+
+#[test]
+fn every_library_has_an_example_of_its_own() {
+    // Programs, and benchmarks that nobody depends on.
+    let others = ["bench", "pfaff-cli", "robot-trolley"];
+    let headings = headings(&read("crates.md"));
+    for entry in fs::read_dir(root().join("crates"))
+        .expect("crates/")
+        .flatten()
+    {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let found = headings.contains(&format!("## {name}"));
+        assert_eq!(found, !others.contains(&name.as_str()), "{name}");
     }
 }
