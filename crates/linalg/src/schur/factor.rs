@@ -147,10 +147,9 @@ impl SchurSaddle {
 
     fn take_diagonal(&mut self, c: &SparseMatrix) {
         let inverse_mass = &self.inverse_mass;
-        for (size, &row) in self.diagonal.iter_mut().zip(&self.structure.row) {
-            let (columns, values) = c.row(row);
-            let terms = columns.iter().zip(values);
-            *size = terms.map(|(&j, x)| x * x * inverse_mass[j]).sum();
+        for (place, size) in self.diagonal.iter_mut().enumerate() {
+            let terms = self.structure.entries_at(place, c.values());
+            *size = terms.map(|(j, x)| x * x * inverse_mass[j]).sum();
         }
     }
 }

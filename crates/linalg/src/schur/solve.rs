@@ -92,11 +92,9 @@ impl SchurSaddle {
         for (k, free) in self.free.iter_mut().enumerate() {
             *free = f[k] * self.inverse_mass[k] - a[k];
         }
-        let s = &self.structure;
-        for (x, &row) in self.x.iter_mut().zip(&s.row) {
-            let (columns, values) = c.row(row);
-            let terms = columns.iter().zip(values);
-            *x = terms.map(|(&j, c)| c * self.free[j]).sum();
+        for (place, x) in self.x.iter_mut().enumerate() {
+            let terms = self.structure.entries_at(place, c.values());
+            *x = terms.map(|(j, c)| c * self.free[j]).sum();
         }
         self.substitute();
         for (x, &row) in self.x.iter().zip(&self.structure.row) {
@@ -139,15 +137,15 @@ impl SchurSaddle {
             *terms = free.abs().max(a.abs());
         }
         let mut largest = 0.0_f64;
+        let s = &self.structure;
         let places = self.x.iter_mut().zip(&self.inverse);
-        for ((x, &inverse), &row) in places.zip(&self.structure.row) {
+        for (place, ((x, &inverse), &row)) in places.zip(&s.row).enumerate() {
             if inverse == 0.0 {
                 *x = 0.0;
                 continue;
             }
             let (mut sum, mut size) = (-gamma[row], gamma[row].abs());
-            let (columns, values) = c.row(row);
-            for (&j, c) in columns.iter().zip(values) {
+            for (j, c) in s.entries_at(place, c.values()) {
                 sum += c * a[j];
                 size += c.abs() * self.terms[j];
             }
@@ -162,13 +160,13 @@ impl SchurSaddle {
 
     /// Adds the multipliers in x, and takes what they do to the motion.
     fn add_solution(&mut self, c: &SparseMatrix, a: &mut [f64], lambda: &mut [f64]) {
-        for (&x, &row) in self.x.iter().zip(&self.structure.row) {
+        let s = &self.structure;
+        for (place, (&x, &row)) in self.x.iter().zip(&s.row).enumerate() {
             if x == 0.0 {
                 continue;
             }
             lambda[row] += x;
-            let (columns, values) = c.row(row);
-            for (&j, c) in columns.iter().zip(values) {
+            for (j, c) in s.entries_at(place, c.values()) {
                 a[j] -= c * x * self.inverse_mass[j];
             }
         }

@@ -36,6 +36,10 @@ pub struct SchurStructure {
     /// The row at each place of the order of elimination, and the place of each row.
     pub(super) row: Vec<usize>,
     pub(super) place: Vec<usize>,
+    /// For each place, where its columns begin in `row_columns` and its values in C; one more for the end.
+    row_start: Vec<[u32; 2]>,
+    /// Columns of all rows, in the order of elimination.
+    row_columns: Vec<u32>,
     /// In this order; children before their parents, and the last child just before.
     pub(super) fronts: Vec<Front>,
     /// Later rows of all fronts, as places.
@@ -131,11 +135,29 @@ impl SchurStructure {
             + self.largest_front * (self.largest_front + 1)
             + 5 * self.n_rows()
             + 3 * self.n;
-        let indices =
-            2 * self.later.len() + self.columns.len() + self.in_front.len() + self.entries.len();
+        let indices = 2 * (self.later.len() + self.row_start.len())
+            + self.row_columns.len()
+            + self.columns.len()
+            + self.in_front.len()
+            + self.entries.len();
         let records =
             self.fronts.len() * size_of::<Front>() + self.elements.len() * size_of::<Element>();
         8 * numbers + 4 * indices + records
+    }
+
+    /// Entries (column, value) of the row at a place, for the values of C.
+    pub(super) fn entries_at<'c>(
+        &'c self,
+        place: usize,
+        values: &'c [f64],
+    ) -> impl Iterator<Item = (usize, f64)> + 'c {
+        let [[first, value], [end, _]] = [self.row_start[place], self.row_start[place + 1]];
+        let columns = &self.row_columns[first as usize..end as usize];
+        let values = &values[value as usize..][..columns.len()];
+        columns
+            .iter()
+            .map(|&j| j as usize)
+            .zip(values.iter().copied())
     }
 
     pub(super) fn n_waiting(&self) -> usize {
@@ -292,6 +314,8 @@ impl Tree {
         let mut s = SchurStructure {
             n: c.ncols(),
             nnz: c.nnz(),
+            row_start: Vec::with_capacity(row.len() + 1),
+            row_columns: Vec::with_capacity(c.nnz()),
             row,
             place,
             fronts: Vec::new(),
@@ -307,6 +331,13 @@ impl Tree {
             largest_element: 0,
             multiplications: 0.0,
         };
+        for &row in &s.row {
+            s.row_start
+                .push([s.row_columns.len() as u32, c.start(row) as u32]);
+            let columns = c.row(row).0.iter();
+            s.row_columns.extend(columns.map(|&j| j as u32));
+        }
+        s.row_start.push([s.row_columns.len() as u32, 0]);
         let mut place_of_node = vec![0; n];
         self.order
             .iter()
