@@ -46,7 +46,7 @@ pub use rank::{
     Certificate, CoefficientReading, Degraded, Doubt, Evidence, ExactNullSpace, Grounds,
     KeptRowsError, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankError,
     RankStatus, Readings, Uncertainty, certify_exact, certify_within, decide, decide_dropping,
-    decide_keeping,
+    decide_keeping, promising_rows,
 };
 pub use regularized::{StepError, least_squares_step};
 pub use saddle::{GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, mass_spread};

@@ -244,6 +244,32 @@ pub fn decide<'a>(
     Ok(reading.with_basis(scaling, basis))
 }
 
+/// Rows that look independent by the pivots of one factorisation, ascending: what a Newton iteration may solve with, which shows whether they are.
+/// Not a rank.
+///
+/// ```
+/// use linalg::{Matrix, promising_rows};
+/// let c = Matrix::from_rows(&[[1.0, 0.0], [2.0, 0.0], [0.0, 3.0]]);
+/// assert_eq!(promising_rows(&c, 0.0)?.len(), 2);
+/// # Ok::<(), linalg::RankError>(())
+/// ```
+///
+/// # Errors
+/// As [`decide`].
+pub fn promising_rows<'a>(
+    c: &Matrix,
+    uncertainty: impl Into<Uncertainty<'a>>,
+) -> Result<Vec<usize>, RankError> {
+    check_finite(c)?;
+    let (scaling, spread) = uncertainty.into().equilibrate(c)?;
+    let required = required(tolerance(c.nrows(), c.ncols(), spread.largest));
+    let qr = PivotedQr::of_rows(scaling.apply(c));
+    let independent = qr.r_diagonal().take_while(|pivot| pivot.abs() > required);
+    let mut rows = qr.permutation()[..independent.count()].to_vec();
+    rows.sort_unstable();
+    Ok(rows)
+}
+
 /// A rank read from singular values, without rows yet.
 struct Reading {
     rank: usize,

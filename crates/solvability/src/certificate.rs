@@ -10,7 +10,7 @@ use linalg::{
 use model::start::scene_size;
 use model::{Known, Mechanism, Scratch, System};
 
-use crate::mechanism::{AnalysisError, decide_holonomic, dimensionless, evaluated, uncertainty};
+use crate::mechanism::{AnalysisError, dimensionless, evaluated, promising_holonomic, uncertainty};
 use crate::state::check_configuration;
 
 /// Rows up to which a rank is certified: the work grows with their cube.
@@ -56,7 +56,7 @@ impl Rows {
         if mechanism.layout().rows() > ROWS_MAX {
             return Ok(Self::in_double(mechanism, &s, q));
         }
-        let kept = decide_holonomic(mechanism, &s, q)?.kept;
+        let kept = promising_holonomic(mechanism, &s, q)?;
         let Ok(polished) = mechanism.polish(t, q, &kept) else {
             return Ok(Self::in_double(mechanism, &s, q));
         };

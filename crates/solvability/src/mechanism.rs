@@ -194,11 +194,28 @@ pub fn decide_holonomic(
     s: &Scratch,
     q: &[f64],
 ) -> Result<RankDecision, AnalysisError> {
+    let (phi_q, known) = holonomic(mechanism, s, q);
+    linalg::decide(&phi_q, &known).map_err(|source| AnalysisError::Rank { time: s.t, source })
+}
+
+/// Holonomic rows on which a configuration may be polished.
+pub(crate) fn promising_holonomic(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+) -> Result<Vec<usize>, AnalysisError> {
+    let (phi_q, known) = holonomic(mechanism, s, q);
+    linalg::promising_rows(&phi_q, &known)
+        .map_err(|source| AnalysisError::Rank { time: s.t, source })
+}
+
+/// Φq without dimensions, and what its entries are known to.
+fn holonomic(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> (Matrix, Matrix) {
     let size = scene_size(mechanism, q);
     let rows: Vec<usize> = (0..mechanism.layout().m).collect();
     let phi_q = dimensionless(mechanism, s, size).select_rows(&rows);
     let known = uncertainty(mechanism, s, q, size).select_rows(&rows);
-    linalg::decide(&phi_q, &known).map_err(|source| AnalysisError::Rank { time: s.t, source })
+    (phi_q, known)
 }
 
 /// The same with the dropped rows given (from 0): they must be as many as the redundancy, and the others independent.
@@ -290,6 +307,9 @@ pub(crate) fn judge(
         }
         if part == (0..layout.rows()) {
             return Ok(solvability.decision().rank);
+        }
+        if let Some(rank) = solvability.basis().rank_of(part.clone()) {
+            return Ok(rank);
         }
         let decision = rows.select(&part.collect::<Vec<_>>()).decide()?;
         if let linalg::RankStatus::Undecided(doubt) = &decision.status {

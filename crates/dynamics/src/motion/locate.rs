@@ -22,7 +22,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_8;
 pub(crate) struct Singular {
     /// When (s).
     pub(crate) t: f64,
-    /// Kept rows that are dependent there.
+    /// Kept rows that are dependent there, and in what is told of it the rank that is lost.
     pub(crate) dependent: usize,
 }
 
@@ -151,13 +151,34 @@ impl Search<'_> {
         let flip = signs.windows(2).position(|w| w[0] * w[1] < 0.0);
         let t = match flip {
             Some(k) => {
+                // The pivot with the sign of the determinant crosses zero nearly as a straight line: secants, halved where an end stays (Illinois), and
+                // every third time the middle.
                 let (mut low, mut high) = (time(k), time(k + 1));
-                for _ in 0..DIVISIONS {
-                    let middle = 0.5 * (low + high);
-                    at(middle, self)?;
-                    match self.rows.orientation(&frame) * signs[k] > 0.0 {
-                        true => low = middle,
-                        false => high = middle,
+                let (mut above, mut below) = (pivots[k], pivots[k + 1]);
+                let enough = (high - low) * 0.5_f64.powi(DIVISIONS as i32);
+                let mut was_low = None;
+                for turn in 1..=DIVISIONS {
+                    if high - low <= enough {
+                        break;
+                    }
+                    let secant = low + (high - low) * above / (above + below);
+                    let is_inside = secant > low && secant < high && turn % 3 != 0;
+                    let t = if is_inside {
+                        secant
+                    } else {
+                        0.5 * (low + high)
+                    };
+                    let pivot = at(t, self)?;
+                    let is_low = self.rows.orientation(&frame) * signs[k] > 0.0;
+                    let stays = was_low.replace(is_low) == Some(is_low);
+                    match is_low {
+                        true => (low, above) = (t, pivot),
+                        false => (high, below) = (t, pivot),
+                    }
+                    match is_low {
+                        true if stays => below *= 0.5,
+                        false if stays => above *= 0.5,
+                        _ => {}
                     }
                 }
                 high
@@ -167,13 +188,26 @@ impl Search<'_> {
                 if pivots[k] - STEEPER * steepest(&pivots) > noise {
                     return None;
                 }
+                let slope = STEEPER * steepest(&pivots) / (time(1) - t0);
                 let (mut low, mut high) = (time(k - 1), time(k + 1));
+                let inner = |low: f64, high: f64| {
+                    [high - GOLDEN * (high - low), low + GOLDEN * (high - low)]
+                };
+                let [mut left, mut right] = inner(low, high);
+                let [mut on_left, mut on_right] = [at(left, self)?, at(right, self)?];
                 for _ in 0..DIVISIONS {
-                    let width = GOLDEN * (high - low);
-                    let (left, right) = (high - width, low + width);
-                    match at(left, self)? < at(right, self)? {
-                        true => high = right,
-                        false => low = left,
+                    if on_left < on_right {
+                        (high, right, on_right) = (right, left, on_left);
+                        left = inner(low, high)[0];
+                        on_left = at(left, self)?;
+                    } else {
+                        (low, left, on_left) = (left, right, on_right);
+                        right = inner(low, high)[1];
+                        on_right = at(right, self)?;
+                    }
+                    // No steeper than anywhere it cannot vanish in between.
+                    if on_left.min(on_right) - slope * (high - low) > noise {
+                        return None;
                     }
                 }
                 0.5 * (low + high)
@@ -193,11 +227,15 @@ impl Search<'_> {
         })
     }
 
-    /// Whether all rows lose rank at a time at which the kept ones do: rows that somebody chose to keep may become dependent where
-    /// the mechanism is not singular. In doubt they do.
-    pub(crate) fn loses_rank(&mut self, t: f64, mut state: impl FnMut(f64, &mut [f64])) -> bool {
+    /// By how much the rank of all rows falls where that of the kept ones does: rows that are kept may become dependent where others take their
+    /// place. In doubt by as much.
+    pub(crate) fn rank_lost(
+        &mut self,
+        Singular { t, dependent }: Singular,
+        mut state: impl FnMut(f64, &mut [f64]),
+    ) -> usize {
         if self.rows.dropped.is_empty() {
-            return true;
+            return dependent;
         }
         let mut q = vec![0.0; self.mechanism.layout().n_q];
         state(t, &mut q);
@@ -205,8 +243,10 @@ impl Search<'_> {
         self.mechanism.phi(&mut self.s);
         self.mechanism.c(&mut self.s);
         match decide_rows(self.mechanism, &self.s, &q) {
-            Ok(decision) => !decision.is_decided() || decision.rank < self.rows.kept.len(),
-            Err(_) => true,
+            Ok(decision) if decision.is_decided() => {
+                self.rows.kept.len().saturating_sub(decision.rank)
+            }
+            _ => dependent,
         }
     }
 

@@ -65,8 +65,12 @@ fn found(step: &mut Step<'_, Equations<'_>>) -> Vec<Singular> {
         }
         if let Some(singular) = search.find([from, to], noise, &mut state) {
             intervals.extend([[from, singular.t - beside], [singular.t + beside, to]]);
-            if search.loses_rank(singular.t, &mut state) {
-                found.push(singular);
+            let dependent = search.rank_lost(singular, &mut state);
+            if dependent > 0 {
+                found.push(Singular {
+                    dependent,
+                    ..singular
+                });
             }
         }
     }

@@ -201,7 +201,7 @@ fn nearly_singular<F: FnMut(f64) -> State>(
     for (found, edge) in found.iter_mut().zip(edges) {
         if let Some(edge) = edge {
             *found = search::edge(edge, |t| {
-                Ok::<_, AlongError>(path.sigma(t)? < NEARLY_SINGULAR)
+                Ok::<_, AlongError>(path.sigma(t)? - NEARLY_SINGULAR)
             })?;
         }
     }

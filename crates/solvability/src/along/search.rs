@@ -1,4 +1,4 @@
-//! Where a function of time changes its sign, where a condition begins to hold, and where a function is smallest. All may fail.
+//! Where a function of time changes its sign, where it falls below zero, and where a function is smallest. All may fail.
 
 /// Halvings that bring any interval to rounding, and more.
 const ITERATIONS: usize = 120;
@@ -52,23 +52,18 @@ pub(super) fn root<E>(
     })
 }
 
-/// Halvings of an interval whose end needs no more digits than one reads.
-const EDGE_HALVINGS: usize = 40;
-
-/// The time between `outside` and `inside` at which a condition begins to hold: not outside, but inside.
+/// The time between `outside` and `inside`, in either order, at which `f` falls below zero: not below outside, but inside.
 pub(super) fn edge<E>(
-    [mut outside, mut inside]: [f64; 2],
-    mut holds: impl FnMut(f64) -> Result<bool, E>,
+    [outside, inside]: [f64; 2],
+    mut f: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<f64, E> {
-    for _ in 0..EDGE_HALVINGS {
-        let middle = 0.5 * (outside + inside);
-        if holds(middle)? {
-            inside = middle;
-        } else {
-            outside = middle;
-        }
+    let direction = (inside - outside).signum();
+    let values = [f(outside)?, f(inside)?];
+    if values[0] <= 0.0 {
+        return Ok(outside);
     }
-    Ok(inside)
+    let along = [direction * outside, direction * inside];
+    Ok(direction * root(along, values, |x| f(direction * x))?)
 }
 
 /// Where `f` is smallest between a and b, if it has one minimum there, and its value: golden sections, which find the corner of an
@@ -119,6 +114,22 @@ mod tests {
         assert!((found(&|t| 2.0 - t * t) - 2f64.sqrt()).abs() < 1e-15);
         assert!((found(&|t| (0.3 - t).powi(3)) - 0.3).abs() < 1e-14);
         assert!((found(&|t| if t < 1.7 { 1e-9 } else { -1.0 }) - 1.7).abs() < 1e-14);
+    }
+
+    #[test]
+    fn edges_from_both_sides() {
+        for (ends, expected) in [([0.0, 2.0], 1.5), ([7.0, 2.0], 2.5)] {
+            let mut asked = 0;
+            let t = edge(ends, |t| {
+                asked += 1;
+                Ok::<_, Infallible>((t - 2.0).powi(2) - 0.25)
+            });
+            assert!(
+                (t.unwrap() - expected).abs() < 1e-14 && asked < 16,
+                "{asked}"
+            );
+        }
+        assert_eq!(edge([1.0, 3.0], |t| Ok::<_, Infallible>(1.0 - t)), Ok(1.0));
     }
 
     #[test]

@@ -2,6 +2,8 @@
 //!
 //! Not here: where the null space comes from.
 
+use std::ops::Range;
+
 use linalg::{CoefficientReading, ExactNullSpace, Matrix, PivotedQr, RankStatus, Readings};
 
 use super::QueryError;
@@ -193,6 +195,27 @@ impl Basis {
                 normalised(direction, self.known.tolerance)
             })
             .collect())
+    }
+
+    /// The rank of some of the rows, from the dependencies of all: those that need no other row, `z = 0` there, are as many as `p − rank Z_other`.
+    /// Nothing where the rank of all is undecided, or that of Z_other unclear.
+    pub(crate) fn rank_of(&self, rows: Range<usize>) -> Option<usize> {
+        if self.known.status != RankStatus::Decided {
+            return None;
+        }
+        let other: Vec<usize> = (0..self.z.nrows()).filter(|i| !rows.contains(i)).collect();
+        let tied = match &self.exact {
+            Some(z) => {
+                let rows: Vec<_> = other.iter().map(|&i| vec![(i, 1.0)]).collect();
+                z.rank_of(&rows)
+            }
+            None => {
+                let noise = self.noise(other.iter().map(|&i| (i, 1.0)));
+                let qr = PivotedQr::of_rows(self.z.select_rows(&other));
+                self.clear_rank(&qr, noise).ok()?
+            }
+        };
+        Some(rows.len() + tied - self.z.ncols())
     }
 
     /// How many pivots are certainly not zero, if the others certainly are.
