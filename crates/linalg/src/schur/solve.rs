@@ -58,7 +58,8 @@ impl SchurSaddle {
             }
             // The first round is the solution, which has nothing to be compared with.
             if round > 1 && misfit > PROGRESS * before || round == ROUNDS {
-                return match misfit.min(before) <= POOR {
+                let left = misfit.min(before);
+                return match left <= POOR || self.misfit_of_terms(c, gamma, a, lambda) <= POOR {
                     true => Ok(()),
                     false => Err(SaddleError::Unrefined {
                         rounds: round,
@@ -136,6 +137,29 @@ impl SchurSaddle {
         for ((terms, free), a) in self.terms.iter_mut().zip(&self.free).zip(a) {
             *terms = free.abs().max(a.abs());
         }
+        self.misfit(c, gamma, a)
+    }
+
+    /// The largest misfit as share of all that was added up: where multipliers balance, accelerations are what rounding leaves of them.
+    fn misfit_of_terms(
+        &mut self,
+        c: &SparseMatrix,
+        gamma: &[f64],
+        a: &[f64],
+        lambda: &[f64],
+    ) -> f64 {
+        let terms = self.terms.iter_mut().zip(&self.free);
+        terms.for_each(|(terms, free)| *terms = free.abs());
+        for (i, lambda) in lambda.iter().enumerate() {
+            let (columns, values) = c.row(i);
+            for (&j, c) in columns.iter().zip(values) {
+                self.terms[j] += (c * lambda).abs() * self.inverse_mass[j];
+            }
+        }
+        self.misfit(c, gamma, a)
+    }
+
+    fn misfit(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
         let mut largest = 0.0_f64;
         let s = &self.structure;
         let places = self.x.iter_mut().zip(&self.inverse);
