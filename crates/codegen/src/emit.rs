@@ -121,6 +121,7 @@ fn constraint_type(
     let measure = t.driven.then(|| body.measures[0].1);
     let initialise = parts::initialise(model, measure);
     let requirement = parts::requirement(model);
+    let points = parts::points(d);
     let visit = t
         .drives
         .iter()
@@ -211,6 +212,7 @@ fn constraint_type(
             fn visit_drives<V: Visitor>(visitor: &mut V) { #(#visit)* }
             #initialise
             #requirement
+            #points
             #phi
             #c_constant
             #c
@@ -244,6 +246,7 @@ pub(crate) fn force(
     let from_arguments = parts::from_arguments(d, &model, false);
     let initialise = parts::initialise(&model, None);
     let requirement = parts::requirement(&model);
+    let points = parts::points(d);
     let q: Vec<Expr> = k.q.iter().map(|(_, e)| *e).collect();
     let q = real_method("q", "Entries of Q", &model, &q);
     let dq_dx = real_method("dq_dx", "∂Q/∂x", &model, &values(&k.dq_dx));
@@ -259,6 +262,7 @@ pub(crate) fn force(
             #from_arguments
             #initialise
             #requirement
+            #points
             #q
             #dq_dx
             #dq_dv

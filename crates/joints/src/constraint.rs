@@ -31,6 +31,12 @@ pub trait Constraint: Clone + Send + Sync + Sized + 'static {
     /// Whether requirement `k` of the definition holds at the assembled start.
     fn requirement(&self, k: usize, x: &[Pose]) -> bool;
 
+    /// Points that the definition takes hold of, each in the frame of its body: values of the parameters of this shape, in their
+    /// order. None where a definition does not say.
+    fn points(&self) -> Vec<[f64; 2]> {
+        Vec::new()
+    }
+
     /// `Φ`, one value for each row. Nothing for nonholonomic constraints.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
@@ -83,6 +89,8 @@ pub trait Element<T: Ring = f64>: Send + Sync {
     fn initialise(&mut self, x: &[Pose]);
     /// See [`Constraint::requirement`].
     fn requirement(&self, k: usize, x: &[Pose]) -> bool;
+    /// See [`Constraint::points`].
+    fn points(&self) -> Vec<[f64; 2]>;
     /// See [`Constraint::phi`].
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]);
     /// See [`Constraint::c_constant`].
@@ -125,6 +133,9 @@ impl<T: Ring, K: Constraint> Element<T> for K {
     }
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         Constraint::requirement(self, k, x)
+    }
+    fn points(&self) -> Vec<[f64; 2]> {
+        Constraint::points(self)
     }
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         Constraint::phi(self, x, f, out);

@@ -25,6 +25,12 @@ pub trait Force: Clone + Send + Sync + Sized + 'static {
     /// Whether requirement `k` of the definition holds at the assembled start.
     fn requirement(&self, k: usize, x: &[Pose]) -> bool;
 
+    /// Points that the definition takes hold of, each in the frame of its body: values of the parameters of this shape, in their
+    /// order. None where a definition does not say.
+    fn points(&self) -> Vec<[f64; 2]> {
+        Vec::new()
+    }
+
     /// Entries of Q, by the pattern of the spec.
     fn q<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]);
 
@@ -43,6 +49,8 @@ pub trait ForceElement<T: Real = f64>: Send + Sync {
     fn initialise(&mut self, x: &[Pose]);
     /// See [`Force::requirement`].
     fn requirement(&self, k: usize, x: &[Pose]) -> bool;
+    /// See [`Force::points`].
+    fn points(&self) -> Vec<[f64; 2]>;
     /// See [`Force::q`].
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]);
     /// See [`Force::dq_dx`].
@@ -60,6 +68,9 @@ impl<T: Real, K: Force> ForceElement<T> for K {
     }
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         Force::requirement(self, k, x)
+    }
+    fn points(&self) -> Vec<[f64; 2]> {
+        Force::points(self)
     }
     fn q(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         Force::q(self, x, v, f, out);

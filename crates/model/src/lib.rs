@@ -47,7 +47,7 @@ mod uncertainty;
 pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
 pub use extended::Polished;
 pub use function::{Function, FunctionError};
-pub use mechanism::{BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work};
+pub use mechanism::{AppliedForce, BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work};
 pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction};
 pub use record::Recording;
 pub use registry::{ConstraintDefinition, ForceDefinition, PlaneConstraint, PlaneForce, Registry};

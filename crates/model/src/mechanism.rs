@@ -3,6 +3,7 @@
 
 mod build;
 mod derivatives;
+mod holds;
 mod kernels;
 mod part;
 mod work;
@@ -18,6 +19,7 @@ use crate::system::{Layout, System};
 
 pub use build::BuildError;
 pub use derivatives::{Derivatives, Sparse};
+pub use holds::AppliedForce;
 pub use part::{Part, Places};
 pub use work::Work;
 

@@ -243,6 +243,17 @@ pub(super) fn requirement(model: &Model) -> TokenStream {
     }
 }
 
+/// The method that tells the points that the definition takes hold of.
+pub(super) fn points(d: &Definition) -> TokenStream {
+    let points = d.params.iter().filter_map(|p| match p.kind {
+        ParamKind::Point(_) => Some(&p.name),
+        _ => None,
+    });
+    quote! {
+        fn points(&self) -> Vec<[f64; 2]> { vec![#(self.#points),*] }
+    }
+}
+
 fn collect(c: &Condition, out: &mut Vec<Expr>) {
     match c {
         Condition::Compare(_, a, b) => out.extend([*a, *b]),

@@ -206,6 +206,7 @@ impl<'m> Equations<'m> {
         }
         self.note(y, found);
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
+        let work = self.work(y);
         let blind = (BLIND_TOLERANCES * self.rtol).clamp(BLIND, BLIND_MAX);
         let source = OfMotion {
             t_before,
@@ -217,6 +218,7 @@ impl<'m> Equations<'m> {
             t,
             q,
             v,
+            work,
             source: Source::Motion(source),
         })
     }
@@ -356,8 +358,13 @@ impl<'m> Equations<'m> {
         self.max_position_residual = self.max_position_residual.max(found.position_residual);
         self.max_velocity_residual = self.max_velocity_residual.max(found.velocity_residual);
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
-        let work = y.get(self.n_q + self.n_v).copied().unwrap_or(0.0);
+        let work = self.work(y);
         self.energy.note(self.motion.mechanism(), q, v, work);
+    }
+
+    /// Work of drives and applied forces (J), where there are any.
+    fn work(&self, y: &[f64]) -> f64 {
+        y.get(self.n_q + self.n_v).copied().unwrap_or(0.0)
     }
 }
 

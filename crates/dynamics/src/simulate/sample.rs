@@ -13,6 +13,8 @@ pub struct Sample<'s, 'm> {
     pub q: &'s [f64],
     /// Velocities.
     pub v: &'s [f64],
+    /// Work of drives and applied forces since the start (J), the weight left out.
+    pub work: f64,
     pub(super) source: Source<'s, 'm>,
 }
 

@@ -24,6 +24,7 @@ struct Row {
     t: f64,
     q: Vec<f64>,
     v: Vec<f64>,
+    work: f64,
     values: Values,
 }
 
@@ -91,6 +92,7 @@ fn tell(sample: &mut Sample<'_, '_>, told: &SyncSender<Row>) -> ControlFlow<()> 
         t: sample.t,
         q: sample.q.to_vec(),
         v: sample.v.to_vec(),
+        work: sample.work,
         values: sample.values(),
     };
     match told.send(row) {
@@ -111,7 +113,7 @@ where
         .collect();
     let (mut q, mut v) = (vec![0.0; layout.n_q], vec![0.0; layout.n_v]);
     loop {
-        let mut time = None;
+        let (mut time, mut work) = (None, 0.0);
         let mut values = Values {
             acceleration: Ok(vec![f64::NAN; layout.n_v]),
             multipliers: Ok(vec![f64::NAN; layout.rows()]),
@@ -126,6 +128,7 @@ where
                 own.t
             );
             time = Some(own.t);
+            work += own.work;
             spread(&own.q, &places.coordinates, &mut q);
             spread(&own.v, &places.velocities, &mut v);
             let (own, all) = (own.values, &mut values);
@@ -137,6 +140,7 @@ where
             t: time?,
             q: &q,
             v: &v,
+            work,
             source: Source::Several(&values),
         });
         match shown {

@@ -60,6 +60,9 @@ impl Constraint for Angle {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![]
+    }
     /// Φ. Operations: 2 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let angle_i = x[0].angle;

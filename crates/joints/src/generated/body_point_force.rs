@@ -55,6 +55,9 @@ impl Force for BodyPointForce {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s]
+    }
     /// Entries of Q. Operations: 10 mul, 5 add.
     fn q<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         let cos_i = x[0].cos;

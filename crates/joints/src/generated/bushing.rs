@@ -180,6 +180,9 @@ impl Force for Bushing {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s_i, self.s_j]
+    }
     /// Entries of Q. Operations: 38 mul, 36 add, 2 neg.
     fn q<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         let r_i_x = x[0].x;

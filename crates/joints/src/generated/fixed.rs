@@ -110,6 +110,9 @@ impl Constraint for Fixed {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s_i, self.s_j]
+    }
     /// Φ. Operations: 8 mul, 14 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let r_i_x = x[0].x;

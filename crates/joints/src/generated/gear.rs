@@ -72,6 +72,9 @@ impl Constraint for Gear {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![]
+    }
     /// Φ. Operations: 1 mul, 4 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let angle_i = x[0].angle;

@@ -91,6 +91,9 @@ impl Constraint for PinInSlot {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s_i, self.s_j]
+    }
     /// Φ. Operations: 12 mul, 11 add.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let r_i_x = x[0].x;
@@ -534,6 +537,9 @@ impl Constraint for PinInSlotDisplacementDrive {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s_i, self.s_j]
+    }
     /// Φ. Operations: 12 mul, 13 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let r_i_x = x[0].x;
@@ -950,6 +956,9 @@ impl Constraint for PinInSlotAngleDrive {
     }
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
+    }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s_i, self.s_j]
     }
     /// Φ. Operations: 3 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {

@@ -55,6 +55,9 @@ impl Force for PointForce {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s]
+    }
     /// Entries of Q. Operations: 6 mul, 3 add, 1 neg.
     fn q<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         let cos_i = x[0].cos;

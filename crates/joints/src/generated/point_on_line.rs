@@ -65,6 +65,9 @@ impl Constraint for PointOnLine {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s]
+    }
     /// Φ. Operations: 8 mul, 7 add.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let r_i_x = x[0].x;

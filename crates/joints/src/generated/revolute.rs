@@ -72,6 +72,9 @@ impl Constraint for Revolute {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s_i, self.s_j]
+    }
     /// Φ. Operations: 8 mul, 10 add.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let r_i_x = x[0].x;
@@ -340,6 +343,9 @@ impl Constraint for RevoluteAngleDrive {
     }
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
+    }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s_i, self.s_j]
     }
     /// Φ. Operations: 3 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {

@@ -77,6 +77,9 @@ impl Constraint for Rolling {
             _ => true,
         }
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s]
+    }
     /// Φ. Operations: none.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Constant entries of C. Operations: 2 mul, 1 add, 1 neg.

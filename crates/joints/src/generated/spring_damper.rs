@@ -193,6 +193,9 @@ impl Force for SpringDamper {
             _ => true,
         }
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s_i, self.s_j]
+    }
     /// Entries of Q. Operations: 28 mul, 22 add, 3 neg, 2 call.
     fn q<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         let r_i_x = x[0].x;

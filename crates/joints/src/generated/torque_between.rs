@@ -42,6 +42,9 @@ impl Force for TorqueBetween {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![]
+    }
     /// Entries of Q. Operations: 1 neg.
     fn q<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         let torque = f[0][0];

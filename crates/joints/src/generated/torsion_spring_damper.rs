@@ -77,6 +77,9 @@ impl Force for TorsionSpringDamper {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![]
+    }
     /// Entries of Q. Operations: 2 mul, 4 add, 1 neg.
     fn q<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         let angle_i = x[0].angle;

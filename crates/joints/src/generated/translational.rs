@@ -103,6 +103,9 @@ impl Constraint for Translational {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s_i, self.s_j]
+    }
     /// Φ. Operations: 12 mul, 13 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let r_i_x = x[0].x;
@@ -562,6 +565,9 @@ impl Constraint for TranslationalDisplacementDrive {
     }
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
+    }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s_i, self.s_j]
     }
     /// Φ. Operations: 12 mul, 13 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {

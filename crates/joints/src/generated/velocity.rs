@@ -63,6 +63,9 @@ impl Constraint for Velocity {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        vec![self.s]
+    }
     /// Φ. Operations: none.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
     /// Constant entries of C. Operations: 2 mul, 1 add.

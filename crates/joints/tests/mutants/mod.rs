@@ -65,6 +65,9 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         WRONG != wrong::REQUIREMENT && self.0.requirement(k, x)
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        self.0.points()
+    }
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.0.phi(x, f, out);
         change(out, WRONG == wrong::PHI);
@@ -172,6 +175,9 @@ impl<K: Force, const WRONG: u8> Force for ForceMutant<K, WRONG> {
     }
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         self.0.requirement(k, x)
+    }
+    fn points(&self) -> Vec<[f64; 2]> {
+        self.0.points()
     }
     fn q<T: Real>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         self.0.q(x, v, f, out);

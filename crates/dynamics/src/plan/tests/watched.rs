@@ -85,6 +85,9 @@ impl Element for Watched {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         self.inner.element().requirement(k, x)
     }
+    fn points(&self) -> Vec<[f64; 2]> {
+        self.inner.element().points()
+    }
     fn phi(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.phi);
         self.inner.element().phi(x, f, out);
