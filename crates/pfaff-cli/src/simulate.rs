@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use pfaff::report::{OutputDirectory, RunDocument, write_json};
+use pfaff::report::{Origin, OutputDirectory, Provenance, RunDocument, write_json};
 use pfaff::{Overrides, StudyError};
 
 use crate::Outcome;
@@ -11,6 +11,7 @@ use crate::args::Simulate;
 use crate::input::{Source, rows_from_zero};
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, incomplete, print};
+use crate::work_precision::provenance;
 
 /// Share of the largest kinetic energy by which a run may miss its energy balance without a warning. Default tolerances
 /// stay below a thousandth of this; what is above shows in a plot.
@@ -39,7 +40,7 @@ pub(crate) fn run(arguments: &Simulate) -> Outcome {
         bar.set_style(style);
     }
     let t_end = options.t_end;
-    let outcome = study.simulate_into(&directory, |t| {
+    let outcome = study.simulate_as(&origin(), &directory, |t| {
         bar.set_position((t / t_end * TICKS as f64) as u64);
         bar.set_message(format!("{t:.3}"));
         match interrupt.is_asked() {
@@ -64,6 +65,14 @@ pub(crate) fn run(arguments: &Simulate) -> Outcome {
         true => Err(incomplete(&text)),
         false => print(&text),
     }
+}
+
+/// How the report was made.
+fn origin() -> Origin {
+    let Provenance {
+        versions, command, ..
+    } = provenance();
+    Origin { command, versions }
 }
 
 fn overrides(arguments: &Simulate) -> Result<Overrides, Failure> {

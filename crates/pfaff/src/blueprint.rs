@@ -35,6 +35,8 @@ use crate::study::{Overrides, Study};
 pub struct Blueprint {
     /// What was read.
     pub scene: Scene,
+    /// Its text.
+    pub text: String,
     /// Its mechanism; initial values are those of the described start until it is assembled.
     pub mechanism: Mechanism,
 }
@@ -48,7 +50,11 @@ impl Blueprint {
         let scene = scene::read(name, text, registry).map_err(StudyError::Scene)?;
         let mechanism = Mechanism::build(&scene.description)
             .map_err(|e| StudyError::Scene(e.iter().map(|e| scene.locate_build(e)).collect()))?;
-        Ok(Self { scene, mechanism })
+        Ok(Self {
+            scene,
+            text: text.to_owned(),
+            mechanism,
+        })
     }
 
     /// Finds a consistent start and chooses rows.
@@ -58,7 +64,11 @@ impl Blueprint {
     /// - [`StudyError::SingularStart`]: there is one, but no motion begins with its velocities.
     /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen.
     pub fn prepare(self, overrides: &Overrides) -> Result<Study, StudyError> {
-        let Self { scene, mechanism } = self;
+        let Self {
+            scene,
+            text,
+            mechanism,
+        } = self;
         let options = options(&scene, overrides);
         let rows = match (&overrides.drop, &options) {
             (Some(drop), _) => RowChoice::Drop(drop.clone()),
@@ -78,6 +88,7 @@ impl Blueprint {
         };
         Ok(Study {
             scene,
+            text,
             prepared,
             options,
         })

@@ -8,6 +8,7 @@
 //! | --- | --- |
 //! | [`blueprint`] | a scene with its mechanism |
 //! | [`study`] | its consistent start, its motion, its files |
+//! | `chronicle`, `comparison` | its report, and several choices for reactions that are not unique |
 //! | [`inquiry`] | one configuration, and everything that can be asked of its reactions |
 //! | [`journey`] | the verdicts along its motion |
 //! | [`mod@sweep`] | many runs with other numbers |
@@ -16,6 +17,8 @@
 //! | [`error`] | why there are no results |
 
 pub mod blueprint;
+mod chronicle;
+mod comparison;
 pub mod error;
 pub mod inquiry;
 pub mod journey;

@@ -13,13 +13,14 @@ use dynamics::{
 };
 use model::{Known, Registry};
 use report::{
-    Ending, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
+    Ending, Origin, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
     TrajectoryTable, write_json,
 };
 use scene::{Output, Scene, WantedReactions};
-use solvability::{Analysis, Judgement, State, is_permanent, verdicts};
+use solvability::{Analysis, Judgement, State, is_permanent, survey, verdicts};
 
 use crate::blueprint::Blueprint;
+use crate::chronicle::{Chronicle, is_large};
 use crate::error::StudyError;
 use crate::inquiry::Inquiry;
 
@@ -27,6 +28,8 @@ use crate::inquiry::Inquiry;
 pub struct Study {
     /// What was read.
     pub scene: Scene,
+    /// Its text.
+    pub text: String,
     /// Start and kept rows.
     pub prepared: Prepared,
     /// What a run is asked to do; nothing where neither the scene nor the caller says how long it takes.
@@ -200,7 +203,7 @@ impl Study {
         )?)
     }
 
-    /// Runs the scene and writes `trajectory.csv`, `reactions.csv` and `summary.json` into a directory, each if the scene
+    /// Runs the scene and writes `trajectory.csv`, `reactions.csv`, `summary.json` and `report.html` into a directory, each if the scene
     /// wants it. `progress` sees the time of each row, or of each step where no rows are written, and may stop the run. What a stopped run
     /// has written stays, and its summary says `partial`.
     ///
@@ -213,11 +216,32 @@ impl Study {
         directory: &OutputDirectory,
         progress: impl FnMut(f64) -> ControlFlow<()> + Send,
     ) -> Result<RunDocument, StudyError> {
+        self.simulate_as(&Origin::default(), directory, progress)
+    }
+
+    /// The same with what the report says of how it was made.
+    ///
+    /// # Errors
+    /// As [`Study::simulate_into`].
+    pub fn simulate_as(
+        &self,
+        origin: &Origin,
+        directory: &OutputDirectory,
+        progress: impl FnMut(f64) -> ControlFlow<()> + Send,
+    ) -> Result<RunDocument, StudyError> {
         // Before anything of an earlier run is touched.
         let plan = self.plan()?;
         let mechanism = &self.prepared.mechanism;
         let output = &self.scene.output;
-        let reactions_of_model = verdicts(mechanism, 0.0, &self.prepared.q)?;
+        let q = &self.prepared.q;
+        let by_parts = match output.report && is_large(mechanism) {
+            true => Some(survey(mechanism, 0.0, q, |_| ())?),
+            false => None,
+        };
+        let reactions_of_model = match &by_parts {
+            Some(survey) => survey.reactions().into_iter().cloned().collect(),
+            None => verdicts(mechanism, 0.0, q)?,
+        };
         let mut trajectory = match output.trajectory {
             true => Some(TrajectoryTable::new(
                 directory.file("trajectory.csv")?,
@@ -233,6 +257,7 @@ impl Study {
             )?),
             None => None,
         };
+        let mut chronicle = output.report.then(|| Chronicle::new(self, &plan));
         let interrupted = AtomicBool::new(false);
         let progress = Mutex::new(progress);
         let go_on = |t: f64| {
@@ -249,7 +274,12 @@ impl Study {
         let mut is_empty = true;
         let outcome = plan.simulate_watched(&watch, |sample| {
             is_empty = false;
-            let written = write_row(sample, trajectory.as_mut(), reactions.as_mut())?;
+            let written = write_row(
+                sample,
+                trajectory.as_mut(),
+                reactions.as_mut(),
+                chronicle.as_mut(),
+            )?;
             let flow = go_on(sample.t);
             unwritten = written.err();
             Ok(match unwritten.is_some() {
@@ -293,6 +323,18 @@ impl Study {
             source,
         })?;
         directory.write("summary.json", &text)?;
+        if let Some(chronicle) = chronicle {
+            let survey = by_parts.as_ref();
+            let figure = comparison_beside(directory);
+            let page = chronicle.page(
+                &reactions_of_model,
+                survey,
+                &document,
+                origin,
+                figure.as_deref(),
+            );
+            directory.write("report.html", page.as_bytes())?;
+        }
         match (unwritten, error) {
             (Some(e), _) => Err(e.into()),
             (None, Some(e)) => Err(e.into()),
@@ -324,17 +366,35 @@ fn write_row(
     sample: &mut Sample<'_, '_>,
     trajectory: Option<&mut TrajectoryTable<report::OutputFile>>,
     reactions: Option<&mut ReactionTable<report::OutputFile>>,
+    chronicle: Option<&mut Chronicle<'_>>,
 ) -> Result<Result<(), TableError>, Trip> {
     if let Some(table) = trajectory
         && let Err(e) = table.row(sample.t, sample.q, sample.v)
     {
         return Ok(Err(e));
     }
-    match reactions {
-        Some(table) => Ok(table.row(sample.t, &sample.reactions()?)),
-        None => Ok(Ok(())),
+    let mut known = Vec::new();
+    if let Some(table) = reactions {
+        known = sample.reactions()?;
+        if let Err(e) = table.row(sample.t, &known) {
+            return Ok(Err(e));
+        }
     }
+    if let Some(chronicle) = chronicle {
+        chronicle.take(sample, &known)?;
+    }
+    Ok(Ok(()))
 }
+
+/// The figure of a comparison of methods in the same directory, if there is one and it is no larger than a page should be.
+fn comparison_beside(directory: &OutputDirectory) -> Option<String> {
+    let path = directory.path().join("work_precision.svg");
+    let small = std::fs::metadata(&path).is_ok_and(|m| m.len() < FIGURE_MOST);
+    small.then(|| std::fs::read_to_string(path).ok()).flatten()
+}
+
+/// Bytes of a figure that a page takes in.
+const FIGURE_MOST: u64 = 1 << 20;
 
 /// Which reactions a table has; nothing where no table is wanted.
 fn selection(wanted: &WantedReactions) -> Option<Selection> {

@@ -15,7 +15,7 @@ mod axis;
 mod curve;
 mod decades;
 mod extremes;
-mod geometry;
+pub(crate) mod geometry;
 mod history;
 mod label;
 mod mechanism;
@@ -24,7 +24,7 @@ mod paths;
 mod plot;
 mod style;
 mod svg;
-mod symbol;
+pub(crate) mod symbol;
 mod work_precision;
 
 pub use extremes::extremes;

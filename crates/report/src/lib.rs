@@ -10,11 +10,13 @@
 //! | [`mod@work_precision`] | error against run time: table, figure, page |
 //! | [`stress`] | stiff and extreme cases: what is right, and what came out |
 //! | [`mod@sweep`] | many runs: a journal that survives interruptions, CSV and Parquet |
+//! | [`html`] | the page of a run, with its moving picture |
 //! | [`files`] | an output directory in which no half-written file is taken for a whole one |
 
 pub mod documents;
 pub mod figures;
 pub mod files;
+pub mod html;
 mod page;
 pub mod stress;
 pub mod sweep;
@@ -24,6 +26,10 @@ pub mod work_precision;
 pub use documents::{AnalysisDocument, Ending, PlanDocument, Proof, Run, RunDocument, write_json};
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Series, Style};
 pub use files::{FileError, OutputDirectory, OutputFile};
+pub use html::{
+    ComparedChoice, Comparison, DriveCurve, Film, Frame, Freedom, Origin, RunPage, numbers_per_row,
+    run_page,
+};
 pub use stress::{
     Judgement, StressDocument, StressFamily, StressRow, StressTable, Tally, stress_page,
 };

@@ -15,11 +15,8 @@ use super::symbol::Symbol;
 /// Coordinates beyond cannot be drawn: their squares would overflow.
 const LIMIT: f64 = 1e150;
 
-/// Coordinates of a planar body.
-const N_BODY: usize = 3;
-
 /// Evaluates poses, if q is a configuration that can be drawn.
-pub(super) fn posed(
+pub(crate) fn posed(
     mechanism: &Mechanism,
     t: f64,
     q: &[f64],
@@ -47,27 +44,27 @@ pub(super) fn posed(
 
 /// A joint or drive in its place (global components, m).
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Site {
-    pub(super) place: [f64; 2],
-    pub(super) symbol: Symbol,
+pub(crate) struct Site {
+    pub(crate) place: [f64; 2],
+    pub(crate) symbol: Symbol,
     /// Where its only force acts on the other body; its place if there is no such point.
-    pub(super) end: [f64; 2],
+    pub(crate) end: [f64; 2],
     /// Points of its bodies, the ground included.
-    pub(super) attachments: Vec<(BodyRef, [f64; 2])>,
+    pub(crate) attachments: Vec<(BodyRef, [f64; 2])>,
     /// Whether it holds a body to the ground.
-    pub(super) grounded: bool,
+    pub(crate) grounded: bool,
 }
 
-/// All joints and drives, in the order of their rows. The scratch has poses; C and Γ are overwritten.
-pub(super) fn sites(mechanism: &Mechanism, s: &mut Scratch) -> Vec<Site> {
-    mechanism.c(s);
+/// All joints and drives, in the order of their rows, at the poses of the scratch.
+pub(crate) fn sites(mechanism: &Mechanism, s: &Scratch) -> Vec<Site> {
     mechanism
         .constraint_ids()
         .map(|id| site(mechanism, id, s))
         .collect()
 }
 
-fn site(mechanism: &Mechanism, id: ConstraintId, s: &mut Scratch) -> Site {
+/// One of them.
+pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site {
     let group = &mechanism.layout().groups[id.0];
     let spec = group.spec;
     let place = finite_or(mechanism.place(id, s), [0.0, 0.0]);
@@ -76,7 +73,7 @@ fn site(mechanism: &Mechanism, id: ConstraintId, s: &mut Scratch) -> Site {
     // The line along which the only force acts.
     let force = rows.only_force().map(|row| Force::of(&map, row));
     let end = match rows.only_force() {
-        Some(row) if spec.common.points_apart => other_end(mechanism, group, row, &map, place, s),
+        Some(_) if spec.common.points_apart => other_end(mechanism, id, place, s),
         _ => force.map_or(place, |f| f.point_nearest(place)),
     };
     let symbol = match (group.kind, spec.level, force) {
@@ -187,32 +184,14 @@ impl Force {
     }
 }
 
-/// The other end of a rod. A unit velocity across it needs the acceleration `−1/L` towards it, so that Γ of that
-/// velocity tells L: `end − place = −C_j/Γ`, and `C_j` is the force on the first body.
-fn other_end(
-    mechanism: &Mechanism,
-    group: &ConstraintGroup,
-    row: usize,
-    map: &Matrix,
-    place: [f64; 2],
-    s: &mut Scratch,
-) -> [f64; 2] {
-    let moving = group.bodies.iter().find_map(|b| match b {
-        BodyRef::Body(k) => Some(*k),
-        BodyRef::Ground => None,
+/// The other end of a rod, if its definition tells its points.
+fn other_end(mechanism: &Mechanism, id: ConstraintId, place: [f64; 2], s: &Scratch) -> [f64; 2] {
+    let points = mechanism.points(id);
+    let end = points.get(1).map(|&(body, point)| match body {
+        BodyRef::Ground => point,
+        BodyRef::Body(k) => s.poses[k].to_global(point),
     });
-    let Some(k) = moving else { return place };
-    let across = Force::of(map, row).perpendicular();
-    let mut v = vec![0.0; mechanism.layout().n_v];
-    v[N_BODY * k..N_BODY * k + 2].copy_from_slice(&across);
-    mechanism.twist(&v, s);
-    mechanism.gamma(s);
-    let gamma = s.gamma[group.rows.start + row];
-    let end = [
-        place[0] - map[(0, row)] / gamma,
-        place[1] - map[(1, row)] / gamma,
-    ];
-    finite_or(end, place)
+    finite_or(end.unwrap_or(place), place)
 }
 
 fn finite_or(point: [f64; 2], otherwise: [f64; 2]) -> [f64; 2] {

@@ -59,7 +59,7 @@ pub fn mechanism(
     let mut s = mechanism.scratch();
     posed(mechanism, t, q, &mut s)?;
     let marks = marks(mechanism, marking)?;
-    let sites = sites(mechanism, &mut s);
+    let sites = sites(mechanism, &s);
     let centres: Vec<[f64; 2]> = s.poses.iter().map(|p| [p.x, p.y]).collect();
     let view = View::around(&sites, &centres);
     let legend = Legend::of(mechanism, &sites, marking);

@@ -5,7 +5,7 @@ use super::svg::{Svg, point_list};
 
 /// What a joint leaves free, as a picture. Directions are global unit vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Symbol {
+pub(crate) enum Symbol {
     /// Two points coincide.
     Pin,
     /// Nothing is free.

@@ -52,7 +52,7 @@ fn site(element: impl PlaneConstraint + 'static, drives: bool) -> super::Site {
     let _ = assemble(&mut mechanism, &StartOptions::default());
     let mut s = mechanism.scratch();
     posed(&mechanism, 0.0, &mechanism.described_state().0, &mut s).expect("finite");
-    sites(&mechanism, &mut s).remove(0)
+    sites(&mechanism, &s).remove(0)
 }
 
 /// Global points of the bodies above.

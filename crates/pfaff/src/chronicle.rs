@@ -1,0 +1,225 @@
+//! `report.html` of a run: what is kept while it moves, and what is asked of its start afterwards. What the scene does not want is not
+//! computed for it; the page shows what there is.
+
+use dynamics::plan::Rows;
+use dynamics::{Plan, Sample, Trip};
+use linalg::Limits;
+use model::{Mechanism, Reaction, System};
+use report::documents::MakeUniqueDocument;
+use report::{
+    AnalysisDocument, DriveCurve, Film, Frame, Origin, Proof, RunDocument, RunPage,
+    numbers_per_row, run_page,
+};
+use solvability::{Allowed, LARGE, ReactionVerdict, Survey, Verdict};
+
+use crate::comparison::compare;
+use crate::study::Study;
+
+/// Reactions that are not unique for which the page says what would make them so, and sets tried for each.
+const HINTS: usize = 8;
+const HINT_TRIALS: usize = 2_000;
+
+/// Rows of a run whose page is being made.
+pub(crate) struct Chronicle<'a> {
+    study: &'a Study,
+    film: Film,
+    compares: bool,
+}
+
+impl<'a> Chronicle<'a> {
+    pub(crate) fn new(study: &'a Study, plan: &Plan<'_>) -> Self {
+        let options = plan.options();
+        let mechanism = &study.prepared.mechanism;
+        let rows = match plan.rows.value {
+            Rows::Every => options.t_end / options.output_step + 1.0,
+            Rows::Ends => 2.0,
+        };
+        Self {
+            study,
+            film: Film::new(options.t_end, rows, numbers_per_row(mechanism)),
+            compares: study.prepared.decision.redundancy > 0,
+        }
+    }
+
+    /// Takes a row with the reactions that were computed for it, if any were.
+    pub(crate) fn take(
+        &mut self,
+        sample: &mut Sample<'_, '_>,
+        reactions: &[Reaction],
+    ) -> Result<(), Trip> {
+        if !self.film.wants(sample.t) {
+            return Ok(());
+        }
+        let multipliers = match self.compares && !reactions.is_empty() {
+            true => sample.multipliers()?,
+            false => Vec::new(),
+        };
+        self.film.frames.push(Frame {
+            t: sample.t,
+            q: sample.q.to_vec(),
+            v: sample.v.to_vec(),
+            work: sample.work,
+            reactions: reactions.to_vec(),
+            multipliers,
+        });
+        Ok(())
+    }
+
+    /// The page.
+    pub(crate) fn page(
+        &self,
+        verdicts: &[ReactionVerdict],
+        survey: Option<&Survey>,
+        run: &RunDocument,
+        origin: &Origin,
+        work_precision: Option<&str>,
+    ) -> String {
+        let study = self.study;
+        let mechanism = &study.prepared.mechanism;
+        let choice = |k: usize| {
+            run.reactions
+                .0
+                .get(k)?
+                .1
+                .choice
+                .as_ref()
+                .map(ToString::to_string)
+        };
+        let (comparisons, mut left_out) = compare(mechanism, &self.film, verdicts, choice);
+        let (analysis, hints) = match survey {
+            Some(survey) => (
+                Some(AnalysisDocument::of_survey(study.scene.name(), survey)),
+                Vec::new(),
+            ),
+            None => self.analysis(),
+        };
+        if survey.is_some() {
+            left_out.push("A mechanism of this size is judged by sets of joints on common cycles; `pfaff analyze` tells more.".to_owned());
+        }
+        run_page(&RunPage {
+            mechanism,
+            analysis: analysis.as_ref(),
+            hints: &hints,
+            run,
+            film: &self.film,
+            comparisons: &comparisons,
+            drives: &self.drives(),
+            origin,
+            scene: &study.text,
+            options: &self.options(),
+            left_out: &left_out,
+            work_precision,
+        })
+    }
+
+    /// The verdicts of the start with their reasons, and hints. None where the rank is in doubt: the run has told so.
+    fn analysis(&self) -> (Option<AnalysisDocument>, Vec<MakeUniqueDocument>) {
+        let Ok(inquiry) = self.study.inquire(0.0, None) else {
+            return (None, Vec::new());
+        };
+        let proof = Proof {
+            generic: None,
+            certificate: inquiry.certificate.as_ref(),
+        };
+        let mut document = AnalysisDocument::new(self.study.scene.name(), &inquiry.analysis, proof);
+        if let Ok(Some(explanation)) = inquiry.explanation() {
+            document.explain(&explanation, inquiry.mechanism.layout());
+        }
+        let limits = Limits {
+            trials: HINT_TRIALS,
+            ..Limits::default()
+        };
+        let open = inquiry
+            .analysis
+            .reactions
+            .iter()
+            .filter(|r| r.wrench.verdict == Verdict::NotUnique);
+        let hints = open.take(HINTS).map(|r| {
+            let found = inquiry.make_unique(r.id, &Allowed::Sensible, limits);
+            MakeUniqueDocument::new(&r.name, &Allowed::Sensible, found)
+        });
+        let hints = hints.collect();
+        (Some(document), hints)
+    }
+
+    /// What drives prescribe at the frames.
+    fn drives(&self) -> Vec<DriveCurve> {
+        let mechanism = &self.study.prepared.mechanism;
+        let drives = self.study.scene.description.drives.iter();
+        drives
+            .map(|drive| {
+                let spec = drive.element.element().spec();
+                let start = drive.motion.jet(0.0)[0];
+                let pushes = spec.wrench.iter().any(|[component, _]| *component < 2);
+                DriveCurve {
+                    name: drive.name.clone(),
+                    text: format!(
+                        "change since the start, between {}",
+                        between(mechanism, &drive.bodies)
+                    ),
+                    unit: if pushes { "m" } else { "rad" },
+                    values: self
+                        .film
+                        .frames
+                        .iter()
+                        .map(|f| drive.motion.jet(f.t)[0] - start)
+                        .collect(),
+                }
+            })
+            .collect()
+    }
+
+    fn options(&self) -> Vec<(String, String)> {
+        let Some(o) = &self.study.options else {
+            return Vec::new();
+        };
+        let rows: Vec<String> = self
+            .study
+            .prepared
+            .decision
+            .dropped
+            .iter()
+            .map(|i| (i + 1).to_string())
+            .collect();
+        let mut options = vec![
+            (
+                "Last time",
+                format!("{} s, a row every {} s", o.t_end, o.output_step),
+            ),
+            (
+                "Tolerances",
+                format!("{:e} relative, {:e} absolute", o.rtol, o.atol),
+            ),
+            (
+                "Asked for",
+                format!(
+                    "{}, {}, {}",
+                    o.method.name(),
+                    o.formulation.name(),
+                    o.stabilisation.name()
+                ),
+            ),
+        ];
+        if !rows.is_empty() && rows.len() <= 40 {
+            options.push(("Rows without reaction", rows.join(", ")));
+        }
+        options
+            .into_iter()
+            .map(|(what, value)| (what.to_owned(), value))
+            .collect()
+    }
+}
+
+/// Whether a mechanism is judged by parts.
+pub(crate) fn is_large(mechanism: &Mechanism) -> bool {
+    mechanism.layout().rows() > LARGE
+}
+
+fn between(mechanism: &Mechanism, bodies: &[model::BodyRef]) -> String {
+    let names = bodies.iter().map(|b| {
+        b.moving()
+            .map_or("ground", |k| mechanism.bodies()[k].name.as_str())
+    });
+    let names: Vec<&str> = names.collect();
+    names.join(" and ")
+}

@@ -1,0 +1,374 @@
+//! Reactions that are not unique along a run, by several choices: the one of the run, the least norm, and sets of rows without reaction. Set
+//! by set of joints that share cycles, so that the work grows with the sets that are redundant and not with the mechanism.
+//!
+//! All solutions at an instant are `λ + Z·y`. λ is that of the run; Z belongs to the rank that is read there, and where it is not the rank of the
+//! start nothing is said.
+
+use linalg::{Matrix, PivotedQr, RankDecision, deletions, dependencies};
+use model::{ConstraintId, Mechanism, Part, Scratch, System};
+use report::{ComparedChoice, Comparison, Film, Freedom};
+use solvability::survey::parts;
+use solvability::{ReactionVerdict, Verdict, decide};
+
+/// Rows of a set whose choices are compared.
+const ROWS_MAX: usize = 150;
+
+/// Sets that are compared.
+const SETS_MAX: usize = 24;
+
+/// Sets of rows without reaction that are compared, and from how many they are taken.
+const ELIMINATIONS: usize = 6;
+const CANDIDATES: usize = 400;
+
+/// Rows without reaction must fix what is free at least this well, or their numbers are large for that reason alone.
+const FIRM: f64 = 0.02;
+
+/// What is below this share of the largest free load of a set is rounding.
+const VISIBLE: f64 = 1e-9;
+
+/// The comparisons, and in words what is not compared.
+pub(crate) fn compare(
+    mechanism: &Mechanism,
+    film: &Film,
+    verdicts: &[ReactionVerdict],
+    choice: impl Fn(usize) -> Option<String>,
+) -> (Vec<Comparison>, Vec<String>) {
+    let open = |k: usize| {
+        verdicts
+            .get(k)
+            .is_some_and(|r| r.wrench.verdict == Verdict::NotUnique)
+    };
+    let Some(first) = film.frames.first() else {
+        return (Vec::new(), Vec::new());
+    };
+    if first.multipliers.is_empty() || !verdicts.iter().any(|r| open(r.id.0)) {
+        return (Vec::new(), Vec::new());
+    }
+    let mut s = mechanism.scratch();
+    mechanism.pose(first.t, &first.q, &mut s);
+    mechanism.c(&mut s);
+    let redundant = parts(mechanism, &s).into_iter();
+    let redundant: Vec<Vec<usize>> = redundant
+        .filter(|set| set.iter().any(|k| open(*k)))
+        .collect();
+    let mut left_out = Vec::new();
+    let mut compared = Vec::new();
+    for set in &redundant {
+        let part = mechanism.part_of_groups(set);
+        let reactions: Vec<usize> = set.iter().copied().filter(|k| open(*k)).collect();
+        let names = || -> String {
+            let few = reactions.iter().take(6);
+            let few: Vec<&str> = few
+                .map(|k| mechanism.layout().groups[*k].name.as_str())
+                .collect();
+            few.join(", ")
+        };
+        if part.places.rows.len() > ROWS_MAX || compared.len() >= SETS_MAX {
+            left_out.push(names());
+            continue;
+        }
+        let own = choice(reactions[0]).unwrap_or_else(|| "this run".to_owned());
+        match Set::new(&part, &reactions, film) {
+            Some(set) => compared.push(set.compare(film, &format!("this run: {own}"))),
+            None => left_out.push(names()),
+        }
+    }
+    let words = match left_out.as_slice() {
+        [] => Vec::new(),
+        sets => vec![format!(
+            "For {} of {} sets of joints that share loads no choices are compared (too large, too many, or not all of their reactions \
+             were asked for), the first with {}: components that are not unique have no curve there.",
+            sets.len(),
+            redundant.len(),
+            sets[0]
+        )],
+    };
+    (compared, words)
+}
+
+/// Joints on common cycles, some of whose reactions are not unique.
+struct Set<'a> {
+    part: &'a Part,
+    /// Their places among the groups of the whole, and of the part.
+    open: Vec<(usize, ConstraintId)>,
+    redundancy: usize,
+    eliminations: Vec<Vec<usize>>,
+}
+
+impl<'a> Set<'a> {
+    /// Nothing where the multipliers of the run are not known, or no rank can be read.
+    fn new(part: &'a Part, open: &[usize], film: &Film) -> Option<Self> {
+        let first = film.frames.first()?;
+        let known = part
+            .places
+            .rows
+            .iter()
+            .all(|&i| first.multipliers.get(i).is_some_and(|x| x.is_finite()));
+        if !known {
+            return None;
+        }
+        let mut set = Self {
+            part,
+            open: open
+                .iter()
+                .filter_map(|k| Some((*k, ConstraintId(part.places.groups.binary_search(k).ok()?))))
+                .collect(),
+            redundancy: 0,
+            eliminations: Vec::new(),
+        };
+        let mut s = part.mechanism.scratch();
+        let decision = set.decide(&mut s, first)?;
+        set.redundancy = decision.redundancy;
+        set.eliminations = eliminations(&decision);
+        Some(set)
+    }
+
+    fn decide(&self, s: &mut Scratch, frame: &report::Frame) -> Option<RankDecision> {
+        let mechanism = &self.part.mechanism;
+        let q: Vec<f64> = self
+            .part
+            .places
+            .coordinates
+            .iter()
+            .map(|&j| frame.q[j])
+            .collect();
+        mechanism.pose(frame.t, &q, s);
+        mechanism.phi(s);
+        mechanism.c(s);
+        decide(mechanism, s, &q)
+            .ok()
+            .filter(RankDecision::is_decided)
+    }
+
+    fn compare(&self, film: &Film, own: &str) -> Comparison {
+        let labels = &self.part.mechanism.layout().labels;
+        let without = |rows: &Vec<usize>| {
+            let rows: Vec<String> = rows
+                .iter()
+                .map(|&i| format!("{} ({})", labels[i].number, labels[i].joint))
+                .collect();
+            let word = if rows.len() == 1 { "row" } else { "rows" };
+            format!("no reaction in {word} {}", rows.join(", "))
+        };
+        let labels = [own.to_owned(), "least norm (N, N·m)".to_owned()].into_iter();
+        let labels = labels.chain(self.eliminations.iter().map(without));
+        let mut choices: Vec<ComparedChoice> = labels
+            .map(|label| ComparedChoice {
+                label,
+                values: Vec::with_capacity(film.frames.len()),
+            })
+            .collect();
+        let mut freedom = Vec::with_capacity(film.frames.len());
+        let mut s = self.part.mechanism.scratch();
+        for frame in &film.frames {
+            let instant = self.instant(&mut s, frame);
+            for (k, choice) in choices.iter_mut().enumerate() {
+                choice.values.push(
+                    instant
+                        .values
+                        .get(k)
+                        .cloned()
+                        .unwrap_or_else(|| self.unknown()),
+                );
+            }
+            freedom.push(instant.freedom);
+        }
+        // A choice that says nothing anywhere is none.
+        choices.retain(|c| c.values.iter().flatten().flatten().any(|x| x.is_finite()));
+        Comparison {
+            reactions: self.open.iter().map(|(k, _)| *k).collect(),
+            choices,
+            freedom,
+        }
+    }
+
+    fn unknown(&self) -> Vec<[f64; 3]> {
+        vec![[f64::NAN; 3]; self.open.len()]
+    }
+
+    fn instant(&self, s: &mut Scratch, frame: &report::Frame) -> Instant {
+        let lambda: Vec<f64> = self
+            .part
+            .places
+            .rows
+            .iter()
+            .map(|&i| frame.multipliers[i])
+            .collect();
+        let decision = self
+            .decide(s, frame)
+            .filter(|d| d.redundancy == self.redundancy);
+        let mechanism = &self.part.mechanism;
+        let maps: Vec<Matrix> = mechanism
+            .constraint_ids()
+            .map(|id| mechanism.wrench_map(id, s))
+            .collect();
+        let Some(decision) = decision else {
+            return Instant {
+                values: vec![self.wrenches(&maps, &lambda)],
+                freedom: vec![Freedom::UNKNOWN; self.open.len()],
+            };
+        };
+        let z = dependencies(&decision);
+        let free: Vec<Matrix> = maps
+            .iter()
+            .zip(&mechanism.layout().groups)
+            .map(|(w, g)| product(w, &z, g.rows.start))
+            .collect();
+        let least = self
+            .least_norm(&maps, &free, &lambda)
+            .map(|y| moved(&lambda, &z, &y));
+        let without = self.eliminations.iter().map(|rows| {
+            let to_zero: Vec<f64> = rows.iter().map(|&i| -lambda[i]).collect();
+            firmly_solved(&z, rows, to_zero).map(|y| moved(&lambda, &z, &y))
+        });
+        let others = [least].into_iter().chain(without);
+        let wrenches = |lambda: Option<Vec<f64>>| {
+            lambda.map_or_else(|| self.unknown(), |l| self.wrenches(&maps, &l))
+        };
+        let values = std::iter::once(self.wrenches(&maps, &lambda)).chain(others.map(wrenches));
+        Instant {
+            values: values.collect(),
+            freedom: self.freedom(&free),
+        }
+    }
+
+    fn wrenches(&self, maps: &[Matrix], lambda: &[f64]) -> Vec<[f64; 3]> {
+        let groups = &self.part.mechanism.layout().groups;
+        let each = self.open.iter();
+        each.map(|(_, id)| {
+            let wrench = maps[id.0].times(&lambda[groups[id.0].rows.clone()]);
+            [wrench[0], wrench[1], wrench[2]]
+        })
+        .collect()
+    }
+
+    /// y of the least `Σ (F² + T²)` over all joints and drives of the set.
+    fn least_norm(&self, maps: &[Matrix], free: &[Matrix], lambda: &[f64]) -> Option<Vec<f64>> {
+        let groups = &self.part.mechanism.layout().groups;
+        let p = self.redundancy;
+        let stacked = Matrix::from_fn(3 * free.len(), p, |i, j| free[i / 3][(i % 3, j)]);
+        let mut y: Vec<f64> = maps
+            .iter()
+            .zip(groups)
+            .flat_map(|(w, g)| w.times(&lambda[g.rows.clone()]))
+            .map(|x| -x)
+            .collect();
+        let qr = PivotedQr::of_columns(&stacked);
+        let largest = qr.r_diagonal().map(f64::abs).fold(0.0, f64::max);
+        // What the wrenches on first bodies do not show has no least norm.
+        if qr.r_diagonal().any(|r| r.abs() <= VISIBLE * largest) {
+            return None;
+        }
+        qr.q_transpose_mul(&mut y);
+        y.truncate(p);
+        qr.solve_r(&mut y);
+        Some(unpermuted(&qr, &y))
+    }
+
+    /// Directions of the forces `W_X·Z_X·y`, and whether torques are among them.
+    fn freedom(&self, free: &[Matrix]) -> Vec<Freedom> {
+        let size = |m: &Matrix, rows: std::ops::Range<usize>| -> f64 {
+            rows.flat_map(|i| m.row(i).iter().map(|x| x * x).collect::<Vec<_>>())
+                .sum::<f64>()
+                .sqrt()
+        };
+        let largest = free.iter().map(|m| size(m, 0..2)).fold(0.0, f64::max);
+        let torque = free.iter().map(|m| size(m, 2..3)).fold(0.0, f64::max);
+        let of = |m: &Matrix| {
+            let dot = |i: usize, j: usize| -> f64 {
+                m.row(i).iter().zip(m.row(j)).map(|(a, b)| a * b).sum()
+            };
+            let (xx, xy, yy) = (dot(0, 0), dot(0, 1), dot(1, 1));
+            let is_free = (xx + yy).sqrt() > VISIBLE * largest;
+            // Axes of the ellipse with these moments.
+            let half = (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
+            let minor = (0.5 * (xx + yy) - half).max(0.0);
+            Freedom {
+                angle: if is_free {
+                    0.5 * (2.0 * xy).atan2(xx - yy)
+                } else {
+                    f64::NAN
+                },
+                plane: is_free && minor > 1e-6 * (xx + yy),
+                torque: torque > 0.0 && size(m, 2..3) > VISIBLE * torque.max(largest * VISIBLE),
+            }
+        };
+        self.open.iter().map(|(_, id)| of(&free[id.0])).collect()
+    }
+}
+
+/// What the choices say at an instant.
+struct Instant {
+    values: Vec<Vec<[f64; 3]>>,
+    freedom: Vec<Freedom>,
+}
+
+/// Sets of rows, so that each row that can be without reaction is in one if they suffice; those that fix best come first.
+fn eliminations(decision: &RankDecision) -> Vec<Vec<usize>> {
+    let z = dependencies(decision);
+    let all = deletions(decision, CANDIDATES).unwrap_or_default();
+    let firm = all.into_iter().filter_map(|rows| {
+        let firmness = firmness(&z, &rows);
+        // The rows that the decision dropped itself are the choice of most runs.
+        (firmness >= 2.0 * FIRM && rows != decision.dropped).then_some((rows, firmness))
+    });
+    let mut firm: Vec<(Vec<usize>, f64)> = firm.collect();
+    firm.sort_by(|a, b| b.1.total_cmp(&a.1).then_with(|| a.0.cmp(&b.0)));
+    let mut covered = vec![false; z.nrows()];
+    let mut taken = Vec::new();
+    while taken.len() < ELIMINATIONS {
+        let gain = |rows: &[usize]| rows.iter().filter(|&&i| !covered[i]).count();
+        let best = (0..firm.len()).max_by_key(|&k| (gain(&firm[k].0), std::cmp::Reverse(k)));
+        let Some(best) = best.filter(|&k| gain(&firm[k].0) > 0) else {
+            break;
+        };
+        let (rows, _) = firm.remove(best);
+        rows.iter().for_each(|&i| covered[i] = true);
+        taken.push(rows);
+    }
+    taken
+}
+
+/// Smallest pivot of Z_D beside its largest entry.
+fn firmness(z: &Matrix, rows: &[usize]) -> f64 {
+    let block = z.select_rows(rows);
+    let qr = PivotedQr::of_columns(&block);
+    let smallest = qr.r_diagonal().map(f64::abs).fold(f64::INFINITY, f64::min);
+    smallest / z.max_abs().max(f64::MIN_POSITIVE)
+}
+
+/// y with `Z_D·y = x`, where D fixes y firmly.
+fn firmly_solved(z: &Matrix, rows: &[usize], mut x: Vec<f64>) -> Option<Vec<f64>> {
+    if firmness(z, rows) < FIRM {
+        return None;
+    }
+    let qr = PivotedQr::of_columns(&z.select_rows(rows));
+    qr.q_transpose_mul(&mut x);
+    qr.solve_r(&mut x);
+    Some(unpermuted(&qr, &x))
+}
+
+fn unpermuted(qr: &PivotedQr, x: &[f64]) -> Vec<f64> {
+    let mut out = vec![0.0; x.len()];
+    for (&k, x) in qr.permutation().iter().zip(x) {
+        out[k] = *x;
+    }
+    out
+}
+
+/// `λ + Z·y`
+fn moved(lambda: &[f64], z: &Matrix, y: &[f64]) -> Vec<f64> {
+    lambda
+        .iter()
+        .zip(z.times(y))
+        .map(|(l, change)| l + change)
+        .collect()
+}
+
+/// `W·Z` with the rows of Z from `start` on.
+fn product(w: &Matrix, z: &Matrix, start: usize) -> Matrix {
+    Matrix::from_fn(w.nrows(), z.ncols(), |i, j| {
+        let terms = w.row(i).iter().enumerate();
+        terms.map(|(k, w)| w * z[(start + k, j)]).sum()
+    })
+}

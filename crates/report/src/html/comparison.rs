@@ -1,0 +1,41 @@
+//! Several choices for reactions that are not unique, along a run: plain data, so that no curve of a page is taken for a fact.
+
+/// Joints and drives that share loads, with what different choices say of them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Comparison {
+    /// Joints and drives whose reaction is not unique, as places among all.
+    pub reactions: Vec<usize>,
+    /// The choices.
+    pub choices: Vec<ComparedChoice>,
+    /// For each frame and each reaction, what of it is free.
+    pub freedom: Vec<Vec<Freedom>>,
+}
+
+/// A choice with its numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ComparedChoice {
+    /// In words.
+    pub label: String,
+    /// For each frame and each reaction `[Fx, Fy, T]` on the first body (N, N·m); NaN where the choice says nothing.
+    pub values: Vec<Vec<[f64; 3]>>,
+}
+
+/// What of a reaction the model leaves open at an instant.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Freedom {
+    /// Angle of a direction in which the force is free (rad, global); NaN where the force is determined or nothing is known.
+    pub angle: f64,
+    /// Whether the force is free across that direction, too.
+    pub plane: bool,
+    /// Whether the torque is free.
+    pub torque: bool,
+}
+
+impl Freedom {
+    /// Nothing is known.
+    pub const UNKNOWN: Self = Self {
+        angle: f64::NAN,
+        plane: false,
+        torque: false,
+    };
+}

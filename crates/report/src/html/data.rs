@@ -1,0 +1,396 @@
+//! The data of a page as one JSON document: what scripts draw, and no more of it than a small page carries.
+
+use model::reaction::COMPONENTS;
+use model::{Mechanism, System};
+use serde::Serialize;
+
+use super::channel::Channel;
+use super::comparison::{Comparison, Freedom};
+use super::film::Frame;
+use super::scenery::{DrawnForce, Scenery, Stage};
+use super::{DriveCurve, RunPage};
+use crate::documents::{EventDocument, ReactionDocument};
+
+/// Joints and drives, and bodies, that are drawn and plotted at most.
+pub(super) const DRAWN_MAX: usize = 400;
+
+/// A force below this share of the largest one is rounding.
+const NOISE: f64 = 1e-12;
+
+/// Everything that scripts need.
+#[derive(Serialize)]
+pub(super) struct Data<'a> {
+    name: &'a str,
+    /// Times of the frames (s).
+    t: Vec<Time>,
+    scenery: Scenery,
+    joints: Vec<Joint<'a>>,
+    comparisons: Vec<ComparisonData<'a>>,
+    drives: Vec<Drive<'a>>,
+    energy: Energy,
+    residuals: Residuals,
+    events: &'a [EventDocument],
+    t_end: f64,
+}
+
+/// A time with ten digits.
+struct Time(f64);
+
+impl Serialize for Time {
+    fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let rounded = format!("{:.9e}", self.0).parse().unwrap_or(self.0);
+        serializer.serialize_f64(rounded)
+    }
+}
+
+/// A joint or drive with its reaction.
+#[derive(Serialize)]
+struct Joint<'a> {
+    name: &'a str,
+    #[serde(rename = "type")]
+    kind: &'static str,
+    bodies: Vec<String>,
+    verdict: &'static str,
+    /// Names, units and verdicts of the components that are not identically zero.
+    components: Vec<Component>,
+    explanation: Option<&'a str>,
+    /// What its numbers depend on where they are not unique.
+    choice: Option<String>,
+    /// Fx, Fy, T, and the named component; nothing where they were not wanted.
+    reaction: Option<Reaction>,
+}
+
+#[derive(Serialize)]
+struct Component {
+    name: &'static str,
+    unit: &'static str,
+    verdict: &'static str,
+}
+
+#[derive(Serialize)]
+struct Reaction {
+    wrench: [Channel; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    named: Option<Channel>,
+}
+
+#[derive(Serialize)]
+struct ComparisonData<'a> {
+    joints: Vec<usize>,
+    choices: Vec<ChoiceData<'a>>,
+    freedom: Vec<FreedomData>,
+}
+
+#[derive(Serialize)]
+struct ChoiceData<'a> {
+    label: &'a str,
+    /// Of each joint.
+    wrenches: Vec<[Channel; 3]>,
+}
+
+#[derive(Serialize)]
+struct FreedomData {
+    angle: Channel,
+    plane: bool,
+    torque: bool,
+}
+
+#[derive(Serialize)]
+struct Drive<'a> {
+    name: &'a str,
+    text: &'a str,
+    unit: &'static str,
+    value: Channel,
+}
+
+#[derive(Serialize)]
+struct Energy {
+    kinetic: Channel,
+    potential: Channel,
+    work: Channel,
+    /// log₁₀ of |E − E₀ − work| relative to the largest kinetic energy.
+    gap: Channel,
+}
+
+#[derive(Serialize)]
+struct Residuals {
+    /// log₁₀ of the largest |Φ|.
+    position: Channel,
+    /// log₁₀ of the largest |C·v − b|.
+    velocity: Channel,
+}
+
+/// A mechanism, or the part of it that is drawn.
+pub(super) struct Cast {
+    part: Option<model::Part>,
+    all: Vec<usize>,
+}
+
+impl Cast {
+    /// All of a small mechanism; the first joints of a large one, with their bodies.
+    pub(super) fn of(mechanism: &Mechanism) -> Self {
+        let groups = mechanism.layout().groups.len();
+        let is_small = groups <= DRAWN_MAX && mechanism.bodies().len() <= DRAWN_MAX;
+        Self {
+            part: (!is_small).then(|| {
+                let first: Vec<usize> = (0..groups.min(DRAWN_MAX)).collect();
+                mechanism.part_of_groups(&first)
+            }),
+            all: (0..mechanism.bodies().len()).collect(),
+        }
+    }
+
+    pub(super) fn bodies(&self) -> &[usize] {
+        self.part.as_ref().map_or(&self.all, |p| &p.places.bodies)
+    }
+
+    /// Joints and drives of `all` that are drawn: the first ones.
+    pub(super) fn joints(&self, all: usize) -> usize {
+        self.part.as_ref().map_or(all, |p| p.places.groups.len())
+    }
+
+    pub(super) fn is_whole(&self) -> bool {
+        self.part.is_none()
+    }
+
+    fn stage<'a>(&'a self, whole: &'a Mechanism, frames: &'a [Frame]) -> Stage<'a> {
+        Stage {
+            mechanism: self.part.as_ref().map_or(whole, |p| &p.mechanism),
+            bodies: self.bodies(),
+            frames,
+        }
+    }
+}
+
+impl<'a> Data<'a> {
+    pub(super) fn new(page: &'a RunPage<'a>, cast: &Cast) -> Self {
+        let frames = &page.film.frames;
+        let stage = cast.stage(page.mechanism, frames);
+        let n_joints = cast.joints(page.mechanism.layout().groups.len());
+        let noise = NOISE * largest_force(frames);
+        let measured = Measured::of(page.mechanism, frames);
+        Self {
+            name: page.mechanism.name(),
+            t: frames.iter().map(|f| Time(f.t)).collect(),
+            scenery: stage.scenery(DrawnForce::all(page.mechanism, cast.bodies())),
+            joints: (0..n_joints).map(|k| joint(page, k, noise)).collect(),
+            comparisons: page
+                .comparisons
+                .iter()
+                .filter(|c| c.reactions.iter().all(|k| *k < n_joints))
+                .map(|c| comparison(c, noise))
+                .collect(),
+            drives: page.drives.iter().map(drive).collect(),
+            energy: measured.energy(),
+            residuals: Residuals {
+                position: logarithmic(measured.position.iter().copied()),
+                velocity: logarithmic(measured.velocity.iter().copied()),
+            },
+            events: &page.run.events,
+            t_end: page.run.t_end,
+        }
+    }
+}
+
+fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
+    let group = &page.mechanism.layout().groups[k];
+    let (verdict, choice) = page
+        .run
+        .reactions
+        .0
+        .get(k)
+        .map_or(("undecided", None), |(_, r)| {
+            (
+                r.verdict.verdict,
+                r.choice.as_ref().map(ToString::to_string),
+            )
+        });
+    let of_analysis: Option<&ReactionDocument> = page.analysis.and_then(|a| a.reactions.get(k));
+    let components = of_analysis.map_or_else(Vec::new, |r| {
+        let known = r.components.iter();
+        known
+            .map(|c| Component {
+                name: c.name,
+                unit: unit(c.name),
+                verdict: c.verdict.verdict,
+            })
+            .collect()
+    });
+    let bodies = group.bodies.iter().map(|b| match b.moving() {
+        None => "ground".to_owned(),
+        Some(k) => page.mechanism.bodies()[k].name.clone(),
+    });
+    Joint {
+        name: &group.name,
+        kind: group.spec.common.scene_type,
+        bodies: bodies.collect(),
+        verdict,
+        components,
+        explanation: of_analysis.and_then(|r| r.explanation.as_deref()),
+        choice,
+        reaction: reaction(&page.film.frames, k, noise),
+    }
+}
+
+fn reaction(frames: &[Frame], k: usize, noise: f64) -> Option<Reaction> {
+    let wanted = frames.iter().all(|f| f.reactions.len() > k);
+    let of = |frame: &Frame| {
+        let r = &frame.reactions[k];
+        [r.force[0], r.force[1], r.torque]
+    };
+    let known = wanted && frames.iter().any(|f| of(f).iter().any(|x| x.is_finite()));
+    known.then(|| Reaction {
+        wrench: [0, 1, 2].map(|c| Channel::above(noise, frames.iter().map(move |f| of(f)[c]))),
+        named: frames[0].reactions[k].component.map(|_| {
+            let named = frames.iter().map(|f| f.reactions[k].component);
+            Channel::above(noise, named.map(|x| x.unwrap_or(f64::NAN)))
+        }),
+    })
+}
+
+fn comparison(c: &Comparison, noise: f64) -> ComparisonData<'_> {
+    let choices = c.choices.iter().map(|choice| ChoiceData {
+        label: &choice.label,
+        wrenches: (0..c.reactions.len())
+            .map(|j| {
+                let values = choice.values.iter();
+                [0, 1, 2].map(|k| Channel::above(noise, values.clone().map(move |f| f[j][k])))
+            })
+            .collect(),
+    });
+    let freedom = (0..c.reactions.len()).map(|j| {
+        let frames = || c.freedom.iter().map(move |f| f[j]);
+        FreedomData {
+            angle: Channel::new(unwound(frames()).into_iter()),
+            plane: frames().any(|f| f.plane),
+            torque: frames().any(|f| f.torque),
+        }
+    });
+    ComparisonData {
+        joints: c.reactions.clone(),
+        choices: choices.collect(),
+        freedom: freedom.collect(),
+    }
+}
+
+/// Angles of axes without jumps of half a turn.
+fn unwound(freedom: impl Iterator<Item = Freedom>) -> Vec<f64> {
+    let half = std::f64::consts::PI;
+    let mut last = 0.0;
+    freedom
+        .map(|f| {
+            if f.angle.is_nan() {
+                return f64::NAN;
+            }
+            last = f.angle + half * ((last - f.angle) / half).round();
+            last
+        })
+        .collect()
+}
+
+fn drive(curve: &DriveCurve) -> Drive<'_> {
+    Drive {
+        name: &curve.name,
+        text: &curve.text,
+        unit: curve.unit,
+        value: Channel::new(curve.values.iter().copied()),
+    }
+}
+
+/// Energies and residuals at the frames.
+struct Measured {
+    kinetic: Vec<f64>,
+    potential: Vec<f64>,
+    work: Vec<f64>,
+    position: Vec<f64>,
+    velocity: Vec<f64>,
+}
+
+impl Measured {
+    fn of(mechanism: &Mechanism, frames: &[Frame]) -> Self {
+        let mut measured = Self {
+            kinetic: frames
+                .iter()
+                .map(|f| mechanism.kinetic_energy(&f.v))
+                .collect(),
+            potential: frames
+                .iter()
+                .map(|f| mechanism.potential_energy(&f.q))
+                .collect(),
+            work: frames.iter().map(|f| f.work).collect(),
+            position: Vec::with_capacity(frames.len()),
+            velocity: Vec::with_capacity(frames.len()),
+        };
+        let layout = mechanism.layout();
+        let mut s = mechanism.scratch();
+        for frame in frames {
+            // Rows at a break time show the values just before.
+            let breaks = layout
+                .break_times
+                .binary_search_by(|t| t.total_cmp(&frame.t));
+            let t = match breaks.is_ok() && frame.t > 0.0 {
+                true => frame.t.next_down(),
+                false => frame.t,
+            };
+            mechanism.pose(t, &frame.q, &mut s);
+            mechanism.phi(&mut s);
+            mechanism.c(&mut s);
+            mechanism.b(&mut s);
+            let rows = 0..layout.rows();
+            let residuals = rows.map(|i| layout.velocity_residual(&s, i, &frame.v));
+            measured.velocity.push(largest(residuals));
+            measured.position.push(largest(s.phi.iter().copied()));
+        }
+        measured
+    }
+
+    fn energy(&self) -> Energy {
+        let largest_kinetic = largest(self.kinetic.iter().copied());
+        let total = |k: usize| self.kinetic[k] + self.potential[k] - self.work[k];
+        let gap = (0..self.work.len()).map(|k| (total(k) - total(0)) / largest_kinetic);
+        Energy {
+            kinetic: Channel::new(self.kinetic.iter().copied()),
+            potential: Channel::new(self.potential.iter().copied()),
+            work: Channel::new(self.work.iter().copied()),
+            gap: logarithmic(gap),
+        }
+    }
+}
+
+/// log₁₀ of sizes; zero is a gap.
+fn logarithmic(values: impl Iterator<Item = f64> + Clone) -> Channel {
+    Channel::new(values.map(|x| x.abs().log10()))
+}
+
+fn largest(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |a, x| if x.abs() > a { x.abs() } else { a })
+}
+
+fn largest_force(frames: &[Frame]) -> f64 {
+    let all = frames.iter().flat_map(|f| &f.reactions);
+    largest(all.flat_map(|r| r.force).filter(|x| x.is_finite()))
+}
+
+fn unit(component: &str) -> &'static str {
+    match component == COMPONENTS[2] {
+        true => "N·m",
+        false => "N",
+    }
+}
+
+/// Numbers of a row, weighted so that a film of them stays small: those that are kept, and more for each that is shown.
+pub(super) fn numbers_per_row(mechanism: &Mechanism) -> usize {
+    let layout = mechanism.layout();
+    let kept = layout.n_q + layout.n_v + layout.rows() + 4 * layout.groups.len();
+    let bodies = mechanism.bodies().len().min(DRAWN_MAX);
+    let joints = layout.groups.len().min(DRAWN_MAX);
+    kept + SHOWN * (6 * bodies + 3 * joints)
+}
+
+/// A number that is shown weighs as much as so many that are kept.
+const SHOWN: usize = 6;
+
+/// Levels of a curve, in digits.
+pub(super) fn levels() -> u64 {
+    super::channel::LEVELS as u64
+}

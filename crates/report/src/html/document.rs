@@ -1,0 +1,382 @@
+//! The page from its head to its scripts. Names and sentences from outside are escaped where they are put in.
+
+use model::System;
+
+use super::data::{self, Cast, Data};
+use super::{RunPage, inputs, verdicts};
+use crate::page::{add, safe, short};
+
+const STYLE: &str = include_str!("report.css");
+
+/// Scripts in the order of their use; together they are one module.
+const SCRIPTS: [&str; 6] = [
+    include_str!("script/data.js"),
+    include_str!("script/clock.js"),
+    include_str!("script/shapes.js"),
+    include_str!("script/picture.js"),
+    include_str!("script/chart.js"),
+    include_str!("script/main.js"),
+];
+
+/// Nothing is fetched: no address is allowed but data in the page itself.
+const POLICY: &str =
+    "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data:";
+
+/// Names that a sentence lists.
+const LISTED: usize = 12;
+
+pub(super) fn document(page: &RunPage<'_>) -> String {
+    let cast = Cast::of(page.mechanism);
+    let mut out = String::new();
+    open(&mut out, page);
+    head(&mut out, page);
+    motion(&mut out, page);
+    verdicts::section(&mut out, page);
+    curves(&mut out, page);
+    inputs::section(&mut out, page, &cast);
+    transport(&mut out);
+    close(&mut out, page, &cast);
+    out
+}
+
+fn open(out: &mut String, page: &RunPage<'_>) {
+    let name = safe(page.mechanism.name());
+    add(
+        out,
+        format_args!(
+            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
+             <meta name=\"generator\" content=\"pfaff {}\">\n<title>{name} – pfaff</title>\n\
+             <style>\n{STYLE}</style>\n</head>\n<body>\n",
+            env!("CARGO_PKG_VERSION")
+        ),
+    );
+}
+
+fn head(out: &mut String, page: &RunPage<'_>) {
+    add(
+        out,
+        format_args!(
+            "<header>\n<div class=\"head\"><div><p class=\"kicker\">Motion and reactions</p>\n<h1>{}</h1></div>\n\
+             <button id=\"theme\" type=\"button\">Dark</button></div>\n",
+            safe(page.mechanism.name())
+        ),
+    );
+    let run = page.run;
+    if run.partial {
+        let why = run.error.as_deref().unwrap_or("it was interrupted");
+        add(
+            out,
+            format_args!(
+                "<p class=\"warning\"><b>Partial:</b> the run ended at t = {} s. {}. What was reached is shown.</p>\n",
+                run.t_end,
+                safe(&sentence(why))
+            ),
+        );
+    }
+    add(
+        out,
+        format_args!("<p class=\"answer\">{}</p>\n", answer(page)),
+    );
+    tiles(out, page);
+    out.push_str(
+        "<nav aria-label=\"Sections\"><a href=\"#motion\">Motion</a> <a href=\"#verdicts\">Verdicts</a> \
+         <a href=\"#reactions\">Reactions</a> <a href=\"#curves\">Curves and checks</a> \
+         <a href=\"#inputs\">Inputs and versions</a></nav>\n</header>\n<main>\n",
+    );
+}
+
+/// One or two sentences: what the reader wanted to know.
+fn answer(page: &RunPage<'_>) -> String {
+    let of = |word: &str| -> Vec<&str> {
+        let all = page.run.reactions.0.iter();
+        all.filter(|(_, r)| r.verdict.verdict == word)
+            .map(|(name, _)| name.as_str())
+            .collect()
+    };
+    let (unique, open, doubt) = (of("unique"), of("not_unique"), of("undecided"));
+    let mut text = String::new();
+    if let Some(a) = page.analysis {
+        let redundant = match a.redundancy {
+            0 => "no constraint is redundant".to_owned(),
+            1 => "one is redundant".to_owned(),
+            p => format!("{p} are redundant"),
+        };
+        let freedoms = match a.mobility {
+            0 => "no freedom of motion is left".to_owned(),
+            1 => "one freedom of motion is left".to_owned(),
+            f => format!("{f} freedoms of motion are left"),
+        };
+        add(
+            &mut text,
+            format_args!(
+                "The {} constraint rows have rank {}: {redundant}, and {freedoms}. ",
+                a.rows, a.rank
+            ),
+        );
+    }
+    match (unique.as_slice(), open.as_slice()) {
+        ([], []) => {}
+        (_, []) => text.push_str("<b>All reactions that are decided are unique.</b> "),
+        ([], names) => add(
+            &mut text,
+            format_args!(
+                "<b>No reaction is unique</b>: the model does not determine {}. ",
+                names_in_words(names)
+            ),
+        ),
+        (some, names) => add(
+            &mut text,
+            format_args!(
+                "The reactions of {} are unique; <b>those of {} are not</b>: the model does not determine them. ",
+                names_in_words(some),
+                names_in_words(names)
+            ),
+        ),
+    }
+    if !doubt.is_empty() {
+        add(
+            &mut text,
+            format_args!("Undecided: {}. ", names_in_words(&doubt)),
+        );
+    }
+    // Nothing is undecided: one word less.
+    if doubt.is_empty() {
+        text = text.replace(
+            "All reactions that are decided are unique",
+            "All reactions are unique",
+        );
+    }
+    text.trim_end().to_owned()
+}
+
+fn names_in_words(names: &[&str]) -> String {
+    let few: Vec<String> = names.iter().take(LISTED).map(|n| safe(n)).collect();
+    match (names.len() - few.len(), few.as_slice()) {
+        (0, [one]) => one.clone(),
+        (0, [most @ .., last]) => format!("{} and {last}", most.join(", ")),
+        (more, _) => format!("{} and {more} more", few.join(", ")),
+    }
+}
+
+fn tiles(out: &mut String, page: &RunPage<'_>) {
+    let run = page.run;
+    let mut tiles: Vec<(String, &str)> = Vec::new();
+    if let Some(a) = page.analysis {
+        tiles.push((
+            format!("{} of {}", a.rank, a.rows),
+            "rank of the constraint rows",
+        ));
+        tiles.push((a.redundancy.to_string(), "degree of redundancy"));
+        tiles.push((a.mobility.to_string(), "freedoms of motion"));
+    }
+    let unique = run
+        .reactions
+        .0
+        .iter()
+        .filter(|(_, r)| r.verdict.verdict == "unique");
+    tiles.push((
+        format!("{} of {}", unique.count(), run.reactions.0.len()),
+        "reactions unique",
+    ));
+    tiles.push((format!("{} s", run.t_end), "of motion"));
+    tiles.push((short(run.max_position_residual), "largest |Φ|"));
+    tiles.push((short(run.energy_balance), "energy balance"));
+    out.push_str("<ul class=\"tiles\">\n");
+    for (value, words) in tiles {
+        add(
+            out,
+            format_args!("<li><b>{value}</b><span>{words}</span></li>\n"),
+        );
+    }
+    out.push_str("</ul>\n");
+}
+
+/// The moving picture with what belongs to it.
+fn motion(out: &mut String, page: &RunPage<'_>) {
+    out.push_str(
+        "<section id=\"motion\" aria-labelledby=\"motion-title\">\n<h2 id=\"motion-title\">Motion</h2>\n\
+         <noscript><p class=\"warning\">Picture and curves need scripts; verdicts and inputs below do not.</p></noscript>\n\
+         <div class=\"stage\">\n<div class=\"picture\">\n",
+    );
+    add(
+        out,
+        format_args!(
+            "<svg id=\"picture\" role=\"img\" aria-label=\"{} to scale, moving; joints are marked by the verdict of their reactions, \
+             which the table below tells in words\"></svg>\n",
+            safe(page.mechanism.name())
+        ),
+    );
+    out.push_str(
+        "<div class=\"now\" id=\"now\"></div>\n<div class=\"zoom\"><button id=\"zoom-in\" type=\"button\" aria-label=\"Zoom in\">+</button>\
+         <button id=\"zoom-out\" type=\"button\" aria-label=\"Zoom out\">−</button>\
+         <button id=\"zoom-reset\" type=\"button\" aria-label=\"Show all\">⤢</button></div>\n</div>\n<aside class=\"panel\" \
+         aria-label=\"What the picture shows\">\n",
+    );
+    out.push_str(LEGEND);
+    out.push_str(
+        "<fieldset class=\"option\"><legend>Show</legend><div id=\"options\"></div>\
+         <label>Arrows <input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" step=\"0.1\" value=\"0\" \
+         aria-label=\"Length of arrows\"></label></fieldset>\n\
+         <fieldset class=\"option\"><legend>Trace and plot</legend><div id=\"bodies\"></div></fieldset>\n</aside>\n</div>\n\
+         <p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
+         are unknown. Drag to move, Ctrl and wheel to zoom, click a joint for its reaction, a body for its trace.</p>\n</section>\n",
+    );
+}
+
+const LEGEND: &str = "<fieldset><legend>Reactions</legend>\
+<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\"><g class=\"site unique\" transform=\"translate(17 11)\">\
+<circle class=\"mark\" r=\"6.5\"/></g></svg>unique</div>\
+<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\"><g class=\"site not_unique\" transform=\"translate(17 11)\">\
+<circle class=\"mark\" r=\"6.5\"/></g></svg>not unique</div>\
+<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\"><g class=\"site undecided\" transform=\"translate(17 11)\">\
+<circle class=\"mark\" r=\"6.5\"/></g></svg>undecided</div>\
+<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\"><path class=\"force\" d=\"M2 9.4H22V6L32 11L22 16V12.6H2Z\"/></svg>\
+determined part, on the first body</div>\
+<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\"><path class=\"free\" \
+d=\"M1 11L10 4V8H24V4L33 11L24 18V14H10V18Z\"/></svg>free direction</div></fieldset>\n";
+
+/// Places for the curves; scripts fill them.
+fn curves(out: &mut String, page: &RunPage<'_>) {
+    out.push_str(
+        "<section id=\"reactions\" aria-labelledby=\"reactions-title\">\n<h2 id=\"reactions-title\">Reactions</h2>\n\
+         <div class=\"picker\"><label for=\"joint\">Joint or drive</label> <select id=\"joint\"></select></div>\n\
+         <p id=\"reaction-words\"></p>\n<div class=\"curves\" id=\"reaction-curves\"></div>\n</section>\n\
+         <section id=\"curves\" aria-labelledby=\"curves-title\">\n<h2 id=\"curves-title\">Motion of bodies</h2>\n\
+         <div class=\"curves\"><div><div class=\"picker\"><select id=\"quantity-a\" aria-label=\"First quantity\"></select></div>\
+         <div id=\"motion-a\"></div></div>\
+         <div><div class=\"picker\"><select id=\"quantity-b\" aria-label=\"Second quantity\"></select></div>\
+         <div id=\"motion-b\"></div></div></div>\n",
+    );
+    if !page.drives.is_empty() {
+        out.push_str("<h2>Drives</h2>\n<div class=\"curves\" id=\"drive-curves\"></div>\n");
+    } else {
+        out.push_str("<div id=\"drive-curves\" hidden></div>\n");
+    }
+    out.push_str("<h2>Energy and checks</h2>\n<div class=\"curves\" id=\"energy-curves\"></div>\n");
+    events(out, page);
+    if let Some(figure) = page.work_precision {
+        out.push_str("<h2>Error against run time</h2>\n");
+        add(
+            out,
+            format_args!(
+                "<img alt=\"Error against run time of the methods compared, one curve for each\" src=\"data:image/svg+xml,{}\">\n",
+                encoded(figure)
+            ),
+        );
+    }
+    out.push_str("</section>\n");
+}
+
+fn events(out: &mut String, page: &RunPage<'_>) {
+    if page.run.events.is_empty() {
+        return;
+    }
+    out.push_str("<h3>Events</h3>\n<ul>\n");
+    for event in page.run.events.iter().take(verdicts::MOST) {
+        add(
+            out,
+            format_args!(
+                "<li><b>t = {:.6} s</b> – {}</li>\n",
+                event.time,
+                safe(&event.text)
+            ),
+        );
+    }
+    out.push_str("</ul>\n");
+}
+
+fn transport(out: &mut String) {
+    out.push_str(
+        "</main>\n<div class=\"transport\" role=\"group\" aria-label=\"Time\">\n\
+         <button id=\"play\" type=\"button\" aria-label=\"Play\">▶</button>\n\
+         <div class=\"track\"><div id=\"marks\"></div><input id=\"scrub\" type=\"range\" aria-label=\"Time (s)\"></div>\n\
+         <span id=\"time\"></span>\n<label>Speed <select id=\"speed\"></select></label>\n\
+         <span class=\"keys\">space: play · ← →: frame</span>\n</div>\n",
+    );
+}
+
+fn close(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
+    // Numbers and names only: this cannot fail.
+    let json = serde_json::to_string(&Data::new(page, cast)).unwrap_or_else(|_| "null".to_owned());
+    add(
+        out,
+        format_args!(
+            "<script id=\"data\" type=\"application/json\">{}</script>\n<script type=\"module\">\n",
+            harmless(&json)
+        ),
+    );
+    for script in SCRIPTS {
+        out.push_str(script);
+    }
+    out.push_str("</script>\n</body>\n</html>\n");
+}
+
+/// JSON that ends no script: `<` occurs in strings only, where it may be written as an escape.
+fn harmless(json: &str) -> String {
+    json.replace('<', "\\u003c")
+}
+
+/// With a capital letter at the beginning, without a dot at the end.
+fn sentence(text: &str) -> String {
+    let mut letters = text.trim_end_matches('.').chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
+
+/// A text as part of an address.
+fn encoded(text: &str) -> String {
+    let mut out = String::with_capacity(2 * text.len());
+    for byte in text.bytes() {
+        match byte {
+            b'A'..=b'Z'
+            | b'a'..=b'z'
+            | b'0'..=b'9'
+            | b'-'
+            | b'_'
+            | b'.'
+            | b'!'
+            | b'~'
+            | b'*'
+            | b'('
+            | b')'
+            | b' '
+            | b'='
+            | b':'
+            | b'/'
+            | b';'
+            | b',' => out.push(char::from(byte)),
+            _ => add(&mut out, format_args!("%{byte:02X}")),
+        }
+    }
+    out
+}
+
+/// What is drawn of a large mechanism, in words.
+pub(super) fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
+    let mut told = Vec::new();
+    let groups = page.mechanism.layout().groups.len();
+    if !cast.is_whole() {
+        told.push(format!(
+            "The picture and the curves show {} of {groups} joints and drives, the first ones, and their {} bodies (of {}).",
+            cast.joints(groups),
+            cast.bodies().len(),
+            page.mechanism.bodies().len()
+        ));
+    }
+    if page.film.stride > 1 {
+        told.push(format!(
+            "One in {} rows of output is kept: {} of {}. trajectory.csv and reactions.csv have all that was asked for.",
+            page.film.stride,
+            page.film.frames.len(),
+            page.film.rows()
+        ));
+    }
+    told.push(format!(
+        "Each curve is rounded to 1/{} of its range; between rows the picture follows cubics through positions and velocities.",
+        data::levels()
+    ));
+    told.extend(page.left_out.iter().cloned());
+    told
+}

@@ -1,0 +1,92 @@
+//! What of a run is kept for its report: rows of output as they were shown, at most so many that a report stays small. Nothing is
+//! computed here.
+
+use model::Reaction;
+
+/// Rows that are kept at most.
+const FRAMES_MAX: usize = 1000;
+
+/// Numbers that are kept at most, over all rows.
+const NUMBERS_MAX: usize = 4_000_000;
+
+/// Rows that are kept of any mechanism, if the run has so many.
+const FRAMES_MIN: usize = 24;
+
+/// A row of output.
+#[derive(Clone, Debug)]
+pub struct Frame {
+    /// Time (s).
+    pub t: f64,
+    /// Coordinates.
+    pub q: Vec<f64>,
+    /// Velocities.
+    pub v: Vec<f64>,
+    /// Work of drives and applied forces since the start (J).
+    pub work: f64,
+    /// Reactions of all joints and drives; empty where none are wanted.
+    pub reactions: Vec<Reaction>,
+    /// Multipliers of all rows; empty where nothing is compared by them.
+    pub multipliers: Vec<f64>,
+}
+
+/// Rows of a run.
+#[derive(Clone, Debug)]
+pub struct Film {
+    /// Rows that are kept, in the order of time.
+    pub frames: Vec<Frame>,
+    /// One in so many rows is kept, and the one at the end.
+    pub stride: usize,
+    seen: usize,
+    t_end: f64,
+}
+
+impl Film {
+    /// For a run of about so many rows up to `t_end`, each of about so many numbers.
+    #[must_use]
+    pub fn new(t_end: f64, rows: f64, numbers: usize) -> Self {
+        let affordable = NUMBERS_MAX / numbers.max(1);
+        let most = affordable.clamp(FRAMES_MIN, FRAMES_MAX);
+        // Saturates for absurd numbers of rows.
+        let stride = (rows / most as f64).ceil().max(1.0) as usize;
+        Self {
+            frames: Vec::new(),
+            stride,
+            seen: 0,
+            t_end,
+        }
+    }
+
+    /// Whether the next row, at time t, is kept. To be asked once for each row.
+    pub fn wants(&mut self, t: f64) -> bool {
+        let wanted = self.seen.is_multiple_of(self.stride) || t >= self.t_end;
+        self.seen += 1;
+        wanted
+    }
+
+    /// Rows that were shown.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.seen
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn kept(film: &mut Film, rows: usize) -> usize {
+        (0..rows).filter(|k| film.wants(*k as f64)).count()
+    }
+
+    #[test]
+    fn short_runs_are_kept_whole_and_long_ones_thinned() {
+        assert_eq!(kept(&mut Film::new(200.0, 201.0, 60), 201), 201);
+        // 100 001 rows at a stride of 101, and the last one.
+        let mut long = Film::new(1e5, 100_001.0, 60);
+        assert_eq!((long.stride, kept(&mut long, 100_001)), (101, 992));
+        // 1e5 numbers a row: 40 rows.
+        let mut large = Film::new(200.0, 201.0, 100_000);
+        assert_eq!((large.stride, kept(&mut large, 201)), (6, 35));
+        assert_eq!(Film::new(1.0, f64::INFINITY, 1).stride, usize::MAX);
+    }
+}

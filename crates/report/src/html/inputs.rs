@@ -1,0 +1,110 @@
+//! What somebody needs to get the same run again: scene, options, versions, numbers; and what the page leaves out.
+
+use super::data::Cast;
+use super::{RunPage, document};
+use crate::page::{add, duration, list, safe, short};
+
+/// Bytes of a scene that a page carries.
+const SCENE_MOST: usize = 200_000;
+
+pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
+    out.push_str("<section id=\"inputs\" aria-labelledby=\"inputs-title\">\n<h2 id=\"inputs-title\">Inputs and versions</h2>\n<dl>\n");
+    pair(
+        out,
+        "Command",
+        &format!("<code>{}</code>", safe(&page.origin.command)),
+    );
+    pair(out, "Versions", &safe(&page.origin.versions));
+    for (what, value) in page.options {
+        pair(out, &safe(what), &safe(value));
+    }
+    out.push_str("</dl>\n<h3>Numbers of the run</h3>\n<dl>\n");
+    numbers(out, page);
+    out.push_str("</dl>\n<details><summary>What was decided before the run</summary>\n<dl>\n");
+    for (what, taken) in &page.run.plan.0 {
+        pair(out, &safe(what), &safe(taken));
+    }
+    for component in &page.run.components {
+        for (what, taken) in component.plan.0.iter().take(8) {
+            pair(
+                out,
+                &safe(&format!("{}: {what}", component.name)),
+                &safe(taken),
+            );
+        }
+    }
+    out.push_str("</dl>\n</details>\n");
+    scene(out, page.scene);
+    out.push_str("<h3>What the page leaves out</h3>\n");
+    list(out, &document::left_out(page, cast));
+    out.push_str("</section>\n");
+}
+
+fn numbers(out: &mut String, page: &RunPage<'_>) {
+    let run = page.run;
+    let numbers = [
+        (
+            "Method",
+            format!(
+                "{} ({}, {})",
+                run.method, run.formulation, run.stabilisation
+            ),
+        ),
+        ("Reached", format!("t = {} s", run.t_end)),
+        (
+            "Steps",
+            format!("{} accepted, {} rejected", run.steps, run.rejected),
+        ),
+        (
+            "Evaluations",
+            format!("{} of accelerations", run.evaluations),
+        ),
+        ("Projections", run.projections.to_string()),
+        ("Time of the integration", duration(run.wall_seconds)),
+        ("Largest |Φ|", short(run.max_position_residual)),
+        ("Largest |C·v − b|", short(run.max_velocity_residual)),
+        (
+            "Energy balance",
+            format!(
+                "{} of the largest kinetic energy",
+                short(run.energy_balance)
+            ),
+        ),
+        (
+            "Correction of the start",
+            format!(
+                "{} in position, {} in velocity",
+                short(run.start_correction),
+                short(run.start_velocity_correction)
+            ),
+        ),
+        ("Components run apart", run.components.len().to_string()),
+    ];
+    for (what, value) in numbers {
+        pair(out, what, &safe(&value));
+    }
+}
+
+fn scene(out: &mut String, text: &str) {
+    let end = text.floor_char_boundary(SCENE_MOST);
+    out.push_str("<details><summary>The scene</summary>\n<pre>");
+    // Line by line: escaping takes line feeds for spaces.
+    for line in text[..end].lines() {
+        out.push_str(&safe(line));
+        out.push('\n');
+    }
+    out.push_str("</pre>\n</details>\n");
+    if end < text.len() {
+        add(
+            out,
+            format_args!(
+                "<p class=\"grey\">The first {end} of {} bytes of the scene are shown.</p>\n",
+                text.len()
+            ),
+        );
+    }
+}
+
+fn pair(out: &mut String, what: &str, value: &str) {
+    add(out, format_args!("<dt>{what}</dt><dd>{value}</dd>\n"));
+}

@@ -1,0 +1,367 @@
+//! What the moving picture of a page is drawn from: bodies with the points that joints and forces hold, joints as symbols that go with
+//! a body. Places that no body carries are told frame by frame.
+
+use model::{BodyRef, ConstraintId, ConstraintKind, Mechanism, Scratch, System};
+use serde::Serialize;
+
+use super::channel::{Channel, Rounded};
+use super::film::Frame;
+use crate::figures::geometry::{Site, site, sites};
+use crate::figures::symbol::Symbol;
+
+/// Frames at which it is asked whether a place goes with a body.
+const PROBES: usize = 9;
+
+/// A place goes with a body if it stays in it up to this share of the size of the picture.
+const FIXED: f64 = 1e-9;
+
+/// Place of the ground in lists of bodies.
+const GROUND: isize = -1;
+
+/// A point in the frame of a body.
+type Held = (isize, Rounded, Rounded);
+
+/// A body.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct DrawnBody {
+    name: String,
+    /// Points that joints and forces hold, in its frame (m).
+    points: Vec<[Rounded; 2]>,
+    x: Channel,
+    y: Channel,
+    angle: Channel,
+    vx: Channel,
+    vy: Channel,
+    omega: Channel,
+}
+
+/// Where something is.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+enum Place {
+    /// In the frame of a body.
+    Of { b: isize, p: [Rounded; 2] },
+    /// Somewhere else in each frame.
+    Free { x: Channel, y: Channel },
+}
+
+/// Where something points.
+#[derive(Clone, Debug, Serialize)]
+#[serde(untagged)]
+enum Heading {
+    /// At this angle in a body (rad).
+    Of { b: isize, a: Rounded },
+    /// Elsewhere in each frame.
+    Free { a: Channel },
+}
+
+/// A joint or drive.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct DrawnSite {
+    symbol: &'static str,
+    place: Place,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    axis: Option<Heading>,
+    /// The other end of a rod, the block of a guide.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    end: Option<Place>,
+    grounded: bool,
+    drive: bool,
+    bodies: Vec<isize>,
+}
+
+/// An applied force.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct DrawnForce {
+    name: String,
+    #[serde(rename = "type")]
+    kind: &'static str,
+    points: Vec<Held>,
+    bodies: Vec<isize>,
+}
+
+/// Everything that is drawn.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Scenery {
+    pub(super) bodies: Vec<DrawnBody>,
+    pub(super) sites: Vec<DrawnSite>,
+    pub(super) forces: Vec<DrawnForce>,
+}
+
+/// A mechanism with the frames of its bodies.
+pub(super) struct Stage<'a> {
+    /// The mechanism, or the part of it that is drawn.
+    pub(super) mechanism: &'a Mechanism,
+    /// Its bodies among all.
+    pub(super) bodies: &'a [usize],
+    pub(super) frames: &'a [Frame],
+}
+
+impl Stage<'_> {
+    pub(super) fn scenery(&self, forces: Vec<DrawnForce>) -> Scenery {
+        let probes = self.probes();
+        let size = self.size();
+        let mut points = vec![Vec::new(); self.bodies.len()];
+        for id in self.mechanism.constraint_ids() {
+            for (body, point) in self.mechanism.points(id) {
+                if let BodyRef::Body(k) = body {
+                    points[k].push(point.map(Rounded));
+                }
+            }
+        }
+        for &(body, x, y) in forces.iter().flat_map(|f| &f.points) {
+            if let Ok(k) = usize::try_from(body) {
+                points[k].push([x, y]);
+            }
+        }
+        let sites = self.mechanism.constraint_ids();
+        Scenery {
+            sites: sites.map(|id| self.site(id, &probes, size)).collect(),
+            bodies: points
+                .into_iter()
+                .enumerate()
+                .map(|(k, p)| self.body(k, p))
+                .collect(),
+            forces,
+        }
+    }
+
+    /// Coordinates of its bodies in a frame.
+    fn q(&self, frame: &Frame) -> Vec<f64> {
+        let own = self.bodies.iter();
+        own.flat_map(|&k| frame.q[3 * k..3 * k + 3].iter().copied())
+            .collect()
+    }
+
+    fn posed(&self, frame: &Frame) -> Scratch {
+        let mut s = self.mechanism.scratch();
+        self.mechanism.pose(frame.t, &self.q(frame), &mut s);
+        s
+    }
+
+    fn probes(&self) -> Vec<Probe> {
+        let n = self.frames.len();
+        let count = n.min(PROBES);
+        let places = (0..count).map(|k| k * (n - 1) / (count - 1).max(1));
+        places
+            .map(|k| {
+                let scratch = self.posed(&self.frames[k]);
+                Probe {
+                    sites: sites(self.mechanism, &scratch),
+                    scratch,
+                }
+            })
+            .collect()
+    }
+
+    /// Extent of all centres over the run (m).
+    fn size(&self) -> f64 {
+        let mut range = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        for frame in self.frames {
+            for &k in self.bodies {
+                for (axis, [low, high]) in range.iter_mut().enumerate() {
+                    let x = frame.q[3 * k + axis];
+                    (*low, *high) = (low.min(x), high.max(x));
+                }
+            }
+        }
+        let reach = |[low, high]: [f64; 2]| low.abs().max(high.abs());
+        range.map(reach).into_iter().fold(1e-12, f64::max)
+    }
+
+    fn body(&self, k: usize, points: Vec<[Rounded; 2]>) -> DrawnBody {
+        let at = self.bodies[k];
+        let position =
+            |axis: usize| Channel::new(self.frames.iter().map(move |f| f.q[3 * at + axis]));
+        let velocity =
+            |axis: usize| Channel::new(self.frames.iter().map(move |f| f.v[3 * at + axis]));
+        DrawnBody {
+            name: self.mechanism.bodies()[k].name.clone(),
+            points: distinct(points),
+            x: position(0),
+            y: position(1),
+            angle: position(2),
+            vx: velocity(0),
+            vy: velocity(1),
+            omega: velocity(2),
+        }
+    }
+
+    fn site(&self, id: ConstraintId, probes: &[Probe], size: f64) -> DrawnSite {
+        let group = &self.mechanism.layout().groups[id.0];
+        let symbol = probes.first().map_or(Symbol::Pin, |p| p.sites[id.0].symbol);
+        let carriers: Vec<BodyRef> = group
+            .bodies
+            .iter()
+            .copied()
+            .chain([BodyRef::Ground])
+            .collect();
+        let place =
+            |of: &dyn Fn(&Site, &Scratch) -> [f64; 2]| self.place(id, probes, &carriers, size, of);
+        let second = self.mechanism.points(id).get(1).copied();
+        let end = match symbol {
+            Symbol::Rod | Symbol::Block { .. } | Symbol::Slot { .. } => Some(match second {
+                Some((body, point)) => Place::Of {
+                    b: index(body),
+                    p: point.map(Rounded),
+                },
+                None => place(&|site, _| site.end),
+            }),
+            _ => None,
+        };
+        DrawnSite {
+            symbol: word(symbol),
+            place: place(&|site, _| site.place),
+            axis: axis(symbol).map(|_| self.heading(id, probes, &carriers)),
+            end,
+            grounded: probes.first().is_some_and(|p| p.sites[id.0].grounded),
+            drive: group.kind == ConstraintKind::Drive,
+            bodies: group.bodies.iter().map(|&b| index(b)).collect(),
+        }
+    }
+
+    fn place(
+        &self,
+        id: ConstraintId,
+        probes: &[Probe],
+        carriers: &[BodyRef],
+        size: f64,
+        of: &dyn Fn(&Site, &Scratch) -> [f64; 2],
+    ) -> Place {
+        for &body in carriers {
+            let mut seen = probes
+                .iter()
+                .map(|p| local(body, of(&p.sites[id.0], &p.scratch), &p.scratch));
+            let Some(first) = seen.next() else { break };
+            if seen.all(|p| (p[0] - first[0]).hypot(p[1] - first[1]) <= FIXED * size) {
+                return Place::Of {
+                    b: index(body),
+                    p: first.map(Rounded),
+                };
+            }
+        }
+        let all = self.every(id, |site, s| of(site, s));
+        Place::Free {
+            x: Channel::new(all.iter().map(|p| p[0])),
+            y: Channel::new(all.iter().map(|p| p[1])),
+        }
+    }
+
+    fn heading(&self, id: ConstraintId, probes: &[Probe], carriers: &[BodyRef]) -> Heading {
+        let angle = |site: &Site| {
+            let [x, y] = axis(site.symbol).unwrap_or([1.0, 0.0]);
+            y.atan2(x)
+        };
+        for &body in carriers {
+            let mut seen = probes
+                .iter()
+                .map(|p| angle(&p.sites[id.0]) - turn(body, &p.scratch));
+            let Some(first) = seen.next() else { break };
+            if seen.all(|a| (a - first).sin().abs() <= FIXED) {
+                return Heading::Of {
+                    b: index(body),
+                    a: Rounded(first),
+                };
+            }
+        }
+        let mut last: f64 = 0.0;
+        let all = self.every(id, |site, _| angle(site));
+        // An axis has no sense: each angle is the one nearest to that before.
+        let unwound = all.into_iter().map(|a| {
+            last = a + std::f64::consts::PI * ((last - a) / std::f64::consts::PI).round();
+            last
+        });
+        let unwound: Vec<f64> = unwound.collect();
+        Heading::Free {
+            a: Channel::new(unwound.into_iter()),
+        }
+    }
+
+    /// Something of a joint in all frames.
+    fn every<T>(&self, id: ConstraintId, of: impl Fn(&Site, &Scratch) -> T) -> Vec<T> {
+        let frames = self.frames.iter();
+        frames
+            .map(|frame| {
+                let s = self.posed(frame);
+                of(&site(self.mechanism, id, &s), &s)
+            })
+            .collect()
+    }
+}
+
+/// The joints at a frame.
+struct Probe {
+    scratch: Scratch,
+    sites: Vec<Site>,
+}
+
+impl DrawnForce {
+    /// The applied forces of a mechanism on bodies that are drawn.
+    pub(super) fn all(mechanism: &Mechanism, bodies: &[usize]) -> Vec<Self> {
+        let place = |body: &BodyRef| match *body {
+            BodyRef::Ground => Some(GROUND),
+            BodyRef::Body(k) => bodies.binary_search(&k).ok().map(|k| k as isize),
+        };
+        let drawn = mechanism.applied_forces().filter_map(|f| {
+            let points = f.points.iter();
+            let held = points.map(|(body, [x, y])| Some((place(body)?, Rounded(*x), Rounded(*y))));
+            Some(Self {
+                name: f.name.to_owned(),
+                kind: f.spec.common.scene_type,
+                points: held.collect::<Option<_>>()?,
+                bodies: f.bodies.iter().map(place).collect::<Option<_>>()?,
+            })
+        });
+        drawn.collect()
+    }
+}
+
+fn index(body: BodyRef) -> isize {
+    body.moving().map_or(GROUND, |k| k as isize)
+}
+
+/// A global point in the frame of a body.
+fn local(body: BodyRef, [x, y]: [f64; 2], s: &Scratch) -> [f64; 2] {
+    let Some(k) = body.moving() else {
+        return [x, y];
+    };
+    let pose = &s.poses[k];
+    let (dx, dy) = (x - pose.x, y - pose.y);
+    [pose.cos * dx + pose.sin * dy, pose.cos * dy - pose.sin * dx]
+}
+
+fn turn(body: BodyRef, s: &Scratch) -> f64 {
+    body.moving().map_or(0.0, |k| s.poses[k].angle)
+}
+
+fn distinct(points: Vec<[Rounded; 2]>) -> Vec<[Rounded; 2]> {
+    let mut kept: Vec<[Rounded; 2]> = Vec::new();
+    for p in points {
+        if !kept.contains(&p) {
+            kept.push(p);
+        }
+    }
+    kept
+}
+
+fn word(symbol: Symbol) -> &'static str {
+    match symbol {
+        Symbol::Pin => "pin",
+        Symbol::Weld => "weld",
+        Symbol::Block { .. } => "block",
+        Symbol::Slot { .. } => "slot",
+        Symbol::Rod => "rod",
+        Symbol::Edge { .. } => "edge",
+        Symbol::Rotation => "rotation",
+        Symbol::Drive { axis: Some(_) } => "push",
+        Symbol::Drive { axis: None } => "turn",
+    }
+}
+
+fn axis(symbol: Symbol) -> Option<[f64; 2]> {
+    match symbol {
+        Symbol::Block { axis } | Symbol::Slot { axis } | Symbol::Edge { along: axis } => Some(axis),
+        Symbol::Drive { axis } => axis,
+        _ => None,
+    }
+}

@@ -1,0 +1,260 @@
+// A curve over time: axes with units, bands, one cursor for all charts, values where the pointer is.
+
+/** All charts, so that one clock moves all cursors. */
+const charts = [];
+
+const MARGIN = { top: 8, right: 14, bottom: 34, left: 62 };
+const DASHES = ["", "7 4", "2 3.5", "9 3 2 3", "4 3", "12 4", "1 4"];
+
+/**
+ * A curve: `values` at the frames, `colour` and `dash` as places in the palettes, `weak` for lines inside a band.
+ * @typedef {{label: string, values: Float64Array, colour?: number, dash?: number, weak?: boolean, note?: string}} Series
+ */
+
+class Chart {
+  /**
+   * @param {HTMLElement} parent where the figure goes
+   * @param {{title: string, unit: string, logarithmic?: boolean, height?: number, onSeek: (t: number) => void}} options
+   */
+  constructor(parent, options) {
+    this.options = options;
+    this.series = [];
+    this.band = null;
+    this.events = [];
+    this.figure = make(parent, "figure", { className: "chart" });
+    this.caption = make(this.figure, "figcaption");
+    this.title = make(this.caption, "span", { className: "title", textContent: options.title });
+    this.badge = make(this.caption, "span", { className: "badge" });
+    this.legend = make(this.figure, "div", { className: "legend" });
+    this.svg = draw(null, "svg", { class: "plot", role: "img", tabindex: "-1" });
+    this.figure.append(this.svg);
+    this.tip = make(this.figure, "div", { className: "tip", hidden: true });
+    this.height = options.height ?? 190;
+    this.follow();
+    new ResizeObserver(() => this.redraw()).observe(this.figure);
+    charts.push(this);
+  }
+
+  /**
+   * Shows other curves.
+   * @param {Series[]} series
+   * @param {{low: Float64Array, high: Float64Array, label: string} | null} band
+   */
+  show(series, { band = null, title = null, unit = null, badge = null, floor = 0 } = {}) {
+    this.series = series;
+    this.band = band;
+    this.floor = floor;
+    if (title !== null) this.options.title = title;
+    if (unit !== null) this.options.unit = unit;
+    const words = this.options.unit ? `${this.options.title} (${this.options.unit})` : this.options.title;
+    this.title.textContent = words;
+    this.badge.className = `badge ${badge ?? ""}`;
+    this.badge.textContent = badge ? badge.replace("_", " ") : "";
+    this.showLegend();
+    this.redraw();
+  }
+
+  showLegend() {
+    this.legend.replaceChildren();
+    if (this.band) {
+      const key = draw(null, "svg", { viewBox: "0 0 28 12", class: "key", "aria-hidden": "true" });
+      draw(key, "rect", { x: 0, y: 1, width: 28, height: 10, class: "band" });
+      make(this.legend, "span", { className: "entry" }, key, this.band.label);
+    }
+    if (this.series.length < 2 && !this.band) return;
+    for (const s of this.series) {
+      const key = draw(null, "svg", { viewBox: "0 0 28 12", class: "key", "aria-hidden": "true" });
+      draw(key, "path", { d: "M0 6H28", ...this.strokeOf(s) });
+      make(this.legend, "span", { className: "entry" }, key, s.label);
+    }
+  }
+
+  strokeOf(s) {
+    return {
+      class: `curve c${(s.colour ?? 0) % 7}${s.weak ? " weak" : ""}`,
+      "stroke-dasharray": DASHES[(s.dash ?? 0) % DASHES.length],
+    };
+  }
+
+  /** The range of values that is shown. */
+  range() {
+    const curves = this.series.map((s) => s.values);
+    if (this.band) curves.push(this.band.low, this.band.high);
+    let [low, high] = rangeOf(curves) ?? [0, 1];
+    if (this.options.logarithmic) return [Math.floor(low), Math.max(Math.ceil(high), Math.floor(low) + 1)];
+    const least = Math.max(this.floor, 1e-9 * Math.max(Math.abs(low), Math.abs(high)), 1e-300);
+    if (high - low < least) {
+      const half = Math.max(least, 0.05 * Math.abs(high)) || 0.5;
+      [low, high] = [(low + high) / 2 - half, (low + high) / 2 + half];
+    }
+    const pad = 0.06 * (high - low);
+    return [low - pad, high + pad];
+  }
+
+  redraw() {
+    const width = Math.max(this.figure.clientWidth, 240);
+    const height = this.height;
+    this.box = {
+      x: MARGIN.left, y: MARGIN.top,
+      w: width - MARGIN.left - MARGIN.right, h: height - MARGIN.top - MARGIN.bottom,
+    };
+    this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
+    this.svg.setAttribute("height", height);
+    this.svg.setAttribute("aria-label", this.inWords());
+    this.svg.replaceChildren();
+    this.y = this.range();
+    this.drawAxes();
+    if (this.band) draw(this.svg, "path", { d: this.areaOf(this.band), class: "band" });
+    for (const s of this.series) {
+      draw(this.svg, "path", { d: this.lineOf(s.values), fill: "none", ...this.strokeOf(s) });
+    }
+    for (const event of data.events) {
+      const x = this.toX(event.time);
+      draw(this.svg, "path", { d: `M${x} ${this.box.y}v${this.box.h}`, class: "event" });
+    }
+    this.cursor = draw(this.svg, "path", { class: "cursor" });
+    this.dots = this.series.map((s) => draw(this.svg, "circle", { r: 3.2, class: `dot c${(s.colour ?? 0) % 7}` }));
+    this.moveTo(clock.t);
+  }
+
+  drawAxes() {
+    const { x, y, w, h } = this.box;
+    const axes = draw(this.svg, "g", { class: "axes" });
+    const rows = this.options.logarithmic ? this.decades() : ticksOf(this.y, Math.max(h / 38, 2));
+    for (const tick of rows) {
+      const at = this.toY(tick);
+      draw(axes, "path", { d: `M${x} ${at}h${w}`, class: "grid" });
+      const label = this.options.logarithmic ? `1e${tick}` : spoken(tick, 6);
+      draw(axes, "text", { x: x - 7, y: at + 4, "text-anchor": "end" }, label.replace("-", "−"));
+    }
+    for (const tick of ticksOf([tFirst, tLast], w / 80)) {
+      const at = this.toX(tick);
+      draw(axes, "path", { d: `M${at} ${y}v${h}`, class: "grid" });
+      draw(axes, "text", { x: at, y: y + h + 16, "text-anchor": "middle" }, spoken(tick, 6));
+    }
+    draw(axes, "path", { d: `M${x} ${y}v${h}h${w}`, class: "frame" });
+    draw(axes, "text", { x: x + w, y: y + h + 30, "text-anchor": "end", class: "unit" }, "t (s)");
+  }
+
+  /** At most eight powers of ten. */
+  decades() {
+    const [low, high] = this.y;
+    const step = Math.max(Math.ceil((high - low) / 6), 1);
+    const ticks = [];
+    for (let k = Math.ceil(low / step) * step; k <= high; k += step) ticks.push(k);
+    return ticks;
+  }
+
+  toX(t) {
+    const span = tLast - tFirst || 1;
+    return this.box.x + ((t - tFirst) / span) * this.box.w;
+  }
+
+  toY(value) {
+    const [low, high] = this.y;
+    return this.box.y + this.box.h * (1 - (value - low) / (high - low));
+  }
+
+  /** Path data; what is not finite is a gap. */
+  lineOf(values) {
+    let d = "";
+    let pen = "M";
+    for (let k = 0; k < frameCount; k += 1) {
+      if (!Number.isFinite(values[k])) {
+        pen = "M";
+        continue;
+      }
+      d += `${pen}${this.toX(times[k]).toFixed(1)} ${this.toY(values[k]).toFixed(1)}`;
+      pen = "L";
+    }
+    return d;
+  }
+
+  areaOf({ low, high }) {
+    let d = "";
+    let run = [];
+    const close = () => {
+      if (run.length > 1) {
+        const at = (k, curve) => `${this.toX(times[k]).toFixed(1)} ${this.toY(curve[k]).toFixed(1)}`;
+        const there = run.map((k) => at(k, high)).join("L");
+        const back = run.reverse().map((k) => at(k, low)).join("L");
+        d += `M${there}L${back}Z`;
+      }
+      run = [];
+    };
+    for (let k = 0; k < frameCount; k += 1) {
+      if (Number.isFinite(low[k]) && Number.isFinite(high[k])) run.push(k);
+      else close();
+    }
+    close();
+    return d;
+  }
+
+  /** What a reader hears who does not see. */
+  inWords() {
+    const range = rangeOf([...this.series.map((s) => s.values), ...(this.band ? [this.band.low, this.band.high] : [])]);
+    const value = (x) => (this.options.logarithmic ? spoken(10 ** x, 2) : spoken(x));
+    const told = range ? `from ${value(range[0])} to ${value(range[1])}` : "no values";
+    return `${this.title.textContent} over time, ${told}. ${this.series.map((s) => s.label).join(", ")}`;
+  }
+
+  /** Moves the cursor. */
+  moveTo(t) {
+    if (!this.box || !this.cursor) return;
+    this.cursor.setAttribute("d", `M${this.toX(t).toFixed(1)} ${this.box.y}v${this.box.h}`);
+    const instant = instantAt(t);
+    this.series.forEach((s, k) => {
+      const value = linear(s.values, instant);
+      const visible = Number.isFinite(value) && !s.weak;
+      this.dots[k].setAttribute("visibility", visible ? "visible" : "hidden");
+      if (!visible) return;
+      this.dots[k].setAttribute("cx", this.toX(t).toFixed(1));
+      this.dots[k].setAttribute("cy", this.toY(value).toFixed(1));
+    });
+  }
+
+  /** Values where the pointer is; a click or a drag sets the time. */
+  follow() {
+    const timeAt = (event) => {
+      const box = this.svg.getBoundingClientRect();
+      const share = (event.clientX - box.left - this.box.x) / this.box.w;
+      return tFirst + Math.min(Math.max(share, 0), 1) * (tLast - tFirst);
+    };
+    this.svg.addEventListener("pointermove", (event) => {
+      const t = timeAt(event);
+      this.showTip(t, event);
+      if (event.buttons & 1) this.options.onSeek(t);
+    });
+    this.svg.addEventListener("pointerdown", (event) => {
+      this.svg.setPointerCapture(event.pointerId);
+      this.options.onSeek(timeAt(event));
+    });
+    this.svg.addEventListener("pointerleave", () => {
+      this.tip.hidden = true;
+    });
+  }
+
+  showTip(t, event) {
+    const k = nearestFrame(instantAt(t));
+    const value = (x) => (this.options.logarithmic ? spoken(10 ** x, 2) : spoken(x, 5));
+    this.tip.replaceChildren();
+    make(this.tip, "b", { textContent: `t = ${spoken(times[k], 5)} s` });
+    if (this.band) {
+      const ends = `${value(this.band.low[k])} … ${value(this.band.high[k])}`;
+      make(this.tip, "div", { textContent: `compared choices: ${ends}` });
+    }
+    for (const s of this.series) {
+      const line = make(this.tip, "div");
+      make(line, "span", { className: `swatch c${(s.colour ?? 0) % 7}` });
+      line.append(`${s.label}: `);
+      make(line, "b", { textContent: value(s.values[k]) });
+    }
+    this.tip.hidden = false;
+    const box = this.figure.getBoundingClientRect();
+    const x = event.clientX - box.left;
+    const left = x > box.width / 2 ? x - this.tip.offsetWidth - 14 : x + 14;
+    const top = Math.max(event.clientY - box.top - this.tip.offsetHeight - 10, 0);
+    this.tip.style.left = `${Math.max(left, 0)}px`;
+    this.tip.style.top = `${top}px`;
+  }
+}

@@ -1,0 +1,205 @@
+// The data of the page: curves from their differences, and what lies between frames.
+
+/** The document that stands in the page. */
+const data = JSON.parse(document.getElementById("data").textContent);
+
+/** Times of the frames (s). */
+const times = Float64Array.from(data.t);
+const frameCount = times.length;
+const tFirst = frameCount ? times[0] : 0;
+const tLast = frameCount ? times[frameCount - 1] : 0;
+
+/**
+ * The values of a channel at the frames. A number stands for a constant, `null` for a curve that is not there.
+ * @returns {Float64Array}
+ */
+function decode(channel) {
+  if (channel === null || typeof channel === "number") {
+    return new Float64Array(frameCount).fill(channel ?? NaN);
+  }
+  const out = new Float64Array(frameCount).fill(NaN);
+  let level = 0;
+  channel.d.forEach((step, k) => {
+    if (step === null) return;
+    level += step;
+    out[k] = channel.o + channel.s * level;
+  });
+  return out;
+}
+
+/**
+ * Where a time lies: after frame `k`, by the share `s` of the `h` seconds to the next one.
+ * @returns {{k: number, s: number, h: number, t: number}}
+ */
+function instantAt(t) {
+  let low = 0;
+  let high = Math.max(frameCount - 2, 0);
+  while (low < high) {
+    const middle = (low + high + 1) >> 1;
+    if (times[middle] <= t) low = middle;
+    else high = middle - 1;
+  }
+  const h = frameCount > 1 ? times[low + 1] - times[low] : 0;
+  const s = h > 0 ? Math.min(Math.max((t - times[low]) / h, 0), 1) : 0;
+  return { k: low, s, h, t };
+}
+
+/** The frame nearest to an instant. */
+function nearestFrame({ k, s }) {
+  return Math.min(s > 0.5 ? k + 1 : k, frameCount - 1);
+}
+
+/** A straight line between frames. */
+function linear(values, { k, s }) {
+  return s > 0 ? values[k] + s * (values[k + 1] - values[k]) : values[k];
+}
+
+/** A cubic between frames, with the rates at both. */
+function cubic(values, rates, instant) {
+  const { k, s, h } = instant;
+  if (!(s > 0)) return values[k];
+  const r = 1 - s;
+  return (1 + 2 * s) * r * r * values[k] + s * r * r * h * rates[k]
+    + s * s * (3 - 2 * s) * values[k + 1] - s * s * r * h * rates[k + 1];
+}
+
+/** Bodies with decoded curves. */
+const bodies = data.scenery.bodies.map((body, index) => ({
+  index,
+  name: body.name,
+  points: body.points,
+  x: decode(body.x),
+  y: decode(body.y),
+  angle: decode(body.angle),
+  vx: decode(body.vx),
+  vy: decode(body.vy),
+  omega: decode(body.omega),
+}));
+
+/** Pose of a body at an instant; body −1 is the ground. */
+function poseOf(index, instant) {
+  if (index < 0) return { x: 0, y: 0, angle: 0 };
+  const b = bodies[index];
+  return {
+    x: cubic(b.x, b.vx, instant),
+    y: cubic(b.y, b.vy, instant),
+    angle: cubic(b.angle, b.omega, instant),
+  };
+}
+
+/** A point of a body in the plane. */
+function pointOn(pose, [x, y]) {
+  const c = Math.cos(pose.angle);
+  const s = Math.sin(pose.angle);
+  return [pose.x + c * x - s * y, pose.y + s * x + c * y];
+}
+
+/** A function that tells where a place is, given the poses of all bodies. */
+function placeFinder(place) {
+  if ("b" in place) return (poses, _) => pointOn(poses.of(place.b), place.p);
+  const [x, y] = [decode(place.x), decode(place.y)];
+  return (_, instant) => [linear(x, instant), linear(y, instant)];
+}
+
+/** A function that tells the angle of an axis. */
+function headingFinder(axis) {
+  if (!axis) return () => 0;
+  if ("b" in axis) return (poses, _) => poses.of(axis.b).angle + axis.a;
+  const a = decode(axis.a);
+  return (_, instant) => linear(a, instant);
+}
+
+/** Poses of all bodies at an instant, each computed once. */
+function posesAt(instant) {
+  const known = new Map();
+  return {
+    of(index) {
+      if (!known.has(index)) known.set(index, poseOf(index, instant));
+      return known.get(index);
+    },
+  };
+}
+
+const COMPONENTS = ["Fx", "Fy", "T"];
+
+/** Joints and drives with decoded reactions, and what choices say of them. */
+const joints = data.joints.map((joint, index) => ({
+  ...joint,
+  index,
+  site: data.scenery.sites[index],
+  wrench: joint.reaction?.wrench.map(decode) ?? null,
+  named: joint.reaction?.named !== undefined ? decode(joint.reaction.named) : null,
+  choices: [],
+  freedom: null,
+}));
+
+for (const comparison of data.comparisons) {
+  comparison.joints.forEach((k, place) => {
+    const freedom = comparison.freedom[place];
+    joints[k].freedom = { ...freedom, angle: decode(freedom.angle) };
+    joints[k].choices = comparison.choices.map((choice) => ({
+      label: choice.label,
+      wrench: choice.wrenches[place].map(decode),
+    }));
+  });
+}
+
+/** The verdict of a component of a joint. */
+function verdictOf(joint, name) {
+  return joint.components.find((c) => c.name === name)?.verdict ?? joint.verdict;
+}
+
+/** Smallest and largest finite values of several curves; nothing if there are none. */
+function rangeOf(curves) {
+  let [low, high] = [Infinity, -Infinity];
+  for (const curve of curves) {
+    for (const x of curve) {
+      if (x < low) low = x;
+      if (x > high) high = x;
+    }
+  }
+  return low <= high ? [low, high] : null;
+}
+
+/** A number with so many digits, as people write it. */
+function spoken(x, digits = 4) {
+  if (!Number.isFinite(x)) return "–";
+  if (x === 0) return "0";
+  const size = Math.abs(x);
+  const text = size >= 1e5 || size < 1e-3
+    ? x.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e")
+    : String(Number(x.toPrecision(digits)));
+  return text.replaceAll("-", "−");
+}
+
+/** Round numbers that divide a range into about `count` parts. */
+function ticksOf([low, high], count) {
+  const raw = (high - low) / Math.max(count, 1);
+  if (!(raw > 0)) return [low];
+  const power = 10 ** Math.floor(Math.log10(raw));
+  const step = power * [1, 2, 5, 10].find((f) => f * power >= raw * 0.999);
+  const ticks = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) {
+    ticks.push(Number((k * step).toPrecision(12)));
+  }
+  return ticks;
+}
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** A new SVG element with attributes, put into a parent. */
+function draw(parent, tag, attributes = {}, text = null) {
+  const element = document.createElementNS(SVG, tag);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  if (text !== null) element.textContent = text;
+  parent?.append(element);
+  return element;
+}
+
+/** A new HTML element with properties, put into a parent. */
+function make(parent, tag, properties = {}, ...children) {
+  const element = Object.assign(document.createElement(tag), properties);
+  element.append(...children);
+  parent?.append(element);
+  return element;
+}

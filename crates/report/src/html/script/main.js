@@ -1,0 +1,292 @@
+// Puts the page together: controls, panels, curves, keys.
+
+const byId = (id) => document.getElementById(id);
+
+const seek = (t) => {
+  clock.pause();
+  clock.set(t);
+};
+
+/** Colours follow the system until somebody says otherwise. */
+function setUpTheme() {
+  const button = byId("theme");
+  const isDark = () => (document.documentElement.dataset.theme
+    ?? (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
+  const tell = () => {
+    button.textContent = isDark() ? "Light" : "Dark";
+    button.setAttribute("aria-label", `Show the page ${isDark() ? "light" : "dark"}`);
+  };
+  button.addEventListener("click", () => {
+    document.documentElement.dataset.theme = isDark() ? "light" : "dark";
+    tell();
+  });
+  tell();
+}
+
+/** A round number of seconds of motion for one second, so that the run takes about eight seconds. */
+function naturalRate() {
+  const wanted = (tLast - tFirst) / 8;
+  if (wanted > 0.4 && wanted < 4) return 1;
+  const power = 10 ** Math.floor(Math.log10(wanted || 1));
+  return Number((power * ([5, 2, 1].find((f) => f * power <= wanted) ?? 1)).toPrecision(3));
+}
+
+function setUpTransport() {
+  const [play, scrub, time, speed] = ["play", "scrub", "time", "speed"].map(byId);
+  const digits = Math.max(0, 3 - Math.floor(Math.log10(tLast || 1)));
+  const inWords = (t) => t.toFixed(Math.min(digits, 9));
+  Object.assign(scrub, { min: tFirst, max: tLast, step: (tLast - tFirst) / 2000 || 1, value: tFirst });
+  const base = naturalRate();
+  for (const factor of [0.1, 0.25, 0.5, 1, 2, 4]) {
+    const rate = Number((factor * base).toPrecision(3));
+    make(speed, "option", { value: rate, textContent: `${spoken(rate)}×`, selected: factor === 1 });
+  }
+  clock.rate = base;
+  speed.addEventListener("change", () => {
+    clock.rate = Number(speed.value);
+  });
+  play.addEventListener("click", () => clock.toggle());
+  scrub.addEventListener("input", () => seek(Number(scrub.value)));
+  clock.onChange = (playing) => {
+    play.textContent = playing ? "❚❚" : "▶";
+    play.setAttribute("aria-label", playing ? "Pause" : "Play");
+  };
+  clock.onChange(false);
+  clock.listeners.push((t) => {
+    scrub.value = t;
+    scrub.setAttribute("aria-valuetext", `${inWords(t)} s`);
+    time.textContent = `${inWords(t)} s`;
+    byId("now").textContent = `t = ${inWords(t)} s`;
+  });
+  const marks = byId("marks");
+  for (const event of data.events) {
+    const left = (100 * (event.time - tFirst)) / (tLast - tFirst || 1);
+    const mark = make(marks, "button", { title: `t = ${spoken(event.time)} s: ${event.text}`, type: "button" });
+    mark.style.left = `${left}%`;
+    mark.setAttribute("aria-label", `Go to ${event.kind} at ${spoken(event.time)} s`);
+    mark.addEventListener("click", () => seek(event.time));
+  }
+}
+
+function setUpKeys() {
+  document.addEventListener("keydown", (event) => {
+    const busy = event.target.closest?.("input, select, textarea, button, summary, a");
+    if (event.altKey || event.ctrlKey || event.metaKey || (busy && busy.id !== "scrub")) return;
+    const far = event.shiftKey ? 10 : 1;
+    const actions = {
+      " ": () => clock.toggle(),
+      ArrowRight: () => clock.step(far),
+      ArrowLeft: () => clock.step(-far),
+      Home: () => seek(tFirst),
+      End: () => seek(tLast),
+    };
+    if (!actions[event.key]) return;
+    event.preventDefault();
+    actions[event.key]();
+  });
+}
+
+/** Check boxes for what the picture shows. */
+function setUpOptions(picture) {
+  const options = [
+    ["forces", "Reaction forces"], ["freedom", "Free directions"], ["names", "Names"],
+    ["centres", "Centres of mass"], ["grid", "Grid"], ["follow", "Camera follows"],
+  ];
+  for (const [key, words] of options) {
+    if (key === "follow" && !picture.travels) continue;
+    if (key === "freedom" && !joints.some((j) => j.freedom)) continue;
+    const box = make(null, "input", { type: "checkbox", checked: picture.show[key] });
+    box.addEventListener("change", () => {
+      picture.show[key] = box.checked;
+      picture.resize();
+    });
+    make(byId("options"), "label", {}, box, words);
+  }
+  byId("arrows").addEventListener("input", (event) => {
+    picture.arrowScale = 2 ** Number(event.target.value);
+    picture.moveTo(clock.t);
+  });
+  for (const [id, factor] of [["zoom-in", 1.3], ["zoom-out", 1 / 1.3], ["zoom-reset", 0]]) {
+    byId(id).addEventListener("click", () => picture.zoomBy(factor));
+  }
+}
+
+/** Bodies whose traces and curves are shown. */
+function setUpBodies(picture, refresh) {
+  const list = byId("bodies");
+  const boxes = bodies.map((body) => {
+    const box = make(null, "input", { type: "checkbox" });
+    const swatch = make(null, "span", { className: `swatch c${body.index % 7}` });
+    make(list, "label", {}, box, swatch, body.name);
+    box.addEventListener("change", () => choose(body.index, box.checked));
+    return box;
+  });
+  const choose = (index, wanted) => {
+    boxes[index].checked = wanted;
+    picture.trace(index, wanted);
+    refresh();
+  };
+  [...new Set([0, bodies.length - 1])].filter((k) => k >= 0).forEach((k) => choose(k, true));
+  return (index) => choose(index, !boxes[index].checked);
+}
+
+const QUANTITIES = {
+  x: ["Position x of the centre of mass", "m"],
+  y: ["Position y of the centre of mass", "m"],
+  angle: ["Angle", "rad"],
+  vx: ["Velocity x of the centre of mass", "m/s"],
+  vy: ["Velocity y of the centre of mass", "m/s"],
+  omega: ["Angular velocity", "rad/s"],
+};
+
+/** Two charts of the motion of the bodies that are chosen. */
+function setUpMotion(picture) {
+  const panels = [["quantity-a", "x"], ["quantity-b", "angle"]].map(([id, first], k) => {
+    const select = byId(id);
+    for (const [key, [words]] of Object.entries(QUANTITIES)) {
+      make(select, "option", { value: key, textContent: words, selected: key === first });
+    }
+    const chart = new Chart(byId(`motion-${"ab"[k]}`), { title: "", unit: "", onSeek: seek });
+    const refresh = () => {
+      const [title, unit] = QUANTITIES[select.value];
+      const series = [...picture.traced].sort((a, b) => a - b).map((index, place) => ({
+        label: bodies[index].name, values: bodies[index][select.value], colour: index % 7, dash: place,
+      }));
+      chart.show(series, { title, unit });
+    };
+    select.addEventListener("change", refresh);
+    return refresh;
+  });
+  return () => panels.forEach((refresh) => refresh());
+}
+
+/** Curves of one reaction. What is not unique is a band between choices, never one line. */
+function setUpReactions(picture) {
+  const select = byId("joint");
+  const groups = [["not_unique", "Not unique"], ["undecided", "Undecided"], ["unique", "Unique"]];
+  const told = joints.filter((j) => j.wrench);
+  for (const [verdict, words] of groups) {
+    const members = told.filter((j) => j.verdict === verdict);
+    if (!members.length) continue;
+    const group = make(select, "optgroup", { label: words });
+    for (const j of members) make(group, "option", { value: j.index, textContent: `${j.name} (${j.type})` });
+  }
+  const place = byId("reaction-curves");
+  if (!told.length) {
+    byId("reactions").hidden = true;
+    return () => {};
+  }
+  const shown = COMPONENTS.map(() => new Chart(place, { title: "", unit: "", height: 180, onSeek: seek }));
+  const floor = 1e-9 * picture.largest.force;
+  const refresh = () => {
+    const joint = joints[Number(select.value)];
+    picture.select(joint.index);
+    byId("reaction-words").textContent = reactionInWords(joint);
+    COMPONENTS.forEach((name, k) => showComponent(shown[k], joint, name, k, floor));
+  };
+  select.addEventListener("change", refresh);
+  refresh();
+  return (index) => {
+    if (!joints[index].wrench) return;
+    select.value = String(index);
+    refresh();
+  };
+}
+
+function reactionInWords(joint) {
+  const on = `Force and torque on ${joint.bodies[0]}, at the place of ${joint.name}.`;
+  if (joint.verdict === "unique") return `${on} Unique: these numbers follow from the model.`;
+  if (joint.verdict === "undecided") return `${on} Whether it is unique is not decided.`;
+  const why = joint.explanation ? ` ${joint.explanation[0].toUpperCase()}${joint.explanation.slice(1)}.` : "";
+  const compared = joint.choices.length
+    ? " Bands reach from the smallest to the largest value of the choices compared; other choices leave them."
+    : " No choices were compared for it, so components that are not unique have no curve.";
+  return `${on}${why}${compared}`;
+}
+
+/** One component of a reaction in its chart. */
+function showComponent(chart, joint, name, k, floor) {
+  const known = joint.components.some((c) => c.name === name);
+  const verdict = verdictOf(joint, name);
+  const determined = verdict === "unique";
+  const present = known && (determined || joint.choices.length > 0);
+  chart.figure.hidden = !present;
+  if (!present) return;
+  const unit = name === "T" ? "N·m" : "N";
+  const options = { title: `${joint.name}.${name}`, unit, badge: verdict, floor };
+  if (determined) {
+    chart.show([{ label: `${name}, unique`, values: joint.wrench[k], colour: 0 }], options);
+    return;
+  }
+  const curves = joint.choices.map((choice) => choice.wrench[k]);
+  const at = (of) => Float64Array.from({ length: frameCount }, (_, f) => {
+    const values = curves.map((c) => c[f]).filter(Number.isFinite);
+    return values.length ? of(...values) : NaN;
+  });
+  const band = { low: at(Math.min), high: at(Math.max), label: "range of the choices compared" };
+  const series = joint.choices.map((choice, place) => ({
+    label: choice.label, values: curves[place], colour: place + 1, dash: place + 1, weak: true,
+  }));
+  chart.show(series, { ...options, band });
+}
+
+/** Drives, energy, residuals. */
+function setUpChecks() {
+  const drives = byId("drive-curves");
+  data.drives.forEach((drive, k) => {
+    const chart = new Chart(drives, { title: `${drive.name}: ${drive.text}`, unit: drive.unit, onSeek: seek });
+    chart.show([{ label: drive.name, values: decode(drive.value), colour: k }]);
+  });
+  const energy = new Chart(byId("energy-curves"), { title: "Energy", unit: "J", onSeek: seek });
+  const [kinetic, potential, work] = [data.energy.kinetic, data.energy.potential, data.energy.work].map(decode);
+  const parts = [
+    { label: "kinetic", values: kinetic, colour: 0, dash: 0 },
+    { label: "potential of the weight", values: potential, colour: 2, dash: 1 },
+    { label: "work of drives and applied forces", values: work, colour: 1, dash: 2 },
+  ];
+  energy.show(parts.filter((s, k) => k === 0 || s.values.some((x) => x !== 0)));
+  const checks = [
+    ["Energy balance: |E − E₀ − work| / largest kinetic energy", "", [["balance", data.energy.gap]]],
+    ["Constraint residuals", "m, rad and m/s, rad/s", [["largest |Φ|", data.residuals.position], ["largest |C·v − b|", data.residuals.velocity]]],
+  ];
+  for (const [title, unit, curves] of checks) {
+    const chart = new Chart(byId("energy-curves"), { title, unit, logarithmic: true, onSeek: seek });
+    chart.show(curves.map(([label, channel], k) => ({ label, values: decode(channel), colour: k, dash: k })));
+  }
+}
+
+/** Paper has no folded parts and no second frame. */
+function setUpPrint() {
+  let folded = [];
+  addEventListener("beforeprint", () => {
+    clock.pause();
+    folded = [...document.querySelectorAll("details:not([open])")];
+    folded.forEach((d) => { d.open = true; });
+  });
+  addEventListener("afterprint", () => folded.forEach((d) => { d.open = false; }));
+}
+
+function start() {
+  setUpTheme();
+  setUpPrint();
+  if (!frameCount) return;
+  setUpTransport();
+  const handlers = {};
+  const picture = new Picture(byId("picture"), {
+    onJoint: (index) => handlers.joint?.(index),
+    onBody: (index) => handlers.body?.(index),
+  });
+  const refresh = setUpMotion(picture);
+  handlers.body = setUpBodies(picture, refresh);
+  handlers.joint = setUpReactions(picture);
+  setUpOptions(picture);
+  setUpChecks();
+  setUpKeys();
+  clock.listeners.push((t) => picture.moveTo(t), (t) => charts.forEach((chart) => chart.moveTo(t)));
+  clock.set(tFirst);
+  if (!matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();
+  // For tests, and for the curious.
+  globalThis.pfaffReport = { clock, picture, charts, data };
+}
+
+start();

@@ -1,0 +1,148 @@
+//! Verdicts in words: the table of joints and drives, what mixes, and what would make reactions unique. Static text, so that it is there
+//! without scripts and on paper.
+
+use super::RunPage;
+use crate::documents::ReactionDocument;
+use crate::page::{add, list, safe, short};
+
+/// Lines of a list, at most.
+pub(super) const MOST: usize = 40;
+
+/// Lines of the table, at most.
+const LINES: usize = 300;
+
+pub(super) fn section(out: &mut String, page: &RunPage<'_>) {
+    out.push_str("<section id=\"verdicts\" aria-labelledby=\"verdicts-title\">\n<h2 id=\"verdicts-title\">Verdicts</h2>\n");
+    match page.analysis {
+        Some(analysis) => {
+            let told = selected(&analysis.reactions);
+            table(out, &told);
+            if told.len() < analysis.reactions.len() {
+                let more = analysis.reactions.len() - told.len();
+                add(
+                    out,
+                    format_args!(
+                        "<p class=\"grey\">{more} more are not listed; summary.json has all.</p>\n"
+                    ),
+                );
+            }
+            why(out, page);
+        }
+        None => out.push_str("<p>The verdicts are in summary.json.</p>\n"),
+    }
+    out.push_str("</section>\n");
+}
+
+/// Those that are not unique come first where not all have room.
+fn selected(all: &[ReactionDocument]) -> Vec<&ReactionDocument> {
+    if all.len() <= LINES {
+        return all.iter().collect();
+    }
+    let (unique, open): (Vec<_>, Vec<_>) = all.iter().partition(|r| r.wrench.verdict == "unique");
+    open.into_iter().chain(unique).take(LINES).collect()
+}
+
+fn table(out: &mut String, reactions: &[&ReactionDocument]) {
+    out.push_str(
+        "<div class=\"wide\"><table>\n<thead><tr><th>Joint or drive</th><th>Type</th><th>Rows</th><th>Reaction</th>\
+         <th>Margin</th><th>Why</th></tr></thead>\n<tbody>\n",
+    );
+    for r in reactions {
+        let rows: Vec<String> = r.rows.iter().map(ToString::to_string).collect();
+        let margin = match r.wrench.verdict {
+            "unique" => "~0".to_owned(),
+            _ => short(r.wrench.margin),
+        };
+        add(
+            out,
+            format_args!(
+                "<tr><td><b>{}</b></td><td>{}</td><td class=\"number\">{}</td><td><span class=\"badge {}\">{}</span></td>\
+                 <td class=\"number\">{margin}</td><td class=\"why\">{}</td></tr>\n",
+                safe(&r.name),
+                safe(r.kind),
+                rows.join(", "),
+                r.wrench.verdict,
+                r.wrench.verdict.replace('_', " "),
+                safe(&reason(r))
+            ),
+        );
+    }
+    out.push_str("</tbody>\n</table></div>\n");
+    out.push_str(
+        "<p class=\"grey\">The margin tells how far a reaction is from unique: it is the norm of its part of the left null space of the \
+         constraint matrix, rows and columns equilibrated. Rows are counted from 1.</p>\n",
+    );
+}
+
+fn reason(r: &ReactionDocument) -> String {
+    if let Some(reason) = &r.wrench.reason {
+        return reason.clone();
+    }
+    match (&r.explanation, r.settled, r.wrench.verdict) {
+        (Some(text), ..) => text.clone(),
+        (None, Some("bridge"), _) => {
+            "nothing else connects the two parts of the mechanism that it joins".to_owned()
+        }
+        (None, Some(_), _) => {
+            "it can be told from the bodies at the ends of the mechanism alone".to_owned()
+        }
+        (None, None, "unique") => "no dependency of rows reaches it".to_owned(),
+        (None, None, _) => components(r),
+    }
+}
+
+fn components(r: &ReactionDocument) -> String {
+    let each = r.components.iter();
+    let words: Vec<String> = each
+        .map(|c| format!("{} {}", c.name, c.verdict.verdict.replace('_', " ")))
+        .collect();
+    words.join(", ")
+}
+
+fn why(out: &mut String, page: &RunPage<'_>) {
+    let Some(analysis) = page.analysis else {
+        return;
+    };
+    let mixing = analysis.mixing.iter().map(|m| m.text.clone());
+    let dependencies = analysis.dependencies.iter().map(|d| d.text.clone());
+    let reasons: Vec<String> = mixing.chain(dependencies).map(|t| capital(&t)).collect();
+    if !reasons.is_empty() {
+        out.push_str("<h3>What is redundant</h3>\n");
+        some(out, &reasons);
+    }
+    let hints = page.hints.iter().map(|hint| {
+        let ways: Vec<&str> = hint.ways.iter().map(|w| w.text.as_str()).collect();
+        let (last, first) = match ways.split_last() {
+            None => return format!("{}: no small set of deletions was found", hint.reaction),
+            Some(split) => split,
+        };
+        match first {
+            [] => format!("{}: {last}", hint.reaction),
+            _ => format!("{}: {}, or {last}", hint.reaction, first.join(", ")),
+        }
+    });
+    let hints: Vec<String> = hints.collect();
+    if !hints.is_empty() {
+        out.push_str("<h3>What would make a reaction unique, without a change of motion</h3>\n");
+        some(out, &hints);
+    }
+    if !analysis.warnings.is_empty() {
+        out.push_str("<h3>To be known</h3>\n");
+        some(out, &analysis.warnings);
+    }
+}
+
+fn some(out: &mut String, sentences: &[String]) {
+    let few = &sentences[..sentences.len().min(MOST)];
+    list(out, few);
+    if few.len() < sentences.len() {
+        let more = sentences.len() - few.len();
+        add(out, format_args!("<p class=\"grey\">and {more} more</p>\n"));
+    }
+}
+
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|c| c.to_uppercase().to_string());
+    first.unwrap_or_default() + letters.as_str()
+}
