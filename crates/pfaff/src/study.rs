@@ -196,11 +196,29 @@ impl Study {
     /// - [`StudyError::Motion`]: the options are none, or the motion cannot be judged at its start.
     pub fn plan(&self) -> Result<Plan<'_>, StudyError> {
         let options = self.options.as_ref().ok_or(StudyError::NoEnd)?;
-        Ok(Plan::new(
-            &self.prepared,
-            options,
-            &wanted(&self.scene.output),
-        )?)
+        let wanted = wanted(&self.scene.output);
+        let options = MotionOptions {
+            output_step: options.output_step / self.rows_between(&wanted) as f64,
+            ..options.clone()
+        };
+        Ok(Plan::new(&self.prepared, &options, &wanted)?)
+    }
+
+    /// Rows that a run computes for each one that tables show: a moving picture needs more of them than a scene may ask for. A power of
+    /// two, so that the times of the tables stay what they are.
+    fn rows_between(&self, wanted: &Wanted) -> usize {
+        let Some(options) = self.options.as_ref().filter(|_| self.scene.output.report) else {
+            return 1;
+        };
+        if wanted.rows == Rows::Ends || is_large(&self.prepared.mechanism) {
+            return 1;
+        }
+        let rows = (options.t_end / options.output_step).max(1.0);
+        let mut between = 1;
+        while rows * (between as f64) < MotionOptions::OUTPUT_STEPS {
+            between *= 2;
+        }
+        between
     }
 
     /// Runs the scene and writes `trajectory.csv`, `reactions.csv`, `summary.json` and `report.html` into a directory, each if the scene
@@ -231,6 +249,8 @@ impl Study {
     ) -> Result<RunDocument, StudyError> {
         // Before anything of an earlier run is touched.
         let plan = self.plan()?;
+        let t_end = plan.options().t_end;
+        let between = self.rows_between(&wanted(&self.scene.output));
         let mechanism = &self.prepared.mechanism;
         let output = &self.scene.output;
         let q = &self.prepared.q;
@@ -271,13 +291,15 @@ impl Study {
             Rows::Ends => go_on(t),
         };
         let mut unwritten = None;
-        let mut is_empty = true;
+        let mut rows = 0;
         let outcome = plan.simulate_watched(&watch, |sample| {
-            is_empty = false;
+            let in_tables = rows % between == 0 || sample.t >= t_end;
+            rows += 1;
             let written = write_row(
                 sample,
-                trajectory.as_mut(),
+                trajectory.as_mut().filter(|_| in_tables),
                 reactions.as_mut(),
+                in_tables,
                 chronicle.as_mut(),
             )?;
             let flow = go_on(sample.t);
@@ -290,7 +312,7 @@ impl Study {
         let (summary, error) = match outcome {
             Ok(summary) => (summary, None),
             // Nothing of an earlier run is replaced by nothing.
-            Err(failure) if is_empty => return Err(failure.error.into()),
+            Err(failure) if rows == 0 => return Err(failure.error.into()),
             Err(failure) => (failure.summary, Some(failure.error)),
         };
         let ending = match (&error, interrupted.into_inner()) {
@@ -366,6 +388,7 @@ fn write_row(
     sample: &mut Sample<'_, '_>,
     trajectory: Option<&mut TrajectoryTable<report::OutputFile>>,
     reactions: Option<&mut ReactionTable<report::OutputFile>>,
+    in_tables: bool,
     chronicle: Option<&mut Chronicle<'_>>,
 ) -> Result<Result<(), TableError>, Trip> {
     if let Some(table) = trajectory
@@ -376,7 +399,7 @@ fn write_row(
     let mut known = Vec::new();
     if let Some(table) = reactions {
         known = sample.reactions()?;
-        if let Err(e) = table.row(sample.t, &known) {
+        if in_tables && let Err(e) = table.row(sample.t, &known) {
             return Ok(Err(e));
         }
     }

@@ -67,6 +67,7 @@ pub(crate) fn list(page: &mut String, sentences: &[String]) {
 /// An error with two digits.
 pub(crate) fn short(number: f64) -> String {
     match number.is_finite() {
+        true if number == 0.0 => "0".to_owned(),
         true => format!("{number:.1e}"),
         false if number.is_nan() => "–".to_owned(),
         false => "∞".to_owned(),

@@ -14,6 +14,9 @@ use crate::documents::{EventDocument, ReactionDocument};
 /// Joints and drives, and bodies, that are drawn and plotted at most.
 pub(super) const DRAWN_MAX: usize = 400;
 
+/// Drives that are plotted at most.
+pub(super) const DRIVES_MAX: usize = 12;
+
 /// A force below this share of the largest one is rounding.
 const NOISE: f64 = 1e-12;
 
@@ -123,30 +126,47 @@ struct Residuals {
 /// A mechanism, or the part of it that is drawn.
 pub(super) struct Cast {
     part: Option<model::Part>,
-    all: Vec<usize>,
+    bodies: Vec<usize>,
+    joints: Vec<usize>,
 }
 
 impl Cast {
-    /// All of a small mechanism; the first joints of a large one, with their bodies.
+    /// All of a small mechanism; the first bodies of a large one, with the joints and drives among them.
     pub(super) fn of(mechanism: &Mechanism) -> Self {
-        let groups = mechanism.layout().groups.len();
-        let is_small = groups <= DRAWN_MAX && mechanism.bodies().len() <= DRAWN_MAX;
+        let groups = &mechanism.layout().groups;
+        let bodies = mechanism.bodies().len();
+        if groups.len() <= DRAWN_MAX && bodies <= DRAWN_MAX {
+            return Self {
+                part: None,
+                bodies: (0..bodies).collect(),
+                joints: (0..groups.len()).collect(),
+            };
+        }
+        // A joint is drawn with the last of its bodies.
+        let last = |k: &usize| groups[*k].bodies.iter().filter_map(|b| b.moving()).max();
+        let mut joints: Vec<usize> = (0..groups.len()).collect();
+        joints.sort_by_key(last);
+        joints.truncate(DRAWN_MAX);
+        let complete = joints.last().and_then(last);
+        let all = groups.len();
+        joints.retain(|k| all <= DRAWN_MAX || last(k) < complete || complete.is_none());
+        joints.sort_unstable();
+        let part = mechanism.part_of_groups(&joints);
         Self {
-            part: (!is_small).then(|| {
-                let first: Vec<usize> = (0..groups.min(DRAWN_MAX)).collect();
-                mechanism.part_of_groups(&first)
-            }),
-            all: (0..mechanism.bodies().len()).collect(),
+            bodies: part.places.bodies.clone(),
+            joints,
+            part: Some(part),
         }
     }
 
+    /// Bodies that are drawn, ascending.
     pub(super) fn bodies(&self) -> &[usize] {
-        self.part.as_ref().map_or(&self.all, |p| &p.places.bodies)
+        &self.bodies
     }
 
-    /// Joints and drives of `all` that are drawn: the first ones.
-    pub(super) fn joints(&self, all: usize) -> usize {
-        self.part.as_ref().map_or(all, |p| p.places.groups.len())
+    /// Joints and drives that are drawn, ascending.
+    pub(super) fn joints(&self) -> &[usize] {
+        &self.joints
     }
 
     pub(super) fn is_whole(&self) -> bool {
@@ -166,21 +186,23 @@ impl<'a> Data<'a> {
     pub(super) fn new(page: &'a RunPage<'a>, cast: &Cast) -> Self {
         let frames = &page.film.frames;
         let stage = cast.stage(page.mechanism, frames);
-        let n_joints = cast.joints(page.mechanism.layout().groups.len());
         let noise = NOISE * largest_force(frames);
         let measured = Measured::of(page.mechanism, frames);
         Self {
             name: page.mechanism.name(),
             t: frames.iter().map(|f| Time(f.t)).collect(),
             scenery: stage.scenery(DrawnForce::all(page.mechanism, cast.bodies())),
-            joints: (0..n_joints).map(|k| joint(page, k, noise)).collect(),
+            joints: cast
+                .joints()
+                .iter()
+                .map(|&k| joint(page, k, noise))
+                .collect(),
             comparisons: page
                 .comparisons
                 .iter()
-                .filter(|c| c.reactions.iter().all(|k| *k < n_joints))
-                .map(|c| comparison(c, noise))
+                .filter_map(|c| comparison(c, cast, noise))
                 .collect(),
-            drives: page.drives.iter().map(drive).collect(),
+            drives: page.drives.iter().take(DRIVES_MAX).map(drive).collect(),
             energy: measured.energy(),
             residuals: Residuals {
                 position: logarithmic(measured.position.iter().copied()),
@@ -248,7 +270,13 @@ fn reaction(frames: &[Frame], k: usize, noise: f64) -> Option<Reaction> {
     })
 }
 
-fn comparison(c: &Comparison, noise: f64) -> ComparisonData<'_> {
+/// Nothing where a joint of it is not drawn.
+fn comparison<'a>(c: &'a Comparison, cast: &Cast, noise: f64) -> Option<ComparisonData<'a>> {
+    let places = c
+        .reactions
+        .iter()
+        .map(|k| cast.joints().binary_search(k).ok());
+    let joints: Vec<usize> = places.collect::<Option<_>>()?;
     let choices = c.choices.iter().map(|choice| ChoiceData {
         label: &choice.label,
         wrenches: (0..c.reactions.len())
@@ -266,11 +294,11 @@ fn comparison(c: &Comparison, noise: f64) -> ComparisonData<'_> {
             torque: frames().any(|f| f.torque),
         }
     });
-    ComparisonData {
-        joints: c.reactions.clone(),
+    Some(ComparisonData {
+        joints,
         choices: choices.collect(),
         freedom: freedom.collect(),
-    }
+    })
 }
 
 /// Angles of axes without jumps of half a turn.

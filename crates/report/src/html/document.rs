@@ -98,22 +98,22 @@ fn answer(page: &RunPage<'_>) -> String {
     let (unique, open, doubt) = (of("unique"), of("not_unique"), of("undecided"));
     let mut text = String::new();
     if let Some(a) = page.analysis {
+        let rows = match a.rows {
+            1 => "The one constraint row has".to_owned(),
+            n => format!("The {n} constraint rows have"),
+        };
         let redundant = match a.redundancy {
-            0 => "no constraint is redundant".to_owned(),
+            0 => "none is redundant".to_owned(),
             1 => "one is redundant".to_owned(),
-            p => format!("{p} are redundant"),
+            p => format!("{} are redundant", count(p)),
         };
         let freedoms = match a.mobility {
-            0 => "no freedom of motion is left".to_owned(),
             1 => "one freedom of motion is left".to_owned(),
-            f => format!("{f} freedoms of motion are left"),
+            f => format!("{} freedoms of motion are left", count(f)),
         };
         add(
             &mut text,
-            format_args!(
-                "The {} constraint rows have rank {}: {redundant}, and {freedoms}. ",
-                a.rows, a.rank
-            ),
+            format_args!("{rows} rank {}: {redundant}, and {freedoms}. ", a.rank),
         );
     }
     match (unique.as_slice(), open.as_slice()) {
@@ -149,6 +149,16 @@ fn answer(page: &RunPage<'_>) -> String {
         );
     }
     text.trim_end().to_owned()
+}
+
+/// Small numbers as words.
+fn count(n: usize) -> String {
+    let words = [
+        "no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten",
+    ];
+    words
+        .get(n)
+        .map_or_else(|| n.to_string(), |word| (*word).to_owned())
 }
 
 fn names_in_words(names: &[&str]) -> String {
@@ -211,10 +221,13 @@ fn motion(out: &mut String, page: &RunPage<'_>) {
     out.push_str(
         "<div class=\"now\" id=\"now\"></div>\n<div class=\"zoom\"><button id=\"zoom-in\" type=\"button\" aria-label=\"Zoom in\">+</button>\
          <button id=\"zoom-out\" type=\"button\" aria-label=\"Zoom out\">−</button>\
-         <button id=\"zoom-reset\" type=\"button\" aria-label=\"Show all\">⤢</button></div>\n</div>\n<aside class=\"panel\" \
+         <button id=\"zoom-reset\" type=\"button\" aria-label=\"Show all\">⤢</button></div>\n\
+         <div class=\"legend\" id=\"symbols\"></div>\n</div>\n<aside class=\"panel\" \
          aria-label=\"What the picture shows\">\n",
     );
-    out.push_str(LEGEND);
+    out.push_str("<fieldset><legend>Reactions</legend>\n");
+    legend(out, page);
+    out.push_str("</fieldset>\n");
     out.push_str(
         "<fieldset class=\"option\"><legend>Show</legend><div id=\"options\"></div>\
          <label>Arrows <input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" step=\"0.1\" value=\"0\" \
@@ -225,24 +238,47 @@ fn motion(out: &mut String, page: &RunPage<'_>) {
     );
 }
 
-const LEGEND: &str = "<fieldset><legend>Reactions</legend>\
-<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\"><g class=\"site unique\" transform=\"translate(17 11)\">\
-<circle class=\"mark\" r=\"6.5\"/></g></svg>unique</div>\
-<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\"><g class=\"site not_unique\" transform=\"translate(17 11)\">\
-<circle class=\"mark\" r=\"6.5\"/></g></svg>not unique</div>\
-<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\"><g class=\"site undecided\" transform=\"translate(17 11)\">\
-<circle class=\"mark\" r=\"6.5\"/></g></svg>undecided</div>\
-<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\"><path class=\"force\" d=\"M2 9.4H22V6L32 11L22 16V12.6H2Z\"/></svg>\
-determined part, on the first body</div>\
-<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\"><path class=\"free\" \
-d=\"M1 11L10 4V8H24V4L33 11L24 18V14H10V18Z\"/></svg>free direction</div></fieldset>\n";
+/// What marks and arrows mean, as far as they occur.
+fn legend(out: &mut String, page: &RunPage<'_>) {
+    const MARK: &str = "<g transform=\"translate(17 11)\" class=\"site VERDICT\"><circle class=\"mark\" r=\"6.5\"/></g>";
+    const ARROW: &str = "<path class=\"force\" d=\"M2 9.4H22V6L32 11L22 16V12.6H2Z\"/>";
+    const FREE: &str = "<path class=\"free\" d=\"M1 11L10 4V8H24V4L33 11L24 18V14H10V18Z\"/>";
+    let occurs = |word: &str| {
+        page.run
+            .reactions
+            .0
+            .iter()
+            .any(|(_, r)| r.verdict.verdict == word)
+    };
+    let mut row = |picture: &str, words: &str| {
+        add(
+            out,
+            format_args!(
+                "<div class=\"key-row\"><svg viewBox=\"0 0 34 22\" aria-hidden=\"true\">{picture}</svg>{words}</div>\n"
+            ),
+        );
+    };
+    for (verdict, words) in [
+        ("unique", "unique"),
+        ("not_unique", "not unique"),
+        ("undecided", "undecided"),
+    ] {
+        if occurs(verdict) {
+            row(&MARK.replace("VERDICT", verdict), words);
+        }
+    }
+    row(ARROW, "determined part, on the first body");
+    if !page.comparisons.is_empty() {
+        row(FREE, "direction in which the model leaves it open");
+    }
+}
 
 /// Places for the curves; scripts fill them.
 fn curves(out: &mut String, page: &RunPage<'_>) {
     out.push_str(
         "<section id=\"reactions\" aria-labelledby=\"reactions-title\">\n<h2 id=\"reactions-title\">Reactions</h2>\n\
          <div class=\"picker\"><label for=\"joint\">Joint or drive</label> <select id=\"joint\"></select></div>\n\
-         <p id=\"reaction-words\"></p>\n<div class=\"curves\" id=\"reaction-curves\"></div>\n</section>\n\
+         <p id=\"reaction-words\"></p>\n<div id=\"reaction-legend\"></div>\n<div class=\"curves\" id=\"reaction-curves\"></div>\n</section>\n\
          <section id=\"curves\" aria-labelledby=\"curves-title\">\n<h2 id=\"curves-title\">Motion of bodies</h2>\n\
          <div class=\"curves\"><div><div class=\"picker\"><select id=\"quantity-a\" aria-label=\"First quantity\"></select></div>\
          <div id=\"motion-a\"></div></div>\
@@ -359,8 +395,8 @@ pub(super) fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
     let groups = page.mechanism.layout().groups.len();
     if !cast.is_whole() {
         told.push(format!(
-            "The picture and the curves show {} of {groups} joints and drives, the first ones, and their {} bodies (of {}).",
-            cast.joints(groups),
+            "The picture and the curves show {} of {groups} joints and drives, those of the first {} bodies (of {}).",
+            cast.joints().len(),
             cast.bodies().len(),
             page.mechanism.bodies().len()
         ));
@@ -371,6 +407,13 @@ pub(super) fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
             page.film.stride,
             page.film.frames.len(),
             page.film.rows()
+        ));
+    }
+    if page.drives.len() > data::DRIVES_MAX {
+        told.push(format!(
+            "{} of {} drives are plotted.",
+            data::DRIVES_MAX,
+            page.drives.len()
         ));
     }
     told.push(format!(

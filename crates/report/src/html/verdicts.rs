@@ -3,7 +3,7 @@
 
 use super::RunPage;
 use crate::documents::ReactionDocument;
-use crate::page::{add, list, safe, short};
+use crate::page::{add, safe, short};
 
 /// Lines of a list, at most.
 pub(super) const MOST: usize = 40;
@@ -44,14 +44,14 @@ fn selected(all: &[ReactionDocument]) -> Vec<&ReactionDocument> {
 
 fn table(out: &mut String, reactions: &[&ReactionDocument]) {
     out.push_str(
-        "<div class=\"wide\"><table>\n<thead><tr><th>Joint or drive</th><th>Type</th><th>Rows</th><th>Reaction</th>\
+        "<div class=\"wide tall\"><table>\n<thead><tr><th>Joint or drive</th><th>Type</th><th>Rows</th><th>Reaction</th>\
          <th>Margin</th><th>Why</th></tr></thead>\n<tbody>\n",
     );
     for r in reactions {
         let rows: Vec<String> = r.rows.iter().map(ToString::to_string).collect();
         let margin = match r.wrench.verdict {
             "unique" => "~0".to_owned(),
-            _ => short(r.wrench.margin),
+            _ => margin(r.wrench.margin),
         };
         add(
             out,
@@ -63,7 +63,7 @@ fn table(out: &mut String, reactions: &[&ReactionDocument]) {
                 rows.join(", "),
                 r.wrench.verdict,
                 r.wrench.verdict.replace('_', " "),
-                safe(&reason(r))
+                marked(&reason(r))
             ),
         );
     }
@@ -79,7 +79,11 @@ fn reason(r: &ReactionDocument) -> String {
         return reason.clone();
     }
     match (&r.explanation, r.settled, r.wrench.verdict) {
-        (Some(text), ..) => text.clone(),
+        (Some(text), ..) => {
+            // The column before says this.
+            let known = format!("the reaction of `{}` is not determined: ", r.name);
+            text.strip_prefix(&known).unwrap_or(text).to_owned()
+        }
         (None, Some("bridge"), _) => {
             "nothing else connects the two parts of the mechanism that it joins".to_owned()
         }
@@ -111,14 +115,15 @@ fn why(out: &mut String, page: &RunPage<'_>) {
         some(out, &reasons);
     }
     let hints = page.hints.iter().map(|hint| {
+        let reaction = format!("`{}`", hint.reaction);
         let ways: Vec<&str> = hint.ways.iter().map(|w| w.text.as_str()).collect();
         let (last, first) = match ways.split_last() {
-            None => return format!("{}: no small set of deletions was found", hint.reaction),
+            None => return format!("{reaction}: no small set of deletions was found"),
             Some(split) => split,
         };
         match first {
-            [] => format!("{}: {last}", hint.reaction),
-            _ => format!("{}: {}, or {last}", hint.reaction, first.join(", ")),
+            [] => format!("{reaction}: {last}"),
+            _ => format!("{reaction}: {}; or {last}", first.join("; ")),
         }
     });
     let hints: Vec<String> = hints.collect();
@@ -134,11 +139,35 @@ fn why(out: &mut String, page: &RunPage<'_>) {
 
 fn some(out: &mut String, sentences: &[String]) {
     let few = &sentences[..sentences.len().min(MOST)];
-    list(out, few);
+    out.push_str("<ul>\n");
+    for sentence in few {
+        add(out, format_args!("<li>{}</li>\n", marked(sentence)));
+    }
+    out.push_str("</ul>\n");
     if few.len() < sentences.len() {
         let more = sentences.len() - few.len();
         add(out, format_args!("<p class=\"grey\">and {more} more</p>\n"));
     }
+}
+
+/// Two digits for people.
+fn margin(x: f64) -> String {
+    match x >= 0.01 {
+        true => format!("{x:.2}"),
+        false => short(x),
+    }
+}
+
+/// Text in which names stand between grave accents.
+fn marked(text: &str) -> String {
+    let mut out = String::new();
+    for (k, part) in text.split('`').enumerate() {
+        match k % 2 {
+            0 => out.push_str(&safe(part)),
+            _ => add(&mut out, format_args!("<b>{}</b>", safe(part))),
+        }
+    }
+    out
 }
 
 fn capital(text: &str) -> String {

@@ -11,6 +11,21 @@ const DASHES = ["", "7 4", "2 3.5", "9 3 2 3", "4 3", "12 4", "1 4"];
  * @typedef {{label: string, values: Float64Array, colour?: number, dash?: number, weak?: boolean, note?: string}} Series
  */
 
+/** How a curve is stroked. */
+function strokeOf(s) {
+  return {
+    class: `curve c${(s.colour ?? 0) % 7}${s.weak ? " weak" : ""}`,
+    "stroke-dasharray": DASHES[(s.dash ?? 0) % DASHES.length],
+  };
+}
+
+/** A line of a legend. */
+function legendEntry(parent, s) {
+  const key = draw(null, "svg", { viewBox: "0 0 28 12", class: "key", "aria-hidden": "true" });
+  draw(key, "path", { d: "M0 6H28", ...strokeOf(s) });
+  make(parent, "span", { className: "entry" }, key, s.label);
+}
+
 class Chart {
   /**
    * @param {HTMLElement} parent where the figure goes
@@ -40,7 +55,7 @@ class Chart {
    * @param {Series[]} series
    * @param {{low: Float64Array, high: Float64Array, label: string} | null} band
    */
-  show(series, { band = null, title = null, unit = null, badge = null, floor = 0 } = {}) {
+  show(series, { band = null, title = null, unit = null, badge = null, floor = 0, legend = true } = {}) {
     this.series = series;
     this.band = band;
     this.floor = floor;
@@ -50,30 +65,9 @@ class Chart {
     this.title.textContent = words;
     this.badge.className = `badge ${badge ?? ""}`;
     this.badge.textContent = badge ? badge.replace("_", " ") : "";
-    this.showLegend();
-    this.redraw();
-  }
-
-  showLegend() {
     this.legend.replaceChildren();
-    if (this.band) {
-      const key = draw(null, "svg", { viewBox: "0 0 28 12", class: "key", "aria-hidden": "true" });
-      draw(key, "rect", { x: 0, y: 1, width: 28, height: 10, class: "band" });
-      make(this.legend, "span", { className: "entry" }, key, this.band.label);
-    }
-    if (this.series.length < 2 && !this.band) return;
-    for (const s of this.series) {
-      const key = draw(null, "svg", { viewBox: "0 0 28 12", class: "key", "aria-hidden": "true" });
-      draw(key, "path", { d: "M0 6H28", ...this.strokeOf(s) });
-      make(this.legend, "span", { className: "entry" }, key, s.label);
-    }
-  }
-
-  strokeOf(s) {
-    return {
-      class: `curve c${(s.colour ?? 0) % 7}${s.weak ? " weak" : ""}`,
-      "stroke-dasharray": DASHES[(s.dash ?? 0) % DASHES.length],
-    };
+    if (legend && series.length > 1) series.forEach((s) => legendEntry(this.legend, s));
+    this.redraw();
   }
 
   /** The range of values that is shown. */
@@ -106,7 +100,7 @@ class Chart {
     this.drawAxes();
     if (this.band) draw(this.svg, "path", { d: this.areaOf(this.band), class: "band" });
     for (const s of this.series) {
-      draw(this.svg, "path", { d: this.lineOf(s.values), fill: "none", ...this.strokeOf(s) });
+      draw(this.svg, "path", { d: this.lineOf(s.values), fill: "none", ...strokeOf(s) });
     }
     for (const event of data.events) {
       const x = this.toX(event.time);
@@ -120,7 +114,7 @@ class Chart {
   drawAxes() {
     const { x, y, w, h } = this.box;
     const axes = draw(this.svg, "g", { class: "axes" });
-    const rows = this.options.logarithmic ? this.decades() : ticksOf(this.y, Math.max(h / 38, 2));
+    const rows = this.options.logarithmic ? this.decades() : ticksOf(this.y, Math.max(h / 26, 2));
     for (const tick of rows) {
       const at = this.toY(tick);
       draw(axes, "path", { d: `M${x} ${at}h${w}`, class: "grid" });

@@ -52,5 +52,6 @@ const clock = {
 
   tell() {
     this.onChange?.(this.playing);
+    if (!this.playing) this.onRest?.();
   },
 };

@@ -172,17 +172,28 @@ function spoken(x, digits = 4) {
   return text.replaceAll("-", "−");
 }
 
+/** The smallest round number that is not below another. */
+function roundStep(least) {
+  const power = 10 ** Math.floor(Math.log10(least));
+  return Number((power * [1, 2, 5, 10].find((f) => f * power >= least * 0.999)).toPrecision(3));
+}
+
 /** Round numbers that divide a range into about `count` parts. */
 function ticksOf([low, high], count) {
   const raw = (high - low) / Math.max(count, 1);
   if (!(raw > 0)) return [low];
   const power = 10 ** Math.floor(Math.log10(raw));
-  const step = power * [1, 2, 5, 10].find((f) => f * power >= raw * 0.999);
+  const step = power * [1, 2, 2.5, 5, 10].find((f) => f * power >= raw * 0.999);
   const ticks = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) {
     ticks.push(Number((k * step).toPrecision(12)));
   }
   return ticks;
+}
+
+/** Nodes of a text in which names stand between grave accents. */
+function withNames(text) {
+  return text.split("`").map((part, k) => (k % 2 ? make(null, "b", { textContent: part }) : part));
 }
 
 const SVG = "http://www.w3.org/2000/svg";

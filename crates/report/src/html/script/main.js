@@ -177,11 +177,12 @@ function setUpReactions(picture) {
     return () => {};
   }
   const shown = COMPONENTS.map(() => new Chart(place, { title: "", unit: "", height: 180, onSeek: seek }));
-  const floor = 1e-9 * picture.largest.force;
+  const floor = 1e-9 * picture.large.force;
   const refresh = () => {
     const joint = joints[Number(select.value)];
     picture.select(joint.index);
-    byId("reaction-words").textContent = reactionInWords(joint);
+    byId("reaction-words").replaceChildren(...withNames(reactionInWords(joint)));
+    showChoices(joint);
     COMPONENTS.forEach((name, k) => showComponent(shown[k], joint, name, k, floor));
   };
   select.addEventListener("change", refresh);
@@ -193,8 +194,23 @@ function setUpReactions(picture) {
   };
 }
 
+/** One legend for all components. */
+function showChoices(joint) {
+  const legend = byId("reaction-legend");
+  legend.replaceChildren();
+  if (!joint.choices.length) return;
+  const key = draw(null, "svg", { viewBox: "0 0 28 12", class: "key", "aria-hidden": "true" });
+  draw(key, "rect", { x: 0, y: 1, width: 28, height: 10, class: "band" });
+  make(legend, "span", { className: "entry" }, key, "range of the choices compared");
+  joint.choices.forEach((choice, place) => legendEntry(legend, choiceSeries(choice, place, null)));
+}
+
+function choiceSeries(choice, place, values) {
+  return { label: choice.label, values, colour: place + 1, dash: place + 1, weak: true };
+}
+
 function reactionInWords(joint) {
-  const on = `Force and torque on ${joint.bodies[0]}, at the place of ${joint.name}.`;
+  const on = `Force and torque on \`${joint.bodies[0]}\`, at the place of \`${joint.name}\`.`;
   if (joint.verdict === "unique") return `${on} Unique: these numbers follow from the model.`;
   if (joint.verdict === "undecided") return `${on} Whether it is unique is not decided.`;
   const why = joint.explanation ? ` ${joint.explanation[0].toUpperCase()}${joint.explanation.slice(1)}.` : "";
@@ -213,7 +229,7 @@ function showComponent(chart, joint, name, k, floor) {
   chart.figure.hidden = !present;
   if (!present) return;
   const unit = name === "T" ? "N·m" : "N";
-  const options = { title: `${joint.name}.${name}`, unit, badge: verdict, floor };
+  const options = { title: `${joint.name}.${name}`, unit, badge: verdict, floor, legend: false };
   if (determined) {
     chart.show([{ label: `${name}, unique`, values: joint.wrench[k], colour: 0 }], options);
     return;
@@ -224,9 +240,7 @@ function showComponent(chart, joint, name, k, floor) {
     return values.length ? of(...values) : NaN;
   });
   const band = { low: at(Math.min), high: at(Math.max), label: "range of the choices compared" };
-  const series = joint.choices.map((choice, place) => ({
-    label: choice.label, values: curves[place], colour: place + 1, dash: place + 1, weak: true,
-  }));
+  const series = joint.choices.map((choice, place) => choiceSeries(choice, place, curves[place]));
   chart.show(series, { ...options, band });
 }
 
@@ -246,7 +260,7 @@ function setUpChecks() {
   ];
   energy.show(parts.filter((s, k) => k === 0 || s.values.some((x) => x !== 0)));
   const checks = [
-    ["Energy balance: |E − E₀ − work| / largest kinetic energy", "", [["balance", data.energy.gap]]],
+    ["Energy balance", "share of kinetic energy", [["|E − E₀ − work| / largest kinetic energy", data.energy.gap]]],
     ["Constraint residuals", "m, rad and m/s, rad/s", [["largest |Φ|", data.residuals.position], ["largest |C·v − b|", data.residuals.velocity]]],
   ];
   for (const [title, unit, curves] of checks) {
@@ -266,6 +280,33 @@ function setUpPrint() {
   addEventListener("afterprint", () => folded.forEach((d) => { d.open = false; }));
 }
 
+/** Names move with their places; where the picture rests they are placed anew. */
+function placeNamesAtRest(picture) {
+  let timer = 0;
+  const later = () => {
+    clearTimeout(timer);
+    if (!clock.playing) timer = setTimeout(() => picture.placeNames(clock.t), 120);
+  };
+  clock.listeners.push(later);
+  clock.onRest = later;
+}
+
+/** The symbols that occur, with the types of joints that they stand for. */
+function showSymbols() {
+  const place = byId("symbols");
+  const shown = new Map();
+  for (const { site, type } of joints) {
+    if (!shown.has(site.symbol)) shown.set(site.symbol, new Set());
+    shown.get(site.symbol).add(type);
+  }
+  for (const [symbol, types] of shown) {
+    const key = draw(null, "svg", { viewBox: "-22 -13 44 26", class: "symbol", "aria-hidden": "true" });
+    const shift = symbol === "push" ? "translate(0 -19)" : "";
+    drawSymbol(draw(key, "g", { class: "site plain", transform: shift }), symbol);
+    make(place, "span", { className: "entry" }, key, [...types].join(", "));
+  }
+}
+
 function start() {
   setUpTheme();
   setUpPrint();
@@ -283,6 +324,8 @@ function start() {
   setUpChecks();
   setUpKeys();
   clock.listeners.push((t) => picture.moveTo(t), (t) => charts.forEach((chart) => chart.moveTo(t)));
+  placeNamesAtRest(picture);
+  showSymbols();
   clock.set(tFirst);
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();
   // For tests, and for the curious.

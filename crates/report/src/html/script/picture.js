@@ -1,8 +1,9 @@
 // The mechanism to scale, moved along the run. Symbols keep their size in pixels; bodies, grid and traces are to scale.
 
 const FLESH = 10;
-const ARROW_LONGEST = 95;
+const ARROW_LONG = 95;
 const MOVED_FAR = 2.2;
+const TRACE_POINTS = 600;
 
 class Picture {
   /** @param {SVGSVGElement} svg */
@@ -69,6 +70,7 @@ class Picture {
       body.points.forEach((p) => take(pointOn(pose, p)));
     }
     for (const site of this.sites) take(site.place(poses, instant));
+    for (const { points } of data.scenery.forces) points.forEach(([b, ...p]) => take(pointOn(poses.of(b), p)));
     return box;
   }
 
@@ -102,25 +104,30 @@ class Picture {
     for (const f of this.forces) {
       const kind = ["turn", "push", "spring"][Math.min(f.force.points.length, 2)];
       f.kind = kind;
+      f.feet = f.force.points.map(([b]) => (b < 0 ? draw(layers.feet, "g") : null));
+      f.feet.filter(Boolean).forEach(drawFoot);
       f.path = draw(layers.springs, "path", { class: kind === "spring" ? "spring" : "load" });
       draw(f.path, "title", {}, `${f.force.name} (${f.force.type})`);
     }
     this.bodyNames = bodies.map((body) => draw(layers.names, "text", { class: "name body-name" }, body.name));
-    this.largest = this.largestLoads();
+    this.large = this.largeLoads();
   }
 
-  /** Largest force and torque of all reactions over the run. */
-  largestLoads() {
-    let [force, torque] = [0, 0];
+  /** Large force and torque among all reactions of the run; few are larger. */
+  largeLoads() {
+    const [forces, torques] = [[], []];
     for (const { wrench } of joints) {
       if (!wrench) continue;
-      for (let k = 0; k < frameCount; k += 1) {
-        const f = Math.hypot(wrench[0][k], wrench[1][k]);
-        if (f > force) force = f;
-        if (Math.abs(wrench[2][k]) > torque) torque = Math.abs(wrench[2][k]);
+      for (let k = 0; k < frameCount; k += Math.max(frameCount >> 7, 1)) {
+        forces.push(Math.hypot(wrench[0][k], wrench[1][k]));
+        torques.push(Math.abs(wrench[2][k]));
       }
     }
-    return { force, torque };
+    const large = (values) => {
+      const known = values.filter((x) => x > 0).sort((a, b) => a - b);
+      return known[Math.floor(0.97 * (known.length - 1))] ?? 0;
+    };
+    return { force: large(forces), torque: large(torques) };
   }
 
   /** Page and scale from the size of the window, the zoom and what is to be seen. */
@@ -130,19 +137,33 @@ class Picture {
     this.page = [width, height];
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     const follows = this.travels && this.show.follow;
-    const span = follows ? this.size.map((x) => 1.25 * x) : this.whole.map(([a, b]) => b - a);
-    const room = [width - 110, height - 96];
+    const span = follows ? this.size.map((x) => 1.04 * x) : this.whole.map(([a, b]) => b - a);
+    const room = [width - 130, height - 110];
     this.base = Math.min(room[0] / Math.max(span[0], 1e-12), room[1] / Math.max(span[1], 1e-12));
     this.scale = this.base * this.zoom;
+    this.symbolScale = this.roomForSymbols();
     this.shape();
-    this.placeNames();
+    this.placeNames(clock.t);
     this.moveTo(clock.t);
+  }
+
+  /** Symbols shrink where half of them stand closer together than they are large. */
+  roomForSymbols() {
+    const instant = instantAt(tFirst);
+    const poses = posesAt(instant);
+    const places = this.sites.map((site) => site.place(poses, instant));
+    const nearest = places.map(([x, y]) => {
+      const far = places.map(([u, v]) => Math.hypot(u - x, v - y) * this.scale).filter((d) => d > 1e-6 * this.page[0]);
+      return Math.min(...far);
+    }).filter(Number.isFinite).sort((a, b) => a - b);
+    const typical = nearest[nearest.length >> 1] ?? Infinity;
+    return Math.min(Math.max(typical / 30, 0.2), 1);
   }
 
   /** Outlines for the present scale. */
   shape() {
     const corners = bodies.map((body) => hull([[0, 0], ...body.points].map(([x, y]) => [x * this.scale, -y * this.scale])));
-    corners.forEach((c, k) => this.bodyGroups[k].flesh.setAttribute("d", rounded(c, FLESH)));
+    corners.forEach((c, k) => this.bodyGroups[k].flesh.setAttribute("d", rounded(c, FLESH * this.symbolScale)));
     const order = [...corners.keys()].sort((a, b) => Math.abs(doubleArea(corners[b])) - Math.abs(doubleArea(corners[a])));
     this.layers.bodies.append(...order.map((k) => this.bodyGroups[k].group));
     for (const site of this.sites) if (site.rail) site.rail.setAttribute("d", this.railOf(site));
@@ -206,12 +227,14 @@ class Picture {
     const { symbol } = site.joint.site;
     const onRail = symbol === "block" || symbol === "slot";
     const angle = (-site.heading(poses, instant) * 180) / Math.PI;
-    const put = (element, [x, y], turn = 0) =>
-      element?.setAttribute("transform", `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${turn.toFixed(2)})`);
-    put(site.group, onRail ? end : place, angle);
+    const put = (element, [x, y], turn = 0, size = 1) => element?.setAttribute(
+      "transform",
+      `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${turn.toFixed(2)})${size === 1 ? "" : ` scale(${size.toFixed(3)})`}`,
+    );
+    put(site.group, onRail ? end : place, angle, this.symbolScale);
     put(site.rail, place, angle);
-    put(site.foot, place);
-    put(site.twin, end);
+    put(site.foot, place, 0, this.symbolScale);
+    put(site.twin, end, 0, this.symbolScale);
     site.rod?.setAttribute("d", `M${place}L${end}`);
     put(site.name, onRail ? end : place);
     this.moveLoads(site, place, instant, put);
@@ -225,14 +248,15 @@ class Picture {
     if (joint.wrench && this.show.forces) {
       const [fx, fy, m] = this.determined(joint, instant);
       const size = Math.hypot(fx, fy);
-      const length = (this.arrowScale * ARROW_LONGEST * size) / (this.largest.force || 1);
+      const share = Math.min(size / (this.large.force || 1), 1.6);
+      const length = this.arrowScale * ARROW_LONG * share;
       if (length > 1.5) {
         d = arrow(length, 3.2, Math.min(10, length));
         put(site.arrow, place, (-Math.atan2(fy, fx) * 180) / Math.PI);
       }
-      const share = m / (this.largest.torque || 1);
-      if (Math.abs(share) > 0.01) {
-        torque = turning(17, 4.8 * Math.min(this.arrowScale, 1) * share);
+      const turn = m / (this.large.torque || 1);
+      if (Math.abs(turn) > 0.01) {
+        torque = turning(17, 4.4 * Math.min(this.arrowScale, 1) * turn);
         put(site.torque, place);
       }
     }
@@ -263,12 +287,13 @@ class Picture {
     const shapes = [isFree ? doubleArrow(46) : "", isFree && freedom.plane ? doubleArrow(46) : "", freedom?.torque ? turning(25, 4.9, 6, 12) : ""];
     shapes.forEach((d, k) => {
       site.free[k].setAttribute("d", d);
-      if (d) put(site.free[k], place, [turn, turn + 90, 0][k]);
+      if (d) put(site.free[k], place, [turn, turn + 90, 0][k], this.symbolScale);
     });
   }
 
   moveForce(f, poses, toPage) {
     const points = f.force.points.map(([b, x, y]) => toPage(pointOn(poses.of(b), [x, y])));
+    f.feet.forEach((foot, k) => foot?.setAttribute("transform", `translate(${points[k]})`));
     if (f.kind === "spring") {
       const [a, b] = points;
       const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
@@ -287,8 +312,8 @@ class Picture {
   drawGrid(origin) {
     const [w, h] = this.page;
     const { grid, scale } = this.layers;
-    const [step] = ticksOf([0, 95 / this.scale], 1).slice(-1);
-    const pitch = (step || 1) * this.scale;
+    const step = roundStep(64 / this.scale);
+    const pitch = step * this.scale;
     let d = "";
     if (this.show.grid && pitch > 8) {
       for (let x = ((origin[0] % pitch) + pitch) % pitch; x < w; x += pitch) d += `M${x.toFixed(1)} 0V${h}`;
@@ -321,25 +346,34 @@ class Picture {
 
   newTrace(index) {
     const colour = `c${index % 7}`;
+    const parts = Math.max(1, Math.ceil(TRACE_POINTS / frameCount));
+    const count = (frameCount - 1) * parts + 1;
+    const between = (k) => {
+      const [frame, part] = [Math.floor(k / parts), k % parts];
+      return part ? times[frame] + (part / parts) * (times[frame + 1] - times[frame]) : times[frame];
+    };
     return {
       index,
+      instants: Array.from({ length: count }, (_, k) => instantAt(between(k))),
       whole: draw(this.layers.traces, "path", { class: `trace whole ${colour}` }),
       past: draw(this.layers.traces, "path", { class: `trace ${colour}` }),
     };
   }
 
   moveTrace(trace, instant, origin) {
-    const { x, y } = bodies[trace.index];
+    const body = bodies[trace.index];
     const at = (px, py) => `${(origin[0] + px * this.scale).toFixed(1)} ${(origin[1] - py * this.scale).toFixed(1)}`;
-    const points = Array.from(x, (px, k) => at(px, y[k]));
+    const points = trace.instants.map((i) => at(cubic(body.x, body.vx, i), cubic(body.y, body.vy, i)));
     trace.whole.setAttribute("d", `M${points.join("L")}`);
-    const pose = poseOf(trace.index, instant);
-    trace.past.setAttribute("d", `M${[...points.slice(0, instant.k + 1), at(pose.x, pose.y)].join("L")}`);
+    const passed = trace.instants.findLastIndex((i) => i.t <= instant.t) + 1;
+    const now = at(cubic(body.x, body.vx, instant), cubic(body.y, body.vy, instant));
+    trace.past.setAttribute("d", `M${[...points.slice(0, passed), now].join("L")}`);
   }
 
-  /** Gives each name a side of its place where it covers nothing at the start. */
-  placeNames() {
-    const instant = instantAt(tFirst);
+  /** Gives each name a side of its place where it covers nothing at this time. */
+  placeNames(t = tFirst) {
+    this.layers.names.style.display = this.show.names ? "" : "none";
+    const instant = instantAt(t);
     const poses = posesAt(instant);
     const { origin } = this.camera(instant);
     const toPage = ([x, y]) => [origin[0] + x * this.scale, origin[1] - y * this.scale];
@@ -348,7 +382,7 @@ class Picture {
       return [x - 11, y - 11, x + 11, y + 11];
     });
     const put = (text, [x, y], size) => {
-      const width = 0.6 * size * text.textContent.length;
+      const width = text.getComputedTextLength?.() || 0.65 * size * text.textContent.length;
       const spots = [14, 24, 36].flatMap((r) => [[r, -r * 0.6], [-r - width, -r * 0.6], [r, r + 4], [-r - width, r + 4], [-width / 2, -r - 3], [-width / 2, r + 12]]);
       const boxes = spots.map(([dx, dy]) => [x + dx, y + dy - size, x + dx + width, y + dy + 3]);
       const costs = boxes.map((box) => taken.reduce((sum, other) => sum + overlap(box, other), 0));
@@ -362,7 +396,6 @@ class Picture {
       const pose = poses.of(k);
       put(this.bodyNames[k], toPage([pose.x, pose.y]), 12);
     });
-    this.layers.names.style.display = this.show.names ? "" : "none";
     this.svg.classList.toggle("no-centres", !this.show.centres);
   }
 
