@@ -3,6 +3,7 @@
 //! and write `docs/reports`.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
+mod browser;
 mod choices;
 mod codegen;
 mod cold_start;
@@ -20,6 +21,7 @@ const USAGE: &str = "usage: cargo xtask COMMAND
   right-hand-side     times and instructions of one right-hand side, into docs/reports/right-hand-side
   instructions        the same, told only
   choices             build time, size and dependencies of programs that use a part, into docs/reports/choices
+  browser             reports of three scenes in headless Chromium, with pictures
   cold-start          times of the commands, process included
   guards              what monitors cost in a run: the same run with them and compiled without";
 
@@ -37,6 +39,7 @@ fn main() -> ExitCode {
         ["right-hand-side"] => right_hand_side::report(),
         ["instructions"] => right_hand_side::instructions(),
         ["choices"] => choices::report(),
+        ["browser"] => browser::check(),
         ["cold-start"] => cold_start::tell(),
         ["guards"] => guards::tell(),
         ["help" | "--help" | "-h"] => Ok(USAGE.to_owned()),

@@ -76,7 +76,7 @@ pub(crate) enum Command {
     /// Rank, redundancy, and the verdict of every reaction
     #[command(after_help = ANALYZE_EXAMPLES)]
     Analyze(Analyze),
-    /// Motion and reactions, written into a directory
+    /// Motion and reactions, written into a directory with a report for any browser
     #[command(after_help = "Example: pfaff simulate robot-trolley.toml --out run --drop 6,21")]
     Simulate(Simulate),
     /// What a run of the scene needs, what is left out, and why

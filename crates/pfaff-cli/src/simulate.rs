@@ -55,11 +55,12 @@ pub(crate) fn run(arguments: &Simulate) -> Outcome {
         write_json(&mut out, &document).map_err(|e| Failure::stopped(e.to_string()))?;
         String::from_utf8_lossy(&out).into_owned()
     } else {
-        describe(
-            &study.scene.description.name,
-            &document,
+        let mut text = describe(&study.scene.description.name, &document);
+        text.push_str(&written(
             &arguments.out.display().to_string(),
-        )
+            study.scene.output.report,
+        ));
+        text
     };
     match document.partial {
         true => Err(incomplete(&text)),
@@ -90,7 +91,7 @@ fn overrides(arguments: &Simulate) -> Result<Overrides, Failure> {
 }
 
 /// The summary in words.
-fn describe(name: &str, d: &RunDocument, out: &str) -> String {
+fn describe(name: &str, d: &RunDocument) -> String {
     let mut text = format!(
         "{name}: {} to t = {} s with {} ({}, {})\n\
          {} steps, {} rejected, {} evaluations in {:.2} ms\n\
@@ -145,8 +146,15 @@ fn describe(name: &str, d: &RunDocument, out: &str) -> String {
             listed(&names),
         ));
     }
-    text.push_str(&format!("written to {out}\n"));
     text
+}
+
+/// Where the results are, and what to open first.
+fn written(out: &str, report: bool) -> String {
+    match report {
+        true => format!("written to {out}; report.html there opens in any browser\n"),
+        false => format!("written to {out}\n"),
+    }
 }
 
 /// Names, at most so many as can be read; summary.json has all.

@@ -1,12 +1,16 @@
 //! Reactions that are not unique along a run, by several choices: the one of the run, the least norm, and sets of rows without reaction. Set
 //! by set of joints that share cycles, so that the work grows with the sets that are redundant and not with the mechanism.
 //!
-//! All solutions at an instant are `λ + Z·y`. λ is that of the run; Z belongs to the rank that is read there, and where it is not the rank of the
-//! start nothing is said.
+//! All solutions at an instant are `λ + Z·y`. λ is that of the run; Z belongs to the configuration there, so that a component is told from
+//! facts at every instant and not at the start alone. Where the rank is in doubt nothing is said.
+
+#[cfg(test)]
+mod tests;
 
 use linalg::{Matrix, PivotedQr, RankDecision, deletions, dependencies};
-use model::{ConstraintId, Mechanism, Part, Scratch, System};
-use report::{ComparedChoice, Comparison, Film, Freedom};
+use model::start::scene_size;
+use model::{Mechanism, Part, Scratch, System};
+use report::{ComparedChoice, Comparison, Film, Frame, Freedom};
 use solvability::survey::parts;
 use solvability::{ReactionVerdict, Verdict, decide};
 
@@ -25,6 +29,9 @@ const FIRM: f64 = 0.02;
 
 /// What is below this share of the largest free load of a set is rounding.
 const VISIBLE: f64 = 1e-9;
+
+/// Share of the square of a free force that lies across its main direction, if the force is free in the plane.
+const PLANE: f64 = 1e-9;
 
 /// The comparisons, and in words what is not compared.
 pub(crate) fn compare(
@@ -68,8 +75,8 @@ pub(crate) fn compare(
             continue;
         }
         let own = choice(reactions[0]).unwrap_or_else(|| "this run".to_owned());
-        match Set::new(&part, &reactions, film) {
-            Some(set) => compared.push(set.compare(film, &format!("this run: {own}"))),
+        match Set::new(&part, film) {
+            Some(set) => compared.push(set.compare(film, &format!("this run: {own}"), open)),
             None => left_out.push(names()),
         }
     }
@@ -89,58 +96,43 @@ pub(crate) fn compare(
 /// Joints on common cycles, some of whose reactions are not unique.
 struct Set<'a> {
     part: &'a Part,
-    /// Their places among the groups of the whole, and of the part.
-    open: Vec<(usize, ConstraintId)>,
-    redundancy: usize,
     eliminations: Vec<Vec<usize>>,
 }
 
 impl<'a> Set<'a> {
     /// Nothing where the multipliers of the run are not known, or no rank can be read.
-    fn new(part: &'a Part, open: &[usize], film: &Film) -> Option<Self> {
+    fn new(part: &'a Part, film: &Film) -> Option<Self> {
         let first = film.frames.first()?;
-        let known = part
-            .places
-            .rows
-            .iter()
-            .all(|&i| first.multipliers.get(i).is_some_and(|x| x.is_finite()));
-        if !known {
+        let known = |&i: &usize| first.multipliers.get(i).is_some_and(|x| x.is_finite());
+        if !part.places.rows.iter().all(known) {
             return None;
         }
         let mut set = Self {
             part,
-            open: open
-                .iter()
-                .filter_map(|k| Some((*k, ConstraintId(part.places.groups.binary_search(k).ok()?))))
-                .collect(),
-            redundancy: 0,
             eliminations: Vec::new(),
         };
         let mut s = part.mechanism.scratch();
         let decision = set.decide(&mut s, first)?;
-        set.redundancy = decision.redundancy;
         set.eliminations = eliminations(&decision);
         Some(set)
     }
 
-    fn decide(&self, s: &mut Scratch, frame: &report::Frame) -> Option<RankDecision> {
+    fn coordinates(&self, frame: &Frame) -> Vec<f64> {
+        let places = self.part.places.coordinates.iter();
+        places.map(|&j| frame.q[j]).collect()
+    }
+
+    fn decide(&self, s: &mut Scratch, frame: &Frame) -> Option<RankDecision> {
         let mechanism = &self.part.mechanism;
-        let q: Vec<f64> = self
-            .part
-            .places
-            .coordinates
-            .iter()
-            .map(|&j| frame.q[j])
-            .collect();
+        let q = self.coordinates(frame);
         mechanism.pose(frame.t, &q, s);
         mechanism.phi(s);
         mechanism.c(s);
-        decide(mechanism, s, &q)
-            .ok()
-            .filter(RankDecision::is_decided)
+        let decision = decide(mechanism, s, &q).ok()?;
+        decision.is_decided().then_some(decision)
     }
 
-    fn compare(&self, film: &Film, own: &str) -> Comparison {
+    fn compare(&self, film: &Film, own: &str, open: impl Fn(usize) -> bool) -> Comparison {
         let labels = &self.part.mechanism.layout().labels;
         let without = |rows: &Vec<usize>| {
             let rows: Vec<String> = rows
@@ -175,18 +167,33 @@ impl<'a> Set<'a> {
         }
         // A choice that says nothing anywhere is none.
         choices.retain(|c| c.values.iter().flatten().flatten().any(|x| x.is_finite()));
+        // Reactions of which nothing is free at any time are facts.
+        let groups = &self.part.places.groups;
+        let free = |k: usize| {
+            let of = |f: &Vec<Freedom>| f[k] != Freedom::UNKNOWN && f[k].components.contains(&true);
+            open(groups[k]) || freedom.iter().any(of)
+        };
+        let told: Vec<usize> = (0..groups.len()).filter(|&k| free(k)).collect();
+        for choice in &mut choices {
+            for frame in &mut choice.values {
+                *frame = told.iter().map(|&k| frame[k]).collect();
+            }
+        }
+        for frame in &mut freedom {
+            *frame = told.iter().map(|&k| frame[k]).collect();
+        }
         Comparison {
-            reactions: self.open.iter().map(|(k, _)| *k).collect(),
+            reactions: told.iter().map(|&k| groups[k]).collect(),
             choices,
             freedom,
         }
     }
 
     fn unknown(&self) -> Vec<[f64; 3]> {
-        vec![[f64::NAN; 3]; self.open.len()]
+        vec![[f64::NAN; 3]; self.part.places.groups.len()]
     }
 
-    fn instant(&self, s: &mut Scratch, frame: &report::Frame) -> Instant {
+    fn instant(&self, s: &mut Scratch, frame: &Frame) -> Instant {
         let lambda: Vec<f64> = self
             .part
             .places
@@ -194,49 +201,57 @@ impl<'a> Set<'a> {
             .iter()
             .map(|&i| frame.multipliers[i])
             .collect();
-        let decision = self
-            .decide(s, frame)
-            .filter(|d| d.redundancy == self.redundancy);
+        let q = self.coordinates(frame);
+        let decision = self.decide(s, frame);
         let mechanism = &self.part.mechanism;
         let maps: Vec<Matrix> = mechanism
             .constraint_ids()
             .map(|id| mechanism.wrench_map(id, s))
             .collect();
+        let own = self.wrenches(&maps, &lambda);
+        let n = maps.len();
         let Some(decision) = decision else {
             return Instant {
-                values: vec![self.wrenches(&maps, &lambda)],
-                freedom: vec![Freedom::UNKNOWN; self.open.len()],
+                values: Vec::new(),
+                freedom: vec![Freedom::UNKNOWN; n],
             };
         };
+        if decision.redundancy == 0 {
+            return Instant {
+                values: vec![own; 2 + self.eliminations.len()],
+                freedom: vec![Freedom::NONE; n],
+            };
+        }
         let z = dependencies(&decision);
         let free: Vec<Matrix> = maps
             .iter()
             .zip(&mechanism.layout().groups)
             .map(|(w, g)| product(w, &z, g.rows.start))
             .collect();
-        let least = self
-            .least_norm(&maps, &free, &lambda)
-            .map(|y| moved(&lambda, &z, &y));
+        let least = self.least_norm(&maps, &free, &lambda);
         let without = self.eliminations.iter().map(|rows| {
-            let to_zero: Vec<f64> = rows.iter().map(|&i| -lambda[i]).collect();
-            firmly_solved(&z, rows, to_zero).map(|y| moved(&lambda, &z, &y))
+            let to_zero = rows.iter().map(|&i| -lambda[i]).collect();
+            firmly_solved(&z, rows, to_zero)
         });
-        let others = [least].into_iter().chain(without);
-        let wrenches = |lambda: Option<Vec<f64>>| {
-            lambda.map_or_else(|| self.unknown(), |l| self.wrenches(&maps, &l))
-        };
-        let values = std::iter::once(self.wrenches(&maps, &lambda)).chain(others.map(wrenches));
+        let others = std::iter::once(least).chain(without);
+        let others = others.map(|y| y.map(|y| self.wrenches(&maps, &moved(&lambda, &z, &y))));
+        let others: Vec<Option<Vec<[f64; 3]>>> = others.collect();
+        // One choice alone would pass for a fact.
+        let own = others.iter().any(Option::is_some).then_some(own);
+        let values = std::iter::once(own).chain(others);
         Instant {
-            values: values.collect(),
-            freedom: self.freedom(&free),
+            values: values
+                .map(|v| v.unwrap_or_else(|| self.unknown()))
+                .collect(),
+            freedom: freedom(&free, scene_size(mechanism, &q)),
         }
     }
 
     fn wrenches(&self, maps: &[Matrix], lambda: &[f64]) -> Vec<[f64; 3]> {
         let groups = &self.part.mechanism.layout().groups;
-        let each = self.open.iter();
-        each.map(|(_, id)| {
-            let wrench = maps[id.0].times(&lambda[groups[id.0].rows.clone()]);
+        let each = maps.iter().zip(groups);
+        each.map(|(map, group)| {
+            let wrench = map.times(&lambda[group.rows.clone()]);
             [wrench[0], wrench[1], wrench[2]]
         })
         .collect()
@@ -245,7 +260,7 @@ impl<'a> Set<'a> {
     /// y of the least `Σ (F² + T²)` over all joints and drives of the set.
     fn least_norm(&self, maps: &[Matrix], free: &[Matrix], lambda: &[f64]) -> Option<Vec<f64>> {
         let groups = &self.part.mechanism.layout().groups;
-        let p = self.redundancy;
+        let p = free.first()?.ncols();
         let stacked = Matrix::from_fn(3 * free.len(), p, |i, j| free[i / 3][(i % 3, j)]);
         let mut y: Vec<f64> = maps
             .iter()
@@ -264,37 +279,38 @@ impl<'a> Set<'a> {
         qr.solve_r(&mut y);
         Some(unpermuted(&qr, &y))
     }
+}
 
-    /// Directions of the forces `W_X·Z_X·y`, and whether torques are among them.
-    fn freedom(&self, free: &[Matrix]) -> Vec<Freedom> {
-        let size = |m: &Matrix, rows: std::ops::Range<usize>| -> f64 {
-            rows.flat_map(|i| m.row(i).iter().map(|x| x * x).collect::<Vec<_>>())
-                .sum::<f64>()
-                .sqrt()
+/// Directions of the forces `W_X·Z_X·y` of each joint, and which components of its wrench change with y; torques are measured by forces at the size
+/// of the set (m).
+fn freedom(free: &[Matrix], size: f64) -> Vec<Freedom> {
+    let norm = |m: &Matrix, i: usize| m.row(i).iter().map(|x| x * x).sum::<f64>().sqrt();
+    let as_force = |m: &Matrix| norm(m, 0).hypot(norm(m, 1)).max(norm(m, 2) / size);
+    let least = VISIBLE * free.iter().map(as_force).fold(0.0, f64::max);
+    let of = |m: &Matrix| {
+        let dot = |i: usize, j: usize| -> f64 {
+            let terms = m.row(i).iter().zip(m.row(j));
+            terms.map(|(a, b)| a * b).sum()
         };
-        let largest = free.iter().map(|m| size(m, 0..2)).fold(0.0, f64::max);
-        let torque = free.iter().map(|m| size(m, 2..3)).fold(0.0, f64::max);
-        let of = |m: &Matrix| {
-            let dot = |i: usize, j: usize| -> f64 {
-                m.row(i).iter().zip(m.row(j)).map(|(a, b)| a * b).sum()
-            };
-            let (xx, xy, yy) = (dot(0, 0), dot(0, 1), dot(1, 1));
-            let is_free = (xx + yy).sqrt() > VISIBLE * largest;
-            // Axes of the ellipse with these moments.
-            let half = (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
-            let minor = (0.5 * (xx + yy) - half).max(0.0);
-            Freedom {
-                angle: if is_free {
-                    0.5 * (2.0 * xy).atan2(xx - yy)
-                } else {
-                    f64::NAN
-                },
-                plane: is_free && minor > 1e-6 * (xx + yy),
-                torque: torque > 0.0 && size(m, 2..3) > VISIBLE * torque.max(largest * VISIBLE),
-            }
-        };
-        self.open.iter().map(|(_, id)| of(&free[id.0])).collect()
-    }
+        let (xx, xy, yy) = (dot(0, 0), dot(0, 1), dot(1, 1));
+        let is_free = (xx + yy).sqrt() > least;
+        // Axes of the ellipse with these moments.
+        let half = (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt();
+        let minor = (0.5 * (xx + yy) - half).max(0.0);
+        Freedom {
+            angle: match is_free {
+                true => 0.5 * (2.0 * xy).atan2(xx - yy),
+                false => f64::NAN,
+            },
+            plane: is_free && minor > PLANE * (xx + yy),
+            components: [
+                norm(m, 0) > least,
+                norm(m, 1) > least,
+                norm(m, 2) > least * size,
+            ],
+        }
+    };
+    free.iter().map(of).collect()
 }
 
 /// What the choices say at an instant.
@@ -339,7 +355,7 @@ fn firmness(z: &Matrix, rows: &[usize]) -> f64 {
 
 /// y with `Z_D·y = x`, where D fixes y firmly.
 fn firmly_solved(z: &Matrix, rows: &[usize], mut x: Vec<f64>) -> Option<Vec<f64>> {
-    if firmness(z, rows) < FIRM {
+    if rows.len() != z.ncols() || firmness(z, rows) < FIRM {
         return None;
     }
     let qr = PivotedQr::of_columns(&z.select_rows(rows));

@@ -12,6 +12,7 @@ mod faults;
 mod generate;
 mod plan;
 mod resources;
+mod report;
 mod singular;
 mod stress;
 mod sweep;

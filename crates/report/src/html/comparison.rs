@@ -3,7 +3,7 @@
 /// Joints and drives that share loads, with what different choices say of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// Joints and drives whose reaction is not unique, as places among all.
+    /// Joints and drives whose reaction is not unique at some time of the run, as places among all.
     pub reactions: Vec<usize>,
     /// The choices.
     pub choices: Vec<ComparedChoice>,
@@ -27,8 +27,8 @@ pub struct Freedom {
     pub angle: f64,
     /// Whether the force is free across that direction, too.
     pub plane: bool,
-    /// Whether the torque is free.
-    pub torque: bool,
+    /// Whether Fx, Fy and T are free. In global components a reaction may be determined at one time and not at another.
+    pub components: [bool; 3],
 }
 
 impl Freedom {
@@ -36,6 +36,13 @@ impl Freedom {
     pub const UNKNOWN: Self = Self {
         angle: f64::NAN,
         plane: false,
-        torque: false,
+        components: [true; 3],
+    };
+
+    /// Nothing is free.
+    pub const NONE: Self = Self {
+        angle: f64::NAN,
+        plane: false,
+        components: [false; 3],
     };
 }

@@ -95,7 +95,8 @@ struct ChoiceData<'a> {
 struct FreedomData {
     angle: Channel,
     plane: bool,
-    torque: bool,
+    /// Whether Fx, Fy and T are free at some time.
+    components: [bool; 3],
 }
 
 #[derive(Serialize)]
@@ -242,13 +243,19 @@ fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
         None => "ground".to_owned(),
         Some(k) => page.mechanism.bodies()[k].name.clone(),
     });
+    // The document tells of the start.
+    let compared = page.comparisons.iter().any(|c| c.reactions.contains(&k));
+    let later = compared && verdict == "unique";
     Joint {
         name: &group.name,
         kind: group.spec.common.scene_type,
         bodies: bodies.collect(),
-        verdict,
+        verdict: if later { "not_unique" } else { verdict },
         components,
-        explanation: of_analysis.and_then(|r| r.explanation.as_deref()),
+        explanation: match later {
+            true => Some("it is unique, but not at other times of this run"),
+            false => of_analysis.and_then(|r| r.explanation.as_deref()),
+        },
         choice,
         reaction: reaction(&page.film.frames, k, noise),
     }
@@ -291,7 +298,7 @@ fn comparison<'a>(c: &'a Comparison, cast: &Cast, noise: f64) -> Option<Comparis
         FreedomData {
             angle: Channel::new(unwound(frames()).into_iter()),
             plane: frames().any(|f| f.plane),
-            torque: frames().any(|f| f.torque),
+            components: [0, 1, 2].map(|c| frames().any(|f| f.components[c])),
         }
     });
     Some(ComparisonData {

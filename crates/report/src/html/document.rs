@@ -98,6 +98,9 @@ fn answer(page: &RunPage<'_>) -> String {
     let (unique, open, doubt) = (of("unique"), of("not_unique"), of("undecided"));
     let mut text = String::new();
     if let Some(a) = page.analysis {
+        if a.rows == 0 {
+            return "Nothing is constrained: all bodies move freely.".to_owned();
+        }
         let rows = match a.rows {
             1 => "The one constraint row has".to_owned(),
             n => format!("The {n} constraint rows have"),
@@ -225,9 +228,11 @@ fn motion(out: &mut String, page: &RunPage<'_>) {
          <div class=\"legend\" id=\"symbols\"></div>\n</div>\n<aside class=\"panel\" \
          aria-label=\"What the picture shows\">\n",
     );
-    out.push_str("<fieldset><legend>Reactions</legend>\n");
-    legend(out, page);
-    out.push_str("</fieldset>\n");
+    if !page.run.reactions.0.is_empty() {
+        out.push_str("<fieldset><legend>Reactions</legend>\n");
+        legend(out, page);
+        out.push_str("</fieldset>\n");
+    }
     out.push_str(
         "<fieldset class=\"option\"><legend>Show</legend><div id=\"options\"></div>\
          <label>Arrows <input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" step=\"0.1\" value=\"0\" \

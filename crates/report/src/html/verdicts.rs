@@ -12,7 +12,7 @@ pub(super) const MOST: usize = 40;
 const LINES: usize = 300;
 
 pub(super) fn section(out: &mut String, page: &RunPage<'_>) {
-    out.push_str("<section id=\"verdicts\" aria-labelledby=\"verdicts-title\">\n<h2 id=\"verdicts-title\">Verdicts</h2>\n");
+    out.push_str("<section id=\"verdicts\" aria-labelledby=\"verdicts-title\">\n<h2 id=\"verdicts-title\">Verdicts at the start</h2>\n");
     match page.analysis {
         Some(analysis) => {
             let told = selected(&analysis.reactions);
@@ -70,7 +70,8 @@ fn table(out: &mut String, reactions: &[&ReactionDocument]) {
     out.push_str("</tbody>\n</table></div>\n");
     out.push_str(
         "<p class=\"grey\">The margin tells how far a reaction is from unique: it is the norm of its part of the left null space of the \
-         constraint matrix, rows and columns equilibrated. Rows are counted from 1.</p>\n",
+         constraint matrix, rows and columns equilibrated. Rows are counted from 1. Fx and Fy are global: where bodies turn, \
+         other components are determined later than at the start, and the curves below say which.</p>\n",
     );
 }
 

@@ -144,9 +144,13 @@ for (const comparison of data.comparisons) {
   });
 }
 
-/** The verdict of a component of a joint. */
+/**
+ * The verdict of a component along the run. Where choices were compared they tell; the verdicts of the analysis are those of the start, and
+ * a component in global directions may be determined there only.
+ */
 function verdictOf(joint, name) {
-  return joint.components.find((c) => c.name === name)?.verdict ?? joint.verdict;
+  if (joint.freedom) return joint.freedom.components[COMPONENTS.indexOf(name)] ? "not_unique" : "unique";
+  return joint.verdict === "unique" ? "unique" : joint.verdict;
 }
 
 /** Smallest and largest finite values of several curves; nothing if there are none. */

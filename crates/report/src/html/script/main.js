@@ -213,7 +213,7 @@ function reactionInWords(joint) {
   const on = `Force and torque on \`${joint.bodies[0]}\`, at the place of \`${joint.name}\`.`;
   if (joint.verdict === "unique") return `${on} Unique: these numbers follow from the model.`;
   if (joint.verdict === "undecided") return `${on} Whether it is unique is not decided.`;
-  const why = joint.explanation ? ` ${joint.explanation[0].toUpperCase()}${joint.explanation.slice(1)}.` : "";
+  const why = joint.explanation ? ` At the start, ${joint.explanation}.` : "";
   const compared = joint.choices.length
     ? " Bands reach from the smallest to the largest value of the choices compared; other choices leave them."
     : " No choices were compared for it, so components that are not unique have no curve.";
@@ -301,7 +301,7 @@ function showSymbols() {
   }
   for (const [symbol, types] of shown) {
     const key = draw(null, "svg", { viewBox: "-22 -13 44 26", class: "symbol", "aria-hidden": "true" });
-    const shift = symbol === "push" ? "translate(0 -19)" : "";
+    const shift = { push: "translate(0 -19)", turn: "translate(0 3) scale(0.7)" }[symbol] ?? "";
     drawSymbol(draw(key, "g", { class: "site plain", transform: shift }), symbol);
     make(place, "span", { className: "entry" }, key, [...types].join(", "));
   }

@@ -4,6 +4,7 @@ const FLESH = 10;
 const ARROW_LONG = 95;
 const MOVED_FAR = 2.2;
 const TRACE_POINTS = 600;
+const SMALLEST = 2e-3;
 
 class Picture {
   /** @param {SVGSVGElement} svg */
@@ -52,7 +53,8 @@ class Picture {
     const span = this.whole.map(([a, b]) => b - a);
     const far = Math.hypot(...span) > MOVED_FAR * Math.hypot(...this.size);
     const grounded = data.scenery.sites.some((s) => s.grounded);
-    this.travels = far && !grounded;
+    const visible = Math.hypot(...this.size) > SMALLEST * Math.hypot(...span);
+    this.travels = far && visible && !grounded;
     if (Math.max(...span) < 1e-9) this.whole = this.whole.map(([a, b]) => [(a + b) / 2 - 0.5, (a + b) / 2 + 0.5]);
   }
 
@@ -85,7 +87,7 @@ class Picture {
     for (const site of this.sites) {
       const { joint } = site;
       const { symbol, grounded } = joint.site;
-      const guided = symbol === "block" || symbol === "slot";
+      const guided = isGuided(symbol);
       site.rail = guided ? draw(layers.rails, "path", { class: "rail" }) : null;
       site.foot = grounded && !guided ? draw(layers.feet, "g") : null;
       if (site.foot) drawFoot(site.foot);
@@ -163,7 +165,10 @@ class Picture {
   /** Outlines for the present scale. */
   shape() {
     const corners = bodies.map((body) => hull([[0, 0], ...body.points].map(([x, y]) => [x * this.scale, -y * this.scale])));
-    corners.forEach((c, k) => this.bodyGroups[k].flesh.setAttribute("d", rounded(c, FLESH * this.symbolScale)));
+    corners.forEach((c, k) => {
+      this.bodyGroups[k].flesh.setAttribute("d", rounded(c, FLESH * this.symbolScale));
+      this.bodyGroups[k].centre.setAttribute("transform", `scale(${this.symbolScale})`);
+    });
     const order = [...corners.keys()].sort((a, b) => Math.abs(doubleArea(corners[b])) - Math.abs(doubleArea(corners[a])));
     this.layers.bodies.append(...order.map((k) => this.bodyGroups[k].group));
     for (const site of this.sites) if (site.rail) site.rail.setAttribute("d", this.railOf(site));
@@ -224,20 +229,24 @@ class Picture {
   moveSite(site, poses, instant, toPage) {
     const place = toPage(site.place(poses, instant));
     const end = site.end ? toPage(site.end(poses, instant)) : place;
-    const { symbol } = site.joint.site;
-    const onRail = symbol === "block" || symbol === "slot";
+    const at = isGuided(site.joint.site.symbol) ? end : place;
     const angle = (-site.heading(poses, instant) * 180) / Math.PI;
     const put = (element, [x, y], turn = 0, size = 1) => element?.setAttribute(
       "transform",
       `translate(${x.toFixed(2)} ${y.toFixed(2)}) rotate(${turn.toFixed(2)})${size === 1 ? "" : ` scale(${size.toFixed(3)})`}`,
     );
-    put(site.group, onRail ? end : place, angle, this.symbolScale);
+    put(site.group, at, angle, this.symbolScale);
     put(site.rail, place, angle);
     put(site.foot, place, 0, this.symbolScale);
     put(site.twin, end, 0, this.symbolScale);
     site.rod?.setAttribute("d", `M${place}L${end}`);
-    put(site.name, onRail ? end : place);
+    put(site.name, at);
     this.moveLoads(site, place, instant, put);
+  }
+
+  /** What tells where the symbol of a joint stands: blocks are where they slide to. */
+  shownAt(site) {
+    return isGuided(site.joint.site.symbol) ? site.end : site.place;
   }
 
   /** Arrows of what is determined, hatched ones of what is free. */
@@ -284,7 +293,7 @@ class Picture {
     const angle = freedom ? linear(freedom.angle, instant) : NaN;
     const turn = (-angle * 180) / Math.PI;
     const isFree = Number.isFinite(angle);
-    const shapes = [isFree ? doubleArrow(46) : "", isFree && freedom.plane ? doubleArrow(46) : "", freedom?.torque ? turning(25, 4.9, 6, 12) : ""];
+    const shapes = [isFree ? doubleArrow(46) : "", isFree && freedom.plane ? doubleArrow(46) : "", freedom?.components[2] ? turning(25, 4.9, 6, 12) : ""];
     shapes.forEach((d, k) => {
       site.free[k].setAttribute("d", d);
       if (d) put(site.free[k], place, [turn, turn + 90, 0][k], this.symbolScale);
@@ -305,7 +314,7 @@ class Picture {
     const body = f.force.bodies.findLast((b) => b >= 0) ?? -1;
     const at = points[0] ?? toPage(pointOn(poses.of(body), [0, 0]));
     f.path.setAttribute("d", f.kind === "push" ? "M0-9L8 5H-8Z" : turning(15, 4.4, 2, 8));
-    f.path.setAttribute("transform", `translate(${at})`);
+    f.path.setAttribute("transform", `translate(${at}) scale(${this.symbolScale})`);
   }
 
   /** Lines at round numbers, and a bar that tells their distance. */
@@ -378,7 +387,7 @@ class Picture {
     const { origin } = this.camera(instant);
     const toPage = ([x, y]) => [origin[0] + x * this.scale, origin[1] - y * this.scale];
     const taken = this.sites.map((site) => {
-      const [x, y] = toPage((site.end ?? site.place)(poses, instant));
+      const [x, y] = toPage(this.shownAt(site)(poses, instant));
       return [x - 11, y - 11, x + 11, y + 11];
     });
     const put = (text, [x, y], size) => {
@@ -391,7 +400,7 @@ class Picture {
       text.setAttribute("y", spots[best][1].toFixed(1));
       taken.push(boxes[best]);
     };
-    for (const site of this.sites) put(site.name, toPage((site.end ?? site.place)(poses, instant)), 13);
+    for (const site of this.sites) put(site.name, toPage(this.shownAt(site)(poses, instant)), 13);
     bodies.forEach((_, k) => {
       const pose = poses.of(k);
       put(this.bodyNames[k], toPage([pose.x, pose.y]), 12);
@@ -426,6 +435,11 @@ class Picture {
     this.zoom = factor === 0 ? 1 : Math.min(Math.max(this.zoom * factor, 0.1), 200);
     this.resize();
   }
+}
+
+/** Whether a symbol slides on a rail. */
+function isGuided(symbol) {
+  return symbol === "block" || symbol === "slot";
 }
 
 /** Common area of two boxes. */

@@ -1,0 +1,221 @@
+//! `report.html` of a run: one file, whole, harmless, small, and the same for the same input.
+
+use serde_json::Value;
+
+use super::bad_input::{PENDULUM, contradiction_at_half_a_second};
+use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
+
+/// Bytes that the page of the published mechanism may have; the contract allows 3 MB.
+const ROBOT_MOST: usize = 600_000;
+
+/// Runs a scene into a folder.
+#[track_caller]
+fn page(folder: &Folder, scene: &str) -> String {
+    let output = with_scene(&["simulate", "-", "--out", folder.text()], scene);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    folder.read("report.html")
+}
+
+/// The document that scripts read.
+#[track_caller]
+fn data(page: &str) -> Value {
+    let begin = "<script id=\"data\" type=\"application/json\">";
+    let after = page.split_once(begin).expect("the page has data").1;
+    let text = after.split_once("</script>").expect("the data end").0;
+    serde_json::from_str(text).expect("the data are JSON")
+}
+
+/// Without the one number that no run has twice.
+fn without_time(page: &str) -> String {
+    let (before, after) = page
+        .split_once("<dt>Time of the integration</dt>")
+        .expect("the page tells the time");
+    let after = after.split_once("</dd>").expect("a value").1;
+    format!("{before}{after}")
+}
+
+fn joint<'a>(data: &'a Value, name: &str) -> (usize, &'a Value) {
+    let joints = data["joints"].as_array().expect("a list");
+    let found = joints.iter().enumerate().find(|(_, j)| j["name"] == name);
+    found.unwrap_or_else(|| panic!("no joint `{name}`"))
+}
+
+#[test]
+fn the_page_of_the_robot_is_small_and_fetches_nothing() {
+    let folder = Folder::new("report-robot");
+    let output = pfaff(&["simulate", ROBOT, "--out", folder.text()]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(stdout(&output).contains("report.html"));
+    let page = folder.read("report.html");
+    assert!(page.len() < ROBOT_MOST, "{} bytes", page.len());
+    assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>\n"));
+    let addresses: Vec<&str> = page
+        .match_indices("http")
+        .map(|(at, _)| page[at..].split('"').next().unwrap_or_default())
+        .filter(|address| address.starts_with("http://") || address.starts_with("https://"))
+        .collect();
+    assert_eq!(
+        addresses,
+        ["http://www.w3.org/2000/svg"],
+        "the name of SVG only"
+    );
+    for fetch in [
+        "<link",
+        "@import",
+        "url(http",
+        "fetch(",
+        "import(",
+        "src=\"http",
+        "XMLHttp",
+    ] {
+        assert!(!page.contains(fetch), "`{fetch}`");
+    }
+    assert!(page.contains("default-src 'none'"));
+    assert!(page.contains("22 constraint rows have rank 20: two are redundant"));
+    assert!(page.contains("those of B, C, W1, W2, W3 and W4 are not"));
+}
+
+#[test]
+fn reactions_that_are_not_unique_come_with_several_choices() {
+    let folder = Folder::new("report-choices");
+    let output = pfaff(&["simulate", ROBOT, "--t-end", "2", "--out", folder.text()]);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    let data = data(&folder.read("report.html"));
+    let compared: Vec<u64> = data["comparisons"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .flat_map(|c| c["joints"].as_array().expect("a list"))
+        .filter_map(Value::as_u64)
+        .collect();
+    for j in data["joints"].as_array().expect("a list") {
+        let (k, _) = joint(&data, j["name"].as_str().expect("a name"));
+        let is_compared = compared.contains(&(k as u64));
+        assert_eq!(is_compared, j["verdict"] == "not_unique", "{}", j["name"]);
+    }
+    let comparison = &data["comparisons"][0];
+    let choices = comparison["choices"].as_array().expect("a list");
+    assert!(choices.len() >= 4, "{}", choices.len());
+    let labels: Vec<&str> = choices.iter().filter_map(|c| c["label"].as_str()).collect();
+    assert!(
+        labels[0].starts_with("this run: kept-rows, rows 20, 21"),
+        "{labels:?}"
+    );
+    assert!(labels[1].starts_with("least norm"), "{labels:?}");
+    assert!(labels[2].starts_with("no reaction in rows"), "{labels:?}");
+    // Fx of B is determined at the start, where it lies along the platform, and no more once the platform has turned.
+    let (place, b) = joint(&data, "B");
+    let at = compared.iter().position(|k| *k == place as u64);
+    let at = at.expect("B is compared");
+    assert_eq!(b["components"][0]["verdict"], "unique");
+    let free = &comparison["freedom"][at]["components"];
+    assert_eq!(*free, serde_json::json!([true, true, false]));
+    let curve = |choice: &Value| choice["wrenches"][at][1].to_string();
+    assert!(choices.iter().any(|c| curve(c) != curve(&choices[0])));
+}
+
+#[test]
+fn the_same_input_gives_the_same_bytes() {
+    let folder = Folder::new("report-same");
+    let first = without_time(&page(&folder, PENDULUM));
+    assert_eq!(first, without_time(&page(&folder, PENDULUM)));
+}
+
+#[test]
+fn names_are_text_wherever_they_stand() {
+    let name = "</script><script>alert(1)</script>";
+    let scene = PENDULUM
+        .replace("bob", name)
+        .replace("\"pivot\"", "\"<img src=x onerror=alert(2)>\"")
+        .replace("name = \"pendulum\"", "name = \"]]><!-- & \\\"'\"");
+    let folder = Folder::new("report-names");
+    let page = page(&folder, &scene);
+    // The ends of the two scripts are those of the page.
+    assert_eq!(page.matches("</script>").count(), 2);
+    assert!(
+        !page.contains("<script>alert") && !page.contains("<img src=x") && !page.contains("<!-- &")
+    );
+    let data = data(&page);
+    assert_eq!(data["scenery"]["bodies"][0]["name"], name);
+    assert_eq!(data["name"], "]]><!-- & \"'");
+    // The text of the scene is there, too.
+    assert!(page.contains("name = &quot;&lt;/script&gt;"));
+}
+
+#[test]
+fn a_page_that_is_not_wanted_is_not_made() {
+    let folder = Folder::new("report-none");
+    let scene = format!("{PENDULUM}\n[output]\nreport = false\n");
+    let output = with_scene(&["simulate", "-", "--out", folder.text()], &scene);
+    assert_eq!(output.status.code(), Some(0));
+    assert!(!folder.0.join("report.html").exists());
+    assert!(!stdout(&output).contains("report.html"));
+}
+
+#[test]
+fn tables_have_the_rows_that_were_asked_for_whatever_the_page_needs() {
+    let coarse = PENDULUM.replace("t_end = 1.0", "t_end = 1.0\noutput_step = 0.3");
+    let folder = Folder::new("report-rows");
+    let page = page(&folder, &coarse);
+    let times: Vec<String> = folder
+        .read("trajectory.csv")
+        .lines()
+        .skip(1)
+        .filter_map(|line| line.split(',').next().map(str::to_owned))
+        .collect();
+    let (with, reactions) = (folder.read("trajectory.csv"), folder.read("reactions.csv"));
+    assert_eq!(times.len(), 5, "{times:?}");
+    assert!(data(&page)["t"].as_array().is_some_and(|t| t.len() >= 200));
+    // The same bytes as without a page.
+    let scene = format!("{coarse}\n[output]\nreport = false\n");
+    let output = with_scene(&["simulate", "-", "--out", folder.text()], &scene);
+    assert_eq!(output.status.code(), Some(0));
+    assert_eq!(folder.read("trajectory.csv"), with);
+    assert_eq!(folder.read("reactions.csv"), reactions);
+}
+
+#[test]
+fn a_run_that_stops_has_a_page_that_says_so() {
+    let folder = Folder::new("report-partial");
+    let scene = contradiction_at_half_a_second();
+    let output = with_scene(&["simulate", "-", "--out", folder.text()], &scene);
+    assert_eq!(output.status.code(), Some(1), "{}", stderr(&output));
+    let page = folder.read("report.html");
+    assert!(
+        page.contains("<b>Partial:</b> the run ended at t = 0."),
+        "no warning"
+    );
+    let last = data(&page)["t"]
+        .as_array()
+        .and_then(|t| t.last().and_then(Value::as_f64));
+    assert!(last.is_some_and(|t| t <= 0.5), "{last:?}");
+}
+
+#[test]
+fn a_large_mechanism_is_drawn_in_part_and_says_so() {
+    let folder = Folder::new("report-large");
+    let scene = stdout(&pfaff(&["generate", "n-four-bar", "--n", "400"]));
+    let output = with_scene(
+        &["simulate", "-", "--t-end", "0.01", "--out", folder.text()],
+        &scene,
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let page = folder.read("report.html");
+    assert!(page.len() < 3_000_000, "{} bytes", page.len());
+    assert!(page.contains("The picture and the curves show "));
+    let drawn = data(&page)["joints"].as_array().map(Vec::len);
+    assert!(drawn.is_some_and(|n| (300..=400).contains(&n)), "{drawn:?}");
+}
+
+#[test]
+fn a_comparison_of_methods_in_the_same_directory_is_taken_in() {
+    let folder = Folder::new("report-comparison");
+    std::fs::create_dir_all(&folder.0).expect("a directory");
+    let figure = "<svg xmlns=\"http://www.w3.org/2000/svg\"><text>#1</text></svg>";
+    std::fs::write(folder.0.join("work_precision.svg"), figure).expect("a file");
+    let page = page(&folder, PENDULUM);
+    assert!(
+        page.contains("src=\"data:image/svg+xml,%3Csvg xmlns=%22http://www.w3.org/2000/svg%22%3E")
+    );
+    assert!(page.contains("%231"));
+}
