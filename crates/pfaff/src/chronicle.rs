@@ -24,6 +24,7 @@ pub(crate) struct Chronicle<'a> {
     study: &'a Study,
     film: Film,
     compares: bool,
+    ends_only: bool,
 }
 
 impl<'a> Chronicle<'a> {
@@ -37,6 +38,7 @@ impl<'a> Chronicle<'a> {
         Self {
             study,
             film: Film::new(options.t_end, rows, numbers_per_row(mechanism)),
+            ends_only: plan.rows.value == Rows::Ends,
             compares: study.prepared.decision.redundancy > 0,
         }
     }
@@ -93,6 +95,12 @@ impl<'a> Chronicle<'a> {
             ),
             None => self.analysis(),
         };
+        if self.ends_only {
+            left_out.push(
+                "The scene wants neither trajectory nor reactions, so that only start and end were computed."
+                    .to_owned(),
+            );
+        }
         if survey.is_some() {
             left_out.push("A mechanism of this size is judged by sets of joints on common cycles; `pfaff analyze` tells more.".to_owned());
         }

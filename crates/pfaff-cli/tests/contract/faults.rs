@@ -184,7 +184,7 @@ fn a_full_disk_leaves_older_results_alone() {
     let simulate = ["simulate", &scene, "--out", out.text()];
     assert_eq!(pfaff(&simulate).status.code(), Some(0));
     let before = contents(&out);
-    assert_eq!(before.len(), 3);
+    assert_eq!(before.len(), 4);
     // Full at each of its files, when the first bytes go there.
     for name in ["trajectory.csv", "reactions.csv"] {
         let part = out.0.join(format!("{name}.part"));
@@ -209,7 +209,13 @@ fn a_full_disk_leaves_older_results_alone() {
     fs::write(out.0.join("trajectory.csv.part"), "half a li").expect("writable");
     assert_eq!(pfaff(&simulate).status.code(), Some(0));
     let names: Vec<_> = contents(&out).into_iter().map(|(name, _)| name).collect();
-    assert_eq!(names, ["reactions.csv", "summary.json", "trajectory.csv"]);
+    let files = [
+        "reactions.csv",
+        "report.html",
+        "summary.json",
+        "trajectory.csv",
+    ];
+    assert_eq!(names, files);
 }
 
 #[test]
