@@ -101,10 +101,12 @@ async function curvesHaveContent(page) {
 /** Each joint in turn: what is not unique has a band or no curve, never a line alone. */
 async function noBareLines(page) {
   const bare = await page.value(`(() => {
-    const select = document.getElementById("joint");
+    const [select, frame] = ["joint", "frame"].map((id) => document.getElementById(id));
     const bare = [];
-    for (const { value, text } of select.options) {
+    const cases = [...select.options].flatMap((o) => ["body", "global"].map((f) => [o.value, o.text, f]));
+    for (const [value, text, axes] of cases) {
       select.value = value;
+      frame.value = axes;
       select.dispatchEvent(new Event("change"));
       for (const chart of document.querySelectorAll("#reaction-curves .chart:not([hidden])")) {
         const open = !chart.querySelector(".badge.unique");

@@ -243,7 +243,7 @@ impl<'a> Set<'a> {
             values: values
                 .map(|v| v.unwrap_or_else(|| self.unknown()))
                 .collect(),
-            freedom: freedom(&free, scene_size(mechanism, &q)),
+            freedom: freedom(&free, &self.turns(s), scene_size(mechanism, &q)),
         }
     }
 
@@ -255,6 +255,15 @@ impl<'a> Set<'a> {
             [wrench[0], wrench[1], wrench[2]]
         })
         .collect()
+    }
+
+    /// Cosine and sine of the angle of the first body of each joint.
+    fn turns(&self, s: &Scratch) -> Vec<[f64; 2]> {
+        let groups = self.part.mechanism.layout().groups.iter();
+        let first = groups.map(|g| g.bodies.first().and_then(|b| b.moving()));
+        first
+            .map(|k| k.map_or([1.0, 0.0], |k| [s.poses[k].cos, s.poses[k].sin]))
+            .collect()
     }
 
     /// y of the least `Σ (F² + T²)` over all joints and drives of the set.
@@ -283,11 +292,18 @@ impl<'a> Set<'a> {
 
 /// Directions of the forces `W_X·Z_X·y` of each joint, and which components of its wrench change with y; torques are measured by forces at the size
 /// of the set (m).
-fn freedom(free: &[Matrix], size: f64) -> Vec<Freedom> {
+fn freedom(free: &[Matrix], turns: &[[f64; 2]], size: f64) -> Vec<Freedom> {
     let norm = |m: &Matrix, i: usize| m.row(i).iter().map(|x| x * x).sum::<f64>().sqrt();
+    let along = |m: &Matrix, x: f64, y: f64| {
+        let terms = m.row(0).iter().zip(m.row(1));
+        terms
+            .map(|(a, b)| (x * a + y * b).powi(2))
+            .sum::<f64>()
+            .sqrt()
+    };
     let as_force = |m: &Matrix| norm(m, 0).hypot(norm(m, 1)).max(norm(m, 2) / size);
     let least = VISIBLE * free.iter().map(as_force).fold(0.0, f64::max);
-    let of = |m: &Matrix| {
+    let of = |(m, &[cos, sin]): (&Matrix, &[f64; 2])| {
         let dot = |i: usize, j: usize| -> f64 {
             let terms = m.row(i).iter().zip(m.row(j));
             terms.map(|(a, b)| a * b).sum()
@@ -308,9 +324,10 @@ fn freedom(free: &[Matrix], size: f64) -> Vec<Freedom> {
                 norm(m, 1) > least,
                 norm(m, 2) > least * size,
             ],
+            in_body: [along(m, cos, sin) > least, along(m, -sin, cos) > least],
         }
     };
-    free.iter().map(of).collect()
+    free.iter().zip(turns).map(of).collect()
 }
 
 /// What the choices say at an instant.

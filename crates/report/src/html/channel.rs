@@ -52,7 +52,7 @@ impl Channel {
             return Self::Constant(Rounded(f64::NAN));
         }
         // What is below the rounding of the numbers themselves is no change.
-        let flat = !(height > f64::EPSILON * low.abs().max(high.abs()));
+        let flat = height <= f64::EPSILON * low.abs().max(high.abs());
         if flat && !has_gaps {
             return Self::Constant(Rounded(low));
         }

@@ -29,6 +29,8 @@ pub struct Freedom {
     pub plane: bool,
     /// Whether Fx, Fy and T are free. In global components a reaction may be determined at one time and not at another.
     pub components: [bool; 3],
+    /// Whether the force is free along the x and the y of the first body, where it may be determined throughout.
+    pub in_body: [bool; 2],
 }
 
 impl Freedom {
@@ -37,6 +39,7 @@ impl Freedom {
         angle: f64::NAN,
         plane: false,
         components: [true; 3],
+        in_body: [true; 2],
     };
 
     /// Nothing is free.
@@ -44,5 +47,6 @@ impl Freedom {
         angle: f64::NAN,
         plane: false,
         components: [false; 3],
+        in_body: [false; 2],
     };
 }

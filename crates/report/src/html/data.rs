@@ -97,6 +97,8 @@ struct FreedomData {
     plane: bool,
     /// Whether Fx, Fy and T are free at some time.
     components: [bool; 3],
+    /// Whether the force is free along the axes of the first body at some time.
+    in_body: [bool; 2],
 }
 
 #[derive(Serialize)]
@@ -299,6 +301,7 @@ fn comparison<'a>(c: &'a Comparison, cast: &Cast, noise: f64) -> Option<Comparis
             angle: Channel::new(unwound(frames()).into_iter()),
             plane: frames().any(|f| f.plane),
             components: [0, 1, 2].map(|c| frames().any(|f| f.components[c])),
+            in_body: [0, 1].map(|c| frames().any(|f| f.in_body[c])),
         }
     });
     Some(ComparisonData {

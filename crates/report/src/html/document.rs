@@ -282,7 +282,9 @@ fn legend(out: &mut String, page: &RunPage<'_>) {
 fn curves(out: &mut String, page: &RunPage<'_>) {
     out.push_str(
         "<section id=\"reactions\" aria-labelledby=\"reactions-title\">\n<h2 id=\"reactions-title\">Reactions</h2>\n\
-         <div class=\"picker\"><label for=\"joint\">Joint or drive</label> <select id=\"joint\"></select></div>\n\
+         <div class=\"picker\"><label for=\"joint\">Joint or drive</label> <select id=\"joint\"></select> \
+         <label for=\"frame\">Components</label> <select id=\"frame\"><option value=\"global\">global</option>\
+         <option value=\"body\">along the first body</option></select></div>\n\
          <p id=\"reaction-words\"></p>\n<div id=\"reaction-legend\"></div>\n<div class=\"curves\" id=\"reaction-curves\"></div>\n</section>\n\
          <section id=\"curves\" aria-labelledby=\"curves-title\">\n<h2 id=\"curves-title\">Motion of bodies</h2>\n\
          <div class=\"curves\"><div><div class=\"picker\"><select id=\"quantity-a\" aria-label=\"First quantity\"></select></div>\

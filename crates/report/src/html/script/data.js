@@ -148,8 +148,9 @@ for (const comparison of data.comparisons) {
  * The verdict of a component along the run. Where choices were compared they tell; the verdicts of the analysis are those of the start, and
  * a component in global directions may be determined there only.
  */
-function verdictOf(joint, name) {
-  if (joint.freedom) return joint.freedom.components[COMPONENTS.indexOf(name)] ? "not_unique" : "unique";
+function verdictOf(joint, name, inBody = false) {
+  const place = COMPONENTS.indexOf(name);
+  if (joint.freedom) return joint.freedom[inBody ? "in_body" : "components"][place] ? "not_unique" : "unique";
   return joint.verdict === "unique" ? "unique" : joint.verdict;
 }
 

@@ -183,9 +183,11 @@ function setUpReactions(picture) {
     picture.select(joint.index);
     byId("reaction-words").replaceChildren(...withNames(reactionInWords(joint)));
     showChoices(joint);
-    COMPONENTS.forEach((name, k) => showComponent(shown[k], joint, name, k, floor));
+    const frame = byId("frame").value;
+    COMPONENTS.forEach((name, k) => showComponent(shown[k], joint, name, k, { floor, frame }));
   };
   select.addEventListener("change", refresh);
+  byId("frame").addEventListener("change", refresh);
   refresh();
   return (index) => {
     if (!joints[index].wrench) return;
@@ -220,21 +222,33 @@ function reactionInWords(joint) {
   return `${on}${why}${compared}`;
 }
 
-/** One component of a reaction in its chart. */
-function showComponent(chart, joint, name, k, floor) {
-  const known = joint.components.some((c) => c.name === name);
-  const verdict = verdictOf(joint, name);
+/** A wrench with its force along the axes of a body. */
+function turned(wrench, body) {
+  if (body < 0) return wrench;
+  const [x, y, torque] = wrench;
+  const { angle } = bodies[body];
+  const along = (a, b, sign) => x.map((_, k) => a[k] * Math.cos(angle[k]) + sign * b[k] * Math.sin(angle[k]));
+  return [along(x, y, 1), along(y, x, -1), torque];
+}
+
+/** One component of a reaction in its chart: global, or along the first body. */
+function showComponent(chart, joint, name, k, { floor, frame }) {
+  const inBody = frame === "body" && k < 2;
+  const wrenchOf = (wrench) => (inBody ? turned(wrench, joint.site.bodies[0]) : wrench)[k];
+  const pushes = joint.components.some((c) => c.name !== "T");
+  const known = inBody ? pushes : joint.components.some((c) => c.name === name);
+  const verdict = verdictOf(joint, name, inBody);
   const determined = verdict === "unique";
   const present = known && (determined || joint.choices.length > 0);
   chart.figure.hidden = !present;
   if (!present) return;
   const unit = name === "T" ? "N·m" : "N";
-  const options = { title: `${joint.name}.${name}`, unit, badge: verdict, floor, legend: false };
+  const options = { title: inBody ? `${joint.name}, force along ${"xy"[k]} of ${joint.bodies[0]}` : `${joint.name}.${name}`, unit, badge: verdict, floor, legend: false };
   if (determined) {
-    chart.show([{ label: `${name}, unique`, values: joint.wrench[k], colour: 0 }], options);
+    chart.show([{ label: `${name}, unique`, values: wrenchOf(joint.wrench), colour: 0 }], options);
     return;
   }
-  const curves = joint.choices.map((choice) => choice.wrench[k]);
+  const curves = joint.choices.map((choice) => wrenchOf(choice.wrench));
   const at = (of) => Float64Array.from({ length: frameCount }, (_, f) => {
     const values = curves.map((c) => c[f]).filter(Number.isFinite);
     return values.length ? of(...values) : NaN;
