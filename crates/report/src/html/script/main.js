@@ -177,14 +177,14 @@ function setUpReactions(picture) {
     return () => {};
   }
   const shown = COMPONENTS.map(() => new Chart(place, { title: "", unit: "", height: 180, onSeek: seek }));
-  const floor = 1e-9 * picture.large.force;
+  const large = picture.large.force;
   const refresh = () => {
     const joint = joints[Number(select.value)];
     picture.select(joint.index);
     byId("reaction-words").replaceChildren(...withNames(reactionInWords(joint)));
     showChoices(joint);
     const frame = byId("frame").value;
-    COMPONENTS.forEach((name, k) => showComponent(shown[k], joint, name, k, { floor, frame }));
+    COMPONENTS.forEach((name, k) => showComponent(shown[k], joint, name, k, { large, frame }));
   };
   select.addEventListener("change", refresh);
   byId("frame").addEventListener("change", refresh);
@@ -232,7 +232,7 @@ function turned(wrench, body) {
 }
 
 /** One component of a reaction in its chart: global, or along the first body. */
-function showComponent(chart, joint, name, k, { floor, frame }) {
+function showComponent(chart, joint, name, k, { large, frame }) {
   const inBody = frame === "body" && k < 2;
   const wrenchOf = (wrench) => (inBody ? turned(wrench, joint.site.bodies[0]) : wrench)[k];
   const pushes = joint.components.some((c) => c.name !== "T");
@@ -243,6 +243,8 @@ function showComponent(chart, joint, name, k, { floor, frame }) {
   chart.figure.hidden = !present;
   if (!present) return;
   const unit = name === "T" ? "N·m" : "N";
+  // The curves of the page are rounded: turned, what is zero shows that rounding, which no axis should fill.
+  const floor = (inBody ? 0.02 : 1e-9) * large;
   const options = { title: inBody ? `${joint.name}, force along ${"xy"[k]} of ${joint.bodies[0]}` : `${joint.name}.${name}`, unit, badge: verdict, floor, legend: false };
   if (determined) {
     chart.show([{ label: `${name}, unique`, values: wrenchOf(joint.wrench), colour: 0 }], options);
