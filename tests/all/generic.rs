@@ -1,7 +1,8 @@
 //! Permanent or only here: what is compared with other configurations, and what they say.
 
 use joints::{Revolute, RevoluteAngleDrive, Velocity, plane::Direction};
-use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism};
+use model::{Body, BodyRef, Description, Drive, Function, Joint, Mechanism, Registry};
+use pfaff::{Overrides, Study};
 use solvability::{Generic, analyse, generic, is_permanent};
 use tests::cranks::cranks;
 use tests::robot::{robot, steering};
@@ -120,4 +121,71 @@ fn time_moves_where_a_joint_depends_on_it() {
     let found = found.expect("a free body");
     assert_eq!((here, found.redundancy), (1, 1));
     assert!(found.points.iter().all(|p| p.time > 0.0));
+}
+
+/// Whether other configurations of a scene were found, and what they say.
+fn elsewhere(scene: &str) -> Option<Generic> {
+    let study = Study::read("scene", scene, &Registry::planar(), &Overrides::default());
+    let study = study.unwrap_or_else(|e| panic!("{scene}\n{e}"));
+    let start = study.inquire(0.0, None).expect("a rank");
+    start.generic()
+}
+
+/// Two wheels, each held at its centre, and two gears between them: no body has an arm. Neither place nor size nor mass has a say.
+#[test]
+fn wheels_are_compared_wherever_they_are_and_whatever_they_weigh() {
+    for mass in [0.9, 1.0, 2.0, 3.0] {
+        for size in [1.0, 1e-3, 1e3] {
+            for (x, y) in [(0.0, 0.0), (0.3, -0.7), (1e4, 0.0)] {
+                let [x, y, top] = [size * x, size * y, size * (y + 0.12)];
+                let scene = format!(
+                    r#"
+scene = {{ name = "wheels", space = "plane" }}
+body = [
+    {{ name = "a", mass = {mass:?}, inertia = 0.01, position = [{x:?}, {y:?}] }},
+    {{ name = "b", mass = {mass:?}, inertia = 0.01, position = [{x:?}, {top:?}] }},
+]
+joint = [
+    {{ name = "A", type = "revolute", bodies = ["ground", "a"], at = [{x:?}, {y:?}] }},
+    {{ name = "B", type = "revolute", bodies = ["ground", "b"], at = [{x:?}, {top:?}] }},
+    {{ name = "one", type = "gear", bodies = ["a", "b"], ratio = -1.0 }},
+    {{ name = "other", type = "gear", bodies = ["a", "b"], ratio = -1.0 }},
+]
+"#
+                );
+                let found = elsewhere(&scene).unwrap_or_else(|| panic!("{scene}"));
+                assert_eq!((found.redundancy, found.points.len()), (1, 4), "{scene}");
+            }
+        }
+    }
+}
+
+/// The crank of a Scotch yoke turns about the origin, and its pin moves along the slot: no row feels its arm at this instant, however
+/// the slot is turned.
+#[test]
+fn a_pin_that_moves_along_its_slot_has_an_arm() {
+    for turn in [0.0, 0.3, 0.7, 1.0, 2.5] {
+        let at = |x: f64| format!("[{:?}, {:?}]", x * f64::cos(turn), x * f64::sin(turn));
+        let scene = format!(
+            r#"
+scene = {{ name = "yoke", space = "plane" }}
+body = [
+    {{ name = "crank", mass = 1.5, inertia = 0.01, angle = {turn:?} }},
+    {{ name = "yoke", mass = 2.0, inertia = 0.05, position = {pin}, angle = {turn:?} }},
+]
+joint = [
+    {{ name = "pivot", type = "revolute", bodies = ["ground", "crank"], at = [0.0, 0.0] }},
+    {{ name = "slot", type = "pin-in-slot", bodies = ["yoke", "crank"], at = {pin}, axis = [0.0, 1.0] }},
+    {{ name = "left", type = "translational", bodies = ["ground", "yoke"], at = {left}, axis = {axis} }},
+    {{ name = "right", type = "translational", bodies = ["ground", "yoke"], at = {right}, axis = {axis} }},
+]
+"#,
+            pin = at(0.1),
+            left = at(-0.4),
+            right = at(0.4),
+            axis = at(1.0),
+        );
+        let found = elsewhere(&scene).unwrap_or_else(|| panic!("{scene}"));
+        assert_eq!((found.redundancy, found.points.len()), (2, 4), "{scene}");
+    }
 }

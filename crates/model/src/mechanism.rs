@@ -6,6 +6,7 @@ mod derivatives;
 mod holds;
 mod kernels;
 mod part;
+mod reach;
 mod work;
 
 use std::ops::Range;
@@ -15,7 +16,7 @@ use joints::Pose;
 use crate::description::{Body, BodyRef};
 use crate::function::Function;
 use crate::registry::{PlaneConstraint, PlaneForce};
-use crate::system::{Layout, System};
+use crate::system::Layout;
 
 pub use build::BuildError;
 pub use derivatives::{Derivatives, Sparse};
@@ -228,39 +229,7 @@ impl Mechanism {
         for f in &mut self.forces {
             f.element.element_mut().initialise(&of(&f.bodies));
         }
-        self.take_reach(q);
-    }
-
-    fn take_reach(&mut self, q: &[f64]) {
-        let mut s = self.scratch();
-        self.pose(0.0, q, &mut s);
-        self.c(&mut s);
-        let mut reach = vec![0.0_f64; self.bodies.len()];
-        for i in (0..self.layout.m).filter(|&i| !self.is_angular(i)) {
-            for (j, c) in self.layout.row(&s, i).filter(|(j, _)| j % N_BODY == 2) {
-                reach[j / N_BODY] = reach[j / N_BODY].max(c.abs());
-            }
-        }
-        // A body held at its centre is where its neighbours' arms put it.
-        let mut of_neighbours = vec![0.0_f64; self.bodies.len()];
-        for c in &self.constraints {
-            let bodies = || {
-                c.bodies.iter().filter_map(|b| match *b {
-                    BodyRef::Body(k) => Some(k),
-                    BodyRef::Ground => None,
-                })
-            };
-            let longest = bodies().map(|k| reach[k]).fold(0.0, f64::max);
-            for k in bodies() {
-                of_neighbours[k] = of_neighbours[k].max(longest);
-            }
-        }
-        for (reach, neighbours) in reach.iter_mut().zip(of_neighbours) {
-            if *reach == 0.0 {
-                *reach = neighbours;
-            }
-        }
-        self.reach = reach;
+        self.reach = reach::longest_arms(self, q);
     }
 
     /// Longest arm of a body in the initial configuration (m): its position matters to about the rounding of this, wherever it is.
