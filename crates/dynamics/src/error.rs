@@ -68,7 +68,8 @@ pub enum Trip {
     },
     /// Positions could not be brought back onto the constraints.
     #[error(
-        "at t = {time} s row {row} misses by {residual:.3e} after {iterations} corrections, more than {tolerance:.3e}"
+        "at t = {time} s row {row} misses by {residual:.3e} after {iterations} corrections, {}",
+        above(*residual, *tolerance)
     )]
     OffConstraints {
         /// When.
@@ -84,8 +85,9 @@ pub enum Trip {
     },
     /// A dropped row is no longer implied by the kept ones.
     #[error(
-        "at t = {time} s the dropped row {row} is violated by {residual:.3e} ({level}), more than {tolerance:.3e}: it \
-         contradicts the kept rows; it was redundant only at the start, or drives contradict each other"
+        "at t = {time} s the dropped row {row} is violated by {residual:.3e} ({level}), {}: it \
+         contradicts the kept rows; it was redundant only at the start, or drives contradict each other",
+        above(*residual, *tolerance)
     )]
     DroppedRow {
         /// When.
@@ -356,5 +358,29 @@ impl MotionError {
             ),
             other => other.to_string(),
         })
+    }
+}
+
+/// What a residual was compared with. A run goes on up to the last state that is allowed, so both may look the same.
+fn above(residual: f64, tolerance: f64) -> String {
+    let [found, allowed] = [residual, tolerance].map(|x| format!("{x:.3e}"));
+    match found == allowed {
+        true => format!("just above the allowed {allowed}"),
+        false => format!("more than {allowed}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::above;
+
+    #[test]
+    fn two_numbers_that_look_the_same_are_not_called_different() {
+        assert_eq!(above(1.25e-9, 3e-13), "more than 3.000e-13");
+        assert_eq!(
+            above(1.381_24e-13, 1.381_19e-13),
+            "just above the allowed 1.381e-13"
+        );
+        assert_eq!(above(f64::NAN, 1e-9), "more than 1.000e-9");
     }
 }
