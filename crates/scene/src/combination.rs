@@ -65,6 +65,14 @@ pub enum CombinationProblem {
         /// Whether it is the whole reaction.
         whole: bool,
     },
+    /// A number before a term without the sign between them.
+    #[error("a factor is written with `*`: `{factor}*{term}`")]
+    NoTimes {
+        /// The number.
+        factor: String,
+        /// The term.
+        term: String,
+    },
     /// A joint or drive that does not exist.
     #[error("there is no joint or drive `{name}`{}", suggestion(.nearest.as_deref()))]
     UnknownReaction {
@@ -305,18 +313,37 @@ impl<'a> Scanner<'a> {
         Ok(value)
     }
 
+    /// A number and the term after it, if only the sign between them is missing.
+    fn factor_without_times(&self, all: &Reactions) -> Option<(&'a str, &'a str)> {
+        let rest = self.rest();
+        let in_number = |c: char| c.is_ascii_digit() || c == '.';
+        let (number, after) = rest.split_at(rest.find(|c| !in_number(c))?);
+        let term = after.trim_start();
+        number.parse::<f64>().ok()?;
+        all.longest_at(term)?;
+        Some((number, term.split([' ', '+']).next().unwrap_or(term)))
+    }
+
     /// What to say of a term that begins with no known name.
     fn unknown(&self, all: &Reactions) -> CombinationError {
         let rest = self.rest();
         let end = |c: char| c.is_whitespace() || c == '+';
         let token = rest.split(end).next().unwrap_or(rest);
-        let name = token.rsplit_once('.').map_or(token, |(name, _)| name);
         let problem = match token {
             "" => CombinationProblem::NoTerm,
-            _ => CombinationProblem::UnknownReaction {
-                name: name.to_owned(),
-                nearest: nearest(name, all.names()).map(str::to_owned),
-            },
+            _ if let Some((factor, term)) = self.factor_without_times(all) => {
+                CombinationProblem::NoTimes {
+                    factor: factor.to_owned(),
+                    term: term.to_owned(),
+                }
+            }
+            _ => {
+                let name = token.rsplit_once('.').map_or(token, |(name, _)| name);
+                CombinationProblem::UnknownReaction {
+                    name: name.to_owned(),
+                    nearest: nearest(name, all.names()).map(str::to_owned),
+                }
+            }
         };
         CombinationError {
             problem,
@@ -399,6 +426,11 @@ mod tests {
                 "W3*2",
                 "0..4: there is no joint or drive `W3*2`; did you mean `W3`?",
             ),
+            (
+                "W3.N - 3 W4.N + W3.N",
+                "7..8: a factor is written with `*`: `3*W4.N`",
+            ),
+            ("2.5W4", "0..5: a factor is written with `*`: `2.5*W4`"),
             (
                 "W3.N + W5.N",
                 "7..11: there is no joint or drive `W5`; did you mean `W3`?",
