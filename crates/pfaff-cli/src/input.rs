@@ -71,6 +71,10 @@ impl Source {
                 text: self.text.clone(),
                 diagnostics,
             },
+            StudyError::NoEnd => Failure::input(format!(
+                "{}: write one after `--t-end`, or after `--along`",
+                StudyError::NoEnd
+            )),
             other if other.is_input() => Failure::input(other.to_string()),
             other => Failure::stopped(other.to_string()),
         }

@@ -31,8 +31,13 @@ pub(crate) fn named(
         (true, false) => "`body = …`",
         _ => "`bodies = [first, second]`",
     };
-    let one = table.optional("body");
-    let two = table.optional("bodies");
+    // A key that no definition takes is asked for only where it is written: otherwise it is not one of the keys.
+    let mut read = |key, is_taken| {
+        let asked = is_taken || table.has(key);
+        asked.then(|| table.optional(key)).flatten()
+    };
+    let one = read("body", takes(1));
+    let two = read("bodies", takes(2));
     let wrong = |key: &str| format!("{} takes {expected}, not `{key}`", table.subject);
     match (one, two) {
         (Some(one), Some(two)) => {

@@ -80,6 +80,11 @@ impl<'t> Table<'t> {
         self.entries.iter().map(field).collect()
     }
 
+    /// Whether a key is written; it does not become known.
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.entries.contains_key(key)
+    }
+
     /// The text under a key, if there is one; the key does not become known.
     pub(crate) fn peek(&self, key: &str) -> Option<&'t str> {
         self.entries.get(key)?.get_ref().as_str()
