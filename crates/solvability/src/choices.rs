@@ -194,7 +194,8 @@ pub enum ChoiceError {
     },
     /// These rows cannot be without reaction.
     #[error(
-        "no solution has zero reactions in the rows {}: {}",
+        "no solution has zero reactions in {} {}: {}",
+        row_word(rows),
         list(rows),
         cause(unique, source)
     )]
@@ -211,6 +212,13 @@ pub enum ChoiceError {
 fn list(rows: &[RowLabel]) -> String {
     let names: Vec<String> = rows.iter().map(RowLabel::to_string).collect();
     names.join(", ")
+}
+
+fn row_word(rows: &[RowLabel]) -> &'static str {
+    match rows {
+        [_] => "row",
+        _ => "the rows",
+    }
 }
 
 fn cause(unique: &[RowLabel], source: &KeptRowsError) -> String {
@@ -234,14 +242,17 @@ impl Distribution {
         check("multipliers", &self.lambda, form.coefficients().len())?;
         Ok(match configuration.judge(form)?.verdict {
             // From the best rows there are, whatever the choice.
-            Verdict::Unique => Value::Unique(form.value(&self.lambda_0)),
+            Verdict::Unique => Value::Unique(configuration.value(form, &self.lambda_0)),
             _ => Value::Chosen {
-                value: form.value(&self.lambda),
+                value: configuration.value(form, &self.lambda),
                 by: self.label.clone(),
             },
         })
     }
 }
+
+/// A number is known to so many roundings of the largest multiplier, each measured by its row.
+const ROUNDINGS: f64 = 4.0;
 
 impl Configuration<'_> {
     /// The distribution that a choice makes of one solution λ₀, as [`Equations::multipliers`] gives it.
@@ -293,6 +304,23 @@ impl Configuration<'_> {
             distribution.multipliers.push(value);
         }
         Ok(distribution)
+    }
+
+    /// The number that a form makes of multipliers; zero where it is less than their rounding leaves open.
+    ///
+    /// # Panics
+    /// If there is not one multiplier for each row.
+    #[must_use]
+    pub fn value(&self, form: &LinearForm, lambda: &[f64]) -> f64 {
+        let value = form.value(lambda);
+        let scaling = &self.solvability.decision().scaling;
+        let equal = |(i, l): (usize, &f64)| (l / scaling.row_factor(i)).abs();
+        let largest = lambda.iter().enumerate().map(equal).fold(0.0, f64::max);
+        let size = form.size(|i| scaling.row_factor(i));
+        match value.abs() <= ROUNDINGS * f64::EPSILON * size * largest {
+            true => 0.0,
+            false => value,
+        }
     }
 
     fn minimum_norm(&self, lambda_0: &[f64], w: NormWeights) -> Result<Vec<f64>, ChoiceError> {
@@ -423,7 +451,7 @@ impl Configuration<'_> {
             Choice::Elimination(rows) => {
                 let labels: Vec<RowLabel> =
                     rows.iter().map(|&i| layout.labels[i].clone()).collect();
-                format!("no reaction in the rows {}", list(&labels))
+                format!("no reaction in {} {}", row_word(&labels), list(&labels))
             }
         };
         Label(text.into())

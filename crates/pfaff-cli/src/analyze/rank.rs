@@ -70,12 +70,10 @@ fn proof(d: &AnalysisDocument) -> String {
     };
     let next = e.sigma_next_extended.unwrap_or(f64::NAN);
     match e.grounds {
-        Some("full_rank") if d.redundancy == 0 => {
-            format!(
-                "proved: all {} are independent",
-                count(d.rows, "row", "rows")
-            )
-        }
+        Some("full_rank") if d.redundancy == 0 => match d.rows {
+            1 => "proved: the only row is independent".to_owned(),
+            rows => format!("proved: all {rows} rows are independent"),
+        },
         Some("full_rank") => {
             format!("proved: there are no more columns, so {others} redundant exactly")
         }

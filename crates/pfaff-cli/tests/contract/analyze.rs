@@ -363,7 +363,7 @@ fn choices_are_labelled_and_facts_are_not() {
     contains(
         &text,
         &[
-            "choice 1: no reaction in the rows 3 (`right`, x)",
+            "choice 1: no reaction in row 3 (`right`, x)",
             "A change of units leaves what is determined",
         ],
     );

@@ -1,5 +1,6 @@
 //! What users and scripts rely on: exit codes, documents, files, and one clear message for each wrong input.
 
+mod advice;
 mod analyze;
 mod bad_input;
 mod book;

@@ -110,6 +110,12 @@ impl LinearForm {
             .sum()
     }
 
+    /// Sum of the sizes of its terms, for multipliers of these sizes.
+    pub(crate) fn size(&self, of_row: impl Fn(usize) -> f64) -> f64 {
+        let sizes = self.sizes.iter().enumerate();
+        sizes.map(|(i, size)| size * of_row(i)).sum()
+    }
+
     /// Unique iff `ℓᵀ·Z = 0`; the margin is relative to the size of the terms, both for equilibrated rows.
     ///
     /// # Errors
