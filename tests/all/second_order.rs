@@ -4,7 +4,7 @@
 use joints::RevoluteAngleDrive;
 use linalg::Matrix;
 use model::{BodyRef, Description, Drive, Function, Mechanism, System};
-use solvability::{Continuation, Undetermined, decide, second_order};
+use solvability::{Continuation, Undetermined, decide, is_locked, second_order};
 use tests::cranks::cranks;
 use tests::{largest, revolute, rod};
 
@@ -180,4 +180,57 @@ fn what_is_not_decided_is_said() {
         ),
         "{found:?}"
     );
+}
+
+/// Rods from pivot to pivot, end to end: their joints are at these places.
+fn chain(places: &[[f64; 2]]) -> Description {
+    let links = places.len() - 1;
+    let rods = places.windows(2).enumerate();
+    let bodies: Vec<_> = rods
+        .map(|(k, ends)| rod(&format!("rod {k}"), 1.0, ends[0], ends[1]))
+        .collect();
+    let before = |k: usize| match k {
+        0 => BodyRef::Ground,
+        k => BodyRef::Body(k - 1),
+    };
+    let after = |k: usize| {
+        if k == links {
+            BodyRef::Ground
+        } else {
+            BodyRef::Body(k)
+        }
+    };
+    let joint = |(k, at): (usize, &[f64; 2])| {
+        revolute(&format!("pin {k}"), &bodies, [before(k), after(k)], *at)
+    };
+    let joints = places.iter().enumerate().map(joint).collect();
+    Description {
+        bodies,
+        joints,
+        ..Description::default()
+    }
+}
+
+/// A straight chain between two pivots gives way by an infinitesimal amount only, with any number of pins: it would have to become longer.
+#[test]
+fn what_cannot_go_on_at_second_order_is_locked() {
+    let locked = |d: &Description| {
+        let mechanism = Mechanism::build(d).expect("builds");
+        let (q, _) = mechanism.described_state();
+        let mut s = mechanism.scratch();
+        mechanism.pose(0.0, &q, &mut s);
+        mechanism.phi(&mut s);
+        mechanism.c(&mut s);
+        let decision = decide(&mechanism, &s, &q).expect("finite");
+        is_locked(&mechanism, 0.0, &q, &decision).expect("a configuration")
+    };
+    let x = |x: f64| [x, 0.0];
+    assert!(locked(&chain(&[x(0.0), x(1.0), x(2.5)])));
+    assert!(locked(&chain(&[x(0.0), x(1.0), x(2.5), x(3.0)])));
+    // A rod that comes back: with it the chain may open.
+    assert!(!locked(&chain(&[x(0.0), x(1.0), x(0.4), x(0.9)])));
+    // No freedom at all, and one that is real.
+    assert!(!locked(&chain(&[x(0.0), [1.0, 1.0], x(2.0)])));
+    assert!(!locked(&chain(&[x(0.0), [0.0, 1.0], [1.0, 1.0], x(1.0)])));
+    assert!(!locked(&cranks(&[0.0, PITCH], LENGTH, 0.0)));
 }

@@ -95,7 +95,7 @@ fn of_start(
     let mut blueprint = read.map_err(failure)?;
     let inquiry = blueprint.inquire(drop).map_err(failure)?;
     let mut document = ask::document(arguments, source, &inquiry)?;
-    document.warnings.push(warning);
+    document.warnings.insert(0, warning);
     answer(arguments, &inquiry, &document)
 }
 

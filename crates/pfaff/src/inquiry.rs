@@ -10,7 +10,7 @@ use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Configuration, Continuation, Contradiction,
     Distribution, Equations, Explanation, ExplanationError, FrameVerdict, Generic, GroupVerdict,
     Proposals, Ranks, State, UnitCheck, analyse_dropping, analyse_known, certify, check_units,
-    contradictions, explain, generic, make_unique, second_order,
+    contradictions, explain, generic, is_locked, make_unique, second_order,
 };
 
 use crate::error::StudyError;
@@ -191,6 +191,16 @@ impl<'a> Inquiry<'a> {
     /// # Errors
     /// [`StudyError::Request`]
     pub fn frames(&self, id: ConstraintId) -> Result<Vec<FrameVerdict>, StudyError> {
+    /// Whether the mechanism cannot move although it has freedoms of first order: second order blocks all of them.
+    ///
+    /// # Errors
+    /// [`StudyError::State`]
+    pub fn is_locked(&self) -> Result<bool, StudyError> {
+        let analysis = &self.analysis;
+        let (t, decision) = (analysis.time, &analysis.decision);
+        Ok(is_locked(self.mechanism, t, &self.state.q, decision)?)
+    }
+
         Ok(self.configuration.frames(id)?)
     }
 

@@ -73,7 +73,7 @@ pub use mechanism::{
 };
 pub use memory::memory_of_verdicts;
 pub use rows::{RowDecision, Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows};
-pub use second_order::{Continuation, KERNEL_MAX, Undetermined, second_order};
+pub use second_order::{Continuation, KERNEL_MAX, Undetermined, is_locked, second_order};
 pub use state::{State, StateError};
 pub use structure::{judge_parts, structure};
 pub use survey::{LARGE, PartVerdicts, Survey, SurveyedPart, survey, verdicts};

@@ -13,7 +13,7 @@ mod branches;
 mod forms;
 
 use linalg::{Doubt, Matrix, RankDecision, RankError};
-use model::Mechanism;
+use model::{Mechanism, System};
 
 use crate::state::{self, StateError};
 use forms::Forms;
@@ -130,4 +130,32 @@ pub fn second_order(
             },
         },
     })
+}
+
+/// Whether the mechanism cannot move although C leaves it freedoms: second order excludes every velocity with `C·v = 0`, so its mobility is one of
+/// first order only. Not asked of mechanisms with functions of time, which move by these.
+///
+/// # Errors
+/// If the configuration has not as many numbers as the mechanism, or one of them is not finite.
+pub fn is_locked(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    decision: &RankDecision,
+) -> Result<bool, StateError> {
+    let layout = mechanism.layout();
+    let has_freedom = decision.is_decided() && decision.rank < layout.n_v;
+    if !has_freedom || decision.redundancy == 0 || layout.rheonomic {
+        return Ok(false);
+    }
+    let n = layout.n_v;
+    let found = second_order(
+        mechanism,
+        t,
+        q,
+        &vec![0.0; n],
+        decision,
+        &Matrix::zeros(n, 0),
+    )?;
+    Ok(found == Continuation::Unique)
 }

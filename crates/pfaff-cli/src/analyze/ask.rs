@@ -8,8 +8,8 @@ use pfaff::report::{AnalysisDocument, Proof};
 use pfaff::solvability::{Allowed, UnitError, Verdict};
 use pfaff::{Inquiry, StudyError};
 
-use super::choice;
 use super::deletions::HINTS;
+use super::{choice, rank};
 use crate::args::Analyze;
 use crate::input::Source;
 use crate::output::Failure;
@@ -66,6 +66,12 @@ pub(super) fn document(
     if arguments.frames {
         let ids = inquiry.mechanism.constraint_ids();
         let frames: Result<Vec<_>, _> = ids.map(|id| inquiry.frames(id)).collect();
+    document
+        .warnings
+        .extend(rank::only_here(&document, inquiry));
+    if generic.is_none() && inquiry.is_locked().map_err(failure)? {
+        document.warnings.push(rank::locked(&document));
+    }
         document.add_frames(&frames.map_err(failure)?);
     }
     if !choices.is_empty() {

@@ -161,7 +161,19 @@ fn the_gallery_shows_what_the_command_prints() {
     check_pages("examples");
 }
 
-/// Every example is read without a word on standard error, and analysed without a warning.
+/// What some examples are made to show, as their warnings begin.
+const WARNED: [(&str, &str); 2] = [
+    (
+        "chebyshev.toml",
+        "mobility 1 at first order, but this mechanism cannot move",
+    ),
+    (
+        "truck.toml",
+        "redundancy 2 and its verdicts hold at this singular configuration only",
+    ),
+];
+
+/// Every example is read without a word on standard error, and analysed without a warning that is not meant.
 #[test]
 fn the_gallery_is_read_in_silence() {
     let folder = scenes("the gallery in silence");
@@ -175,7 +187,13 @@ fn the_gallery_is_read_in_silence() {
             let text = stdout(&output);
             if arguments[0] == "analyze" {
                 let document: serde_json::Value = serde_json::from_str(&text).expect("JSON");
-                assert_eq!(document["warnings"], serde_json::json!([]), "{scene}");
+                let warnings = document["warnings"].as_array().expect("an array");
+                let meant = |w: &&serde_json::Value| {
+                    let text = w.as_str().unwrap_or_default();
+                    let mut known = WARNED.iter();
+                    known.any(|(of, begins)| scene.ends_with(of) && text.starts_with(begins))
+                };
+                assert!(warnings.iter().all(|w| meant(&w)), "{scene}: {warnings:?}");
             }
         }
     }
