@@ -14,7 +14,7 @@ pub(super) const HINTS: usize = 8;
 /// The hints where nobody asked, the answers where somebody did, and the number of admissible sets.
 pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
     let mut out = String::new();
-    let useful = hints.iter().any(|hint| !hint.ways.is_empty());
+    let useful = hints.iter().any(|hint| hint.reason.is_none());
     if useful && d.make_unique.is_empty() {
         out.push_str("\nWhat would make it unique (a decision of the designer, not a finding):\n");
         for hint in hints.iter().take(HINTS) {
@@ -64,7 +64,10 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
     };
     let rows = count(d.redundancy, "row", "rows");
     let sentence = match number {
-        Some(n) => format!("{n} sets of {rows} can be eliminated without a change of motion{sets}"),
+        Some(n) => {
+            let word = if n == "1" { "set" } else { "sets" };
+            format!("{n} {word} of {rows} can be eliminated without a change of motion{sets}")
+        }
         None => format!("the sets of {rows} that can be eliminated are not counted: {reason}"),
     };
     out.push('\n');
@@ -85,6 +88,10 @@ fn ways(found: &MakeUniqueDocument, most: usize) -> String {
         .collect();
     let more = found.ways.len() - texts.len();
     match (texts.as_slice(), found.complete) {
+        ([], true) if found.allowed == "sensible" => format!(
+            "nothing that leaves each joint a row; for whole joints, `--make-unique \"{}\" --allow whole`",
+            found.reaction
+        ),
         ([], true) => "nothing that is allowed to be deleted makes it so".to_owned(),
         ([], false) => "nothing was found in the sets that were tried".to_owned(),
         (texts, _) if more == 0 => texts.join("; or "),
