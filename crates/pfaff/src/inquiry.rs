@@ -9,11 +9,15 @@ use scene::Scene;
 use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Configuration, Continuation, Contradiction,
     Distribution, Equations, Explanation, ExplanationError, FrameVerdict, Generic, GroupVerdict,
-    Proposals, Ranks, State, UnitCheck, analyse_dropping, analyse_known, certify, check_units,
-    contradictions, explain, generic, is_locked, make_unique, second_order,
+    LinearForm, Proposals, Ranks, RequestError, State, UnitCheck, Value, analyse_dropping,
+    analyse_known, certify, check_units, contradictions, explain, generic, is_locked, make_unique,
+    second_order,
 };
 
 use crate::error::StudyError;
+
+/// Numbers of a group by name: `sum`, or `Fx`, `Fy` and `T`.
+pub type Numbers = Vec<(&'static str, Value)>;
 
 /// A configuration whose rank has been decided, with its verdicts.
 ///
@@ -115,6 +119,51 @@ impl<'a> Inquiry<'a> {
             .collect()
     }
 
+    /// The numbers of the same groups that every solution shares, by name; several reactions side by side have none.
+    ///
+    /// # Errors
+    /// As [`Inquiry::groups`], and [`StudyError::Choice`]: there are no reactions, or the rank is undecided.
+    pub fn determined(&self, combine: &[String]) -> Result<Vec<Numbers>, StudyError> {
+        let lambda_0 = self.multipliers()?;
+        self.numbers(combine, |form| {
+            let is_unique = self.configuration.judge(form)?.verdict.is_unique();
+            let value = || Value::Unique(self.configuration.value(form, &lambda_0));
+            Ok(is_unique.then(value))
+        })
+    }
+
+    /// All numbers of the same groups as a choice gives them.
+    ///
+    /// # Errors
+    /// As [`Inquiry::groups`].
+    pub fn chosen(
+        &self,
+        combine: &[String],
+        distribution: &Distribution,
+    ) -> Result<Vec<Numbers>, StudyError> {
+        self.numbers(combine, |form| {
+            Ok(Some(distribution.value(&self.configuration, form)?))
+        })
+    }
+
+    fn numbers(
+        &self,
+        combine: &[String],
+        value: impl Fn(&LinearForm) -> Result<Option<Value>, RequestError>,
+    ) -> Result<Vec<Numbers>, StudyError> {
+        requests::groups(self.scene, self.mechanism, combine)?
+            .iter()
+            .map(|(_, group)| {
+                let forms = self.configuration.numbers(group)?;
+                let values = forms.iter().filter_map(|(name, form)| {
+                    let value = value(form).transpose()?;
+                    Some(value.map(|value| (*name, value)))
+                });
+                Ok(values.collect::<Result<_, _>>()?)
+            })
+            .collect()
+    }
+
     /// Ranks at other configurations of the same component; nothing if none could be reached.
     #[must_use]
     pub fn generic(&self) -> Option<Generic> {
@@ -140,6 +189,16 @@ impl<'a> Inquiry<'a> {
         };
         let found = second_order(self.mechanism, self.analysis.time, q, v, decision, &regular)?;
         Ok(Some(found))
+    }
+
+    /// Whether the mechanism cannot move although it has freedoms of first order: second order blocks all of them.
+    ///
+    /// # Errors
+    /// [`StudyError::State`]
+    pub fn is_locked(&self) -> Result<bool, StudyError> {
+        let analysis = &self.analysis;
+        let (t, decision) = (analysis.time, &analysis.decision);
+        Ok(is_locked(self.mechanism, t, &self.state.q, decision)?)
     }
 
     /// Why the reactions are not unique; nothing while the rank is undecided, where every sentence would build on one of two
@@ -191,16 +250,6 @@ impl<'a> Inquiry<'a> {
     /// # Errors
     /// [`StudyError::Request`]
     pub fn frames(&self, id: ConstraintId) -> Result<Vec<FrameVerdict>, StudyError> {
-    /// Whether the mechanism cannot move although it has freedoms of first order: second order blocks all of them.
-    ///
-    /// # Errors
-    /// [`StudyError::State`]
-    pub fn is_locked(&self) -> Result<bool, StudyError> {
-        let analysis = &self.analysis;
-        let (t, decision) = (analysis.time, &analysis.decision);
-        Ok(is_locked(self.mechanism, t, &self.state.q, decision)?)
-    }
-
         Ok(self.configuration.frames(id)?)
     }
 
@@ -209,12 +258,10 @@ impl<'a> Inquiry<'a> {
     /// # Errors
     /// [`StudyError::Choice`]: there is no such distribution, or the rank is undecided.
     pub fn distribution(&self, choice: &Choice) -> Result<Distribution, StudyError> {
-        let v = self.velocities()?;
         if let Choice::Elimination(rows) = choice {
             self.check_rows(rows)?;
         }
-        let equations = Equations::of(self.mechanism, self.analysis.time, &self.state.q, v)?;
-        let lambda_0 = equations.multipliers(&self.analysis.decision)?;
+        let lambda_0 = self.multipliers()?;
         Ok(self.configuration.distribute(&lambda_0, choice)?)
     }
 
@@ -259,6 +306,13 @@ impl<'a> Inquiry<'a> {
             Some(&row) => Err(StudyError::UnknownRow { row, rows: n }),
             None => Ok(()),
         }
+    }
+
+    /// One solution of the equations of motion.
+    fn multipliers(&self) -> Result<Vec<f64>, StudyError> {
+        let v = self.velocities()?;
+        let equations = Equations::of(self.mechanism, self.analysis.time, &self.state.q, v)?;
+        Ok(equations.multipliers(&self.analysis.decision)?)
     }
 
     fn velocities(&self) -> Result<&[f64], StudyError> {

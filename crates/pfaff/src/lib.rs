@@ -39,7 +39,7 @@ pub use suite;
 
 pub use blueprint::Blueprint;
 pub use error::StudyError;
-pub use inquiry::Inquiry;
+pub use inquiry::{Inquiry, Numbers};
 pub use journey::{Journey, Progress};
 pub use study::{Findings, Overrides, Study};
 

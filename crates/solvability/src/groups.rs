@@ -50,6 +50,8 @@ pub struct GroupVerdict {
     pub judgement: Judgement,
     /// `Fx`, `Fy` and `T` of a sum of wrenches or a resultant; empty for other groups.
     pub components: Vec<ComponentVerdict>,
+    /// Where T of these components is about: a global point (m).
+    pub about: Option<[f64; 2]>,
 }
 
 /// Judges groups at time t and coordinates q, where the rank has been decided.
@@ -85,14 +87,47 @@ impl Configuration<'_> {
             }
             Group::OneJoint(members) => self.one_joint(members),
             Group::Combination(terms) => Ok(whole(self.judge(&self.combination(terms)?)?)),
-            Group::WrenchSum(terms) => self.by_components(&self.wrench_sum(terms)?),
-            Group::Resultant(bodies) => {
-                let about = match bodies.first() {
-                    Some(&body) => self.origin(body)?,
-                    None => [0.0; 2],
-                };
-                self.by_components(&self.resultant(bodies, about)?)
+            Group::WrenchSum(_) | Group::Resultant(_) => {
+                let forms = self.numbers(group)?;
+                let judged = forms.iter().map(|(_, form)| self.judge(form));
+                let judged = judged.collect::<Result<Vec<_>, _>>()?;
+                let named = forms.iter().map(|(name, _)| *name).zip(&judged);
+                Ok(GroupVerdict {
+                    components: named
+                        .map(|(name, judgement)| ComponentVerdict {
+                            name,
+                            judgement: judgement.clone(),
+                        })
+                        .collect(),
+                    judgement: worst(judged.into_iter()).ok_or(NO_REACTION)?,
+                    about: self.about(group)?,
+                })
             }
+        }
+    }
+
+    /// The numbers of a group that is one, by name: the `sum` of a combination; `Fx`, `Fy` and `T` of wrenches. Several reactions side by side are none.
+    ///
+    /// # Errors
+    /// As [`judge_groups`].
+    pub fn numbers(&self, group: &Group) -> Result<Vec<(&'static str, LinearForm)>, RequestError> {
+        Ok(match group {
+            Group::Members(_) | Group::OneJoint(_) => Vec::new(),
+            Group::Combination(terms) => vec![("sum", self.combination(terms)?)],
+            Group::WrenchSum(terms) => named(self.wrench_sum(terms)?),
+            Group::Resultant(bodies) => {
+                let about = self.about(group)?.unwrap_or_default();
+                named(self.resultant(bodies, about)?)
+            }
+        })
+    }
+
+    /// Where the T of a sum of wrenches or a resultant is about.
+    fn about(&self, group: &Group) -> Result<Option<[f64; 2]>, RequestError> {
+        match group {
+            Group::WrenchSum(terms) => terms.first().map(|&(_, id)| self.place(id)).transpose(),
+            Group::Resultant(bodies) => bodies.first().map(|&body| self.origin(body)).transpose(),
+            _ => Ok(None),
         }
     }
 
@@ -167,21 +202,10 @@ impl Configuration<'_> {
             .map(|&id| self.check_id(id).map(|()| groups[id.0].rows.clone()))
             .collect()
     }
+}
 
-    fn by_components(&self, forms: &[LinearForm; 3]) -> Result<GroupVerdict, RequestError> {
-        let [x, y, t] = forms;
-        let judgements = [self.judge(x)?, self.judge(y)?, self.judge(t)?];
-        let judgement = worst(judgements.iter().cloned()).ok_or(NO_REACTION)?;
-        let component = |(name, judgement)| ComponentVerdict { name, judgement };
-        Ok(GroupVerdict {
-            judgement,
-            components: COMPONENTS
-                .into_iter()
-                .zip(judgements)
-                .map(component)
-                .collect(),
-        })
-    }
+fn named(forms: [LinearForm; 3]) -> Vec<(&'static str, LinearForm)> {
+    COMPONENTS.into_iter().zip(forms).collect()
 }
 
 /// A group without members.
@@ -193,6 +217,7 @@ fn whole(judgement: Judgement) -> GroupVerdict {
     GroupVerdict {
         judgement,
         components: Vec::new(),
+        about: None,
     }
 }
 

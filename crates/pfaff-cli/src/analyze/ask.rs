@@ -2,7 +2,7 @@
 
 use pfaff::linalg::{DeletionError, Limits};
 use pfaff::report::documents::{
-    DistributionDocument, EliminationsDocument, GroupDocument, MakeUniqueDocument,
+    DistributionDocument, EliminationsDocument, GroupDocument, MakeUniqueDocument, ValuesDocument,
 };
 use pfaff::report::{AnalysisDocument, Proof};
 use pfaff::solvability::{Allowed, UnitError, Verdict};
@@ -48,12 +48,29 @@ pub(super) fn document(
         .iter()
         .map(|(name, verdict)| GroupDocument::new(name, verdict))
         .collect();
+    if !groups.is_empty() && inquiry.analysis.decision.is_decided() {
+        match inquiry.determined(&arguments.combine) {
+            Ok(numbers) => {
+                let given = document.groups.drain(..).zip(&numbers);
+                document.groups = given.map(|(g, values)| g.with_values(values)).collect();
+            }
+            Err(e) => document
+                .warnings
+                .push(format!("sums have no numbers here: {e}")),
+        }
+    }
     if let Some(explanation) = inquiry.explanation().map_err(failure)? {
         document.explain(&explanation, layout);
     }
     if let Some(generic) = &generic {
         let continuation = inquiry.continuation(generic).map_err(failure)?;
         document.continuation = continuation.as_ref().map(Into::into);
+    }
+    document
+        .warnings
+        .extend(rank::only_here(&document, inquiry));
+    if generic.is_none() && inquiry.is_locked().map_err(failure)? {
+        document.warnings.push(rank::locked(&document));
     }
     let sets = arguments.eliminations.map(|n| inquiry.elimination_sets(n));
     document.eliminations = Some(EliminationsDocument::new(inquiry.eliminations(), sets));
@@ -66,12 +83,6 @@ pub(super) fn document(
     if arguments.frames {
         let ids = inquiry.mechanism.constraint_ids();
         let frames: Result<Vec<_>, _> = ids.map(|id| inquiry.frames(id)).collect();
-    document
-        .warnings
-        .extend(rank::only_here(&document, inquiry));
-    if generic.is_none() && inquiry.is_locked().map_err(failure)? {
-        document.warnings.push(rank::locked(&document));
-    }
         document.add_frames(&frames.map_err(failure)?);
     }
     if !choices.is_empty() {
@@ -88,7 +99,13 @@ pub(super) fn document(
         };
         for choice in &choices {
             let distribution = inquiry.distribution(choice).map_err(failure)?;
-            let made = DistributionDocument::new(&distribution, &facts);
+            let mut made = DistributionDocument::new(&distribution, &facts);
+            let sums = inquiry.chosen(&arguments.combine, &distribution);
+            let sums = groups.iter().zip(sums.map_err(failure)?);
+            made.groups = sums
+                .filter(|(_, values)| !values.is_empty())
+                .map(|((name, _), values)| ValuesDocument::of_group(name, &values))
+                .collect();
             document.choices.push(made);
         }
     }

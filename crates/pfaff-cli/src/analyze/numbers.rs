@@ -1,6 +1,6 @@
 //! Reactions in numbers, by the choices that were asked for.
 
-use pfaff::report::documents::{DistributionDocument, ValueDocument};
+use pfaff::report::documents::{DistributionDocument, ValueDocument, ValuesDocument};
 
 use crate::output::{columns, wrapped};
 
@@ -15,21 +15,22 @@ pub(super) fn describe(choices: &[DistributionDocument]) -> String {
     header.extend((1..=choices.len()).map(|k| format!("choice {k}")));
     let mut table = vec![header];
     let mut suspicious = Vec::new();
-    for (i, reaction) in first.reactions.iter().enumerate() {
+    let all_of = |d: &'_ DistributionDocument| -> Vec<ValuesDocument> {
+        d.reactions.iter().chain(&d.groups).cloned().collect()
+    };
+    let columns_of: Vec<Vec<ValuesDocument>> = choices.iter().map(all_of).collect();
+    for (i, reaction) in columns_of[0].iter().enumerate() {
         for (j, component) in reaction.components.iter().enumerate() {
             let name = component.name.unwrap_or_default();
             let mut cells = vec![reaction.name.clone(), name.to_owned()];
-            let number = |v: &ValueDocument| match v.value {
-                0.0 => format!("{:>12}", 0),
-                value => format!("{value:>12.5e}"),
-            };
+            let number = |v: &ValueDocument| format!("{:>12}", number(v.value));
             let is_fact = component.choice.is_none();
             match is_fact {
                 true => cells.push(number(component)),
                 false => {
                     cells.push(String::new());
-                    let all = choices.iter();
-                    cells.extend(all.map(|d| number(&d.reactions[i].components[j])));
+                    let all = columns_of.iter();
+                    cells.extend(all.map(|column| number(&column[i].components[j])));
                 }
             }
             if component.nature == Some(if is_fact { "choice" } else { "fact" }) {
@@ -56,4 +57,12 @@ pub(super) fn describe(choices: &[DistributionDocument]) -> String {
     };
     out.push_str(&wrapped("", &sentence));
     out
+}
+
+/// Six digits, and zero as it is.
+pub(super) fn number(value: f64) -> String {
+    match value {
+        0.0 => "0".to_owned(),
+        value => format!("{value:.5e}"),
+    }
 }

@@ -2,7 +2,8 @@
 
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
-    ComponentDocument, MakeUniqueDocument, MixingDocument, ReactionDocument, VerdictDocument,
+    ComponentDocument, GroupDocument, MakeUniqueDocument, MixingDocument, ReactionDocument,
+    VerdictDocument,
 };
 
 use super::{along, deletions, numbers, rank};
@@ -133,14 +134,31 @@ fn groups(d: &AnalysisDocument) -> String {
             spoken(g.verdict.verdict),
             margin(&g.verdict)
         );
-        if !g.components.is_empty() {
-            text.push_str(&format!(": {}", each(&g.components)));
-        }
+        text.push_str(&numbers_of(g));
         out.push_str(&wrapped(&format!("{}: ", g.name), &text));
     }
     match out.is_empty() {
         true => out,
         false => format!("\nSums and groups:\n{out}"),
+    }
+}
+
+/// What is unique by its number, where that is known, else by its verdict.
+fn numbers_of(g: &GroupDocument) -> String {
+    let value = |name: &str| g.values.iter().find(|v| v.name == Some(name));
+    if let Some(sum) = value("sum") {
+        return format!(": {}", numbers::number(sum.value));
+    }
+    let components = g.components.iter().map(|c| match value(c.name) {
+        Some(known) => format!("{} = {}", c.name, numbers::number(known.value)),
+        None => format!("{} {}", c.name, spoken(c.verdict.verdict)),
+    });
+    let components: Vec<String> = components.collect();
+    let about = g.about.map(|at| at.map(|x| (1e4 * x).round() / 1e4 + 0.0));
+    match (components.as_slice(), about) {
+        ([], _) => String::new(),
+        (all, Some([x, y])) => format!(": {}; T about ({x}, {y})", all.join(", ")),
+        (all, None) => format!(": {}", all.join(", ")),
     }
 }
 

@@ -21,6 +21,54 @@ fn words(name: &str, more: &[&str]) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+/// 12 N·m at the input, 0.01, 0.04 and 0.9 kg·m² at the speeds 1, −½ and ⅙.
+#[test]
+fn sums_have_numbers() {
+    let reduced = 0.01 + 2.0 * 0.04 / 4.0 + 0.9 / 36.0;
+    let on_output = 0.9 * (12.0 / reduced / 6.0);
+    let text = words("gear-train", &["--combine", "out-1 + out-2"]);
+    contains(&text, &["T about (0, 0.12)"]);
+    let d = analysis(
+        "gear-train",
+        &["--combine", "out-1 + out-2", "--choose", "minimum-norm"],
+    );
+    let [sum, wrench] = d["groups"].as_array().expect("an array").as_slice() else {
+        panic!("{d:#}");
+    };
+    assert_eq!(sum["values"][0]["name"], "sum");
+    assert_eq!(wrench["about"], json!([0.0, 0.12]));
+    let names: Vec<&Value> = (0..3).map(|k| &wrench["values"][k]["name"]).collect();
+    assert_eq!(names, ["Fx", "Fy", "T"]);
+    // The first body of a mesh is the layshaft, which turns three times as fast as the output.
+    let torque = |v: &Value| v["value"].as_f64().expect("a number");
+    for value in [
+        &sum["values"][0],
+        &wrench["values"][2],
+        &d["choices"][0]["groups"][1]["components"][2],
+    ] {
+        assert!(
+            (torque(value).abs() - on_output / 3.0).abs() < 1e-12,
+            "{value}, {on_output}"
+        );
+    }
+}
+
+/// A number is only shown where every solution has it, or with a choice.
+#[test]
+fn a_sum_that_is_not_unique_has_a_number_by_choice_only() {
+    let sum = ["--combine", "out-1.T - out-2.T"];
+    let d = analysis("gear-train", &sum);
+    assert_eq!(d["groups"][1]["values"], Value::Null, "{d:#}");
+    let d = analysis(
+        "gear-train",
+        &[&sum[..], &["--choose", "minimum-norm"]].concat(),
+    );
+    let chosen = &d["choices"][0]["groups"][1]["components"][0];
+    // Both meshes are alike.
+    assert_eq!(chosen["value"], 0.0);
+    assert!(chosen["choice"].is_string());
+}
+
 /// Nothing turns the carriage, so the torques of the smallest reactions are zero, not rounding.
 #[test]
 fn what_is_zero_is_printed_as_zero() {

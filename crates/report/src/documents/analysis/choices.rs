@@ -11,6 +11,9 @@ pub struct DistributionDocument {
     pub label: String,
     /// Joints and drives in the order of their rows, on the first body at its place.
     pub reactions: Vec<ValuesDocument>,
+    /// Sums that were asked for, by the same choice.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub groups: Vec<ValuesDocument>,
     /// The multiplier of each row.
     pub multipliers: Vec<ValueDocument>,
 }
@@ -58,9 +61,21 @@ impl DistributionDocument {
         Self {
             label: distribution.label.to_string(),
             reactions: distribution.reactions.iter().map(reaction).collect(),
+            groups: Vec::new(),
             multipliers: multipliers
                 .map(|value| ValueDocument::new(None, value, None))
                 .collect(),
+        }
+    }
+}
+
+impl ValuesDocument {
+    /// The numbers of a sum under its name.
+    #[must_use]
+    pub fn of_group(name: &str, values: &[(&'static str, Value)]) -> Self {
+        Self {
+            name: name.to_owned(),
+            components: ValueDocument::named(values),
         }
     }
 }
@@ -77,6 +92,11 @@ fn nature(checks: &[UnitCheck], id: ConstraintId, name: &str) -> Option<&'static
 }
 
 impl ValueDocument {
+    pub(super) fn named(values: &[(&'static str, Value)]) -> Vec<Self> {
+        let value = |(name, value): &(&'static str, Value)| Self::new(Some(name), value, None);
+        values.iter().map(value).collect()
+    }
+
     fn new(name: Option<&'static str>, value: &Value, nature: Option<&'static str>) -> Self {
         let (value, choice) = match value {
             Value::Unique(value) => (*value, None),

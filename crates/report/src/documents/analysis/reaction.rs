@@ -5,8 +5,10 @@ use model::{ConstraintId, Frame};
 use serde::Serialize;
 use solvability::{
     ComponentVerdict, Explanation, FrameVerdict, FreeDirection, GroupVerdict, ReactionVerdict,
+    Value,
 };
 
+use super::ValueDocument;
 use crate::documents::VerdictDocument;
 
 /// The verdict of a joint or drive.
@@ -97,6 +99,12 @@ pub struct GroupDocument {
     /// Those of force and torque, for a sum of wrenches.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub components: Vec<ComponentDocument>,
+    /// Where the torque of a sum of wrenches is about (m), global components.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub about: Option<[f64; 2]>,
+    /// Its numbers that every solution shares (N, N·m): the `sum` of components, or those of force and torque.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub values: Vec<ValueDocument>,
 }
 
 impl ReactionDocument {
@@ -189,6 +197,15 @@ impl GroupDocument {
             name: name.to_owned(),
             verdict: (&verdict.judgement).into(),
             components: verdict.components.iter().map(Into::into).collect(),
+            about: verdict.about,
+            values: Vec::new(),
         }
+    }
+
+    /// Adds the numbers of the group that every solution shares.
+    #[must_use]
+    pub fn with_values(mut self, values: &[(&'static str, Value)]) -> Self {
+        self.values = ValueDocument::named(values);
+        self
     }
 }
