@@ -85,6 +85,18 @@ fn what_is_zero_is_printed_as_zero() {
     );
 }
 
+/// Both cells of an inversor are alike at the start: exactly there, not 5 microseconds later.
+#[test]
+fn an_instant_at_the_start_is_the_start() {
+    let d = analysis("peaucellier", &["--along"]);
+    let passage = &d["along"]["passages"][0];
+    assert_eq!(passage["time"], 0.0);
+    contains(
+        passage["text"].as_str().expect("a text"),
+        &["at t = 0 s other"],
+    );
+}
+
 #[test]
 fn who_does_not_say_how_long_is_told_how() {
     let scene = super::bad_input::PENDULUM;

@@ -53,10 +53,17 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             if found.iter().any(|(t, a)| inside(*t) && is_unique(a)) {
                 continue;
             }
-            let (t, _) = search::minimum(bracket, |t| {
-                Ok::<_, AlongError>(margin(&path.analysis(t)?, part))
-            })?;
-            let there = path.analysis(t)?;
+            // Near a flat minimum the margin is rounding: a time that somebody gave is better than any in that range.
+            let mut given = path.samples.iter().filter(|s| inside(s.t) && is_known(s));
+            let (t, there) = match given.find(|s| is_unique(&s.analysis)) {
+                Some(sample) => (sample.t, sample.analysis.clone()),
+                None => {
+                    let (t, _) = search::minimum(bracket, |t| {
+                        Ok::<_, AlongError>(margin(&path.analysis(t)?, part))
+                    })?;
+                    (t, path.analysis(t)?)
+                }
+            };
             if is_unique(&there) && !is_special(t) {
                 found.push((t, there));
             }

@@ -3,14 +3,20 @@
 use super::{Difference, Part, Passage, PassageKind, Stretch};
 use crate::mechanism::Analysis;
 
+/// Digits of a time that was searched for: it is known as well as the motion, which a run knows to little more than its tolerance.
+const SEARCHED: i32 = 7;
+
+/// Digits of a time that a function of the scene gives.
+const GIVEN: i32 = 10;
+
 /// What happens at an instant.
 pub(super) fn passage(p: &Passage, generic: &Analysis) -> String {
-    let time = format!("at t = {} s", digits(p.time, 10));
+    let time = format!("at t = {} s", digits(p.time, SEARCHED));
     let interval = p.nearly_singular.map_or(String::new(), |[from, to]| {
         format!(
             " (nearly singular from {} s to {} s)",
-            digits(from, 7),
-            digits(to, 7)
+            digits(from, SEARCHED),
+            digits(to, SEARCHED)
         )
     });
     let what = match &p.kind {
@@ -37,7 +43,7 @@ pub(super) fn passage(p: &Passage, generic: &Analysis) -> String {
 
 /// What holds on a stretch.
 pub(super) fn stretch(s: &Stretch, generic: &Analysis) -> String {
-    let (from, to) = (digits(s.from, 10), digits(s.to, 10));
+    let (from, to) = (digits(s.from, GIVEN), digits(s.to, GIVEN));
     let usual = generic.decision.redundancy;
     let rank = match s.redundancy == usual {
         true => "at the same rank".to_owned(),
