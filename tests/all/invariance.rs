@@ -16,8 +16,9 @@ const SEED: u64 = 18_112_026;
 /// Random mechanisms of each kind.
 const EACH: usize = 50;
 
-/// What is said of a reaction whatever the frame: the words for its wrench and its multipliers, and the number of its unique directions.
-type Said = (String, &'static str, &'static str, usize);
+/// What is said of a reaction whatever the frame: the words for its wrench and its multipliers, and the numbers of its unique directions and of
+/// those that say something.
+type Said = (String, &'static str, &'static str, [usize; 2]);
 
 /// The verdicts of a configuration, by name: ranks, then every reaction.
 fn said(a: &Analysis) -> ([usize; 4], Vec<Said>) {
@@ -31,7 +32,7 @@ fn said(a: &Analysis) -> ([usize; 4], Vec<Said>) {
                 r.name.clone(),
                 wrench,
                 multipliers,
-                r.unique_directions.len(),
+                [&r.unique_directions, &r.live_directions].map(Vec::len),
             )
         })
         .collect();

@@ -260,8 +260,11 @@ fn ends_of_pieces(mechanism: &Mechanism, first: f64, last: f64) -> Vec<f64> {
     [first].into_iter().chain(inside).chain([last]).collect()
 }
 
-/// Every verdict of an analysis, with the name of the reaction.
-fn parts<'a>(mechanism: &Mechanism, analysis: &'a Analysis) -> Vec<(&'a str, Part, &'a Judgement)> {
+/// Every verdict of an analysis, with the name of the reaction, and whether it is that of a component which is zero under any load.
+fn parts<'a>(
+    mechanism: &Mechanism,
+    analysis: &'a Analysis,
+) -> Vec<(&'a str, Part, &'a Judgement, bool)> {
     let labels = &mechanism.layout().labels;
     let of_reaction = |r: &'a ReactionVerdict| {
         let wrench = [(Part::Wrench, &r.wrench)].into_iter();
@@ -270,22 +273,27 @@ fn parts<'a>(mechanism: &Mechanism, analysis: &'a Analysis) -> Vec<(&'a str, Par
         wrench
             .chain(components.map(|c| (Part::Component(c.name), &c.judgement)))
             .chain(rows.map(|row| (Part::Row(labels[row.row].clone()), &row.judgement)))
-            .map(|(part, judgement)| (r.name.as_str(), part, judgement))
+            .map(|(part, judgement)| {
+                let is_zero = matches!(part, Part::Component(c) if r.zero_components.contains(&c));
+                (r.name.as_str(), part, judgement, is_zero)
+            })
     };
     analysis.reactions.iter().flat_map(of_reaction).collect()
 }
 
-/// Verdicts that are not the same in two analyses of one mechanism.
+/// Verdicts that are not the same in two analyses of one mechanism. That a component is zero says nothing of what is determined.
 fn differences(mechanism: &Mechanism, generic: &Analysis, here: &Analysis) -> Vec<Difference> {
     let both = parts(mechanism, generic)
         .into_iter()
         .zip(parts(mechanism, here));
-    both.filter(|(a, b)| a.2.verdict.word() != b.2.verdict.word())
-        .map(|((reaction, part, generic), (_, _, here))| Difference {
-            reaction: reaction.to_owned(),
-            part,
-            generic: generic.verdict.clone(),
-            here: here.verdict.clone(),
-        })
+    both.filter(|(a, b)| a.2.verdict.word() != b.2.verdict.word() && !a.3 && !b.3)
+        .map(
+            |((reaction, part, generic, _), (_, _, here, _))| Difference {
+                reaction: reaction.to_owned(),
+                part,
+                generic: generic.verdict.clone(),
+                here: here.verdict.clone(),
+            },
+        )
         .collect()
 }

@@ -71,8 +71,12 @@ pub struct ReactionVerdict {
     pub rows: Vec<RowVerdict>,
     /// Each component of the reaction that is not identically zero.
     pub components: Vec<ComponentVerdict>,
+    /// Those of them that are zero at this configuration under any load, as the force of an edge along itself: unique, but no finding.
+    pub zero_components: Vec<&'static str>,
     /// Basis of the unique directions, in these components.
     pub unique_directions: Vec<Vec<f64>>,
+    /// The same without what is zero under any load: perpendicular to the directions along which there is no reaction here.
+    pub live_directions: Vec<Vec<f64>>,
 }
 
 /// The verdict of one row.
@@ -373,6 +377,12 @@ pub(crate) fn reaction(
     let map = Matrix::from_fn(components.len(), rows.len(), |i, j| {
         full[(components[i], j)]
     });
+    let mut zero_components = Vec::new();
+    for (i, &c) in components.iter().enumerate() {
+        if basis.is_zero(&map, i, rows.clone())? {
+            zero_components.push(COMPONENTS[c]);
+        }
+    }
     let judged = components.iter().enumerate().map(|(i, &c)| {
         Ok(ComponentVerdict {
             name: COMPONENTS[c],
@@ -393,6 +403,7 @@ pub(crate) fn reaction(
         Err(QueryError::Rank(_) | QueryError::Directions { .. }) => Vec::new(),
         known => known?,
     };
+    let live_directions = basis.live_directions(&unique_directions, &map, rows.clone())?;
     let row_verdict = |(row, own)| {
         Ok(RowVerdict {
             row,
@@ -409,6 +420,8 @@ pub(crate) fn reaction(
             .map(row_verdict)
             .collect::<Result<_, _>>()?,
         components,
+        zero_components,
         unique_directions,
+        live_directions,
     })
 }

@@ -21,6 +21,56 @@ fn words(name: &str, more: &[&str]) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+/// Chebyshev's linkage on an exact line has one freedom of first order, and cannot move.
+#[test]
+fn a_mechanism_locked_at_second_order_is_warned_of() {
+    let d = analysis("chebyshev", &[]);
+    assert_eq!(d["mobility"], 1);
+    let sentence = "mobility 1 at first order, but this mechanism cannot move";
+    let warnings = d["warnings"].as_array().expect("an array");
+    assert!(
+        warnings
+            .iter()
+            .any(|w| w.as_str().is_some_and(|w| w.starts_with(sentence))),
+        "{warnings:?}"
+    );
+    contains(&words("chebyshev", &[]), &[sentence]);
+    // What moves is not locked.
+    assert_eq!(analysis("four-bar", &[])["warnings"], json!([]));
+}
+
+/// A truck going straight is compared with poses in which it is jackknifed: its edges do not hold on the way there.
+#[test]
+fn a_singular_configuration_says_what_it_was_compared_with() {
+    let d = analysis("truck", &[]);
+    let warning = d["warnings"][0].as_str().expect("a warning");
+    contains(
+        warning,
+        &[
+            "redundancy 2 and its verdicts hold at this singular configuration only",
+            "poses that the joints allow, with knife edges and other conditions on velocities left free",
+        ],
+    );
+    contains(
+        &words("truck", &[]),
+        &["ONLY HERE", "`--along` tells whether"],
+    );
+}
+
+/// Two guides of one carriage: deleting single rows does not help, and deleting a whole guide has to be allowed.
+#[test]
+fn what_only_whole_joints_make_unique_is_said() {
+    let text = words("carriage", &[]);
+    contains(
+        &text,
+        &[
+            r#"- rear: nothing that leaves each joint a row; for whole joints, `--make-unique "rear" --allow whole`"#,
+        ],
+    );
+    let whole = words("carriage", &["--make-unique", "rear", "--allow", "whole"]);
+    contains(&whole, &["delete `front`"]);
+}
+
 /// 12 N·m at the input, 0.01, 0.04 and 0.9 kg·m² at the speeds 1, −½ and ⅙.
 #[test]
 fn sums_have_numbers() {
@@ -82,6 +132,24 @@ fn what_is_zero_is_printed_as_zero() {
     contains(
         &words("carriage", &["--choose", "drop:2,4"]),
         &["choice 1: no reaction in the rows 2 (`rear`, angle), 4 (`front`, angle)"],
+    );
+}
+
+/// An edge has no force along itself: that this is unique is no finding, and an instant at which it comes about is none.
+#[test]
+fn directions_without_any_force_are_no_findings() {
+    let d = analysis("car", &["--along"]);
+    for reaction in d["reactions"].as_array().expect("an array") {
+        assert_eq!(reaction["unique_directions"], json!([]), "{reaction:#}");
+    }
+    assert_eq!(d["along"]["passages"], json!([]));
+    // Perpendicular to the crank there is a force, and it is unique.
+    let d = analysis("three-cranks", &[]);
+    assert_eq!(
+        d["reactions"][0]["unique_directions"][0]
+            .as_array()
+            .map(Vec::len),
+        Some(2)
     );
 }
 

@@ -89,7 +89,9 @@ fn reaction(name: &str, row: usize) -> ReactionVerdict {
                 judgement: j.clone(),
             })
             .collect(),
+        zero_components: Vec::new(),
         unique_directions: vec![vec![1.0, 0.0]],
+        live_directions: vec![vec![1.0, 0.0]],
     }
 }
 

@@ -48,7 +48,10 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             .map(|margins| margins.as_ref().map(|of_parts| of_parts[part]))
             .collect();
         for bracket in local_minima(&times, &margins) {
-            let is_unique = |a: &Analysis| parts(mechanism, a)[part].2.verdict.is_unique();
+            let is_unique = |a: &Analysis| {
+                let (_, _, judgement, is_zero) = &parts(mechanism, a)[part];
+                judgement.verdict.is_unique() && !is_zero
+            };
             let inside = |t: f64| bracket[0] <= t && t <= bracket[1];
             if found.iter().any(|(t, a)| inside(*t) && is_unique(a)) {
                 continue;

@@ -152,6 +152,33 @@ impl Basis {
         }))
     }
 
+    /// Whether component `k` of a reaction `W·λ_X` is zero for all multipliers: row k of W is so small beside the largest one that the component
+    /// is unique for this reason alone.
+    ///
+    /// # Errors
+    /// As [`Basis::component`].
+    pub(crate) fn is_zero(
+        &self,
+        map: &Matrix,
+        k: usize,
+        rows: impl IntoIterator<Item = usize>,
+    ) -> Result<bool, QueryError> {
+        let rows = self.list(rows)?;
+        let (images, sizes) = self.images(map, &rows);
+        if sizes[k] == 0.0 {
+            return Ok(true);
+        }
+        let whole = norm(images.row(k));
+        let noise = self.noise_of_row(map.row(k), &rows, sizes[k]);
+        let judged = self.component(map, k, rows)?;
+        let own = self.known.readings.read(whole, noise);
+        Ok(
+            self.exact.is_none()
+                && judged.verdict.is_unique()
+                && own == CoefficientReading::NonZero,
+        )
+    }
+
     /// Directions in which a reaction is unique: a basis of the left null space of `W·Z_X` for the map W
     /// (k × |X|) from multipliers to components. Unit vectors with k entries; the largest entry is positive.
     ///
@@ -218,6 +245,57 @@ impl Basis {
         Some(rows.len() + tied - self.z.ncols())
     }
 
+    /// Those of the unique directions that say something: perpendicular to the ones along which the reaction is zero for all multipliers.
+    ///
+    /// # Errors
+    /// As [`Basis::component`].
+    pub(crate) fn live_directions(
+        &self,
+        unique: &[Vec<f64>],
+        map: &Matrix,
+        rows: impl IntoIterator<Item = usize>,
+    ) -> Result<Vec<Vec<f64>>, QueryError> {
+        let rows = self.list(rows)?;
+        check_map(map, &rows)?;
+        let k = map.nrows();
+        let (_, sizes) = self.images(map, &rows);
+        let idle = self.idle_directions(map, &rows, &sizes);
+        let live = unique.len().saturating_sub(idle.ncols());
+        if idle.ncols() == 0 || live == 0 {
+            return Ok(unique[..live].to_vec());
+        }
+        let unique = Matrix::from_fn(k, unique.len(), |i, j| unique[j][i]);
+        let along = idle.transpose().product(&unique);
+        let idle_part = idle.product(&along);
+        let rest = Matrix::from_fn(k, unique.ncols(), |i, j| unique[(i, j)] - idle_part[(i, j)]);
+        let basis = PivotedQr::of_columns(&rest).q_columns(0..live);
+        let column = |j: usize| (0..k).map(|i| basis[(i, j)]).collect();
+        Ok((0..live)
+            .map(|j| normalised(column(j), self.known.tolerance.max(ROUNDING_OF_MAP)))
+            .collect())
+    }
+
+    /// Orthonormal basis of the left null space of W, one vector in each column. Whether a component is nothing is told from rows of equal size.
+    fn idle_directions(&self, map: &Matrix, rows: &[usize], sizes: &[f64]) -> Matrix {
+        let k = map.nrows();
+        let equal = Matrix::from_fn(k, rows.len(), |i, j| match sizes[i] {
+            0.0 => 0.0,
+            size => map[(i, j)] * self.known.row_factor[rows[j]] / size,
+        });
+        let qr = PivotedQr::of_columns(&equal);
+        let rounding = self.rounding_of_map();
+        let rank = qr.r_diagonal().filter(|r| r.abs() > rounding).count();
+        let idle = qr.q_columns(rank..k);
+        let back = |i: usize| if sizes[i] == 0.0 { 1.0 } else { sizes[i] };
+        let idle = Matrix::from_fn(k, k - rank, |i, j| idle[(i, j)] / back(i));
+        PivotedQr::of_columns(&idle).q_columns(0..k - rank)
+    }
+
+    /// A map is known as well as the entries of C, which stand at the same poses.
+    fn rounding_of_map(&self) -> f64 {
+        (MAP_FACTOR * self.known.uncertainty).max(ROUNDING_OF_MAP)
+    }
+
     /// How many pivots are certainly not zero, if the others certainly are.
     fn clear_rank(&self, qr: &PivotedQr, noise: f64) -> Result<usize, QueryError> {
         let mut rank = 0;
@@ -278,8 +356,7 @@ impl Basis {
             .unzip();
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         if self.exact.is_none() {
-            // A map is known as well as the entries of C, which stand at the same poses.
-            let rounding = (MAP_FACTOR * self.known.uncertainty).max(ROUNDING_OF_MAP);
+            let rounding = self.rounding_of_map();
             for (image, size) in images.iter_mut().zip(&mut sizes) {
                 if *size <= rounding * largest {
                     image.fill(0.0);

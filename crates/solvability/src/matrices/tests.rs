@@ -195,3 +195,37 @@ fn empty_matrices() {
         }
     }
 }
+
+/// An edge in the plane has one multiplier and two components: along itself there is no force, which is no finding.
+#[test]
+fn directions_without_a_reaction_are_left_out() {
+    // Rows 0 and 1 are the same, row 2 stands alone.
+    let c = Matrix::from_rows(&[[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
+    for s in [Solvability::of(&c, 0.0), Solvability::of_exact(&c)] {
+        let s = s.unwrap();
+        let live = |map: &Matrix, rows: &[usize]| {
+            let unique = s.unique_directions(map, rows.iter().copied()).unwrap();
+            let found = s
+                .basis()
+                .live_directions(&unique, map, rows.iter().copied());
+            (unique.len(), found.unwrap())
+        };
+        for normal in [[0.0, 1.0], [0.6, 0.8]] {
+            let map = Matrix::from_rows(&[[normal[0]], [normal[1]]]);
+            assert_eq!(live(&map, &[0]), (1, Vec::new()));
+            let (number, found) = live(&map, &[2]);
+            assert_eq!((number, found.len()), (2, 1));
+            assert!(
+                (0..2).all(|k| (found[0][k] - normal[k]).abs() < 1e-15),
+                "{found:?}"
+            );
+        }
+        // Beside a multiplier that is unique there is a direction that says so; the last component has neither.
+        let map = Matrix::from_rows(&[[0.6, 0.0], [0.8, 0.0], [0.0, 1e-6], [0.0, 0.0]]);
+        let (number, found) = live(&map, &[0, 2]);
+        assert_eq!(number, 3);
+        assert_eq!(found, [[0.0, 0.0, 1.0, 0.0]]);
+        let zero = |k: usize| s.basis().is_zero(&map, k, [0, 2]).unwrap();
+        assert_eq!([0, 1, 2, 3].map(zero), [false, false, false, true]);
+    }
+}

@@ -30,7 +30,7 @@ pub struct ReactionDocument {
     pub row_verdicts: Vec<RowDocument>,
     /// Verdicts of the components that are not identically zero.
     pub components: Vec<ComponentDocument>,
-    /// Basis of the unique directions in these components.
+    /// Basis of the unique directions in these components, without those along which the reaction is zero under any load.
     pub unique_directions: Vec<Vec<f64>>,
     /// Why it is unique without any numbers: `peeled` or `bridge`.
     pub settled: Option<&'static str>,
@@ -151,7 +151,7 @@ impl From<&ReactionVerdict> for ReactionDocument {
             multipliers: r.multipliers.verdict.word(),
             row_verdicts: rows.collect(),
             components: r.components.iter().map(Into::into).collect(),
-            unique_directions: r.unique_directions.clone(),
+            unique_directions: r.live_directions.clone(),
             settled: None,
             explanation: None,
             free_directions: Vec::new(),
