@@ -46,7 +46,7 @@ impl Arguments {
             let key = parameter.name;
             let field = match parameter.optional {
                 true => table.optional(key),
-                false => table.required(key, parameter.shape, findings),
+                false => table.needed(key, parameter.shape, findings),
             };
             let Some(field) = field else {
                 let absent = parameter.optional.then_some(Argument::Absent);

@@ -4,11 +4,47 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use model::{Body, BodyRef};
+use serde_json::json;
 
 use crate::field::Field;
 use crate::findings::Findings;
+use crate::key::{Interval, Key, Takes};
 use crate::source_map::Entry;
 use crate::table::Table;
+
+const MASS: Key = number("mass", "a number ≥ 0", Interval::NotNegative)
+    .needed()
+    .unit("kg")
+    .doc("Mass");
+const INERTIA: Key = number("inertia", "a number ≥ 0", Interval::NotNegative)
+    .needed()
+    .unit("kg·m²")
+    .doc("Moment of inertia about the centre of mass");
+const POSITION: Key = pair("position")
+    .unit("m")
+    .doc("Centre of mass [x, y] at the start");
+const VELOCITY: Key = pair("velocity")
+    .unit("m/s")
+    .doc("Velocity [vx, vy] of the centre of mass at the start");
+const ANGLE: Key = number("angle", "a number", Interval::Any)
+    .unit("rad")
+    .doc("Angle of the body's frame at the start")
+    .or(|| 0.0.into());
+const ANGULAR_VELOCITY: Key = number("angular_velocity", "a number", Interval::Any)
+    .unit("rad/s")
+    .doc("Angular velocity at the start")
+    .or(|| 0.0.into());
+
+/// Keys of a body beside its name.
+pub(crate) const KEYS: [Key; 6] = [MASS, INERTIA, POSITION, ANGLE, VELOCITY, ANGULAR_VELOCITY];
+
+const fn number(name: &'static str, expected: &'static str, range: Interval) -> Key {
+    Key::optional(name, expected, Takes::Number(range))
+}
+
+const fn pair(name: &'static str) -> Key {
+    Key::optional(name, "a pair [x, y]", Takes::Pair(Interval::Any)).or(|| json!([0.0, 0.0]))
+}
 
 /// The bodies that were read, with their places.
 #[derive(Default)]
@@ -22,27 +58,27 @@ pub(crate) struct Bodies {
 impl Bodies {
     /// Reads one body. Numbers that cannot be read are zero; they have been reported.
     pub(crate) fn read(&mut self, mut table: Table, name: &str, findings: &mut Findings) {
-        let mut required = |key: &'static str| {
+        let mut required = |key: &Key| {
             table
-                .required(key, "a number ≥ 0", findings)
+                .required(key, findings)
                 .and_then(|field| field.number(findings))
                 .unwrap_or_default()
         };
-        let (mass, inertia) = (required("mass"), required("inertia"));
-        let mut pair = |key: &'static str| {
+        let (mass, inertia) = (required(&MASS), required(&INERTIA));
+        let mut pair = |key: &Key| {
             table
                 .optional(key)
-                .and_then(|field| field.pair("a pair [x, y]", findings))
+                .and_then(|field| field.pair(key.expected, findings))
                 .unwrap_or_default()
         };
-        let (position, velocity) = (pair("position"), pair("velocity"));
-        let mut number = |key: &'static str| {
+        let (position, velocity) = (pair(&POSITION), pair(&VELOCITY));
+        let mut number = |key: &Key| {
             table
                 .optional(key)
                 .and_then(|field| field.number(findings))
                 .unwrap_or_default()
         };
-        let (angle, angular_velocity) = (number("angle"), number("angular_velocity"));
+        let (angle, angular_velocity) = (number(&ANGLE), number(&ANGULAR_VELOCITY));
         let at = self.list.len();
         self.by_name.entry(name.to_owned()).or_insert(at);
         self.list.push(Body {

@@ -10,6 +10,11 @@ use crate::nearest::{did_you_mean, list};
 use crate::source_map::PLACE_KEYS;
 use crate::table::Table;
 
+/// The only body.
+pub(crate) const BODY: &str = "body";
+/// Two of them.
+pub(crate) const BODIES: &str = "bodies";
+
 /// Slots that `body` or `bodies` fill; further ones have keys of their own.
 pub(crate) fn listed(spec: &Spec) -> usize {
     spec.slots.len().min(2)
@@ -36,8 +41,8 @@ pub(crate) fn named(
         let asked = is_taken || table.has(key);
         asked.then(|| table.optional(key)).flatten()
     };
-    let one = read("body", takes(1));
-    let two = read("bodies", takes(2));
+    let one = read(BODY, takes(1));
+    let two = read(BODIES, takes(2));
     let wrong = |key: &str| format!("{} takes {expected}, not `{key}`", table.subject);
     match (one, two) {
         (Some(one), Some(two)) => {
@@ -85,10 +90,10 @@ pub(crate) fn named(
 
 /// Looks only whether the bodies exist, where nothing is known of the definition.
 pub(crate) fn check_names(table: &mut Table, bodies: &Bodies, findings: &mut Findings) {
-    if let Some(one) = table.optional("body") {
+    if let Some(one) = table.optional(BODY) {
         bodies.find(&one, findings);
     }
-    let two = table.optional("bodies");
+    let two = table.optional(BODIES);
     for item in two
         .and_then(|two| two.items("two bodies [first, second]", findings))
         .iter()
@@ -154,7 +159,7 @@ pub(crate) fn choose(
     let Some(field) = table.optional(first.key) else {
         let default = variants().find(|(_, variant)| variant.default);
         if default.is_none() {
-            table.required(first.key, &*expected, findings);
+            table.needed(first.key, &*expected, findings);
         }
         return default.map(|(k, _)| k);
     };

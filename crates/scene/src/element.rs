@@ -15,6 +15,9 @@ use crate::nearest::{list, nearest};
 use crate::place;
 use crate::table::Table;
 
+/// The key that names a definition.
+pub(crate) const TYPE: &str = "type";
+
 /// A definition of the registry.
 pub(crate) trait Definition {
     /// What it builds.
@@ -106,7 +109,7 @@ pub(crate) fn scene_type(
     types: &Types,
     findings: &mut Findings,
 ) -> Option<&'static str> {
-    let field = table.required("type", types, findings)?;
+    let field = table.needed(TYPE, types, findings)?;
     let name = field.text("the name of a type", findings)?;
     if let Some(known) = types.known.iter().find(|known| **known == name) {
         return Some(known);

@@ -5,20 +5,100 @@ use std::rc::Rc;
 
 use model::{Function, FunctionError};
 
+use crate::element::TYPE;
 use crate::field::{Field, all, as_number};
 use crate::findings::Findings;
+use crate::key::{Interval, Key, Takes};
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
-/// Values of `type`.
-const TYPES: [&str; 6] = [
-    "steps",
-    "constant-rate",
-    "polynomial",
-    "harmonic",
-    "table",
-    "linear-table",
+/// A kind of function: the value of `type`, its keys, and its formula.
+pub(crate) struct Kind {
+    pub(crate) name: &'static str,
+    pub(crate) keys: &'static [Key],
+    pub(crate) doc: &'static str,
+}
+
+/// All kinds.
+pub(crate) const KINDS: [Kind; 6] = [
+    Kind {
+        name: "steps",
+        keys: &[START, STEPS],
+        doc: "start + Σ by·(10s³ − 15s⁴ + 6s⁵), s from 0 at `from` to 1 at `to`: smooth steps",
+    },
+    Kind {
+        name: "constant-rate",
+        keys: &[RATE],
+        doc: "rate·t",
+    },
+    Kind {
+        name: "polynomial",
+        keys: &[COEFFICIENTS],
+        doc: "c₀ + c₁·t + c₂·t² + …",
+    },
+    Kind {
+        name: "harmonic",
+        keys: &[AMPLITUDE, OMEGA, PHASE, OFFSET],
+        doc: "amplitude·sin(omega·t + phase) + offset",
+    },
+    Kind {
+        name: "table",
+        keys: &[TIMES, VALUES],
+        doc: "A smooth curve (C² spline) through points; the run must stay within its times",
+    },
+    Kind {
+        name: "linear-table",
+        keys: &[TIMES, VALUES],
+        doc: "Straight lines through points, two at one time are a jump; the run must stay within its times",
+    },
 ];
+
+const START: Key = value("start")
+    .doc("Value before the first step")
+    .or(|| 0.0.into());
+const STEPS: Key = Key::required(
+    "steps",
+    "a list of steps { from = …, to = …, by = … }",
+    Takes::Steps,
+)
+.doc("Steps, which may overlap");
+const FROM: Key = value("from").needed().unit("s").doc("When the step begins");
+const TO: Key = value("to").needed().unit("s").doc("When it ends, later");
+const BY: Key = value("by").needed().doc("By how much the value changes");
+const RATE: Key = value("rate").needed().unit("1/s").doc("Change per second");
+const COEFFICIENTS: Key = Key::required(
+    "coefficients",
+    "a list of numbers, ascending",
+    Takes::Numbers(0),
+)
+.doc("Coefficients of 1, t, t², …");
+const AMPLITUDE: Key = value("amplitude").needed().doc("Amplitude");
+const OMEGA: Key = value("omega")
+    .needed()
+    .unit("rad/s")
+    .doc("Angular frequency");
+const PHASE: Key = value("phase")
+    .unit("rad")
+    .doc("Phase at t = 0")
+    .or(|| 0.0.into());
+const OFFSET: Key = value("offset").doc("Mean value").or(|| 0.0.into());
+const TIMES: Key = Key::required("times", "a list of growing times", Takes::Numbers(2))
+    .unit("s")
+    .doc("Times of the points");
+const VALUES: Key =
+    Key::required("values", "a list of numbers", Takes::Numbers(2)).doc("Values at these times");
+
+/// Keys of a step.
+pub(crate) const STEP_KEYS: [Key; 3] = [FROM, TO, BY];
+
+const fn value(name: &'static str) -> Key {
+    Key::optional(name, "a number", Takes::Number(Interval::Any))
+}
+
+/// The names of the kinds.
+fn names() -> impl Iterator<Item = &'static str> {
+    KINDS.iter().map(|kind| kind.name)
+}
 
 /// The times of a table: the run must not leave them.
 pub(crate) struct Domain {
@@ -40,11 +120,11 @@ pub(crate) fn read(
         return accept(Function::constant(value), field, findings);
     }
     let mut table = field.table(EXPECTED, findings)?;
-    let kind = table.required("type", list(TYPES), findings)?;
-    let function = match kind.text(&list(TYPES), findings)? {
+    let kind = table.needed(TYPE, list(names()), findings)?;
+    let function = match kind.text(&list(names()), findings)? {
         "steps" => steps(&mut table, findings),
         "constant-rate" => {
-            let rate = number(&mut table, "rate", None, findings);
+            let rate = number(&mut table, &RATE, findings);
             rate.and_then(|rate| accept(Function::constant_rate(rate), field, findings))
         }
         "polynomial" => polynomial(&mut table, field, findings),
@@ -56,7 +136,7 @@ pub(crate) fn read(
                 kind.span(),
                 format!("{} has the unknown type `{unknown}`", table.subject),
                 "no such function of time",
-                did_you_mean(unknown, TYPES).or(Some(format!("there are {}", list(TYPES)))),
+                did_you_mean(unknown, names()).or(Some(format!("there are {}", list(names())))),
             );
             return None;
         }
@@ -66,27 +146,21 @@ pub(crate) fn read(
 }
 
 /// The number under a key, or its default.
-fn number(
-    table: &mut Table,
-    key: &'static str,
-    default: Option<f64>,
-    findings: &mut Findings,
-) -> Option<f64> {
-    match (table.optional(key), default) {
+fn number(table: &mut Table, key: &Key, findings: &mut Findings) -> Option<f64> {
+    match (table.optional(key), key.default) {
         (Some(field), _) => field.number(findings),
-        (None, Some(default)) => Some(default),
+        (None, Some(default)) => default().as_f64(),
         (None, None) => {
-            table.required(key, "a number", findings);
+            table.required(key, findings);
             None
         }
     }
 }
 
 fn steps(table: &mut Table, findings: &mut Findings) -> Option<Function> {
-    const STEPS: &str = "a list of steps { from = …, to = …, by = … }";
-    let start = number(table, "start", Some(0.0), findings);
-    let field = table.required("steps", STEPS, findings)?;
-    let items = field.items(STEPS, findings)?;
+    let start = number(table, &START, findings);
+    let field = table.required(&STEPS, findings)?;
+    let items = field.items(STEPS.expected, findings)?;
     let read = all(&items, |item| step(item, findings));
     let (start, mut steps) = (start?, read?);
     // The function names its first fault only: report it, put a harmless step there and ask again.
@@ -114,7 +188,7 @@ fn steps(table: &mut Table, findings: &mut Findings) -> Option<Function> {
 
 fn step(item: &Field, findings: &mut Findings) -> Option<[f64; 3]> {
     let mut table = item.table("a step { from = …, to = …, by = … }", findings)?;
-    let step = ["from", "to", "by"].map(|key| number(&mut table, key, None, findings));
+    let step = STEP_KEYS.map(|key| number(&mut table, &key, findings));
     table.close(findings);
     let [from, to, by] = step;
     Some([from?, to?, by?])
@@ -122,16 +196,16 @@ fn step(item: &Field, findings: &mut Findings) -> Option<[f64; 3]> {
 
 fn polynomial(table: &mut Table, field: &Field, findings: &mut Findings) -> Option<Function> {
     let coefficients = table
-        .required("coefficients", "a list of numbers, ascending", findings)?
+        .required(&COEFFICIENTS, findings)?
         .any_numbers(findings)?;
     accept(Function::polynomial(&coefficients), field, findings)
 }
 
 fn harmonic(table: &mut Table, field: &Field, findings: &mut Findings) -> Option<Function> {
-    let amplitude = number(table, "amplitude", None, findings);
-    let omega = number(table, "omega", None, findings);
-    let phase = number(table, "phase", Some(0.0), findings);
-    let offset = number(table, "offset", Some(0.0), findings);
+    let amplitude = number(table, &AMPLITUDE, findings);
+    let omega = number(table, &OMEGA, findings);
+    let phase = number(table, &PHASE, findings);
+    let offset = number(table, &OFFSET, findings);
     let function = Function::harmonic(amplitude?, omega?, phase?, offset?);
     accept(function, field, findings)
 }
@@ -142,8 +216,8 @@ fn points(
     domains: &mut Vec<Domain>,
     findings: &mut Findings,
 ) -> Option<Function> {
-    let times = table.required("times", "a list of growing times", findings);
-    let values = table.required("values", "a list of numbers", findings);
+    let times = table.required(&TIMES, findings);
+    let values = table.required(&VALUES, findings);
     let (times, values) = (times?, values?);
     let t = times.any_numbers(findings);
     let y = values.any_numbers(findings);

@@ -12,9 +12,22 @@ use crate::connection;
 use crate::element::{self, Types};
 use crate::findings::Findings;
 use crate::function::{self, Domain};
+use crate::key::{Key, Takes};
 use crate::nearest::{list, nearest};
 use crate::source_map::Entry;
 use crate::table::Table;
+
+const JOINT: Key =
+    Key::required("joint", "the name of a joint", Takes::Text).doc("The joint that is driven");
+const MOTION: Key = Key::required("motion", "a function of time", Takes::Function)
+    .unit("rad or m")
+    .doc("The measure is its initial value + f(t) − f(0)");
+
+/// Keys of a drive beside its name and its type.
+pub(crate) const DRIVE_KEYS: [Key; 2] = [JOINT, MOTION];
+
+/// The words for the type of a drive.
+pub(crate) const MEASURE: &str = "a measure of the joint";
 
 /// What is known of a joint, for drives and groups that refer to it.
 pub(crate) struct Known<'r> {
@@ -118,15 +131,11 @@ impl Drives {
         findings: &mut Findings,
     ) {
         let joint = joint(&mut table, joints, findings);
-        let measure = table.required("type", "a measure of the joint", findings);
-        let motion = table.required("motion", "a function of time", findings);
+        let measure = table.needed(element::TYPE, MEASURE, findings);
+        let motion = table.required(&MOTION, findings);
         let motion = motion.and_then(|field| function::read(&field, domains, findings));
-        let measure = measure.and_then(|field| {
-            Some((
-                field.text("a measure of the joint", findings)?,
-                field.span(),
-            ))
-        });
+        let measure =
+            measure.and_then(|field| Some((field.text(MEASURE, findings)?, field.span())));
         let entry = Entry::of(name, &table);
         table.close(findings);
         let (Some(joint), Some((measure, span))) = (joint, measure) else {
@@ -196,8 +205,8 @@ fn joint<'j, 'r>(
     joints: &JointNames<'j, 'r>,
     findings: &mut Findings,
 ) -> Option<&'j Known<'r>> {
-    let field = table.required("joint", "the name of a joint", findings)?;
-    let name = field.text("the name of a joint", findings)?;
+    let field = table.required(&JOINT, findings)?;
+    let name = field.text(JOINT.expected, findings)?;
     let found = joints.get(name);
     if found.is_none() {
         let near = findings.suggest(name, joints.list.iter().map(|j| j.name.as_str()));

@@ -7,7 +7,7 @@
 //! | `limits` | how large a text may be |
 //! | `read` | the whole file, and what the mechanism refuses |
 //! | `section`, `names` | tables of the first level; names that may occur only once |
-//! | `table`, `field` | a table that knows its keys; a value read as what is expected |
+//! | `table`, `field`, `key` | a table that knows its keys; a value read as what is expected; what a key takes |
 //! | `body` | bodies, and their names elsewhere |
 //! | `element` | what joints and forces share: type, `connection`, `place`, `arguments` |
 //! | `joint`, `force` | joints and their drives; forces |
@@ -15,6 +15,7 @@
 //! | `start`, `simulate`, `reactions`, `combination` | what is to be done |
 //! | `scene`, `source_map`, `locate` | the result, its places, and errors that come later |
 //! | `template` | the text with other numbers in it |
+//! | `schema` | the format as a JSON schema, from the same keys |
 //! | `diagnostic`, `text`, `findings`, `nearest` | problems, lines and columns, names that were meant |
 
 mod arguments;
@@ -28,6 +29,7 @@ mod findings;
 mod force;
 mod function;
 mod joint;
+mod key;
 mod limits;
 mod locate;
 mod names;
@@ -36,6 +38,7 @@ mod place;
 mod reactions;
 mod read;
 mod scene;
+mod schema;
 mod section;
 mod simulate;
 mod source_map;
@@ -49,6 +52,7 @@ pub use diagnostic::{Diagnostic, Label, Severity};
 pub use reactions::{GroupContent, GroupRequest, Output, WantedReactions};
 pub use read::read;
 pub use scene::Scene;
+pub use schema::schema;
 pub use source_map::{Entry, SourceMap};
 pub use template::{KeyError, Template};
 pub use text::SourceText;

@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use joints::spec::{Shape, Spec};
+use joints::spec::{Parameter, Shape, Spec};
 use model::BodyRef;
 
 use crate::body::Bodies;
@@ -22,6 +22,26 @@ pub(crate) struct Place {
 
 const POINT: &str = "a point [x, y]";
 
+/// The key of the place in global coordinates.
+pub(crate) const AT: &str = "at";
+
+/// The key of the place in the frames of the bodies.
+pub(crate) fn local_key(spec: &Spec) -> &'static str {
+    match listed(spec) {
+        1 => "point",
+        _ => "points",
+    }
+}
+
+/// The slots of the point parameters.
+pub(crate) fn owners(spec: &Spec) -> Vec<usize> {
+    let slot = |parameter: &Parameter| match parameter.shape {
+        Shape::Point { slot } => Some(slot),
+        _ => None,
+    };
+    spec.parameters.iter().filter_map(slot).collect()
+}
+
 /// Reads the place of a definition whose slots hold `slots`.
 pub(crate) fn read(
     table: &mut Table,
@@ -30,14 +50,7 @@ pub(crate) fn read(
     bodies: &Bodies,
     findings: &mut Findings,
 ) -> Place {
-    let of: Vec<usize> = spec
-        .parameters
-        .iter()
-        .filter_map(|parameter| match parameter.shape {
-            Shape::Point { slot } => Some(slot),
-            _ => None,
-        })
-        .collect();
+    let of = owners(spec);
     let missing = |span| Place {
         points: vec![None; of.len()],
         span,
@@ -45,11 +58,8 @@ pub(crate) fn read(
     if of.is_empty() {
         return missing(table.header.clone());
     }
-    let local_key = match listed(spec) {
-        1 => "point",
-        _ => "points",
-    };
-    let (at, local) = (table.optional("at"), table.optional(local_key));
+    let local_key = local_key(spec);
+    let (at, local) = (table.optional(AT), table.optional(local_key));
     match (at, local) {
         (Some(at), Some(local)) => {
             findings.collision(

@@ -9,6 +9,7 @@ use model::reaction::COMPONENTS;
 use crate::combination::{self, Combination, Reactions};
 use crate::field::Field;
 use crate::findings::Findings;
+use crate::key::{Key, Takes};
 use crate::table::Table;
 
 /// A combination of reactions whose verdict is wanted.
@@ -62,6 +63,33 @@ pub enum WantedReactions {
     Of(Vec<String>),
 }
 
+const MEMBERS: Key = Key::required("members", "a list of joints and drives", Takes::Texts(1))
+    .doc("Joints and drives whose reactions are judged together");
+const COMBINE: Key =
+    Key::required("combine", "a combination as \"A.Fx + B.Fx\"", Takes::Text).doc(
+        "A sum of components as \"W3.N + W4.N\" or of whole reactions as \"W3 + W4\", with factors where wanted",
+    );
+
+/// What a group has one of, beside its name.
+pub(crate) const GROUP_KEYS: [Key; 2] = [MEMBERS, COMBINE];
+
+const TRAJECTORY: Key = Key::optional("trajectory", "true or false", Takes::Flag)
+    .doc("Whether `trajectory.csv` is written")
+    .or(|| Output::default().trajectory.into());
+const REACTIONS: Key = Key::optional(
+    "reactions",
+    "true, false, or a list of joints and drives",
+    Takes::Names,
+)
+.doc("Reactions in `reactions.csv`: all, none, or those of these joints and drives")
+.or(|| true.into());
+const REPORT: Key = Key::optional("report", "true or false", Takes::Flag)
+    .doc("Whether `report.html` is written")
+    .or(|| Output::default().report.into());
+
+/// Keys of `[output]`.
+pub(crate) const OUTPUT_KEYS: [Key; 3] = [TRAJECTORY, REACTIONS, REPORT];
+
 /// Components that can be asked for: force and torque, also where they are identically zero, and the named one.
 pub(crate) fn components(spec: &ConstraintSpec) -> Vec<&'static str> {
     COMPONENTS.into_iter().chain(spec.component).collect()
@@ -74,8 +102,8 @@ pub(crate) fn group(
     names: &Reactions,
     findings: &mut Findings,
 ) -> Option<GroupRequest> {
-    let of = table.optional("members");
-    let combine = table.optional("combine");
+    let of = table.optional(&MEMBERS);
+    let combine = table.optional(&COMBINE);
     let content = match (of, combine) {
         (Some(field), None) => match members(&field, names, findings) {
             Some(none) if none.is_empty() => {
@@ -124,14 +152,14 @@ pub(crate) fn group(
 pub(crate) fn output(mut table: Table, names: &Reactions, findings: &mut Findings) -> Output {
     let defaults = Output::default();
     let trajectory = table
-        .optional("trajectory")
+        .optional(&TRAJECTORY)
         .and_then(|field| field.boolean(findings));
     let report = table
-        .optional("report")
+        .optional(&REPORT)
         .and_then(|field| field.boolean(findings));
     let reactions =
         table
-            .optional("reactions")
+            .optional(&REACTIONS)
             .and_then(|field| match field.value.get_ref().as_bool() {
                 Some(true) => Some(WantedReactions::All),
                 Some(false) => Some(WantedReactions::None),
@@ -147,9 +175,9 @@ pub(crate) fn output(mut table: Table, names: &Reactions, findings: &mut Finding
 
 /// A list of joints and drives, each once.
 fn members(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<Vec<String>> {
-    let expected = match &*field.key {
-        "reactions" => "true, false, or a list of joints and drives",
-        _ => "a list of joints and drives",
+    let expected = match field.key == REACTIONS.name {
+        true => REACTIONS.expected,
+        false => MEMBERS.expected,
     };
     let mut members: Vec<String> = Vec::new();
     let mut first: HashMap<&str, Range<usize>> = HashMap::new();
@@ -189,7 +217,7 @@ fn members(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<
 }
 
 fn combine(field: &Field, names: &Reactions, findings: &mut Findings) -> Option<Combination> {
-    let text = field.text("a combination as \"A.Fx + B.Fx\"", findings)?;
+    let text = field.text(COMBINE.expected, findings)?;
     combination::parse(text, names)
         .map_err(|error| {
             let span = inside(field, text, error.span, findings);

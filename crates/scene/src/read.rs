@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, HashMap};
 
 use model::{BuildError, Description, Mechanism, Registry};
+use serde_json::json;
 use toml::de::DeTable;
 
 use crate::body::Bodies;
@@ -13,12 +14,13 @@ use crate::findings::Findings;
 use crate::force::Forces;
 use crate::function::Domain;
 use crate::joint::{Drives, JointNames, Joints};
+use crate::key::{Interval, Key, Takes};
 use crate::limits;
 use crate::locate;
 use crate::names::{Names, Use};
 use crate::reactions::{self, GroupRequest, components};
 use crate::scene::Scene;
-use crate::section::{list, section};
+use crate::section::{self, list, section};
 use crate::simulate;
 use crate::source_map::{Entry, SourceMap};
 use crate::start;
@@ -90,19 +92,19 @@ fn syntax(errors: &[toml::de::Error], findings: &mut Findings) {
 /// Reads all sections. The result is to be used only if nothing was found.
 fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Scene {
     let mut sections = BTreeMap::new();
-    let head = section(&mut root, "scene", &mut sections, findings);
-    if head.is_none() && root.optional("scene").is_none() {
+    let head = section(&mut root, &section::SCENE, &mut sections, findings);
+    if head.is_none() && root.optional(section::SCENE.name).is_none() {
         let message = "the scene needs the section `[scene]`";
         findings.error(0..0, message, "`[scene]` is missing in this file");
     }
     let (name, gravity) = head.map_or((String::new(), [0.0; 2]), |head| heading(head, findings));
     let mut parts = Parts::read(&mut root, registry, findings);
     let (groups, group_entries) = groups(&mut root, &mut parts, findings);
-    let start = section(&mut root, "start", &mut sections, findings)
+    let start = section(&mut root, &section::START, &mut sections, findings)
         .map(|table| start::read(table, &parts.bodies, findings));
-    let output = section(&mut root, "output", &mut sections, findings)
+    let output = section(&mut root, &section::OUTPUT, &mut sections, findings)
         .map(|table| reactions::output(table, &parts.reactions(), findings));
-    let simulate = section(&mut root, "simulate", &mut sections, findings)
+    let simulate = section(&mut root, &section::SIMULATE, &mut sections, findings)
         .and_then(|table| simulate::read(table, findings));
     root.close(findings);
     if let Some(simulate) = &simulate {
@@ -164,16 +166,16 @@ impl<'r> Parts<'r> {
             names,
             domains,
         } = &mut parts;
-        for (table, name) in list(root, "body", findings) {
+        for (table, name) in list(root, &section::BODY, findings) {
             names.bodies.push(Use::of(&name, &table));
             bodies.read(table, &name, findings);
         }
         let types = Types::of_joints(registry);
-        for (table, name) in list(root, "joint", findings) {
+        for (table, name) in list(root, &section::JOINT, findings) {
             names.elements.push(Use::of(&name, &table));
             joints.read(table, &name, &types, bodies, domains, findings);
         }
-        let driven = list(root, "drive", findings);
+        let driven = list(root, &section::DRIVE, findings);
         if !driven.is_empty() {
             let joints = JointNames::of(joints);
             for (table, name) in driven {
@@ -183,7 +185,7 @@ impl<'r> Parts<'r> {
             }
         }
         let types = Types::of_forces(registry);
-        for (table, name) in list(root, "force", findings) {
+        for (table, name) in list(root, &section::FORCE, findings) {
             names.elements.push(Use::of(&name, &table));
             forces.read(table, &name, &types, bodies, domains, findings);
         }
@@ -223,7 +225,7 @@ fn groups(
     parts: &mut Parts,
     findings: &mut Findings,
 ) -> (Vec<GroupRequest>, Vec<Entry>) {
-    let tables = list(root, "group", findings);
+    let tables = list(root, &section::GROUP, findings);
     let entries: Vec<_> = tables.iter().map(|(t, name)| Entry::of(name, t)).collect();
     parts.names.groups = tables.iter().map(|(t, name)| Use::of(name, t)).collect();
     if tables.is_empty() {
@@ -236,15 +238,32 @@ fn groups(
     (groups.collect(), entries)
 }
 
+const PLANE: &str = "plane";
+
+const NAME: Key = Key::required("name", "the name of the scene", Takes::Text)
+    .doc("The name of the scene, as reports and figures say it");
+const SPACE: Key = Key::required("space", "\"plane\"", Takes::OneOf(|| vec![PLANE]))
+    .doc("The space of the bodies");
+const GRAVITY: Key = Key::optional(
+    "gravity",
+    "an acceleration [gx, gy]",
+    Takes::Pair(Interval::Any),
+)
+.unit("m/s²")
+.doc("Acceleration of free bodies [gx, gy]")
+.or(|| json!([0.0, 0.0]));
+
+/// Keys of `[scene]`.
+pub(crate) const SCENE_KEYS: [Key; 3] = [NAME, SPACE, GRAVITY];
+
 /// `[scene]`: name and gravity.
 fn heading(mut table: Table, findings: &mut Findings) -> (String, [f64; 2]) {
-    const PLANE: &str = "plane";
     let name = table
-        .required("name", "the name of the scene", findings)
-        .and_then(|field| field.text("the name of the scene", findings));
-    let space = table.required("space", "\"plane\"", findings);
+        .required(&NAME, findings)
+        .and_then(|field| field.text(NAME.expected, findings));
+    let space = table.required(&SPACE, findings);
     if let Some(field) = space
-        && let Some(space) = field.text("\"plane\"", findings)
+        && let Some(space) = field.text(SPACE.expected, findings)
         && space != PLANE
     {
         findings.error(
@@ -254,8 +273,8 @@ fn heading(mut table: Table, findings: &mut Findings) -> (String, [f64; 2]) {
         );
     }
     let gravity = table
-        .optional("gravity")
-        .and_then(|field| field.pair("an acceleration [gx, gy]", findings));
+        .optional(&GRAVITY)
+        .and_then(|field| field.pair(GRAVITY.expected, findings));
     table.close(findings);
     (
         name.unwrap_or_default().to_owned(),

@@ -4,31 +4,79 @@ use std::collections::BTreeMap;
 
 use crate::field::Field;
 use crate::findings::Findings;
+use crate::key::{Key, Takes};
 use crate::source_map::Entry;
 use crate::table::Table;
+
+/// A section: the name of its tables, and what they are for.
+pub(crate) struct Section {
+    pub(crate) name: &'static str,
+    pub(crate) doc: &'static str,
+}
+
+pub(crate) const SCENE: Section = Section {
+    name: "scene",
+    doc: "What the scene is called, and what holds for all of it",
+};
+pub(crate) const BODY: Section = Section {
+    name: "body",
+    doc: "Rigid bodies; the body `ground` is always there",
+};
+pub(crate) const JOINT: Section = Section {
+    name: "joint",
+    doc: "Joints between bodies, wheels and blades included; their rows stand in the order of this list",
+};
+pub(crate) const DRIVE: Section = Section {
+    name: "drive",
+    doc: "Joints whose measure is prescribed as a function of time",
+};
+pub(crate) const FORCE: Section = Section {
+    name: "force",
+    doc: "Springs, dampers, forces and torques",
+};
+pub(crate) const GROUP: Section = Section {
+    name: "group",
+    doc: "Reactions together, or sums of their components, whose verdict is wanted",
+};
+pub(crate) const START: Section = Section {
+    name: "start",
+    doc: "What assembling the start may and may not change",
+};
+pub(crate) const SIMULATE: Section = Section {
+    name: "simulate",
+    doc: "What a run does: how long, how exactly, by which method",
+};
+pub(crate) const OUTPUT: Section = Section {
+    name: "output",
+    doc: "What is written; what is not wanted is not computed",
+};
+
+/// The name of what a table of a list describes.
+pub(crate) const NAME: Key = Key::required("name", "a text", Takes::Name)
+    .doc("Its name, once among things of its kind; joints, drives and forces share their names");
 
 /// A table that occurs once, if it is given.
 pub(crate) fn section<'t>(
     root: &mut Table<'t>,
-    name: &'static str,
+    Section { name, .. }: &Section,
     sections: &mut BTreeMap<String, Entry>,
     findings: &mut Findings,
 ) -> Option<Table<'t>> {
-    let field = root.optional(name)?;
+    let field = root.optional(*name)?;
     let mut table = field.table(&format!("one table `[{name}]`"), findings)?;
     table.subject = format!("`[{name}]`").into();
-    sections.insert(name.to_owned(), Entry::of(name, &table));
+    sections.insert((*name).to_owned(), Entry::of(name, &table));
     Some(table)
 }
 
 /// Tables that may occur many times, with the names of what they describe.
 pub(crate) fn list<'t>(
     root: &mut Table<'t>,
-    kind: &'static str,
+    Section { name: kind, .. }: &Section,
     findings: &mut Findings,
 ) -> Vec<(Table<'t>, String)> {
     let expected = format!("a list of tables `[[{kind}]]`");
-    let Some(field) = root.optional(kind) else {
+    let Some(field) = root.optional(*kind) else {
         return Vec::new();
     };
     let items = match field.value.get_ref().is_table() {
@@ -58,14 +106,14 @@ fn named<'t>(
     };
     let mut table = Table::new("", item.span(), entries);
     if let Some(name) = table.peek("name").filter(|name| unfit(name).is_none()) {
-        table.optional("name");
+        table.optional(&NAME);
         table.subject = format!("{kind} `{name}`").into();
         return Some((table, name.to_owned()));
     }
     table.subject = format!("{kind} number {number}").into();
-    let field = table.required("name", "a text", findings);
+    let field = table.required(&NAME, findings);
     if let Some(field) = field
-        && let Some(name) = field.text("a text", findings)
+        && let Some(name) = field.text(NAME.expected, findings)
         && let Some((reason, label)) = unfit(name)
     {
         let message = format!("{}: `name` {reason}", table.subject);
@@ -76,7 +124,7 @@ fn named<'t>(
 }
 
 /// Letters of the longest name: it stands in every message and at the head of columns.
-const LONGEST_NAME: usize = 1000;
+pub(crate) const LONGEST_NAME: usize = 1000;
 
 /// Why a name cannot stand at the head of a column, if it cannot: tables have one line for their header, and are opened by spreadsheets. And
 /// what to say at its place.

@@ -10,33 +10,113 @@ use crate::diagnostic::Diagnostic;
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::function::Domain;
+use crate::key::{Interval, Key, Takes};
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
 /// The values of a key whose meaning is an enum of `dynamics`.
 struct Choice<T: 'static> {
-    key: &'static str,
+    key: Key,
     available: &'static [T],
     name: fn(T) -> &'static str,
 }
 
 const METHODS: Choice<Method> = Choice {
-    key: "method",
+    key: METHOD,
     available: Method::ALL,
     name: Method::name,
 };
 
 const FORMULATIONS: Choice<Formulation> = Choice {
-    key: "formulation",
+    key: FORMULATION,
     available: Formulation::ALL,
     name: Formulation::name,
 };
 
 const STABILISATIONS: Choice<Stabilisation> = Choice {
-    key: "stabilisation",
+    key: STABILISATION,
     available: Stabilisation::ALL,
     name: Stabilisation::name,
 };
+
+const T_END: Key = Key::required(
+    "t_end",
+    "a finite time ≥ 0",
+    Takes::Number(Interval::NotNegative),
+)
+.unit("s")
+.doc("Last time of the run");
+const OUTPUT_STEP: Key = positive("output_step", "a time > 0")
+    .unit("s")
+    .doc("Time between written rows; t_end/200 where it is not given");
+const RTOL: Key = Key::optional(
+    "rtol",
+    MotionOptions::RTOL_EXPECTED,
+    Takes::Number(Interval::Within(
+        *MotionOptions::RTOL_RANGE.start(),
+        *MotionOptions::RTOL_RANGE.end(),
+    )),
+)
+.doc("Relative tolerance of a step")
+.or(|| MotionOptions::RTOL.into());
+const ATOL: Key = positive("atol", "a number > 0")
+    .doc("Absolute tolerance of a step (m, rad, m/s, rad/s)")
+    .or(|| MotionOptions::ATOL.into());
+const MAX_STEP: Key = positive("max_step", "a time > 0")
+    .unit("s")
+    .doc("Largest step; without limit where it is not given");
+const METHOD: Key = Key::optional(
+    "method",
+    "the name of a method",
+    Takes::OneOf(|| names(Method::ALL, Method::name)),
+)
+.doc("Integrator; `auto` looks at the forces of the start")
+.or(|| Method::default().name().into());
+const FORMULATION: Key = Key::optional(
+    "formulation",
+    "the name of a formulation",
+    Takes::OneOf(|| names(Formulation::ALL, Formulation::name)),
+)
+.doc("Treatment of redundant rows")
+.or(|| Formulation::default().name().into());
+const STABILISATION: Key = Key::optional(
+    "stabilisation",
+    "the name of a stabilisation",
+    Takes::OneOf(|| names(Stabilisation::ALL, Stabilisation::name)),
+)
+.doc("Treatment of drift")
+.or(|| Stabilisation::default().name().into());
+const BAUMGARTE: Key = Key::optional(
+    "baumgarte",
+    "two gains ≥ 0, `[alpha, beta]` (1/s)",
+    Takes::Pair(Interval::NotNegative),
+)
+.unit("1/s")
+.doc("Gains [alpha, beta] of `stabilisation = \"baumgarte\"`; [5, 5] where they are not given");
+const DROP: Key = Key::optional("drop", "a list of rows, counted from 1", Takes::Rows)
+    .doc("Rows to eliminate, counted from 1; chosen automatically where they are not given");
+
+/// Keys of the section.
+pub(crate) const KEYS: [Key; 10] = [
+    T_END,
+    OUTPUT_STEP,
+    RTOL,
+    ATOL,
+    MAX_STEP,
+    METHOD,
+    FORMULATION,
+    STABILISATION,
+    BAUMGARTE,
+    DROP,
+];
+
+const fn positive(name: &'static str, expected: &'static str) -> Key {
+    Key::optional(name, expected, Takes::Number(Interval::Positive))
+}
+
+fn names<T: Copy>(all: &[T], name: fn(T) -> &'static str) -> Vec<&'static str> {
+    all.iter().map(|value| name(*value)).collect()
+}
 
 /// Rows of the step that a refusal proposes.
 const USEFUL_ROWS: f64 = 1e4;
@@ -51,45 +131,35 @@ pub(crate) struct Simulate {
 
 /// Reads the section. `None` if the end of the run could not be read.
 pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate> {
-    let end = table.required("t_end", "the last time in s", findings);
+    let end = table.needed(T_END.name, "the last time in s", findings);
     let t_end = end
         .as_ref()
-        .and_then(|field| bounded(field, "t_end", |t| t >= 0.0, "a finite time ≥ 0", findings));
+        .and_then(|field| bounded(field, &T_END, findings));
     let mut options = MotionOptions::to(t_end.unwrap_or(1.0));
-    let step = table.optional("output_step");
+    let step = table.optional(&OUTPUT_STEP);
     let output_step = step
         .as_ref()
-        .and_then(|field| bounded(field, "output_step", |x| x > 0.0, "a time > 0", findings));
+        .and_then(|field| bounded(field, &OUTPUT_STEP, findings));
     options.output_step = output_step.unwrap_or(options.output_step);
     if let (Some(_), Some(end), Some(step)) = (t_end, &end, &step) {
         check_length(&options, step, end, findings);
     }
-    if let Some(field) = table.optional("rtol") {
-        let is_right = |x| MotionOptions::RTOL_RANGE.contains(&x);
-        let read = bounded(
-            &field,
-            "rtol",
-            is_right,
-            MotionOptions::RTOL_EXPECTED,
-            findings,
-        );
-        options.rtol = read.unwrap_or(options.rtol);
-    }
-    let mut positive = |name: &'static str, expected: &'static str, value: &mut f64| {
+    let mut number = |key: &Key, value: &mut f64| {
         let read = table
-            .optional(name)
-            .and_then(|field| bounded(&field, name, |x| x > 0.0, expected, findings));
+            .optional(key)
+            .and_then(|field| bounded(&field, key, findings));
         *value = read.unwrap_or(*value);
     };
-    positive("atol", "a number > 0", &mut options.atol);
-    positive("max_step", "a time > 0", &mut options.max_step);
+    number(&RTOL, &mut options.rtol);
+    number(&ATOL, &mut options.atol);
+    number(&MAX_STEP, &mut options.max_step);
     options.method = choose(&mut table, &METHODS, findings).unwrap_or_default();
     options.formulation = choose(&mut table, &FORMULATIONS, findings).unwrap_or_default();
     options.stabilisation = choose(&mut table, &STABILISATIONS, findings).unwrap_or_default();
-    if let Some(field) = table.optional("baumgarte") {
+    if let Some(field) = table.optional(&BAUMGARTE) {
         gains(&field, &mut options.stabilisation, findings);
     }
-    let drop_field = table.optional("drop");
+    let drop_field = table.optional(&DROP);
     if let Some(field) = drop_field
         .as_ref()
         .filter(|_| !options.formulation.drops_rows())
@@ -140,19 +210,14 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field, findings: &m
 }
 
 /// A number within its bounds, refused in the words of `dynamics`.
-fn bounded(
-    field: &Field,
-    name: &'static str,
-    within: impl Fn(f64) -> bool,
-    expected: &'static str,
-    findings: &mut Findings,
-) -> Option<f64> {
+fn bounded(field: &Field, key: &Key, findings: &mut Findings) -> Option<f64> {
     let value = field.number(findings)?;
-    if within(value) {
+    if key.allows(value) {
         return Some(value);
     }
+    let expected = key.expected;
     let error = MotionError::Option {
-        name,
+        name: key.name,
         value,
         expected,
     };
@@ -165,7 +230,7 @@ fn bounded(
 }
 
 fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Findings) -> Option<T> {
-    let field = table.optional(choice.key)?;
+    let field = table.optional(&choice.key)?;
     let names = || choice.available.iter().map(|value| (choice.name)(*value));
     let value = field.text(&format!("one of {}", list(names())), findings)?;
     let mut available = choice.available.iter().copied();
@@ -184,11 +249,11 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
 
 /// The gains of Baumgarte's method, `[α, β]`, where it is asked for.
 fn gains(field: &Field, stabilisation: &mut Stabilisation, findings: &mut Findings) {
-    const EXPECTED: &str = "two gains ≥ 0, `[alpha, beta]` (1/s)";
+    const EXPECTED: &str = BAUMGARTE.expected;
     let Some(gains) = field.pair(EXPECTED, findings) else {
         return;
     };
-    if gains.iter().any(|gain| *gain < 0.0) {
+    if gains.iter().any(|gain| !BAUMGARTE.allows(*gain)) {
         let [alpha, beta] = gains;
         findings.error(
             field.span(),
@@ -218,7 +283,7 @@ fn gains(field: &Field, stabilisation: &mut Stabilisation, findings: &mut Findin
 /// Rows to drop, counted from 1 in the file and from 0 in the result. That they exist is checked when the mechanism
 /// is built.
 fn rows(field: &Field, findings: &mut Findings) -> Vec<(usize, Range<usize>)> {
-    const EXPECTED: &str = "a list of rows, counted from 1";
+    const EXPECTED: &str = DROP.expected;
     let mut rows: Vec<(usize, Range<usize>)> = Vec::new();
     let mut first: HashMap<usize, Range<usize>> = HashMap::new();
     for item in field.items(EXPECTED, findings).unwrap_or_default() {

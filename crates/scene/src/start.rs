@@ -6,10 +6,12 @@ use std::ops::Range;
 
 use model::StartOptions;
 use model::start::{Coordinate, CorrectionLimit, KeepLevel};
+use serde_json::json;
 
 use crate::body::{Bodies, GROUND};
 use crate::field::Field;
 use crate::findings::Findings;
+use crate::key::{Key, Takes};
 use crate::nearest::{did_you_mean, list};
 use crate::table::Table;
 
@@ -23,14 +25,27 @@ const COORDINATES: [(&str, usize, KeepLevel); 6] = [
     ("omega", 2, KeepLevel::Velocity),
 ];
 
+const KEEP: Key = Key::optional(
+    "keep",
+    "a list of coordinates [\"body.angle\", …]",
+    Takes::Texts(0),
+)
+.doc("Coordinates and velocities that the start holds exactly, as \"crank.angle\": x, y, angle, vx, vy, omega of a body")
+.or(|| json!([]));
+const ALLOW_CORRECTION: Key = Key::optional("allow_correction", "true or false", Takes::Flag)
+    .doc("Whether the start may be corrected by more than a thousandth of the scene's size")
+    .or(|| false.into());
+
+/// Keys of the section.
+pub(crate) const KEYS: [Key; 2] = [KEEP, ALLOW_CORRECTION];
+
 /// Reads the section.
 pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -> StartOptions {
-    const KEEP: &str = "a list of coordinates [\"body.angle\", …]";
     let mut kept: Vec<Coordinate> = Vec::new();
     let mut first: HashMap<(usize, usize, bool), Range<usize>> = HashMap::new();
     let items = table
-        .optional("keep")
-        .and_then(|field| field.items(KEEP, findings))
+        .optional(&KEEP)
+        .and_then(|field| field.items(KEEP.expected, findings))
         .unwrap_or_default();
     for item in items {
         let Some(coordinate) = coordinate(&item, bodies, findings) else {
@@ -52,7 +67,7 @@ pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -
         }
     }
     let allowed = table
-        .optional("allow_correction")
+        .optional(&ALLOW_CORRECTION)
         .and_then(|field| field.boolean(findings));
     table.close(findings);
     StartOptions {

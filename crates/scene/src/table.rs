@@ -9,6 +9,7 @@ use toml::de::DeTable;
 
 use crate::field::Field;
 use crate::findings::Findings;
+use crate::key::Key;
 use crate::nearest::{list, nearest};
 
 /// A table and what it describes.
@@ -36,7 +37,8 @@ impl<'t> Table<'t> {
     }
 
     /// The value of a key that may be left out.
-    pub(crate) fn optional(&mut self, key: &'static str) -> Option<Field<'t>> {
+    pub(crate) fn optional(&mut self, key: impl Into<&'static str>) -> Option<Field<'t>> {
+        let key = key.into();
         if !self.known.contains(&key) {
             self.known.push(key);
         }
@@ -48,8 +50,13 @@ impl<'t> Table<'t> {
         })
     }
 
-    /// The value of a key that must be there; `expected` says what it takes.
-    pub(crate) fn required(
+    /// The value of a key that must be there.
+    pub(crate) fn required(&mut self, key: &Key, findings: &mut Findings) -> Option<Field<'t>> {
+        self.needed(key.name, key.expected, findings)
+    }
+
+    /// The value of a key that must be there, and of which a definition says what it takes.
+    pub(crate) fn needed(
         &mut self,
         key: &'static str,
         expected: impl Display,

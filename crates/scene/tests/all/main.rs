@@ -7,6 +7,8 @@ mod locate;
 mod mutations;
 mod own_joint;
 mod robot_trolley;
+mod schema;
+mod validator;
 
 use model::Registry;
 use scene::{Diagnostic, Scene};

@@ -1,0 +1,164 @@
+//! The format as a JSON schema, for editors: made of the keys that the reader asks for and of the definitions of the registry. What only a
+//! whole scene can tell (names that exist, rows, a start that assembles) is not in it.
+
+mod element;
+mod value;
+
+use model::Registry;
+use serde_json::{Map, Value, json};
+
+use crate::element::TYPE;
+use crate::function::{KINDS, STEP_KEYS};
+use crate::joint::{DRIVE_KEYS, MEASURE};
+use crate::key::Key;
+use crate::reactions::{GROUP_KEYS, OUTPUT_KEYS};
+use crate::read::SCENE_KEYS;
+use crate::section::{self, NAME, Section};
+use crate::{body, simulate, start};
+use element::{Kind, elements};
+use value::described;
+
+/// The JSON schema (draft 2020-12) of scene files that name joints and forces of this registry.
+///
+/// What it refuses, [`read`](crate::read()) refuses; the reverse does not hold, because names, rows and a start that assembles are no matter
+/// of form.
+///
+/// ```
+/// let schema = scene::schema(&model::Registry::planar());
+/// assert_eq!(schema["$defs"]["body"]["properties"]["mass"]["minimum"], 0);
+/// ```
+#[must_use]
+pub fn schema(registry: &Registry) -> Value {
+    let sections = [
+        (&section::SCENE, Times::Once, table("Scene", &SCENE_KEYS)),
+        (&section::BODY, Times::Many, body_table()),
+        (
+            &section::JOINT,
+            Times::Many,
+            elements(registry, Kind::Joint),
+        ),
+        (&section::DRIVE, Times::Many, drive(registry)),
+        (
+            &section::FORCE,
+            Times::Many,
+            elements(registry, Kind::Force),
+        ),
+        (&section::GROUP, Times::Many, group()),
+        (&section::START, Times::Once, table("Start", &start::KEYS)),
+        (
+            &section::SIMULATE,
+            Times::Once,
+            table("Run", &simulate::KEYS),
+        ),
+        (&section::OUTPUT, Times::Once, table("Output", &OUTPUT_KEYS)),
+    ];
+    let mut definitions = Map::new();
+    let mut properties = Map::new();
+    for (Section { name, doc }, times, definition) in sections {
+        let of = reference(name);
+        let property = match times {
+            Times::Once => json!({ "description": doc, "$ref": of["$ref"] }),
+            Times::Many => json!({ "description": doc, "type": "array", "items": of }),
+        };
+        properties.insert((*name).to_owned(), property);
+        definitions.insert((*name).to_owned(), definition);
+    }
+    // A scene without bodies is none.
+    properties[section::BODY.name]["minItems"] = 1.into();
+    definitions.insert("point".to_owned(), value::point());
+    definitions.insert("function".to_owned(), function());
+    definitions.insert("step".to_owned(), table("Step", &STEP_KEYS));
+    json!({
+        "$schema": "https://json-schema.org/draft/2020-12/schema",
+        "title": "Scene of pfaff",
+        "description": "A planar multibody mechanism and what is to be done with it. SI units, angles in radians.",
+        "type": "object",
+        "properties": properties,
+        "required": [section::SCENE.name, section::BODY.name],
+        "additionalProperties": false,
+        "$defs": definitions,
+    })
+}
+
+/// How often a section may stand in a file.
+enum Times {
+    Once,
+    Many,
+}
+
+fn reference(name: &str) -> Value {
+    json!({ "$ref": format!("#/$defs/{name}") })
+}
+
+/// A table with these keys and no others.
+fn table(title: &str, keys: &[Key]) -> Value {
+    let mut properties = Map::new();
+    let mut required = Vec::new();
+    for key in keys {
+        properties.insert(key.name.to_owned(), described(key));
+        if key.is_required {
+            required.push(key.name);
+        }
+    }
+    json!({
+        "title": title,
+        "type": "object",
+        "properties": properties,
+        "required": required,
+        "additionalProperties": false,
+    })
+}
+
+fn body_table() -> Value {
+    let keys: Vec<Key> = [NAME].into_iter().chain(body::KEYS).collect();
+    table("Body", &keys)
+}
+
+fn drive(registry: &Registry) -> Value {
+    let keys: Vec<Key> = [NAME].into_iter().chain(DRIVE_KEYS).collect();
+    let mut table = table("Drive", &keys);
+    let mut measures: Vec<&str> = Vec::new();
+    for spec in registry.constraint_specs() {
+        for definition in registry.constraints(spec.scene_type) {
+            measures.extend(definition.spec.measures.iter().map(|measure| measure.name));
+        }
+    }
+    measures.sort_unstable();
+    measures.dedup();
+    table["properties"][TYPE] = json!({
+        "description": format!("What is prescribed: {MEASURE}"),
+        "enum": measures,
+    });
+    require(&mut table, TYPE);
+    table
+}
+
+/// Adds a key to those that must be given.
+fn require(table: &mut Value, key: &str) {
+    if let Some(required) = table["required"].as_array_mut() {
+        required.push(key.into());
+    }
+}
+
+/// A name and one of two contents.
+fn group() -> Value {
+    let either = GROUP_KEYS.map(|key| table(&format!("Group with `{}`", key.name), &[NAME, key]));
+    json!({ "title": "Group", "oneOf": either })
+}
+
+/// A number, or a table with a type.
+fn function() -> Value {
+    let kinds = KINDS.iter().map(|kind| {
+        let mut table = table(&format!("Function `{}`", kind.name), kind.keys);
+        table["description"] = kind.doc.into();
+        table["properties"][TYPE] = json!({ "const": kind.name });
+        require(&mut table, TYPE);
+        table
+    });
+    let number = json!({ "title": "Constant", "type": "number" });
+    json!({
+        "title": "Function of time",
+        "description": "A number, or { type = … }",
+        "oneOf": std::iter::once(number).chain(kinds).collect::<Vec<_>>(),
+    })
+}

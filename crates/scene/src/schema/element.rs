@@ -1,0 +1,231 @@
+//! Joints and forces: one table for each definition of the registry and each way to write its bodies and its place.
+
+use joints::spec::{Parameter, Shape, Spec, Unit};
+use model::Registry;
+use serde_json::{Map, Value, json};
+
+use super::reference;
+use super::value::{described, in_unit, number, tuple};
+use crate::body::GROUND;
+use crate::connection::{BODIES, BODY, listed};
+use crate::element::TYPE;
+use crate::key::Interval;
+use crate::place::{AT, local_key, owners};
+use crate::section::NAME;
+
+/// What a section holds.
+#[derive(Clone, Copy)]
+pub(super) enum Kind {
+    Joint,
+    Force,
+}
+
+/// The items of a section.
+pub(super) fn elements(registry: &Registry, kind: Kind) -> Value {
+    let (title, mut specs): (_, Vec<&Spec>) = match kind {
+        Kind::Joint => ("Joint", registry.constraint_specs().collect()),
+        Kind::Force => ("Force", registry.force_specs().collect()),
+    };
+    // Definitions that share a type side by side.
+    specs.sort_by_key(|spec| spec.scene_type);
+    let tables: Vec<Value> = specs.iter().map(|spec| table(spec, title)).collect();
+    json!({ "title": title, "type": "object", "oneOf": tables })
+}
+
+/// The table of one definition.
+fn table(spec: &Spec, title: &str) -> Value {
+    let mut properties = Map::new();
+    let mut required = vec![NAME.name, TYPE];
+    properties.insert(NAME.name.to_owned(), described(&NAME));
+    let kind = json!({ "const": spec.scene_type, "description": in_one_line(spec.doc) });
+    properties.insert(TYPE.to_owned(), kind);
+
+    let bodies = match listed(spec) {
+        1 => BODY,
+        _ => BODIES,
+    };
+    properties.insert(bodies.to_owned(), connection(spec));
+    required.push(bodies);
+    for &slot in &spec.slots[listed(spec)..] {
+        let body = json!({
+            "description": format!("The body in the slot `{slot}` of the definition"),
+            "type": "string",
+            "default": GROUND,
+        });
+        properties.insert(slot.to_owned(), body);
+    }
+    if let Some(variant) = spec.variant {
+        let mut value = json!({ "const": variant.value });
+        match variant.default {
+            true => value["default"] = variant.value.into(),
+            false => required.push(variant.key),
+        }
+        properties.insert(variant.key.to_owned(), value);
+    }
+    for parameter in spec.parameters {
+        if matches!(parameter.shape, Shape::Point { .. }) {
+            continue;
+        }
+        properties.insert(parameter.name.to_owned(), value(parameter, spec));
+        if !parameter.optional {
+            required.push(parameter.name);
+        }
+    }
+    let mut table = json!({
+        "title": format!("{title} `{}`", spec.scene_type),
+        "description": in_one_line(spec.doc),
+        "type": "object",
+        "required": required,
+        "additionalProperties": false,
+    });
+    let owners = owners(spec);
+    if !owners.is_empty() {
+        let local = local_key(spec);
+        properties.insert(AT.to_owned(), global(spec, owners.len()));
+        properties.insert(local.to_owned(), in_bodies(spec, &owners));
+        table["oneOf"] = json!([{ "required": [AT] }, { "required": [local] }]);
+    }
+    table["properties"] = properties.into();
+    table
+}
+
+/// `body` or `bodies`.
+fn connection(spec: &Spec) -> Value {
+    match listed(spec) {
+        1 => json!({ "type": "string", "description": "The body" }),
+        n => {
+            let slots = spec.slots[..n].join(", ");
+            let mut bodies = tuple(vec![json!({ "type": "string" }); n]);
+            bodies["uniqueItems"] = true.into();
+            bodies["description"] =
+                format!("The bodies [{slots}] of the definition; reactions are told on the first")
+                    .into();
+            bodies
+        }
+    }
+}
+
+/// `at`
+fn global(spec: &Spec, n: usize) -> Value {
+    let mut place = match spec.points_apart {
+        true => tuple(vec![reference("point"); n]),
+        false => reference("point"),
+    };
+    let words = match spec.points_apart {
+        true => format!("{n} points [x, y] in global coordinates, at the described start (m)"),
+        false => "The place [x, y] in global coordinates, at the described start (m)".to_owned(),
+    };
+    place["description"] = words.into();
+    place
+}
+
+/// `point` or `points`
+fn in_bodies(spec: &Spec, owners: &[usize]) -> Value {
+    let on = |slot: usize| owners.iter().filter(|owner| **owner == slot).count();
+    let points = |n: usize| match n {
+        1 => reference("point"),
+        n => tuple(vec![reference("point"); n]),
+    };
+    if listed(spec) == 1 {
+        let mut place = points(owners.len());
+        place["description"] = "The place [x, y] in the frame of the body (m)".into();
+        return place;
+    }
+    let mut forms: Vec<Value> = owners.iter().map(|slot| points(on(*slot))).collect();
+    forms.dedup();
+    let mut slots = owners.to_vec();
+    slots.sort_unstable();
+    slots.dedup();
+    json!({
+        "description": "The place in the frames of the bodies { body = [x, y], … } (m)",
+        "type": "object",
+        "minProperties": slots.len(),
+        "maxProperties": slots.len(),
+        "additionalProperties": match forms.len() {
+            1 => forms.remove(0),
+            _ => json!({ "anyOf": forms }),
+        },
+    })
+}
+
+/// The value of a parameter.
+fn value(parameter: &Parameter, spec: &Spec) -> Value {
+    let (mut schema, words) = match parameter.shape {
+        Shape::Point { .. } => (reference("point"), "A point [x, y]".to_owned()),
+        Shape::Direction { slot } => (
+            tuple(vec![number(Interval::Any); 2]),
+            format!(
+                "A direction [x, y] in the frame of {}; its length does not matter",
+                owner(spec, slot)
+            ),
+        ),
+        Shape::GroundLine => (
+            tuple(vec![reference("point"); 2]),
+            "Two global points [[x, y], [x, y]] of the line (m)".to_owned(),
+        ),
+        Shape::Numbers(units) => {
+            let numbers = units.iter().map(|unit| number(range(*unit)));
+            (
+                one_or_many(numbers.collect()),
+                in_unit("Numbers", &list(units)),
+            )
+        }
+        Shape::Functions(units) => (
+            one_or_many(vec![reference("function"); units.len()]),
+            in_unit("Numbers or functions of time", &list(units)),
+        ),
+    };
+    let single = match parameter.shape {
+        Shape::Numbers([unit]) => Some(in_unit("A number", &unit.to_string())),
+        Shape::Functions([unit]) => {
+            Some(in_unit("A number or a function of time", &unit.to_string()))
+        }
+        _ => None,
+    };
+    let words = single.unwrap_or(words);
+    let words = match parameter.doc {
+        "" => words,
+        doc => format!("{}: {words}", in_one_line(doc)),
+    };
+    schema["description"] = match parameter.optional {
+        true => format!("{words}; its value at the start where it is not given"),
+        false => words,
+    }
+    .into();
+    schema
+}
+
+/// The body of a slot, in words.
+fn owner(spec: &Spec, slot: usize) -> String {
+    match (listed(spec), slot) {
+        (1, 0) => "the body".to_owned(),
+        (_, 0) => "the first body".to_owned(),
+        (_, 1) => "the second body".to_owned(),
+        _ => format!("the body `{}`", spec.slots[slot]),
+    }
+}
+
+fn range(unit: Unit) -> Interval {
+    match unit.may_be_negative() {
+        true => Interval::Any,
+        false => Interval::NotNegative,
+    }
+}
+
+fn list(units: &[Unit]) -> String {
+    let names: Vec<_> = units.iter().map(Unit::to_string).collect();
+    names.join(", ")
+}
+
+/// One value stands without brackets.
+fn one_or_many(mut items: Vec<Value>) -> Value {
+    match items.len() {
+        1 => items.remove(0),
+        _ => tuple(items),
+    }
+}
+
+/// Without the breaks of its lines.
+fn in_one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}

@@ -1,0 +1,89 @@
+//! What one key takes, as a schema.
+
+use serde_json::{Value, json};
+
+use super::reference;
+use crate::key::{Interval, Key, Takes};
+use crate::section::LONGEST_NAME;
+
+/// A key's value with its meaning, its unit and what holds without it.
+pub(super) fn described(key: &Key) -> Value {
+    let mut schema = match key.takes {
+        Takes::Name => json!({
+            "type": "string",
+            "minLength": 1,
+            "maxLength": LONGEST_NAME,
+            // What begins as a formula is one in a spreadsheet, and names have one line.
+            "pattern": r"^[^=+@\x00-\x1f\x7f-\x9f-][^\x00-\x1f\x7f-\x9f]*$",
+        }),
+        Takes::Text => json!({ "type": "string" }),
+        Takes::OneOf(names) => json!({ "enum": names() }),
+        Takes::Flag => json!({ "type": "boolean" }),
+        Takes::Number(range) => number(range),
+        Takes::Pair(range) => tuple(vec![number(range); 2]),
+        Takes::Numbers(least) => {
+            json!({ "type": "array", "items": number(Interval::Any), "minItems": least })
+        }
+        Takes::Texts(least) => texts(least),
+        Takes::Names => json!({ "oneOf": [{ "type": "boolean" }, texts(0)] }),
+        Takes::Rows => json!({
+            "type": "array",
+            "items": { "type": "integer", "minimum": 1 },
+            "uniqueItems": true,
+        }),
+        Takes::Function => reference("function"),
+        Takes::Steps => json!({ "type": "array", "items": reference("step"), "minItems": 1 }),
+    };
+    schema["description"] = in_unit(key.doc, key.unit).into();
+    if let Some(default) = key.default {
+        schema["default"] = default();
+    }
+    schema
+}
+
+/// What something means, and its unit.
+pub(super) fn in_unit(meaning: &str, unit: &str) -> String {
+    match unit {
+        "" => meaning.to_owned(),
+        unit => format!("{meaning} ({unit})"),
+    }
+}
+
+pub(super) fn number(range: Interval) -> Value {
+    let mut number = json!({ "type": "number" });
+    match range {
+        Interval::Any => {}
+        Interval::NotNegative => number["minimum"] = 0.into(),
+        Interval::Positive => number["exclusiveMinimum"] = 0.into(),
+        Interval::Within(least, most) => {
+            number["minimum"] = least.into();
+            number["maximum"] = most.into();
+        }
+    }
+    number
+}
+
+/// A list of as many values as there are schemas.
+pub(super) fn tuple(items: Vec<Value>) -> Value {
+    let n = items.len();
+    let mut distinct = items.clone();
+    distinct.dedup();
+    let mut tuple = json!({ "type": "array", "minItems": n, "maxItems": n });
+    match <[Value; 1]>::try_from(distinct) {
+        Ok([item]) => tuple["items"] = item,
+        Err(_) => tuple["prefixItems"] = items.into(),
+    }
+    tuple
+}
+
+/// A point of the plane.
+pub(super) fn point() -> Value {
+    let mut point = tuple(vec![number(Interval::Any); 2]);
+    point["title"] = "Point [x, y] (m)".into();
+    point
+}
+
+/// Texts, each once.
+fn texts(least: usize) -> Value {
+    json!({ "type": "array", "items": { "type": "string" }, "minItems": least, "uniqueItems": true })
+}

@@ -1,0 +1,408 @@
+//! The schema says what the reader says, as far as form goes: keys, kinds of values, ranges, choices.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use model::Registry;
+use serde_json::{Value, json};
+
+use super::validator::fault;
+use super::{BODIES, read};
+
+fn schema() -> Value {
+    scene::schema(&Registry::planar())
+}
+
+fn json_of(text: &str) -> Value {
+    let table: toml::Table = text.parse().expect("TOML");
+    serde_json::to_value(table).expect("JSON")
+}
+
+fn verdict(text: &str) -> Option<String> {
+    let schema = schema();
+    fault(&schema, &schema, &json_of(text))
+}
+
+/// All scene files of the repository.
+fn scenes() -> Vec<PathBuf> {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut found = vec![crates.join("robot-trolley/robot-trolley.toml")];
+    for folder in ["suite/scenes", "../examples"] {
+        let entries = fs::read_dir(crates.join(folder))
+            .expect("readable")
+            .flatten();
+        let files = entries.map(|entry| entry.path());
+        found.extend(files.filter(|path| path.extension().is_some_and(|end| end == "toml")));
+    }
+    found
+}
+
+#[test]
+fn every_scene_of_the_repository_is_valid() {
+    let scenes = scenes();
+    assert!(scenes.len() > 30, "{}", scenes.len());
+    for path in scenes {
+        let text = fs::read_to_string(&path).expect("readable");
+        assert_eq!(verdict(&text), None, "{}", path.display());
+    }
+}
+
+/// Things of every kind, with all that may be written.
+const MORE: &str = r#"
+[[joint]]
+name = "A"
+type = "revolute"
+bodies = ["ground", "a"]
+at = [0.0, 0.0]
+
+[[joint]]
+name = "G"
+type = "gear"
+bodies = ["a", "b"]
+carrier = "c"
+ratio = -2.0
+
+[[drive]]
+name = "D"
+joint = "A"
+type = "angle"
+motion = { type = "steps", start = 0.0, steps = [{ from = 0.0, to = 1.0, by = 0.1 }] }
+
+[[force]]
+name = "F"
+type = "point-force"
+body = "a"
+point = [0.0, 0.0]
+force = [1.0, { type = "harmonic", amplitude = 1.0, omega = 2.0, phase = 0.0, offset = 0.0 }]
+frame = "body"
+
+[[force]]
+name = "S"
+type = "spring-damper"
+bodies = ["a", "b"]
+points = { a = [0.0, 0.1], b = [0.0, 0.0] }
+stiffness = 1.0
+damping = 0
+
+[[group]]
+name = "both"
+members = ["A", "G"]
+
+[start]
+keep = ["a.angle"]
+allow_correction = false
+
+[simulate]
+t_end = 1
+rtol = 1e-6
+baumgarte = [5.0, 5.0]
+stabilisation = "baumgarte"
+drop = []
+
+[output]
+trajectory = true
+reactions = ["A"]
+report = false
+"#;
+
+#[test]
+fn all_forms_are_valid() {
+    let text = format!("{BODIES}{MORE}");
+    assert_eq!(read(&text).err(), None);
+    assert_eq!(verdict(&text), None);
+}
+
+/// One change each, and the reader refuses the form of the result.
+const WRONG: [(&str, &str); 44] = [
+    ("space = \"plane\"", "space = \"space\""),
+    ("space = \"plane\"", ""),
+    ("name = \"small\"", "name = 3"),
+    ("name = \"small\"", "name = \"small\"\ngravity = 9.81"),
+    (
+        "name = \"small\"",
+        "name = \"small\"\ngravity = [0.0, 1.0, 2.0]",
+    ),
+    ("name = \"small\"", "name = \"small\"\nunits = \"SI\""),
+    ("mass = 1.0", "mass = -1.0"),
+    ("mass = 1.0", "mass = \"1\""),
+    ("mass = 1.0", ""),
+    ("mass = 1.0", "mas = 1.0"),
+    ("mass = 1.0", "mass = nan"),
+    ("name = \"c\"", "name = \"\""),
+    ("name = \"c\"", "name = \"=c\""),
+    ("name = \"c\"", "name = \"c\\nc\""),
+    ("position = [1.0, 2.0]", "position = [1.0]"),
+    ("type = \"revolute\"", "type = \"revolut\""),
+    ("type = \"revolute\"", ""),
+    ("type = \"revolute\"", "type = \"torque\""),
+    ("bodies = [\"ground\", \"a\"]", "bodies = [\"a\"]"),
+    ("bodies = [\"ground\", \"a\"]", "body = \"a\""),
+    ("bodies = [\"ground\", \"a\"]", "bodies = [\"a\", \"a\"]"),
+    ("bodies = [\"ground\", \"a\"]", "bodies = [1, 2]"),
+    ("at = [0.0, 0.0]", ""),
+    ("at = [0.0, 0.0]", "at = [[0.0, 0.0], [0.0, 0.0]]"),
+    (
+        "at = [0.0, 0.0]",
+        "at = [0.0, 0.0]\npoints = { ground = [0.0, 0.0], a = [0.0, 0.0] }",
+    ),
+    ("at = [0.0, 0.0]", "at = [0.0, 0.0]\naxis = [0.0, 1.0]"),
+    ("ratio = -2.0", ""),
+    ("ratio = -2.0", "ratio = [2.0]"),
+    ("type = \"angle\"", "type = \"turn\""),
+    ("type = \"steps\"", "type = \"step\""),
+    ("by = 0.1", "by = 0.1, at = 3.0"),
+    ("to = 1.0, ", ""),
+    ("omega = 2.0, ", ""),
+    ("amplitude = 1.0", "amplitude = true"),
+    ("frame = \"body\"", "frame = \"wheel\""),
+    ("b = [0.0, 0.0] }", "b = [0.0, 0.0], c = [0.0, 0.0] }"),
+    ("damping = 0", "damping = -0.1"),
+    ("members = [\"A\", \"G\"]", "members = []"),
+    (
+        "members = [\"A\", \"G\"]",
+        "members = [\"A\"]\ncombine = \"A.Fx\"",
+    ),
+    ("keep = [\"a.angle\"]", "keep = \"a.angle\""),
+    ("t_end = 1", "t_end = -1"),
+    ("rtol = 1e-6", "rtol = 1"),
+    ("drop = []", "drop = [0]"),
+    ("report = false", "report = \"no\""),
+];
+
+#[test]
+fn what_the_reader_refuses_by_form_is_not_valid() {
+    let whole = format!("{BODIES}{MORE}");
+    for (from, to) in WRONG {
+        assert!(whole.contains(from), "{from}");
+        let text = whole.replacen(from, to, 1);
+        assert!(read(&text).is_err(), "the reader takes {to:?} for {from:?}");
+        assert!(
+            verdict(&text).is_some(),
+            "the schema takes {to:?} for {from:?}"
+        );
+    }
+    for text in [
+        "",
+        "[scene]\nname = \"a\"\nspace = \"plane\"\n",
+        "[[scene]]\n",
+        "[bodies]\n",
+    ] {
+        assert!(read(text).is_err() && verdict(text).is_some(), "{text}");
+    }
+}
+
+/// Keys that the reader knows for a table, from what it says of one that it does not know.
+fn keys_of_reader(text: &str) -> BTreeSet<String> {
+    let problems = read(text).expect_err("a key is unknown");
+    let unknown = problems
+        .iter()
+        .find(|p| p.message.contains("has no key `zzz`"));
+    let unknown = unknown.unwrap_or_else(|| panic!("{text}\n{problems:#?}"));
+    let help = unknown.help.as_deref().expect("its keys");
+    help.split('`')
+        .skip(1)
+        .step_by(2)
+        .map(str::to_owned)
+        .collect()
+}
+
+fn keys_of_schema(table: &Value) -> BTreeSet<String> {
+    let properties = table["properties"].as_object().expect("a table");
+    properties.keys().cloned().collect()
+}
+
+/// A value of a key as the schema wants it, in TOML.
+fn example(key: &str, of: &Value) -> String {
+    match key {
+        "body" => "\"a\"".to_owned(),
+        "bodies" => "[\"a\", \"b\"]".to_owned(),
+        "name" => "\"X\"".to_owned(),
+        _ => match &of["const"] {
+            Value::Null => "false".to_owned(),
+            constant => constant.to_string(),
+        },
+    }
+}
+
+#[test]
+fn keys_of_elements_are_those_of_the_reader() {
+    let schema = schema();
+    for section in ["joint", "force"] {
+        let tables = schema["$defs"][section]["oneOf"]
+            .as_array()
+            .expect("tables");
+        assert!(tables.len() >= 6, "{section}");
+        for table in tables {
+            // Enough to tell which definition is meant.
+            let mut text = format!("{BODIES}[[{section}]]\nzzz = 1\n");
+            for (key, of) in table["properties"].as_object().expect("keys") {
+                if ["name", "type", "body", "bodies", "frame"].contains(&key.as_str()) {
+                    text.push_str(&format!("{key} = {}\n", example(key, of)));
+                }
+            }
+            // The reader asks for both, to say which one is meant.
+            let either = |mut keys: BTreeSet<String>| {
+                keys.remove(if text.contains("\nbodies = ") {
+                    "body"
+                } else {
+                    "bodies"
+                });
+                keys
+            };
+            assert_eq!(
+                either(keys_of_reader(&text)),
+                keys_of_schema(table),
+                "{text}"
+            );
+        }
+    }
+}
+
+#[test]
+fn keys_of_sections_are_those_of_the_reader() {
+    let schema = schema();
+    for name in ["scene", "start", "simulate", "output"] {
+        let text = match name {
+            "scene" => BODIES.replacen("[scene]\n", "[scene]\nzzz = 1\n", 1),
+            _ => format!("{BODIES}[{name}]\nzzz = 1\n"),
+        };
+        assert_eq!(
+            keys_of_reader(&text),
+            keys_of_schema(&schema["$defs"][name]),
+            "{name}"
+        );
+    }
+    for name in ["body", "drive"] {
+        let text = format!("{BODIES}[[{name}]]\nzzz = 1\n");
+        assert_eq!(
+            keys_of_reader(&text),
+            keys_of_schema(&schema["$defs"][name]),
+            "{name}"
+        );
+    }
+    let group = schema["$defs"]["group"]["oneOf"]
+        .as_array()
+        .expect("two forms");
+    let of_schema: BTreeSet<String> = group.iter().flat_map(keys_of_schema).collect();
+    assert_eq!(
+        keys_of_reader(&format!("{BODIES}[[group]]\nzzz = 1\n")),
+        of_schema
+    );
+
+    let whole = keys_of_reader(&format!("zzz = 1\n{BODIES}"));
+    assert_eq!(whole, keys_of_schema(&schema));
+}
+
+#[test]
+fn keys_of_functions_are_those_of_the_reader() {
+    let schema = schema();
+    let drive = |motion: &str| {
+        format!(
+            "{BODIES}{MORE}[[drive]]\nname = \"X\"\njoint = \"A\"\ntype = \"angle\"\nmotion = {motion}\n"
+        )
+    };
+    let kinds = schema["$defs"]["function"]["oneOf"]
+        .as_array()
+        .expect("kinds");
+    for table in kinds.iter().filter(|kind| kind["type"] == "object") {
+        // With values of a wrong form the reader goes no further than they.
+        let mut words = vec!["zzz = 1".to_owned()];
+        for (key, of) in table["properties"].as_object().expect("keys") {
+            let value = match (&of["const"], of["type"].as_str()) {
+                (Value::String(name), _) => format!("{name:?}"),
+                (_, Some("array")) if key == "steps" => "[{ from = 0, to = 1, by = 1 }]".to_owned(),
+                (_, Some("array")) => "[0, 1]".to_owned(),
+                _ => "1".to_owned(),
+            };
+            words.push(format!("{key} = {value}"));
+        }
+        let text = drive(&format!("{{ {} }}", words.join(", ")));
+        assert_eq!(keys_of_reader(&text), keys_of_schema(table), "{text}");
+    }
+    let step = drive("{ type = \"steps\", steps = [{ from = 0, to = 1, by = 1, zzz = 1 }] }");
+    assert_eq!(
+        keys_of_reader(&step),
+        keys_of_schema(&schema["$defs"]["step"])
+    );
+}
+
+#[test]
+fn defaults_are_those_of_the_reader() {
+    let schema = schema();
+    let written = |table: &str| {
+        let keys = schema["$defs"][table]["properties"]
+            .as_object()
+            .expect("keys");
+        let defaults = keys.iter().filter(|(_, of)| !of["default"].is_null());
+        let lines: Vec<String> = defaults
+            .map(|(key, of)| format!("{key} = {}", of["default"]))
+            .collect();
+        assert!(!lines.is_empty(), "{table}");
+        lines.join("\n")
+    };
+    let plain = |more: &str, body: &str| {
+        let text = format!(
+            "[[body]]\nname = \"a\"\nmass = 1\ninertia = 1\n{body}\n[[joint]]\nname = \"A\"\ntype = \"angle\"\nbodies = [\"ground\", \"a\"]\n{more}"
+        );
+        read(&text).unwrap_or_else(|problems| panic!("{text}\n{problems:#?}"))
+    };
+    let head = "[scene]\nname = \"a\"\nspace = \"plane\"\n";
+    let short = plain(&format!("{head}[simulate]\nt_end = 2\n"), "");
+    let long = plain(
+        &format!(
+            "{head}{}\n[simulate]\nt_end = 2\n{}\n[start]\n{}\n[output]\n{}\n",
+            written("scene"),
+            written("simulate"),
+            written("start"),
+            written("output")
+        ),
+        &written("body"),
+    );
+    assert_eq!(short.description.gravity, long.description.gravity);
+    assert_eq!(
+        format!("{:?}", short.description.bodies),
+        format!("{:?}", long.description.bodies)
+    );
+    assert_eq!(
+        format!("{:?}", short.simulate),
+        format!("{:?}", long.simulate)
+    );
+    assert_eq!(format!("{:?}", short.start), format!("{:?}", long.start));
+    assert_eq!(short.output, long.output);
+}
+
+#[test]
+fn everything_has_words() {
+    fn walk(path: &str, value: &Value, silent: &mut Vec<String>) {
+        let Some(table) = value.as_object() else {
+            return;
+        };
+        for (key, of) in table {
+            let here = format!("{path}/{key}");
+            if path.ends_with("/properties")
+                && of.get("description").is_none()
+                && of.get("const").is_none()
+            {
+                silent.push(here.clone());
+            }
+            walk(&here, of, silent);
+        }
+        for (k, item) in table
+            .get("oneOf")
+            .and_then(Value::as_array)
+            .into_iter()
+            .flatten()
+            .enumerate()
+        {
+            walk(&format!("{path}/oneOf/{k}"), item, silent);
+        }
+    }
+    let mut silent = Vec::new();
+    walk("", &schema(), &mut silent);
+    assert_eq!(silent, Vec::<String>::new());
+    assert_eq!(
+        schema()["$schema"],
+        json!("https://json-schema.org/draft/2020-12/schema")
+    );
+}
