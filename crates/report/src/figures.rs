@@ -29,7 +29,7 @@ mod work_precision;
 
 pub use extremes::extremes;
 pub use history::{Panel, Series, histories, history};
-pub use mechanism::{Marking, mechanism};
+pub use mechanism::{Labels, Marking, labelled_mechanism, mechanism};
 pub use paths::{Path, PathRecorder, paths};
 pub use style::{Pattern, Style};
 pub(crate) use svg::escape;

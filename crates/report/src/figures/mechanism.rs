@@ -15,7 +15,7 @@ use super::style::{GREY, HATCH, HATCH_PITCH, INK, Mark, TEXT_SIZE, TITLE_SIZE};
 use super::svg::{Svg, number};
 use super::symbol::ground;
 use legend::Legend;
-use names::draw_names;
+use names::{Drawn, draw_names};
 
 /// How joints and drives are marked.
 #[derive(Clone, Copy, Debug)]
@@ -24,6 +24,15 @@ pub enum Marking<'a> {
     Plain,
     /// By the verdicts of an analysis.
     Verdicts(&'a [ReactionVerdict]),
+}
+
+/// What joints and drives are labelled with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Labels {
+    /// Their names.
+    Names,
+    /// Their names and the numbers of their rows of C, from 1, as `B 3–4`.
+    NamesAndRows,
 }
 
 /// Width of the page and largest height of the drawing (px).
@@ -56,6 +65,20 @@ pub fn mechanism(
     q: &[f64],
     marking: Marking<'_>,
 ) -> Result<String, FigureError> {
+    labelled_mechanism(mechanism, t, q, marking, Labels::Names)
+}
+
+/// The same with other labels.
+///
+/// # Errors
+/// As [`mechanism()`].
+pub fn labelled_mechanism(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    marking: Marking<'_>,
+    labels: Labels,
+) -> Result<String, FigureError> {
     let mut s = mechanism.scratch();
     posed(mechanism, t, q, &mut s)?;
     let marks = marks(mechanism, marking)?;
@@ -72,7 +95,14 @@ pub fn mechanism(
     draw_bodies(&mut svg, mechanism, &hulls);
     draw_centres(&mut svg, &centres, &view);
     draw_joints(&mut svg, mechanism, &sites, &marks, &view);
-    draw_names(&mut svg, mechanism, &sites, &marks, &centres, &hulls, &view);
+    let drawn = Drawn {
+        sites: &sites,
+        marks: &marks,
+        centres: &centres,
+        hulls: &hulls,
+        view: &view,
+    };
+    draw_names(&mut svg, mechanism, labels, &drawn);
     scale_bar(&mut svg, &view);
     legend.draw(&mut svg, view.bottom() + 30.0);
     Ok(svg.finish())

@@ -1,8 +1,11 @@
 //! Names of joints and bodies in the figure of a mechanism.
 
+use std::cmp::Ordering;
+use std::ops::Range;
+
 use model::{Mechanism, System};
 
-use super::{TITLE, View, WIDTH};
+use super::{Labels, TITLE, View, WIDTH};
 use crate::figures::geometry::Site;
 use crate::figures::label::{Field, Rect, Request, place};
 use crate::figures::outline::sides;
@@ -14,23 +17,39 @@ use crate::figures::symbol::GROUND_DEPTH;
 /// More names than this are a grey mass: names are then in the tool tips alone.
 const MAX_LABELS: usize = 300;
 
+/// What names are drawn on.
+pub(super) struct Drawn<'a> {
+    pub(super) sites: &'a [Site],
+    pub(super) marks: &'a [Mark],
+    pub(super) centres: &'a [[f64; 2]],
+    pub(super) hulls: &'a [Vec<[f64; 2]>],
+    pub(super) view: &'a View,
+}
+
 /// Names joints by the colours of their marks, then bodies.
-pub(super) fn draw_names(
-    svg: &mut Svg,
-    mechanism: &Mechanism,
-    sites: &[Site],
-    marks: &[Mark],
-    centres: &[[f64; 2]],
-    hulls: &[Vec<[f64; 2]>],
-    view: &View,
-) {
+pub(super) fn draw_names(svg: &mut Svg, mechanism: &Mechanism, labels: Labels, drawn: &Drawn<'_>) {
+    let Drawn {
+        sites,
+        marks,
+        centres,
+        hulls,
+        view,
+    } = *drawn;
     let groups = &mechanism.layout().groups;
     if groups.len() + hulls.len() > MAX_LABELS {
         return;
     }
+    let texts: Vec<[String; 2]> = groups
+        .iter()
+        .map(|group| match labels {
+            Labels::Names => [group.name.clone(), String::new()],
+            Labels::NamesAndRows => [group.name.clone(), rows(&group.rows)],
+        })
+        .collect();
+    let whole: Vec<String> = texts.iter().map(|parts| parts.join(" ")).collect();
     let mut symbols: Vec<Rect> = sites.iter().map(|s| symbol_box(s, view)).collect();
-    let joints = groups.iter().zip(&symbols).map(|(group, at)| Request {
-        text: &group.name,
+    let joints = whole.iter().zip(&symbols).map(|(text, at)| Request {
+        text,
         size: TEXT_SIZE,
         anchor: at.centre,
         half: at.half,
@@ -72,10 +91,26 @@ pub(super) fn draw_names(
     let places = place(&field, &requests);
     for (k, (request, rect)) in requests.iter().zip(places).enumerate() {
         let Some(rect) = rect else { continue };
-        match marks.get(k) {
-            Some(mark) => name(svg, request, &rect, mark.stroke(), ["bold", "normal"]),
-            None => name(svg, request, &rect, GREY, ["normal", "italic"]),
+        match (marks.get(k), texts.get(k)) {
+            (Some(mark), Some([text, rows])) => {
+                let look = [mark.stroke(), "bold", "normal"];
+                name(svg, request, &rect, [text, rows], look);
+            }
+            _ => {
+                let look = [GREY, "normal", "italic"];
+                name(svg, request, &rect, [request.text, ""], look);
+            }
         }
+    }
+}
+
+/// Rows as the user counts them.
+fn rows(rows: &Range<usize>) -> String {
+    let (first, last) = (rows.start + 1, rows.end);
+    match last.cmp(&first) {
+        Ordering::Greater => format!("{first}–{last}"),
+        Ordering::Equal => first.to_string(),
+        Ordering::Less => String::new(),
     }
 }
 
@@ -92,8 +127,8 @@ fn name(
     svg: &mut Svg,
     request: &Request<'_>,
     rect: &Rect,
-    colour: &str,
-    [weight, slant]: [&str; 2],
+    [text, rows]: [&str; 2],
+    [colour, weight, slant]: [&str; 3],
 ) {
     let [dx, dy] = [0, 1].map(|k| rect.centre[k] - request.anchor[k]);
     let gap =
@@ -105,7 +140,8 @@ fn name(
         let at = |f: f64| [request.anchor[0] + f * dx, request.anchor[1] + f * dy];
         line(svg, at(from), at(1.0 - to), "#a5adb4");
     }
-    svg.element("text")
+    let element = svg
+        .element("text")
         .at([
             ("x", rect.centre[0]),
             ("y", rect.centre[1] + 0.36 * request.size),
@@ -119,6 +155,16 @@ fn name(
         .with("stroke-opacity", "0.85")
         .with("stroke-width", "3")
         .with("stroke-linejoin", "round")
-        .with("paint-order", "stroke")
-        .text(request.text);
+        .with("paint-order", "stroke");
+    if rows.is_empty() {
+        element.text(text);
+        return;
+    }
+    element.open();
+    svg.element("tspan").text(text);
+    svg.element("tspan")
+        .with("font-weight", "normal")
+        .with("dx", "3")
+        .text(rows);
+    svg.close();
 }
