@@ -11,6 +11,7 @@
 //! | `chronicle`, `comparison` | its report, and several choices for reactions that are not unique |
 //! | [`inquiry`] | one configuration, and everything that can be asked of its reactions |
 //! | [`journey`] | the verdicts along its motion |
+//! | [`difference`] | two scenes side by side |
 //! | [`mod@sweep`] | many runs with other numbers |
 //! | [`mod@work_precision`] | error against run time |
 //! | [`memory`] | what work on a scene takes |
@@ -19,6 +20,7 @@
 pub mod blueprint;
 mod chronicle;
 mod comparison;
+pub mod difference;
 pub mod error;
 pub mod inquiry;
 pub mod journey;
@@ -38,6 +40,7 @@ pub use solvability;
 pub use suite;
 
 pub use blueprint::Blueprint;
+pub use difference::{Comparison, MotionDifference};
 pub use error::StudyError;
 pub use inquiry::{Inquiry, Numbers};
 pub use journey::{Journey, Progress};

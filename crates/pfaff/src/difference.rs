@@ -1,0 +1,237 @@
+//! Two scenes side by side: what changed in ranks, verdicts and dependencies, and how far apart the motions run. Things are the same where
+//! their names are.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use dynamics::{MotionOptions, Sample};
+use model::Mechanism;
+use report::AnalysisDocument;
+use report::documents::{DependencyDocument, ReactionDocument};
+
+use crate::error::StudyError;
+use crate::study::Study;
+
+/// What differs in the verdicts of two starts.
+///
+/// ```
+/// use pfaff::model::Registry;
+/// use pfaff::report::{AnalysisDocument, Proof};
+/// use pfaff::{Blueprint, Comparison};
+///
+/// // A bar on two hinges, and the same with a hinge and a roller.
+/// let scene = |second: &str| format!(
+///     "scene = {{ name = \"bar\", space = \"plane\" }}
+/// body = [{{ name = \"bar\", mass = 1.0, inertia = 1.0 }}]
+/// joint = [
+///     {{ name = \"left\", type = \"revolute\", bodies = [\"ground\", \"bar\"], at = [-1.0, 0.0] }},
+///     {{ name = \"right\", bodies = [\"ground\", \"bar\"], at = [1.0, 0.0], {second} }},
+/// ]"
+/// );
+/// let document = |second: &str| -> Result<AnalysisDocument, pfaff::StudyError> {
+///     let mut bar = Blueprint::read("bar.toml", &scene(second), &Registry::planar())?;
+///     let start = bar.inquire(None)?;
+///     Ok(AnalysisDocument::new("bar", &start.analysis, Proof::default()))
+/// };
+/// let fixed = document("type = \"revolute\"")?;
+/// let relaxed = document("type = \"pin-in-slot\", axis = [1.0, 0.0]")?;
+/// let changed = Comparison::of(&fixed, &relaxed);
+/// assert_eq!((fixed.redundancy, relaxed.redundancy), (1, 0));
+/// assert_eq!(changed.verdicts.iter().map(|v| v.name).collect::<Vec<_>>(), ["left", "right"]);
+/// assert_eq!(changed.gone.len(), 1);
+/// # Ok::<(), pfaff::StudyError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Comparison<'a> {
+    /// Joints and drives that only the first scene has.
+    pub removed: Vec<&'a ReactionDocument>,
+    /// Those that only the second has.
+    pub added: Vec<&'a ReactionDocument>,
+    /// Those whose type, number of rows or verdicts differ, in the order of the first.
+    pub verdicts: Vec<VerdictChange<'a>>,
+    /// Dependencies of the first whose joints depend so no more.
+    pub gone: Vec<&'a DependencyDocument>,
+    /// Those of the second that are new.
+    pub new: Vec<&'a DependencyDocument>,
+}
+
+/// A joint or drive that both scenes have, with another type or another verdict.
+#[derive(Clone, Copy, Debug)]
+pub struct VerdictChange<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// In the first scene and in the second.
+    pub sides: [&'a ReactionDocument; 2],
+}
+
+impl<'a> Comparison<'a> {
+    /// Compares the documents of two starts.
+    #[must_use]
+    pub fn of(first: &'a AnalysisDocument, second: &'a AnalysisDocument) -> Self {
+        let by_name = |document: &'a AnalysisDocument| -> BTreeMap<&'a str, &'a ReactionDocument> {
+            let reactions = document.reactions.iter();
+            reactions.map(|r| (r.name.as_str(), r)).collect()
+        };
+        let (in_first, in_second) = (by_name(first), by_name(second));
+        let only = |document: &'a AnalysisDocument, other: &BTreeMap<&str, _>| {
+            let reactions = document.reactions.iter();
+            reactions
+                .filter(|r| !other.contains_key(r.name.as_str()))
+                .collect()
+        };
+        let both = first.reactions.iter().filter_map(|a| {
+            let b = *in_second.get(a.name.as_str())?;
+            Some(VerdictChange {
+                name: &a.name,
+                sides: [a, b],
+            })
+        });
+        let unmatched = |from: &'a AnalysisDocument, other: &AnalysisDocument| {
+            let mut left: Vec<Vec<&str>> = other.dependencies.iter().map(joints).collect();
+            let mut rest = Vec::new();
+            for dependency in &from.dependencies {
+                match left.iter().position(|known| *known == joints(dependency)) {
+                    Some(at) => drop(left.swap_remove(at)),
+                    None => rest.push(dependency),
+                }
+            }
+            rest
+        };
+        Self {
+            removed: only(first, &in_second),
+            added: only(second, &in_first),
+            verdicts: both.filter(VerdictChange::is_one).collect(),
+            gone: unmatched(first, second),
+            new: unmatched(second, first),
+        }
+    }
+
+    /// Whether nothing differs.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.removed.is_empty()
+            && self.added.is_empty()
+            && self.verdicts.is_empty()
+            && self.gone.is_empty()
+            && self.new.is_empty()
+    }
+}
+
+impl VerdictChange<'_> {
+    fn is_one(&self) -> bool {
+        let [a, b] = self.sides.map(|r| {
+            let components = r.components.iter().map(|c| (c.name, c.verdict.verdict));
+            let components: Vec<_> = components.collect();
+            (r.kind, r.rows.len(), r.wrench.verdict, components)
+        });
+        a != b
+    }
+}
+
+/// The joints of a dependency, in any order.
+fn joints(dependency: &DependencyDocument) -> Vec<&str> {
+    let mut names: Vec<&str> = dependency.joints.iter().map(String::as_str).collect();
+    names.sort_unstable();
+    names.dedup();
+    names
+}
+
+/// How far the motion of a body differs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionDifference {
+    /// The body.
+    pub body: String,
+    /// Largest distance of its two places (m), and when (s).
+    pub distance: [f64; 2],
+    /// Largest difference of its two angles (rad), and when (s).
+    pub angle: [f64; 2],
+}
+
+/// The differences of the motions of two scenes, body by body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MotionComparison {
+    /// How far both motions were run (s): to the earlier of their ends.
+    pub t_end: f64,
+    /// Bodies that both have, in the order of the first.
+    pub bodies: Vec<MotionDifference>,
+}
+
+/// Times at which motions are compared, beside the start.
+const TIMES: f64 = 200.0;
+
+/// Coordinates of a planar body.
+const N_BODY: usize = 3;
+
+impl MotionComparison {
+    /// Runs both scenes with their own options and compares 201 states; nothing where one of them has no `[simulate]`.
+    ///
+    /// # Errors
+    /// [`StudyError::Motion`]: one of the motions stopped.
+    pub fn of(first: &Study, second: &Study) -> Result<Option<Self>, StudyError> {
+        let (Some(a), Some(b)) = (&first.options, &second.options) else {
+            return Ok(None);
+        };
+        let t_end = a.t_end.min(b.t_end);
+        let pairs = common(&first.prepared.mechanism, &second.prepared.mechanism);
+        let mut expected: Vec<Vec<f64>> = Vec::new();
+        run(first, a, t_end, |sample| expected.push(sample.q.to_vec()))?;
+        let names = first.prepared.mechanism.bodies();
+        let mut bodies: Vec<MotionDifference> = pairs
+            .iter()
+            .map(|[i, _]| MotionDifference {
+                body: names[*i].name.clone(),
+                distance: [0.0; 2],
+                angle: [0.0; 2],
+            })
+            .collect();
+        let mut row = 0;
+        run(second, b, t_end, |sample| {
+            let Some(q) = expected.get(row) else { return };
+            row += 1;
+            for (body, [i, j]) in bodies.iter_mut().zip(&pairs) {
+                let difference = |k: usize| q[N_BODY * i + k] - sample.q[N_BODY * j + k];
+                let distance = difference(0).hypot(difference(1));
+                if distance > body.distance[0] {
+                    body.distance = [distance, sample.t];
+                }
+                let angle = difference(2).abs();
+                if angle > body.angle[0] {
+                    body.angle = [angle, sample.t];
+                }
+            }
+        })?;
+        Ok(Some(Self { t_end, bodies }))
+    }
+}
+
+/// Places of the bodies that both mechanisms have.
+fn common(first: &Mechanism, second: &Mechanism) -> Vec<[usize; 2]> {
+    let others = second.bodies().iter().enumerate();
+    let others: BTreeMap<&str, usize> = others.map(|(j, b)| (b.name.as_str(), j)).collect();
+    let bodies = first.bodies().iter().enumerate();
+    bodies
+        .filter_map(|(i, body)| Some([i, *others.get(body.name.as_str())?]))
+        .collect()
+}
+
+fn run(
+    study: &Study,
+    options: &MotionOptions,
+    t_end: f64,
+    mut row: impl FnMut(&Sample<'_, '_>),
+) -> Result<(), StudyError> {
+    let options = MotionOptions {
+        t_end,
+        output_step: if t_end > 0.0 {
+            t_end / TIMES
+        } else {
+            options.output_step
+        },
+        ..options.clone()
+    };
+    let outcome = study.run(&options, |sample| {
+        row(sample);
+        Ok(ControlFlow::Continue(()))
+    });
+    outcome.map(drop).map_err(|failure| failure.error.into())
+}
