@@ -1,22 +1,25 @@
 //! What may be written on the command line.
 
+mod examples;
+
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand};
+use clap_complete::Shell;
 use pfaff::dynamics::{Formulation, Method, Stabilisation};
 use pfaff::suite::generate::Kind;
 use pfaff::sweep::{Axis, Shard};
 
 use crate::resources::Resources;
+use crate::template::Template;
 
 /// Mechanisms with redundant constraints: how they move, and which of their joint reactions may be believed.
 #[derive(Parser)]
 #[command(
     name = "pfaff",
     version,
-    about,
     after_help = "Exit codes: 0 done, 1 the computation stopped, 2 the input is wrong."
 )]
 pub(crate) struct Arguments {
@@ -24,92 +27,69 @@ pub(crate) struct Arguments {
     pub(crate) command: Command,
 }
 
-const ANALYZE_EXAMPLES: &str = "Examples:
-  pfaff analyze robot.toml --at-time 1.5           verdicts at 1.5 s of the motion
-  pfaff analyze robot.toml --make-unique W3        what to delete so that W3 is determined
-  pfaff analyze robot.toml --combine \"W3.N + W4.N\"
-  pfaff analyze robot.toml --along                 one verdict for the whole motion, and where another holds
-  pfaff analyze robot.toml --choose minimum-norm --choose compliance:B=1e-6,W3=1e-6,W4=2e-6 --choose drop:6,21
-  pfaff analyze robot.toml --json
-
-Reactions that are not unique are never given a number without the choice it depends on.";
-
-const SWEEP_EXAMPLES: &str = "Examples:
-  pfaff sweep robot.toml --vary body.platform.mass=10:40:31 --out masses
-  pfaff sweep robot.toml --vary drive.steering.motion.steps[0].by=0.01,0.02 --vary simulate.rtol=1e-4:1e-10:7:log --out grid
-  pfaff sweep robot.toml --vary body.platform.mass=10:40:31 --out masses --shard 2/3    every third run, for one of three machines
-  pfaff sweep --merge masses-1 masses-2 masses-3 --out masses                          one table of all
-
-The same command again goes on where the last one was interrupted. Several --vary are a full grid; the last one runs fastest. Things go by their names or by
-[0], [1], ...; a key that the scene leaves out is added to it. Exit code 1 if a run is not done; it has a row all the same.";
-
-const WORK_PRECISION_EXAMPLES: &str = "Examples:
-  pfaff work-precision --out wp                      the suite: scenes whose motion is known
-  pfaff work-precision andrews sleigh --out wp       two of them
-  pfaff work-precision mine.toml --out wp --quick    a scene of your own; two methods that agree are its reference
-
-Build with --release, and keep the machine idle: seconds are compared.";
-
-const STRESS_EXAMPLES: &str = "Examples:
-  pfaff stress --list                                the families of cases
-  pfaff stress --out stress                          all of them
-  pfaff stress --family trivial --out stress         one; may be given several times
-
-Each case has its right answer. Exit code 1 if something is silently wrong, or refused although there is an answer. Build with --release.";
-
-const GENERATE_EXAMPLES: &str = "Examples:
-  pfaff generate parallelograms --n 9000 --out chain.toml    48 000 revolutes, 6000 redundant rows
-  pfaff generate random --n 100 --seed 7 | pfaff analyze -
-
-Kinds, and what n counts:
-  n-four-bar       loops of unit rods in a row, one freedom
-  parallelograms   cells of a chain; with three cranks they are redundant (--redundant, two thirds of them)
-  lattice          cells along each side of a square grid that hangs from a corner; blocks along its diagonal are braced
-                   (--redundant, all of them)
-  fleet            robots with trolleys side by side
-  random           modules, each on an earlier body; some are doubled (--redundant, a third of them)
-
-Ranks, redundancy and what is not unique are known, and stand at the head of the file. Same words, same bytes.";
-
 #[derive(Subcommand)]
 pub(crate) enum Command {
     /// Rank, redundancy, and the verdict of every reaction
-    #[command(after_help = ANALYZE_EXAMPLES)]
+    #[command(after_help = examples::ANALYZE)]
     Analyze(Analyze),
     /// Motion and reactions, written into a directory with a report for any browser
-    #[command(after_help = "Example: pfaff simulate robot-trolley.toml --out run --drop 6,21")]
+    #[command(after_help = examples::SIMULATE)]
     Simulate(Simulate),
     /// What a run of the scene needs, what is left out, and why
-    #[command(after_help = "Example: pfaff plan robot-trolley.toml --method radau5")]
+    #[command(after_help = examples::PLAN)]
     Plan(Plan),
     /// Many runs with other numbers in the scene: parallel, resumable, in shards
-    #[command(after_help = SWEEP_EXAMPLES)]
+    #[command(after_help = examples::SWEEP)]
     Sweep(Sweep),
     /// Error against run time, for every method and tolerance
-    #[command(after_help = WORK_PRECISION_EXAMPLES)]
+    #[command(after_help = examples::WORK_PRECISION)]
     WorkPrecision(WorkPrecision),
     /// The stiff and extreme cases, each with its right answer and what came out
-    #[command(after_help = STRESS_EXAMPLES)]
+    #[command(after_help = examples::STRESS)]
     Stress(Stress),
     /// Write a large scene whose answer is known
-    #[command(after_help = GENERATE_EXAMPLES)]
+    #[command(after_help = examples::GENERATE)]
     Generate(Generate),
     /// Read and assemble only: every problem of the file, with its place
-    #[command(after_help = "Example: pfaff check robot-trolley.toml")]
+    #[command(after_help = examples::CHECK)]
     Check(Check),
+    /// Begin a scene from a template; without a name, list them
+    #[command(after_help = examples::NEW)]
+    New(New),
+    /// A picture of the assembled start, joints marked by their verdicts
+    #[command(after_help = examples::VIEW)]
+    View(View),
+    /// Two scenes side by side: ranks, verdicts, dependencies, motion
+    #[command(after_help = examples::DIFF)]
+    Diff(Diff),
+    /// The JSON schema of scene files, for editors
+    #[command(after_help = examples::SCHEMA)]
+    Schema,
+    /// Completions for a shell, on standard output
+    #[command(after_help = examples::COMPLETIONS)]
+    Completions(Completions),
+    /// The manual page, on standard output
+    #[command(after_help = examples::MAN)]
+    Man(Man),
 }
 
 impl Command {
     /// How it answers.
     pub(crate) fn answer(&self) -> Answer {
-        let (Self::Analyze(Analyze { json, .. })
-        | Self::Simulate(Simulate { json, .. })
-        | Self::Plan(Plan { json, .. })
-        | Self::Sweep(Sweep { json, .. })
-        | Self::WorkPrecision(WorkPrecision { json, .. })
-        | Self::Stress(Stress { json, .. })
-        | Self::Generate(Generate { json, .. })
-        | Self::Check(Check { json, .. })) = self;
+        let json = match self {
+            Self::Analyze(Analyze { json, .. })
+            | Self::Simulate(Simulate { json, .. })
+            | Self::Plan(Plan { json, .. })
+            | Self::Sweep(Sweep { json, .. })
+            | Self::WorkPrecision(WorkPrecision { json, .. })
+            | Self::Stress(Stress { json, .. })
+            | Self::Generate(Generate { json, .. })
+            | Self::Check(Check { json, .. })
+            | Self::New(New { json, .. })
+            | Self::View(View { json, .. })
+            | Self::Diff(Diff { json, .. }) => *json,
+            Self::Schema | Self::Completions(_) | Self::Man(_) => false,
+        };
         match json {
             true => Answer::Json,
             false => Answer::Words,
@@ -323,11 +303,72 @@ pub(crate) struct Generate {
 pub(crate) struct Check {
     /// Scene file, or - for standard input
     pub(crate) scene: PathBuf,
+    /// Check again whenever the file changes, until Ctrl-C
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) watch: bool,
     #[command(flatten)]
     pub(crate) resources: Resources,
     /// Problems, or what was read, as one JSON document on standard output
     #[arg(long)]
     pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct New {
+    /// Which one; none: list them
+    #[arg(value_parser = named(Template::ALL, Template::name), value_name = "TEMPLATE")]
+    pub(crate) template: Option<Template>,
+    /// File for the scene, or - for standard output; TEMPLATE.toml where it is not given
+    #[arg(long, value_name = "FILE", requires = "template")]
+    pub(crate) out: Option<PathBuf>,
+    /// Replace a file that is there already
+    #[arg(long, requires = "template")]
+    pub(crate) force: bool,
+    /// What was written, or the templates, as one JSON document on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct View {
+    /// Scene file, or - for standard input
+    pub(crate) scene: PathBuf,
+    /// File for the picture; the name of the scene file with .svg, in this directory, where it is not given
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) out: Option<PathBuf>,
+    /// Do not open it
+    #[arg(long)]
+    pub(crate) no_open: bool,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
+    /// What was written as one JSON document on standard output; opens nothing
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct Diff {
+    /// Scene file, or - for standard input
+    pub(crate) a: PathBuf,
+    /// The other one
+    pub(crate) b: PathBuf,
+    #[command(flatten)]
+    pub(crate) resources: Resources,
+    /// The differences as one JSON document on standard output
+    #[arg(long)]
+    pub(crate) json: bool,
+}
+
+#[derive(Args)]
+pub(crate) struct Completions {
+    /// Which one
+    pub(crate) shell: Shell,
+}
+
+#[derive(Args)]
+pub(crate) struct Man {
+    /// The page of this command; none: that of all
+    pub(crate) command: Option<String>,
 }
 
 /// Reads one of the names of an enum, and says what the names are where it is none.

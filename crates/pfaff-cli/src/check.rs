@@ -9,8 +9,12 @@ use crate::args::Check;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{count, print};
+use crate::watch;
 
 pub(crate) fn run(arguments: &Check) -> Outcome {
+    if arguments.watch {
+        return watch::run(arguments);
+    }
     Interrupt::ends_at_once()?;
     let source = Source::read(&arguments.scene)?;
     let study = source.study(&Overrides::default(), arguments.resources)?;
@@ -35,7 +39,8 @@ fn facts(study: &Study) -> serde_json::Value {
     })
 }
 
-fn describe(study: &Study) -> String {
+/// In words.
+pub(crate) fn describe(study: &Study) -> String {
     let layout = study.prepared.mechanism.layout();
     format!(
         "{}: {}, {}, {} ({} holonomic, {} nonholonomic)\n\

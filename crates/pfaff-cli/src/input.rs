@@ -54,6 +54,15 @@ impl Source {
         resources: Resources,
     ) -> Result<Study, Failure> {
         resources.apply()?;
+        self.prepared(overrides, resources)
+    }
+
+    /// The same where threads have been limited already.
+    pub(crate) fn assembled(&self, resources: Resources) -> Result<Study, Failure> {
+        self.prepared(&Overrides::default(), resources)
+    }
+
+    fn prepared(&self, overrides: &Overrides, resources: Resources) -> Result<Study, Failure> {
         let blueprint = resources.blueprint(self)?;
         let _said = Stage::begin(self, "assembling and choosing rows");
         let study = blueprint.prepare(overrides);

@@ -32,6 +32,11 @@ impl Interrupt {
         on_request(|| process::exit(INTERRUPTED))
     }
 
+    /// Listens for a command that goes on until it is told to stop: that is its end, not its failure.
+    pub(crate) fn ends_well() -> Result<(), Failure> {
+        on_request(|| process::exit(0))
+    }
+
     /// Whether somebody asked.
     pub(crate) fn is_asked(&self) -> bool {
         self.0.load(Ordering::Relaxed)

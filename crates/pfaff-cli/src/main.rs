@@ -7,15 +7,22 @@
 mod analyze;
 mod args;
 mod check;
+mod diff;
 mod generate;
 mod input;
 mod interrupt;
+mod manual;
+mod new;
 mod output;
 mod plan;
 mod resources;
 mod simulate;
+mod start;
 mod stress;
 mod sweep;
+mod template;
+mod view;
+mod watch;
 mod work_precision;
 
 use std::process::ExitCode;
@@ -38,6 +45,12 @@ fn main() -> ExitCode {
         Command::WorkPrecision(a) => work_precision::run(a),
         Command::Generate(a) => generate::run(a),
         Command::Check(a) => check::run(a),
+        Command::New(a) => new::run(a),
+        Command::View(a) => view::run(a),
+        Command::Diff(a) => diff::run(a),
+        Command::Schema => manual::schema(),
+        Command::Completions(a) => manual::completions(a),
+        Command::Man(a) => manual::page(a),
     };
     match outcome {
         Ok(()) => ExitCode::SUCCESS,

@@ -50,19 +50,19 @@ impl Failure {
         };
         if let Some(failure) = unsaid {
             // Nothing can be said about an error of standard error.
-            let _ = io::stderr().write_all(failure.words().as_bytes());
+            let _ = io::stderr().write_all(failure.words(is_coloured(&io::stderr())).as_bytes());
         }
         ExitCode::from(code)
     }
 
     /// For people.
-    fn words(&self) -> String {
+    pub(crate) fn words(&self, color: bool) -> String {
         match self {
             Self::Scene {
                 name,
                 text,
                 diagnostics,
-            } => render(name, text, diagnostics),
+            } => render(name, text, diagnostics, color),
             Self::Input(message) | Self::Stopped(message) => format!("error: {message}\n"),
             Self::Closed | Self::Incomplete => String::new(),
         }
@@ -128,9 +128,14 @@ fn unprintable(e: &io::Error) -> Failure {
     Failure::Stopped(format!("cannot write to standard output: {e}"))
 }
 
+/// Whether colours are shown there, and wanted: an empty `NO_COLOR` is none (no-color.org).
+pub(crate) fn is_coloured(stream: &impl IsTerminal) -> bool {
+    let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    stream.is_terminal() && !refused
+}
+
 /// Problems of a scene with its lines and carets.
-pub(crate) fn render(name: &str, text: &str, diagnostics: &[Diagnostic]) -> String {
-    let color = io::stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+fn render(name: &str, text: &str, diagnostics: &[Diagnostic], color: bool) -> String {
     let mut out = Vec::new();
     // Lines are found once for all problems.
     let mut source = (name, Source::from(text));

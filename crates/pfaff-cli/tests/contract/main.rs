@@ -6,17 +6,23 @@ mod bad_input;
 mod book;
 mod cold_start;
 mod console;
+mod diff;
 mod documents;
 mod failures;
 #[cfg(target_os = "linux")]
 mod faults;
 mod generate;
+mod man;
+mod new;
 mod plan;
 mod report;
 mod resources;
+mod schema;
 mod singular;
 mod stress;
 mod sweep;
+mod view;
+mod watch;
 mod work_precision;
 
 use std::io::Write;

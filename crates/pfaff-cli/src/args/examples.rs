@@ -1,0 +1,104 @@
+//! Examples at the end of `--help`: what people look for first.
+
+pub(super) const ANALYZE: &str = "Examples:
+  pfaff analyze robot.toml --at-time 1.5           verdicts at 1.5 s of the motion
+  pfaff analyze robot.toml --make-unique W3        what to delete so that W3 is determined
+  pfaff analyze robot.toml --combine \"W3.N + W4.N\"
+  pfaff analyze robot.toml --along                 one verdict for the whole motion, and where another holds
+  pfaff analyze robot.toml --choose minimum-norm --choose compliance:B=1e-6,W3=1e-6,W4=2e-6 --choose drop:6,21
+  pfaff analyze robot.toml --json
+
+Reactions that are not unique are never given a number without the choice it depends on.";
+
+pub(super) const SWEEP: &str = "Examples:
+  pfaff sweep robot.toml --vary body.platform.mass=10:40:31 --out masses
+  pfaff sweep robot.toml --vary drive.steering.motion.steps[0].by=0.01,0.02 --vary simulate.rtol=1e-4:1e-10:7:log --out grid
+  pfaff sweep robot.toml --vary body.platform.mass=10:40:31 --out masses --shard 2/3    every third run, for one of three machines
+  pfaff sweep --merge masses-1 masses-2 masses-3 --out masses                          one table of all
+
+The same command again goes on where the last one was interrupted. Several --vary are a full grid; the last one runs fastest. Things go by their names or by
+[0], [1], ...; a key that the scene leaves out is added to it. Exit code 1 if a run is not done; it has a row all the same.";
+
+pub(super) const WORK_PRECISION: &str = "Examples:
+  pfaff work-precision --out wp                      the suite: scenes whose motion is known
+  pfaff work-precision andrews sleigh --out wp       two of them
+  pfaff work-precision mine.toml --out wp --quick    a scene of your own; two methods that agree are its reference
+
+Build with --release, and keep the machine idle: seconds are compared.";
+
+pub(super) const STRESS: &str = "Examples:
+  pfaff stress --list                                the families of cases
+  pfaff stress --out stress                          all of them
+  pfaff stress --family trivial --out stress         one; may be given several times
+
+Each case has its right answer. Exit code 1 if something is silently wrong, or refused although there is an answer. Build with --release.";
+
+pub(super) const GENERATE: &str = "Examples:
+  pfaff generate parallelograms --n 9000 --out chain.toml    48 000 revolutes, 6000 redundant rows
+  pfaff generate random --n 100 --seed 7 | pfaff analyze -
+
+Kinds, and what n counts:
+  n-four-bar       loops of unit rods in a row, one freedom
+  parallelograms   cells of a chain; with three cranks they are redundant (--redundant, two thirds of them)
+  lattice          cells along each side of a square grid that hangs from a corner; blocks along its diagonal are braced
+                   (--redundant, all of them)
+  fleet            robots with trolleys side by side
+  random           modules, each on an earlier body; some are doubled (--redundant, a third of them)
+
+Ranks, redundancy and what is not unique are known, and stand at the head of the file. Same words, same bytes.";
+
+pub(super) const SIMULATE: &str = "Examples:
+  pfaff simulate robot-trolley.toml --out run                    trajectory.csv, reactions.csv, summary.json
+  pfaff simulate robot-trolley.toml --out run --drop 6,21        with a choice of the rows to eliminate
+  pfaff simulate robot-trolley.toml --out run --t-end 5 --rtol 1e-10 --json";
+
+pub(super) const PLAN: &str = "Examples:
+  pfaff plan robot-trolley.toml                        each decision, its reason, and what it saves
+  pfaff plan robot-trolley.toml --method radau5 --json";
+
+pub(super) const CHECK: &str = "Examples:
+  pfaff check robot-trolley.toml            every problem of the file, with line and column
+  pfaff check robot-trolley.toml --watch    again whenever the file is saved; Ctrl-C ends it
+  pfaff check - --json < robot-trolley.toml";
+
+pub(super) const SCHEMA: &str = "Examples:
+  pfaff schema > pfaff.schema.json
+
+Editors with Taplo (Even Better TOML in VS Code, taplo lsp elsewhere) read it where this is the first line of a scene beside it:
+  #:schema ./pfaff.schema.json
+
+Then keys and types are completed, explained and checked while one writes. What only the whole scene can tell (names, rows, a start that assembles) is for
+`pfaff check --watch`.";
+
+pub(super) const NEW: &str = "Examples:
+  pfaff new                                     the templates
+  pfaff new four-bar                            writes four-bar.toml
+  pfaff new robot-trolley --out mine.toml
+  pfaff new door --out - | pfaff analyze -
+
+A file that is there already is not touched without --force.";
+
+pub(super) const VIEW: &str = "Examples:
+  pfaff view robot-trolley.toml                 writes robot-trolley.svg and opens it
+  pfaff view robot-trolley.toml --out picture.svg --no-open
+
+The start is assembled first. Joints are filled by the verdict of their reactions, and named with their rows. Bodies are drawn through their joints: a scene does not
+tell their shapes.";
+
+pub(super) const DIFF: &str = "Examples:
+  pfaff diff robot.toml relaxed.toml            what changed when a joint was relaxed
+  pfaff diff robot.toml relaxed.toml --json
+
+Joints, drives and bodies are the same where their names are. Motions are compared where both scenes have [simulate], to the earlier of the two ends. The exit code
+is 0 also where the scenes differ.";
+
+pub(super) const COMPLETIONS: &str = "Examples:
+  pfaff completions bash > ~/.local/share/bash-completion/completions/pfaff
+  pfaff completions zsh > ~/.zfunc/_pfaff
+  pfaff completions fish > ~/.config/fish/completions/pfaff.fish
+  pfaff completions powershell >> $PROFILE";
+
+pub(super) const MAN: &str = "Examples:
+  pfaff man | man -l -
+  pfaff man analyze | man -l -                  of one command
+  pfaff man > ~/.local/share/man/man1/pfaff.1";

@@ -1,0 +1,289 @@
+//! `pfaff diff`: two scenes side by side. That they differ is the answer, not a failure.
+
+use std::path::Path;
+
+use pfaff::comparison::MotionComparison;
+use pfaff::report::AnalysisDocument;
+use pfaff::report::documents::{DependencyDocument, ReactionDocument};
+use pfaff::{Comparison, Overrides, StudyError};
+use serde_json::{Value, json};
+
+use crate::Outcome;
+use crate::args::Diff;
+use crate::input::Source;
+use crate::interrupt::Interrupt;
+use crate::output::{Failure, columns, print, wrapped};
+use crate::start::Start;
+
+/// Bodies whose motion is listed; the document has all.
+const LISTED: usize = 12;
+
+pub(crate) fn run(arguments: &Diff) -> Outcome {
+    if [&arguments.a, &arguments.b]
+        .iter()
+        .all(|path| path.as_os_str() == "-")
+    {
+        return Err(Failure::input(
+            "standard input is one scene; give the other one as a file".to_owned(),
+        ));
+    }
+    Interrupt::ends_at_once()?;
+    let sources = [Source::read(&arguments.a)?, Source::read(&arguments.b)?];
+    arguments.resources.apply()?;
+    let [a, b] = &sources;
+    let starts = [
+        Start::of(a, arguments.resources)?,
+        Start::of(b, arguments.resources)?,
+    ];
+    let [x, y] = [&starts[0].document, &starts[1].document];
+    let comparison = Comparison::of(x, y);
+    let motion = motion(&sources, &starts, arguments)?;
+    match arguments.json {
+        true => print(&format!("{:#}\n", document([x, y], &comparison, &motion))),
+        false => print(&describe(&names(&sources), [x, y], &comparison, &motion)),
+    }
+}
+
+/// What is known of the motions.
+enum Motion {
+    /// Compared.
+    Both(MotionComparison),
+    /// Not compared, and why.
+    None(String),
+}
+
+/// Compares the motions where both scenes have one.
+fn motion(sources: &[Source; 2], starts: &[Start; 2], arguments: &Diff) -> Result<Motion, Failure> {
+    for (source, start) in sources.iter().zip(starts) {
+        if start.scene.simulate.is_none() {
+            let name = &source.name;
+            return Ok(Motion::None(format!("`{name}` has no [simulate]")));
+        }
+    }
+    let mut studies = Vec::new();
+    for source in sources {
+        let blueprint = arguments.resources.blueprint(source)?;
+        match blueprint.prepare(&Overrides::default()) {
+            Ok(study) => studies.push(study),
+            Err(e) => return Ok(Motion::None(cannot_move(&source.name, &e))),
+        }
+    }
+    Ok(match MotionComparison::of(&studies[0], &studies[1]) {
+        Ok(Some(motion)) => Motion::Both(motion),
+        Ok(None) => Motion::None("one of the scenes has no [simulate]".to_owned()),
+        Err(e) => Motion::None(format!("one of them stopped: {e}")),
+    })
+}
+
+fn cannot_move(name: &str, e: &StudyError) -> String {
+    format!("`{name}` cannot be moved: {e}")
+}
+
+fn document(sides: [&AnalysisDocument; 2], c: &Comparison<'_>, motion: &Motion) -> Value {
+    let side = |d: &AnalysisDocument| {
+        json!({
+            "scene": d.scene, "bodies": d.bodies, "rows": d.rows, "rank": d.rank,
+            "redundancy": d.redundancy, "mobility": d.mobility,
+        })
+    };
+    let reaction = |r: &ReactionDocument| {
+        json!({
+            "type": r.kind, "rows": r.rows, "verdict": r.wrench.verdict,
+            "components": r.components,
+        })
+    };
+    let named = |r: &&ReactionDocument| {
+        let mut value = reaction(r);
+        value["name"] = r.name.clone().into();
+        value
+    };
+    let changed = |v: &pfaff::comparison::VerdictChange<'_>| json!({ "name": v.name, "a": reaction(v.sides[0]), "b": reaction(v.sides[1]) });
+    let (motion, reason) = match motion {
+        Motion::Both(m) => {
+            let body = |b: &pfaff::MotionDifference| {
+                json!({
+                    "body": b.body, "distance": b.distance[0], "t_distance": b.distance[1],
+                    "angle": b.angle[0], "t_angle": b.angle[1],
+                })
+            };
+            let bodies: Vec<_> = m.bodies.iter().map(body).collect();
+            (json!({ "t_end": m.t_end, "bodies": bodies }), Value::Null)
+        }
+        Motion::None(reason) => (Value::Null, json!(reason)),
+    };
+    json!({
+        "ok": true,
+        "a": side(sides[0]),
+        "b": side(sides[1]),
+        "removed": c.removed.iter().map(named).collect::<Vec<_>>(),
+        "added": c.added.iter().map(named).collect::<Vec<_>>(),
+        "changed": c.verdicts.iter().map(changed).collect::<Vec<_>>(),
+        "dependencies_gone": c.gone,
+        "dependencies_new": c.new,
+        "motion": motion,
+        "motion_not_compared": reason,
+    })
+}
+
+fn describe(
+    names: &[String; 2],
+    sides: [&AnalysisDocument; 2],
+    c: &Comparison<'_>,
+    motion: &Motion,
+) -> String {
+    let mut text = numbers(names, sides);
+    text.push('\n');
+    if c.is_empty() {
+        text.push_str("no joint, drive, verdict or dependency differs\n");
+    } else {
+        text.push_str(&verdicts(names, c));
+        for (title, list) in [("dependencies gone", &c.gone), ("dependencies new", &c.new)] {
+            text.push_str(&dependencies(title, list));
+        }
+    }
+    text.push('\n');
+    text.push_str(&match motion {
+        Motion::Both(motion) => moved(motion),
+        Motion::None(reason) => format!("motions not compared: {reason}\n"),
+    });
+    text
+}
+
+/// Names of the files, with their directories only where they would be alike.
+fn names(sources: &[Source; 2]) -> [String; 2] {
+    let whole = || sources.each_ref().map(|source| source.name.clone());
+    let short = sources.each_ref().map(|source| {
+        let name = Path::new(&source.name).file_name();
+        name.map_or_else(
+            || source.name.clone(),
+            |name| name.to_string_lossy().into_owned(),
+        )
+    });
+    match short[0] == short[1] {
+        true => whole(),
+        false => short,
+    }
+}
+
+/// Counts of both scenes and their difference.
+fn numbers(names: &[String; 2], [a, b]: [&AnalysisDocument; 2]) -> String {
+    let mut rows = vec![vec![
+        String::new(),
+        names[0].clone(),
+        names[1].clone(),
+        String::new(),
+    ]];
+    let counts = [
+        ("bodies", a.bodies, b.bodies),
+        ("joints and drives", a.reactions.len(), b.reactions.len()),
+        ("rows", a.rows, b.rows),
+        ("rank", a.rank, b.rank),
+        ("redundancy", a.redundancy, b.redundancy),
+        ("mobility", a.mobility, b.mobility),
+        ("not unique", open(a), open(b)),
+    ];
+    for (what, x, y) in counts {
+        let change = match y.cmp(&x) {
+            std::cmp::Ordering::Equal => String::new(),
+            std::cmp::Ordering::Greater => format!("+{}", y - x),
+            std::cmp::Ordering::Less => format!("−{}", x - y),
+        };
+        rows.push(vec![what.to_owned(), x.to_string(), y.to_string(), change]);
+    }
+    columns(&rows)
+}
+
+fn open(d: &AnalysisDocument) -> usize {
+    let reactions = d.reactions.iter();
+    reactions
+        .filter(|r| r.wrench.verdict == "not_unique")
+        .count()
+}
+
+/// Joints and drives that came, went or changed.
+fn verdicts(names: &[String; 2], c: &Comparison<'_>) -> String {
+    let mut rows = vec![vec![
+        "reaction".to_owned(),
+        names[0].clone(),
+        names[1].clone(),
+    ]];
+    let absent = || "–".to_owned();
+    for change in &c.verdicts {
+        let [a, b] = change.sides;
+        let both = a.kind != b.kind;
+        rows.push(vec![change.name.to_owned(), words(a, both), words(b, both)]);
+    }
+    for gone in &c.removed {
+        rows.push(vec![gone.name.clone(), words(gone, true), absent()]);
+    }
+    for came in &c.added {
+        rows.push(vec![came.name.clone(), absent(), words(came, true)]);
+    }
+    match rows.len() {
+        1 => String::new(),
+        _ => columns(&rows),
+    }
+}
+
+/// The verdict of a reaction, with its type where that matters, and which components are not unique.
+fn words(r: &ReactionDocument, with_type: bool) -> String {
+    let verdict = r.wrench.verdict.replace('_', " ");
+    let free = r
+        .components
+        .iter()
+        .filter(|c| c.verdict.verdict == "not_unique");
+    let free: Vec<&str> = free.map(|c| c.name).collect();
+    let verdict = match free.is_empty() {
+        true => verdict,
+        false => format!("{verdict} ({})", free.join(", ")),
+    };
+    match with_type {
+        true => format!("{}, {verdict}", r.kind),
+        false => verdict,
+    }
+}
+
+fn dependencies(title: &str, list: &[&DependencyDocument]) -> String {
+    if list.is_empty() {
+        return String::new();
+    }
+    let mut text = format!("\n{title}:\n");
+    for dependency in list {
+        text.push_str(&wrapped("  - ", &dependency.text));
+    }
+    text
+}
+
+/// Bodies by the distance of their motions, the largest first.
+fn moved(motion: &MotionComparison) -> String {
+    if motion.bodies.is_empty() {
+        return "no body has the same name in both scenes: no motion to compare\n".to_owned();
+    }
+    let mut bodies: Vec<_> = motion.bodies.iter().collect();
+    bodies.sort_by(|a, b| b.distance[0].total_cmp(&a.distance[0]));
+    let mut text = format!(
+        "motion to t = {} s, largest difference of each body:\n",
+        motion.t_end
+    );
+    let mut rows = vec![
+        ["body", "place (m)", "at t (s)", "angle (rad)", "at t (s)"]
+            .map(str::to_owned)
+            .to_vec(),
+    ];
+    for body in bodies.iter().take(LISTED) {
+        let mut row = vec![body.body.clone()];
+        for [value, t] in [body.distance, body.angle] {
+            row.push(format!("{value:.1e}"));
+            row.push(format!("{t:.3}"));
+        }
+        rows.push(row);
+    }
+    text.push_str(&columns(&rows));
+    if bodies.len() > LISTED {
+        text.push_str(&format!(
+            "and {} more, none farther apart\n",
+            bodies.len() - LISTED
+        ));
+    }
+    text
+}

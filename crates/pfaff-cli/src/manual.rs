@@ -1,0 +1,80 @@
+//! What describes the command and its files to other programs: schema, completions, manual pages.
+
+use clap::CommandFactory;
+use clap_mangen::Man;
+use pfaff::model::Registry;
+use pfaff::scene;
+
+use crate::Outcome;
+use crate::args::{Arguments, Completions, Man as Page};
+use crate::output::{Failure, print};
+
+/// `pfaff schema`
+pub(crate) fn schema() -> Outcome {
+    print(&format!("{:#}\n", scene::schema(&Registry::planar())))
+}
+
+/// `pfaff completions`
+pub(crate) fn completions(arguments: &Completions) -> Outcome {
+    let mut out = Vec::new();
+    let mut command = Arguments::command();
+    clap_complete::generate(arguments.shell, &mut command, "pfaff", &mut out);
+    print(&String::from_utf8_lossy(&out))
+}
+
+/// `pfaff man`
+pub(crate) fn page(arguments: &Page) -> Outcome {
+    let mut whole = Arguments::command();
+    whole.build();
+    let command = match &arguments.command {
+        None => whole,
+        Some(name) => of_command(&whole, name)?,
+    };
+    // Examples are lines, and this would fill them into paragraphs: they are set by themselves.
+    let examples = command.get_after_help().map(ToString::to_string);
+    let command = command.after_help("");
+    let mut out = Vec::new();
+    let written = Man::new(command).render(&mut out);
+    written.map_err(|e| Failure::stopped(format!("cannot make the page: {e}")))?;
+    let mut text = String::from_utf8_lossy(&out).into_owned();
+    if let Some(examples) = examples {
+        text.push_str(".SH EXAMPLES AND REMARKS\n.nf\n");
+        text.push_str(&set(&examples));
+        text.push_str(".fi\n");
+    }
+    print(&text)
+}
+
+/// Lines as they are, in the signs of `man`.
+fn set(text: &str) -> String {
+    let mut out = String::new();
+    for line in text.lines() {
+        let line = line.replace('\\', "\\e").replace('-', "\\-");
+        // A point or an apostrophe at the beginning would be a command.
+        if line.starts_with(['.', '\'']) {
+            out.push_str("\\&");
+        }
+        out.push_str(&line);
+        out.push('\n');
+    }
+    out
+}
+
+/// A command with the name of its page.
+fn of_command(whole: &clap::Command, name: &str) -> Result<clap::Command, Failure> {
+    let commands = || {
+        whole
+            .get_subcommands()
+            .filter(|command| command.get_name() != "help")
+    };
+    let found = commands().find(|command| command.get_name() == name);
+    let found = found.ok_or_else(|| {
+        let names: Vec<&str> = commands().map(clap::Command::get_name).collect();
+        Failure::input(format!(
+            "there is no command `{name}`; there are {}",
+            names.join(", ")
+        ))
+    })?;
+    let page = found.clone().display_name(format!("pfaff-{name}"));
+    Ok(page.version(env!("CARGO_PKG_VERSION")))
+}

@@ -1,0 +1,88 @@
+//! `pfaff new`: a scene to begin with.
+
+use std::fs::File;
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use serde_json::json;
+
+use crate::Outcome;
+use crate::args::New;
+use crate::output::{Failure, columns, print};
+use crate::template::Template;
+
+pub(crate) fn run(arguments: &New) -> Outcome {
+    let Some(template) = arguments.template else {
+        return list(arguments.json);
+    };
+    let path = match &arguments.out {
+        Some(path) => path.clone(),
+        None => PathBuf::from(format!("{}.toml", template.name())),
+    };
+    let standard_output = path.as_os_str() == "-";
+    let file = match standard_output {
+        true => format!("{}.toml", template.name()),
+        false => path.display().to_string(),
+    };
+    let text = template.scene(&file);
+    if standard_output {
+        return match arguments.json {
+            true => Err(Failure::input(
+                "--json and --out - both want standard output".to_owned(),
+            )),
+            false => print(&text),
+        };
+    }
+    write(&path, &text, arguments.force)?;
+    match arguments.json {
+        true => print(&format!(
+            "{:#}\n",
+            json!({ "ok": true, "template": template.name(), "file": file })
+        )),
+        false => print(&format!("written to {file}\nnext: pfaff analyze {file}\n")),
+    }
+}
+
+/// Writes a file that is not there yet, or replaces it where that is wanted.
+fn write(path: &Path, text: &str, force: bool) -> Outcome {
+    let refused = |e: std::io::Error| {
+        let name = path.display();
+        match e.kind() {
+            ErrorKind::AlreadyExists => Failure::input(format!(
+                "`{name}` is there already; --force replaces it, --out writes another file"
+            )),
+            ErrorKind::NotFound => Failure::input(format!(
+                "cannot write `{name}`: its directory does not exist"
+            )),
+            _ => Failure::input(format!("cannot write `{name}`: {e}")),
+        }
+    };
+    let mut options = File::options();
+    options.write(true);
+    match force {
+        true => options.create(true).truncate(true),
+        false => options.create_new(true),
+    };
+    let mut file = options.open(path).map_err(refused)?;
+    let written = file.write_all(text.as_bytes());
+    written.map_err(|e| Failure::stopped(format!("cannot write `{}`: {e}", path.display())))
+}
+
+fn list(json: bool) -> Outcome {
+    let all = Template::ALL.iter();
+    if json {
+        let templates: Vec<_> = all
+            .map(|t| json!({ "name": t.name(), "summary": t.summary() }))
+            .collect();
+        return print(&format!(
+            "{:#}\n",
+            json!({ "ok": true, "templates": templates })
+        ));
+    }
+    let mut rows = vec![["template", "is"].map(str::to_owned).to_vec()];
+    rows.extend(all.map(|t| vec![t.name().to_owned(), t.summary()]));
+    print(&format!(
+        "{}\n`pfaff new TEMPLATE` writes one\n",
+        columns(&rows)
+    ))
+}

@@ -1,0 +1,72 @@
+//! The assembled start with its verdicts, of mechanisms of any size: what a picture and a comparison begin with.
+
+use pfaff::model::{Mechanism, System, start};
+use pfaff::report::{AnalysisDocument, Proof};
+use pfaff::scene::Scene;
+use pfaff::solvability::{LARGE, ReactionVerdict};
+use pfaff::{Blueprint, StudyError};
+
+use crate::input::Source;
+use crate::output::Failure;
+use crate::resources::Resources;
+
+/// A start and what is known of its reactions.
+pub(crate) struct Start {
+    pub(crate) scene: Scene,
+    pub(crate) mechanism: Mechanism,
+    /// Its coordinates.
+    pub(crate) q: Vec<f64>,
+    /// Joints and drives in the order of their rows.
+    pub(crate) reactions: Vec<ReactionVerdict>,
+    pub(crate) document: AnalysisDocument,
+}
+
+impl Start {
+    /// Assembles the start of a scene and judges it, also where no motion begins there.
+    pub(crate) fn of(source: &Source, resources: Resources) -> Result<Self, Failure> {
+        let mut blueprint = resources.blueprint(source)?;
+        let failure = |e: StudyError| source.failure(e);
+        let (reactions, document) = match blueprint.mechanism.layout().rows() > LARGE {
+            true => by_parts(&mut blueprint).map_err(failure)?,
+            false => whole(&mut blueprint).map_err(failure)?,
+        };
+        let Blueprint {
+            scene,
+            mut mechanism,
+        } = blueprint;
+        let assembly = start::assemble(&mut mechanism, &scene.start);
+        let assembly =
+            assembly.map_err(|e| failure(StudyError::Scene(vec![scene.locate_start(&e)])))?;
+        Ok(Self {
+            q: assembly.q,
+            scene,
+            mechanism,
+            reactions,
+            document,
+        })
+    }
+}
+
+fn whole(
+    blueprint: &mut Blueprint,
+) -> Result<(Vec<ReactionVerdict>, AnalysisDocument), StudyError> {
+    let inquiry = blueprint.inquire(None)?;
+    let proof = Proof {
+        generic: None,
+        certificate: inquiry.certificate.as_ref(),
+    };
+    let mut document = AnalysisDocument::new(inquiry.scene.name(), &inquiry.analysis, proof);
+    if let Some(explanation) = inquiry.explanation()? {
+        document.explain(&explanation, inquiry.mechanism.layout());
+    }
+    Ok((inquiry.analysis.reactions, document))
+}
+
+fn by_parts(
+    blueprint: &mut Blueprint,
+) -> Result<(Vec<ReactionVerdict>, AnalysisDocument), StudyError> {
+    let survey = blueprint.survey(|_| {})?;
+    let document = AnalysisDocument::of_survey(blueprint.scene.name(), &survey);
+    let reactions = survey.reactions().into_iter().cloned().collect();
+    Ok((reactions, document))
+}

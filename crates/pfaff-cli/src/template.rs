@@ -1,0 +1,82 @@
+//! Scenes to begin with: those of `examples/`, which are tested there.
+
+/// Longest summary (bytes).
+const WIDTH: usize = 96;
+
+/// A scene that comes with the program.
+#[derive(Clone, Copy)]
+pub(crate) struct Template {
+    name: &'static str,
+    text: &'static str,
+}
+
+macro_rules! examples {
+    ($($name:literal)*) => {
+        [$(Template {
+            name: $name,
+            text: include_str!(concat!("../../../examples/", $name, ".toml")),
+        }),*]
+    };
+}
+
+/// From simple to rich, as in `examples/README.md`.
+const EXAMPLES: [Template; 21] = examples!(
+    "door" "carriage" "truss" "four-bar" "knife-edge" "sleigh" "towed-cart" "scotch-yoke" "three-cranks" "gear-train" "planetary-gear"
+    "sweeper" "car" "truck" "snakeboard" "pantograph" "peaucellier" "chebyshev" "five-bar" "scissor-lift" "andrews"
+);
+
+const ROBOT: Template = Template {
+    name: "robot-trolley",
+    text: include_str!("../../robot-trolley/robot-trolley.toml"),
+};
+
+impl Template {
+    /// All of them.
+    pub(crate) const ALL: &'static [Self] = &{
+        let mut all = [ROBOT; EXAMPLES.len() + 1];
+        let mut k = 0;
+        while k < EXAMPLES.len() {
+            all[k] = EXAMPLES[k];
+            k += 1;
+        }
+        all
+    };
+
+    pub(crate) fn name(self) -> &'static str {
+        self.name
+    }
+
+    /// What it is: the first sentence of its text.
+    pub(crate) fn summary(self) -> String {
+        let lines = self.text.lines().map_while(|line| line.strip_prefix("# "));
+        let words = lines.collect::<Vec<_>>().join(" ");
+        let end = words
+            .find(". ")
+            .unwrap_or(words.trim_end_matches('.').len());
+        let sentence = &words[..end];
+        if sentence.len() <= WIDTH {
+            return sentence.to_owned();
+        }
+        let end = sentence[..sentence.floor_char_boundary(WIDTH)].rfind([' ', ',']);
+        format!(
+            "{} …",
+            sentence[..end.unwrap_or(0)].trim_end_matches([',', ':'])
+        )
+    }
+
+    /// The scene under a head that says what to do with it; `file` is its name there.
+    pub(crate) fn scene(self, file: &str) -> String {
+        let Self { name, text } = self;
+        format!(
+            "# Begun with `pfaff new {name}`. What to do with it:
+#   pfaff check {file} --watch      every problem of the file, whenever it is saved
+#   pfaff view {file}               a picture
+#   pfaff analyze {file}            which reactions are unique, and why others are not
+#   pfaff simulate {file} --out run
+# For help while writing (Taplo, Even Better TOML): `pfaff schema > pfaff.schema.json`, and as the first line here
+#   #:schema ./pfaff.schema.json
+
+{text}"
+        )
+    }
+}

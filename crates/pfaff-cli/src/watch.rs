@@ -1,0 +1,93 @@
+//! `pfaff check --watch`: checks again whenever the file changes.
+
+use std::fs;
+use std::io;
+use std::path::Path;
+use std::thread::sleep;
+use std::time::{Duration, SystemTime};
+
+use crate::Outcome;
+use crate::args::Check;
+use crate::check;
+use crate::input::Source;
+use crate::interrupt::Interrupt;
+use crate::output::{Failure, is_coloured, print};
+
+/// Time between two looks at the file.
+const PAUSE: Duration = Duration::from_millis(500);
+
+/// Looks at a file that is gone, before that is said: editors replace a file by another one.
+const PATIENCE: usize = 3;
+
+pub(crate) fn run(arguments: &Check) -> Outcome {
+    let path = &arguments.scene;
+    if path.as_os_str() == "-" {
+        return Err(Failure::input(
+            "--watch looks at a file again and again; standard input comes once".to_owned(),
+        ));
+    }
+    // What is not there at the beginning is a wrong name.
+    let mut seen = Stamp::of(path).map_err(|e| unreadable(path, &e))?;
+    Interrupt::ends_well()?;
+    arguments.resources.apply()?;
+    loop {
+        print(&format!(
+            "──── {} ────\n{}",
+            path.display(),
+            verdict(arguments)
+        ))?;
+        seen = changed(path, seen)?;
+    }
+}
+
+/// What a check says, whether the scene is right or wrong.
+fn verdict(arguments: &Check) -> String {
+    let checked = Source::read(&arguments.scene).and_then(|source| {
+        let study = source.assembled(arguments.resources)?;
+        Ok(check::describe(&study))
+    });
+    checked.unwrap_or_else(|failure| failure.words(is_coloured(&io::stdout())))
+}
+
+/// Waits until the file is another one than was seen.
+fn changed(path: &Path, seen: Stamp) -> Result<Stamp, Failure> {
+    let mut missing = 0;
+    loop {
+        sleep(PAUSE);
+        match Stamp::of(path) {
+            Ok(stamp) if stamp != seen || missing >= PATIENCE => return Ok(stamp),
+            Ok(_) => missing = 0,
+            Err(e) => {
+                missing += 1;
+                if missing == PATIENCE {
+                    print(&format!(
+                        "──── {} ────\n{}",
+                        path.display(),
+                        unreadable(path, &e).words(false)
+                    ))?;
+                }
+            }
+        }
+    }
+}
+
+fn unreadable(path: &Path, e: &io::Error) -> Failure {
+    Failure::input(format!("cannot read `{}`: {e}", path.display()))
+}
+
+/// What changes with a file.
+#[derive(Clone, Copy, PartialEq, Eq)]
+struct Stamp {
+    modified: Option<SystemTime>,
+    length: u64,
+}
+
+impl Stamp {
+    fn of(path: &Path) -> io::Result<Self> {
+        let known = fs::metadata(path)?;
+        Ok(Self {
+            modified: known.modified().ok(),
+            length: known.len(),
+        })
+    }
+}

@@ -1,0 +1,116 @@
+//! `pfaff view`: a picture of every example, with names, rows and verdicts.
+
+use std::fs;
+use std::process::Command;
+
+use serde_json::Value;
+
+use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
+
+fn place(name: &str) -> Folder {
+    let folder = Folder::new(name);
+    fs::create_dir_all(&folder.0).expect("writable");
+    folder
+}
+
+#[test]
+fn the_robot_has_names_rows_and_verdicts() {
+    let folder = place("view-robot");
+    let path = format!("{}/robot.svg", folder.text());
+    let output = pfaff(&["view", ROBOT, "--out", &path, "--no-open"]);
+    assert_eq!((output.status.code(), &*stderr(&output)), (Some(0), ""));
+    assert_eq!(
+        stdout(&output),
+        format!("robot-trolley: 14 joints and drives, 6 not unique\nwritten to {path}\n")
+    );
+    let svg = folder.read("robot.svg");
+    for words in [
+        "<tspan>B</tspan>",
+        "3–4</tspan>",
+        ">18</tspan>",
+        "B (revolute): reaction not unique",
+        ">steering<",
+    ] {
+        assert!(svg.contains(words), "{words}");
+    }
+}
+
+#[test]
+fn the_picture_stands_beside_the_caller_and_nothing_is_opened_without_a_display() {
+    let folder = place("view-here");
+    let output = Command::new(env!("CARGO_BIN_EXE_pfaff"))
+        .args(["view", ROBOT])
+        .current_dir(&folder.0)
+        .env_remove("DISPLAY")
+        .env_remove("WAYLAND_DISPLAY")
+        .env("PATH", "")
+        .output()
+        .expect("the command starts");
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    let said = stdout(&output);
+    assert!(
+        said.contains("written to robot-trolley.svg\nnot opened: "),
+        "{said}"
+    );
+    assert!(folder.read("robot-trolley.svg").starts_with("<svg"));
+}
+
+#[test]
+fn mechanisms_that_cannot_move_and_large_ones_are_drawn() {
+    let folder = place("view-others");
+    let path = format!("{}/x.svg", folder.text());
+    let twins = r#"
+scene = { name = "bar", space = "plane" }
+body = [{ name = "bar", mass = 1.0, inertia = 1.0, position = [1.0, 0.0] }]
+joint = [
+    { name = "pivot", type = "revolute", bodies = ["ground", "bar"], at = [0.0, 0.0] },
+    { name = "twin", type = "revolute", bodies = ["ground", "bar"], at = [1e-9, 0.0] },
+]
+"#;
+    let large = stdout(&pfaff(&["generate", "parallelograms", "--n", "120"]));
+    for scene in [twins, &large] {
+        let output = with_scene(&["view", "-", "--out", &path, "--json"], scene);
+        let document: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");
+        assert_eq!(
+            (output.status.code(), &document["ok"]),
+            (Some(0), &true.into()),
+            "{document}"
+        );
+        assert_eq!(document["bytes"], folder.read("x.svg").len());
+        assert!(document["not_unique"].as_u64() > Some(0), "{document}");
+    }
+}
+
+#[test]
+fn wrong_places_and_wrong_scenes_are_refused() {
+    let folder = place("view-refused");
+    let directory = folder.text();
+    let nowhere = format!("{directory}/no/such.svg");
+    for (arguments, message) in [
+        (
+            &["view", ROBOT, "--no-open", "--out", directory][..],
+            "a directory, need a file",
+        ),
+        (
+            &["view", ROBOT, "--no-open", "--out", "robot.png"],
+            "need a name that ends with .svg",
+        ),
+        (
+            &["view", ROBOT, "--no-open", "--out", &nowhere],
+            "cannot write",
+        ),
+        (
+            &["view", "no-such.toml", "--no-open"],
+            "cannot read `no-such.toml`",
+        ),
+    ] {
+        let output = pfaff(arguments);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
+        assert!(
+            stderr(&output).contains(message),
+            "{arguments:?}: {}",
+            stderr(&output)
+        );
+        assert_eq!(stderr(&output).lines().count(), 1, "{}", stderr(&output));
+    }
+}
