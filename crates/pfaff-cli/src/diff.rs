@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pfaff::comparison::MotionComparison;
+use pfaff::difference::MotionComparison;
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{DependencyDocument, ReactionDocument};
 use pfaff::{Comparison, Overrides, StudyError};
@@ -97,7 +97,7 @@ fn document(sides: [&AnalysisDocument; 2], c: &Comparison<'_>, motion: &Motion) 
         value["name"] = r.name.clone().into();
         value
     };
-    let changed = |v: &pfaff::comparison::VerdictChange<'_>| json!({ "name": v.name, "a": reaction(v.sides[0]), "b": reaction(v.sides[1]) });
+    let changed = |v: &pfaff::difference::VerdictChange<'_>| json!({ "name": v.name, "a": reaction(v.sides[0]), "b": reaction(v.sides[1]) });
     let (motion, reason) = match motion {
         Motion::Both(m) => {
             let body = |b: &pfaff::MotionDifference| {

@@ -53,6 +53,15 @@ pub(crate) struct Site {
     pub(crate) attachments: Vec<(BodyRef, [f64; 2])>,
     /// Whether it holds a body to the ground.
     pub(crate) grounded: bool,
+    /// Circles that roll on each other at its place, where it couples two rotations.
+    pub(crate) pitch: Option<[Pitch; 2]>,
+}
+
+/// A pitch circle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Pitch {
+    pub(crate) centre: [f64; 2],
+    pub(crate) radius: f64,
 }
 
 /// All joints and drives, in the order of their rows, at the poses of the scratch.
@@ -94,16 +103,56 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
         _ if rows.torques > 0 => Symbol::Weld,
         _ => Symbol::Pin,
     };
+    let attachments = attachments(group, place, end, s);
+    let mesh = match (symbol, spec.rows.len()) {
+        (Symbol::Rotation, 1) => mesh(group, map[(2, 0)], s),
+        _ => None,
+    };
     Site {
-        place,
+        place: mesh.map_or(place, |(point, _)| point),
+        pitch: mesh.map(|(_, circles)| circles),
         symbol,
         end,
-        attachments: attachments(group, place, end, s),
+        attachments,
         grounded: spec.level == Level::Holonomic
             && group.kind == ConstraintKind::Joint
             && symbol != Symbol::Rotation
             && (group.bodies.len() == 1 || group.bodies.contains(&BodyRef::Ground)),
     }
+}
+
+/// Ratios nearer to one have no mesh: rotations that are equal need no wheels.
+const LEAST_SLIP: f64 = 1e-2;
+
+/// Where two wheels touch, if the second body turns `ratio` times as fast as the first one: r_i·ω_i = −r_j·ω_j outside of each other,
+/// r_i·ω_i = r_j·ω_j inside. The ratio is the torque on the first body, as rows of rotations are written with one for the second.
+fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 2], [Pitch; 2])> {
+    let centre = |body: &BodyRef| match body {
+        BodyRef::Body(k) => Some([s.poses[*k].x, s.poses[*k].y]),
+        BodyRef::Ground => None,
+    };
+    // A ring that is part of the ground stands around the carrier.
+    let wheel = |slot: usize| {
+        let body = group.bodies.get(slot)?;
+        centre(body).or_else(|| centre(group.bodies.get(2)?))
+    };
+    let (a, b) = (wheel(0)?, wheel(1)?);
+    let far = a.iter().chain(&b).fold(0.0, |far: f64, x| far.max(x.abs()));
+    let apart = (b[0] - a[0]).hypot(b[1] - a[1]);
+    if !(apart > 1e-9 * far) || !ratio.is_finite() || (ratio - 1.0).abs() < LEAST_SLIP {
+        return None;
+    }
+    let share = ratio / (ratio - 1.0);
+    let point = [0, 1].map(|k| a[k] + share * (b[k] - a[k]));
+    let circle = |centre, share: f64| Pitch {
+        centre,
+        radius: share.abs() * apart,
+    };
+    let circles = [circle(a, share), circle(b, 1.0 - share)];
+    point
+        .iter()
+        .all(|x| within(*x, 2.0 * LIMIT))
+        .then_some((point, circles))
 }
 
 /// A point of each body: of the first its place, of others where the force acts on them, or their centres if none does.

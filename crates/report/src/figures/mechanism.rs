@@ -13,7 +13,7 @@ use super::geometry::{Site, posed, sites};
 use super::outline::{double_area, hull, rounded};
 use super::style::{GREY, HATCH, HATCH_PITCH, INK, Mark, TEXT_SIZE, TITLE_SIZE};
 use super::svg::{Svg, number};
-use super::symbol::ground;
+use super::symbol::{ground, pitch_circle};
 use legend::Legend;
 use names::{Drawn, draw_names};
 
@@ -139,7 +139,7 @@ impl View {
     fn around(sites: &[Site], centres: &[[f64; 2]]) -> Self {
         let joints = sites.iter().flat_map(|s| {
             let points = s.attachments.iter().map(|a| a.1);
-            points.chain([s.place])
+            points.chain([s.place]).chain(corners(s))
         });
         let points: Vec<[f64; 2]> = joints.chain(centres.iter().copied()).collect();
         let range =
@@ -172,6 +172,12 @@ impl View {
     fn bottom(&self) -> f64 {
         TITLE + self.height
     }
+}
+
+/// What the pitch circles of a site reach.
+fn corners(site: &Site) -> impl Iterator<Item = [f64; 2]> {
+    let circles = site.pitch.into_iter().flatten();
+    circles.flat_map(|c| [-c.radius, c.radius].map(|r| [c.centre[0] + r, c.centre[1] + r]))
 }
 
 fn define_hatch(svg: &mut Svg) {
@@ -257,6 +263,9 @@ fn draw_centres(svg: &mut Svg, centres: &[[f64; 2]], view: &View) {
 }
 
 fn draw_joints(svg: &mut Svg, mechanism: &Mechanism, sites: &[Site], marks: &[Mark], view: &View) {
+    for circle in sites.iter().filter_map(|s| s.pitch).flatten() {
+        pitch_circle(svg, view.to_page(circle.centre), circle.radius * view.scale);
+    }
     for site in sites.iter().filter(|s| s.grounded) {
         ground(svg, view.to_page(site.place));
     }

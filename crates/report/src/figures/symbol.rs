@@ -214,6 +214,17 @@ fn guide(svg: &mut Svg, a: [f64; 2], b: [f64; 2]) {
         .empty();
 }
 
+/// A circle that rolls, dash-dotted.
+pub(super) fn pitch_circle(svg: &mut Svg, [x, y]: [f64; 2], radius: f64) {
+    svg.element("circle")
+        .at([("cx", x), ("cy", y), ("r", radius)])
+        .with("fill", "none")
+        .with("stroke", GREY)
+        .with("stroke-width", "1")
+        .with("stroke-dasharray", "8 2.5 2 2.5")
+        .empty();
+}
+
 fn circle(svg: &mut Svg, radius: f64) {
     svg.element("circle").at([("r", radius)]).empty();
 }

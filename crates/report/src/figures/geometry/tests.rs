@@ -102,6 +102,26 @@ fn symbols_follow_from_rows() {
     assert_eq!(site(turn, true).symbol, Symbol::Drive { axis: None });
 }
 
+/// The centres are at (0, 0) and (2, 1), √5 apart.
+#[test]
+fn wheels_touch_where_their_speeds_agree() {
+    let gear = |ratio: f64| site(Gear { ratio, phase: 0.0 }, false);
+    for (ratio, point, radii) in [
+        // Outside: twice as fast, half as large.
+        (-2.0, [4.0 / 3.0, 2.0 / 3.0], [2.0 / 3.0, 1.0 / 3.0]),
+        // Inside: the slow one is the ring around the other.
+        (0.5, [-2.0, -1.0], [1.0, 2.0]),
+    ] {
+        let site = gear(ratio);
+        assert!(near(site.place, point), "{:?}", site.place);
+        let circles = site.pitch.expect("two wheels");
+        for (circle, radius) in circles.iter().zip(radii) {
+            assert!((circle.radius - radius * 5.0_f64.sqrt()).abs() <= ROUNDING);
+        }
+    }
+    assert_eq!(gear(1.0).pitch, None);
+}
+
 #[test]
 fn the_far_end_of_a_rod_is_found_from_gamma() {
     let s_j = [-0.4, 0.25];
