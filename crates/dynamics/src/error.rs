@@ -341,9 +341,19 @@ impl MotionError {
                 .map_or_else(|| (row + 1).to_string(), RowLabel::to_string)
         };
         Self::Rows(match error {
-            KeptRowsError::WrongCount { dropped, .. } => format!(
-                "{dropped} rows are dropped, but the degree of redundancy is {redundancy}: drop exactly {redundancy}"
-            ),
+            KeptRowsError::WrongCount { .. } if redundancy == 0 => {
+                "no row can be dropped: the degree of redundancy is 0, and all rows are needed"
+                    .to_owned()
+            }
+            KeptRowsError::WrongCount { dropped, .. } => {
+                let rows = match dropped {
+                    1 => "1 row is".to_owned(),
+                    n => format!("{n} rows are"),
+                };
+                format!(
+                    "{rows} dropped, but the degree of redundancy is {redundancy}: drop exactly {redundancy}"
+                )
+            }
             KeptRowsError::RowOutOfRange { row, rows } => {
                 format!("row {} cannot be dropped: rows are 1 to {rows}", row + 1)
             }

@@ -84,6 +84,9 @@ impl Blueprint {
             Err(e @ (MotionError::Start(_) | MotionError::Contradiction(_))) => {
                 return Err(StudyError::Scene(vec![scene.locate_motion(&e)]));
             }
+            Err(e @ MotionError::Rows(_)) if overrides.drop.is_none() => {
+                return Err(StudyError::Scene(vec![scene.locate_motion(&e)]));
+            }
             Err(e) => return Err(e.into()),
         };
         Ok(Study {

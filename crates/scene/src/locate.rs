@@ -90,7 +90,7 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
             return at_rows(map, &error.rows, error, marks);
         }
         MotionError::Option { name, .. } => (map.section("simulate", name), "not possible"),
-        MotionError::Rows(_) => (map.section("simulate", "drop"), "of this run"),
+        MotionError::Rows(_) => (map.section("simulate", "drop"), "not these rows"),
         MotionError::Trip(trip) => match trip {
             Trip::RankLost { row: label, .. } => (row(map, label), "becomes dependent"),
             Trip::OffConstraints { row: label, .. } => (row(map, label), "misses most"),

@@ -1,5 +1,7 @@
 //! From a text to a scene, or to everything that is wrong with it.
 
+mod syntax;
+
 use std::collections::{BTreeMap, HashMap};
 
 use model::{BuildError, Description, Mechanism, Registry};
@@ -85,7 +87,12 @@ fn syntax(errors: &[toml::de::Error], findings: &mut Findings) {
         }
         line = here;
         let span = error.span().unwrap_or(0..0);
-        findings.error(span, error.message(), "not valid TOML");
+        let text = findings.source.text();
+        let help = match error.message() {
+            "duplicate key" => syntax::twice(text, span.clone()),
+            _ => syntax::advice(text, span.start, never_closed),
+        };
+        findings.error_with_help(span, error.message(), "not valid TOML", help);
     }
 }
 

@@ -24,6 +24,7 @@ mod sweep;
 mod view;
 mod watch;
 mod work_precision;
+mod wrong;
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
