@@ -33,6 +33,7 @@ impl Start {
         let Blueprint {
             scene,
             mut mechanism,
+            ..
         } = blueprint;
         let assembly = start::assemble(&mut mechanism, &scene.start);
         let assembly =

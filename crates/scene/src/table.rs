@@ -50,13 +50,6 @@ impl<'t> Table<'t> {
         })
     }
 
-    /// A key that was asked for only to say that it is wrong here.
-    pub(crate) fn forget(&mut self, key: &str) {
-        if !self.entries.contains_key(key) {
-            self.known.retain(|known| *known != key);
-        }
-    }
-
     /// The value of a key that must be there.
     pub(crate) fn required(&mut self, key: &Key, findings: &mut Findings) -> Option<Field<'t>> {
         self.needed(key.name, key.expected, findings)
