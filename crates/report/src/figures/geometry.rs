@@ -139,7 +139,8 @@ fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 2], [
     let (a, b) = (wheel(0)?, wheel(1)?);
     let far = a.iter().chain(&b).fold(0.0, |far: f64, x| far.max(x.abs()));
     let apart = (b[0] - a[0]).hypot(b[1] - a[1]);
-    if !(apart > 1e-9 * far) || !ratio.is_finite() || (ratio - 1.0).abs() < LEAST_SLIP {
+    let are_apart = apart > 1e-9 * far;
+    if !are_apart || !ratio.is_finite() || (ratio - 1.0).abs() < LEAST_SLIP {
         return None;
     }
     let share = ratio / (ratio - 1.0);
