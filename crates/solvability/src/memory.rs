@@ -1,6 +1,6 @@
 //! How much memory ranks and verdicts take, before it is taken.
 
-use linalg::{SparsePattern, SparseRankError};
+use linalg::SparsePattern;
 use model::{Mechanism, System};
 
 use crate::large::{SPARSE_FROM, blocks, rows_of, sketch_of};
@@ -50,7 +50,7 @@ fn of_part(part: &Mechanism, time: f64) -> Result<usize, AnalysisError> {
     let pattern = SparsePattern::new(&c, &blocks(part)).map_err(|source| AnalysisError::Large {
         time,
         rows,
-        source: SparseRankError::from(source),
+        source,
     })?;
     Ok(pattern.bytes(sketch_of(part)))
 }

@@ -8,6 +8,9 @@ use crate::mechanism::Analysis;
 use crate::state::State;
 use crate::verdict::Verdict;
 
+/// A minimum, with a sample more on each side, is divided once more into so many intervals.
+const FINER: u8 = 16;
+
 /// Isolated instants outside the stretches that have verdicts of their own, and outside nearly singular intervals.
 pub(super) fn instants<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
@@ -47,7 +50,25 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             .iter()
             .map(|margins| margins.as_ref().map(|of_parts| of_parts[part]))
             .collect();
-        for bracket in local_minima(&times, &margins) {
+        let mut brackets = Vec::new();
+        for coarse in local_minima(&times, &margins) {
+            // Two instants may share what looks like one minimum: between neighbouring samples beside each other.
+            let neighbour = |t: f64, side: isize| -> Option<f64> {
+                let at = times.binary_search_by(|x| x.total_cmp(&t)).ok()?;
+                let next = at.checked_add_signed(side)?;
+                margins.get(next)?.map(|_| times[next])
+            };
+            let from = neighbour(coarse[0], -1).unwrap_or(coarse[0]);
+            let to = neighbour(coarse[1], 1).unwrap_or(coarse[1]);
+            let step = (to - from) / f64::from(FINER);
+            let finer: Vec<f64> = (0..=FINER).map(|k| from + f64::from(k) * step).collect();
+            let values = finer
+                .iter()
+                .map(|&t| Ok(Some(margin(&path.analysis(t)?, part))));
+            let values = values.collect::<Result<Vec<_>, AlongError>>()?;
+            brackets.extend(local_minima(&finer, &values));
+        }
+        for bracket in brackets {
             let is_unique = |a: &Analysis| {
                 let (_, _, judgement, is_zero) = &parts(mechanism, a)[part];
                 judgement.verdict.is_unique() && !is_zero
