@@ -109,7 +109,7 @@ fn sign_changes<F: FnMut(f64) -> State>(
                 let point = path.at(t)?;
                 Ok(border.value(&path.equilibrated(&point)))
             };
-            let t = search::root([a.0, b.0], [1.0, value], at)?;
+            let t = search::root([a.0, b.0], [1.0, value], 0.0, at)?;
             let sigma = path.sigma(t)?;
             if sigma < SINGULAR {
                 let proved = true;
