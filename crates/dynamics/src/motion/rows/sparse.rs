@@ -8,7 +8,7 @@ use model::{Mechanism, System};
 pub(super) struct Sparse {
     pub(super) c: SparseMatrix,
     /// Where each entry goes among the values, which entry of C it is, and its unit.
-    entries: Vec<(usize, usize, f64)>,
+    entries: Vec<(u32, u32, f64)>,
     pub(super) saddle: SchurSaddle,
 }
 
@@ -22,7 +22,7 @@ impl Sparse {
             for at in pattern.start[i]..pattern.start[i + 1] {
                 let column = pattern.column[at];
                 let place = start + columns.partition_point(|&j| j < column);
-                entries.push((place, pattern.entry[at], units[column]));
+                entries.push((place as u32, pattern.entry[at] as u32, units[column]));
             }
         }
         Self {
@@ -42,7 +42,7 @@ impl Sparse {
         let values = self.c.values_mut();
         values.fill(0.0);
         for &(place, entry, unit) in &self.entries {
-            values[place] += entries[entry] * unit;
+            values[place as usize] += entries[entry as usize] * unit;
         }
         self.saddle.factor_above(floor, &self.c, mass)
     }
@@ -68,7 +68,7 @@ fn structure(mechanism: &Mechanism, c: &SparseMatrix) -> SchurStructure {
 /// Bytes of the solver of these rows.
 pub(super) fn memory(mechanism: &Mechanism, kept: &[usize]) -> usize {
     let c = rows_of(mechanism, kept);
-    let entries = c.nnz() * (ENTRY + size_of::<(usize, usize, f64)>());
+    let entries = c.nnz() * (ENTRY + size_of::<(u32, u32, f64)>());
     structure(mechanism, &c).bytes() + entries
 }
 
