@@ -60,18 +60,20 @@ fn ruiz<Row: Iterator<Item = (usize, f64)>>(
     row: impl Fn(usize) -> Row,
 ) -> Scaling {
     let mut scaling = Scaling::identity(m, n);
+    // Most entries are zero: the others are looked up once.
+    let entries: Vec<(usize, usize, i32)> = (0..m)
+        .flat_map(|i| row(i).filter_map(move |(j, c_ij)| Some((i, j, exponent(c_ij)?))))
+        .collect();
     let mut row_top = vec![None; m];
     let mut col_top = vec![None; n];
     for _ in 0..SWEEPS_MAX {
         row_top.fill(None);
         col_top.fill(None);
-        for i in 0..m {
-            for (j, c_ij) in row(i) {
-                let top = exponent(c_ij).map(|e| e + scaling.rows[i] + scaling.cols[j]);
-                // `None` is less than any exponent.
-                row_top[i] = top.max(row_top[i]);
-                col_top[j] = top.max(col_top[j]);
-            }
+        for &(i, j, e) in &entries {
+            let top = Some(e + scaling.rows[i] + scaling.cols[j]);
+            // `None` is less than any exponent.
+            row_top[i] = top.max(row_top[i]);
+            col_top[j] = top.max(col_top[j]);
         }
         let moved_rows = half_step(&mut scaling.rows, &row_top);
         let moved_cols = half_step(&mut scaling.cols, &col_top);
@@ -170,6 +172,9 @@ pub(crate) fn scale(x: f64, e: i32) -> f64 {
     // Largest power of two whose inverse is normal too.
     const STEP: i32 = 1022;
     let power = |e: i32| f64::from_bits(((e + 1023) as u64) << 52);
+    if (-STEP..=STEP).contains(&e) {
+        return x * power(e);
+    }
     let mut x = x;
     let mut e = e;
     while e > STEP && x.is_finite() && x != 0.0 {

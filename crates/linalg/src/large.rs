@@ -27,7 +27,7 @@ pub(crate) fn singular_values(a: &Matrix) -> Option<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::singular_values::by_jacobi;
+    use crate::singular_values::own as by_rotations;
 
     /// Both sides of a decision must read the same numbers: agreement far below the smallest
     /// tolerance τ = 10·eps·√(m·n) ≈ 2e-13 of this size.
@@ -36,7 +36,7 @@ mod tests {
         const RANK: usize = 70;
         let wave = |i: usize, k: usize| ((i * i + 3 * k) as f64 * (1.0 + k as f64).sqrt()).sin();
         let a = Matrix::from_fn(96, RANK, wave).product(&Matrix::from_fn(RANK, 90, wave));
-        let (own, faer) = (by_jacobi(&a), singular_values(&a).unwrap());
+        let (own, faer) = (by_rotations(&a), singular_values(&a).unwrap());
         assert_eq!(own.len(), faer.len());
         for (x, y) in own.iter().zip(&faer) {
             assert!((x - y).abs() < 2e-14 * own[0], "{x:e} {y:e}");

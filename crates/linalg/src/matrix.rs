@@ -63,9 +63,7 @@ impl Matrix {
     pub fn from_fn(nrows: usize, ncols: usize, mut f: impl FnMut(usize, usize) -> f64) -> Self {
         let mut data = Vec::with_capacity(nrows * ncols);
         for i in 0..nrows {
-            for j in 0..ncols {
-                data.push(f(i, j));
-            }
+            data.extend((0..ncols).map(|j| f(i, j)));
         }
         Self { nrows, ncols, data }
     }

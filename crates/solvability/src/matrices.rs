@@ -13,10 +13,12 @@ use linalg::{Degraded, ExactNullSpace, Matrix, RankDecision, RankError, Uncertai
 use crate::verdict::Judgement;
 
 mod basis;
+mod mapped;
 #[cfg(test)]
 mod tests;
 
 pub(crate) use basis::{Basis, Known};
+pub(crate) use mapped::Mapped;
 
 /// What can be said of the multipliers of a constraint matrix.
 ///
@@ -239,7 +241,7 @@ impl Solvability {
         k: usize,
         rows: impl IntoIterator<Item = usize>,
     ) -> Result<Judgement, QueryError> {
-        self.basis.component(map, k, rows)
+        self.basis.mapped(map, rows)?.component(k)
     }
 
     /// Directions in which a reaction is unique: a basis of the left null space of `W·Z_X` for the map W
@@ -252,6 +254,6 @@ impl Solvability {
         map: &Matrix,
         rows: impl IntoIterator<Item = usize>,
     ) -> Result<Vec<Vec<f64>>, QueryError> {
-        self.basis.unique_directions(map, rows)
+        self.basis.mapped(map, rows)?.unique_directions()
     }
 }

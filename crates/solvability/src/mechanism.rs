@@ -377,16 +377,17 @@ pub(crate) fn reaction(
     let map = Matrix::from_fn(components.len(), rows.len(), |i, j| {
         full[(components[i], j)]
     });
+    let mapped = basis.mapped(&map, rows.clone())?;
     let mut zero_components = Vec::new();
     for (i, &c) in components.iter().enumerate() {
-        if basis.is_zero(&map, i, rows.clone())? {
+        if mapped.is_zero(i)? {
             zero_components.push(COMPONENTS[c]);
         }
     }
     let judged = components.iter().enumerate().map(|(i, &c)| {
         Ok(ComponentVerdict {
             name: COMPONENTS[c],
-            judgement: basis.component(&map, i, rows.clone())?,
+            judgement: mapped.component(i)?,
         })
     });
     let components = judged.collect::<Result<Vec<_>, QueryError>>()?;
@@ -399,11 +400,11 @@ pub(crate) fn reaction(
         _ => on_bodies,
     };
     // Where their number is undecided there are none to show; the verdicts above say so.
-    let unique_directions = match basis.unique_directions(&map, rows.clone()) {
+    let unique_directions = match mapped.unique_directions() {
         Err(QueryError::Rank(_) | QueryError::Directions { .. }) => Vec::new(),
         known => known?,
     };
-    let live_directions = basis.live_directions(&unique_directions, &map, rows.clone())?;
+    let live_directions = mapped.live_directions(&unique_directions);
     let row_verdict = |(row, own)| {
         Ok(RowVerdict {
             row,

@@ -251,7 +251,7 @@ fn kahan_is_read_from_singular_values() {
     let decision = decide(&kahan, 0.0).unwrap();
     let scaled = decision.scaling.apply(&kahan);
     let oracle = DMatrix::from_row_slice(90, 90, scaled.as_slice()).singular_values();
-    let smallest = by_jacobi(&scaled)[89];
+    let smallest = by_jacobi(scaled.clone())[89];
     // nalgebra is accurate to about eps·σ₁·√n here.
     assert!((smallest - oracle.min()).abs() < 1e-14 * oracle.max());
     assert!(smallest < decision.evidence.tolerance * CLEARANCE);

@@ -204,11 +204,9 @@ fn directions_without_a_reaction_are_left_out() {
     for s in [Solvability::of(&c, 0.0), Solvability::of_exact(&c)] {
         let s = s.unwrap();
         let live = |map: &Matrix, rows: &[usize]| {
-            let unique = s.unique_directions(map, rows.iter().copied()).unwrap();
-            let found = s
-                .basis()
-                .live_directions(&unique, map, rows.iter().copied());
-            (unique.len(), found.unwrap())
+            let mapped = s.basis().mapped(map, rows.iter().copied()).unwrap();
+            let unique = mapped.unique_directions().unwrap();
+            (unique.len(), mapped.live_directions(&unique))
         };
         for normal in [[0.0, 1.0], [0.6, 0.8]] {
             let map = Matrix::from_rows(&[[normal[0]], [normal[1]]]);
@@ -225,7 +223,8 @@ fn directions_without_a_reaction_are_left_out() {
         let (number, found) = live(&map, &[0, 2]);
         assert_eq!(number, 3);
         assert_eq!(found, [[0.0, 0.0, 1.0, 0.0]]);
-        let zero = |k: usize| s.basis().is_zero(&map, k, [0, 2]).unwrap();
+        let mapped = s.basis().mapped(&map, [0, 2]).unwrap();
+        let zero = |k: usize| mapped.is_zero(k).unwrap();
         assert_eq!([0, 1, 2, 3].map(zero), [false, false, false, true]);
     }
 }

@@ -1,0 +1,200 @@
+//! A reaction `W·λ_X`: which of its components and directions are the same in all solutions.
+//!
+//! Not here: the rows themselves and their null space (`basis`), and where W comes from (`mechanism`).
+
+use linalg::{CoefficientReading, Matrix, PivotedQr, RankStatus};
+
+use super::QueryError;
+use super::basis::{Basis, ROUNDING_OF_MAP, check_coefficients, combination, norm};
+use crate::verdict::Judgement;
+
+/// A map W (k × |X|) from the multipliers of rows X to components, and what it makes of their null space.
+#[derive(Clone, Debug)]
+pub(crate) struct Mapped<'a> {
+    basis: &'a Basis,
+    map: &'a Matrix,
+    rows: Vec<usize>,
+    /// `W·Z_X` with rows divided by their size.
+    images: Matrix,
+    /// Norms of the rows of `W·D_r⁻¹`; zero where a row is rounding beside the others.
+    sizes: Vec<f64>,
+    /// The largest of them.
+    largest: f64,
+}
+
+impl<'a> Mapped<'a> {
+    pub(super) fn new(
+        basis: &'a Basis,
+        map: &'a Matrix,
+        rows: Vec<usize>,
+    ) -> Result<Self, QueryError> {
+        (0..map.nrows()).try_for_each(|i| check_coefficients(map.row(i), rows.len()))?;
+        let mut images = Matrix::zeros(map.nrows(), basis.z.ncols());
+        let mut sizes: Vec<f64> = (0..map.nrows())
+            .map(|i| basis.scaled_row(map.row(i), &rows, images.row_mut(i)))
+            .collect();
+        let largest = sizes.iter().copied().fold(0.0, f64::max);
+        if basis.exact.is_none() {
+            let rounding = basis.rounding_of_map() * largest;
+            for (i, size) in sizes.iter_mut().enumerate() {
+                if *size <= rounding {
+                    images.row_mut(i).fill(0.0);
+                    *size = 0.0;
+                }
+            }
+        }
+        Ok(Self {
+            basis,
+            map,
+            rows,
+            images,
+            sizes,
+            largest,
+        })
+    }
+
+    /// Component `k`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest row of W. A row that is rounding beside the
+    /// others is zero, unless the entries are meant exactly.
+    ///
+    /// # Errors
+    /// If there is no such component.
+    pub(crate) fn component(&self, k: usize) -> Result<Judgement, QueryError> {
+        if k >= self.sizes.len() {
+            return Err(QueryError::ComponentOutOfRange {
+                component: k,
+                components: self.sizes.len(),
+            });
+        }
+        // Zero over zero: a map of zeros has no reaction.
+        let share = match self.largest {
+            0.0 => 0.0,
+            largest => self.sizes[k] / largest,
+        };
+        let margin = norm(self.images.row(k)) * share;
+        let noise = self.noise(k, self.largest);
+        let (map, rows) = (self.map.row(k), &self.rows);
+        Ok(self
+            .basis
+            .judge(margin, noise, |z| z.annihilates(combination(map, rows))))
+    }
+
+    /// Whether component `k` is zero for all multipliers: row k of W is so small beside the largest one that the component is unique for this
+    /// reason alone.
+    ///
+    /// # Errors
+    /// As [`Mapped::component`].
+    pub(crate) fn is_zero(&self, k: usize) -> Result<bool, QueryError> {
+        let judged = self.component(k)?;
+        let size = self.sizes[k];
+        if size == 0.0 {
+            return Ok(true);
+        }
+        if size == self.largest || self.basis.exact.is_some() || !judged.verdict.is_unique() {
+            return Ok(false);
+        }
+        let whole = norm(self.images.row(k));
+        let own = self.basis.known.readings.read(whole, self.noise(k, size));
+        Ok(own == CoefficientReading::NonZero)
+    }
+
+    /// Directions in which the reaction is unique: a basis of the left null space of `W·Z_X`. Unit vectors with k entries; the largest entry
+    /// is positive.
+    ///
+    /// # Errors
+    /// Where the numbers do not decide how many there are.
+    pub(crate) fn unique_directions(&self) -> Result<Vec<Vec<f64>>, QueryError> {
+        if let RankStatus::Undecided(doubt) = self.basis.known.status {
+            return Err(QueryError::Rank(doubt));
+        }
+        let k = self.sizes.len();
+        let qr = PivotedQr::of_columns(&self.images);
+        let rank = match &self.basis.exact {
+            Some(z) => {
+                let rows = (0..k).map(|i| combination(self.map.row(i), &self.rows));
+                z.rank_of(&rows.collect::<Vec<_>>())
+            }
+            None => {
+                let noise = (0..k).map(|i| self.noise(i, self.sizes[i]));
+                self.basis.clear_rank(&qr, noise.fold(0.0, f64::max))?
+            }
+        };
+        if rank == 0 {
+            return Ok((0..k).map(|i| unit(k, i)).collect());
+        }
+        let basis = qr.q_columns(rank..k);
+        let direction = |j: usize| (0..k).map(|i| basis[(i, j)] / self.scale(i)).collect();
+        Ok((0..k - rank)
+            .map(|j| normalised(direction(j), self.basis.known.tolerance))
+            .collect())
+    }
+
+    /// Those of the unique directions that say something: perpendicular to the ones along which the reaction is zero for all multipliers.
+    pub(crate) fn live_directions(&self, unique: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        if unique.is_empty() {
+            return Vec::new();
+        }
+        let idle = self.idle_directions();
+        let live = unique.len().saturating_sub(idle.ncols());
+        if idle.ncols() == 0 || live == 0 {
+            return unique[..live].to_vec();
+        }
+        let k = self.sizes.len();
+        let unique = Matrix::from_fn(k, unique.len(), |i, j| unique[j][i]);
+        let idle_part = idle.product(&idle.transpose().product(&unique));
+        let rest = Matrix::from_fn(k, unique.ncols(), |i, j| unique[(i, j)] - idle_part[(i, j)]);
+        let basis = PivotedQr::of_columns(&rest).q_columns(0..live);
+        let column = |j: usize| (0..k).map(|i| basis[(i, j)]).collect();
+        let rounding = self.basis.known.tolerance.max(ROUNDING_OF_MAP);
+        (0..live).map(|j| normalised(column(j), rounding)).collect()
+    }
+
+    /// Orthonormal basis of the left null space of W, one vector in each column. Whether a component is nothing is told from rows of equal size.
+    fn idle_directions(&self) -> Matrix {
+        let k = self.sizes.len();
+        let equal = Matrix::from_fn(k, self.rows.len(), |i, j| match self.sizes[i] {
+            0.0 => 0.0,
+            size => self.map[(i, j)] * self.basis.known.row_factor[self.rows[j]] / size,
+        });
+        let qr = PivotedQr::of_columns(&equal);
+        let rounding = self.basis.rounding_of_map();
+        let rank = qr.r_diagonal().filter(|r| r.abs() > rounding).count();
+        if rank == k {
+            return Matrix::zeros(k, 0);
+        }
+        let idle = qr.q_columns(rank..k);
+        let idle = Matrix::from_fn(k, k - rank, |i, j| idle[(i, j)] / self.scale(i));
+        PivotedQr::of_columns(&idle).q_columns(0..k - rank)
+    }
+
+    /// From components of equal size back to the units of the map.
+    fn scale(&self, i: usize) -> f64 {
+        match self.sizes[i] {
+            0.0 => 1.0,
+            size => size,
+        }
+    }
+
+    /// Noise of row k of `W·D_r·Z_X / size`.
+    fn noise(&self, k: usize, size: f64) -> f64 {
+        self.basis.noise_of_row(self.map.row(k), &self.rows, size)
+    }
+}
+
+fn unit(n: usize, i: usize) -> Vec<f64> {
+    (0..n).map(|k| if k == i { 1.0 } else { 0.0 }).collect()
+}
+
+/// The unit vector along x, the largest entry positive, rounding set to zero.
+fn normalised(mut x: Vec<f64>, rounding: f64) -> Vec<f64> {
+    let largest = x
+        .iter()
+        .fold(0.0_f64, |a, &b| if b.abs() > a.abs() { b } else { a });
+    let size = norm(&x) * largest.signum();
+    for x in &mut x {
+        *x /= size;
+        if x.abs() <= rounding {
+            *x = 0.0;
+        }
+    }
+    x
+}
