@@ -60,10 +60,7 @@ const CHOICES: [Choice; 9] = [
         "choice-pfaff-lean",
         "`pfaff` without features: a scene file to verdicts, motion and files",
     ),
-    small(
-        "choice-pfaff",
-        "`pfaff` with `faer` and `macros`, the default",
-    ),
+    small("choice-pfaff", "`pfaff` with `macros`, the default"),
     Choice {
         package: "pfaff-cli",
         binary: "pfaff",

@@ -1,5 +1,5 @@
 //! Timings of the kernels against nalgebra and faer, in one run on one machine. Compare ratios, not
-//! absolute values: `cargo run --release -p linalg --example timings`.
+//! absolute values: `cargo run --release -p linalg --features faer --example timings`.
 #![allow(
     clippy::print_stdout,
     reason = "the output is what this example is for"
@@ -117,7 +117,7 @@ fn main() {
     saddle(12, 11, 12);
     saddle(60, 50, 60);
     saddle(150, 140, 150);
-    for n in [12, 22, 43, 63, 64, 100, 200] {
+    for n in [12, 22, 43, 63, 64, 100, 200, 400, 600] {
         spectrum(n);
     }
 }

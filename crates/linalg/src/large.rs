@@ -10,11 +10,10 @@ use faer::MatRef;
 
 use crate::Matrix;
 
-/// Smaller dimension from which faer is used. It is faster from about 20 on (measured by
-/// `cargo run --release -p linalg --example timings`), but below this size a decision takes less than
-/// a millisecond, once per regime of a motion, and our own rotations give the same bits on every
-/// processor, which faer's run-time choice of instructions does not.
-pub(crate) const CROSS_OVER: usize = 64;
+/// Smaller dimension from which faer is used: up to about 200 our own kernel is faster, at 400 it takes 1.4 times as long, at 600 1.5 times
+/// (measured by `cargo run --release -p linalg --features faer --example timings`). Our own gives the same bits on every processor, which faer's run-time
+/// choice of instructions does not.
+pub(crate) const CROSS_OVER: usize = 256;
 
 /// Singular values, largest first; `None` if faer's iteration did not converge.
 pub(crate) fn singular_values(a: &Matrix) -> Option<Vec<f64>> {

@@ -63,9 +63,10 @@ pub struct SchurSaddle {
     x: Vec<f64>,
     /// Entries of one front.
     local: Vec<f64>,
-    /// `M⁻¹·f`, and the larger of it and a, n each.
+    /// `M⁻¹·f`, the larger of it and a, and the sizes of all that has been added up to a, n each.
     free: Vec<f64>,
     terms: Vec<f64>,
+    all: Vec<f64>,
 }
 
 impl SchurSaddle {
@@ -89,6 +90,7 @@ impl SchurSaddle {
             local: vec![0.0; widest],
             free: vec![0.0; n],
             terms: vec![0.0; n],
+            all: vec![0.0; n],
             structure,
         }
     }

@@ -46,20 +46,29 @@ impl SchurSaddle {
             *free = f * inverse;
         }
         a.copy_from_slice(&self.free);
+        for (all, free) in self.all.iter_mut().zip(&self.free) {
+            *all = free.abs();
+        }
         lambda.fill(0.0);
+        self.take_residual(c, gamma, a);
+        if !all_finite(&self.x) {
+            return Err(first_non_finite([("f", f), ("gamma", gamma)]));
+        }
+        self.substitute();
+        self.add_solution(c, a, lambda);
         let mut before = f64::INFINITY;
-        for round in 0..=ROUNDS {
+        for round in 1..=ROUNDS {
             let misfit = self.take_misfit(c, gamma, a);
-            if misfit <= ENOUGH && round > 0 {
+            if misfit <= ENOUGH {
                 return Ok(());
             }
             if !misfit.is_finite() {
                 return Err(first_non_finite([("f", f), ("gamma", gamma)]));
             }
-            // The first round is the solution, which has nothing to be compared with.
+            // The first is that of the solution, which has nothing to be compared with.
             if round > 1 && misfit > PROGRESS * before || round == ROUNDS {
                 let left = misfit.min(before);
-                return match left <= POOR || self.misfit_of_terms(c, gamma, a, lambda) <= POOR {
+                return match left <= POOR || self.misfit_of_all(c, gamma, a) <= POOR {
                     true => Ok(()),
                     false => Err(SaddleError::Unrefined {
                         rounds: round,
@@ -132,7 +141,21 @@ impl SchurSaddle {
         }
     }
 
-    /// Writes `C·a − γ` of the rows in use to x, in the order of elimination; the largest as share of its terms.
+    /// Writes `C·a − γ` of the rows in use to x, in the order of elimination.
+    fn take_residual(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) {
+        let s = &self.structure;
+        let places = self.x.iter_mut().zip(&self.inverse);
+        for (place, ((x, &inverse), &row)) in places.zip(&s.row).enumerate() {
+            *x = match inverse {
+                0.0 => 0.0,
+                _ => s
+                    .entries_at(place, c.values())
+                    .fold(-gamma[row], |sum, (j, c)| sum + c * a[j]),
+            };
+        }
+    }
+
+    /// The same, and the largest as share of its terms.
     fn take_misfit(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
         for ((terms, free), a) in self.terms.iter_mut().zip(&self.free).zip(a) {
             *terms = free.abs().max(a.abs());
@@ -141,21 +164,8 @@ impl SchurSaddle {
     }
 
     /// The largest misfit as share of all that was added up: where multipliers balance, accelerations are what rounding leaves of them.
-    fn misfit_of_terms(
-        &mut self,
-        c: &SparseMatrix,
-        gamma: &[f64],
-        a: &[f64],
-        lambda: &[f64],
-    ) -> f64 {
-        let terms = self.terms.iter_mut().zip(&self.free);
-        terms.for_each(|(terms, free)| *terms = free.abs());
-        for (i, lambda) in lambda.iter().enumerate() {
-            let (columns, values) = c.row(i);
-            for (&j, c) in columns.iter().zip(values) {
-                self.terms[j] += (c * lambda).abs() * self.inverse_mass[j];
-            }
-        }
+    fn misfit_of_all(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
+        std::mem::swap(&mut self.terms, &mut self.all);
         self.misfit(c, gamma, a)
     }
 
@@ -182,7 +192,7 @@ impl SchurSaddle {
         largest
     }
 
-    /// Adds the multipliers in x, and takes what they do to the motion.
+    /// Adds the multipliers in x, and takes what they do to the motion; the sizes of what is taken add up.
     fn add_solution(&mut self, c: &SparseMatrix, a: &mut [f64], lambda: &mut [f64]) {
         let s = &self.structure;
         for (place, (&x, &row)) in self.x.iter().zip(&s.row).enumerate() {
@@ -191,7 +201,9 @@ impl SchurSaddle {
             }
             lambda[row] += x;
             for (j, c) in s.entries_at(place, c.values()) {
-                a[j] -= c * x * self.inverse_mass[j];
+                let term = c * x * self.inverse_mass[j];
+                a[j] -= term;
+                self.all[j] += term.abs();
             }
         }
     }
