@@ -46,6 +46,9 @@ pub fn simulate(
         .simulate(row)
 }
 
+/// Sees each row. Behind a pointer, so that a run is compiled once, here, and not again for each of its callers.
+type ShowRow<'r> = dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip> + 'r;
+
 /// Sees the time (s) of each accepted step of each component, and may end the run there.
 pub type Watch<'w> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'w;
 
@@ -68,11 +71,11 @@ impl Plan<'_> {
     pub fn simulate_watched(
         &self,
         watch: &Watch<'_>,
-        row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+        mut row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
     ) -> Result<Summary, Box<Failure>> {
         match self.components.len() {
-            1 => run_component(self, 0, watch, row),
-            _ => several::run(self, watch, row),
+            1 => run_component(self, 0, watch, &mut row),
+            _ => several::run(self, watch, &mut row),
         }
     }
 }
@@ -88,7 +91,7 @@ fn run_component(
     plan: &Plan<'_>,
     component: usize,
     watch: &Watch<'_>,
-    mut row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+    row: &mut ShowRow<'_>,
 ) -> Result<Summary, Box<Failure>> {
     let component = &plan.components[component];
     let prepared = component.prepared();
@@ -123,7 +126,7 @@ fn run_component(
     let mut run = Run {
         equations,
         rows,
-        row: &mut row,
+        row,
         watch,
         stopped: None,
     };
@@ -183,20 +186,17 @@ fn output_times(plan: &Plan<'_>) -> OutputTimes {
 }
 
 /// A run on its way: the equations, the rows that are still to be shown, and why it was stopped.
-struct Run<'r, 'm, F> {
+struct Run<'r, 'm> {
     equations: Equations<'m>,
     rows: Rows,
-    row: &'r mut F,
+    row: &'r mut ShowRow<'r>,
     watch: &'r Watch<'r>,
     stopped: Option<MotionError>,
 }
 
 type Integrated = Result<Outcome, Box<integrators::Failure<Trip>>>;
 
-impl<'m, F> Run<'_, 'm, F>
-where
-    F: FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
-{
+impl<'m> Run<'_, 'm> {
     fn go<M: integrators::Method<Equations<'m>>>(
         &mut self,
         method: &M,

@@ -190,7 +190,7 @@ impl<'m> Equations<'m> {
         &mut self,
         t: f64,
         y: &mut [f64],
-        row: &mut impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+        row: &mut super::ShowRow<'_>,
     ) -> Result<ControlFlow<()>, Trip> {
         let t_before = if t > 0.0 && self.is_break(t) {
             t.next_down()

@@ -12,7 +12,7 @@ use model::{Places, Reaction, System};
 use super::permits::Permits;
 use super::sample::{Sample, Source, Values, left_out};
 use super::summary::{ComponentSummary, Failure, Summary};
-use super::{Watch, run_component};
+use super::{ShowRow, Watch, run_component};
 use crate::error::{MotionError, Trip};
 use crate::plan::Plan;
 
@@ -37,10 +37,7 @@ struct Link<'p> {
 type Integrated = Result<Summary, Box<Failure>>;
 
 /// Runs all components of a plan and shows their rows together.
-pub(super) fn run<F>(plan: &Plan<'_>, watch: &Watch<'_>, row: F) -> Integrated
-where
-    F: FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
-{
+pub(super) fn run(plan: &Plan<'_>, watch: &Watch<'_>, row: &mut ShowRow<'_>) -> Integrated {
     let clock = Instant::now();
     let whole = Places::default();
     let permits = Permits::new(plan.options().threads);
@@ -53,9 +50,9 @@ where
             let permits = &permits;
             let work = move || {
                 let mut permit = permits.take();
-                run_component(plan, k, watch, |sample| {
-                    Ok(permit.leave_for(|| tell(sample, &told)))
-                })
+                let mut row =
+                    |sample: &mut Sample<'_, '_>| Ok(permit.leave_for(|| tell(sample, &told)));
+                run_component(plan, k, watch, &mut row)
             };
             match thread::Builder::new().spawn_scoped(scope, work) {
                 Ok(handle) => handles.push(handle),
@@ -102,10 +99,7 @@ fn tell(sample: &mut Sample<'_, '_>, told: &SyncSender<Row>) -> ControlFlow<()> 
 }
 
 /// Shows rows as long as all components reach them and more are wanted. Why it was stopped by a row, if it was.
-fn show<F>(plan: &Plan<'_>, links: &[Link<'_>], mut row: F) -> Option<Trip>
-where
-    F: FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
-{
+fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Trip> {
     let mechanism = &plan.prepared().mechanism;
     let layout = mechanism.layout();
     let nobody: Vec<Reaction> = (0..layout.groups.len())
