@@ -13,6 +13,15 @@ const FLAGS = [
   "--disable-component-update", "--disable-sync", "--hide-scrollbars", "--mute-audio", "--remote-debugging-pipe",
 ];
 
+/** The promise, or an error once patience ends. */
+function patient(promise, what) {
+  let timer;
+  const late = new Promise((_, reject) => {
+    timer = setTimeout(() => reject(new Error(`${what}: no answer in ${PATIENCE / 1000} s`)), PATIENCE);
+  });
+  return Promise.race([promise, late]).finally(() => clearTimeout(timer));
+}
+
 /** A browser with an empty profile. */
 export class Browser {
   constructor(program) {
@@ -30,11 +39,14 @@ export class Browser {
       text = messages.pop();
       messages.forEach((message) => this.take(JSON.parse(message)));
     });
+    for (const pipe of this.process.stdio.slice(3)) pipe.on("error", (error) => this.fail(error));
     this.process.on("error", (error) => this.fail(error));
     this.process.on("exit", () => this.fail(new Error("the browser has ended")));
   }
 
+  /** The browser is gone: nothing is answered any more. */
   fail(error) {
+    this.failed ??= error;
     for (const { reject } of this.waiting.values()) reject(error);
     this.waiting.clear();
   }
@@ -53,17 +65,14 @@ export class Browser {
 
   /** One command and its answer. */
   send(method, params = {}, sessionId = undefined) {
+    if (this.failed) return Promise.reject(this.failed);
     const id = this.next;
     this.next += 1;
-    return new Promise((resolve, reject) => {
-      const timer = setTimeout(() => reject(new Error(`${method}: no answer in ${PATIENCE / 1000} s`)), PATIENCE);
-      const done = (finish) => (value) => {
-        clearTimeout(timer);
-        finish(value);
-      };
-      this.waiting.set(id, { method, resolve: done(resolve), reject: done(reject) });
+    const answer = new Promise((resolve, reject) => {
+      this.waiting.set(id, { method, resolve, reject });
       this.process.stdio[3].write(`${JSON.stringify({ id, method, params, sessionId })}\0`);
     });
+    return patient(answer, method);
   }
 
   /** A new page of this size (px). */
@@ -76,13 +85,16 @@ export class Browser {
     return page;
   }
 
-  close() {
-    this.process.removeAllListeners("exit");
-    const gone = new Promise((resolve) => {
-      this.process.once("exit", resolve);
-    });
-    this.process.kill("SIGKILL");
-    return gone.then(() => rmSync(this.profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 }));
+  async close() {
+    const { exitCode, signalCode } = this.process;
+    if (exitCode === null && signalCode === null && this.process.pid) {
+      const gone = new Promise((resolve) => {
+        this.process.once("exit", resolve);
+      });
+      this.process.kill("SIGKILL");
+      await gone;
+    }
+    rmSync(this.profile, { recursive: true, force: true, maxRetries: 5, retryDelay: 200 });
   }
 }
 
@@ -119,7 +131,7 @@ export class Page {
       this.loaded = resolve;
     });
     await this.send("Page.navigate", { url });
-    await loaded;
+    await patient(loaded, url);
   }
 
   resize(width, height, mobile = false) {

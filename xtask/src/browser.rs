@@ -16,20 +16,36 @@ const SCENES: [(&str, &str); 3] = [
 /// Names under which systems have it.
 const CHROMIUM: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
 
-const NO_CHROMIUM: &str = "no Chromium found. Install it, for instance by `apt-get install chromium`, `dnf install chromium` or \
+const NO_CHROMIUM: &str = "no Chromium found: install it, for instance by `apt-get install chromium`, `dnf install chromium` or \
                            `brew install chromium`, or set CHROMIUM to its program";
 const NO_NODE: &str =
-    "no Node found. Install version 20 or later, for instance by `apt-get install nodejs`";
+    "no Node found: install version 20 or later, for instance by `apt-get install nodejs`";
+
+/// The command `pfaff` that writes the reports.
+pub(crate) enum Program {
+    /// Built for this, with all optimisations.
+    Release,
+    /// What `cargo test` has built: nothing is compiled again.
+    OfTests,
+}
+
+/// What this machine lacks; nothing if the test can run.
+pub(crate) fn missing() -> Result<String, String> {
+    Ok(tools().err().unwrap_or_default().to_owned())
+}
 
 /// Writes the reports and checks them.
-pub(crate) fn check() -> Result<String, String> {
-    let chromium = chromium().ok_or(NO_CHROMIUM)?;
-    if !answers("node") {
-        return Err(NO_NODE.to_owned());
-    }
+pub(crate) fn check(program: Program) -> Result<String, String> {
+    let chromium = tools()?;
     let root = root();
-    run(cargo(&root).args(["build", "--release", "-p", "pfaff-cli"]))?;
     let target = target(&root)?;
+    let pfaff = match program {
+        Program::Release => {
+            run(cargo(&root).args(["build", "--release", "-p", "pfaff-cli"]))?;
+            format!("{target}/release/pfaff")
+        }
+        Program::OfTests => format!("{target}/debug/pfaff"),
+    };
     let out = Path::new(&target).join("browser");
     let mut node = Command::new("node");
     node.current_dir(&root)
@@ -37,7 +53,7 @@ pub(crate) fn check() -> Result<String, String> {
         .arg(out.join("pictures"));
     for (name, scene) in SCENES {
         let folder = out.join(name);
-        let mut simulate = Command::new(format!("{target}/release/pfaff"));
+        let mut simulate = Command::new(&pfaff);
         simulate
             .current_dir(&root)
             .args(["simulate", scene, "--out"]);
@@ -46,6 +62,15 @@ pub(crate) fn check() -> Result<String, String> {
     }
     run(&mut node)?;
     Ok(format!("pictures in {}", out.join("pictures").display()))
+}
+
+/// The browser's program, where Node is there, too.
+fn tools() -> Result<String, &'static str> {
+    let chromium = chromium().ok_or(NO_CHROMIUM)?;
+    match answers("node") {
+        true => Ok(chromium),
+        false => Err(NO_NODE),
+    }
 }
 
 fn chromium() -> Option<String> {

@@ -14,6 +14,8 @@ mod tree;
 
 use std::process::ExitCode;
 
+use browser::Program;
+
 const USAGE: &str = "usage: cargo xtask COMMAND
   codegen [--check]   kernels of joints and forces from their definitions
   codegen --scene FILE --out FILE.rs [--drop ROWS] [--dynamics PATH] [--libm] [--check]
@@ -21,7 +23,8 @@ const USAGE: &str = "usage: cargo xtask COMMAND
   right-hand-side     times and instructions of one right-hand side, into docs/reports/right-hand-side
   instructions        the same, told only
   choices             build time, size and dependencies of programs that use a part, into docs/reports/choices
-  browser             reports of three scenes in headless Chromium, with pictures
+  browser [--built]   reports of three scenes in headless Chromium, with pictures; written by a release build, or by what `cargo test` built
+  browser --missing   what this machine lacks for it
   cold-start          times of the commands, process included
   guards              what monitors cost in a run: the same run with them and compiled without";
 
@@ -39,7 +42,9 @@ fn main() -> ExitCode {
         ["right-hand-side"] => right_hand_side::report(),
         ["instructions"] => right_hand_side::instructions(),
         ["choices"] => choices::report(),
-        ["browser"] => browser::check(),
+        ["browser"] => browser::check(Program::Release),
+        ["browser", "--built"] => browser::check(Program::OfTests),
+        ["browser", "--missing"] => browser::missing(),
         ["cold-start"] => cold_start::tell(),
         ["guards"] => guards::tell(),
         ["help" | "--help" | "-h"] => Ok(USAGE.to_owned()),
