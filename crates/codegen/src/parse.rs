@@ -3,7 +3,8 @@
 //! ```text
 //! plane Name(slot, …) {
 //!     /// What it does.
-//!     params { name: Kind, … }         Point in slot · Direction in slot · GroundLine · a unit ·
+//!     params { /// What it is for.
+//!              name: Kind, … }         Point in slot · Direction in slot · GroundLine · a unit ·
 //!                                      [unit, …] · Function<unit> · [Function<unit>, …]; `= expr` makes a
 //!                                      number optional
 //!     points apart;                    the place in a scene is one point for each Point, not a common one

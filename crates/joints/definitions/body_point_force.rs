@@ -1,6 +1,11 @@
 force! { plane BodyPointForce(i) {
     /// A force with given components in the frame of the body at point `s` of the body.
-    params { s: Point in i, force: [Function<Force>, Function<Force>] }
+    params {
+        /// Where the force acts.
+        s: Point in i,
+        /// Components [Fx, Fy] along the axes of the body.
+        force: [Function<Force>, Function<Force>],
+    }
     scene "point-force";
     variant frame = "body";
     let f = vector(i, [force[0], force[1]]);

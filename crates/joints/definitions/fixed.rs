@@ -1,6 +1,11 @@
 joint! { plane Fixed(i, j) {
     /// Point `s_j` of body j keeps its initial place in body i, and the relative angle keeps its initial value.
-    params { s_i: Point in i, s_j: Point in j }
+    params {
+        /// The place on body i, at which the reaction is told.
+        s_i: Point in i,
+        /// The point of body j that keeps its place in body i.
+        s_j: Point in j,
+    }
     initial {
         offset: Vector in i = local(i, point(j, s_j) - point(i, s_i)),
         angle_0: Angle = angle(j) - angle(i),

@@ -1,7 +1,10 @@
 joint! { plane Gear(i, j, carrier) {
     /// Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The
     /// ratio of an external mesh is negative.
-    params { ratio: Ratio }
+    params {
+        /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh.
+        ratio: Ratio,
+    }
     initial { phase: Angle = angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) }
     rows: [mesh];
     phi: angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) - phase;

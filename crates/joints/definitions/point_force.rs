@@ -1,6 +1,11 @@
 force! { plane PointForce(i) {
     /// A force with given global components at point `s` of the body.
-    params { s: Point in i, force: [Function<Force>, Function<Force>] }
+    params {
+        /// Where the force acts.
+        s: Point in i,
+        /// Global components [Fx, Fy].
+        force: [Function<Force>, Function<Force>],
+    }
     variant frame = "global", default;
     force: force[0] on point(i, s)[0];
     force: force[1] on point(i, s)[1];

@@ -1,6 +1,11 @@
 joint! { plane Revolute(i, j) {
     /// Point `s_i` of body i and point `s_j` of body j coincide.
-    params { s_i: Point in i, s_j: Point in j }
+    params {
+        /// The pin on body i.
+        s_i: Point in i,
+        /// The pin on body j.
+        s_j: Point in j,
+    }
     rows: [x, y];
     phi: point(i, s_i) - point(j, s_j);
     measure angle: angle(j) - angle(i);

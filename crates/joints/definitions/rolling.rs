@@ -1,7 +1,14 @@
 joint! { plane Rolling(i, j) {
     /// The velocity of point `s` of the carrier i along `direction` is the rolling speed of the spinner j:
     /// `(R·d)·v_s − radius·ω_j = 0`.
-    params { s: Point in i, direction: Direction in i, radius: Length }
+    params {
+        /// The point of the carrier whose velocity makes the spinner roll, usually the centre of the wheel.
+        s: Point in i,
+        /// The way of rolling.
+        direction: Direction in i,
+        /// Radius of the spinner, not zero; negative: it turns the other way.
+        radius: Length,
+    }
     require "the radius is not zero": radius * radius > 0.0;
     rows: [along];
     psi: dot(direction(i, direction), velocity(point(i, s))) - radius * rate(angle(j));

@@ -1,10 +1,15 @@
 force! { plane SpringDamper(i, j) {
     /// Tension `k(l − l0) + c·l̇` between point `s_i` of body i and point `s_j` of body j.
     params {
+        /// End on body i.
         s_i: Point in i,
+        /// End on body j.
         s_j: Point in j,
+        /// Tension over extension, k.
         stiffness: Stiffness,
+        /// Tension over rate of extension, c.
         damping: Damping,
+        /// Length without tension at rest, l0.
         free_length: Length = norm(point(j, s_j) - point(i, s_i)),
     }
     points apart;

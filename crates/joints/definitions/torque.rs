@@ -1,5 +1,8 @@
 force! { plane Torque(i) {
     /// A torque on one body.
-    params { torque: Function<Torque> }
+    params {
+        /// Torque on the body, positive counterclockwise.
+        torque: Function<Torque>,
+    }
     force: torque on angle(i);
 } }

@@ -1,8 +1,11 @@
 force! { plane TorsionSpringDamper(i, j) {
     /// Torque `−k(φ_j − φ_i − φ0) − c(ω_j − ω_i)` on body j, opposite on body i.
     params {
+        /// Torque over relative angle, k.
         stiffness: TorsionStiffness,
+        /// Torque over relative angular velocity, c.
         damping: TorsionDamping,
+        /// Relative angle φ_j − φ_i without torque at rest, φ0.
         free_angle: Angle = angle(j) - angle(i),
     }
     let twist = angle(j) - angle(i);

@@ -1,7 +1,14 @@
 joint! { plane Translational(i, j) {
     /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`; the relative angle keeps its
     /// initial value.
-    params { s_i: Point in i, s_j: Point in j, axis: Direction in i }
+    params {
+        /// A point of the line in body i.
+        s_i: Point in i,
+        /// The point of body j that stays on the line.
+        s_j: Point in j,
+        /// Along the line.
+        axis: Direction in i,
+    }
     let d = point(j, s_j) - point(i, s_i);
     initial { angle_0: Angle = angle(j) - angle(i) }
     rows: [normal, angle];

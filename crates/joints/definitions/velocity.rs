@@ -1,6 +1,13 @@
 joint! { plane Velocity(i) {
     /// The velocity of point `s` along `direction` is a given function of time: `(R·d)·v_s = rate(t)`.
-    params { s: Point in i, direction: Direction in i, rate: Function<Velocity> }
+    params {
+        /// The point whose velocity is prescribed.
+        s: Point in i,
+        /// The way in which it is prescribed.
+        direction: Direction in i,
+        /// Velocity of the point along the direction.
+        rate: Function<Velocity>,
+    }
     rows: [along];
     psi: dot(direction(i, direction), velocity(point(i, s))) - rate;
     place: point(i, s);

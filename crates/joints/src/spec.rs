@@ -59,7 +59,7 @@ pub struct Parameter {
     pub shape: Shape,
     /// Whether it may be left out: it then has its value at the assembled start.
     pub optional: bool,
-    /// Its doc comment.
+    /// Its doc comment: what it is for, in a sentence. Frame and unit are those of the shape.
     pub doc: &'static str,
 }
 
@@ -114,8 +114,16 @@ impl fmt::Display for Shape {
             Self::Point { .. } => f.write_str("a point [x, y]"),
             Self::Direction { .. } => f.write_str("a direction [x, y]"),
             Self::GroundLine => f.write_str("two points [[x, y], [x, y]]"),
-            Self::Numbers([unit]) => write!(f, "a number ({unit})"),
-            Self::Numbers(units) => write!(f, "{} numbers ({})", units.len(), list(units)),
+            Self::Numbers(units) => {
+                let range = match units.iter().any(|unit| unit.may_be_negative()) {
+                    true => "",
+                    false => " ≥ 0",
+                };
+                match units {
+                    [unit] => write!(f, "a number{range} ({unit})"),
+                    _ => write!(f, "{} numbers{range} ({})", units.len(), list(units)),
+                }
+            }
             Self::Functions([unit]) => write!(f, "a number or a function of time ({unit})"),
             Self::Functions(units) => {
                 write!(

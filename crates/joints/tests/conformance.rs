@@ -3,6 +3,10 @@
 mod mutants;
 
 use joints::conformance::check_all;
+use joints::generated::{plane_constraints, plane_forces};
+use joints::spec::Spec;
+use joints::visitor::Visitor;
+use joints::{Constraint, Force};
 
 /// Any number does; this one is fixed so that a failure can be repeated.
 const SEED: u64 = 2013;
@@ -11,5 +15,40 @@ const SEED: u64 = 2013;
 fn every_definition_has_every_property() {
     if let Err(failure) = check_all(SEED) {
         panic!("{failure}");
+    }
+}
+
+/// Editors and `pfaff schema` show what each parameter is for.
+#[test]
+fn every_parameter_is_described() {
+    #[derive(Default)]
+    struct Specs(Vec<Spec>);
+    impl Visitor for Specs {
+        fn constraint<C: Constraint>(&mut self) {
+            self.0.push(C::SPEC.common);
+            C::visit_drives(self);
+        }
+        fn drive<C: Constraint>(&mut self) {
+            self.0.push(C::SPEC.common);
+        }
+        fn force<F: Force>(&mut self) {
+            self.0.push(F::SPEC.common);
+        }
+    }
+    let mut specs = Specs::default();
+    plane_constraints(&mut specs);
+    plane_forces(&mut specs);
+    assert!(specs.0.len() >= 19, "{}", specs.0.len());
+    for spec in specs.0 {
+        for parameter in spec.parameters {
+            let (doc, name) = (parameter.doc, parameter.name);
+            // What the shape tells already is not said twice.
+            let is_sentence = doc.ends_with('.') && doc.starts_with(char::is_uppercase);
+            assert!(
+                is_sentence && !doc.contains("(m"),
+                "{}: `{name}`: `{doc}`",
+                spec.name
+            );
+        }
     }
 }

@@ -4,6 +4,8 @@
 mod element;
 mod value;
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use model::Registry;
 use serde_json::{Map, Value, json};
 
@@ -11,6 +13,7 @@ use crate::element::TYPE;
 use crate::function::{KINDS, STEP_KEYS};
 use crate::joint::{DRIVE_KEYS, MEASURE};
 use crate::key::Key;
+use crate::nearest::list;
 use crate::reactions::{GROUP_KEYS, OUTPUT_KEYS};
 use crate::read::SCENE_KEYS;
 use crate::section::{self, NAME, Section};
@@ -117,17 +120,25 @@ fn body_table() -> Value {
 fn drive(registry: &Registry) -> Value {
     let keys: Vec<Key> = [NAME].into_iter().chain(DRIVE_KEYS).collect();
     let mut table = table("Drive", &keys);
-    let mut measures: Vec<&str> = Vec::new();
+    // Joints by what can be prescribed of them.
+    let mut measures: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for spec in registry.constraint_specs() {
         for definition in registry.constraints(spec.scene_type) {
-            measures.extend(definition.spec.measures.iter().map(|measure| measure.name));
+            for measure in definition.spec.measures {
+                measures
+                    .entry(measure.name)
+                    .or_default()
+                    .insert(spec.scene_type);
+            }
         }
     }
-    measures.sort_unstable();
-    measures.dedup();
+    let told: Vec<String> = measures
+        .iter()
+        .map(|(measure, joints)| format!("`{measure}` of {}", list(joints.iter().copied())))
+        .collect();
     table["properties"][TYPE] = json!({
-        "description": format!("What is prescribed: {MEASURE}"),
-        "enum": measures,
+        "description": format!("What is prescribed, {MEASURE}: {}", told.join("; ")),
+        "enum": measures.keys().collect::<Vec<_>>(),
     });
     require(&mut table, TYPE);
     table

@@ -107,19 +107,26 @@ pub(super) fn structure(
     }
 }
 
+/// What a parameter is for, then what it takes.
 fn param_doc(p: &Param, d: &Definition) -> String {
-    if !p.doc.is_empty() {
-        return format!(" {}", p.doc.join(" "));
-    }
     let slot = |s: &Ident| match d.slots.len() {
         1 => "the body".to_owned(),
         _ => format!("body {s}"),
     };
-    match &p.kind {
-        ParamKind::Point(s) => format!(" Point in the frame of {} (m).", slot(s)),
-        ParamKind::Direction(s) => format!(" Unit vector in the frame of {}.", slot(s)),
-        ParamKind::GroundLine => " Line of the ground.".to_owned(),
-        _ => format!(" The parameter `{}`.", p.name),
+    let unit = |unit: &Ident| format!("[`Unit::{unit}`]");
+    let takes = match &p.kind {
+        ParamKind::Point(s) => format!("Point in the frame of {} (m).", slot(s)),
+        ParamKind::Direction(s) => format!("Unit vector in the frame of {}.", slot(s)),
+        ParamKind::GroundLine => "Line of the ground.".to_owned(),
+        ParamKind::Number(u) | ParamKind::Function(u) => format!("Unit: {}.", unit(u)),
+        ParamKind::Numbers(u) | ParamKind::Functions(u) => {
+            let units: Vec<_> = u.iter().map(unit).collect();
+            format!("Units: {}.", units.join(", "))
+        }
+    };
+    match p.doc.is_empty() {
+        true => format!(" {takes}"),
+        false => format!(" {} {takes}", p.doc.join(" ")),
     }
 }
 

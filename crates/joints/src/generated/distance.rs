@@ -15,9 +15,9 @@ use crate::spec::{
 /// `(d·d − L²)/(2L) = 0`, whose multiplier is a force.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Distance {
-    /// Point in the frame of body i (m).
+    /// End on body i. Point in the frame of body i (m).
     pub s_i: [f64; 2],
-    /// Point in the frame of body j (m).
+    /// End on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
     /// Kept from the assembled start; set by `initialise`.
     pub length: f64,
@@ -33,11 +33,11 @@ impl Constraint for Distance {
             scene_type: "distance",
             variant: None,
             doc: "The distance of point `s_i` of body i and point `s_j` of body j keeps its initial value L, in the form `(d·d − L²)/(2L) = 0`, whose multiplier is a force.",
-            text: "joint! { plane Distance(i, j) {\n    /// The distance of point `s_i` of body i and point `s_j` of body j keeps its initial value L, in the form\n    /// `(d·d − L²)/(2L) = 0`, whose multiplier is a force.\n    params { s_i: Point in i, s_j: Point in j }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    initial { length: Length = norm(d), half_inverse: PerLength = 0.5 / length }\n    require \"the two points are apart (L > 0)\": length > 0.0;\n    rows: [distance];\n    phi: (dot(d, d) - length * length) * half_inverse;\n    place: point(i, s_i);\n} }",
+            text: "joint! { plane Distance(i, j) {\n    /// The distance of point `s_i` of body i and point `s_j` of body j keeps its initial value L, in the form\n    /// `(d·d − L²)/(2L) = 0`, whose multiplier is a force.\n    params {\n        /// End on body i.\n        s_i: Point in i,\n        /// End on body j.\n        s_j: Point in j,\n    }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    initial { length: Length = norm(d), half_inverse: PerLength = 0.5 / length }\n    require \"the two points are apart (L > 0)\": length > 0.0;\n    rows: [distance];\n    phi: (dot(d, d) - length * length) * half_inverse;\n    place: point(i, s_i);\n} }",
             slots: &["i", "j"],
             parameters: &[
-                Parameter::required("s_i", Shape::Point { slot: 0 }, ""),
-                Parameter::required("s_j", Shape::Point { slot: 1 }, ""),
+                Parameter::required("s_i", Shape::Point { slot: 0 }, "End on body i."),
+                Parameter::required("s_j", Shape::Point { slot: 1 }, "End on body j."),
             ],
             points_apart: true,
             requirements: &["the two points are apart (L > 0)"],

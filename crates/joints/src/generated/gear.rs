@@ -15,7 +15,7 @@ use crate::spec::{
 /// ratio of an external mesh is negative.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gear {
-    /// The parameter `ratio`.
+    /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh. Unit: [`Unit::Ratio`].
     pub ratio: f64,
     /// Kept from the assembled start; set by `initialise`.
     pub phase: f64,
@@ -29,10 +29,14 @@ impl Constraint for Gear {
             scene_type: "gear",
             variant: None,
             doc: "Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The ratio of an external mesh is negative.",
-            text: "joint! { plane Gear(i, j, carrier) {\n    /// Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The\n    /// ratio of an external mesh is negative.\n    params { ratio: Ratio }\n    initial { phase: Angle = angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) }\n    rows: [mesh];\n    phi: angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) - phase;\n    place: origin(i);\n} }",
+            text: "joint! { plane Gear(i, j, carrier) {\n    /// Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The\n    /// ratio of an external mesh is negative.\n    params {\n        /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh.\n        ratio: Ratio,\n    }\n    initial { phase: Angle = angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) }\n    rows: [mesh];\n    phi: angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) - phase;\n    place: origin(i);\n} }",
             slots: &["i", "j", "carrier"],
             parameters: &[
-                Parameter::required("ratio", Shape::Numbers(&[Unit::Ratio]), ""),
+                Parameter::required(
+                    "ratio",
+                    Shape::Numbers(&[Unit::Ratio]),
+                    "Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh.",
+                ),
             ],
             points_apart: false,
             requirements: &[],

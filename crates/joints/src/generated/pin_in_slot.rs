@@ -14,11 +14,11 @@ use crate::spec::{
 /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PinInSlot {
-    /// Point in the frame of body i (m).
+    /// A point of the slot in body i. Point in the frame of body i (m).
     pub s_i: [f64; 2],
-    /// Point in the frame of body j (m).
+    /// The pin on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Unit vector in the frame of body i.
+    /// Along the slot. Unit vector in the frame of body i.
     pub axis: Direction,
 }
 #[allow(unused_variables)]
@@ -30,12 +30,24 @@ impl Constraint for PinInSlot {
             scene_type: "pin-in-slot",
             variant: None,
             doc: "Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`.",
-            text: "joint! { plane PinInSlot(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`.\n    params { s_i: Point in i, s_j: Point in j, axis: Direction in i }\n    let d = point(j, s_j) - point(i, s_i);\n    rows: [normal];\n    phi: dot(perp(direction(i, axis)), d);\n    measure displacement: dot(direction(i, axis), d);\n    measure angle: angle(j) - angle(i);\n    place: point(i, s_i);\n} }",
+            text: "joint! { plane PinInSlot(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`.\n    params {\n        /// A point of the slot in body i.\n        s_i: Point in i,\n        /// The pin on body j.\n        s_j: Point in j,\n        /// Along the slot.\n        axis: Direction in i,\n    }\n    let d = point(j, s_j) - point(i, s_i);\n    rows: [normal];\n    phi: dot(perp(direction(i, axis)), d);\n    measure displacement: dot(direction(i, axis), d);\n    measure angle: angle(j) - angle(i);\n    place: point(i, s_i);\n} }",
             slots: &["i", "j"],
             parameters: &[
-                Parameter::required("s_i", Shape::Point { slot: 0 }, ""),
-                Parameter::required("s_j", Shape::Point { slot: 1 }, ""),
-                Parameter::required("axis", Shape::Direction { slot: 0 }, ""),
+                Parameter::required(
+                    "s_i",
+                    Shape::Point { slot: 0 },
+                    "A point of the slot in body i.",
+                ),
+                Parameter::required(
+                    "s_j",
+                    Shape::Point { slot: 1 },
+                    "The pin on body j.",
+                ),
+                Parameter::required(
+                    "axis",
+                    Shape::Direction { slot: 0 },
+                    "Along the slot.",
+                ),
             ],
             points_apart: false,
             requirements: &[],
@@ -429,11 +441,11 @@ impl Constraint for PinInSlot {
 /// The displacement of `PinInSlot` follows a function of time: measure − initial measure − f(t) = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PinInSlotDisplacementDrive {
-    /// Point in the frame of body i (m).
+    /// A point of the slot in body i. Point in the frame of body i (m).
     pub s_i: [f64; 2],
-    /// Point in the frame of body j (m).
+    /// The pin on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Unit vector in the frame of body i.
+    /// Along the slot. Unit vector in the frame of body i.
     pub axis: Direction,
     /// Value of the measure at the assembled start; set by `initialise`.
     pub measure_0: f64,
@@ -450,9 +462,21 @@ impl Constraint for PinInSlotDisplacementDrive {
             text: "",
             slots: &["i", "j"],
             parameters: &[
-                Parameter::required("s_i", Shape::Point { slot: 0 }, ""),
-                Parameter::required("s_j", Shape::Point { slot: 1 }, ""),
-                Parameter::required("axis", Shape::Direction { slot: 0 }, ""),
+                Parameter::required(
+                    "s_i",
+                    Shape::Point { slot: 0 },
+                    "A point of the slot in body i.",
+                ),
+                Parameter::required(
+                    "s_j",
+                    Shape::Point { slot: 1 },
+                    "The pin on body j.",
+                ),
+                Parameter::required(
+                    "axis",
+                    Shape::Direction { slot: 0 },
+                    "Along the slot.",
+                ),
                 Parameter::required(
                     "motion",
                     Shape::Functions(&[Unit::Length]),
@@ -887,11 +911,11 @@ impl Constraint for PinInSlotDisplacementDrive {
 /// The angle of `PinInSlot` follows a function of time: measure − initial measure − f(t) = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PinInSlotAngleDrive {
-    /// Point in the frame of body i (m).
+    /// A point of the slot in body i. Point in the frame of body i (m).
     pub s_i: [f64; 2],
-    /// Point in the frame of body j (m).
+    /// The pin on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Unit vector in the frame of body i.
+    /// Along the slot. Unit vector in the frame of body i.
     pub axis: Direction,
     /// Value of the measure at the assembled start; set by `initialise`.
     pub measure_0: f64,
@@ -908,9 +932,21 @@ impl Constraint for PinInSlotAngleDrive {
             text: "",
             slots: &["i", "j"],
             parameters: &[
-                Parameter::required("s_i", Shape::Point { slot: 0 }, ""),
-                Parameter::required("s_j", Shape::Point { slot: 1 }, ""),
-                Parameter::required("axis", Shape::Direction { slot: 0 }, ""),
+                Parameter::required(
+                    "s_i",
+                    Shape::Point { slot: 0 },
+                    "A point of the slot in body i.",
+                ),
+                Parameter::required(
+                    "s_j",
+                    Shape::Point { slot: 1 },
+                    "The pin on body j.",
+                ),
+                Parameter::required(
+                    "axis",
+                    Shape::Direction { slot: 0 },
+                    "Along the slot.",
+                ),
                 Parameter::required(
                     "motion",
                     Shape::Functions(&[Unit::Angle]),

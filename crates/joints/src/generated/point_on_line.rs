@@ -14,9 +14,9 @@ use crate::spec::{
 /// Point `s` of the body stays on a straight line of the ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointOnLine {
-    /// Point in the frame of the body (m).
+    /// The point that stays on the line. Point in the frame of the body (m).
     pub s: [f64; 2],
-    /// Line of the ground.
+    /// The line. Line of the ground.
     pub line: Line,
 }
 #[allow(unused_variables)]
@@ -28,11 +28,15 @@ impl Constraint for PointOnLine {
             scene_type: "point-on-line",
             variant: None,
             doc: "Point `s` of the body stays on a straight line of the ground.",
-            text: "joint! { plane PointOnLine(i) {\n    /// Point `s` of the body stays on a straight line of the ground.\n    params { s: Point in i, line: GroundLine }\n    rows: [normal];\n    phi: dot(perp(along(line)), point(i, s) - start(line));\n    place: point(i, s);\n} }",
+            text: "joint! { plane PointOnLine(i) {\n    /// Point `s` of the body stays on a straight line of the ground.\n    params {\n        /// The point that stays on the line.\n        s: Point in i,\n        /// The line.\n        line: GroundLine,\n    }\n    rows: [normal];\n    phi: dot(perp(along(line)), point(i, s) - start(line));\n    place: point(i, s);\n} }",
             slots: &["i"],
             parameters: &[
-                Parameter::required("s", Shape::Point { slot: 0 }, ""),
-                Parameter::required("line", Shape::GroundLine, ""),
+                Parameter::required(
+                    "s",
+                    Shape::Point { slot: 0 },
+                    "The point that stays on the line.",
+                ),
+                Parameter::required("line", Shape::GroundLine, "The line."),
             ],
             points_apart: false,
             requirements: &[],

@@ -16,11 +16,11 @@ use crate::spec::{
 /// radius is the other side of the rack.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RackAndPinion {
-    /// Point in the frame of body j (m).
+    /// Centre of the pinion. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Unit vector in the frame of body i.
+    /// Along the rack. Unit vector in the frame of body i.
     pub axis: Direction,
-    /// The parameter `radius`.
+    /// Radius of the pinion; negative: it rolls on the other side of the rack. Unit: [`Unit::Length`].
     pub radius: f64,
     /// Kept from the assembled start; set by `initialise`.
     pub phase: f64,
@@ -34,12 +34,24 @@ impl Constraint for RackAndPinion {
             scene_type: "rack-and-pinion",
             variant: None,
             doc: "Rack i and pinion j roll on each other without slip: `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. A negative radius is the other side of the rack.",
-            text: "joint! { plane RackAndPinion(i, j) {\n    /// Rack i and pinion j roll on each other without slip:\n    /// `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. A negative\n    /// radius is the other side of the rack.\n    params { s_j: Point in j, axis: Direction in i, radius: Length }\n    initial {\n        phase: Length = dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i))\n    }\n    rows: [mesh];\n    phi: dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i)) - phase;\n    place: origin(i);\n} }",
+            text: "joint! { plane RackAndPinion(i, j) {\n    /// Rack i and pinion j roll on each other without slip:\n    /// `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. A negative\n    /// radius is the other side of the rack.\n    params {\n        /// Centre of the pinion.\n        s_j: Point in j,\n        /// Along the rack.\n        axis: Direction in i,\n        /// Radius of the pinion; negative: it rolls on the other side of the rack.\n        radius: Length,\n    }\n    initial {\n        phase: Length = dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i))\n    }\n    rows: [mesh];\n    phi: dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i)) - phase;\n    place: origin(i);\n} }",
             slots: &["i", "j"],
             parameters: &[
-                Parameter::required("s_j", Shape::Point { slot: 1 }, ""),
-                Parameter::required("axis", Shape::Direction { slot: 0 }, ""),
-                Parameter::required("radius", Shape::Numbers(&[Unit::Length]), ""),
+                Parameter::required(
+                    "s_j",
+                    Shape::Point { slot: 1 },
+                    "Centre of the pinion.",
+                ),
+                Parameter::required(
+                    "axis",
+                    Shape::Direction { slot: 0 },
+                    "Along the rack.",
+                ),
+                Parameter::required(
+                    "radius",
+                    Shape::Numbers(&[Unit::Length]),
+                    "Radius of the pinion; negative: it rolls on the other side of the rack.",
+                ),
             ],
             points_apart: false,
             requirements: &[],

@@ -14,9 +14,9 @@ use crate::spec::{
 /// Point `s_i` of body i and point `s_j` of body j coincide.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Revolute {
-    /// Point in the frame of body i (m).
+    /// The pin on body i. Point in the frame of body i (m).
     pub s_i: [f64; 2],
-    /// Point in the frame of body j (m).
+    /// The pin on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
 }
 #[allow(unused_variables)]
@@ -28,11 +28,19 @@ impl Constraint for Revolute {
             scene_type: "revolute",
             variant: None,
             doc: "Point `s_i` of body i and point `s_j` of body j coincide.",
-            text: "joint! { plane Revolute(i, j) {\n    /// Point `s_i` of body i and point `s_j` of body j coincide.\n    params { s_i: Point in i, s_j: Point in j }\n    rows: [x, y];\n    phi: point(i, s_i) - point(j, s_j);\n    measure angle: angle(j) - angle(i);\n    place: point(i, s_i);\n} }",
+            text: "joint! { plane Revolute(i, j) {\n    /// Point `s_i` of body i and point `s_j` of body j coincide.\n    params {\n        /// The pin on body i.\n        s_i: Point in i,\n        /// The pin on body j.\n        s_j: Point in j,\n    }\n    rows: [x, y];\n    phi: point(i, s_i) - point(j, s_j);\n    measure angle: angle(j) - angle(i);\n    place: point(i, s_i);\n} }",
             slots: &["i", "j"],
             parameters: &[
-                Parameter::required("s_i", Shape::Point { slot: 0 }, ""),
-                Parameter::required("s_j", Shape::Point { slot: 1 }, ""),
+                Parameter::required(
+                    "s_i",
+                    Shape::Point { slot: 0 },
+                    "The pin on body i.",
+                ),
+                Parameter::required(
+                    "s_j",
+                    Shape::Point { slot: 1 },
+                    "The pin on body j.",
+                ),
             ],
             points_apart: false,
             requirements: &[],
@@ -283,9 +291,9 @@ impl Constraint for Revolute {
 /// The angle of `Revolute` follows a function of time: measure − initial measure − f(t) = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RevoluteAngleDrive {
-    /// Point in the frame of body i (m).
+    /// The pin on body i. Point in the frame of body i (m).
     pub s_i: [f64; 2],
-    /// Point in the frame of body j (m).
+    /// The pin on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
     /// Value of the measure at the assembled start; set by `initialise`.
     pub measure_0: f64,
@@ -302,8 +310,16 @@ impl Constraint for RevoluteAngleDrive {
             text: "",
             slots: &["i", "j"],
             parameters: &[
-                Parameter::required("s_i", Shape::Point { slot: 0 }, ""),
-                Parameter::required("s_j", Shape::Point { slot: 1 }, ""),
+                Parameter::required(
+                    "s_i",
+                    Shape::Point { slot: 0 },
+                    "The pin on body i.",
+                ),
+                Parameter::required(
+                    "s_j",
+                    Shape::Point { slot: 1 },
+                    "The pin on body j.",
+                ),
                 Parameter::required(
                     "motion",
                     Shape::Functions(&[Unit::Angle]),

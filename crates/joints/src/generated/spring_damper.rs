@@ -11,15 +11,15 @@ use crate::spec::{ForceSpec, Parameter, Shape, Spec, Unit, Variant};
 /// Tension `k(l − l0) + c·l̇` between point `s_i` of body i and point `s_j` of body j.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpringDamper {
-    /// Point in the frame of body i (m).
+    /// End on body i. Point in the frame of body i (m).
     pub s_i: [f64; 2],
-    /// Point in the frame of body j (m).
+    /// End on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// The parameter `stiffness`.
+    /// Tension over extension, k. Unit: [`Unit::Stiffness`].
     pub stiffness: f64,
-    /// The parameter `damping`.
+    /// Tension over rate of extension, c. Unit: [`Unit::Damping`].
     pub damping: f64,
-    /// The parameter `free_length`.
+    /// Length without tension at rest, l0. Unit: [`Unit::Length`].
     pub free_length: Option<f64>,
     /// `free_length`, or its value at the assembled start; set by `initialise`.
     pub free_length_0: f64,
@@ -32,14 +32,26 @@ impl Force for SpringDamper {
             scene_type: "spring-damper",
             variant: None,
             doc: "Tension `k(l − l0) + c·l\u{307}` between point `s_i` of body i and point `s_j` of body j.",
-            text: "force! { plane SpringDamper(i, j) {\n    /// Tension `k(l − l0) + c·l\u{307}` between point `s_i` of body i and point `s_j` of body j.\n    params {\n        s_i: Point in i,\n        s_j: Point in j,\n        stiffness: Stiffness,\n        damping: Damping,\n        free_length: Length = norm(point(j, s_j) - point(i, s_i)),\n    }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    let length = norm(d);\n    require \"the two points are apart, or the free length is zero\":\n        free_length == 0.0 || length > 0.0;\n    // −k·l on l is −k on d·d/2, which needs no direction: where the points meet, the derivative is right.\n    force: -stiffness on 0.5 * dot(d, d);\n    force: stiffness * free_length - damping * rate(length) on length;\n} }",
+            text: "force! { plane SpringDamper(i, j) {\n    /// Tension `k(l − l0) + c·l\u{307}` between point `s_i` of body i and point `s_j` of body j.\n    params {\n        /// End on body i.\n        s_i: Point in i,\n        /// End on body j.\n        s_j: Point in j,\n        /// Tension over extension, k.\n        stiffness: Stiffness,\n        /// Tension over rate of extension, c.\n        damping: Damping,\n        /// Length without tension at rest, l0.\n        free_length: Length = norm(point(j, s_j) - point(i, s_i)),\n    }\n    points apart;\n    let d = point(j, s_j) - point(i, s_i);\n    let length = norm(d);\n    require \"the two points are apart, or the free length is zero\":\n        free_length == 0.0 || length > 0.0;\n    // −k·l on l is −k on d·d/2, which needs no direction: where the points meet, the derivative is right.\n    force: -stiffness on 0.5 * dot(d, d);\n    force: stiffness * free_length - damping * rate(length) on length;\n} }",
             slots: &["i", "j"],
             parameters: &[
-                Parameter::required("s_i", Shape::Point { slot: 0 }, ""),
-                Parameter::required("s_j", Shape::Point { slot: 1 }, ""),
-                Parameter::required("stiffness", Shape::Numbers(&[Unit::Stiffness]), ""),
-                Parameter::required("damping", Shape::Numbers(&[Unit::Damping]), ""),
-                Parameter::optional("free_length", Shape::Numbers(&[Unit::Length]), ""),
+                Parameter::required("s_i", Shape::Point { slot: 0 }, "End on body i."),
+                Parameter::required("s_j", Shape::Point { slot: 1 }, "End on body j."),
+                Parameter::required(
+                    "stiffness",
+                    Shape::Numbers(&[Unit::Stiffness]),
+                    "Tension over extension, k.",
+                ),
+                Parameter::required(
+                    "damping",
+                    Shape::Numbers(&[Unit::Damping]),
+                    "Tension over rate of extension, c.",
+                ),
+                Parameter::optional(
+                    "free_length",
+                    Shape::Numbers(&[Unit::Length]),
+                    "Length without tension at rest, l0.",
+                ),
             ],
             points_apart: true,
             requirements: &["the two points are apart, or the free length is zero"],

@@ -19,10 +19,14 @@ impl Force for Torque {
             scene_type: "torque",
             variant: None,
             doc: "A torque on one body.",
-            text: "force! { plane Torque(i) {\n    /// A torque on one body.\n    params { torque: Function<Torque> }\n    force: torque on angle(i);\n} }",
+            text: "force! { plane Torque(i) {\n    /// A torque on one body.\n    params {\n        /// Torque on the body, positive counterclockwise.\n        torque: Function<Torque>,\n    }\n    force: torque on angle(i);\n} }",
             slots: &["i"],
             parameters: &[
-                Parameter::required("torque", Shape::Functions(&[Unit::Torque]), ""),
+                Parameter::required(
+                    "torque",
+                    Shape::Functions(&[Unit::Torque]),
+                    "Torque on the body, positive counterclockwise.",
+                ),
             ],
             points_apart: false,
             requirements: &[],

@@ -19,10 +19,14 @@ impl Force for TorqueBetween {
             scene_type: "torque",
             variant: None,
             doc: "A torque on body j, opposite on body i.",
-            text: "force! { plane TorqueBetween(i, j) {\n    /// A torque on body j, opposite on body i.\n    params { torque: Function<Torque> }\n    scene \"torque\";\n    force: torque on angle(j) - angle(i);\n} }",
+            text: "force! { plane TorqueBetween(i, j) {\n    /// A torque on body j, opposite on body i.\n    params {\n        /// Torque on body j, positive counterclockwise; body i takes the opposite.\n        torque: Function<Torque>,\n    }\n    scene \"torque\";\n    force: torque on angle(j) - angle(i);\n} }",
             slots: &["i", "j"],
             parameters: &[
-                Parameter::required("torque", Shape::Functions(&[Unit::Torque]), ""),
+                Parameter::required(
+                    "torque",
+                    Shape::Functions(&[Unit::Torque]),
+                    "Torque on body j, positive counterclockwise; body i takes the opposite.",
+                ),
             ],
             points_apart: false,
             requirements: &[],

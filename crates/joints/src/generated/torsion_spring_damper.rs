@@ -11,11 +11,11 @@ use crate::spec::{ForceSpec, Parameter, Shape, Spec, Unit, Variant};
 /// Torque `−k(φ_j − φ_i − φ0) − c(ω_j − ω_i)` on body j, opposite on body i.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TorsionSpringDamper {
-    /// The parameter `stiffness`.
+    /// Torque over relative angle, k. Unit: [`Unit::TorsionStiffness`].
     pub stiffness: f64,
-    /// The parameter `damping`.
+    /// Torque over relative angular velocity, c. Unit: [`Unit::TorsionDamping`].
     pub damping: f64,
-    /// The parameter `free_angle`.
+    /// Relative angle φ_j − φ_i without torque at rest, φ0. Unit: [`Unit::Angle`].
     pub free_angle: Option<f64>,
     /// `free_angle`, or its value at the assembled start; set by `initialise`.
     pub free_angle_0: f64,
@@ -28,20 +28,24 @@ impl Force for TorsionSpringDamper {
             scene_type: "torsion-spring-damper",
             variant: None,
             doc: "Torque `−k(φ_j − φ_i − φ0) − c(ω_j − ω_i)` on body j, opposite on body i.",
-            text: "force! { plane TorsionSpringDamper(i, j) {\n    /// Torque `−k(φ_j − φ_i − φ0) − c(ω_j − ω_i)` on body j, opposite on body i.\n    params {\n        stiffness: TorsionStiffness,\n        damping: TorsionDamping,\n        free_angle: Angle = angle(j) - angle(i),\n    }\n    let twist = angle(j) - angle(i);\n    force: -(stiffness * (twist - free_angle) + damping * rate(twist)) on twist;\n} }",
+            text: "force! { plane TorsionSpringDamper(i, j) {\n    /// Torque `−k(φ_j − φ_i − φ0) − c(ω_j − ω_i)` on body j, opposite on body i.\n    params {\n        /// Torque over relative angle, k.\n        stiffness: TorsionStiffness,\n        /// Torque over relative angular velocity, c.\n        damping: TorsionDamping,\n        /// Relative angle φ_j − φ_i without torque at rest, φ0.\n        free_angle: Angle = angle(j) - angle(i),\n    }\n    let twist = angle(j) - angle(i);\n    force: -(stiffness * (twist - free_angle) + damping * rate(twist)) on twist;\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required(
                     "stiffness",
                     Shape::Numbers(&[Unit::TorsionStiffness]),
-                    "",
+                    "Torque over relative angle, k.",
                 ),
                 Parameter::required(
                     "damping",
                     Shape::Numbers(&[Unit::TorsionDamping]),
-                    "",
+                    "Torque over relative angular velocity, c.",
                 ),
-                Parameter::optional("free_angle", Shape::Numbers(&[Unit::Angle]), ""),
+                Parameter::optional(
+                    "free_angle",
+                    Shape::Numbers(&[Unit::Angle]),
+                    "Relative angle φ_j − φ_i without torque at rest, φ0.",
+                ),
             ],
             points_apart: false,
             requirements: &[],

@@ -15,11 +15,11 @@ use crate::spec::{
 /// initial value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Translational {
-    /// Point in the frame of body i (m).
+    /// A point of the line in body i. Point in the frame of body i (m).
     pub s_i: [f64; 2],
-    /// Point in the frame of body j (m).
+    /// The point of body j that stays on the line. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Unit vector in the frame of body i.
+    /// Along the line. Unit vector in the frame of body i.
     pub axis: Direction,
     /// Kept from the assembled start; set by `initialise`.
     pub angle_0: f64,
@@ -33,12 +33,24 @@ impl Constraint for Translational {
             scene_type: "translational",
             variant: None,
             doc: "Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`; the relative angle keeps its initial value.",
-            text: "joint! { plane Translational(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`; the relative angle keeps its\n    /// initial value.\n    params { s_i: Point in i, s_j: Point in j, axis: Direction in i }\n    let d = point(j, s_j) - point(i, s_i);\n    initial { angle_0: Angle = angle(j) - angle(i) }\n    rows: [normal, angle];\n    phi: [\n        dot(perp(direction(i, axis)), d),\n        angle(j) - angle(i) - angle_0,\n    ];\n    measure displacement: dot(direction(i, axis), d);\n    place: point(i, s_i);\n} }",
+            text: "joint! { plane Translational(i, j) {\n    /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`; the relative angle keeps its\n    /// initial value.\n    params {\n        /// A point of the line in body i.\n        s_i: Point in i,\n        /// The point of body j that stays on the line.\n        s_j: Point in j,\n        /// Along the line.\n        axis: Direction in i,\n    }\n    let d = point(j, s_j) - point(i, s_i);\n    initial { angle_0: Angle = angle(j) - angle(i) }\n    rows: [normal, angle];\n    phi: [\n        dot(perp(direction(i, axis)), d),\n        angle(j) - angle(i) - angle_0,\n    ];\n    measure displacement: dot(direction(i, axis), d);\n    place: point(i, s_i);\n} }",
             slots: &["i", "j"],
             parameters: &[
-                Parameter::required("s_i", Shape::Point { slot: 0 }, ""),
-                Parameter::required("s_j", Shape::Point { slot: 1 }, ""),
-                Parameter::required("axis", Shape::Direction { slot: 0 }, ""),
+                Parameter::required(
+                    "s_i",
+                    Shape::Point { slot: 0 },
+                    "A point of the line in body i.",
+                ),
+                Parameter::required(
+                    "s_j",
+                    Shape::Point { slot: 1 },
+                    "The point of body j that stays on the line.",
+                ),
+                Parameter::required(
+                    "axis",
+                    Shape::Direction { slot: 0 },
+                    "Along the line.",
+                ),
             ],
             points_apart: false,
             requirements: &[],
@@ -450,11 +462,11 @@ impl Constraint for Translational {
 /// The displacement of `Translational` follows a function of time: measure − initial measure − f(t) = 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TranslationalDisplacementDrive {
-    /// Point in the frame of body i (m).
+    /// A point of the line in body i. Point in the frame of body i (m).
     pub s_i: [f64; 2],
-    /// Point in the frame of body j (m).
+    /// The point of body j that stays on the line. Point in the frame of body j (m).
     pub s_j: [f64; 2],
-    /// Unit vector in the frame of body i.
+    /// Along the line. Unit vector in the frame of body i.
     pub axis: Direction,
     /// Kept from the assembled start; set by `initialise`.
     pub angle_0: f64,
@@ -473,9 +485,21 @@ impl Constraint for TranslationalDisplacementDrive {
             text: "",
             slots: &["i", "j"],
             parameters: &[
-                Parameter::required("s_i", Shape::Point { slot: 0 }, ""),
-                Parameter::required("s_j", Shape::Point { slot: 1 }, ""),
-                Parameter::required("axis", Shape::Direction { slot: 0 }, ""),
+                Parameter::required(
+                    "s_i",
+                    Shape::Point { slot: 0 },
+                    "A point of the line in body i.",
+                ),
+                Parameter::required(
+                    "s_j",
+                    Shape::Point { slot: 1 },
+                    "The point of body j that stays on the line.",
+                ),
+                Parameter::required(
+                    "axis",
+                    Shape::Direction { slot: 0 },
+                    "Along the line.",
+                ),
                 Parameter::required(
                     "motion",
                     Shape::Functions(&[Unit::Length]),

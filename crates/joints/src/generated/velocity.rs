@@ -14,9 +14,9 @@ use crate::spec::{
 /// The velocity of point `s` along `direction` is a given function of time: `(R·d)·v_s = rate(t)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Velocity {
-    /// Point in the frame of the body (m).
+    /// The point whose velocity is prescribed. Point in the frame of the body (m).
     pub s: [f64; 2],
-    /// Unit vector in the frame of the body.
+    /// The way in which it is prescribed. Unit vector in the frame of the body.
     pub direction: Direction,
 }
 #[allow(unused_variables)]
@@ -28,12 +28,24 @@ impl Constraint for Velocity {
             scene_type: "velocity",
             variant: None,
             doc: "The velocity of point `s` along `direction` is a given function of time: `(R·d)·v_s = rate(t)`.",
-            text: "joint! { plane Velocity(i) {\n    /// The velocity of point `s` along `direction` is a given function of time: `(R·d)·v_s = rate(t)`.\n    params { s: Point in i, direction: Direction in i, rate: Function<Velocity> }\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - rate;\n    place: point(i, s);\n} }",
+            text: "joint! { plane Velocity(i) {\n    /// The velocity of point `s` along `direction` is a given function of time: `(R·d)·v_s = rate(t)`.\n    params {\n        /// The point whose velocity is prescribed.\n        s: Point in i,\n        /// The way in which it is prescribed.\n        direction: Direction in i,\n        /// Velocity of the point along the direction.\n        rate: Function<Velocity>,\n    }\n    rows: [along];\n    psi: dot(direction(i, direction), velocity(point(i, s))) - rate;\n    place: point(i, s);\n} }",
             slots: &["i"],
             parameters: &[
-                Parameter::required("s", Shape::Point { slot: 0 }, ""),
-                Parameter::required("direction", Shape::Direction { slot: 0 }, ""),
-                Parameter::required("rate", Shape::Functions(&[Unit::Velocity]), ""),
+                Parameter::required(
+                    "s",
+                    Shape::Point { slot: 0 },
+                    "The point whose velocity is prescribed.",
+                ),
+                Parameter::required(
+                    "direction",
+                    Shape::Direction { slot: 0 },
+                    "The way in which it is prescribed.",
+                ),
+                Parameter::required(
+                    "rate",
+                    Shape::Functions(&[Unit::Velocity]),
+                    "Velocity of the point along the direction.",
+                ),
             ],
             points_apart: false,
             requirements: &[],

@@ -5,7 +5,7 @@ use model::Registry;
 use serde_json::{Map, Value, json};
 
 use super::reference;
-use super::value::{described, in_unit, number, tuple};
+use super::value::{described, number, tuple};
 use crate::body::GROUND;
 use crate::connection::{BODIES, BODY, listed};
 use crate::element::TYPE;
@@ -115,8 +115,20 @@ fn global(spec: &Spec, n: usize) -> Value {
         true => format!("{n} points [x, y] in global coordinates, at the described start (m)"),
         false => "The place [x, y] in global coordinates, at the described start (m)".to_owned(),
     };
-    place["description"] = words.into();
+    place["description"] = with_points(words, spec).into();
     place
+}
+
+/// A place with what its points are for.
+fn with_points(words: impl Into<String>, spec: &Spec) -> String {
+    let is_point = |p: &&Parameter| matches!(p.shape, Shape::Point { .. }) && !p.doc.is_empty();
+    let points = spec.parameters.iter().filter(is_point);
+    let mut words = words.into();
+    for (k, point) in points.enumerate() {
+        words.push_str(if k == 0 { ". " } else { " " });
+        words.push_str(&in_one_line(point.doc));
+    }
+    words
 }
 
 /// `point` or `points`
@@ -128,7 +140,8 @@ fn in_bodies(spec: &Spec, owners: &[usize]) -> Value {
     };
     if listed(spec) == 1 {
         let mut place = points(owners.len());
-        place["description"] = "The place [x, y] in the frame of the body (m)".into();
+        place["description"] =
+            with_points("The place [x, y] in the frame of the body (m)", spec).into();
         return place;
     }
     let mut forms: Vec<Value> = owners.iter().map(|slot| points(on(*slot))).collect();
@@ -137,7 +150,7 @@ fn in_bodies(spec: &Spec, owners: &[usize]) -> Value {
     slots.sort_unstable();
     slots.dedup();
     json!({
-        "description": "The place in the frames of the bodies { body = [x, y], … } (m)",
+        "description": with_points("The place in the frames of the bodies { body = [x, y], … } (m)", spec),
         "type": "object",
         "minProperties": slots.len(),
         "maxProperties": slots.len(),
@@ -148,50 +161,32 @@ fn in_bodies(spec: &Spec, owners: &[usize]) -> Value {
     })
 }
 
-/// The value of a parameter.
+/// The value of a parameter: what it is for, and what it takes.
 fn value(parameter: &Parameter, spec: &Spec) -> Value {
-    let (mut schema, words) = match parameter.shape {
-        Shape::Point { .. } => (reference("point"), "A point [x, y]".to_owned()),
-        Shape::Direction { slot } => (
-            tuple(vec![number(Interval::Any); 2]),
-            format!(
-                "A direction [x, y] in the frame of {}; its length does not matter",
-                owner(spec, slot)
-            ),
-        ),
-        Shape::GroundLine => (
-            tuple(vec![reference("point"); 2]),
-            "Two global points [[x, y], [x, y]] of the line (m)".to_owned(),
-        ),
+    let mut schema = match parameter.shape {
+        Shape::Point { .. } => reference("point"),
+        Shape::Direction { .. } => tuple(vec![number(Interval::Any); 2]),
+        Shape::GroundLine => tuple(vec![reference("point"); 2]),
         Shape::Numbers(units) => {
             let numbers = units.iter().map(|unit| number(range(*unit)));
-            (
-                one_or_many(numbers.collect()),
-                in_unit("Numbers", &list(units)),
-            )
+            one_or_many(numbers.collect())
         }
-        Shape::Functions(units) => (
-            one_or_many(vec![reference("function"); units.len()]),
-            in_unit("Numbers or functions of time", &list(units)),
-        ),
+        Shape::Functions(units) => one_or_many(vec![reference("function"); units.len()]),
     };
-    let single = match parameter.shape {
-        Shape::Numbers([unit]) => Some(in_unit("A number", &unit.to_string())),
-        Shape::Functions([unit]) => {
-            Some(in_unit("A number or a function of time", &unit.to_string()))
-        }
-        _ => None,
+    let meaning = match parameter.doc {
+        "" => format!("The parameter `{}`", parameter.name),
+        doc => in_one_line(doc).trim_end_matches('.').to_owned(),
     };
-    let words = single.unwrap_or(words);
-    let words = match parameter.doc {
-        "" => words,
-        doc => format!("{}: {words}", in_one_line(doc)),
+    let frame = match parameter.shape {
+        Shape::Direction { slot } => format!(" in the frame of {}", owner(spec, slot)),
+        Shape::GroundLine => " in global coordinates (m)".to_owned(),
+        _ => String::new(),
     };
-    schema["description"] = match parameter.optional {
-        true => format!("{words}; its value at the start where it is not given"),
-        false => words,
-    }
-    .into();
+    let default = match parameter.optional {
+        true => "; its value at the start where it is not given",
+        false => "",
+    };
+    schema["description"] = format!("{meaning}: {}{frame}{default}", parameter.shape).into();
     schema
 }
 
@@ -210,11 +205,6 @@ fn range(unit: Unit) -> Interval {
         true => Interval::Any,
         false => Interval::NotNegative,
     }
-}
-
-fn list(units: &[Unit]) -> String {
-    let names: Vec<_> = units.iter().map(Unit::to_string).collect();
-    names.join(", ")
 }
 
 /// One value stands without brackets.

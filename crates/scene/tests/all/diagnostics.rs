@@ -366,13 +366,13 @@ fn places_and_parameters() {
         (
             "stiffness = 10.0",
             "stiffness = «[10.0]»",
-            "force `spring`: `stiffness` must be a number (N/m), found a list of 1 value",
-            "expected a number (N/m)",
+            "force `spring`: `stiffness` must be a number ≥ 0 (N/m), found a list of 1 value",
+            "expected a number ≥ 0 (N/m)",
         ),
         (
             "[[force]]\nname = \"spring\"\ntype = \"spring-damper\"\nbodies = [\"ground\", \"crank\"]\nat = [[0.0, 0.0], [1.0, 2.0]]\nstiffness = 10.0",
             "«[[force]]»\nname = \"spring\"\ntype = \"spring-damper\"\nbodies = [\"ground\", \"crank\"]\nat = [[0.0, 0.0], [1.0, 2.0]]",
-            "force `spring` needs the key `stiffness`: a number (N/m)",
+            "force `spring` needs the key `stiffness`: a number ≥ 0 (N/m)",
             "`stiffness` is missing here",
         ),
         (

@@ -38,6 +38,60 @@ fn scenes() -> Vec<PathBuf> {
     found
 }
 
+/// What a parameter is for, what it takes, in which unit and frame, and what holds without it.
+#[test]
+fn keys_of_joints_and_forces_are_explained() {
+    let schema = schema();
+    let told = |kind: &str, of: &str, key: &str| {
+        let tables = schema["$defs"][kind]["oneOf"].as_array().expect("tables");
+        let table = tables
+            .iter()
+            .find(|t| t["properties"]["type"]["const"] == of);
+        let told = &table.expect("a type")["properties"][key]["description"];
+        told.as_str().expect("a text").to_owned()
+    };
+    for (kind, of, key, expected) in [
+        (
+            "force",
+            "spring-damper",
+            "stiffness",
+            "Tension over extension, k: a number ≥ 0 (N/m)",
+        ),
+        (
+            "force",
+            "spring-damper",
+            "free_length",
+            "Length without tension at rest, l0: a number (m); its value at the start where it is not given",
+        ),
+        (
+            "joint",
+            "knife-edge",
+            "normal",
+            "Across the edge: the point does not move this way: a direction [x, y] in the frame of the body",
+        ),
+        (
+            "joint",
+            "knife-edge",
+            "point",
+            "The place [x, y] in the frame of the body (m). Where the edge touches the plane.",
+        ),
+        (
+            "joint",
+            "velocity",
+            "rate",
+            "Velocity of the point along the direction: a number or a function of time (m/s)",
+        ),
+    ] {
+        assert_eq!(told(kind, of, key), expected, "{of}");
+    }
+    let measures = &schema["$defs"]["drive"]["properties"]["type"]["description"];
+    let measures = measures.as_str().expect("a text");
+    assert!(
+        measures.contains("`displacement` of `pin-in-slot`, `translational`"),
+        "{measures}"
+    );
+}
+
 #[test]
 fn every_scene_of_the_repository_is_valid() {
     let scenes = scenes();
