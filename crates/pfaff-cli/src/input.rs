@@ -41,8 +41,10 @@ impl Source {
             )));
         }
         let text = String::from_utf8(bytes).map_err(|e| {
-            let at = e.utf8_error().valid_up_to();
-            Failure::input(format!("`{name}` is no text: byte {at} is not UTF-8"))
+            let (line, column) = end_of(&e.as_bytes()[..e.utf8_error().valid_up_to()]);
+            Failure::input(format!(
+                "{name}:{line}:{column}: not UTF-8: save the file as UTF-8"
+            ))
         })?;
         Ok(Self { name, text })
     }
@@ -95,6 +97,13 @@ fn bounded(reader: impl Read) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     reader.take(LARGEST + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+/// Line and column behind a text that is UTF-8, both from 1.
+fn end_of(text: &[u8]) -> (usize, usize) {
+    let text = String::from_utf8_lossy(text);
+    let last = text.rsplit('\n').next().unwrap_or_default();
+    (text.matches('\n').count() + 1, last.chars().count() + 1)
 }
 
 /// Rows as the user counts them, from 0.

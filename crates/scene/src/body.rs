@@ -1,6 +1,7 @@
 //! `[[body]]`, and the names of bodies elsewhere in the file.
 
-use std::collections::HashMap;
+use std::cell::RefCell;
+use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
 use model::{Body, BodyRef};
@@ -9,6 +10,7 @@ use serde_json::json;
 use crate::field::Field;
 use crate::findings::Findings;
 use crate::key::{Interval, Key, Takes};
+use crate::nearest::all;
 use crate::source_map::Entry;
 use crate::table::Table;
 
@@ -53,6 +55,10 @@ pub(crate) struct Bodies {
     pub(crate) entries: Vec<Entry>,
     /// Places in the list; of a name that is used twice, the first.
     by_name: HashMap<String, usize>,
+    /// Bodies without a name of their own. Each is taken for one that is called by an unknown name.
+    unnamed: usize,
+    /// The names that they are taken for.
+    theirs: RefCell<BTreeSet<String>>,
 }
 
 impl Bodies {
@@ -80,6 +86,10 @@ impl Bodies {
         };
         let (angle, angular_velocity) = (number(&ANGLE), number(&ANGULAR_VELOCITY));
         let at = self.list.len();
+        let is_own = table.peek("name") == Some(name) && name != GROUND;
+        if !is_own || self.by_name.contains_key(name) {
+            self.unnamed += 1;
+        }
         self.by_name.entry(name.to_owned()).or_insert(at);
         self.list.push(Body {
             name: name.to_owned(),
@@ -112,7 +122,7 @@ impl Bodies {
         self.by_name.get(name).copied()
     }
 
-    /// Reports a body that does not exist.
+    /// Reports a body that does not exist, unless that is the consequence of a problem that is reported at the bodies.
     pub(crate) fn unknown(
         &self,
         span: Range<usize>,
@@ -121,6 +131,9 @@ impl Bodies {
         findings: &mut Findings,
     ) {
         let near = findings.suggest(name, self.list.iter().map(|body| body.name.as_str()));
+        if near.is_none() && (self.list.is_empty() || self.is_of_unnamed(name)) {
+            return;
+        }
         let label = match near.and_then(|near| self.entries.get(self.position(near)?)) {
             Some(entry) => format!(
                 "no such body; `{}` is defined on line {}",
@@ -133,8 +146,20 @@ impl Bodies {
             span,
             format!("{subject} refers to the unknown body `{name}`"),
             label,
-            near.map(|near| format!("did you mean `{near}`?")),
+            match near {
+                Some(near) => Some(format!("did you mean `{near}`?")),
+                None => all("bodies", self.list.iter().map(|body| body.name.as_str())),
+            },
         );
+    }
+
+    /// Whether a name that is unknown may be that of a body without a name.
+    fn is_of_unnamed(&self, name: &str) -> bool {
+        let mut theirs = self.theirs.borrow_mut();
+        if theirs.len() < self.unnamed {
+            theirs.insert(name.to_owned());
+        }
+        theirs.contains(name)
     }
 
     /// The name of a body.

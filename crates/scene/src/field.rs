@@ -9,6 +9,7 @@ use toml::de::{DeInteger, DeValue};
 
 use crate::findings::Findings;
 use crate::table::Table;
+use crate::units;
 
 /// A value with the key it stands under.
 #[derive(Clone)]
@@ -28,7 +29,16 @@ impl<'t> Field<'t> {
 
     /// Reports that something else was expected.
     pub(crate) fn mismatch(&self, expected: &str, findings: &mut Findings) {
-        findings.error(
+        let text = self.value.get_ref().as_str();
+        let help = text
+            .filter(|_| expected.contains("number"))
+            .and_then(|text| match units::is_number(text) {
+                true => Some(format!(
+                    "numbers stand without quotes: write `{text}` instead of `\"{text}\"`"
+                )),
+                false => units::advice(text),
+            });
+        findings.error_with_help(
             self.span(),
             format!(
                 "{}: `{}` must be {expected}, found {}",
@@ -37,6 +47,7 @@ impl<'t> Field<'t> {
                 found(self.value.get_ref())
             ),
             format!("expected {expected}"),
+            help,
         );
     }
 
@@ -73,7 +84,7 @@ impl<'t> Field<'t> {
             findings.error(
                 self.span(),
                 format!(
-                    "{}: `{}` is {value}, need finite numbers",
+                    "{}: `{}` is {value}, need a finite number",
                     self.subject, self.key
                 ),
                 "not a finite number",
@@ -116,7 +127,8 @@ impl<'t> Field<'t> {
         findings: &mut Findings,
     ) -> Option<Vec<f64>> {
         let items = self.items(expected, findings)?;
-        if items.len() != n {
+        let is_nested = |item: &Self| item.value.get_ref().is_array();
+        if items.len() != n || items.iter().any(is_nested) {
             self.mismatch(expected, findings);
             return None;
         }

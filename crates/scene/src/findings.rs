@@ -22,6 +22,8 @@ pub(crate) struct Findings<'s> {
     /// Where they are.
     pub(crate) source: &'s SourceText,
     list: Vec<Diagnostic>,
+    /// Places in the list of those that another one has explained.
+    explained: Vec<usize>,
     /// Those that are not listed.
     more: usize,
     compared: Cell<usize>,
@@ -32,6 +34,7 @@ impl<'s> Findings<'s> {
         Self {
             source,
             list: Vec::new(),
+            explained: Vec::new(),
             more: 0,
             compared: Cell::new(0),
         }
@@ -43,6 +46,16 @@ impl<'s> Findings<'s> {
             true => self.more += 1,
             false => self.list.push(diagnostic),
         }
+    }
+
+    /// The place of the next problem, for [`Findings::explain`].
+    pub(crate) fn next(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Takes back a problem that is a consequence of another one: one mistake, one message.
+    pub(crate) fn explain(&mut self, place: usize) {
+        self.explained.push(place);
     }
 
     /// Whether further problems are only counted: looking for their places is of no use.
@@ -121,6 +134,12 @@ impl<'s> Findings<'s> {
 
     /// All problems in the order of the file, each once; where there are too many, the last one says how many more there are.
     pub(crate) fn sorted(mut self) -> Vec<Diagnostic> {
+        self.explained.sort_unstable();
+        let mut place = 0;
+        self.list.retain(|_| {
+            place += 1;
+            self.explained.binary_search(&(place - 1)).is_err()
+        });
         self.list.sort_by_key(|d| d.primary.span.start);
         let mut unique: Vec<Diagnostic> = Vec::with_capacity(self.list.len());
         for diagnostic in self.list {

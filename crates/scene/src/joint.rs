@@ -13,7 +13,7 @@ use crate::element::{self, Types};
 use crate::findings::Findings;
 use crate::function::{self, Domain};
 use crate::key::{Key, Takes};
-use crate::nearest::{list, nearest};
+use crate::nearest::{all, list, nearest};
 use crate::source_map::Entry;
 use crate::table::Table;
 
@@ -223,7 +223,10 @@ fn joint<'j, 'r>(
             field.span(),
             format!("{} refers to the unknown joint `{name}`", table.subject),
             label,
-            near.map(|near| format!("did you mean `{}`?", near.name)),
+            match near {
+                Some(near) => Some(format!("did you mean `{}`?", near.name)),
+                None => all("joints", joints.list.iter().map(|j| j.name.as_str())),
+            },
         );
     }
     found

@@ -46,6 +46,7 @@ mod start;
 mod table;
 mod template;
 mod text;
+mod units;
 
 pub use combination::{Combination, CombinationError, CombinationProblem, Term, WrenchTerm};
 pub use diagnostic::{Diagnostic, Label, Severity};

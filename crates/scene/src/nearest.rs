@@ -3,11 +3,13 @@
 /// Longer names are not compared: the effort grows with the square of the length.
 const LONGEST: usize = 80;
 
-/// The candidate nearest to `name`, if one is near enough: at most a third of its letters differ.
+/// The candidate nearest to `name`, if one is near enough: at most a third of its letters differ, and not all. A plural is near.
 pub(crate) fn nearest<'a>(
     name: &str,
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<&'a str> {
+    let singular = name.strip_suffix("ies").map(|stem| format!("{stem}y"));
+    let name = singular.as_deref().unwrap_or(name);
     let letters = name.chars().count();
     let mut rows = Rows::default();
     let (mut wanted, mut other) = (Vec::new(), Vec::new());
@@ -17,7 +19,8 @@ pub(crate) fn nearest<'a>(
         if letters.max(candidate.len()) > LONGEST {
             continue;
         }
-        let allowed = letters.max(candidate.chars().count()).div_ceil(3);
+        let longer = letters.max(candidate.chars().count());
+        let allowed = longer.div_ceil(3).min(longer.saturating_sub(1));
         let limit = match best {
             Some((0, _)) => break,
             Some((distance, _)) => allowed.min(distance - 1),
@@ -37,6 +40,16 @@ pub(crate) fn did_you_mean<'a>(
     candidates: impl IntoIterator<Item = &'a str>,
 ) -> Option<String> {
     nearest(name, candidates).map(|candidate| format!("did you mean `{candidate}`?"))
+}
+
+/// Names that a help lists.
+const LISTED: usize = 10;
+
+/// The advice `the … are …`, where there are not too many of them.
+pub(crate) fn all<'a>(what: &str, names: impl IntoIterator<Item = &'a str>) -> Option<String> {
+    let names: Vec<_> = names.into_iter().take(LISTED + 1).collect();
+    let few = (1..=LISTED).contains(&names.len());
+    few.then(|| format!("the {what} are {}", list(names)))
 }
 
 /// Names for a list in a message: `a`, `b`, `c`.
@@ -130,6 +143,9 @@ mod tests {
     fn far_names_are_not_suggested() {
         assert_eq!(nearest("revolut", ["fixed", "revolute"]), Some("revolute"));
         assert_eq!(nearest("hinge", ["fixed", "revolute"]), None);
+        assert_eq!(nearest("D", ["A", "B"]), None);
+        assert_eq!(nearest("a", ["B", "A"]), Some("A"));
+        assert_eq!(nearest("bodies", ["joint", "body"]), Some("body"));
         // The first one of those that are equally near.
         let near = nearest("crank-10", ["crank-1", "crank-20", "Crank-10", "crank-10"]);
         assert_eq!(near, Some("Crank-10"));

@@ -176,6 +176,16 @@ fn by_body(
     let mut names: Vec<&str> = owners.iter().map(|&body| bodies.name(body)).collect();
     names.dedup();
     let given = table.all();
+    let mut missing = names.clone();
+    missing.retain(|name| !given.iter().any(|(_, value)| value.key == *name));
+    let foreign = given
+        .iter()
+        .filter(|(_, value)| !names.contains(&&*value.key));
+    // One point under another name is one mistake.
+    let meant = match (missing.len(), foreign.count()) {
+        (1, 1) => missing.pop(),
+        _ => None,
+    };
     for (key, value) in &given {
         let mine: Vec<usize> = (0..of.len())
             .filter(|&k| bodies.name(owners[k]) == value.key)
@@ -187,7 +197,10 @@ fn by_body(
                     "{} names `{}`, which has no point here",
                     table.subject, value.key
                 ),
-                "not a body with a point here",
+                match meant {
+                    Some(name) => format!("the point of `{name}` is expected here"),
+                    None => "not a body with a point here".to_owned(),
+                },
                 Some(format!("its keys are {}", list(names.iter().copied()))),
             );
             continue;
@@ -196,14 +209,12 @@ fn by_body(
             points[*k] = point;
         }
     }
-    for name in names {
-        if !given.iter().any(|(_, value)| value.key == name) {
-            findings.error(
-                table.header.clone(),
-                format!("{} needs the point of `{name}`", table.subject),
-                format!("`{name} = [x, y]` is missing here"),
-            );
-        }
+    for name in missing {
+        findings.error(
+            table.header.clone(),
+            format!("{} needs the point of `{name}`", table.subject),
+            format!("`{name} = [x, y]` is missing here"),
+        );
     }
     points
 }

@@ -44,10 +44,9 @@ use crate::text::SourceText;
 /// let lines: Vec<_> = problems.iter().map(ToString::to_string).collect();
 /// assert_eq!(lines, [
 ///     "crank.toml:1:1: error: the scene needs the section `[scene]`",
-///     "crank.toml:1:1: error: body `crank` needs the key `mass`: a number ≥ 0",
 ///     "crank.toml:3:1: error: body `crank` has no key `mas`",
 /// ]);
-/// assert_eq!(problems[2].primary.text, "did you mean `mass`?");
+/// assert_eq!(problems[1].primary.text, "did you mean `mass`?");
 /// ```
 pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene, Vec<Diagnostic>> {
     let source = SourceText::new(source_name, text);
@@ -73,27 +72,44 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     }
 }
 
-/// Reports what is not TOML, one error for each line. An error at the end of the text means that a bracket was never
-/// closed: then only the first error tells where, and those between are its consequences.
+/// Reports what is not TOML, one error for each line. An error at the end of the text means that something was never closed: only the first one
+/// tells where, and the others are its consequences.
 fn syntax(errors: &[toml::de::Error], findings: &mut Findings) {
-    let end = findings.source.text().trim_end().len();
+    let source = findings.source;
+    let text = source.text();
+    let end = text.trim_end().len();
     let start = |error: &toml::de::Error| error.span().map_or(0, |span| span.start);
     let never_closed = errors.iter().any(|error| start(error) >= end);
+    if never_closed && let Some(fault) = syntax::never_closed(text, start(&errors[0])) {
+        return say(fault, findings);
+    }
     let mut line = 0;
     for (k, error) in errors.iter().enumerate() {
         let here = findings.line(start(error));
-        if (never_closed && k > 0 && start(error) < end) || here == line {
+        if (never_closed && k > 0) || here == line {
             continue;
         }
         line = here;
         let span = error.span().unwrap_or(0..0);
-        let text = findings.source.text();
-        let help = match error.message() {
+        let fault = match error.message() {
             "duplicate key" => syntax::twice(text, span.clone()),
-            _ => syntax::advice(text, span.start, never_closed),
+            _ => syntax::fault(text, span.clone()),
         };
-        findings.error_with_help(span, error.message(), "not valid TOML", help);
+        match fault {
+            Some(fault) => say(fault, findings),
+            None => findings.error(span, error.message(), "not valid TOML"),
+        }
     }
+}
+
+fn say(fault: syntax::Fault, findings: &mut Findings) {
+    let syntax::Fault {
+        span,
+        message,
+        label,
+        help,
+    } = fault;
+    findings.error_with_help(span, message, label, Some(help));
 }
 
 /// Reads all sections. The result is to be used only if nothing was found.
@@ -102,7 +118,8 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
     let head = section(&mut root, &section::SCENE, &mut sections, findings);
     if head.is_none() && root.optional(section::SCENE.name).is_none() {
         let message = "the scene needs the section `[scene]`";
-        findings.error(0..0, message, "`[scene]` is missing in this file");
+        let label = "`[scene]` is missing in this file";
+        root.lacks(section::SCENE.name, message, label, findings);
     }
     let (name, gravity) = head.map_or((String::new(), [0.0; 2]), |head| heading(head, findings));
     let mut parts = Parts::read(&mut root, registry, findings);
@@ -113,6 +130,11 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         .map(|table| reactions::output(table, &parts.reactions(), findings));
     let simulate = section(&mut root, &section::SIMULATE, &mut sections, findings)
         .and_then(|table| simulate::read(table, findings));
+    if parts.bodies.list.is_empty() {
+        let label = "no `[[body]]` in this scene";
+        let message = BuildError::NoBodies.to_string();
+        root.lacks(section::BODY.name, message, label, findings);
+    }
     root.close(findings);
     if let Some(simulate) = &simulate {
         simulate.check_domains(&parts.domains, findings);
@@ -289,7 +311,7 @@ fn heading(mut table: Table, findings: &mut Findings) -> (String, [f64; 2]) {
     )
 }
 
-/// Reports what the mechanism refuses. Names have been checked, also those of what could not be read.
+/// Reports what the mechanism refuses. That there are bodies has been checked, and names, also those of what could not be read.
 fn check(description: &Description, source: &SourceMap, findings: &mut Findings) {
     let errors = Mechanism::build(description).err().unwrap_or_default();
     let of_drive = |of: &str| description.drives.iter().any(|drive| drive.name == of);
@@ -298,7 +320,7 @@ fn check(description: &Description, source: &SourceMap, findings: &mut Findings)
             return findings.count(errors.len() - said);
         }
         match error {
-            BuildError::DuplicateName { .. } | BuildError::Ground => {}
+            BuildError::DuplicateName { .. } | BuildError::Ground | BuildError::NoBodies => {}
             // Its joint has them too.
             BuildError::SameBody { name, .. } | BuildError::GroundOnly { name }
                 if of_drive(name) => {}

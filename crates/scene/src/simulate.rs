@@ -195,7 +195,7 @@ fn check_length(options: &MotionOptions, step: &Field, end: &Field, findings: &m
         return;
     }
     let message = format!(
-        "{}: output_step is {output_step} s: up to t = {t_end} s this would write {rows:.3e} rows, more than {most:e}",
+        "{}: output_step is {output_step:?} s: up to t = {t_end} s this would write {rows:.3e} rows, more than {most:e}",
         step.subject
     );
     let source = findings.source;

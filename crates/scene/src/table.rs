@@ -20,6 +20,8 @@ pub(crate) struct Table<'t> {
     pub(crate) header: Range<usize>,
     entries: &'t DeTable<'t>,
     known: Vec<&'static str>,
+    /// Keys that are missing, with the place of the problem in the findings.
+    missing: Vec<(&'static str, usize)>,
 }
 
 impl<'t> Table<'t> {
@@ -33,6 +35,7 @@ impl<'t> Table<'t> {
             header,
             entries,
             known: Vec::new(),
+            missing: Vec::new(),
         }
     }
 
@@ -64,13 +67,22 @@ impl<'t> Table<'t> {
     ) -> Option<Field<'t>> {
         let field = self.optional(key);
         if field.is_none() {
-            findings.error(
-                self.header.clone(),
-                format!("{} needs the key `{key}`: {expected}", self.subject),
-                format!("`{key}` is missing here"),
-            );
+            let message = format!("{} needs the key `{key}`: {expected}", self.subject);
+            self.lacks(key, message, format!("`{key}` is missing here"), findings);
         }
         field
+    }
+
+    /// Reports that a key is missing. Should it turn out to be misspelt, that is said instead.
+    pub(crate) fn lacks(
+        &mut self,
+        key: &'static str,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        findings: &mut Findings,
+    ) {
+        self.missing.push((key, findings.next()));
+        findings.error(self.header.clone(), message, label);
     }
 
     /// All keys with their values, for tables whose keys are names.
@@ -113,7 +125,7 @@ impl<'t> Table<'t> {
         value.map_or_else(|| self.header.clone(), toml::Spanned::span)
     }
 
-    /// Reports keys that nobody asked for.
+    /// Reports keys that nobody asked for. One that is meant as a missing key is one problem with it.
     pub(crate) fn close(self, findings: &mut Findings) {
         let known = || self.known.iter().copied();
         for key in self.entries.keys() {
@@ -121,10 +133,14 @@ impl<'t> Table<'t> {
             if known().any(|known| known == name) {
                 continue;
             }
-            let label = match nearest(name, known()) {
+            let near = nearest(name, known());
+            let label = match near {
                 Some(near) => format!("did you mean `{near}`?"),
                 None => "unknown key".to_owned(),
             };
+            if let Some((_, problem)) = self.missing.iter().find(|(key, _)| near == Some(key)) {
+                findings.explain(*problem);
+            }
             findings.error_with_help(
                 key.span(),
                 format!("{} has no key `{name}`", self.subject),

@@ -29,12 +29,12 @@ fn every_command_says_what_is_wrong_with_a_scene() {
     ] {
         let d = failure(&with_scene(&command, &scene), 2);
         let problems = d["problems"].as_array().expect("a list");
-        assert_eq!(problems.len(), 3, "{command:?}: {d:#}");
+        assert_eq!(problems.len(), 2, "{command:?}: {d:#}");
         let error = d["error"].as_str().expect("a text");
-        assert!(error.starts_with("<stdin>:7:1: error: "), "{error}");
-        assert!(error.ends_with("(and 2 more)"), "{error}");
-        assert_eq!(problems[1]["primary"]["line"], 10);
-        assert_eq!(problems[1]["severity"], "error");
+        assert!(error.starts_with("<stdin>:10:1: error: "), "{error}");
+        assert!(error.ends_with("(and 1 more)"), "{error}");
+        assert_eq!(problems[0]["primary"]["line"], 10);
+        assert_eq!(problems[0]["severity"], "error");
     }
 }
 

@@ -1,87 +1,200 @@
-//! Advice for texts that are not TOML: what people mean by the signs that they write.
+//! What is not TOML, in the words of who writes scenes: what people mean by the signs that they write.
 
 use std::ops::Range;
 
-/// What to do about a key that is given twice.
-pub(super) fn twice(text: &str, key: Range<usize>) -> Option<String> {
-    let key = text.get(key)?;
-    Some(format!(
-        "this table has `{key}` already: delete one of the two"
-    ))
+use crate::units;
+
+/// What is said about a text that is not TOML, instead of the parser's words.
+pub(super) struct Fault {
+    pub(super) span: Range<usize>,
+    pub(super) message: String,
+    pub(super) label: &'static str,
+    pub(super) help: String,
 }
 
-/// What to do about an error at this place, if that can be guessed.
-pub(super) fn advice(text: &str, at: usize, never_closed: bool) -> Option<String> {
-    let at = text.floor_char_boundary(at);
-    if never_closed && let Some(line) = open_bracket(text, at) {
-        return Some(format!("a bracket that opens on line {line} is not closed"));
-    }
+const LABEL: &str = "not valid TOML";
+
+/// A key that is given twice.
+pub(super) fn twice(text: &str, key: Range<usize>) -> Option<Fault> {
+    let name = text.get(key.clone())?;
+    Some(Fault {
+        span: key,
+        message: format!("`{name}` is given twice"),
+        label: "given again here",
+        help: format!("this table has `{name}` already: delete one of the two"),
+    })
+}
+
+/// A bracket that is still open where the first error is, in a text that ends before it is closed.
+pub(super) fn never_closed(text: &str, first_error: usize) -> Option<Fault> {
+    let at = open_bracket(text, text.floor_char_boundary(first_error))?;
+    let closing = match text.as_bytes()[at] {
+        b'{' => '}',
+        _ => ']',
+    };
+    Some(Fault {
+        span: at..at + 1,
+        message: "a bracket is never closed".to_owned(),
+        label: "opens here",
+        help: format!("write `{closing}` where its content ends"),
+    })
+}
+
+/// An error at this place, if it can be guessed what is meant there.
+pub(super) fn fault(text: &str, span: Range<usize>) -> Option<Fault> {
+    let at = text.floor_char_boundary(span.start);
     let begin = text[..at].rfind('\n').map_or(0, |k| k + 1);
     let end = text[at..].find('\n').map_or(text.len(), |k| at + k);
-    let (key, value) = text[begin..end].split_once('=')?;
-    let (key, value) = (key.trim(), value.trim());
-    if begin + text[begin..].find('=')? > at {
+    let (message, help) = meant(text[begin..end].trim_end(), at - begin)?;
+    Some(Fault {
+        span,
+        message: message.to_owned(),
+        label: LABEL,
+        help,
+    })
+}
+
+/// What is wrong with a line that cannot be read from this place on, and what to write.
+fn meant(line: &str, at: usize) -> Option<(&'static str, String)> {
+    if line.starts_with('[') && is_key(line.trim_matches(['[', ']', ' '])) {
+        return Some((
+            "the brackets of a section do not fit",
+            "a section that is there once stands in one pair of brackets, `[simulate]`, others in two, `[[body]]`"
+                .to_owned(),
+        ));
+    }
+    if line.starts_with('{') {
+        return Some((
+            "not a line of TOML",
+            "a scene is TOML, not JSON: `key = value`, line by line".to_owned(),
+        ));
+    }
+    let Some(equals) = line.find('=') else {
+        let (key, value) = line.split_once(':')?;
+        let (key, value) = (key.trim(), value.trim());
+        let help = format!("write `{key} = {value}` instead of `{key}: {value}`");
+        return is_key(key).then_some(("a key without `=`", help));
+    };
+    let (key, value) = (line[..equals].trim(), line[equals + 1..].trim());
+    if equals > at {
         return None;
     }
-    if text[begin..end].matches('"').count() % 2 == 1 {
-        return Some("a text ends on its line, with the quote that it began with".to_owned());
+    if let Some(quoted) = value.strip_prefix(CURLED) {
+        let inner = quoted.split(CURLED).next().unwrap_or_default();
+        return Some((
+            "a text in quotes of another kind",
+            format!("write straight quotes: `{key} = \"{inner}\"`"),
+        ));
     }
+    if line.matches('"').count() % 2 == 1 {
+        return Some((
+            "a text is never closed",
+            "a text ends on its line, with the quote that it began with".to_owned(),
+        ));
+    }
+    // Inside of a list, what stands at the place.
+    let value = match value.starts_with(['[', '{']) {
+        true => line.get(at..).unwrap_or_default(),
+        false => value,
+    };
+    number(key, value).or_else(|| word(key, value))
+}
+
+/// Whether a word can be a key without quotes.
+fn is_key(word: &str) -> bool {
+    let letter = |c: char| c.is_ascii_alphanumeric() || "_-".contains(c);
+    word.starts_with(|c: char| c.is_ascii_alphabetic()) && word.chars().all(letter)
+}
+
+/// Quotes of typography.
+const CURLED: [char; 5] = ['“', '”', '„', '‘', '’'];
+
+const COMPUTED: (&str, &str) = (
+    "a scene does not compute",
+    "write the number that comes out",
+);
+
+/// A value that begins with a number.
+fn number(key: &str, value: &str) -> Option<(&'static str, String)> {
     let digits = value.find(|c: char| !(c.is_ascii_digit() || "+-.eE_".contains(c)));
-    let (number, rest) = value.split_at(digits.unwrap_or(value.len()));
-    let is_number = number.parse::<f64>().is_ok();
+    let (number, rest) = value.split_at(digits?);
+    if let Some(help) = units::advice(value) {
+        return Some(("a number with a unit", help));
+    }
+    if !units::is_number(number) {
+        return None;
+    }
+    let decimals = rest.strip_prefix(',').unwrap_or_default();
     let behind = rest.trim_start();
-    if is_number
-        && rest
-            .strip_prefix(',')
-            .is_some_and(|r| r.starts_with(|c: char| c.is_ascii_digit()))
-    {
-        return Some(format!(
-            "decimals follow a point, and lists stand in brackets: `{key} = {number}.{}`",
-            rest[1..].trim_end()
-        ));
+    if decimals.starts_with(|c: char| c.is_ascii_digit()) {
+        let decimals = decimals.trim_end();
+        let help = format!(
+            "decimals follow a point, and lists stand in brackets: `{key} = {number}.{decimals}`"
+        );
+        return Some(("a number with a comma", help));
     }
-    if is_number && behind.starts_with(|c: char| c.is_alphabetic() || "°%µ".contains(c)) {
-        return Some(format!(
-            "numbers stand without units, in SI and radians: `{key} = {number}`"
-        ));
+    if behind.starts_with("//") {
+        let help = "remarks begin with `#`".to_owned();
+        return Some(("a number is followed by something else", help));
     }
-    if value.starts_with(|c: char| c.is_alphabetic()) {
-        let word = value
-            .split(|c: char| c.is_whitespace() || c == '#')
-            .next()?;
-        return Some(format!("texts stand in quotes: `{key} = \"{word}\"`"));
+    if behind.starts_with(';') {
+        let help = format!("values end with their line: `{key} = {number}`");
+        return Some(("a number is followed by `;`", help));
     }
-    None
+    behind
+        .starts_with(['/', '*', '^', '+', '-'])
+        .then(|| (COMPUTED.0, COMPUTED.1.to_owned()))
 }
 
-/// The line of the last bracket before a place that is still open there.
+/// A value that begins with a letter.
+fn word(key: &str, value: &str) -> Option<(&'static str, String)> {
+    if !value.starts_with(char::is_alphabetic) {
+        return None;
+    }
+    let end = value.find(|c: char| c.is_whitespace() || "#,]}".contains(c));
+    let word = &value[..end.unwrap_or(value.len())];
+    if word.contains(['/', '*', '^', '+', '(']) {
+        return Some((COMPUTED.0, COMPUTED.1.to_owned()));
+    }
+    // Of a list, only the word itself.
+    let help = match value.len() == word.len() && !key.is_empty() {
+        true => format!("texts stand in quotes: `{key} = \"{word}\"`"),
+        false => format!("texts stand in quotes: `\"{word}\"`"),
+    };
+    Some(("a text without quotes", help))
+}
+
+/// The last bracket before a place that is still open there.
 fn open_bracket(text: &str, at: usize) -> Option<usize> {
-    let before: Vec<&str> = text[..at].lines().collect();
-    let mut open = 0;
-    let blamed = before.iter().rposition(|line| {
-        let opened = open_brackets(line);
-        open += opened;
-        opened > 0 && open > 0
-    });
-    blamed.map(|k| k + 1)
+    let mut closed = 0;
+    let mut end = at;
+    loop {
+        let begin = text[..end].rfind('\n').map_or(0, |k| k + 1);
+        let (open, excess) = open_brackets(&text[begin..end]);
+        match open.len().checked_sub(closed + 1) {
+            Some(last) => return Some(begin + open[last]),
+            None => closed = closed - open.len() + excess,
+        }
+        end = begin.checked_sub(1)?;
+    }
 }
 
-/// Brackets that a line opens and does not close, outside of texts and remarks.
-fn open_brackets(line: &str) -> isize {
+/// Brackets that a line opens and does not close, and how many more it closes, outside of texts and remarks.
+fn open_brackets(line: &str) -> (Vec<usize>, usize) {
     let mut quote = None;
-    let mut open = 0;
-    for c in line.chars() {
+    let (mut open, mut excess) = (Vec::new(), 0);
+    for (at, c) in line.char_indices() {
         match (quote, c) {
             (Some(q), c) if c == q => quote = None,
             (Some(_), _) => {}
             (None, '"' | '\'') => quote = Some(c),
             (None, '#') => break,
-            (None, '[' | '{') => open += 1,
-            (None, ']' | '}') => open -= 1,
+            (None, '[' | '{') => open.push(at),
+            (None, ']' | '}') if open.pop().is_none() => excess += 1,
             _ => {}
         }
     }
-    open
+    (open, excess)
 }
 
 #[cfg(test)]
@@ -90,13 +203,47 @@ mod tests {
 
     #[test]
     fn what_people_mean() {
-        let said = |line: &str, at: usize| advice(line, at, false).unwrap_or_default();
-        assert!(said("mass = 2,5", 8).ends_with("`mass = 2.5`"));
-        assert!(said("mass = 2.5 kg # heavy", 7).ends_with("`mass = 2.5`"));
-        assert!(said("angle = 30°", 8).ends_with("`angle = 30`"));
-        assert!(said("type = revolute", 7).ends_with("`type = \"revolute\"`"));
-        assert!(said("name = \"rod", 11).starts_with("a text ends on its line"));
-        for silent in ["mass == 2", "mass", "", "= 2", "mass = 2"] {
+        let said = |line: &str, at: usize| fault(line, at..at).map_or(String::new(), |f| f.help);
+        for (line, at, expected) in [
+            ("mass = 2,5", 8, "`mass = 2.5`"),
+            (
+                "mass = 2.5 kg # heavy",
+                7,
+                "write `2.5` instead of `2.5 kg`",
+            ),
+            (
+                "angle = 30°",
+                8,
+                "write `0.5235987755982988` instead of `30°`",
+            ),
+            ("at = [500 mm, 0]", 6, "write `0.5` instead of `500 mm`"),
+            ("type = revolute", 7, "`type = \"revolute\"`"),
+            ("bodies = [crank, rod]", 10, "`\"crank\"`"),
+            ("name = \"rod", 11, "with the quote that it began with"),
+            ("name = “rod”", 7, "`name = \"rod\"`"),
+            ("angle = pi/6", 8, "write the number that comes out"),
+            ("at = [1/2, 0]", 6, "write the number that comes out"),
+            ("mass = 2.0;", 10, "`mass = 2.0`"),
+            ("mass = 2.0 // heavy", 7, "remarks begin with `#`"),
+            ("mass: 2.0", 4, "write `mass = 2.0` instead of `mass: 2.0`"),
+            ("[[joint]", 8, "others in two, `[[body]]`"),
+        ] {
+            assert!(
+                said(line, at).ends_with(expected),
+                "{line}: {}",
+                said(line, at)
+            );
+        }
+        for silent in [
+            "mass == 2",
+            "mass",
+            "",
+            "= 2",
+            "mass = 2",
+            "[0.0 1.0],",
+            "[[1, 2]",
+            "# a: b",
+        ] {
             for at in 0..=silent.len() {
                 assert_eq!(said(silent, at), "", "{silent} {at}");
             }
@@ -107,11 +254,12 @@ mod tests {
     fn brackets_of_long_lists_are_not_blamed_for_others() {
         let text = "body = [\n  { name = \"a\" },\n]\nat = [0.0, 0.0\n[[body]]\n";
         let at = text.find("[[body").expect("there");
-        assert_eq!(
-            advice(text, at, true).as_deref(),
-            Some("a bracket that opens on line 4 is not closed")
-        );
-        assert_eq!(advice("[[body]]\n", 0, true), None);
-        assert_eq!(open_brackets("keep = [\"a]\", # ]"), 1);
+        let fault = never_closed(text, at).expect("open");
+        assert_eq!(fault.span.start, text.find("[0.0").expect("there"));
+        assert!(never_closed("[[body]]\n", 0).is_none());
+        assert_eq!(open_brackets("keep = [\"a]\", # ]"), (vec![7], 0));
+        // Of two that are open, the inner one; of one that is closed further down, the one above it.
+        assert_eq!(open_bracket("a = [\n [1,\n", 11), Some(7));
+        assert_eq!(open_bracket("a = [\n [1,\n 2],\n", 16), Some(4));
     }
 }

@@ -1,0 +1,109 @@
+//! Numbers with units, as people write them. The format has none: what is meant is told in its units, so that advice can be followed as it is.
+
+use std::f64::consts::PI;
+
+/// Units beside those of the format, as `times/over`: quotients stay exact where the factor is none.
+const OTHERS: [(&str, f64, f64); 26] = [
+    ("mm", 1.0, 1e3),
+    ("cm", 1.0, 1e2),
+    ("km", 1e3, 1.0),
+    ("in", 0.0254, 1.0),
+    ("g", 1.0, 1e3),
+    ("t", 1e3, 1.0),
+    ("ms", 1.0, 1e3),
+    ("min", 60.0, 1.0),
+    ("kN", 1e3, 1.0),
+    ("mm/s", 1.0, 1e3),
+    ("km/h", 1.0, 3.6),
+    ("kNm", 1e3, 1.0),
+    ("kN·m", 1e3, 1.0),
+    ("Nmm", 1.0, 1e3),
+    ("N·mm", 1.0, 1e3),
+    ("N/mm", 1e3, 1.0),
+    ("kN/m", 1e3, 1.0),
+    ("%", 1.0, 1e2),
+    ("°", PI, 180.0),
+    ("deg", PI, 180.0),
+    ("degree", PI, 180.0),
+    ("degrees", PI, 180.0),
+    ("°/s", PI, 180.0),
+    ("deg/s", PI, 180.0),
+    ("rpm", PI, 30.0),
+    ("1/min", PI, 30.0),
+];
+
+/// Units of the format.
+const OWN: [&str; 18] = [
+    "m", "kg", "s", "N", "rad", "m/s", "rad/s", "m/s²", "m/s^2", "kg·m²", "kg*m^2", "kgm²", "N·m",
+    "Nm", "N/m", "N·m/rad", "N·s/m", "1/s",
+];
+
+/// What to write instead of a text that begins with a number and a unit, if it is one.
+pub(crate) fn advice(text: &str) -> Option<String> {
+    let (number, between, unit) = split(text)?;
+    const RULE: &str = "numbers stand without units, in SI and radians";
+    let written = match OTHERS.iter().find(|(name, ..)| *name == unit) {
+        Some((_, times, over)) => (number.parse::<f64>().ok()? * times / over).to_string(),
+        None if OWN.contains(&unit) => number.to_owned(),
+        None => return Some(RULE.to_owned()),
+    };
+    Some(format!(
+        "{RULE}: write `{written}` instead of `{number}{between}{unit}`"
+    ))
+}
+
+/// A number, blanks, and the unit behind them.
+fn split(text: &str) -> Option<(&str, &str, &str)> {
+    // The longest beginning that is a number: the `e` of `2 e` or `2eggs` is none of its exponent.
+    let sign = |c: char| c.is_ascii_digit() || "+-.eE_".contains(c);
+    let most = text.find(|c| !sign(c)).unwrap_or(text.len());
+    let ends = (1..=most).rev();
+    let number = ends.map(|end| &text[..end]).find(|n| is_number(n))?;
+    let rest = &text[number.len()..];
+    let behind = rest.trim_start();
+    let between = &rest[..rest.len() - behind.len()];
+    let is_unit = behind.starts_with(|c: char| c.is_alphabetic() || "°%µ".contains(c))
+        || behind.starts_with("1/");
+    let end = behind.find([',', ']', '}', '#', ';', '"', '\'']);
+    let unit = behind[..end.unwrap_or(behind.len())].trim_end();
+    is_unit.then_some((number, between, unit))
+}
+
+/// Whether a text is a number of the format.
+pub(crate) fn is_number(text: &str) -> bool {
+    let digits = |c: char| c.is_ascii_digit();
+    text.ends_with(digits) && text.contains(digits) && text.replace('_', "").parse::<f64>().is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_meant_is_told_in_units_of_the_format() {
+        for (text, expected) in [
+            ("2.0 kg", "write `2.0` instead of `2.0 kg`"),
+            ("30°", "write `0.5235987755982988` instead of `30°`"),
+            ("500 mm, 0.0]", "write `0.5` instead of `500 mm`"),
+            ("2000g # light", "write `2` instead of `2000g`"),
+            (
+                "1500 rpm",
+                "write `157.07963267948966` instead of `1500 rpm`",
+            ),
+            ("-2.5e3 N", "write `-2.5e3` instead of `-2.5e3 N`"),
+            ("1e5 e", "SI and radians"),
+            ("6 1/s", "write `6` instead of `6 1/s`"),
+        ] {
+            let said = advice(text).unwrap_or_default();
+            assert!(said.ends_with(expected), "{text}: {said}");
+        }
+        // No factor is guessed.
+        let rule = "numbers stand without units, in SI and radians";
+        assert_eq!(advice("3 furlongs").as_deref(), Some(rule));
+        for silent in [
+            "", "kg", "2.0", "2,5", "1/2", "ü", "e", "2 # kg", "-", "1e5", "1e5 #e",
+        ] {
+            assert_eq!(advice(silent), None, "{silent}");
+        }
+    }
+}
