@@ -122,6 +122,7 @@ fn constraint_type(
     let initialise = parts::initialise(model, measure);
     let requirement = parts::requirement(model);
     let points = parts::points(d);
+    let drives = parts::drives(d, model, name, &t.drives);
     let visit = t
         .drives
         .iter()
@@ -202,6 +203,7 @@ fn constraint_type(
     );
     quote! {
         #structure
+        #drives
 
         // Kernels have one signature; not every definition uses every argument of it.
         #[allow(unused_variables)]

@@ -107,6 +107,33 @@ pub(super) fn structure(
     }
 }
 
+/// The drives of a joint with its parameters, one method for each measure; nothing where there is none.
+pub(super) fn drives(
+    d: &Definition,
+    model: &Model,
+    name: &Ident,
+    drives: &[(Ident, Ident)],
+) -> Option<TokenStream> {
+    let params = d.params.iter().filter(|p| field_type(p).is_some());
+    let fields: Vec<Ident> = params
+        .map(|p| p.name.clone())
+        .chain(model.kept.iter().map(|k| format_ident!("{}", k.field)))
+        .collect();
+    let methods = drives.iter().map(|(measure, drive)| {
+        let doc = format!(" The drive of its {measure}, with the same parameters.");
+        let method = format_ident!("{measure}_drive");
+        quote! {
+            #[doc = #doc]
+            #[must_use]
+            pub fn #method(&self) -> #drive {
+                #drive { #(#fields: self.#fields,)* measure_0: 0.0 }
+            }
+        }
+    });
+    let methods: Vec<_> = methods.collect();
+    (!methods.is_empty()).then(|| quote!(impl #name { #(#methods)* }))
+}
+
 /// What a parameter is for, then what it takes.
 fn param_doc(p: &Param, d: &Definition) -> String {
     let slot = |s: &Ident| match d.slots.len() {

@@ -21,6 +21,28 @@ pub struct PinInSlot {
     /// Along the slot. Unit vector in the frame of body i.
     pub axis: Direction,
 }
+impl PinInSlot {
+    /// The drive of its displacement, with the same parameters.
+    #[must_use]
+    pub fn displacement_drive(&self) -> PinInSlotDisplacementDrive {
+        PinInSlotDisplacementDrive {
+            s_i: self.s_i,
+            s_j: self.s_j,
+            axis: self.axis,
+            measure_0: 0.0,
+        }
+    }
+    /// The drive of its angle, with the same parameters.
+    #[must_use]
+    pub fn angle_drive(&self) -> PinInSlotAngleDrive {
+        PinInSlotAngleDrive {
+            s_i: self.s_i,
+            s_j: self.s_j,
+            axis: self.axis,
+            measure_0: 0.0,
+        }
+    }
+}
 #[allow(unused_variables)]
 #[allow(clippy::too_many_arguments)]
 impl Constraint for PinInSlot {

@@ -19,6 +19,17 @@ pub struct Revolute {
     /// The pin on body j. Point in the frame of body j (m).
     pub s_j: [f64; 2],
 }
+impl Revolute {
+    /// The drive of its angle, with the same parameters.
+    #[must_use]
+    pub fn angle_drive(&self) -> RevoluteAngleDrive {
+        RevoluteAngleDrive {
+            s_i: self.s_i,
+            s_j: self.s_j,
+            measure_0: 0.0,
+        }
+    }
+}
 #[allow(unused_variables)]
 #[allow(clippy::too_many_arguments)]
 impl Constraint for Revolute {

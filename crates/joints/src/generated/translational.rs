@@ -24,6 +24,19 @@ pub struct Translational {
     /// Kept from the assembled start; set by `initialise`.
     pub angle_0: f64,
 }
+impl Translational {
+    /// The drive of its displacement, with the same parameters.
+    #[must_use]
+    pub fn displacement_drive(&self) -> TranslationalDisplacementDrive {
+        TranslationalDisplacementDrive {
+            s_i: self.s_i,
+            s_j: self.s_j,
+            axis: self.axis,
+            angle_0: self.angle_0,
+            measure_0: 0.0,
+        }
+    }
+}
 #[allow(unused_variables)]
 #[allow(clippy::too_many_arguments)]
 impl Constraint for Translational {
