@@ -1,4 +1,5 @@
-//! A mechanism as plain data. Nothing is checked here; [`crate::Mechanism::build`] checks everything once.
+//! A mechanism as plain data: what the reader of scenes makes of a text, and what a program writes directly. Nothing is checked here;
+//! [`crate::Mechanism::build`] checks everything once.
 
 use joints::Pose;
 
@@ -6,6 +7,26 @@ use crate::function::Function;
 use crate::registry::{PlaneConstraint, PlaneForce};
 
 /// A mechanism before it is assembled.
+///
+/// Its lists are there to be read and changed; [`Description::body`] and its like add to them, one thing with one name each.
+///
+/// ```
+/// use joints::Revolute;
+/// use model::{Body, BodyRef, Description, Mechanism, System};
+///
+/// // A rod that hangs in space at (1, 2), its centre of mass half a metre below.
+/// let mut pendulum = Description { gravity: [0.0, -9.81], ..Description::new("pendulum") };
+/// let rod = pendulum.body(Body { position: [1.0, 1.5], ..Body::new("rod", 2.0, 0.2) });
+/// let s_j = pendulum.local(rod, [1.0, 2.0]);
+/// assert_eq!(s_j, [0.0, 0.5]);
+/// pendulum.joint("pivot", &[BodyRef::Ground, rod], Revolute { s_i: [1.0, 2.0], s_j });
+/// assert_eq!(Mechanism::build(&pendulum).unwrap().layout().rows(), 2);
+///
+/// // A second thing of the same name is found when it is built.
+/// pendulum.joint("pivot", &[rod, BodyRef::Ground], Revolute { s_i: s_j, s_j: [1.0, 2.0] });
+/// let faults = Mechanism::build(&pendulum).err().unwrap();
+/// assert_eq!(faults[0].to_string(), "the name `pivot` is used twice");
+/// ```
 #[derive(Clone, Default)]
 pub struct Description {
     /// Its name.
@@ -20,6 +41,70 @@ pub struct Description {
     pub drives: Vec<Drive>,
     /// Forces.
     pub forces: Vec<Force>,
+}
+
+impl Description {
+    /// Nothing yet but a name.
+    #[must_use]
+    pub fn new(name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            ..Self::default()
+        }
+    }
+
+    /// Adds a body, and says how joints refer to it.
+    pub fn body(&mut self, body: Body) -> BodyRef {
+        self.bodies.push(body);
+        BodyRef::Body(self.bodies.len() - 1)
+    }
+
+    /// Adds a joint, points in the frames of its bodies. Of a joint that depends on time the functions are added to the result.
+    pub fn joint(
+        &mut self,
+        name: &str,
+        bodies: &[BodyRef],
+        element: impl PlaneConstraint + 'static,
+    ) -> &mut Joint {
+        self.joints.push_mut(Joint::new(name, bodies, element))
+    }
+
+    /// Adds a drive: its measure follows f(t) − f(0).
+    pub fn drive(
+        &mut self,
+        name: &str,
+        bodies: &[BodyRef],
+        element: impl PlaneConstraint + 'static,
+        motion: Function,
+    ) {
+        self.drives.push(Drive {
+            name: name.to_owned(),
+            bodies: bodies.to_vec(),
+            element: Box::new(element),
+            motion,
+        });
+    }
+
+    /// Adds a force, points in the frames of its bodies. Of a force that depends on time the functions are added to the result.
+    pub fn force(
+        &mut self,
+        name: &str,
+        bodies: &[BodyRef],
+        element: impl PlaneForce + 'static,
+    ) -> &mut Force {
+        self.forces.push_mut(Force {
+            name: name.to_owned(),
+            bodies: bodies.to_vec(),
+            element: Box::new(element),
+            functions: Vec::new(),
+        })
+    }
+
+    /// Where a point of space (m) is in the frame of a body as described; see [`BodyRef::to_local`].
+    #[must_use]
+    pub fn local(&self, body: BodyRef, point: [f64; 2]) -> [f64; 2] {
+        body.to_local(&self.bodies, point)
+    }
 }
 
 /// A rigid body with its state at the start. The origin of its frame is its centre of mass.
@@ -42,6 +127,17 @@ pub struct Body {
 }
 
 impl Body {
+    /// A body of this mass (kg) and moment of inertia about the centre of mass (kg·m²), at rest at the origin.
+    #[must_use]
+    pub fn new(name: &str, mass: f64, inertia: f64) -> Self {
+        Self {
+            name: name.to_owned(),
+            mass,
+            inertia,
+            ..Self::default()
+        }
+    }
+
     /// Its pose at the start.
     #[must_use]
     pub fn pose(&self) -> Pose {
@@ -66,6 +162,14 @@ impl BodyRef {
             Self::Ground => None,
             Self::Body(k) => Some(k),
         }
+    }
+
+    /// Where a point of space (m) is in the frame of this body, one of `bodies` as described: `Rᵀ·(point − r)`. Of the ground, and of a
+    /// body that is not there, the point itself.
+    #[must_use]
+    pub fn to_local(self, bodies: &[Body], point: [f64; 2]) -> [f64; 2] {
+        let described = self.moving().and_then(|at| bodies.get(at));
+        described.map_or(point, |body| body.pose().to_local(point))
     }
 }
 

@@ -92,6 +92,16 @@ pub enum BuildError {
         /// The joint, drive or force.
         name: String,
     },
+    /// A point of a joint, drive or force is NaN or infinite.
+    #[error("`{name}`: a point is [{x}, {y}], need finite numbers")]
+    Point {
+        /// The joint, drive or force.
+        name: String,
+        /// Its x component.
+        x: f64,
+        /// Its y component.
+        y: f64,
+    },
     /// A drive in the list of joints, or a joint in the list of drives.
     #[error("`{name}` stands among the {list}, but `{definition}` is none")]
     Role {
@@ -250,6 +260,7 @@ fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
         }
     }
     for j in &d.joints {
+        check_points(&j.name, &j.element.element().points(), errors);
         let spec = &j.element.element().spec().common;
         check_place(
             &d.bodies,
@@ -261,10 +272,12 @@ fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
         );
     }
     for x in &d.drives {
+        check_points(&x.name, &x.element.element().points(), errors);
         let spec = &x.element.element().spec().common;
         check_place(&d.bodies, &x.name, spec, &x.bodies, 1, errors);
     }
     for f in &d.forces {
+        check_points(&f.name, &f.element.element().points(), errors);
         let spec = &f.element.element().spec().common;
         check_place(
             &d.bodies,
@@ -274,6 +287,14 @@ fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
             f.functions.len(),
             errors,
         );
+    }
+}
+
+fn check_points(name: &str, points: &[[f64; 2]], errors: &mut Vec<BuildError>) {
+    let is_none = |p: &&[f64; 2]| !p.iter().all(|x| x.is_finite());
+    if let Some(&[x, y]) = points.iter().find(is_none) {
+        let name = name.to_owned();
+        errors.push(BuildError::Point { name, x, y });
     }
 }
 
