@@ -1,9 +1,13 @@
 //! Why a motion stops, or does not begin.
 
+mod rows;
+
 use integrators::IntegrationError;
-use linalg::{Doubt, KeptRowsError, NearlyRedundant, SaddleError, SingularPivot};
+use linalg::{Doubt, NearlyRedundant, SaddleError, SingularPivot};
 use model::{RowLabel, StartError};
 use solvability::{AnalysisError, Contradiction, StateError};
+
+pub use rows::DropError;
 
 /// Why the equations cannot be solved at one instant. A shorter step may avoid it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -285,8 +289,8 @@ pub enum MotionError {
         required: f64,
     },
     /// The rows asked to be dropped cannot be.
-    #[error("{0}")]
-    Rows(String),
+    #[error(transparent)]
+    Rows(#[from] DropError),
     /// The equations could not be solved at the start.
     #[error(transparent)]
     Trip(#[from] Trip),
@@ -331,43 +335,6 @@ impl MotionError {
             sigma: found.sigma,
             required: linalg::NEARLY_SINGULAR,
         }
-    }
-
-    /// An inadmissible choice of dropped rows, with rows counted from 1.
-    pub(crate) fn rows(error: &KeptRowsError, labels: &[RowLabel], redundancy: usize) -> Self {
-        let label = |row: usize| {
-            labels
-                .get(row)
-                .map_or_else(|| (row + 1).to_string(), RowLabel::to_string)
-        };
-        Self::Rows(match error {
-            KeptRowsError::WrongCount { .. } if redundancy == 0 => {
-                "no row can be dropped: the degree of redundancy is 0, and all rows are needed"
-                    .to_owned()
-            }
-            KeptRowsError::WrongCount { dropped, .. } => {
-                let rows = match dropped {
-                    1 => "1 row is".to_owned(),
-                    n => format!("{n} rows are"),
-                };
-                format!(
-                    "{rows} dropped, but the degree of redundancy is {redundancy}: drop exactly {redundancy}"
-                )
-            }
-            KeptRowsError::RowOutOfRange { row, rows } => {
-                format!("row {} cannot be dropped: rows are 1 to {rows}", row + 1)
-            }
-            KeptRowsError::Duplicate { row } => format!("row {} is listed twice", label(*row)),
-            KeptRowsError::Dependent {
-                smallest_singular_value,
-                required,
-            } => format!(
-                "at t = 0 s these rows cannot be dropped: what is kept is dependent (smallest singular value \
-                 {smallest_singular_value:.3e}, need {required:.3e}). `pfaff analyze` lists the dependent sets; drop \
-                 one row of each"
-            ),
-            other => other.to_string(),
-        })
     }
 }
 

@@ -9,7 +9,7 @@ use model::{Assembly, Mechanism, StartOptions, System};
 use solvability::{RowDecision, decide_rows_dropping, rows as rows_of};
 
 use crate::code::SceneCode;
-use crate::error::MotionError;
+use crate::error::{DropError, MotionError};
 use crate::options::{Method, MotionOptions, RowChoice, Stabilisation};
 
 /// A mechanism with a consistent start and kept rows.
@@ -86,7 +86,7 @@ pub fn prepare(
     let decision = match rows {
         RowChoice::Automatic => found.all.clone(),
         RowChoice::Drop(dropped) => decide_rows_dropping(&mechanism, &s, &assembly.q, dropped)
-            .map_err(|e| MotionError::rows(&e, &layout.labels, found.all.redundancy))?,
+            .map_err(|e| DropError::new(e, &layout.labels, found.all.redundancy))?,
     };
     let v = consistent_velocity(&mechanism, start, &assembly.q, &assembly.v, &decision.kept)?;
     let contradictions = found.contradictions(&mechanism, 0.0, &assembly.q, &v)?;

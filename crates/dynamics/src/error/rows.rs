@@ -1,0 +1,81 @@
+//! Why rows cannot be dropped as asked, in the numbers of users: rows count from 1.
+
+use linalg::KeptRowsError;
+use model::RowLabel;
+
+/// Why rows cannot be dropped as asked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DropError {
+    /// Nothing is redundant.
+    #[error("no row can be dropped: the degree of redundancy is 0, and all rows are needed")]
+    NotRedundant,
+    /// Another number of rows than are redundant.
+    #[error("{} dropped, but the degree of redundancy is {redundancy}: drop exactly {redundancy}", rows_are(*.dropped))]
+    Count {
+        /// How many were asked for.
+        dropped: usize,
+        /// p
+        redundancy: usize,
+    },
+    /// A row that does not exist.
+    #[error("row {} cannot be dropped: rows are 1 to {rows}", row + 1)]
+    OutOfRange {
+        /// The row, from 0.
+        row: usize,
+        /// How many there are.
+        rows: usize,
+    },
+    /// A row named twice.
+    #[error("row {row} is listed twice")]
+    Twice {
+        /// The row.
+        row: RowLabel,
+    },
+    /// The others depend on each other.
+    #[error(
+        "at t = 0 s these rows cannot be dropped: what is kept is dependent (smallest singular value \
+         {smallest_singular_value:.3e}, need {required:.3e}). `pfaff analyze` lists the dependent sets; drop one row of each"
+    )]
+    Dependent {
+        /// Smallest singular value of the kept rows, rows and columns scaled alike.
+        smallest_singular_value: f64,
+        /// What is needed.
+        required: f64,
+    },
+    /// The constraint matrix of the start cannot be judged.
+    #[error(transparent)]
+    Kept(KeptRowsError),
+}
+
+fn rows_are(n: usize) -> String {
+    match n {
+        1 => "1 row is".to_owned(),
+        n => format!("{n} rows are"),
+    }
+}
+
+impl DropError {
+    pub(crate) fn new(error: KeptRowsError, labels: &[RowLabel], redundancy: usize) -> Self {
+        match error {
+            KeptRowsError::WrongCount { .. } if redundancy == 0 => Self::NotRedundant,
+            KeptRowsError::WrongCount { dropped, .. } => Self::Count {
+                dropped,
+                redundancy,
+            },
+            KeptRowsError::RowOutOfRange { row, rows } => Self::OutOfRange { row, rows },
+            KeptRowsError::Duplicate { row } => match labels.get(row) {
+                Some(label) => Self::Twice { row: label.clone() },
+                None => Self::Kept(error),
+            },
+            KeptRowsError::Dependent {
+                smallest_singular_value,
+                required,
+            } => Self::Dependent {
+                smallest_singular_value,
+                required,
+            },
+            other => Self::Kept(other),
+        }
+    }
+}
