@@ -117,6 +117,7 @@ pub struct Line<'p> {
 /// assert_eq!(plan.components[1].decisions.method.taken, "dop853");
 /// # Ok::<(), dynamics::MotionError>(())
 /// ```
+#[non_exhaustive]
 pub struct Plan<'a> {
     prepared: &'a Prepared,
     options: MotionOptions,

@@ -14,6 +14,7 @@ use crate::options::{Method, MotionOptions, RowChoice, Stabilisation};
 
 /// A mechanism with a consistent start and kept rows.
 #[derive(Clone)]
+#[non_exhaustive]
 pub struct Prepared {
     /// The mechanism, with initial values taken from the start.
     pub mechanism: Mechanism,

@@ -27,6 +27,7 @@ use path::Path;
 
 /// Verdicts along a motion.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Along {
     /// The verdicts that hold almost always, at an instant where they do.
     pub generic: Analysis,
@@ -38,6 +39,7 @@ pub struct Along {
 
 /// A stretch of the motion, between break times, on which other verdicts hold than on the rest.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Stretch {
     /// Where it begins (s).
     pub from: f64,
@@ -53,6 +55,7 @@ pub struct Stretch {
 
 /// An instant where something is different.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Passage {
     /// When (s).
     pub time: f64,
@@ -93,6 +96,7 @@ pub enum PassageKind {
 
 /// One verdict that differs.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Difference {
     /// Name of the joint or drive.
     pub reaction: String,

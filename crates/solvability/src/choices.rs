@@ -114,6 +114,7 @@ impl fmt::Display for Value {
 
 /// One solution, with what of it is a fact and what a choice.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Distribution {
     /// The choice.
     pub label: Label,
@@ -127,6 +128,7 @@ pub struct Distribution {
 
 /// A reaction on the first body, at its place.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct ReactionValues {
     /// The joint or drive.
     pub id: ConstraintId,

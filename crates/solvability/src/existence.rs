@@ -53,6 +53,7 @@ impl std::fmt::Display for ConstraintLevel {
     list(rows),
     advice(*driven, *level)
 )]
+#[non_exhaustive]
 pub struct Contradiction {
     /// When.
     pub time: f64,

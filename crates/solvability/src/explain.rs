@@ -17,6 +17,7 @@ const VISIBLE: f64 = 1e-9;
 
 /// What there is to say about the redundancy of a configuration.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Explanation {
     /// One self-stress for each degree of redundancy, short ones first.
     pub stresses: Vec<SelfStress>,
@@ -30,6 +31,7 @@ pub struct Explanation {
 
 /// Loads that joints can put on each other without any force on any body.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct SelfStress {
     /// Rows of C, from 0: a minimal dependent set.
     pub rows: Vec<usize>,
@@ -43,6 +45,7 @@ pub struct SelfStress {
 
 /// What one joint or drive carries in a self-stress.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FreeDirection {
     /// The joint or drive.
     pub joint: ConstraintId,
@@ -58,6 +61,7 @@ pub struct FreeDirection {
 
 /// Joints and drives whose reactions mix in some dependency.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Mixing {
     /// Which.
     pub reactions: Vec<ConstraintId>,
@@ -71,6 +75,7 @@ pub struct Mixing {
 
 /// Why the reaction of one joint or drive is not unique.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ReactionExplanation {
     /// Which.
     pub id: ConstraintId,

@@ -9,6 +9,7 @@ use crate::verdict::Judgement;
 
 /// A reaction in one frame.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct FrameVerdict {
     /// The frame.
     pub frame: Frame,

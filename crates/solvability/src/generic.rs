@@ -42,6 +42,7 @@ pub struct Generic {
 
 /// Another configuration.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Elsewhere {
     /// Its time (s).
     pub time: f64,

@@ -45,6 +45,7 @@ pub struct Term {
 
 /// The verdict of a group.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct GroupVerdict {
     /// Of the whole: where it has parts, not unique if one is not, else undecided if one is.
     pub judgement: Judgement,

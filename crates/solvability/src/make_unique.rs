@@ -25,6 +25,7 @@ pub enum Allowed {
 
 /// One way to make a reaction unique.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Proposal {
     /// Rows to delete (from 0), ascending; empty if nothing needs to be.
     pub rows: Vec<usize>,
@@ -34,6 +35,7 @@ pub struct Proposal {
 
 /// The ways to make a reaction unique with the fewest deletions.
 #[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub struct Proposals {
     /// Each is enough by itself, and no part of it is. None if nothing that is allowed helps.
     pub ways: Vec<Proposal>,

@@ -25,6 +25,7 @@ pub const LARGE: usize = ROWS_MAX;
 
 /// The verdicts of a mechanism, part by part.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Survey {
     /// Time of the configuration (s).
     pub time: f64,
@@ -44,6 +45,7 @@ pub struct Survey {
 
 /// Joints on common cycles, with their bodies.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct SurveyedPart {
     /// Where it is.
     pub places: Places,
@@ -53,6 +55,7 @@ pub struct SurveyedPart {
 
 /// What is known of a part.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct PartVerdicts {
     /// Size of the part (m): its lengths are dimensionless by this.
     pub size: f64,

@@ -30,6 +30,7 @@ pub enum Nature {
 
 /// A number under a change of units.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct UnitCheck {
     /// The joint or drive.
     pub id: ConstraintId,

@@ -50,6 +50,7 @@ pub struct Summary {
 
 /// Numbers of a component that was run apart.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct ComponentSummary {
     /// Its bodies.
     pub name: String,
@@ -62,6 +63,7 @@ pub struct ComponentSummary {
 /// A run that stopped early, with what was reached.
 #[derive(Debug, thiserror::Error)]
 #[error("{error}")]
+#[non_exhaustive]
 pub struct Failure {
     /// Why it stopped.
     pub error: MotionError,
