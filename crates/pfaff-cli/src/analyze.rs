@@ -52,8 +52,8 @@ pub(crate) fn run(arguments: &Analyze) -> Outcome {
         StudyError::Motion(e @ MotionError::Inseparable { .. }) => {
             format!("this mechanism cannot be moved: {e}")
         }
-        StudyError::SingularStart(diagnostic) => {
-            format!("no motion begins with these velocities: {}", diagnostic.message)
+        StudyError::SingularStart { contradiction, .. } => {
+            format!("no motion begins with these velocities: {contradiction}")
         }
         _ => return Err(source.failure(error)),
     };

@@ -74,9 +74,10 @@ impl Source {
     /// An error with the places of this text.
     pub(crate) fn failure(&self, error: StudyError) -> Failure {
         match error {
-            StudyError::SingularStart(diagnostic) => {
-                self.failure(StudyError::Scene(vec![*diagnostic]))
-            }
+            StudyError::SingularStart {
+                place: Some(diagnostic),
+                ..
+            } => self.failure(StudyError::Scene(vec![*diagnostic])),
             StudyError::Scene(diagnostics) => Failure::Scene {
                 name: self.name.clone(),
                 text: self.text.clone(),

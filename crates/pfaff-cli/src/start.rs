@@ -1,6 +1,6 @@
 //! The assembled start with its verdicts, of mechanisms of any size: what a picture and a comparison begin with.
 
-use pfaff::model::{Mechanism, System, start};
+use pfaff::model::{Mechanism, System};
 use pfaff::report::{AnalysisDocument, Proof};
 use pfaff::scene::Scene;
 use pfaff::solvability::{LARGE, ReactionVerdict};
@@ -30,16 +30,12 @@ impl Start {
             true => by_parts(&mut blueprint).map_err(failure)?,
             false => whole(&mut blueprint).map_err(failure)?,
         };
+        let q = blueprint.assemble().map_err(failure)?.q;
         let Blueprint {
-            scene,
-            mut mechanism,
-            ..
+            scene, mechanism, ..
         } = blueprint;
-        let assembly = start::assemble(&mut mechanism, &scene.start);
-        let assembly =
-            assembly.map_err(|e| failure(StudyError::Scene(vec![scene.locate_start(&e)])))?;
         Ok(Self {
-            q: assembly.q,
+            q,
             scene,
             mechanism,
             reactions,

@@ -3,7 +3,7 @@
 
 use dynamics::{MotionError, MotionOptions, RowChoice, prepare};
 use model::start::{assemble, consistent_velocity};
-use model::{Known, Mechanism, Registry};
+use model::{Assembly, Known, Mechanism, Registry};
 use scene::Scene;
 use solvability::{ConstraintLevel, State, Survey, survey};
 
@@ -11,7 +11,7 @@ use crate::error::StudyError;
 use crate::inquiry::Inquiry;
 use crate::study::{Overrides, Study};
 
-/// A scene that has been read and whose mechanism could be built.
+/// A scene whose mechanism could be built.
 ///
 /// ```
 /// use pfaff::Blueprint;
@@ -32,11 +32,10 @@ use crate::study::{Overrides, Study};
 /// assert!(start.analysis.decision.nearly_redundant().is_some());
 /// # Ok::<(), pfaff::StudyError>(())
 /// ```
+#[non_exhaustive]
 pub struct Blueprint {
-    /// What was read.
+    /// What was read, or made by a program.
     pub scene: Scene,
-    /// Its text.
-    pub text: String,
     /// Its mechanism; initial values are those of the described start until it is assembled.
     pub mechanism: Mechanism,
 }
@@ -48,27 +47,33 @@ impl Blueprint {
     /// [`StudyError::Scene`]: everything that is wrong with the text.
     pub fn read(name: &str, text: &str, registry: &Registry) -> Result<Self, StudyError> {
         let scene = scene::read(name, text, registry).map_err(StudyError::Scene)?;
-        let mechanism = Mechanism::build(&scene.description)
-            .map_err(|e| StudyError::Scene(e.iter().map(|e| scene.locate_build(e)).collect()))?;
-        Ok(Self {
-            scene,
-            text: text.to_owned(),
-            mechanism,
-        })
+        Self::build(scene)
+    }
+
+    /// Takes a scene, or a description alone, that a program has made.
+    ///
+    /// # Errors
+    /// [`StudyError::Build`]: everything that is wrong with the description. If the scene was read from a text and then changed,
+    /// [`StudyError::Scene`] with places.
+    pub fn build(scene: impl Into<Scene>) -> Result<Self, StudyError> {
+        let scene = scene.into();
+        match Mechanism::build(&scene.description) {
+            Ok(mechanism) => Ok(Self { scene, mechanism }),
+            Err(faults) => {
+                let places: Option<_> = faults.iter().map(|e| scene.locate_build(e)).collect();
+                Err(places.map_or(StudyError::Build(faults), StudyError::Scene))
+            }
+        }
     }
 
     /// Finds a consistent start and chooses rows.
     ///
     /// # Errors
-    /// - [`StudyError::Scene`]: there is no such start.
+    /// - [`StudyError::Scene`]: there is no such start; of a scene without text [`StudyError::Motion`].
     /// - [`StudyError::SingularStart`]: there is one, but no motion begins with its velocities.
     /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen.
     pub fn prepare(self, overrides: &Overrides) -> Result<Study, StudyError> {
-        let Self {
-            scene,
-            text,
-            mechanism,
-        } = self;
+        let Self { scene, mechanism } = self;
         let options = options(&scene, overrides);
         let rows = match (&overrides.drop, &options) {
             (Some(drop), _) => RowChoice::Drop(drop.clone()),
@@ -78,34 +83,47 @@ impl Blueprint {
         let prepared = match prepare(mechanism, &scene.start, &rows) {
             Ok(prepared) => prepared,
             Err(e) if leaves_no_motion(&e) => {
-                return Err(StudyError::SingularStart(Box::new(scene.locate_motion(&e))));
+                let place = scene.locate_motion(&e).map(Box::new);
+                return Err(match e {
+                    MotionError::Contradiction(contradiction) => StudyError::SingularStart {
+                        contradiction,
+                        place,
+                    },
+                    other => other.into(),
+                });
             }
             // Faults of the text have a place in it; rows may come from the caller.
             Err(e @ (MotionError::Start(_) | MotionError::Contradiction(_))) => {
-                return Err(StudyError::Scene(vec![scene.locate_motion(&e)]));
+                return Err(refused(&scene, e));
             }
             Err(e @ MotionError::Rows(_)) if overrides.drop.is_none() => {
-                return Err(StudyError::Scene(vec![scene.locate_motion(&e)]));
+                return Err(refused(&scene, e));
             }
             Err(e) => return Err(e.into()),
         };
         Ok(Study {
             scene,
-            text,
             prepared,
             options,
         })
+    }
+
+    /// Moves the bodies to a consistent configuration of the start, the nearest one, where initial values of joints are taken.
+    ///
+    /// # Errors
+    /// [`StudyError::Scene`]: there is none; of a scene without text [`StudyError::Motion`].
+    pub fn assemble(&mut self) -> Result<Assembly, StudyError> {
+        assemble(&mut self.mechanism, &self.scene.start).map_err(|e| refused(&self.scene, e.into()))
     }
 
     /// The start, to be asked about its reactions, also where [`Blueprint::prepare`] refuses it: because the rank is undecided in
     /// `f64`, or no motion begins there.
     ///
     /// # Errors
-    /// [`StudyError::Scene`], [`StudyError::Analysis`]: there is no consistent start, or C cannot be judged there.
+    /// As [`Blueprint::assemble`], and [`StudyError::Analysis`]: C cannot be judged there.
     pub fn inquire(&mut self, drop: Option<&[usize]>) -> Result<Inquiry<'_>, StudyError> {
-        let refused = |scene: &Scene, e| StudyError::Scene(vec![scene.locate_start(&e)]);
+        let assembly = self.assemble()?;
         let start = &self.scene.start;
-        let assembly = assemble(&mut self.mechanism, start).map_err(|e| refused(&self.scene, e))?;
         let state = State {
             q: assembly.q,
             v: Vec::new(),
@@ -122,7 +140,7 @@ impl Blueprint {
         if decision.is_decided() {
             let (q, kept) = (&inquiry.state.q, &decision.kept);
             let v = consistent_velocity(&self.mechanism, start, q, &assembly.v, kept);
-            inquiry.state.v = v.map_err(|e| refused(&self.scene, e))?;
+            inquiry.state.v = v.map_err(|e| refused(&self.scene, e.into()))?;
         }
         Ok(inquiry)
     }
@@ -132,10 +150,16 @@ impl Blueprint {
     /// # Errors
     /// As [`Blueprint::inquire`].
     pub fn survey(&mut self, progress: impl Fn(usize) + Sync) -> Result<Survey, StudyError> {
-        let start = &self.scene.start;
-        let assembly = assemble(&mut self.mechanism, start)
-            .map_err(|e| StudyError::Scene(vec![self.scene.locate_start(&e)]))?;
+        let assembly = self.assemble()?;
         Ok(survey(&self.mechanism, 0.0, &assembly.q, progress)?)
+    }
+}
+
+/// An error with its place in the text of the scene, or as it is where there is no text.
+fn refused(scene: &Scene, error: MotionError) -> StudyError {
+    match scene.locate_motion(&error) {
+        Some(place) => StudyError::Scene(vec![place]),
+        None => error.into(),
     }
 }
 

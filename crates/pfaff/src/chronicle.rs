@@ -113,7 +113,7 @@ impl<'a> Chronicle<'a> {
             comparisons: &comparisons,
             drives: &self.drives(),
             origin,
-            scene: &study.text,
+            scene: study.scene.text(),
             options: &self.options(),
             left_out: &left_out,
             work_precision,

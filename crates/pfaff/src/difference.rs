@@ -42,6 +42,7 @@ use crate::study::Study;
 /// # Ok::<(), pfaff::StudyError>(())
 /// ```
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Comparison<'a> {
     /// Joints and drives that only the first scene has.
     pub removed: Vec<&'a ReactionDocument>,
@@ -57,6 +58,7 @@ pub struct Comparison<'a> {
 
 /// A joint or drive that both scenes have, with another type or another verdict.
 #[derive(Clone, Copy, Debug)]
+#[non_exhaustive]
 pub struct VerdictChange<'a> {
     /// Its name.
     pub name: &'a str,
@@ -138,6 +140,7 @@ fn joints(dependency: &DependencyDocument) -> Vec<&str> {
 
 /// How far the motion of a body differs.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MotionDifference {
     /// The body.
     pub body: String,
@@ -149,6 +152,7 @@ pub struct MotionDifference {
 
 /// The differences of the motions of two scenes, body by body.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct MotionComparison {
     /// How far both motions were run (s): to the earlier of their ends.
     pub t_end: f64,

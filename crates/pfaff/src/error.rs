@@ -2,6 +2,7 @@
 
 use dynamics::MotionError;
 use linalg::DeletionError;
+use model::BuildError;
 use report::{FileError, TableError};
 use scene::{CombinationError, Diagnostic};
 use solvability::{
@@ -16,10 +17,18 @@ pub enum StudyError {
     /// The scene is wrong, with all places.
     #[error("{} problem(s) in the scene, the first: {}", .0.len(), .0.first().map_or(String::new(), ToString::to_string))]
     Scene(Vec<Diagnostic>),
+    /// The description that a program has made is wrong, with all faults.
+    #[error("{} problem(s) in the description, the first: {}", .0.len(), .0.first().map_or(String::new(), ToString::to_string))]
+    Build(Vec<BuildError>),
     /// The start is a singular configuration that cannot be left with its velocities. It can be judged all the same, by
     /// [`Blueprint::inquire`](crate::Blueprint::inquire).
-    #[error("{}", .0.message)]
-    SingularStart(Box<Diagnostic>),
+    #[error("{contradiction}")]
+    SingularStart {
+        /// What stands against it.
+        contradiction: Contradiction,
+        /// Where in the text of the scene, if it has one.
+        place: Option<Box<Diagnostic>>,
+    },
     /// Nobody says how long the run takes.
     #[error("the scene has no `[simulate]` with `t_end`, and no last time was given")]
     NoEnd,
@@ -95,7 +104,8 @@ impl StudyError {
     pub fn is_input(&self) -> bool {
         match self {
             Self::Scene(_)
-            | Self::SingularStart(_)
+            | Self::Build(_)
+            | Self::SingularStart { .. }
             | Self::NoEnd
             | Self::Combination { .. }
             | Self::UnknownReaction { .. }

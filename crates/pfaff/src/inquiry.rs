@@ -1,6 +1,7 @@
 //! One configuration of a scene, and everything that can be asked of its reactions. Each method answers one question; what
 //! nobody asks is not computed.
 
+mod document;
 mod requests;
 
 use linalg::{Certificate, DeletionError, Limits, Matrix, count_deletions, deletions};
@@ -9,9 +10,9 @@ use scene::Scene;
 use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Configuration, Continuation, Contradiction,
     Distribution, Equations, Explanation, ExplanationError, FrameVerdict, Generic, GroupVerdict,
-    LinearForm, Proposals, Ranks, RequestError, State, UnitCheck, Value, analyse_dropping,
-    analyse_known, certify, check_units, contradictions, explain, generic, is_locked, make_unique,
-    second_order,
+    LinearForm, Proposals, Ranks, ReactionVerdict, RequestError, State, UnitCheck, Value,
+    analyse_dropping, analyse_known, certify, check_units, contradictions, explain, generic,
+    is_locked, make_unique, second_order,
 };
 
 use crate::error::StudyError;
@@ -23,26 +24,25 @@ pub type Numbers = Vec<(&'static str, Value)>;
 ///
 /// ```
 /// use pfaff::linalg::Limits;
-/// use pfaff::model::Registry;
+/// use pfaff::prelude::*;
 /// use pfaff::solvability::Allowed;
-/// use pfaff::{Overrides, Study};
 ///
 /// // A cart on two wheels of one axle: each stops the same sideways motion.
-/// let scene = r#"
-/// scene = { name = "cart", space = "plane" }
-/// body = [{ name = "cart", mass = 10.0, inertia = 1.0 }]
-/// joint = [
-///     { name = "left", type = "knife-edge", body = "cart", point = [0.0, 0.5], normal = [0.0, 1.0] },
-///     { name = "right", type = "knife-edge", body = "cart", point = [0.0, -0.5], normal = [0.0, 1.0] },
-/// ]
-/// "#;
-/// let study = Study::read("cart.toml", scene, &Registry::planar(), &Overrides::default())?;
+/// let mut cart = Description::new("cart");
+/// let body = cart.body(Body::new("cart", 10.0, 1.0));
+/// for (name, y) in [("left", 0.5), ("right", -0.5)] {
+///     cart.joint(name, &[body], KnifeEdge { s: [0.0, y], normal: Direction::Y });
+/// }
+/// let study = Study::build(cart)?;
 /// let start = study.inquire(0.0, None)?;
+/// assert_eq!(start.verdict("left")?.wrench.verdict.word(), "not_unique");
 /// assert_eq!(start.eliminations()?, 2);
 /// let left = start.reaction("left")?;
 /// let ways = start.make_unique(left, &Allowed::Sensible, Limits::default())?.ways;
 /// assert_eq!(ways[0].text, "delete `right`");
-/// # Ok::<(), pfaff::StudyError>(())
+/// let wrong = start.verdict("lift").unwrap_err();
+/// assert_eq!(wrong.to_string(), "there is no joint or drive `lift`; did you mean `left`?");
+/// # Ok::<(), StudyError>(())
 /// ```
 pub struct Inquiry<'a> {
     /// The scene.
@@ -108,6 +108,15 @@ impl<'a> Inquiry<'a> {
         requests::reaction(self.scene, self.mechanism, name)
     }
 
+    /// The verdict of the joint or drive of this name.
+    ///
+    /// # Errors
+    /// [`StudyError::UnknownReaction`], with the nearest name.
+    pub fn verdict(&self, name: &str) -> Result<&ReactionVerdict, StudyError> {
+        let ConstraintId(place) = self.reaction(name)?;
+        Ok(&self.analysis.reactions[place])
+    }
+
     /// Verdicts by name: the groups of the scene, then sums of components as `W3.N + W4.N`, or of whole wrenches as `W3 + W4`.
     ///
     /// # Errors
@@ -117,6 +126,15 @@ impl<'a> Inquiry<'a> {
             .into_iter()
             .map(|(name, group)| Ok((name, self.configuration.group(&group)?)))
             .collect()
+    }
+
+    /// The verdict of one such sum.
+    ///
+    /// # Errors
+    /// If it cannot be read or names something unknown.
+    pub fn group(&self, combination: &str) -> Result<GroupVerdict, StudyError> {
+        let group = requests::combination(self.scene, self.mechanism, combination)?;
+        Ok(self.configuration.group(&group)?)
     }
 
     /// The numbers of the same groups that every solution shares, by name; several reactions side by side have none.

@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use dynamics::{MotionError, MotionOptions};
 use model::start::scene_size;
 use model::{ColumnKind, Mechanism, System};
+use report::documents::AlongDocument;
 use solvability::{Along, AlongError, PassageKind, State, along_motion};
 
 use crate::error::StudyError;
@@ -27,6 +28,7 @@ const INTERVALS_MAX: usize = 4_000;
 
 /// Verdicts along a motion.
 #[derive(Debug)]
+#[non_exhaustive]
 pub struct Journey {
     /// One verdict for almost all of it, and where another holds.
     pub along: Along,
@@ -41,6 +43,18 @@ pub struct Journey {
     /// Where the motion stopped at a singular configuration: until when (s) it was judged, continued beyond its last state as smoothly
     /// as it came. How it goes on is what the passages say, not what was computed.
     pub continued_to: Option<f64>,
+}
+
+impl Journey {
+    /// The same as plain data: `along` of what `pfaff analyze --along --json` writes.
+    #[must_use]
+    pub fn document(&self) -> AlongDocument {
+        let stopped = self.stopped.as_ref().map(ToString::to_string);
+        let extent = (self.samples, self.reach);
+        let mut document = AlongDocument::new(&self.along, self.to, extent, stopped);
+        document.continued_to = self.continued_to;
+        document
+    }
 }
 
 /// How far a journey is.

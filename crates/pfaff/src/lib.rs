@@ -2,10 +2,11 @@
 //!
 //! # Code map
 //!
-//! All crates of the house under one roof, by their own names, and a scene from its text to its results:
+//! All crates of the house under one roof, by their own names, and a scene from its text, or from a description in code, to its results:
 //!
 //! | module | content |
 //! | --- | --- |
+//! | [`prelude`] | the names that a program needs first |
 //! | [`blueprint`] | a scene with its mechanism |
 //! | [`study`] | its consistent start, its motion, its files |
 //! | `chronicle`, `comparison` | its report, and several choices for reactions that are not unique |
@@ -25,6 +26,7 @@ pub mod error;
 pub mod inquiry;
 pub mod journey;
 pub mod memory;
+pub mod prelude;
 pub mod study;
 pub mod sweep;
 pub mod work_precision;

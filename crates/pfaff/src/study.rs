@@ -12,6 +12,7 @@ use dynamics::{
     Trip, Wanted, simulate,
 };
 use model::{Known, Registry};
+use report::documents::{MomentDocument, MotionDocument};
 use report::{
     Ending, Origin, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
     TrajectoryTable, write_json,
@@ -25,11 +26,10 @@ use crate::error::StudyError;
 use crate::inquiry::Inquiry;
 
 /// A scene that has been assembled and can move.
+#[non_exhaustive]
 pub struct Study {
-    /// What was read.
+    /// What was read, or made by a program.
     pub scene: Scene,
-    /// Its text.
-    pub text: String,
     /// Start and kept rows.
     pub prepared: Prepared,
     /// What a run is asked to do; nothing where neither the scene nor the caller says how long it takes.
@@ -38,6 +38,7 @@ pub struct Study {
 
 /// What an analysis found.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub struct Findings {
     /// Ranks, verdicts and dependencies.
     pub analysis: Analysis,
@@ -83,6 +84,32 @@ impl Study {
         overrides: &Overrides,
     ) -> Result<Self, StudyError> {
         Blueprint::read(name, text, registry)?.prepare(overrides)
+    }
+
+    /// The same of a scene, or of a description alone, that a program has made.
+    ///
+    /// ```
+    /// use pfaff::prelude::*;
+    ///
+    /// let mut door = Description::new("door on two hinges");
+    /// let leaf = door.body(Body::new("leaf", 20.0, 5.0));
+    /// for (name, y) in [("upper", 1.0), ("lower", -1.0)] {
+    ///     door.joint(name, &[BodyRef::Ground, leaf], Revolute { s_i: [0.0, y], s_j: [0.0, y] });
+    /// }
+    /// let study = Study::build(door)?;
+    /// assert_eq!(study.inquire(0.0, None)?.analysis.decision.redundancy, 1);
+    ///
+    /// let nothing = Study::build(Description::new("nothing")).err().unwrap();
+    /// assert!(matches!(nothing, StudyError::Build(_)), "{nothing}");
+    /// # Ok::<(), StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`StudyError::Build`]: everything that is wrong with the description.
+    /// - [`StudyError::Motion`]: there is no consistent start, or no rows can be chosen.
+    /// - [`StudyError::SingularStart`]: no motion begins with the velocities of the start.
+    pub fn build(scene: impl Into<Scene>) -> Result<Self, StudyError> {
+        Blueprint::build(scene)?.prepare(&Overrides::default())
     }
 
     /// A configuration at a time of the motion, to be asked about its reactions; at t = 0 nothing has to move. `drop` (rows from
@@ -169,6 +196,47 @@ impl Study {
         row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
     ) -> Result<Summary, Box<Failure>> {
         simulate(&self.prepared, options, row)
+    }
+
+    /// The motion as plain data: state and reactions at t = 0, every output step and the end, with the numbers, events and verdicts of the
+    /// run. Numbers of reactions that are not unique belong to the choice that the summary states.
+    ///
+    /// ```
+    /// use pfaff::prelude::*;
+    ///
+    /// // A body that is thrown: y = 5·t − g·t²/2.
+    /// let mut thrown = Description { gravity: [0.0, -10.0], ..Description::new("thrown") };
+    /// thrown.body(Body { velocity: [0.0, 5.0], ..Body::new("stone", 1.0, 1.0) });
+    /// let motion = Study::build(thrown)?.motion(&MotionOptions::to(1.0))?;
+    /// let highest = motion.rows.iter().map(|row| row.bodies["stone"].y).fold(0.0, f64::max);
+    /// assert!((highest - 1.25).abs() < 1e-9);
+    /// assert_eq!(motion.rows.len(), 201);
+    /// # Ok::<(), StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// - [`StudyError::Motion`]: the run could not begin, or stopped; [`Study::run`] shows what was reached.
+    /// - [`StudyError::Analysis`]: reactions cannot be judged at the start.
+    pub fn motion(&self, options: &MotionOptions) -> Result<MotionDocument, StudyError> {
+        let mechanism = &self.prepared.mechanism;
+        let plan = Plan::new(&self.prepared, options, &Wanted::default())?;
+        let verdicts = verdicts(mechanism, 0.0, &self.prepared.q)?;
+        let mut rows = Vec::new();
+        let outcome = plan.simulate(|sample| {
+            let reactions = sample.reactions()?;
+            rows.push(MomentDocument::new(
+                mechanism, sample.t, sample.q, sample.v, &reactions,
+            ));
+            Ok(ControlFlow::Continue(()))
+        });
+        let summary = outcome.map_err(|failure| failure.error)?;
+        let run = Run {
+            plan: &plan,
+            reactions: &verdicts,
+            summary: &summary,
+            ending: Ending::Complete,
+        };
+        Ok(MotionDocument::new(RunDocument::new(&run), rows))
     }
 
     /// What a run of the scene does and leaves out, with what its `[output]` wants.

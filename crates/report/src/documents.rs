@@ -2,6 +2,7 @@
 //! everywhere a user sees them. JSON knows no NaN and no infinity: such numbers are `null`.
 
 mod analysis;
+mod motion;
 mod plan;
 mod run;
 #[cfg(test)]
@@ -21,6 +22,7 @@ pub use analysis::{
     PassageDocument, PointDocument, Proof, ReactionDocument, RowDocument, StretchDocument,
     ValueDocument, ValuesDocument, WayDocument,
 };
+pub use motion::{BodyStateDocument, MomentDocument, MotionDocument};
 pub use plan::{DecisionDocument, PlanDocument, PlannedComponentDocument, SavingDocument};
 pub use run::{
     ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Run, RunDocument,
@@ -39,6 +41,7 @@ pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<
 
 /// A verdict with its number: `verdict`, `margin`, and a `reason` where it is undecided.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct VerdictDocument {
     /// `unique`, `not_unique` or `undecided`.
     pub verdict: &'static str,
@@ -64,8 +67,39 @@ impl From<&Judgement> for VerdictDocument {
 }
 
 /// An object whose keys are names, in this order.
+///
+/// ```
+/// use report::documents::Named;
+/// let masses = Named(vec![("crank".to_owned(), 2.0), ("rod".to_owned(), 1.0)]);
+/// assert_eq!(masses["rod"], 1.0);
+/// assert_eq!(masses.get("slider"), None);
+/// assert_eq!(serde_json::to_string(&masses).unwrap(), r#"{"crank":2.0,"rod":1.0}"#);
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Named<T>(pub Vec<(String, T)>);
+
+impl<T> Named<T> {
+    /// The value of a name.
+    #[must_use]
+    pub fn get(&self, name: &str) -> Option<&T> {
+        let named = self.0.iter().find(|(key, _)| key == name);
+        named.map(|(_, value)| value)
+    }
+}
+
+/// The value of a name.
+///
+/// # Panics
+/// If there is no such name; [`Named::get`] says so instead.
+impl<T> std::ops::Index<&str> for Named<T> {
+    type Output = T;
+    fn index(&self, name: &str) -> &T {
+        match self.get(name) {
+            Some(value) => value,
+            None => panic!("there is no `{name}`"),
+        }
+    }
+}
 
 impl<T: Serialize> Serialize for Named<T> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

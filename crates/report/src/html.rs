@@ -45,8 +45,8 @@ pub struct RunPage<'a> {
     pub drives: &'a [DriveCurve],
     /// How to get the same run again.
     pub origin: &'a Origin,
-    /// The text of the scene.
-    pub scene: &'a str,
+    /// The text of the scene, where there is one.
+    pub scene: Option<&'a str>,
     /// Options of the run, in words.
     pub options: &'a [(String, String)],
     /// What was left out, in sentences.

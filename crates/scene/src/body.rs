@@ -169,17 +169,6 @@ impl Bodies {
             BodyRef::Body(at) => self.list.get(at).map_or(GROUND, |body| &body.name),
         }
     }
-
-    /// Where a global point of the described configuration is in the frame of a body.
-    pub(crate) fn to_local(&self, body: BodyRef, point: [f64; 2]) -> [f64; 2] {
-        match body {
-            BodyRef::Ground => point,
-            BodyRef::Body(at) => self
-                .list
-                .get(at)
-                .map_or(point, |body| body.pose().to_local(point)),
-        }
-    }
 }
 
 /// The name of the ground.

@@ -123,7 +123,7 @@ fn global(
     };
     let mut local = |(&slot, point): (&usize, [f64; 2])| {
         let body = slots.get(slot).copied().flatten()?;
-        let local = bodies.to_local(body, point);
+        let local = body.to_local(&bodies.list, point);
         if local.iter().any(|x| !x.is_finite()) {
             findings.error(
                 at.span(),

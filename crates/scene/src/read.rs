@@ -64,7 +64,9 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     let scene = document(whole, registry, &mut findings);
     // Large beside what was read from it.
     drop(root);
-    check(&scene.description, &scene.source, &mut findings);
+    if let Some(source) = &scene.source {
+        check(&scene.description, source, &mut findings);
+    }
     let problems = findings.sorted();
     match problems.is_empty() {
         true => Ok(scene),
@@ -166,7 +168,7 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         simulate: simulate.map(|simulate| simulate.options),
         output: output.unwrap_or_default(),
         groups,
-        source,
+        source: Some(source),
     }
 }
 

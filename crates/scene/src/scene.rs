@@ -1,4 +1,4 @@
-//! A scene that has been read.
+//! A mechanism with what is to be done with it: what a text is read into, and what a program may write directly.
 
 use dynamics::{MotionError, MotionOptions};
 use model::{BuildError, Description, StartError, StartOptions};
@@ -10,8 +10,21 @@ use crate::nearest::nearest;
 use crate::reactions::{GroupRequest, Output, components};
 use crate::source_map::SourceMap;
 
-/// A mechanism, what is to be done with it, and where all of it stands in the file.
-#[derive(Clone)]
+/// A mechanism, what is to be done with it, and where all of it stands in the file, if it was read from one.
+///
+/// ```
+/// use dynamics::MotionOptions;
+/// use model::{Body, Description};
+/// use scene::Scene;
+///
+/// // Without a file: a description, and where wanted what is to be done with it.
+/// let mut free = Description::new("free body");
+/// free.body(Body::new("body", 1.0, 1.0));
+/// let scene = Scene { simulate: Some(MotionOptions::to(1.0)), ..free.into() };
+/// assert_eq!(scene.name(), "free body");
+/// assert!(scene.source.is_none());
+/// ```
+#[derive(Clone, Default)]
 pub struct Scene {
     /// The mechanism as plain data; it has the name of the scene.
     pub description: Description,
@@ -23,8 +36,18 @@ pub struct Scene {
     pub output: Output,
     /// Combinations of reactions whose verdict is wanted.
     pub groups: Vec<GroupRequest>,
-    /// Where everything stands.
-    pub source: SourceMap,
+    /// Where everything stands; nothing where there is no text.
+    pub source: Option<SourceMap>,
+}
+
+/// A mechanism with nothing said but itself: everything by default, and no run.
+impl From<Description> for Scene {
+    fn from(description: Description) -> Self {
+        Self {
+            description,
+            ..Self::default()
+        }
+    }
 }
 
 impl Scene {
@@ -34,22 +57,30 @@ impl Scene {
         &self.description.name
     }
 
-    /// The place of an error of [`model::Mechanism::build`], for descriptions that were changed after reading.
+    /// Its text; nothing where there is none.
     #[must_use]
-    pub fn locate_build(&self, error: &BuildError) -> Diagnostic {
-        locate::build(&self.source, &self.description, error)
+    pub fn text(&self) -> Option<&str> {
+        self.source.as_ref().map(|source| source.text.text())
+    }
+
+    /// The place of an error of [`model::Mechanism::build`], for descriptions that were changed after reading; nothing where there is
+    /// no text, as with the other places.
+    #[must_use]
+    pub fn locate_build(&self, error: &BuildError) -> Option<Diagnostic> {
+        let source = self.source.as_ref()?;
+        Some(locate::build(source, &self.description, error))
     }
 
     /// The place of an error of [`model::start`].
     #[must_use]
-    pub fn locate_start(&self, error: &StartError) -> Diagnostic {
-        locate::start(&self.source, error)
+    pub fn locate_start(&self, error: &StartError) -> Option<Diagnostic> {
+        Some(locate::start(self.source.as_ref()?, error))
     }
 
     /// The place of an error of a run.
     #[must_use]
-    pub fn locate_motion(&self, error: &MotionError) -> Diagnostic {
-        locate::motion(&self.source, error)
+    pub fn locate_motion(&self, error: &MotionError) -> Option<Diagnostic> {
+        Some(locate::motion(self.source.as_ref()?, error))
     }
 
     /// Reads a combination of reaction components of this scene, as the key `combine` of a group has it.

@@ -128,7 +128,8 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
             }
             let can_be_judged = matches!(
                 e,
-                StudyError::Motion(MotionError::RankUndecided(_)) | StudyError::SingularStart(_)
+                StudyError::Motion(MotionError::RankUndecided(_))
+                    | StudyError::SingularStart { .. }
             );
             let Some(mut blueprint) = read().ok().filter(|_| can_be_judged) else {
                 return Reach::NoStart;

@@ -43,12 +43,7 @@ pub(super) fn judge(
     });
     bar.finish_and_clear();
     let journey = journey.map_err(|e| source.failure(e))?;
-    let stopped = journey.stopped.map(|e| e.to_string());
-    let extent = (journey.samples, journey.reach);
-    Ok(AlongDocument {
-        continued_to: journey.continued_to,
-        ..AlongDocument::new(&journey.along, journey.to, extent, stopped)
-    })
+    Ok(journey.document())
 }
 
 /// One verdict, then what differs.

@@ -1,15 +1,15 @@
 //! The questions of the command line, put to one configuration.
 
 use pfaff::linalg::{DeletionError, Limits};
+use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
-    DistributionDocument, EliminationsDocument, GroupDocument, MakeUniqueDocument, ValuesDocument,
+    DistributionDocument, EliminationsDocument, MakeUniqueDocument, ValuesDocument,
 };
-use pfaff::report::{AnalysisDocument, Proof};
 use pfaff::solvability::{Allowed, UnitError, Verdict};
 use pfaff::{Inquiry, StudyError};
 
+use super::choice;
 use super::deletions::HINTS;
-use super::{choice, rank};
 use crate::args::Analyze;
 use crate::input::Source;
 use crate::output::Failure;
@@ -35,45 +35,14 @@ pub(super) fn document(
         .map(|text| choice::choice(text, source, inquiry))
         .collect();
     let choices = choices?;
-    let groups = inquiry.groups(&arguments.combine).map_err(failure)?;
-
-    let generic = inquiry.generic();
-    let proof = Proof {
-        generic: generic.as_ref(),
-        certificate: inquiry.certificate.as_ref(),
-    };
-    let name = inquiry.scene.name();
-    let mut document = AnalysisDocument::new(name, &inquiry.analysis, proof);
-    document.groups = groups
-        .iter()
-        .map(|(name, verdict)| GroupDocument::new(name, verdict))
-        .collect();
-    if !groups.is_empty() && inquiry.analysis.decision.is_decided() {
-        match inquiry.determined(&arguments.combine) {
-            Ok(numbers) => {
-                let given = document.groups.drain(..).zip(&numbers);
-                document.groups = given.map(|(g, values)| g.with_values(values)).collect();
-            }
-            Err(e) => document
-                .warnings
-                .push(format!("sums have no numbers here: {e}")),
-        }
+    let mut document = inquiry.document(&arguments.combine).map_err(failure)?;
+    if let Some(n) = arguments.eliminations {
+        let sets = inquiry.elimination_sets(n);
+        document.eliminations = Some(EliminationsDocument::new(
+            inquiry.eliminations(),
+            Some(sets),
+        ));
     }
-    if let Some(explanation) = inquiry.explanation().map_err(failure)? {
-        document.explain(&explanation, layout);
-    }
-    if let Some(generic) = &generic {
-        let continuation = inquiry.continuation(generic).map_err(failure)?;
-        document.continuation = continuation.as_ref().map(Into::into);
-    }
-    document
-        .warnings
-        .extend(rank::only_here(&document, inquiry));
-    if generic.is_none() && inquiry.is_locked().map_err(failure)? {
-        document.warnings.push(rank::locked(&document));
-    }
-    let sets = arguments.eliminations.map(|n| inquiry.elimination_sets(n));
-    document.eliminations = Some(EliminationsDocument::new(inquiry.eliminations(), sets));
     for (name, id) in arguments.make_unique.iter().zip(wanted) {
         let found = inquiry.make_unique(id, &allowed, Limits::default());
         document
@@ -101,10 +70,10 @@ pub(super) fn document(
             let distribution = inquiry.distribution(choice).map_err(failure)?;
             let mut made = DistributionDocument::new(&distribution, &facts);
             let sums = inquiry.chosen(&arguments.combine, &distribution);
-            let sums = groups.iter().zip(sums.map_err(failure)?);
+            let sums = document.groups.iter().zip(sums.map_err(failure)?);
             made.groups = sums
                 .filter(|(_, values)| !values.is_empty())
-                .map(|((name, _), values)| ValuesDocument::of_group(name, &values))
+                .map(|(group, values)| ValuesDocument::of_group(&group.name, &values))
                 .collect();
             document.choices.push(made);
         }

@@ -1,7 +1,5 @@
 //! The rank and what is behind it, in sentences.
 
-use pfaff::Inquiry;
-use pfaff::model::{ConstraintKind, System};
 use pfaff::report::AnalysisDocument;
 use pfaff::solvability::{GENERIC_ROWS, Survey};
 
@@ -27,43 +25,7 @@ pub(super) fn describe(d: &AnalysisDocument) -> String {
     out
 }
 
-/// What the verdicts of a singular configuration were compared with. The motion need not lead there: the steps away follow the joints alone.
-pub(super) fn only_here(d: &AnalysisDocument, inquiry: &Inquiry<'_>) -> Option<String> {
-    let generic = d.generic.as_ref()?;
-    if generic.redundancy >= d.redundancy || d.evidence.permanent != Some(false) {
-        return None;
-    }
-    let layout = inquiry.mechanism.layout();
-    let drives = layout
-        .groups
-        .iter()
-        .any(|g| g.kind == ConstraintKind::Drive);
-    let free = match (drives, d.nonholonomic_rows > 0) {
-        (false, false) => "",
-        (true, false) => ", with drives left free",
-        (false, true) => ", with knife edges and other conditions on velocities left free",
-        (true, true) => ", with drives, knife edges and other conditions on velocities left free",
-    };
-    let compared = match generic.points.len() {
-        1 => "the other configuration compared is a pose".to_owned(),
-        n => format!("the {n} other configurations compared are poses"),
-    };
-    Some(format!(
-        "redundancy {} and its verdicts hold at this singular configuration only; {compared} that the joints allow{free}, and `--along` \
-         tells whether the motion leaves this one",
-        d.redundancy,
-    ))
-}
-
-/// That freedoms of first order are no motions.
-pub(super) fn locked(d: &AnalysisDocument) -> String {
-    format!(
-        "mobility {} at first order, but this mechanism cannot move: second order blocks every velocity that the constraints allow",
-        d.mobility
-    )
-}
-
-/// The same for a mechanism that was judged by parts.
+/// Rank and proof of a mechanism that was judged by parts.
 pub(super) fn by_parts(d: &AnalysisDocument, survey: &Survey) -> String {
     let mut out = format!(
         "rank {} (Φq alone {}, Ψ alone {}), redundancy {}, mobility {}\n",

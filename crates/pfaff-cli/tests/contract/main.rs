@@ -12,6 +12,7 @@ mod failures;
 #[cfg(target_os = "linux")]
 mod faults;
 mod generate;
+mod library;
 mod man;
 mod new;
 mod plan;

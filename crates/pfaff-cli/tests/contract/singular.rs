@@ -4,7 +4,7 @@ use super::analyze::{contains, document};
 use super::{stdout, with_scene};
 
 /// Cranks of length 0.5 at these pivots, all flat and turning with 1 rad/s, under one coupler.
-fn flat_cranks(pivots: &[f64]) -> String {
+pub(crate) fn flat_cranks(pivots: &[f64]) -> String {
     let bodies = pivots.iter().enumerate().map(|(k, x)| {
         let middle = x + 0.25;
         format!(

@@ -34,23 +34,30 @@ pub(super) fn groups(
                 let members = names.iter().map(|n| reaction(scene, mechanism, n));
                 Group::Members(members.collect::<Result<_, _>>()?)
             }
-            GroupContent::Combination(sum) => combination(scene, mechanism, sum)?,
+            GroupContent::Combination(sum) => sum_of(scene, mechanism, sum)?,
         };
         Ok((group.name.clone(), content))
     };
-    let asked = |text: &String| {
-        let read = scene.combination(text);
-        let sum = read.map_err(|error| StudyError::Combination {
-            text: text.clone(),
-            error,
-        })?;
-        Ok((text.clone(), combination(scene, mechanism, &sum)?))
-    };
+    let asked = |text: &String| Ok((text.clone(), combination(scene, mechanism, text)?));
     let of_scene = scene.groups.iter().map(of);
     of_scene.chain(combine.iter().map(asked)).collect()
 }
 
-fn combination(
+/// A combination as a text has it.
+pub(super) fn combination(
+    scene: &Scene,
+    mechanism: &Mechanism,
+    text: &str,
+) -> Result<Group, StudyError> {
+    let read = scene.combination(text);
+    let sum = read.map_err(|error| StudyError::Combination {
+        text: text.to_owned(),
+        error,
+    })?;
+    sum_of(scene, mechanism, &sum)
+}
+
+fn sum_of(
     scene: &Scene,
     mechanism: &Mechanism,
     combination: &Combination,

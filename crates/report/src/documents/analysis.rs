@@ -30,6 +30,7 @@ use super::{VerdictDocument, from_one};
 
 /// Ranks and verdicts of one configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct AnalysisDocument {
     /// Name of the scene.
     pub scene: String,
@@ -92,6 +93,7 @@ pub struct AnalysisDocument {
 
 /// A minimal set of dependent rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct DependencyDocument {
     /// Rows of C.
     pub rows: Vec<usize>,
@@ -105,6 +107,7 @@ pub struct DependencyDocument {
 
 /// Joints and drives whose reactions mix.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct MixingDocument {
     /// Their names.
     pub reactions: Vec<String>,

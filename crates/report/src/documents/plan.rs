@@ -7,6 +7,7 @@ use super::Named;
 
 /// `plan --json`
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PlanDocument {
     /// Name of the scene.
     pub scene: String,
@@ -26,6 +27,7 @@ pub struct PlanDocument {
 
 /// Bodies that feel each other.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PlannedComponentDocument {
     /// Its bodies in words, as decisions name it.
     pub name: String,
@@ -49,6 +51,7 @@ pub struct PlannedComponentDocument {
 
 /// One decision.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct DecisionDocument {
     /// The component that it is of, where there are several.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -65,6 +68,7 @@ pub struct DecisionDocument {
 
 /// What a decision saves.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct SavingDocument {
     /// How many are left out.
     pub left_out: u64,

@@ -40,6 +40,7 @@ pub enum Ending<'a> {
 
 /// Numbers, events and verdicts of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RunDocument {
     /// Integrator; `auto` where components have different ones.
     pub method: &'static str,
@@ -86,6 +87,7 @@ pub struct RunDocument {
 
 /// Numbers of a component that was run apart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ComponentRunDocument {
     /// Its bodies in words.
     pub name: String,
@@ -113,6 +115,7 @@ pub struct ComponentRunDocument {
 
 /// An event.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct EventDocument {
     /// When (s).
     pub time: f64,
@@ -130,6 +133,7 @@ pub struct EventDocument {
 
 /// The verdict of a reaction of a run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RunReactionDocument {
     /// The verdict.
     #[serde(flatten)]
@@ -142,6 +146,7 @@ pub struct RunReactionDocument {
 /// What was decided so that a non-unique reaction has a number.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "method", rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum ChoiceDocument {
     /// The multipliers of some rows are zero by decree.
     KeptRows {

@@ -1,8 +1,8 @@
 //! Whole documents of small runs, byte for byte.
 
 use dynamics::{
-    Event, EventKind, Method, MotionError, MotionOptions, Plan, Prepared, RowChoice, Summary,
-    Wanted, prepare,
+    DropError, Event, EventKind, Method, MotionError, MotionOptions, Plan, Prepared, RowChoice,
+    Summary, Wanted, prepare,
 };
 use joints::Revolute;
 use linalg::{
@@ -358,7 +358,7 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
         }],
         ..Summary::default()
     };
-    let error = MotionError::Rows("no rows".into());
+    let error = MotionError::from(DropError::NotRedundant);
     let run = |ending| Run {
         plan: &plan,
         reactions: &analysis.reactions,
@@ -367,7 +367,7 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
     };
     let document = RunDocument::new(&run(Ending::Stopped(&error)));
     assert!(document.partial);
-    assert_eq!(document.error.as_deref(), Some("no rows"));
+    assert_eq!(document.error, Some(error.to_string()));
     assert_eq!(document.t_end, 1.5);
     assert_eq!(document.events[0].kind, "rows-exchanged");
     for (name, reaction) in &document.reactions.0 {

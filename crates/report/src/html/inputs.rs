@@ -34,7 +34,9 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
         }
     }
     out.push_str("</dl>\n</details>\n");
-    scene(out, page.scene);
+    if let Some(text) = page.scene {
+        scene(out, text);
+    }
     out.push_str("<h3>What the page leaves out</h3>\n");
     list(out, &document::left_out(page, cast));
     out.push_str("</section>\n");

@@ -1,6 +1,6 @@
 //! Errors that come after reading, turned into places.
 
-use dynamics::{MotionError, RowChoice, Trip, prepare};
+use dynamics::{DropError, MotionError, RowChoice, Trip, prepare};
 use model::start::Misfit;
 use model::{BuildError, Mechanism, StartError};
 use scene::{Label, Scene};
@@ -14,6 +14,11 @@ fn scene() -> Scene {
     )
 }
 
+/// Its text.
+fn text_of(scene: &Scene) -> &str {
+    scene.text().expect("it was read")
+}
+
 /// The last line of the bodies.
 fn lines_before() -> usize {
     BODIES.matches('\n').count()
@@ -24,7 +29,7 @@ fn a_requirement_points_at_the_place_of_the_joint() {
     let scene = scene();
     let mut mechanism = Mechanism::build(&scene.description).expect("a mechanism");
     let error = model::start::assemble(&mut mechanism, &scene.start).expect_err("L = 0");
-    let d = scene.locate_start(&error);
+    let d = scene.locate_start(&error).expect("a place");
     let line = lines_before() + 5;
     assert_eq!(
         d.to_string(),
@@ -32,7 +37,7 @@ fn a_requirement_points_at_the_place_of_the_joint() {
             "x.toml:{line}:6: error: `A` requires at the start: the two points are apart (L > 0)"
         )
     );
-    assert_eq!(scene.locate_motion(&MotionError::Start(error)), d);
+    assert_eq!(scene.locate_motion(&MotionError::Start(error)), Some(d));
 }
 
 #[test]
@@ -46,11 +51,8 @@ fn a_large_correction_points_at_the_position_of_the_body() {
         matches!(error, StartError::LargeCorrection { .. }),
         "{error}"
     );
-    let d = scene.locate_start(&error);
-    assert_eq!(
-        &scene.source.text.text()[d.primary.span.clone()],
-        "[3.0, 2.0]"
-    );
+    let d = scene.locate_start(&error).expect("a place");
+    assert_eq!(&text_of(&scene)[d.primary.span.clone()], "[3.0, 2.0]");
 }
 
 #[test]
@@ -59,8 +61,8 @@ fn errors_of_a_run_point_at_rows_bodies_and_options() {
     let mechanism = Mechanism::build(&scene.description).expect("a mechanism");
     let row = model::System::layout(&mechanism).labels[0].clone();
     let marked = |error: &MotionError| {
-        let d = scene.locate_motion(error);
-        scene.source.text.text()[d.primary.span].to_owned()
+        let d = scene.locate_motion(error).expect("a place");
+        text_of(&scene)[d.primary.span].to_owned()
     };
     let lost = MotionError::Trip(Trip::RankLost {
         time: 0.0,
@@ -69,7 +71,7 @@ fn errors_of_a_run_point_at_rows_bodies_and_options() {
         scale: 1.0,
     });
     assert_eq!(marked(&lost), "\"A\"");
-    assert_eq!(marked(&MotionError::Rows("…".into())), "[1]");
+    assert_eq!(marked(&MotionError::Rows(DropError::NotRedundant)), "[1]");
     let massless = MotionError::Trip(Trip::Massless {
         time: 0.0,
         body: "b".into(),
@@ -106,9 +108,9 @@ t_end = 1.0
 
 /// What is marked, first and besides.
 fn marks(scene: &Scene, error: &MotionError) -> (String, Vec<String>) {
-    let d = scene.locate_motion(error);
-    let text = |label: &Label| scene.source.text.text()[label.span.clone()].to_owned();
-    (text(&d.primary), d.secondary.iter().map(text).collect())
+    let d = scene.locate_motion(error).expect("a place");
+    let marked = |label: &Label| text_of(scene)[label.span.clone()].to_owned();
+    (marked(&d.primary), d.secondary.iter().map(marked).collect())
 }
 
 #[test]
@@ -169,8 +171,8 @@ fn changed_numbers_point_at_their_keys() {
     let places: Vec<_> = errors
         .iter()
         .map(|error| {
-            let d = scene.locate_build(error);
-            scene.source.text.text()[d.primary.span].to_owned()
+            let d = scene.locate_build(error).expect("a place");
+            text_of(&scene)[d.primary.span].to_owned()
         })
         .collect();
     // Body c gives no angular velocity: its name is marked.
@@ -178,7 +180,11 @@ fn changed_numbers_point_at_their_keys() {
     let unknown = BuildError::GroundOnly {
         name: "nobody".into(),
     };
-    assert_eq!(scene.locate_build(&unknown).primary.line, 1);
+    let place = scene.locate_build(&unknown).expect("a place");
+    assert_eq!(place.primary.line, 1);
+    // Without a text there are no places.
+    scene.source = None;
+    assert_eq!(scene.locate_build(&unknown), None);
 }
 
 #[test]

@@ -7,6 +7,7 @@ use super::VerdictDocument;
 
 /// One verdict for almost all of a motion, and where another holds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct AlongDocument {
     /// Last time that was judged (s); the first is 0.
     pub to: f64,
@@ -29,6 +30,7 @@ pub struct AlongDocument {
 
 /// The verdicts that hold almost always.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct GenericVerdictsDocument {
     /// An instant where they do (s).
     pub time: f64,
@@ -42,6 +44,7 @@ pub struct GenericVerdictsDocument {
 
 /// The verdict of a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct NamedVerdictDocument {
     /// Its name.
     pub name: String,
@@ -52,6 +55,7 @@ pub struct NamedVerdictDocument {
 
 /// A stretch of time with other verdicts.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct StretchDocument {
     /// Where it begins (s).
     pub from: f64,
@@ -67,6 +71,7 @@ pub struct StretchDocument {
 
 /// An instant where something is different.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PassageDocument {
     /// When (s).
     pub time: f64,
@@ -95,6 +100,7 @@ pub struct PassageDocument {
 
 /// How a motion goes on at a singular configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ContinuationDocument {
     /// `unique`, `bifurcation` or `undetermined`.
     pub kind: &'static str,
@@ -106,6 +112,7 @@ pub struct ContinuationDocument {
 
 /// One verdict that differs.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct DifferenceDocument {
     /// Name of the joint or drive.
     pub reaction: String,

@@ -6,6 +6,7 @@ use solvability::{Distribution, Nature, UnitCheck, Value};
 
 /// The reactions that one choice gives.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct DistributionDocument {
     /// The choice.
     pub label: String,
@@ -20,6 +21,7 @@ pub struct DistributionDocument {
 
 /// The reaction of a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ValuesDocument {
     /// Its name.
     pub name: String,
@@ -29,6 +31,7 @@ pub struct ValuesDocument {
 
 /// A number.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ValueDocument {
     /// Name of the component; absent for multipliers.
     #[serde(skip_serializing_if = "Option::is_none")]

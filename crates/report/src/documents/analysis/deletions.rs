@@ -8,6 +8,7 @@ use crate::documents::from_one;
 
 /// Sets of rows that can be deleted without a change of motion.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct EliminationsDocument {
     /// How many there are; `None` if they could not be counted.
     pub count: Option<u128>,
@@ -21,6 +22,7 @@ pub struct EliminationsDocument {
 
 /// The smallest deletions that make a reaction unique.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct MakeUniqueDocument {
     /// Name of the joint or drive.
     pub reaction: String,
@@ -37,6 +39,7 @@ pub struct MakeUniqueDocument {
 
 /// One way to make a reaction unique.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
 pub struct WayDocument {
     /// Rows to delete.
     pub rows: Vec<usize>,

@@ -15,6 +15,7 @@ pub struct Proof<'a> {
 
 /// The numbers behind a rank.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct EvidenceDocument {
     /// `decided` or `undecided`.
     pub status: &'static str,
@@ -51,6 +52,7 @@ pub struct EvidenceDocument {
 
 /// A decided rank with σ_r below 1e-3: reactions are of size 1/σ_r per unit of load.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct NearlyRedundantDocument {
     /// σ_r
     pub sigma: f64,
@@ -65,6 +67,7 @@ const MICROMETRE: f64 = 1e-6;
 
 /// Ranks at other configurations of the same component.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct GenericDocument {
     /// Degree of redundancy at almost all configurations.
     pub redundancy: usize,
@@ -74,6 +77,7 @@ pub struct GenericDocument {
 
 /// Another configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct PointDocument {
     /// Time (s).
     pub time: f64,

@@ -13,6 +13,7 @@ use crate::documents::VerdictDocument;
 
 /// The verdict of a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ReactionDocument {
     /// Its name.
     pub name: String,
@@ -45,6 +46,7 @@ pub struct ReactionDocument {
 
 /// The verdict of a multiplier.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct RowDocument {
     /// Row of C.
     pub row: usize,
@@ -55,6 +57,7 @@ pub struct RowDocument {
 
 /// The verdict of a component of a reaction or of a sum.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct ComponentDocument {
     /// `Fx`, `Fy` or `T`.
     pub name: &'static str,
@@ -66,6 +69,7 @@ pub struct ComponentDocument {
 /// What a joint carries in a self-stress, ready to be drawn: the largest force of the self-stress is 1 N, or its largest torque
 /// 1 N·m if there is no force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct FreeDirectionDocument {
     /// The self-stress, as a place in `dependencies`, from 0.
     pub dependency: usize,
@@ -79,6 +83,7 @@ pub struct FreeDirectionDocument {
 
 /// The verdicts of a reaction in one frame.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct FrameDocument {
     /// `global`, `first_body` or `edge`.
     pub frame: &'static str,
@@ -90,6 +95,7 @@ pub struct FrameDocument {
 
 /// The verdict of a combination of reactions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct GroupDocument {
     /// Its name or expression.
     pub name: String,

@@ -1,0 +1,107 @@
+//! All that a configuration tells of itself, as one document: what `pfaff analyze --json` writes.
+
+use model::{ConstraintKind, System};
+use report::documents::{EliminationsDocument, GroupDocument};
+use report::{AnalysisDocument, Proof};
+
+use super::Inquiry;
+use crate::error::StudyError;
+
+impl Inquiry<'_> {
+    /// Ranks with their proof, verdicts, groups, reasons and warnings as plain data: the document that `pfaff analyze --json` writes, key by
+    /// key. Groups are those of the scene, then the combinations, as [`Inquiry::groups`] takes them; rows are counted from 1.
+    ///
+    /// What costs more is left for its own question and may be added to the document: [`Inquiry::make_unique`], [`Inquiry::frames`],
+    /// [`Inquiry::distribution`], [`crate::Journey`].
+    ///
+    /// ```
+    /// use pfaff::prelude::*;
+    ///
+    /// let mut sleigh = Description::new("sleigh");
+    /// let body = sleigh.body(Body::new("sleigh", 10.0, 1.0));
+    /// sleigh.joint("blade", &[body], KnifeEdge { s: [0.0, 0.0], normal: Direction::Y });
+    /// let study = Study::build(sleigh)?;
+    /// let document = study.inquire(0.0, None)?.document(&[])?;
+    /// assert_eq!((document.rank, document.mobility), (1, 2));
+    /// let json = serde_json::to_value(&document).unwrap();
+    /// assert_eq!(json["reactions"][0]["name"], "blade");
+    /// assert_eq!(json["reactions"][0]["verdict"], "unique");
+    /// # Ok::<(), StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Inquiry::groups`], [`Inquiry::explanation`], [`Inquiry::continuation`] and [`Inquiry::is_locked`]. Groups without numbers are no
+    /// error but a warning of the document.
+    pub fn document(&self, combine: &[String]) -> Result<AnalysisDocument, StudyError> {
+        let groups = self.groups(combine)?;
+        let generic = self.generic();
+        let proof = Proof {
+            generic: generic.as_ref(),
+            certificate: self.certificate.as_ref(),
+        };
+        let mut document = AnalysisDocument::new(self.scene.name(), &self.analysis, proof);
+        document.groups = groups
+            .iter()
+            .map(|(name, verdict)| GroupDocument::new(name, verdict))
+            .collect();
+        if !groups.is_empty() && self.analysis.decision.is_decided() {
+            match self.determined(combine) {
+                Ok(numbers) => {
+                    let given = document.groups.drain(..).zip(&numbers);
+                    document.groups = given.map(|(g, values)| g.with_values(values)).collect();
+                }
+                Err(e) => document
+                    .warnings
+                    .push(format!("sums have no numbers here: {e}")),
+            }
+        }
+        if let Some(explanation) = self.explanation()? {
+            document.explain(&explanation, self.mechanism.layout());
+        }
+        if let Some(generic) = &generic {
+            document.continuation = self.continuation(generic)?.as_ref().map(Into::into);
+        }
+        document.warnings.extend(only_here(&document, self));
+        if generic.is_none() && self.is_locked()? {
+            document.warnings.push(locked(&document));
+        }
+        document.eliminations = Some(EliminationsDocument::new(self.eliminations(), None));
+        Ok(document)
+    }
+}
+
+/// What the verdicts of a singular configuration were compared with. The motion need not lead there: the steps away follow the joints alone.
+fn only_here(d: &AnalysisDocument, inquiry: &Inquiry<'_>) -> Option<String> {
+    let generic = d.generic.as_ref()?;
+    if generic.redundancy >= d.redundancy || d.evidence.permanent != Some(false) {
+        return None;
+    }
+    let layout = inquiry.mechanism.layout();
+    let drives = layout
+        .groups
+        .iter()
+        .any(|g| g.kind == ConstraintKind::Drive);
+    let free = match (drives, d.nonholonomic_rows > 0) {
+        (false, false) => "",
+        (true, false) => ", with drives left free",
+        (false, true) => ", with knife edges and other conditions on velocities left free",
+        (true, true) => ", with drives, knife edges and other conditions on velocities left free",
+    };
+    let compared = match generic.points.len() {
+        1 => "the other configuration compared is a pose".to_owned(),
+        n => format!("the {n} other configurations compared are poses"),
+    };
+    Some(format!(
+        "redundancy {} and its verdicts hold at this singular configuration only; {compared} that the joints allow{free}, and `--along` \
+         tells whether the motion leaves this one",
+        d.redundancy,
+    ))
+}
+
+/// That freedoms of first order are no motions.
+fn locked(d: &AnalysisDocument) -> String {
+    format!(
+        "mobility {} at first order, but this mechanism cannot move: second order blocks every velocity that the constraints allow",
+        d.mobility
+    )
+}

@@ -1,0 +1,11 @@
+//! What a program needs that builds a mechanism, asks and moves it: `use pfaff::prelude::*;`. The other joints and forces are in
+//! [`joints`](crate::joints), what comes out in [`report::documents`](crate::report::documents).
+
+pub use dynamics::MotionOptions;
+pub use joints::{Direction, KnifeEdge, Revolute, Translational};
+pub use model::{Body, BodyRef, Description, Function, Registry};
+pub use scene::Scene;
+
+pub use crate::error::StudyError;
+pub use crate::inquiry::Inquiry;
+pub use crate::study::{Overrides, Study};

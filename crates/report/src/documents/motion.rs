@@ -1,0 +1,99 @@
+//! A motion with its rows as plain data: what `summary.json`, `trajectory.csv` and `reactions.csv` say together.
+
+use model::reaction::COMPONENTS;
+use model::{Mechanism, Reaction, System};
+use serde::Serialize;
+
+use super::{Named, RunDocument};
+
+/// A run and its rows.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct MotionDocument {
+    /// As `summary.json`.
+    pub summary: RunDocument,
+    /// As the rows of `trajectory.csv` and `reactions.csv`, by the names of their columns.
+    pub rows: Vec<MomentDocument>,
+}
+
+impl MotionDocument {
+    /// The document of a run with its rows.
+    #[must_use]
+    pub fn new(summary: RunDocument, rows: Vec<MomentDocument>) -> Self {
+        Self { summary, rows }
+    }
+}
+
+/// State and reactions at one time.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct MomentDocument {
+    /// Time (s).
+    pub t: f64,
+    /// Bodies by name, in the order of the coordinates.
+    pub bodies: Named<BodyStateDocument>,
+    /// Of joints and drives by name, in the order of their rows, force and torque on the first body: `Fx`, `Fy` (N), `T` (N·m), and the
+    /// named component of the definition, if it has one. What was not computed is NaN, `null` in JSON.
+    pub reactions: Named<Named<f64>>,
+}
+
+/// Position and velocity of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct BodyStateDocument {
+    /// x of the centre of mass (m).
+    pub x: f64,
+    /// y of the centre of mass (m).
+    pub y: f64,
+    /// Angle (rad), not reduced to one turn.
+    pub angle: f64,
+    /// dx/dt (m/s)
+    pub vx: f64,
+    /// dy/dt (m/s)
+    pub vy: f64,
+    /// Angular velocity (rad/s).
+    pub omega: f64,
+}
+
+impl MomentDocument {
+    /// State and reactions of a mechanism: q and v body by body, reactions of all joints and drives in the order of their rows. What is too
+    /// much or too little is left out.
+    #[must_use]
+    pub fn new(
+        mechanism: &Mechanism,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        reactions: &[Reaction],
+    ) -> Self {
+        let (positions, _) = q.as_chunks::<3>();
+        let (velocities, _) = v.as_chunks::<3>();
+        let states = positions.iter().zip(velocities);
+        let bodies = mechanism.bodies().iter().zip(states);
+        let bodies = bodies.map(|(body, (&[x, y, angle], &[vx, vy, omega]))| {
+            let state = BodyStateDocument {
+                x,
+                y,
+                angle,
+                vx,
+                vy,
+                omega,
+            };
+            (body.name.clone(), state)
+        });
+        let groups = mechanism.layout().groups.iter().zip(reactions);
+        let reactions = groups.map(|(group, reaction)| {
+            let names = COMPONENTS.into_iter().chain(group.spec.component);
+            let [fx, fy] = reaction.force;
+            let numbers = [fx, fy, reaction.torque].into_iter();
+            let numbers = names.zip(numbers.chain(reaction.component));
+            let numbers = numbers.map(|(name, value)| (name.to_owned(), value));
+            (group.name.clone(), Named(numbers.collect()))
+        });
+        Self {
+            t,
+            bodies: Named(bodies.collect()),
+            reactions: Named(reactions.collect()),
+        }
+    }
+}
