@@ -1,5 +1,6 @@
 //! The same mechanism as a scene and as a program: everything that comes out is the same to the last bit.
 
+use pfaff::dynamics::MotionError;
 use pfaff::joints::{SpringDamper, Torque, Velocity};
 use pfaff::model::{Force, Joint};
 use pfaff::prelude::*;
@@ -249,8 +250,9 @@ fn errors_have_names() {
         "1 problem(s) in the description, the first: body `coupler`: mass is -4, need a number ≥ 0"
     );
     let far = build(&|d| d.bodies[4].position = [7.0, 7.0]);
+    assert!(matches!(far, StudyError::Motion(MotionError::Start(_))));
     assert!(far.is_input());
-    assert!(far.to_string().contains("`slide`"), "{far}");
+    assert!(far.to_string().contains("(`guide`, normal)"), "{far}");
     let nan = build(&|d| {
         let joint = Revolute {
             s_i: [f64::NAN, 0.0],
