@@ -169,6 +169,7 @@ impl Watch {
             max_velocity_residual: summary.max_velocity_residual,
             energy_balance: summary.energy_balance,
             start_correction: largest(&study.prepared.assembly.correction),
+            start_velocity_correction: largest(&study.prepared.velocity_correction),
             events: summary.events.len() as u64,
             rank: analysis.decision.rank as u64,
             redundancy: analysis.decision.redundancy as u64,

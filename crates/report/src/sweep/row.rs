@@ -85,6 +85,8 @@ pub struct SweepMotion {
     pub energy_balance: f64,
     /// Largest change of a coordinate by the assembly (m or rad).
     pub start_correction: f64,
+    /// Largest change of a velocity at the start (m/s or rad/s).
+    pub start_velocity_correction: f64,
     /// Events on the way.
     pub events: u64,
     /// Rank of C at the start.
@@ -126,12 +128,13 @@ const COUNTS: [&str; 8] = [
     "redundancy",
     "not_unique",
 ];
-const NUMBERS: [&str; 6] = [
+const NUMBERS: [&str; 7] = [
     "seconds",
     "max_position_residual",
     "max_velocity_residual",
     "energy_balance",
     "start_correction",
+    "start_velocity_correction",
     "t_state",
 ];
 const STATE: [&str; 6] = ["x", "y", "angle", "vx", "vy", "omega"];
@@ -191,6 +194,7 @@ impl SweepPlan {
             number(|m| m.max_velocity_residual),
             number(|m| m.energy_balance),
             number(|m| m.start_correction),
+            number(|m| m.start_velocity_correction),
             number(|m| m.t_state),
         ]);
         match motion {

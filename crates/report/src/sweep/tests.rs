@@ -64,6 +64,7 @@ fn row(run: u64) -> SweepRow {
             max_velocity_residual: 1e-17,
             energy_balance: 1e-9 * x,
             start_correction: -0.0,
+            start_velocity_correction: 0.5,
             events: 0,
             rank: 2,
             redundancy: 0,
@@ -287,12 +288,12 @@ fn tables_do_not_depend_on_who_made_the_rows() {
     assert_eq!(
         lines[0],
         "run,body.bob.mass,status,error,method,t,steps,rejected,evaluations,projections,events,rank,redundancy,not_unique,\
-         seconds,max_position_residual,max_velocity_residual,energy_balance,start_correction,t_state,bob.x,bob.y,bob.angle,bob.vx,\
+         seconds,max_position_residual,max_velocity_residual,energy_balance,start_correction,start_velocity_correction,t_state,bob.x,bob.y,bob.angle,bob.vx,\
          bob.vy,bob.omega,pivot.F_max,pivot.F_max_t,pivot.T_max,pivot.T_max_t"
     );
     assert_eq!(
         lines[1],
-        "1,0.3333333333333333,done,,dop853,1.0,10,0,120,10,0,2,0,0,0.001,5e-324,1e-17,1e-9,-0.0,1.0,0.30000000000000004,-1e300,\
+        "1,0.3333333333333333,done,,dop853,1.0,10,0,120,10,0,2,0,0,0.001,5e-324,1e-17,1e-9,-0.0,0.5,1.0,0.30000000000000004,-1e300,\
          1.0,1.0,NaN,inf,NaN,NaN,NaN,NaN"
     );
     assert!(lines[2].starts_with(
