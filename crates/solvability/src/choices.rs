@@ -17,6 +17,7 @@ pub use minimise::minimise;
 use crate::groups::{Configuration, LinearForm, RequestError, check};
 use crate::mechanism::dimensionless;
 use crate::verdict::Verdict;
+use crate::words;
 use minimise::independent_columns;
 
 /// A way to choose one of the solutions.
@@ -428,6 +429,18 @@ impl Configuration<'_> {
         }
     }
 
+    /// Joints and drives that share loads with others and are not listed: they do not give way.
+    fn rigid(&self, listed: &[Compliance]) -> Vec<ConstraintId> {
+        let groups = &self.mechanism.layout().groups;
+        let shares = |id: &ConstraintId| {
+            let judged = self.solvability.group(groups[id.0].rows.clone());
+            matches!(judged, Ok(judged) if judged.verdict == Verdict::NotUnique)
+        };
+        let ids = self.mechanism.constraint_ids();
+        ids.filter(|id| listed.iter().all(|j| j.reaction != *id) && shares(id))
+            .collect()
+    }
+
     fn label(&self, choice: &Choice) -> Label {
         let layout = self.mechanism.layout();
         let text = match choice {
@@ -447,8 +460,12 @@ impl Configuration<'_> {
                         false => format!("`{name}` {along}, {:e} rad/(N·m)", j.rotation),
                     }
                 };
-                let joints: Vec<String> = joints.iter().map(joint).collect();
-                format!("elastic supports: {}", joints.join("; "))
+                let listed: Vec<String> = joints.iter().map(joint).collect();
+                let rigid = match words::names(layout, &self.rigid(joints)).as_slice() {
+                    [] => String::new(),
+                    names => format!("; rigid: {}", names.join(", ")),
+                };
+                format!("elastic supports: {}{rigid}", listed.join("; "))
             }
             Choice::Elimination(rows) => {
                 let labels: Vec<RowLabel> =

@@ -359,6 +359,15 @@ fn choices_are_labelled_and_facts_are_not() {
             assert_eq!((y.get("choice"), &y["nature"]), (None, &json!("fact")));
         }
     }
+    // What is not listed does not give way, and both texts say so.
+    let rigid = ["analyze", "-", "--choose", "compliance:left=1e-6"];
+    let label = "elastic supports: `left` 1e-6 m/N; rigid: `right`";
+    contains(&stdout(&with_scene(&rigid, BEAM)), &[label]);
+    let d = document(&with_scene(&[&rigid[..], &["--json"]].concat(), BEAM));
+    assert_eq!(d["choices"][0]["label"], label);
+    let listed = "elastic supports: `left` 1e-6 m/N; `right` 2e-6 m/N";
+    let d = document(&with_scene(&all, BEAM));
+    assert_eq!(d["choices"][1]["label"], listed);
     let text = stdout(&with_scene(&["analyze", "-", "--choose", "drop:3"], BEAM));
     contains(
         &text,
