@@ -334,7 +334,7 @@ pub(crate) fn judge(
     let dependencies = linalg::short_circuits(solvability.decision())
         .into_iter()
         .map(|circuit| Dependency {
-            text: words::describe(&circuit, layout),
+            text: words::describe(mechanism, &circuit),
             rows: circuit.rows,
             coefficients: circuit.coefficients,
         })

@@ -57,13 +57,14 @@ pub(crate) fn of_stress(
             };
             format!(
                 "{action}; how the load is shared between them is not determined{}",
-                sum(solvability, circuit)
+                sum(mechanism, solvability, circuit)
             )
         }
         ([_, _, _, ..], _) if circuit.rows.len() > TELLABLE => format!(
-            "{} can press against each other without any load, in one way that involves {} rows; how a load is shared among \
+            "{} can {} without any load, in one way that involves {} rows; how a load is shared among \
              them is not determined",
             list(&names(layout, &ids)),
+            Loads::of(mechanism, circuit).act(),
             circuit.rows.len()
         ),
         ([_, _, _, ..], _) => {
@@ -73,15 +74,16 @@ pub(crate) fn of_stress(
                 .map(|&i| layout.labels[i].to_string())
                 .collect();
             format!(
-                "{} can press against each other without any load: of the rows {}, any {} imply the remaining one; how a load is \
-                 shared among them is not determined (forces in the ratio {} cancel out)",
+                "{} can {} without any load: of the rows {}, any {} imply the remaining one; how a load is \
+                 shared among them is not determined ({} cancel out)",
                 list(&names(layout, &ids)),
+                Loads::of(mechanism, circuit).act(),
                 rows.join(", "),
                 rows.len() - 1,
-                ratio(circuit)
+                in_ratio(mechanism, circuit)
             )
         }
-        _ => describe(circuit, layout),
+        _ => describe(mechanism, circuit),
     }
 }
 
@@ -115,8 +117,9 @@ fn slips(layout: &Layout, ids: &[ConstraintId]) -> bool {
 }
 
 /// What two rows share: forces that cancel, and whether the combination that this circuit leaves alone is determined.
-fn sum(solvability: &Solvability, circuit: &Circuit) -> String {
-    let cancel = format!("; forces {} on them cancel", ratio(circuit));
+fn sum(mechanism: &Mechanism, solvability: &Solvability, circuit: &Circuit) -> String {
+    let loads = Loads::of(mechanism, circuit).word();
+    let cancel = format!("; {loads} {} on them cancel", ratio(mechanism, circuit));
     let ([i, j], [a, b]) = (circuit.rows.as_slice(), circuit.coefficients.as_slice()) else {
         return cancel;
     };
@@ -130,7 +133,7 @@ fn sum(solvability: &Solvability, circuit: &Circuit) -> String {
     match solvability.combination(&l).map(|judged| judged.verdict) {
         Ok(Verdict::Unique) => format!(
             "{cancel}, their sum with weights {} is determined",
-            ratio(&combined)
+            ratio(mechanism, &combined)
         ),
         Ok(Verdict::NotUnique) => {
             format!("{cancel}, and their sum depends on other reactions that are not determined")
@@ -141,7 +144,8 @@ fn sum(solvability: &Solvability, circuit: &Circuit) -> String {
 
 /// What a circuit means for the one who reads it. Nothing is said of sums that would be unique: rows may take part in other
 /// circuits too.
-pub(crate) fn describe(circuit: &Circuit, layout: &Layout) -> String {
+pub(crate) fn describe(mechanism: &Mechanism, circuit: &Circuit) -> String {
+    let layout = mechanism.layout();
     let labels: Vec<String> = circuit
         .rows
         .iter()
@@ -151,31 +155,77 @@ pub(crate) fn describe(circuit: &Circuit, layout: &Layout) -> String {
         [row] => format!("row {row} constrains nothing here: its multiplier is not determined"),
         [a, b] => format!(
             "rows {a} and {b} forbid the same motion: how a load is shared between them is not determined \
-             (forces in the ratio {} cancel out)",
-            ratio(circuit)
+             ({} cancel out)",
+            in_ratio(mechanism, circuit)
         ),
         rows => format!(
             "of the rows {}, any {} imply the remaining one: how a load is shared among them is not determined \
-             (forces in the ratio {} cancel out)",
+             ({} cancel out)",
             rows.join(", "),
             rows.len() - 1,
-            ratio(circuit)
+            in_ratio(mechanism, circuit)
         ),
     }
 }
 
-/// Coefficients with the signs that are mostly positive, without trailing zeros.
-fn ratio(circuit: &Circuit) -> String {
+/// What the multipliers of a circuit are: a row in metres has a force, one in radians a torque.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Loads {
+    Forces,
+    Torques,
+    Both,
+}
+
+impl Loads {
+    fn of(mechanism: &Mechanism, circuit: &Circuit) -> Self {
+        let angular = circuit.rows.iter().filter(|&&i| mechanism.is_angular(i));
+        match angular.count() {
+            0 => Self::Forces,
+            n if n == circuit.rows.len() => Self::Torques,
+            _ => Self::Both,
+        }
+    }
+
+    fn word(self) -> &'static str {
+        match self {
+            Self::Forces => "forces",
+            Self::Torques => "torques",
+            Self::Both => "forces and torques",
+        }
+    }
+
+    /// What joints do to each other with them.
+    fn act(self) -> &'static str {
+        match self {
+            Self::Forces => "press against each other",
+            Self::Torques => "turn against each other",
+            Self::Both => "press and turn against each other",
+        }
+    }
+}
+
+fn in_ratio(mechanism: &Mechanism, circuit: &Circuit) -> String {
+    let loads = Loads::of(mechanism, circuit).word();
+    format!("{loads} in the ratio {}", ratio(mechanism, circuit))
+}
+
+/// Coefficients with the signs that are mostly positive, without trailing zeros; with units where they are not all of one kind.
+fn ratio(mechanism: &Mechanism, circuit: &Circuit) -> String {
     let negative = circuit.coefficients.iter().filter(|c| **c < 0.0).count();
     let sign = if 2 * negative > circuit.coefficients.len() {
         -1.0
     } else {
         1.0
     };
-    let parts: Vec<String> = circuit
-        .coefficients
-        .iter()
-        .map(|c| short(sign * c))
+    let is_mixed = Loads::of(mechanism, circuit) == Loads::Both;
+    let unit = |row: usize| match (is_mixed, mechanism.is_angular(row)) {
+        (false, _) => "",
+        (true, false) => " N",
+        (true, true) => " N·m",
+    };
+    let terms = circuit.rows.iter().zip(&circuit.coefficients);
+    let parts: Vec<String> = terms
+        .map(|(&row, c)| format!("{}{}", short(sign * c), unit(row)))
         .collect();
     parts.join(" : ")
 }
