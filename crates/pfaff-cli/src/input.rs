@@ -1,9 +1,10 @@
 //! A scene file from the command line, or standard input.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
+use pfaff::scene::nearest;
 use pfaff::{Overrides, Study, StudyError};
 
 use crate::output::Failure;
@@ -12,6 +13,9 @@ use crate::resources::{Resources, Stage};
 /// Largest scene that is read (bytes): ten times what a hundred thousand bodies take. A device that never ends
 /// must not fill the memory.
 pub(crate) const LARGEST: u64 = 1 << 28;
+
+/// Entries of a directory among which a name is looked for.
+const LOOKED_AT: usize = 10_000;
 
 /// The text of a scene with the name that messages call it by.
 pub(crate) struct Source {
@@ -33,7 +37,7 @@ impl Source {
         } else {
             File::open(path).and_then(bounded)
         };
-        let bytes = bytes.map_err(|e| Failure::input(format!("cannot read `{name}`: {e}")))?;
+        let bytes = bytes.map_err(|e| unreadable(path, &e))?;
         if bytes.len() as u64 > LARGEST {
             let largest = LARGEST >> 20;
             return Err(Failure::input(format!(
@@ -91,6 +95,49 @@ impl Source {
             other => Failure::stopped(other.to_string()),
         }
     }
+}
+
+/// A file that cannot be read, with the scene beside it that was probably meant.
+pub(crate) fn unreadable(path: &Path, e: &io::Error) -> Failure {
+    let name = match path.as_os_str() == "-" {
+        true => "<stdin>".into(),
+        false => path.display().to_string(),
+    };
+    let near = match e.kind() {
+        io::ErrorKind::NotFound => scene_beside(path),
+        _ => None,
+    };
+    let advice = near.map_or_else(String::new, |near| {
+        format!("; did you mean `{}`?", near.display())
+    });
+    Failure::input(format!("cannot read `{name}`: {e}{advice}"))
+}
+
+/// The scene in the directory of a path whose name is nearest to that of the path.
+fn scene_beside(path: &Path) -> Option<PathBuf> {
+    let directory = match path.parent() {
+        Some(parent) if parent.as_os_str() != "" => parent,
+        _ => Path::new("."),
+    };
+    let entries = fs::read_dir(directory).ok()?.take(LOOKED_AT).flatten();
+    let scenes = entries.map(|entry| PathBuf::from(entry.file_name()));
+    let scenes = scenes.filter(|file| file.extension().is_some_and(|end| end == "toml"));
+    let stem = |file: &Path| Some(file.file_stem()?.to_str()?.to_owned());
+    let mut stems: Vec<String> = scenes.filter_map(|file| stem(&file)).collect();
+    // Directories have no order.
+    stems.sort_unstable();
+    let near = nearest(&stem(path)?, stems.iter().map(String::as_str))?;
+    Some(path.with_file_name(format!("{near}.toml")))
+}
+
+/// What does not exist, with the name that was probably meant and those there are.
+pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> Failure {
+    let near = nearest(name, known.iter().copied());
+    let advice = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
+    Failure::input(format!(
+        "there is no {what} `{name}`; there are: {}{advice}",
+        known.join(", ")
+    ))
 }
 
 /// All bytes, or one more than a scene may have.

@@ -14,6 +14,7 @@ use stress::Family;
 
 use crate::Outcome;
 use crate::args::Stress;
+use crate::input::unknown;
 use crate::output::{Failure, columns, count, print, wrapped};
 use crate::work_precision::provenance;
 
@@ -65,10 +66,7 @@ fn families(arguments: &Stress) -> Result<Vec<Family>, Failure> {
     let known = |name: &String| {
         stress::find(name).ok_or_else(|| {
             let names: Vec<&str> = stress::families().iter().map(|f| f.name).collect();
-            Failure::input(format!(
-                "there is no family `{name}`; there are: {}",
-                names.join(", ")
-            ))
+            unknown("family", name, &names)
         })
     };
     arguments.family.iter().map(known).collect()

@@ -9,7 +9,7 @@ use std::time::{Duration, SystemTime};
 use crate::Outcome;
 use crate::args::Check;
 use crate::check;
-use crate::input::Source;
+use crate::input::{Source, unreadable};
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, is_coloured, print};
 
@@ -69,10 +69,6 @@ fn changed(path: &Path, seen: Stamp) -> Result<Stamp, Failure> {
             }
         }
     }
-}
-
-fn unreadable(path: &Path, e: &io::Error) -> Failure {
-    Failure::input(format!("cannot read `{}`: {e}", path.display()))
 }
 
 /// What changes with a file.

@@ -1,5 +1,7 @@
 //! `pfaff work-precision`: error against run time, as a table, a figure and a page.
 
+use std::path::Path;
+
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::StudyError;
 use pfaff::report::{
@@ -11,7 +13,7 @@ use pfaff::work_precision::{Plan, Subject, overview, provenance};
 
 use crate::Outcome;
 use crate::args::WorkPrecision;
-use crate::input::Source;
+use crate::input::{Source, unknown};
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, incomplete, print, wrapped};
 use crate::resources::Resources;
@@ -74,11 +76,21 @@ fn subjects(arguments: &WorkPrecision) -> Result<Vec<Subject>, Failure> {
         if let Some(case) = case {
             return Subject::of_case(case).map_err(unreadable);
         }
+        // A name without a place and an ending is that of a case.
+        if let Some(name) = path.to_str().filter(|_| !path.exists() && is_bare(path)) {
+            let names: Vec<&str> = suite::all().map(|case| case.name).collect();
+            return Err(unknown("file or case", name, &names));
+        }
         let source = Source::read(path)?;
         let study = source.study(&pfaff::Overrides::default(), Resources::default())?;
         Subject::of_study(study).map_err(|e| source.failure(e))
     });
     scenes.collect()
+}
+
+/// Whether this is a name alone: no directory, no ending, not standard input.
+fn is_bare(path: &Path) -> bool {
+    path.components().count() == 1 && path.extension().is_none() && path.as_os_str() != "-"
 }
 
 /// Why rows end early.

@@ -4,10 +4,12 @@
 const LONGEST: usize = 80;
 
 /// The candidate nearest to `name`, if one is near enough: at most a third of its letters differ, and not all. A plural is near.
-pub(crate) fn nearest<'a>(
-    name: &str,
-    candidates: impl IntoIterator<Item = &'a str>,
-) -> Option<&'a str> {
+///
+/// ```
+/// assert_eq!(scene::nearest("dor", ["cart", "door"]), Some("door"));
+/// assert_eq!(scene::nearest("hinge", ["cart", "door"]), None);
+/// ```
+pub fn nearest<'a>(name: &str, candidates: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let singular = name.strip_suffix("ies").map(|stem| format!("{stem}y"));
     let name = singular.as_deref().unwrap_or(name);
     let letters = name.chars().count();

@@ -429,3 +429,35 @@ fn negative_numbers_of_the_command_line_are_values() {
         stderr(&output)
     );
 }
+
+#[test]
+fn names_that_do_not_exist_are_answered_with_those_that_do() {
+    let folder = Folder::new("names-beside");
+    std::fs::create_dir_all(&folder.0).expect("writable");
+    std::fs::write(folder.0.join("door.toml"), PENDULUM).expect("writable");
+    let path = |name: &str| folder.0.join(name).display().to_string();
+    let out = path("out");
+    let (dor, bare, hinge) = (path("dor.toml"), path("door"), path("hinge.toml"));
+    let near = format!("did you mean `{}`?", path("door.toml"));
+    for (arguments, piece) in [
+        (&["check", &dor][..], &*near),
+        (&["check", &bare], &near),
+        (&["check", &dor, "--watch"], &near),
+        (&["simulate", &dor, "--out", &out], &near),
+        (
+            &["work-precision", "sleih", "--out", &out],
+            "cash-pendulum; did you mean `sleigh`?",
+        ),
+        (
+            &["stress", "--family", "contradiction", "--out", &out],
+            "; did you mean `contradictions`?",
+        ),
+    ] {
+        let output = pfaff(arguments);
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        assert!(said.contains(piece), "`{piece}` is not in:\n{said}");
+    }
+    let said = stderr(&pfaff(&["check", &hinge]));
+    assert!(!said.contains("did you mean"), "{said}");
+}
