@@ -272,7 +272,7 @@ pub enum MotionError {
     #[error(transparent)]
     Contradiction(#[from] Contradiction),
     /// The rank of the start is undecided.
-    #[error("the rank of the start is undecided, so no rows can be chosen: {0}")]
+    #[error("the rank of the start is undecided, so no rows can be chosen: {}", undecided(.0))]
     RankUndecided(Doubt),
     /// Kept rows that only differ by what no motion can be computed with.
     #[error(
@@ -335,6 +335,39 @@ impl MotionError {
             sigma: found.sigma,
             required: linalg::NEARLY_SINGULAR,
         }
+    }
+}
+
+/// A doubt in the words of one who writes scenes: what can be changed there.
+fn undecided(doubt: &Doubt) -> String {
+    match *doubt {
+        Doubt::NoClearGap {
+            lower,
+            upper,
+            sigma,
+            tolerance,
+            required,
+        } => {
+            let advice = match required > linalg::NEARLY_SINGULAR {
+                true => {
+                    "Places are known too badly for this: lengths differ too much, or lie too far from the origin"
+                }
+                false => {
+                    "Some rows depend on each other nearly but not quite: correct the misalignment of their joints, or delete one of them"
+                }
+            };
+            format!(
+                "singular value {sigma:.3e} lies between the tolerance {tolerance:.3e} and {required:.3e}: rank {lower} or {upper}. {advice}"
+            )
+        }
+        Doubt::NotPolished {
+            sigma_max,
+            tolerance,
+        } => format!(
+            "tolerance {tolerance:.3e} exceeds the largest singular value {sigma_max:.3e}: places are known too badly for any rank; place the mechanism \
+             nearer to the origin"
+        ),
+        other => other.to_string(),
     }
 }
 

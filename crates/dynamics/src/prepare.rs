@@ -3,10 +3,12 @@
 
 use std::sync::Arc;
 
-use linalg::RankStatus;
+use linalg::{Doubt, RankStatus};
 use model::start::{assemble, consistent_velocity};
-use model::{Assembly, Mechanism, StartOptions, System};
-use solvability::{RowDecision, decide_rows_dropping, rows as rows_of};
+use model::{Assembly, Mechanism, Scratch, StartOptions, System};
+use solvability::{
+    LARGE, RowDecision, certify, decide_rows_dropping, inseparable, rows as rows_of,
+};
 
 use crate::code::SceneCode;
 use crate::error::{DropError, MotionError};
@@ -57,6 +59,20 @@ impl Prepared {
     }
 }
 
+/// Why nothing moves on a rank that is undecided in `f64`: in higher precision it is that of the data, and the rows that make it doubtful have names.
+fn doubtful(mechanism: &Mechanism, s: &Scratch, q: &[f64], doubt: Doubt) -> MotionError {
+    let layout = mechanism.layout();
+    let of_the_data = match layout.rows() <= LARGE {
+        true => certify(mechanism, s.t, q).ok(),
+        false => None,
+    };
+    let decided = of_the_data.filter(|decision| decision.is_decided());
+    match decided.and_then(|decision| inseparable(mechanism, s, q, &decision)) {
+        Some(nearly) => MotionError::inseparable(&nearly, &layout.labels),
+        None => MotionError::RankUndecided(doubt),
+    }
+}
+
 /// Assembles the start, decides the rank there, chooses rows, and makes the velocities consistent.
 ///
 /// # Errors
@@ -78,7 +94,7 @@ pub fn prepare(
     let found = rows_of(&mechanism, &s, &assembly.q)?;
     for decision in [&found.all, &found.holonomic] {
         if let RankStatus::Undecided(doubt) = decision.status {
-            return Err(MotionError::RankUndecided(doubt));
+            return Err(doubtful(&mechanism, &s, &assembly.q, doubt));
         }
     }
     if let Some(nearly) = found.inseparable(&mechanism, &s, &assembly.q) {

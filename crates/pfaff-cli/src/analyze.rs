@@ -9,11 +9,10 @@ mod numbers;
 mod rank;
 mod text;
 
-use pfaff::dynamics::MotionError;
 use pfaff::model::{Registry, System};
 use pfaff::report::{AnalysisDocument, write_json};
 use pfaff::solvability::LARGE;
-use pfaff::{Blueprint, Inquiry, Overrides, Study, StudyError};
+use pfaff::{Blueprint, Inquiry, Overrides, Study};
 
 use crate::Outcome;
 use crate::args::Analyze;
@@ -45,17 +44,8 @@ pub(crate) fn run(arguments: &Analyze) -> Outcome {
         Err(e) => e,
     };
     // What cannot move can be judged all the same, at the start.
-    let warning = match &error {
-        StudyError::Motion(MotionError::RankUndecided(_)) => {
-            "the rank of the start is undecided in double precision, so this mechanism cannot be moved".to_owned()
-        }
-        StudyError::Motion(e @ MotionError::Inseparable { .. }) => {
-            format!("this mechanism cannot be moved: {e}")
-        }
-        StudyError::SingularStart { contradiction, .. } => {
-            format!("no motion begins with these velocities: {contradiction}")
-        }
-        _ => return Err(source.failure(error)),
+    let Some(warning) = error.only_motion() else {
+        return Err(source.failure(error));
     };
     match arguments.at_time == 0.0 && arguments.along.is_none() {
         true => of_start(arguments, &source, drop.as_deref(), warning),

@@ -5,7 +5,7 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
 use pfaff::scene::nearest;
-use pfaff::{Overrides, Study, StudyError};
+use pfaff::{Blueprint, Overrides, Study, StudyError};
 
 use crate::output::Failure;
 use crate::resources::{Resources, Stage};
@@ -60,19 +60,19 @@ impl Source {
         resources: Resources,
     ) -> Result<Study, Failure> {
         resources.apply()?;
-        self.prepared(overrides, resources)
-    }
-
-    /// The same where threads have been limited already.
-    pub(crate) fn assembled(&self, resources: Resources) -> Result<Study, Failure> {
-        self.prepared(&Overrides::default(), resources)
-    }
-
-    fn prepared(&self, overrides: &Overrides, resources: Resources) -> Result<Study, Failure> {
         let blueprint = resources.blueprint(self)?;
-        let _said = Stage::begin(self, "assembling and choosing rows");
-        let study = blueprint.prepare(overrides);
+        let study = self.prepare(blueprint, overrides);
         study.map_err(|e| self.failure(e))
+    }
+
+    /// Assembles what was read from this text.
+    pub(crate) fn prepare(
+        &self,
+        blueprint: Blueprint,
+        overrides: &Overrides,
+    ) -> Result<Study, StudyError> {
+        let _said = Stage::begin(self, "assembling and choosing rows");
+        blueprint.prepare(overrides)
     }
 
     /// An error with the places of this text.

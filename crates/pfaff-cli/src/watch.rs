@@ -8,7 +8,7 @@ use std::time::{Duration, SystemTime};
 
 use crate::Outcome;
 use crate::args::Check;
-use crate::check;
+use crate::check::Checked;
 use crate::input::{Source, unreadable};
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, is_coloured, print};
@@ -42,10 +42,8 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
 
 /// What a check says, whether the scene is right or wrong.
 fn verdict(arguments: &Check) -> String {
-    let checked = Source::read(&arguments.scene).and_then(|source| {
-        let study = source.assembled(arguments.resources)?;
-        Ok(check::describe(&study))
-    });
+    let checked = Source::read(&arguments.scene)
+        .and_then(|source| Ok(Checked::of(&source, arguments.resources)?.describe()));
     checked.unwrap_or_else(|failure| failure.words(is_coloured(&io::stdout())))
 }
 

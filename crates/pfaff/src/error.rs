@@ -99,6 +99,22 @@ fn suggestion(nearest: Option<&str>) -> String {
 }
 
 impl StudyError {
+    /// Why a scene cannot be moved although its start can be judged, by [`Blueprint::inquire`](crate::Blueprint::inquire); nothing where the start
+    /// is no start, or nothing keeps the scene from moving.
+    #[must_use]
+    pub fn only_motion(&self) -> Option<String> {
+        match self {
+            Self::Motion(e @ (MotionError::RankUndecided(_) | MotionError::Inseparable { .. })) => {
+                Some(format!("this mechanism cannot be moved: {e}"))
+            }
+            Self::SingularStart(diagnostic) => Some(format!(
+                "no motion begins with these velocities: {}",
+                diagnostic.message
+            )),
+            _ => None,
+        }
+    }
+
     /// Whether the input is wrong; otherwise the computation stopped.
     #[must_use]
     pub fn is_input(&self) -> bool {

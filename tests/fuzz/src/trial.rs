@@ -7,7 +7,7 @@ mod moved;
 
 use std::fmt;
 
-use pfaff::dynamics::{MotionError, MotionOptions};
+use pfaff::dynamics::MotionOptions;
 use pfaff::model::Registry;
 use pfaff::scene::Diagnostic;
 use pfaff::{Blueprint, Overrides, StudyError};
@@ -126,11 +126,7 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
             if let StudyError::Scene(problems) = &e {
                 places(text, problems);
             }
-            let can_be_judged = matches!(
-                e,
-                StudyError::Motion(MotionError::RankUndecided(_))
-                    | StudyError::SingularStart { .. }
-            );
+            let can_be_judged = e.only_motion().is_some();
             let Some(mut blueprint) = read().ok().filter(|_| can_be_judged) else {
                 return Reach::NoStart;
             };

@@ -2,8 +2,9 @@
 
 use serde_json::{Value, json};
 
+use super::analyze::{contains, document};
 use super::bad_input::{PENDULUM, contradiction_at_half_a_second};
-use super::{Folder, ROBOT, pfaff, stderr, with_scene};
+use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
 /// The document of a failure; nothing else may be said.
 #[track_caller]
@@ -84,21 +85,31 @@ fn a_run_that_stops_has_code_1() {
 }
 
 #[test]
-fn a_check_that_stops_has_code_1_in_json_as_in_words() {
-    // Two pivots 10⁻¹² m apart: one constraint too many, or a bar that cannot turn. The rank is undecided.
-    let twin = "[[joint]]\nname = \"twin\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bob\"]\nat = [1e-12, 0.0]\n";
-    let scene = format!("{PENDULUM}{twin}");
-    let words = with_scene(&["check", "-"], &scene);
-    assert_eq!(words.status.code(), Some(1), "{words:?}");
-    let d = failure(&with_scene(&["check", "-", "--json"], &scene), 1);
-    let text = stderr(&words);
-    assert_eq!(
-        Some(text.trim()),
-        d["error"]
-            .as_str()
-            .map(|e| format!("error: {e}"))
-            .as_deref()
-    );
+fn what_can_be_judged_but_not_moved_is_checked_analysed_and_not_simulated() {
+    // Two pivots nearly at one place: one constraint too many, or a bar that cannot turn.
+    for distance in ["1e-9", "1e-12"] {
+        let twin = format!(
+            "[[joint]]\nname = \"twin\"\ntype = \"revolute\"\nbodies = [\"ground\", \"bob\"]\nat = [{distance}, 0.0]\n"
+        );
+        let scene = format!("{PENDULUM}{twin}");
+        let d = document(&with_scene(&["check", "-", "--json"], &scene));
+        assert_eq!(d["ok"], true, "{d:#}");
+        let warning = d["warnings"][0].as_str().expect("a warning");
+        let words = stdout(&with_scene(&["check", "-"], &scene));
+        contains(&words, &["assembled", &format!("warning: {warning}")]);
+        let d = document(&with_scene(&["analyze", "-", "--json"], &scene));
+        assert_eq!(d["warnings"][0], warning, "{d:#}");
+        // Why, in words of the scene.
+        let folder = Folder::new("twin-pivots");
+        let out = folder.0.to_str().expect("UTF-8");
+        let output = with_scene(&["simulate", "-", "--out", out], &scene);
+        assert_eq!(output.status.code(), Some(1), "{output:?}");
+        let said = stderr(&output);
+        for piece in ["(`pivot`, y)", "(`twin`, y)", "Correct the misalignment"] {
+            assert!(said.contains(piece), "`{piece}` is not in:\n{said}");
+        }
+        assert!(!said.contains("higher precision"), "{said}");
+    }
 }
 
 #[test]

@@ -73,5 +73,14 @@ fn a_start_that_cannot_be_left_is_judged_and_warned_of() {
         "{warning}"
     );
     let output = with_scene(&["check", "-"], &still);
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    contains(
+        &stdout(&output),
+        &["warning: no motion begins with these velocities"],
+    );
+    let output = with_scene(
+        &["simulate", "-", "--t-end", "1", "--out", "unused"],
+        &still,
+    );
     assert_eq!(output.status.code(), Some(2), "{output:?}");
 }
