@@ -58,6 +58,14 @@ impl Mechanism {
         terms.sum::<f64>() + s.b[i].abs()
     }
 
+    /// Size of the terms of row `i` of `C·v − b` whichever way the bodies point: a row that happens to be perpendicular to the motion is known to
+    /// the rounding of these, not to that of the terms it has. Needs C and b at the pose of the scratch; allocates.
+    #[must_use]
+    pub fn bounded_velocity_scale(&self, s: &Scratch, i: usize, v: &[f64]) -> f64 {
+        let bounds = self.entry_bounds(s, i).into_iter();
+        bounds.map(|(j, c)| c * v[j].abs()).sum::<f64>() + s.b[i].abs()
+    }
+
     /// Size of the terms of row `i` of `C·v̇ − Γ` at velocities v: `|Γ_i|` and what the row makes of the centripetal terms of its
     /// bodies, `|C_ij|·(|v_j|·ω + size·ω²)` for translations and `|C_ij|·ω²` for rotations, with the largest |ω| of the
     /// row. Needs C and Γ.

@@ -277,7 +277,7 @@ pub fn consistent_velocity(
             .collect();
         let scale = kept
             .iter()
-            .map(|&i| mechanism.velocity_scale(&s, i, &v))
+            .map(|&i| mechanism.bounded_velocity_scale(&s, i, &v))
             .fold(0.0, f64::max);
         let (worst, size) = largest(kept.iter().copied().zip(residual.iter().map(|r| r.abs())));
         let tolerance = ROUNDINGS * f64::EPSILON * scale;

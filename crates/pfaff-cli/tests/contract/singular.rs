@@ -84,3 +84,32 @@ fn a_start_that_cannot_be_left_is_judged_and_warned_of() {
     );
     assert_eq!(output.status.code(), Some(2), "{output:?}");
 }
+
+/// Two edges of one cart whose normals or places differ by less than a rounding: the data say that they are independent, and the start is judged so. Nothing is
+/// wrong with its velocities, and a run is refused for what is wrong, the misalignment.
+#[test]
+fn edges_that_differ_by_a_rounding_are_judged_and_named() {
+    for (motion, point, normal) in [
+        ("velocity = [1.0, 0.0]", "[0.0, -0.5]", "[1e-17, 1.0]"),
+        ("velocity = [1.0, 0.0]", "[0.0, 0.5]", "[1e-17, 1.0]"),
+        ("angular_velocity = 0.5", "[0.0, 0.5]", "[1e-17, 1.0]"),
+        ("angular_velocity = 0.5", "[1e-17, -0.5]", "[0.0, 1.0]"),
+    ] {
+        let scene = format!(
+            r#"scene = {{ name = "cart", space = "plane" }}
+            body = [{{ name = "cart", mass = 10.0, inertia = 1.0, {motion} }}]
+            joint = [
+                {{ name = "left", type = "knife-edge", body = "cart", point = [0.0, 0.5], normal = [0.0, 1.0] }},
+                {{ name = "right", type = "knife-edge", body = "cart", point = {point}, normal = {normal} }},
+            ]"#
+        );
+        let output = with_scene(&["analyze", "-"], &scene);
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        contains(
+            &stdout(&output),
+            &["rank 2", "NEARLY REDUNDANT", "cannot be moved"],
+        );
+        let output = with_scene(&["check", "-"], &scene);
+        contains(&stdout(&output), &["depend on each other but for"]);
+    }
+}
