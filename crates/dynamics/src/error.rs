@@ -105,6 +105,23 @@ pub enum Trip {
         /// What is allowed.
         tolerance: f64,
     },
+    /// A row that is dropped because the start is singular holds no more beside it.
+    #[error(
+        "the run begins at a singular configuration: its degree of redundancy is {redundancy} there and {elsewhere} elsewhere, so that the constraints do not \
+         determine how it goes on (row {row}, redundant only there, is violated by {residual:.3e} at t = {time} s); begin at another configuration"
+    )]
+    SingularStart {
+        /// Degree of redundancy at the start.
+        redundancy: usize,
+        /// The same at other configurations.
+        elsewhere: usize,
+        /// When the row was seen to be violated.
+        time: f64,
+        /// The row.
+        row: RowLabel,
+        /// Its residual.
+        residual: f64,
+    },
     /// Newton's method for dependent coordinates went to a configuration far away: another branch, or another turn.
     #[error(
         "at t = {time} s the dependent coordinates could only be found {by:.2} (lengths of the mechanism, or radians) from where the \

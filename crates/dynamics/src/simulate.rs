@@ -20,6 +20,7 @@ use integrators::{
     Outcome, OutputTimes, Radau5, Rows, Tsit5, integrate,
 };
 use model::System;
+use solvability::generic;
 
 use crate::error::{MotionError, Trip};
 use crate::motion::KeptRowMotion;
@@ -171,7 +172,33 @@ fn run_component(
             error => error,
         },
     };
+    let error = at_singular_start(prepared, error);
     Err(Box::new(Failure { error, summary }))
+}
+
+/// Whether a dropped row was violated because it is redundant at the start alone: then nothing contradicts it.
+fn at_singular_start(prepared: &Prepared, error: MotionError) -> MotionError {
+    let MotionError::Trip(Trip::DroppedRow {
+        time,
+        row,
+        residual,
+        ..
+    }) = &error
+    else {
+        return error;
+    };
+    let redundancy = prepared.decision.redundancy;
+    match generic(&prepared.mechanism, 0.0, &prepared.q) {
+        Some(found) if found.redundancy < redundancy => Trip::SingularStart {
+            redundancy,
+            elsewhere: found.redundancy,
+            time: *time,
+            row: row.clone(),
+            residual: *residual,
+        }
+        .into(),
+        _ => error,
+    }
 }
 
 /// The times of the rows.

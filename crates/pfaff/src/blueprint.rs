@@ -165,7 +165,7 @@ fn refused(scene: &Scene, error: MotionError) -> StudyError {
 
 /// Whether rows contradict each other in accelerations only, and none of them is driven: another velocity would do.
 fn leaves_no_motion(e: &MotionError) -> bool {
-    matches!(e, MotionError::Contradiction(c) if c.level == ConstraintLevel::Acceleration && !c.driven)
+    matches!(e, MotionError::Contradiction(c) if c.level == ConstraintLevel::Acceleration && c.drives == 0)
 }
 
 /// The scene's wishes with those of the caller on top.

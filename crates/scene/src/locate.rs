@@ -94,6 +94,9 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
         MotionError::Trip(trip) => match trip {
             Trip::RankLost { row: label, .. } => (row(map, label), "becomes dependent"),
             Trip::OffConstraints { row: label, .. } => (row(map, label), "misses most"),
+            Trip::SingularStart { row: label, .. } => {
+                (row(map, label), "redundant at the start alone")
+            }
             Trip::DroppedRow { row: label, .. } => (row(map, label), "is violated"),
             Trip::Massless { body, .. } => {
                 let entry = map.body(body);

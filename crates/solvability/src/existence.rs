@@ -4,6 +4,8 @@
 //!
 //! Nothing is decided here about the rank: contradictions are those of the circuits of decided ranks.
 
+use std::collections::BTreeSet;
+
 use linalg::{Circuit, RankDecision};
 use model::start::scene_size;
 use model::{Mechanism, RowLabel, System};
@@ -51,7 +53,7 @@ impl std::fmt::Display for ConstraintLevel {
 #[error(
     "at t = {time} s rows {} depend on each other but ask for different {level}: they differ by {size:.3e} {unit}. {}",
     list(rows),
-    advice(*driven, *level)
+    advice(*drives, *level)
 )]
 #[non_exhaustive]
 pub struct Contradiction {
@@ -68,8 +70,8 @@ pub struct Contradiction {
     pub unit: &'static str,
     /// Up to here `size` would be rounding.
     pub tolerance: f64,
-    /// Whether functions of time take part.
-    pub driven: bool,
+    /// How many joints and drives with functions of time take part.
+    pub drives: usize,
 }
 
 fn list(rows: &[RowLabel]) -> String {
@@ -79,13 +81,17 @@ fn list(rows: &[RowLabel]) -> String {
         .join(", ")
 }
 
-fn advice(driven: bool, level: ConstraintLevel) -> &'static str {
-    match (driven, level) {
-        (true, _) => "Redundant drives must follow the same motion; delete or correct one of them",
-        (false, ConstraintLevel::Position) => {
+fn advice(drives: usize, level: ConstraintLevel) -> &'static str {
+    match (drives, level) {
+        (1, _) => {
+            "The others do not allow the motion that one of them prescribes: the mechanism is locked, or in a singular configuration. Begin at another \
+             configuration, or prescribe another motion"
+        }
+        (2.., _) => "Redundant drives must follow the same motion; delete or correct one of them",
+        (0, ConstraintLevel::Position) => {
             "They are redundant here but not elsewhere: correct the dimensions, or delete one of them"
         }
-        (false, _) => {
+        (0, _) => {
             "The configuration is singular and cannot be left with these velocities: change the velocities or the start"
         }
     }
@@ -220,11 +226,12 @@ impl Comparison<'_> {
             return None;
         }
         let layout = mechanism.layout();
-        let is_driven = |row: usize| {
-            let group = layout.groups.iter().find(|g| g.rows.contains(&row));
-            group.is_some_and(|g| g.spec.rheonomic)
+        let driven_by = |row: usize| {
+            let group = layout.groups.iter().position(|g| g.rows.contains(&row))?;
+            layout.groups[group].spec.rheonomic.then_some(group)
         };
-        let driven = terms().rfind(|&(i, _)| is_driven(i));
+        let drives: BTreeSet<usize> = terms().filter_map(|(i, _)| driven_by(i)).collect();
+        let driven = terms().rfind(|&(i, _)| driven_by(i).is_some());
         let (row, z) = driven.or_else(|| terms().next_back())?;
         Some(Contradiction {
             time,
@@ -233,7 +240,7 @@ impl Comparison<'_> {
             size: (sum / z).abs(),
             unit: self.level.unit(mechanism.is_angular(row)),
             tolerance: tolerance / z.abs(),
-            driven: driven.is_some(),
+            drives: drives.len(),
         })
     }
 }

@@ -1,7 +1,7 @@
 //! `pfaff analyze` at singular starts.
 
 use super::analyze::{contains, document};
-use super::{stdout, with_scene};
+use super::{Folder, stderr, stdout, with_scene};
 
 /// Cranks of length 0.5 at these pivots, all flat and turning with 1 rad/s, under one coupler.
 pub(crate) fn flat_cranks(pivots: &[f64]) -> String {
@@ -111,5 +111,54 @@ fn edges_that_differ_by_a_rounding_are_judged_and_named() {
         );
         let output = with_scene(&["check", "-"], &scene);
         contains(&stdout(&output), &["depend on each other but for"]);
+    }
+}
+
+/// A slider-crank in line: no rate of the slider turns the crank there. One drive cannot contradict another one.
+#[test]
+fn a_drive_at_a_dead_centre_is_told_that_the_configuration_is_singular() {
+    let scene = |motion: &str| {
+        format!(
+            r#"scene = {{ name = "dead centre", space = "plane" }}
+            body = [
+                {{ name = "crank", mass = 1.0, inertia = 0.1, position = [0.5, 0.0] }},
+                {{ name = "rod", mass = 1.0, inertia = 0.1, position = [2.0, 0.0] }},
+                {{ name = "slider", mass = 1.0, inertia = 0.1, position = [3.0, 0.0] }},
+            ]
+            joint = [
+                {{ name = "A", type = "revolute", bodies = ["ground", "crank"], at = [0.0, 0.0] }},
+                {{ name = "B", type = "revolute", bodies = ["crank", "rod"], at = [1.0, 0.0] }},
+                {{ name = "C", type = "revolute", bodies = ["rod", "slider"], at = [3.0, 0.0] }},
+                {{ name = "D", type = "translational", bodies = ["ground", "slider"], at = [3.0, 0.0], axis = [1.0, 0.0] }},
+            ]
+            drive = [{{ name = "motor", joint = "D", type = "displacement", motion = {{ {motion} }} }}]
+            simulate = {{ t_end = 1.0 }}"#
+        )
+    };
+    let folder = Folder::new("dead-centre");
+    let out = folder.0.to_str().expect("UTF-8");
+    for (motion, code, reason) in [
+        (
+            r#"type = "constant-rate", rate = -1.0"#,
+            2,
+            "the mechanism is locked, or in a singular configuration",
+        ),
+        (
+            r#"type = "polynomial", coefficients = [0.0, 0.0, -1.0]"#,
+            2,
+            "the mechanism is locked, or in a singular configuration",
+        ),
+        // Seen only once the slider has moved.
+        (
+            r#"type = "polynomial", coefficients = [0.0, 0.0, 0.0, -1.0]"#,
+            1,
+            "the run begins at a singular configuration: its degree of redundancy is 1 there and 0 elsewhere",
+        ),
+    ] {
+        let output = with_scene(&["simulate", "-", "--out", out], &scene(motion));
+        let said = stderr(&output);
+        assert_eq!(output.status.code(), Some(code), "{said}");
+        assert!(said.contains(reason), "{said}");
+        assert!(!said.contains("drives"), "{said}");
     }
 }
