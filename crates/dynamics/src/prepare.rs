@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use linalg::{Doubt, RankStatus};
-use model::start::{assemble, consistent_velocity};
+use model::start::{assemble, consistent_velocity, velocity_correction};
 use model::{Assembly, Mechanism, Scratch, StartOptions, System};
 use solvability::{
     LARGE, RowDecision, certify, decide_rows_dropping, inseparable, rows as rows_of,
@@ -106,11 +106,11 @@ pub fn prepare(
             .map_err(|e| DropError::new(e, &layout.labels, found.all.redundancy))?,
     };
     let v = consistent_velocity(&mechanism, start, &assembly.q, &assembly.v, &decision.kept)?;
+    let velocity_correction = velocity_correction(&mechanism, start, &assembly.q, &assembly.v, &v)?;
     let contradictions = found.contradictions(&mechanism, 0.0, &assembly.q, &v)?;
     if let Some(worst) = contradictions.into_iter().next() {
         return Err(worst.into());
     }
-    let velocity_correction = v.iter().zip(&assembly.v).map(|(a, b)| a - b).collect();
     let q = assembly.q.clone();
     Ok(Prepared {
         mechanism,

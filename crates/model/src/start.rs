@@ -14,14 +14,17 @@ use crate::system::{Layout, RowLabel, Scratch, System};
 pub struct StartOptions {
     /// Coordinates and velocities that keep their described values exactly.
     pub keep: Vec<Coordinate>,
-    /// Whether a correction of more than a thousandth of the scene's size is accepted.
+    /// Velocities that the description gives on purpose; the others follow from these and from the constraints.
+    pub given: Vec<Coordinate>,
+    /// Whether a correction of more than a thousandth of the scene's size is accepted, or one of given velocities by more than a
+    /// thousandth of the fastest.
     pub correction: CorrectionLimit,
 }
 
 /// How far a start may be corrected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CorrectionLimit {
-    /// By a thousandth of the scene's size, and a thousandth of a radian.
+    /// By a thousandth of the scene's size, and a thousandth of a radian; given velocities by a thousandth of the fastest.
     #[default]
     Small,
     /// By any amount.
@@ -92,6 +95,25 @@ pub enum StartError {
         /// By how much.
         correction: f64,
         /// What is allowed.
+        limit: f64,
+    },
+    /// The nearest velocities that the constraints allow are far from given ones.
+    #[error(
+        "the start must be corrected by {:.3e} ({coordinate} of body `{body}`: given {given}, corrected {corrected:.4e}), more than the allowed {limit:.3e}; \
+         correct the velocities of the scene; or leave out those that follow from others, and hold these by `keep`, as \
+         `keep = [\"{body}.{coordinate}\"]` in `[start]`; or set `allow_correction = true` there",
+        (corrected - given).abs()
+    )]
+    LargeVelocityCorrection {
+        /// The body whose velocity changes most.
+        body: String,
+        /// `vx`, `vy` or `omega`.
+        coordinate: &'static str,
+        /// The velocity that is given.
+        given: f64,
+        /// The one that satisfies the constraints.
+        corrected: f64,
+        /// What the difference may be.
         limit: f64,
     },
     /// A definition requires something that the start does not have.
@@ -181,7 +203,7 @@ const PROGRESS: f64 = 0.5;
 /// large against rounding.
 const DAMPING: f64 = 1e-10;
 
-/// Share of the scene's size (and of a radian) that a start may be corrected without being asked.
+/// Share of the scene's size (and of a radian, and of the fastest velocity) that a start may be corrected without being asked.
 const SMALL_CORRECTION: f64 = 1e-3;
 
 /// A row counts as satisfied below this many roundings of its terms.
@@ -497,5 +519,43 @@ fn check_correction(
         coordinate,
         correction: correction[worst].abs(),
         limit: limits[worst % N_BODY],
+    })
+}
+
+/// Consistent velocities minus the described ones. Given ones are measured by the fastest, rotations by what they move at the size of the mechanism
+/// assembled at q.
+///
+/// # Errors
+/// [`StartError::LargeVelocityCorrection`]: one that `options` call given changes by more than they allow.
+pub fn velocity_correction(
+    mechanism: &Mechanism,
+    options: &StartOptions,
+    q: &[f64],
+    described: &[f64],
+    found: &[f64],
+) -> Result<Vec<f64>, StartError> {
+    let correction: Vec<f64> = found.iter().zip(described).map(|(a, b)| a - b).collect();
+    if options.correction == CorrectionLimit::Any {
+        return Ok(correction);
+    }
+    let size = scene_size(mechanism, q);
+    let arm = |k: usize| if k % N_BODY == 2 { size } else { 1.0 };
+    let states = described.iter().enumerate().chain(found.iter().enumerate());
+    let fastest = states.fold(0.0_f64, |a, (k, v)| a.max(arm(k) * v.abs()));
+    let limit = |k: usize| SMALL_CORRECTION * fastest / arm(k);
+    let by = |k: usize| correction[k].abs();
+    let given = options.given.iter().map(|c| N_BODY * c.body + c.dof);
+    let worst = given
+        .filter(|&k| k < correction.len() && by(k) > limit(k))
+        .max_by(|&a, &b| (arm(a) * by(a)).total_cmp(&(arm(b) * by(b))));
+    let Some(k) = worst else {
+        return Ok(correction);
+    };
+    Err(StartError::LargeVelocityCorrection {
+        body: mechanism.bodies()[k / N_BODY].name.clone(),
+        coordinate: ["vx", "vy", "omega"][k % N_BODY],
+        given: described[k],
+        corrected: found[k],
+        limit: limit(k),
     })
 }

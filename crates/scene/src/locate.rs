@@ -72,6 +72,17 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
             let span = entry.map(|entry| entry.first_of(&["position", "angle"]));
             (span.unwrap_or(0..0), "moves most")
         }
+        StartError::LargeVelocityCorrection {
+            body, coordinate, ..
+        } => {
+            let key = match *coordinate {
+                "omega" => "angular_velocity",
+                _ => "velocity",
+            };
+            let entry = map.body(body);
+            let span = entry.map(|entry| entry.first_of(&[key]));
+            (span.unwrap_or(0..0), "not with these constraints")
+        }
         StartError::Requirement { name, .. } => {
             (element_key(map, name, &PLACE_KEYS), "required here")
         }

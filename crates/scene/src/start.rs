@@ -33,7 +33,7 @@ const KEEP: Key = Key::optional(
 .doc("Coordinates and velocities that the start holds exactly, as \"crank.angle\": x, y, angle, vx, vy, omega of a body")
 .or(|| json!([]));
 const ALLOW_CORRECTION: Key = Key::optional("allow_correction", "true or false", Takes::Flag)
-    .doc("Whether the start may be corrected by more than a thousandth of the scene's size")
+    .doc("Whether the start may be corrected by more than a thousandth of the scene's size, and given velocities by more than a thousandth of the fastest")
     .or(|| false.into());
 
 /// Keys of the section.
@@ -72,6 +72,8 @@ pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -
     table.close(findings);
     StartOptions {
         keep: kept,
+        // Stand with the bodies.
+        given: Vec::new(),
         correction: match allowed {
             Some(true) => CorrectionLimit::Any,
             _ => CorrectionLimit::Small,

@@ -72,7 +72,11 @@ const NEIGHBOURS: [Neighbour; 12] = [
     // Both steered alike, and not by the slope that makes the lines meet.
     Neighbour {
         name: "car",
-        edits: &[PARALLEL],
+        edits: &[
+            PARALLEL,
+            // It cannot move.
+            (", velocity = [1.0, 0.48], angular_velocity = 0.4", ""),
+        ],
         without: &[],
         numbers: [3, 1, 0],
         not_unique: &["rear-left", "rear-right"],

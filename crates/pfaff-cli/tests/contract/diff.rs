@@ -98,8 +98,8 @@ fn a_scene_is_like_itself_and_faster_wheels_are_not() {
     let faster = changed(
         &folder,
         SLEIGH,
-        "angular_velocity = 2.0",
-        "angular_velocity = 2.5",
+        "velocity = [0.0, 1.0], angular_velocity = 2.0",
+        "velocity = [0.0, 1.25], angular_velocity = 2.5",
     );
     let slower = fs::read_to_string(SLEIGH).expect("readable");
     let d = with_scene(&["diff", "-", &faster, "--json"], &slower);
