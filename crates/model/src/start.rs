@@ -14,8 +14,6 @@ use crate::system::{Layout, RowLabel, Scratch, System};
 pub struct StartOptions {
     /// Coordinates and velocities that keep their described values exactly.
     pub keep: Vec<Coordinate>,
-    /// Velocities that the description gives on purpose; the others follow from these and from the constraints.
-    pub given: Vec<Coordinate>,
     /// Whether a correction of more than a thousandth of the scene's size is accepted, or one of given velocities by more than a
     /// thousandth of the fastest.
     pub correction: CorrectionLimit,
@@ -522,11 +520,11 @@ fn check_correction(
     })
 }
 
-/// Consistent velocities minus the described ones. Given ones are measured by the fastest, rotations by what they move at the size of the mechanism
-/// assembled at q.
+/// Consistent velocities minus the described ones. Those of bodies that are described as moving are given; the others follow from these and from the
+/// constraints. Given ones are measured by the fastest, rotations by what they move at the size of the mechanism assembled at q.
 ///
 /// # Errors
-/// [`StartError::LargeVelocityCorrection`]: one that `options` call given changes by more than they allow.
+/// [`StartError::LargeVelocityCorrection`]: a given one changes by more than `options` allow.
 pub fn velocity_correction(
     mechanism: &Mechanism,
     options: &StartOptions,
@@ -544,9 +542,13 @@ pub fn velocity_correction(
     let fastest = states.fold(0.0_f64, |a, (k, v)| a.max(arm(k) * v.abs()));
     let limit = |k: usize| SMALL_CORRECTION * fastest / arm(k);
     let by = |k: usize| correction[k].abs();
-    let given = options.given.iter().map(|c| N_BODY * c.body + c.dof);
-    let worst = given
-        .filter(|&k| k < correction.len() && by(k) > limit(k))
+    // A zero that is spelled out is the default; one beside a component that is not is meant.
+    let is_given = |k: usize| match k % N_BODY {
+        2 => described[k] != 0.0,
+        dof => described[k - dof..k - dof + 2] != [0.0; 2],
+    };
+    let worst = (0..correction.len())
+        .filter(|&k| is_given(k) && by(k) > limit(k))
         .max_by(|&a, &b| (arm(a) * by(a)).total_cmp(&(arm(b) * by(b))));
     let Some(k) = worst else {
         return Ok(correction);

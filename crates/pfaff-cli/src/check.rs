@@ -66,9 +66,13 @@ impl Checked {
                 };
                 let mut blueprint = resources.blueprint(source)?;
                 let start = &blueprint.scene.start;
-                let assembly = start::assemble(&mut blueprint.mechanism, start).map_err(|e| {
-                    source.failure(StudyError::Scene(vec![blueprint.scene.locate_start(&e)]))
-                })?;
+                let assembly =
+                    start::assemble(&mut blueprint.mechanism, start).map_err(
+                        |e| match blueprint.scene.locate_start(&e) {
+                            Some(place) => source.failure(StudyError::Scene(vec![place])),
+                            None => source.failure(StudyError::Motion(e.into())),
+                        },
+                    )?;
                 let checked = new(
                     blueprint.scene.name(),
                     &blueprint.mechanism,

@@ -107,9 +107,8 @@ impl StudyError {
             Self::Motion(e @ (MotionError::RankUndecided(_) | MotionError::Inseparable { .. })) => {
                 Some(format!("this mechanism cannot be moved: {e}"))
             }
-            Self::SingularStart(diagnostic) => Some(format!(
-                "no motion begins with these velocities: {}",
-                diagnostic.message
+            Self::SingularStart { contradiction, .. } => Some(format!(
+                "no motion begins with these velocities: {contradiction}"
             )),
             _ => None,
         }

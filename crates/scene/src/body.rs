@@ -4,7 +4,6 @@ use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
 use std::ops::Range;
 
-use model::start::{Coordinate, KeepLevel};
 use model::{Body, BodyRef};
 use serde_json::json;
 
@@ -54,8 +53,6 @@ const fn pair(name: &'static str) -> Key {
 pub(crate) struct Bodies {
     pub(crate) list: Vec<Body>,
     pub(crate) entries: Vec<Entry>,
-    /// Velocities that the text gives.
-    pub(crate) given: Vec<Coordinate>,
     /// Places in the list; of a name that is used twice, the first.
     by_name: HashMap<String, usize>,
     /// Bodies without a name of their own. Each is taken for one that is called by an unknown name.
@@ -93,15 +90,6 @@ impl Bodies {
         if !is_own || self.by_name.contains_key(name) {
             self.unnamed += 1;
         }
-        // A zero that is spelled out is the default.
-        let moves = velocity != [0.0; 2];
-        let given = [moves, moves, angular_velocity != 0.0];
-        let given = (0..given.len()).filter(|&dof| given[dof]);
-        self.given.extend(given.map(|dof| Coordinate {
-            body: at,
-            dof,
-            level: KeepLevel::Velocity,
-        }));
         self.by_name.entry(name.to_owned()).or_insert(at);
         self.list.push(Body {
             name: name.to_owned(),

@@ -4,7 +4,7 @@ mod syntax;
 
 use std::collections::{BTreeMap, HashMap};
 
-use model::{BuildError, Description, Mechanism, Registry, StartOptions};
+use model::{BuildError, Description, Mechanism, Registry};
 use serde_json::json;
 use toml::de::DeTable;
 
@@ -164,10 +164,7 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
     parts.names.check(&source, findings);
     Scene {
         description,
-        start: StartOptions {
-            given: parts.bodies.given,
-            ..start.unwrap_or_default()
-        },
+        start: start.unwrap_or_default(),
         simulate: simulate.map(|simulate| simulate.options),
         output: output.unwrap_or_default(),
         groups,

@@ -73,7 +73,6 @@ pub(crate) fn read(mut table: Table, bodies: &Bodies, findings: &mut Findings) -
     StartOptions {
         keep: kept,
         // Stand with the bodies.
-        given: Vec::new(),
         correction: match allowed {
             Some(true) => CorrectionLimit::Any,
             _ => CorrectionLimit::Small,
