@@ -107,8 +107,9 @@ pub enum Trip {
     },
     /// A row that is dropped because the start is singular holds no more beside it.
     #[error(
-        "the run begins at a singular configuration: its degree of redundancy is {redundancy} there and {elsewhere} elsewhere, so that the constraints do not \
-         determine how it goes on (row {row}, redundant only there, is violated by {residual:.3e} at t = {time} s); begin at another configuration"
+        "at t = {time} s the dropped row {row} is violated by {residual:.3e}: it contradicts the kept rows. It is redundant at the start only, which \
+         is a singular configuration (its degree of redundancy is {redundancy}, elsewhere {elsewhere}): begin at another one, or correct the joint \
+         of the row"
     )]
     SingularStart {
         /// Degree of redundancy at the start.

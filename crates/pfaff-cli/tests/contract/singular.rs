@@ -152,7 +152,7 @@ fn a_drive_at_a_dead_centre_is_told_that_the_configuration_is_singular() {
         (
             r#"type = "polynomial", coefficients = [0.0, 0.0, 0.0, -1.0]"#,
             1,
-            "the run begins at a singular configuration: its degree of redundancy is 1 there and 0 elsewhere",
+            "which is a singular configuration (its degree of redundancy is 1, elsewhere 0)",
         ),
     ] {
         let output = with_scene(&["simulate", "-", "--out", out], &scene(motion));

@@ -223,7 +223,7 @@ start = { keep = ["cart.vx"] }
 "#;
 
 fn stopped() -> Result<Outcome, Outcome> {
-    let found = study(&LOCKED.replace("keep = [\"cart.vx\"]", ""))?.prepared;
+    let found = study(&LOCKED.replace("keep = [\"cart.vx\"]", "allow_correction = true"))?.prepared;
     let told = found
         .velocity_correction
         .first()

@@ -128,7 +128,8 @@ fn corrected(text: &str, off: f64) -> Result<Outcome, Outcome> {
 
 /// The bob is described with (0, 1) m/s and no rotation: the nearest motion turns about the pivot.
 fn turned(ratio: f64) -> Result<Outcome, Outcome> {
-    let found = study(&bob(0.0, 1.0, ratio, [0.7, 1.0], ""))?.prepared;
+    let allowed = "start = { allow_correction = true }";
+    let found = study(&bob(0.0, 1.0, ratio, [0.7, 1.0], allowed))?.prepared;
     let omega = 1.0 / (1.0 + ratio);
     let error = worst([
         found.v[1] / omega - 1.0,
