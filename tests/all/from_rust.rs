@@ -14,12 +14,12 @@ const SCENE: &str = r#"
 scene = { name = "three cranks and a cart", space = "plane", gravity = [0.0, -9.81] }
 
 body = [
-    { name = "first", mass = 1.0, inertia = 0.1, position = [0.3, 0.4], angle = 0.9272952180016122 },
-    { name = "second", mass = 1.5, inertia = 0.2, position = [1.3, 0.4], angle = 0.9272952180016122 },
-    { name = "third", mass = 2.0, inertia = 0.3, position = [2.3, 0.4], angle = 0.9272952180016122 },
+    { name = "first", mass = 1.0, inertia = 0.1, position = [0.3, 0.4], angle = 0.9272952180016122, velocity = [-0.4, 0.3], angular_velocity = 1.0 },
+    { name = "second", mass = 1.5, inertia = 0.2, position = [1.3, 0.4], angle = 0.9272952180016122, velocity = [-0.4, 0.3], angular_velocity = 1.0 },
+    { name = "third", mass = 2.0, inertia = 0.3, position = [2.3, 0.4], angle = 0.9272952180016122, velocity = [-0.4, 0.3], angular_velocity = 1.0 },
     { name = "coupler", mass = 4.0, inertia = 0.7, position = [1.6, 0.8], velocity = [-0.8, 0.6] },
-    { name = "slide", mass = 0.5, inertia = 0.1, position = [1.7, 0.8], velocity = [-0.8, 0.6] },
-    { name = "cart", mass = 10.0, inertia = 1.0, position = [0.0, -3.0], angular_velocity = 1.0 },
+    { name = "slide", mass = 0.5, inertia = 0.1, position = [1.7, 0.8], velocity = [-0.5316718427, 0.7341640786] },
+    { name = "cart", mass = 10.0, inertia = 1.0, position = [0.0, -3.0], velocity = [0.5, 0.0], angular_velocity = 1.0 },
 ]
 
 joint = [
@@ -59,19 +59,25 @@ fn description() -> Description {
             d.body(Body {
                 position: [x, 0.4],
                 angle: 0.9272952180016122,
+                velocity: [-0.4, 0.3],
+                angular_velocity: 1.0,
                 ..Body::new(name, mass, inertia)
             })
         })
         .collect();
-    let moving = |name, x, mass, inertia| Body {
-        position: [x, 0.8],
+    let coupler = d.body(Body {
+        position: [1.6, 0.8],
         velocity: [-0.8, 0.6],
-        ..Body::new(name, mass, inertia)
-    };
-    let coupler = d.body(moving("coupler", 1.6, 4.0, 0.7));
-    let slide = d.body(moving("slide", 1.7, 0.5, 0.1));
+        ..Body::new("coupler", 4.0, 0.7)
+    });
+    let slide = d.body(Body {
+        position: [1.7, 0.8],
+        velocity: [-0.5316718427, 0.7341640786],
+        ..Body::new("slide", 0.5, 0.1)
+    });
     let cart = d.body(Body {
         position: [0.0, -3.0],
+        velocity: [0.5, 0.0],
         angular_velocity: 1.0,
         ..Body::new("cart", 10.0, 1.0)
     });

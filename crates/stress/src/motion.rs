@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use dynamics::{
     Formulation, Method, MotionOptions, Prepared, RowChoice, Summary, prepare, simulate,
 };
+use model::start::CorrectionLimit;
 use model::{Description, Mechanism, Registry, StartOptions};
 use pfaff::{Overrides, Study, StudyError};
 use solvability::{Analysis, analyse};
@@ -92,12 +93,16 @@ pub fn built(description: &Description) -> Result<Mechanism, Outcome> {
     })
 }
 
-/// A described mechanism with its start, without a scene.
+/// A described mechanism with its start, without a scene. One body is described as moving; how fast the others go is left to the constraints, whose
+/// masses may stop it: cases about starts are texts.
 ///
 /// # Errors
 /// The faults of the description, or why it cannot move.
 pub fn prepared(description: &Description) -> Result<Prepared, Outcome> {
-    let start = StartOptions::default();
+    let start = StartOptions {
+        correction: CorrectionLimit::Any,
+        ..StartOptions::default()
+    };
     prepare(built(description)?, &start, &RowChoice::Automatic).map_err(Outcome::refused)
 }
 
