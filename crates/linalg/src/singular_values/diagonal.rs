@@ -104,8 +104,9 @@ fn rotation(a: f64, b: f64) -> (f64, f64, f64) {
     }
     // Entries are at most a few, and one whose square vanishes is zero beside the largest.
     let r = (a * a + b * b).sqrt();
-    match r {
-        0.0 => (1.0, 0.0, 0.0),
-        r => (a / r, b / r, r),
+    match 1.0 / r {
+        // Of the work of a step most is waiting for this quotient: one is enough.
+        inverse if inverse.is_finite() => (a * inverse, b * inverse, r),
+        _ => (1.0, 0.0, 0.0),
     }
 }
