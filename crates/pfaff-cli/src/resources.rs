@@ -6,7 +6,7 @@ use std::str::FromStr;
 use std::time::Duration;
 
 use clap::Args;
-use indicatif::ProgressBar;
+use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::Blueprint;
 use pfaff::memory::of_reading;
 use pfaff::model::Registry;
@@ -145,6 +145,9 @@ impl Stage {
         let size = source.text.len();
         Self((size >= LONG).then(|| {
             let bar = ProgressBar::new_spinner();
+            if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed}") {
+                bar.set_style(style);
+            }
             bar.set_message(format!("{what}: {}", Bytes(size as u64)));
             bar.enable_steady_tick(Duration::from_millis(100));
             bar

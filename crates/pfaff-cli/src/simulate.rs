@@ -36,13 +36,14 @@ pub(crate) fn run(arguments: &Simulate) -> Outcome {
     let interrupt = Interrupt::listen()?;
     // Hidden by itself where standard error is no terminal.
     let bar = ProgressBar::new(TICKS);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} t = {msg} s, {eta} left") {
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} t = {msg}, {eta} left") {
         bar.set_style(style);
     }
     let t_end = options.t_end;
     let outcome = study.simulate_as(&origin(), &directory, |t| {
         bar.set_position((t / t_end * TICKS as f64) as u64);
-        bar.set_message(format!("{t:.3}"));
+        let rate = t / bar.elapsed().as_secs_f64();
+        bar.set_message(format!("{t:.3} s, {rate:.2} s of motion each second"));
         match interrupt.is_asked() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
