@@ -49,6 +49,7 @@ fn motor(pair: [BodyRef; 2], motion: Function) -> Drive {
         measure_0: 0.0,
     };
     Drive {
+        tolerance: None,
         name: "motor".into(),
         bodies: pair.to_vec(),
         element: Box::new(element),

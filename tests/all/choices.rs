@@ -41,7 +41,13 @@ impl State {
 
     fn configuration(&self) -> Configuration<'_> {
         let analysis = analyse(&self.mechanism, self.t, &self.q).expect("C is finite");
-        Configuration::new(&self.mechanism, self.t, &self.q, &analysis.decision).expect("fits")
+        Configuration::new(
+            &self.mechanism,
+            self.t,
+            &self.q,
+            &analysis.whole().expect("one part"),
+        )
+        .expect("fits")
     }
 
     fn lambda_0(&self) -> Result<Vec<f64>, ChoiceError> {

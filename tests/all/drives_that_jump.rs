@@ -33,6 +33,7 @@ fn wheel(motion: Function) -> Prepared {
             },
         )],
         drives: vec![Drive {
+            tolerance: None,
             name: "motor".into(),
             bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
             element: Box::new(RevoluteAngleDrive {
@@ -150,6 +151,7 @@ fn a_start_at_once_takes_half_m_v_squared() {
             },
         )],
         drives: vec![Drive {
+            tolerance: None,
             name: "push".into(),
             bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
             element: Box::new(TranslationalDisplacementDrive {

@@ -29,14 +29,14 @@ fn root() -> &'static Path {
 }
 
 /// Where the scene of an example is. That of the published robot lies in its own crate.
-fn scene(name: &str) -> PathBuf {
+pub(super) fn scene(name: &str) -> PathBuf {
     match name {
         "robot-trolley" => root().join("crates/robot-trolley/robot-trolley.toml"),
         _ => root().join(format!("examples/{name}.toml")),
     }
 }
 
-fn read(path: &Path) -> String {
+pub(super) fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
 
@@ -50,7 +50,7 @@ fn study(name: &str, text: &str) -> Study {
 }
 
 /// Names of the files in `examples/` with this ending.
-fn files(ending: &str) -> BTreeSet<String> {
+pub(super) fn files(ending: &str) -> BTreeSet<String> {
     let entries = fs::read_dir(root().join("examples")).expect("examples/ exists");
     entries
         .filter_map(|e| {

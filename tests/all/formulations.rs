@@ -245,7 +245,8 @@ fn minimum_norm_is_that_of_the_analysis() {
             let (t, q, v) = (run.t[k], &run.q[k], &run.v[k]);
             let analysis = analyse(&p.mechanism, t, q).expect("C is finite");
             let configuration =
-                Configuration::new(&p.mechanism, t, q, &analysis.decision).expect("fits");
+                Configuration::new(&p.mechanism, t, q, &analysis.whole().expect("one part"))
+                    .expect("fits");
             let equations = Equations::of(&p.mechanism, t, q, v).expect("fits");
             let lambda = equations.multipliers(&analysis.decision).expect("solves");
             let choice = Choice::MinimumNorm(NormWeights::NEWTON_METRE);

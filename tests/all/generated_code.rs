@@ -142,6 +142,7 @@ fn code_that_is_not_sure_is_left_and_comes_back() {
 fn driven(pivots: &[f64], start: f64, motion: Function) -> Prepared {
     let mut d = cranks(pivots, 0.5, start);
     d.drives.push(Drive {
+        tolerance: None,
         name: "motor".into(),
         bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
         element: Box::new(joints::RevoluteAngleDrive {

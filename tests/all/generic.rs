@@ -12,7 +12,7 @@ fn at_start(d: &Description) -> (usize, Option<Generic>) {
     let (q, _) = mechanism.described_state();
     let analysis = analyse(&mechanism, 0.0, &q).expect("finite");
     let found = generic(&mechanism, 0.0, &q);
-    let permanent = is_permanent(&mechanism, 0.0, &q, &analysis.decision);
+    let permanent = is_permanent(&mechanism, 0.0, &q, &analysis.whole().expect("one part"));
     let redundancy = analysis.decision.redundancy;
     let expected = found.as_ref().map(|g| g.redundancy == redundancy);
     assert_eq!(permanent, expected);
@@ -26,6 +26,7 @@ fn driven(mut d: Description) -> Description {
         measure_0: 0.0,
     };
     d.drives.push(Drive {
+        tolerance: None,
         name: "motor".into(),
         bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
         element: Box::new(element),
@@ -104,6 +105,7 @@ fn beam() -> Body {
 #[test]
 fn time_moves_where_a_joint_depends_on_it() {
     let pull = |name: &str| Joint {
+        tolerance: None,
         name: name.into(),
         bodies: vec![BodyRef::Body(0)],
         element: Box::new(Velocity {

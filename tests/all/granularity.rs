@@ -45,7 +45,9 @@ fn groups(m: &Mechanism, q: &[f64], groups: &[Group]) -> Result<Vec<GroupVerdict
     // The robot is steered at t = 1; other mechanisms here stand where they are at any time.
     let decision = analyse_known(m, 1.0, q, Known::To(1e-12))
         .expect("C is finite")
-        .decision;
+        .whole()
+        .expect("one part")
+        .into_owned();
     judge_groups(m, 1.0, q, &decision, groups)
 }
 
@@ -81,7 +83,9 @@ fn frames_of_the_robot() {
     let (m, q) = robot_steered(0.02);
     let decision = analyse_known(&m, 1.0, &q, Known::To(1e-12))
         .expect("C is finite")
-        .decision;
+        .whole()
+        .expect("one part")
+        .into_owned();
     assert_eq!((decision.rank, decision.redundancy), (20, 2));
     let frames = |name| judge_frames(&m, 1.0, &q, &decision, id(&m, name)).expect("judged");
     let w1 = frames("W1");
@@ -164,7 +168,11 @@ fn resultants_are_unique_and_are_those_of_newton_and_euler() {
     d.gravity = [3.0, -4.0];
     let m = Mechanism::build(&d).expect("builds");
     let (q, v) = m.described_state();
-    let decision = analyse(&m, 0.0, &q).expect("C is finite").decision;
+    let decision = analyse(&m, 0.0, &q)
+        .expect("C is finite")
+        .whole()
+        .expect("one part")
+        .into_owned();
     let c = Configuration::new(&m, 0.0, &q, &decision).expect("fits");
     let equations = Equations::of(&m, 0.0, &q, &v).expect("fits");
     let lambda = equations.multipliers(&decision).expect("solved");
@@ -303,6 +311,7 @@ fn edge_frames_come_from_the_definitions() {
                     axis,
                     radius: 0.3,
                     phase: 0.0,
+                    centre: [0.0; 2],
                 },
             ),
             Some(along),
@@ -432,6 +441,7 @@ fn affine_and_rheonomic_rows() {
 
     // Two motors on one shaft.
     let motor = |name: &str| Drive {
+        tolerance: None,
         name: name.into(),
         bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
         element: Box::new(RevoluteAngleDrive {
@@ -514,7 +524,11 @@ fn questions_without_an_answer_are_refused() {
         error(Group::Resultant(vec![0, 7])),
         "there is no body 7; the mechanism has 7, counted from 0"
     );
-    let decision = analyse(&m, 0.0, &q).expect("C is finite").decision;
+    let decision = analyse(&m, 0.0, &q)
+        .expect("C is finite")
+        .whole()
+        .expect("one part")
+        .into_owned();
     let frames = judge_frames(&m, 0.0, &q, &decision, beyond);
     assert_eq!(frames.expect_err("refused").to_string(), no_joint);
     let wrong = [
@@ -577,11 +591,12 @@ fn groups_of_a_study() {
     let registry = model::Registry::planar();
     let mut study = Study::read("robot", &text, &registry, &Overrides::default()).expect("a scene");
     let combine = ["W3+W4", "W3.N + W4.N", "W3.T", "2*A - steering"].map(str::to_owned);
-    let findings = study.analyse_at(0.0, None, &combine).expect("judged");
-    let first = findings.groups.len() - 7;
-    let found: Vec<_> = findings.groups[first..]
+    let inquiry = study.inquire(0.0, None).expect("judged");
+    let groups = inquiry.groups(&combine).expect("judged");
+    let first = groups.len() - 7;
+    let found: Vec<_> = groups[first..]
         .iter()
-        .map(|(name, j)| (name.as_str(), j.verdict.word()))
+        .map(|(name, g)| (name.as_str(), g.judgement.verdict.word()))
         .collect();
     assert_eq!(
         found,
@@ -597,7 +612,8 @@ fn groups_of_a_study() {
     );
     // A name that the mechanism does not have is an error, not left out.
     study.scene.groups[0].content = pfaff::scene::GroupContent::Members(vec!["W9".into()]);
-    let error = study.analyse_at(0.0, None, &[]).expect_err("unknown");
+    let inquiry = study.inquire(0.0, None).expect("judged");
+    let error = inquiry.groups(&[]).expect_err("unknown");
     assert!(
         matches!(&error, StudyError::UnknownReaction { name, .. } if name == "W9")
             && error.is_input()

@@ -234,6 +234,7 @@ mod held {
         let hand = tests::revolute("hand pivot", &d.bodies, pair, [0.0, 0.0]);
         d.joints.push(hand);
         d.drives.push(Drive {
+            tolerance: None,
             name: "drive".into(),
             bodies: pair.to_vec(),
             element: Box::new(RevoluteAngleDrive {

@@ -18,7 +18,7 @@ const EACH: usize = 50;
 
 /// What is said of a reaction whatever the frame: the words for its wrench and its multipliers, and the numbers of its unique directions and of
 /// those that say something.
-type Said = (String, &'static str, &'static str, [usize; 2]);
+type Said = (String, &'static str, &'static str, [Option<usize>; 2]);
 
 /// The verdicts of a configuration, by name: ranks, then every reaction.
 fn said(a: &Analysis) -> ([usize; 4], Vec<Said>) {
@@ -32,7 +32,7 @@ fn said(a: &Analysis) -> ([usize; 4], Vec<Said>) {
                 r.name.clone(),
                 wrench,
                 multipliers,
-                [&r.unique_directions, &r.live_directions].map(Vec::len),
+                [Some(&r.unique_directions), r.live_directions.as_ref()].map(|d| d.map(Vec::len)),
             )
         })
         .collect();

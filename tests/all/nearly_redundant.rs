@@ -151,7 +151,7 @@ fn mechanisms_are_redundant_only_within_what_their_data_are_known_to() {
     let aligned = analysed(&misaligned(0.0));
     assert_eq!(said(&aligned), Said::Redundant);
     assert_eq!(aligned.decision.rank, 11);
-    if let Some(certificate) = &aligned.decision.evidence.certificate {
+    if let Some(certificate) = &aligned.evidence().certificate {
         assert_eq!(certificate.grounds, Grounds::Vanishes);
         assert!(undecided <= UNDECIDED, "{undecided} undecided");
     }
@@ -160,7 +160,7 @@ fn mechanisms_are_redundant_only_within_what_their_data_are_known_to() {
 /// What a certificate must say, where the rank is certified: on which grounds a misaligned crank is redundant, and how large the
 /// reactions are where it is not.
 fn check_certificate(analysis: &Analysis, found: Said, error: f64) {
-    let decision = &analysis.decision;
+    let decision = analysis.whole().expect("one part");
     let Some(certificate) = &decision.evidence.certificate else {
         return;
     };

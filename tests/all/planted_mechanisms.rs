@@ -127,7 +127,11 @@ fn parallel_edges_at_any_heading() {
             }
             let mechanism = Mechanism::build(&sketch.description()).expect("the cart builds");
             let (q, _) = mechanism.described_state();
-            let decision = analyse(&mechanism, 0.0, &q).expect("finite").decision;
+            let decision = analyse(&mechanism, 0.0, &q)
+                .expect("finite")
+                .whole()
+                .expect("one part")
+                .into_owned();
             decision.is_decided() && decision.rank != 2
         })
         .collect();

@@ -21,6 +21,7 @@ fn driven(mut d: Description, rate: f64) -> Description {
         measure_0: 0.0,
     };
     d.drives.push(Drive {
+        tolerance: None,
         name: "motor".into(),
         bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
         element: Box::new(element),

@@ -19,6 +19,7 @@ fn driven(pivots: &[f64], start: f64) -> dynamics::Prepared {
         measure_0: 0.0,
     };
     d.drives.push(Drive {
+        tolerance: None,
         name: "motor".into(),
         bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
         element: Box::new(element),

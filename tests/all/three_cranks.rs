@@ -62,7 +62,9 @@ fn every_number_of_the_case() {
     // Minimum norm: without the part of λ in the null space, which is one-dimensional.
     let decision = solvability::analyse(&p.mechanism, 0.0, &p.q)
         .expect("regular")
-        .decision;
+        .whole()
+        .expect("one part")
+        .into_owned();
     let z = linalg::dependencies(&decision);
     let z: Vec<f64> = (0..12).map(|i| z[(i, 0)]).collect();
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();

@@ -15,6 +15,7 @@ fn drive(name: &str, bodies: [BodyRef; 2]) -> Drive {
         measure_0: 0.0,
     };
     Drive {
+        tolerance: None,
         name: name.into(),
         bodies: bodies.to_vec(),
         element: Box::new(element),
@@ -254,7 +255,7 @@ fn permanent_and_transient_redundancy() {
         let mechanism = Mechanism::build(d).expect("the mechanism builds");
         let (q, _) = mechanism.described_state();
         let a = analyse(&mechanism, 0.0, &q).expect("C is finite");
-        is_permanent(&mechanism, 0.0, &q, &a.decision)
+        is_permanent(&mechanism, 0.0, &q, &a.whole().expect("one part"))
     };
     assert_eq!(permanent(&driven_cranks(&[0.0, 1.0], 1.0)), Some(true));
     assert_eq!(permanent(&driven_cranks(&[0.0, 1.0], 0.0)), Some(false));

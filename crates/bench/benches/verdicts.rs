@@ -59,17 +59,7 @@ fn certify_within(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| linalg::certify_within(black_box(&c), 1e-15));
 }
 
-/// Verdicts of all rows and groups at a point of the same regime.
-#[divan::bench]
-fn verdicts_at_a_certified_point(bencher: Bencher<'_, '_>) {
-    let (c, groups) = matrix();
-    let first = Solvability::of(&c, 0.0).expect("finite");
-    let again = |c: &Matrix| first.at(c, 0.0).map_or(0, |s| unique(&s, &groups));
-    assert_eq!(again(&c), unique(&first, &groups));
-    bencher.bench_local(|| again(black_box(&c)));
-}
-
-/// The same verdicts from nothing but the matrix.
+/// Verdicts of all rows and groups from nothing but the matrix.
 #[divan::bench]
 fn verdicts_from_the_matrix(bencher: Bencher<'_, '_>) {
     let (c, groups) = matrix();

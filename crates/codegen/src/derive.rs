@@ -3,6 +3,8 @@
 //! Both levels meet at the velocity row `e = Φ̇` or `e = Ψ·q̇ + ψ`, which is `e = C·v − b`:
 //! `C = ∂e/∂v`, `b = −e(v = 0)`, and `Γ = −ė` with the accelerations left out.
 
+use proc_macro2::Ident;
+use quote::format_ident;
 use symbolic::{Derivation, Expr};
 
 use crate::elaborate::{ConstraintBody, Model, Source};
@@ -37,6 +39,19 @@ pub(crate) struct ConstraintKernels {
     pub(crate) d_residual_dx: Sparse,
     pub(crate) d_gamma_dv: Sparse,
     pub(crate) d_velocity_dx: Sparse,
+    /// One value for each number of the data.
+    pub(crate) d_phi_dp: Vec<Expr>,
+    pub(crate) d_residual_dp: Vec<Expr>,
+}
+
+impl ConstraintKernels {
+    /// The unit of the measure that a driven row prescribes: what moves no origin is an angle.
+    pub(crate) fn unit_of_measure(&self) -> Ident {
+        match self.c.iter().all(|e| e.column % N_DOF == N_DOF - 1) {
+            true => format_ident!("Angle"),
+            false => format_ident!("Length"),
+        }
+    }
 }
 
 /// Kernels of a force.
@@ -56,11 +71,13 @@ pub(crate) enum Component {
 }
 
 /// Derives the kernels of a constraint, or tells which row restricts no motion. Rows of Ψ are linear in velocities:
-/// elaboration refuses others.
+/// elaboration refuses others. `data` are the derivations by the numbers that the constraint
+/// stores.
 pub(crate) fn constraint(
     model: &mut Model,
     body: &ConstraintBody,
     component: &Component,
+    data: &[Derivation],
 ) -> Result<ConstraintKernels, usize> {
     let columns = columns(model);
     let velocity: Vec<Expr> = match body.holonomic {
@@ -99,15 +116,20 @@ pub(crate) fn constraint(
         .iter()
         .map(|&row| !keeps_start(model, row))
         .collect();
-    let (d_force_dx, d_residual_dx) = position_derivatives(model, &c, &gamma, &columns);
+    let residuals = residuals(model, &c, &gamma);
+    let d_force_dx = force_derivatives(model, &c, &columns);
+    let d_residual_dx = along_columns(model, &residuals, &columns);
     let d_gamma_dv = velocity_derivatives(model, &gamma);
     let d_velocity_dx = along_columns(model, &velocity, &columns);
+    let phi = if body.holonomic {
+        body.rows.clone()
+    } else {
+        Vec::new()
+    };
+    let d_phi_dp = gradient(model, &phi, data);
+    let d_residual_dp = gradient(model, &residuals, data);
     Ok(ConstraintKernels {
-        phi: if body.holonomic {
-            body.rows.clone()
-        } else {
-            Vec::new()
-        },
+        phi,
         restricts_start,
         c,
         b,
@@ -119,6 +141,8 @@ pub(crate) fn constraint(
         d_residual_dx,
         d_gamma_dv,
         d_velocity_dx,
+        d_phi_dp,
+        d_residual_dp,
     })
 }
 
@@ -256,13 +280,8 @@ fn keeps_start(model: &Model, row: Expr) -> bool {
     })
 }
 
-/// `∂(Cᵀλ)/∂x` and `∂(C·a − Γ)/∂x`.
-fn position_derivatives(
-    model: &mut Model,
-    c: &[Entry],
-    gamma: &[Expr],
-    columns: &[Derivation],
-) -> (Sparse, Sparse) {
+/// `∂(Cᵀλ)/∂x`
+fn force_derivatives(model: &mut Model, c: &[Entry], columns: &[Derivation]) -> Sparse {
     let forces: Vec<Expr> = (0..columns.len())
         .map(|column| {
             let terms: Vec<(f64, Expr)> = c
@@ -273,7 +292,12 @@ fn position_derivatives(
             model.g.sum(&terms)
         })
         .collect();
-    let residuals: Vec<Expr> = gamma
+    along_columns(model, &forces, columns)
+}
+
+/// `C·a − Γ`, row by row.
+fn residuals(model: &mut Model, c: &[Entry], gamma: &[Expr]) -> Vec<Expr> {
+    gamma
         .iter()
         .enumerate()
         .map(|(row, &gamma)| {
@@ -288,10 +312,26 @@ fn position_derivatives(
             terms.push((-1.0, gamma));
             model.g.sum(&terms)
         })
+        .collect()
+}
+
+/// `∂(λᵀ·rows)/∂p` for each number p of the data.
+fn gradient(model: &mut Model, rows: &[Expr], data: &[Derivation]) -> Vec<Expr> {
+    let terms: Vec<(f64, Expr)> = rows
+        .iter()
+        .enumerate()
+        .map(|(row, &e)| (1.0, model.g.mul(model.inputs.lambda[row], e)))
         .collect();
-    let d_force = along_columns(model, &forces, columns);
-    let d_residual = along_columns(model, &residuals, columns);
-    (d_force, d_residual)
+    let sum = model.g.sum(&terms);
+    data.iter()
+        .map(|along| {
+            let slope = along.apply(&mut model.g, sum);
+            match identity::is_zero(&model.g, &model.inputs, slope) {
+                true => model.g.number(0.0),
+                false => slope,
+            }
+        })
+        .collect()
 }
 
 /// Derivatives of `rows` along each degree of freedom.

@@ -17,6 +17,7 @@ use symbolic::{Derivation, Expr, Graph};
 
 use crate::parse::{Definition, Kept, Param, ParamKind};
 use crate::vector::{Frame, Turn, Vector};
+pub(crate) use check::not_polynomial;
 pub(crate) use condition::{Comparison, Condition};
 use expression::Value;
 pub(crate) use inputs::{Inputs, Source};
@@ -41,6 +42,8 @@ pub(crate) struct KeptValue {
     /// Name of its field.
     pub(crate) field: String,
     pub(crate) kind: Kept,
+    /// The inputs of kernels that stand for it.
+    pub(crate) symbols: Vec<Expr>,
     /// Its value at the start.
     pub(crate) values: Vec<Expr>,
     /// The optional parameter that overrides it.
@@ -72,11 +75,13 @@ pub(crate) struct ConstraintBody {
 const RESERVED: [&str; 5] = ["motion", "measure_0", "reader", "arguments", "None"];
 
 /// Names of types and traits in the generated module: no definition can have them.
-const RESERVED_TYPES: [&str; 31] = [
+const RESERVED_TYPES: [&str; 33] = [
     "Argument",
     "ArgumentError",
     "Constraint",
     "ConstraintSpec",
+    "Datum",
+    "DatumShape",
     "Direction",
     "Entry",
     "Err",
@@ -214,12 +219,13 @@ impl<'a> Scope<'a> {
                     .map(|k| Value::Scalar(self.model.inputs.values(&name)[k]))
                     .collect(),
             ),
-            ParamKind::Number(_) => match &p.default {
+            ParamKind::Number(unit) => match &p.default {
                 None => Value::Scalar(self.model.inputs.values(&name)[0]),
                 Some(default) => {
                     let value = self.scalar(default)?;
                     self.refuse_all(default, check::START)?;
-                    self.keep(&p.name, Kept::Number, vec![value], Some(p.name.clone()))?
+                    let kept = Kept::Number(unit.clone());
+                    self.keep(&p.name, kept, vec![value], Some(p.name.clone()))?
                 }
             },
         })
@@ -274,7 +280,7 @@ impl<'a> Scope<'a> {
                 continue;
             };
             let values = match kept {
-                Kept::Number => vec![self.as_scalar(value, &b.value)?],
+                Kept::Number(_) => vec![self.as_scalar(value, &b.value)?],
                 Kept::Vector(slot) => {
                     let slot = self.slot(slot)?;
                     self.pair_in(slot, value, &b.value)?.to_vec()
@@ -340,6 +346,7 @@ impl<'a> Scope<'a> {
         self.model.kept.push(KeptValue {
             field,
             kind,
+            symbols,
             values,
             overridden_by,
             of_start,
@@ -370,6 +377,12 @@ impl Model {
             .inputs(e)
             .into_iter()
             .any(|s| origin(self.inputs.source(s)))
+    }
+
+    /// Whether a kept value is computed from other numbers alone, so that it changes with them.
+    pub(crate) fn is_computed(&self, kept: &KeptValue) -> bool {
+        let reads_poses = |&e: &Expr| self.depends_on(e, |s| matches!(s, Source::Pose { .. }));
+        kept.overridden_by.is_none() && !kept.values.iter().any(reads_poses)
     }
 
     /// Whether a value depends on the configuration, directly or through kept values.

@@ -1,12 +1,14 @@
 //! The text of a generated module: type, facts, kernels.
 
+mod data;
 mod facts;
 mod parts;
 
 use proc_macro2::{Ident, Literal, TokenStream};
 use quote::{format_ident, quote};
-use symbolic::{Counts, Expr, Scalar};
+use symbolic::{Counts, Derivation, Expr, Scalar};
 
+use crate::data::{Datum, derivations, of_measure, stored};
 use crate::derive::{self, Component, ConstraintKernels, Sparse};
 use crate::elaborate::{Body, ConstraintBody, Model};
 use crate::kernel::kernel;
@@ -30,8 +32,10 @@ pub(crate) fn constraint(
     let idle = |at: &[TokenStream], row: usize| {
         syn::Error::new_spanned(&at[row], "no velocity changes this: it restricts no motion")
     };
-    let kernels =
-        derive::constraint(&mut model, &body, &component).map_err(|row| idle(&body.at, row))?;
+    let data = stored(d, &model);
+    let by_data = derivations(&mut model, &data);
+    let kernels = derive::constraint(&mut model, &body, &component, &by_data)
+        .map_err(|row| idle(&body.at, row))?;
     let drives: Vec<(Ident, Ident)> = body
         .measures
         .iter()
@@ -58,7 +62,10 @@ pub(crate) fn constraint(
         drives: drives.clone(),
         driven: false,
         scene_type: parts::scene_type(d),
+        data: data.clone(),
     };
+    let measure_0 = Derivation::partial(&mut model.g, model.inputs.measure_0);
+    let by_data = [by_data, vec![measure_0]].concat();
     let mut items = vec![constraint_type(d, &model, &main, &kernels, &body, text)];
     for ((measure, driver), (_, value)) in drives.iter().zip(&body.measures) {
         let row = model.g.sum(&[
@@ -74,8 +81,9 @@ pub(crate) fn constraint(
             component: None,
             measures: vec![(measure.clone(), *value)],
         };
-        let kernels = derive::constraint(&mut model, &driven, &Component::Multiplier)
+        let kernels = derive::constraint(&mut model, &driven, &Component::Multiplier, &by_data)
             .map_err(|row| idle(&driven.at, row))?;
+        let measure_0 = of_measure(&model, kernels.unit_of_measure());
         let drive = Type {
             name: driver.clone(),
             rows: vec![measure.to_string()],
@@ -87,6 +95,7 @@ pub(crate) fn constraint(
             drives: Vec::new(),
             driven: true,
             scene_type: measure.to_string(),
+            data: [data.clone(), vec![measure_0]].concat(),
         };
         items.push(constraint_type(d, &model, &drive, &kernels, &driven, text));
     }
@@ -104,6 +113,7 @@ struct Type {
     drives: Vec<(Ident, Ident)>,
     driven: bool,
     scene_type: String,
+    data: Vec<Datum>,
 }
 
 fn constraint_type(
@@ -122,6 +132,7 @@ fn constraint_type(
     let initialise = parts::initialise(model, measure);
     let requirement = parts::requirement(model);
     let points = parts::points(d);
+    let data = data::methods(model, &t.data);
     let drives = parts::drives(d, model, name, &t.drives);
     let visit = t
         .drives
@@ -201,6 +212,14 @@ fn constraint_type(
         &values(&k.d_velocity_dx),
         VELOCITY,
     );
+    let d_phi_dp = method("d_phi_dp", "∂(λᵀΦ)/∂p", model, &k.d_phi_dp, FORCE);
+    let d_residual_dp = method(
+        "d_residual_dp",
+        "∂(λᵀ(C·a − Γ))/∂p",
+        model,
+        &k.d_residual_dp,
+        WORK,
+    );
     quote! {
         #structure
         #drives
@@ -215,6 +234,7 @@ fn constraint_type(
             #initialise
             #requirement
             #points
+            #data
             #phi
             #c_constant
             #c
@@ -227,6 +247,8 @@ fn constraint_type(
             #d_residual_dx
             #d_gamma_dv
             #d_velocity_dx
+            #d_phi_dp
+            #d_residual_dp
         }
     }
 }
@@ -299,6 +321,12 @@ const RESIDUAL: Signature = Signature {
     v: true,
     a: true,
     lambda: false,
+};
+
+const WORK: Signature = Signature {
+    v: true,
+    a: true,
+    lambda: true,
 };
 
 fn method(name: &str, what: &str, model: &Model, outputs: &[Expr], s: Signature) -> TokenStream {

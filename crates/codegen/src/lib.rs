@@ -8,12 +8,14 @@
 //! | [`parse`] | tokens → [`parse::Definition`] |
 //! | `vector` | vectors as sums of parts in frames: products of parts of one frame need no rotation |
 //! | `elaborate` | expressions of the language → scalars of the graph, with shapes checked |
+//! | `data` | the numbers that a constraint stores, and what changes with each of them |
 //! | `identity` | is an expression zero for every pose? |
-//! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods; laws → Q and its derivatives |
+//! | `derive` | Φ or Ψ → C, b, Γ and the derivatives for implicit methods and by the data; laws → Q and its derivatives |
 //! | `kernel` | a list of expressions → one function with its operation count |
 //! | `emit` | kernels and facts → the text of a module |
 //! | `nearest` | hints for misspelt names |
 
+mod data;
 mod derive;
 mod elaborate;
 mod emit;

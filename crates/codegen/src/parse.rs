@@ -16,6 +16,7 @@
 //!     measure name: expr;              what a drive may prescribe
 //!     place: expr;                     where the reaction is reported
 //!     component name: expr;            a named direction of the reaction
+//!     note "words";                    what a reader of the reaction must know
 //!     force: law on coordinate;        (forces) Q = Σ law · ∂coordinate/∂x
 //!     scene "type";                    another scene type than the name
 //!     variant key = "value", default;  one of several definitions of a scene type
@@ -71,6 +72,8 @@ pub struct Definition {
     pub place: Option<Expr>,
     /// A named direction of the reaction.
     pub component: Option<(Ident, Expr)>,
+    /// What a reader of the reaction must know.
+    pub note: Option<LitStr>,
     /// Laws and their coordinates.
     pub forces: Vec<(Expr, Expr)>,
     /// Scene type, if it is not the name.
@@ -122,8 +125,8 @@ pub struct Binding {
 /// What an `initial` value is.
 #[derive(Clone, PartialEq, Eq)]
 pub enum Kept {
-    /// One number.
-    Number,
+    /// One number with its unit.
+    Number(Ident),
     /// Two components in the frame of the body in a slot.
     Vector(Ident),
 }

@@ -3,6 +3,7 @@
 use symbolic::Expr;
 
 use crate::Kind;
+use crate::data;
 use crate::derive::{self, Component, ConstraintKernels, ForceKernels};
 use crate::elaborate::{Body, ConstraintBody, Model, Source, elaborate};
 use crate::parse::definition;
@@ -47,7 +48,9 @@ pub(crate) fn error(kind: Kind, text: &str) -> String {
 
 /// A correct constraint and its kernels.
 pub(crate) fn constraint(text: &str) -> (Model, ConstraintBody, ConstraintKernels) {
-    let mut model = model(Kind::Constraint, text).unwrap_or_else(|e| panic!("{e}"));
+    let tokens = text.parse().unwrap_or_else(|e| panic!("{e}"));
+    let definition = definition(Kind::Constraint, tokens).unwrap_or_else(|e| panic!("{e}"));
+    let mut model = elaborate(&definition).unwrap_or_else(|e| panic!("{e}"));
     let Body::Constraint(body) = std::mem::replace(&mut model.body, Body::Force(Vec::new())) else {
         unreachable!("elaborated as a constraint")
     };
@@ -55,7 +58,9 @@ pub(crate) fn constraint(text: &str) -> (Model, ConstraintBody, ConstraintKernel
         Some(_) => Component::Along,
         None => Component::None,
     };
-    let kernels = derive::constraint(&mut model, &body, &component)
+    let data = data::stored(&definition, &model);
+    let data = data::derivations(&mut model, &data);
+    let kernels = derive::constraint(&mut model, &body, &component, &data)
         .unwrap_or_else(|row| panic!("row {row} restricts nothing"));
     (model, body, kernels)
 }

@@ -105,6 +105,14 @@ pub enum Trip {
         /// What is allowed.
         tolerance: f64,
     },
+    /// Redundant drives ask for different motions from a time after the start on, or one of them for what joints forbid.
+    #[error("at t = {time} s redundant rows part: {contradiction}")]
+    Drives {
+        /// When the rows were seen to differ.
+        time: f64,
+        /// What they ask for, where they differ clearly.
+        contradiction: Box<Contradiction>,
+    },
     /// A row that is dropped because the start is singular holds no more beside it.
     #[error(
         "at t = {time} s the dropped row {row} is violated by {residual:.3e}: it contradicts the kept rows. It is redundant at the start only, which \

@@ -3,12 +3,10 @@
 
 use std::sync::Arc;
 
-use linalg::{Doubt, RankStatus};
+use linalg::RankStatus;
 use model::start::{assemble, consistent_velocity, velocity_correction};
-use model::{Assembly, Mechanism, Scratch, StartOptions, System};
-use solvability::{
-    LARGE, RowDecision, certify, decide_rows_dropping, inseparable, rows as rows_of,
-};
+use model::{Assembly, Mechanism, StartOptions, System};
+use solvability::{RowDecision, Rows, decide_rows_dropping, rows as rows_of};
 
 use crate::code::SceneCode;
 use crate::error::{DropError, MotionError};
@@ -30,6 +28,8 @@ pub struct Prepared {
     pub decision: RowDecision,
     /// Rank and kept rows of Φq alone: what holds the configuration.
     pub position_decision: RowDecision,
+    /// The decisions of the start part by part, which its verdicts are read from; `None` for a component of another mechanism.
+    pub decided: Option<Arc<Rows>>,
     /// How the configuration was assembled.
     pub assembly: Assembly,
     /// Velocities at the start minus the described ones.
@@ -59,20 +59,6 @@ impl Prepared {
     }
 }
 
-/// Why nothing moves on a rank that is undecided in `f64`: in higher precision it is that of the data, and the rows that make it doubtful have names.
-fn doubtful(mechanism: &Mechanism, s: &Scratch, q: &[f64], doubt: Doubt) -> MotionError {
-    let layout = mechanism.layout();
-    let of_the_data = match layout.rows() <= LARGE {
-        true => certify(mechanism, s.t, q).ok(),
-        false => None,
-    };
-    let decided = of_the_data.filter(|decision| decision.is_decided());
-    match decided.and_then(|decision| inseparable(mechanism, s, q, &decision)) {
-        Some(nearly) => MotionError::inseparable(&nearly, &layout.labels),
-        None => MotionError::RankUndecided(doubt),
-    }
-}
-
 /// Assembles the start, decides the rank there, chooses rows, and makes the velocities consistent.
 ///
 /// # Errors
@@ -91,14 +77,14 @@ pub fn prepare(
     mechanism.pose(0.0, &assembly.q, &mut s);
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
-    let found = rows_of(&mechanism, &s, &assembly.q)?;
+    let found = rows_of(&mechanism, 0.0, &assembly.q)?;
+    if let Some(nearly) = found.inseparable(&mechanism, 0.0, &assembly.q) {
+        return Err(MotionError::inseparable(&nearly, &layout.labels));
+    }
     for decision in [&found.all, &found.holonomic] {
         if let RankStatus::Undecided(doubt) = decision.status {
-            return Err(doubtful(&mechanism, &s, &assembly.q, doubt));
+            return Err(MotionError::RankUndecided(doubt));
         }
-    }
-    if let Some(nearly) = found.inseparable(&mechanism, &s, &assembly.q) {
-        return Err(MotionError::inseparable(&nearly, &layout.labels));
     }
     let decision = match rows {
         RowChoice::Automatic => found.all.clone(),
@@ -118,7 +104,8 @@ pub fn prepare(
         v,
         choice: rows.clone(),
         decision,
-        position_decision: found.holonomic,
+        position_decision: found.holonomic.clone(),
+        decided: Some(Arc::new(found)),
         assembly,
         velocity_correction,
         code: None,

@@ -20,7 +20,7 @@ use integrators::{
     Outcome, OutputTimes, Radau5, Rows, Tsit5, integrate,
 };
 use model::System;
-use solvability::generic;
+use solvability::{contradicting_drives_along, generic};
 
 use crate::error::{MotionError, Trip};
 use crate::motion::KeptRowMotion;
@@ -172,8 +172,26 @@ fn run_component(
             error => error,
         },
     };
-    let error = at_singular_start(prepared, error);
+    let error = at_singular_start(prepared, of_drives(prepared, options.t_end, error));
     Err(Box::new(Failure { error, summary }))
+}
+
+/// Whether a dropped row was violated because drives contradict each other or ask for what joints forbid: then they are named, whichever row was
+/// dropped.
+fn of_drives(prepared: &Prepared, t_end: f64, error: MotionError) -> MotionError {
+    let MotionError::Trip(Trip::DroppedRow { time, .. }) = &error else {
+        return error;
+    };
+    let mechanism = &prepared.mechanism;
+    // What has hardly begun to differ differs clearly later.
+    match contradicting_drives_along(mechanism, &prepared.q, t_end).unwrap_or_default() {
+        Some(contradiction) => Trip::Drives {
+            time: *time,
+            contradiction: Box::new(contradiction),
+        }
+        .into(),
+        None => error,
+    }
 }
 
 /// Whether a dropped row was violated because it is redundant at the start alone: then nothing contradicts it.

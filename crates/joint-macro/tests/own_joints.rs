@@ -192,6 +192,126 @@ fn names_of_arguments_hide_nothing() {
     assert_eq!(phi, [0.5]);
 }
 
+/// `v = lambda·x_0` is computed from other numbers, so it changes with them; out = 1, None = 2,
+/// dNone/dx_0 = −3.
+#[test]
+fn what_is_computed_from_other_numbers_changes_with_them() {
+    let mut joint = Shadows {
+        lambda: 3.0,
+        x: 0.0,
+        v: 0.0,
+    };
+    Element::<f64>::initialise(&mut joint, &[Pose::new(2.0, 0.0, 0.0)]);
+    let named: Vec<&str> = Shadows::SPEC.data.iter().map(|d| d.name).collect();
+    assert_eq!(named, ["lambda", "x"]);
+    assert_eq!(Shadows::SPEC.n_data(), 2);
+    let pose = [Pose::new(3.0, 0.0, 0.5)];
+    let mut gradient = [0.0; 2];
+    Element::d_phi_dp(&joint, &pose, &[], &[10.0], &mut gradient);
+    // ∂/∂lambda = −x_0 = −2, ∂/∂x_0 = (2·2 + 1)·(−3) − 3 = −18
+    assert_eq!(gradient, [-20.0, -180.0]);
+    // C = (2·None + 1)·(2·out + 1) along x: its derivative by x_0 is 2·(−3)·3 + 5·(−2) = −28.
+    let a = [Twist {
+        x: 1.0,
+        y: 0.0,
+        omega: 0.0,
+    }];
+    Element::d_residual_dp(
+        &joint,
+        &pose,
+        &[Twist::zero()],
+        &a,
+        &[],
+        &[10.0],
+        &mut gradient,
+    );
+    assert_eq!(gradient, [0.0, -280.0]);
+
+    // Other numbers are told again, and v = 5·4 follows them: 0 + 0 + 0.5 − 20.
+    Element::<f64>::set_data(&mut joint, &[5.0, 4.0]);
+    let mut numbers = [0.0; 2];
+    Element::<f64>::data(&joint, &mut numbers);
+    assert_eq!(numbers, [5.0, 4.0]);
+    let mut phi = [0.0];
+    Element::phi(&joint, &[Pose::new(4.0, 0.0, 0.5)], &[], &mut phi);
+    assert_eq!(phi, [-19.5]);
+}
+
+// What is divided before the motion: kernels of constraints are polynomials all the same.
+joint! { plane Scaled(i, j) {
+    /// `along·(p − start) = square·angle` with a square that is a chain of quotients.
+    params {
+        line: GroundLine,
+        rest: Length = norm(origin(j) - origin(i)),
+        sizes: [Length, Ratio],
+    }
+    initial {
+        inverse: PerLength = 1 / norm(origin(j) - origin(i)),
+        share: Ratio = sizes[1] / rest,
+        square: Ratio = share * inverse / sizes[0],
+    }
+    rows: [row];
+    phi: dot(along(line), origin(j) - start(line)) - square * angle(j);
+    place: origin(i);
+} }
+
+/// square = (s_1/rest)·inverse/s_0 with inverse = 1/5 at the start, rest = 2 given, s = (4, 3):
+/// (3/2)·(1/5)/4.
+#[test]
+fn quotients_of_data_have_their_derivatives() {
+    use joints::spec::{DatumShape as S, Unit};
+    let arguments = [
+        joints::Argument::Pairs([[1.0, 2.0], [1.0, 7.0]]),
+        joints::Argument::Numbers(vec![2.0]),
+        joints::Argument::Numbers(vec![4.0, 3.0]),
+    ];
+    let mut joint = Scaled::from_arguments(&arguments).expect("the arguments are right");
+    let start = [Pose::GROUND, Pose::new(3.0, 4.0, 0.0)];
+    Element::<f64>::initialise(&mut joint, &start);
+    let data: Vec<_> = Scaled::SPEC
+        .data
+        .iter()
+        .map(|d| (d.name, d.shape))
+        .collect();
+    let expected = [
+        ("line", S::Line),
+        ("sizes[0]", S::Number(Unit::Length)),
+        ("sizes[1]", S::Number(Unit::Ratio)),
+        ("rest", S::Number(Unit::Length)),
+        ("inverse", S::Kept(Unit::PerLength)),
+    ];
+    assert_eq!(data, expected);
+    let mut numbers = [0.0; 8];
+    Element::<f64>::data(&joint, &mut numbers);
+    assert_eq!(numbers, [1.0, 2.0, 0.0, 1.0, 4.0, 3.0, 2.0, 0.2]);
+
+    let x = [Pose::GROUND, Pose::new(6.0, 8.0, -0.5)];
+    let mut found = [0.0; 8];
+    Element::d_phi_dp(&joint, &x, &[], &[1.0], &mut found);
+    // Φ = along·(p − start) + square/2: by the start −along, by along p − start, then square/2 by
+    // each factor.
+    let half = 0.5 * 0.075;
+    let expected = [
+        0.0,
+        -1.0,
+        5.0,
+        6.0,
+        -half / 4.0,
+        half / 3.0,
+        -half / 2.0,
+        half / 0.2,
+    ];
+    for (found, expected) in found.into_iter().zip(expected) {
+        assert!((found - expected).abs() < 1e-15, "{found} {expected}");
+    }
+
+    // A rest that was given stays so where initial values are taken again.
+    numbers[6] = 8.0;
+    Element::<f64>::set_data(&mut joint, &numbers);
+    Element::<f64>::initialise(&mut joint, &start);
+    assert_eq!((joint.rest, joint.rest_0), (Some(8.0), 8.0));
+}
+
 force! { plane Magnet(i, j) {
     /// Attraction `strength/l²` between two origins; at the start they are apart, or there is none.
     params { strength: Ratio, off: Ratio }

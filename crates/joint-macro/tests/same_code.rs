@@ -191,6 +191,15 @@ fn constraint_bits<K: Constraint>(seed: u64) -> Vec<u64> {
     call(&|o| k.d_residual_dx(&x, &v, &a, &f, o));
     call(&|o| k.d_gamma_dv(&x, &v, &f, o));
     call(&|o| k.d_velocity_dx(&x, &v, &f, o));
+    call(&|o| k.data(o));
+    call(&|o| k.d_phi_dp(&x, &f, &lambda, o));
+    call(&|o| k.d_residual_dp(&x, &v, &a, &f, &lambda, o));
+    let mut numbers = [0.0; BUFFER];
+    k.data(&mut numbers);
+    numbers.iter_mut().for_each(|number| *number += 0.25);
+    k.set_data(&numbers);
+    call(&|o| k.data(o));
+    call(&|o| k.phi(&x, &f, o));
     out.extend((0..spec.common.requirements.len()).map(|r| u64::from(k.requirement(r, &x))));
     out
 }

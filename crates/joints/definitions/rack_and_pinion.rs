@@ -1,7 +1,8 @@
 joint! { plane RackAndPinion(i, j) {
     /// Rack i and pinion j roll on each other without slip:
     /// `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. A negative
-    /// radius is the other side of the rack.
+    /// radius is the other side of the rack. The place of the reaction is the point of the rack at which the pinion's
+    /// centre is at the start.
     params {
         /// Centre of the pinion.
         s_j: Point in j,
@@ -11,9 +12,12 @@ joint! { plane RackAndPinion(i, j) {
         radius: Length,
     }
     initial {
-        phase: Length = dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i))
+        phase: Length = dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i)),
+        centre: Vector in i = local(i, point(j, s_j) - origin(i)),
     }
     rows: [mesh];
     phi: dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i)) - phase;
-    place: origin(i);
+    place: origin(i) + vector(i, centre);
+    note "the reaction of a rack and its pinion is the force of the teeth along the rack, without the force that pushes the \
+          two apart; the reactions of bearing and guide are without it, too";
 } }

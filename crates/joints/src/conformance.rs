@@ -10,6 +10,7 @@
 //! | C·v − b | Φ̇ along the motion |
 //! | Γ | −d²Φ/dτ² along (x + τv, t + τ), and −d(C·v − b)/dτ, which also holds for velocity rows |
 //! | ∂(Cᵀλ)/∂x, ∂(C·a − Γ)/∂x, ∂Γ/∂v, ∂Q/∂x, ∂Q/∂v | derivatives of the kernels above, entries outside the patterns included |
+//! | ∂(λᵀΦ)/∂p, ∂(λᵀ(C·a − Γ))/∂p | differences through `set_data`; the second by dual numbers from the first |
 //! | wrench, place | −C of the first body, moved; a point fixed in the first body |
 //! | balance | forces and moments on all bodies add up to zero |
 //! | norms | unchanged when all bodies move as one |

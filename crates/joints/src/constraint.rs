@@ -37,6 +37,14 @@ pub trait Constraint: Clone + Send + Sync + Sized + 'static {
         Vec::new()
     }
 
+    /// The numbers that the constraint stores, in the order of [`ConstraintSpec::data`].
+    fn data(&self, out: &mut [f64]);
+
+    /// Puts numbers in the place of those that [`Constraint::data`] tells, as they are: directions
+    /// are not normalised. What [`Constraint::initialise`] computed from other numbers alone is
+    /// computed again.
+    fn set_data(&mut self, numbers: &[f64]);
+
     /// `Φ`, one value for each row. Nothing for nonholonomic constraints.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
@@ -79,6 +87,40 @@ pub trait Constraint: Clone + Send + Sync + Sized + 'static {
 
     /// Entries of `∂(C·v − b)/∂x`.
     fn d_velocity_dx<T: Ring>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]);
+
+    /// `∂(λᵀ·Φ)/∂p`, one value for each number p of [`Constraint::data`]; zeros for nonholonomic
+    /// constraints.
+    ///
+    /// What is computed from other numbers changes with them. What is kept from the start does not:
+    /// it is a number of its own.
+    ///
+    /// ```
+    /// use joints::{Argument, Constraint, Element, Pose, generated::Distance};
+    /// # fn main() -> Result<(), joints::ArgumentError> {
+    /// let ends = [Argument::Pair([0.0, 0.0]), Argument::Pair([0.0, 0.0])];
+    /// let mut rod = Distance::from_arguments(&ends)?;
+    /// let x = [Pose::GROUND, Pose::new(3.0, 4.0, 0.0)];
+    /// Constraint::initialise(&mut rod, &x);
+    /// let mut gradient = [0.0; 5];
+    /// Element::d_phi_dp(&rod, &x, &[], &[10.0], &mut gradient);
+    /// // Φ = (d·d − L²)/(2L): by the ends 10·(∓d/L), by the length −10.
+    /// assert_eq!(gradient, [-6.0, -8.0, 6.0, 8.0, -10.0]);
+    /// # Ok(())
+    /// # }
+    /// ```
+    fn d_phi_dp<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]);
+
+    /// `∂(λᵀ·(C·a − Γ))/∂p`, one value for each number p of [`Constraint::data`], with the chain of
+    /// [`Constraint::d_phi_dp`]. At `v = 0` and `f = 0` it is the gradient of `λᵀ·C·a`.
+    fn d_residual_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    );
 }
 
 /// A constraint as an object, for one number type.
@@ -91,6 +133,10 @@ pub trait Element<T: Ring = f64>: Send + Sync {
     fn requirement(&self, k: usize, x: &[Pose]) -> bool;
     /// See [`Constraint::points`].
     fn points(&self) -> Vec<[f64; 2]>;
+    /// See [`Constraint::data`].
+    fn data(&self, out: &mut [f64]);
+    /// See [`Constraint::set_data`].
+    fn set_data(&mut self, numbers: &[f64]);
     /// See [`Constraint::phi`].
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]);
     /// See [`Constraint::c_constant`].
@@ -122,6 +168,18 @@ pub trait Element<T: Ring = f64>: Send + Sync {
     fn d_gamma_dv(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]);
     /// See [`Constraint::d_velocity_dx`].
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]);
+    /// See [`Constraint::d_phi_dp`].
+    fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]);
+    /// See [`Constraint::d_residual_dp`].
+    fn d_residual_dp(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    );
 }
 
 impl<T: Ring, K: Constraint> Element<T> for K {
@@ -136,6 +194,12 @@ impl<T: Ring, K: Constraint> Element<T> for K {
     }
     fn points(&self) -> Vec<[f64; 2]> {
         Constraint::points(self)
+    }
+    fn data(&self, out: &mut [f64]) {
+        Constraint::data(self, out);
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        Constraint::set_data(self, numbers);
     }
     fn phi(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         Constraint::phi(self, x, f, out);
@@ -179,5 +243,19 @@ impl<T: Ring, K: Constraint> Element<T> for K {
     }
     fn d_velocity_dx(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         Constraint::d_velocity_dx(self, x, v, f, out);
+    }
+    fn d_phi_dp(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        Constraint::d_phi_dp(self, x, f, lambda, out);
+    }
+    fn d_residual_dp(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        Constraint::d_residual_dp(self, x, v, a, f, lambda, out);
     }
 }

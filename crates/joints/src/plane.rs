@@ -124,6 +124,14 @@ impl Direction {
         Some(Self([v[0] / length, v[1] / length]))
     }
 
+    /// Components as `Constraint::data` tells them, or changed a little, put back as they are: a
+    /// derivative by one of them leaves the unit circle. For generated code.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn from_data(xy: [f64; 2]) -> Self {
+        Self(xy)
+    }
+
     /// Its components.
     #[must_use]
     pub fn xy(self) -> [f64; 2] {
@@ -144,6 +152,17 @@ impl Line {
     pub fn new(start: [f64; 2], end: [f64; 2]) -> Option<Self> {
         let along = Direction::new([end[0] - start[0], end[1] - start[1]])?;
         Some(Self { start, along })
+    }
+
+    /// Start and direction as `Constraint::data` tells them, put back as they are; see
+    /// [`Direction::from_data`].
+    #[doc(hidden)]
+    #[must_use]
+    pub fn from_data(start: [f64; 2], along: [f64; 2]) -> Self {
+        Self {
+            start,
+            along: Direction::from_data(along),
+        }
     }
 
     /// The first point.

@@ -2,6 +2,7 @@
 //! assembler and a report to treat a joint that they have never heard of.
 
 use std::fmt;
+use std::ops::Range;
 
 /// Facts common to constraints and forces.
 #[derive(Clone, Copy, Debug)]
@@ -170,6 +171,8 @@ pub enum Unit {
     Damping,
     /// N·m·s/rad, not negative
     TorsionDamping,
+    /// 1/m, of values kept from the start only
+    PerLength,
 }
 
 impl Unit {
@@ -197,6 +200,7 @@ impl fmt::Display for Unit {
             Self::TorsionStiffness => "N·m/rad",
             Self::Damping => "N·s/m",
             Self::TorsionDamping => "N·m·s/rad",
+            Self::PerLength => "1/m",
         })
     }
 }
@@ -221,6 +225,8 @@ pub struct ConstraintSpec {
     pub wrench: &'static [[usize; 2]],
     /// A named force component beside Fx, Fy and T.
     pub component: Option<&'static str>,
+    /// What a reader of its reaction must know, in words without the joint's name.
+    pub note: Option<&'static str>,
     /// Relative coordinates that a drive may prescribe.
     pub measures: &'static [Measure],
     /// Pattern (row of the block, column of the block) of `∂(Cᵀλ)/∂x`.
@@ -231,6 +237,86 @@ pub struct ConstraintSpec {
     pub d_gamma_dv: &'static [[usize; 2]],
     /// Pattern (row, column of the block) of `∂(C·v − b)/∂x`.
     pub d_velocity_dx: &'static [[usize; 2]],
+    /// The numbers that it stores: parameters, then what is kept from the start. Each number that
+    /// is not computed from others is in exactly one of them.
+    pub data: &'static [Datum],
+}
+
+impl ConstraintSpec {
+    /// Number of numbers in `data`.
+    #[must_use]
+    pub const fn n_data(&self) -> usize {
+        match self.data {
+            [.., last] => last.first + last.shape.count(),
+            [] => 0,
+        }
+    }
+}
+
+/// Numbers that a constraint stores and that mean something together: a point, a direction, a
+/// single number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Datum {
+    /// Name of the parameter or of the kept value; `name[k]` for one number of a list.
+    pub name: &'static str,
+    /// What its numbers are.
+    pub shape: DatumShape,
+    /// Place of its first number among those of the constraint.
+    pub first: usize,
+}
+
+impl Datum {
+    /// The datum whose numbers begin at `first`.
+    #[must_use]
+    pub const fn new(name: &'static str, shape: DatumShape, first: usize) -> Self {
+        Self { name, shape, first }
+    }
+
+    /// Places of its numbers among those of the constraint.
+    #[must_use]
+    pub fn numbers(&self) -> Range<usize> {
+        self.first..self.first + self.shape.count()
+    }
+}
+
+/// What the numbers of a datum are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DatumShape {
+    /// Two numbers: a point in the frame of the body in this slot (m).
+    Point {
+        /// The slot.
+        slot: usize,
+    },
+    /// Two numbers: components of a unit vector in the frame of the body in this slot. Only changes
+    /// across it mean something.
+    Direction {
+        /// The slot.
+        slot: usize,
+    },
+    /// Four numbers: x and y of the start of a line of the ground (m), and of its unit vector.
+    Line,
+    /// One number. An optional one that is not given has its value at the start.
+    Number(Unit),
+    /// One number, kept from the start.
+    Kept(Unit),
+    /// Two numbers: components, in the frame of the body in this slot, of a vector that is kept
+    /// from the start (m).
+    KeptVector {
+        /// The slot.
+        slot: usize,
+    },
+}
+
+impl DatumShape {
+    /// How many numbers it has.
+    #[must_use]
+    pub const fn count(self) -> usize {
+        match self {
+            Self::Number(_) | Self::Kept(_) => 1,
+            Self::Point { .. } | Self::Direction { .. } | Self::KeptVector { .. } => 2,
+            Self::Line => 4,
+        }
+    }
 }
 
 /// What a constraint is for.

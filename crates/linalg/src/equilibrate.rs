@@ -36,34 +36,61 @@ pub struct Scaling {
 /// assert!(scaled.max_abs() < 4.0 && scaled[(1, 0)] >= 0.5);
 /// ```
 pub fn equilibrate(c: &Matrix) -> Scaling {
-    ruiz(c.nrows(), c.ncols(), |i| {
-        c.row(i).iter().copied().enumerate()
+    let (m, n) = (c.nrows(), c.ncols());
+    ruiz((m, n), dense_exponents(c))
+}
+
+/// The same with one factor for each block of rows and each block of columns: what the axes of a body or of a joint are called must not
+/// decide how its components are scaled. `row_blocks` and `col_blocks` number the block of each row and column from 0.
+///
+/// ```
+/// use linalg::{Matrix, equilibrate_blocks};
+/// let c = Matrix::from_rows(&[[4.0, 0.0], [0.0, 4096.0]]);
+/// let scaling = equilibrate_blocks(&c, &[0, 1], &[0, 0]); // both columns belong to one force
+/// assert_eq!(scaling.cols[0], scaling.cols[1]);
+/// assert_ne!(scaling.rows[0], scaling.rows[1]);
+/// ```
+///
+/// # Panics
+/// If there is not one block for each row and each column.
+pub fn equilibrate_blocks(c: &Matrix, row_blocks: &[usize], col_blocks: &[usize]) -> Scaling {
+    assert_eq!(
+        (c.nrows(), c.ncols()),
+        (row_blocks.len(), col_blocks.len()),
+        "one block for each row and column"
+    );
+    let count = |blocks: &[usize]| blocks.iter().max().map_or(0, |&last| last + 1);
+    let entries = dense_exponents(c).map(|(i, j, e)| (row_blocks[i], col_blocks[j], e));
+    let of_blocks = ruiz((count(row_blocks), count(col_blocks)), entries);
+    let spread =
+        |of_blocks: &[i32], blocks: &[usize]| blocks.iter().map(|&b| of_blocks[b]).collect();
+    Scaling {
+        rows: spread(&of_blocks.rows, row_blocks),
+        cols: spread(&of_blocks.cols, col_blocks),
+    }
+}
+
+/// As [`equilibrate`], for a sparse matrix.
+pub fn equilibrate_sparse(c: &SparseMatrix) -> Scaling {
+    let entries = (0..c.nrows()).flat_map(|i| {
+        c.entries(i)
+            .filter_map(move |(j, c_ij)| Some((i, j, exponent(c_ij)?)))
+    });
+    ruiz((c.nrows(), c.ncols()), entries)
+}
+
+/// Row, column and exponent of the entries that are not zero.
+fn dense_exponents(c: &Matrix) -> impl Iterator<Item = (usize, usize, i32)> + '_ {
+    (0..c.nrows()).flat_map(|i| {
+        let row = c.row(i).iter().enumerate();
+        row.filter_map(move |(j, &c_ij)| Some((i, j, exponent(c_ij)?)))
     })
 }
 
-/// [`equilibrate`] for the entries of a sparse matrix: the scaling is that of the same matrix with all its zeros.
-///
-/// ```
-/// use linalg::{SparseMatrix, equilibrate, equilibrate_sparse};
-/// let c = SparseMatrix::from_rows(2, [vec![(0, 1e8), (1, 2e8)], vec![(0, 3e-8)]])?;
-/// assert_eq!(equilibrate_sparse(&c), equilibrate(&c.dense()));
-/// # Ok::<(), linalg::SparseError>(())
-/// ```
-pub fn equilibrate_sparse(c: &SparseMatrix) -> Scaling {
-    ruiz(c.nrows(), c.ncols(), |i| c.entries(i))
-}
-
-/// The scaling of an m×n matrix given by the entries (j, value) of its rows.
-fn ruiz<Row: Iterator<Item = (usize, f64)>>(
-    m: usize,
-    n: usize,
-    row: impl Fn(usize) -> Row,
-) -> Scaling {
+fn ruiz((m, n): (usize, usize), entries: impl Iterator<Item = (usize, usize, i32)>) -> Scaling {
     let mut scaling = Scaling::identity(m, n);
     // Most entries are zero: the others are looked up once.
-    let entries: Vec<(usize, usize, i32)> = (0..m)
-        .flat_map(|i| row(i).filter_map(move |(j, c_ij)| Some((i, j, exponent(c_ij)?))))
-        .collect();
+    let entries: Vec<(usize, usize, i32)> = entries.collect();
     let mut row_top = vec![None; m];
     let mut col_top = vec![None; n];
     for _ in 0..SWEEPS_MAX {

@@ -6,6 +6,7 @@ mod dd_matrix;
 mod deletions;
 mod dual;
 mod equilibrate;
+mod jacobi;
 mod kernels;
 #[cfg(feature = "faer")]
 mod large;
@@ -35,7 +36,8 @@ pub use deletions::{
     DeletionError, Limits, Substitutes, count_deletions, deletions, making_unique,
 };
 pub use double_double::Dd;
-pub use equilibrate::{Scaling, equilibrate, equilibrate_sparse};
+pub use equilibrate::{Scaling, equilibrate, equilibrate_blocks, equilibrate_sparse};
+pub use jacobi::{SmallSvd, small_svd};
 pub use lu::{Lu, SingularPivot};
 pub use matrix::{Matrix, ShapeError};
 pub use minimum_norm::MinimumNormSaddle;
@@ -43,10 +45,10 @@ pub use null_space::{Components, components, dependencies, orthonormal, support_
 pub use proximal::{ProximalSaddle, ProximalTuning};
 pub use qr::PivotedQr;
 pub use rank::{
-    Certificate, CoefficientReading, Degraded, Doubt, Evidence, ExactNullSpace, Grounds,
-    KeptRowsError, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankError,
-    RankStatus, Readings, Uncertainty, certify_exact, certify_within, decide, decide_dropping,
-    decide_keeping, promising_rows,
+    Certificate, CoefficientReading, Doubt, Evidence, ExactNullSpace, Grounds, KeptRowsError,
+    NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankError, RankReading,
+    RankStatus, Readings, Uncertainty, certify_exact, certify_rank, certify_within, decide,
+    decide_dropping, decide_keeping, promising_rows,
 };
 pub use regularized::{StepError, least_squares_step};
 pub use saddle::{GRADED_MASSES, KeptRowSaddle, Refinement, SaddleError, mass_spread};

@@ -12,7 +12,6 @@
 //! `σ_r ≥ max(10³·τ, 10⁻⁷)`; where τ is above 0.01, only if σ_{r+1} is rounding. Two other rules give a certificate: `exact` reads the entries as they stand, `within` reads them in
 //! double-double and knows what the data are worth.
 
-mod again;
 mod bound;
 mod certificate;
 mod clear;
@@ -31,13 +30,12 @@ mod within;
 use crate::strong_basis::{self, Basis};
 use crate::{Matrix, PivotedQr, Scaling, equilibrate::scale, kernels, singular_values};
 
-pub use again::Degraded;
 pub use certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant};
 pub use coefficient::{CoefficientReading, Readings};
 pub use exact::certify_exact;
 pub use modular::ExactNullSpace;
 pub use uncertainty::Uncertainty;
-pub use within::certify_within;
+pub use within::{RankReading, certify_rank, certify_within};
 
 pub(crate) use clear::{Size, independent, size};
 pub(crate) use coefficient::coefficient_noise;
@@ -86,7 +84,7 @@ pub struct RankDecision {
 /// The numbers behind a rank decision; all of them belong to the equilibrated matrix.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Evidence {
-    /// All `min(m, n)` singular values, largest first; none after [`RankDecision::at`], which reads no others than σ_r.
+    /// All `min(m, n)` singular values, largest first; none of a sparse decision.
     pub singular_values: Vec<f64>,
     /// σ_r, infinite for rank 0.
     pub sigma_r: f64,
@@ -151,6 +149,38 @@ pub enum Doubt {
         tolerance: f64,
         /// 4·τ.
         required: f64,
+    },
+    /// Data that are wrong by about as much as they are rounded would have a lower rank.
+    #[error(
+        "singular value {sigma:.3e}: if the data were wrong by {share:.2} times their rounding, the rank would be {lower} instead of {upper}; \
+         give the data with more digits, or place the mechanism nearer to the origin"
+    )]
+    WithinRounding {
+        /// The rank that other data within the rounding have.
+        lower: usize,
+        /// The rank of the data as read.
+        upper: usize,
+        /// The singular value that vanishes then.
+        sigma: f64,
+        /// Largest change of a datum, as a share of its rounding.
+        share: f64,
+    },
+    /// The rank hangs on where in the tolerance the data are.
+    #[error(
+        "with data known to {tolerance:.1e} m the rank is {lower} or {upper}: one row is redundant from about {from:.1e} m on; \
+         state a tolerance below {:.1e} m or above {:.1e} m",
+        from / 3.0,
+        3.0 * from
+    )]
+    WithinTolerance {
+        /// The rank that data within the tolerance have.
+        lower: usize,
+        /// The rank of the data as read.
+        upper: usize,
+        /// Where the reading changes (m).
+        from: f64,
+        /// What is stated (m).
+        tolerance: f64,
     },
     /// Rows that are not zero are hidden by what the data are known to.
     #[error(

@@ -5,6 +5,7 @@ use joints::Pose;
 
 use crate::function::Function;
 use crate::registry::{PlaneConstraint, PlaneForce};
+use crate::tolerance::Tolerance;
 
 /// A mechanism before it is assembled.
 ///
@@ -41,6 +42,8 @@ pub struct Description {
     pub drives: Vec<Drive>,
     /// Forces.
     pub forces: Vec<Force>,
+    /// What the numbers are known to where nothing is said of their joint or body.
+    pub tolerance: Tolerance,
 }
 
 impl Description {
@@ -82,6 +85,7 @@ impl Description {
             bodies: bodies.to_vec(),
             element: Box::new(element),
             motion,
+            tolerance: None,
         });
     }
 
@@ -124,6 +128,9 @@ pub struct Body {
     pub velocity: [f64; 2],
     /// Angular velocity (rad/s).
     pub angular_velocity: f64,
+    /// What points and directions in its frame are known to (m; directions: divided by the size of the mechanism); goes before that of
+    /// the scene.
+    pub tolerance: Option<f64>,
 }
 
 impl Body {
@@ -184,6 +191,9 @@ pub struct Joint {
     pub element: Box<dyn PlaneConstraint>,
     /// Its functions of time, in the order of the definition.
     pub functions: Vec<Function>,
+    /// What its points, directions and numbers are known to (m; angles: divided by the size of the mechanism); goes before those of its
+    /// bodies and of the scene.
+    pub tolerance: Option<f64>,
 }
 
 impl Joint {
@@ -194,6 +204,7 @@ impl Joint {
             bodies: bodies.to_vec(),
             element: Box::new(element),
             functions: Vec::new(),
+            tolerance: None,
         }
     }
 }
@@ -209,6 +220,8 @@ pub struct Drive {
     pub element: Box<dyn PlaneConstraint>,
     /// f
     pub motion: Function,
+    /// What its points, directions and numbers are known to (m), as of a joint: that of the joint that it drives.
+    pub tolerance: Option<f64>,
 }
 
 /// An applied force.

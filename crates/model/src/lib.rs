@@ -21,16 +21,19 @@
 //! | [`function`] | functions of time with their derivatives and break times |
 //! | [`registry`] | definitions by their scene type |
 //! | [`description`] | bodies, joints, drives and forces as plain data |
+//! | `data` | points, directions and numbers of constraints, and how rows change with them |
 //! | [`mechanism`] | the assembled equations |
 //! | [`system`] | what a solver sees of them |
 //! | [`extended`] | constraints in double-double, for certificates |
 //! | [`record`] | the equations as operations, for generators of code |
 //! | `scale` | what residuals are compared with |
+//! | `tolerance` | what the data are known to, where that is stated |
 //! | `uncertainty` | what the entries of C are known to |
 //! | [`start`] | a consistent start |
 //! | [`reaction`] | multipliers to forces and torques |
 //! | `rigid` | which constraints act against the ground |
 
+mod data;
 pub mod description;
 pub mod extended;
 pub mod function;
@@ -42,8 +45,10 @@ mod rigid;
 mod scale;
 pub mod start;
 pub mod system;
+mod tolerance;
 mod uncertainty;
 
+pub use data::{DataBlock, DataUnit};
 pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
 pub use extended::Polished;
 pub use function::{Function, FunctionError};
@@ -53,4 +58,5 @@ pub use record::Recording;
 pub use registry::{ConstraintDefinition, ForceDefinition, PlaneConstraint, PlaneForce, Registry};
 pub use start::{Assembly, Coordinate, StartError, StartOptions};
 pub use system::{Layout, RowLabel, Scratch, System};
-pub use uncertainty::Known;
+pub use tolerance::{Stated, Tolerance};
+pub use uncertainty::{Known, ROUNDING};

@@ -3,6 +3,7 @@
 
 mod build;
 mod derivatives;
+mod driven;
 mod holds;
 mod kernels;
 mod part;
@@ -17,8 +18,10 @@ use crate::description::{Body, BodyRef};
 use crate::function::Function;
 use crate::registry::{PlaneConstraint, PlaneForce};
 use crate::system::Layout;
+use crate::tolerance::Tolerance;
 
 pub use build::BuildError;
+pub(crate) use derivatives::column_of;
 pub use derivatives::{Derivatives, Sparse};
 pub use holds::AppliedForce;
 pub use part::{Part, Places};
@@ -68,6 +71,7 @@ pub struct Mechanism {
     functions: Vec<TimeFunction>,
     mass: Vec<f64>,
     weight: Vec<f64>,
+    pub(crate) tolerance: Tolerance,
     /// Constant entries of C, zero elsewhere.
     entries: Vec<f64>,
     /// Longest arm of each body in the initial configuration (m).
@@ -93,6 +97,8 @@ pub(crate) struct PlacedConstraint {
     pub(crate) varying: Vec<usize>,
     pub(crate) rows: Range<usize>,
     pub(crate) functions: Range<usize>,
+    /// What its data are known to (m), where that is stated.
+    pub(crate) tolerance: Option<f64>,
 }
 
 impl PlacedConstraint {
@@ -233,7 +239,8 @@ impl Mechanism {
     }
 
     /// Longest arm of a body in the initial configuration (m): its position matters to about the rounding of this, wherever it is.
-    pub(crate) fn reach(&self, body: usize) -> f64 {
+    #[must_use]
+    pub fn reach(&self, body: usize) -> f64 {
         self.reach[body]
     }
 

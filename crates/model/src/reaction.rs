@@ -1,10 +1,13 @@
 //! From multipliers to what an engineer calls a reaction: force and torque on the first body of the joint,
 //! at the joint's place.
+//!
+//! It is all that the joint does to that body, so that M·a − Q of the body is the sum of the reactions on it. Where the
+//! first body takes several slots, as the ground may that is also the carrier of a gear, their parts add up.
 
 use std::ops::Range;
 
 use joints::Direction;
-use joints::spec::ConstraintSpec;
+use joints::spec::{ConstraintSpec, Entry};
 use linalg::Matrix;
 
 use crate::description::BodyRef;
@@ -42,13 +45,57 @@ pub struct ConstraintGroup {
 /// Names of the three components of a planar wrench.
 pub const COMPONENTS: [&str; 3] = ["Fx", "Fy", "T"];
 
+/// Place of the torque in [`COMPONENTS`], and of the rotation among the degrees of freedom of a body.
+const TORQUE: usize = 2;
+
 impl ConstraintGroup {
+    /// Whether it only prescribes a motion: a drive, listed apart from the joints.
+    #[must_use]
+    pub fn is_drive(&self) -> bool {
+        self.kind == ConstraintKind::Drive
+    }
+
     /// Components of the reaction that are not identically zero, as places in [`COMPONENTS`].
     #[must_use]
     pub fn components(&self) -> Vec<usize> {
+        let entries = self.wrench_entries();
         (0..COMPONENTS.len())
-            .filter(|c| self.spec.wrench.iter().any(|[component, _]| component == c))
+            .filter(|c| entries.iter().any(|[component, _]| component == c))
             .collect()
+    }
+
+    /// Entries (component, row) of the map from multipliers to the reaction that are not identically zero, sorted.
+    #[must_use]
+    pub fn wrench_entries(&self) -> Vec<[usize; 2]> {
+        let mut entries = self.spec.wrench.to_vec();
+        for (_, e) in self.repeated() {
+            entries.push([TORQUE, e.row]);
+            if e.dof < TORQUE {
+                entries.push([e.dof, e.row]);
+            }
+        }
+        entries.sort_unstable();
+        entries.dedup();
+        entries
+    }
+
+    /// Whether a row of this joint or drive has a force in its reaction.
+    #[must_use]
+    pub fn pushes(&self, row: usize) -> bool {
+        let entries = self.wrench_entries();
+        entries
+            .iter()
+            .any(|[component, at]| *at == row && *component < TORQUE)
+    }
+
+    /// Entries of the block of C, with their places in it, of other slots that the first body takes, too.
+    fn repeated(&self) -> impl Iterator<Item = (usize, &'static Entry)> + '_ {
+        let is_repeated = |e: &Entry| e.slot > 0 && self.bodies.get(e.slot) == self.bodies.first();
+        self.spec
+            .c
+            .iter()
+            .enumerate()
+            .filter(move |(_, e)| is_repeated(e))
     }
 }
 
@@ -115,7 +162,33 @@ impl Mechanism {
         for (&[component, row], value) in spec.wrench.iter().zip(values) {
             map[(component, row)] = value;
         }
+        self.add_repeated(id, s, &mut map);
         map
+    }
+
+    /// Adds −Cᵀ of the other slots that the first body takes, moved from its origin to the place.
+    fn add_repeated(&self, id: ConstraintId, s: &Scratch, map: &mut Matrix) {
+        let group = &self.layout().groups[id.0];
+        if group.repeated().next().is_none() {
+            return;
+        }
+        let c = &self.constraints()[id.0];
+        let element = c.element.element();
+        let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
+        let mut block = vec![0.0; group.spec.c.len()];
+        element.c_constant(&mut block);
+        element.c(x, f, &mut block);
+        let [px, py] = element.place(x);
+        let lever = [px - x[0].x, py - x[0].y];
+        for (at, e) in group.repeated() {
+            let value = block[at];
+            map[(e.dof, e.row)] -= value;
+            match e.dof {
+                0 => map[(TORQUE, e.row)] -= lever[1] * value,
+                1 => map[(TORQUE, e.row)] += lever[0] * value,
+                _ => {}
+            }
+        }
     }
 
     /// The same map with the torque about a global point: `T + (place − about) × F`.
@@ -172,15 +245,9 @@ impl Mechanism {
 
     /// The direction of the only row of a joint or drive that has a force.
     fn push(&self, id: ConstraintId, s: &Scratch) -> Option<[f64; 2]> {
-        let spec = self.layout().groups[id.0].spec;
-        let mut rows: Vec<usize> = spec
-            .wrench
-            .iter()
-            .filter(|[component, _]| *component < 2)
-            .map(|[_, row]| *row)
-            .collect();
-        rows.sort_unstable();
-        rows.dedup();
+        let group = &self.layout().groups[id.0];
+        let spec = group.spec;
+        let rows: Vec<usize> = (0..spec.rows.len()).filter(|&r| group.pushes(r)).collect();
         let [row] = rows[..] else { return None };
         let map = self.wrench_map(id, s);
         let named = spec

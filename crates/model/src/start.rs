@@ -345,8 +345,13 @@ fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
 pub fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, q, &mut s);
+    size_of(mechanism, &s)
+}
+
+/// The same at the poses of the scratch.
+pub(crate) fn size_of(mechanism: &Mechanism, s: &Scratch) -> f64 {
     let bodies = s.poses.iter().map(|p| [p.x, p.y]);
-    let places = mechanism.constraint_ids().map(|id| mechanism.place(id, &s));
+    let places = mechanism.constraint_ids().map(|id| mechanism.place(id, s));
     let points: Vec<[f64; 2]> = bodies.chain(places).collect();
     let span = |k: usize| {
         let low = points.iter().fold(f64::INFINITY, |a, p| a.min(p[k]));

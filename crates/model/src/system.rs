@@ -75,6 +75,13 @@ impl Layout {
         self.m + self.h
     }
 
+    /// Rows of drives, ascending.
+    #[must_use]
+    pub fn drive_rows(&self) -> Vec<usize> {
+        let drives = self.groups.iter().filter(|g| g.is_drive());
+        drives.flat_map(|g| g.rows.clone()).collect()
+    }
+
     /// Row `i` of C as (column, value).
     pub fn row<'a>(&'a self, s: &'a Scratch, i: usize) -> impl Iterator<Item = (usize, f64)> + 'a {
         let range = self.pattern.start[i]..self.pattern.start[i + 1];

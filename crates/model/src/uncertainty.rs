@@ -1,15 +1,17 @@
 //! What the entries of C are known to. Data stand in `f64`, rounded: an entry that is made of terms of size one and is 1e-17 may
 //! as well be zero, one that is made of terms of size 1e-8 and is 1e-9 means something.
 
+use std::ops::Range;
+
 use joints::{Magnitude, Pose};
 use linalg::Matrix;
 
-use crate::description::BodyRef;
 use crate::mechanism::{Mechanism, N_BODY, pose_of};
 use crate::system::{Scratch, System};
 
-/// Relative rounding error of a number stored in `f64`.
-const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+/// Relative error of the numbers of a scene, and of what is made of them: half a unit in the last place for each of eight roundings, which are
+/// reading of the number, the place of its body (two), its turn into the frame of the body (two), sine and cosine, and the evaluation of C (two).
+pub const ROUNDING: f64 = 8.0 * f64::EPSILON / 2.0;
 
 /// How well a configuration is known along the motions that the constraints leave free.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,11 +23,11 @@ pub enum Known {
 }
 
 impl Known {
-    /// Relative error of entries that turn with the bodies.
-    fn relative(self) -> f64 {
+    /// By how many radians bodies may be turned, beyond rounding.
+    fn turned(self) -> f64 {
         match self {
-            Self::AsStored => UNIT_ROUNDOFF,
-            Self::To(share) => share.abs().max(UNIT_ROUNDOFF),
+            Self::AsStored => 0.0,
+            Self::To(share) => share.abs(),
         }
     }
 }
@@ -33,10 +35,10 @@ impl Known {
 impl Mechanism {
     /// How far each entry of C may be from that of the mechanism meant, (m+h) × n_v, in the units of C; allocates.
     ///
-    /// An entry is known to the relative error of the data times the size of the terms it adds up, which its kernel on magnitudes
-    /// gives. Points of bodies are known to the rounding of the positions of the bodies, because they are often read from global
-    /// ones, and to what the constraints leave open, |Φ_i|. `size` is that of the mechanism. Needs Φ and C at the pose of the
-    /// scratch.
+    /// A number is known to the relative error of the data times the size of the terms it adds up, which its kernel on magnitudes
+    /// gives, but never entry by entry: of a force and of the place of a point all components are known equally well, whichever way the
+    /// axes point, and no zero is exact. A lever is known to the rounding of the longest arm of its body and of where its bodies stand,
+    /// and to what the constraints leave open, |Φ_i|. `size` is that of the mechanism. Needs Φ and C at the pose of the scratch.
     #[must_use]
     pub fn uncertainty(&self, s: &Scratch, q: &[f64], size: f64, known: Known) -> Matrix {
         let layout = self.layout();
@@ -60,19 +62,70 @@ impl Mechanism {
         known: Known,
     ) -> Vec<f64> {
         let layout = self.layout();
-        let entries = self.magnitudes(s);
-        let relative = known.relative() + self.relative_opening(s, size);
-        let mut u = Vec::with_capacity(layout.pattern.column.len());
+        let pattern = &layout.pattern;
+        let magnitudes = self.magnitudes(s);
+        // How far bodies may be turned; a mechanism that stands far away is turned about itself.
+        let turned = known.turned() + self.relative_opening(s, size);
+        let mut u = Vec::with_capacity(pattern.column.len());
         for i in 0..layout.rows() {
-            for k in layout.pattern.start[i]..layout.pattern.start[i + 1] {
-                let mut by = relative * entries[layout.pattern.entry[k]].value();
-                if layout.pattern.column[k] % N_BODY == 2 {
-                    by += self.shift(s, i, q);
-                }
-                u.push(by);
+            let row = pattern.start[i]..pattern.start[i + 1];
+            // Forces on the bodies of the row, and how far they stand from the origin.
+            let forces: Vec<(usize, f64, f64)> = self.forces_of_row(s, &magnitudes, row.clone());
+            let places = |&(body, force, _): &(usize, f64, f64)| {
+                force * q[N_BODY * body].hypot(q[N_BODY * body + 1])
+            };
+            let shift = ROUNDING * forces.iter().map(places).sum::<f64>()
+                + s.phi.get(i).map_or(0.0, |phi| phi.abs());
+            for k in row {
+                let (body, dof) = (pattern.column[k] / N_BODY, pattern.column[k] % N_BODY);
+                let of_body = forces.iter().find(|(other, ..)| *other == body);
+                let (_, force, magnitude) = of_body.copied().unwrap_or_default();
+                u.push(match dof {
+                    2 => {
+                        let lever = force * self.reach(body);
+                        // A rotation that comes without a force, as that of a rolling wheel, has no lever.
+                        let moved = if force > 0.0 || forces.is_empty() {
+                            shift
+                        } else {
+                            0.0
+                        };
+                        let entry = s.entries[pattern.entry[k]].abs();
+                        let terms = magnitudes[pattern.entry[k]].value();
+                        ROUNDING * (terms + lever) + turned * (entry + lever) + moved
+                    }
+                    _ => ROUNDING * magnitude + turned * force,
+                });
             }
         }
         u
+    }
+
+    /// Of each body that this row of the pattern pushes: the body, the size of the force, and the size of the terms that it is made of.
+    fn forces_of_row(
+        &self,
+        s: &Scratch,
+        magnitudes: &[Magnitude],
+        row: Range<usize>,
+    ) -> Vec<(usize, f64, f64)> {
+        let pattern = &self.layout().pattern;
+        let mut forces: Vec<(usize, [f64; 2], [f64; 2])> = Vec::new();
+        for k in row.filter(|&k| pattern.column[k] % N_BODY != 2) {
+            let (body, dof) = (pattern.column[k] / N_BODY, pattern.column[k] % N_BODY);
+            let at = match forces.iter().position(|(other, ..)| *other == body) {
+                Some(at) => at,
+                None => {
+                    forces.push((body, [0.0; 2], [0.0; 2]));
+                    forces.len() - 1
+                }
+            };
+            let entry = pattern.entry[k];
+            forces[at].1[dof] += s.entries[entry];
+            forces[at].2[dof] += magnitudes[entry].value();
+        }
+        let sizes = forces
+            .into_iter()
+            .map(|(body, force, terms)| (body, force[0].hypot(force[1]), terms[0].hypot(terms[1])));
+        sizes.collect()
     }
 
     /// Sizes of the terms of all entries of C.
@@ -80,16 +133,11 @@ impl Mechanism {
         let constant = self.constant_entries().iter();
         let mut entries: Vec<Magnitude> = constant.map(|&e| Magnitude::from(e)).collect();
         for c in self.constraints().iter().filter(|c| !c.varying.is_empty()) {
-            // Between bodies only relative positions count, wherever they are.
-            let origin = match (c.bodies.contains(&BodyRef::Ground), c.bodies.first()) {
-                (false, Some(&first)) => pose_of(&s.poses, first),
-                _ => Pose::GROUND,
-            };
-            let x: Vec<Pose<Magnitude>> = c
+            let poses = c
                 .bodies
                 .iter()
-                .map(|&body| magnitude(&pose_of(&s.poses, body), &origin))
-                .collect();
+                .map(|&body| magnitude(&pose_of(&s.poses, body)));
+            let x: Vec<Pose<Magnitude>> = poses.collect();
             let jets = s.jets[c.functions.clone()].iter();
             let f: Vec<[Magnitude; 3]> = jets.map(|jet| jet.map(Magnitude::from)).collect();
             c.element
@@ -98,21 +146,14 @@ impl Mechanism {
         }
         entries
     }
-
-    /// How far the points of row `i` may be from where they are meant: rounding of positions, and |Φ_i|.
-    fn shift(&self, s: &Scratch, i: usize, q: &[f64]) -> f64 {
-        let translations = self.layout().row(s, i).filter(|(j, _)| j % N_BODY != 2);
-        let rounding = translations.map(|(j, c)| c.abs() * q[j].abs()).sum::<f64>();
-        UNIT_ROUNDOFF * rounding + s.phi.get(i).map_or(0.0, |phi| phi.abs())
-    }
 }
 
-/// Sizes of what a pose contributes to a polynomial, with positions from an origin; cosine and sine are known to the rounding of their angle.
-fn magnitude(pose: &Pose, origin: &Pose) -> Pose<Magnitude> {
+/// Sizes of what a pose contributes to a polynomial; cosine and sine are known to the rounding of their angle.
+fn magnitude(pose: &Pose) -> Pose<Magnitude> {
     let turned = Magnitude::from(pose.angle.abs().max(1.0));
     Pose {
-        x: (pose.x - origin.x).into(),
-        y: (pose.y - origin.y).into(),
+        x: pose.x.into(),
+        y: pose.y.into(),
         angle: pose.angle.into(),
         cos: turned,
         sin: turned,

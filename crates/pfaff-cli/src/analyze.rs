@@ -3,16 +3,16 @@
 mod along;
 mod ask;
 mod choice;
+mod counts;
+mod data;
 mod deletions;
-mod large;
 mod numbers;
 mod rank;
 mod text;
 
-use pfaff::model::{Registry, System};
+use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::report::{AnalysisDocument, write_json};
-use pfaff::solvability::LARGE;
-use pfaff::{Blueprint, Inquiry, Overrides, Study};
+use pfaff::{Inquiry, Overrides, Study};
 
 use crate::Outcome;
 use crate::args::Analyze;
@@ -29,12 +29,9 @@ pub(crate) fn run(arguments: &Analyze) -> Outcome {
     }
     Interrupt::ends_at_once()?;
     let drop = rows_from_zero(arguments.drop.as_deref())?;
-    let source = Source::read(&arguments.scene)?;
+    let source = Source::read(&arguments.scene)?.known(arguments.known);
     arguments.resources.apply()?;
     let blueprint = arguments.resources.blueprint(&source)?;
-    if blueprint.mechanism.layout().rows() > LARGE {
-        return of_large(arguments, &source, blueprint);
-    }
     let overrides = Overrides {
         drop: drop.clone(),
         ..Overrides::default()
@@ -59,10 +56,20 @@ fn of_study(
     study: &Study,
     drop: Option<&[usize]>,
 ) -> Outcome {
+    let joints = study.scene.description.joints.len() + study.scene.description.drives.len();
+    let bar = Judging::begin(joints);
     let inquiry = study
-        .inquire(arguments.at_time, drop)
+        .inquire_watched(arguments.at_time, drop, |judged| bar.at(judged))
         .map_err(|e| source.failure(e))?;
+    bar.end();
     let mut document = ask::document(arguments, source, &inquiry)?;
+    if arguments.at_time == 0.0
+        && let Some(later) = study
+            .contradicting_drives()
+            .map_err(|e| source.failure(e))?
+    {
+        document.warnings.insert(0, later.to_string());
+    }
     if let Some(t_end) = arguments.along {
         document.along = Some(along::judge(source, study, t_end)?);
     }
@@ -81,20 +88,15 @@ fn of_start(
     warning: String,
 ) -> Outcome {
     let failure = |e| source.failure(e);
-    let read = Blueprint::read(&source.name, &source.text, &Registry::planar());
-    let mut blueprint = read.map_err(failure)?;
-    let inquiry = blueprint.inquire(drop).map_err(failure)?;
+    let mut blueprint = arguments.resources.blueprint(source)?;
+    let description = &blueprint.scene.description;
+    let bar = Judging::begin(description.joints.len() + description.drives.len());
+    let inquiry = blueprint.inquire_watched(drop, |judged| bar.at(judged));
+    let inquiry = inquiry.map_err(failure)?;
+    bar.end();
     let mut document = ask::document(arguments, source, &inquiry)?;
     document.warnings.insert(0, warning);
     answer(arguments, &inquiry, &document)
-}
-
-fn of_large(arguments: &Analyze, source: &Source, mut blueprint: Blueprint) -> Outcome {
-    let (document, survey) = large::document(arguments, source, &mut blueprint)?;
-    match arguments.json {
-        true => json(&document),
-        false => print(&large::describe(&document, &survey)),
-    }
 }
 
 fn answer(arguments: &Analyze, inquiry: &Inquiry<'_>, document: &AnalysisDocument) -> Outcome {
@@ -103,6 +105,26 @@ fn answer(arguments: &Analyze, inquiry: &Inquiry<'_>, document: &AnalysisDocumen
     }
     let hints = ask::hints(inquiry)?;
     print(&text::describe(document, &hints))
+}
+
+/// How many joints and drives are judged, on a terminal.
+struct Judging(ProgressBar);
+
+impl Judging {
+    fn begin(joints: usize) -> Self {
+        let style = "{bar:30} {pos} of {len} joints, {per_sec}, {eta} left";
+        let style = ProgressStyle::with_template(style);
+        let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
+        Self(ProgressBar::new(joints as u64).with_style(style))
+    }
+
+    fn at(&self, judged: usize) {
+        self.0.set_position(judged as u64);
+    }
+
+    fn end(&self) {
+        self.0.finish_and_clear();
+    }
 }
 
 fn json(document: &AnalysisDocument) -> Outcome {

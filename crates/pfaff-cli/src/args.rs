@@ -1,6 +1,7 @@
 //! What may be written on the command line.
 
 mod examples;
+mod known;
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -11,6 +12,8 @@ use clap_complete::Shell;
 use pfaff::dynamics::{Formulation, Method, Stabilisation};
 use pfaff::suite::generate::Kind;
 use pfaff::sweep::{Axis, Shard};
+
+pub(crate) use known::Known;
 
 use crate::resources::Resources;
 use crate::template::Template;
@@ -145,6 +148,8 @@ pub(crate) struct Analyze {
     #[arg(long, value_name = "CHOICE")]
     pub(crate) choose: Vec<String>,
     #[command(flatten)]
+    pub(crate) known: Known,
+    #[command(flatten)]
     pub(crate) resources: Resources,
     /// One JSON document on standard output
     #[arg(long)]
@@ -183,6 +188,8 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
     pub(crate) drop: Option<Vec<usize>>,
     #[command(flatten)]
+    pub(crate) known: Known,
+    #[command(flatten)]
     pub(crate) resources: Resources,
     /// The summary as one JSON document on standard output
     #[arg(long)]
@@ -208,6 +215,8 @@ pub(crate) struct Plan {
     /// Rows to eliminate, counted from 1
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
     pub(crate) drop: Option<Vec<usize>>,
+    #[command(flatten)]
+    pub(crate) known: Known,
     #[command(flatten)]
     pub(crate) resources: Resources,
     /// The plan as one JSON document on standard output
@@ -307,6 +316,8 @@ pub(crate) struct Check {
     #[arg(long, conflicts_with = "json")]
     pub(crate) watch: bool,
     #[command(flatten)]
+    pub(crate) known: Known,
+    #[command(flatten)]
     pub(crate) resources: Resources,
     /// Problems, or what was read, as one JSON document on standard output
     #[arg(long)]
@@ -340,6 +351,8 @@ pub(crate) struct View {
     #[arg(long)]
     pub(crate) no_open: bool,
     #[command(flatten)]
+    pub(crate) known: Known,
+    #[command(flatten)]
     pub(crate) resources: Resources,
     /// What was written as one JSON document on standard output; opens nothing
     #[arg(long)]
@@ -352,6 +365,8 @@ pub(crate) struct Diff {
     pub(crate) a: PathBuf,
     /// The other one
     pub(crate) b: PathBuf,
+    #[command(flatten)]
+    pub(crate) known: Known,
     #[command(flatten)]
     pub(crate) resources: Resources,
     /// The differences as one JSON document on standard output

@@ -1,7 +1,9 @@
 //! `pfaff check`: read and assemble, and say everything that is wrong.
 
 use pfaff::model::{Layout, Mechanism, System, start};
-use pfaff::{Overrides, StudyError};
+use pfaff::report::documents::FreedomsDocument;
+use pfaff::scene::Scene;
+use pfaff::{Inquiry, Overrides, StudyError};
 use serde_json::json;
 
 use crate::Outcome;
@@ -18,13 +20,16 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
     }
     Interrupt::ends_at_once()?;
     arguments.resources.apply()?;
-    let source = Source::read(&arguments.scene)?;
+    let source = Source::read(&arguments.scene)?.known(arguments.known);
     let checked = Checked::of(&source, arguments.resources)?;
     match arguments.json {
         true => print(&format!("{:#}\n", checked.facts())),
         false => print(&checked.describe()),
     }
 }
+
+/// Fragile reactions that have a warning each.
+const FRAGILE_TOLD: usize = 10;
 
 /// A scene that has been read and assembled.
 pub(crate) struct Checked {
@@ -35,28 +40,64 @@ pub(crate) struct Checked {
     position: f64,
     /// Largest change of a velocity; nothing where no motion begins.
     velocity: Option<f64>,
-    /// Why it cannot be moved, where that is all that is wrong.
-    warning: Option<String>,
+    /// Why it cannot be moved, where that is all that is wrong, and what is probably not meant.
+    warnings: Vec<String>,
+    /// What can move; nothing where the rank is not asked for, because the mechanism is large.
+    freedoms: Option<Freedoms>,
+}
+
+/// Mobility, with the drives and without them.
+struct Freedoms {
+    mobility: usize,
+    document: FreedomsDocument,
+}
+
+impl Freedoms {
+    fn of(inquiry: &Inquiry<'_>) -> Result<Self, StudyError> {
+        let freedoms = inquiry.freedoms()?;
+        Ok(Self {
+            mobility: freedoms.mobility,
+            document: FreedomsDocument::new(&freedoms, inquiry.mechanism),
+        })
+    }
 }
 
 impl Checked {
     /// Reads and assembles the scene. What `analyze` judges is no error here.
     pub(crate) fn of(source: &Source, resources: Resources) -> Result<Self, Failure> {
-        let new = |scene: &str, mechanism: &Mechanism, correction: &[f64]| Self {
-            scene: scene.to_owned(),
+        let new = |scene: &Scene, mechanism: &Mechanism, correction: &[f64]| Self {
+            scene: scene.name().to_owned(),
             bodies: mechanism.bodies().len(),
             layout: mechanism.layout().clone(),
             position: largest(correction),
             velocity: None,
-            warning: None,
+            warnings: scene.cautions().collect(),
+            freedoms: None,
         };
         let blueprint = resources.blueprint(source)?;
         match source.prepare(blueprint, &Overrides::default()) {
             Ok(study) => {
+                study.check_drives().map_err(|e| source.failure(e))?;
+                let failure = |e| source.failure(e);
+                let start = study.inquire(0.0, None).map_err(failure)?;
+                let freedoms = Freedoms::of(&start).map_err(failure)?;
+                let hanging = start.sensitivities().map_err(failure)?;
+                let hanging = hanging.sentences(start.mechanism.layout());
                 let p = &study.prepared;
-                let checked = new(study.scene.name(), &p.mechanism, &p.assembly.correction);
+                let mut checked = new(&study.scene, &p.mechanism, &p.assembly.correction);
+                let more = hanging.len().saturating_sub(FRAGILE_TOLD);
+                checked
+                    .warnings
+                    .extend(hanging.into_iter().take(FRAGILE_TOLD));
+                if more > 0 {
+                    checked.warnings.push(
+                        "more reactions are unique but fragile: `pfaff analyze` names all"
+                            .to_owned(),
+                    );
+                }
                 Ok(Self {
                     velocity: Some(largest(&p.velocity_correction)),
+                    freedoms: Some(freedoms),
                     ..checked
                 })
             }
@@ -73,15 +114,9 @@ impl Checked {
                             None => source.failure(StudyError::Motion(e.into())),
                         },
                     )?;
-                let checked = new(
-                    blueprint.scene.name(),
-                    &blueprint.mechanism,
-                    &assembly.correction,
-                );
-                Ok(Self {
-                    warning: Some(warning),
-                    ..checked
-                })
+                let mut checked = new(&blueprint.scene, &blueprint.mechanism, &assembly.correction);
+                checked.warnings.insert(0, warning);
+                Ok(checked)
             }
         }
     }
@@ -96,8 +131,10 @@ impl Checked {
             "nonholonomic_rows": self.layout.h,
             "start_correction": self.position,
             "start_velocity_correction": self.velocity,
+            "mobility": self.freedoms.as_ref().map(|f| f.mobility),
+            "mobility_without_drives": self.freedoms.as_ref().and_then(|f| f.document.mobility_without_drives()),
             "problems": [],
-            "warnings": self.warning.as_slice(),
+            "warnings": self.warnings,
         })
     }
 
@@ -107,13 +144,15 @@ impl Checked {
             Some(correction) => format!(" and {correction:.1e} in velocity"),
             None => String::new(),
         };
-        let warning = match &self.warning {
-            Some(warning) => wrapped("warning: ", warning),
+        let warnings = self.warnings.iter();
+        let warnings: String = warnings.map(|w| wrapped("warning: ", w)).collect();
+        let mobility = match &self.freedoms {
+            Some(freedoms) => freedoms.document.summary(freedoms.mobility) + "\n",
             None => String::new(),
         };
         format!(
             "{}: {}, {}, {} ({} holonomic, {} nonholonomic)\n\
-             assembled; the start was corrected by {:.1e} in position{velocity}\n{warning}",
+             {mobility}assembled; the start was corrected by {:.1e} in position{velocity}\n{warnings}",
             self.scene,
             count(self.bodies, "body", "bodies"),
             count(

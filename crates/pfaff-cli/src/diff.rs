@@ -28,7 +28,8 @@ pub(crate) fn run(arguments: &Diff) -> Outcome {
         ));
     }
     Interrupt::ends_at_once()?;
-    let sources = [Source::read(&arguments.a)?, Source::read(&arguments.b)?];
+    let read = |path| Ok(Source::read(path)?.known(arguments.known));
+    let sources = [read(&arguments.a)?, read(&arguments.b)?];
     arguments.resources.apply()?;
     let [a, b] = &sources;
     let starts = [
@@ -84,11 +85,13 @@ fn document(sides: [&AnalysisDocument; 2], c: &Comparison<'_>, motion: &Motion) 
         json!({
             "scene": d.scene, "bodies": d.bodies, "rows": d.rows, "rank": d.rank,
             "redundancy": d.redundancy, "mobility": d.mobility,
+            "mobility_without_drives": d.freedoms.mobility_without_drives(),
         })
     };
     let reaction = |r: &ReactionDocument| {
         json!({
             "type": r.kind, "rows": r.rows, "verdict": r.wrench.verdict,
+            "fragile": r.data.fragile,
             "components": r.components,
         })
     };
@@ -182,7 +185,15 @@ fn numbers(names: &[String; 2], [a, b]: [&AnalysisDocument; 2]) -> String {
         ("mobility", a.mobility, b.mobility),
         ("not unique", open(a), open(b)),
     ];
-    for (what, x, y) in counts {
+    let fragile = [a, b].map(|d| d.fragile_reactions().count());
+    let fragile = (fragile != [0, 0]).then_some(("fragile", fragile[0], fragile[1]));
+    // Of scenes without drives it is the same number again.
+    let released = |d: &AnalysisDocument| d.freedoms.mobility_without_drives();
+    let is_driven = released(a).is_some() || released(b).is_some();
+    let [x, y] = [a, b].map(|d| released(d).unwrap_or(d.mobility));
+    let released = is_driven.then_some(("mobility without drives", x, y));
+    let (before, after) = counts.split_at(counts.len() - 1);
+    for &(what, x, y) in before.iter().chain(&released).chain(after).chain(&fragile) {
         let change = match y.cmp(&x) {
             std::cmp::Ordering::Equal => String::new(),
             std::cmp::Ordering::Greater => format!("+{}", y - x),
@@ -227,7 +238,10 @@ fn verdicts(names: &[String; 2], c: &Comparison<'_>) -> String {
 
 /// The verdict of a reaction, with its type where that matters, and which components are not unique.
 fn words(r: &ReactionDocument, with_type: bool) -> String {
-    let verdict = r.wrench.verdict.replace('_', " ");
+    let verdict = match r.data.fragile {
+        true => "unique, FRAGILE".to_owned(),
+        false => r.wrench.verdict.replace('_', " "),
+    };
     let free = r
         .components
         .iter()

@@ -4,9 +4,11 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
+use pfaff::model::Tolerance;
 use pfaff::scene::nearest;
 use pfaff::{Blueprint, Overrides, Study, StudyError};
 
+use crate::args::Known;
 use crate::output::Failure;
 use crate::resources::{Resources, Stage};
 
@@ -17,10 +19,12 @@ pub(crate) const LARGEST: u64 = 1 << 28;
 /// Entries of a directory among which a name is looked for.
 const LOOKED_AT: usize = 10_000;
 
-/// The text of a scene with the name that messages call it by.
+/// The text of a scene with the name that messages call it by, and what the command line says of its numbers.
 pub(crate) struct Source {
     pub(crate) name: String,
     pub(crate) text: String,
+    /// Goes before what the scene states.
+    pub(crate) tolerance: Tolerance,
 }
 
 impl Source {
@@ -50,7 +54,19 @@ impl Source {
                 "{name}:{line}:{column}: not UTF-8: save the file as UTF-8"
             ))
         })?;
-        Ok(Self { name, text })
+        Ok(Self {
+            name,
+            text,
+            tolerance: Tolerance::default(),
+        })
+    }
+
+    /// The same scene with numbers known to this.
+    pub(crate) fn known(self, known: Known) -> Self {
+        Self {
+            tolerance: known.into(),
+            ..self
+        }
     }
 
     /// Reads and assembles the scene, if it may use so much of the machine.

@@ -14,7 +14,7 @@ use crate::resources::Bytes;
 
 pub(crate) fn run(arguments: &args::Plan) -> Outcome {
     Interrupt::ends_at_once()?;
-    let source = Source::read(&arguments.scene)?;
+    let source = Source::read(&arguments.scene)?.known(arguments.known);
     let overrides = Overrides {
         t_end: arguments.t_end,
         method: arguments.method,

@@ -39,7 +39,8 @@ impl Resources {
         let reading = of_reading(text);
         self.allow(reading, "reading this scene")?;
         let _said = Stage::begin(source, "reading and building");
-        let read = Blueprint::read(&source.name, &source.text, &Registry::planar());
+        let read = Blueprint::read(&source.name, &source.text, &Registry::planar())
+            .and_then(|blueprint| blueprint.stating(source.tolerance));
         let blueprint = read.map_err(|e| source.failure(e))?;
         let threads = pfaff::threads();
         let verdicts = blueprint.memory_of_verdicts(threads);

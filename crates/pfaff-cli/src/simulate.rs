@@ -21,7 +21,7 @@ pub(crate) const TRUSTED_BALANCE: f64 = 1e-3;
 const TICKS: u64 = 1000;
 
 pub(crate) fn run(arguments: &Simulate) -> Outcome {
-    let source = Source::read(&arguments.scene)?;
+    let source = Source::read(&arguments.scene)?.known(arguments.known);
     let overrides = overrides(arguments)?;
     let study = source.study(&overrides, arguments.resources)?;
     let memory = study
@@ -129,6 +129,15 @@ fn describe(name: &str, d: &RunDocument) -> String {
     }
     for event in &d.events {
         text.push_str(&format!("t = {:.6} s: {}\n", event.time, event.text));
+    }
+    let reactions = d.reactions.0.iter();
+    let fragile = reactions.filter(|(_, r)| r.data.fragile);
+    let fragile: Vec<&str> = fragile.map(|(name, _)| name.as_str()).collect();
+    if !fragile.is_empty() {
+        text.push_str(&format!(
+            "warning: unique but fragile at the start: {}. Their numbers are made of the last digits of the data; summary.json says of which.\n",
+            listed(&fragile),
+        ));
     }
     let mut choices: Vec<(String, Vec<&str>)> = Vec::new();
     for (name, r) in &d.reactions.0 {

@@ -1,9 +1,9 @@
 //! The assembled start with its verdicts, of mechanisms of any size: what a picture and a comparison begin with.
 
 use pfaff::model::{Mechanism, System};
-use pfaff::report::{AnalysisDocument, Proof};
+use pfaff::report::AnalysisDocument;
 use pfaff::scene::Scene;
-use pfaff::solvability::{LARGE, ReactionVerdict};
+use pfaff::solvability::ReactionVerdict;
 use pfaff::{Blueprint, StudyError};
 
 use crate::input::Source;
@@ -26,10 +26,7 @@ impl Start {
     pub(crate) fn of(source: &Source, resources: Resources) -> Result<Self, Failure> {
         let mut blueprint = resources.blueprint(source)?;
         let failure = |e: StudyError| source.failure(e);
-        let (reactions, document) = match blueprint.mechanism.layout().rows() > LARGE {
-            true => by_parts(&mut blueprint).map_err(failure)?,
-            false => whole(&mut blueprint).map_err(failure)?,
-        };
+        let (reactions, document) = judged(&mut blueprint).map_err(failure)?;
         let q = blueprint.assemble().map_err(failure)?.q;
         let Blueprint {
             scene, mechanism, ..
@@ -44,26 +41,15 @@ impl Start {
     }
 }
 
-fn whole(
+fn judged(
     blueprint: &mut Blueprint,
 ) -> Result<(Vec<ReactionVerdict>, AnalysisDocument), StudyError> {
     let inquiry = blueprint.inquire(None)?;
-    let proof = Proof {
-        generic: None,
-        certificate: inquiry.certificate.as_ref(),
-    };
-    let mut document = AnalysisDocument::new(inquiry.scene.name(), &inquiry.analysis, proof);
+    let mut document = AnalysisDocument::new(inquiry.scene.name(), &inquiry.analysis, None)
+        .with_freedoms(&inquiry.freedoms()?, inquiry.mechanism);
     if let Some(explanation) = inquiry.explanation()? {
         document.explain(&explanation, inquiry.mechanism.layout());
     }
-    Ok((inquiry.analysis.reactions, document))
-}
-
-fn by_parts(
-    blueprint: &mut Blueprint,
-) -> Result<(Vec<ReactionVerdict>, AnalysisDocument), StudyError> {
-    let survey = blueprint.survey(|_| {})?;
-    let document = AnalysisDocument::of_survey(blueprint.scene.name(), &survey);
-    let reactions = survey.reactions().into_iter().cloned().collect();
-    Ok((reactions, document))
+    document.add_sensitivities(&inquiry.sensitivities()?, inquiry.mechanism.layout());
+    Ok((inquiry.analysis.reactions.clone(), document))
 }

@@ -17,7 +17,7 @@ use crate::start::Start;
 
 pub(crate) fn run(arguments: &View) -> Outcome {
     Interrupt::ends_at_once()?;
-    let source = Source::read(&arguments.scene)?;
+    let source = Source::read(&arguments.scene)?.known(arguments.known);
     let path = place(arguments)?;
     arguments.resources.apply()?;
     let start = Start::of(&source, arguments.resources)?;
@@ -38,6 +38,7 @@ pub(crate) fn run(arguments: &View) -> Outcome {
         .iter()
         .filter(|r| r.wrench.verdict == "not_unique")
         .count();
+    let fragile = start.document.fragile_reactions().count();
     if arguments.json {
         let facts = json!({
             "ok": true,
@@ -46,6 +47,9 @@ pub(crate) fn run(arguments: &View) -> Outcome {
             "bytes": svg.len(),
             "reactions": start.reactions.len(),
             "not_unique": open,
+            "fragile": fragile,
+            "mobility": start.document.mobility,
+            "mobility_without_drives": start.document.freedoms.mobility_without_drives(),
         });
         return print(&format!("{facts:#}\n"));
     }
@@ -56,10 +60,15 @@ pub(crate) fn run(arguments: &View) -> Outcome {
             Err(reason) => format!("not opened: {reason}\n"),
         },
     };
+    let fragile = match fragile {
+        0 => String::new(),
+        n => format!(", {n} unique but FRAGILE"),
+    };
     print(&format!(
-        "{}: {}, {open} not unique\nwritten to {}\n{opened}",
+        "{}: {}, {open} not unique{fragile}; {}\nwritten to {}\n{opened}",
         start.scene.name(),
         count(start.reactions.len(), "joint or drive", "joints and drives"),
+        start.document.freedoms.summary(start.document.mobility),
         path.display()
     ))
 }

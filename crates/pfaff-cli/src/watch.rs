@@ -43,6 +43,7 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
 /// What a check says, whether the scene is right or wrong.
 fn verdict(arguments: &Check) -> String {
     let checked = Source::read(&arguments.scene)
+        .map(|source| source.known(arguments.known))
         .and_then(|source| Ok(Checked::of(&source, arguments.resources)?.describe()));
     checked.unwrap_or_else(|failure| failure.words(is_coloured(&io::stdout())))
 }

@@ -8,7 +8,7 @@ use std::time::Instant;
 
 use pfaff::dynamics::{KeptRowMotion, Motion, RowChoice, prepare};
 use pfaff::model::{Mechanism, Registry, System};
-use pfaff::solvability::{Verdict, survey};
+use pfaff::solvability::{Verdict, analyse};
 
 /// Evaluations; the least time counts.
 const RUNS: usize = 25;
@@ -26,11 +26,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         let (assemble, assembly) =
             timed(|| pfaff::model::start::assemble(&mut mechanism, &scene.start));
         let q = assembly?.q;
-        let (verdicts, found) = timed(|| survey(&mechanism, 0.0, &q, |_| ()));
+        let (verdicts, found) = timed(|| analyse(&mechanism, 0.0, &q));
         let found = found?;
         let open = found
-            .reactions()
-            .into_iter()
+            .reactions
+            .iter()
             .filter(|r| r.wrench.verdict == Verdict::NotUnique);
         let count = open.count();
         let (rows, columns) = (mechanism.layout().rows(), mechanism.layout().n_v);
@@ -48,7 +48,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         println!(
             "{rows:9} {columns:9} {:8} {read:7.3} s {build:7.3} s {assemble:7.3} s {verdicts:7.3} s {choose:7.3} s {plan:7.3} s {:9.3} ms  {count}",
-            found.redundancy(),
+            found.decision.redundancy,
             1e3 * least
         );
     }

@@ -3,12 +3,12 @@
 
 use dynamics::{MotionError, MotionOptions, RowChoice, prepare};
 use model::start::{assemble, consistent_velocity};
-use model::{Assembly, Known, Mechanism, Registry};
+use model::{Assembly, Known, Mechanism, Registry, Tolerance};
 use scene::Scene;
-use solvability::{ConstraintLevel, State, Survey, survey};
+use solvability::{ConstraintLevel, State};
 
 use crate::error::StudyError;
-use crate::inquiry::Inquiry;
+use crate::inquiry::{AskedRows, Inquiry};
 use crate::study::{Overrides, Study};
 
 /// A scene whose mechanism could be built.
@@ -29,7 +29,7 @@ use crate::study::{Overrides, Study};
 /// let mut blueprint = Blueprint::read("bar.toml", scene, &Registry::planar())?;
 /// let start = blueprint.inquire(None)?;
 /// assert_eq!((start.analysis.decision.rank, start.analysis.decision.redundancy), (3, 1));
-/// assert!(start.analysis.decision.nearly_redundant().is_some());
+/// assert!(start.analysis.nearly_redundant.is_some());
 /// # Ok::<(), pfaff::StudyError>(())
 /// ```
 #[non_exhaustive]
@@ -64,6 +64,35 @@ impl Blueprint {
                 Err(places.map_or(StudyError::Build(faults), StudyError::Scene))
             }
         }
+    }
+
+    /// States what the numbers of the scene are known to, in place of what its `[scene]` says; what is not stated here stays. Tolerances of
+    /// bodies and joints go before these as before.
+    ///
+    /// ```
+    /// use pfaff::Blueprint;
+    /// use pfaff::model::{Registry, Tolerance};
+    ///
+    /// let scene = r#"
+    /// scene = { name = "stone", space = "plane", tolerance = 1e-3, angle_tolerance = 1e-4 }
+    /// body = [{ name = "stone", mass = 1.0, inertia = 1.0 }]
+    /// "#;
+    /// let blueprint = Blueprint::read("stone.toml", scene, &Registry::planar())?;
+    /// let finer = blueprint.stating(Tolerance { length: Some(1e-5), angle: None })?;
+    /// let expected = Tolerance { length: Some(1e-5), angle: Some(1e-4) };
+    /// assert_eq!(finer.mechanism.tolerance(), expected);
+    /// assert_eq!(finer.scene.description.tolerance, expected);
+    /// # Ok::<(), pfaff::StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StudyError::Build`]: it is no finite number > 0.
+    pub fn stating(mut self, tolerance: Tolerance) -> Result<Self, StudyError> {
+        let tolerance = tolerance.or(self.scene.description.tolerance);
+        let stated = self.mechanism.set_tolerance(tolerance);
+        stated.map_err(|fault| StudyError::Build(vec![fault]))?;
+        self.scene.description.tolerance = tolerance;
+        Ok(self)
     }
 
     /// Finds a consistent start and chooses rows.
@@ -122,6 +151,18 @@ impl Blueprint {
     /// # Errors
     /// As [`Blueprint::assemble`], and [`StudyError::Analysis`]: C cannot be judged there.
     pub fn inquire(&mut self, drop: Option<&[usize]>) -> Result<Inquiry<'_>, StudyError> {
+        self.inquire_watched(drop, |_| ())
+    }
+
+    /// The same; `progress` is told how many joints are judged.
+    ///
+    /// # Errors
+    /// As [`Blueprint::inquire`].
+    pub fn inquire_watched(
+        &mut self,
+        drop: Option<&[usize]>,
+        progress: impl Fn(usize) + Sync,
+    ) -> Result<Inquiry<'_>, StudyError> {
         let assembly = self.assemble()?;
         let start = &self.scene.start;
         let state = State {
@@ -134,7 +175,8 @@ impl Blueprint {
             0.0,
             state,
             Known::AsStored,
-            drop,
+            drop.map_or(AskedRows::Any, AskedRows::Dropped),
+            progress,
         )?;
         let decision = &inquiry.analysis.decision;
         if decision.is_decided() {
@@ -144,19 +186,10 @@ impl Blueprint {
         }
         Ok(inquiry)
     }
-
-    /// The verdicts of the start by parts, for large mechanisms: see [`solvability::survey()`]. Nothing is moved and no velocities are asked for.
-    ///
-    /// # Errors
-    /// As [`Blueprint::inquire`].
-    pub fn survey(&mut self, progress: impl Fn(usize) + Sync) -> Result<Survey, StudyError> {
-        let assembly = self.assemble()?;
-        Ok(survey(&self.mechanism, 0.0, &assembly.q, progress)?)
-    }
 }
 
 /// An error with its place in the text of the scene, or as it is where there is no text.
-fn refused(scene: &Scene, error: MotionError) -> StudyError {
+pub(crate) fn refused(scene: &Scene, error: MotionError) -> StudyError {
     match scene.locate_motion(&error) {
         Some(place) => StudyError::Scene(vec![place]),
         None => error.into(),

@@ -7,12 +7,13 @@ use linalg::Limits;
 use model::{Mechanism, Reaction, System};
 use report::documents::MakeUniqueDocument;
 use report::{
-    AnalysisDocument, DriveCurve, Film, Frame, Origin, Proof, RunDocument, RunPage,
-    numbers_per_row, run_page,
+    AnalysisDocument, DriveCurve, Film, Frame, Origin, RunDocument, RunPage, numbers_per_row,
+    run_page,
 };
-use solvability::{Allowed, LARGE, ReactionVerdict, Survey, Verdict};
+use solvability::{Allowed, Sensitivities, Verdict};
 
 use crate::comparison::compare;
+use crate::inquiry::Inquiry;
 use crate::study::Study;
 
 /// Reactions that are not unique for which the page says what would make them so, and sets tried for each.
@@ -70,8 +71,8 @@ impl<'a> Chronicle<'a> {
     /// The page.
     pub(crate) fn page(
         &self,
-        verdicts: &[ReactionVerdict],
-        survey: Option<&Survey>,
+        start: &Inquiry<'_>,
+        sensitivities: &Sensitivities,
         run: &RunDocument,
         origin: &Origin,
         work_precision: Option<&str>,
@@ -87,26 +88,21 @@ impl<'a> Chronicle<'a> {
                 .as_ref()
                 .map(ToString::to_string)
         };
-        let (comparisons, mut left_out) = compare(mechanism, &self.film, verdicts, choice);
-        let (analysis, hints) = match survey {
-            Some(survey) => (
-                Some(AnalysisDocument::of_survey(study.scene.name(), survey)),
-                Vec::new(),
-            ),
-            None => self.analysis(),
-        };
+        let (comparisons, mut left_out) =
+            compare(mechanism, &self.film, &start.analysis.reactions, choice);
+        let (mut analysis, hints) = self.analysis(start);
+        analysis.warnings.extend(study.scene.cautions());
+        analysis.add_sensitivities(sensitivities, mechanism.layout());
+        analysis.add_notes(mechanism.layout());
         if self.ends_only {
             left_out.push(
                 "The scene wants neither trajectory nor reactions, so that only start and end were computed."
                     .to_owned(),
             );
         }
-        if survey.is_some() {
-            left_out.push("A mechanism of this size is judged by sets of joints on common cycles; `pfaff analyze` tells more.".to_owned());
-        }
         run_page(&RunPage {
             mechanism,
-            analysis: analysis.as_ref(),
+            analysis: Some(&analysis),
             hints: &hints,
             run,
             film: &self.film,
@@ -120,34 +116,27 @@ impl<'a> Chronicle<'a> {
         })
     }
 
-    /// The verdicts of the start with their reasons, and hints. None where the rank is in doubt: the run has told so.
-    fn analysis(&self) -> (Option<AnalysisDocument>, Vec<MakeUniqueDocument>) {
-        let Ok(inquiry) = self.study.inquire(0.0, None) else {
-            return (None, Vec::new());
-        };
-        let proof = Proof {
-            generic: None,
-            certificate: inquiry.certificate.as_ref(),
-        };
-        let mut document = AnalysisDocument::new(self.study.scene.name(), &inquiry.analysis, proof);
-        if let Ok(Some(explanation)) = inquiry.explanation() {
-            document.explain(&explanation, inquiry.mechanism.layout());
+    /// The verdicts of the start with their reasons, and hints.
+    fn analysis(&self, start: &Inquiry<'_>) -> (AnalysisDocument, Vec<MakeUniqueDocument>) {
+        let mut document = AnalysisDocument::new(self.study.scene.name(), &start.analysis, None);
+        if let Ok(Some(explanation)) = start.explanation() {
+            document.explain(&explanation, start.mechanism.layout());
         }
         let limits = Limits {
             trials: HINT_TRIALS,
             ..Limits::default()
         };
-        let open = inquiry
+        let open = start
             .analysis
             .reactions
             .iter()
             .filter(|r| r.wrench.verdict == Verdict::NotUnique);
         let hints = open.take(HINTS).map(|r| {
-            let found = inquiry.make_unique(r.id, &Allowed::Sensible, limits);
+            let found = start.make_unique(r.id, &Allowed::Sensible, limits);
             MakeUniqueDocument::new(&r.name, &Allowed::Sensible, found)
         });
         let hints = hints.collect();
-        (Some(document), hints)
+        (document, hints)
     }
 
     /// What drives prescribe at the frames.
@@ -216,11 +205,6 @@ impl<'a> Chronicle<'a> {
             .map(|(what, value)| (what.to_owned(), value))
             .collect()
     }
-}
-
-/// Whether a mechanism is judged by parts.
-pub(crate) fn is_large(mechanism: &Mechanism) -> bool {
-    mechanism.layout().rows() > LARGE
 }
 
 fn between(mechanism: &Mechanism, bodies: &[model::BodyRef]) -> String {

@@ -11,8 +11,8 @@ use linalg::{Matrix, PivotedQr, RankDecision, deletions, dependencies};
 use model::start::scene_size;
 use model::{Mechanism, Part, Scratch, System};
 use report::{ComparedChoice, Comparison, Film, Frame, Freedom};
-use solvability::survey::parts;
-use solvability::{ReactionVerdict, Verdict, decide};
+use solvability::parts::parts;
+use solvability::{Configuration, NormWeights, ReactionVerdict, Verdict, decide};
 
 /// Rows of a set whose choices are compared.
 const ROWS_MAX: usize = 150;
@@ -228,13 +228,16 @@ impl<'a> Set<'a> {
             .zip(&mechanism.layout().groups)
             .map(|(w, g)| product(w, &z, g.rows.start))
             .collect();
-        let least = self.least_norm(&maps, &free, &lambda);
+        let least = Configuration::new(mechanism, frame.t, &q, &decision)
+            .ok()
+            // What the wrenches on first bodies do not show has no least norm.
+            .and_then(|c| c.least_norm(&lambda, NormWeights::NEWTON_METRE).ok());
         let without = self.eliminations.iter().map(|rows| {
             let to_zero = rows.iter().map(|&i| -lambda[i]).collect();
-            firmly_solved(&z, rows, to_zero)
+            firmly_solved(&z, rows, to_zero).map(|y| moved(&lambda, &z, &y))
         });
         let others = std::iter::once(least).chain(without);
-        let others = others.map(|y| y.map(|y| self.wrenches(&maps, &moved(&lambda, &z, &y))));
+        let others = others.map(|lambda| lambda.map(|lambda| self.wrenches(&maps, &lambda)));
         let others: Vec<Option<Vec<[f64; 3]>>> = others.collect();
         // One choice alone would pass for a fact.
         let own = others.iter().any(Option::is_some).then_some(own);
@@ -264,29 +267,6 @@ impl<'a> Set<'a> {
         first
             .map(|k| k.map_or([1.0, 0.0], |k| [s.poses[k].cos, s.poses[k].sin]))
             .collect()
-    }
-
-    /// y of the least `Σ (F² + T²)` over all joints and drives of the set.
-    fn least_norm(&self, maps: &[Matrix], free: &[Matrix], lambda: &[f64]) -> Option<Vec<f64>> {
-        let groups = &self.part.mechanism.layout().groups;
-        let p = free.first()?.ncols();
-        let stacked = Matrix::from_fn(3 * free.len(), p, |i, j| free[i / 3][(i % 3, j)]);
-        let mut y: Vec<f64> = maps
-            .iter()
-            .zip(groups)
-            .flat_map(|(w, g)| w.times(&lambda[g.rows.clone()]))
-            .map(|x| -x)
-            .collect();
-        let qr = PivotedQr::of_columns(&stacked);
-        let largest = qr.r_diagonal().map(f64::abs).fold(0.0, f64::max);
-        // What the wrenches on first bodies do not show has no least norm.
-        if qr.r_diagonal().any(|r| r.abs() <= VISIBLE * largest) {
-            return None;
-        }
-        qr.q_transpose_mul(&mut y);
-        y.truncate(p);
-        qr.solve_r(&mut y);
-        Some(unpermuted(&qr, &y))
     }
 }
 

@@ -16,7 +16,7 @@ use crate::study::Study;
 ///
 /// ```
 /// use pfaff::model::Registry;
-/// use pfaff::report::{AnalysisDocument, Proof};
+/// use pfaff::report::AnalysisDocument;
 /// use pfaff::{Blueprint, Comparison};
 ///
 /// // A bar on two hinges, and the same with a hinge and a roller.
@@ -31,7 +31,7 @@ use crate::study::Study;
 /// let document = |second: &str| -> Result<AnalysisDocument, pfaff::StudyError> {
 ///     let mut bar = Blueprint::read("bar.toml", &scene(second), &Registry::planar())?;
 ///     let start = bar.inquire(None)?;
-///     Ok(AnalysisDocument::new("bar", &start.analysis, Proof::default()))
+///     Ok(AnalysisDocument::new("bar", &start.analysis, None))
 /// };
 /// let fixed = document("type = \"revolute\"")?;
 /// let relaxed = document("type = \"pin-in-slot\", axis = [1.0, 0.0]")?;
@@ -48,7 +48,7 @@ pub struct Comparison<'a> {
     pub removed: Vec<&'a ReactionDocument>,
     /// Those that only the second has.
     pub added: Vec<&'a ReactionDocument>,
-    /// Those whose type, number of rows or verdicts differ, in the order of the first.
+    /// Those whose type, number of rows or verdicts differ, or whether they are fragile, in the order of the first.
     pub verdicts: Vec<VerdictChange<'a>>,
     /// Dependencies of the first whose joints depend so no more.
     pub gone: Vec<&'a DependencyDocument>,
@@ -56,7 +56,7 @@ pub struct Comparison<'a> {
     pub new: Vec<&'a DependencyDocument>,
 }
 
-/// A joint or drive that both scenes have, with another type or another verdict.
+/// A joint or drive that both scenes have, with another type or another verdict, or fragile in one of them only.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct VerdictChange<'a> {
@@ -124,7 +124,13 @@ impl VerdictChange<'_> {
         let [a, b] = self.sides.map(|r| {
             let components = r.components.iter().map(|c| (c.name, c.verdict.verdict));
             let components: Vec<_> = components.collect();
-            (r.kind, r.rows.len(), r.wrench.verdict, components)
+            (
+                r.kind,
+                r.rows.len(),
+                r.wrench.verdict,
+                r.data.fragile,
+                components,
+            )
         });
         a != b
     }

@@ -6,8 +6,8 @@ use model::BuildError;
 use report::{FileError, TableError};
 use scene::{CombinationError, Diagnostic};
 use solvability::{
-    AlongError, AnalysisError, ChoiceError, Contradiction, ExplanationError, RequestError,
-    StateError, UnitError,
+    AlongError, AnalysisError, ChoiceError, Contradiction, EliminationError, ExplanationError,
+    RequestError, StateError, UnitError,
 };
 
 /// Why there are no results, or only a part of them.
@@ -76,7 +76,7 @@ pub enum StudyError {
     Explanation(#[from] ExplanationError),
     /// Deletions could not be told.
     #[error(transparent)]
-    Deletion(#[from] DeletionError),
+    Deletion(#[from] EliminationError),
     /// There is no such choice among the solutions.
     #[error(transparent)]
     Choice(#[from] ChoiceError),
@@ -137,7 +137,11 @@ impl StudyError {
                     | MotionError::NothingToDrop { .. }
             ),
             Self::Analysis(e) => matches!(e, AnalysisError::Rows { .. }),
-            Self::Deletion(e) => matches!(e, DeletionError::RowOutOfRange { .. }),
+            Self::Deletion(e) => matches!(
+                e,
+                EliminationError::Deletion(DeletionError::RowOutOfRange { .. })
+                    | EliminationError::Request(_)
+            ),
             Self::Choice(e) | Self::Units(UnitError::Choice(e)) => {
                 !matches!(e, ChoiceError::Undecided(_) | ChoiceError::Saddle(_))
             }

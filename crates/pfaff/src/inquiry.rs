@@ -4,21 +4,19 @@
 mod document;
 mod requests;
 
-use linalg::{Certificate, DeletionError, Limits, Matrix, count_deletions, deletions};
-use model::{ConstraintId, Known, Mechanism, Scratch, System};
+use std::sync::Arc;
+
+use linalg::{Limits, Matrix};
+use model::{ConstraintId, Known, Mechanism, System};
 use scene::Scene;
 use solvability::{
-    Allowed, Analysis, Choice, ChoiceError, Configuration, Continuation, Contradiction,
-    Distribution, Equations, Explanation, ExplanationError, FrameVerdict, Generic, GroupVerdict,
-    LinearForm, Proposals, Ranks, ReactionVerdict, RequestError, State, UnitCheck, Value,
-    analyse_dropping, analyse_known, certify, check_units, contradictions, explain, generic,
-    is_locked, make_unique, second_order,
+    Allowed, Analysis, Choice, ChoiceError, Continuation, Contradiction, Distribution,
+    EliminationError, Explanation, FrameVerdict, Freedoms, Generic, GroupVerdict, Numbers,
+    Proposals, Questions, ReactionVerdict, Rows, Sensitivities, Solution, State, UnitCheck,
+    analyse_decided, analyse_dropping, analyse_watched, generic, is_locked, second_order, solution,
 };
 
 use crate::error::StudyError;
-
-/// Numbers of a group by name: `sum`, or `Fx`, `Fy` and `T`.
-pub type Numbers = Vec<(&'static str, Value)>;
 
 /// A configuration whose rank has been decided, with its verdicts.
 ///
@@ -52,51 +50,43 @@ pub struct Inquiry<'a> {
     /// Coordinates and velocities; the latter are empty where the rank is undecided, because none are known to be consistent.
     pub state: State,
     /// Ranks and verdicts.
-    pub analysis: Analysis,
-    /// The proof of the rank, also where the caller chose the dropped rows.
-    pub certificate: Option<Certificate>,
-    configuration: Configuration<'a>,
-    scratch: Scratch,
+    pub analysis: Arc<Analysis>,
+    questions: Questions<'a>,
+}
+
+/// What is known or asked of the rows of a configuration.
+pub(crate) enum AskedRows<'r> {
+    /// Nothing.
+    Any,
+    /// They have been decided there.
+    Decided(&'r Rows),
+    /// These carry the dependencies, from 0.
+    Dropped(&'r [usize]),
 }
 
 impl<'a> Inquiry<'a> {
-    /// A state that satisfies the constraints at time t, and how well its configuration is known.
+    /// A state that satisfies the constraints at time t, and how well its configuration is known. `progress` is told how many joints are judged.
     pub(crate) fn new(
         scene: &'a Scene,
         mechanism: &'a Mechanism,
         t: f64,
         state: State,
         known: Known,
-        drop: Option<&[usize]>,
+        rows: AskedRows<'_>,
+        progress: impl Fn(usize) + Sync,
     ) -> Result<Self, StudyError> {
         let q = &state.q;
-        let (analysis, certificate) = match drop {
-            None => {
-                let analysis = analyse_known(mechanism, t, q, known)?;
-                let certificate = analysis.decision.evidence.certificate.clone();
-                (analysis, certificate)
-            }
-            Some(rows) => {
-                let analysis = analyse_dropping(mechanism, t, q, rows)?;
-                let certified = certify(mechanism, t, q)?;
-                let same = certified.is_decided() && certified.rank == analysis.decision.rank;
-                let certificate = certified.evidence.certificate.filter(|_| same);
-                (analysis, certificate)
-            }
-        };
-        let configuration = Configuration::new(mechanism, t, q, &analysis.decision)?;
-        let mut scratch = mechanism.scratch();
-        mechanism.pose(t, q, &mut scratch);
-        mechanism.phi(&mut scratch);
-        mechanism.c(&mut scratch);
+        let analysis = Arc::new(match rows {
+            AskedRows::Any => analyse_watched(mechanism, t, q, known, progress)?,
+            AskedRows::Decided(rows) => analyse_decided(mechanism, t, q, rows, progress)?,
+            AskedRows::Dropped(rows) => analyse_dropping(mechanism, t, q, rows)?,
+        });
         Ok(Self {
             scene,
             mechanism,
+            questions: Questions::new(mechanism, q, Arc::clone(&analysis)),
             state,
             analysis,
-            certificate,
-            configuration,
-            scratch,
         })
     }
 
@@ -120,21 +110,21 @@ impl<'a> Inquiry<'a> {
     /// Verdicts by name: the groups of the scene, then sums of components as `W3.N + W4.N`, or of whole wrenches as `W3 + W4`.
     ///
     /// # Errors
-    /// If a sum cannot be read or names something unknown.
+    /// If a sum cannot be read, names something unknown, or touches a part that is too large.
     pub fn groups(&self, combine: &[String]) -> Result<Vec<(String, GroupVerdict)>, StudyError> {
         requests::groups(self.scene, self.mechanism, combine)?
             .into_iter()
-            .map(|(name, group)| Ok((name, self.configuration.group(&group)?)))
+            .map(|(name, group)| Ok((name, self.questions.group(&group)?)))
             .collect()
     }
 
     /// The verdict of one such sum.
     ///
     /// # Errors
-    /// If it cannot be read or names something unknown.
+    /// If it cannot be read, names something unknown, or touches a part that is too large.
     pub fn group(&self, combination: &str) -> Result<GroupVerdict, StudyError> {
         let group = requests::combination(self.scene, self.mechanism, combination)?;
-        Ok(self.configuration.group(&group)?)
+        Ok(self.questions.group(&group)?)
     }
 
     /// The numbers of the same groups that every solution shares, by name; several reactions side by side have none.
@@ -142,12 +132,12 @@ impl<'a> Inquiry<'a> {
     /// # Errors
     /// As [`Inquiry::groups`], and [`StudyError::Choice`]: there are no reactions, or the rank is undecided.
     pub fn determined(&self, combine: &[String]) -> Result<Vec<Numbers>, StudyError> {
-        let lambda_0 = self.multipliers()?;
-        self.numbers(combine, |form| {
-            let is_unique = self.configuration.judge(form)?.verdict.is_unique();
-            let value = || Value::Unique(self.configuration.value(form, &lambda_0));
-            Ok(is_unique.then(value))
-        })
+        let solution = self.solution()?;
+        let groups = requests::groups(self.scene, self.mechanism, combine)?;
+        let numbers = groups
+            .iter()
+            .map(|(_, group)| self.questions.determined(group, &solution));
+        Ok(numbers.collect::<Result<_, _>>()?)
     }
 
     /// All numbers of the same groups as a choice gives them.
@@ -159,27 +149,43 @@ impl<'a> Inquiry<'a> {
         combine: &[String],
         distribution: &Distribution,
     ) -> Result<Vec<Numbers>, StudyError> {
-        self.numbers(combine, |form| {
-            Ok(Some(distribution.value(&self.configuration, form)?))
-        })
+        let groups = requests::groups(self.scene, self.mechanism, combine)?;
+        let numbers = groups
+            .iter()
+            .map(|(_, group)| self.questions.chosen(group, distribution));
+        Ok(numbers.collect::<Result<_, _>>()?)
     }
 
-    fn numbers(
-        &self,
-        combine: &[String],
-        value: impl Fn(&LinearForm) -> Result<Option<Value>, RequestError>,
-    ) -> Result<Vec<Numbers>, StudyError> {
-        requests::groups(self.scene, self.mechanism, combine)?
-            .iter()
-            .map(|(_, group)| {
-                let forms = self.configuration.numbers(group)?;
-                let values = forms.iter().filter_map(|(name, form)| {
-                    let value = value(form).transpose()?;
-                    Some(value.map(|value| (*name, value)))
-                });
-                Ok(values.collect::<Result<_, _>>()?)
-            })
-            .collect()
+    /// How much each unique reaction hangs on the data. Nothing is known of it where the rank is undecided.
+    ///
+    /// ```
+    /// use pfaff::prelude::*;
+    ///
+    /// // A bar between a wall and a slope that is nearly parallel to it pushes with 1/tan of the angle: 1e-3 rad here.
+    /// let mut bar = Description { gravity: [0.0, -10.0], ..Description::new("bar") };
+    /// let body = bar.body(Body::new("bar", 1.0, 1.0));
+    /// bar.joint("wall", &[body], KnifeEdge { s: [-1.0, 0.0], normal: Direction::X });
+    /// let slope = Direction::new([1.0, 1e-3]).expect("a direction");
+    /// bar.joint("slope", &[body], KnifeEdge { s: [-1.0, 0.0], normal: slope });
+    /// let study = Study::build(bar)?;
+    /// let hanging = study.inquire(0.0, None)?.sensitivities()?;
+    /// assert_eq!(hanging.fragile().count(), 2);
+    /// # Ok::<(), StudyError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`StudyError::Choice`]
+    pub fn sensitivities(&self) -> Result<Sensitivities, StudyError> {
+        let State { q, v } = &self.state;
+        Ok(self.analysis.sensitivities(self.mechanism, q, v)?)
+    }
+
+    /// What can move here, with the drives and without them.
+    ///
+    /// # Errors
+    /// [`StudyError::State`]
+    pub fn freedoms(&self) -> Result<Freedoms, StudyError> {
+        Ok(self.analysis.freedoms(self.mechanism, &self.state.q)?)
     }
 
     /// Ranks at other configurations of the same component; nothing if none could be reached.
@@ -195,7 +201,10 @@ impl<'a> Inquiry<'a> {
     /// # Errors
     /// [`StudyError::State`]
     pub fn continuation(&self, generic: &Generic) -> Result<Option<Continuation>, StudyError> {
-        let (decision, State { q, v }) = (&self.analysis.decision, &self.state);
+        let State { q, v } = &self.state;
+        let Some(decision) = self.analysis.whole() else {
+            return Ok(None);
+        };
         if generic.redundancy >= decision.redundancy || v.is_empty() {
             return Ok(None);
         }
@@ -205,18 +214,41 @@ impl<'a> Inquiry<'a> {
             1 if v.iter().any(|v| *v != 0.0) => Matrix::from_fn(v.len(), 1, |i, _| v[i]),
             _ => return Ok(None),
         };
-        let found = second_order(self.mechanism, self.analysis.time, q, v, decision, &regular)?;
+        let found = second_order(
+            self.mechanism,
+            self.analysis.time,
+            q,
+            v,
+            &decision,
+            &regular,
+        )?;
         Ok(Some(found))
     }
 
-    /// Whether the mechanism cannot move although it has freedoms of first order: second order blocks all of them.
+    /// Whether the mechanism cannot move although it has freedoms of first order: second order blocks all of them. Not asked of mechanisms with too many
+    /// rows for matrices of all of them.
     ///
     /// # Errors
     /// [`StudyError::State`]
     pub fn is_locked(&self) -> Result<bool, StudyError> {
-        let analysis = &self.analysis;
-        let (t, decision) = (analysis.time, &analysis.decision);
-        Ok(is_locked(self.mechanism, t, &self.state.q, decision)?)
+        match self.analysis.whole() {
+            Some(decision) => {
+                let (t, q) = (self.analysis.time, &self.state.q);
+                Ok(is_locked(self.mechanism, t, q, &decision)?)
+            }
+            None => Ok(false),
+        }
+    }
+
+    /// Whether no motion is possible: the rows allow no velocity and do not depend on time, or second order blocks every velocity that
+    /// they allow ([`Inquiry::is_locked`]).
+    ///
+    /// # Errors
+    /// [`StudyError::State`]
+    pub fn cannot_move(&self) -> Result<bool, StudyError> {
+        let (decision, layout) = (&self.analysis.decision, self.mechanism.layout());
+        let is_fixed = decision.is_decided() && decision.rank == layout.n_v && !layout.rheonomic;
+        Ok(is_fixed || self.is_locked()?)
     }
 
     /// Why the reactions are not unique; nothing while the rank is undecided, where every sentence would build on one of two
@@ -225,42 +257,36 @@ impl<'a> Inquiry<'a> {
     /// # Errors
     /// [`StudyError::Explanation`]
     pub fn explanation(&self) -> Result<Option<Explanation>, StudyError> {
-        let (q, solvability) = (&self.state.q, self.configuration.solvability());
-        match explain(self.mechanism, &self.scratch, q, solvability) {
-            Ok(explanation) => Ok(Some(explanation)),
-            Err(ExplanationError::Undecided(_)) => Ok(None),
-            Err(e) => Err(e.into()),
-        }
+        Ok(self.questions.explanation()?)
     }
 
     /// The number of sets of rows that can be deleted without a change of motion, as many rows as the degree of redundancy.
     ///
     /// # Errors
-    /// [`DeletionError`]: the rank or one of the sets is undecided, or they are too many.
-    pub fn eliminations(&self) -> Result<u128, DeletionError> {
-        count_deletions(&self.analysis.decision)
+    /// [`EliminationError`]: the rank or one of the sets is undecided, they are too many, or a part is too large.
+    pub fn eliminations(&self) -> Result<u128, EliminationError> {
+        self.questions.eliminations()
     }
 
     /// The first of these sets, rows from 0.
     ///
     /// # Errors
-    /// [`DeletionError`]: the rank or one of the sets is undecided.
-    pub fn elimination_sets(&self, limit: usize) -> Result<Vec<Vec<usize>>, DeletionError> {
-        deletions(&self.analysis.decision, limit)
+    /// [`EliminationError`]: the rank or one of the sets is undecided, or a part is too large.
+    pub fn elimination_sets(&self, limit: usize) -> Result<Vec<Vec<usize>>, EliminationError> {
+        self.questions.elimination_sets(limit)
     }
 
     /// The smallest deletions that make a reaction unique without a change of motion.
     ///
     /// # Errors
-    /// [`DeletionError`]: the rank or an answer is undecided, or a row that is allowed does not exist.
+    /// [`EliminationError`]: the rank or an answer is undecided, a row that is allowed does not exist, or its part is too large.
     pub fn make_unique(
         &self,
         id: ConstraintId,
         allowed: &Allowed,
         limits: Limits,
-    ) -> Result<Proposals, DeletionError> {
-        let solvability = self.configuration.solvability();
-        make_unique(self.mechanism, solvability, id, allowed, limits)
+    ) -> Result<Proposals, EliminationError> {
+        self.questions.make_unique(id, allowed, limits)
     }
 
     /// The verdicts of a reaction in all frames that it has.
@@ -268,7 +294,7 @@ impl<'a> Inquiry<'a> {
     /// # Errors
     /// [`StudyError::Request`]
     pub fn frames(&self, id: ConstraintId) -> Result<Vec<FrameVerdict>, StudyError> {
-        Ok(self.configuration.frames(id)?)
+        Ok(self.questions.frames(id)?)
     }
 
     /// The reactions that a choice gives at these velocities: what is unique, and one of many for the rest.
@@ -279,8 +305,7 @@ impl<'a> Inquiry<'a> {
         if let Choice::Elimination(rows) = choice {
             self.check_rows(rows)?;
         }
-        let lambda_0 = self.multipliers()?;
-        Ok(self.configuration.distribute(&lambda_0, choice)?)
+        Ok(self.questions.distribute(&self.solution()?, choice)?)
     }
 
     /// Which components are facts, and which depend on a choice: told by a change of units, without any verdict.
@@ -288,30 +313,22 @@ impl<'a> Inquiry<'a> {
     /// # Errors
     /// [`StudyError::Units`]: there is nothing to compare, or the rank depends on the units.
     pub fn facts(&self) -> Result<Vec<UnitCheck>, StudyError> {
-        let v = self.velocities()?;
-        let (t, decision) = (self.analysis.time, &self.analysis.decision);
-        Ok(check_units(self.mechanism, t, &self.state.q, v, decision)?)
+        let solution = self.solution()?;
+        Ok(self.questions.facts(&self.state.v, &solution)?)
     }
 
-    /// What redundant rows contradict each other in, the worst first; nothing is known of this where the rank is undecided
-    /// in `f64`.
+    /// What redundant rows contradict each other in, the worst first; nothing is known of this where the rank is undecided.
     ///
     /// # Errors
     /// If the configuration cannot be judged.
     pub fn contradictions(&self) -> Result<Vec<Contradiction>, StudyError> {
-        let (s, q) = (&self.scratch, &self.state.q);
-        // Velocities are known to the rounding of `f64`, so they are compared by ranks decided in `f64`.
-        let all = solvability::decide(self.mechanism, s, q)?;
-        let holonomic = solvability::decide_holonomic(self.mechanism, s, q)?;
-        if !all.is_decided() || !holonomic.is_decided() || self.state.v.is_empty() {
+        let State { q, v } = &self.state;
+        let t = self.analysis.time;
+        let rows = solvability::rows(self.mechanism, t, q)?;
+        if !rows.all.is_decided() || !rows.holonomic.is_decided() || v.is_empty() {
             return Ok(Vec::new());
         }
-        let ranks = Ranks {
-            all: &all,
-            holonomic: &holonomic,
-        };
-        let t = self.analysis.time;
-        Ok(contradictions(self.mechanism, t, q, &self.state.v, ranks)?)
+        Ok(rows.contradictions(self.mechanism, t, q, v)?)
     }
 
     /// Checks that rows (from 0) exist.
@@ -327,16 +344,12 @@ impl<'a> Inquiry<'a> {
     }
 
     /// One solution of the equations of motion.
-    fn multipliers(&self) -> Result<Vec<f64>, StudyError> {
-        let v = self.velocities()?;
-        let equations = Equations::of(self.mechanism, self.analysis.time, &self.state.q, v)?;
-        Ok(equations.multipliers(&self.analysis.decision)?)
-    }
-
-    fn velocities(&self) -> Result<&[f64], StudyError> {
-        match self.analysis.decision.status {
-            linalg::RankStatus::Undecided(doubt) => Err(ChoiceError::Undecided(doubt).into()),
-            _ => Ok(&self.state.v),
+    fn solution(&self) -> Result<Solution, StudyError> {
+        let decision = &self.analysis.decision;
+        if let linalg::RankStatus::Undecided(doubt) = decision.status {
+            return Err(ChoiceError::Undecided(doubt).into());
         }
+        let state = (self.analysis.time, &self.state.q[..], &self.state.v[..]);
+        Ok(solution(self.mechanism, state, decision)?)
     }
 }

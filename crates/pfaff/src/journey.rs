@@ -1,18 +1,21 @@
 //! The verdicts along the motion of a scene: it is run, recorded as densely as it moves, and judged.
 
 use std::ops::ControlFlow;
+use std::sync::Mutex;
 
 use dynamics::{MotionError, MotionOptions};
 use model::start::scene_size;
 use model::{ColumnKind, Mechanism, System};
 use report::documents::AlongDocument;
-use solvability::{Along, AlongError, PassageKind, State, along_motion};
+use solvability::{Along, AlongError, Extent, PassageKind, State, along_motion_of_parts};
 
 use crate::error::StudyError;
 use crate::study::Study;
 
-/// Judged states at least, evenly in time.
+/// Judged states at least, evenly in time; of large mechanisms so many times rows, but not below the lower number.
 const INTERVALS: usize = 200;
+const INTERVALS_OF_ROWS: usize = 240_000;
+const INTERVALS_LEAST: usize = 24;
 
 /// Recorded rows between two judged states: what lies between rows is interpolated.
 const ROWS: usize = 4;
@@ -95,7 +98,7 @@ impl Study {
     pub fn journey(
         &self,
         t_end: Option<f64>,
-        mut progress: impl FnMut(Progress),
+        mut progress: impl FnMut(Progress) + Send,
     ) -> Result<Journey, StudyError> {
         let own = self.options.as_ref().map(|options| options.t_end);
         let t_end = t_end.or(own).ok_or(StudyError::NoEnd)?;
@@ -106,18 +109,20 @@ impl Study {
                 expected: "a finite time > 0",
             }));
         }
-        let run = self.record(t_end, INTERVALS, &mut progress)?;
+        let rows = self.prepared.mechanism.layout().rows().max(1);
+        let least = (INTERVALS_OF_ROWS / rows).clamp(INTERVALS_LEAST, INTERVALS);
+        let run = self.record(t_end, least, &mut progress)?;
         if run.stopped.is_some()
-            && let Some(journey) = self.judge_beyond(&run, &mut progress)
+            && let Some(journey) = self.judge_beyond(&run, least, &mut progress)
         {
             return Ok(Journey {
                 stopped: run.stopped,
                 ..journey
             });
         }
-        let needed = INTERVALS as f64 * run.reach(&self.prepared.mechanism) / REACH;
-        let intervals = INTERVALS.max(needed.min(INTERVALS_MAX as f64).ceil() as usize);
-        if run.stopped.is_none() && intervals == INTERVALS {
+        let needed = least as f64 * run.reach(&self.prepared.mechanism) / REACH;
+        let intervals = least.max(needed.min(INTERVALS_MAX as f64).ceil() as usize);
+        if run.stopped.is_none() && intervals == least {
             return self.judge(run, intervals, &mut progress);
         }
         // Once more, where the motion is too fast for these rows, or up to the last state before it stopped. That one may be too
@@ -128,7 +133,7 @@ impl Study {
             Err(StudyError::Along(AlongError::OffConstraints { .. }))
                 if run.stopped.is_some() || stopped =>
             {
-                self.judge(run, INTERVALS, &mut progress)
+                self.judge(run, least, &mut progress)
             }
             Ok(journey) => Ok(Journey {
                 stopped: journey.stopped.or(run.stopped),
@@ -139,17 +144,22 @@ impl Study {
     }
 
     /// A motion that stopped, judged a little beyond its end, if a passage lies there.
-    fn judge_beyond(&self, run: &Record, progress: &mut impl FnMut(Progress)) -> Option<Journey> {
+    fn judge_beyond(
+        &self,
+        run: &Record,
+        intervals: usize,
+        progress: &mut (impl FnMut(Progress) + Send),
+    ) -> Option<Journey> {
         let last = run.rows.last().filter(|_| run.rows.len() > 1)?.t;
-        let to = run.reached + BEYOND * (run.reached - last).max(last / (ROWS * INTERVALS) as f64);
-        let along = self.along(run, to, INTERVALS, progress).ok()?;
+        let to = run.reached + BEYOND * (run.reached - last).max(last / (ROWS * intervals) as f64);
+        let along = self.along(run, to, intervals, progress).ok()?;
         let passed = along.passages.iter().any(|p| {
             p.time > last && p.time < to && matches!(p.kind, PassageKind::RankDrops { .. })
         });
         passed.then(|| Journey {
             along,
             to: last,
-            samples: INTERVALS + 1,
+            samples: intervals + 1,
             reach: run.reach(&self.prepared.mechanism),
             stopped: None,
             continued_to: Some(to),
@@ -162,23 +172,28 @@ impl Study {
         run: &Record,
         to: f64,
         intervals: usize,
-        progress: &mut impl FnMut(Progress),
+        progress: &mut (impl FnMut(Progress) + Send),
     ) -> Result<Along, StudyError> {
         let times: Vec<f64> = (0..=intervals)
             .map(|k| to * (k as f64 / intervals as f64))
             .collect();
-        let motion = |t: f64| {
-            progress(Progress::Judging(t));
-            run.state(t)
+        let progress = Mutex::new(progress);
+        let motion = |t: f64, extent: &Extent| {
+            // Who waits for others has nothing to tell.
+            if let Ok(mut progress) = progress.try_lock() {
+                progress(Progress::Judging(t));
+            }
+            run.state(t, extent)
         };
-        Ok(along_motion(&self.prepared.mechanism, motion, &times)?)
+        let mechanism = &self.prepared.mechanism;
+        Ok(along_motion_of_parts(mechanism, motion, &times)?)
     }
 
     fn judge(
         &self,
         run: Record,
         intervals: usize,
-        progress: &mut impl FnMut(Progress),
+        progress: &mut (impl FnMut(Progress) + Send),
     ) -> Result<Journey, StudyError> {
         let Some(to) = run.rows.last().map(|row| row.t).filter(|t| *t > 0.0) else {
             return Err(match run.stopped {
@@ -201,7 +216,7 @@ impl Study {
         &self,
         t_end: f64,
         intervals: usize,
-        progress: &mut impl FnMut(Progress),
+        progress: &mut (impl FnMut(Progress) + Send),
     ) -> Result<Record, StudyError> {
         let base = self.options.clone();
         let options = MotionOptions {
@@ -278,20 +293,22 @@ impl Record {
     }
 
     /// The motion at a time between the first row and the last, or near them; there must be two.
-    fn state(&self, t: f64) -> State {
+    fn state(&self, t: f64, extent: &Extent) -> State {
         let next = self.rows.partition_point(|row| row.t <= t);
         let k = next.clamp(1, self.rows.len() - 1);
         let (x, y) = (&self.rows[k - 1], &self.rows[k]);
         let h = y.t - x.t;
         let u = (t - x.t) / h;
-        let between = |from: [&[f64]; 2], to: [&[f64]; 2]| {
+        let between = |from: &[Vec<f64>; 2], to: &[Vec<f64>; 2]| {
             (0..from[0].len())
                 .map(|i| hermite(u, [from[0][i], h * from[1][i]], [to[0][i], h * to[1][i]]))
                 .collect()
         };
+        let q = |row: &Row| [&row.q, &row.qd].map(|x| extent.coordinates(x).into_owned());
+        let v = |row: &Row| [&row.v, &row.a].map(|x| extent.velocities(x).into_owned());
         State {
-            q: between([&x.q, &x.qd], [&y.q, &y.qd]),
-            v: between([&x.v, &x.a], [&y.v, &y.a]),
+            q: between(&q(x), &q(y)),
+            v: between(&v(x), &v(y)),
         }
     }
 }

@@ -44,9 +44,10 @@ pub use suite;
 pub use blueprint::Blueprint;
 pub use difference::{Comparison, MotionDifference};
 pub use error::StudyError;
-pub use inquiry::{Inquiry, Numbers};
+pub use inquiry::Inquiry;
 pub use journey::{Journey, Progress};
-pub use study::{Findings, Overrides, Study};
+pub use solvability::Numbers;
+pub use study::{Overrides, Study};
 
 /// So many threads at most for all that this program computes in parallel from now on; runs of several components have an option of their
 /// own, [`dynamics::MotionOptions::threads`].

@@ -11,19 +11,22 @@ use dynamics::{
     Failure, Formulation, Method, MotionOptions, Plan, Prepared, Sample, Stabilisation, Summary,
     Trip, Wanted, simulate,
 };
-use model::{Known, Registry};
-use report::documents::{MomentDocument, MotionDocument};
+use model::{Known, Registry, System};
+use report::documents::{DataDocument, MomentDocument, MotionDocument};
 use report::{
     Ending, Origin, OutputDirectory, ReactionTable, Run, RunDocument, Selection, TableError,
     TrajectoryTable, write_json,
 };
 use scene::{Output, Scene, WantedReactions};
-use solvability::{Analysis, Judgement, State, is_permanent, survey, verdicts};
+use solvability::{Contradiction, State, contradicting_drives_along};
 
-use crate::blueprint::Blueprint;
-use crate::chronicle::{Chronicle, is_large};
+use crate::blueprint::{Blueprint, refused};
+use crate::chronicle::Chronicle;
 use crate::error::StudyError;
-use crate::inquiry::Inquiry;
+use crate::inquiry::{AskedRows, Inquiry};
+
+/// Rows of a mechanism up to which a moving picture has rows of its own between those of the tables.
+const PICTURED_ROWS: usize = 600;
 
 /// A scene that has been assembled and can move.
 #[non_exhaustive]
@@ -34,18 +37,6 @@ pub struct Study {
     pub prepared: Prepared,
     /// What a run is asked to do; nothing where neither the scene nor the caller says how long it takes.
     pub options: Option<MotionOptions>,
-}
-
-/// What an analysis found.
-#[derive(Clone, Debug)]
-#[non_exhaustive]
-pub struct Findings {
-    /// Ranks, verdicts and dependencies.
-    pub analysis: Analysis,
-    /// Whether the redundancy is the same at other configurations; nothing if that could not be told.
-    pub permanent: Option<bool>,
-    /// Verdicts of groups and combinations, by name.
-    pub groups: Vec<(String, Judgement)>,
 }
 
 /// What the caller wants otherwise than the scene.
@@ -119,6 +110,19 @@ impl Study {
     /// If the motion does not reach that time, C cannot be judged there, redundant rows contradict each other there, or
     /// the rows cannot be dropped.
     pub fn inquire(&self, t: f64, drop: Option<&[usize]>) -> Result<Inquiry<'_>, StudyError> {
+        self.inquire_watched(t, drop, |_| ())
+    }
+
+    /// The same; `progress` is told how many joints are judged.
+    ///
+    /// # Errors
+    /// As [`Study::inquire`].
+    pub fn inquire_watched(
+        &self,
+        t: f64,
+        drop: Option<&[usize]>,
+        progress: impl Fn(usize) + Sync,
+    ) -> Result<Inquiry<'_>, StudyError> {
         let mechanism = &self.prepared.mechanism;
         let state = self.state_at(t)?;
         // Later configurations are known only as well as the motion that has reached them.
@@ -126,7 +130,12 @@ impl Study {
             0.0 => Known::AsStored,
             _ => Known::To(self.motion_to(t).rtol),
         };
-        let inquiry = Inquiry::new(&self.scene, mechanism, t, state, known, drop)?;
+        let rows = match (drop, &self.prepared.decided) {
+            (Some(drop), _) => AskedRows::Dropped(drop),
+            (None, Some(decided)) if t == 0.0 => AskedRows::Decided(decided),
+            (None, _) => AskedRows::Any,
+        };
+        let inquiry = Inquiry::new(&self.scene, mechanism, t, state, known, rows, progress)?;
         // Those of the start have been looked for when it was prepared.
         let found = match t == 0.0 {
             true => Vec::new(),
@@ -138,25 +147,29 @@ impl Study {
         }
     }
 
-    /// Verdicts at a time of the motion, with those of groups: those of the scene, then `combine`. In short what
-    /// [`Study::inquire`] tells.
+    /// The first contradiction of drives after the start: with each other, or with what joints allow, at a dozen times up to the last one of
+    /// the run. `None` if there is none, if nobody says how long the run takes, or where it cannot be told: see
+    /// [`solvability::contradicting_drives_along`].
     ///
     /// # Errors
-    /// As [`Study::inquire`], and if a combination names something unknown.
-    pub fn analyse_at(
-        &self,
-        t: f64,
-        drop: Option<&[usize]>,
-        combine: &[String],
-    ) -> Result<Findings, StudyError> {
-        let inquiry = self.inquire(t, drop)?;
-        let groups = inquiry.groups(combine)?.into_iter();
-        let q = &inquiry.state.q;
-        Ok(Findings {
-            permanent: is_permanent(inquiry.mechanism, t, q, &inquiry.analysis.decision),
-            groups: groups.map(|(name, g)| (name, g.judgement)).collect(),
-            analysis: inquiry.analysis,
-        })
+    /// If C cannot be judged on the way.
+    pub fn contradicting_drives(&self) -> Result<Option<Contradiction>, StudyError> {
+        let Some(options) = &self.options else {
+            return Ok(None);
+        };
+        let Prepared { mechanism, q, .. } = &self.prepared;
+        Ok(contradicting_drives_along(mechanism, q, options.t_end)?)
+    }
+
+    /// Refuses drives that contradict each other later in the run, with their places in the scene.
+    ///
+    /// # Errors
+    /// As [`Study::contradicting_drives`], and [`StudyError::Scene`], or of a scene without text [`StudyError::Motion`]: there are such drives.
+    pub fn check_drives(&self) -> Result<(), StudyError> {
+        match self.contradicting_drives()? {
+            Some(contradiction) => Err(refused(&self.scene, contradiction.into())),
+            None => Ok(()),
+        }
     }
 
     fn state_at(&self, t: f64) -> Result<State, StudyError> {
@@ -220,7 +233,9 @@ impl Study {
     pub fn motion(&self, options: &MotionOptions) -> Result<MotionDocument, StudyError> {
         let mechanism = &self.prepared.mechanism;
         let plan = Plan::new(&self.prepared, options, &Wanted::default())?;
-        let verdicts = verdicts(mechanism, 0.0, &self.prepared.q)?;
+        let start = self.inquire(0.0, None)?;
+        let freedoms = start.freedoms()?;
+        let sensitivities = start.sensitivities()?;
         let mut rows = Vec::new();
         let outcome = plan.simulate(|sample| {
             let reactions = sample.reactions()?;
@@ -232,7 +247,10 @@ impl Study {
         let summary = outcome.map_err(|failure| failure.error)?;
         let run = Run {
             plan: &plan,
-            reactions: &verdicts,
+            reactions: &start.analysis.reactions,
+            sensitivities: &sensitivities,
+            data: DataDocument::new(&start.analysis),
+            freedoms: &freedoms,
             summary: &summary,
             ending: Ending::Complete,
         };
@@ -278,7 +296,7 @@ impl Study {
         let Some(options) = self.options.as_ref().filter(|_| self.scene.output.report) else {
             return 1;
         };
-        if wanted.rows == Rows::Ends || is_large(&self.prepared.mechanism) {
+        if wanted.rows == Rows::Ends || self.prepared.mechanism.layout().rows() > PICTURED_ROWS {
             return 1;
         }
         let rows = (options.t_end / options.output_step).max(1.0);
@@ -321,15 +339,9 @@ impl Study {
         let between = self.rows_between(&wanted(&self.scene.output));
         let mechanism = &self.prepared.mechanism;
         let output = &self.scene.output;
-        let q = &self.prepared.q;
-        let by_parts = match output.report && is_large(mechanism) {
-            true => Some(survey(mechanism, 0.0, q, |_| ())?),
-            false => None,
-        };
-        let reactions_of_model = match &by_parts {
-            Some(survey) => survey.reactions().into_iter().cloned().collect(),
-            None => verdicts(mechanism, 0.0, q)?,
-        };
+        let start = self.inquire(0.0, None)?;
+        let freedoms = start.freedoms()?;
+        let sensitivities = start.sensitivities()?;
         let mut trajectory = match output.trajectory {
             true => Some(TrajectoryTable::new(
                 directory.file("trajectory.csv")?,
@@ -390,7 +402,10 @@ impl Study {
         };
         let run = Run {
             plan: &plan,
-            reactions: &reactions_of_model,
+            reactions: &start.analysis.reactions,
+            sensitivities: &sensitivities,
+            data: DataDocument::new(&start.analysis),
+            freedoms: &freedoms,
             summary: &summary,
             ending,
         };
@@ -414,15 +429,8 @@ impl Study {
         })?;
         directory.write("summary.json", &text)?;
         if let Some(chronicle) = chronicle {
-            let survey = by_parts.as_ref();
             let figure = comparison_beside(directory);
-            let page = chronicle.page(
-                &reactions_of_model,
-                survey,
-                &document,
-                origin,
-                figure.as_deref(),
-            );
+            let page = chronicle.page(&start, &sensitivities, &document, origin, figure.as_deref());
             directory.write("report.html", page.as_bytes())?;
         }
         match (unwritten, error) {

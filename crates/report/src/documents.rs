@@ -2,9 +2,11 @@
 //! everywhere a user sees them. JSON knows no NaN and no infinity: such numbers are `null`.
 
 mod analysis;
+mod freedoms;
 mod motion;
 mod plan;
 mod run;
+mod sensitivity;
 #[cfg(test)]
 mod tests;
 
@@ -15,19 +17,22 @@ use serde::ser::{SerializeMap, Serializer};
 use solvability::{Judgement, Verdict};
 
 pub use analysis::{
-    AlongDocument, AnalysisDocument, ComponentDocument, ContinuationDocument, DependencyDocument,
-    DifferenceDocument, DistributionDocument, EliminationsDocument, EvidenceDocument,
-    FrameDocument, FreeDirectionDocument, GenericDocument, GenericVerdictsDocument, GroupDocument,
-    MakeUniqueDocument, MixingDocument, NamedVerdictDocument, NearlyRedundantDocument,
-    PassageDocument, PointDocument, Proof, ReactionDocument, RowDocument, StretchDocument,
-    ValueDocument, ValuesDocument, WayDocument,
+    AlongDocument, AnalysisDocument, ComponentDocument, ContinuationDocument, DataDocument,
+    DependencyDocument, DifferenceDocument, DistributionDocument, EliminationsDocument,
+    EvidenceDocument, FrameDocument, FreeDirectionDocument, GenericDocument,
+    GenericVerdictsDocument, GroupDocument, MakeUniqueDocument, MixingDocument,
+    NamedVerdictDocument, NearlyRedundantDocument, NoteDocument, PartsDocument, PassageDocument,
+    PointDocument, ReactionDocument, RowDocument, StretchDocument, ValueDocument, ValuesDocument,
+    WayDocument,
 };
+pub use freedoms::{FreeMotionDocument, FreedomsDocument, LeftOutDocument, WithoutDrivesDocument};
 pub use motion::{BodyStateDocument, MomentDocument, MotionDocument};
 pub use plan::{DecisionDocument, PlanDocument, PlannedComponentDocument, SavingDocument};
 pub use run::{
     ChoiceDocument, ComponentRunDocument, Ending, EventDocument, Run, RunDocument,
     RunReactionDocument,
 };
+pub use sensitivity::SensitivityDocument;
 
 /// Writes a document, indented, with a line feed at the end.
 ///

@@ -23,7 +23,7 @@ pub mod sweep;
 pub mod tables;
 pub mod work_precision;
 
-pub use documents::{AnalysisDocument, Ending, PlanDocument, Proof, Run, RunDocument, write_json};
+pub use documents::{AnalysisDocument, Ending, PlanDocument, Run, RunDocument, write_json};
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Series, Style};
 pub use files::{FileError, OutputDirectory, OutputFile};
 pub use html::{

@@ -13,6 +13,7 @@ use crate::key::{Interval, Key, Takes};
 use crate::nearest::all;
 use crate::source_map::Entry;
 use crate::table::Table;
+use crate::tolerance;
 
 const MASS: Key = number("mass", "a number ≥ 0", Interval::NotNegative)
     .needed()
@@ -32,13 +33,24 @@ const ANGLE: Key = number("angle", "a number", Interval::Any)
     .unit("rad")
     .doc("Angle of the body's frame at the start")
     .or(|| 0.0.into());
+const TOLERANCE: Key = tolerance::length(
+    "What points and directions in the body's frame are known to; that of the scene where it is not given",
+);
 const ANGULAR_VELOCITY: Key = number("angular_velocity", "a number", Interval::Any)
     .unit("rad/s")
     .doc("Angular velocity at the start")
     .or(|| 0.0.into());
 
 /// Keys of a body beside its name.
-pub(crate) const KEYS: [Key; 6] = [MASS, INERTIA, POSITION, ANGLE, VELOCITY, ANGULAR_VELOCITY];
+pub(crate) const KEYS: [Key; 7] = [
+    MASS,
+    INERTIA,
+    POSITION,
+    ANGLE,
+    VELOCITY,
+    ANGULAR_VELOCITY,
+    TOLERANCE,
+];
 
 const fn number(name: &'static str, expected: &'static str, range: Interval) -> Key {
     Key::optional(name, expected, Takes::Number(range))
@@ -85,6 +97,7 @@ impl Bodies {
                 .unwrap_or_default()
         };
         let (angle, angular_velocity) = (number(&ANGLE), number(&ANGULAR_VELOCITY));
+        let tolerance = tolerance::read(&mut table, &TOLERANCE, findings);
         let at = self.list.len();
         let is_own = table.peek("name") == Some(name) && name != GROUND;
         if !is_own || self.by_name.contains_key(name) {
@@ -99,6 +112,7 @@ impl Bodies {
             angle,
             velocity,
             angular_velocity,
+            tolerance,
         });
         self.entries.push(Entry::of(name, &table));
         table.close(findings);

@@ -22,6 +22,8 @@ pub(crate) struct Findings<'s> {
     /// Where they are.
     pub(crate) source: &'s SourceText,
     list: Vec<Diagnostic>,
+    /// What can be used, but is probably not what was meant.
+    warnings: Vec<Diagnostic>,
     /// Places in the list of those that another one has explained.
     explained: Vec<usize>,
     /// Those that are not listed.
@@ -34,6 +36,7 @@ impl<'s> Findings<'s> {
         Self {
             source,
             list: Vec::new(),
+            warnings: Vec::new(),
             explained: Vec::new(),
             more: 0,
             compared: Cell::new(0),
@@ -93,6 +96,30 @@ impl<'s> Findings<'s> {
             return self.count(1);
         }
         self.report(Diagnostic::error(self.source, span, message, label).help(help));
+    }
+
+    /// Keeps a warning, which is no problem of the file.
+    pub(crate) fn warning(
+        &mut self,
+        span: Range<usize>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+        help: impl Into<Option<String>>,
+    ) {
+        if self.warnings.len() >= LISTED {
+            return;
+        }
+        self.warnings.push(Diagnostic {
+            severity: Severity::Warning,
+            ..Diagnostic::error(self.source, span, message, label).help(help)
+        });
+    }
+
+    /// The warnings in the order of the file.
+    pub(crate) fn take_warnings(&mut self) -> Vec<Diagnostic> {
+        let mut warnings = std::mem::take(&mut self.warnings);
+        warnings.sort_by_key(|d| d.primary.span.start);
+        warnings
     }
 
     /// Reports an error and the place of the thing it collides with.

@@ -10,18 +10,20 @@ use model::{BodyRef, Drive, Joint};
 use crate::body::Bodies;
 use crate::connection;
 use crate::element::{self, Types};
+use crate::field::{Field, as_number};
 use crate::findings::Findings;
 use crate::function::{self, Domain};
 use crate::key::{Key, Takes};
 use crate::nearest::{all, list, nearest};
 use crate::source_map::Entry;
 use crate::table::Table;
+use crate::tolerance;
 
 const JOINT: Key =
     Key::required("joint", "the name of a joint", Takes::Text).doc("The joint that is driven");
 const MOTION: Key = Key::required("motion", "a function of time", Takes::Function)
     .unit("rad or m")
-    .doc("The measure is its initial value + f(t) − f(0)");
+    .doc("The measure is its initial value + f(t) − f(0); a number holds it");
 
 /// Keys of a drive beside its name and its type.
 pub(crate) const DRIVE_KEYS: [Key; 2] = [JOINT, MOTION];
@@ -38,6 +40,8 @@ pub(crate) struct Known<'r> {
     pub(crate) definition: Option<&'r ConstraintDefinition>,
     /// Its bodies and arguments, if all could be read.
     complete: Option<(Vec<BodyRef>, Vec<Argument>)>,
+    /// What its data are known to (m).
+    tolerance: Option<f64>,
 }
 
 /// The joints that were read.
@@ -64,6 +68,7 @@ impl<'r> Joints<'r> {
             span: table.span_of("name"),
             definition: None,
             complete: None,
+            tolerance: None,
         };
         let Some(scene_type) = element::scene_type(&mut table, types, findings) else {
             connection::check_names(&mut table, bodies, findings);
@@ -72,6 +77,7 @@ impl<'r> Joints<'r> {
         };
         let definitions: Vec<_> = types.registry.constraints(scene_type).collect();
         let read = element::read(&mut table, &definitions, bodies, domains, findings);
+        known.tolerance = tolerance::read(&mut table, &tolerance::OF_JOINT, findings);
         let entry = Entry::of(name, &table);
         table.close(findings);
         known.definition = read.as_ref().map(|read| read.definition);
@@ -84,6 +90,7 @@ impl<'r> Joints<'r> {
                 bodies,
                 element,
                 functions: read.arguments.functions,
+                tolerance: known.tolerance,
             });
             self.entries.push(entry);
         }
@@ -133,7 +140,11 @@ impl Drives {
         let joint = joint(&mut table, joints, findings);
         let measure = table.needed(element::TYPE, MEASURE, findings);
         let motion = table.required(&MOTION, findings);
-        let motion = motion.and_then(|field| function::read(&field, domains, findings));
+        let motion = motion.and_then(|field| {
+            let function = function::read(&field, domains, findings)?;
+            warn_if_held(&field, findings);
+            Some(function)
+        });
         let measure =
             measure.and_then(|field| Some((field.text(MEASURE, findings)?, field.span())));
         let entry = Entry::of(name, &table);
@@ -182,6 +193,7 @@ impl Drives {
                     bodies: bodies.clone(),
                     element,
                     motion,
+                    tolerance: joint.tolerance,
                 });
                 self.entries.push(entry);
             }
@@ -197,6 +209,25 @@ impl Drives {
             ),
         }
     }
+}
+
+/// Warns of a motion that is a number other than zero: whoever writes one may expect a speed or a place, but a drive follows
+/// f(t) − f(0).
+fn warn_if_held(motion: &Field, findings: &mut Findings) {
+    let Some(value) = as_number(motion.value.get_ref()).filter(|value| *value != 0.0) else {
+        return;
+    };
+    findings.warning(
+        motion.span(),
+        format!(
+            "{}: `motion = {value}` is constant, and a drive follows f(t) − f(0), so the measure is held at its initial value",
+            motion.subject
+        ),
+        "holds the measure",
+        format!(
+            "for a constant speed write `motion = {{ type = \"constant-rate\", rate = {value} }}`, to hold the measure `motion = 0`"
+        ),
+    );
 }
 
 /// The joint that a drive names.

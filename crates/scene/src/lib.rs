@@ -46,6 +46,7 @@ mod start;
 mod table;
 mod template;
 mod text;
+mod tolerance;
 mod units;
 
 pub use combination::{Combination, CombinationError, CombinationProblem, Term, WrenchTerm};

@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use dynamics::{MotionError, Trip};
-use model::{Body, BodyRef, BuildError, Description, RowLabel, StartError};
+use model::{Body, BodyRef, BuildError, Description, RowLabel, StartError, Stated};
 
 use crate::diagnostic::Diagnostic;
 use crate::source_map::{BODY_KEYS, Entry, PLACE_KEYS, SourceMap};
@@ -37,6 +37,19 @@ pub(crate) fn build(map: &SourceMap, d: &Description, error: &BuildError) -> Dia
             body_key(map, d, body, field, |x| x < 0.0),
             "may not be negative",
         ),
+        BuildError::Tolerance { of, field, value } => {
+            let key = field.replace(' ', "_");
+            let span = match of {
+                Stated::Scene => map.section("scene", &key),
+                Stated::Body(body) => {
+                    body_key(map, d, body, field, |x| x.to_bits() == value.to_bits())
+                }
+                Stated::Joint(name) | Stated::Drive(name) => {
+                    element_key(map, name, &[&key, "joint"])
+                }
+            };
+            (span, "expected a number > 0")
+        }
         BuildError::BodyCount { name, .. } | BuildError::UnknownBody { name, .. } => {
             (element_key(map, name, &BODY_KEYS), "these bodies")
         }
@@ -96,12 +109,14 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
     let (span, label) = match error {
         MotionError::Start(error) => return start(map, error),
         MotionError::Component { source, .. } => return motion(map, source),
-        MotionError::Contradiction(error) => {
-            let marks = ["contradicts the others", "contradicts too"];
-            return at_rows(map, &error.rows, error, marks);
+        MotionError::Contradiction(contradiction) => {
+            return contradicting(map, contradiction.split_rows(), error);
         }
         MotionError::Option { name, .. } => (map.section("simulate", name), "not possible"),
         MotionError::Rows(_) => (map.section("simulate", "drop"), "not these rows"),
+        MotionError::Trip(Trip::Drives { contradiction, .. }) => {
+            return contradicting(map, contradiction.split_rows(), error);
+        }
         MotionError::Trip(trip) => match trip {
             Trip::RankLost { row: label, .. } => (row(map, label), "becomes dependent"),
             Trip::OffConstraints { row: label, .. } => (row(map, label), "misses most"),
@@ -119,6 +134,25 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
         _ => (map.section("simulate", ""), "in this run"),
     };
     at(map, span, error, label)
+}
+
+/// Redundant rows that ask for different motions: the drives among them, or all where there are none.
+fn contradicting(
+    map: &SourceMap,
+    (drives, others): (Vec<&RowLabel>, Vec<&RowLabel>),
+    error: &impl std::error::Error,
+) -> Diagnostic {
+    let (rows, marks) = match drives.as_slice() {
+        [] => (others, ["contradicts the others", "contradicts too"]),
+        [drive] => {
+            let rows = std::iter::once(*drive).chain(others);
+            let marks = ["asks for what the others forbid", "holds it"];
+            (rows.collect(), marks)
+        }
+        // Joints between drives are as they should be.
+        _ => (drives, ["contradicts the others", "contradicts too"]),
+    };
+    at_rows(map, rows, error, marks)
 }
 
 /// Places of one error that are marked.
@@ -200,6 +234,7 @@ fn body_key(
         "position" => body.position.to_vec(),
         "angle" => vec![body.angle],
         "velocity" => body.velocity.to_vec(),
+        "tolerance" => body.tolerance.into_iter().collect(),
         _ => vec![body.angular_velocity],
     };
     let of_name = d.bodies.iter().zip(&map.bodies);

@@ -4,7 +4,7 @@ mod syntax;
 
 use std::collections::{BTreeMap, HashMap};
 
-use model::{BuildError, Description, Mechanism, Registry};
+use model::{BuildError, Description, Mechanism, Registry, Stated, Tolerance};
 use serde_json::json;
 use toml::de::DeTable;
 
@@ -28,6 +28,7 @@ use crate::source_map::{Entry, SourceMap};
 use crate::start;
 use crate::table::Table;
 use crate::text::SourceText;
+use crate::tolerance;
 
 /// Reads a scene file.
 ///
@@ -61,7 +62,8 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
         return Err(findings.sorted());
     }
     let whole = Table::new("the scene", 0..0, root.get_ref());
-    let scene = document(whole, registry, &mut findings);
+    let mut scene = document(whole, registry, &mut findings);
+    scene.warnings = findings.take_warnings();
     // Large beside what was read from it.
     drop(root);
     if let Some(source) = &scene.source {
@@ -123,7 +125,7 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         let label = "`[scene]` is missing in this file";
         root.lacks(section::SCENE.name, message, label, findings);
     }
-    let (name, gravity) = head.map_or((String::new(), [0.0; 2]), |head| heading(head, findings));
+    let heading = head.map_or_else(Heading::default, |head| Heading::read(head, findings));
     let mut parts = Parts::read(&mut root, registry, findings);
     let (groups, group_entries) = groups(&mut root, &mut parts, findings);
     let start = section(&mut root, &section::START, &mut sections, findings)
@@ -145,8 +147,9 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         }
     }
     let description = Description {
-        name,
-        gravity,
+        name: heading.name,
+        gravity: heading.gravity,
+        tolerance: heading.tolerance,
         bodies: parts.bodies.list,
         joints: parts.joints.list,
         drives: parts.drives.list,
@@ -169,6 +172,7 @@ fn document(mut root: Table, registry: &Registry, findings: &mut Findings) -> Sc
         output: output.unwrap_or_default(),
         groups,
         source: Some(source),
+        warnings: Vec::new(),
     }
 }
 
@@ -284,33 +288,44 @@ const GRAVITY: Key = Key::optional(
 .doc("Acceleration of free bodies [gx, gy]")
 .or(|| json!([0.0, 0.0]));
 
-/// Keys of `[scene]`.
+/// Keys of `[scene]`, beside those of tolerances.
 pub(crate) const SCENE_KEYS: [Key; 3] = [NAME, SPACE, GRAVITY];
 
-/// `[scene]`: name and gravity.
-fn heading(mut table: Table, findings: &mut Findings) -> (String, [f64; 2]) {
-    let name = table
-        .required(&NAME, findings)
-        .and_then(|field| field.text(NAME.expected, findings));
-    let space = table.required(&SPACE, findings);
-    if let Some(field) = space
-        && let Some(space) = field.text(SPACE.expected, findings)
-        && space != PLANE
-    {
-        findings.error(
-            field.span(),
-            format!("`[scene]`: `space` is \"{space}\", only \"{PLANE}\" is available"),
-            "not available",
-        );
+/// `[scene]`
+#[derive(Default)]
+struct Heading {
+    name: String,
+    gravity: [f64; 2],
+    tolerance: Tolerance,
+}
+
+impl Heading {
+    fn read(mut table: Table, findings: &mut Findings) -> Self {
+        let name = table
+            .required(&NAME, findings)
+            .and_then(|field| field.text(NAME.expected, findings));
+        let space = table.required(&SPACE, findings);
+        if let Some(field) = space
+            && let Some(space) = field.text(SPACE.expected, findings)
+            && space != PLANE
+        {
+            findings.error(
+                field.span(),
+                format!("`[scene]`: `space` is \"{space}\", only \"{PLANE}\" is available"),
+                "not available",
+            );
+        }
+        let gravity = table
+            .optional(&GRAVITY)
+            .and_then(|field| field.pair(GRAVITY.expected, findings));
+        let tolerance = tolerance::of_scene(&mut table, findings);
+        table.close(findings);
+        Self {
+            name: name.unwrap_or_default().to_owned(),
+            gravity: gravity.unwrap_or_default(),
+            tolerance,
+        }
     }
-    let gravity = table
-        .optional(&GRAVITY)
-        .and_then(|field| field.pair(GRAVITY.expected, findings));
-    table.close(findings);
-    (
-        name.unwrap_or_default().to_owned(),
-        gravity.unwrap_or_default(),
-    )
 }
 
 /// Reports what the mechanism refuses. That there are bodies has been checked, and names, also those of what could not be read.
@@ -323,6 +338,11 @@ fn check(description: &Description, source: &SourceMap, findings: &mut Findings)
         }
         match error {
             BuildError::DuplicateName { .. } | BuildError::Ground | BuildError::NoBodies => {}
+            // Its joint has the same.
+            BuildError::Tolerance {
+                of: Stated::Drive(_),
+                ..
+            } => {}
             // Its joint has them too.
             BuildError::SameBody { name, .. } | BuildError::GroundOnly { name }
                 if of_drive(name) => {}

@@ -38,6 +38,8 @@ pub struct Scene {
     pub groups: Vec<GroupRequest>,
     /// Where everything stands; nothing where there is no text.
     pub source: Option<SourceMap>,
+    /// What was read and can be used, but is probably not what was meant.
+    pub warnings: Vec<Diagnostic>,
 }
 
 /// A mechanism with nothing said but itself: everything by default, and no run.
@@ -61,6 +63,15 @@ impl Scene {
     #[must_use]
     pub fn text(&self) -> Option<&str> {
         self.source.as_ref().map(|source| source.text.text())
+    }
+
+    /// The warnings as sentences, each with its line and what to do.
+    pub fn cautions(&self) -> impl Iterator<Item = String> + '_ {
+        self.warnings.iter().map(|w| {
+            let help = w.help.as_ref().map(|help| format!("; {help}"));
+            let (line, help) = (w.primary.line, help.unwrap_or_default());
+            format!("line {line}: {}{help}", w.message)
+        })
     }
 
     /// The place of an error of [`model::Mechanism::build`], for descriptions that were changed after reading; nothing where there is

@@ -17,7 +17,7 @@ use crate::nearest::list;
 use crate::reactions::{GROUP_KEYS, OUTPUT_KEYS};
 use crate::read::SCENE_KEYS;
 use crate::section::{self, NAME, Section};
-use crate::{body, simulate, start};
+use crate::{body, simulate, start, tolerance};
 use element::{Kind, elements};
 use value::described;
 
@@ -33,7 +33,7 @@ use value::described;
 #[must_use]
 pub fn schema(registry: &Registry) -> Value {
     let sections = [
-        (&section::SCENE, Times::Once, table("Scene", &SCENE_KEYS)),
+        (&section::SCENE, Times::Once, scene_table()),
         (&section::BODY, Times::Many, body_table()),
         (
             &section::JOINT,
@@ -110,6 +110,14 @@ fn table(title: &str, keys: &[Key]) -> Value {
         "required": required,
         "additionalProperties": false,
     })
+}
+
+fn scene_table() -> Value {
+    let keys: Vec<Key> = SCENE_KEYS
+        .into_iter()
+        .chain(tolerance::SCENE_KEYS)
+        .collect();
+    table("Scene", &keys)
 }
 
 fn body_table() -> Value {

@@ -10,18 +10,23 @@
 
 mod border;
 mod instants;
+mod parts;
 mod passages;
 mod path;
 mod search;
 mod stretches;
 mod words;
 
+use std::sync::Mutex;
+
 use linalg::Doubt;
 use model::{Mechanism, RowLabel, StartError, System};
 
-use crate::mechanism::{Analysis, AnalysisError, ReactionVerdict};
+use crate::analysis::Analysis;
+use crate::mechanism::{AnalysisError, ReactionVerdict};
+use crate::parts::{Extent, Partition};
 use crate::second_order::Continuation;
-use crate::state::{State, StateError};
+use crate::state::{self, State, StateError};
 use crate::verdict::{Judgement, Verdict};
 use path::Path;
 
@@ -145,6 +150,18 @@ pub enum AlongError {
     /// The constraint matrix cannot be judged.
     #[error(transparent)]
     Analysis(#[from] AnalysisError),
+    /// Too many rows are on common cycles.
+    #[error(
+        "{joints} are on common cycles with {rows} rows in all: a motion is judged by matrices of all of them, which is possible up to {most} rows"
+    )]
+    Large {
+        /// The first joints and drives of the part.
+        joints: String,
+        /// Its rows.
+        rows: usize,
+        /// Rows that are possible.
+        most: usize,
+    },
     /// The rank is decided at no sample time.
     #[error(
         "the rank is decided at none of the sample times; at t = {time} s singular values are {sigma_r:.3e} and then {sigma_next:.3e}, \
@@ -194,13 +211,55 @@ pub enum AlongError {
 /// - [`AlongError::Times`], [`AlongError::State`]: bad input.
 /// - [`AlongError::OffConstraints`]: no configuration on the constraints is near a state.
 /// - [`AlongError::Analysis`], [`AlongError::Undecided`]: no rank can be read.
+/// - [`AlongError::Large`]: too many joints are on common cycles.
 pub fn along_motion(
+    mechanism: &Mechanism,
+    motion: impl FnMut(f64) -> State + Send,
+    times: &[f64],
+) -> Result<Along, AlongError> {
+    let motion = Mutex::new(motion);
+    let of_part = |t: f64, extent: &Extent| {
+        let whole = match motion.lock() {
+            Ok(mut motion) => motion(t),
+            // By a panic elsewhere, which goes on there.
+            Err(poisoned) => poisoned.into_inner()(t),
+        };
+        match extent.is_whole() {
+            true => whole,
+            false => State {
+                q: extent.coordinates(&whole.q).into_owned(),
+                v: extent.velocities(&whole.v).into_owned(),
+            },
+        }
+    };
+    along_motion_of_parts(mechanism, of_part, times)
+}
+
+/// The same of a motion that can be asked for the coordinates and velocities of single parts: of large mechanisms it is asked often, and for few of them.
+///
+/// # Errors
+/// As [`along_motion`].
+pub fn along_motion_of_parts(
+    mechanism: &Mechanism,
+    motion: impl Fn(f64, &Extent) -> State + Sync,
+    times: &[f64],
+) -> Result<Along, AlongError> {
+    let times = with_break_times(mechanism, times)?;
+    let first = motion(times[0], &Extent::Whole);
+    state::check(mechanism, times[0], &first.q, &first.v)?;
+    match Partition::of(mechanism, times[0], &first.q) {
+        Partition::One => judged_as_one(mechanism, |t| motion(t, &Extent::Whole), &times),
+        several => parts::judged_by_parts(mechanism, motion, &times, &several, &first),
+    }
+}
+
+/// The same of a mechanism that is one part, at these times, break times included.
+fn judged_as_one(
     mechanism: &Mechanism,
     motion: impl FnMut(f64) -> State,
     times: &[f64],
 ) -> Result<Along, AlongError> {
-    let times = with_break_times(mechanism, times)?;
-    let mut path = Path::new(mechanism, motion, &times)?;
+    let mut path = Path::new(mechanism, motion, times)?;
     let (generic, stretches) = stretches::stretches(&path);
     let mut passages = passages::passages(&mut path, &generic, &stretches)?;
     passages.extend(instants::instants(
@@ -208,7 +267,7 @@ pub fn along_motion(
     )?);
     passages.sort_by(|a, b| a.time.total_cmp(&b.time));
     Ok(Along {
-        generic,
+        generic: path.complete(generic.time)?,
         stretches,
         passages,
     })
@@ -265,7 +324,7 @@ fn ends_of_pieces(mechanism: &Mechanism, first: f64, last: f64) -> Vec<f64> {
 }
 
 /// Every verdict of an analysis, with the name of the reaction, and whether it is that of a component which is zero under any load.
-fn parts<'a>(
+fn verdicts<'a>(
     mechanism: &Mechanism,
     analysis: &'a Analysis,
 ) -> Vec<(&'a str, Part, &'a Judgement, bool)> {
@@ -287,9 +346,9 @@ fn parts<'a>(
 
 /// Verdicts that are not the same in two analyses of one mechanism. That a component is zero says nothing of what is determined.
 fn differences(mechanism: &Mechanism, generic: &Analysis, here: &Analysis) -> Vec<Difference> {
-    let both = parts(mechanism, generic)
+    let both = verdicts(mechanism, generic)
         .into_iter()
-        .zip(parts(mechanism, here));
+        .zip(verdicts(mechanism, here));
     both.filter(|(a, b)| a.2.verdict.word() != b.2.verdict.word() && !a.3 && !b.3)
         .map(
             |((reaction, part, generic, _), (_, _, here, _))| Difference {

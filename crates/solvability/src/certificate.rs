@@ -4,75 +4,74 @@
 //! Not for motion: a run decides in `f64`, where a nearly redundant mechanism cannot be integrated anyway.
 
 use linalg::{
-    DdMatrix, Matrix, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision,
-    certify_within,
+    DdMatrix, Grounds, Matrix, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision,
+    RankError, RankReading, certify_rank,
 };
 use model::start::scene_size;
 use model::{Known, Mechanism, Scratch, System};
 
-use crate::mechanism::{AnalysisError, dimensionless, evaluated, promising_holonomic, uncertainty};
+use crate::meant::{MeantMatrix, Nearness, Question, Reading};
+use crate::mechanism::{AnalysisError, dimensionless, evaluated, promising_holonomic};
 use crate::state::check_configuration;
 
 /// Rows up to which a rank is certified: the work grows with their cube.
 pub(crate) const ROWS_MAX: usize = 600;
 
+/// Rows up to which coefficients are read to a stated tolerance: the work grows with the number of rows times that of dependencies, and with the
+/// cube of both.
+const TOLERANCE_ROWS: usize = 200;
+
 /// C of a mechanism without dimensions, with what its entries are known to.
-pub(crate) struct Rows {
-    time: f64,
+pub(crate) struct Rows<'a> {
+    mechanism: &'a Mechanism,
+    /// Φ and C evaluated at q.
+    scratch: Scratch,
+    q: Vec<f64>,
     size: f64,
-    c: Entries,
-    /// Entry by entry.
-    uncertainty: Matrix,
+    /// Rows of the mechanism that are judged, ascending.
+    places: Vec<usize>,
+    meant: MeantMatrix,
+    /// At a configuration polished in double-double; nothing where that is no help: too many rows, or kept rows dependent to the last digit of
+    /// `f64`.
+    extended: Option<DdMatrix>,
 }
 
-enum Entries {
-    /// At a configuration polished in double-double.
-    Extended(DdMatrix),
-    /// Where double-double is no help: too many rows, or kept rows dependent to the last digit of `f64`.
-    Double(Matrix),
-}
-
-impl Rows {
+impl<'a> Rows<'a> {
     /// C at the pose of the scratch, in `f64`; q are its coordinates.
-    pub(crate) fn in_double(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Self {
+    pub(crate) fn in_double(mechanism: &'a Mechanism, s: &Scratch, q: &[f64]) -> Self {
+        Self::at(mechanism, s.clone(), q, Known::AsStored)
+    }
+
+    fn at(mechanism: &'a Mechanism, scratch: Scratch, q: &[f64], known: Known) -> Self {
         let size = scene_size(mechanism, q);
         Self {
-            time: s.t,
+            meant: MeantMatrix::new(mechanism, &scratch, q, size, known),
+            places: (0..mechanism.layout().rows()).collect(),
+            mechanism,
+            scratch,
+            q: q.to_vec(),
             size,
-            c: Entries::Double(dimensionless(mechanism, s, size)),
-            uncertainty: uncertainty(mechanism, s, q, size),
+            extended: None,
         }
     }
 
     /// C at the configuration q, which satisfies the constraints to `f64`.
     pub(crate) fn new(
-        mechanism: &Mechanism,
+        mechanism: &'a Mechanism,
         t: f64,
         q: &[f64],
         known: Known,
     ) -> Result<Self, AnalysisError> {
         check_configuration(mechanism, t, q)?;
-        let mut s = evaluated(mechanism, t, q);
-        if mechanism.layout().rows() > ROWS_MAX {
-            return Ok(Self::in_double(mechanism, &s, q));
+        let mut rows = Self::at(mechanism, evaluated(mechanism, t, q), q, known);
+        if mechanism.layout().rows() <= ROWS_MAX && rows.meant.c.first_non_finite().is_none() {
+            let kept = promising_holonomic(mechanism, &rows.scratch, q)?;
+            if let Ok(polished) = mechanism.polish(t, q, &kept) {
+                let c = polished.c.scaled(&mechanism.dimension_scaling(rows.size));
+                rows.extended = Some(rows.meant.extended(c));
+            }
         }
-        let kept = promising_holonomic(mechanism, &s, q)?;
-        let Ok(polished) = mechanism.polish(t, q, &kept) else {
-            return Ok(Self::in_double(mechanism, &s, q));
-        };
-        // What is left of Φ is what the data leave open; the rounding of q in f64 is gone.
-        for (phi, polished) in s.phi.iter_mut().zip(&polished.phi) {
-            *phi = polished.to_f64();
-        }
-        let size = scene_size(mechanism, q);
-        Ok(Self {
-            time: t,
-            size,
-            c: Entries::Extended(polished.c.scaled(&mechanism.dimension_scaling(size))),
-            uncertainty: mechanism
-                .dimension_scaling(size)
-                .apply(&mechanism.uncertainty(&s, q, size, known)),
-        })
+        Ok(rows)
     }
 
     /// Size of the mechanism (m).
@@ -82,22 +81,65 @@ impl Rows {
 
     /// C rounded to `f64`.
     pub(crate) fn matrix(&self) -> Matrix {
-        match &self.c {
-            Entries::Extended(c) => c.hi(),
-            Entries::Double(c) => c.clone(),
+        match &self.extended {
+            Some(c) => c.hi(),
+            None => self.meant.c.clone(),
         }
     }
 
     /// Rank, kept rows and evidence of all rows.
     pub(crate) fn decide(&self) -> Result<RankDecision, AnalysisError> {
-        let decision = match &self.c {
-            Entries::Extended(c) => certify_within(c, &self.uncertainty),
-            Entries::Double(c) => linalg::decide(c, &self.uncertainty),
-        };
-        decision.map_err(|source| AnalysisError::Rank {
-            time: self.time,
+        let failed = |source| AnalysisError::Rank {
+            time: self.scratch.t,
             source,
-        })
+        };
+        if self.meant.c.first_non_finite().is_some() {
+            return linalg::decide(&self.meant.c, 0.0).map_err(failed);
+        }
+        let question = Question {
+            mechanism: self.mechanism,
+            s: &self.scratch,
+            q: &self.q,
+            places: &self.places,
+            size: self.size,
+        };
+        let Reading {
+            rank: reading,
+            nearness,
+            has_tolerance,
+        } = self.meant.read(&question);
+        let mut decision = self.certified(reading).map_err(failed)?;
+        if has_tolerance && self.places.len() <= TOLERANCE_ROWS {
+            let scaled = decision.scaling.apply(&self.meant.c);
+            let null = (decision.rank, &linalg::orthonormal(&decision));
+            let known = question.rows_within_tolerance(&scaled, &decision.scaling, null);
+            if let Some(certificate) = &mut decision.evidence.certificate {
+                certificate.row_tolerance = Some(known);
+            }
+        }
+        Ok(with_nearness(decision, nearness))
+    }
+
+    /// The decision for a rank that has been read, with the evidence of double-double.
+    fn certified(&self, reading: RankReading) -> Result<RankDecision, RankError> {
+        if let Some(c) = &self.extended {
+            let certified = certify_rank(c, &self.meant.uncertainty, reading.clone())?;
+            if let Some(mut decision) = certified {
+                // A force or lever that counts as none is none within the data only.
+                if let Some(certificate) = &mut decision.evidence.certificate
+                    && certificate.grounds == Grounds::Vanishes
+                    && self.meant.has_zeros()
+                {
+                    certificate.grounds = Grounds::WithinData;
+                }
+                return Ok(decision);
+            }
+        }
+        let c = DdMatrix::from(&self.meant.c);
+        match certify_rank(&c, &self.meant.uncertainty, reading)? {
+            Some(decision) => Ok(decision),
+            None => linalg::decide(&self.meant.c, &self.meant.uncertainty),
+        }
     }
 
     /// Whether the kept rows nearly depend on each other as bodies feel it, at the pose of the scratch; equilibration may scale the only
@@ -121,18 +163,27 @@ impl Rows {
             .min_by(|a, b| a.sigma.total_cmp(&b.sigma))
     }
 
-    /// Some of the rows.
+    /// Some of the rows, ascending.
     pub(crate) fn select(&self, rows: &[usize]) -> Self {
         Self {
-            time: self.time,
+            mechanism: self.mechanism,
+            scratch: self.scratch.clone(),
+            q: self.q.clone(),
             size: self.size,
-            c: match &self.c {
-                Entries::Extended(c) => Entries::Extended(c.select_rows(rows)),
-                Entries::Double(c) => Entries::Double(c.select_rows(rows)),
-            },
-            uncertainty: self.uncertainty.select_rows(rows),
+            places: rows.iter().map(|&k| self.places[k]).collect(),
+            meant: self.meant.select(rows),
+            extended: self.extended.as_ref().map(|c| c.select_rows(rows)),
         }
     }
+}
+
+/// What the data would have to be wrong by for a lower rank goes into the certificate.
+fn with_nearness(mut decision: RankDecision, nearness: Option<Nearness>) -> RankDecision {
+    if let (Some(certificate), Some(near)) = (&mut decision.evidence.certificate, nearness) {
+        certificate.lower_rank_here = Some(near.here);
+        certificate.lower_rank_from = near.everywhere.is_finite().then_some(near.everywhere);
+    }
+    decision
 }
 
 /// The combination of kept rows that comes closest to zero as bodies feel it, at the pose of the scratch, where C without dimensions is that of a

@@ -9,13 +9,14 @@ use std::sync::Arc;
 
 use linalg::{Doubt, KeptRowsError, RankStatus, SaddleError};
 use model::reaction::COMPONENTS;
-use model::{ConstraintId, RowLabel, System};
+use model::{ConstraintId, Layout, RowLabel, System};
 
-pub use equations::Equations;
+pub use equations::{Equations, Solution, solution};
 pub use minimise::minimise;
 
 use crate::groups::{Configuration, LinearForm, RequestError, check};
 use crate::mechanism::dimensionless;
+use crate::parts::Extent;
 use crate::verdict::Verdict;
 use crate::words;
 use minimise::independent_columns;
@@ -242,15 +243,58 @@ impl Distribution {
         configuration: &Configuration,
         form: &LinearForm,
     ) -> Result<Value, RequestError> {
-        check("multipliers", &self.lambda, form.coefficients().len())?;
+        self.value_in(&Extent::Whole, configuration, form)
+    }
+
+    /// Any other number of a part.
+    pub(crate) fn value_in(
+        &self,
+        extent: &Extent,
+        configuration: &Configuration,
+        form: &LinearForm,
+    ) -> Result<Value, RequestError> {
+        let lambda = extent.of_rows(&self.lambda);
+        check("multipliers", &lambda, form.coefficients().len())?;
         Ok(match configuration.judge(form)?.verdict {
             // From the best rows there are, whatever the choice.
-            Verdict::Unique => Value::Unique(configuration.value(form, &self.lambda_0)),
+            Verdict::Unique => {
+                Value::Unique(configuration.value(form, &extent.of_rows(&self.lambda_0)))
+            }
             _ => Value::Chosen {
-                value: configuration.value(form, &self.lambda),
+                value: configuration.value(form, &lambda),
                 by: self.label.clone(),
             },
         })
+    }
+
+    /// One solution of the whole, made of those of its parts; `reactions` and `rows` are numbers of joints and rows.
+    pub(crate) fn of_parts(
+        label: Label,
+        lambda_0: &[f64],
+        reactions: usize,
+        parts: Vec<(&Extent, Self)>,
+    ) -> Self {
+        let rows = lambda_0.len();
+        let mut whole = Self {
+            label,
+            reactions: Vec::with_capacity(reactions),
+            multipliers: vec![Value::Unique(0.0); rows],
+            lambda_0: lambda_0.to_vec(),
+            lambda: vec![0.0; rows],
+        };
+        for (extent, part) in parts {
+            let own = part.multipliers.into_iter().zip(part.lambda);
+            for (k, (value, lambda)) in own.enumerate() {
+                whole.multipliers[extent.row(k)] = value;
+                whole.lambda[extent.row(k)] = lambda;
+            }
+            whole.reactions.extend(part.reactions.into_iter().map(|r| {
+                let id = ConstraintId(extent.group(r.id.0));
+                ReactionValues { id, ..r }
+            }));
+        }
+        whole.reactions.sort_unstable_by_key(|r| r.id.0);
+        whole
     }
 }
 
@@ -270,18 +314,36 @@ impl Configuration<'_> {
         lambda_0: &[f64],
         choice: &Choice,
     ) -> Result<Distribution, ChoiceError> {
+        let rigid = match choice {
+            Choice::Compliance(joints) => self.rigid(joints),
+            _ => Vec::new(),
+        };
+        self.distribute_as(
+            lambda_0,
+            choice,
+            Label::of(self.mechanism.layout(), choice, &rigid),
+        )
+    }
+
+    /// The same by this name.
+    pub(crate) fn distribute_as(
+        &self,
+        lambda_0: &[f64],
+        choice: &Choice,
+        label: Label,
+    ) -> Result<Distribution, ChoiceError> {
         let layout = self.mechanism.layout();
         check("multipliers", lambda_0, layout.rows())?;
         if let RankStatus::Undecided(doubt) = self.solvability.decision().status {
             return Err(ChoiceError::Undecided(doubt));
         }
         let lambda = match choice {
-            Choice::MinimumNorm(weights) => self.minimum_norm(lambda_0, *weights)?,
+            Choice::MinimumNorm(weights) => self.least_norm(lambda_0, *weights)?,
             Choice::Compliance(joints) => self.elastic(lambda_0, joints)?,
             Choice::Elimination(rows) => self.without(lambda_0, rows)?,
         };
         let mut distribution = Distribution {
-            label: self.label(choice),
+            label,
             reactions: Vec::new(),
             multipliers: Vec::new(),
             lambda_0: lambda_0.to_vec(),
@@ -326,7 +388,12 @@ impl Configuration<'_> {
         }
     }
 
-    fn minimum_norm(&self, lambda_0: &[f64], w: NormWeights) -> Result<Vec<f64>, ChoiceError> {
+    /// The λ of least norm by these weights among all solutions that a solution λ₀ stands for.
+    ///
+    /// # Errors
+    /// - [`ChoiceError::Hidden`]: the wrenches on first bodies do not show all that is free.
+    /// - [`ChoiceError::NormWeight`], [`ChoiceError::Request`]: wrong numbers.
+    pub fn least_norm(&self, lambda_0: &[f64], w: NormWeights) -> Result<Vec<f64>, ChoiceError> {
         for value in [w.force, w.torque] {
             if !(value.is_finite() && value > 0.0) {
                 return Err(ChoiceError::NormWeight { value });
@@ -400,7 +467,7 @@ impl Configuration<'_> {
 
     /// `λ₀ − Z·(Z_D)⁻¹·λ₀_D` with Z from the dependence of the rows D on the others, for which Z_D = I: exactly zero on D.
     fn without(&self, lambda_0: &[f64], rows: &[usize]) -> Result<Vec<f64>, ChoiceError> {
-        let c = dimensionless(self.mechanism, &self.s, self.size);
+        let c = dimensionless(&self.mechanism, &self.s, self.size);
         let decision = linalg::decide_dropping(&c, &self.uncertainty, rows)
             .map_err(|source| self.refused(rows, source))?;
         let z = linalg::dependencies(&decision);
@@ -430,7 +497,7 @@ impl Configuration<'_> {
     }
 
     /// Joints and drives that share loads with others and are not listed: they do not give way.
-    fn rigid(&self, listed: &[Compliance]) -> Vec<ConstraintId> {
+    pub(crate) fn rigid(&self, listed: &[Compliance]) -> Vec<ConstraintId> {
         let groups = &self.mechanism.layout().groups;
         let shares = |id: &ConstraintId| {
             let judged = self.solvability.group(groups[id.0].rows.clone());
@@ -440,9 +507,11 @@ impl Configuration<'_> {
         ids.filter(|id| listed.iter().all(|j| j.reaction != *id) && shares(id))
             .collect()
     }
+}
 
-    fn label(&self, choice: &Choice) -> Label {
-        let layout = self.mechanism.layout();
+impl Label {
+    /// Of a choice where these joints and drives do not give way.
+    pub(crate) fn of(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) -> Self {
         let text = match choice {
             Choice::MinimumNorm(w) => format!(
                 "minimum norm, forces weighted by {}/N and torques by {}/(N·m)",
@@ -461,18 +530,18 @@ impl Configuration<'_> {
                     }
                 };
                 let listed: Vec<String> = joints.iter().map(joint).collect();
-                let rigid = match words::names(layout, &self.rigid(joints)).as_slice() {
+                let rigid = match words::names(layout, rigid).as_slice() {
                     [] => String::new(),
                     names => format!("; rigid: {}", names.join(", ")),
                 };
                 format!("elastic supports: {}{rigid}", listed.join("; "))
             }
             Choice::Elimination(rows) => {
-                let labels: Vec<RowLabel> =
-                    rows.iter().map(|&i| layout.labels[i].clone()).collect();
+                let known = rows.iter().filter_map(|&i| layout.labels.get(i));
+                let labels: Vec<RowLabel> = known.cloned().collect();
                 format!("no reaction in {} {}", row_word(&labels), list(&labels))
             }
         };
-        Label(text.into())
+        Self(text.into())
     }
 }

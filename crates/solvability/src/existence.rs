@@ -2,16 +2,23 @@
 //! the same sum: `Σ z_i·b_i = 0` or no velocity exists, `Σ z_i·Γ_i = 0` or no acceleration does. At position level the residuals
 //! of Φ take their place: that of a circuit does not vanish where a row was redundant only elsewhere.
 //!
-//! Nothing is decided here about the rank: contradictions are those of the circuits of decided ranks.
+//! Nothing is decided here about the rank: contradictions are those of the circuits of decided ranks. Drives that take part are named, with what
+//! each of them asks for.
+
+mod demands;
+mod drives;
 
 use std::collections::BTreeSet;
 
 use linalg::{Circuit, RankDecision};
 use model::start::scene_size;
-use model::{Mechanism, RowLabel, System};
+use model::{ConstraintId, Mechanism, RowLabel, Scratch, System};
 
 use crate::mechanism::velocity_units;
 use crate::state::{self, StateError};
+use crate::words;
+pub use demands::Demand;
+pub use drives::{contradicting_drives, contradicting_drives_along};
 
 /// Where rows are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,11 +57,7 @@ impl std::fmt::Display for ConstraintLevel {
 
 /// Redundant rows that cannot hold together.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "at t = {time} s rows {} depend on each other but ask for different {level}: they differ by {size:.3e} {unit}. {}",
-    list(rows),
-    advice(*drives, *level)
-)]
+#[error("at t = {time} s {}. {}", self.what(), self.advice())]
 #[non_exhaustive]
 pub struct Contradiction {
     /// When.
@@ -72,29 +75,85 @@ pub struct Contradiction {
     pub tolerance: f64,
     /// How many joints and drives with functions of time take part.
     pub drives: usize,
+    /// What the drives among them ask for, in the order of their rows.
+    pub demands: Vec<Demand>,
 }
 
-fn list(rows: &[RowLabel]) -> String {
-    rows.iter()
-        .map(RowLabel::to_string)
-        .collect::<Vec<_>>()
-        .join(", ")
-}
+impl Contradiction {
+    /// Whether a drive takes part.
+    #[must_use]
+    pub fn is_of_drives(&self) -> bool {
+        !self.demands.is_empty()
+    }
 
-fn advice(drives: usize, level: ConstraintLevel) -> &'static str {
-    match (drives, level) {
-        (1, _) => {
-            "The others do not allow the motion that one of them prescribes: the mechanism is locked, or in a singular configuration. Begin at another \
-             configuration, or prescribe another motion"
-        }
-        (2.., _) => "Redundant drives must follow the same motion; delete or correct one of them",
-        (0, ConstraintLevel::Position) => {
-            "They are redundant here but not elsewhere: correct the dimensions, or delete one of them"
-        }
-        (0, _) => {
-            "The configuration is singular and cannot be left with these velocities: change the velocities or the start"
+    /// The rows of drives, and those of joints.
+    #[must_use]
+    pub fn split_rows(&self) -> (Vec<&RowLabel>, Vec<&RowLabel>) {
+        let is_drive = |row: &&RowLabel| self.demands.iter().any(|d| d.drive == row.joint);
+        self.rows.iter().partition(is_drive)
+    }
+
+    fn what(&self) -> String {
+        let Self {
+            level, size, unit, ..
+        } = self;
+        let (_, joints) = self.split_rows();
+        let rows: Vec<String> = joints.into_iter().map(RowLabel::to_string).collect();
+        match self.demands.as_slice() {
+            [] => format!(
+                "rows {} depend on each other but ask for different {level}: they differ by {size:.3e} {unit}",
+                rows.join(", ")
+            ),
+            [only] => format!(
+                "drive `{}` asks {} {}, which misses what {} allow by {size:.3e} {unit}",
+                only.drive,
+                only.of_what(),
+                only.asked(*level),
+                of_rows(&rows)
+            ),
+            [first, others @ ..] => {
+                let drives = self.demands.iter().map(|d| format!("`{}`", d.drive));
+                let asked =
+                    |d: &Demand| format!("`{}` asks {} {}", d.drive, d.of_what(), d.asked(*level));
+                let mut all = vec![asked(first)];
+                all.extend(others.iter().map(asked));
+                let through = match rows.as_slice() {
+                    [] => String::new(),
+                    [_] => format!(", and {} ties them to each other", of_rows(&rows)),
+                    rows => format!(", and {} tie them to each other", of_rows(rows)),
+                };
+                format!(
+                    "drives {} contradict each other: they ask for different {level}, which differ by {size:.3e} {unit} ({}{through})",
+                    words::list(&drives.collect::<Vec<_>>()),
+                    words::list(&all)
+                )
+            }
         }
     }
+
+    fn advice(&self) -> &'static str {
+        match (self.drives, self.level) {
+            (1, _) => {
+                "The others do not allow the motion that one of them prescribes: the mechanism is locked, or in a singular configuration. Begin at \
+                 another configuration, or prescribe another motion"
+            }
+            (2.., _) => {
+                "Redundant drives must follow the same motion; delete or correct one of them"
+            }
+            (0, ConstraintLevel::Position) => {
+                "They are redundant here but not elsewhere: correct the dimensions, or delete one of them"
+            }
+            (0, _) => {
+                "The configuration is singular and cannot be left with these velocities: change the velocities or the start"
+            }
+        }
+    }
+}
+
+/// "row 1 (`A`, x)" or "rows 1 (`A`, x) and 2 (`A`, y)".
+fn of_rows(rows: &[String]) -> String {
+    let word = if rows.len() == 1 { "row" } else { "rows" };
+    format!("{word} {}", words::list(rows))
 }
 
 /// Rank decisions at one configuration.
@@ -143,18 +202,23 @@ pub fn contradictions(
     let levels = [
         Comparison {
             level: ConstraintLevel::Position,
+            prescribed: &s,
             decision: ranks.holonomic,
             values: &s.phi,
             scale: &|i| mechanism.position_scale(&s, i, q),
+            share: 0.0,
         },
         Comparison {
             level: ConstraintLevel::Velocity,
+            prescribed: &s,
             decision: ranks.all,
             values: &s.b,
             scale: &|i| mechanism.velocity_scale(&s, i, v) + prescribed(i),
+            share: 0.0,
         },
         Comparison {
             level: ConstraintLevel::Acceleration,
+            prescribed: &s,
             decision: ranks.all,
             values: &s.gamma,
             scale: &|i| {
@@ -162,6 +226,7 @@ pub fn contradictions(
                     [v, &blurred].map(|v| mechanism.acceleration_scale(&s, i, v, size));
                 terms + (blurred - terms) / noise + prescribed(i)
             },
+            share: 0.0,
         },
     ];
     let mut found: Vec<Contradiction> = levels
@@ -176,16 +241,31 @@ pub fn contradictions(
 /// Values of all rows at one level, and the size of their terms.
 struct Comparison<'a> {
     level: ConstraintLevel,
+    /// Where functions of time have been evaluated.
+    prescribed: &'a Scratch,
     decision: &'a RankDecision,
     values: &'a [f64],
     scale: &'a dyn Fn(usize) -> f64,
+    /// Contradictions below this share of the terms are not told, also above rounding.
+    share: f64,
 }
 
 impl Comparison<'_> {
+    /// Of the shortest circuits.
     fn contradictions(&self, mechanism: &Mechanism, time: f64) -> Vec<Contradiction> {
-        if self.decision.redundancy == 0 {
-            return Vec::new();
+        match self.decision.redundancy {
+            0 => Vec::new(),
+            _ => self.among(linalg::short_circuits(self.decision), mechanism, time),
         }
+    }
+
+    /// Of these circuits.
+    fn among(
+        &self,
+        circuits: Vec<Circuit>,
+        mechanism: &Mechanism,
+        time: f64,
+    ) -> Vec<Contradiction> {
         let rows = linalg::components(self.decision);
         let noise = linalg::support_tolerance(self.decision);
         let term = |&i: &usize| self.decision.scaling.row_factor(i) * (self.scale)(i);
@@ -199,7 +279,7 @@ impl Comparison<'_> {
             })
         };
         let aside: f64 = rows.coloops.iter().map(|i| coefficient(i) * term(i)).sum();
-        linalg::short_circuits(self.decision)
+        circuits
             .iter()
             .filter_map(|circuit| {
                 let first = circuit.rows.first()?;
@@ -231,16 +311,28 @@ impl Comparison<'_> {
             layout.groups[group].spec.rheonomic.then_some(group)
         };
         let drives: BTreeSet<usize> = terms().filter_map(|(i, _)| driven_by(i)).collect();
+        let demands = drives
+            .iter()
+            .filter_map(|&k| Demand::of(mechanism, ConstraintId(k), self.prescribed));
         let driven = terms().rfind(|&(i, _)| driven_by(i).is_some());
         let (row, z) = driven.or_else(|| terms().next_back())?;
+        let largest = terms().map(|(i, _)| (self.scale)(i)).fold(0.0, f64::max);
+        let (size, tolerance) = (
+            (sum / z).abs(),
+            (tolerance / z.abs()).max(self.share * largest),
+        );
+        if size <= tolerance {
+            return None;
+        }
         Some(Contradiction {
             time,
             rows: terms().map(|(i, _)| layout.labels[i].clone()).collect(),
             level: self.level,
-            size: (sum / z).abs(),
+            size,
             unit: self.level.unit(mechanism.is_angular(row)),
-            tolerance: tolerance / z.abs(),
+            tolerance,
             drives: drives.len(),
+            demands: demands.collect(),
         })
     }
 }

@@ -98,6 +98,46 @@ pub enum ExplanationError {
     Query(#[from] QueryError),
 }
 
+impl Explanation {
+    /// Numbers of a part become those of the whole.
+    pub(crate) fn renumber(
+        &mut self,
+        row: impl Fn(usize) -> usize,
+        id: impl Fn(ConstraintId) -> ConstraintId,
+        body: impl Fn(BodyRef) -> BodyRef,
+    ) {
+        for stress in &mut self.stresses {
+            stress.rows.iter_mut().for_each(|k| *k = row(*k));
+            for direction in &mut stress.directions {
+                direction.joint = id(direction.joint);
+                direction.bodies.iter_mut().for_each(|b| *b = body(*b));
+            }
+        }
+        for mixing in &mut self.mixing {
+            mixing.reactions.iter_mut().for_each(|k| *k = id(*k));
+            mixing.rows.iter_mut().for_each(|k| *k = row(*k));
+        }
+        self.reactions.iter_mut().for_each(|r| r.id = id(r.id));
+        self.settled.iter_mut().for_each(|s| s.0 = id(s.0));
+    }
+
+    /// Adds that of another part.
+    pub(crate) fn add(&mut self, other: Self) {
+        self.stresses.extend(other.stresses);
+        self.mixing.extend(other.mixing);
+        self.reactions.extend(other.reactions);
+        self.settled.extend(other.settled);
+    }
+
+    /// Puts what was told of several parts in order.
+    pub(crate) fn sort(&mut self) {
+        self.mixing
+            .sort_by_key(|mixing| mixing.rows.first().copied());
+        self.reactions.sort_by_key(|reaction| reaction.id.0);
+        self.settled.sort_by_key(|settled| settled.0.0);
+    }
+}
+
 /// Explains the verdicts at the configuration q of the scratch, where Φ and C have been evaluated.
 ///
 /// # Errors
@@ -196,9 +236,10 @@ fn reaction(
     let map = linalg::Matrix::from_fn(components.len(), group.rows.len(), |i, j| {
         full[(components[i], j)]
     });
-    let directions = match solvability.unique_directions(&map, group.rows.clone()) {
+    let mapped = solvability.basis().mapped(&map, group.rows.clone())?;
+    let directions = match mapped.unique_directions() {
         Err(QueryError::Directions { .. }) => None,
-        known => Some(known?),
+        known => Some(mapped.live_directions(&known?)),
     };
     let combination = |direction: &Vec<f64>| {
         let terms = direction
@@ -213,14 +254,8 @@ fn reaction(
             .collect();
         terms.join(" + ").replace("+ −", "− ")
     };
-    // A component that is zero for every load is no finding.
-    let told: Option<Vec<String>> = directions.map(|directions| {
-        let seen = directions.iter().filter(|d| {
-            let image = map.transpose_times(d);
-            image.iter().any(|x| x.abs() > VISIBLE * map.max_abs())
-        });
-        seen.map(combination).collect()
-    });
+    let told: Option<Vec<String>> =
+        directions.map(|directions| directions.iter().map(combination).collect());
     let determined = match told.as_deref() {
         None => "what of it is determined is not decided".to_owned(),
         Some([]) => "nothing of it is determined".to_owned(),

@@ -34,7 +34,7 @@ pub struct FrameForms {
 /// ```
 /// use joints::Revolute;
 /// use model::{Body, BodyRef, ConstraintId, Description, Frame, Joint, Mechanism};
-/// use solvability::{analyse, judge_frames};
+/// use solvability::{certify, judge_frames};
 /// // A beam on two hinges, turned by 30°: the pull along the beam is not determined.
 /// let hinge = |name: &str, x: f64, angle: f64| {
 ///     let at = [x * angle.cos(), x * angle.sin()];
@@ -49,7 +49,7 @@ pub struct FrameForms {
 /// };
 /// let mechanism = Mechanism::build(&beam).unwrap();
 /// let q = [0.0, 0.0, angle];
-/// let decision = analyse(&mechanism, 0.0, &q).unwrap().decision;
+/// let decision = certify(&mechanism, 0.0, &q).unwrap();
 /// let verdicts = judge_frames(&mechanism, 0.0, &q, &decision, ConstraintId(0)).unwrap();
 /// let words = |k: usize| verdicts[k].components.each_ref().map(|j| j.verdict.word());
 /// assert_eq!((verdicts[0].frame, words(0)), (Frame::Global, ["not_unique", "not_unique", "unique"]));

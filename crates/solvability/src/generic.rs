@@ -8,7 +8,8 @@ use linalg::{Matrix, PivotedQr, RankDecision};
 use model::start::{nearest_configuration, scene_size};
 use model::{Mechanism, System};
 
-use crate::mechanism::{decide, velocity_units};
+use crate::certificate::Rows;
+use crate::mechanism::velocity_units;
 
 /// Points compared.
 const POINTS: usize = 4;
@@ -110,16 +111,11 @@ pub fn is_permanent(
 /// Rows of Φ that hold wherever the drives are.
 fn lasting_rows(mechanism: &Mechanism) -> Vec<usize> {
     let layout = mechanism.layout();
-    let lasting = layout.groups.iter().filter(|g| !is_free(g));
+    let lasting = layout.groups.iter().filter(|g| !g.is_drive());
     lasting
         .flat_map(|g| g.rows.clone())
         .filter(|row| *row < layout.m)
         .collect()
-}
-
-/// Whether a constraint only prescribes a motion.
-fn is_free(group: &model::reaction::ConstraintGroup) -> bool {
-    group.kind == model::ConstraintKind::Drive
 }
 
 /// The end of one walk, if it led away.
@@ -175,7 +171,7 @@ fn walk_from(
 /// Whether a constraint that is not a drive depends on time.
 fn has_lasting_function(mechanism: &Mechanism) -> bool {
     let mut groups = mechanism.layout().groups.iter();
-    groups.any(|g| g.spec.rheonomic && !is_free(g))
+    groups.any(|g| g.spec.rheonomic && !g.is_drive())
 }
 
 /// The rank at a point, if it is decided there.
@@ -185,7 +181,7 @@ fn elsewhere(mechanism: &Mechanism, (t, q): &(f64, Vec<f64>), rows: &[usize]) ->
     for i in (0..mechanism.layout().m).filter(|i| !rows.contains(i)) {
         s.phi[i] = 0.0;
     }
-    let decision = decide(mechanism, &s, q).ok()?;
+    let decision = Rows::in_double(mechanism, &s, q).decide().ok()?;
     decision.is_decided().then(|| Elsewhere {
         time: *t,
         q: q.clone(),

@@ -78,6 +78,15 @@ impl Configuration<'_> {
     /// # Errors
     /// As [`judge_groups`].
     pub fn group(&self, group: &Group) -> Result<GroupVerdict, RequestError> {
+        self.group_about(group, self.about(group)?)
+    }
+
+    /// The same with T of wrenches about this point.
+    pub(crate) fn group_about(
+        &self,
+        group: &Group,
+        about: Option<[f64; 2]>,
+    ) -> Result<GroupVerdict, RequestError> {
         match group {
             Group::Members(members) => {
                 let each = self.rows_of(members)?.into_iter();
@@ -89,7 +98,7 @@ impl Configuration<'_> {
             Group::OneJoint(members) => self.one_joint(members),
             Group::Combination(terms) => Ok(whole(self.judge(&self.combination(terms)?)?)),
             Group::WrenchSum(_) | Group::Resultant(_) => {
-                let forms = self.numbers(group)?;
+                let forms = self.numbers_about(group, about)?;
                 let judged = forms.iter().map(|(_, form)| self.judge(form));
                 let judged = judged.collect::<Result<Vec<_>, _>>()?;
                 let named = forms.iter().map(|(name, _)| *name).zip(&judged);
@@ -101,7 +110,7 @@ impl Configuration<'_> {
                         })
                         .collect(),
                     judgement: worst(judged.into_iter()).ok_or(NO_REACTION)?,
-                    about: self.about(group)?,
+                    about,
                 })
             }
         }
@@ -112,19 +121,27 @@ impl Configuration<'_> {
     /// # Errors
     /// As [`judge_groups`].
     pub fn numbers(&self, group: &Group) -> Result<Vec<(&'static str, LinearForm)>, RequestError> {
+        self.numbers_about(group, self.about(group)?)
+    }
+
+    /// The same with T of wrenches about this point.
+    pub(crate) fn numbers_about(
+        &self,
+        group: &Group,
+        about: Option<[f64; 2]>,
+    ) -> Result<Vec<(&'static str, LinearForm)>, RequestError> {
         Ok(match group {
             Group::Members(_) | Group::OneJoint(_) => Vec::new(),
             Group::Combination(terms) => vec![("sum", self.combination(terms)?)],
-            Group::WrenchSum(terms) => named(self.wrench_sum(terms)?),
-            Group::Resultant(bodies) => {
-                let about = self.about(group)?.unwrap_or_default();
-                named(self.resultant(bodies, about)?)
+            Group::WrenchSum(terms) => {
+                named(self.wrench_sum_about(terms, about.ok_or(NO_REACTION)?)?)
             }
+            Group::Resultant(bodies) => named(self.resultant(bodies, about.unwrap_or_default())?),
         })
     }
 
     /// Where the T of a sum of wrenches or a resultant is about.
-    fn about(&self, group: &Group) -> Result<Option<[f64; 2]>, RequestError> {
+    pub(crate) fn about(&self, group: &Group) -> Result<Option<[f64; 2]>, RequestError> {
         match group {
             Group::WrenchSum(terms) => terms.first().map(|&(_, id)| self.place(id)).transpose(),
             Group::Resultant(bodies) => bodies.first().map(|&body| self.origin(body)).transpose(),
@@ -163,9 +180,16 @@ impl Configuration<'_> {
         let Some(&(_, first)) = terms.first() else {
             return Err(NO_REACTION);
         };
+        self.wrench_sum_about(terms, self.place(first)?)
+    }
+
+    fn wrench_sum_about(
+        &self,
+        terms: &[(f64, ConstraintId)],
+        about: [f64; 2],
+    ) -> Result<[LinearForm; 3], RequestError> {
         let factors: Vec<f64> = terms.iter().map(|(factor, _)| *factor).collect();
         check_finite("coefficients", &factors)?;
-        let about = self.place(first)?;
         let mut sum = [(); 3].map(|()| self.zero());
         for &(coefficient, id) in terms {
             self.check_id(id)?;
@@ -210,7 +234,7 @@ fn named(forms: [LinearForm; 3]) -> Vec<(&'static str, LinearForm)> {
 }
 
 /// A group without members.
-const NO_REACTION: RequestError = RequestError::Empty {
+pub(crate) const NO_REACTION: RequestError = RequestError::Empty {
     of: "joint or drive",
 };
 
@@ -224,7 +248,7 @@ fn whole(judgement: Judgement) -> GroupVerdict {
 
 /// The judgement of all together: not unique if one is not, else undecided if one is. Of equal verdicts that with the largest margin,
 /// NaN above all; margins of different verdicts do not compare, because each was read against its own noise.
-fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judgement> {
+pub(crate) fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judgement> {
     let severity = |j: &Judgement| match j.verdict {
         Verdict::Unique => 0,
         Verdict::Undecided { .. } => 1,

@@ -12,9 +12,12 @@ use linalg::{
 use model::start::scene_size;
 use model::{ConstraintId, Known, Mechanism, Scratch, System};
 
+use crate::analysis::{Judged, analyse};
+use crate::certificate::ROWS_MAX;
+use crate::freedoms::WithoutDrives;
 use crate::matrices::{self, Basis};
-use crate::mechanism::{AnalysisError, Dependency, ReactionVerdict, analyse, evaluated, reaction};
-use crate::survey::{LARGE, PartVerdicts, parts};
+use crate::mechanism::{AnalysisError, Dependency, ReactionVerdict, evaluated, reaction};
+use crate::parts::{Extent, PartAnalysis, PartDecision, parts};
 
 /// Sets of more rows are decided sparsely.
 pub(crate) const SPARSE_FROM: usize = 150;
@@ -125,13 +128,13 @@ impl Decided {
 pub(crate) fn rows_of(
     mechanism: &Mechanism,
     s: &Scratch,
-    rows: Range<usize>,
+    rows: impl IntoIterator<Item = usize>,
     unit: impl Fn(usize) -> f64,
 ) -> SparseMatrix {
     let layout = mechanism.layout();
     let row = |i: usize| layout.row(s, i).map(|(j, c)| (j, c * unit(j)));
     // Columns of a pattern are below n_v.
-    SparseMatrix::from_rows(layout.n_v, rows.map(row))
+    SparseMatrix::from_rows(layout.n_v, rows.into_iter().map(row))
         .unwrap_or_else(|e| unreachable!("columns of a pattern: {e}"))
 }
 
@@ -160,7 +163,7 @@ pub(crate) fn judge_sparse(
     mechanism: &Mechanism,
     s: &Scratch,
     q: &[f64],
-) -> Result<PartVerdicts, AnalysisError> {
+) -> Result<Judged, AnalysisError> {
     let layout = mechanism.layout();
     let all = Decided::of(mechanism, s, q, 0..layout.rows())?;
     let mut warnings = Vec::new();
@@ -179,6 +182,7 @@ pub(crate) fn judge_sparse(
     };
     let rank_holonomic = rank_of("Φq", 0..layout.m)?;
     let rank_nonholonomic = rank_of("Ψ", layout.m..layout.rows())?;
+    let without_drives = without_drives(mechanism, s, q)?;
     let verdict = |id: ConstraintId| {
         let rows = layout.groups[id.0].rows.clone();
         let own = 0..rows.len();
@@ -203,22 +207,55 @@ pub(crate) fn judge_sparse(
     let told = dependencies.len();
     if told < all.found.redundancy && all.found.is_decided() {
         warnings.push(format!(
-            "{told} of {} dependencies are told: {} rows share cycles, and more than {LARGE} of them depend on each other",
+            "{told} of {} dependencies are told: {} rows share cycles, and more than {ROWS_MAX} of them depend on each other",
             all.found.redundancy,
             layout.rows()
         ));
     }
-    Ok(PartVerdicts {
-        size: scene_size(mechanism, q),
-        rank_holonomic,
-        rank_nonholonomic,
-        rows: (&all.found).into(),
-        evidence: evidence(&all.found),
-        nearly_redundant: None,
+    Ok(Judged {
+        part: PartAnalysis {
+            extent: Extent::Whole,
+            size: scene_size(mechanism, q),
+            rank_holonomic,
+            rank_nonholonomic,
+            without_drives,
+            decision: PartDecision::Sparse {
+                rows: (&all.found).into(),
+                evidence: Box::new(evidence(&all.found)),
+            },
+            certificate: None,
+            nearly_redundant: None,
+        },
         reactions,
         dependencies,
         warnings,
     })
+}
+
+/// Rank and redundancy of the joints alone, decided like all rows. `None` if there are no drives.
+fn without_drives(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+) -> Result<Option<WithoutDrives>, AnalysisError> {
+    let groups = mechanism.layout().groups.iter().enumerate();
+    let joints = groups.filter(|(_, group)| !group.is_drive());
+    let joints: Vec<usize> = joints.map(|(k, _)| k).collect();
+    if joints.len() == mechanism.layout().groups.len() {
+        return Ok(None);
+    }
+    if joints.is_empty() {
+        return Ok(Some(WithoutDrives::default()));
+    }
+    let part = mechanism.part_of_groups(&joints);
+    let q: Vec<f64> = part.places.coordinates.iter().map(|&j| q[j]).collect();
+    let rows = 0..part.mechanism.layout().rows();
+    let s = evaluated(&part.mechanism, s.t, &q);
+    let found = decide_range(&part.mechanism, &s, &q, rows)?;
+    Ok(Some(WithoutDrives {
+        rank: found.rank,
+        redundancy: found.redundancy,
+    }))
 }
 
 /// Minimal dependent sets of rows, where those joints that have dependent rows share small sets of cycles.
@@ -239,7 +276,7 @@ fn dependencies(
     let mut all = Vec::new();
     for groups in parts(&among.mechanism, &among_s) {
         let part = among.mechanism.part_of_groups(&groups);
-        if part.mechanism.layout().rows() > LARGE {
+        if part.mechanism.layout().rows() > ROWS_MAX {
             continue;
         }
         let part_q = own(&among_q, &part.places.coordinates);

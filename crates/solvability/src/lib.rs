@@ -10,57 +10,76 @@
 //! | [`state`] | a state that the caller gives |
 //! | [`existence`] | do the rows contradict each other? |
 //! | [`mod@generic`] | permanent, or only of this configuration? |
+//! | [`freedoms`] | what can move, with drives and without |
 //! | [`groups`] | combinations of reactions, resultants |
 //! | [`frames`] | components in global, body and edge frames |
 //! | [`choices`] | one solution among many, labelled |
 //! | [`units`] | facts and choices told apart by a change of units |
-//! | [`mechanism`] | the same for a mechanism: joints, wrenches, directions |
+//! | [`mod@analysis`] | ranks and verdicts of a mechanism of any size |
+//! | [`mod@parts`] | its parts on common cycles, each judged alone |
+//! | [`mechanism`] | one part: joints, wrenches, directions |
 //! | `certificate` | the rank in double-double at a polished point |
+//! | [`questions`] | sums, frames, choices and deletions, by the parts that they touch |
 //! | [`mod@structure`] | what the shape settles before any rank |
 //! | `large` | the rank of one large set of joints, decided sparsely |
-//! | [`mod@survey`] | large mechanisms, cycle by cycle |
 //! | [`mod@explain`] | mixing, free directions and sentences |
 //! | [`mod@make_unique`] | what to delete so that a reaction becomes unique |
+//! | [`sensitivity`] | how much a unique reaction hangs on the data |
 //! | [`mod@second_order`] | is the motion unique where the rank drops? |
 //! | [`along`] | verdicts along a motion: one, and where another holds |
 //! | `words` | dependencies as sentences |
 
 pub mod along;
+pub mod analysis;
 mod certificate;
 pub mod choices;
 pub mod existence;
 pub mod explain;
 pub mod frames;
+pub mod freedoms;
 pub mod generic;
 pub mod groups;
 mod large;
 pub mod make_unique;
 pub mod matrices;
+mod meant;
 pub mod mechanism;
 pub mod memory;
+pub mod parts;
+pub mod questions;
 pub mod rows;
 pub mod second_order;
+pub mod sensitivity;
 pub mod state;
 pub mod structure;
-pub mod survey;
 pub mod units;
 pub mod verdict;
 mod words;
 
 pub use along::{
     Along, AlongError, Difference, Part, Passage, PassageKind, Stretch, along_motion,
-    singular_passages,
+    along_motion_of_parts, singular_passages,
+};
+pub use analysis::{
+    Analysis, analyse, analyse_by_cycles, analyse_decided, analyse_dropping, analyse_known,
+    analyse_watched,
 };
 pub use certificate::{certify, inseparable};
 pub use choices::{
     Choice, ChoiceError, Compliance, Distribution, Equations, Label, NormWeights, ReactionValues,
-    Value, minimise,
+    Solution, Value, minimise, solution,
 };
-pub use existence::{ConstraintLevel, Contradiction, Ranks, contradictions};
+pub use existence::{
+    ConstraintLevel, Contradiction, Demand, Ranks, contradicting_drives,
+    contradicting_drives_along, contradictions,
+};
 pub use explain::{
     Explanation, ExplanationError, FreeDirection, Mixing, ReactionExplanation, SelfStress, explain,
 };
 pub use frames::{FrameForms, FrameVerdict, judge_frames};
+pub use freedoms::{
+    FreeMotion, FreeMotions, Freedoms, FreedomsWithoutDrives, LeftOut, MOTIONS_TOLD, WithoutDrives,
+};
 pub use generic::{Elsewhere, GENERIC_ROWS, Generic, generic, is_permanent};
 pub use groups::{
     Configuration, Group, GroupVerdict, LinearForm, RequestError, Term, judge_groups,
@@ -68,14 +87,16 @@ pub use groups::{
 pub use make_unique::{Allowed, Proposal, Proposals, make_unique};
 pub use matrices::{QueryError, Solvability};
 pub use mechanism::{
-    Analysis, AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, analyse,
-    analyse_dropping, analyse_known, decide, decide_dropping, decide_holonomic,
+    AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, decide,
+    decide_dropping, decide_holonomic,
 };
 pub use memory::memory_of_verdicts;
+pub use parts::{Extent, ONE_PART, PartAnalysis, PartDecision};
+pub use questions::{EliminationError, Numbers, Questions};
 pub use rows::{RowDecision, Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows};
 pub use second_order::{Continuation, KERNEL_MAX, Undetermined, is_locked, second_order};
+pub use sensitivity::{Datum, FRAGILE, MOVED, Sensitivities, Sensitivity, sensitivities};
 pub use state::{State, StateError};
-pub use structure::{judge_parts, structure};
-pub use survey::{LARGE, PartVerdicts, Survey, SurveyedPart, survey, verdicts};
+pub use structure::structure;
 pub use units::{Nature, UnitCheck, UnitError, Units, check_units};
 pub use verdict::{Judgement, Verdict};

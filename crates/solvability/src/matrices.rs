@@ -8,7 +8,7 @@
 //! of Q as Z, the reaction of a joint with rows X is unique iff `B_X = C_Xᵀ·Z_X = 0` (27). Here Z is an orthonormal
 //! basis of the left null space of the equilibrated C; it spans the same space, up to the scaling of rows.
 
-use linalg::{Degraded, ExactNullSpace, Matrix, RankDecision, RankError, Uncertainty};
+use linalg::{ExactNullSpace, Matrix, RankDecision, RankError, Uncertainty};
 
 use crate::verdict::Judgement;
 
@@ -123,10 +123,6 @@ impl Solvability {
         // An exact decision is that of a finite matrix.
         let exact = decision.is_exact();
         let exact = exact.then(|| ExactNullSpace::new(c).ok()).flatten();
-        Self::new(c, decision, exact)
-    }
-
-    fn new(c: &Matrix, decision: RankDecision, exact: Option<ExactNullSpace>) -> Self {
         let certificate = decision.evidence.certificate.as_ref();
         let rows = 0..c.nrows();
         let basis = Basis {
@@ -147,20 +143,6 @@ impl Solvability {
             exact,
         };
         Self { decision, basis }
-    }
-
-    /// The verdicts at another point of the same regime, where the matrix is `c`: rank and kept rows stay, nothing is decided anew. Much
-    /// faster than [`Solvability::of`]; for entries with rounding errors.
-    ///
-    /// # Errors
-    /// Where the rank must be decided anew, as [`RankDecision::at`].
-    pub fn at<'a>(
-        &self,
-        c: &Matrix,
-        uncertainty: impl Into<Uncertainty<'a>>,
-    ) -> Result<Self, Degraded> {
-        let decision = self.decision.at(c, uncertainty)?;
-        Ok(Self::new(c, decision, None))
     }
 
     /// The rank and its evidence.

@@ -2,57 +2,19 @@
 
 use std::ops::Range;
 
-use linalg::{KeptRowsError, Matrix, NearlyRedundant, RankDecision, RankError};
+use linalg::{KeptRowsError, Matrix, RankDecision, RankError};
 use model::reaction::COMPONENTS;
 use model::start::scene_size;
 use model::{ConstraintId, Known, Mechanism, Scratch, System};
 
-use crate::certificate::Rows;
+use crate::analysis::Judged;
+use crate::certificate::{ROWS_MAX, Rows};
+use crate::freedoms::WithoutDrives;
 use crate::matrices::{Basis, QueryError, Solvability};
-use crate::state::{StateError, check_configuration};
+use crate::parts::{Extent, PartAnalysis, PartDecision};
+use crate::state::StateError;
 use crate::verdict::{Judgement, Verdict};
 use crate::words;
-
-/// The verdicts of one configuration.
-#[derive(Clone, Debug)]
-pub struct Analysis {
-    /// Time of the configuration (s).
-    pub time: f64,
-    /// Number of bodies.
-    pub bodies: usize,
-    /// Number of coordinates n_q.
-    pub coordinates: usize,
-    /// Number of velocities n_v.
-    pub velocities: usize,
-    /// Size of the mechanism (m): its lengths are dimensionless by this.
-    pub size: f64,
-    /// Number of holonomic rows m.
-    pub holonomic_rows: usize,
-    /// Number of nonholonomic rows h.
-    pub nonholonomic_rows: usize,
-    /// Rank of Φq alone.
-    pub rank_holonomic: usize,
-    /// Rank of Ψ alone.
-    pub rank_nonholonomic: usize,
-    /// Rank, redundancy, kept rows and evidence of C.
-    pub decision: RankDecision,
-    /// Kept rows that are independent, but only just.
-    pub nearly_redundant: Option<NearlyRedundant>,
-    /// Joints and drives in the order of their rows.
-    pub reactions: Vec<ReactionVerdict>,
-    /// As many as the degree of redundancy, short ones first.
-    pub dependencies: Vec<Dependency>,
-    /// What else the reader should know.
-    pub warnings: Vec<String>,
-}
-
-impl Analysis {
-    /// Freedoms of motion: n_v − r.
-    #[must_use]
-    pub fn mobility(&self) -> usize {
-        self.velocities - self.decision.rank
-    }
-}
 
 /// The verdict of a joint or drive.
 #[derive(Clone, Debug)]
@@ -75,8 +37,9 @@ pub struct ReactionVerdict {
     pub zero_components: Vec<&'static str>,
     /// Basis of the unique directions, in these components.
     pub unique_directions: Vec<Vec<f64>>,
-    /// The same without what is zero under any load: perpendicular to the directions along which there is no reaction here.
-    pub live_directions: Vec<Vec<f64>>,
+    /// The same without what is zero under any load: perpendicular to the directions along which there is no reaction here. `None` if their number
+    /// is undecided; there are no unique directions then either.
+    pub live_directions: Option<Vec<Vec<f64>>>,
 }
 
 /// The verdict of one row.
@@ -132,6 +95,18 @@ pub enum AnalysisError {
         rows: usize,
         /// Why.
         source: linalg::SparseRankError,
+    },
+    /// Rows to drop can be chosen in a part of fewer rows only.
+    #[error(
+        "at t = {time} s: the rows that are dropped cannot be chosen where {rows} rows share cycles; up to {max} rows they can, and elsewhere in \
+         this mechanism",
+        max = ROWS_MAX
+    )]
+    Chosen {
+        /// When.
+        time: f64,
+        /// Rows of the part.
+        rows: usize,
     },
     /// A verdict cannot be asked for.
     #[error("at t = {time} s: {source}")]
@@ -238,52 +213,6 @@ pub fn decide_dropping(
     linalg::decide_dropping(&c, &known, dropped)
 }
 
-/// Verdicts at time t and coordinates q, which must satisfy the constraints; allocates.
-///
-/// # Errors
-/// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
-/// - [`AnalysisError::Rank`]: C is not finite.
-pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
-    analyse_known(mechanism, t, q, Known::AsStored)
-}
-
-/// The same at a configuration that is known to less than it is stored with; what is zero to that is zero.
-///
-/// # Errors
-/// As [`analyse`].
-pub fn analyse_known(
-    mechanism: &Mechanism,
-    t: f64,
-    q: &[f64],
-    known: Known,
-) -> Result<Analysis, AnalysisError> {
-    let rows = Rows::new(mechanism, t, q, known)?;
-    let decision = rows.decide()?;
-    judge(mechanism, &evaluated(mechanism, t, q), &rows, decision)
-}
-
-/// The same with dependencies told by the dropped rows that the caller chooses (from 0). Verdicts do not depend on them.
-///
-/// # Errors
-/// As [`analyse`], and [`AnalysisError::Rows`]: the rows cannot be dropped without changing the motion.
-pub fn analyse_dropping(
-    mechanism: &Mechanism,
-    t: f64,
-    q: &[f64],
-    dropped: &[usize],
-) -> Result<Analysis, AnalysisError> {
-    check_configuration(mechanism, t, q)?;
-    let s = evaluated(mechanism, t, q);
-    let decision = decide_dropping(mechanism, &s, q, dropped)
-        .map_err(|source| AnalysisError::Rows { time: t, source })?;
-    judge(
-        mechanism,
-        &s,
-        &Rows::new(mechanism, t, q, Known::AsStored)?,
-        decision,
-    )
-}
-
 /// Φ and C at a configuration.
 pub(crate) fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
     let mut s = mechanism.scratch();
@@ -293,13 +222,34 @@ pub(crate) fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
     s
 }
 
-/// Verdicts at the pose of the scratch, where Φ and C have been evaluated and the rank has been decided.
+/// Verdicts of a mechanism that is one part, at the pose of the scratch, where Φ and C have been evaluated and the rank has been decided.
 pub(crate) fn judge(
     mechanism: &Mechanism,
     s: &Scratch,
     rows: &Rows,
     decision: RankDecision,
-) -> Result<Analysis, AnalysisError> {
+) -> Result<Judged, AnalysisError> {
+    let mut found = judge_reactions(mechanism, s, rows, decision)?;
+    if let Some(decision) = found.part.decision.dense() {
+        let circuits = linalg::short_circuits(decision).into_iter();
+        let dependencies = circuits.map(|circuit| Dependency {
+            text: words::describe(mechanism, &circuit),
+            rows: circuit.rows,
+            coefficients: circuit.coefficients,
+        });
+        found.dependencies = dependencies.collect();
+        found.part.nearly_redundant = rows.nearly_redundant(mechanism, s, decision);
+    }
+    Ok(found)
+}
+
+/// The same without dependencies, also near ones.
+pub(crate) fn judge_reactions(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    rows: &Rows,
+    decision: RankDecision,
+) -> Result<Judged, AnalysisError> {
     let layout = mechanism.layout();
     let t = s.t;
     let solvability = Solvability::from_decision(&rows.matrix(), decision);
@@ -323,6 +273,7 @@ pub(crate) fn judge(
     };
     let rank_holonomic = rank_of("Φq", 0..layout.m)?;
     let rank_nonholonomic = rank_of("Ψ", layout.m..layout.rows())?;
+    let without_drives = WithoutDrives::of(layout, rows, &solvability, &mut warnings)?;
     let reactions = mechanism
         .constraint_ids()
         .map(|id| {
@@ -331,34 +282,25 @@ pub(crate) fn judge(
         })
         .collect::<Result<_, _>>()
         .map_err(|source| AnalysisError::Query { time: t, source })?;
-    let dependencies = linalg::short_circuits(solvability.decision())
-        .into_iter()
-        .map(|circuit| Dependency {
-            text: words::describe(mechanism, &circuit),
-            rows: circuit.rows,
-            coefficients: circuit.coefficients,
-        })
-        .collect();
     let decision = solvability.decision().clone();
     if let linalg::RankStatus::Undecided(doubt) = &decision.status {
         warnings.push(format!(
             "the rank is undecided, and with it every verdict: {doubt}"
         ));
     }
-    Ok(Analysis {
-        time: t,
-        bodies: mechanism.bodies().len(),
-        coordinates: layout.n_q,
-        velocities: layout.n_v,
-        size: rows.size(),
-        holonomic_rows: layout.m,
-        nonholonomic_rows: layout.h,
-        rank_holonomic,
-        rank_nonholonomic,
-        nearly_redundant: rows.nearly_redundant(mechanism, s, &decision),
-        decision,
+    Ok(Judged {
+        part: PartAnalysis {
+            extent: Extent::Whole,
+            size: rows.size(),
+            rank_holonomic,
+            rank_nonholonomic,
+            without_drives,
+            nearly_redundant: None,
+            certificate: decision.evidence.certificate.clone(),
+            decision: PartDecision::Dense(Box::new(decision)),
+        },
         reactions,
-        dependencies,
+        dependencies: Vec::new(),
         warnings,
     })
 }
@@ -401,10 +343,12 @@ pub(crate) fn reaction(
     };
     // Where their number is undecided there are none to show; the verdicts above say so.
     let unique_directions = match mapped.unique_directions() {
-        Err(QueryError::Rank(_) | QueryError::Directions { .. }) => Vec::new(),
-        known => known?,
+        Err(QueryError::Rank(_) | QueryError::Directions { .. }) => None,
+        known => Some(known?),
     };
-    let live_directions = mapped.live_directions(&unique_directions);
+    let live_directions = unique_directions
+        .as_deref()
+        .map(|unique| mapped.live_directions(unique));
     let row_verdict = |(row, own)| {
         Ok(RowVerdict {
             row,
@@ -422,7 +366,7 @@ pub(crate) fn reaction(
             .collect::<Result<_, _>>()?,
         components,
         zero_components,
-        unique_directions,
+        unique_directions: unique_directions.unwrap_or_default(),
         live_directions,
     })
 }

@@ -3,9 +3,10 @@
 use linalg::SparsePattern;
 use model::{Mechanism, System};
 
+use crate::certificate::ROWS_MAX;
 use crate::large::{SPARSE_FROM, blocks, rows_of, sketch_of};
 use crate::mechanism::{AnalysisError, evaluated};
-use crate::survey::{LARGE, parts};
+use crate::parts::{ONE_PART, parts};
 
 /// Bytes of the verdict of a joint with its rows, its components and its name.
 const OF_VERDICT: usize = 1500;
@@ -21,7 +22,7 @@ const DENSE_MATRICES: usize = 24;
 pub fn memory_of_verdicts(mechanism: &Mechanism, threads: usize) -> Result<usize, AnalysisError> {
     let layout = mechanism.layout();
     let results = OF_VERDICT * layout.groups.len();
-    if layout.rows() <= LARGE {
+    if layout.rows() <= ONE_PART {
         return Ok(results + dense(layout.rows(), layout.n_v));
     }
     let (q, _) = mechanism.described_state();
@@ -43,7 +44,7 @@ pub fn memory_of_verdicts(mechanism: &Mechanism, threads: usize) -> Result<usize
 fn of_part(part: &Mechanism, time: f64) -> Result<usize, AnalysisError> {
     let layout = part.layout();
     let rows = layout.rows();
-    if rows <= LARGE {
+    if rows <= ROWS_MAX {
         return Ok(dense(rows, layout.n_v));
     }
     let c = rows_of(part, &part.scratch(), 0..rows, |_| 1.0);

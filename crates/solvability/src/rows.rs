@@ -1,16 +1,21 @@
-//! What a motion needs of the rows: which are independent, of C and of Φq alone, and whether the others agree with them. Small mechanisms are
-//! decided as a whole, large ones part by part.
+//! What a motion needs of the rows: which are independent, of C and of Φq alone, and whether the others agree with them. At the start they are those
+//! of the certificate; on the way other rows are chosen in `f64`, at the same rank.
 
-use linalg::{KeptRowsError, NearlyRedundant, RankDecision, RankStatus, SparseRank};
-use model::{Mechanism, Part, Scratch, System};
-use rayon::prelude::*;
+use linalg::{
+    Doubt, Evidence, KeptRowsError, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankStatus,
+    SparseRank,
+};
+use model::start::scene_size;
+use model::{Known, Mechanism, Scratch, System};
 
-use crate::certificate::inseparable;
+use crate::certificate::{self, ROWS_MAX, inseparable};
 use crate::existence::{Contradiction, Ranks, contradictions};
 use crate::large::{SPARSE_FROM, decide_range};
-use crate::mechanism::{AnalysisError, decide, decide_dropping, decide_holonomic, evaluated};
-use crate::state::StateError;
-use crate::survey::{LARGE, parts};
+use crate::mechanism::{
+    AnalysisError, decide, decide_dropping, decide_holonomic, evaluated, uncertainty,
+};
+use crate::parts::{Extent, Partition};
+use crate::state::{StateError, check, check_configuration};
 
 /// Rank and rows to keep.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +42,7 @@ impl RowDecision {
     }
 
     /// Of nothing.
-    fn empty() -> Self {
+    pub(crate) fn empty() -> Self {
         Self {
             rank: 0,
             redundancy: 0,
@@ -48,22 +53,46 @@ impl RowDecision {
         }
     }
 
-    /// Adds the decision of a part with these rows of the whole.
-    fn add(&mut self, part: &Self, rows: &[usize]) {
+    /// Adds the decision of a part; `row` tells which row of the whole is a row of the part.
+    pub(crate) fn add(&mut self, part: Self, row: impl Fn(usize) -> usize) {
         self.rank += part.rank;
         self.redundancy += part.redundancy;
-        self.kept.extend(part.kept.iter().map(|&k| rows[k]));
-        self.dropped.extend(part.dropped.iter().map(|&k| rows[k]));
+        self.kept.extend(part.kept.into_iter().map(&row));
+        self.dropped.extend(part.dropped.into_iter().map(&row));
         if self.is_decided() {
             self.status = part.status;
         }
         self.support_tolerance = self.support_tolerance.max(part.support_tolerance);
     }
 
-    fn sorted(mut self) -> Self {
+    /// That of some of the rows, ascending, which no other row depends on: those of bodies that nothing joins to others.
+    #[must_use]
+    pub fn of_rows(&self, rows: &[usize]) -> Self {
+        let own = |all: &[usize]| -> Vec<usize> {
+            let own = all.iter().filter_map(|row| rows.binary_search(row).ok());
+            own.collect()
+        };
+        let (kept, dropped) = (own(&self.kept), own(&self.dropped));
+        Self {
+            rank: kept.len(),
+            redundancy: dropped.len(),
+            kept,
+            dropped,
+            status: self.status,
+            support_tolerance: self.support_tolerance,
+        }
+    }
+
+    /// Puts the rows of several parts in order.
+    pub(crate) fn sort(&mut self) {
         self.kept.sort_unstable();
         self.dropped.sort_unstable();
-        self
+    }
+}
+
+impl From<&Self> for RowDecision {
+    fn from(decision: &Self) -> Self {
+        decision.clone()
     }
 }
 
@@ -93,111 +122,131 @@ impl From<&SparseRank> for RowDecision {
     }
 }
 
-/// Rows of C, and of Φq alone, at one configuration, with what the questions after them need.
+/// Rows of C, and of Φq alone, at one configuration, as they were decided there, part by part. The motion, the verdicts and the words take them from here.
+#[derive(Clone, Debug)]
 pub struct Rows {
-    /// Of all rows of C.
+    /// Of all rows of C; undecided also where the rank is certified, but too nearly another one to move by numbers in `f64`.
     pub all: RowDecision,
     /// Of the rows of Φq alone.
     pub holonomic: RowDecision,
-    pieces: Vec<Piece>,
+    pub(crate) parts: Vec<DecidedPart>,
 }
 
-/// The whole or a part, and its decisions.
-struct Piece {
-    /// Nothing for the whole.
-    part: Option<Part>,
+/// The decisions of a part.
+#[derive(Clone, Debug)]
+pub(crate) struct DecidedPart {
+    pub(crate) extent: Extent,
     all: RowDecision,
     holonomic: RowDecision,
-    /// The dense decisions, where it is not too large for them.
-    dense: Option<[RankDecision; 2]>,
+    /// Of all rows and of the holonomic ones, as they were certified; `None` in a part that is decided sparsely.
+    pub(crate) certified: Option<Box<[RankDecision; 2]>>,
 }
 
-impl Piece {
-    fn of_part(
-        mechanism: &Mechanism,
-        groups: &[usize],
-        t: f64,
-        q: &[f64],
-    ) -> Result<Self, AnalysisError> {
-        let part = mechanism.part_of_groups(groups);
-        let own = own(q, &part.places.coordinates);
-        let s = evaluated(&part.mechanism, t, &own);
-        Self::of(&part.mechanism, &s, &own).map(|piece| Self {
-            part: Some(part),
-            ..piece
-        })
-    }
-
-    /// Of the whole.
-    fn of(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Self, AnalysisError> {
-        let layout = mechanism.layout();
-        if layout.rows() > SPARSE_FROM {
-            let all = decide_range(mechanism, s, q, 0..layout.rows())?;
+impl DecidedPart {
+    fn of(part: &Mechanism, t: f64, q: &[f64], extent: Extent) -> Result<Self, AnalysisError> {
+        let layout = part.layout();
+        if layout.rows() > ROWS_MAX {
+            let s = evaluated(part, t, q);
+            let all = decide_range(part, &s, q, 0..layout.rows())?;
             let holonomic = match layout.h {
                 0 => (&all).into(),
-                _ => (&decide_range(mechanism, s, q, 0..layout.m)?).into(),
+                _ => (&decide_range(part, &s, q, 0..layout.m)?).into(),
             };
             return Ok(Self {
-                part: None,
+                extent,
                 all: (&all).into(),
                 holonomic,
-                dense: None,
+                certified: None,
             });
         }
-        let dense = [decide(mechanism, s, q)?, decide_holonomic(mechanism, s, q)?];
+        let rows = certificate::Rows::new(part, t, q, Known::AsStored)?;
+        let all = rows.decide()?;
+        let holonomic = match layout.h {
+            0 => all.clone(),
+            _ => rows.select(&(0..layout.m).collect::<Vec<_>>()).decide()?,
+        };
+        let certified = Box::new([all, holonomic]);
+        let [all, holonomic] = in_double(&certified, part, &evaluated(part, t, q), q);
         Ok(Self {
-            part: None,
-            all: (&dense[0]).into(),
-            holonomic: (&dense[1]).into(),
-            dense: Some(dense),
+            extent,
+            all: (&all).into(),
+            holonomic: (&holonomic).into(),
+            certified: Some(certified),
         })
     }
 }
 
-fn own(x: &[f64], places: &[usize]) -> Vec<f64> {
-    places.iter().map(|&j| x[j]).collect()
+/// The factor between noise and tolerance of numbers in `f64`: that of [`linalg::decide`].
+const NOISE_FACTOR: f64 = 10.0;
+/// By how much singular values must clear the tolerance: runs of the stress matrix keep their digits from a factor of thirty on.
+const CLEARANCE: f64 = 30.0;
+/// Data are known to several roundings, the numbers of a motion to one.
+const ONE_ROUNDING: f64 = f64::EPSILON / 2.0 / model::ROUNDING;
+
+/// Certified decisions as far as they hold for numbers in `f64` at the pose of the scratch: velocities and residuals of a motion, which are known to the
+/// rounding of its coordinates.
+fn in_double(
+    certified: &[RankDecision; 2],
+    part: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+) -> [RankDecision; 2] {
+    let known = uncertainty(part, s, q, scene_size(part, q));
+    certified.each_ref().map(|decision| {
+        let rows: Vec<usize> = (0..decision.rank + decision.redundancy).collect();
+        let known = ONE_ROUNDING * decision.scaling.apply(&known.select_rows(&rows)).max_abs();
+        let entries = (rows.len() * decision.scaling.cols.len()) as f64;
+        let tolerance = NOISE_FACTOR * known.max(f64::EPSILON * entries.sqrt());
+        // The rank is that of the certificate; numbers in `f64` may be too coarse to move by it.
+        let required = (CLEARANCE * tolerance).max(NEARLY_SINGULAR);
+        let sigma = decision.evidence.sigma_r;
+        let status = match decision.status {
+            RankStatus::Decided if sigma < required => {
+                let values = decision.evidence.singular_values.iter();
+                RankStatus::Undecided(Doubt::NoClearGap {
+                    lower: values.filter(|sigma| **sigma >= required).count(),
+                    upper: decision.rank,
+                    sigma,
+                    tolerance,
+                    required,
+                })
+            }
+            status => status,
+        };
+        let evidence = Evidence {
+            certificate: None,
+            tolerance: decision.evidence.tolerance.max(tolerance),
+            ..decision.evidence.clone()
+        };
+        RankDecision {
+            evidence,
+            status,
+            ..decision.clone()
+        }
+    })
 }
 
-/// Decides at the pose of the scratch, where Φ and C have been evaluated at coordinates q.
+/// Decides at time t and coordinates q, which satisfy the constraints.
 ///
 /// # Errors
-/// If C is not finite.
-pub fn rows(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Rows, AnalysisError> {
-    if mechanism.layout().rows() <= LARGE {
-        let dense = [decide(mechanism, s, q)?, decide_holonomic(mechanism, s, q)?];
-        let [all, holonomic] = [&dense[0], &dense[1]].map(RowDecision::from);
-        let piece = Piece {
-            part: None,
-            all: all.clone(),
-            holonomic: holonomic.clone(),
-            dense: Some(dense),
-        };
-        return Ok(Rows {
-            all,
-            holonomic,
-            pieces: vec![piece],
-        });
-    }
-    let pieces = parts(mechanism, s);
-    let pieces = pieces
-        .par_iter()
-        .map(|groups| Piece::of_part(mechanism, groups, s.t, q));
-    // The first error by order of the parts, whoever was quicker.
-    let pieces: Vec<Result<Piece, AnalysisError>> = pieces.collect();
-    let pieces: Vec<Piece> = pieces.into_iter().collect::<Result<_, _>>()?;
-    let sum = |of: fn(&Piece) -> &RowDecision| {
+/// As [`crate::analyse`].
+pub fn rows(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Rows, AnalysisError> {
+    check_configuration(mechanism, t, q)?;
+    let parts = Partition::of(mechanism, t, q).map(mechanism, |part, extent| {
+        DecidedPart::of(part, t, &extent.coordinates(q), extent)
+    })?;
+    let sum = |of: fn(&DecidedPart) -> &RowDecision| {
         let mut sum = RowDecision::empty();
-        for piece in &pieces {
-            if let Some(part) = &piece.part {
-                sum.add(of(piece), &part.places.rows);
-            }
+        for part in &parts {
+            sum.add(of(part).clone(), |k| part.extent.row(k));
         }
-        sum.sorted()
+        sum.sort();
+        sum
     };
     Ok(Rows {
-        all: sum(|piece| &piece.all),
-        holonomic: sum(|piece| &piece.holonomic),
-        pieces,
+        all: sum(|part| &part.all),
+        holonomic: sum(|part| &part.holonomic),
+        parts,
     })
 }
 
@@ -210,10 +259,10 @@ pub fn decide_rows(
     s: &Scratch,
     q: &[f64],
 ) -> Result<RowDecision, AnalysisError> {
-    of_pieces(mechanism, s, q, |piece, s, q, places| {
-        match places.is_some() && piece.layout().rows() > SPARSE_FROM {
-            true => Ok((&decide_range(piece, s, q, 0..piece.layout().rows())?).into()),
-            false => Ok((&decide(piece, s, q)?).into()),
+    of_parts(mechanism, s, q, |part, s, q, _| {
+        match part.layout().rows() > SPARSE_FROM {
+            true => Ok((&decide_range(part, s, q, 0..part.layout().rows())?).into()),
+            false => Ok((&decide(part, s, q)?).into()),
         }
     })
 }
@@ -227,10 +276,10 @@ pub fn decide_holonomic_rows(
     s: &Scratch,
     q: &[f64],
 ) -> Result<RowDecision, AnalysisError> {
-    of_pieces(mechanism, s, q, |piece, s, q, places| {
-        match places.is_some() && piece.layout().rows() > SPARSE_FROM {
-            true => Ok((&decide_range(piece, s, q, 0..piece.layout().m)?).into()),
-            false => Ok((&decide_holonomic(piece, s, q)?).into()),
+    of_parts(mechanism, s, q, |part, s, q, _| {
+        match part.layout().rows() > SPARSE_FROM {
+            true => Ok((&decide_range(part, s, q, 0..part.layout().m)?).into()),
+            false => Ok((&decide_holonomic(part, s, q)?).into()),
         }
     })
 }
@@ -249,69 +298,59 @@ pub fn decide_rows_dropping(
     if let Some(&row) = dropped.iter().find(|&&row| row >= rows) {
         return Err(KeptRowsError::RowOutOfRange { row, rows });
     }
-    of_pieces(mechanism, s, q, |piece, s, q, places| {
-        let Some(places) = places else {
-            return Ok((&decide_dropping(piece, s, q, dropped)?).into());
-        };
-        let own = dropped
-            .iter()
-            .filter_map(|row| places.binary_search(row).ok());
-        let found = decide_dropping(piece, s, q, &own.collect::<Vec<_>>());
+    of_parts(mechanism, s, q, |part, s, q, extent| {
+        let found = decide_dropping(part, s, q, &extent.own_rows(dropped));
         found.map(|d| (&d).into()).map_err(|e| match e {
-            KeptRowsError::Duplicate { row } => KeptRowsError::Duplicate { row: places[row] },
+            KeptRowsError::Duplicate { row } => KeptRowsError::Duplicate {
+                row: extent.row(row),
+            },
             other => other,
         })
     })
 }
 
-/// Adds up what is decided of the whole, or of each part; `decide` gets its mechanism, scratch, coordinates, and its rows among those of the whole.
-fn of_pieces<E: Send>(
+/// Adds up what is decided of each part, by its mechanism, scratch and coordinates.
+fn of_parts<E: Send>(
     mechanism: &Mechanism,
     s: &Scratch,
     q: &[f64],
-    decide: impl Fn(&Mechanism, &Scratch, &[f64], Option<&[usize]>) -> Result<RowDecision, E> + Sync,
+    decide: impl Fn(&Mechanism, &Scratch, &[f64], &Extent) -> Result<RowDecision, E> + Sync,
 ) -> Result<RowDecision, E> {
-    if mechanism.layout().rows() <= LARGE {
-        return decide(mechanism, s, q, None);
-    }
-    let pieces = parts(mechanism, s);
-    let pieces = pieces.par_iter().map(|groups| {
-        let Part { mechanism, places } = mechanism.part_of_groups(groups);
-        let own_q = own(q, &places.coordinates);
-        let own_s = evaluated(&mechanism, s.t, &own_q);
-        let decision = decide(&mechanism, &own_s, &own_q, Some(&places.rows));
-        (decision, places.rows)
-    });
+    let partition = Partition::at(mechanism, s);
+    let parts = partition.map(mechanism, |part, extent| {
+        let decision = match extent.is_whole() {
+            true => decide(part, s, q, &extent)?,
+            false => {
+                let q = extent.coordinates(q);
+                decide(part, &evaluated(part, s.t, &q), &q, &extent)?
+            }
+        };
+        Ok::<_, E>((decision, extent))
+    })?;
     let mut sum = RowDecision::empty();
-    for (decision, rows) in pieces.collect::<Vec<_>>() {
-        sum.add(&decision?, &rows);
+    for (decision, extent) in parts {
+        sum.add(decision, |k| extent.row(k));
     }
-    Ok(sum.sorted())
+    sum.sort();
+    Ok(sum)
 }
 
 impl Rows {
     /// Kept rows that cannot be told from dependent ones in `f64`; directions are those of all rows. See [`inseparable`].
     #[must_use]
-    pub fn inseparable(
-        &self,
-        mechanism: &Mechanism,
-        s: &Scratch,
-        q: &[f64],
-    ) -> Option<NearlyRedundant> {
-        self.pieces.iter().find_map(|piece| match &piece.part {
-            None => inseparable(mechanism, s, q, &piece.dense.as_ref()?[0]),
-            Some(part) => {
-                let own_q = own(q, &part.places.coordinates);
-                let own_s = evaluated(&part.mechanism, s.t, &own_q);
-                let mut found =
-                    inseparable(&part.mechanism, &own_s, &own_q, &piece.dense.as_ref()?[0])?;
-                let mut direction = vec![0.0; mechanism.layout().rows()];
-                for (&row, x) in part.places.rows.iter().zip(&found.direction) {
-                    direction[row] = *x;
-                }
-                found.direction = direction;
-                Some(found)
+    pub fn inseparable(&self, mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<NearlyRedundant> {
+        self.parts.iter().find_map(|part| {
+            let [decision, _] = part.certified.as_deref()?;
+            if !decision.is_decided() {
+                return None;
             }
+            let own_q = part.extent.coordinates(q);
+            let own = part.extent.mechanism(mechanism);
+            let mut found = inseparable(&own, &evaluated(&own, t, &own_q), &own_q, decision)?;
+            found.direction = part
+                .extent
+                .spread(&found.direction, mechanism.layout().rows());
+            Some(found)
         })
     }
 
@@ -326,27 +365,24 @@ impl Rows {
         q: &[f64],
         v: &[f64],
     ) -> Result<Vec<Contradiction>, StateError> {
+        check(mechanism, t, q, v)?;
         let mut all = Vec::new();
-        for piece in &self.pieces {
+        for part in &self.parts {
             // The rows of larger ones are compared by the monitors of the motion.
-            let Some([decided, holonomic]) = &piece.dense else {
+            let Some(certified) = &part.certified else {
                 continue;
             };
+            if part.all.redundancy == 0 && part.holonomic.redundancy == 0 {
+                continue;
+            }
+            let own = part.extent.mechanism(mechanism);
+            let [q, v] = [part.extent.coordinates(q), part.extent.velocities(v)];
+            let [decided, holonomic] = in_double(certified, &own, &evaluated(&own, t, &q), &q);
             let ranks = Ranks {
-                all: decided,
-                holonomic,
+                all: &decided,
+                holonomic: &holonomic,
             };
-            all.extend(match &piece.part {
-                None => contradictions(mechanism, t, q, v, ranks)?,
-                Some(_) if piece.all.redundancy == 0 && piece.holonomic.redundancy == 0 => continue,
-                Some(part) => {
-                    let [own_q, own_v] = [
-                        own(q, &part.places.coordinates),
-                        own(v, &part.places.velocities),
-                    ];
-                    contradictions(&part.mechanism, t, &own_q, &own_v, ranks)?
-                }
-            });
+            all.extend(contradictions(&own, t, &q, &v, ranks)?);
         }
         Ok(all)
     }

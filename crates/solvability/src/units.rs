@@ -93,20 +93,32 @@ pub fn check_units(
     decision: &RankDecision,
 ) -> Result<Vec<UnitCheck>, UnitError> {
     let configuration = Configuration::new(mechanism, t, q, decision)?;
-    let numbers = Numbers::of(&configuration)?;
-    let real = Equations::of(mechanism, t, q, v)?;
+    check_equations(&configuration, &Equations::of(mechanism, t, q, v)?)
+}
+
+/// The same by the equations of the configuration.
+pub(crate) fn check_equations(
+    configuration: &Configuration<'_>,
+    real: &Equations,
+) -> Result<Vec<UnitCheck>, UnitError> {
+    let mechanism = &configuration.mechanism;
+    let numbers = Numbers::of(configuration)?;
     let mut checks = numbers.checks.clone();
-    for (is_real, equations) in [(true, &real), (false, &numbers.probing_load(&real))] {
-        let reference = numbers.least(equations, Units::SI, None)?;
+    for (is_real, equations) in [(true, real), (false, &numbers.probing_load(real))] {
+        let in_si = numbers.rewritten(equations, Units::SI)?;
+        let reference = numbers.least(&in_si, None)?;
         let scale = numbers.scale(equations, &reference);
-        let uniform = [Units::MILLIMETRE, Units::GRAM, Units::MILLISECOND].map(|u| (u, None));
-        let each = mechanism.constraint_ids().map(|id| (Units::SI, Some(id)));
-        for (units, alone) in uniform.into_iter().chain(each) {
-            let other = numbers.least(equations, units, alone)?;
+        let mut compare = |other: &[f64]| {
             for (k, check) in checks.iter_mut().enumerate() {
                 let unit = numbers.unit(check, scale);
                 check.change = check.change.max((other[k] - reference[k]).abs() / unit);
             }
+        };
+        for units in [Units::MILLIMETRE, Units::GRAM, Units::MILLISECOND] {
+            compare(&numbers.least(&numbers.rewritten(equations, units)?, None)?);
+        }
+        for id in mechanism.constraint_ids() {
+            compare(&numbers.least(&in_si, Some(id))?);
         }
         if is_real {
             for (check, value) in checks.iter_mut().zip(reference) {
@@ -121,6 +133,14 @@ pub fn check_units(
         };
     }
     Ok(checks)
+}
+
+/// Equations in other units, solved.
+struct Rewritten {
+    units: Units,
+    rewriting: Rewriting,
+    lambda_0: Vec<f64>,
+    solvability: Solvability,
 }
 
 /// The numbers that are compared, and the wrenches whose norm is least.
@@ -170,19 +190,11 @@ impl<'a> Numbers<'a> {
         })
     }
 
-    /// The numbers in SI units that the least norm in other units gives; the reaction `alone` counts in units of its own.
-    fn least(
-        &self,
-        equations: &Equations,
-        units: Units,
-        alone: Option<ConstraintId>,
-    ) -> Result<Vec<f64>, UnitError> {
+    /// One solution in other units, and what is free there.
+    fn rewritten(&self, equations: &Equations, units: Units) -> Result<Rewritten, UnitError> {
         let decided = self.configuration.solvability.decision();
-        let rewriting = Rewriting::new(
-            equations,
-            units,
-            &self.configuration.mechanism.column_kinds(),
-        );
+        let kinds = self.configuration.mechanism.column_kinds();
+        let rewriting = Rewriting::new(equations, units, &kinds);
         let equations = rewriting.equations(equations);
         let decision = linalg::decide(&equations.c, decided.evidence.constraint_residual)?;
         if decision.rank != decided.rank {
@@ -192,8 +204,26 @@ impl<'a> Numbers<'a> {
                 units,
             });
         }
-        let lambda_0 = equations.multipliers(&decision)?;
-        let solvability = Solvability::from_decision(&equations.c, decision);
+        Ok(Rewritten {
+            units,
+            lambda_0: equations.multipliers(&decision)?,
+            solvability: Solvability::from_decision(&equations.c, decision),
+            rewriting,
+        })
+    }
+
+    /// The numbers in SI units that the least norm in other units gives; the reaction `alone` counts in units of its own.
+    fn least(
+        &self,
+        rewritten: &Rewritten,
+        alone: Option<ConstraintId>,
+    ) -> Result<Vec<f64>, UnitError> {
+        let Rewritten {
+            units,
+            rewriting,
+            lambda_0,
+            solvability,
+        } = rewritten;
         let wrench = |(id, dimension, form): &(ConstraintId, Dimension, LinearForm)| {
             let own = if alone == Some(*id) {
                 OF_ONE_JOINT
@@ -203,7 +233,7 @@ impl<'a> Numbers<'a> {
             (rewriting.form(form, own * units.of(*dimension)), 1.0)
         };
         let wrenches: Vec<_> = self.wrenches.iter().map(wrench).collect();
-        let lambda = minimise(&solvability, &lambda_0, &wrenches)?;
+        let lambda = minimise(solvability, lambda_0, &wrenches)?;
         // Divided by their own unit, numbers are in SI again.
         let numbers: Vec<f64> = self
             .forms

@@ -1,7 +1,7 @@
 //! Dependencies as sentences.
 
 use linalg::Circuit;
-use model::{BodyRef, ConstraintId, ConstraintKind, Layout, Mechanism, System};
+use model::{BodyRef, ConstraintId, Layout, Mechanism, System};
 
 use crate::explain::FreeDirection;
 use crate::matrices::Solvability;
@@ -34,9 +34,7 @@ pub(crate) fn of_stress(
 ) -> String {
     let layout = mechanism.layout();
     let ids: Vec<ConstraintId> = directions.iter().map(|d| d.joint).collect();
-    let drives = ids
-        .iter()
-        .all(|id| layout.groups[id.0].kind == ConstraintKind::Drive);
+    let drives = ids.iter().all(|id| layout.groups[id.0].is_drive());
     let bodies: Vec<Vec<String>> = directions
         .iter()
         .map(|d| moving(mechanism, &d.bodies))
@@ -234,6 +232,7 @@ fn ratio(mechanism: &Mechanism, circuit: &Circuit) -> String {
 pub(crate) fn short(x: f64) -> String {
     let size = x.abs();
     let text = match size {
+        0.0 => "0".to_owned(),
         1e-3..1e4 => {
             let digits = (3.0 - size.log10().floor()).max(0.0) as usize;
             let text = format!("{x:.digits$}");

@@ -13,9 +13,11 @@
 //! | [`watch`] | processes that try texts, with limits of time and memory |
 //! | [`campaign`] | many inputs, several at the same time; what was found |
 //! | [`minimise`] | the shortest text that still fails alike |
+//! | [`mod@exact`] | degenerate scenes of which exact arithmetic knows the answer: is it told? |
 
 pub mod campaign;
 pub mod damage;
+pub mod exact;
 pub mod input;
 pub mod minimise;
 pub mod scenes;

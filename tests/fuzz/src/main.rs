@@ -1,4 +1,5 @@
 //! `cargo run --release -p fuzz -- run --inputs 1000000 --seed 1`: random and damaged scenes through check, analyze and simulate.
+//! `cargo run --release -p fuzz -- exact`: 20 000 degenerate scenes, judged by exact arithmetic.
 
 use std::fs;
 use std::io::{self, Read, Write};
@@ -8,6 +9,7 @@ use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand};
 use fuzz::campaign::{Campaign, Tally};
+use fuzz::exact;
 use fuzz::watch::Limits;
 use fuzz::{input, trial};
 
@@ -55,6 +57,24 @@ enum Command {
         seed: u64,
         /// Number
         number: u64,
+    },
+    /// Examines degenerate scenes by exact arithmetic; exit code 1 if one is told wrong
+    Exact {
+        /// How many
+        #[arg(long, default_value_t = 20_000)]
+        scenes: u64,
+        /// Seed of all scenes
+        #[arg(long, default_value_t = 1)]
+        seed: u64,
+        /// The first scene
+        #[arg(long, default_value_t = 0)]
+        from: u64,
+        /// Writes one scene with what is so and what was told, and ends
+        #[arg(long, value_name = "NUMBER")]
+        show: Option<u64>,
+        /// Where scenes that are told wrong are kept, the shortest of each kind
+        #[arg(long, value_name = "DIR")]
+        keep: Option<PathBuf>,
     },
     /// Tries inputs one after the other and answers each with a letter: what `run` begins
     #[command(hide = true)]
@@ -130,6 +150,30 @@ fn go() -> io::Result<ExitCode> {
                 }
             };
             answer(&mut out, &String::from_utf8_lossy(&bytes))?;
+        }
+        Command::Exact {
+            seed,
+            show: Some(number),
+            ..
+        } => out.write_all(exact::tally::outcome(seed, number).page().as_bytes())?,
+        Command::Exact {
+            scenes,
+            seed,
+            from,
+            show: None,
+            keep,
+        } => {
+            let clock = Instant::now();
+            let tally = exact::tally::Tally::of(seed, from, scenes);
+            let seconds = clock.elapsed().as_secs_f64();
+            let head = format!("seed {seed}: {scenes} scenes in {seconds:.1} s\n");
+            out.write_all((head + &tally.describe()).as_bytes())?;
+            if let Some(folder) = keep {
+                tally.keep(seed, &folder)?;
+            }
+            if !tally.passes() {
+                return Ok(ExitCode::from(1));
+            }
         }
         Command::Show { seed, number } => out.write_all(input::text(seed, number).as_bytes())?,
         Command::Work { seed, from, to } => {

@@ -25,6 +25,8 @@ pub(crate) enum Source {
     Parameter { access: String },
     /// A value kept from the start, by the tokens that read it.
     Kept { field: String, access: String },
+    /// A derivative of a number that is computed from others, by the tokens that compute it.
+    Slope { access: String },
     /// A multiplier.
     Lambda { row: usize },
 }
@@ -49,11 +51,14 @@ impl Source {
                 let row = index(*row);
                 quote!(lambda[#row])
             }
-            Self::Parameter { access } | Self::Kept { access, .. } => {
+            Self::Parameter { access } | Self::Kept { access, .. } | Self::Slope { access } => {
                 access.parse().expect("written by this crate")
             }
         };
-        let is_f64 = matches!(self, Self::Parameter { .. } | Self::Kept { .. });
+        let is_f64 = matches!(
+            self,
+            Self::Parameter { .. } | Self::Kept { .. } | Self::Slope { .. }
+        );
         (tokens, is_f64)
     }
 }
@@ -235,7 +240,7 @@ impl Inputs {
     /// Symbols of a kept value.
     pub(crate) fn kept(&mut self, g: &mut Graph, field: &str, kind: &Kept) -> Vec<Expr> {
         let components = match kind {
-            Kept::Number => vec![(field.to_owned(), format!("self.{field}"))],
+            Kept::Number(_) => vec![(field.to_owned(), format!("self.{field}"))],
             Kept::Vector(_) => vec![
                 (format!("{field}_x"), format!("self.{field}[0]")),
                 (format!("{field}_y"), format!("self.{field}[1]")),
@@ -248,6 +253,11 @@ impl Inputs {
                 self.add(g, &name, Source::Kept { field, access })
             })
             .collect()
+    }
+
+    /// A symbol for a derivative that is no polynomial; `access` are the tokens that compute it.
+    pub(crate) fn slope(&mut self, g: &mut Graph, name: &str, access: String) -> Expr {
+        self.add(g, name, Source::Slope { access })
     }
 
     /// Values of a parameter: one number each, two components of a point or a direction.

@@ -1,9 +1,9 @@
 //! The facts of a definition as a constant.
 
-use proc_macro2::TokenStream;
+use proc_macro2::{Ident, TokenStream};
 use quote::quote;
 
-use super::{Type, parts};
+use super::{Type, data, parts};
 use crate::derive::{ConstraintKernels, ForceKernels, N_DOF, Sparse};
 use crate::elaborate::{ConstraintBody, Model, Source};
 use crate::parse::{Definition, Param, ParamKind};
@@ -16,13 +16,7 @@ pub(super) fn constraint_spec(
     body: &ConstraintBody,
     text: &str,
 ) -> TokenStream {
-    // A relative coordinate that moves no origin is an angle.
-    let motion = t
-        .driven
-        .then(|| match k.c.iter().all(|e| e.column % N_DOF == N_DOF - 1) {
-            true => quote!(Angle),
-            false => quote!(Length),
-        });
+    let motion = t.driven.then(|| k.unit_of_measure());
     let common = common(d, &t.name.to_string(), &t.scene_type, &t.doc, motion, text);
     let role = match t.driven {
         true => quote!(Role::Drive),
@@ -52,6 +46,10 @@ pub(super) fn constraint_spec(
         Some(name) => quote!(Some(#name)),
         None => quote!(None),
     };
+    let note = match d.note.as_ref().map(syn::LitStr::value) {
+        Some(words) if !t.driven => quote!(Some(#words)),
+        _ => quote!(None),
+    };
     let measures = t.drives.iter().map(|(measure, drive)| {
         let (name, drive) = (measure.to_string(), drive.to_string());
         quote!(Measure::new(#name, #drive))
@@ -61,6 +59,7 @@ pub(super) fn constraint_spec(
     let d_residual_dx = pattern(&k.d_residual_dx);
     let d_gamma_dv = pattern(&k.d_gamma_dv);
     let d_velocity_dx = pattern(&k.d_velocity_dx);
+    let data = data::facts(d, &t.data);
     quote! {
         const SPEC: ConstraintSpec = ConstraintSpec {
             common: #common,
@@ -71,11 +70,13 @@ pub(super) fn constraint_spec(
             rheonomic: #rheonomic,
             wrench: #wrench,
             component: #component,
+            note: #note,
             measures: &[#(#measures),*],
             d_force_dx: #d_force_dx,
             d_residual_dx: #d_residual_dx,
             d_gamma_dv: #d_gamma_dv,
             d_velocity_dx: #d_velocity_dx,
+            data: #data,
         };
     }
 }
@@ -117,7 +118,7 @@ fn common(
     name: &str,
     scene_type: &str,
     doc: &[String],
-    motion: Option<TokenStream>,
+    motion: Option<Ident>,
     text: &str,
 ) -> TokenStream {
     let driven = motion.is_some();
@@ -161,21 +162,13 @@ fn common(
 
 fn parameter(d: &Definition, p: &Param) -> TokenStream {
     let name = p.name.to_string();
-    let slot = |s: &syn::Ident| {
-        index(
-            d.slots
-                .iter()
-                .position(|t| t == s)
-                .expect("checked while elaborating"),
-        )
-    };
     let shape = match &p.kind {
         ParamKind::Point(s) => {
-            let slot = slot(s);
+            let slot = parts::slot(d, s);
             quote!(Shape::Point { slot: #slot })
         }
         ParamKind::Direction(s) => {
-            let slot = slot(s);
+            let slot = parts::slot(d, s);
             quote!(Shape::Direction { slot: #slot })
         }
         ParamKind::GroundLine => quote!(Shape::GroundLine),

@@ -4,7 +4,7 @@ use proc_macro2::{Ident, TokenStream};
 use quote::{format_ident, quote};
 use symbolic::{Expr, Scalar};
 
-use crate::elaborate::{Comparison, Condition, Model};
+use crate::elaborate::{Comparison, Condition, KeptValue, Model};
 use crate::kebab_case;
 use crate::kernel::kernel;
 use crate::parse::{Definition, Kept, Param, ParamKind};
@@ -35,6 +35,8 @@ pub(super) fn uses(runtime: &TokenStream, constraint: bool) -> TokenStream {
             quote!(Constraint, Ring, Visitor),
             quote!(
                 ConstraintSpec,
+                Datum,
+                DatumShape,
                 Entry,
                 Level,
                 Measure,
@@ -81,7 +83,7 @@ pub(super) fn structure(
     let kept = model.kept.iter().map(|k| {
         let name = format_ident!("{}", k.field);
         let ty = match k.kind {
-            Kept::Number => quote!(f64),
+            Kept::Number(_) => quote!(f64),
             Kept::Vector(_) => quote!([f64; 2]),
         };
         let doc = match &k.overridden_by {
@@ -178,6 +180,12 @@ pub(crate) fn index(k: usize) -> proc_macro2::Literal {
     proc_macro2::Literal::usize_unsuffixed(k)
 }
 
+/// The number of a slot.
+pub(super) fn slot(d: &Definition, name: &Ident) -> proc_macro2::Literal {
+    let slot = d.slots.iter().position(|s| s == name);
+    index(slot.expect("checked while elaborating"))
+}
+
 /// The constructor from checked arguments.
 pub(super) fn from_arguments(d: &Definition, model: &Model, driven: bool) -> TokenStream {
     let mut reads: Vec<TokenStream> = d
@@ -209,7 +217,7 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: bool) -> Tok
     let kept = model.kept.iter().map(|k| {
         let name = format_ident!("{}", k.field);
         match k.kind {
-            Kept::Number => quote!(#name: 0.0,),
+            Kept::Number(_) => quote!(#name: 0.0,),
             Kept::Vector(_) => quote!(#name: [0.0; 2],),
         }
     });
@@ -232,20 +240,15 @@ pub(super) fn from_arguments(d: &Definition, model: &Model, driven: bool) -> Tok
 pub(super) fn initialise(model: &Model, measure: Option<Expr>) -> TokenStream {
     let kept = model.kept.iter().map(|k| {
         let field = format_ident!("{}", k.field);
-        let printed = kernel(model, &k.values, Scalar::F64);
-        let (statements, outputs) = (&printed.statements, &printed.outputs);
-        let value = match k.kind {
-            Kept::Number => quote!(#(#outputs)*),
-            Kept::Vector(_) => quote!([#(#outputs),*]),
-        };
+        let value = kept_value(model, k);
         match &k.overridden_by {
             Some(p) => quote! {
                 self.#field = match self.#p {
                     Some(given) => given,
-                    None => { #(#statements)* #value }
+                    None => #value
                 };
             },
-            None => quote!(self.#field = { #(#statements)* #value };),
+            None => quote!(self.#field = #value;),
         }
     });
     let measure = measure.map(|e| {
@@ -255,6 +258,16 @@ pub(super) fn initialise(model: &Model, measure: Option<Expr>) -> TokenStream {
     });
     quote! {
         fn initialise(&mut self, x: &[Pose]) { #(#kept)* #measure }
+    }
+}
+
+/// The block that computes a kept value.
+pub(super) fn kept_value(model: &Model, k: &KeptValue) -> TokenStream {
+    let printed = kernel(model, &k.values, Scalar::F64);
+    let (statements, outputs) = (&printed.statements, &printed.outputs);
+    match k.kind {
+        Kept::Number(_) => quote!({ #(#statements)* #(#outputs)* }),
+        Kept::Vector(_) => quote!({ #(#statements)* [#(#outputs),*] }),
     }
 }
 

@@ -3,7 +3,7 @@
 use syn::ext::IdentExt;
 use syn::parse::ParseStream;
 use syn::punctuated::Punctuated;
-use syn::{Attribute, Ident, Token, braced, bracketed, parenthesized};
+use syn::{Attribute, Ident, LitStr, Token, braced, bracketed, parenthesized};
 
 use super::kind::{Initial, doc_lines};
 use super::{Binding, Definition, Kind, Param, name};
@@ -20,7 +20,15 @@ mod kw {
 const COMMON: [&str; 7] = [
     "params", "points", "let", "initial", "require", "scene", "variant",
 ];
-const CONSTRAINT: [&str; 6] = ["rows", "phi", "psi", "measure", "place", "component"];
+const CONSTRAINT: [&str; 7] = [
+    "rows",
+    "phi",
+    "psi",
+    "measure",
+    "place",
+    "component",
+    "note",
+];
 const FORCE: [&str; 1] = ["force"];
 
 /// `plane Name(slot, …) { … }`
@@ -61,6 +69,7 @@ pub(super) fn definition(kind: Kind, input: ParseStream<'_>) -> syn::Result<Defi
         measures: Vec::new(),
         place: None,
         component: None,
+        note: None,
         forces: Vec::new(),
         scene: None,
         variant: None,
@@ -189,6 +198,16 @@ fn constraint_item(word: &Ident, input: ParseStream<'_>, d: &mut Definition) -> 
         "place" => {
             input.parse::<Token![:]>()?;
             once(word, d.place.replace(input.parse()?))?;
+        }
+        "note" => {
+            let words: LitStr = input.parse()?;
+            if words.value().trim().is_empty() {
+                return Err(syn::Error::new_spanned(
+                    &words,
+                    "`note` has no words: say what a reader of the reaction must know, or leave it out",
+                ));
+            }
+            once(word, d.note.replace(words))?;
         }
         _ => {
             let name = name(input)?;

@@ -7,7 +7,7 @@ use syn::{Attribute, Expr, Ident, Token, bracketed};
 use super::{Binding, Kept, Param, ParamKind, name};
 use crate::nearest::hint;
 
-/// Units that a parameter may have: the variants of `joints::spec::Unit`.
+/// Units that a parameter may have: the variants of `joints::spec::Unit`, `PerLength` left out.
 pub const UNITS: [&str; 11] = [
     "Length",
     "Angle",
@@ -126,11 +126,8 @@ impl Parse for Initial {
         let word: Ident = input.parse()?;
         let kept = match word.to_string().as_str() {
             "Vector" => Kept::Vector(in_slot(input)?),
-            "PerLength" => Kept::Number,
-            _ => {
-                unit(word, &INITIAL_KINDS)?;
-                Kept::Number
-            }
+            "PerLength" => Kept::Number(word),
+            _ => Kept::Number(unit(word, &INITIAL_KINDS)?),
         };
         input.parse::<Token![=]>()?;
         Ok(Self(Binding {

@@ -39,6 +39,8 @@ fn every_item_arrives() {
              measure m: a;
              place: q;
              component N: z;
+             note \"what a reader \\
+                   must know\";
              scene \"type\";
              variant key = \"value\", default;",
         ),
@@ -85,6 +87,10 @@ fn every_item_arrives() {
     assert!(d.phi.is_some() && d.psi.is_none() && d.place.is_some());
     assert_eq!(d.measures[0].0, "m");
     assert_eq!(d.component.map(|c| c.0.to_string()), Some("N".to_owned()));
+    assert_eq!(
+        d.note.map(|n| n.value()),
+        Some("what a reader must know".to_owned())
+    );
     assert_eq!(d.scene.map(|s| s.value()), Some("type".to_owned()));
     assert!(d.variant.is_some_and(|(key, value, default)| {
         key == "key" && value.value() == "value" && default
@@ -167,6 +173,8 @@ fn what_is_wrong_is_named() {
         ("params { a: Point }", "expected `in`"),
         ("initial { a: Vectr in i = b }", "did you mean `Vector`?"),
         ("variant a = \"b\", standard;", "expected `default`"),
+        ("note \" \";", "`note` has no words"),
+        ("note \"a\"; note \"b\";", "`note` is given twice"),
     ];
     for (items, message) in cases {
         let found = error(Kind::Constraint, &joint(items));

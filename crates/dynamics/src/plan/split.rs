@@ -1,9 +1,7 @@
-//! Taking a prepared mechanism apart into prepared components. Ranks are decided for each at the start of the whole, with the rows that
-//! the whole drops, so that what is said of its choice holds for each of them.
+//! Taking a prepared mechanism apart into prepared components. Each has its share of the rows that were decided at the start of the whole.
 
 use model::start::scene_size;
 use model::{Assembly, Mechanism, Part, Places, System};
-use solvability::{RowDecision, decide_holonomic_rows, decide_rows, decide_rows_dropping};
 
 use super::saving::{Cost, Saving};
 use super::{Decided, PreparedPart, pick};
@@ -31,12 +29,7 @@ pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart
     }
     let mut parts = Vec::with_capacity(n);
     for set in &sets {
-        let Some(part) = prepared(whole, whole.mechanism.part(set))? else {
-            return Ok(stays(format!(
-                "{n} do not feel each other, but the rank of one is doubtful alone"
-            )));
-        };
-        parts.push(part);
+        parts.push(prepared(whole, whole.mechanism.part(set)));
     }
     let of = elimination(&whole.mechanism, whole.decision.rank);
     let own = |(p, _): &PreparedPart| elimination(&p.mechanism, p.decision.rank);
@@ -68,8 +61,8 @@ pub(super) fn elimination(mechanism: &Mechanism, r: usize) -> u64 {
     2 * r * n * k + 2 * k * k * k / 3 - (r + n) * k * k + free * free * n + free * free * free / 6
 }
 
-/// A part with the start and the rows of the whole; nothing if its rank alone does not agree with these.
-fn prepared(whole: &Prepared, part: Part) -> Result<Option<PreparedPart>, MotionError> {
+/// A part with the start and the rows of the whole.
+fn prepared(whole: &Prepared, part: Part) -> PreparedPart {
     let Part { mechanism, places } = part;
     let (q, v) = (
         pick(&whole.q, &places.coordinates),
@@ -78,21 +71,8 @@ fn prepared(whole: &Prepared, part: Part) -> Result<Option<PreparedPart>, Motion
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, &q, &mut s);
     mechanism.phi(&mut s);
-    mechanism.c(&mut s);
-    let mut decision = decide_rows(&mechanism, &s, &q)?;
-    let position_decision = decide_holonomic_rows(&mechanism, &s, &q)?;
-    let dropped = own_rows(&whole.decision.dropped, &places);
-    let agree = |d: &RowDecision, dropped: usize| d.is_decided() && d.redundancy == dropped;
-    let position_dropped = own_rows(&whole.position_decision.dropped, &places).len();
-    if !(agree(&decision, dropped.len()) && agree(&position_decision, position_dropped)) {
-        return Ok(None);
-    }
-    if decision.dropped != dropped {
-        match decide_rows_dropping(&mechanism, &s, &q, &dropped) {
-            Ok(same) => decision = same,
-            Err(_) => return Ok(None),
-        }
-    }
+    let decision = whole.decision.of_rows(&places.rows);
+    let position_decision = whole.position_decision.of_rows(&places.rows);
     let choice = match &whole.choice {
         RowChoice::Automatic => RowChoice::Automatic,
         RowChoice::Drop(rows) => RowChoice::Drop(own_rows(rows, &places)),
@@ -113,10 +93,11 @@ fn prepared(whole: &Prepared, part: Part) -> Result<Option<PreparedPart>, Motion
         choice,
         decision,
         position_decision,
+        decided: None,
         assembly,
         code: None,
     };
-    Ok(Some((own, places)))
+    (own, places)
 }
 
 /// Those of some rows of the whole that belong to a part, counted there.

@@ -320,6 +320,7 @@ fn the_first_component_to_stop_stops_all() {
             bodies: vec![GROUND, arm],
             element: Box::new(motor),
             motion: Function::constant_rate(-1.0).expect("finite"),
+            tolerance: None,
         });
         d.bodies.push(body("block", [10.6, 0.8]));
         let rod = Distance {
@@ -476,6 +477,7 @@ fn guided(d: &mut Description) {
         bodies: vec![GROUND, block],
         element: Box::new(motor),
         motion: Function::harmonic(0.3, 5.0, 0.2, 0.0).expect("finite"),
+        tolerance: None,
     });
 }
 

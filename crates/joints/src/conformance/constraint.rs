@@ -1,5 +1,6 @@
 //! The properties of one constraint definition.
 
+mod data;
 mod derivatives;
 mod identities;
 
@@ -71,9 +72,12 @@ impl<K: Constraint> Check<'_, K> {
     fn all(&self) -> Result<(), Failure> {
         self.writes()?;
         self.derivatives::<DualNumbers>(DUAL_NUMBERS)?;
+        self.data()?;
         if self.case.has_differences() {
             self.derivatives::<Differences>(DIFFERENCES)?;
+            self.data_differences()?;
         }
+        self.data_dual_numbers()?;
         self.wrench()?;
         self.place()?;
         self.component()?;

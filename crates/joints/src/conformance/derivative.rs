@@ -49,10 +49,7 @@ const ORDERS: usize = 4;
 
 impl Differentiate for Differences {
     fn first(curve: &impl Curve) -> Block {
-        extrapolate(FIRST_STEPS, |h| {
-            let difference = curve.at(h).zip(&curve.at(-h), |a, b| a - b);
-            difference.map(|d| d / (2.0 * h))
-        })
+        by_differences(|h| curve.at(h))
     }
 
     fn second(curve: &impl Curve) -> Block {
@@ -63,6 +60,14 @@ impl Differentiate for Differences {
             sum.map(|d| d / (h * h))
         })
     }
+}
+
+/// The first derivative at 0 of a block of one plain number.
+pub(super) fn by_differences(block: impl Fn(f64) -> Block) -> Block {
+    extrapolate(FIRST_STEPS, |h| {
+        let difference = block(h).zip(&block(-h), |a, b| a - b);
+        difference.map(|d| d / (2.0 * h))
+    })
 }
 
 fn extrapolate(steps: i32, difference: impl Fn(f64) -> Block) -> Block {

@@ -35,6 +35,12 @@ pub enum Property {
     DGammaDv,
     /// `∂(C·v − b)/∂x`
     DVelocityDx,
+    /// `data` tells the numbers of the facts, and `set_data` puts numbers back.
+    Data,
+    /// `∂(λᵀ·Φ)/∂p`
+    DPhiDp,
+    /// `∂(λᵀ·(C·a − Γ))/∂p`
+    DResidualDp,
     /// The wrench is −C of the first body, moved to the place.
     Wrench,
     /// The place is fixed in the first body.
@@ -73,6 +79,11 @@ impl fmt::Display for Property {
             Self::DResidualDx => "d_residual_dx = ∂(C·a − Γ)/∂x",
             Self::DGammaDv => "d_gamma_dv = ∂Γ/∂v",
             Self::DVelocityDx => "d_velocity_dx = ∂(C·v − b)/∂x",
+            Self::Data => {
+                "`data` tells the numbers that the facts name, and `set_data` puts numbers back"
+            }
+            Self::DPhiDp => "d_phi_dp = ∂(λᵀ·Φ)/∂p",
+            Self::DResidualDp => "d_residual_dp = ∂(λᵀ·(C·a − Γ))/∂p",
             Self::Wrench => "the wrench is −C of the first body, moved to the place",
             Self::Place => "the place is fixed in the first body",
             Self::Component => "the named component is not larger than the reaction",

@@ -1,6 +1,7 @@
 //! Kernels as dense blocks. What a kernel leaves alone stays NaN, so that no comparison passes over it.
 
 use super::block::Block;
+use super::case::Motion;
 use crate::constraint::Constraint;
 use crate::force::Force;
 use crate::plane::{N_DOF, Pose, Twist};
@@ -133,6 +134,35 @@ pub(super) fn d_velocity_dx<K: Constraint>(
     let mut out = unwritten(K::SPEC.d_velocity_dx.len());
     k.d_velocity_dx(x, v, f, &mut out);
     scatter(shape::<K>(), K::SPEC.d_velocity_dx, &out)
+}
+
+/// The numbers that the constraint stores.
+pub(super) fn data<K: Constraint>(k: &K) -> Vec<f64> {
+    let mut out = unwritten(K::SPEC.n_data());
+    k.data(&mut out);
+    out
+}
+
+pub(super) fn d_phi_dp<T: Ring, K: Constraint>(
+    k: &K,
+    x: &[Pose<T>],
+    f: &[[T; 3]],
+    lambda: &[T],
+) -> Block<T> {
+    let mut out = unwritten(K::SPEC.n_data());
+    k.d_phi_dp(x, f, lambda, &mut out);
+    Block::column(out)
+}
+
+pub(super) fn d_residual_dp<K: Constraint>(
+    k: &K,
+    x: &[Pose],
+    motion: &Motion,
+    f: &[[f64; 3]],
+) -> Block {
+    let mut out = unwritten(K::SPEC.n_data());
+    k.d_residual_dp(x, &motion.v, &motion.a, f, &motion.lambda, &mut out);
+    Block::column(out)
 }
 
 /// The generalised force, all degrees of freedom of all slots.

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
-    Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
+    Shape, Spec, Unit, Variant,
 };
 /// The relative angle of two bodies keeps its initial value.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,11 +39,13 @@ impl Constraint for Angle {
         rheonomic: false,
         wrench: &[[2, 0]],
         component: None,
+        note: None,
         measures: &[],
         d_force_dx: &[],
         d_residual_dx: &[],
         d_gamma_dv: &[],
         d_velocity_dx: &[],
+        data: &[Datum::new("angle_0", DatumShape::Kept(Unit::Angle), 0)],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         Reader::new(Self::SPEC.common.parameters, arguments)?;
@@ -62,6 +64,12 @@ impl Constraint for Angle {
     }
     fn points(&self) -> Vec<[f64; 2]> {
         vec![]
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.angle_0;
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.angle_0 = numbers[0];
     }
     /// Φ. Operations: 2 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
@@ -134,4 +142,27 @@ impl Constraint for Angle {
         f: &[[T; 3]],
         out: &mut [T],
     ) {}
+    /// ∂(λᵀΦ)/∂p. Operations: 1 neg.
+    fn d_phi_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let lambda_0 = lambda[0];
+        out[0] = -lambda_0;
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: none.
+    fn d_residual_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        out[0] = T::from(0.0);
+    }
 }

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
-    Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
+    Shape, Spec, Unit, Variant,
 };
 /// Point `s_j` of body j keeps its initial place in body i, and the relative angle keeps its initial value.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,11 +71,18 @@ impl Constraint for Fixed {
         rheonomic: false,
         wrench: &[[0, 0], [1, 1], [2, 0], [2, 1], [2, 2]],
         component: None,
+        note: None,
         measures: &[],
         d_force_dx: &[[2, 2], [5, 5]],
         d_residual_dx: &[[0, 2], [0, 5], [1, 2], [1, 5]],
         d_gamma_dv: &[[0, 2], [0, 5], [1, 2], [1, 5]],
         d_velocity_dx: &[[0, 2], [0, 5], [1, 2], [1, 5]],
+        data: &[
+            Datum::new("s_i", DatumShape::Point { slot: 0 }, 0),
+            Datum::new("s_j", DatumShape::Point { slot: 1 }, 2),
+            Datum::new("offset", DatumShape::KeptVector { slot: 0 }, 4),
+            Datum::new("angle_0", DatumShape::Kept(Unit::Angle), 6),
+        ],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
@@ -120,6 +127,21 @@ impl Constraint for Fixed {
     }
     fn points(&self) -> Vec<[f64; 2]> {
         vec![self.s_i, self.s_j]
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.s_i[0];
+        out[1] = self.s_i[1];
+        out[2] = self.s_j[0];
+        out[3] = self.s_j[1];
+        out[4] = self.offset[0];
+        out[5] = self.offset[1];
+        out[6] = self.angle_0;
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.s_i = [numbers[0], numbers[1]];
+        self.s_j = [numbers[2], numbers[3]];
+        self.offset = [numbers[4], numbers[5]];
+        self.angle_0 = numbers[6];
     }
     /// Φ. Operations: 8 mul, 14 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
@@ -362,5 +384,66 @@ impl Constraint for Fixed {
         out[1] = omega_j * arm_j_x;
         out[2] = -(omega_i * (cos_i * t1 + sin_i * t0));
         out[3] = omega_j * arm_j_y;
+    }
+    /// ∂(λᵀΦ)/∂p. Operations: 8 mul, 4 add, 3 neg.
+    fn d_phi_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let lambda_0 = lambda[0];
+        let lambda_1 = lambda[1];
+        let lambda_2 = lambda[2];
+        let t0 = cos_i * lambda_0 + sin_i * lambda_1;
+        let t1 = cos_i * lambda_1 - sin_i * lambda_0;
+        out[0] = t0;
+        out[1] = t1;
+        out[2] = -(cos_j * lambda_0 + sin_j * lambda_1);
+        out[3] = -(cos_j * lambda_1 - sin_j * lambda_0);
+        out[4] = t0;
+        out[5] = t1;
+        out[6] = -lambda_2;
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 18 mul, 8 add, 2 neg.
+    fn d_residual_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let omega_i = v[0].omega;
+        let alpha_i = a[0].omega;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let omega_j = v[1].omega;
+        let alpha_j = a[1].omega;
+        let lambda_0 = lambda[0];
+        let lambda_1 = lambda[1];
+        let t0 = omega_i * omega_i;
+        let t1 = cos_i * t0 + sin_i * alpha_i;
+        let t2 = cos_i * alpha_i - sin_i * t0;
+        let t3 = -(lambda_0 * t1 - lambda_1 * t2);
+        let t4 = -(lambda_0 * t2 + lambda_1 * t1);
+        let t5 = omega_j * omega_j;
+        let t6 = cos_j * t5 + sin_j * alpha_j;
+        let t7 = cos_j * alpha_j - sin_j * t5;
+        out[0] = t3;
+        out[1] = t4;
+        out[2] = lambda_0 * t6 - lambda_1 * t7;
+        out[3] = lambda_0 * t7 + lambda_1 * t6;
+        out[4] = t3;
+        out[5] = t4;
+        out[6] = T::from(0.0);
     }
 }

@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
-    Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
+    Shape, Spec, Unit, Variant,
 };
 /// Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The
 /// ratio of an external mesh is negative.
@@ -29,7 +29,7 @@ impl Constraint for Gear {
             scene_type: "gear",
             variant: None,
             doc: "Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The ratio of an external mesh is negative.",
-            text: "joint! { plane Gear(i, j, carrier) {\n    /// Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The\n    /// ratio of an external mesh is negative.\n    params {\n        /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh.\n        ratio: Ratio,\n    }\n    initial { phase: Angle = angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) }\n    rows: [mesh];\n    phi: angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) - phase;\n    place: origin(i);\n} }",
+            text: "joint! { plane Gear(i, j, carrier) {\n    /// Rotations relative to the carrier keep a ratio: `Δ(φ_j − φ_carrier) = ratio·Δ(φ_i − φ_carrier)`. The\n    /// ratio of an external mesh is negative.\n    params {\n        /// Rotation of body j over that of body i, both relative to the carrier; negative for an external mesh.\n        ratio: Ratio,\n    }\n    initial { phase: Angle = angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) }\n    rows: [mesh];\n    phi: angle(j) - angle(carrier) - ratio * (angle(i) - angle(carrier)) - phase;\n    place: origin(i);\n    note \"the reaction of a gear is a couple, without the force of teeth or belt; the reactions of the wheels' bearings \\\n          are without it, too\";\n} }",
             slots: &["i", "j", "carrier"],
             parameters: &[
                 Parameter::required(
@@ -52,11 +52,18 @@ impl Constraint for Gear {
         rheonomic: false,
         wrench: &[[2, 0]],
         component: None,
+        note: Some(
+            "the reaction of a gear is a couple, without the force of teeth or belt; the reactions of the wheels' bearings are without it, too",
+        ),
         measures: &[],
         d_force_dx: &[],
         d_residual_dx: &[],
         d_gamma_dv: &[],
         d_velocity_dx: &[],
+        data: &[
+            Datum::new("ratio", DatumShape::Number(Unit::Ratio), 0),
+            Datum::new("phase", DatumShape::Kept(Unit::Angle), 1),
+        ],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
@@ -78,6 +85,14 @@ impl Constraint for Gear {
     }
     fn points(&self) -> Vec<[f64; 2]> {
         vec![]
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.ratio;
+        out[1] = self.phase;
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.ratio = numbers[0];
+        self.phase = numbers[1];
     }
     /// Φ. Operations: 1 mul, 4 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
@@ -156,4 +171,34 @@ impl Constraint for Gear {
         f: &[[T; 3]],
         out: &mut [T],
     ) {}
+    /// ∂(λᵀΦ)/∂p. Operations: 1 mul, 1 add, 2 neg.
+    fn d_phi_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let angle_i = x[0].angle;
+        let angle_carrier = x[2].angle;
+        let lambda_0 = lambda[0];
+        out[0] = -(lambda_0 * (angle_i - angle_carrier));
+        out[1] = -lambda_0;
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 1 mul, 1 add, 1 neg.
+    fn d_residual_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let alpha_i = a[0].omega;
+        let alpha_carrier = a[2].omega;
+        let lambda_0 = lambda[0];
+        out[0] = -(lambda_0 * (alpha_i - alpha_carrier));
+        out[1] = T::from(0.0);
+    }
 }

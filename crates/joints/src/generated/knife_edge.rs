@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
-    Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
+    Shape, Spec, Unit, Variant,
 };
 /// Point `s` has no velocity along `normal` (a wheel or a blade): `(R·n)·v_s = 0`.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,11 +52,16 @@ impl Constraint for KnifeEdge {
         rheonomic: false,
         wrench: &[[0, 0], [1, 0]],
         component: Some("N"),
+        note: None,
         measures: &[],
         d_force_dx: &[[0, 2], [1, 2]],
         d_residual_dx: &[[0, 2]],
         d_gamma_dv: &[[0, 0], [0, 1], [0, 2]],
         d_velocity_dx: &[[0, 2]],
+        data: &[
+            Datum::new("s", DatumShape::Point { slot: 0 }, 0),
+            Datum::new("normal", DatumShape::Direction { slot: 0 }, 2),
+        ],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
@@ -71,6 +76,16 @@ impl Constraint for KnifeEdge {
     }
     fn points(&self) -> Vec<[f64; 2]> {
         vec![self.s]
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.s[0];
+        out[1] = self.s[1];
+        out[2] = self.normal.xy()[0];
+        out[3] = self.normal.xy()[1];
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.s = [numbers[0], numbers[1]];
+        self.normal = Direction::from_data([numbers[2], numbers[3]]);
     }
     /// Φ. Operations: none.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
@@ -224,5 +239,50 @@ impl Constraint for KnifeEdge {
         let normal_y = cos_i * normal_local_y + sin_i * normal_local_x;
         let normal_x = cos_i * normal_local_x - sin_i * normal_local_y;
         out[0] = -(v_i_x * normal_y - v_i_y * normal_x);
+    }
+    /// ∂(λᵀΦ)/∂p. Operations: none.
+    fn d_phi_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        out[0] = T::from(0.0);
+        out[1] = T::from(0.0);
+        out[2] = T::from(0.0);
+        out[3] = T::from(0.0);
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 18 mul, 8 add, 1 neg.
+    fn d_residual_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let v_i_x = v[0].x;
+        let a_i_x = a[0].x;
+        let v_i_y = v[0].y;
+        let a_i_y = a[0].y;
+        let omega_i = v[0].omega;
+        let alpha_i = a[0].omega;
+        let s_x = T::from(self.s[0]);
+        let s_y = T::from(self.s[1]);
+        let normal_local_x = T::from(self.normal.xy()[0]);
+        let normal_local_y = T::from(self.normal.xy()[1]);
+        let lambda_0 = lambda[0];
+        out[0] = alpha_i * normal_local_y * lambda_0;
+        out[1] = -(alpha_i * normal_local_x * lambda_0);
+        out[2] = lambda_0
+            * (cos_i * a_i_x + sin_i * a_i_y + omega_i * (cos_i * v_i_y - sin_i * v_i_x)
+                - alpha_i * s_y);
+        out[3] = lambda_0
+            * (cos_i * a_i_y - sin_i * a_i_x - omega_i * (cos_i * v_i_x + sin_i * v_i_y)
+                + alpha_i * s_x);
     }
 }

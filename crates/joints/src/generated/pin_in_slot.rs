@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
-    Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
+    Shape, Spec, Unit, Variant,
 };
 /// Point `s_j` of body j stays on the line through point `s_i` of body i along `axis`.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,6 +88,7 @@ impl Constraint for PinInSlot {
         rheonomic: false,
         wrench: &[[0, 0], [1, 0], [2, 0]],
         component: None,
+        note: None,
         measures: &[
             Measure::new("displacement", "PinInSlotDisplacementDrive"),
             Measure::new("angle", "PinInSlotAngleDrive"),
@@ -109,6 +110,11 @@ impl Constraint for PinInSlot {
         d_residual_dx: &[[0, 0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5]],
         d_gamma_dv: &[[0, 0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5]],
         d_velocity_dx: &[[0, 0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5]],
+        data: &[
+            Datum::new("s_i", DatumShape::Point { slot: 0 }, 0),
+            Datum::new("s_j", DatumShape::Point { slot: 1 }, 2),
+            Datum::new("axis", DatumShape::Direction { slot: 0 }, 4),
+        ],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
@@ -127,6 +133,19 @@ impl Constraint for PinInSlot {
     }
     fn points(&self) -> Vec<[f64; 2]> {
         vec![self.s_i, self.s_j]
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.s_i[0];
+        out[1] = self.s_i[1];
+        out[2] = self.s_j[0];
+        out[3] = self.s_j[1];
+        out[4] = self.axis.xy()[0];
+        out[5] = self.axis.xy()[1];
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.s_i = [numbers[0], numbers[1]];
+        self.s_j = [numbers[2], numbers[3]];
+        self.axis = Direction::from_data([numbers[4], numbers[5]]);
     }
     /// Φ. Operations: 12 mul, 11 add.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
@@ -459,6 +478,123 @@ impl Constraint for PinInSlot {
         out[5] = t0 * arm_j_y + omega_j * axis_y * arm_j_x
             - (t1 * arm_j_x + omega_j * axis_x * arm_j_y);
     }
+    /// ∂(λᵀΦ)/∂p. Operations: 22 mul, 14 add, 3 neg.
+    fn d_phi_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let axis_local_x = T::from(self.axis.xy()[0]);
+        let axis_local_y = T::from(self.axis.xy()[1]);
+        let lambda_0 = lambda[0];
+        let axis_y = cos_i * axis_local_y + sin_i * axis_local_x;
+        let axis_x = cos_i * axis_local_x - sin_i * axis_local_y;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t0 = r_i_y - r_j_y - arm_j_y;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t1 = r_i_x - r_j_x - arm_j_x;
+        out[0] = axis_local_y * lambda_0;
+        out[1] = -(axis_local_x * lambda_0);
+        out[2] = -(lambda_0 * (cos_j * axis_y - sin_j * axis_x));
+        out[3] = lambda_0 * (cos_j * axis_x + sin_j * axis_y);
+        out[4] = -(lambda_0 * (s_i_y + (cos_i * t0 - sin_i * t1)));
+        out[5] = lambda_0 * (s_i_x + (cos_i * t1 + sin_i * t0));
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 87 mul, 58 add, 3 neg.
+    fn d_residual_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let v_i_x = v[0].x;
+        let a_i_x = a[0].x;
+        let v_i_y = v[0].y;
+        let a_i_y = a[0].y;
+        let omega_i = v[0].omega;
+        let alpha_i = a[0].omega;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let v_j_x = v[1].x;
+        let a_j_x = a[1].x;
+        let v_j_y = v[1].y;
+        let a_j_y = a[1].y;
+        let omega_j = v[1].omega;
+        let alpha_j = a[1].omega;
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let axis_local_x = T::from(self.axis.xy()[0]);
+        let axis_local_y = T::from(self.axis.xy()[1]);
+        let lambda_0 = lambda[0];
+        let axis_x = cos_i * axis_local_x - sin_i * axis_local_y;
+        let axis_y = cos_i * axis_local_y + sin_i * axis_local_x;
+        let t0 = cos_j * axis_x + sin_j * axis_y;
+        let t1 = omega_i * cos_j;
+        let t2 = sin_j * omega_j;
+        let t3 = t1 * axis_y + t2 * axis_x;
+        let t4 = omega_i * sin_j;
+        let t5 = cos_j * omega_j;
+        let t6 = t4 * axis_x + t5 * axis_y;
+        let t7 = cos_j * axis_y - sin_j * axis_x;
+        let t8 = t1 * axis_x - t2 * axis_y;
+        let t9 = t4 * axis_y - t5 * axis_x;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t10 = r_i_x - r_j_x - arm_j_x;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t11 = r_i_y - r_j_y - arm_j_y;
+        let t12 = cos_i * omega_i;
+        let t13 = omega_j * arm_j_x - (v_i_y - v_j_y);
+        let t14 = omega_j * omega_j;
+        let t15 = cos_i * t14;
+        let t16 = sin_i * omega_i;
+        let t17 = omega_j * arm_j_y + (v_i_x - v_j_x);
+        let t18 = sin_i * t14;
+        out[0] = T::from(0.0);
+        out[1] = T::from(0.0);
+        out[2] = -(lambda_0
+            * (alpha_i * t0 - alpha_j * t0
+                - (omega_i * t3 + omega_j * t6 - (omega_i * t6 + omega_j * t3))));
+        out[3] = -(lambda_0
+            * (alpha_i * t7 - alpha_j * t7
+                + (omega_i * t8 - omega_j * t9 + (omega_i * t9 - omega_j * t8))));
+        out[4] = -(lambda_0
+            * (cos_i * a_i_y - cos_i * a_j_y - sin_i * a_i_x + sin_i * a_j_x
+                - alpha_i * (cos_i * t10 + sin_i * t11)
+                - alpha_j * (cos_i * arm_j_x + sin_i * arm_j_y)
+                - (omega_i * (t12 * t11 - sin_i * t13) - (t15 * arm_j_y + t16 * t13)
+                    + (omega_i * (cos_i * t17 - t16 * t10)
+                        + (t12 * t17 + t18 * arm_j_x)))));
+        out[5] = lambda_0
+            * (cos_i * a_i_x - cos_i * a_j_x + sin_i * a_i_y - sin_i * a_j_y
+                + alpha_i * (cos_i * t11 - sin_i * t10)
+                + alpha_j * (cos_i * arm_j_y - sin_i * arm_j_x)
+                - (omega_i * (t12 * t10 + sin_i * t17) - (t15 * arm_j_x - t16 * t17)
+                    + (omega_i * (cos_i * t13 + t16 * t11)
+                        + (t12 * t13 - t18 * arm_j_y))));
+    }
 }
 /// The displacement of `PinInSlot` follows a function of time: measure − initial measure − f(t) = 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -522,6 +658,7 @@ impl Constraint for PinInSlotDisplacementDrive {
         rheonomic: true,
         wrench: &[[0, 0], [1, 0], [2, 0]],
         component: Some("drive"),
+        note: None,
         measures: &[],
         d_force_dx: &[
             [0, 2],
@@ -540,6 +677,12 @@ impl Constraint for PinInSlotDisplacementDrive {
         d_residual_dx: &[[0, 0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5]],
         d_gamma_dv: &[[0, 0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5]],
         d_velocity_dx: &[[0, 0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5]],
+        data: &[
+            Datum::new("s_i", DatumShape::Point { slot: 0 }, 0),
+            Datum::new("s_j", DatumShape::Point { slot: 1 }, 2),
+            Datum::new("axis", DatumShape::Direction { slot: 0 }, 4),
+            Datum::new("measure_0", DatumShape::Kept(Unit::Length), 6),
+        ],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
@@ -585,6 +728,21 @@ impl Constraint for PinInSlotDisplacementDrive {
     }
     fn points(&self) -> Vec<[f64; 2]> {
         vec![self.s_i, self.s_j]
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.s_i[0];
+        out[1] = self.s_i[1];
+        out[2] = self.s_j[0];
+        out[3] = self.s_j[1];
+        out[4] = self.axis.xy()[0];
+        out[5] = self.axis.xy()[1];
+        out[6] = self.measure_0;
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.s_i = [numbers[0], numbers[1]];
+        self.s_j = [numbers[2], numbers[3]];
+        self.axis = Direction::from_data([numbers[4], numbers[5]]);
+        self.measure_0 = numbers[6];
     }
     /// Φ. Operations: 12 mul, 13 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
@@ -929,6 +1087,125 @@ impl Constraint for PinInSlotDisplacementDrive {
         out[5] = t1 * arm_j_x - omega_j * axis_y * arm_j_y
             + (t0 * arm_j_y - omega_j * axis_x * arm_j_x);
     }
+    /// ∂(λᵀΦ)/∂p. Operations: 22 mul, 14 add, 5 neg.
+    fn d_phi_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let s_i_x = T::from(self.s_i[0]);
+        let s_i_y = T::from(self.s_i[1]);
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let axis_local_x = T::from(self.axis.xy()[0]);
+        let axis_local_y = T::from(self.axis.xy()[1]);
+        let lambda_0 = lambda[0];
+        let axis_x = cos_i * axis_local_x - sin_i * axis_local_y;
+        let axis_y = cos_i * axis_local_y + sin_i * axis_local_x;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t0 = r_i_x - r_j_x - arm_j_x;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t1 = r_i_y - r_j_y - arm_j_y;
+        out[0] = -(axis_local_x * lambda_0);
+        out[1] = -(axis_local_y * lambda_0);
+        out[2] = lambda_0 * (cos_j * axis_x + sin_j * axis_y);
+        out[3] = lambda_0 * (cos_j * axis_y - sin_j * axis_x);
+        out[4] = -(lambda_0 * (s_i_x + (cos_i * t0 + sin_i * t1)));
+        out[5] = -(lambda_0 * (s_i_y + (cos_i * t1 - sin_i * t0)));
+        out[6] = -lambda_0;
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 87 mul, 58 add, 3 neg.
+    fn d_residual_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let v_i_x = v[0].x;
+        let a_i_x = a[0].x;
+        let v_i_y = v[0].y;
+        let a_i_y = a[0].y;
+        let omega_i = v[0].omega;
+        let alpha_i = a[0].omega;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let v_j_x = v[1].x;
+        let a_j_x = a[1].x;
+        let v_j_y = v[1].y;
+        let a_j_y = a[1].y;
+        let omega_j = v[1].omega;
+        let alpha_j = a[1].omega;
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let axis_local_x = T::from(self.axis.xy()[0]);
+        let axis_local_y = T::from(self.axis.xy()[1]);
+        let lambda_0 = lambda[0];
+        let axis_y = cos_i * axis_local_y + sin_i * axis_local_x;
+        let axis_x = cos_i * axis_local_x - sin_i * axis_local_y;
+        let t0 = cos_j * axis_y - sin_j * axis_x;
+        let t1 = omega_i * cos_j;
+        let t2 = sin_j * omega_j;
+        let t3 = t1 * axis_x - t2 * axis_y;
+        let t4 = omega_i * sin_j;
+        let t5 = cos_j * omega_j;
+        let t6 = t4 * axis_y - t5 * axis_x;
+        let t7 = cos_j * axis_x + sin_j * axis_y;
+        let t8 = t1 * axis_y + t2 * axis_x;
+        let t9 = t4 * axis_x + t5 * axis_y;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t10 = r_i_y - r_j_y - arm_j_y;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t11 = r_i_x - r_j_x - arm_j_x;
+        let t12 = cos_i * omega_i;
+        let t13 = omega_j * arm_j_y + (v_i_x - v_j_x);
+        let t14 = omega_j * omega_j;
+        let t15 = cos_i * t14;
+        let t16 = sin_i * omega_i;
+        let t17 = omega_j * arm_j_x - (v_i_y - v_j_y);
+        let t18 = sin_i * t14;
+        out[0] = T::from(0.0);
+        out[1] = T::from(0.0);
+        out[2] = -(lambda_0
+            * (alpha_i * t0 - alpha_j * t0
+                + (omega_i * t3 - omega_j * t6 + (omega_i * t6 - omega_j * t3))));
+        out[3] = lambda_0
+            * (alpha_i * t7 - alpha_j * t7
+                - (omega_i * t8 + omega_j * t9 - (omega_i * t9 + omega_j * t8)));
+        out[4] = -(lambda_0
+            * (cos_i * a_i_x - cos_i * a_j_x + sin_i * a_i_y - sin_i * a_j_y
+                + alpha_i * (cos_i * t10 - sin_i * t11)
+                + alpha_j * (cos_i * arm_j_y - sin_i * arm_j_x)
+                - (omega_i * (t12 * t11 + sin_i * t13) - (t15 * arm_j_x - t16 * t13)
+                    + (omega_i * (cos_i * t17 + t16 * t10)
+                        + (t12 * t17 - t18 * arm_j_y)))));
+        out[5] = -(lambda_0
+            * (cos_i * a_i_y - cos_i * a_j_y - sin_i * a_i_x + sin_i * a_j_x
+                - alpha_i * (cos_i * t11 + sin_i * t10)
+                - alpha_j * (cos_i * arm_j_x + sin_i * arm_j_y)
+                - (omega_i * (t12 * t10 - sin_i * t17) - (t15 * arm_j_y + t16 * t17)
+                    + (omega_i * (cos_i * t13 - t16 * t11)
+                        + (t12 * t13 + t18 * arm_j_x)))));
+        out[6] = T::from(0.0);
+    }
 }
 /// The angle of `PinInSlot` follows a function of time: measure − initial measure − f(t) = 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -985,11 +1262,18 @@ impl Constraint for PinInSlotAngleDrive {
         rheonomic: true,
         wrench: &[[2, 0]],
         component: Some("drive"),
+        note: None,
         measures: &[],
         d_force_dx: &[],
         d_residual_dx: &[],
         d_gamma_dv: &[],
         d_velocity_dx: &[],
+        data: &[
+            Datum::new("s_i", DatumShape::Point { slot: 0 }, 0),
+            Datum::new("s_j", DatumShape::Point { slot: 1 }, 2),
+            Datum::new("axis", DatumShape::Direction { slot: 0 }, 4),
+            Datum::new("measure_0", DatumShape::Kept(Unit::Angle), 6),
+        ],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
@@ -1017,6 +1301,21 @@ impl Constraint for PinInSlotAngleDrive {
     }
     fn points(&self) -> Vec<[f64; 2]> {
         vec![self.s_i, self.s_j]
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.s_i[0];
+        out[1] = self.s_i[1];
+        out[2] = self.s_j[0];
+        out[3] = self.s_j[1];
+        out[4] = self.axis.xy()[0];
+        out[5] = self.axis.xy()[1];
+        out[6] = self.measure_0;
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.s_i = [numbers[0], numbers[1]];
+        self.s_j = [numbers[2], numbers[3]];
+        self.axis = Direction::from_data([numbers[4], numbers[5]]);
+        self.measure_0 = numbers[6];
     }
     /// Φ. Operations: 3 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
@@ -1102,4 +1401,39 @@ impl Constraint for PinInSlotAngleDrive {
         f: &[[T; 3]],
         out: &mut [T],
     ) {}
+    /// ∂(λᵀΦ)/∂p. Operations: 1 neg.
+    fn d_phi_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let lambda_0 = lambda[0];
+        out[0] = T::from(0.0);
+        out[1] = T::from(0.0);
+        out[2] = T::from(0.0);
+        out[3] = T::from(0.0);
+        out[4] = T::from(0.0);
+        out[5] = T::from(0.0);
+        out[6] = -lambda_0;
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: none.
+    fn d_residual_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        out[0] = T::from(0.0);
+        out[1] = T::from(0.0);
+        out[2] = T::from(0.0);
+        out[3] = T::from(0.0);
+        out[4] = T::from(0.0);
+        out[5] = T::from(0.0);
+        out[6] = T::from(0.0);
+    }
 }

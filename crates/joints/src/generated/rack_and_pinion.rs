@@ -8,12 +8,13 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
-    Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
+    Shape, Spec, Unit, Variant,
 };
 /// Rack i and pinion j roll on each other without slip:
 /// `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. A negative
-/// radius is the other side of the rack.
+/// radius is the other side of the rack. The place of the reaction is the point of the rack at which the pinion's
+/// centre is at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RackAndPinion {
     /// Centre of the pinion. Point in the frame of body j (m).
@@ -24,6 +25,8 @@ pub struct RackAndPinion {
     pub radius: f64,
     /// Kept from the assembled start; set by `initialise`.
     pub phase: f64,
+    /// Kept from the assembled start; set by `initialise`.
+    pub centre: [f64; 2],
 }
 #[allow(unused_variables)]
 #[allow(clippy::too_many_arguments)]
@@ -33,8 +36,8 @@ impl Constraint for RackAndPinion {
             name: "RackAndPinion",
             scene_type: "rack-and-pinion",
             variant: None,
-            doc: "Rack i and pinion j roll on each other without slip: `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. A negative radius is the other side of the rack.",
-            text: "joint! { plane RackAndPinion(i, j) {\n    /// Rack i and pinion j roll on each other without slip:\n    /// `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. A negative\n    /// radius is the other side of the rack.\n    params {\n        /// Centre of the pinion.\n        s_j: Point in j,\n        /// Along the rack.\n        axis: Direction in i,\n        /// Radius of the pinion; negative: it rolls on the other side of the rack.\n        radius: Length,\n    }\n    initial {\n        phase: Length = dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i))\n    }\n    rows: [mesh];\n    phi: dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i)) - phase;\n    place: origin(i);\n} }",
+            doc: "Rack i and pinion j roll on each other without slip: `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. A negative radius is the other side of the rack. The place of the reaction is the point of the rack at which the pinion's centre is at the start.",
+            text: "joint! { plane RackAndPinion(i, j) {\n    /// Rack i and pinion j roll on each other without slip:\n    /// `Δ(axis·(p_pinion − p_rack)) + radius·Δ(φ_pinion − φ_rack) = 0` with the pinion's centre `s_j`. A negative\n    /// radius is the other side of the rack. The place of the reaction is the point of the rack at which the pinion's\n    /// centre is at the start.\n    params {\n        /// Centre of the pinion.\n        s_j: Point in j,\n        /// Along the rack.\n        axis: Direction in i,\n        /// Radius of the pinion; negative: it rolls on the other side of the rack.\n        radius: Length,\n    }\n    initial {\n        phase: Length = dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i)),\n        centre: Vector in i = local(i, point(j, s_j) - origin(i)),\n    }\n    rows: [mesh];\n    phi: dot(direction(i, axis), point(j, s_j) - origin(i)) + radius * (angle(j) - angle(i)) - phase;\n    place: origin(i) + vector(i, centre);\n    note \"the reaction of a rack and its pinion is the force of the teeth along the rack, without the force that pushes the \\\n          two apart; the reactions of bearing and guide are without it, too\";\n} }",
             slots: &["i", "j"],
             parameters: &[
                 Parameter::required(
@@ -70,6 +73,9 @@ impl Constraint for RackAndPinion {
         rheonomic: false,
         wrench: &[[0, 0], [1, 0], [2, 0]],
         component: None,
+        note: Some(
+            "the reaction of a rack and its pinion is the force of the teeth along the rack, without the force that pushes the two apart; the reactions of bearing and guide are without it, too",
+        ),
         measures: &[],
         d_force_dx: &[
             [0, 2],
@@ -88,6 +94,13 @@ impl Constraint for RackAndPinion {
         d_residual_dx: &[[0, 0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5]],
         d_gamma_dv: &[[0, 0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5]],
         d_velocity_dx: &[[0, 0], [0, 1], [0, 2], [0, 3], [0, 4], [0, 5]],
+        data: &[
+            Datum::new("s_j", DatumShape::Point { slot: 1 }, 0),
+            Datum::new("axis", DatumShape::Direction { slot: 0 }, 2),
+            Datum::new("radius", DatumShape::Number(Unit::Length), 4),
+            Datum::new("phase", DatumShape::Kept(Unit::Length), 5),
+            Datum::new("centre", DatumShape::KeptVector { slot: 0 }, 6),
+        ],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
@@ -99,6 +112,7 @@ impl Constraint for RackAndPinion {
             axis,
             radius,
             phase: 0.0,
+            centre: [0.0; 2],
         })
     }
     fn visit_drives<V: Visitor>(visitor: &mut V) {}
@@ -127,12 +141,46 @@ impl Constraint for RackAndPinion {
                 + (axis_x * (r_i_x - r_j_x - arm_j_x)
                     + axis_y * (r_i_y - r_j_y - arm_j_y)))
         };
+        self.centre = {
+            let r_i_x = x[0].x;
+            let r_i_y = x[0].y;
+            let cos_i = x[0].cos;
+            let sin_i = x[0].sin;
+            let r_j_x = x[1].x;
+            let r_j_y = x[1].y;
+            let cos_j = x[1].cos;
+            let sin_j = x[1].sin;
+            let s_j_x = self.s_j[0];
+            let s_j_y = self.s_j[1];
+            let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+            let t0 = r_i_x - r_j_x - arm_j_x;
+            let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+            let t1 = r_i_y - r_j_y - arm_j_y;
+            [-(cos_i * t0 + sin_i * t1), -(cos_i * t1 - sin_i * t0)]
+        };
     }
     fn requirement(&self, k: usize, x: &[Pose]) -> bool {
         true
     }
     fn points(&self) -> Vec<[f64; 2]> {
         vec![self.s_j]
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.s_j[0];
+        out[1] = self.s_j[1];
+        out[2] = self.axis.xy()[0];
+        out[3] = self.axis.xy()[1];
+        out[4] = self.radius;
+        out[5] = self.phase;
+        out[6] = self.centre[0];
+        out[7] = self.centre[1];
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.s_j = [numbers[0], numbers[1]];
+        self.axis = Direction::from_data([numbers[2], numbers[3]]);
+        self.radius = numbers[4];
+        self.phase = numbers[5];
+        self.centre = [numbers[6], numbers[7]];
     }
     /// Φ. Operations: 11 mul, 12 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
@@ -232,7 +280,7 @@ impl Constraint for RackAndPinion {
             + (omega_i * (t2 * (r_i_y - r_j_y - arm_j_y) + axis_x * t4)
                 + (t0 * t4 - t3 * axis_y * arm_j_y)));
     }
-    /// Entries of the wrench map. Operations: 10 mul, 10 add.
+    /// Entries of the wrench map. Operations: 16 mul, 14 add.
     fn wrench<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
@@ -247,22 +295,34 @@ impl Constraint for RackAndPinion {
         let axis_local_x = T::from(self.axis.xy()[0]);
         let axis_local_y = T::from(self.axis.xy()[1]);
         let radius = T::from(self.radius);
+        let centre_x = T::from(self.centre[0]);
+        let centre_y = T::from(self.centre[1]);
         let axis_x = cos_i * axis_local_x - sin_i * axis_local_y;
         let axis_y = cos_i * axis_local_y + sin_i * axis_local_x;
         let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
         let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
         out[0] = axis_x;
         out[1] = axis_y;
-        out[2] = radius
-            + (axis_x * (r_i_y - r_j_y - arm_j_y) - axis_y * (r_i_x - r_j_x - arm_j_x));
+        out[2] = axis_x * (cos_i * centre_y + sin_i * centre_x)
+            - axis_y * (cos_i * centre_x - sin_i * centre_y)
+            + (radius
+                + (axis_x * (r_i_y - r_j_y - arm_j_y)
+                    - axis_y * (r_i_x - r_j_x - arm_j_x)));
     }
     /// Coefficients of the named component. Operations: none.
     fn component<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {}
-    /// The place of the reaction. Operations: none.
+    /// The place of the reaction. Operations: 4 mul, 4 add.
     fn place<T: Ring>(&self, x: &[Pose<T>]) -> [T; 2] {
         let r_i_x = x[0].x;
         let r_i_y = x[0].y;
-        [r_i_x, r_i_y]
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let centre_x = T::from(self.centre[0]);
+        let centre_y = T::from(self.centre[1]);
+        [
+            r_i_x + (cos_i * centre_x - sin_i * centre_y),
+            r_i_y + (cos_i * centre_y + sin_i * centre_x),
+        ]
     }
     /// ∂(Cᵀλ)/∂x. Operations: 16 mul, 10 add, 3 neg.
     fn d_force_dx<T: Ring>(
@@ -461,5 +521,126 @@ impl Constraint for RackAndPinion {
         out[4] = t1;
         out[5] = t1 * arm_j_x - omega_j * axis_y * arm_j_y
             + (t0 * arm_j_y - omega_j * axis_x * arm_j_x);
+    }
+    /// ∂(λᵀΦ)/∂p. Operations: 21 mul, 13 add, 4 neg.
+    fn d_phi_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let angle_i = x[0].angle;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let angle_j = x[1].angle;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let axis_local_x = T::from(self.axis.xy()[0]);
+        let axis_local_y = T::from(self.axis.xy()[1]);
+        let lambda_0 = lambda[0];
+        let axis_x = cos_i * axis_local_x - sin_i * axis_local_y;
+        let axis_y = cos_i * axis_local_y + sin_i * axis_local_x;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t0 = r_i_x - r_j_x - arm_j_x;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t1 = r_i_y - r_j_y - arm_j_y;
+        out[0] = lambda_0 * (cos_j * axis_x + sin_j * axis_y);
+        out[1] = lambda_0 * (cos_j * axis_y - sin_j * axis_x);
+        out[2] = -(lambda_0 * (cos_i * t0 + sin_i * t1));
+        out[3] = -(lambda_0 * (cos_i * t1 - sin_i * t0));
+        out[4] = -(lambda_0 * (angle_i - angle_j));
+        out[5] = -lambda_0;
+        out[6] = T::from(0.0);
+        out[7] = T::from(0.0);
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 88 mul, 59 add, 4 neg.
+    fn d_residual_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let r_i_x = x[0].x;
+        let r_i_y = x[0].y;
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let v_i_x = v[0].x;
+        let a_i_x = a[0].x;
+        let v_i_y = v[0].y;
+        let a_i_y = a[0].y;
+        let omega_i = v[0].omega;
+        let alpha_i = a[0].omega;
+        let r_j_x = x[1].x;
+        let r_j_y = x[1].y;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let v_j_x = v[1].x;
+        let a_j_x = a[1].x;
+        let v_j_y = v[1].y;
+        let a_j_y = a[1].y;
+        let omega_j = v[1].omega;
+        let alpha_j = a[1].omega;
+        let s_j_x = T::from(self.s_j[0]);
+        let s_j_y = T::from(self.s_j[1]);
+        let axis_local_x = T::from(self.axis.xy()[0]);
+        let axis_local_y = T::from(self.axis.xy()[1]);
+        let lambda_0 = lambda[0];
+        let axis_y = cos_i * axis_local_y + sin_i * axis_local_x;
+        let axis_x = cos_i * axis_local_x - sin_i * axis_local_y;
+        let t0 = cos_j * axis_y - sin_j * axis_x;
+        let t1 = omega_i * cos_j;
+        let t2 = sin_j * omega_j;
+        let t3 = t1 * axis_x - t2 * axis_y;
+        let t4 = omega_i * sin_j;
+        let t5 = cos_j * omega_j;
+        let t6 = t4 * axis_y - t5 * axis_x;
+        let t7 = cos_j * axis_x + sin_j * axis_y;
+        let t8 = t1 * axis_y + t2 * axis_x;
+        let t9 = t4 * axis_x + t5 * axis_y;
+        let arm_j_y = cos_j * s_j_y + sin_j * s_j_x;
+        let t10 = r_i_y - r_j_y - arm_j_y;
+        let arm_j_x = cos_j * s_j_x - sin_j * s_j_y;
+        let t11 = r_i_x - r_j_x - arm_j_x;
+        let t12 = cos_i * omega_i;
+        let t13 = omega_j * arm_j_y + (v_i_x - v_j_x);
+        let t14 = omega_j * omega_j;
+        let t15 = cos_i * t14;
+        let t16 = sin_i * omega_i;
+        let t17 = omega_j * arm_j_x - (v_i_y - v_j_y);
+        let t18 = sin_i * t14;
+        out[0] = -(lambda_0
+            * (alpha_i * t0 - alpha_j * t0
+                + (omega_i * t3 - omega_j * t6 + (omega_i * t6 - omega_j * t3))));
+        out[1] = lambda_0
+            * (alpha_i * t7 - alpha_j * t7
+                - (omega_i * t8 + omega_j * t9 - (omega_i * t9 + omega_j * t8)));
+        out[2] = -(lambda_0
+            * (cos_i * a_i_x - cos_i * a_j_x + sin_i * a_i_y - sin_i * a_j_y
+                + alpha_i * (cos_i * t10 - sin_i * t11)
+                + alpha_j * (cos_i * arm_j_y - sin_i * arm_j_x)
+                - (omega_i * (t12 * t11 + sin_i * t13) - (t15 * arm_j_x - t16 * t13)
+                    + (omega_i * (cos_i * t17 + t16 * t10)
+                        + (t12 * t17 - t18 * arm_j_y)))));
+        out[3] = -(lambda_0
+            * (cos_i * a_i_y - cos_i * a_j_y - sin_i * a_i_x + sin_i * a_j_x
+                - alpha_i * (cos_i * t11 + sin_i * t10)
+                - alpha_j * (cos_i * arm_j_x + sin_i * arm_j_y)
+                - (omega_i * (t12 * t10 - sin_i * t17) - (t15 * arm_j_y + t16 * t17)
+                    + (omega_i * (cos_i * t13 - t16 * t11)
+                        + (t12 * t13 + t18 * arm_j_x)))));
+        out[4] = -(lambda_0 * (alpha_i - alpha_j));
+        out[5] = T::from(0.0);
+        out[6] = T::from(0.0);
+        out[7] = T::from(0.0);
     }
 }

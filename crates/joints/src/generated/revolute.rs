@@ -8,8 +8,8 @@ use crate::arguments::{Argument, ArgumentError, Reader};
 use crate::plane::{Direction, Line, Pose, Twist};
 #[allow(unused_imports)]
 use crate::spec::{
-    ConstraintSpec, Entry, Level, Measure, Parameter, Role, Row, Shape, Spec, Unit,
-    Variant,
+    ConstraintSpec, Datum, DatumShape, Entry, Level, Measure, Parameter, Role, Row,
+    Shape, Spec, Unit, Variant,
 };
 /// Point `s_i` of body i and point `s_j` of body j coincide.
 #[derive(Clone, Debug, PartialEq)]
@@ -72,11 +72,16 @@ impl Constraint for Revolute {
         rheonomic: false,
         wrench: &[[0, 0], [1, 1]],
         component: None,
+        note: None,
         measures: &[Measure::new("angle", "RevoluteAngleDrive")],
         d_force_dx: &[[2, 2], [5, 5]],
         d_residual_dx: &[[0, 2], [0, 5], [1, 2], [1, 5]],
         d_gamma_dv: &[[0, 2], [0, 5], [1, 2], [1, 5]],
         d_velocity_dx: &[[0, 2], [0, 5], [1, 2], [1, 5]],
+        data: &[
+            Datum::new("s_i", DatumShape::Point { slot: 0 }, 0),
+            Datum::new("s_j", DatumShape::Point { slot: 1 }, 2),
+        ],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
@@ -93,6 +98,16 @@ impl Constraint for Revolute {
     }
     fn points(&self) -> Vec<[f64; 2]> {
         vec![self.s_i, self.s_j]
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.s_i[0];
+        out[1] = self.s_i[1];
+        out[2] = self.s_j[0];
+        out[3] = self.s_j[1];
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.s_i = [numbers[0], numbers[1]];
+        self.s_j = [numbers[2], numbers[3]];
     }
     /// Φ. Operations: 8 mul, 10 add.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
@@ -298,6 +313,56 @@ impl Constraint for Revolute {
         out[2] = -(omega_i * arm_i_y);
         out[3] = omega_j * arm_j_y;
     }
+    /// ∂(λᵀΦ)/∂p. Operations: 8 mul, 4 add, 2 neg.
+    fn d_phi_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let lambda_0 = lambda[0];
+        let lambda_1 = lambda[1];
+        out[0] = cos_i * lambda_0 + sin_i * lambda_1;
+        out[1] = cos_i * lambda_1 - sin_i * lambda_0;
+        out[2] = -(cos_j * lambda_0 + sin_j * lambda_1);
+        out[3] = -(cos_j * lambda_1 - sin_j * lambda_0);
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: 18 mul, 8 add, 2 neg.
+    fn d_residual_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let cos_i = x[0].cos;
+        let sin_i = x[0].sin;
+        let omega_i = v[0].omega;
+        let alpha_i = a[0].omega;
+        let cos_j = x[1].cos;
+        let sin_j = x[1].sin;
+        let omega_j = v[1].omega;
+        let alpha_j = a[1].omega;
+        let lambda_0 = lambda[0];
+        let lambda_1 = lambda[1];
+        let t0 = omega_i * omega_i;
+        let t1 = cos_i * t0 + sin_i * alpha_i;
+        let t2 = cos_i * alpha_i - sin_i * t0;
+        let t3 = omega_j * omega_j;
+        let t4 = cos_j * t3 + sin_j * alpha_j;
+        let t5 = cos_j * alpha_j - sin_j * t3;
+        out[0] = -(lambda_0 * t1 - lambda_1 * t2);
+        out[1] = -(lambda_0 * t2 + lambda_1 * t1);
+        out[2] = lambda_0 * t4 - lambda_1 * t5;
+        out[3] = lambda_0 * t5 + lambda_1 * t4;
+    }
 }
 /// The angle of `Revolute` follows a function of time: measure − initial measure − f(t) = 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -347,11 +412,17 @@ impl Constraint for RevoluteAngleDrive {
         rheonomic: true,
         wrench: &[[2, 0]],
         component: Some("drive"),
+        note: None,
         measures: &[],
         d_force_dx: &[],
         d_residual_dx: &[],
         d_gamma_dv: &[],
         d_velocity_dx: &[],
+        data: &[
+            Datum::new("s_i", DatumShape::Point { slot: 0 }, 0),
+            Datum::new("s_j", DatumShape::Point { slot: 1 }, 2),
+            Datum::new("measure_0", DatumShape::Kept(Unit::Angle), 4),
+        ],
     };
     fn from_arguments(arguments: &[Argument]) -> Result<Self, ArgumentError> {
         let mut reader = Reader::new(Self::SPEC.common.parameters, arguments)?;
@@ -373,6 +444,18 @@ impl Constraint for RevoluteAngleDrive {
     }
     fn points(&self) -> Vec<[f64; 2]> {
         vec![self.s_i, self.s_j]
+    }
+    fn data(&self, out: &mut [f64]) {
+        out[0] = self.s_i[0];
+        out[1] = self.s_i[1];
+        out[2] = self.s_j[0];
+        out[3] = self.s_j[1];
+        out[4] = self.measure_0;
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.s_i = [numbers[0], numbers[1]];
+        self.s_j = [numbers[2], numbers[3]];
+        self.measure_0 = numbers[4];
     }
     /// Φ. Operations: 3 add, 1 neg.
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
@@ -458,4 +541,35 @@ impl Constraint for RevoluteAngleDrive {
         f: &[[T; 3]],
         out: &mut [T],
     ) {}
+    /// ∂(λᵀΦ)/∂p. Operations: 1 neg.
+    fn d_phi_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        let lambda_0 = lambda[0];
+        out[0] = T::from(0.0);
+        out[1] = T::from(0.0);
+        out[2] = T::from(0.0);
+        out[3] = T::from(0.0);
+        out[4] = -lambda_0;
+    }
+    /// ∂(λᵀ(C·a − Γ))/∂p. Operations: none.
+    fn d_residual_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        out[0] = T::from(0.0);
+        out[1] = T::from(0.0);
+        out[2] = T::from(0.0);
+        out[3] = T::from(0.0);
+        out[4] = T::from(0.0);
+    }
 }

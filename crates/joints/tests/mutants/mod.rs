@@ -2,7 +2,7 @@
 
 use joints::conformance::{Failure, Property, check_constraint, check_force};
 use joints::generated::{Fixed, PinInSlotDisplacementDrive, SpringDamper, Velocity};
-use joints::spec::{ConstraintSpec, ForceSpec};
+use joints::spec::{ConstraintSpec, Datum, DatumShape, ForceSpec};
 use joints::{Argument, ArgumentError, Constraint, Force, Pose, Real, Ring, Twist, Visitor};
 
 use crate::SEED;
@@ -26,6 +26,12 @@ mod wrong {
     pub(super) const PATTERN: u8 = 14;
     pub(super) const RHEONOMIC: u8 = 15;
     pub(super) const D_VELOCITY_DX: u8 = 16;
+    pub(super) const DATA: u8 = 17;
+    pub(super) const SET_DATA: u8 = 18;
+    pub(super) const D_PHI_DP: u8 = 19;
+    pub(super) const D_RESIDUAL_DP: u8 = 20;
+    pub(super) const DATUM: u8 = 21;
+    pub(super) const NORMALISED: u8 = 22;
 }
 
 /// `K` with kernel `WRONG` changed in its first entry.
@@ -50,6 +56,12 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
         if WRONG == wrong::RHEONOMIC {
             spec.rheonomic = !spec.rheonomic;
         }
+        if WRONG == wrong::DATUM {
+            // The first datum is a point, which is no unit vector, and the others are missing.
+            const WRONG_SHAPE: [Datum; 1] =
+                [Datum::new("s_i", DatumShape::Direction { slot: 0 }, 0)];
+            spec.data = &WRONG_SHAPE;
+        }
         spec
     };
 
@@ -67,6 +79,28 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
     }
     fn points(&self) -> Vec<[f64; 2]> {
         self.0.points()
+    }
+    fn data(&self, out: &mut [f64]) {
+        let mut all = vec![0.0; K::SPEC.n_data()];
+        self.0.data(&mut all);
+        out.copy_from_slice(&all[..out.len()]);
+        change(out, WRONG == wrong::DATA);
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        let mut numbers = numbers.to_vec();
+        if WRONG == wrong::NORMALISED {
+            for datum in K::SPEC.data {
+                if let (DatumShape::Direction { .. }, [x, y]) =
+                    (datum.shape, &mut numbers[datum.numbers()])
+                {
+                    let length = x.hypot(*y);
+                    (*x, *y) = (*x / length, *y / length);
+                }
+            }
+        }
+        if WRONG != wrong::SET_DATA {
+            self.0.set_data(&numbers);
+        }
     }
     fn phi<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]) {
         self.0.phi(x, f, out);
@@ -132,6 +166,22 @@ impl<K: Constraint, const WRONG: u8> Constraint for Mutant<K, WRONG> {
     fn d_velocity_dx<T: Ring>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]) {
         self.0.d_velocity_dx(x, v, f, out);
         change(out, WRONG == wrong::D_VELOCITY_DX);
+    }
+    fn d_phi_dp<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], lambda: &[T], out: &mut [T]) {
+        self.0.d_phi_dp(x, f, lambda, out);
+        change(out, WRONG == wrong::D_PHI_DP);
+    }
+    fn d_residual_dp<T: Ring>(
+        &self,
+        x: &[Pose<T>],
+        v: &[Twist<T>],
+        a: &[Twist<T>],
+        f: &[[T; 3]],
+        lambda: &[T],
+        out: &mut [T],
+    ) {
+        self.0.d_residual_dp(x, v, a, f, lambda, out);
+        change(out, WRONG == wrong::D_RESIDUAL_DP);
     }
 }
 
@@ -289,6 +339,49 @@ fn a_wrong_entry_of_a_velocity_row_is_named() {
         found(check_constraint::<Mutant<Velocity, { wrong::GAMMA }>>(SEED)),
     ] {
         assert_eq!(found, Property::Gamma);
+    }
+}
+
+#[test]
+fn a_wrong_derivative_by_the_data_is_named() {
+    use Property as P;
+    type Edge<const WRONG: u8> = Mutant<Velocity, WRONG>;
+    let cases = [
+        (
+            found(check_constraint::<Drive<{ wrong::DATA }>>(SEED)),
+            P::Data,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::SET_DATA }>>(SEED)),
+            P::Data,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::DATUM }>>(SEED)),
+            P::Data,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::NORMALISED }>>(SEED)),
+            P::Data,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::D_RESIDUAL_DP }>>(SEED)),
+            P::DResidualDp,
+        ),
+        (
+            found(check_constraint::<Drive<{ wrong::D_PHI_DP }>>(SEED)),
+            P::DPhiDp,
+        ),
+        (
+            found(check_constraint::<Edge<{ wrong::D_PHI_DP }>>(SEED)),
+            P::DPhiDp,
+        ),
+        (
+            found(check_constraint::<Edge<{ wrong::D_RESIDUAL_DP }>>(SEED)),
+            P::DResidualDp,
+        ),
+    ];
+    for (found, expected) in cases {
+        assert_eq!(found, expected);
     }
 }
 

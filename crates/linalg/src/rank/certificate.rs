@@ -25,6 +25,14 @@ pub struct Certificate {
     pub row_noise: Vec<f64>,
     /// The direction in which the kept rows nearly cancel, if they do.
     pub nearly_redundant: Option<NearlyRedundant>,
+    /// By how much (m; angles times the size of the mechanism) the point that changes most would have to be elsewhere for the rank to be lower at this
+    /// configuration; told where that is little.
+    pub lower_rank_here: Option<f64>,
+    /// The same by one change of the data that lowers the rank at all configurations near this one: from there on a row is redundant. `None` where
+    /// no change does, or none is near.
+    pub lower_rank_from: Option<f64>,
+    /// By how much each row of the left null space changes with data within the tolerance that the scene states, m values; nothing without one.
+    pub row_tolerance: Option<Vec<f64>>,
 }
 
 /// Why a rank is not larger than it was read.
@@ -39,6 +47,8 @@ pub enum Grounds {
     Vanishes,
     /// σ_{r+1} stays, but is less than what the data are known to.
     WithinData,
+    /// Redundant within the tolerance that the scene states.
+    WithinTolerance,
 }
 
 /// Rows that are independent, but only just.

@@ -24,6 +24,10 @@ const VANISHED: f64 = 1e-13;
 /// Random combinations of coefficients are zero and not zero only with this factor between them.
 const SPREAD: f64 = 1e4;
 
+/// Data move entries by themselves and through the pose that follows them, which links that are ten times shorter than others amplify. Never above what
+/// all entries together are known to, over σ_r.
+const POSE_FACTOR: f64 = 10.0;
+
 /// How a coefficient of the equilibrated dependencies reads.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum CoefficientReading {
@@ -63,6 +67,13 @@ pub(crate) fn coefficient_noise(tolerance: f64, sigma_r: f64) -> f64 {
 }
 
 impl RankDecision {
+    /// Whether coefficients are read to a tolerance that the scene states.
+    #[must_use]
+    pub fn has_tolerance(&self) -> bool {
+        let certificate = self.evidence.certificate.as_ref();
+        certificate.is_some_and(|c| c.row_tolerance.is_some())
+    }
+
     /// Whether the entries of the matrix are meant exactly as they stand, so that T is zero exactly where it is zero.
     #[must_use]
     pub fn is_exact(&self) -> bool {
@@ -90,7 +101,10 @@ impl RankDecision {
                 rounding.max(SOLVE_FACTOR * e.dependence_residual / e.sigma_r)
             }
             // T is right to double-double; what remains is the data: ‖δT‖ ≤ ‖δC‖·‖[T, I]‖/σ_r.
-            Some(certificate) => rounding.max(certificate.spread / e.sigma_r.min(1.0)),
+            // A rank that only data within their uncertainty have leaves σ_{r+1} of it.
+            Some(certificate) => {
+                rounding.max(certificate.spread.max(e.sigma_next) / e.sigma_r.min(1.0))
+            }
             None => coefficient_noise(e.tolerance, e.sigma_r),
         }
     }
@@ -103,10 +117,13 @@ impl RankDecision {
         let tolerance = self.coefficient_tolerance();
         let e = &self.evidence;
         let certificate = e.certificate.as_ref();
+        if let Some(known) = certificate.and_then(|c| c.row_tolerance.as_ref()) {
+            return known[i];
+        }
         match certificate.and_then(|c| c.row_noise.get(i)) {
             Some(noise) if e.sigma_r >= AS_READ => {
                 let inexact = SOLVE_FACTOR * e.dependence_residual / e.sigma_r.min(1.0);
-                (NOISE_FACTOR * (f64::EPSILON + noise) + inexact).min(tolerance)
+                (POSE_FACTOR * NOISE_FACTOR * (f64::EPSILON + noise) + inexact).min(tolerance)
             }
             _ => tolerance,
         }
@@ -123,6 +140,7 @@ impl RankDecision {
     pub fn readings(&self) -> Readings {
         Readings {
             is_certified: self.evidence.certificate.is_some(),
+            has_tolerance: self.has_tolerance(),
             smallest: f64::INFINITY,
         }
     }
@@ -133,6 +151,8 @@ impl RankDecision {
 pub struct Readings {
     /// Whether they came out in double-double.
     pub(crate) is_certified: bool,
+    /// Noise is what a stated tolerance makes of the coefficients, as large as that may be.
+    pub(crate) has_tolerance: bool,
     /// The smallest one that is not zero, where the noise is estimated from it; infinite otherwise.
     pub(crate) smallest: f64,
 }
@@ -142,6 +162,16 @@ impl Readings {
     #[must_use]
     pub fn read(&self, size: f64, noise: f64) -> CoefficientReading {
         let far_below = self.smallest / SPREAD;
+        let required = (CLEARANCE * noise).max(CERTAIN);
+        if self.has_tolerance && size <= noise {
+            return CoefficientReading::Zero;
+        }
+        if self.has_tolerance && size <= required {
+            return CoefficientReading::Unclear {
+                tolerance: noise,
+                required,
+            };
+        }
         match CoefficientReading::of(size, noise) {
             CoefficientReading::Zero if size > far_below => CoefficientReading::Unclear {
                 tolerance: far_below,

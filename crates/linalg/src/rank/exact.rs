@@ -119,6 +119,9 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
         spread: 0.0,
         row_noise: Vec::new(),
         nearly_redundant,
+        lower_rank_here: None,
+        lower_rank_from: None,
+        row_tolerance: None,
     });
     Ok(decision)
 }

@@ -51,7 +51,16 @@ pub(super) struct Graded {
 impl Graded {
     /// Takes levels off the equilibrated matrix `c` while a singular value is above `floor`.
     pub(super) fn new(c: &DdMatrix, floor: f64) -> Self {
-        let (m, n) = (c.nrows(), c.ncols());
+        Self::up_to(c, floor, c.ncols())
+    }
+
+    /// Takes levels off until `rank` rows are kept, however small they are; fewer where nothing is left.
+    pub(super) fn of_rank(c: &DdMatrix, rank: usize) -> Self {
+        Self::up_to(c, 0.0, rank.min(c.ncols()))
+    }
+
+    fn up_to(c: &DdMatrix, floor: f64, most: usize) -> Self {
+        let m = c.nrows();
         let mut g = Self {
             levels: Vec::new(),
             left: (0..m).collect(),
@@ -69,7 +78,7 @@ impl Graded {
                 .iter()
                 .filter(|&&s| s > floor && s >= SPREAD * sigma[0])
                 .count()
-                .min(n - g.kept.len());
+                .min(most - g.kept.len());
             if significant == 0 {
                 g.left_sigma = sigma;
                 return g;

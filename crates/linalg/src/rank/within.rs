@@ -11,7 +11,7 @@ use super::{
     Uncertainty, check_finite, gap, projected,
 };
 use crate::strong_basis::{self, Basis};
-use crate::{Dd, DdMatrix};
+use crate::{Dd, DdMatrix, Scaling};
 
 /// σ_{r+1} vanishes if it falls by ten digits below the 1e-16 of `f64`; what remains is the polishing of the point in double-double.
 const VANISHES: f64 = 1e-26;
@@ -94,57 +94,146 @@ pub fn certify_within<'a>(
         RankStatus::Decided
     };
 
-    let bounds = graded.bounds();
-    let rank_at_least = bounds
-        .iter()
-        .rev()
-        .find(|b| b.1 > spread)
-        .map_or(0, |b| b.0);
-    let sigma_bound = bounds.last().map_or(0.0, |b| b.1);
-    let (mut t, mut kept, mut dropped) = (
-        graded.dependence(),
-        graded.kept.clone(),
-        graded.left.clone(),
-    );
-    strong_basis::exchange_all(&mut t, &mut kept, &mut dropped);
-    let basis = Basis::sorted(&kept, &dropped, &t, graded.residual());
-    let reading = Reading {
-        rank,
+    let rule = Found {
+        scaling,
         status,
-        evidence: Evidence {
-            sigma_r,
-            sigma_next,
-            gap: gap(sigma_r, sigma_next),
-            tolerance,
-            constraint_residual: uncertainty,
-            dependence_residual: 0.0,
-            singular_values: sigma,
-            certificate: None,
-        },
-    };
-    let mut decision = reading.with_basis(scaling, basis);
-    let nearly_redundant = (sigma_r < NEARLY_REDUNDANT).then(|| NearlyRedundant {
-        sigma: sigma_r,
-        direction: projected(&decision, graded.smallest_direction().unwrap_or_default()),
-    });
-    let row_noise = perturbation::row_noise(&decision, &leading, known);
-    decision.evidence.certificate = Some(Certificate {
-        rank_at_least,
-        sigma_bound,
-        sigma_next,
-        grounds: if rank == m.min(n) {
-            Grounds::FullRank
-        } else if sigma_next <= VANISHES {
-            Grounds::Vanishes
-        } else {
-            Grounds::WithinData
-        },
+        tolerance,
         uncertainty,
         spread,
-        row_noise,
-        nearly_redundant,
-    });
-    Ok(decision)
+        grounds: match sigma_next {
+            _ if rank == m.min(n) => Grounds::FullRank,
+            sigma if sigma <= VANISHES => Grounds::Vanishes,
+            _ => Grounds::WithinData,
+        },
+    };
+    Ok(rule.decision(&graded, &leading, known))
+}
+
+/// A rank that has been read from f64, with what it was read by; see [`certify_rank`].
+#[derive(Debug, Clone)]
+pub struct RankReading {
+    /// r
+    pub rank: usize,
+    /// Decided, or why not.
+    pub status: RankStatus,
+    /// The scaling under which it was read.
+    pub scaling: Scaling,
+    /// What the entries are known to, all together: below it a singular value counts as zero.
+    pub noise: f64,
+    /// Singular values of the rank are above this; a matrix that has one below it is another one.
+    pub separation: f64,
+    /// On what the other rows are called redundant if they do not vanish when the precision is doubled.
+    pub grounds: Grounds,
+}
+
+/// Kept rows, dependencies and the evidence of double-double for a rank that has been read from data known to `uncertainty` (m×n, in the units of
+/// C). If the rank that separates there is another one, `None`: the reading does not belong to this matrix.
+///
+/// # Errors
+/// As [`certify_within`].
+pub fn certify_rank(
+    c: &DdMatrix,
+    uncertainty: &crate::Matrix,
+    reading: RankReading,
+) -> Result<Option<RankDecision>, RankError> {
+    let leading = c.hi();
+    check_finite(&leading)?;
+    let known = Uncertainty::Entries(uncertainty);
+    let spread = known.equilibrated(&leading, &reading.scaling)?;
+    let graded = Graded::of_rank(&c.scaled(&reading.scaling), reading.rank);
+    let (m, n) = (c.nrows(), c.ncols());
+    let sigma = graded.singular_values(m.min(n));
+    let least = reading.rank.checked_sub(1).map(|r| sigma[r]);
+    if graded.kept.len() != reading.rank || least.is_some_and(|least| least <= reading.separation) {
+        return Ok(None);
+    }
+    let sigma_next = sigma.get(reading.rank).copied().unwrap_or(0.0);
+    let found = Found {
+        scaling: reading.scaling,
+        status: reading.status,
+        tolerance: reading.noise,
+        uncertainty: spread.largest,
+        spread: spread.norm,
+        grounds: match sigma_next {
+            _ if reading.rank == m.min(n) => Grounds::FullRank,
+            sigma if sigma <= VANISHES => Grounds::Vanishes,
+            _ => reading.grounds,
+        },
+    };
+    Ok(Some(found.decision(&graded, &leading, known)))
+}
+
+/// A rank and what it was decided by.
+struct Found {
+    scaling: Scaling,
+    status: RankStatus,
+    tolerance: f64,
+    uncertainty: f64,
+    spread: f64,
+    grounds: Grounds,
+}
+
+impl Found {
+    /// The decision with its certificate, for rows chosen level by level.
+    fn decision(
+        self,
+        graded: &Graded,
+        leading: &crate::Matrix,
+        known: Uncertainty<'_>,
+    ) -> RankDecision {
+        let sigma = graded.singular_values(leading.nrows().min(leading.ncols()));
+        let rank = graded.kept.len();
+        let sigma_r = rank.checked_sub(1).map_or(f64::INFINITY, |r| sigma[r]);
+        let sigma_next = sigma.get(rank).copied().unwrap_or(0.0);
+        let bounds = graded.bounds();
+        let rank_at_least = bounds
+            .iter()
+            .rev()
+            .find(|b| b.1 > self.spread)
+            .map_or(0, |b| b.0);
+        let sigma_bound = bounds.last().map_or(0.0, |b| b.1);
+        let (mut t, mut kept, mut dropped) = (
+            graded.dependence(),
+            graded.kept.clone(),
+            graded.left.clone(),
+        );
+        strong_basis::exchange_all(&mut t, &mut kept, &mut dropped);
+        let basis = Basis::sorted(&kept, &dropped, &t, graded.residual());
+        let reading = Reading {
+            rank,
+            status: self.status,
+            evidence: Evidence {
+                sigma_r,
+                sigma_next,
+                gap: gap(sigma_r, sigma_next),
+                tolerance: self.tolerance,
+                constraint_residual: self.uncertainty,
+                dependence_residual: 0.0,
+                singular_values: sigma,
+                certificate: None,
+            },
+        };
+        let mut decision = reading.with_basis(self.scaling, basis);
+        let nearly_redundant = (sigma_r < NEARLY_REDUNDANT).then(|| NearlyRedundant {
+            sigma: sigma_r,
+            direction: projected(&decision, graded.smallest_direction().unwrap_or_default()),
+        });
+        let row_noise = perturbation::row_noise(&decision, leading, known);
+        decision.evidence.certificate = Some(Certificate {
+            rank_at_least,
+            sigma_bound,
+            sigma_next,
+            grounds: self.grounds,
+            uncertainty: self.uncertainty,
+            spread: self.spread,
+            row_noise,
+            nearly_redundant,
+            lower_rank_here: None,
+            lower_rank_from: None,
+            row_tolerance: None,
+        });
+        decision
+    }
 }
 
 #[cfg(test)]

@@ -11,6 +11,7 @@ use crate::function::Function;
 use crate::reaction::{ConstraintGroup, ConstraintKind};
 use crate::registry::{PlaneConstraint, PlaneForce};
 use crate::system::{Layout, RowLabel};
+use crate::tolerance::{self, Stated, Tolerance};
 
 /// One fault of a description.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -55,6 +56,16 @@ pub enum BuildError {
         x: f64,
         /// Its y component.
         y: f64,
+    },
+    /// A tolerance is no finite number > 0.
+    #[error("{of}: {field} is {value}, need a finite number > 0")]
+    Tolerance {
+        /// Where it is stated.
+        of: Stated,
+        /// Which one.
+        field: &'static str,
+        /// The number.
+        value: f64,
     },
     /// A joint, drive or force has another number of bodies than its definition.
     #[error("`{name}` connects {found} bodies, `{definition}` needs {expected}")]
@@ -137,6 +148,7 @@ impl Mechanism {
         check_bodies(d, &mut errors);
         check_names(d, &mut errors);
         check_places(d, &mut errors);
+        tolerance::check(d, &mut errors);
         if !errors.is_empty() {
             return Err(errors);
         }
@@ -153,6 +165,7 @@ impl Mechanism {
                 &j.bodies,
                 j.element.as_ref(),
                 &j.functions,
+                j.tolerance,
             );
         }
         for drive in &d.drives {
@@ -163,6 +176,7 @@ impl Mechanism {
                 &drive.bodies,
                 drive.element.as_ref(),
                 motion,
+                drive.tolerance,
             );
         }
         b.layout.m = b.layout.labels.len();
@@ -173,6 +187,7 @@ impl Mechanism {
                 &j.bodies,
                 j.element.as_ref(),
                 &j.functions,
+                j.tolerance,
             );
         }
         b.layout.h = b.layout.labels.len() - b.layout.m;
@@ -185,6 +200,7 @@ impl Mechanism {
             .flat_map(|b| [b.mass * gx, b.mass * gy, 0.0])
             .collect();
         let mut mechanism = b.finish(&d.name, d.bodies.clone(), weight);
+        mechanism.tolerance = d.tolerance;
         let (q, _) = mechanism.described_state();
         mechanism.initialise(&q);
         Ok(mechanism)
@@ -260,6 +276,14 @@ fn check_places(d: &Description, errors: &mut Vec<BuildError>) {
         }
     }
     for j in &d.joints {
+        // A named component is that of the force on the first slot alone.
+        let on_ground = j.bodies.split_first().is_some_and(|(first, others)| {
+            *first == BodyRef::Ground && others.contains(&BodyRef::Ground)
+        });
+        if on_ground && j.element.element().spec().component.is_some() {
+            let (name, body) = (j.name.clone(), "ground".to_owned());
+            errors.push(BuildError::SameBody { name, body });
+        }
         check_points(&j.name, &j.element.element().points(), errors);
         let spec = &j.element.element().spec().common;
         check_place(
@@ -369,6 +393,7 @@ impl Builder {
         bodies: &[BodyRef],
         element: &dyn PlaneConstraint,
         functions: &[Function],
+        tolerance: Option<f64>,
     ) {
         let spec = element.element().spec();
         let first_row = self.layout.labels.len();
@@ -412,6 +437,7 @@ impl Builder {
             varying: varying.collect(),
             rows: rows.clone(),
             functions: self.take_functions(functions, offset),
+            tolerance,
         };
         self.layout.rheonomic |= spec.rheonomic;
         self.layout.groups.push(ConstraintGroup {
@@ -506,6 +532,7 @@ impl Builder {
             functions: self.functions,
             mass: mass.flat_map(|b| [b.mass, b.mass, b.inertia]).collect(),
             weight,
+            tolerance: Tolerance::default(),
             entries: self.entries,
             reach: vec![0.0; bodies.len()],
             held: Vec::new(),
@@ -556,6 +583,7 @@ mod tests {
             bodies: PAIR.to_vec(),
             element: Box::new(pivot),
             motion,
+            tolerance: None,
         };
         let d = Description {
             bodies: vec![body("crank")],

@@ -93,7 +93,7 @@ impl Sparse {
 }
 
 /// Column of C for a column of a block; none for the ground.
-fn column_of(bodies: &[BodyRef]) -> impl Fn(usize) -> Option<usize> + '_ {
+pub(crate) fn column_of(bodies: &[BodyRef]) -> impl Fn(usize) -> Option<usize> + '_ {
     |k| match bodies[k / N_BODY] {
         BodyRef::Ground => None,
         BodyRef::Body(body) => Some(N_BODY * body + k % N_BODY),

@@ -99,6 +99,44 @@ impl Mechanism {
         )
     }
 
+    /// The parts of all [`Mechanism::components`], in their order, by one pass over joints and forces.
+    ///
+    /// ```
+    /// use model::{Body, Description, Mechanism};
+    /// let mut d = Description::new("two stones");
+    /// d.body(Body::new("first", 1.0, 1.0));
+    /// d.body(Body::new("second", 1.0, 1.0));
+    /// let mechanism = Mechanism::build(&d).unwrap();
+    /// let stones = mechanism.apart();
+    /// assert_eq!((stones.len(), &stones[1].places.bodies), (2, &vec![1]));
+    /// ```
+    #[must_use]
+    pub fn apart(&self) -> Vec<Part> {
+        let sets = self.components();
+        let mut component = vec![0; self.bodies.len()];
+        for (k, set) in sets.iter().enumerate() {
+            set.iter().for_each(|&body| component[body] = k);
+        }
+        // What joins parts of the ground only belongs to no component.
+        let of = |bodies: &[BodyRef]| bodies.iter().find_map(|b| b.moving()).map(|b| component[b]);
+        let mut groups = vec![Vec::new(); sets.len()];
+        for (k, c) in self.constraints.iter().enumerate() {
+            if let Some(own) = of(&c.bodies) {
+                groups[own].push(k);
+            }
+        }
+        let mut forces: Vec<Vec<&PlacedForce>> = vec![Vec::new(); sets.len()];
+        for f in &self.forces {
+            if let Some(own) = of(&f.bodies) {
+                forces[own].push(f);
+            }
+        }
+        let parts = sets.iter().zip(groups).zip(forces);
+        parts
+            .map(|((bodies, groups), forces)| self.assembled(bodies, &groups, forces.into_iter()))
+            .collect()
+    }
+
     /// The mechanism of some joints and drives, ascending, with the bodies that they join and no forces: for questions about constraints. Initial
     /// values are those of the whole. The work is that of the part alone.
     ///
@@ -142,6 +180,7 @@ impl Mechanism {
                 &translated(&group.name, &c.bodies),
                 c.element.as_ref(),
                 &laws(&self.functions[c.functions.clone()]),
+                c.tolerance,
             );
             rows.extend(c.rows.clone());
             match group.spec.level {
@@ -164,6 +203,7 @@ impl Mechanism {
         let own = bodies.iter().map(|&k| self.bodies[k].clone()).collect();
         let weight = velocities.iter().map(|&j| self.weight[j]).collect();
         let mut mechanism = b.finish(&self.name, own, weight);
+        mechanism.tolerance = self.tolerance;
         mechanism.reach = bodies.iter().map(|&k| self.reach[k]).collect();
         let places = Places {
             bodies: bodies.to_vec(),

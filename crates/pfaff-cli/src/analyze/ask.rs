@@ -5,7 +5,7 @@ use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
     DistributionDocument, EliminationsDocument, MakeUniqueDocument, ValuesDocument,
 };
-use pfaff::solvability::{Allowed, UnitError, Verdict};
+use pfaff::solvability::{Allowed, EliminationError, UnitError, Verdict};
 use pfaff::{Inquiry, StudyError};
 
 use super::choice;
@@ -93,9 +93,9 @@ pub(super) fn hints(inquiry: &Inquiry<'_>) -> Result<Vec<MakeUniqueDocument>, Fa
     open.take(HINTS + 1)
         .map(
             |r| match inquiry.make_unique(r.id, &Allowed::Sensible, limits) {
-                Err(e @ (DeletionError::TargetShape { .. } | DeletionError::NonFinite { .. })) => {
-                    Err(Failure::stopped(e.to_string()))
-                }
+                Err(EliminationError::Deletion(
+                    e @ (DeletionError::TargetShape { .. } | DeletionError::NonFinite { .. }),
+                )) => Err(Failure::stopped(e.to_string())),
                 found => Ok(MakeUniqueDocument::new(&r.name, &Allowed::Sensible, found)),
             },
         )

@@ -1,7 +1,8 @@
 //! The rank and what is behind it, in sentences.
 
 use pfaff::report::AnalysisDocument;
-use pfaff::solvability::{GENERIC_ROWS, Survey};
+use pfaff::report::documents::PartsDocument;
+use pfaff::solvability::GENERIC_ROWS;
 
 use crate::output::{count, wrapped};
 
@@ -10,31 +11,30 @@ const NAMED: f64 = 0.1;
 
 /// Rank, proof, and whether it is so elsewhere.
 pub(super) fn describe(d: &AnalysisDocument) -> String {
-    let mut out = format!(
-        "rank {} (Φq alone {}, Ψ alone {}), redundancy {}, mobility {}\n",
-        d.rank, d.rank_holonomic, d.rank_nonholonomic, d.redundancy, d.mobility,
-    );
-    out.push_str(&wrapped("  ", &proof(d)));
+    let mut out = ranks(d);
+    out.push_str(&wrapped(
+        "  ",
+        &match d.parts {
+            Some(parts) => of_parts(d, parts),
+            None => proof(d),
+        },
+    ));
     if let Some(sentence) = nearly(d) {
         out.push_str(&wrapped("  ", &sentence));
     }
     out.push_str(&wrapped("  ", &elsewhere(d)));
+    out.push_str(&motions(d));
     if let Some(continuation) = &d.continuation {
         out.push_str(&wrapped("  ", &continuation.text));
     }
     out
 }
 
-/// Rank and proof of a mechanism that was judged by parts.
-pub(super) fn by_parts(d: &AnalysisDocument, survey: &Survey) -> String {
-    let mut out = format!(
-        "rank {} (Φq alone {}, Ψ alone {}), redundancy {}, mobility {}\n",
-        d.rank, d.rank_holonomic, d.rank_nonholonomic, d.redundancy, d.mobility,
-    );
-    let largest = survey.parts.iter().map(|part| part.places.rows.len()).max();
-    let parts = count(survey.parts.len(), "part", "parts");
-    let largest = count(largest.unwrap_or(0), "row", "rows");
-    let lead = format!("judged in {parts} that share no cycle, the largest of {largest}; ");
+/// The proof of a mechanism whose parts were judged alone.
+fn of_parts(d: &AnalysisDocument, parts: PartsDocument) -> String {
+    let number = count(parts.number, "part", "parts");
+    let largest = count(parts.largest, "row", "rows");
+    let lead = format!("judged in {number} that share no cycle, the largest of {largest}; ");
     let e = &d.evidence;
     let said = match &e.reason {
         Some(reason) => format!("UNDECIDED in one of them: {reason}"),
@@ -44,8 +44,46 @@ pub(super) fn by_parts(d: &AnalysisDocument, survey: &Survey) -> String {
             e.sigma_r
         ),
     };
-    out.push_str(&wrapped("  ", &(lead + &said)));
+    lead + &said
+}
+
+/// With the drives, and without them where that is another number.
+fn ranks(d: &AnalysisDocument) -> String {
+    let mut out = format!(
+        "rank {} (Φq alone {}, Ψ alone {}), redundancy {}, {}\n",
+        d.rank,
+        d.rank_holonomic,
+        d.rank_nonholonomic,
+        d.redundancy,
+        d.freedoms.sentence(d.mobility),
+    );
+    let without = d.freedoms.without_drives.as_ref();
+    if let Some(without) = without.filter(|without| without.redundancy != d.redundancy) {
+        out.push_str(&format!(
+            "  without {} rank {} and redundancy {}\n",
+            without.possessive(),
+            without.rank,
+            without.redundancy
+        ));
+    }
     out
+}
+
+/// What can move, in words.
+fn motions(d: &AnalysisDocument) -> String {
+    let told = d.freedoms.sentences().into_iter();
+    told.map(|(lead, text)| wrapped(&format!("  {lead}: "), &text))
+        .collect()
+}
+
+fn cannot_move(d: &AnalysisDocument) -> String {
+    match &d.freedoms.without_drives {
+        None => "this mechanism cannot move".to_owned(),
+        Some(without) => format!(
+            "this mechanism cannot move, with {} or without",
+            without.possessive()
+        ),
+    }
 }
 
 fn proof(d: &AnalysisDocument) -> String {
@@ -76,9 +114,19 @@ fn proof(d: &AnalysisDocument) -> String {
         Some("full_rank") => {
             format!("proved: there are no more columns, so {others} redundant exactly")
         }
+        Some("within_tolerance") => {
+            format!(
+                "rank {r}: {others} not redundant as read, but within the tolerance that is stated"
+            )
+        }
         Some("exact") => format!("proved in exact arithmetic: {others} redundant exactly"),
         Some("vanishes") => format!(
             "rank {r} proved; σ_{} vanishes in doubled precision (below 1e-26): {others} redundant exactly",
+            r + 1
+        ),
+        _ if next > e.tolerance => format!(
+            "rank {r}: σ_{} = {next:.1e} would vanish if the data were wrong by less than a third of their rounding: {others} redundant to \
+             within the rounding of the data",
             r + 1
         ),
         _ => format!(
@@ -106,15 +154,13 @@ fn nearly(d: &AnalysisDocument) -> Option<String> {
         .filter(concerned)
         .map(|r| r.name.as_str())
         .collect();
-    let change = match nearly.change_per_micrometre {
-        share if share < 0.5 => format!("by about {:.1} %", 100.0 * share),
-        times => format!("by about {times:.0e} times their own size"),
+    let index = match d.parts {
+        Some(_) => "r".to_owned(),
+        None => d.rank.to_string(),
     };
     Some(format!(
-        "NEARLY REDUNDANT: σ_{} = {:.1e} is not zero, but the rows of {} almost depend on each other. The rank is that of the data as \
-         read, and so are the verdicts; but reactions are of size 1/σ = {:.0e} per unit of load, and a misalignment of 1e-6 m changes \
-         them {change}",
-        d.rank,
+        "NEARLY REDUNDANT: σ_{index} = {:.1e} is not zero, but the rows of {} almost depend on each other. The rank is that of the data as \
+         read, and so are the verdicts; but reactions are of size 1/σ = {:.0e} per unit of load",
         nearly.sigma,
         names.join(", "),
         nearly.sigma.recip(),
@@ -139,6 +185,12 @@ fn elsewhere(d: &AnalysisDocument) -> String {
             format!("ONLY HERE: at {n} the redundancy falls to {p}; this configuration is singular")
         }
         (_, Some((p, n))) => format!("at {n} the redundancy is {p}"),
+        (_, None) if d.freedoms.cannot_move => {
+            format!(
+                "{}: there is no other configuration to compare with",
+                cannot_move(d)
+            )
+        }
         (_, None) if d.rows > GENERIC_ROWS => format!(
             "not compared with other configurations: that takes long above {GENERIC_ROWS} rows"
         ),

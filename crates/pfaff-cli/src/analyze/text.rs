@@ -1,21 +1,34 @@
 //! The document of an analysis in words and columns: what a designer wants to know first comes first.
 
+use std::collections::BTreeSet;
+
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
     ComponentDocument, GroupDocument, MakeUniqueDocument, MixingDocument, ReactionDocument,
     VerdictDocument,
 };
 
-use super::{along, deletions, numbers, rank};
+use super::{along, counts, data, deletions, numbers, rank};
 use crate::output::{columns, count, wrapped};
 
 /// Reasons that are listed.
 const REASONS: usize = 10;
 
+/// Joints and drives of which each has a line.
+const LINES: usize = 250;
+
+/// Warnings that are listed.
+const WARNINGS: usize = 12;
+
 pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> String {
     let mut out = heading(d);
     out.push_str(&rank::describe(d));
-    out.push_str(&verdicts(d));
+    out.push_str(&data::describe(d));
+    out.push_str(&match d.reactions.len() > LINES {
+        true => counts::verdicts(d),
+        false => verdicts(d),
+    });
+    out.push_str(&fragile(d));
     out.push_str(&groups(d));
     out.push_str(&frames(d));
     out.push_str(&why(d));
@@ -26,15 +39,28 @@ pub(super) fn describe(d: &AnalysisDocument, hints: &[MakeUniqueDocument]) -> St
         let reason = d.evidence.reason.as_ref();
         !reason.is_some_and(|reason| warning.contains(reason.as_str()))
     };
-    for warning in d.warnings.iter().filter(told) {
+    let warnings: Vec<&String> = d.warnings.iter().filter(told).collect();
+    for warning in warnings.iter().take(WARNINGS) {
         out.push('\n');
         out.push_str(&wrapped("warning: ", warning));
     }
+    if warnings.len() > WARNINGS {
+        let more = warnings.len() - WARNINGS;
+        out.push_str(&format!("and {more} warnings more (`--json` has all)\n"));
+    }
+    out.push_str(&notes(d));
     out
 }
 
+/// What the definitions of the joints say of their reactions.
+pub(super) fn notes(d: &AnalysisDocument) -> String {
+    let each = d.notes.iter();
+    each.map(|note| format!("\n{}", wrapped("note: ", &note.text)))
+        .collect()
+}
+
 /// What was looked at, and how large it is.
-pub(super) fn heading(d: &AnalysisDocument) -> String {
+fn heading(d: &AnalysisDocument) -> String {
     format!(
         "{} at t = {} s\n{}, {}, {}: {} holonomic, {} nonholonomic\n",
         d.scene,
@@ -63,6 +89,11 @@ fn verdicts(d: &AnalysisDocument) -> String {
     for (word, names) in named.iter().filter(|(_, names)| !names.is_empty()) {
         let lead = format!("{:<12}", format!("{}:", spoken(word)));
         out.push_str(&wrapped(&lead, &names.join(", ")));
+    }
+    let hanging: Vec<&str> = d.fragile_reactions().map(|r| r.name.as_str()).collect();
+    if !hanging.is_empty() {
+        let lead = format!("{:<12}", "FRAGILE:");
+        out.push_str(&wrapped(&lead, &hanging.join(", ")));
     }
     let header = [
         "reaction",
@@ -93,10 +124,30 @@ fn line(r: &ReactionDocument) -> Vec<String> {
         r.name.clone(),
         r.kind.to_owned(),
         rows,
-        spoken(r.wrench.verdict),
+        match r.data.fragile {
+            true => "unique, FRAGILE".to_owned(),
+            false => spoken(r.wrench.verdict),
+        },
         margin(&r.wrench),
         components,
     ]
+}
+
+/// What fragile reactions hang on.
+fn fragile(d: &AnalysisDocument) -> String {
+    let sentences = &d.fragile;
+    if sentences.is_empty() {
+        return String::new();
+    }
+    let mut out = "\n".to_owned();
+    for sentence in sentences.iter().take(REASONS) {
+        out.push_str(&wrapped("FRAGILE: ", sentence));
+    }
+    if sentences.len() > REASONS {
+        let more = sentences.len() - REASONS;
+        out.push_str(&format!("and {more} sentences more (`--json` has all)\n"));
+    }
+    out
 }
 
 /// What is left of a margin by rounding is no number for people; the document has it.
@@ -118,11 +169,16 @@ fn each(components: &[ComponentDocument]) -> String {
 /// Unique directions between the axes: the components do not show them.
 fn oblique(r: &ReactionDocument) -> String {
     let is_oblique = |d: &&Vec<f64>| d.iter().filter(|x| **x != 0.0).count() > 1;
-    let told = r.unique_directions.iter().filter(is_oblique).map(|d| {
-        let terms = d.iter().zip(&r.components).filter(|(x, _)| **x != 0.0);
-        let terms: Vec<String> = terms.map(|(x, c)| format!("{x:.3}·{}", c.name)).collect();
-        format!("; {} unique", terms.join(" + ").replace("+ -", "− "))
-    });
+    let told = r
+        .unique_directions
+        .iter()
+        .flatten()
+        .filter(is_oblique)
+        .map(|d| {
+            let terms = d.iter().zip(&r.components).filter(|(x, _)| **x != 0.0);
+            let terms: Vec<String> = terms.map(|(x, c)| format!("{x:.3}·{}", c.name)).collect();
+            format!("; {} unique", terms.join(" + ").replace("+ -", "− "))
+        });
     told.collect()
 }
 
@@ -190,7 +246,9 @@ fn why(d: &AnalysisDocument) -> String {
     }
     let mut out = "\nWhy:\n".to_owned();
     // One dependency among all that mix says it all.
-    let is_told = |m: &&MixingDocument| d.dependencies.iter().any(|x| x.joints == m.reactions);
+    let of_dependencies: BTreeSet<&Vec<String>> =
+        d.dependencies.iter().map(|x| &x.joints).collect();
+    let is_told = |m: &&MixingDocument| of_dependencies.contains(&m.reactions);
     let mixing = d.mixing.iter().filter(|m| m.redundancy > 1 || !is_told(m));
     let dependencies = d.dependencies.iter().map(|x| &x.text);
     let reasons: Vec<&String> = mixing.map(|m| &m.text).chain(dependencies).collect();

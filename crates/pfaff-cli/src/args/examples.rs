@@ -6,6 +6,7 @@ pub(super) const ANALYZE: &str = "Examples:
   pfaff analyze robot.toml --combine \"W3.N + W4.N\"
   pfaff analyze robot.toml --along                 one verdict for the whole motion, and where another holds
   pfaff analyze robot.toml --choose minimum-norm --choose compliance:B=1e-6,W3=1e-6,W4=2e-6 --choose drop:6,21
+  pfaff analyze robot.toml --tolerance 1e-4        verdicts for points known to 0.1 mm
   pfaff analyze robot.toml --json
 
 Reactions that are not unique are never given a number without the choice it depends on.";

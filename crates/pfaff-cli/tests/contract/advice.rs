@@ -34,9 +34,145 @@ fn a_mechanism_locked_at_second_order_is_warned_of() {
             .any(|w| w.as_str().is_some_and(|w| w.starts_with(sentence))),
         "{warnings:?}"
     );
-    contains(&words("chebyshev", &[]), &[sentence]);
+    contains(
+        &words("chebyshev", &[]),
+        &[sentence, "this mechanism cannot move: there is no other"],
+    );
     // What moves is not locked.
     assert_eq!(analysis("four-bar", &[])["warnings"], json!([]));
+}
+
+/// A door on two hinges has no freedom; a four-bar turns, and so does a crank whose drive moves it.
+#[test]
+fn what_cannot_move_is_told_so() {
+    for (name, cannot_move) in [
+        ("door", true),
+        ("truss", true),
+        ("chebyshev", true),
+        ("four-bar", false),
+        ("gear-train", false),
+        ("five-bar", false),
+    ] {
+        let d = analysis(name, &[]);
+        assert_eq!(d["cannot_move"], cannot_move, "{name}");
+        let said = words(name, &[]).contains("this mechanism cannot move: there is no other");
+        assert_eq!(said, cannot_move, "{name}");
+        // No words of a search where nothing could be found.
+        assert!(
+            !words(name, &[]).contains("none could be reached"),
+            "{name}"
+        );
+    }
+}
+
+/// A wheel on a rack, and one that meshes with it.
+fn rack_and_gear(bearings: &str) -> String {
+    format!(
+        r#"
+scene = {{ name = "rack", space = "plane" }}
+body = [
+    {{ name = "rack", mass = 2.0, inertia = 1.0 }},
+    {{ name = "pinion", mass = 3.0, inertia = 0.25, position = [1.0, 0.5] }},
+    {{ name = "wheel", mass = 3.0, inertia = 0.25, position = [1.0, 1.5] }},
+]
+joint = [
+    {{ name = "teeth", type = "rack-and-pinion", bodies = ["rack", "pinion"], at = [1.0, 0.5], axis = [1.0, 0.0], radius = 0.5 }},
+    {{ name = "mesh", type = "gear", bodies = ["pinion", "wheel"], ratio = -1.0 }},
+    {{ name = "back", type = "gear", bodies = ["wheel", "pinion"], ratio = -1.0 }},
+    {bearings}
+]
+"#
+    )
+}
+
+/// Said once for all joints of a type, where the reader may miss a force in another joint, and nowhere else.
+#[test]
+fn what_a_reaction_leaves_out_is_noted() {
+    let held = rack_and_gear(
+        r#"
+    { name = "guide", type = "translational", bodies = ["ground", "rack"], at = [0.0, 0.0], axis = [1.0, 0.0] },
+    { name = "lower", type = "revolute", bodies = ["ground", "pinion"], at = [1.0, 0.5] },
+    { name = "upper", type = "revolute", bodies = ["ground", "wheel"], at = [1.0, 1.5] },
+"#,
+    );
+    let of =
+        |scene: &str| document(&with_scene(&["analyze", "--json", "-"], scene))["notes"].clone();
+    let notes = of(&held);
+    assert_eq!(notes.as_array().map(Vec::len), Some(2), "{notes:#}");
+    assert_eq!(notes[0]["joints"], json!(["teeth"]));
+    assert_eq!(notes[1]["joints"], json!(["mesh", "back"]));
+    let text = |k: usize| notes[k]["text"].as_str().expect("a text").to_owned();
+    assert!(text(0).starts_with("`teeth`: the reaction of a rack and its pinion is the force"));
+    assert!(text(1).starts_with(
+        "`mesh`, `back`: the reaction of a gear is a couple, without the force of teeth or belt"
+    ));
+    contains(
+        &stdout(&with_scene(&["analyze", "-"], &held)),
+        &[&format!("note: {}", text(0)), &format!("note: {}", text(1))],
+    );
+    // Bodies that nothing else pushes, and scenes without gears.
+    assert_eq!(of(&rack_and_gear("")), json!([]));
+    assert_eq!(analysis("four-bar", &[])["notes"], json!([]));
+}
+
+/// A number as `motion` is accepted, and said to hold the measure; what is advised instead is accepted without a word.
+#[test]
+fn a_constant_motion_is_said_to_hold_the_measure() {
+    let scene = |motion: &str| {
+        format!(
+            r#"
+scene = {{ name = "crank", space = "plane" }}
+body = [{{ name = "crank", mass = 1.0, inertia = 1.0 }}]
+joint = [{{ name = "pivot", type = "revolute", bodies = ["ground", "crank"], at = [0.0, 0.0] }}]
+
+[[drive]]
+name = "motor"
+joint = "pivot"
+type = "angle"
+{motion}
+"#
+        )
+    };
+    let check = |motion: &str| document(&with_scene(&["check", "--json", "-"], &scene(motion)));
+    for (motion, value) in [("motion = 0.3", "0.3"), ("motion = -2", "-2")] {
+        let warnings = check(motion)["warnings"].clone();
+        let warning = warnings[0].as_str().expect("a warning");
+        assert_eq!(warnings.as_array().map(Vec::len), Some(1), "{warnings:#}");
+        contains(
+            warning,
+            &[&format!(
+                "line 10: drive `motor`: `motion = {value}` is constant, and a drive follows f(t) − f(0), so the measure is held at \
+                 its initial value"
+            )],
+        );
+        let shown = format!("warning: {warning}");
+        contains(
+            &stdout(&with_scene(&["check", "-"], &scene(motion))),
+            &[&shown],
+        );
+        contains(
+            &stdout(&with_scene(&["analyze", "-"], &scene(motion))),
+            &[&shown],
+        );
+        let advised: Vec<&str> = warning
+            .split('`')
+            .filter(|x| x.starts_with("motion = "))
+            .collect();
+        assert_eq!(
+            advised.len(),
+            3,
+            "what was written, a speed, none: {advised:?}"
+        );
+        assert_eq!(
+            advised[1],
+            format!("motion = {{ type = \"constant-rate\", rate = {value} }}")
+        );
+        for advised in &advised[1..] {
+            let checked = check(advised);
+            assert_eq!(checked["ok"], true, "{checked:#}");
+            assert_eq!(checked["warnings"], json!([]), "{checked:#}");
+        }
+    }
 }
 
 /// A truck going straight is compared with poses in which it is jackknifed: its edges do not hold on the way there.

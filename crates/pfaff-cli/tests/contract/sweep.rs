@@ -13,7 +13,7 @@ use super::bad_input::PENDULUM;
 use super::{Folder, ROBOT, pfaff, stderr, stdout, with_scene};
 
 /// The promised first columns; those of bodies and reactions follow.
-const COLUMNS: &str = "status,error,method,t,steps,rejected,evaluations,projections,events,rank,redundancy,not_unique,seconds,\
+const COLUMNS: &str = "status,error,method,t,steps,rejected,evaluations,projections,events,rank,redundancy,not_unique,fragile,seconds,\
 max_position_residual,max_velocity_residual,energy_balance,start_correction,start_velocity_correction,t_state,";
 
 /// Masses of the platform of the robot: long enough that a sweep can be stopped on its way.

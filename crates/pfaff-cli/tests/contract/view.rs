@@ -21,7 +21,9 @@ fn the_robot_has_names_rows_and_verdicts() {
     assert_eq!((output.status.code(), &*stderr(&output)), (Some(0), ""));
     assert_eq!(
         stdout(&output),
-        format!("robot-trolley: 14 joints and drives, 6 not unique\nwritten to {path}\n")
+        format!(
+            "robot-trolley: 14 joints and drives, 6 not unique; mobility 1 with its drive, 2 without\nwritten to {path}\n"
+        )
     );
     let svg = folder.read("robot.svg");
     for words in [

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use dynamics::MotionOptions;
 use model::{Registry, System};
 use report::{Comparison, Film, Frame};
-use solvability::verdicts;
+use solvability::analyse;
 
 use super::compare;
 use crate::study::{Overrides, Study};
@@ -38,8 +38,8 @@ fn compared(scene: &str) -> (Study, Vec<Comparison>) {
     });
     outcome.expect("it moves");
     let mechanism = &study.prepared.mechanism;
-    let verdicts = verdicts(mechanism, 0.0, &study.prepared.q).expect("decided");
-    let (comparisons, left_out) = compare(mechanism, &film, &verdicts, |_| None);
+    let analysis = analyse(mechanism, 0.0, &study.prepared.q).expect("decided");
+    let (comparisons, left_out) = compare(mechanism, &film, &analysis.reactions, |_| None);
     assert_eq!(left_out, [""; 0]);
     (study, comparisons)
 }

@@ -1,8 +1,8 @@
 //! All that a configuration tells of itself, as one document: what `pfaff analyze --json` writes.
 
-use model::{ConstraintKind, System};
+use model::System;
+use report::AnalysisDocument;
 use report::documents::{EliminationsDocument, GroupDocument};
-use report::{AnalysisDocument, Proof};
 
 use super::Inquiry;
 use crate::error::StudyError;
@@ -35,11 +35,9 @@ impl Inquiry<'_> {
     pub fn document(&self, combine: &[String]) -> Result<AnalysisDocument, StudyError> {
         let groups = self.groups(combine)?;
         let generic = self.generic();
-        let proof = Proof {
-            generic: generic.as_ref(),
-            certificate: self.certificate.as_ref(),
-        };
-        let mut document = AnalysisDocument::new(self.scene.name(), &self.analysis, proof);
+        let mut document =
+            AnalysisDocument::new(self.scene.name(), &self.analysis, generic.as_ref())
+                .with_freedoms(&self.freedoms()?, self.mechanism);
         document.groups = groups
             .iter()
             .map(|(name, verdict)| GroupDocument::new(name, verdict))
@@ -61,8 +59,16 @@ impl Inquiry<'_> {
         if let Some(generic) = &generic {
             document.continuation = self.continuation(generic)?.as_ref().map(Into::into);
         }
+        let sensitivities = self.sensitivities()?;
+        document.add_sensitivities(&sensitivities, self.mechanism.layout());
+        document.warnings.extend(sensitivities.left_out);
+        document.warnings.extend(self.scene.cautions());
+        document.add_notes(self.mechanism.layout());
         document.warnings.extend(only_here(&document, self));
-        if generic.is_none() && self.is_locked()? {
+        // Where other configurations were reached, it moves.
+        let cannot_move = generic.is_none() && self.cannot_move()?;
+        document.freedoms.cannot_move |= cannot_move;
+        if cannot_move && document.mobility > 0 {
             document.warnings.push(locked(&document));
         }
         document.eliminations = Some(EliminationsDocument::new(self.eliminations(), None));
@@ -77,10 +83,7 @@ fn only_here(d: &AnalysisDocument, inquiry: &Inquiry<'_>) -> Option<String> {
         return None;
     }
     let layout = inquiry.mechanism.layout();
-    let drives = layout
-        .groups
-        .iter()
-        .any(|g| g.kind == ConstraintKind::Drive);
+    let drives = layout.groups.iter().any(|g| g.is_drive());
     let free = match (drives, d.nonholonomic_rows > 0) {
         (false, false) => "",
         (true, false) => ", with drives left free",

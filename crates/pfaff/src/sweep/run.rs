@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{Sample, Summary, Trip};
+use dynamics::{Prepared, Sample, Summary, Trip};
 use model::System;
 use report::sweep::{Extreme, SweepMotion};
 use report::{SweepRow, SweepStatus};
@@ -22,6 +22,8 @@ pub(super) struct Begun<'s> {
     run: u64,
     pub(super) study: Study,
     analysis: Analysis,
+    /// Unique reactions that hang on the data.
+    fragile: u64,
 }
 
 impl Sweep<'_> {
@@ -32,12 +34,17 @@ impl Sweep<'_> {
         let study = blueprint.prepare(&Overrides::default())?;
         let options = study.options.as_ref().ok_or(StudyError::NoEnd)?;
         options.check()?;
-        let analysis = analyse(&study.prepared.mechanism, 0.0, &study.prepared.q)?;
+        let Prepared {
+            mechanism, q, v, ..
+        } = &study.prepared;
+        let analysis = analyse(mechanism, 0.0, q)?;
+        let fragile = analysis.sensitivities(mechanism, q, v)?.fragile().count() as u64;
         Ok(Begun {
             sweep: self,
             run,
             study,
             analysis,
+            fragile,
         })
     }
 
@@ -61,6 +68,7 @@ impl Begun<'_> {
             run,
             study,
             analysis,
+            fragile,
         } = self;
         let Some(options) = &study.options else {
             return sweep.refused(*run, &StudyError::NoEnd);
@@ -85,7 +93,7 @@ impl Begun<'_> {
                     None => SweepStatus::Done,
                 },
                 error: error.as_ref().map_or(String::new(), reason),
-                motion: Some(watch.motion(study, analysis, &summary)),
+                motion: Some(watch.motion(study, analysis, *fragile, &summary)),
             },
         }
     }
@@ -151,7 +159,13 @@ impl Watch {
         Ok(())
     }
 
-    fn motion(self, study: &Study, analysis: &Analysis, summary: &Summary) -> SweepMotion {
+    fn motion(
+        self,
+        study: &Study,
+        analysis: &Analysis,
+        fragile: u64,
+        summary: &Summary,
+    ) -> SweepMotion {
         let largest = |values: &[f64]| values.iter().fold(0.0, |a, x| f64::max(a, x.abs()));
         let not_unique = analysis
             .reactions
@@ -174,6 +188,7 @@ impl Watch {
             rank: analysis.decision.rank as u64,
             redundancy: analysis.decision.redundancy as u64,
             not_unique: not_unique.count() as u64,
+            fragile,
             t_state: self.t_state,
             state: self.state,
             extremes: self.extremes,

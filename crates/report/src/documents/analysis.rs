@@ -2,14 +2,19 @@
 
 mod along;
 mod choices;
+mod data;
 mod deletions;
 mod evidence;
+mod notes;
 mod reaction;
 
-use model::{ConstraintId, Layout};
+use std::collections::BTreeSet;
+
+use model::{ConstraintId, Layout, Mechanism};
 use serde::Serialize;
 use solvability::{
-    Analysis, Dependency, Explanation, FrameVerdict, Mixing, ReactionVerdict, Survey,
+    Analysis, Dependency, Explanation, FrameVerdict, Freedoms, Generic, Mixing, PartAnalysis,
+    ReactionVerdict, Sensitivities,
 };
 
 pub use along::{
@@ -17,16 +22,16 @@ pub use along::{
     NamedVerdictDocument, PassageDocument, StretchDocument,
 };
 pub use choices::{DistributionDocument, ValueDocument, ValuesDocument};
+pub use data::DataDocument;
 pub use deletions::{EliminationsDocument, MakeUniqueDocument, WayDocument};
-pub use evidence::{
-    EvidenceDocument, GenericDocument, NearlyRedundantDocument, PointDocument, Proof,
-};
+pub use evidence::{EvidenceDocument, GenericDocument, NearlyRedundantDocument, PointDocument};
+pub use notes::NoteDocument;
 pub use reaction::{
     ComponentDocument, FrameDocument, FreeDirectionDocument, GroupDocument, ReactionDocument,
     RowDocument,
 };
 
-use super::{VerdictDocument, from_one};
+use super::{FreedomsDocument, SensitivityDocument, VerdictDocument, from_one};
 
 /// Ranks and verdicts of one configuration.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -56,10 +61,18 @@ pub struct AnalysisDocument {
     pub redundancy: usize,
     /// n_v − r
     pub mobility: usize,
+    /// What can move, with the drives and without them; [`AnalysisDocument::new`] leaves it empty.
+    #[serde(flatten)]
+    pub freedoms: FreedomsDocument,
     /// r independent rows.
     pub kept_rows: Vec<usize>,
     /// The p others.
     pub dropped_rows: Vec<usize>,
+    /// Sets of joints on common cycles that were judged alone; absent if all were judged together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub parts: Option<PartsDocument>,
+    /// What the data are known to, and what hangs on that.
+    pub data: DataDocument,
     /// The numbers behind the rank.
     pub evidence: EvidenceDocument,
     /// Ranks at other configurations; `null` if nobody asked, or none could be reached.
@@ -68,6 +81,9 @@ pub struct AnalysisDocument {
     pub reactions: Vec<ReactionDocument>,
     /// Verdicts of combinations that were asked for; [`AnalysisDocument::new`] leaves it empty.
     pub groups: Vec<GroupDocument>,
+    /// Which unique reactions are fragile and what they hang on, in words.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub fragile: Vec<String>,
     /// Minimal sets of dependent rows.
     pub dependencies: Vec<DependencyDocument>,
     /// Joints and drives whose reactions mix.
@@ -87,8 +103,20 @@ pub struct AnalysisDocument {
     /// How the motion goes on, where this configuration is singular and the velocities say which motion is meant.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continuation: Option<ContinuationDocument>,
+    /// What definitions say of the reactions of their joints; [`AnalysisDocument::add_notes`] fills it.
+    pub notes: Vec<NoteDocument>,
     /// What else the reader should know.
     pub warnings: Vec<String>,
+}
+
+/// Sets of joints on common cycles that were judged alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct PartsDocument {
+    /// How many.
+    pub number: usize,
+    /// Rows of the largest.
+    pub largest: usize,
 }
 
 /// A minimal set of dependent rows.
@@ -120,11 +148,13 @@ pub struct MixingDocument {
 }
 
 impl AnalysisDocument {
-    /// The document of an analysis.
+    /// The document of an analysis, with ranks at other configurations; `None` if nobody asked, or none could be reached. Evidence is that of the part
+    /// whose rank is least certain.
     #[must_use]
-    pub fn new(scene: &str, analysis: &Analysis, proof: Proof<'_>) -> Self {
+    pub fn new(scene: &str, analysis: &Analysis, generic: Option<&Generic>) -> Self {
         let decision = &analysis.decision;
         let dependencies = analysis.dependencies.iter();
+        let group_of = groups_of_rows(analysis);
         Self {
             scene: scene.to_owned(),
             time: analysis.time,
@@ -138,14 +168,26 @@ impl AnalysisDocument {
             rank_nonholonomic: analysis.rank_nonholonomic,
             redundancy: decision.redundancy,
             mobility: analysis.mobility(),
+            freedoms: FreedomsDocument::default(),
             kept_rows: from_one(&decision.kept),
             dropped_rows: from_one(&decision.dropped),
-            evidence: EvidenceDocument::new(analysis, proof),
-            generic: proof.generic.map(Into::into),
+            parts: (analysis.parts.len() > 1).then(|| PartsDocument {
+                number: analysis.parts.len(),
+                largest: analysis
+                    .parts
+                    .iter()
+                    .map(PartAnalysis::rows)
+                    .max()
+                    .unwrap_or(0),
+            }),
+            data: DataDocument::new(analysis),
+            evidence: EvidenceDocument::new(analysis, generic),
+            generic: generic.map(Into::into),
             reactions: analysis.reactions.iter().map(Into::into).collect(),
             groups: Vec::new(),
+            fragile: Vec::new(),
             dependencies: dependencies
-                .map(|d| DependencyDocument::new(d, &analysis.reactions))
+                .map(|d| DependencyDocument::new(d, &analysis.reactions, &group_of))
                 .collect(),
             mixing: Vec::new(),
             eliminations: None,
@@ -153,54 +195,34 @@ impl AnalysisDocument {
             choices: Vec::new(),
             along: None,
             continuation: None,
+            notes: Vec::new(),
             warnings: analysis.warnings.clone(),
         }
     }
 
-    /// The document of a survey. Evidence is that of the part whose rank is least certain.
+    /// Adds what can move. The freedoms must be those of the analysis.
     #[must_use]
-    pub fn of_survey(scene: &str, survey: &Survey) -> Self {
-        let [kept, dropped] = survey.rows();
-        let rows = survey.holonomic_rows + survey.nonholonomic_rows;
-        let dependencies = survey.parts.iter().flat_map(|part| {
-            let all = part.verdicts.dependencies.iter();
-            all.map(|d| DependencyDocument::new(d, &part.verdicts.reactions))
-        });
-        Self {
-            scene: scene.to_owned(),
-            time: survey.time,
-            bodies: survey.bodies,
-            coordinates: survey.coordinates,
-            rows,
-            holonomic_rows: survey.holonomic_rows,
-            nonholonomic_rows: survey.nonholonomic_rows,
-            rank: survey.rank(),
-            rank_holonomic: survey.rank_holonomic(),
-            rank_nonholonomic: survey.rank_nonholonomic(),
-            redundancy: survey.redundancy(),
-            mobility: survey.mobility(),
-            kept_rows: from_one(&kept),
-            dropped_rows: from_one(&dropped),
-            evidence: EvidenceDocument::of_survey(survey),
-            generic: None,
-            reactions: survey.reactions().into_iter().map(Into::into).collect(),
-            groups: Vec::new(),
-            dependencies: dependencies.collect(),
-            mixing: Vec::new(),
-            eliminations: None,
-            make_unique: Vec::new(),
-            choices: Vec::new(),
-            along: None,
-            continuation: None,
-            warnings: survey.warnings().cloned().collect(),
+    pub fn with_freedoms(mut self, freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
+        self.freedoms = FreedomsDocument::new(freedoms, mechanism);
+        self
+    }
+
+    /// Adds how much each unique reaction hangs on the data. The sensitivities must be those of the analysis.
+    pub fn add_sensitivities(&mut self, all: &Sensitivities, layout: &Layout) {
+        self.fragile = all.sentences(layout);
+        for (k, reaction) in self.reactions.iter_mut().enumerate() {
+            reaction.data = SensitivityDocument::of(all, ConstraintId(k), layout);
         }
+    }
+
+    /// Unique reactions that hang on the data.
+    pub fn fragile_reactions(&self) -> impl Iterator<Item = &ReactionDocument> {
+        self.reactions.iter().filter(|r| r.data.fragile)
     }
 
     /// Adds why the reactions are not unique. The explanation must be that of the analysis.
     pub fn explain(&mut self, explanation: &Explanation, layout: &Layout) {
-        for (k, reaction) in self.reactions.iter_mut().enumerate() {
-            reaction.explain(explanation, ConstraintId(k));
-        }
+        ReactionDocument::explain_all(&mut self.reactions, explanation);
         let stress = |stress: &solvability::SelfStress| {
             let joints = stress
                 .directions
@@ -213,7 +235,14 @@ impl AnalysisDocument {
                 text: stress.text.clone(),
             }
         };
-        self.dependencies = explanation.stresses.iter().map(stress).collect();
+        // What is known of parts that were not explained stays.
+        let told: Vec<DependencyDocument> = explanation.stresses.iter().map(stress).collect();
+        let mut others = std::mem::replace(&mut self.dependencies, told);
+        if self.parts.is_some() {
+            let told: BTreeSet<&Vec<usize>> = self.dependencies.iter().map(|d| &d.rows).collect();
+            others.retain(|d| !told.contains(&d.rows));
+            self.dependencies.append(&mut others);
+        }
         let mixing = |mixing: &Mixing| {
             let reactions = mixing.reactions.iter();
             MixingDocument {
@@ -228,6 +257,11 @@ impl AnalysisDocument {
         self.mixing = explanation.mixing.iter().map(mixing).collect();
     }
 
+    /// Adds what the definitions of the joints say of their reactions.
+    pub fn add_notes(&mut self, layout: &Layout) {
+        self.notes = NoteDocument::all(layout);
+    }
+
     /// Adds the verdicts in other frames, joint by joint.
     pub fn add_frames(&mut self, frames: &[Vec<FrameVerdict>]) {
         for (reaction, frames) in self.reactions.iter_mut().zip(frames) {
@@ -237,15 +271,27 @@ impl AnalysisDocument {
 }
 
 impl DependencyDocument {
-    fn new(dependency: &Dependency, reactions: &[ReactionVerdict]) -> Self {
-        let reactions = reactions.iter();
-        let concerned =
-            reactions.filter(|r| r.rows.iter().any(|row| dependency.rows.contains(&row.row)));
+    fn new(dependency: &Dependency, reactions: &[ReactionVerdict], group_of: &[usize]) -> Self {
+        let mut concerned: Vec<usize> = dependency.rows.iter().map(|&row| group_of[row]).collect();
+        concerned.sort_unstable();
+        concerned.dedup();
         Self {
             rows: from_one(&dependency.rows),
-            joints: concerned.map(|r| r.name.clone()).collect(),
+            joints: concerned
+                .iter()
+                .map(|&k| reactions[k].name.clone())
+                .collect(),
             coefficients: dependency.coefficients.clone(),
             text: dependency.text.clone(),
         }
     }
+}
+
+/// The joint or drive of each row.
+fn groups_of_rows(analysis: &Analysis) -> Vec<usize> {
+    let mut group_of = vec![0; analysis.holonomic_rows + analysis.nonholonomic_rows];
+    for (k, reaction) in analysis.reactions.iter().enumerate() {
+        reaction.rows.iter().for_each(|row| group_of[row.row] = k);
+    }
+    group_of
 }

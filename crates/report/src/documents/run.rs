@@ -8,11 +8,13 @@ use dynamics::{
 };
 use model::System;
 use serde::Serialize;
-use solvability::survey::parts;
-use solvability::{LARGE, ReactionVerdict};
+use solvability::parts::parts;
+use solvability::{Freedoms, ONE_PART, ReactionVerdict, Sensitivities};
 
 use super::plan::{short, short_of};
-use super::{Named, VerdictDocument, from_one};
+use super::{
+    DataDocument, FreedomsDocument, Named, SensitivityDocument, VerdictDocument, from_one,
+};
 
 /// What a run was and what came out.
 #[derive(Clone, Copy)]
@@ -21,6 +23,12 @@ pub struct Run<'a> {
     pub plan: &'a Plan<'a>,
     /// Verdicts at the start.
     pub reactions: &'a [ReactionVerdict],
+    /// How much they hang on the data there.
+    pub sensitivities: &'a Sensitivities,
+    /// What the data are known to, and what hangs on that.
+    pub data: DataDocument,
+    /// What can move there.
+    pub freedoms: &'a Freedoms,
     /// What came out.
     pub summary: &'a Summary,
     /// How it ended.
@@ -74,6 +82,13 @@ pub struct RunDocument {
     pub start_correction: f64,
     /// Largest change of a velocity at the start (m/s or rad/s).
     pub start_velocity_correction: f64,
+    /// Freedoms of motion at the start, n_v − r.
+    pub mobility: usize,
+    /// What can move there, with the drives and without them.
+    #[serde(flatten)]
+    pub freedoms: FreedomsDocument,
+    /// What the data are known to, and what hangs on that at the start.
+    pub data: DataDocument,
     /// What happened on the way.
     pub events: Vec<EventDocument>,
     /// Verdict of every joint and drive at the start, by name.
@@ -138,6 +153,9 @@ pub struct RunReactionDocument {
     /// The verdict.
     #[serde(flatten)]
     pub verdict: VerdictDocument,
+    /// How much it hangs on the data at the start.
+    #[serde(flatten)]
+    pub data: SensitivityDocument,
     /// What its numbers depend on where they are not unique.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choice: Option<ChoiceDocument>,
@@ -214,7 +232,7 @@ impl ChoiceDocument {
 /// For each joint and drive of a large mechanism, the deleted rows on common cycles with it, from 0: no others bear on its reaction.
 fn dropped_by_group(prepared: &Prepared) -> Option<Vec<Vec<usize>>> {
     let (mechanism, layout) = (&prepared.mechanism, prepared.mechanism.layout());
-    if layout.rows() <= LARGE {
+    if layout.rows() <= ONE_PART {
         return None;
     }
     let mut s = mechanism.scratch();
@@ -275,6 +293,7 @@ impl RunDocument {
             let is_unique = r.wrench.verdict.is_unique();
             let document = RunReactionDocument {
                 verdict: (&r.wrench).into(),
+                data: SensitivityDocument::of(run.sensitivities, r.id, prepared.mechanism.layout()),
                 choice: (!is_unique).then(|| ChoiceDocument::of(run, parts.as_deref(), r.id.0)),
             };
             (r.name.clone(), document)
@@ -296,6 +315,9 @@ impl RunDocument {
             energy_balance: summary.energy_balance,
             start_correction: largest(&prepared.assembly.correction),
             start_velocity_correction: largest(&prepared.velocity_correction),
+            mobility: run.freedoms.mobility,
+            freedoms: FreedomsDocument::new(run.freedoms, &prepared.mechanism),
+            data: run.data,
             events: summary.events.iter().map(Into::into).collect(),
             reactions: Named(reactions.collect()),
             plan: short(run.plan),

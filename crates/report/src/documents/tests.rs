@@ -4,18 +4,25 @@ use dynamics::{
     DropError, Event, EventKind, Method, MotionError, MotionOptions, Plan, Prepared, RowChoice,
     Summary, Wanted, prepare,
 };
-use joints::Revolute;
+use joints::{Revolute, RevoluteAngleDrive};
 use linalg::{
     Certificate, Doubt, Evidence, Grounds, Matrix, NearlyRedundant, RankDecision, RankStatus,
 };
-use model::{Body, BodyRef, ConstraintId, Description, Joint, Mechanism, StartOptions};
+use model::{
+    Body, BodyRef, ConstraintId, DataUnit, Description, Function, Joint, Mechanism, StartOptions,
+    Tolerance,
+};
 use serde_json::Value;
 use solvability::{
-    Analysis, ComponentVerdict, Dependency, Generic, Judgement, ReactionVerdict, RowVerdict,
-    Verdict,
+    Analysis, ComponentVerdict, Datum, Dependency, Extent, Freedoms, Generic, Judgement,
+    PartAnalysis, PartDecision, ReactionVerdict, RowVerdict, Sensitivities, Sensitivity, Verdict,
+    analyse,
 };
 
-use super::{AnalysisDocument, ChoiceDocument, Ending, Proof, Run, RunDocument, write_json};
+use super::{
+    AnalysisDocument, ChoiceDocument, DataDocument, Ending, FreedomsDocument, Run, RunDocument,
+    write_json,
+};
 
 fn judged(verdict: Verdict, margin: f64) -> Judgement {
     Judgement { verdict, margin }
@@ -23,6 +30,11 @@ fn judged(verdict: Verdict, margin: f64) -> Judgement {
 
 /// A door on two hinges, with round numbers for the evidence.
 fn analysis() -> Analysis {
+    certified(None)
+}
+
+/// The same with this certificate.
+fn certified(certificate: Option<Certificate>) -> Analysis {
     let c = Matrix::from_rows(&[
         [1.0, 0.0, 0.0],
         [0.0, 1.0, 0.0],
@@ -50,12 +62,26 @@ fn analysis() -> Analysis {
         coordinates: 3,
         velocities: 3,
         size: 2.0,
+        tolerance: Tolerance {
+            length: Some(0.25),
+            angle: None,
+        },
         nearly_redundant: None,
         holonomic_rows: 4,
         nonholonomic_rows: 0,
         rank_holonomic: 3,
         rank_nonholonomic: 0,
-        decision,
+        decision: (&decision).into(),
+        parts: vec![PartAnalysis {
+            extent: Extent::Whole,
+            size: 2.0,
+            rank_holonomic: 3,
+            rank_nonholonomic: 0,
+            without_drives: None,
+            nearly_redundant: None,
+            certificate,
+            decision: PartDecision::Dense(Box::new(decision)),
+        }],
         reactions: vec![reaction("upper", 0), reaction("lower \"2\"", 2)],
         dependencies: vec![Dependency {
             rows: vec![1, 3],
@@ -91,7 +117,7 @@ fn reaction(name: &str, row: usize) -> ReactionVerdict {
             .collect(),
         zero_components: Vec::new(),
         unique_directions: vec![vec![1.0, 0.0]],
-        live_directions: vec![vec![1.0, 0.0]],
+        live_directions: Some(vec![vec![1.0, 0.0]]),
     }
 }
 
@@ -109,16 +135,14 @@ fn squeezed(text: &str) -> String {
 
 #[test]
 fn analysis_has_the_keys_of_the_contract() {
-    let found = json(&AnalysisDocument::new(
-        "door",
-        &analysis(),
-        Proof::default(),
-    ));
+    let found = json(&AnalysisDocument::new("door", &analysis(), None));
     let expected = r#"{
         "scene": "door", "time": 0.5, "bodies": 1, "coordinates": 3, "rows": 4,
         "holonomic_rows": 4, "nonholonomic_rows": 0,
         "rank": 3, "rank_holonomic": 3, "rank_nonholonomic": 0, "redundancy": 1, "mobility": 0,
+        "without_drives": null, "free_motions": [], "cannot_move": false,
         "kept_rows": [1, 2, 3], "dropped_rows": [4],
+        "data": { "tolerance": 0.25, "angle_tolerance": 0.125, "lower_rank_from": null, "lower_rank_here": null },
         "evidence": { "status": "decided", "sigma_r": 0.5, "sigma_next": 0.0, "gap": null,
             "tolerance": 0.25, "constraint_residual": 0.0, "permanent": null, "certified": false,
             "rank_at_least": null, "sigma_bound": null, "sigma_next_extended": null, "grounds": null,
@@ -126,7 +150,7 @@ fn analysis_has_the_keys_of_the_contract() {
         "generic": null,
         "reactions": [
             { "name": "upper", "type": "revolute", "rows": [1, 2],
-              "verdict": "not_unique", "margin": 0.5, "multipliers": "not_unique",
+              "verdict": "not_unique", "margin": 0.5, "sensitivity": null, "fragile": false, "multipliers": "not_unique",
               "row_verdicts": [ { "row": 1, "verdict": "unique", "margin": 0.0 },
                                 { "row": 2, "verdict": "not_unique", "margin": 0.5 } ],
               "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0 },
@@ -134,7 +158,7 @@ fn analysis_has_the_keys_of_the_contract() {
               "unique_directions": [[1.0, 0.0]],
               "settled": null, "explanation": null, "free_directions": [] },
             { "name": "lower \"2\"", "type": "revolute", "rows": [3, 4],
-              "verdict": "not_unique", "margin": 0.5, "multipliers": "not_unique",
+              "verdict": "not_unique", "margin": 0.5, "sensitivity": null, "fragile": false, "multipliers": "not_unique",
               "row_verdicts": [ { "row": 3, "verdict": "unique", "margin": 0.0 },
                                 { "row": 4, "verdict": "not_unique", "margin": 0.5 } ],
               "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0 },
@@ -145,6 +169,7 @@ fn analysis_has_the_keys_of_the_contract() {
         "dependencies": [ { "rows": [2, 4], "joints": ["upper", "lower \"2\""],
             "coefficients": [1.0, -1.0], "text": "both hold the height" } ],
         "mixing": [],
+        "notes": [],
         "warnings": [] }"#;
     assert_eq!(squeezed(&found), squeezed(expected));
     assert!(found.starts_with("{\n  \"scene\": \"door\",\n  \"time\": 0.5,"));
@@ -160,19 +185,17 @@ fn certificate(grounds: Grounds) -> Certificate {
         uncertainty: 0.0,
         spread: 0.0,
         row_noise: Vec::new(),
+        row_tolerance: None,
         nearly_redundant: None,
+        lower_rank_here: None,
+        lower_rank_from: None,
     }
 }
 
 #[test]
 fn a_certificate_proves_a_decided_rank_that_it_reaches() {
-    let analysis = analysis();
-    let certified = |certificate: &Certificate| {
-        let proof = Proof {
-            certificate: Some(certificate),
-            ..Proof::default()
-        };
-        AnalysisDocument::new("door", &analysis, proof).evidence
+    let told = |certificate: Certificate| {
+        AnalysisDocument::new("door", &certified(Some(certificate)), None).evidence
     };
     for (grounds, word) in [
         (Grounds::FullRank, "full_rank"),
@@ -180,7 +203,7 @@ fn a_certificate_proves_a_decided_rank_that_it_reaches() {
         (Grounds::Vanishes, "vanishes"),
         (Grounds::WithinData, "within_data"),
     ] {
-        let evidence = certified(&certificate(grounds));
+        let evidence = told(certificate(grounds));
         assert!(evidence.certified);
         assert_eq!(evidence.grounds, Some(word));
         assert_eq!(evidence.sigma_bound, Some(0.375));
@@ -191,10 +214,10 @@ fn a_certificate_proves_a_decided_rank_that_it_reaches() {
             sigma: 1e-4,
             direction: vec![0.0, 0.0, 1.0, 0.0],
         }),
-        ..analysis.clone()
+        ..analysis()
     };
-    let told = AnalysisDocument::new("door", &near, Proof::default()).evidence;
-    let change = told
+    let change = AnalysisDocument::new("door", &near, None)
+        .evidence
         .nearly_redundant
         .expect("is told")
         .change_per_micrometre;
@@ -203,7 +226,7 @@ fn a_certificate_proves_a_decided_rank_that_it_reaches() {
         rank_at_least: 2,
         ..certificate(Grounds::Vanishes)
     };
-    assert!(!certified(&weaker).certified);
+    assert!(!told(weaker).certified);
 }
 
 #[test]
@@ -213,11 +236,7 @@ fn permanent_means_the_same_redundancy_elsewhere() {
             redundancy,
             points: Vec::new(),
         };
-        let proof = Proof {
-            generic: Some(&generic),
-            certificate: None,
-        };
-        let document = AnalysisDocument::new("door", &analysis(), proof);
+        let document = AnalysisDocument::new("door", &analysis(), Some(&generic));
         assert_eq!(document.evidence.permanent, Some(permanent));
     }
 }
@@ -228,22 +247,20 @@ fn an_undecided_rank_says_why() {
         sigma_max: 1.0,
         tolerance: 2.0,
     };
-    let mut analysis = analysis();
+    let mut analysis = certified(Some(certificate(Grounds::Vanishes)));
     analysis.decision.status = RankStatus::Undecided(doubt);
+    if let PartDecision::Dense(decision) = &mut analysis.parts[0].decision {
+        decision.status = RankStatus::Undecided(doubt);
+    }
     let reason = "the numbers do not decide".to_owned();
     analysis.reactions[0].wrench = judged(Verdict::Undecided { reason }, f64::NAN);
     let generic = Generic {
         redundancy: 1,
         points: Vec::new(),
     };
-    let proved = certificate(Grounds::Vanishes);
-    let proof = Proof {
-        generic: Some(&generic),
-        certificate: Some(&proved),
-    };
+    let document = AnalysisDocument::new("door", &analysis, Some(&generic));
     let document: Value =
-        serde_json::from_str(&json(&AnalysisDocument::new("door", &analysis, proof)))
-            .expect("valid JSON in spite of NaN");
+        serde_json::from_str(&json(&document)).expect("valid JSON in spite of NaN");
     let evidence = &document["evidence"];
     assert_eq!(evidence["status"], "undecided");
     assert_eq!(evidence["reason"], doubt.to_string());
@@ -258,6 +275,13 @@ fn an_undecided_rank_says_why() {
     assert_eq!(upper["verdict"], "undecided");
     assert_eq!(upper["reason"], "the numbers do not decide");
     assert_eq!(upper["margin"], Value::Null);
+}
+
+/// What can move of it.
+fn freedoms(prepared: &Prepared) -> Freedoms {
+    let (mechanism, q) = (&prepared.mechanism, &prepared.q);
+    let analysis = analyse(mechanism, 0.0, q).expect("the door hangs");
+    analysis.freedoms(mechanism, q).expect("its start")
 }
 
 /// The same door as a mechanism at rest.
@@ -315,10 +339,30 @@ fn summary_has_the_keys_of_the_contract() {
         components: Vec::new(),
     };
     let prepared = prepared();
+    let freedoms = freedoms(&prepared);
     let plan = planned(&prepared);
+    let sensitivities = Sensitivities {
+        each: vec![
+            Some(Sensitivity {
+                change: 0.25,
+                by: Some(Datum {
+                    joint: ConstraintId(1),
+                    name: "s_i",
+                    moved: 2e-4,
+                    unit: DataUnit::Length,
+                    is_number: false,
+                }),
+            }),
+            None,
+        ],
+        left_out: Vec::new(),
+    };
     let run = Run {
         plan: &plan,
         reactions: &analysis.reactions,
+        sensitivities: &sensitivities,
+        data: DataDocument::new(&analysis),
+        freedoms: &freedoms,
         summary: &summary,
         ending: Ending::Complete,
     };
@@ -328,10 +372,13 @@ fn summary_has_the_keys_of_the_contract() {
         "t_end": 2.0, "steps": 10, "rejected": 1, "evaluations": 70, "projections": 10,
         "wall_seconds": 0.125, "max_position_residual": 0.0, "max_velocity_residual": null,
         "energy_balance": 0.0, "start_correction": 0.0, "start_velocity_correction": 0.0,
+        "mobility": 0, "without_drives": null, "free_motions": [], "cannot_move": true,
+        "data": { "tolerance": 0.25, "angle_tolerance": 0.125, "lower_rank_from": null, "lower_rank_here": null },
         "events": [],
         "reactions": {
-            "upper": { "verdict": "unique", "margin": 0.0 },
-            "lower \"2\"": { "verdict": "not_unique", "margin": 0.5,
+            "upper": { "verdict": "unique", "margin": 0.0, "sensitivity": 0.25, "fragile": true,
+                "hangs_on": "`upper` is unique but changes by 25 % if point `s_i` of `lower` moves by 0.20 mm" },
+            "lower \"2\"": { "verdict": "not_unique", "margin": 0.5, "sensitivity": null, "fragile": false,
                 "choice": { "method": "kept-rows", "deleted_rows": [4] } } },
         "plan": { "components": "solved as one", "generated_code": "interpreted", "rows_of_output": "201", "accelerations": "at rows of output", "method": "dop853", "linear_systems": "none",
             "elimination": "dense, 3 × 3", "refinement": "none", "freedom": "none", "nonholonomic_rows": "none", "dropped_rows": "1 monitored",
@@ -345,6 +392,7 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
     let analysis = analysis();
     let mut prepared = prepared();
     prepared.choice = RowChoice::Automatic;
+    let freedoms = freedoms(&prepared);
     let plan = planned(&prepared);
     let summary = Summary {
         t: 1.5,
@@ -359,9 +407,13 @@ fn a_stopped_run_is_partial_and_exchanged_rows_limit_the_choice() {
         ..Summary::default()
     };
     let error = MotionError::from(DropError::NotRedundant);
+    let sensitivities = Sensitivities::default();
     let run = |ending| Run {
         plan: &plan,
         reactions: &analysis.reactions,
+        sensitivities: &sensitivities,
+        data: DataDocument::new(&analysis),
+        freedoms: &freedoms,
         summary: &summary,
         ending,
     };
@@ -418,4 +470,54 @@ fn choices_without_deleted_rows() {
     );
     let words = "proximal, 8 iterations with mu = 2.5e-4, the norm";
     assert_eq!(proximal.to_string(), words);
+}
+
+/// A crank with its motor: `null` without drives, else ranks and motions of the others; bodies that move, by name.
+#[test]
+fn freedoms_are_told_with_the_drives_and_without() {
+    let mut d = Description::new("crank");
+    let crank = d.body(Body {
+        position: [0.5, 0.0],
+        ..Body::new("crank", 1.0, 1.0)
+    });
+    let bodies = [BodyRef::Ground, crank];
+    let (s_i, s_j) = ([0.0, 0.0], [-0.5, 0.0]);
+    d.joint("pin", &bodies, Revolute { s_i, s_j });
+    let told = |d: &Description| {
+        let mechanism = Mechanism::build(d).expect("a crank");
+        let (q, _) = mechanism.described_state();
+        let analysis = analyse(&mechanism, 0.0, &q).expect("a start");
+        let freedoms = analysis.freedoms(&mechanism, &q).expect("a start");
+        let document = FreedomsDocument::new(&freedoms, &mechanism);
+        let summary = document.summary(freedoms.mobility);
+        (summary, document)
+    };
+    let turns = r#"[ { "text": "`crank` turns about `pin`", "velocities": [ { "crank": [0.0, 0.5, 1.0] } ] } ]"#;
+    let (summary, free) = told(&d);
+    assert_eq!(summary, "mobility 1");
+    let expected =
+        format!(r#"{{ "without_drives": null, "free_motions": {turns}, "cannot_move": false }}"#);
+    assert_eq!(squeezed(&json(&free)), squeezed(&expected));
+    assert_eq!(free.sentences().len(), 1);
+
+    let measure_0 = 0.0;
+    let motor = RevoluteAngleDrive {
+        s_i,
+        s_j,
+        measure_0,
+    };
+    let rate = Function::constant_rate(1.0).expect("finite");
+    d.drive("motor", &bodies, motor, rate);
+    let (summary, driven) = told(&d);
+    assert_eq!(summary, "mobility 0 with its drive, 1 without");
+    let expected = format!(
+        r#"{{ "without_drives": {{ "drives": 1, "rank": 2, "redundancy": 0, "mobility": 1, "free_motions": {turns} }},
+            "free_motions": [], "cannot_move": false }}"#
+    );
+    assert_eq!(squeezed(&json(&driven)), squeezed(&expected));
+    let told_once = [(
+        "free without its drive".to_owned(),
+        "`crank` turns about `pin`".to_owned(),
+    )];
+    assert_eq!(driven.sentences(), told_once);
 }

@@ -4,7 +4,7 @@
 #[cfg(test)]
 mod tests;
 
-use joints::spec::{ConstraintSpec, Level};
+use joints::spec::Level;
 use linalg::Matrix;
 use model::reaction::ConstraintGroup;
 use model::{BodyRef, ConstraintId, ConstraintKind, Mechanism, Scratch, System};
@@ -78,7 +78,7 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
     let spec = group.spec;
     let place = finite_or(mechanism.place(id, s), [0.0, 0.0]);
     let map = mechanism.wrench_map(id, s);
-    let rows = Rows::of(spec);
+    let rows = Rows::of(group);
     // The line along which the only force acts.
     let force = rows.only_force().map(|row| Force::of(&map, row));
     let end = match rows.only_force() {
@@ -183,11 +183,11 @@ struct Rows {
 }
 
 impl Rows {
-    fn of(spec: &ConstraintSpec) -> Self {
-        let pushes = |row: usize| spec.wrench.iter().any(|[c, r]| *r == row && *c < 2);
-        let forces: Vec<usize> = (0..spec.rows.len()).filter(|&r| pushes(r)).collect();
+    fn of(group: &ConstraintGroup) -> Self {
+        let n = group.spec.rows.len();
+        let forces: Vec<usize> = (0..n).filter(|&row| group.pushes(row)).collect();
         Self {
-            torques: spec.rows.len() - forces.len(),
+            torques: n - forces.len(),
             forces,
         }
     }

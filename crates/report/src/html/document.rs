@@ -79,6 +79,15 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         out,
         format_args!("<p class=\"answer\">{}</p>\n", answer(page)),
     );
+    let free = page.run.freedoms.sentences();
+    if !free.is_empty() {
+        out.push_str("<ul class=\"free-motions\">\n");
+        for (lead, text) in &free {
+            let (lead, text) = (sentence(lead), verdicts::marked(text));
+            add(out, format_args!("<li>{lead}: {text}</li>\n"));
+        }
+        out.push_str("</ul>\n");
+    }
     tiles(out, page);
     out.push_str(
         "<nav aria-label=\"Sections\"><a href=\"#motion\">Motion</a> <a href=\"#verdicts\">Verdicts</a> \
@@ -96,6 +105,14 @@ fn answer(page: &RunPage<'_>) -> String {
             .collect()
     };
     let (unique, open, doubt) = (of("unique"), of("not_unique"), of("undecided"));
+    let fragile: Vec<&str> = page
+        .run
+        .reactions
+        .0
+        .iter()
+        .filter(|(_, r)| r.data.fragile)
+        .map(|(name, _)| name.as_str())
+        .collect();
     let mut text = String::new();
     if let Some(a) = page.analysis {
         if a.rows == 0 {
@@ -110,10 +127,15 @@ fn answer(page: &RunPage<'_>) -> String {
             1 => "one is redundant".to_owned(),
             p => format!("{} are redundant", count(p)),
         };
-        let freedoms = match a.mobility {
+        let mut freedoms = match a.mobility {
+            _ if page.run.freedoms.cannot_move => "the mechanism cannot move".to_owned(),
             1 => "one freedom of motion is left".to_owned(),
             f => format!("{} freedoms of motion are left", count(f)),
         };
+        if let Some(without) = &page.run.freedoms.without_drives {
+            let left = count(without.mobility);
+            freedoms += &format!(" with {}, {left} without", without.possessive());
+        }
         add(
             &mut text,
             format_args!("{rows} rank {}: {redundant}, and {freedoms}. ", a.rank),
@@ -121,6 +143,14 @@ fn answer(page: &RunPage<'_>) -> String {
     }
     match (unique.as_slice(), open.as_slice()) {
         ([], []) => {}
+        (_, []) if !fragile.is_empty() => {
+            add(&mut text, format_args!("<b>{}</b>. ", hanging(&fragile)));
+            text.push_str(match (fragile.len() == unique.len(), doubt.is_empty()) {
+                (true, _) => "",
+                (false, true) => "The other reactions are unique. ",
+                (false, false) => "The other reactions that are decided are unique. ",
+            });
+        }
         (_, []) => text.push_str("<b>All reactions that are decided are unique.</b> "),
         ([], names) => add(
             &mut text,
@@ -138,6 +168,9 @@ fn answer(page: &RunPage<'_>) -> String {
             ),
         ),
     }
+    if !open.is_empty() && !fragile.is_empty() {
+        add(&mut text, format_args!("<b>{}</b>. ", hanging(&fragile)));
+    }
     if !doubt.is_empty() {
         add(
             &mut text,
@@ -152,6 +185,19 @@ fn answer(page: &RunPage<'_>) -> String {
         );
     }
     text.trim_end().to_owned()
+}
+
+/// That some unique reactions hang on the data.
+fn hanging(names: &[&str]) -> String {
+    let names_in_words = names_in_words(names);
+    match names.len() {
+        1 => format!(
+            "The reaction of {names_in_words} is unique but fragile, made of the last digits of the data"
+        ),
+        _ => format!(
+            "The reactions of {names_in_words} are unique but fragile, made of the last digits of the data"
+        ),
+    }
 }
 
 /// Small numbers as words.
@@ -183,6 +229,9 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
         ));
         tiles.push((a.redundancy.to_string(), "degree of redundancy"));
         tiles.push((a.mobility.to_string(), "freedoms of motion"));
+        if let Some(without) = &run.freedoms.without_drives {
+            tiles.push((without.mobility.to_string(), "without drives"));
+        }
     }
     let unique = run
         .reactions
@@ -193,6 +242,11 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
         format!("{} of {}", unique.count(), run.reactions.0.len()),
         "reactions unique",
     ));
+    let fragile = run.reactions.0.iter().filter(|(_, r)| r.data.fragile);
+    match fragile.count() {
+        0 => {}
+        n => tiles.push((n.to_string(), "of them fragile")),
+    }
     tiles.push((format!("{} s", run.t_end), "of motion"));
     tiles.push((short(run.max_position_residual), "largest |Φ|"));
     tiles.push((short(run.energy_balance), "energy balance"));

@@ -33,12 +33,14 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>) {
     out.push_str("</section>\n");
 }
 
-/// Those that are not unique come first where not all have room.
+/// Those that are not unique, or fragile, come first where not all have room.
 fn selected(all: &[ReactionDocument]) -> Vec<&ReactionDocument> {
     if all.len() <= LINES {
         return all.iter().collect();
     }
-    let (unique, open): (Vec<_>, Vec<_>) = all.iter().partition(|r| r.wrench.verdict == "unique");
+    let (unique, open): (Vec<_>, Vec<_>) = all
+        .iter()
+        .partition(|r| r.wrench.verdict == "unique" && !r.data.fragile);
     open.into_iter().chain(unique).take(LINES).collect()
 }
 
@@ -53,16 +55,22 @@ fn table(out: &mut String, reactions: &[&ReactionDocument]) {
             "unique" => "~0".to_owned(),
             _ => margin(r.wrench.margin),
         };
+        let said = match r.data.fragile {
+            true => "unique, fragile".to_owned(),
+            false => r.wrench.verdict.replace('_', " "),
+        };
+        let badge = match r.data.fragile {
+            true => "fragile",
+            false => r.wrench.verdict,
+        };
         add(
             out,
             format_args!(
-                "<tr><td><b>{}</b></td><td>{}</td><td class=\"number\">{}</td><td><span class=\"badge {}\">{}</span></td>\
+                "<tr><td><b>{}</b></td><td>{}</td><td class=\"number\">{}</td><td><span class=\"badge {badge}\">{said}</span></td>\
                  <td class=\"number\">{margin}</td><td class=\"why\">{}</td></tr>\n",
                 safe(&r.name),
                 safe(r.kind),
                 rows.join(", "),
-                r.wrench.verdict,
-                r.wrench.verdict.replace('_', " "),
                 marked(&reason(r))
             ),
         );
@@ -78,6 +86,9 @@ fn table(out: &mut String, reactions: &[&ReactionDocument]) {
 fn reason(r: &ReactionDocument) -> String {
     if let Some(reason) = &r.wrench.reason {
         return reason.clone();
+    }
+    if let Some(text) = &r.data.hangs_on {
+        return text.clone();
     }
     match (&r.explanation, r.settled, r.wrench.verdict) {
         (Some(text), ..) => {
@@ -132,9 +143,11 @@ fn why(out: &mut String, page: &RunPage<'_>) {
         out.push_str("<h3>What would make a reaction unique, without a change of motion</h3>\n");
         some(out, &hints);
     }
-    if !analysis.warnings.is_empty() {
+    let notes = analysis.notes.iter().map(|note| note.text.clone());
+    let known: Vec<String> = analysis.warnings.iter().cloned().chain(notes).collect();
+    if !known.is_empty() {
         out.push_str("<h3>To be known</h3>\n");
-        some(out, &analysis.warnings);
+        some(out, &known);
     }
 }
 
@@ -160,7 +173,7 @@ fn margin(x: f64) -> String {
 }
 
 /// Text in which names stand between grave accents.
-fn marked(text: &str) -> String {
+pub(super) fn marked(text: &str) -> String {
     let mut out = String::new();
     for (k, part) in text.split('`').enumerate() {
         match k % 2 {

@@ -95,6 +95,8 @@ pub struct SweepMotion {
     pub redundancy: u64,
     /// Joints and drives whose reaction is not unique at the start, or undecided.
     pub not_unique: u64,
+    /// Joints and drives whose reaction is unique at the start, but fragile.
+    pub fragile: u64,
     /// Time of the last written state (s); the end of a run that is done.
     pub t_state: f64,
     /// The last written state, body by body x, y, angle, vx, vy, omega; NaN where no row was written.
@@ -118,7 +120,7 @@ pub struct SweepRow {
     pub motion: Option<SweepMotion>,
 }
 
-const COUNTS: [&str; 8] = [
+const COUNTS: [&str; 9] = [
     "steps",
     "rejected",
     "evaluations",
@@ -127,6 +129,7 @@ const COUNTS: [&str; 8] = [
     "rank",
     "redundancy",
     "not_unique",
+    "fragile",
 ];
 const NUMBERS: [&str; 7] = [
     "seconds",
@@ -189,6 +192,7 @@ impl SweepPlan {
             count(|m| m.rank),
             count(|m| m.redundancy),
             count(|m| m.not_unique),
+            count(|m| m.fragile),
             number(|m| m.seconds),
             number(|m| m.max_position_residual),
             number(|m| m.max_velocity_residual),

@@ -69,6 +69,7 @@ fn row(run: u64) -> SweepRow {
             rank: 2,
             redundancy: 0,
             not_unique: 0,
+            fragile: 0,
             t_state: 1.0,
             state: vec![0.1 + 0.2, -1e300, x, 1.0 / x, f64::NAN, f64::INFINITY],
             extremes: vec![Extreme::UNKNOWN],
@@ -287,17 +288,17 @@ fn tables_do_not_depend_on_who_made_the_rows() {
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(
         lines[0],
-        "run,body.bob.mass,status,error,method,t,steps,rejected,evaluations,projections,events,rank,redundancy,not_unique,\
+        "run,body.bob.mass,status,error,method,t,steps,rejected,evaluations,projections,events,rank,redundancy,not_unique,fragile,\
          seconds,max_position_residual,max_velocity_residual,energy_balance,start_correction,start_velocity_correction,t_state,bob.x,bob.y,bob.angle,bob.vx,\
          bob.vy,bob.omega,pivot.F_max,pivot.F_max_t,pivot.T_max,pivot.T_max_t"
     );
     assert_eq!(
         lines[1],
-        "1,0.3333333333333333,done,,dop853,1.0,10,0,120,10,0,2,0,0,0.001,5e-324,1e-17,1e-9,-0.0,0.5,1.0,0.30000000000000004,-1e300,\
+        "1,0.3333333333333333,done,,dop853,1.0,10,0,120,10,0,2,0,0,0,0.001,5e-324,1e-17,1e-9,-0.0,0.5,1.0,0.30000000000000004,-1e300,\
          1.0,1.0,NaN,inf,NaN,NaN,NaN,NaN"
     );
     assert!(lines[2].starts_with(
-        "2,0.6666666666666666,refused,\"mass is -1, need \"\"≥ 0\"\"\",,NaN,,,,,,,,,NaN,"
+        "2,0.6666666666666666,refused,\"mass is -1, need \"\"≥ 0\"\"\",,NaN,,,,,,,,,,NaN,"
     ));
 }
 

@@ -36,6 +36,7 @@ fn carrier() -> Mechanism {
             bodies: pair.to_vec(),
             element: Box::new(drive),
             motion: Function::steps(0.0, &[]).expect("no step at all"),
+            tolerance: None,
         }],
         ..Description::default()
     };

@@ -12,6 +12,7 @@ use crate::element::TYPE;
 use crate::key::Interval;
 use crate::place::{AT, local_key, owners};
 use crate::section::NAME;
+use crate::tolerance;
 
 /// What a section holds.
 #[derive(Clone, Copy)]
@@ -28,17 +29,21 @@ pub(super) fn elements(registry: &Registry, kind: Kind) -> Value {
     };
     // Definitions that share a type side by side.
     specs.sort_by_key(|spec| spec.scene_type);
-    let tables: Vec<Value> = specs.iter().map(|spec| table(spec, title)).collect();
+    let tables: Vec<Value> = specs.iter().map(|spec| table(spec, kind, title)).collect();
     json!({ "title": title, "type": "object", "oneOf": tables })
 }
 
 /// The table of one definition.
-fn table(spec: &Spec, title: &str) -> Value {
+fn table(spec: &Spec, of: Kind, title: &str) -> Value {
     let mut properties = Map::new();
     let mut required = vec![NAME.name, TYPE];
     properties.insert(NAME.name.to_owned(), described(&NAME));
     let kind = json!({ "const": spec.scene_type, "description": in_one_line(spec.doc) });
     properties.insert(TYPE.to_owned(), kind);
+    if let Kind::Joint = of {
+        let key = &tolerance::OF_JOINT;
+        properties.insert(key.name.to_owned(), described(key));
+    }
 
     let bodies = match listed(spec) {
         1 => BODY,

@@ -8,6 +8,7 @@ mod mutations;
 mod own_joint;
 mod robot_trolley;
 mod schema;
+mod tolerance;
 mod validator;
 
 use model::Registry;

@@ -112,6 +112,7 @@ at = [0.0, 0.0]
 
 [[joint]]
 name = "G"
+tolerance = 1e-4
 type = "gear"
 bodies = ["a", "b"]
 carrier = "c"
@@ -168,7 +169,7 @@ fn all_forms_are_valid() {
 }
 
 /// One change each, and the reader refuses the form of the result.
-const WRONG: [(&str, &str); 44] = [
+const WRONG: [(&str, &str); 51] = [
     ("space = \"plane\"", "space = \"space\""),
     ("space = \"plane\"", ""),
     ("name = \"small\"", "name = 3"),
@@ -178,6 +179,16 @@ const WRONG: [(&str, &str); 44] = [
         "name = \"small\"\ngravity = [0.0, 1.0, 2.0]",
     ),
     ("name = \"small\"", "name = \"small\"\nunits = \"SI\""),
+    ("name = \"small\"", "name = \"small\"\ntolerance = 0.0"),
+    (
+        "name = \"small\"",
+        "name = \"small\"\nangle_tolerance = -1e-6",
+    ),
+    ("name = \"small\"", "name = \"small\"\ntolerance = \"1e-4\""),
+    ("mass = 1.0", "mass = 1.0\ntolerance = -1e-4"),
+    ("mass = 1.0", "mass = 1.0\nangle_tolerance = 1e-4"),
+    ("at = [0.0, 0.0]", "at = [0.0, 0.0]\ntolerance = 0"),
+    ("stiffness = 1.0", "stiffness = 1.0\ntolerance = 1e-4"),
     ("mass = 1.0", "mass = -1.0"),
     ("mass = 1.0", "mass = \"1\""),
     ("mass = 1.0", ""),

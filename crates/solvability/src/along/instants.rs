@@ -3,8 +3,8 @@
 
 use super::passages::local_minima;
 use super::path::{Path, Sample};
-use super::{AlongError, Passage, PassageKind, Stretch, differences, parts, search, words};
-use crate::mechanism::Analysis;
+use super::{AlongError, Passage, PassageKind, Stretch, differences, search, verdicts, words};
+use crate::analysis::Analysis;
 use crate::state::State;
 use crate::verdict::Verdict;
 
@@ -29,7 +29,7 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
     let is_known = |s: &Sample| s.regular && !is_special(s.t);
     let of_all_parts = |s: &Sample| -> Option<Vec<f64>> {
         is_known(s).then(|| {
-            parts(mechanism, &s.analysis)
+            verdicts(mechanism, &s.analysis)
                 .iter()
                 .map(|p| p.2.margin)
                 .collect()
@@ -37,13 +37,13 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
     };
     let times: Vec<f64> = path.samples.iter().map(|s| s.t).collect();
     let known: Vec<Option<Vec<f64>>> = path.samples.iter().map(of_all_parts).collect();
-    let not_unique: Vec<usize> = parts(mechanism, generic)
+    let not_unique: Vec<usize> = verdicts(mechanism, generic)
         .iter()
         .enumerate()
         .filter(|(_, p)| p.2.verdict == Verdict::NotUnique)
         .map(|(k, _)| k)
         .collect();
-    let margin = |analysis: &Analysis, part: usize| parts(mechanism, analysis)[part].2.margin;
+    let margin = |analysis: &Analysis, part: usize| verdicts(mechanism, analysis)[part].2.margin;
     let mut found: Vec<(f64, Analysis)> = Vec::new();
     for part in not_unique {
         let margins: Vec<Option<f64>> = known
@@ -70,7 +70,7 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
         }
         for bracket in brackets {
             let is_unique = |a: &Analysis| {
-                let (_, _, judgement, is_zero) = &parts(mechanism, a)[part];
+                let (_, _, judgement, is_zero) = &verdicts(mechanism, a)[part];
                 judgement.verdict.is_unique() && !is_zero
             };
             let inside = |t: f64| bracket[0] <= t && t <= bracket[1];

@@ -6,8 +6,8 @@ use model::{Mechanism, System};
 use super::border::Border;
 use super::path::{NEARLY_SINGULAR, Path, Point, Sample};
 use super::{AlongError, Passage, PassageKind, Stretch, differences, search, words};
-use crate::certificate::Rows;
-use crate::mechanism::{Analysis, judge, velocity_units};
+use crate::analysis::Analysis;
+use crate::mechanism::velocity_units;
 use crate::second_order::{Continuation, Undetermined, second_order};
 use crate::state::State;
 
@@ -147,12 +147,7 @@ fn passage<F: FnMut(f64) -> State>(
     // A sign change proves that a matrix of lower rank is as near as σ_r.
     let distance = if candidate.proved { sigma } else { 0.0 };
     let decision = path.decide(&point, distance)?;
-    let analysis = judge(
-        path.mechanism,
-        &point.s,
-        &Rows::in_double(path.mechanism, &point.s, &point.q),
-        decision.clone(),
-    )?;
+    let analysis = path.judged(&point, decision.clone())?;
     let interval = nearly_singular(path, time)?;
     let kind = match decision.status {
         RankStatus::Undecided(doubt) => PassageKind::Undecided { doubt },

@@ -5,8 +5,11 @@ use model::start::{nearest_configuration, scene_size};
 use model::{Mechanism, Scratch, System};
 
 use super::AlongError;
+use crate::analysis::Analysis;
 use crate::certificate::Rows;
-use crate::mechanism::{Analysis, AnalysisError, dimensionless, evaluated, judge, uncertainty};
+use crate::mechanism::{
+    AnalysisError, dimensionless, evaluated, judge, judge_reactions, uncertainty,
+};
 use crate::state::{self, State};
 
 /// The smallest singular value below which a configuration is called nearly singular.
@@ -77,12 +80,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         for &t in times {
             let point = path.at(t)?;
             let decision = path.decide(&point, 0.0)?;
-            let analysis = judge(
-                mechanism,
-                &point.s,
-                &Rows::in_double(mechanism, &point.s, &point.q),
-                decision.clone(),
-            )?;
+            let analysis = path.judged(&point, decision.clone())?;
             path.samples.push(Sample {
                 t,
                 sigma: 0.0,
@@ -117,7 +115,12 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         self.scaling = best.decision.scaling.clone();
         for sample in &mut self.samples {
             sample.c = self.scaling.apply(&sample.c);
-            sample.sigma = singular_value(&sample.c, self.rank);
+            let known = &sample.decision.evidence.singular_values;
+            let same = sample.decision.scaling == self.scaling;
+            sample.sigma = match self.rank.checked_sub(1).and_then(|k| known.get(k)) {
+                Some(sigma) if same => *sigma,
+                _ => singular_value(&sample.c, self.rank),
+            };
         }
         let largest = self.samples.iter().map(|s| s.sigma).fold(0.0, f64::max);
         let limit = NEARLY_SINGULAR.min(REGULAR * largest);
@@ -168,12 +171,22 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
     pub(super) fn analysis(&mut self, t: f64) -> Result<Analysis, AlongError> {
         let point = self.at(t)?;
         let decision = self.decide(&point, 0.0)?;
-        Ok(judge(
-            self.mechanism,
-            &point.s,
-            &Rows::in_double(self.mechanism, &point.s, &point.q),
-            decision,
-        )?)
+        self.judged(&point, decision)
+    }
+
+    /// All that is known at time t, dependencies included.
+    pub(super) fn complete(&mut self, t: f64) -> Result<Analysis, AlongError> {
+        let p = self.at(t)?;
+        let rows = Rows::in_double(self.mechanism, &p.s, &p.q);
+        let judged = judge(self.mechanism, &p.s, &rows, self.decide(&p, 0.0)?)?;
+        Ok(Analysis::of(self.mechanism, t, &p.q, vec![judged]))
+    }
+
+    /// The verdicts at a point where the rank has been decided.
+    pub(super) fn judged(&self, p: &Point, decision: RankDecision) -> Result<Analysis, AlongError> {
+        let rows = Rows::in_double(self.mechanism, &p.s, &p.q);
+        let judged = judge_reactions(self.mechanism, &p.s, &rows, decision)?;
+        Ok(Analysis::of(self.mechanism, p.t, &p.q, vec![judged]))
     }
 }
 

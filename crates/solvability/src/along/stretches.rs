@@ -6,8 +6,8 @@
 use model::Mechanism;
 
 use super::path::{Path, Sample};
-use super::{Stretch, differences, ends_of_pieces, parts, words};
-use crate::mechanism::Analysis;
+use super::{Stretch, differences, ends_of_pieces, verdicts, words};
+use crate::analysis::Analysis;
 use crate::verdict::Verdict;
 
 /// The generic verdict, and stretches in the order of time; neighbouring ones with the same verdicts are one.
@@ -66,7 +66,7 @@ fn most_generic<'a>(
     samples: impl Iterator<Item = &'a Sample>,
 ) -> Option<&'a Sample> {
     let standing = |s: &Sample| {
-        let parts = parts(mechanism, &s.analysis);
+        let parts = verdicts(mechanism, &s.analysis);
         let count = |is: fn(&Verdict) -> bool| parts.iter().filter(|p| is(&p.2.verdict)).count();
         let not_unique = count(|v| *v == Verdict::NotUnique);
         let undecided = count(|v| matches!(v, Verdict::Undecided { .. }));

@@ -1,7 +1,7 @@
 //! Passages and stretches as sentences.
 
 use super::{Difference, Part, Passage, PassageKind, Stretch};
-use crate::mechanism::Analysis;
+use crate::analysis::Analysis;
 
 /// Digits of a time that was searched for: it is known as well as the motion, which a run knows to little more than its tolerance.
 const SEARCHED: i32 = 7;

@@ -1,10 +1,15 @@
 //! The equations behind the multipliers, and one solution of them: on the kept rows of the rank decision, the dropped ones zero.
 
-use linalg::{KeptRowSaddle, Matrix, RankDecision, RankStatus};
-use model::{ColumnKind, Mechanism, System};
+use linalg::{KeptRowSaddle, Matrix, RankStatus, SchurSaddle, SchurStructure};
+use model::{ColumnKind, Mechanism, Scratch, System};
 
 use super::ChoiceError;
+use crate::certificate::ROWS_MAX;
 use crate::groups::{RequestError, check};
+use crate::large::{blocks, rows_of};
+use crate::mechanism::velocity_units;
+use crate::parts::Extent;
+use crate::rows::RowDecision;
 
 /// `M·a + Cᵀ·λ = Q`, `C·a = Γ` at one instant.
 ///
@@ -37,6 +42,15 @@ pub struct Equations {
     pub gamma_terms: Vec<f64>,
 }
 
+/// Accelerations, and one choice of multipliers for them.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution {
+    /// a, n_v.
+    pub acceleration: Vec<f64>,
+    /// λ: that of the kept rows, zero on the dropped ones. All others are `λ + Z·y`.
+    pub multipliers: Vec<f64>,
+}
+
 /// Redundant accelerations agree to this share of their terms: that of rounding in velocities on the constraints, with room.
 const AGREEMENT: f64 = 1e-9;
 
@@ -46,6 +60,101 @@ impl Equations {
     /// # Errors
     /// [`RequestError::Length`], [`RequestError::NotFinite`]: t, q or v do not fit the mechanism.
     pub fn of(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Result<Self, RequestError> {
+        let Terms { s, gamma_terms, .. } = Terms::of(mechanism, t, q, v)?;
+        Ok(Self {
+            mass: mechanism.mass().to_vec(),
+            c: mechanism.layout().dense(&s),
+            force: s.force,
+            gamma: s.gamma,
+            gamma_terms,
+        })
+    }
+
+    /// Those of a part of a mechanism at a solution of the whole: what other parts do to its bodies is a load. They have the same
+    /// accelerations, and as multipliers those of the whole and what can be added to them.
+    ///
+    /// # Errors
+    /// As [`Equations::of`].
+    pub(crate) fn of_part(
+        part: &Mechanism,
+        extent: &Extent,
+        (t, q, v): (f64, &[f64], &[f64]),
+        solution: &Solution,
+    ) -> Result<Self, RequestError> {
+        let [q, v, a] = [
+            extent.coordinates(q),
+            extent.velocities(v),
+            extent.velocities(&solution.acceleration),
+        ];
+        let of_part = Self::of(part, t, &q, &v)?;
+        let lambda = extent.of_rows(&solution.multipliers);
+        // Any masses do, because accelerations are known; only none must be zero.
+        let largest = of_part.mass.iter().fold(0.0_f64, |a, m| a.max(*m));
+        let some = |m: &f64| match (*m > 0.0, largest > 0.0) {
+            (true, _) => *m,
+            (false, true) => largest,
+            (false, false) => 1.0,
+        };
+        let mass: Vec<f64> = of_part.mass.iter().map(some).collect();
+        let mut force = of_part.c.transpose_times(&lambda);
+        for ((f, m), a) in force.iter_mut().zip(&mass).zip(a.iter()) {
+            *f += m * a;
+        }
+        Ok(Self {
+            mass,
+            force,
+            gamma: of_part.c.times(&a),
+            ..of_part
+        })
+    }
+
+    /// One solution λ: that of the kept rows, zero on the dropped ones. All others are `λ + Z·y`.
+    ///
+    /// # Errors
+    /// - [`ChoiceError::Undecided`]: which rows to keep is not known.
+    /// - [`ChoiceError::Saddle`]: the kept rows and the masses do not determine the accelerations.
+    /// - [`ChoiceError::Contradiction`]: the dropped rows ask for other accelerations, so there is no solution at all.
+    /// - [`ChoiceError::Request`]: sizes do not fit.
+    pub fn multipliers(&self, rows: impl Into<RowDecision>) -> Result<Vec<f64>, ChoiceError> {
+        self.solution(rows).map(|solution| solution.multipliers)
+    }
+
+    /// The same with accelerations.
+    ///
+    /// # Errors
+    /// As [`Equations::multipliers`].
+    pub fn solution(&self, rows: impl Into<RowDecision>) -> Result<Solution, ChoiceError> {
+        let rows = rows.into();
+        let (m, n) = (self.c.nrows(), self.c.ncols());
+        check("gamma", &self.gamma, m)?;
+        check("gamma_terms", &self.gamma_terms, m)?;
+        check_rows(&rows, m)?;
+        let kept = &rows.kept;
+        let mut saddle = KeptRowSaddle::new(n, kept.len())?;
+        saddle.factor(|k| self.c.row(kept[k]), &self.mass)?;
+        let gamma: Vec<f64> = kept.iter().map(|&i| self.gamma[i]).collect();
+        let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; kept.len()]);
+        saddle.solve(&self.force, &gamma, &mut a, &mut of_kept)?;
+        // What the error of each acceleration is proportional to is measured by the sizes of the columns of C.
+        let units = linalg::equilibrate(&self.c).cols;
+        let units: Vec<f64> = units.into_iter().map(|e| f64::from(e).exp2()).collect();
+        let row = |i: usize| self.c.row(i).iter().copied().enumerate();
+        agree(&rows, row, &a, &units, [&self.gamma, &self.gamma_terms])?;
+        Ok(Solution {
+            acceleration: a,
+            multipliers: on_all_rows(kept, of_kept, m),
+        })
+    }
+}
+
+/// The equations of a mechanism at one instant, before any matrix of all rows and columns.
+struct Terms {
+    s: Scratch,
+    gamma_terms: Vec<f64>,
+}
+
+impl Terms {
+    fn of(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Result<Self, RequestError> {
         let layout = mechanism.layout();
         check("t", &[t], 1)?;
         check("q", q, layout.n_q)?;
@@ -69,66 +178,90 @@ impl Equations {
         let gamma_terms = (0..layout.rows())
             .map(|i| rate * rate * reach(i).sum::<f64>())
             .collect();
-        Ok(Self {
-            mass: mechanism.mass().to_vec(),
-            c: layout.dense(&s),
-            force: s.force,
-            gamma: s.gamma,
-            gamma_terms,
-        })
+        Ok(Self { s, gamma_terms })
     }
+}
 
-    /// One solution λ: that of the kept rows, zero on the dropped ones. All others are `λ + Z·y`.
-    ///
-    /// # Errors
-    /// - [`ChoiceError::Undecided`]: which rows to keep is not known.
-    /// - [`ChoiceError::Saddle`]: the kept rows and the masses do not determine the accelerations.
-    /// - [`ChoiceError::Contradiction`]: the dropped rows ask for other accelerations, so there is no solution at all.
-    /// - [`ChoiceError::Request`]: sizes do not fit.
-    pub fn multipliers(&self, decision: &RankDecision) -> Result<Vec<f64>, ChoiceError> {
-        let (m, n) = (self.c.nrows(), self.c.ncols());
-        check("gamma", &self.gamma, m)?;
-        check("gamma_terms", &self.gamma_terms, m)?;
-        if decision.scaling.rows.len() != m {
-            return Err(ChoiceError::Request(RequestError::Length {
-                argument: "the rank decision, by rows,",
-                found: decision.scaling.rows.len(),
-                expected: m,
-            }));
-        }
-        if let RankStatus::Undecided(doubt) = decision.status {
-            return Err(ChoiceError::Undecided(doubt));
-        }
-        let kept = &decision.kept;
-        let mut saddle = KeptRowSaddle::new(n, kept.len())?;
-        saddle.factor(|k| self.c.row(kept[k]), &self.mass)?;
-        let gamma: Vec<f64> = kept.iter().map(|&i| self.gamma[i]).collect();
-        let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; kept.len()]);
-        saddle.solve(&self.force, &gamma, &mut a, &mut of_kept)?;
-        let rounding = self.rounding_of(&a);
-        for &row in &decision.dropped {
-            let terms = self.c.row(row).iter().zip(&a).map(|(c, a)| c * a);
-            let by = (terms.sum::<f64>() - self.gamma[row]).abs();
-            let entries = self.c.row(row).iter().zip(&rounding);
-            let size = entries.map(|(c, a)| c.abs() * a).sum::<f64>();
-            let allowed = AGREEMENT * (size + self.gamma[row].abs() + self.gamma_terms[row]);
-            if by.is_nan() || by > allowed {
-                return Err(ChoiceError::Contradiction { row, by, allowed });
-            }
-        }
-        let mut lambda = vec![0.0; m];
-        for (&i, l) in kept.iter().zip(of_kept) {
-            lambda[i] = l;
-        }
-        Ok(lambda)
+/// One solution of the equations of a mechanism of any size at time t, coordinates q and velocities v, which must satisfy the constraints: on dense
+/// matrices, or, where those would be too large, on sparse ones.
+///
+/// # Errors
+/// As [`Equations::of`] and [`Equations::multipliers`]; on sparse matrices every coordinate needs a mass.
+pub fn solution(
+    mechanism: &Mechanism,
+    (t, q, v): (f64, &[f64], &[f64]),
+    rows: &RowDecision,
+) -> Result<Solution, ChoiceError> {
+    let layout = mechanism.layout();
+    if layout.rows() <= ROWS_MAX {
+        return Equations::of(mechanism, t, q, v)?.solution(rows);
     }
+    check_rows(rows, layout.rows())?;
+    let Terms { s, gamma_terms } = Terms::of(mechanism, t, q, v)?;
+    let units = velocity_units(mechanism, model::start::scene_size(mechanism, q));
+    let scaled = |x: &[f64]| -> Vec<f64> { x.iter().zip(&units).map(|(x, u)| x * u).collect() };
+    let kept = &rows.kept;
+    let c = rows_of(mechanism, &s, kept.iter().copied(), |j| units[j]);
+    let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &blocks(mechanism)));
+    saddle.factor(&c, &scaled(&scaled(mechanism.mass())))?;
+    let gamma: Vec<f64> = kept.iter().map(|&i| s.gamma[i]).collect();
+    let (mut x, mut of_kept) = (vec![0.0; layout.n_v], vec![0.0; kept.len()]);
+    saddle.solve(&c, &scaled(&s.force), &gamma, &mut x, &mut of_kept)?;
+    let a = scaled(&x);
+    let row = |i: usize| layout.row(&s, i);
+    agree(rows, row, &a, &units, [&s.gamma, &gamma_terms])?;
+    Ok(Solution {
+        acceleration: a,
+        multipliers: on_all_rows(kept, of_kept, layout.rows()),
+    })
+}
 
-    /// What the error of each acceleration is proportional to: the largest one, each measured by the size of its column in C.
-    fn rounding_of(&self, a: &[f64]) -> Vec<f64> {
-        let units = linalg::equilibrate(&self.c).cols;
-        let units: Vec<f64> = units.into_iter().map(|e| f64::from(e).exp2()).collect();
-        let largest = a.iter().zip(&units).map(|(a, unit)| (a / unit).abs());
-        let largest = largest.fold(0.0, f64::max);
-        units.iter().map(|unit| unit * largest).collect()
+/// Checks that a decided rank is one of so many rows.
+fn check_rows(rows: &RowDecision, m: usize) -> Result<(), ChoiceError> {
+    let found = rows.kept.len() + rows.dropped.len();
+    if found != m {
+        return Err(ChoiceError::Request(RequestError::Length {
+            argument: "the rank decision, by rows,",
+            found,
+            expected: m,
+        }));
     }
+    match rows.status {
+        RankStatus::Undecided(doubt) => Err(ChoiceError::Undecided(doubt)),
+        _ => Ok(()),
+    }
+}
+
+/// Checks that the dropped rows ask for these accelerations, too. The error of each is taken as that of the largest one, in these units.
+fn agree<R: Iterator<Item = (usize, f64)>>(
+    rows: &RowDecision,
+    row: impl Fn(usize) -> R,
+    a: &[f64],
+    units: &[f64],
+    [gamma, gamma_terms]: [&[f64]; 2],
+) -> Result<(), ChoiceError> {
+    let largest = a.iter().zip(units).map(|(a, unit)| (a / unit).abs());
+    let largest = largest.fold(0.0, f64::max);
+    for &i in &rows.dropped {
+        let by = (row(i).map(|(j, c)| c * a[j]).sum::<f64>() - gamma[i]).abs();
+        let size = row(i).map(|(j, c)| c.abs() * units[j] * largest);
+        let allowed = AGREEMENT * (size.sum::<f64>() + gamma[i].abs() + gamma_terms[i]);
+        if by.is_nan() || by > allowed {
+            return Err(ChoiceError::Contradiction {
+                row: i,
+                by,
+                allowed,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Multipliers of the kept rows, and zeros.
+fn on_all_rows(kept: &[usize], of_kept: Vec<f64>, rows: usize) -> Vec<f64> {
+    let mut lambda = vec![0.0; rows];
+    for (&i, l) in kept.iter().zip(of_kept) {
+        lambda[i] = l;
+    }
+    lambda
 }

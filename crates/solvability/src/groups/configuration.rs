@@ -1,5 +1,7 @@
 //! A mechanism at a configuration whose rank has been decided: where the numbers of its reactions are made and judged.
 
+use std::borrow::Cow;
+
 use linalg::{Matrix, RankDecision};
 use model::start::scene_size;
 use model::{ConstraintId, Mechanism, Scratch, System};
@@ -12,7 +14,7 @@ use crate::verdict::Judgement;
 
 /// A mechanism at time t and coordinates q, with the rank of C there.
 pub struct Configuration<'a> {
-    pub(crate) mechanism: &'a Mechanism,
+    pub(crate) mechanism: Cow<'a, Mechanism>,
     pub(crate) s: Scratch,
     /// Length by which torques are compared with forces (m).
     pub(crate) size: f64,
@@ -29,6 +31,16 @@ impl<'a> Configuration<'a> {
     /// - [`RequestError::NotFinite`]: t or q is not finite.
     pub fn new(
         mechanism: &'a Mechanism,
+        t: f64,
+        q: &[f64],
+        decision: &RankDecision,
+    ) -> Result<Self, RequestError> {
+        Self::of(Cow::Borrowed(mechanism), t, q, decision)
+    }
+
+    /// The same of a mechanism that nobody else needs.
+    pub(crate) fn of(
+        mechanism: Cow<'a, Mechanism>,
         t: f64,
         q: &[f64],
         decision: &RankDecision,
@@ -58,12 +70,12 @@ impl<'a> Configuration<'a> {
                 });
             }
         }
-        let s = evaluated(mechanism, t, q);
-        let size = scene_size(mechanism, q);
-        let c = dimensionless(mechanism, &s, size);
+        let s = evaluated(&mechanism, t, q);
+        let size = scene_size(&mechanism, q);
+        let c = dimensionless(&mechanism, &s, size);
         Ok(Self {
+            uncertainty: uncertainty(&mechanism, &s, q, size),
             mechanism,
-            uncertainty: uncertainty(mechanism, &s, q, size),
             s,
             size,
             solvability: Solvability::from_decision(&c, decision.clone()),

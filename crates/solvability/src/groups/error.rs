@@ -40,6 +40,19 @@ pub enum RequestError {
         /// How many there are.
         rows: usize,
     },
+    /// Too many rows are on common cycles.
+    #[error(
+        "{joints} are on common cycles with {rows} rows in all: this question takes matrices of all of them, which is possible up to {most} rows; other \
+         parts of the mechanism can be asked"
+    )]
+    Large {
+        /// The first joints and drives of the part.
+        joints: String,
+        /// Its rows.
+        rows: usize,
+        /// Rows that are possible.
+        most: usize,
+    },
     /// The solvability is of another constraint matrix.
     #[error(transparent)]
     Query(#[from] QueryError),

@@ -134,10 +134,15 @@ impl Basis {
     /// The rank of some of the rows, from the dependencies of all: those that need no other row, `z = 0` there, are as many as `p − rank Z_other`.
     /// Nothing where the rank of all is undecided, or that of Z_other unclear.
     pub(crate) fn rank_of(&self, rows: Range<usize>) -> Option<usize> {
+        let other: Vec<usize> = (0..self.z.nrows()).filter(|i| !rows.contains(i)).collect();
+        self.rank_without(&other)
+    }
+
+    /// The same of all rows but these.
+    pub(crate) fn rank_without(&self, other: &[usize]) -> Option<usize> {
         if self.known.status != RankStatus::Decided {
             return None;
         }
-        let other: Vec<usize> = (0..self.z.nrows()).filter(|i| !rows.contains(i)).collect();
         let tied = match &self.exact {
             Some(z) => {
                 let rows: Vec<_> = other.iter().map(|&i| vec![(i, 1.0)]).collect();
@@ -145,11 +150,11 @@ impl Basis {
             }
             None => {
                 let noise = self.noise(other.iter().map(|&i| (i, 1.0)));
-                let qr = PivotedQr::of_rows(self.z.select_rows(&other));
+                let qr = PivotedQr::of_rows(self.z.select_rows(other));
                 self.clear_rank(&qr, noise).ok()?
             }
         };
-        Some(rows.len() + tied - self.z.ncols())
+        Some(self.z.nrows() - other.len() + tied - self.z.ncols())
     }
 
     /// A map is known as well as the entries of C, which stand at the same poses.

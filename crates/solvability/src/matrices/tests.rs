@@ -158,33 +158,6 @@ fn questions_that_cannot_be_answered_are_named() {
 }
 
 #[test]
-fn verdicts_at_another_point_are_those_of_a_new_decision() {
-    let first = Solvability::of(&bar(0.0), 0.0).unwrap();
-    for epsilon in [0.0, 0.3, 1.0] {
-        let (again, fresh) = (
-            first.at(&bar(epsilon), 0.0).unwrap(),
-            Solvability::of(&bar(epsilon), 0.0).unwrap(),
-        );
-        for i in 0..4 {
-            let (a, b) = (again.row(i).unwrap(), fresh.row(i).unwrap());
-            assert_eq!(a.verdict, b.verdict, "row {i}");
-            assert!((a.margin - b.margin).abs() < 1e-14);
-        }
-    }
-    // Both ends in one place: another rank.
-    let mut folded = bar(0.0);
-    folded[(3, 2)] = 0.0;
-    assert!(matches!(
-        first.at(&folded, 0.0),
-        Err(Degraded::KeptRows { .. })
-    ));
-    assert!(matches!(
-        first.at(&Matrix::identity(3), 0.0),
-        Err(Degraded::Shape { .. })
-    ));
-}
-
-#[test]
 fn empty_matrices() {
     for (m, n) in [(0, 0), (0, 3), (3, 0), (2, 2)] {
         let s = Solvability::of_exact(&Matrix::zeros(m, n)).unwrap();

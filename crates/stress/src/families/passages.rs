@@ -100,6 +100,7 @@ fn driven(pivots: &[f64], offset: f64) -> Description {
             measure_0: 0.0,
         }),
         motion,
+        tolerance: None,
     }));
     d
 }

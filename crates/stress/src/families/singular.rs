@@ -263,7 +263,10 @@ fn steered(displacement: f64) -> Result<Outcome, Outcome> {
         .filter(|(_, row)| !row.judgement.verdict.is_unique())
         .map(|(i, _)| i + 1)
         .collect();
-    let pairs = count_deletions(&a.decision).map_err(Outcome::refused)?;
+    let whole = a
+        .whole()
+        .ok_or_else(|| Outcome::refused("judged by parts"))?;
+    let pairs = count_deletions(&whole).map_err(Outcome::refused)?;
     let found = [a.decision.rank, a.decision.redundancy];
     let detail = format!("rank, redundancy {found:?}; rows {free:?} not unique; {pairs} pairs");
     let right = found == [20, 2] && free == [3, 5, 18, 19, 20, 21] && pairs == 8;

@@ -58,6 +58,7 @@ pub fn motor(name: &str, k: usize, motion: Function) -> Drive {
         bodies: vec![BodyRef::Ground, BodyRef::Body(k)],
         element: Box::new(element),
         motion,
+        tolerance: None,
     }
 }
 

@@ -118,6 +118,7 @@ pub fn robot_of_size(size: f64, motion: Function) -> Description {
         bodies: pair.to_vec(),
         element: Box::new(element),
         motion,
+        tolerance: None,
     };
     Description {
         name: "robot-trolley".into(),

@@ -165,6 +165,7 @@ impl Sketch {
             bodies: link.bodies.clone(),
             element: self.element(link),
             functions: Vec::new(),
+            tolerance: None,
         }
     }
 
@@ -174,6 +175,7 @@ impl Sketch {
             bodies: link.bodies.clone(),
             element: self.element(link),
             motion: Function::constant_rate(1.0).expect("finite"),
+            tolerance: None,
         }
     }
 
@@ -227,6 +229,7 @@ impl Sketch {
                 axis: direction(0, axis),
                 radius,
                 phase: 0.0,
+                centre: [0.0; 2],
             }),
             Tie::KnifeEdge { at, normal } => Box::new(KnifeEdge {
                 s: point(0, at),

@@ -40,6 +40,26 @@ impl Exact {
     #[must_use]
     pub fn of_dyadic(matrix: &[Vec<Dyadic>]) -> Self {
         let (rows, row_exponents) = whole(matrix);
+        Self::of_scaled(rows, row_exponents)
+    }
+
+    /// The same for whole entries.
+    ///
+    /// ```
+    /// use stress::reference::Exact;
+    /// let rows = [[2, 4], [3, 6]].map(|row| row.map(Into::into).to_vec());
+    /// let exact = Exact::of_whole(rows.to_vec());
+    /// assert_eq!((exact.rank(), exact.null_space().len()), (1, 1));
+    /// // 3·(first row) − 2·(second row) = 0
+    /// assert!(exact.determines(&[2, 3].map(Into::into)));
+    /// ```
+    #[must_use]
+    pub fn of_whole(rows: Vec<Vec<BigInt>>) -> Self {
+        let exponents = vec![0; rows.len()];
+        Self::of_scaled(rows, exponents)
+    }
+
+    fn of_scaled(rows: Vec<Vec<BigInt>>, row_exponents: Vec<i64>) -> Self {
         let m = rows.len();
         let n = rows.first().map_or(0, Vec::len);
         // What turns the left part to zero stands in the right part.
@@ -67,6 +87,20 @@ impl Exact {
     #[must_use]
     pub fn row_is_unique(&self, i: usize) -> bool {
         self.z.iter().all(|z| z[i].is_zero())
+    }
+
+    /// Basis of the vectors z with `zᵀ·C = 0`, for a matrix of whole entries; other rows were
+    /// multiplied by powers of two.
+    #[must_use]
+    pub fn null_space(&self) -> &[Vec<BigInt>] {
+        &self.z
+    }
+
+    /// Whether `ℓᵀ·λ` is unique, for a matrix of whole entries: `ℓᵀ·Z = 0`.
+    #[must_use]
+    pub fn determines(&self, l: &[BigInt]) -> bool {
+        let product = |z: &Vec<BigInt>| z.iter().zip(l).map(|(z, l)| z * l).sum::<BigInt>();
+        self.z.iter().all(|z| product(z).is_zero())
     }
 
     /// Rank of `B_X = C_Xᵀ·Z_X`: in so many directions the reaction of the rows X is not unique.

@@ -2,7 +2,7 @@
 
 use pfaff::linalg::RankStatus;
 use pfaff::model::System;
-use pfaff::report::{AnalysisDocument, Proof, write_json};
+use pfaff::report::{AnalysisDocument, write_json};
 use pfaff::solvability::Verdict;
 use pfaff::{Inquiry, Study};
 
@@ -48,7 +48,7 @@ pub(super) fn check(inquiry: &Inquiry<'_>) {
 fn verdicts(inquiry: &Inquiry<'_>) {
     let analysis = &inquiry.analysis;
     let decision = &analysis.decision;
-    let evidence = &decision.evidence;
+    let evidence = analysis.evidence();
     if evidence.certificate.is_none() && decision.rank > 0 {
         assert!(
             evidence.sigma_r > evidence.tolerance,
@@ -133,11 +133,8 @@ fn verdicts(inquiry: &Inquiry<'_>) {
 /// The document of `analyze --json` is JSON.
 fn document(inquiry: &Inquiry<'_>) {
     let generic = inquiry.generic();
-    let proof = Proof {
-        generic: generic.as_ref(),
-        certificate: inquiry.certificate.as_ref(),
-    };
-    let mut document = AnalysisDocument::new(inquiry.scene.name(), &inquiry.analysis, proof);
+    let (name, analysis) = (inquiry.scene.name(), &inquiry.analysis);
+    let mut document = AnalysisDocument::new(name, analysis, generic.as_ref());
     match inquiry.explanation() {
         Ok(Some(explanation)) => document.explain(&explanation, inquiry.mechanism.layout()),
         Ok(None) => {}

@@ -5,7 +5,6 @@
 
 use linalg::{GRADED_MASSES, SaddleError};
 use model::{Mechanism, System};
-use solvability::LARGE;
 
 use super::dense::Dense;
 use super::mass_in_units;
@@ -13,6 +12,9 @@ use super::sparse::{self, Sparse};
 
 /// From so many kept rows on they are solved sparsely.
 const SPARSE_FROM: usize = 64;
+
+/// Kept rows up to which solutions with graded masses are refined: the work grows with their cube.
+const REFINED_MOST: usize = 600;
 
 /// More rows are not solved densely: their matrices would take a gigabyte.
 const DENSE_MOST: usize = 5000;
@@ -30,7 +32,7 @@ pub(in crate::motion) fn is_sparse(mechanism: &Mechanism, units: &[f64], rows: u
     let is_graded = || linalg::mass_spread(&mass_in_units(mechanism, units)) >= GRADED_MASSES;
     rows >= SPARSE_FROM
         && mechanism.mass().iter().all(|&m| m > 0.0)
-        && (rows > LARGE || !is_graded())
+        && (rows > REFINED_MOST || !is_graded())
 }
 
 /// Bytes of the solver of so many kept rows.

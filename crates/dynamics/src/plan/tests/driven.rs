@@ -39,6 +39,7 @@ fn yoke(d: &mut Description) {
             measure_0: 0.0,
         }),
         motion: Function::constant_rate(RATE).expect("finite"),
+        tolerance: None,
     });
     let damper = SpringDamper {
         s_i: [-3.0, 0.0],

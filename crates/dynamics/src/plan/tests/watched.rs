@@ -88,6 +88,12 @@ impl Element for Watched {
     fn points(&self) -> Vec<[f64; 2]> {
         self.inner.element().points()
     }
+    fn data(&self, out: &mut [f64]) {
+        self.inner.element().data(out);
+    }
+    fn set_data(&mut self, numbers: &[f64]) {
+        self.inner.element_mut().set_data(numbers);
+    }
     fn phi(&self, x: &[Pose], f: &[[f64; 3]], out: &mut [f64]) {
         self.note(x, |calls| &mut calls.phi);
         self.inner.element().phi(x, f, out);
@@ -129,5 +135,20 @@ impl Element for Watched {
     }
     fn d_velocity_dx(&self, x: &[Pose], v: &[Twist], f: &[[f64; 3]], out: &mut [f64]) {
         self.inner.element().d_velocity_dx(x, v, f, out);
+    }
+    fn d_phi_dp(&self, x: &[Pose], f: &[[f64; 3]], lambda: &[f64], out: &mut [f64]) {
+        self.inner.element().d_phi_dp(x, f, lambda, out);
+    }
+    fn d_residual_dp(
+        &self,
+        x: &[Pose],
+        v: &[Twist],
+        a: &[Twist],
+        f: &[[f64; 3]],
+        lambda: &[f64],
+        out: &mut [f64],
+    ) {
+        let element = self.inner.element();
+        element.d_residual_dp(x, v, a, f, lambda, out);
     }
 }

@@ -35,6 +35,8 @@ pub(super) enum Quantity {
     Residual,
     /// The place
     Place,
+    /// ∂(λᵀΦ)/∂p
+    PhiByData,
 }
 
 impl<K: Constraint> Curve for Path<'_, K> {
@@ -61,7 +63,18 @@ impl<K: Constraint> Curve for Path<'_, K> {
                 inertia.zip(&kernels::gamma(k, &x, &v, &f), |e, g| e - g)
             }
             Quantity::Place => Block::column(k.place(&x).to_vec()),
+            Quantity::PhiByData => {
+                let lambda: Vec<D> = self.motion.lambda.iter().map(|&l| D::from(l)).collect();
+                kernels::d_phi_dp(k, &x, &f, &lambda)
+            }
         }
+    }
+}
+
+impl<K: Constraint> Path<'_, K> {
+    /// The column at the state itself.
+    pub(super) fn at_zero(&self) -> Block {
+        self.at(0.0)
     }
 }
 
@@ -154,7 +167,12 @@ impl<K: Constraint> Check<'_, K> {
         )
     }
 
-    fn curve<'s>(&'s self, quantity: Quantity, along: Along, motion: &'s Motion) -> Path<'s, K> {
+    pub(super) fn curve<'s>(
+        &'s self,
+        quantity: Quantity,
+        along: Along,
+        motion: &'s Motion,
+    ) -> Path<'s, K> {
         Path {
             check: self,
             motion,

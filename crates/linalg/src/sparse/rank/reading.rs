@@ -32,6 +32,7 @@ impl SparseRank {
     pub fn readings(&self) -> Readings {
         Readings {
             is_certified: false,
+            has_tolerance: false,
             smallest: self.evidence.smallest_margin,
         }
     }

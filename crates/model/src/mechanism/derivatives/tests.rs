@@ -83,6 +83,7 @@ fn mechanism() -> Mechanism {
             measure_0: 0.0,
         }),
         motion: swing,
+        tolerance: None,
     };
     let spring = SpringDamper {
         s_i: [0.2, 0.1],

@@ -67,6 +67,7 @@ fn trolley() -> Mechanism {
             bodies: vec![GROUND, slider],
             element: Box::new(drive),
             motion: Function::harmonic(1.0, 2.0, 0.0, 0.0).expect("finite"),
+            tolerance: None,
         }],
         ..Description::default()
     };

@@ -57,6 +57,7 @@ fn scattered() -> Mechanism {
             bodies: vec![BodyRef::Ground, crank],
             element: Box::new(motor),
             motion: Function::steps(0.4, &[[1.0, 2.0, 3.0]]).expect("a step"),
+            tolerance: None,
         }],
         forces: vec![Force {
             name: "spring".into(),

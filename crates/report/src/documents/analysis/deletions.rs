@@ -1,8 +1,7 @@
 //! What may be deleted: admissible sets of rows, and the smallest ones that make a reaction unique.
 
-use linalg::DeletionError;
 use serde::Serialize;
-use solvability::{Allowed, Proposals};
+use solvability::{Allowed, EliminationError, Proposals};
 
 use crate::documents::from_one;
 
@@ -51,8 +50,8 @@ impl EliminationsDocument {
     /// The number of sets, and the first of them if they were asked for (rows from 0).
     #[must_use]
     pub fn new(
-        count: Result<u128, DeletionError>,
-        sets: Option<Result<Vec<Vec<usize>>, DeletionError>>,
+        count: Result<u128, EliminationError>,
+        sets: Option<Result<Vec<Vec<usize>>, EliminationError>>,
     ) -> Self {
         let mut reason = count.as_ref().err().map(ToString::to_string);
         let sets = match sets {
@@ -74,7 +73,11 @@ impl EliminationsDocument {
 impl MakeUniqueDocument {
     /// What makes this reaction unique.
     #[must_use]
-    pub fn new(reaction: &str, allowed: &Allowed, found: Result<Proposals, DeletionError>) -> Self {
+    pub fn new(
+        reaction: &str,
+        allowed: &Allowed,
+        found: Result<Proposals, EliminationError>,
+    ) -> Self {
         let allowed = match allowed {
             Allowed::Sensible => "sensible",
             Allowed::Whole => "whole",

@@ -1,17 +1,8 @@
 //! The numbers behind a rank: what was read, what was proved, what was compared.
 
-use linalg::{Certificate, Evidence, Grounds, NearlyRedundant, RankStatus};
+use linalg::{Grounds, RankStatus};
 use serde::Serialize;
-use solvability::{Analysis, Generic, PartVerdicts, Survey};
-
-/// What is known of the rank beyond the decision at one configuration.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Proof<'a> {
-    /// Ranks at other configurations; `None` if nobody asked, or none could be reached.
-    pub generic: Option<&'a Generic>,
-    /// The proof of the rank, if there is one.
-    pub certificate: Option<&'a Certificate>,
-}
+use solvability::{Analysis, Generic, PartAnalysis};
 
 /// The numbers behind a rank.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -42,7 +33,7 @@ pub struct EvidenceDocument {
     pub sigma_bound: Option<f64>,
     /// σ_{r+1} in double-double precision.
     pub sigma_next_extended: Option<f64>,
-    /// Why the rank is not larger: `full_rank`, `exact`, `vanishes` or `within_data`.
+    /// Why the rank is not larger: `full_rank`, `exact`, `vanishes`, `within_data` or `within_tolerance`.
     pub grounds: Option<&'static str>,
     /// What the entries of the equilibrated matrix are known to; 0 if they are meant exactly.
     pub uncertainty: Option<f64>,
@@ -89,67 +80,20 @@ pub struct PointDocument {
     pub redundancy: usize,
 }
 
-/// What was decided, of a mechanism or a part of one.
-#[derive(Clone, Copy)]
-struct Decided<'a> {
-    status: RankStatus,
-    rank: usize,
-    redundancy: usize,
-    evidence: &'a Evidence,
-    size: f64,
-    nearly_redundant: Option<&'a NearlyRedundant>,
-}
-
-impl<'a> From<&'a Analysis> for Decided<'a> {
-    fn from(analysis: &'a Analysis) -> Self {
-        Self {
-            status: analysis.decision.status,
-            rank: analysis.decision.rank,
-            redundancy: analysis.decision.redundancy,
-            evidence: &analysis.decision.evidence,
-            size: analysis.size,
-            nearly_redundant: analysis.nearly_redundant.as_ref(),
-        }
-    }
-}
-
-impl<'a> From<&'a PartVerdicts> for Decided<'a> {
-    fn from(part: &'a PartVerdicts) -> Self {
-        Self {
-            status: part.rows.status,
-            rank: part.rows.rank,
-            redundancy: part.rows.redundancy,
-            evidence: &part.evidence,
-            size: part.size,
-            nearly_redundant: part.nearly_redundant.as_ref(),
-        }
-    }
-}
-
-impl Decided<'_> {
-    fn is_certain(&self) -> bool {
-        self.status == RankStatus::Decided
-    }
-
-    /// Whether it is proved that the rank is not less.
-    fn is_proved_by(&self, certificate: Option<&Certificate>) -> bool {
-        self.is_certain() && certificate.is_some_and(|c| c.rank_at_least == self.rank)
-    }
-}
-
 impl EvidenceDocument {
-    pub(super) fn new(analysis: &Analysis, proof: Proof<'_>) -> Self {
-        Self::of(analysis.into(), proof)
-    }
-
-    fn of(found: Decided<'_>, proof: Proof<'_>) -> Self {
-        let evidence = found.evidence;
-        let (status, reason) = match found.status {
+    /// That of the part whose rank is least certain; the rank of the whole is proved where those of all parts are.
+    pub(super) fn new(analysis: &Analysis, generic: Option<&Generic>) -> Self {
+        let weakest = analysis.weakest();
+        let evidence = weakest.decision.evidence();
+        let status = weakest.decision.status();
+        let is_decided = status == RankStatus::Decided;
+        let (status, reason) = match status {
             RankStatus::Decided => ("decided", None),
             RankStatus::Undecided(doubt) => ("undecided", Some(doubt.to_string())),
             _ => ("undecided", None),
         };
-        let certificate = proof.certificate;
+        let certificate = weakest.certificate.as_ref();
+        let all_proved = analysis.parts.iter().all(PartAnalysis::is_proved);
         Self {
             status,
             reason,
@@ -158,74 +102,42 @@ impl EvidenceDocument {
             gap: evidence.gap,
             tolerance: evidence.tolerance,
             constraint_residual: evidence.constraint_residual,
-            permanent: proof
-                .generic
-                .filter(|_| found.is_certain())
-                .map(|elsewhere| elsewhere.redundancy == found.redundancy),
-            certified: found.is_proved_by(certificate),
-            rank_at_least: certificate.map(|c| c.rank_at_least),
+            permanent: generic
+                .filter(|_| is_decided)
+                .map(|elsewhere| elsewhere.redundancy == analysis.decision.redundancy),
+            certified: all_proved,
+            rank_at_least: match analysis.parts.len() {
+                1 => certificate.map(|c| c.rank_at_least),
+                _ => all_proved.then_some(analysis.decision.rank),
+            },
             sigma_bound: certificate.map(|c| c.sigma_bound),
             sigma_next_extended: certificate.map(|c| c.sigma_next),
             grounds: certificate
-                .filter(|_| found.is_certain())
+                .filter(|_| is_decided)
                 .map(|c| grounds(c.grounds)),
             uncertainty: certificate.map(|c| c.uncertainty),
-            nearly_redundant: found.nearly_redundant.map(|n| NearlyRedundantDocument {
-                sigma: n.sigma,
-                change_per_micrometre: MICROMETRE / found.size / n.sigma,
-                direction: n.direction.clone(),
-            }),
+            nearly_redundant: nearly_redundant(analysis),
         }
     }
 }
 
-impl EvidenceDocument {
-    /// That of the part whose rank is least certain; the rank of the whole is proved where those of all parts are.
-    pub(super) fn of_survey(survey: &Survey) -> Self {
-        let Some(weakest) = survey.weakest() else {
-            return Self::of_nothing();
-        };
-        let proof = Proof {
-            generic: None,
-            certificate: weakest.verdicts.evidence.certificate.as_ref(),
-        };
-        let all_proved = survey.parts.iter().all(|part| {
-            let certificate = part.verdicts.evidence.certificate.as_ref();
-            Decided::from(&part.verdicts).is_proved_by(certificate)
-        });
-        let mut document = Self::of((&weakest.verdicts).into(), proof);
-        document.certified = all_proved;
-        document.rank_at_least = all_proved.then(|| survey.rank());
-        if let Some(nearly) = &mut document.nearly_redundant {
-            let mut direction = vec![0.0; survey.holonomic_rows + survey.nonholonomic_rows];
-            for (&row, x) in weakest.places.rows.iter().zip(&nearly.direction) {
-                direction[row] = *x;
-            }
-            nearly.direction = direction;
-        }
-        document
-    }
-
-    /// Of no rows.
-    fn of_nothing() -> Self {
-        Self {
-            status: "decided",
-            reason: None,
-            sigma_r: f64::INFINITY,
-            sigma_next: 0.0,
-            gap: f64::INFINITY,
-            tolerance: 0.0,
-            constraint_residual: 0.0,
-            permanent: None,
-            certified: true,
-            rank_at_least: Some(0),
-            sigma_bound: None,
-            sigma_next_extended: None,
-            grounds: Some(grounds(Grounds::FullRank)),
-            uncertainty: None,
-            nearly_redundant: None,
-        }
-    }
+/// Of the part where rows come closest to a dependence, measured by its size.
+fn nearly_redundant(analysis: &Analysis) -> Option<NearlyRedundantDocument> {
+    let nearly = analysis.nearly_redundant.as_ref()?;
+    let is_here = |part: &&PartAnalysis| {
+        let own = part.nearly_redundant.as_ref();
+        own.is_some_and(|own| own.sigma == nearly.sigma)
+    };
+    let size = analysis
+        .parts
+        .iter()
+        .find(is_here)
+        .map_or(analysis.size, |part| part.size);
+    Some(NearlyRedundantDocument {
+        sigma: nearly.sigma,
+        change_per_micrometre: MICROMETRE / size / nearly.sigma,
+        direction: nearly.direction.clone(),
+    })
 }
 
 fn grounds(grounds: Grounds) -> &'static str {
@@ -234,6 +146,7 @@ fn grounds(grounds: Grounds) -> &'static str {
         Grounds::Exact => "exact",
         Grounds::Vanishes => "vanishes",
         Grounds::WithinData => "within_data",
+        Grounds::WithinTolerance => "within_tolerance",
         _ => "other",
     }
 }

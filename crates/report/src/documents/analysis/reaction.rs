@@ -9,7 +9,7 @@ use solvability::{
 };
 
 use super::ValueDocument;
-use crate::documents::VerdictDocument;
+use crate::documents::{SensitivityDocument, VerdictDocument};
 
 /// The verdict of a joint or drive.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -25,14 +25,18 @@ pub struct ReactionDocument {
     /// Verdict of force and torque, with ‖B_X‖ as margin.
     #[serde(flatten)]
     pub wrench: VerdictDocument,
+    /// How much it hangs on the data; [`super::AnalysisDocument::add_sensitivities`] fills it.
+    #[serde(flatten)]
+    pub data: SensitivityDocument,
     /// Verdict of all its multipliers together.
     pub multipliers: &'static str,
     /// Verdict of the multiplier of each row.
     pub row_verdicts: Vec<RowDocument>,
     /// Verdicts of the components that are not identically zero.
     pub components: Vec<ComponentDocument>,
-    /// Basis of the unique directions in these components, without those along which the reaction is zero under any load.
-    pub unique_directions: Vec<Vec<f64>>,
+    /// Basis of the unique directions in these components, without those along which the reaction is zero under any load; `null` if
+    /// their number is undecided.
+    pub unique_directions: Option<Vec<Vec<f64>>>,
     /// Why it is unique without any numbers: `peeled` or `bridge`.
     pub settled: Option<&'static str>,
     /// Why it is not unique.
@@ -114,20 +118,23 @@ pub struct GroupDocument {
 }
 
 impl ReactionDocument {
-    /// Adds what is known of the reaction `id`.
-    pub(super) fn explain(&mut self, explanation: &Explanation, id: ConstraintId) {
-        let settled = explanation.settled.iter().find(|(other, _)| *other == id);
-        self.settled = settled.and_then(|(_, why)| match why {
-            Settled::Peeled => Some("peeled"),
-            Settled::Bridge => Some("bridge"),
-            Settled::Open(_) => None,
-        });
-        let told = explanation.reactions.iter().find(|told| told.id == id);
-        self.explanation = told.map(|told| told.text.clone());
+    /// Adds what is known of all reactions, in the order of joints and drives.
+    pub(super) fn explain_all(all: &mut [Self], explanation: &Explanation) {
+        for (ConstraintId(k), why) in &explanation.settled {
+            all[*k].settled = match why {
+                Settled::Peeled => Some("peeled"),
+                Settled::Bridge => Some("bridge"),
+                Settled::Open(_) => None,
+            };
+        }
+        for told in &explanation.reactions {
+            all[told.id.0].explanation = Some(told.text.clone());
+        }
         for (dependency, stress) in explanation.stresses.iter().enumerate() {
-            let own = stress.directions.iter().filter(|d| d.joint == id);
-            self.free_directions
-                .extend(own.map(|d| FreeDirectionDocument::new(dependency, d)));
+            for direction in &stress.directions {
+                let own = FreeDirectionDocument::new(dependency, direction);
+                all[direction.joint.0].free_directions.push(own);
+            }
         }
     }
 }
@@ -154,6 +161,7 @@ impl From<&ReactionVerdict> for ReactionDocument {
             kind: r.kind,
             rows: r.rows.iter().map(|row| row.row + 1).collect(),
             wrench: (&r.wrench).into(),
+            data: SensitivityDocument::default(),
             multipliers: r.multipliers.verdict.word(),
             row_verdicts: rows.collect(),
             components: r.components.iter().map(Into::into).collect(),

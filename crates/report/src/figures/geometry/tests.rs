@@ -41,6 +41,7 @@ fn site(element: impl PlaneConstraint + 'static, drives: bool) -> super::Site {
             bodies,
             element: Box::new(element),
             motion: Function::steps(0.0, &[]).expect("no step"),
+            tolerance: None,
         });
     } else {
         description

@@ -1,0 +1,147 @@
+//! The data of a constraint: which numbers it stores, and what changes with each of them. What is
+//! computed from other numbers alone is no datum: it changes with those by the chain rule.
+
+use proc_macro2::Ident;
+use quote::{format_ident, quote};
+use symbolic::{Derivation, Expr, Scalar};
+
+use crate::elaborate::{Model, not_polynomial};
+use crate::identity;
+use crate::kernel::kernel;
+use crate::parse::{Definition, Kept, ParamKind};
+
+/// Numbers that mean something together.
+#[derive(Clone)]
+pub(crate) struct Datum {
+    /// Its name in the facts.
+    pub(crate) name: String,
+    pub(crate) shape: Shape,
+    /// The field that holds it.
+    pub(crate) field: Ident,
+    /// The optional parameter that overrides the field.
+    pub(crate) overridden_by: Option<Ident>,
+    /// The inputs of kernels that stand for its numbers, in order.
+    pub(crate) symbols: Vec<Expr>,
+}
+
+/// What the numbers of a datum are.
+#[derive(Clone)]
+pub(crate) enum Shape {
+    Point(Ident),
+    Direction(Ident),
+    Line,
+    /// One number with its unit; its place in a list of several.
+    Number(Ident, Option<usize>),
+    Kept(Ident),
+    KeptVector(Ident),
+}
+
+/// The data in order: parameters, then what is kept from the start.
+pub(crate) fn stored(d: &Definition, model: &Model) -> Vec<Datum> {
+    let mut data = Vec::new();
+    for p in &d.params {
+        let values = model.inputs.values(&p.name.to_string());
+        let mut push = |name: String, shape: Shape, symbols: &[Expr]| {
+            data.push(Datum {
+                name,
+                shape,
+                field: p.name.clone(),
+                overridden_by: None,
+                symbols: symbols.to_vec(),
+            });
+        };
+        let name = p.name.to_string();
+        match &p.kind {
+            ParamKind::Point(slot) => push(name, Shape::Point(slot.clone()), values),
+            ParamKind::Direction(slot) => push(name, Shape::Direction(slot.clone()), values),
+            ParamKind::GroundLine => {
+                let (start, along) = model.inputs.line(&name);
+                push(name, Shape::Line, &[start, along].concat());
+            }
+            ParamKind::Number(unit) if p.default.is_none() => {
+                push(name, Shape::Number(unit.clone(), None), values);
+            }
+            ParamKind::Numbers(units) => {
+                for (k, unit) in units.iter().enumerate() {
+                    let shape = Shape::Number(unit.clone(), Some(k));
+                    push(format!("{name}[{k}]"), shape, &values[k..=k]);
+                }
+            }
+            // Optional numbers are kept values; functions of time travel as jets.
+            ParamKind::Number(_) | ParamKind::Function(_) | ParamKind::Functions(_) => {}
+        }
+    }
+    for kept in model.kept.iter().filter(|k| !model.is_computed(k)) {
+        data.push(Datum {
+            name: match &kept.overridden_by {
+                Some(parameter) => parameter.to_string(),
+                None => kept.field.clone(),
+            },
+            shape: match (&kept.kind, &kept.overridden_by) {
+                (Kept::Number(unit), None) => Shape::Kept(unit.clone()),
+                (Kept::Number(unit), Some(_)) => Shape::Number(unit.clone(), None),
+                (Kept::Vector(slot), _) => Shape::KeptVector(slot.clone()),
+            },
+            field: format_ident!("{}", kept.field),
+            overridden_by: kept.overridden_by.clone(),
+            symbols: kept.symbols.clone(),
+        });
+    }
+    data
+}
+
+/// The initial value of the measure of a drive.
+pub(crate) fn of_measure(model: &Model, unit: Ident) -> Datum {
+    Datum {
+        name: "measure_0".to_owned(),
+        shape: Shape::Kept(unit),
+        field: format_ident!("measure_0"),
+        overridden_by: None,
+        symbols: vec![model.inputs.measure_0],
+    }
+}
+
+/// The derivation by each number, in order.
+pub(crate) fn derivations(model: &mut Model, data: &[Datum]) -> Vec<Derivation> {
+    let numbers = data.iter().flat_map(|d| d.symbols.iter().copied());
+    numbers.map(|number| by(model, number)).collect()
+}
+
+/// The derivation by one number: computed values have their own derivatives as images, each by
+/// those before it.
+fn by(model: &mut Model, number: Expr) -> Derivation {
+    let mut images = vec![(number, model.g.number(1.0))];
+    let mut along = Derivation::new(&model.g, &images);
+    for k in 0..model.kept.len() {
+        if !model.is_computed(&model.kept[k]) {
+            continue;
+        }
+        let pairs = model.kept[k].symbols.iter().zip(&model.kept[k].values);
+        let pairs: Vec<(Expr, Expr)> = pairs.map(|(&symbol, &value)| (symbol, value)).collect();
+        for (symbol, value) in pairs {
+            let slope = along.apply(&mut model.g, value);
+            if !identity::is_zero(&model.g, &model.inputs, slope) {
+                images.push((symbol, polynomial(model, slope, symbol, number)));
+            }
+        }
+        along = Derivation::new(&model.g, &images);
+    }
+    along
+}
+
+/// The slope itself, or an input that stands for it: kernels are polynomials, and numbers that a
+/// constraint stores may be divided before.
+fn polynomial(model: &mut Model, slope: Expr, of: Expr, by: Expr) -> Expr {
+    if !not_polynomial(model, slope) {
+        return slope;
+    }
+    let printed = kernel(model, &[slope], Scalar::F64);
+    let (statements, outputs) = (&printed.statements, &printed.outputs);
+    let access = quote!({ #(#statements)* #(#outputs)* }).to_string();
+    let name = |model: &Model, e: Expr| {
+        let symbol = model.g.as_symbol(e).expect("data are inputs");
+        model.g.name(symbol).to_owned()
+    };
+    let name = format!("d_{}_d_{}", name(model, of), name(model, by));
+    model.inputs.slope(&mut model.g, &name, access)
+}

@@ -1,0 +1,113 @@
+//! Singular vectors of small matrices, by one-sided Jacobi rotations: blocks between null spaces, a few rows and columns. Not for the evidence of
+//! ranks (`singular_values`).
+//!
+//! Source: M. R. Hestenes, Inversion of matrices by biorthogonalization and related results, J. SIAM 6 (1958) 51–90.
+
+use crate::{Matrix, kernels};
+
+/// Sweeps over all pairs of columns at most; convergence is quadratic, six are usual.
+const SWEEPS_MAX: usize = 40;
+
+/// Columns are orthogonal when the cosine between them is below this: a few roundings.
+const ORTHOGONAL: f64 = 4.0 * f64::EPSILON;
+
+/// `A = U·diag(σ)·Vᵀ` of an m×n matrix with k = min(m, n): left singular vectors in the columns of U (m×k), right ones in those of V (n×k), σ largest
+/// first. Where σ = 0 the columns of U, or of V if A is wide, are zero.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SmallSvd {
+    /// m × k
+    pub u: Matrix,
+    /// Largest first, k values.
+    pub sigma: Vec<f64>,
+    /// n × k
+    pub v: Matrix,
+}
+
+/// Singular values and vectors of a small matrix of finite entries.
+///
+/// ```
+/// use linalg::{Matrix, small_svd};
+/// let svd = small_svd(&Matrix::from_rows(&[[0.0, 2.0], [3.0, 0.0], [0.0, 0.0]]));
+/// assert_eq!(svd.sigma, [3.0, 2.0]);
+/// assert_eq!((svd.u[(1, 0)].abs(), svd.v[(0, 0)].abs()), (1.0, 1.0));
+/// ```
+#[must_use]
+pub fn small_svd(a: &Matrix) -> SmallSvd {
+    if a.nrows() < a.ncols() {
+        let SmallSvd { u, sigma, v } = small_svd(&a.transpose());
+        return SmallSvd { u: v, sigma, v: u };
+    }
+    let n = a.ncols();
+    // Columns as rows: contiguous.
+    let mut columns = a.transpose();
+    let mut turned = Matrix::identity(n);
+    for _ in 0..SWEEPS_MAX {
+        let mut moved = false;
+        for p in 0..n {
+            for q in p + 1..n {
+                moved |= rotate(&mut columns, &mut turned, p, q);
+            }
+        }
+        if !moved {
+            break;
+        }
+    }
+    let size: Vec<f64> = (0..n).map(|j| kernels::norm(columns.row(j))).collect();
+    let mut order: Vec<usize> = (0..n).collect();
+    order.sort_by(|&i, &j| size[j].total_cmp(&size[i]));
+    SmallSvd {
+        u: Matrix::from_fn(a.nrows(), n, |i, k| match size[order[k]] {
+            0.0 => 0.0,
+            sigma => columns[(order[k], i)] / sigma,
+        }),
+        sigma: order.iter().map(|&j| size[j]).collect(),
+        v: Matrix::from_fn(n, n, |i, k| turned[(order[k], i)]),
+    }
+}
+
+/// Makes columns p and q orthogonal; whether they had to be turned.
+fn rotate(columns: &mut Matrix, turned: &mut Matrix, p: usize, q: usize) -> bool {
+    let (a, b) = (kernels::norm(columns.row(p)), kernels::norm(columns.row(q)));
+    let c = kernels::dot(columns.row(p), columns.row(q));
+    if c.is_nan() || c.abs() <= ORTHOGONAL * a * b || a == 0.0 || b == 0.0 {
+        return false;
+    }
+    let zeta = (b / a - a / b) / (2.0 * (c / a / b));
+    let t = zeta.signum() / (zeta.abs() + zeta.hypot(1.0));
+    let cos = t.hypot(1.0).recip();
+    let sin = cos * t;
+    for of in [columns, turned] {
+        for k in 0..of.ncols() {
+            let (x, y) = (of[(p, k)], of[(q, k)]);
+            of[(p, k)] = cos * x - sin * y;
+            of[(q, k)] = sin * x + cos * y;
+        }
+    }
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn products_give_the_matrix_back() {
+        for (m, n) in [(1, 1), (3, 2), (2, 5), (6, 6)] {
+            let a = Matrix::from_fn(m, n, |i, j| (1.0 + (3 * i + 7 * j) as f64).sin());
+            let SmallSvd { u, sigma, v } = small_svd(&a);
+            assert!(sigma.is_sorted_by(|a, b| a >= b));
+            let scaled = Matrix::from_fn(n, sigma.len(), |j, k| v[(j, k)] * sigma[k]);
+            let back = u.product(&scaled.transpose());
+            for (x, y) in back.as_slice().iter().zip(a.as_slice()) {
+                assert!((x - y).abs() < 1e-14, "{m}×{n}: {x} {y}");
+            }
+        }
+    }
+
+    #[test]
+    fn graded_columns_keep_their_digits() {
+        let a = Matrix::from_rows(&[[1.0, 1e-12], [1.0, -1e-12]]);
+        let svd = small_svd(&a);
+        assert!((svd.sigma[1] / (1e-12 * 2f64.sqrt()) - 1.0).abs() < 1e-14);
+    }
+}

@@ -1,0 +1,279 @@
+//! The numbers that constraints store, as points, directions and single numbers, and how rows change with them.
+//!
+//! Not here: how a pose answers to a change of the data, and what a change means for a rank (`solvability`).
+
+use std::ops::Range;
+
+use joints::Twist;
+use joints::spec::{DatumShape, Unit};
+
+use crate::description::BodyRef;
+use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint, column_of};
+use crate::start::size_of;
+use crate::system::{Scratch, System};
+
+/// A point, a direction or a single number of a constraint: what changes together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DataBlock {
+    /// The joint or drive, among the groups of the layout.
+    pub group: usize,
+    /// Name of the parameter, or of the value kept from the start.
+    pub name: &'static str,
+    /// Its numbers among all numbers of the mechanism: two for a point or a direction, one otherwise.
+    pub numbers: Range<usize>,
+    /// What a change of it is measured in.
+    pub unit: DataUnit,
+    /// For a direction: the unit vector across it, in which its change is measured.
+    across: Option<[f64; 2]>,
+    /// The largest number that it is combined with: its rounding is a share of this (in its unit).
+    pub scale: f64,
+    /// The tolerance that is stated for it (in its unit), by its joint, its body or the scene.
+    pub tolerance: Option<f64>,
+}
+
+/// Unit of a change of data.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DataUnit {
+    /// m
+    Length,
+    /// rad, and ratios of angles
+    Angle,
+}
+
+impl DataBlock {
+    /// Its part of a gradient by all numbers, as a vector of its own change: two components for a point, one otherwise.
+    #[must_use]
+    pub fn part(&self, gradient: &[f64]) -> [f64; 2] {
+        let own = &gradient[self.numbers.clone()];
+        match (self.across, own) {
+            (Some([x, y]), &[a, b]) => [a * x + b * y, 0.0],
+            (None, &[a, b]) => [a, b],
+            (_, &[a]) => [a, 0.0],
+            _ => [0.0; 2],
+        }
+    }
+}
+
+impl Mechanism {
+    /// How many numbers all constraints store.
+    #[must_use]
+    pub fn data_count(&self) -> usize {
+        let counts = self
+            .constraints()
+            .iter()
+            .map(|c| c.element.element().spec().n_data());
+        counts.sum()
+    }
+
+    /// All points, directions and numbers of the constraints, at the poses of the scratch; allocates.
+    #[must_use]
+    pub fn data_blocks(&self, s: &Scratch) -> Vec<DataBlock> {
+        let mut blocks = Vec::new();
+        let mut first = 0;
+        let mut numbers = Vec::new();
+        let stated = self.has_tolerances().then(|| size_of(self, s));
+        for (group, c) in self.constraints().iter().enumerate() {
+            let element = c.element.element();
+            numbers.clear();
+            numbers.resize(element.spec().n_data(), 0.0);
+            element.data(&mut numbers);
+            let length = self.length_scale(c, s, &numbers);
+            let turned = self.moving_poses(c, s).map(|(_, pose)| pose.angle.abs());
+            let angle = turned.fold(1.0, f64::max);
+            for datum in element.spec().data {
+                let at = first + datum.first;
+                let block = |offset: usize, count: usize, unit: DataUnit, is_direction: bool| {
+                    let own = &numbers[datum.first + offset..datum.first + offset + count];
+                    let largest = own.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+                    DataBlock {
+                        group,
+                        name: datum.name,
+                        numbers: at + offset..at + offset + count,
+                        unit,
+                        across: is_direction.then(|| [-own[1], own[0]]),
+                        scale: match (unit, is_direction) {
+                            (DataUnit::Length, _) => length,
+                            (_, true) => 1.0,
+                            (_, false) => largest.max(angle),
+                        },
+                        tolerance: stated
+                            .and_then(|size| self.tolerance_of(c, datum.shape, unit, size)),
+                    }
+                };
+                match datum.shape {
+                    DatumShape::Point { .. } | DatumShape::KeptVector { .. } => {
+                        blocks.push(block(0, 2, DataUnit::Length, false));
+                    }
+                    DatumShape::Direction { .. } => {
+                        blocks.push(block(0, 2, DataUnit::Angle, true));
+                    }
+                    DatumShape::Line => {
+                        blocks.push(block(0, 2, DataUnit::Length, false));
+                        blocks.push(block(2, 2, DataUnit::Angle, true));
+                    }
+                    DatumShape::Number(Unit::Length) | DatumShape::Kept(Unit::Length) => {
+                        blocks.push(block(0, 1, DataUnit::Length, false));
+                    }
+                    DatumShape::Number(_) | DatumShape::Kept(_) => {
+                        blocks.push(block(0, 1, DataUnit::Angle, false));
+                    }
+                }
+            }
+            first += element.spec().n_data();
+        }
+        blocks
+    }
+
+    /// Adds the gradient of `λᵀ·C·v` by all numbers of the constraints, times `factor`, to `out`; `lambda` has m + h values, `v` n_v. Needs the poses
+    /// of the scratch.
+    pub fn add_power_by_data(
+        &self,
+        s: &Scratch,
+        lambda: &[f64],
+        v: &[f64],
+        factor: f64,
+        out: &mut [f64],
+    ) {
+        // Without velocities and functions of time Γ vanishes.
+        self.add_by_data(s, lambda, v, None, factor, out);
+    }
+
+    /// The same of `λᵀ·(C·a − Γ)`, which needs the twists of the scratch too.
+    pub fn add_residual_by_data(
+        &self,
+        s: &Scratch,
+        lambda: &[f64],
+        a: &[f64],
+        factor: f64,
+        out: &mut [f64],
+    ) {
+        self.add_by_data(s, lambda, a, Some(&s.slot_twists), factor, out);
+    }
+
+    fn add_by_data(
+        &self,
+        s: &Scratch,
+        lambda: &[f64],
+        a: &[f64],
+        twists: Option<&[Twist]>,
+        factor: f64,
+        out: &mut [f64],
+    ) {
+        let mut first = 0;
+        let (mut at_rest, mut slots, mut f) = (Vec::new(), Vec::new(), Vec::new());
+        let mut own = Vec::new();
+        for c in self.constraints() {
+            let element = c.element.element();
+            let count = element.spec().n_data();
+            let lambda = &lambda[c.rows.clone()];
+            if count > 0 && lambda.iter().any(|l| *l != 0.0) {
+                own.clear();
+                own.resize(count, 0.0);
+                let x = &s.slot_poses[c.slots.clone()];
+                slots.clear();
+                slots.extend(c.bodies.iter().map(|&body| twist_of(body, a)));
+                at_rest.resize(slots.len(), Twist::zero());
+                f.resize(c.functions.len(), [0.0; 3]);
+                let (v, f) = match twists {
+                    Some(twists) => (&twists[c.slots.clone()], &s.jets[c.functions.clone()]),
+                    None => (&at_rest[..], &f[..]),
+                };
+                element.d_residual_dp(x, v, &slots, f, lambda, &mut own);
+                for (out, own) in out[first..first + count].iter_mut().zip(&own) {
+                    *out += factor * own;
+                }
+            }
+            first += count;
+        }
+    }
+
+    /// Adds the gradient of `λᵀ·Φ` by all numbers of the constraints, times `factor`, to `out`; `lambda` has at least m values.
+    pub fn add_phi_by_data(&self, s: &Scratch, lambda: &[f64], factor: f64, out: &mut [f64]) {
+        let m = self.layout().m;
+        let mut first = 0;
+        let mut own = Vec::new();
+        for c in self.constraints() {
+            let element = c.element.element();
+            let count = element.spec().n_data();
+            if count > 0 && c.rows.start < m {
+                let lambda = &lambda[c.rows.clone()];
+                if lambda.iter().any(|l| *l != 0.0) {
+                    own.clear();
+                    own.resize(count, 0.0);
+                    let x = &s.slot_poses[c.slots.clone()];
+                    element.d_phi_dp(x, &s.jets[c.functions.clone()], lambda, &mut own);
+                    for (out, own) in out[first..first + count].iter_mut().zip(&own) {
+                        *out += factor * own;
+                    }
+                }
+            }
+            first += count;
+        }
+    }
+
+    /// Adds the gradient of `λᵀ·C·v` by the pose, n_v values along velocity directions, to `out`.
+    pub fn add_power_by_pose(&self, s: &Scratch, lambda: &[f64], v: &[f64], out: &mut [f64]) {
+        let mut own = Vec::new();
+        for c in self.constraints() {
+            let element = c.element.element();
+            let pattern = element.spec().d_force_dx;
+            let lambda = &lambda[c.rows.clone()];
+            if pattern.is_empty() || lambda.iter().all(|l| *l == 0.0) {
+                continue;
+            }
+            own.clear();
+            own.resize(pattern.len(), 0.0);
+            let x = &s.slot_poses[c.slots.clone()];
+            element.d_force_dx(x, &s.jets[c.functions.clone()], lambda, &mut own);
+            let column = column_of(&c.bodies);
+            for (&[force, turned], d) in pattern.iter().zip(&own) {
+                if let (Some(i), Some(j)) = (column(force), column(turned)) {
+                    out[j] += d * v[i];
+                }
+            }
+        }
+    }
+
+    /// The largest length that the points of a constraint are combined with (m): their own, the arms of its bodies, and where these stand.
+    fn length_scale(&self, c: &PlacedConstraint, s: &Scratch, numbers: &[f64]) -> f64 {
+        let points = c.element.element().spec().data.iter().filter_map(|datum| {
+            let at = &numbers[datum.numbers()];
+            match datum.shape {
+                DatumShape::Point { .. } | DatumShape::KeptVector { .. } | DatumShape::Line => {
+                    Some(at[0].hypot(at[1]))
+                }
+                DatumShape::Number(Unit::Length) | DatumShape::Kept(Unit::Length) => {
+                    Some(at[0].abs())
+                }
+                _ => None,
+            }
+        });
+        let bodies = self
+            .moving_poses(c, s)
+            .map(|(body, pose)| self.reach(body).max(pose.x.hypot(pose.y)));
+        points.chain(bodies).fold(0.0, f64::max)
+    }
+
+    /// The bodies of a constraint but the ground, with their poses.
+    fn moving_poses<'a>(
+        &self,
+        c: &'a PlacedConstraint,
+        s: &'a Scratch,
+    ) -> impl Iterator<Item = (usize, &'a joints::Pose)> {
+        c.bodies.iter().filter_map(move |body| match *body {
+            BodyRef::Ground => None,
+            BodyRef::Body(k) => Some((k, &s.poses[k])),
+        })
+    }
+}
+
+/// The velocity of a body.
+fn twist_of(body: BodyRef, v: &[f64]) -> Twist {
+    match body {
+        BodyRef::Ground => Twist::zero(),
+        BodyRef::Body(k) => {
+            let [x, y, omega] = [0, 1, 2].map(|dof| v[N_BODY * k + dof]);
+            Twist { x, y, omega }
+        }
+    }
+}

@@ -1,0 +1,238 @@
+//! Unique reactions that are made of the last digits of a drawing: every output says so, and none says so of ordinary scenes.
+
+use std::fs;
+
+use serde_json::Value;
+
+use super::{Folder, ROBOT, pfaff, stderr, stdout};
+
+const NAMES: [&str; 6] = ["O1", "P1", "O2", "P2", "O3", "P3"];
+
+/// A coupler on three parallel cranks of half a metre, 6 kg in all; the pin of the third on the ground is off by this much, and the crank has its
+/// hole there.
+fn three_cranks(folder: &Folder, name: &str, off: f64) -> String {
+    let (c, s) = (0.5 * 0.7_f64.cos(), 0.5 * 0.7_f64.sin());
+    let mut bodies = String::new();
+    let mut joints = String::new();
+    for k in 0..3 {
+        let (n, x) = (k + 1, f64::from(k));
+        let pin = if k == 2 { x + off } else { x };
+        bodies += &format!(
+            "    {{ name = \"crank{n}\", mass = 1.0, inertia = 0.02, position = [{}, {}], angle = 0.7 }},\n",
+            x + 0.5 * c,
+            0.5 * s
+        );
+        joints += &format!(
+            "    {{ name = \"O{n}\", type = \"revolute\", bodies = [\"ground\", \"crank{n}\"], at = [{pin}, 0.0] }},
+    {{ name = \"P{n}\", type = \"revolute\", bodies = [\"crank{n}\", \"coupler\"], at = [{}, {s}] }},\n",
+            x + c
+        );
+    }
+    let text = format!(
+        "scene = {{ name = \"three-cranks\", space = \"plane\", gravity = [0.0, -9.81] }}
+body = [
+{bodies}    {{ name = \"coupler\", mass = 3.0, inertia = 1.0, position = [{}, {s}] }},
+]
+joint = [
+{joints}]
+simulate = {{ t_end = 0.01 }}
+",
+        1.0 + c
+    );
+    fs::create_dir_all(&folder.0).expect("writable");
+    let path = folder.0.join(name);
+    fs::write(&path, text).expect("writable");
+    path.to_str().expect("UTF-8").to_owned()
+}
+
+/// What a command says that has to end well.
+fn said(arguments: &[&str]) -> String {
+    let output = pfaff(arguments);
+    assert_eq!((output.status.code(), &*stderr(&output)), (Some(0), ""));
+    stdout(&output)
+}
+
+fn document(arguments: &[&str]) -> Value {
+    serde_json::from_str(&said(arguments)).expect("one JSON document")
+}
+
+/// In one line, as lines are wrapped anywhere.
+fn flat(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[test]
+fn a_pin_that_is_off_is_told_in_every_output() {
+    let folder = Folder::new("fragile-off");
+    let off = three_cranks(&folder, "off.toml", 4e-4);
+    let right = three_cranks(&folder, "right.toml", 0.0);
+
+    let text = flat(&said(&["analyze", &off]));
+    for words in [
+        "FRAGILE: O1, P1, O2, P2, O3, P3",
+        "O3 revolute 9–10 unique, FRAGILE",
+        "`P3` are unique but change by up to",
+        "if point `s_j` of `P2` moves by 0.24 mm",
+        "one row is redundant from a tolerance of 0.049 mm on",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    assert!(!text.contains("misalignment of 1e-6"), "{text}");
+
+    let d = document(&["analyze", &off, "--json"]);
+    for r in d["reactions"].as_array().expect("a list") {
+        assert_eq!(
+            (&r["verdict"], &r["fragile"]),
+            (&"unique".into(), &true.into())
+        );
+        assert!(r["sensitivity"].as_f64().is_some_and(|x| x > 0.1), "{r:#}");
+    }
+    let from = d["data"]["lower_rank_from"].as_f64().expect("near");
+    // An eighth of the misfit, as eight points share it.
+    assert!((from / 5e-5 - 1.0).abs() < 0.05, "{from}");
+    assert!(d["evidence"]["nearly_redundant"]["change_per_micrometre"].is_number());
+
+    let text = flat(&said(&["check", &off]));
+    assert!(
+        text.contains("warning: `O1`, `P1`, `O2`, `P2`, `O3` and `P3` are unique but change"),
+        "{text}"
+    );
+
+    let out = folder.0.join("run");
+    let out = out.to_str().expect("UTF-8");
+    let text = said(&["simulate", &off, "--out", out]);
+    assert!(
+        text.contains("warning: unique but fragile at the start: O1, P1, O2, P2, O3, P3."),
+        "{text}"
+    );
+    let summary: Value = serde_json::from_str(&folder.read("run/summary.json")).expect("JSON");
+    for name in NAMES {
+        let r = &summary["reactions"][name];
+        assert_eq!(
+            (&r["verdict"], &r["fragile"]),
+            (&"unique".into(), &true.into())
+        );
+        let of_name = |x: &&Value| x["name"] == name;
+        let other = d["reactions"]
+            .as_array()
+            .and_then(|all| all.iter().find(of_name));
+        assert_eq!(other.map(|r| &r["sensitivity"]), Some(&r["sensitivity"]));
+    }
+    let page = folder.read("run/report.html");
+    assert!(page.contains("are unique but fragile"), "headline");
+    assert!(
+        page.contains("<span class=\"badge fragile\">unique, fragile</span>"),
+        "table"
+    );
+    assert!(!page.contains("All reactions are unique"));
+
+    let picture = folder.0.join("off.svg");
+    let picture = picture.to_str().expect("UTF-8");
+    let view = ["view", &off, "--no-open", "--out", picture];
+    let text = said(&view);
+    assert!(
+        text.contains("0 not unique, 6 unique but FRAGILE"),
+        "{text}"
+    );
+    let d = document(&[&view[..], &["--json"]].concat());
+    assert_eq!((&d["not_unique"], &d["fragile"]), (&0.into(), &6.into()));
+
+    let text = said(&["diff", &off, &right]);
+    assert!(
+        text.contains("unique, FRAGILE  not unique (Fx, Fy)"),
+        "{text}"
+    );
+    let d = document(&["diff", &off, &right, "--json"]);
+    assert_eq!(d["changed"][0]["a"]["fragile"], true);
+    assert_eq!(d["changed"][0]["b"]["fragile"], false);
+
+    let table = folder.0.join("sweep");
+    let table = table.to_str().expect("UTF-8");
+    said(&[
+        "sweep",
+        &off,
+        "--vary",
+        "body.coupler.mass=3,4",
+        "--out",
+        table,
+    ]);
+    let table = folder.read("sweep/sweep.csv");
+    let mut lines = table.lines();
+    let place = lines
+        .next()
+        .and_then(|head| head.split(',').position(|name| name == "fragile"));
+    let place = place.expect("a column");
+    let counts: Vec<_> = lines.map(|line| line.split(',').nth(place)).collect();
+    assert_eq!(counts, [Some("6"), Some("6")]);
+}
+
+/// The verdicts are the same, and only one of them hangs on the data.
+#[test]
+fn a_difference_in_nothing_else_is_told() {
+    let folder = Folder::new("fragile-diff");
+    let near = three_cranks(&folder, "near.toml", 4e-4);
+    let far = three_cranks(&folder, "far.toml", 0.4);
+    let d = document(&["diff", &near, &far, "--json"]);
+    let changed = d["changed"].as_array().expect("a list");
+    assert_eq!(changed.len(), 6, "{changed:#?}");
+    for change in changed {
+        assert_eq!(change["a"]["verdict"], change["b"]["verdict"]);
+        assert_eq!(
+            (&change["a"]["fragile"], &change["b"]["fragile"]),
+            (&true.into(), &false.into())
+        );
+    }
+}
+
+#[test]
+fn with_the_pin_where_it_belongs_nothing_is_fragile() {
+    let folder = Folder::new("fragile-right");
+    let right = three_cranks(&folder, "right.toml", 0.0);
+    let d = document(&["analyze", &right, "--json"]);
+    for r in d["reactions"].as_array().expect("a list") {
+        assert_eq!(r["verdict"], "not_unique");
+        assert_eq!(
+            (&r["sensitivity"], &r["fragile"]),
+            (&Value::Null, &false.into())
+        );
+    }
+    for command in ["analyze", "check"] {
+        assert!(!said(&[command, &right]).to_lowercase().contains("fragile"));
+    }
+}
+
+/// A warning that appears in every scene would say nothing.
+#[test]
+fn ordinary_scenes_have_no_fragile_reaction() {
+    let folder = Folder::new("fragile-ordinary");
+    fs::create_dir_all(&folder.0).expect("writable");
+    let beam = folder.0.join("beam.toml");
+    fs::write(
+        &beam,
+        "scene = { name = \"beam\", space = \"plane\", gravity = [0.0, -9.81] }
+body = [{ name = \"beam\", mass = 4.0, inertia = 1.0, position = [1.0, 0.0] }]
+joint = [
+    { name = \"pin\", type = \"revolute\", bodies = [\"ground\", \"beam\"], at = [0.0, 0.0] },
+    { name = \"roller\", type = \"pin-in-slot\", bodies = [\"ground\", \"beam\"], at = [2.0, 0.0], axis = [1.0, 0.0] },
+]
+",
+    )
+    .expect("writable");
+    let chain = folder.0.join("chain.toml");
+    let chain = chain.to_str().expect("UTF-8");
+    said(&["generate", "n-four-bar", "--n", "40", "--out", chain]);
+    let examples = fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples"));
+    let examples = examples.expect("readable").flatten().map(|e| e.path());
+    let mut scenes: Vec<_> = examples
+        .filter(|path| path.extension().is_some_and(|end| end == "toml"))
+        .collect();
+    assert!(scenes.len() > 10);
+    scenes.extend([beam, ROBOT.into(), chain.into()]);
+    let picture = folder.0.join("picture.svg");
+    let picture = picture.to_str().expect("UTF-8");
+    for scene in scenes {
+        let scene = scene.to_str().expect("UTF-8");
+        let d = document(&["view", scene, "--json", "--no-open", "--out", picture]);
+        assert_eq!(d["fragile"], 0, "{scene}");
+    }
+}

@@ -1,0 +1,127 @@
+//! Every option of `analyze` answers at every size, by the parts that it touches; a part that is too large for it is named.
+
+use serde_json::Value;
+
+use super::{pfaff, stderr, stdout, with_scene};
+
+fn document(arguments: &[&str], scene: &str) -> Value {
+    let output = with_scene(&[&["analyze", "-", "--json"], arguments].concat(), scene);
+    assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+    serde_json::from_slice(&output.stdout).expect("a document")
+}
+
+/// Eighty parallelograms in a row, of which two in three have a third crank: each is a part, and the answers are those of one of them alone.
+#[test]
+fn options_answer_by_parts() {
+    let scene = stdout(&pfaff(&["generate", "parallelograms", "--n", "80"]));
+    let asked = document(
+        &[
+            "--combine",
+            "low-0-0.Fx + low-1-0.Fx",
+            "--combine",
+            "low-0-0 - low-0-0 + low-2-1 - low-2-1",
+            "--make-unique",
+            "low-4-1",
+            "--eliminations",
+            "3",
+            "--frames",
+            "--choose",
+            "minimum-norm",
+        ],
+        &scene,
+    );
+    assert!(asked["rows"].as_u64() > Some(600));
+    assert_eq!(asked["parts"]["number"], 80);
+    let verdicts: Vec<&Value> = asked["groups"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|g| &g["verdict"])
+        .collect();
+    assert_eq!(verdicts, ["not_unique", "unique"]);
+    // In one cell any one of ten rows of the other revolutes will do.
+    let ways = asked["make_unique"][0]["ways"].as_array().expect("a list");
+    assert_eq!(ways.len(), 10);
+    let rows_of = |name: &str| {
+        let reactions = asked["reactions"].as_array().expect("a list");
+        let found = reactions.iter().find(|r| r["name"] == name);
+        found.expect("it is there")["rows"].clone()
+    };
+    let own = rows_of("low-4-1");
+    for way in ways {
+        let row = &way["rows"][0];
+        assert!(!own.as_array().expect("a list").contains(row), "{row}");
+    }
+    // Twelve of each of more than fifty cells: more sets than can be counted, and the first ones differ in the last cell.
+    let eliminations = &asked["eliminations"];
+    assert!(
+        eliminations["reason"]
+            .as_str()
+            .is_some_and(|r| r.contains("parts of the mechanism")),
+        "{eliminations}"
+    );
+    let sets = eliminations["sets"].as_array().expect("a list");
+    let p = asked["redundancy"].as_u64().expect("a number") as usize;
+    assert_eq!(sets.len(), 3);
+    assert!(
+        sets.iter()
+            .all(|set| set.as_array().is_some_and(|s| s.len() == p))
+    );
+    // What a choice gives depends on it exactly where the verdict says so.
+    let choice = asked["choices"][0]["reactions"].as_array().expect("a list");
+    let reactions = asked["reactions"].as_array().expect("a list");
+    for (chosen, reaction) in choice.iter().zip(reactions) {
+        for component in chosen["components"].as_array().expect("a list") {
+            let nature = if component["choice"].is_null() {
+                "fact"
+            } else {
+                "choice"
+            };
+            assert_eq!(component["nature"], nature, "{}", chosen["name"]);
+            let is_open = reaction["verdict"] == "not_unique";
+            assert!(is_open || nature == "fact", "{}", chosen["name"]);
+        }
+    }
+    assert!(
+        reactions
+            .iter()
+            .any(|r| r["frames"].as_array().is_some_and(|f| f.len() > 1))
+    );
+}
+
+#[test]
+fn large_motions_are_judged_by_parts() {
+    let scene = stdout(&pfaff(&["generate", "parallelograms", "--n", "30"]));
+    let moved = document(&["--along", "0.05"], &scene);
+    assert!(moved["rows"].as_u64() > Some(250) && moved["parts"]["number"] == 30);
+    let generic = &moved["along"]["generic"];
+    assert_eq!(generic["redundancy"], moved["redundancy"]);
+    assert_eq!(generic["rank"], moved["rank"]);
+    assert!(
+        moved["along"]["passages"]
+            .as_array()
+            .is_some_and(Vec::is_empty)
+    );
+    let later = document(&["--at-time", "0.05"], &scene);
+    assert_eq!(later["redundancy"], moved["redundancy"]);
+}
+
+#[test]
+fn a_part_that_is_too_large_is_named() {
+    let scene = stdout(&pfaff(&["generate", "lattice", "--n", "12"]));
+    let names = document(&[], &scene);
+    let reactions = names["reactions"].as_array().expect("a list");
+    let name = reactions[reactions.len() / 2]["name"]
+        .as_str()
+        .expect("a name");
+    let output = with_scene(
+        &["analyze", "-", "--combine", &format!("{name}.Fx")],
+        &scene,
+    );
+    assert_eq!(output.status.code(), Some(2), "{}", stdout(&output));
+    let said = stderr(&output);
+    assert!(
+        said.contains("are on common cycles with") && said.contains("up to 600 rows"),
+        "{said}"
+    );
+}

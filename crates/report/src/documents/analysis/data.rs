@@ -1,0 +1,101 @@
+//! What the numbers of a scene are known to, and by how much they would have to be wrong for another rank.
+
+use linalg::Certificate;
+use model::Tolerance;
+use serde::Serialize;
+use solvability::Analysis;
+
+/// What the data are known to, and what hangs on that.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct DataDocument {
+    /// What the scene states of its points and lengths (m); `None` if that is nothing but their rounding.
+    pub tolerance: Option<f64>,
+    /// The same of directions, angles and ratios (rad): as stated, or `tolerance` divided by the size of the mechanism; of several parts, of
+    /// the smallest.
+    pub angle_tolerance: Option<f64>,
+    /// The tolerance from which on a row is redundant (m): some points may be elsewhere by this, and the rank is lower wherever the mechanism
+    /// moves. `None` if no such tolerance is near.
+    pub lower_rank_from: Option<f64>,
+    /// By how much points would have to be elsewhere for a lower rank at this configuration (m). `None` if that is not near.
+    pub lower_rank_here: Option<f64>,
+}
+
+impl DataDocument {
+    /// That of an analysis.
+    #[must_use]
+    pub fn new(analysis: &Analysis) -> Self {
+        let parts = analysis.parts.iter();
+        let parts = parts.map(|part| (part.size, part.certificate.as_ref()));
+        Self::of(analysis.tolerance, parts)
+    }
+
+    /// Of parts with their sizes (m): the smallest change of the data that one of them needs.
+    fn of<'a>(
+        tolerance: Tolerance,
+        parts: impl Iterator<Item = (f64, Option<&'a Certificate>)> + Clone,
+    ) -> Self {
+        let angles = parts
+            .clone()
+            .filter_map(|(size, _)| tolerance.angle_at(size));
+        let known = || parts.clone().filter_map(|(_, certificate)| certificate);
+        Self {
+            tolerance: tolerance.length,
+            angle_tolerance: angles.reduce(f64::max).or(tolerance.angle),
+            lower_rank_from: known().filter_map(|c| c.lower_rank_from).reduce(f64::min),
+            lower_rank_here: known().filter_map(|c| c.lower_rank_here).reduce(f64::min),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use linalg::Grounds;
+
+    use super::*;
+
+    /// A certificate that tells nothing but these two lengths.
+    fn certificate(from: Option<f64>, here: Option<f64>) -> Certificate {
+        Certificate {
+            rank_at_least: 1,
+            sigma_bound: 1.0,
+            sigma_next: 0.0,
+            grounds: Grounds::FullRank,
+            uncertainty: 0.0,
+            spread: 0.0,
+            row_noise: Vec::new(),
+            row_tolerance: None,
+            nearly_redundant: None,
+            lower_rank_here: here,
+            lower_rank_from: from,
+        }
+    }
+
+    #[test]
+    fn the_part_that_needs_least_speaks_for_all() {
+        let drawing = Tolerance {
+            length: Some(1e-4),
+            angle: None,
+        };
+        let near = certificate(Some(5e-5), Some(7e-6));
+        let singular = certificate(None, Some(1e-6));
+        let parts = [(4.0, Some(&near)), (2.0, Some(&singular)), (1.0, None)];
+        let told = DataDocument::of(drawing, parts.into_iter());
+        let expected = DataDocument {
+            tolerance: Some(1e-4),
+            angle_tolerance: Some(1e-4),
+            lower_rank_from: Some(5e-5),
+            lower_rank_here: Some(1e-6),
+        };
+        assert_eq!(told, expected);
+    }
+
+    #[test]
+    fn what_nobody_states_is_null() {
+        let told = DataDocument::of(Tolerance::default(), [(1.0, None)].into_iter());
+        assert_eq!(
+            serde_json::to_string(&told).expect("JSON"),
+            r#"{"tolerance":null,"angle_tolerance":null,"lower_rank_from":null,"lower_rank_here":null}"#
+        );
+    }
+}

@@ -1,0 +1,68 @@
+//! What definitions say that a reader of their reactions must know, once for all joints of a type.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use model::Layout;
+use model::reaction::ConstraintGroup;
+use serde::Serialize;
+
+/// Joints that the text names; the document lists all.
+const NAMED: usize = 12;
+
+/// What a reader of some reactions must know.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct NoteDocument {
+    /// The joints concerned.
+    pub joints: Vec<String>,
+    /// In words, with their names.
+    pub text: String,
+}
+
+impl NoteDocument {
+    /// The notes of all definitions that have one, in the order of their first joints. Joints are left out if nothing else pushes their
+    /// bodies: no reaction is misread for them.
+    #[must_use]
+    pub fn all(layout: &Layout) -> Vec<Self> {
+        let has_note = |g: &&ConstraintGroup| g.spec.note.is_some();
+        if !layout.groups.iter().any(|g| has_note(&g)) {
+            return Vec::new();
+        }
+        let moving = |g: &ConstraintGroup| g.bodies.iter().filter_map(|b| b.moving()).collect();
+        let others = layout.groups.iter().filter(|g| !has_note(g));
+        let pushing = others.filter(|g| (0..g.rows.len()).any(|row| g.pushes(row)));
+        let pushed: BTreeSet<usize> = pushing.flat_map(|g| -> Vec<usize> { moving(g) }).collect();
+        let mut order: Vec<&'static str> = Vec::new();
+        let mut joints: BTreeMap<&'static str, Vec<String>> = BTreeMap::new();
+        for g in &layout.groups {
+            let bodies: Vec<usize> = moving(g);
+            if let Some(note) = g.spec.note
+                && bodies.iter().any(|k| pushed.contains(k))
+            {
+                let list = joints.entry(note).or_default();
+                if list.is_empty() {
+                    order.push(note);
+                }
+                list.push(g.name.clone());
+            }
+        }
+        let document = |note| {
+            let joints = joints.remove(note).unwrap_or_default();
+            Self {
+                text: format!("{}: {note}", named(&joints)),
+                joints,
+            }
+        };
+        order.into_iter().map(document).collect()
+    }
+}
+
+/// The first names, and how many more there are.
+fn named(joints: &[String]) -> String {
+    let first = joints.iter().take(NAMED);
+    let first: Vec<String> = first.map(|name| format!("`{name}`")).collect();
+    match joints.len().saturating_sub(NAMED) {
+        0 => first.join(", "),
+        more => format!("{} and {more} more", first.join(", ")),
+    }
+}

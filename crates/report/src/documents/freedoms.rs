@@ -1,0 +1,192 @@
+//! What can move, with the drives and without them.
+
+use model::Mechanism;
+use serde::Serialize;
+use solvability::{FreeMotion, FreeMotions, Freedoms, LeftOut};
+
+use super::Named;
+
+/// Free motions, and what the mechanism is without its drives.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct FreedomsDocument {
+    /// Rank, redundancy and free motions without the drives; `null` if there are none.
+    pub without_drives: Option<WithoutDrivesDocument>,
+    /// What moves while the drives stand still.
+    pub free_motions: Vec<FreeMotionDocument>,
+    /// Freedoms of which no motion is told.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub free_motions_left_out: Option<LeftOutDocument>,
+    /// Whether nothing moves whatever the drives do.
+    pub cannot_move: bool,
+}
+
+/// The mechanism without its drives.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct WithoutDrivesDocument {
+    /// Number of drives.
+    pub drives: usize,
+    /// Rank of the other rows.
+    pub rank: usize,
+    /// What they are more than that.
+    pub redundancy: usize,
+    /// n_v − rank
+    pub mobility: usize,
+    /// What moves.
+    pub free_motions: Vec<FreeMotionDocument>,
+    /// Freedoms of which no motion is told.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub free_motions_left_out: Option<LeftOutDocument>,
+}
+
+/// A free motion.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct FreeMotionDocument {
+    /// In words.
+    pub text: String,
+    /// `[vx, vy, omega]` of the bodies that move (m/s, rad/s), for each freedom that the words
+    /// tell: three of what is free as a whole, else one. The largest rotation is 1, or the fastest
+    /// translation where nothing turns.
+    pub velocities: Vec<Named<[f64; 3]>>,
+}
+
+/// Freedoms that are counted only.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[non_exhaustive]
+pub struct LeftOutDocument {
+    /// How many.
+    pub freedoms: usize,
+    /// Why.
+    pub reason: String,
+}
+
+impl FreedomsDocument {
+    /// The document of the freedoms of a mechanism.
+    #[must_use]
+    pub fn new(freedoms: &Freedoms, mechanism: &Mechanism) -> Self {
+        let without_drives = freedoms.without_drives.as_ref();
+        Self {
+            without_drives: without_drives.map(|without| WithoutDrivesDocument {
+                drives: without.drives,
+                rank: without.ranks.rank,
+                redundancy: without.ranks.redundancy,
+                mobility: without.mobility,
+                free_motions: told(&without.motions, mechanism),
+                free_motions_left_out: without.motions.left_out.as_ref().map(Into::into),
+            }),
+            free_motions: told(&freedoms.motions, mechanism),
+            free_motions_left_out: freedoms.motions.left_out.as_ref().map(Into::into),
+            cannot_move: freedoms.cannot_move,
+        }
+    }
+
+    /// The mobility in a sentence: "mobility 0 with its drive, 1 without", or "mobility 1" if there
+    /// is no drive.
+    #[must_use]
+    pub fn sentence(&self, mobility: usize) -> String {
+        match &self.without_drives {
+            None => format!("mobility {mobility}"),
+            Some(without) => format!(
+                "mobility {mobility} with {}, {} without",
+                without.possessive(),
+                without.mobility
+            ),
+        }
+    }
+
+    /// The same, and whether the mechanism cannot move.
+    #[must_use]
+    pub fn summary(&self, mobility: usize) -> String {
+        match self.cannot_move {
+            true => self.sentence(mobility) + ": it cannot move",
+            false => self.sentence(mobility),
+        }
+    }
+
+    /// The mobility without the drives; `None` if there are none.
+    #[must_use]
+    pub fn mobility_without_drives(&self) -> Option<usize> {
+        self.without_drives.as_ref().map(|without| without.mobility)
+    }
+
+    /// The free motions in sentences: those with the drives, then those that the drives prescribe,
+    /// each once, with a lead that tells them apart.
+    #[must_use]
+    pub fn sentences(&self) -> Vec<(String, String)> {
+        let mut told: Vec<(String, String)> = Vec::new();
+        let mut add =
+            |lead: &str, motions: &[FreeMotionDocument], left_out: &Option<LeftOutDocument>| {
+                for motion in motions {
+                    if told.iter().all(|(_, text)| *text != motion.text) {
+                        told.push((lead.to_owned(), motion.text.clone()));
+                    }
+                }
+                if let Some(LeftOutDocument { freedoms, reason }) = left_out {
+                    let more = if motions.is_empty() { "" } else { " more" };
+                    let noun = if *freedoms == 1 {
+                        "freedom"
+                    } else {
+                        "freedoms"
+                    };
+                    told.push((
+                        lead.to_owned(),
+                        format!("{freedoms} {noun}{more} ({reason})"),
+                    ));
+                }
+            };
+        let lead = match self.cannot_move {
+            true => "free at first order",
+            false => "free",
+        };
+        add(lead, &self.free_motions, &self.free_motions_left_out);
+        if let Some(without) = &self.without_drives {
+            let lead = format!("free without {}", without.possessive());
+            add(&lead, &without.free_motions, &without.free_motions_left_out);
+        }
+        told
+    }
+}
+
+impl WithoutDrivesDocument {
+    /// "its drive" or "its drives".
+    #[must_use]
+    pub fn possessive(&self) -> &'static str {
+        match self.drives {
+            1 => "its drive",
+            _ => "its drives",
+        }
+    }
+}
+
+fn told(motions: &FreeMotions, mechanism: &Mechanism) -> Vec<FreeMotionDocument> {
+    let told = |motion: &FreeMotion| FreeMotionDocument {
+        text: motion.text.clone(),
+        velocities: motion
+            .velocities
+            .iter()
+            .map(|bodies| {
+                let named = bodies
+                    .iter()
+                    .map(|(b, v)| (mechanism.bodies()[*b].name.clone(), v.map(shown)));
+                Named(named.collect())
+            })
+            .collect(),
+    };
+    motions.motions.iter().map(told).collect()
+}
+
+/// With the digits that a null space has: 13.
+fn shown(x: f64) -> f64 {
+    format!("{x:.12e}").parse().unwrap_or(x)
+}
+
+impl From<&LeftOut> for LeftOutDocument {
+    fn from(left_out: &LeftOut) -> Self {
+        Self {
+            freedoms: left_out.freedoms,
+            reason: left_out.reason.clone(),
+        }
+    }
+}

@@ -1,0 +1,396 @@
+//! Ranks and verdicts of one configuration of a mechanism of any size: those of its parts, added up and numbered as in the whole.
+
+use std::borrow::Cow;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use linalg::{Evidence, KeptRowsError, Matrix, NearlyRedundant, RankDecision, Scaling};
+use model::start::scene_size;
+use model::{ConstraintId, Known, Mechanism, System, Tolerance};
+use rayon::prelude::*;
+
+use crate::certificate::{ROWS_MAX, Rows};
+use crate::large::judge_sparse;
+use crate::mechanism::{
+    AnalysisError, Dependency, ReactionVerdict, decide_dropping, evaluated, judge,
+};
+use crate::parts::{Extent, PartAnalysis, Partition};
+use crate::rows::RowDecision;
+use crate::state::check_configuration;
+
+/// The verdicts of one configuration.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// Time of the configuration (s).
+    pub time: f64,
+    /// Number of bodies.
+    pub bodies: usize,
+    /// Number of coordinates n_q.
+    pub coordinates: usize,
+    /// Number of velocities n_v.
+    pub velocities: usize,
+    /// Size of the mechanism (m).
+    pub size: f64,
+    /// What its numbers are known to where nothing is said of their joint or body.
+    pub tolerance: Tolerance,
+    /// Number of holonomic rows m.
+    pub holonomic_rows: usize,
+    /// Number of nonholonomic rows h.
+    pub nonholonomic_rows: usize,
+    /// Rank of Φq alone.
+    pub rank_holonomic: usize,
+    /// Rank of Ψ alone.
+    pub rank_nonholonomic: usize,
+    /// Rank, redundancy and kept rows of C.
+    pub decision: RowDecision,
+    /// Kept rows that are independent, but only just: of the part where they come closest to a dependence.
+    pub nearly_redundant: Option<NearlyRedundant>,
+    /// Joints and drives in the order of their rows.
+    pub reactions: Vec<ReactionVerdict>,
+    /// As many as the degree of redundancy, part by part, short ones first; fewer where more rows than can be judged together depend on each other.
+    pub dependencies: Vec<Dependency>,
+    /// What else the reader should know.
+    pub warnings: Vec<String>,
+    /// Parts that were judged alone, by their first joints.
+    pub parts: Vec<PartAnalysis>,
+}
+
+impl Analysis {
+    /// Freedoms of motion: n_v − r.
+    #[must_use]
+    pub fn mobility(&self) -> usize {
+        self.velocities - self.decision.rank
+    }
+
+    /// The part whose rank is least certain: undecided, or else the one with the smallest σ_r. There is always one.
+    #[must_use]
+    pub fn weakest(&self) -> &PartAnalysis {
+        let least = |a: &&PartAnalysis, b: &&PartAnalysis| a.strength().total_cmp(&b.strength());
+        let weakest = self.parts.iter().min_by(least);
+        weakest.unwrap_or_else(|| unreachable!("an analysis has a part"))
+    }
+
+    /// The numbers behind the rank of the weakest part.
+    #[must_use]
+    pub fn evidence(&self) -> &Evidence {
+        self.weakest().decision.evidence()
+    }
+
+    /// The place of the part with this joint or drive.
+    #[must_use]
+    pub fn part_of(&self, id: ConstraintId) -> Option<usize> {
+        let has = |part: &PartAnalysis| part.extent.own_group(id.0).is_some();
+        match self.parts.as_slice() {
+            [_] => (id.0 < self.reactions.len()).then_some(0),
+            parts => parts.iter().position(has),
+        }
+    }
+
+    /// The decision of all rows with all dependencies, made of those of the parts; `None` if there are too many rows for that. Its evidence is that of the
+    /// weakest part.
+    #[must_use]
+    pub fn whole(&self) -> Option<Cow<'_, RankDecision>> {
+        if let [one] = self.parts.as_slice()
+            && one.extent.is_whole()
+        {
+            return one.decision.dense().map(Cow::Borrowed);
+        }
+        let (rank, redundancy) = (self.decision.rank, self.decision.redundancy);
+        if rank + redundancy > ROWS_MAX {
+            return None;
+        }
+        let mut scaling = Scaling::identity(rank + redundancy, self.velocities);
+        let mut coefficients = Matrix::zeros(redundancy, rank);
+        let place = |rows: &[usize], row: usize| rows.partition_point(|&k| k < row);
+        for part in &self.parts {
+            let own = part.decision.dense()?;
+            for (k, exponent) in own.scaling.rows.iter().enumerate() {
+                scaling.rows[part.extent.row(k)] = *exponent;
+            }
+            for (j, &dropped) in own.dropped.iter().enumerate() {
+                let j_all = place(&self.decision.dropped, part.extent.row(dropped));
+                for (i, &kept) in own.kept.iter().enumerate() {
+                    let i_all = place(&self.decision.kept, part.extent.row(kept));
+                    coefficients[(j_all, i_all)] = own.coefficients[(j, i)];
+                }
+            }
+        }
+        Some(Cow::Owned(RankDecision {
+            rank,
+            redundancy,
+            kept: self.decision.kept.clone(),
+            dropped: self.decision.dropped.clone(),
+            coefficients,
+            scaling,
+            evidence: Evidence {
+                certificate: None,
+                ..self.evidence().clone()
+            },
+            status: self.decision.status,
+        }))
+    }
+
+    /// Adds up what was judged of the parts.
+    pub(crate) fn of(mechanism: &Mechanism, t: f64, q: &[f64], judged: Vec<Judged>) -> Self {
+        let layout = mechanism.layout();
+        let mut analysis = Self {
+            time: t,
+            bodies: mechanism.bodies().len(),
+            coordinates: layout.n_q,
+            velocities: layout.n_v,
+            size: 0.0,
+            tolerance: mechanism.tolerance(),
+            holonomic_rows: layout.m,
+            nonholonomic_rows: layout.h,
+            rank_holonomic: 0,
+            rank_nonholonomic: 0,
+            decision: RowDecision::empty(),
+            nearly_redundant: None,
+            reactions: Vec::with_capacity(layout.groups.len()),
+            dependencies: Vec::new(),
+            warnings: Vec::new(),
+            parts: Vec::with_capacity(judged.len()),
+        };
+        for Judged {
+            part,
+            reactions,
+            dependencies,
+            warnings,
+        } in judged
+        {
+            analysis.rank_holonomic += part.rank_holonomic;
+            analysis.rank_nonholonomic += part.rank_nonholonomic;
+            let row = |k: usize| part.extent.row(k);
+            analysis.decision.add(part.decision.rows(), row);
+            if let Some(nearly) = &part.nearly_redundant
+                && analysis
+                    .nearly_redundant
+                    .as_ref()
+                    .is_none_or(|other| nearly.sigma < other.sigma)
+            {
+                analysis.nearly_redundant = Some(NearlyRedundant {
+                    sigma: nearly.sigma,
+                    direction: part.extent.spread(&nearly.direction, layout.rows()),
+                });
+            }
+            analysis.reactions.extend(reactions);
+            analysis.dependencies.extend(dependencies);
+            analysis.warnings.extend(warnings);
+            analysis.parts.push(part);
+        }
+        if let [one] = analysis.parts.as_slice()
+            && one.extent.is_whole()
+        {
+            analysis.size = one.size;
+            return analysis;
+        }
+        analysis.size = scene_size(mechanism, q);
+        analysis.decision.sort();
+        analysis.reactions.sort_unstable_by_key(|r| r.id.0);
+        analysis
+    }
+}
+
+/// What is found of a part, in numbers of the part until it is placed.
+pub(crate) struct Judged {
+    pub(crate) part: PartAnalysis,
+    pub(crate) reactions: Vec<ReactionVerdict>,
+    pub(crate) dependencies: Vec<Dependency>,
+    pub(crate) warnings: Vec<String>,
+}
+
+impl Judged {
+    /// The same in numbers of the whole; warnings say of which part they are.
+    pub(crate) fn placed(mut self, whole: &Mechanism, extent: Extent) -> Self {
+        if extent.is_whole() {
+            return self;
+        }
+        for reaction in &mut self.reactions {
+            reaction.id = ConstraintId(extent.group(reaction.id.0));
+            for row in &mut reaction.rows {
+                row.row = extent.row(row.row);
+            }
+        }
+        for dependency in &mut self.dependencies {
+            for row in &mut dependency.rows {
+                *row = extent.row(*row);
+            }
+        }
+        for warning in &mut self.warnings {
+            *warning = format!("{}: {warning}", extent.name(whole));
+        }
+        self.part.extent = extent;
+        self
+    }
+}
+
+/// Verdicts at time t and coordinates q, which must satisfy the constraints; allocates.
+///
+/// # Errors
+/// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
+/// - [`AnalysisError::Rank`]: C is not finite.
+/// - [`AnalysisError::Large`]: joints on common cycles are joined too closely for a sparse decision.
+pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
+    analyse_known(mechanism, t, q, Known::AsStored)
+}
+
+/// The same at a configuration that is known to less than it is stored with; what is zero to that is zero.
+///
+/// # Errors
+/// As [`analyse`].
+pub fn analyse_known(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    known: Known,
+) -> Result<Analysis, AnalysisError> {
+    analyse_watched(mechanism, t, q, known, |_| ())
+}
+
+/// The same; after each part `progress` is told how many joints are judged. Parts are judged on the threads of the pool of `rayon` from which this is
+/// called; the result does not depend on them.
+///
+/// # Errors
+/// As [`analyse`].
+pub fn analyse_watched(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    known: Known,
+    progress: impl Fn(usize) + Sync,
+) -> Result<Analysis, AnalysisError> {
+    check_configuration(mechanism, t, q)?;
+    let partition = Partition::of(mechanism, t, q);
+    let judged = AtomicUsize::new(0);
+    by_parts(mechanism, t, q, &partition, |part, q, _| {
+        let found = judged_alone(part, t, q, known)?;
+        let joints = part.layout().groups.len();
+        progress(judged.fetch_add(joints, Ordering::Relaxed) + joints);
+        Ok(found)
+    })
+}
+
+/// The same where the ranks have been decided.
+///
+/// # Errors
+/// As [`analyse`].
+pub fn analyse_decided(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    decided: &crate::rows::Rows,
+    progress: impl Fn(usize) + Sync,
+) -> Result<Analysis, AnalysisError> {
+    check_configuration(mechanism, t, q)?;
+    let done = AtomicUsize::new(0);
+    let parts = decided.parts.par_iter().map(|part| {
+        let (own, q) = (part.extent.mechanism(mechanism), part.extent.coordinates(q));
+        let found = match &part.certified {
+            Some(certified) => {
+                let rows = Rows::new(&own, t, &q, Known::AsStored)?;
+                judge(&own, &evaluated(&own, t, &q), &rows, certified[0].clone())?
+            }
+            None => judge_sparse(&own, &evaluated(&own, t, &q), &q)?,
+        };
+        let joints = own.layout().groups.len();
+        progress(done.fetch_add(joints, Ordering::Relaxed) + joints);
+        Ok(found.placed(mechanism, part.extent.clone()))
+    });
+    let parts: Vec<Result<Judged, AnalysisError>> = parts.collect();
+    let judged = parts.into_iter().collect::<Result<_, _>>()?;
+    Ok(Analysis::of(mechanism, t, q, judged))
+}
+
+/// Verdicts set of cycles by set of cycles, also of a mechanism that is small enough to be judged as one: they are the same.
+///
+/// # Errors
+/// As [`analyse`].
+pub fn analyse_by_cycles(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+) -> Result<Analysis, AnalysisError> {
+    check_configuration(mechanism, t, q)?;
+    let partition = Partition::by_cycles(mechanism, t, q);
+    by_parts(mechanism, t, q, &partition, |part, q, _| {
+        judged_alone(part, t, q, Known::AsStored)
+    })
+}
+
+/// The same with dependencies told by the dropped rows that the caller chooses (from 0). Verdicts do not depend on them.
+///
+/// # Errors
+/// As [`analyse`], and [`AnalysisError::Rows`]: the rows cannot be dropped without changing the motion.
+pub fn analyse_dropping(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    dropped: &[usize],
+) -> Result<Analysis, AnalysisError> {
+    check_configuration(mechanism, t, q)?;
+    let refused = |source| AnalysisError::Rows { time: t, source };
+    let rows = mechanism.layout().rows();
+    if let Some(&row) = dropped.iter().find(|&&row| row >= rows) {
+        return Err(refused(KeptRowsError::RowOutOfRange { row, rows }));
+    }
+    let partition = Partition::of(mechanism, t, q);
+    by_parts(mechanism, t, q, &partition, |part, q, extent| {
+        let own = extent.own_rows(dropped);
+        if part.layout().rows() > ROWS_MAX {
+            let found = judged_alone(part, t, q, Known::AsStored)?;
+            // The same rows are dropped, or none can be chosen among so many.
+            return match found.part.decision.rows().dropped == own {
+                true => Ok(found),
+                false => Err(AnalysisError::Chosen {
+                    time: t,
+                    rows: part.layout().rows(),
+                }),
+            };
+        }
+        let s = evaluated(part, t, q);
+        let decision = decide_dropping(part, &s, q, &own).map_err(|e| {
+            refused(match e {
+                KeptRowsError::Duplicate { row } => KeptRowsError::Duplicate {
+                    row: extent.row(row),
+                },
+                other => other,
+            })
+        })?;
+        let rows = Rows::new(part, t, q, Known::AsStored)?;
+        let certified = rows.decide()?;
+        let same = certified.is_decided() && certified.rank == decision.rank;
+        let mut found = judge(part, &s, &rows, decision)?;
+        found.part.certificate = certified.evidence.certificate.filter(|_| same);
+        Ok(found)
+    })
+}
+
+fn by_parts(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    partition: &Partition,
+    judge: impl Fn(&Mechanism, &[f64], &Extent) -> Result<Judged, AnalysisError> + Sync,
+) -> Result<Analysis, AnalysisError> {
+    let judged = partition.map(mechanism, |part, extent| {
+        let found = judge(part, &extent.coordinates(q), &extent)?;
+        Ok::<_, AnalysisError>(found.placed(mechanism, extent))
+    })?;
+    Ok(Analysis::of(mechanism, t, q, judged))
+}
+
+/// A part by itself.
+fn judged_alone(
+    part: &Mechanism,
+    t: f64,
+    q: &[f64],
+    known: Known,
+) -> Result<Judged, AnalysisError> {
+    match part.layout().rows() <= ROWS_MAX {
+        true => {
+            let rows = Rows::new(part, t, q, known)?;
+            let decision = rows.decide()?;
+            judge(part, &evaluated(part, t, q), &rows, decision)
+        }
+        false => judge_sparse(part, &evaluated(part, t, q), q),
+    }
+}

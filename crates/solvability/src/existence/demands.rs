@@ -1,0 +1,57 @@
+//! What drives ask for.
+
+use model::{ConstraintId, Mechanism, Scratch, System};
+
+use super::ConstraintLevel;
+use crate::words::short;
+
+/// What a drive asks for at one time.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Demand {
+    /// The drive.
+    pub drive: String,
+    /// The joint that it moves, and the measure; nothing if no joint has its place.
+    pub joint: Option<(String, &'static str)>,
+    /// Whether the measure is an angle.
+    pub angular: bool,
+    /// Change of the measure since the start, its rate and acceleration.
+    pub prescribed: [f64; 3],
+}
+
+impl Demand {
+    /// Of a drive, where its function of time has been evaluated. `None` if this is no drive.
+    pub(super) fn of(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Option<Self> {
+        let groups = &mechanism.layout().groups;
+        let group = &groups[id.0];
+        let [prescribed] = *mechanism.prescribed(id, s) else {
+            return None;
+        };
+        group.is_drive().then(|| Self {
+            drive: group.name.clone(),
+            joint: mechanism
+                .driven(id)
+                .map(|(joint, measure)| (groups[joint.0].name.clone(), measure)),
+            angular: mechanism.is_angular(group.rows.start),
+            prescribed,
+        })
+    }
+
+    /// "the angle of `A`"
+    pub(super) fn of_what(&self) -> String {
+        match &self.joint {
+            Some((joint, measure)) => format!("the {measure} of `{joint}`"),
+            None => "its measure".to_owned(),
+        }
+    }
+
+    /// "to change by 0.3 m"
+    pub(super) fn asked(&self, level: ConstraintLevel) -> String {
+        let (verb, value) = match level {
+            ConstraintLevel::Position => ("change by", self.prescribed[0]),
+            ConstraintLevel::Velocity => ("change at", self.prescribed[1]),
+            ConstraintLevel::Acceleration => ("accelerate at", self.prescribed[2]),
+        };
+        format!("to {verb} {} {}", short(value), level.unit(self.angular))
+    }
+}

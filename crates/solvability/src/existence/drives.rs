@@ -1,0 +1,374 @@
+//! Drives that cannot follow what they prescribe, at one configuration and along the motion. Joints
+//! come first: a redundant row is that of a drive where it can be, so that what misses is what a
+//! drive asks for, and no joint is blamed, however much drives differ.
+
+use linalg::{Matrix, RankDecision, circuits, components, decide_keeping};
+use model::start::{nearest_configuration, scene_size};
+use model::{ConstraintId, Mechanism, RowLabel, Scratch, System};
+
+use super::{Comparison, ConstraintLevel, Contradiction};
+use crate::generic::{Elsewhere, GENERIC_ROWS, generic};
+use crate::mechanism::{AnalysisError, dimensionless, uncertainty};
+use crate::state::check_configuration;
+
+/// Positions after the start at which drives are compared along a motion.
+const POSITIONS: u32 = 12;
+
+/// What drives may change by from one position to the next (rad, or as a share of the size of the
+/// mechanism): a larger step may end on another branch of the joints, where drives that agree do
+/// not.
+const STRIDE: f64 = 0.1;
+
+/// Steps on the way at most: a dozen revolutions. What comes later is not known.
+const STEPS: usize = 800;
+
+/// A step that fails is halved so often at most: what is reached by smaller ones only is too near
+/// to a singular configuration to be followed.
+const HALVINGS: usize = 6;
+
+/// Share of their terms by which drives must differ before a run stops for it with certainty (runs
+/// compare to 1e-11, divided by pivots).
+const RUNS_NOTICE: f64 = 1e-9;
+
+/// Contradictions between drives and what else holds at time t and coordinates q, positions before
+/// velocities and the worst first: drives that ask for different positions or velocities, and
+/// drives that ask for what joints forbid. No velocities are needed. The joints must hold at q, and
+/// of the drives as many as are independent of them and of those before. Nothing is known of this
+/// where the rank is undecided in `f64`, and nothing is asked above [`GENERIC_ROWS`] rows.
+///
+/// # Errors
+/// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
+/// - [`AnalysisError::Rank`]: C is not finite.
+pub fn contradicting_drives(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+) -> Result<Vec<Contradiction>, AnalysisError> {
+    compared(mechanism, t, q, Notice::Rounding)
+}
+
+/// The first contradiction of drives on the way from the start to the last time, at a dozen
+/// positions after the start. Positions are those that the drives ask for; where they cannot be
+/// followed, or above [`GENERIC_ROWS`] rows, nothing is known; rows that depend on each other at
+/// the start alone are left out. Drives that differ by less than a run would notice agree.
+///
+/// # Errors
+/// As [`contradicting_drives`].
+pub fn contradicting_drives_along(
+    mechanism: &Mechanism,
+    start: &[f64],
+    t_end: f64,
+) -> Result<Option<Contradiction>, AnalysisError> {
+    let mut found = None;
+    check_configuration(mechanism, t_end, start)?;
+    if is_beyond(mechanism) {
+        return Ok(None);
+    }
+    // Drives that are needed at the start contradict nothing: the rank does not fall on the way but
+    // for an instant.
+    match JointsFirst::of_velocities(mechanism, 0.0, start)? {
+        Some(rows) if rows.has_redundant_drives(mechanism) => {}
+        _ => return Ok(None),
+    }
+    walk(mechanism, start, t_end, |t, q| {
+        let all = compared(mechanism, t, q, Notice::RunTo(t_end))?;
+        found = all.into_iter().find(|one| lasts(mechanism, start, one));
+        Ok(found.is_none())
+    })?;
+    Ok(found)
+}
+
+/// Whether drives of a contradiction are redundant at other configurations too, where some can be
+/// reached from the start q: at a singular start a drive is redundant that is needed beside it.
+fn lasts(mechanism: &Mechanism, q: &[f64], contradiction: &Contradiction) -> bool {
+    let labels = &mechanism.layout().labels;
+    let (drives, _) = contradiction.split_rows();
+    let row = |label: &&RowLabel| labels.iter().position(|other| other == *label);
+    let drives: Vec<usize> = drives.iter().filter_map(row).collect();
+    let is_redundant = |there: &Elsewhere| {
+        let rows = JointsFirst::of_velocities(mechanism, there.time, &there.q);
+        rows.ok().flatten().is_none_or(|rows| {
+            let needed = components(&rows.decision).coloops;
+            drives.iter().any(|row| needed.binary_search(row).is_err())
+        })
+    };
+    generic(mechanism, 0.0, q).is_none_or(|found| found.points.iter().all(is_redundant))
+}
+
+/// Whether there is nothing to compare, or too much.
+fn is_beyond(mechanism: &Mechanism) -> bool {
+    let layout = mechanism.layout();
+    layout.drive_rows().is_empty() || layout.rows() > GENERIC_ROWS
+}
+
+/// Shows the positions on the way, until one cannot be reached or `see` has seen enough.
+fn walk(
+    mechanism: &Mechanism,
+    start: &[f64],
+    t_end: f64,
+    mut see: impl FnMut(f64, &[f64]) -> Result<bool, AnalysisError>,
+) -> Result<(), AnalysisError> {
+    check_configuration(mechanism, t_end, start)?;
+    if is_beyond(mechanism) {
+        return Ok(());
+    }
+    let mut way = Way {
+        mechanism,
+        size: scene_size(mechanism, start),
+        t: 0.0,
+        q: start.to_vec(),
+        steps: 0,
+    };
+    for k in 1..=POSITIONS {
+        let to = match k {
+            POSITIONS => t_end,
+            k => t_end * f64::from(k) / f64::from(POSITIONS),
+        };
+        // Where it ends, drives that differ have differed already.
+        let is_there = way.go(to)?;
+        if !see(way.t, &way.q)? || !is_there {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Where the drives have led.
+struct Way<'m> {
+    mechanism: &'m Mechanism,
+    /// (m)
+    size: f64,
+    t: f64,
+    q: Vec<f64>,
+    steps: usize,
+}
+
+impl Way<'_> {
+    /// Goes on to a later time. Returns whether it has been reached.
+    fn go(&mut self, to: f64) -> Result<bool, AnalysisError> {
+        while self.t < to {
+            if self.steps == STEPS {
+                return Ok(false);
+            }
+            self.steps += 1;
+            let Some(rows) = JointsFirst::of_positions(self.mechanism, self.t, &self.q)? else {
+                return Ok(false);
+            };
+            let kept = &rows.decision.kept;
+            let mut next = to;
+            let mut halvings = 0;
+            while self.stride(&rows, next) > STRIDE && next > self.t {
+                next = self.t + 0.5 * (next - self.t);
+            }
+            let reached = loop {
+                match nearest_configuration(self.mechanism, next, kept, &self.q) {
+                    Ok(there) => break Some(there),
+                    Err(_) if halvings < HALVINGS => next = self.t + 0.5 * (next - self.t),
+                    Err(_) => break None,
+                }
+                halvings += 1;
+            };
+            match reached {
+                Some(there) if next > self.t => (self.t, self.q) = (next, there),
+                _ => return Ok(false),
+            }
+        }
+        Ok(true)
+    }
+
+    /// What the drives that are followed change by from the time of these rows to another.
+    fn stride(&self, rows: &JointsFirst, next: f64) -> f64 {
+        let now = &rows.s;
+        let mut then = self.mechanism.scratch();
+        self.mechanism.pose(next, &self.q, &mut then);
+        let groups = &self.mechanism.layout().groups;
+        let ids = self.mechanism.constraint_ids();
+        let kept = &rows.decision.kept;
+        let is_followed = |id: &ConstraintId| {
+            let group = &groups[id.0];
+            group.is_drive() && kept.binary_search(&group.rows.start).is_ok()
+        };
+        let changes = ids.filter(is_followed).map(|id| {
+            let value = |s: &Scratch| {
+                self.mechanism
+                    .prescribed(id, s)
+                    .iter()
+                    .map(|f| f[0])
+                    .sum::<f64>()
+            };
+            let change = (value(&then) - value(now)).abs();
+            match self.mechanism.is_angular(groups[id.0].rows.start) {
+                true => change,
+                false => change / self.size,
+            }
+        });
+        changes.fold(0.0, f64::max)
+    }
+}
+
+/// Which contradictions are told.
+#[derive(Clone, Copy)]
+enum Notice {
+    /// Those above rounding.
+    Rounding,
+    /// Those that a run to this time would notice.
+    RunTo(f64),
+}
+
+/// Contradictions at both levels.
+fn compared(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    notice: Notice,
+) -> Result<Vec<Contradiction>, AnalysisError> {
+    check_configuration(mechanism, t, q)?;
+    if is_beyond(mechanism) {
+        return Ok(Vec::new());
+    }
+    let (share, per_second) = match notice {
+        Notice::Rounding => (0.0, 0.0),
+        Notice::RunTo(t_end) => (RUNS_NOTICE, t_end.recip()),
+    };
+    let mut found = Vec::new();
+    let mut add = |mut of_level: Vec<Contradiction>| {
+        let excess = |c: &Contradiction| c.size / c.tolerance;
+        of_level.sort_by(|a, b| excess(b).total_cmp(&excess(a)));
+        found.extend(of_level);
+    };
+    // What cannot hold at all comes before what cannot go on.
+    if let Some(positions) = JointsFirst::of_positions(mechanism, t, q)? {
+        let terms = |i| mechanism.position_scale(&positions.s, i, q);
+        let level = ConstraintLevel::Position;
+        add(positions.contradictions(mechanism, level, &terms, share));
+    }
+    if let Some(all) = JointsFirst::of_velocities(mechanism, t, q)? {
+        // Rates that part the positions by nothing in the time of the run are none.
+        let slow = |i| per_second * mechanism.position_scale(&all.s, i, q);
+        let terms = |i| mechanism.prescribed_scale(&all.s, i) + slow(i);
+        let level = ConstraintLevel::Velocity;
+        add(all.contradictions(mechanism, level, &terms, share));
+    }
+    Ok(found)
+}
+
+/// Rows at a configuration, the joints kept before the drives.
+struct JointsFirst {
+    /// Where they are evaluated.
+    s: Scratch,
+    decision: RankDecision,
+}
+
+impl JointsFirst {
+    /// The rows of Φ.
+    fn of_positions(
+        mechanism: &Mechanism,
+        t: f64,
+        q: &[f64],
+    ) -> Result<Option<Self>, AnalysisError> {
+        Self::of(mechanism, t, q, mechanism.layout().m)
+    }
+
+    /// All rows.
+    fn of_velocities(
+        mechanism: &Mechanism,
+        t: f64,
+        q: &[f64],
+    ) -> Result<Option<Self>, AnalysisError> {
+        Self::of(mechanism, t, q, mechanism.layout().rows())
+    }
+
+    /// The first rows of C. `None` if a rank is undecided.
+    fn of(
+        mechanism: &Mechanism,
+        t: f64,
+        q: &[f64],
+        rows: usize,
+    ) -> Result<Option<Self>, AnalysisError> {
+        let layout = mechanism.layout();
+        let mut s = mechanism.scratch();
+        mechanism.pose(t, q, &mut s);
+        mechanism.phi(&mut s);
+        mechanism.c(&mut s);
+        mechanism.b(&mut s);
+        let size = scene_size(mechanism, q);
+        let all: Vec<usize> = (0..rows).collect();
+        let c = dimensionless(mechanism, &s, size).select_rows(&all);
+        // What drives miss by is asked here, and says nothing of how well the configuration is
+        // known.
+        let mut of_joints = s.clone();
+        for row in layout.drive_rows() {
+            of_joints.phi[row] = 0.0;
+        }
+        let known = uncertainty(mechanism, &of_joints, q, size).select_rows(&all);
+        let decided = |rows: &[usize]| -> Result<Option<RankDecision>, AnalysisError> {
+            let [c, known]: [Matrix; 2] = [&c, &known].map(|m| m.select_rows(rows));
+            let decision = linalg::decide(&c, &known)
+                .map_err(|source| AnalysisError::Rank { time: t, source })?;
+            Ok(Some(decision).filter(RankDecision::is_decided))
+        };
+        let drives = layout.drive_rows();
+        let joints: Vec<usize> = all
+            .iter()
+            .copied()
+            .filter(|row| drives.binary_search(row).is_err())
+            .collect();
+        let (Some(whole), Some(alone)) = (decided(&all)?, decided(&joints)?) else {
+            return Ok(None);
+        };
+        let mut kept: Vec<usize> = alone.kept.iter().map(|&k| joints[k]).collect();
+        for &drive in &drives {
+            if kept.len() == whole.rank {
+                break;
+            }
+            kept.push(drive);
+            kept.sort_unstable();
+            match decided(&kept)? {
+                Some(decision) if decision.redundancy == 0 => {}
+                Some(_) => kept.retain(|row| *row != drive),
+                None => return Ok(None),
+            }
+        }
+        let decision = decide_keeping(&c, &known, &kept).ok();
+        let decision = decision.filter(RankDecision::is_decided);
+        Ok(decision.map(|decision| Self { s, decision }))
+    }
+
+    /// Whether a drive is implied by what is kept.
+    fn has_redundant_drives(&self, mechanism: &Mechanism) -> bool {
+        let drives = mechanism.layout().drive_rows();
+        let mut dropped = self.decision.dropped.iter();
+        dropped.any(|row| drives.binary_search(row).is_ok())
+    }
+
+    /// What redundant drives miss by, above a share of the terms of their rows.
+    fn contradictions(
+        &self,
+        mechanism: &Mechanism,
+        level: ConstraintLevel,
+        terms: &dyn Fn(usize) -> f64,
+        share: f64,
+    ) -> Vec<Contradiction> {
+        let drives = mechanism.layout().drive_rows();
+        let dropped = self.decision.dropped.iter().zip(circuits(&self.decision));
+        let of_drives: Vec<_> = dropped
+            .filter(|(row, _)| drives.binary_search(row).is_ok())
+            .map(|(_, circuit)| circuit)
+            .collect();
+        let comparison = Comparison {
+            level,
+            prescribed: &self.s,
+            decision: &self.decision,
+            values: match level {
+                ConstraintLevel::Position => &self.s.phi,
+                _ => &self.s.b,
+            },
+            scale: terms,
+            share,
+        };
+        comparison.among(of_drives, mechanism, self.s.t)
+    }
+}
+
+#[cfg(test)]
+mod tests;

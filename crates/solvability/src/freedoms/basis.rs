@@ -1,0 +1,168 @@
+//! Choosing readable vectors from a space of velocities: conditions are imposed one after the
+//! other, and each one that leaves something new stays. No rank is decided here.
+
+use linalg::{Matrix, PivotedQr};
+
+/// A linear form of the velocities: column and coefficient, at most about one.
+pub(super) type Form = Vec<(usize, f64)>;
+
+/// A velocity of length one satisfies a form below this: rounding of a null space, far below any
+/// freedom that is worth a word.
+const SATISFIED: f64 = 1e-9;
+
+/// A velocity of length one is new if it differs from the chosen ones by more than this. Above
+/// [`SATISFIED`], so that what is left by rounding of several conditions is not taken for a
+/// freedom.
+const NEW: f64 = 1e-6;
+
+/// The velocities that rows allow, and those that have been chosen of them.
+pub(super) struct Space<'a> {
+    /// n × f, orthonormal columns.
+    all: &'a Matrix,
+    /// Orthonormal coefficients of the columns.
+    chosen: Vec<Vec<f64>>,
+}
+
+/// A subspace: f × k, orthonormal columns of coefficients.
+pub(super) type Subspace = Matrix;
+
+impl<'a> Space<'a> {
+    /// The space that the orthonormal columns span.
+    pub(super) fn new(all: &'a Matrix) -> Self {
+        let chosen = Vec::new();
+        Self { all, chosen }
+    }
+
+    /// Freedoms that have not been chosen.
+    pub(super) fn left(&self) -> usize {
+        self.all.ncols() - self.chosen.len()
+    }
+
+    /// All of it.
+    pub(super) fn whole(&self) -> Subspace {
+        Matrix::identity(self.all.ncols())
+    }
+
+    /// Takes velocities out that the caller tells otherwise. Returns whether they lie in the space;
+    /// if one of them does not, none is taken.
+    pub(super) fn take_out(&mut self, velocities: &[Vec<f64>]) -> bool {
+        let mut within = Vec::new();
+        for v in velocities {
+            let coefficients = self.all.transpose_times(v);
+            let image = self.all.times(&coefficients);
+            let missing = image.iter().zip(v).map(|(a, b)| a - b);
+            if norm(missing) > SATISFIED * norm(v.iter().copied()) {
+                return false;
+            }
+            within.push(coefficients);
+        }
+        for coefficients in within {
+            self.choose(coefficients);
+        }
+        true
+    }
+
+    /// What of a subspace satisfies these forms. `None` if nothing new is left.
+    pub(super) fn restricted(&self, y: &Subspace, forms: &[Form]) -> Option<Subspace> {
+        let k = y.ncols();
+        let mut a = Matrix::zeros(forms.len(), k);
+        for (i, form) in forms.iter().enumerate() {
+            let mut g = vec![0.0; self.all.ncols()];
+            for &(j, coefficient) in form {
+                for (g, n) in g.iter_mut().zip(self.all.row(j)) {
+                    *g += coefficient * n;
+                }
+            }
+            a.row_mut(i).copy_from_slice(&y.transpose_times(&g));
+        }
+        let qr = PivotedQr::of_rows(a);
+        let rank = qr.r_diagonal().filter(|r| r.abs() > SATISFIED).count();
+        let mut left = Matrix::zeros(y.nrows(), k - rank);
+        for i in 0..y.nrows() {
+            let mut row = y.row(i).to_vec();
+            qr.q_transpose_mul(&mut row);
+            left.row_mut(i).copy_from_slice(&row[rank..]);
+        }
+        self.newest(&left).map(|_| left)
+    }
+
+    /// Chooses a velocity of a subspace, n numbers. `None` if nothing in it is new.
+    pub(super) fn take(&mut self, y: &Subspace) -> Option<Vec<f64>> {
+        let column = self.newest(y)?;
+        let coefficients: Vec<f64> = (0..y.nrows()).map(|i| y[(i, column)]).collect();
+        let v = self.all.times(&coefficients);
+        self.choose(coefficients);
+        Some(v)
+    }
+
+    /// The column that differs most from what has been chosen, if one is new.
+    fn newest(&self, y: &Subspace) -> Option<usize> {
+        let mut best = (NEW, None);
+        for j in 0..y.ncols() {
+            let column: Vec<f64> = (0..y.nrows()).map(|i| y[(i, j)]).collect();
+            let size = norm(self.remainder(column).into_iter());
+            if size > best.0 {
+                best = (size, Some(j));
+            }
+        }
+        best.1
+    }
+
+    /// What of these coefficients has not been chosen.
+    fn remainder(&self, mut x: Vec<f64>) -> Vec<f64> {
+        for c in &self.chosen {
+            let along: f64 = c.iter().zip(&x).map(|(a, b)| a * b).sum();
+            x.iter_mut().zip(c).for_each(|(x, c)| *x -= along * c);
+        }
+        x
+    }
+
+    fn choose(&mut self, coefficients: Vec<f64>) {
+        // Twice, so that the chosen ones stay orthogonal to rounding.
+        let rest = self.remainder(self.remainder(coefficients));
+        let size = norm(rest.iter().copied());
+        if size > 0.0 {
+            self.chosen.push(rest.iter().map(|x| x / size).collect());
+        }
+    }
+}
+
+fn norm(x: impl Iterator<Item = f64>) -> f64 {
+    x.map(|x| x * x).sum::<f64>().sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Velocities (a, b, c) with a = b: the one with a = 0 is c alone; then a = b is left.
+    #[test]
+    fn conditions_choose_what_is_left() {
+        let half = 0.5_f64.sqrt();
+        let all = Matrix::from_rows(&[[half, 0.0], [half, 0.0], [0.0, 1.0]]);
+        let mut space = Space::new(&all);
+        let first = [vec![(0, 1.0)]];
+        let y = space.restricted(&space.whole(), &first).expect("c is left");
+        let v = space.take(&y).expect("new");
+        assert!(v[0].abs() < 1e-15 && v[1].abs() < 1e-15 && (v[2].abs() - 1.0).abs() < 1e-15);
+        assert_eq!(space.left(), 1);
+        assert!(space.restricted(&space.whole(), &first).is_none());
+        let third = [vec![(2, 1.0)]];
+        let y = space
+            .restricted(&space.whole(), &third)
+            .expect("a = b is left");
+        let v = space.take(&y).expect("new");
+        assert!((v[0] - v[1]).abs() < 1e-15 && v[2].abs() < 1e-15, "{v:?}");
+        assert_eq!(space.left(), 0);
+    }
+
+    #[test]
+    fn only_what_lies_in_the_space_is_taken_out() {
+        let all = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [0.0, 0.0]]);
+        let mut space = Space::new(&all);
+        assert!(!space.take_out(&[vec![1.0, 0.0, 0.0], vec![0.0, 0.0, 1.0]]));
+        assert_eq!(space.left(), 2);
+        assert!(space.take_out(&[vec![3.0, 1.0, 0.0]]));
+        assert_eq!(space.left(), 1);
+    }
+}

@@ -1,0 +1,316 @@
+//! Bodies that joints connect: the velocities that their rows leave free, as motions of few bodies
+//! each.
+
+use std::cmp::Reverse;
+use std::collections::VecDeque;
+
+use linalg::{PivotedQr, equilibrate};
+use model::start::scene_size;
+use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
+
+use super::basis::{Form, Space, Subspace};
+use crate::mechanism::{dimensionless, evaluated, velocity_units};
+
+/// Coordinates of a planar body.
+pub(super) const BODY: usize = 3;
+
+/// A velocity is zero below this share of the fastest one, rotations measured at the size of the
+/// mechanism: rounding of a null space.
+pub(super) const AT_REST: f64 = 1e-10;
+
+/// Joints and bodies × freedoms² up to which a motion of few joints is looked for from every joint;
+/// beyond, from as many as this allows.
+const TRIALS: usize = 2_000_000;
+
+/// Connected bodies at a configuration, as a mechanism of their own.
+pub(super) struct Component<'a> {
+    pub(super) mechanism: &'a Mechanism,
+    pub(super) s: Scratch,
+    /// Length by which it is measured (m).
+    pub(super) size: f64,
+    /// Velocities that are one without dimensions.
+    units: Vec<f64>,
+}
+
+/// Velocities of all bodies of a component: vx, vy (m/s), ω (rad/s).
+pub(super) type Velocities = Vec<[f64; BODY]>;
+
+/// How much moves.
+#[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
+struct Cost {
+    joints: usize,
+    bodies: usize,
+    /// (kg)
+    mass: f64,
+}
+
+/// What a component can do.
+pub(super) struct Motions {
+    /// Whether all of it moves as one free body: two translations and a rotation, before all
+    /// others.
+    pub(super) is_free: bool,
+    /// Other motions, those of few joints first.
+    pub(super) motions: Vec<Velocities>,
+}
+
+impl<'a> Component<'a> {
+    pub(super) fn new(mechanism: &'a Mechanism, t: f64, q: &[f64]) -> Self {
+        let size = scene_size(mechanism, q);
+        Self {
+            s: evaluated(mechanism, t, q),
+            size,
+            units: velocity_units(mechanism, size),
+            mechanism,
+        }
+    }
+
+    /// How much each row adds to those before it, the largest first.
+    pub(super) fn pivots(&self, rows: &[usize]) -> Vec<f64> {
+        let (qr, _) = self.factors(rows);
+        qr.r_diagonal().map(f64::abs).collect()
+    }
+
+    /// The factors of these rows, equilibrated, and the exponents of their columns.
+    fn factors(&self, rows: &[usize]) -> (PivotedQr, Vec<i32>) {
+        let c = dimensionless(self.mechanism, &self.s, self.size).select_rows(rows);
+        let scaling = equilibrate(&c);
+        (PivotedQr::of_rows(scaling.apply(&c)), scaling.cols)
+    }
+
+    /// At most `most` motions that its rows leave free, where their rank is known.
+    pub(super) fn motions(&self, rank: usize, most: usize) -> Motions {
+        let rows: Vec<usize> = (0..self.mechanism.layout().rows()).collect();
+        let (qr, columns) = self.factors(&rows);
+        let mut free = qr.q_columns(rank.min(qr.steps())..qr.dimension());
+        for (j, exponent) in columns.iter().enumerate() {
+            let factor = f64::from(*exponent).exp2();
+            free.row_mut(j).iter_mut().for_each(|x| *x *= factor);
+        }
+        let all = PivotedQr::of_columns(&free).q_columns(0..free.ncols());
+        let mut space = Space::new(&all);
+        let is_free = space.left() >= BODY && space.take_out(&self.rigid());
+        let mut motions = Vec::new();
+        while motions.len() < most && space.left() > 0 {
+            let Some(v) = self.next(&mut space) else {
+                break;
+            };
+            motions.push(self.velocities(&v));
+        }
+        Motions { is_free, motions }
+    }
+
+    /// A motion of as few joints and bodies as a search finds.
+    fn next(&self, space: &mut Space<'_>) -> Option<Vec<f64>> {
+        let mut y = space.whole();
+        if y.ncols() > 1 {
+            y = self.smallest(space);
+            for wish in self.wishes() {
+                y = space.restricted(&y, &wish).unwrap_or(y);
+            }
+        }
+        space.take(&y)
+    }
+
+    /// What is left where as many joints as possible are held, and then as many bodies: the best of
+    /// several orders.
+    fn smallest(&self, space: &Space<'_>) -> Subspace {
+        let bodies = self.mechanism.bodies();
+        let groups = self.mechanism.layout().groups.len();
+        let whole = space.whole();
+        let work = (groups + bodies.len()) * whole.ncols() * whole.ncols();
+        let trials = (TRIALS / work.max(1)).clamp(1, groups.max(1));
+        let heaviest_first = {
+            let mut order: Vec<usize> = (0..bodies.len()).collect();
+            order.sort_by(|&a, &b| bodies[b].mass.total_cmp(&bodies[a].mass));
+            order
+        };
+        let mut best: Option<(Cost, Subspace)> = None;
+        for target in self.targets().into_iter().take(trials) {
+            let mut cost = Cost::default();
+            let mut y = whole.clone();
+            for group in self.farthest_first(target) {
+                match space.restricted(&y, &self.held(group)) {
+                    Some(left) => y = left,
+                    None => cost.joints += 1,
+                }
+            }
+            for &body in &heaviest_first {
+                match space.restricted(&y, &at_rest(body)) {
+                    Some(left) => y = left,
+                    None => {
+                        cost.bodies += 1;
+                        cost.mass += bodies[body].mass;
+                    }
+                }
+            }
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, y));
+            }
+        }
+        best.map_or(whole, |(_, y)| y)
+    }
+
+    /// Joints from which to look for motions of few: those at the ends of chains first.
+    fn targets(&self) -> Vec<usize> {
+        let groups = &self.mechanism.layout().groups;
+        let mut joints = vec![0_usize; self.mechanism.bodies().len()];
+        let moving = |k: usize| groups[k].bodies.iter().filter_map(|b: &BodyRef| b.moving());
+        for k in 0..groups.len() {
+            moving(k).for_each(|b| joints[b] += 1);
+        }
+        let mut order: Vec<usize> = (0..groups.len()).collect();
+        order.sort_by_key(|&k| moving(k).map(|b| joints[b]).min());
+        order
+    }
+
+    /// Joints by their distance from one, the farthest first and this one last.
+    fn farthest_first(&self, target: usize) -> Vec<usize> {
+        let groups = &self.mechanism.layout().groups;
+        let mut of_body = vec![Vec::new(); self.mechanism.bodies().len()];
+        for (k, group) in groups.iter().enumerate() {
+            let bodies = group.bodies.iter().filter_map(|b| b.moving());
+            bodies.for_each(|b| of_body[b].push(k));
+        }
+        let mut distance = vec![usize::MAX; groups.len()];
+        let mut queue = VecDeque::from([target]);
+        distance[target] = 0;
+        while let Some(k) = queue.pop_front() {
+            let bodies = groups[k].bodies.iter().filter_map(|b| b.moving());
+            for &next in bodies.flat_map(|b| &of_body[b]) {
+                if distance[next] == usize::MAX {
+                    distance[next] = distance[k] + 1;
+                    queue.push_back(next);
+                }
+            }
+        }
+        let mut order: Vec<usize> = (0..groups.len()).collect();
+        order.sort_by_key(|&k| Reverse(distance[k]));
+        order
+    }
+
+    /// What makes a motion easy to tell, the most wanted first: bodies that do not turn, joints and
+    /// centres of mass that stay where they are, motions along one axis.
+    fn wishes(&self) -> Vec<Vec<Form>> {
+        let bodies = || 0..self.mechanism.bodies().len();
+        let pinned = self.mechanism.constraint_ids().flat_map(|id| {
+            let place = self.mechanism.place(id, &self.s);
+            let group = &self.mechanism.layout().groups[id.0];
+            let bodies = group.bodies.iter().filter_map(|b| b.moving());
+            bodies.map(move |b| self.point_at_rest(b, place))
+        });
+        let one = |column: usize| vec![vec![(column, 1.0)]];
+        let turns = bodies().map(|b| one(BODY * b + 2));
+        let centres = bodies().map(|b| [one(BODY * b), one(BODY * b + 1)].concat());
+        let axes = bodies().flat_map(|b| [one(BODY * b + 1), one(BODY * b)]);
+        turns.chain(pinned).chain(centres).chain(axes).collect()
+    }
+
+    /// Forms that vanish where the bodies of a joint move as one; with the ground, where they are
+    /// at rest.
+    fn held(&self, group: usize) -> Vec<Form> {
+        let place = self.mechanism.place(ConstraintId(group), &self.s);
+        let all = &self.mechanism.layout().groups[group].bodies;
+        let bodies: Vec<usize> = all.iter().filter_map(|b| b.moving()).collect();
+        match bodies.as_slice() {
+            // Of joints of one body the ground is the other.
+            bodies if all.len() == 1 || bodies.len() < all.len() => {
+                bodies.iter().flat_map(|&b| at_rest(b)).collect()
+            }
+            bodies => {
+                let pairs = bodies.windows(2);
+                pairs
+                    .flat_map(|p| self.together([p[0], p[1]], place))
+                    .collect()
+            }
+        }
+    }
+
+    /// Forms that vanish where a point of a body is at rest.
+    fn point_at_rest(&self, body: usize, [x, y]: [f64; 2]) -> Vec<Form> {
+        let pose = &self.s.poses[body];
+        let first = BODY * body;
+        // Below one: the point is within the size of the mechanism, and turning is measured by it.
+        let unit = self.units[first + 2];
+        vec![
+            vec![(first, 1.0), (first + 2, -unit * (y - pose.y))],
+            vec![(first + 1, 1.0), (first + 2, unit * (x - pose.x))],
+        ]
+    }
+
+    /// Forms that vanish where two bodies move as one, compared at a point.
+    fn together(&self, [a, b]: [usize; 2], place: [f64; 2]) -> Vec<Form> {
+        let difference = |(mut one, other): (Form, Form)| {
+            one.extend(other.into_iter().map(|(j, c)| (j, -c)));
+            one
+        };
+        let points = [a, b].map(|body| self.point_at_rest(body, place));
+        let [one, other] = points;
+        let mut forms: Vec<Form> = one.into_iter().zip(other).map(difference).collect();
+        forms.push(vec![(BODY * a + 2, 1.0), (BODY * b + 2, -1.0)]);
+        forms
+    }
+
+    /// All bodies as one: two translations, and a rotation about the first body's centre of mass;
+    /// without dimensions.
+    fn rigid(&self) -> Vec<Vec<f64>> {
+        let centre = self.s.poses.first().map_or([0.0; 2], |p| [p.x, p.y]);
+        let motion = |of: &dyn Fn(f64, f64) -> [f64; BODY]| -> Vec<f64> {
+            let bodies = self.s.poses.iter();
+            let moved = bodies.flat_map(|p| of(p.x - centre[0], p.y - centre[1]));
+            moved.zip(&self.units).map(|(v, unit)| v / unit).collect()
+        };
+        vec![
+            motion(&|_, _| [1.0, 0.0, 0.0]),
+            motion(&|_, _| [0.0, 1.0, 0.0]),
+            motion(&|x, y| [-y, x, 1.0]),
+        ]
+    }
+
+    /// The rigid motions with their dimensions.
+    pub(super) fn rigid_velocities(&self) -> Vec<Velocities> {
+        self.rigid().iter().map(|v| self.velocities(v)).collect()
+    }
+
+    /// Velocities with their dimensions, such that the largest rotation is 1, or the fastest
+    /// translation where nothing turns. What is rounding is zero.
+    fn velocities(&self, v: &[f64]) -> Velocities {
+        let fastest = v.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        let known = |x: f64| if x.abs() > AT_REST * fastest { x } else { 0.0 };
+        let scaled = v.iter().zip(&self.units).map(|(x, unit)| known(*x) * unit);
+        let scaled: Vec<f64> = scaled.collect();
+        let bodies: Velocities = scaled
+            .chunks_exact(BODY)
+            .map(|b| [b[0], b[1], b[2]])
+            .collect();
+        let largest = |of: fn(&[f64; BODY]) -> f64| bodies.iter().map(of).fold(0.0, f64::max);
+        let unit = match (largest(|b| b[2].abs()), largest(|b| b[0].hypot(b[1]))) {
+            (0.0, 0.0) => 1.0,
+            (0.0, speed) => speed,
+            (rotation, _) => rotation,
+        };
+        let normalised = bodies.iter().map(|b| b.map(|x| x / unit));
+        normalised.collect()
+    }
+}
+
+/// Forms that vanish where a body is at rest.
+fn at_rest(body: usize) -> Vec<Form> {
+    (BODY * body..BODY * (body + 1))
+        .map(|j| vec![(j, 1.0)])
+        .collect()
+}
+
+/// How many independent rows each component has of rows that have this rank together, where each
+/// component's pivots are given: as the pivoted factorisation of all of them would take them.
+pub(super) fn shared_rank(pivots: &[Vec<f64>], rank: usize) -> Vec<usize> {
+    let all = pivots.iter().enumerate();
+    let mut all: Vec<(f64, usize)> = all
+        .flat_map(|(k, own)| own.iter().map(move |p| (*p, k)))
+        .collect();
+    all.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let mut ranks = vec![0; pivots.len()];
+    for (_, k) in all.into_iter().take(rank) {
+        ranks[k] += 1;
+    }
+    ranks
+}

@@ -1,0 +1,209 @@
+//! Bodies that joints connect: sets with ranks of their own, told one after the other.
+
+use model::{Mechanism, Part, System};
+
+use super::component::{BODY, Component, shared_rank};
+use super::{Decided, FreeMotion, FreeMotions, LeftOut, MOTIONS_TOLD, words};
+use crate::certificate::ROWS_MAX;
+
+/// Connected joints of more rows, or bodies of more coordinates, are not taken apart: a dense null space is made of them.
+const CONNECTED: usize = ROWS_MAX;
+
+/// What has been said.
+#[derive(Default)]
+struct Told {
+    motions: Vec<FreeMotion>,
+    freedoms: usize,
+    too_large: usize,
+}
+
+/// A mechanism of some joints, and the sets of bodies that they connect.
+pub(super) struct Connected<'a> {
+    whole: &'a Mechanism,
+    joined: Part,
+    /// Bodies of the whole, ascending; those of no joint alone.
+    sets: Vec<Vec<usize>>,
+}
+
+impl<'a> Connected<'a> {
+    /// Of all joints, with the drives or without them.
+    pub(super) fn new(whole: &'a Mechanism, drives: bool) -> Self {
+        let groups = whole.layout().groups.iter().enumerate();
+        let chosen = groups.filter(|(_, group)| drives || !group.is_drive());
+        let chosen: Vec<usize> = chosen.map(|(k, _)| k).collect();
+        let joined = whole.part_of_groups(&chosen);
+        let bodies = &joined.places.bodies;
+        let of_joints = joined.mechanism.components().into_iter();
+        let mut sets: Vec<Vec<usize>> = of_joints
+            .map(|set| set.into_iter().map(|b| bodies[b]).collect())
+            .collect();
+        let alone = (0..whole.bodies().len()).filter(|b| bodies.binary_search(b).is_err());
+        sets.extend(alone.map(|b| vec![b]));
+        sets.sort_unstable();
+        Self {
+            whole,
+            joined,
+            sets,
+        }
+    }
+
+    /// A basis of the velocities that the rows allow, where their ranks are known and less than n_v in all.
+    pub(super) fn motions(&self, t: f64, q: &[f64], decided: &[Decided]) -> FreeMotions {
+        let rank: usize = decided.iter().map(|part| part.rank).sum();
+        let mut told = Told::default();
+        for (set, rank) in self.sets.iter().zip(self.ranks(t, q, decided)) {
+            match rank {
+                Some(rank) => self.tell(set, t, q, rank, &mut told),
+                None => told.too_large += 1,
+            }
+        }
+        let freedoms = self.whole.layout().n_v.saturating_sub(rank + told.freedoms);
+        let reason = match told.too_large {
+            0 => format!("the first {MOTIONS_TOLD} motions are told"),
+            _ => format!("connected joints of more than {CONNECTED} rows are not taken apart"),
+        };
+        FreeMotions {
+            motions: told.motions,
+            left_out: (freedoms > 0).then_some(LeftOut { freedoms, reason }),
+        }
+    }
+
+    /// Rank of the rows of each set. `None` if it is too large to be told from those of others, or to be taken apart.
+    fn ranks(&self, t: f64, q: &[f64], decided: &[Decided]) -> Vec<Option<usize>> {
+        let layout = self.whole.layout();
+        let mut set_of = vec![0; self.whole.bodies().len()];
+        for (k, set) in self.sets.iter().enumerate() {
+            set.iter().for_each(|&b| set_of[b] = k);
+        }
+        let mut set_of_row = vec![None; layout.rows()];
+        let mut size = vec![0; self.sets.len()];
+        for group in &layout.groups {
+            let body = group.bodies.iter().find_map(|b| b.moving());
+            for row in group.rows.clone() {
+                set_of_row[row] = body.map(|b| set_of[b]);
+            }
+        }
+        let mut ranks: Vec<Option<usize>> = vec![Some(0); self.sets.len()];
+        for part in decided {
+            let mut own: Vec<(usize, Vec<usize>)> = Vec::new();
+            for &row in &part.rows {
+                // Rows between parts of the ground add nothing to any rank.
+                let Some(set) = set_of_row[row] else {
+                    continue;
+                };
+                size[set] += 1;
+                match own.iter_mut().find(|(k, _)| *k == set) {
+                    Some((_, rows)) => rows.push(row),
+                    None => own.push((set, vec![row])),
+                }
+            }
+            if let [(set, _)] = own.as_slice() {
+                ranks[*set] = ranks[*set].map(|rank| rank + part.rank);
+                continue;
+            }
+            let is_large = |set: usize, rows: &[usize]| {
+                rows.len() > CONNECTED || BODY * self.sets[set].len() > CONNECTED
+            };
+            let too_large = own.iter().any(|(set, rows)| is_large(*set, rows));
+            let pivots = own.iter().map(|(set, rows)| match too_large {
+                true => Vec::new(),
+                false => self.pivots(&self.sets[*set], t, q, rows),
+            });
+            let pivots: Vec<Vec<f64>> = pivots.collect();
+            for ((set, _), rank) in own.iter().zip(shared_rank(&pivots, part.rank)) {
+                let known = ranks[*set].filter(|_| !too_large);
+                ranks[*set] = known.map(|before| before + rank);
+            }
+        }
+        for (k, rank) in ranks.iter_mut().enumerate() {
+            if size[k] > CONNECTED || BODY * self.sets[k].len() > CONNECTED {
+                *rank = None;
+            }
+        }
+        ranks
+    }
+
+    /// How much each of some rows (of the whole) of a set adds to the others.
+    fn pivots(&self, set: &[usize], t: f64, q: &[f64], rows: &[usize]) -> Vec<f64> {
+        let part = self.part(set);
+        let places = |row: &usize| {
+            let row = self.joined.places.rows[*row];
+            rows.contains(&row)
+        };
+        let own: Vec<usize> = (0..part.places.rows.len())
+            .filter(|&k| places(&part.places.rows[k]))
+            .collect();
+        Component::new(&part.mechanism, t, &self.own(set, q)).pivots(&own)
+    }
+
+    /// Coordinates of a set.
+    fn own(&self, set: &[usize], q: &[f64]) -> Vec<f64> {
+        let columns = set.iter().flat_map(|&b| self.whole.layout().columns(b));
+        columns.map(|j| q[j]).collect()
+    }
+
+    /// The mechanism of a set that joints connect; its places are those in the mechanism of the chosen joints.
+    fn part(&self, set: &[usize]) -> Part {
+        let bodies = &self.joined.places.bodies;
+        let own = set.iter().filter_map(|b| bodies.binary_search(b).ok());
+        self.joined.mechanism.part(&own.collect::<Vec<_>>())
+    }
+
+    /// Whether no joint touches the bodies of a set.
+    fn is_alone(&self, set: &[usize]) -> bool {
+        let joined = &self.joined.places.bodies;
+        set.iter().all(|b| joined.binary_search(b).is_err())
+    }
+
+    fn tell(&self, set: &[usize], t: f64, q: &[f64], rank: usize, told: &mut Told) {
+        let most = MOTIONS_TOLD - told.motions.len().min(MOTIONS_TOLD);
+        if most == 0 || rank == BODY * set.len() {
+            return;
+        }
+        if self.is_alone(set) {
+            let unit = |k: usize| std::array::from_fn(|i| f64::from(u8::from(i == k)));
+            let velocities = (0..BODY).map(|k| set.iter().map(|&b| (b, unit(k))).collect());
+            told.freedoms += BODY;
+            told.motions.push(FreeMotion {
+                text: words::free(self.whole, set),
+                velocities: velocities.collect(),
+            });
+            return;
+        }
+        let part = self.part(set);
+        let component = Component::new(&part.mechanism, t, &self.own(set, q));
+        let found = component.motions(rank, most);
+        let numbered = |velocities: Vec<[f64; BODY]>| -> Vec<(usize, [f64; BODY])> {
+            let bodies = set.iter().copied().zip(velocities);
+            bodies.filter(|(_, v)| *v != [0.0; BODY]).collect()
+        };
+        if found.is_free {
+            told.freedoms += BODY;
+            let velocities = component.rigid_velocities().into_iter();
+            told.motions.push(FreeMotion {
+                text: words::free(self.whole, set),
+                velocities: velocities.map(numbered).collect(),
+            });
+        }
+        let driven = self.driven(set);
+        for motion in found.motions {
+            if told.motions.len() == MOTIONS_TOLD {
+                return;
+            }
+            let (text, velocities) = words::tell(&component, &driven, motion);
+            told.freedoms += 1;
+            told.motions.push(FreeMotion {
+                text,
+                velocities: vec![numbered(velocities)],
+            });
+        }
+    }
+
+    /// Bodies of a set on which a drive acts, as places in the set.
+    fn driven(&self, set: &[usize]) -> Vec<usize> {
+        let groups = self.whole.layout().groups.iter();
+        let drives = groups.filter(|group| group.is_drive());
+        let bodies = drives.flat_map(|group| group.bodies.iter().filter_map(|b| b.moving()));
+        bodies.filter_map(|b| set.binary_search(&b).ok()).collect()
+    }
+}

@@ -1,0 +1,201 @@
+//! Free motions as sentences: what turns about which point, what slides, and what goes with it.
+
+use model::{BodyRef, ConstraintId, Mechanism, System};
+
+use super::component::{Component, Velocities};
+use crate::words::{list, short};
+
+/// Bodies that a sentence names.
+const NAMED: usize = 6;
+
+/// Two bodies move as one, and a joint stands at a point, to this share of the size of the
+/// mechanism: above the rounding of a null space, below any distance between joints that a drawing
+/// shows.
+const SAME: f64 = 1e-6;
+
+/// A coordinate below this share of the size is zero in a sentence.
+const ZERO: f64 = 1e-9;
+
+/// What a body does at an instant.
+enum Movement {
+    /// It turns about a point (m).
+    Turn([f64; 2]),
+    /// It translates along a direction of length one.
+    Slide([f64; 2]),
+}
+
+/// The motion of a component in words, and its velocities with the sign that the words mean:
+/// positive turns, or along the first axis.
+pub(super) fn tell(
+    of: &Component<'_>,
+    driven: &[usize],
+    mut velocities: Velocities,
+) -> (String, Velocities) {
+    let moving: Vec<usize> = (0..velocities.len())
+        .filter(|&b| velocities[b] != [0.0; 3])
+        .collect();
+    let Some(leader) = leader(of, driven, &velocities, &moving) else {
+        return ("nothing moves".to_owned(), velocities);
+    };
+    let [x, y, turn] = velocities[leader];
+    let first = [turn, x, y].into_iter().find(|v| *v != 0.0);
+    if first.is_some_and(|v| v < 0.0) {
+        let bodies = velocities.iter_mut().flatten();
+        bodies.filter(|v| **v != 0.0).for_each(|v| *v = -*v);
+    }
+    let (together, others): (Vec<usize>, Vec<usize>) = moving
+        .into_iter()
+        .partition(|&b| moves_as(of, &velocities, leader, b));
+    let names = named(of.mechanism, &together);
+    let is_one = together.len() == 1;
+    let mut text = match (movement(of, &velocities, leader), is_one) {
+        (Movement::Turn(centre), true) => {
+            format!("{names} turns about {}", about(of, &together, centre))
+        }
+        (Movement::Turn(centre), false) => {
+            format!(
+                "{names} turn together about {}",
+                about(of, &together, centre)
+            )
+        }
+        (Movement::Slide(along), true) => format!("{names} slides along {}", point(along, 1.0)),
+        (Movement::Slide(along), false) => {
+            format!("{names} slide together along {}", point(along, 1.0))
+        }
+    };
+    let (turning, sliding): (Vec<usize>, Vec<usize>) = others
+        .into_iter()
+        .partition(|&b| matches!(movement(of, &velocities, b), Movement::Turn(_)));
+    let said = [(turning, "turn"), (sliding, "slide")];
+    let said: Vec<String> = said
+        .iter()
+        .filter(|(bodies, _)| !bodies.is_empty())
+        .map(|(bodies, verb)| {
+            let s = if bodies.len() == 1 { "s" } else { "" };
+            format!("{} {verb}{s}", named(of.mechanism, bodies))
+        })
+        .collect();
+    if !said.is_empty() {
+        let it = if is_one { "it" } else { "them" };
+        text += &format!("; with {it} {}", list(&said));
+    }
+    (text, velocities)
+}
+
+/// Bodies of a mechanism that nothing holds but each other.
+pub(super) fn free(mechanism: &Mechanism, bodies: &[usize]) -> String {
+    let names = named(mechanism, bodies);
+    match bodies.len() {
+        1 => format!("{names} is free"),
+        _ => format!("{names} together are free"),
+    }
+}
+
+/// The body that is named first: one that slides or turns about a joint before others, and of these
+/// one that a drive acts on, then one that is joined to the ground.
+fn leader(
+    of: &Component<'_>,
+    driven: &[usize],
+    velocities: &Velocities,
+    moving: &[usize],
+) -> Option<usize> {
+    let groups = &of.mechanism.layout().groups;
+    let is_grounded = |b: usize| {
+        let mut on_it = groups
+            .iter()
+            .filter(|g| g.bodies.contains(&BodyRef::Body(b)));
+        on_it.any(|g| g.bodies.len() == 1 || g.bodies.contains(&BodyRef::Ground))
+    };
+    let is_plain = |b: usize| match movement(of, velocities, b) {
+        Movement::Slide(_) => true,
+        Movement::Turn(centre) => joint_at(of, &[b], centre).is_some(),
+    };
+    let rank = |b: usize| (!is_plain(b), !driven.contains(&b), !is_grounded(b));
+    moving.iter().copied().min_by_key(|&b| rank(b))
+}
+
+/// Whether a body moves as if it were fixed to another.
+fn moves_as(of: &Component<'_>, v: &Velocities, leader: usize, body: usize) -> bool {
+    let [p, o] = [body, leader].map(|b| &of.s.poses[b]);
+    let turn = v[leader][2];
+    let carried = [
+        v[leader][0] - turn * (p.y - o.y),
+        v[leader][1] + turn * (p.x - o.x),
+    ];
+    let fastest = v.iter().fold(0.0_f64, |a, [x, y, turn]| {
+        a.max(x.hypot(*y)).max(turn.abs() * of.size)
+    });
+    let apart = (v[body][0] - carried[0]).hypot(v[body][1] - carried[1]);
+    apart.max((v[body][2] - turn).abs() * of.size) <= SAME * fastest
+}
+
+fn movement(of: &Component<'_>, v: &Velocities, body: usize) -> Movement {
+    let ([x, y, turn], pose) = (v[body], &of.s.poses[body]);
+    let speed = x.hypot(y);
+    if turn.abs() * of.size <= ZERO * speed {
+        return Movement::Slide([x / speed, y / speed]);
+    }
+    Movement::Turn([pose.x - y / turn, pose.y + x / turn])
+}
+
+/// The joint of these bodies that stands at a point, or their only centre of mass, or the point in
+/// numbers.
+fn about(of: &Component<'_>, bodies: &[usize], centre: [f64; 2]) -> String {
+    if let Some(joint) = joint_at(of, bodies, centre) {
+        return format!("`{joint}`");
+    }
+    match bodies {
+        [only] if is_at(of, [of.s.poses[*only].x, of.s.poses[*only].y], centre) => {
+            "its centre of mass".to_owned()
+        }
+        _ => point(centre, of.size),
+    }
+}
+
+/// The joint of these bodies that stands at a point: the one that holds it most.
+fn joint_at<'m>(of: &Component<'m>, bodies: &[usize], centre: [f64; 2]) -> Option<&'m str> {
+    let mechanism = of.mechanism;
+    let groups = mechanism.layout().groups.iter().enumerate();
+    let mut named: Option<(usize, &str)> = None;
+    for (k, group) in groups {
+        let is_theirs = |b: &usize| group.bodies.contains(&BodyRef::Body(*b));
+        if !bodies.iter().any(is_theirs)
+            || !is_at(of, mechanism.place(ConstraintId(k), &of.s), centre)
+        {
+            continue;
+        }
+        let holds = group.rows.clone().filter(|&row| !mechanism.is_angular(row));
+        let holds = holds.count();
+        if holds > named.map_or(0, |(most, _)| most) {
+            named = Some((holds, &group.name));
+        }
+    }
+    named.map(|(_, name)| name)
+}
+
+/// Whether two points are one, as far as the mechanism shows.
+fn is_at(of: &Component<'_>, [x, y]: [f64; 2], other: [f64; 2]) -> bool {
+    (x - other[0]).hypot(y - other[1]) <= SAME * of.size
+}
+
+/// "(0.25, −1)" without the quotes, in m.
+fn point(p: [f64; 2], size: f64) -> String {
+    let [x, y] = p.map(|x| short(if x.abs() > ZERO * size { x } else { 0.0 }));
+    format!("({x}, {y})")
+}
+
+/// Names of bodies, at most so many as can be read.
+fn named(mechanism: &Mechanism, bodies: &[usize]) -> String {
+    let name = |&b: &usize| format!("`{}`", mechanism.bodies()[b].name);
+    // One more is named rather than counted.
+    let told = if bodies.len() == NAMED + 1 {
+        NAMED + 1
+    } else {
+        NAMED
+    };
+    let mut names: Vec<String> = bodies.iter().take(told).map(name).collect();
+    if bodies.len() > names.len() {
+        names.push(format!("{} other bodies", bodies.len() - names.len()));
+    }
+    list(&names)
+}

@@ -1,0 +1,173 @@
+//! The smallest change of data that satisfies linear equations, where the change of the whole is that of the point, direction or number that changes
+//! most, each as a share of what it is known to.
+//!
+//! `s* = min max_P |x_P|` under `target + Σ_P a_P·x_P = 0`, by Lawson's iteration: least squares with weights that grow where the change is largest. Each
+//! iteration gives a bound from below, the weighted mean of the shares, and one from above, the largest share.
+//!
+//! Source: C. L. Lawson, Contributions to the theory of linear least maximum approximation, thesis, UCLA (1961); for vectors of several components the
+//! same weights serve all components of one.
+
+use linalg::Lu;
+
+/// Iterations at most. Each costs a solution of as many equations as there are.
+const ITERATIONS: usize = 60;
+
+/// The bounds are close enough if they differ by this factor.
+const CLOSE: f64 = 1.05;
+
+/// An equation may miss by this share of its coefficients: near the root of eps the normal equations do not tell contradicting equations from
+/// agreeing ones, and no share is wanted to more digits.
+const RESOLVED: f64 = 1e-5;
+
+/// No weight falls below this share of the largest: changes that are not needed stay available.
+const LEAST_WEIGHT: f64 = 1e-9;
+
+/// One equation. Changes are shares of what the data are known to.
+#[derive(Clone, Debug)]
+pub(super) struct Equation {
+    /// What has to vanish.
+    pub(super) target: f64,
+    /// Rounding of the target and of the coefficients: a change that the equation has for itself, as large as a share of one.
+    pub(super) rounding: f64,
+    /// Coefficients of each point, direction or number.
+    pub(super) parts: Vec<[f64; 2]>,
+}
+
+impl Equation {
+    fn slack(&self) -> f64 {
+        let squares = self.parts.iter().map(|[x, y]| x * x + y * y);
+        self.rounding.max(RESOLVED * squares.sum::<f64>().sqrt())
+    }
+}
+
+/// Bounds of the smallest largest share.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Bounds {
+    pub(super) low: f64,
+    pub(super) high: f64,
+}
+
+impl Bounds {
+    /// Between them.
+    pub(super) fn middle(self) -> f64 {
+        (self.low * self.high).sqrt()
+    }
+}
+
+/// `s*` from below and above, close together unless the iteration is stuck; equations that no change of data can satisfy give a large one.
+pub(super) fn least_change(equations: &[Equation]) -> Bounds {
+    let e = equations.len();
+    let blocks = equations.first().map_or(0, |first| first.parts.len());
+    let slack: Vec<f64> = equations.iter().map(Equation::slack).collect();
+    let mut weights = vec![1.0 / (blocks + e) as f64; blocks + e];
+    let mut bounds = Bounds {
+        low: 0.0,
+        high: f64::INFINITY,
+    };
+    let mut lu = Lu::new(e);
+    let mut matrix = vec![0.0; e * e];
+    for _ in 0..ITERATIONS {
+        for (i, left) in equations.iter().enumerate() {
+            for (j, right) in equations.iter().enumerate().take(i + 1) {
+                let mut sum = 0.0;
+                for ((a, b), w) in left.parts.iter().zip(&right.parts).zip(&weights) {
+                    sum += (a[0] * b[0] + a[1] * b[1]) / w;
+                }
+                matrix[i * e + j] = sum;
+                matrix[j * e + i] = sum;
+            }
+            matrix[i * e + i] += slack[i] * slack[i] / weights[blocks + i];
+        }
+        if lu.factor(|i, j| matrix[i * e + j]).is_err() {
+            break;
+        }
+        let mut y: Vec<f64> = equations.iter().map(|eq| eq.target).collect();
+        lu.solve(&mut y);
+        let share_of = |p: usize| match p.checked_sub(blocks) {
+            Some(i) => (slack[i] * y[i] / weights[p]).abs(),
+            None => {
+                let mut x = [0.0; 2];
+                for (equation, y) in equations.iter().zip(&y) {
+                    x[0] += equation.parts[p][0] * y;
+                    x[1] += equation.parts[p][1] * y;
+                }
+                x[0].hypot(x[1]) / weights[p]
+            }
+        };
+        let shares: Vec<f64> = (0..blocks + e).map(share_of).collect();
+        let mean_square: f64 = shares.iter().zip(&weights).map(|(s, w)| w * s * s).sum();
+        let largest = shares.iter().copied().fold(0.0, f64::max);
+        if !(largest.is_finite() && mean_square.is_finite()) {
+            break;
+        }
+        bounds.low = bounds.low.max(mean_square.sqrt());
+        bounds.high = bounds.high.min(largest);
+        if bounds.high <= CLOSE * bounds.low {
+            break;
+        }
+        let total: f64 = shares.iter().zip(&weights).map(|(s, w)| s * w).sum();
+        if total == 0.0 {
+            break;
+        }
+        for (w, s) in weights.iter_mut().zip(&shares) {
+            *w *= s / total;
+        }
+        let least = LEAST_WEIGHT * weights.iter().copied().fold(0.0, f64::max);
+        let sum: f64 = weights
+            .iter_mut()
+            .map(|w| {
+                *w = w.max(least);
+                *w
+            })
+            .sum();
+        weights.iter_mut().for_each(|w| *w /= sum);
+    }
+    bounds
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn equation(target: f64, parts: &[[f64; 2]]) -> Equation {
+        Equation {
+            target,
+            rounding: 1e-12,
+            parts: parts.to_vec(),
+        }
+    }
+
+    fn is_near(bounds: Bounds, s: f64) {
+        assert!(
+            bounds.low <= s * (1.0 + 1e-4) && bounds.high >= s * (1.0 - 1e-4),
+            "{bounds:?} {s}"
+        );
+        assert!(bounds.high <= 1.05 * bounds.low, "{bounds:?}");
+    }
+
+    #[test]
+    fn one_equation_is_shared_by_all() {
+        // 6 = 1·x₁ + 2·x₂ + |(0, 3)·x₃|: all change by 1.
+        is_near(
+            least_change(&[equation(6.0, &[[1.0, 0.0], [2.0, 0.0], [0.0, 3.0]])]),
+            1.0,
+        );
+    }
+
+    #[test]
+    fn a_point_has_one_change_in_both_directions() {
+        // x = 3, y = 4 of one point: 5, of two numbers: 4.
+        let (x, y) = ([[1.0, 0.0]], [[0.0, 1.0]]);
+        is_near(least_change(&[equation(3.0, &x), equation(4.0, &y)]), 5.0);
+        let (x, y) = ([[1.0, 0.0], [0.0; 2]], [[0.0; 2], [1.0, 0.0]]);
+        is_near(least_change(&[equation(3.0, &x), equation(4.0, &y)]), 4.0);
+    }
+
+    #[test]
+    fn what_no_change_satisfies_is_far_away() {
+        let contradicting = [equation(1.0, &[[1.0, 0.0]]), equation(-1.0, &[[1.0, 0.0]])];
+        assert!(least_change(&contradicting).low > 1e4);
+        assert!(least_change(&[equation(1.0, &[[0.0; 2]])]).low > 1e6);
+        assert_eq!(least_change(&[equation(0.0, &[[1.0, 0.0]])]).high, 0.0);
+    }
+}

@@ -1,0 +1,139 @@
+//! C of a mechanism as its data mean it: a force or a lever that is shorter than what it is known to is none.
+//!
+//! Forces and levers are judged as vectors, never by their components, which depend on the axes: the block of a joint's force rows, or of its moment
+//! rows, in the columns of the translation or of the rotation of one body. Each of these has one scale.
+
+use std::ops::Range;
+
+use linalg::{DdMatrix, Matrix, Scaling, equilibrate_blocks};
+use model::{Known, Mechanism, Scratch, System};
+
+use crate::mechanism::dimensionless;
+
+/// Velocities of a planar body that are translations; the rotation follows.
+const TRANSLATIONS: usize = 2;
+
+/// Columns of a planar body.
+const N_BODY: usize = 3;
+
+/// C without dimensions with what its entries are known to.
+#[derive(Clone, Debug)]
+pub(crate) struct MeantMatrix {
+    /// (m + h) × n_v, forces and levers that are none set to zero.
+    pub(crate) c: Matrix,
+    /// What the entries are known to; zero where they are none.
+    pub(crate) uncertainty: Matrix,
+    /// Entries that have been set to zero.
+    zeros: Vec<(usize, usize)>,
+    row_blocks: Vec<usize>,
+    col_blocks: Vec<usize>,
+}
+
+impl MeantMatrix {
+    /// At the pose of the scratch, where Φ and C have been evaluated at coordinates q, for a mechanism of this size.
+    pub(crate) fn new(
+        mechanism: &Mechanism,
+        s: &Scratch,
+        q: &[f64],
+        size: f64,
+        known: Known,
+    ) -> Self {
+        let n_v = mechanism.layout().n_v;
+        let mut meant = Self {
+            c: dimensionless(mechanism, s, size),
+            uncertainty: mechanism
+                .dimension_scaling(size)
+                .apply(&mechanism.uncertainty(s, q, size, known)),
+            zeros: Vec::new(),
+            row_blocks: row_blocks(mechanism),
+            col_blocks: (0..n_v).map(col_block).collect(),
+        };
+        let mut first = 0;
+        for end in 1..=meant.row_blocks.len() {
+            if end == meant.row_blocks.len() || meant.row_blocks[end] != meant.row_blocks[first] {
+                meant.clear(first..end);
+                first = end;
+            }
+        }
+        meant
+    }
+
+    /// Sets the forces and levers of these rows, which belong to one block, to zero where they are none.
+    fn clear(&mut self, rows: Range<usize>) {
+        let n = self.c.ncols();
+        let mut first = 0;
+        for end in 1..=n {
+            if end < n && self.col_blocks[end] == self.col_blocks[first] {
+                continue;
+            }
+            let size = |of: &Matrix| {
+                let entries = rows.clone().flat_map(|i| &of.row(i)[first..end]);
+                entries.map(|x| x * x).sum::<f64>()
+            };
+            if size(&self.c) <= size(&self.uncertainty) {
+                for i in rows.clone() {
+                    for j in (first..end).filter(|&j| self.c[(i, j)] != 0.0) {
+                        self.zeros.push((i, j));
+                    }
+                    self.c.row_mut(i)[first..end].fill(0.0);
+                    self.uncertainty.row_mut(i)[first..end].fill(0.0);
+                }
+            }
+            first = end;
+        }
+    }
+
+    /// One factor for the translation of each body, one for its rotation, one for the force rows of each joint, one for its moment rows.
+    pub(crate) fn scaling(&self) -> Scaling {
+        equilibrate_blocks(&self.c, &self.row_blocks, &self.col_blocks)
+    }
+
+    /// The same matrix in double-double, given all its entries: what is none here is none there.
+    pub(crate) fn extended(&self, mut c: DdMatrix) -> DdMatrix {
+        for &(i, j) in &self.zeros {
+            c[(i, j)] = linalg::Dd::ZERO;
+        }
+        c
+    }
+
+    /// Whether a force or lever has been set to zero.
+    pub(crate) fn has_zeros(&self) -> bool {
+        !self.zeros.is_empty()
+    }
+
+    /// Some of the rows, ascending.
+    pub(crate) fn select(&self, rows: &[usize]) -> Self {
+        let place = |&(i, j): &(usize, usize)| Some((rows.binary_search(&i).ok()?, j));
+        Self {
+            c: self.c.select_rows(rows),
+            uncertainty: self.uncertainty.select_rows(rows),
+            zeros: self.zeros.iter().filter_map(place).collect(),
+            row_blocks: rows.iter().map(|&i| self.row_blocks[i]).collect(),
+            col_blocks: self.col_blocks.clone(),
+        }
+    }
+}
+
+/// The block of each column: translation or rotation of its body.
+fn col_block(j: usize) -> usize {
+    2 * (j / N_BODY) + usize::from(j % N_BODY >= TRANSLATIONS)
+}
+
+/// The block of each row: the force rows or the moment rows of its joint. Rows of a block stand side by side, or their block is another one.
+fn row_blocks(mechanism: &Mechanism) -> Vec<usize> {
+    let layout = mechanism.layout();
+    let mut blocks = Vec::with_capacity(layout.rows());
+    let mut next = 0;
+    for group in &layout.groups {
+        let mut last = None;
+        for row in group.rows.clone() {
+            let kind = mechanism.is_angular(row);
+            if last != Some(kind) {
+                next += 1;
+            }
+            last = Some(kind);
+            blocks.push(next - 1);
+        }
+    }
+    blocks
+}

@@ -1,0 +1,235 @@
+//! One pose of a mechanism: how near C is to a lower rank there, and how that hangs on the data.
+//!
+//! With r' kept rows K, the rank is r' iff `S = C_D·V` vanishes, V the null space of C_K; with `U = [−Tᵀ; I]`, `T = C_D·C_K⁺`, it is `Uᵀ·C·V`, and changes
+//! with the data to first order by `Uᵀ·δC·V`. δC has two parts: that of the points and directions at the pose as it is, and that of the pose, which
+//! follows the data so that the kept rows of Φ stay satisfied: `δq = −C_K⁺·∂Φ_K/∂d·δd`, nothing along the motions that are left.
+
+use linalg::{Matrix, PivotedQr, Scaling, small_svd};
+use model::{Mechanism, Scratch, System};
+
+/// A pose and its candidate for a lower rank.
+pub(super) struct Pose<'a> {
+    mechanism: &'a Mechanism,
+    s: &'a Scratch,
+    /// Rows of the mechanism that the scaled C has.
+    places: &'a [usize],
+    /// Factor of each column and of each row from C to its scaled form.
+    columns: Vec<f64>,
+    rows: Vec<f64>,
+    /// Kept holonomic rows, and their scaled form factored.
+    holonomic: Vec<usize>,
+    phi_q: PivotedQr,
+    /// What has to vanish for the lower rank, as `Uᵀ·C·V = diag(σ)`: left vectors by rows (scaled), right vectors by rows (scaled), and σ.
+    pub(super) left: Matrix,
+    pub(super) right: Matrix,
+    pub(super) sigma: Vec<f64>,
+}
+
+/// A dependency whose nonholonomic rows weigh less than this share of the others is one of positions.
+const HOLONOMIC: f64 = 1e-6;
+
+/// Rows and columns of a scaled C that are kept for a rank, with the rest.
+pub(super) struct Candidate {
+    /// r' rows.
+    pub(super) kept: Vec<usize>,
+    left: Matrix,
+    right: Matrix,
+    sigma: Vec<f64>,
+}
+
+impl Candidate {
+    /// The motions that the kept rows leave, one in each row, the one that the other rows resist most first.
+    pub(super) fn into_free(self) -> Matrix {
+        self.right
+    }
+
+    /// The largest entry that has to vanish.
+    pub(super) fn weakest(&self) -> f64 {
+        self.sigma.first().copied().unwrap_or(0.0)
+    }
+
+    /// The rows that are most independent, as many as the rank.
+    pub(super) fn of_rank(scaled: &Matrix, rank: usize) -> Self {
+        let qr = PivotedQr::of_rows(scaled.clone());
+        Self::of_rows(scaled, qr.permutation()[..rank].to_vec())
+    }
+
+    /// These rows.
+    pub(super) fn of_rows(scaled: &Matrix, mut kept: Vec<usize>) -> Self {
+        kept.sort_unstable();
+        let (m, n, r) = (scaled.nrows(), scaled.ncols(), kept.len());
+        let qr = PivotedQr::of_rows(scaled.select_rows(&kept));
+        let dropped: Vec<usize> = (0..m).filter(|i| kept.binary_search(i).is_err()).collect();
+        let mut u = Matrix::zeros(dropped.len(), m);
+        let mut rest = Matrix::zeros(dropped.len(), n - r);
+        let mut y = vec![0.0; n];
+        for (j, &row) in dropped.iter().enumerate() {
+            y.copy_from_slice(scaled.row(row));
+            qr.q_transpose_mul(&mut y);
+            rest.row_mut(j).copy_from_slice(&y[r..]);
+            qr.solve_r(&mut y[..r]);
+            u[(j, row)] = 1.0;
+            for (t, &k) in y[..r].iter().zip(qr.permutation()) {
+                u[(j, kept[k])] = -t;
+            }
+            let size = u.row(j).iter().map(|x| x * x).sum::<f64>().sqrt();
+            u.row_mut(j).iter_mut().for_each(|x| *x /= size);
+            rest.row_mut(j).iter_mut().for_each(|x| *x /= size);
+        }
+        let v = qr.q_columns(r..n);
+        let svd = small_svd(&rest);
+        Self {
+            kept,
+            left: complete(&svd.u).transpose().product(&u),
+            right: complete(&svd.v).transpose().product(&v.transpose()),
+            sigma: svd.sigma,
+        }
+    }
+}
+
+/// An orthonormal basis that begins with the columns of an orthonormal set; columns of zeros are replaced.
+fn complete(columns: &Matrix) -> Matrix {
+    let (n, k) = (columns.nrows(), columns.ncols());
+    let known: Vec<usize> = (0..k)
+        .filter(|&j| (0..n).any(|i| columns[(i, j)] != 0.0))
+        .collect();
+    let set = Matrix::from_fn(known.len(), n, |i, j| columns[(j, known[i])]);
+    let rest = PivotedQr::of_rows(set).q_columns(known.len()..n);
+    let mut all = Matrix::zeros(n, n);
+    let mut next = 0;
+    for j in 0..n {
+        let at = known.iter().position(|&known| known == j);
+        for i in 0..n {
+            all[(i, j)] = match at {
+                Some(_) => columns[(i, j)],
+                None => rest[(i, next)],
+            };
+        }
+        next += usize::from(at.is_none());
+    }
+    all
+}
+
+/// How one entry of `Uᵀ·C·V` changes.
+pub(super) struct Gradient {
+    /// By the numbers of the constraints.
+    pub(super) data: Vec<f64>,
+    /// By the coordinates along the motions that the kept rows leave (physical units), n_v values.
+    pub(super) pose: Vec<f64>,
+}
+
+impl<'a> Pose<'a> {
+    /// At the pose of the scratch, where C has been evaluated; `scaled` has the rows `places` of it, scaled by `scaling` after `dimensions`.
+    pub(super) fn new(
+        mechanism: &'a Mechanism,
+        s: &'a Scratch,
+        places: &'a [usize],
+        (scaled, dimensions, scaling): (&Matrix, &Scaling, &Scaling),
+        candidate: Candidate,
+    ) -> Self {
+        let factor = |e: i32| f64::from(e).exp2();
+        let columns: Vec<f64> = dimensions
+            .cols
+            .iter()
+            .zip(&scaling.cols)
+            .map(|(a, b)| factor(a + b))
+            .collect();
+        let rows = (0..scaled.nrows()).map(|i| scaling.row_factor(i)).collect();
+        let m = mechanism.layout().m;
+        let holonomic: Vec<usize> = candidate
+            .kept
+            .iter()
+            .copied()
+            .filter(|&i| places[i] < m)
+            .collect();
+        let phi_q = PivotedQr::of_rows(scaled.select_rows(&holonomic));
+        Self {
+            mechanism,
+            s,
+            places,
+            columns,
+            rows,
+            holonomic,
+            phi_q,
+            left: candidate.left,
+            right: candidate.right,
+            sigma: candidate.sigma,
+        }
+    }
+
+    /// `u_aᵀ·C·v_b` (scaled).
+    pub(super) fn target(&self, (a, b): (usize, usize)) -> f64 {
+        match a == b {
+            true => self.sigma.get(a).copied().unwrap_or(0.0),
+            false => 0.0,
+        }
+    }
+
+    /// `u_aᵀ·Φ` and its gradient by the numbers of the constraints. `None` if nonholonomic rows take part: what they imply of velocities they do not
+    /// imply of positions.
+    pub(super) fn misfit(&self, a: usize) -> Option<(f64, Vec<f64>)> {
+        let u = self.spread(self.left.row(a));
+        let (holonomic, others) = u.split_at(self.mechanism.layout().m);
+        let size = |x: &[f64]| x.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        if size(others) > HOLONOMIC * size(holonomic) {
+            return None;
+        }
+        let target = holonomic
+            .iter()
+            .zip(&self.s.phi)
+            .map(|(u, phi)| u * phi)
+            .sum();
+        let mut gradient = vec![0.0; self.mechanism.data_count()];
+        self.mechanism
+            .add_phi_by_data(self.s, &u, 1.0, &mut gradient);
+        Some((target, gradient))
+    }
+
+    /// Weights of all rows of the mechanism, from scaled weights of those that are judged.
+    fn spread(&self, scaled: &[f64]) -> Vec<f64> {
+        let mut u = vec![0.0; self.mechanism.layout().rows()];
+        for ((&row, weight), factor) in self.places.iter().zip(scaled).zip(&self.rows) {
+            u[row] = weight * factor;
+        }
+        u
+    }
+
+    /// The gradient of `u_aᵀ·C·v_b` (scaled).
+    pub(super) fn gradient(&self, a: usize, b: usize) -> Gradient {
+        self.gradient_between(self.left.row(a), self.right.row(b))
+    }
+
+    /// The gradient of `uᵀ·C·v` (scaled), u by the rows that are judged.
+    pub(super) fn gradient_between(&self, u: &[f64], v: &[f64]) -> Gradient {
+        let scaled =
+            |x: &[f64], by: &[f64]| -> Vec<f64> { x.iter().zip(by).map(|(x, f)| x * f).collect() };
+        let u = self.spread(u);
+        let v = scaled(v, &self.columns);
+        let mut data = vec![0.0; self.mechanism.data_count()];
+        self.mechanism
+            .add_power_by_data(self.s, &u, &v, 1.0, &mut data);
+        let mut turned = vec![0.0; v.len()];
+        self.mechanism
+            .add_power_by_pose(self.s, &u, &v, &mut turned);
+        let mut answer = scaled(&turned, &self.columns);
+        let r = self.holonomic.len();
+        self.phi_q.q_transpose_mul(&mut answer);
+        let mut w = answer[..r].to_vec();
+        self.phi_q.solve_r(&mut w);
+        let mut lambda = vec![0.0; u.len()];
+        for (w, &k) in w.iter().zip(self.phi_q.permutation()) {
+            let row = self.holonomic[k];
+            lambda[self.places[row]] = w * self.rows[row];
+        }
+        self.mechanism
+            .add_phi_by_data(self.s, &lambda, -1.0, &mut data);
+        answer[..r].fill(0.0);
+        self.phi_q.q_mul(&mut answer);
+        let pose = answer
+            .iter()
+            .zip(&self.columns)
+            .map(|(x, f)| x / f)
+            .collect();
+        Gradient { data, pose }
+    }
+}

@@ -1,0 +1,143 @@
+//! The rank that is read from C and from what its data are known to.
+//!
+//! Singular values below what the entries are known to are zero; those far above are not. Between them the data decide: by what share of their
+//! uncertainty would they have to be wrong for the lower rank?
+
+use linalg::{Doubt, Grounds, RankReading, RankStatus, singular_values};
+
+use super::MeantMatrix;
+use super::share::{Nearness, Question};
+
+/// A singular value that the uncertainty of a matrix of size one hides must be below this: what is above is not known to be zero.
+const HIDDEN: f64 = 0.01;
+
+/// What is above the root of eps in a matrix of size one is no rounding of its entries.
+const NOT_ROUNDING: f64 = 1.5e-8;
+
+/// Rounding of a singular value, in units of eps·√(m·n) of a matrix of size one.
+const ROUNDINGS: f64 = 10.0;
+
+/// Data that need less than this share of their uncertainty for the lower rank have it; by a factor of three, because bounds of the share and of the
+/// uncertainty are known to about that.
+const LOWER: f64 = 1.0 / 3.0;
+
+/// Data that need more than this multiple of their uncertainty for the lower rank do not have it.
+const FULL: f64 = 3.0;
+
+/// From this singular value on no rounding explains a lower rank in a matrix of size one: near a singular pose, where a singular value moves with
+/// the root of the data, it would have to be below √(FULL·eps) times a few.
+const CLEAR_OF_ROUNDING: f64 = 1e-6;
+
+/// The same as a multiple of what the entries are known to, where that is larger.
+const CLEAR_OF_NOISE: f64 = 1e3;
+
+/// Share of a singular value in f64 that double-double has to confirm.
+const SAME: f64 = 0.1;
+
+/// A lower rank is told where the data are nearer to it than this share of the size.
+const TOLD: f64 = 1e-3;
+
+/// What is read.
+pub(crate) struct Reading {
+    pub(crate) rank: RankReading,
+    /// How near the data are to one rank less, where that is near enough to be told.
+    pub(crate) nearness: Option<Nearness>,
+    /// Whether the scene states what its data are known to.
+    pub(crate) has_tolerance: bool,
+}
+
+impl MeantMatrix {
+    /// Rank, and what it was read by.
+    pub(crate) fn read(&self, question: &Question<'_>) -> Reading {
+        let (m, n) = (self.c.nrows(), self.c.ncols());
+        let scaling = self.scaling();
+        let scaled = scaling.apply(&self.c);
+        let sigma = singular_values(&scaled);
+        let rounding = ROUNDINGS * f64::EPSILON * (m as f64 * n as f64).sqrt();
+        let noise = scaling
+            .apply(&self.uncertainty)
+            .frobenius_norm()
+            .max(rounding);
+        let above = |limit: f64| sigma.partition_point(|&s| s > limit);
+        let upper = above(noise);
+        let clear = above(CLEAR_OF_ROUNDING.max(CLEAR_OF_NOISE * noise)).min(upper);
+        let (mut rank, mut status) = (upper, RankStatus::Decided);
+        // The least rank that the data allow.
+        for lower in clear..upper {
+            let share = question.share_of_rounding(&scaled, &scaling, lower);
+            if share.high < LOWER {
+                rank = lower;
+                break;
+            }
+            if share.low <= FULL {
+                status = RankStatus::Undecided(Doubt::WithinRounding {
+                    lower,
+                    upper,
+                    sigma: sigma[lower],
+                    share: share.high,
+                });
+                break;
+            }
+        }
+        let hidden = sigma.get(rank).copied().unwrap_or(0.0);
+        if rank == 0 && hidden > noise {
+            status = RankStatus::Undecided(Doubt::NotPolished {
+                sigma_max: hidden,
+                tolerance: noise,
+            });
+        } else if noise > HIDDEN && hidden > NOT_ROUNDING && status == RankStatus::Decided {
+            status = RankStatus::Undecided(Doubt::Hidden {
+                sigma: hidden,
+                tolerance: noise,
+            });
+        }
+        let (mut nearness, mut grounds) = (None, Grounds::WithinData);
+        let tolerance = question.tolerance();
+        let limit = (TOLD * question.size).max(FULL * tolerance.unwrap_or(0.0));
+        while status == RankStatus::Decided
+            && let Some(near) = question.nearness(rank, limit)
+        {
+            nearness.get_or_insert(near);
+            let Some(tolerance) = tolerance else {
+                break;
+            };
+            let share = near.everywhere / tolerance;
+            if share < LOWER {
+                rank -= 1;
+                grounds = Grounds::WithinTolerance;
+                continue;
+            }
+            if share <= FULL {
+                status = RankStatus::Undecided(Doubt::WithinTolerance {
+                    lower: rank - 1,
+                    upper: rank,
+                    from: near.everywhere,
+                    tolerance,
+                });
+            }
+            break;
+        }
+        // What is redundant within a tolerance is so where all lengths have one unit: a short lever must not be scaled up to size one.
+        let (scaling, sigma) = match grounds {
+            Grounds::WithinTolerance => {
+                let (scaled, scaling) = question.uniform(question.s);
+                (scaling, singular_values(&scaled))
+            }
+            _ => (scaling, sigma),
+        };
+        let sigma_r = rank.checked_sub(1).map(|r| sigma[r]);
+        Reading {
+            rank: RankReading {
+                rank,
+                status,
+                scaling,
+                noise,
+                // What is not zero is the same in double-double, but for the digits that f64 has of it.
+                separation: sigma_r.map_or(0.0, |sigma_r| SAME * sigma_r),
+                grounds,
+            },
+            nearness,
+            has_tolerance: tolerance.is_some(),
+        }
+    }
+}

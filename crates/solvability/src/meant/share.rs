@@ -1,0 +1,276 @@
+//! By what share of their uncertainty, or by how many metres, the data would have to be wrong for a lower rank.
+
+use linalg::{Matrix, Scaling, small_svd};
+use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch};
+
+use super::cone::{Bounds, Equation, least_change};
+use super::pose::{Candidate, Pose};
+use super::walk::walk;
+use crate::mechanism::dimensionless;
+
+/// Entries of one pose that are asked to vanish: pairs of this many left and right directions, the weakest first. More would be exact zeros beside
+/// the near one; leaving them out can only make the share smaller.
+const PAIRS: usize = 4;
+
+/// Rounding of an entry of a scaled C between unit vectors, in units of eps·√(m·n).
+const ROUNDINGS: f64 = 16.0;
+
+/// Equations of the first order are wrong by the square of the change, as a share of the size, times this: the change that serves all poses is up to
+/// ten times that of one entry, and second derivatives are of the order of ten where links are short.
+const CURVED: f64 = 100.0;
+
+/// Positions on a walk are met to this share of the size.
+const WALKED: f64 = 1e-12;
+
+/// A mechanism at a pose, some of whose rows are judged.
+pub(crate) struct Question<'a> {
+    pub(crate) mechanism: &'a Mechanism,
+    /// Φ and C evaluated at q.
+    pub(crate) s: &'a Scratch,
+    pub(crate) q: &'a [f64],
+    /// Rows of the mechanism that are judged, ascending.
+    pub(crate) places: &'a [usize],
+    /// Size of the mechanism (m).
+    pub(crate) size: f64,
+}
+
+/// What the data would have to be wrong by (m; angles times the size) for one rank less.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Nearness {
+    /// At this pose alone.
+    pub(crate) here: f64,
+    /// By one change of the data that serves all poses of a walk: from there on a row is redundant. Infinite where none does.
+    pub(crate) everywhere: f64,
+}
+
+impl Question<'_> {
+    /// The share of its rounding by which the datum that changes most would have to change for the rank `lower`, at this pose; scaled is C of
+    /// this question in this scaling after dimensions.
+    pub(super) fn share_of_rounding(
+        &self,
+        scaled: &Matrix,
+        scaling: &Scaling,
+        lower: usize,
+    ) -> Bounds {
+        let dimensions = self.mechanism.dimension_scaling(self.size);
+        let candidate = Candidate::of_rank(scaled, lower);
+        let pose = Pose::new(
+            self.mechanism,
+            self.s,
+            self.places,
+            (scaled, &dimensions, scaling),
+            candidate,
+        );
+        let blocks = self.mechanism.data_blocks(self.s);
+        let known: Vec<f64> = blocks.iter().map(|b| ROUNDING * b.scale).collect();
+        let noise = rounding(scaled);
+        let mut equations = Vec::new();
+        for at in pairs(&pose) {
+            let gradient = pose.gradient(at.0, at.1);
+            let mut equation = equation(pose.target(at), &gradient.data, (&blocks, &known), noise);
+            equation.parts.extend(self.by_start(&gradient.pose));
+            equations.push(equation);
+        }
+        least_change(&equations)
+    }
+
+    /// Changes of where each body stands at the start, and of how it is turned, by what these are rounded to.
+    fn by_start(&self, gradient: &[f64]) -> Vec<[f64; 2]> {
+        let bodies = self
+            .s
+            .poses
+            .iter()
+            .zip(gradient.chunks_exact(3))
+            .enumerate();
+        let of_body = bodies.flat_map(|(body, (pose, by))| {
+            let place = ROUNDING * pose.x.hypot(pose.y).max(self.mechanism.reach(body));
+            let turn = ROUNDING * pose.angle.abs().max(1.0);
+            [[by[0] * place, by[1] * place], [by[2] * turn, 0.0]]
+        });
+        of_body.collect()
+    }
+
+    /// The largest tolerance that the scene states for a point or a length (m).
+    pub(super) fn tolerance(&self) -> Option<f64> {
+        let blocks = self.mechanism.data_blocks(self.s).into_iter();
+        let lengths = blocks.filter(|b| b.unit == DataUnit::Length);
+        lengths.filter_map(|b| b.tolerance).reduce(f64::max)
+    }
+
+    /// By how much each row of an orthonormal basis Z of the left null space (m × p, by rows in this scaling) changes with data within their tolerance,
+    /// with the rank held: `δz_i = −(C⁺·e_i)ᵀ·δCᵀ·Z`.
+    pub(crate) fn rows_within_tolerance(
+        &self,
+        scaled: &Matrix,
+        scaling: &Scaling,
+        (rank, z): (usize, &Matrix),
+    ) -> Vec<f64> {
+        let dimensions = self.mechanism.dimension_scaling(self.size);
+        let candidate = Candidate::of_rank(scaled, rank);
+        let matrices = (scaled, &dimensions, scaling);
+        let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
+        let blocks = self.mechanism.data_blocks(self.s);
+        let svd = small_svd(scaled);
+        let null = z.transpose();
+        let of_row = |i: usize| {
+            // C⁺·e_i
+            let mut y = vec![0.0; scaled.ncols()];
+            for k in 0..rank.min(svd.sigma.len()) {
+                let weight = svd.u[(i, k)] / svd.sigma[k];
+                for (j, y) in y.iter_mut().enumerate() {
+                    *y += weight * svd.v[(j, k)];
+                }
+            }
+            let of_vector = |k: usize| {
+                let gradient = pose.gradient_between(null.row(k), &y).data;
+                let changes = blocks.iter().map(|block| {
+                    let [x, y] = block.part(&gradient);
+                    x.hypot(y) * block.tolerance.unwrap_or(ROUNDING * block.scale)
+                });
+                changes.sum::<f64>()
+            };
+            (0..null.nrows()).map(of_vector).fold(0.0, f64::hypot)
+        };
+        (0..scaled.nrows()).map(of_row).collect()
+    }
+
+    /// How near the data are to one rank less than `rank`, if that is nearer than `limit` (m).
+    pub(super) fn nearness(&self, rank: usize, limit: f64) -> Option<Nearness> {
+        let tolerance = self.tolerance();
+        let lower = rank.checked_sub(1)?;
+        let dimensions = self.mechanism.dimension_scaling(self.size);
+        let (scaled, scaling) = self.uniform(self.s);
+        let candidate = Candidate::of_rank(&scaled, lower);
+        if candidate.weakest() > CLEAR {
+            return None;
+        }
+        let kept = candidate.kept.clone();
+        let here = Pose::new(
+            self.mechanism,
+            self.s,
+            self.places,
+            (&scaled, &dimensions, &scaling),
+            candidate,
+        );
+        let blocks = self.mechanism.data_blocks(self.s);
+        let unit: Vec<f64> = blocks.iter().map(|b| self.unit(b, tolerance)).collect();
+        let gradient = here.gradient(0, 0).data;
+        let parts = blocks.iter().zip(&unit).map(|(block, unit)| {
+            let [x, y] = block.part(&gradient);
+            x.hypot(y) * unit
+        });
+        let least = here.sigma[0] / parts.sum::<f64>();
+        // Without a datum that changes it, it stays.
+        if least.is_nan() || least > limit {
+            return None;
+        }
+        // Shares of what one entry alone would need, so that rounding is no obstacle.
+        let least = least.max(self.size * f64::EPSILON);
+        let known: Vec<f64> = unit.iter().map(|unit| unit * least).collect();
+        // What the second order leaves of equations of the first.
+        let curved = CURVED * (least / self.size).powi(2);
+        let of_pose = |pose: &Pose<'_>, noise: f64| -> Vec<Equation> {
+            let of_pair = |at: (usize, usize)| {
+                let gradient = pose.gradient(at.0, at.1);
+                let slack = noise.max(curved);
+                equation(pose.target(at), &gradient.data, (&blocks, &known), slack)
+            };
+            // What depends on each other must hold together, too.
+            let of_row = |a: usize| {
+                let (target, gradient) = pose.misfit(a)?;
+                Some(equation(
+                    target,
+                    &gradient,
+                    (&blocks, &known),
+                    noise.max(curved) * self.size,
+                ))
+            };
+            let rows = (0..pose.left.nrows().min(PAIRS)).filter_map(of_row);
+            pairs(pose).map(of_pair).chain(rows).collect()
+        };
+        let mut equations = of_pose(&here, rounding(&scaled));
+        let at_this_pose = least * least_change(&equations).middle();
+        if at_this_pose > limit {
+            return None;
+        }
+        let kept_rows: Vec<usize> = kept.iter().map(|&k| self.places[k]).collect();
+        for q in walk(self, &kept_rows) {
+            let s = crate::mechanism::evaluated(self.mechanism, self.s.t, &q);
+            // The scaling is that of the first pose: the equations have one unit.
+            let scaled = scaling.apply(&self.dimensionless(&s));
+            let candidate = Candidate::of_rows(&scaled, kept.clone());
+            let there = Pose::new(
+                self.mechanism,
+                &s,
+                self.places,
+                (&scaled, &dimensions, &scaling),
+                candidate,
+            );
+            equations.extend(of_pose(&there, WALKED));
+        }
+        Some(Nearness {
+            here: at_this_pose,
+            everywhere: least * least_change(&equations).middle(),
+        })
+    }
+
+    /// C with one unit for all lengths; rows have their largest entry near one.
+    pub(super) fn uniform(&self, s: &Scratch) -> (Matrix, Scaling) {
+        let c = self.dimensionless(s);
+        let mut scaling = Scaling::identity(c.nrows(), c.ncols());
+        for (i, e) in scaling.rows.iter_mut().enumerate() {
+            let largest = c.row(i).iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+            let exponent = largest.log2().floor();
+            if exponent.is_finite() {
+                *e = -(exponent as i32);
+            }
+        }
+        (scaling.apply(&c), scaling)
+    }
+
+    fn dimensionless(&self, s: &Scratch) -> Matrix {
+        dimensionless(self.mechanism, s, self.size).select_rows(self.places)
+    }
+
+    /// What counts as one metre: of angles what moves a point at the size of the mechanism by that; with a tolerance (m), each block its own beside
+    /// it, and those that have none their rounding.
+    fn unit(&self, block: &DataBlock, tolerance: Option<f64>) -> f64 {
+        match (tolerance, block.unit) {
+            (Some(tolerance), _) => block.tolerance.unwrap_or(ROUNDING * block.scale) / tolerance,
+            (None, DataUnit::Length) => 1.0,
+            (None, DataUnit::Angle) => 1.0 / self.size,
+        }
+    }
+}
+
+/// A weakest entry above this share of the size of C belongs to no change of data below a thousandth of the size: an entry changes by its own size,
+/// times what the pose answers, which is below the inverse of the entry.
+const CLEAR: f64 = 0.1;
+
+/// The pairs of directions that are asked to vanish.
+fn pairs(pose: &Pose<'_>) -> impl Iterator<Item = (usize, usize)> {
+    let (left, right) = (pose.left.nrows().min(PAIRS), pose.right.nrows().min(PAIRS));
+    (0..left).flat_map(move |a| (0..right).map(move |b| (a, b)))
+}
+
+fn rounding(scaled: &Matrix) -> f64 {
+    ROUNDINGS * f64::EPSILON * (scaled.nrows() as f64 * scaled.ncols() as f64).sqrt()
+}
+
+/// What has to vanish, with the changes of blocks by what they are known to.
+fn equation(
+    target: f64,
+    gradient: &[f64],
+    (blocks, known): (&[DataBlock], &[f64]),
+    rounding: f64,
+) -> Equation {
+    let parts = blocks
+        .iter()
+        .zip(known)
+        .map(|(block, known)| block.part(gradient).map(|x| x * known));
+    Equation {
+        target,
+        rounding,
+        parts: parts.collect(),
+    }
+}

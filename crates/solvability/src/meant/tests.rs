@@ -1,0 +1,299 @@
+//! Mechanisms near a lower rank, with what their data would have to be wrong by. Sources of the numbers: the same program of cones solved by another
+//! method (linear programming over coordinates, poses by finite differences), and by hand where it says so.
+
+use joints::{Distance, Revolute};
+use model::{Body, BodyRef, Description, Mechanism};
+
+use crate::{Analysis, analyse};
+
+fn bar(name: &str, [x, y]: [f64; 2], angle: f64) -> Body {
+    Body {
+        position: [x, y],
+        angle,
+        ..Body::new(name, 1.0, 1.0)
+    }
+}
+
+/// Three parallel cranks of half a metre under one coupler, the ground pin of the third off by this much along the base; the crank has its hole there.
+fn three_cranks(off: f64) -> Description {
+    let angle = 0.7_f64;
+    let (c, s) = (0.5 * angle.cos(), 0.5 * angle.sin());
+    let mut d = Description::new("three-cranks");
+    let mut cranks = Vec::new();
+    for x in [0.0, 1.0, 2.0] {
+        cranks.push(d.body(bar(&format!("crank {x}"), [x + 0.5 * c, 0.5 * s], angle)));
+    }
+    let coupler = d.body(bar("coupler", [1.0 + c, s], 0.0));
+    for (crank, x) in cranks.into_iter().zip([0.0, 1.0, 2.0]) {
+        let pin = if x == 2.0 { x + off } else { x };
+        let ground = Revolute {
+            s_i: [pin, 0.0],
+            s_j: [-0.25 + (pin - x) * angle.cos(), -(pin - x) * angle.sin()],
+        };
+        let top = Revolute {
+            s_i: [0.25, 0.0],
+            s_j: [x - 1.0, 0.0],
+        };
+        d.joint(&format!("O{x}"), &[BodyRef::Ground, crank], ground);
+        d.joint(&format!("P{x}"), &[crank, coupler], top);
+    }
+    d
+}
+
+/// A four-bar near its dead centre, crank and coupler in line but for `angle`, the rocker held by a bar across it.
+fn held_four_bar(angle: f64) -> Description {
+    let (a, b, c, g) = (0.2_f64, 0.5, 0.4, 0.6);
+    let turn = (((a + b) * (a + b) + g * g - c * c) / (2.0 * (a + b) * g)).acos() + angle;
+    let tip = [a * turn.cos(), a * turn.sin()];
+    let to = [g - tip[0], -tip[1]];
+    let length = to[0].hypot(to[1]);
+    let alpha = ((b * b + length * length - c * c) / (2.0 * b * length)).acos();
+    let beta = to[1].atan2(to[0]) + alpha;
+    let knee = [tip[0] + b * beta.cos(), tip[1] + b * beta.sin()];
+    let mut d = Description::new("four-bar");
+    let mut member = |name: &str, p: [f64; 2], q: [f64; 2]| {
+        let middle = [(p[0] + q[0]) / 2.0, (p[1] + q[1]) / 2.0];
+        d.body(bar(name, middle, (q[1] - p[1]).atan2(q[0] - p[0])))
+    };
+    let crank = member("crank", [0.0; 2], tip);
+    let coupler = member("coupler", tip, knee);
+    let rocker = member("rocker", [g, 0.0], knee);
+    let pin = |s_i: f64, s_j: f64| Revolute {
+        s_i: [s_i, 0.0],
+        s_j: [s_j, 0.0],
+    };
+    d.joint("A", &[BodyRef::Ground, crank], pin(0.0, -a / 2.0));
+    d.joint("B", &[crank, coupler], pin(a / 2.0, -b / 2.0));
+    d.joint("C", &[coupler, rocker], pin(b / 2.0, c / 2.0));
+    d.joint("D", &[BodyRef::Ground, rocker], pin(g, -c / 2.0));
+    let along = (knee[1]).atan2(knee[0] - g);
+    let far = [knee[0] - 2.0 * along.sin(), knee[1] + 2.0 * along.cos()];
+    let strut = Distance {
+        s_i: [c / 2.0, 0.0],
+        s_j: far,
+        length: 0.0,
+        half_inverse: 0.0,
+    };
+    d.joint("strut", &[rocker, BodyRef::Ground], strut);
+    d
+}
+
+fn analysed(description: &Description) -> Analysis {
+    let mut mechanism = Mechanism::build(description).expect("it builds");
+    let options = model::StartOptions {
+        correction: model::start::CorrectionLimit::Any,
+        ..model::StartOptions::default()
+    };
+    let start = model::start::assemble(&mut mechanism, &options).expect("it assembles");
+    analyse(&mechanism, 0.0, &start.q).expect("it is finite")
+}
+
+fn lower_rank(analysis: &Analysis) -> [Option<f64>; 2] {
+    let certificate = analysis.evidence().certificate.as_ref();
+    let certificate = certificate.expect("certified");
+    [certificate.lower_rank_here, certificate.lower_rank_from]
+}
+
+/// At all poses the misfit has to go, and the eight points between the first and the third crank share it: an eighth each.
+#[test]
+fn a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on() {
+    assert_eq!(analysed(&three_cranks(0.0)).decision.rank, 11);
+    for (off, here, everywhere) in [
+        (1e-5, 7.92e-7, 1.25e-6),
+        (4e-4, 3.22e-5, 5e-5),
+        (2e-3, 1.607e-4, 2.5e-4),
+    ] {
+        let analysis = analysed(&three_cranks(off));
+        assert_eq!(analysis.decision.rank, 12, "{off}");
+        let [Some(at_this_pose), Some(from)] = lower_rank(&analysis) else {
+            panic!("{off}: {:?}", lower_rank(&analysis));
+        };
+        assert!(
+            (at_this_pose / here - 1.0).abs() < 0.06,
+            "{off}: {at_this_pose}"
+        );
+        assert!((from / everywhere - 1.0).abs() < 0.06, "{off}: {from}");
+    }
+}
+
+#[test]
+fn a_dead_centre_is_a_pose_and_no_redundancy() {
+    for (angle, here) in [(1e-4, 7.43e-6), (1e-3, 7.46e-5)] {
+        let analysis = analysed(&held_four_bar(angle));
+        assert_eq!(analysis.decision.rank, 9, "{angle}");
+        let [Some(at_this_pose), from] = lower_rank(&analysis) else {
+            panic!("{angle}: {:?}", lower_rank(&analysis));
+        };
+        assert!(
+            (at_this_pose / here - 1.0).abs() < 0.06,
+            "{angle}: {at_this_pose}"
+        );
+        assert!(from.is_none_or(|from| from > 0.03), "{angle}: {from:?}");
+    }
+}
+
+fn within(mut description: Description, tolerance: f64) -> Description {
+    description.tolerance.length = Some(tolerance);
+    description
+}
+
+/// The third crank is redundant from a twentieth of a millimetre on; a third of that and three times that are beyond doubt.
+#[test]
+fn a_tolerance_decides_what_is_redundant() {
+    for (tolerance, rank) in [(1.2e-5, Some(12)), (5e-5, None), (1e-3, Some(11))] {
+        let analysis = analysed(&within(three_cranks(4e-4), tolerance));
+        let decided = analysis.decision.is_decided();
+        assert_eq!(
+            decided.then_some(analysis.decision.rank),
+            rank,
+            "{tolerance}"
+        );
+    }
+    let analysis = analysed(&within(three_cranks(4e-4), 1e-3));
+    assert_eq!((analysis.decision.redundancy, analysis.mobility()), (1, 1));
+    let certificate = analysis.evidence().certificate.clone();
+    let certificate = certificate.expect("certified");
+    assert_eq!(certificate.grounds, linalg::Grounds::WithinTolerance);
+    // Without a misfit all bearings share their load, and so they do here.
+    for reaction in &analysis.reactions {
+        assert_eq!(
+            reaction.wrench.verdict,
+            crate::Verdict::NotUnique,
+            "{}",
+            reaction.name
+        );
+    }
+}
+
+/// Near a dead centre a row is redundant at one pose only: no tolerance drops it.
+#[test]
+fn a_tolerance_drops_no_row_for_a_pose() {
+    for angle in [1e-4, 1e-3] {
+        let analysis = analysed(&within(held_four_bar(angle), 1e-3));
+        assert!(analysis.decision.is_decided(), "{angle}");
+        assert_eq!(analysis.decision.rank, 9, "{angle}");
+    }
+}
+
+/// A door on three hinges, the third off the axis of the others by half a millimetre.
+fn door(off: f64) -> Description {
+    let mut d = Description::new("door");
+    let leaf = d.body(Body {
+        position: [0.4, 0.0],
+        ..Body::new("leaf", 10.0, 1.0)
+    });
+    for (name, x) in [("top", 0.0), ("middle", 0.0), ("bottom", off)] {
+        let hinge = Revolute {
+            s_i: [x, 0.0],
+            s_j: [x - 0.4, 0.0],
+        };
+        d.joint(name, &[BodyRef::Ground, leaf], hinge);
+    }
+    d
+}
+
+/// Two points half a millimetre apart coincide within a millimetre: the door turns.
+#[test]
+fn a_door_turns_within_its_tolerance() {
+    let exact = analysed(&door(0.0));
+    assert_eq!((exact.decision.rank, exact.mobility()), (2, 1));
+    let locked = analysed(&door(5e-4));
+    assert_eq!((locked.decision.rank, locked.mobility()), (3, 0));
+    let turns = analysed(&within(door(5e-4), 1e-3));
+    assert_eq!((turns.decision.rank, turns.mobility()), (2, 1));
+}
+
+/// Two parallel hydraulic cylinders between a frame and an arm, their axes in the directions that they have with so many digits.
+fn cylinders(digits: Option<i32>) -> Description {
+    let mut d = Description::new("cylinders");
+    let angle = 0.6_f64;
+    let rounded = |x: f64| match digits {
+        None => x,
+        Some(digits) => {
+            let unit = 10_f64.powi(digits);
+            (x * unit).round() / unit
+        }
+    };
+    let axis = joints::Direction::new([rounded(angle.cos()), rounded(angle.sin())]);
+    let axis = axis.expect("a direction");
+    let arm_at = [1.5 * angle.cos(), 1.5 * angle.sin()];
+    let arm = d.body(bar("arm", arm_at, 0.0));
+    for (k, offset) in [-0.2, 0.2].into_iter().enumerate() {
+        let foot = [-offset * angle.sin(), offset * angle.cos()];
+        let at = |s: f64| [foot[0] + s * angle.cos(), foot[1] + s * angle.sin()];
+        let tube = d.body(bar(&format!("tube {k}"), at(0.4), 0.0));
+        let rod = d.body(bar(&format!("rod {k}"), at(1.1), 0.0));
+        let local = |p: [f64; 2], q: [f64; 2]| [p[0] - q[0], p[1] - q[1]];
+        let pin = Revolute {
+            s_i: foot,
+            s_j: local(foot, at(0.4)),
+        };
+        d.joint(&format!("A{k}"), &[BodyRef::Ground, tube], pin);
+        let slide = joints::Translational {
+            s_i: [0.0; 2],
+            s_j: local(at(0.4), at(1.1)),
+            axis,
+            angle_0: 0.0,
+        };
+        d.joint(&format!("S{k}"), &[tube, rod], slide);
+        let eye = at(1.5);
+        let pin = Revolute {
+            s_i: local(eye, at(1.1)),
+            s_j: local(eye, arm_at),
+        };
+        d.joint(&format!("B{k}"), &[rod, arm], pin);
+    }
+    d
+}
+
+/// One mechanism, whatever digits its axes are typed with: verdicts of all joints are those of the exact one.
+#[test]
+fn parallel_cylinders_are_one_mechanism_with_any_digits() {
+    let verdicts = |d: &Description| -> Vec<&'static str> {
+        let analysis = analysed(d);
+        assert!(
+            analysis.decision.is_decided(),
+            "{:?}",
+            analysis.decision.status
+        );
+        let reactions = analysis.reactions.iter();
+        reactions.map(|r| r.wrench.verdict.word()).collect()
+    };
+    let exact = verdicts(&cylinders(None));
+    for digits in [4, 6, 12] {
+        assert_eq!(
+            verdicts(&within(cylinders(Some(digits)), 1e-4)),
+            exact,
+            "{digits}"
+        );
+    }
+}
+
+/// Two edges of one axle that are parallel but for a thousandth: within a centimetre one of them is redundant, and neither force is unique.
+#[test]
+fn edges_of_one_axle_share_their_force_within_a_tolerance() {
+    let mut d = Description::new("cart");
+    let cart = d.body(Body::new("cart", 10.0, 1.0));
+    for (name, y, x) in [("left", 0.5, 0.0), ("right", -0.5, 1e-3)] {
+        let normal = joints::Direction::new([x, 1.0]).expect("a direction");
+        d.joint(
+            name,
+            &[cart],
+            joints::KnifeEdge {
+                s: [0.0, y],
+                normal,
+            },
+        );
+    }
+    assert_eq!(analysed(&d).decision.rank, 2);
+    let analysis = analysed(&within(d, 1e-2));
+    assert_eq!((analysis.decision.rank, analysis.mobility()), (1, 2));
+    for reaction in &analysis.reactions {
+        assert_eq!(
+            reaction.wrench.verdict,
+            crate::Verdict::NotUnique,
+            "{}",
+            reaction.name
+        );
+    }
+}

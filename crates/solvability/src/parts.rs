@@ -1,0 +1,361 @@
+//! Parts of a mechanism that are judged alone.
+//!
+//! Self-stresses live on cycles of the graph of bodies, ground and joints: every `z` with `Cᵀ·z = 0` is a sum of such vectors on single
+//! sets of [`linalg::cycles`]. So each set is a mechanism of its own with all the evidence that it has; the redundancy of the whole is the sum
+//! of theirs, and no verdict depends on any other set. The work is linear in their number.
+//!
+//! Each part is measured by its own size: margins do not depend on how long the chain is in which it stands. Not here: how a part is judged.
+
+use std::borrow::Cow;
+
+use linalg::{Certificate, Evidence, NearlyRedundant, RankDecision, RankStatus, cycles};
+use model::{BodyRef, Mechanism, Part, Places, Scratch, System};
+use rayon::prelude::*;
+
+use crate::freedoms::WithoutDrives;
+use crate::mechanism::evaluated;
+use crate::rows::RowDecision;
+use crate::words;
+
+/// A mechanism of at most so many rows is one part, whatever its cycles: all of its verdicts are then read from one null space, and it
+/// can be compared with itself at other configurations, which takes matrices of all rows and columns.
+pub const ONE_PART: usize = 250;
+
+/// Names that tell which part is meant.
+const NAMED: usize = 3;
+
+/// Where a part is in its mechanism.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// It is all of it.
+    Whole,
+    /// It is here.
+    Places(Places),
+}
+
+/// Numbers of the whole that belong to a part: `None` of places for all of them.
+fn own<'a>(x: &'a [f64], places: Option<&[usize]>) -> Cow<'a, [f64]> {
+    match places {
+        None => Cow::Borrowed(x),
+        Some(places) => places.iter().map(|&j| x[j]).collect(),
+    }
+}
+
+impl Extent {
+    fn places(&self) -> Option<&Places> {
+        match self {
+            Self::Whole => None,
+            Self::Places(places) => Some(places),
+        }
+    }
+
+    /// Whether the part is the whole.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        *self == Self::Whole
+    }
+
+    /// The row of the whole that is this one of the part.
+    #[must_use]
+    pub fn row(&self, own: usize) -> usize {
+        self.places().map_or(own, |p| p.rows[own])
+    }
+
+    /// The row of the part that is this one of the whole; `None` if it belongs to another part.
+    #[must_use]
+    pub fn own_row(&self, row: usize) -> Option<usize> {
+        self.places()
+            .map_or(Some(row), |p| p.rows.binary_search(&row).ok())
+    }
+
+    /// Those of some rows of the whole that belong to the part, numbered there.
+    #[must_use]
+    pub fn own_rows(&self, rows: &[usize]) -> Vec<usize> {
+        rows.iter().filter_map(|&row| self.own_row(row)).collect()
+    }
+
+    /// The joint or drive of the whole that is this one of the part.
+    #[must_use]
+    pub fn group(&self, own: usize) -> usize {
+        self.places().map_or(own, |p| p.groups[own])
+    }
+
+    /// The joint or drive of the part that is this one of the whole; `None` if it belongs to another part.
+    #[must_use]
+    pub fn own_group(&self, group: usize) -> Option<usize> {
+        self.places()
+            .map_or(Some(group), |p| p.groups.binary_search(&group).ok())
+    }
+
+    /// Joints and drives of the whole that belong to the part; none are listed where it is the whole.
+    pub(crate) fn groups(&self) -> &[usize] {
+        self.places().map_or(&[], |p| &p.groups)
+    }
+
+    /// The body of the part that is this one of the whole; `None` if no joint of the part is on it.
+    #[must_use]
+    pub fn own_body(&self, body: usize) -> Option<usize> {
+        self.places()
+            .map_or(Some(body), |p| p.bodies.binary_search(&body).ok())
+    }
+
+    /// The body of the whole that is this one of the part.
+    #[must_use]
+    pub fn body(&self, own: usize) -> usize {
+        self.places().map_or(own, |p| p.bodies[own])
+    }
+
+    /// Coordinates of the part.
+    #[must_use]
+    pub fn coordinates<'a>(&self, q: &'a [f64]) -> Cow<'a, [f64]> {
+        own(q, self.places().map(|p| &p.coordinates[..]))
+    }
+
+    /// Velocities of the part, or anything else with a number for each of them.
+    #[must_use]
+    pub fn velocities<'a>(&self, v: &'a [f64]) -> Cow<'a, [f64]> {
+        own(v, self.places().map(|p| &p.velocities[..]))
+    }
+
+    /// Multipliers of the part, or anything else with a number for each row.
+    #[must_use]
+    pub fn of_rows<'a>(&self, lambda: &'a [f64]) -> Cow<'a, [f64]> {
+        own(lambda, self.places().map(|p| &p.rows[..]))
+    }
+
+    /// Numbers of the rows of the part, at the places that they have in the whole of so many rows.
+    pub(crate) fn spread(&self, x: &[f64], rows: usize) -> Vec<f64> {
+        let mut all = vec![0.0; rows];
+        for (k, x) in x.iter().enumerate() {
+            all[self.row(k)] = *x;
+        }
+        all
+    }
+
+    /// Velocities of the whole with those of the part put in.
+    pub(crate) fn put_velocities(&self, own: &[f64], mut all: Vec<f64>) -> Vec<f64> {
+        match self.places() {
+            None => own.to_vec(),
+            Some(places) => {
+                for (&j, v) in places.velocities.iter().zip(own) {
+                    all[j] = *v;
+                }
+                all
+            }
+        }
+    }
+
+    /// The part as a mechanism of its own.
+    #[must_use]
+    pub fn mechanism<'a>(&self, whole: &'a Mechanism) -> Cow<'a, Mechanism> {
+        match self {
+            Self::Whole => Cow::Borrowed(whole),
+            Self::Places(p) => Cow::Owned(whole.part_of_groups(&p.groups).mechanism),
+        }
+    }
+
+    /// The part in words: the names of its first joints and drives.
+    pub(crate) fn name(&self, whole: &Mechanism) -> String {
+        let groups = &whole.layout().groups;
+        let count = self.places().map_or(groups.len(), |p| p.groups.len());
+        let ids: Vec<_> = (0..count.min(NAMED))
+            .map(|k| model::ConstraintId(self.group(k)))
+            .collect();
+        let names = words::names(whole.layout(), &ids);
+        match count.checked_sub(NAMED) {
+            Some(more @ 1..) => format!("{} and {more} more", names.join(", ")),
+            _ => words::list(&names),
+        }
+    }
+}
+
+/// What is known of a part.
+#[derive(Clone, Debug)]
+pub struct PartAnalysis {
+    /// Where it is.
+    pub extent: Extent,
+    /// Size of the part (m): its lengths are dimensionless by this.
+    pub size: f64,
+    /// Rank of Φq alone.
+    pub rank_holonomic: usize,
+    /// Rank of Ψ alone.
+    pub rank_nonholonomic: usize,
+    /// Rank and redundancy of the rows without those of drives. `None` if it has no drives.
+    pub without_drives: Option<WithoutDrives>,
+    /// Rank and rows of C; rows are those of the part.
+    pub decision: PartDecision,
+    /// The proof of the rank, also where the caller chose the dropped rows.
+    pub certificate: Option<Certificate>,
+    /// Kept rows that are independent, but only just; in parts decided sparsely nothing is said of them.
+    pub nearly_redundant: Option<NearlyRedundant>,
+}
+
+/// The rank of a part, by the matrix of all its rows and columns, or by its sparse factors.
+#[derive(Clone, Debug)]
+pub enum PartDecision {
+    /// With the dependencies of all rows.
+    Dense(Box<RankDecision>),
+    /// With what a sparse decision knows.
+    Sparse {
+        /// Rank and rows.
+        rows: RowDecision,
+        /// The numbers behind them.
+        evidence: Box<Evidence>,
+    },
+}
+
+impl PartDecision {
+    /// Rank and rows.
+    #[must_use]
+    pub fn rows(&self) -> RowDecision {
+        match self {
+            Self::Dense(decision) => decision.as_ref().into(),
+            Self::Sparse { rows, .. } => rows.clone(),
+        }
+    }
+
+    /// r
+    #[must_use]
+    pub fn rank(&self) -> usize {
+        match self {
+            Self::Dense(decision) => decision.rank,
+            Self::Sparse { rows, .. } => rows.rank,
+        }
+    }
+
+    /// p
+    #[must_use]
+    pub fn redundancy(&self) -> usize {
+        match self {
+            Self::Dense(decision) => decision.redundancy,
+            Self::Sparse { rows, .. } => rows.redundancy,
+        }
+    }
+
+    /// Decided, or why not.
+    #[must_use]
+    pub fn status(&self) -> RankStatus {
+        match self {
+            Self::Dense(decision) => decision.status,
+            Self::Sparse { rows, .. } => rows.status,
+        }
+    }
+
+    /// The numbers behind it.
+    #[must_use]
+    pub fn evidence(&self) -> &Evidence {
+        match self {
+            Self::Dense(decision) => &decision.evidence,
+            Self::Sparse { evidence, .. } => evidence,
+        }
+    }
+
+    /// The decision with all dependencies; `None` if there are too many rows for that.
+    #[must_use]
+    pub fn dense(&self) -> Option<&RankDecision> {
+        match self {
+            Self::Dense(decision) => Some(decision),
+            Self::Sparse { .. } => None,
+        }
+    }
+}
+
+impl PartAnalysis {
+    /// Rows of the part.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.decision.rank() + self.decision.redundancy()
+    }
+
+    /// Whether it is proved that the rank is not less.
+    #[must_use]
+    pub fn is_proved(&self) -> bool {
+        let proved = |c: &Certificate| c.rank_at_least == self.decision.rank();
+        self.decision.status() == RankStatus::Decided
+            && self.certificate.as_ref().is_some_and(proved)
+    }
+
+    /// How certain the rank is: σ_r, or less than nothing if it is undecided.
+    pub(crate) fn strength(&self) -> f64 {
+        match self.decision.status() {
+            RankStatus::Decided => self.decision.evidence().sigma_r,
+            _ => -1.0,
+        }
+    }
+}
+
+/// Joints and drives that lie on common cycles, at the pose of the scratch, where C has been evaluated: sets that can be judged alone.
+#[must_use]
+pub fn parts(mechanism: &Mechanism, s: &Scratch) -> Vec<Vec<usize>> {
+    let ground = mechanism.bodies().len();
+    let layout = mechanism.layout();
+    let touched = mechanism.constraint_ids().map(|id| {
+        let bodies = layout.groups[id.0].bodies.iter().filter_map(|b| match *b {
+            BodyRef::Body(k) => Some(k),
+            BodyRef::Ground => None,
+        });
+        bodies
+            .chain(mechanism.acts_on_ground(id, s).then_some(ground))
+            .collect()
+    });
+    let touched: Vec<Vec<usize>> = touched.collect();
+    cycles(ground + 1, &touched)
+}
+
+/// How a mechanism is taken apart.
+pub(crate) enum Partition {
+    /// Not at all.
+    One,
+    /// Into these sets of joints and drives.
+    Several(Vec<Vec<usize>>),
+}
+
+impl Partition {
+    /// The parts at time t and coordinates q.
+    pub(crate) fn of(mechanism: &Mechanism, t: f64, q: &[f64]) -> Self {
+        match mechanism.layout().rows() <= ONE_PART {
+            true => Self::One,
+            false => Self::by_cycles(mechanism, t, q),
+        }
+    }
+
+    /// The parts at the pose of the scratch, where C has been evaluated.
+    pub(crate) fn at(mechanism: &Mechanism, s: &Scratch) -> Self {
+        match mechanism.layout().rows() <= ONE_PART {
+            true => Self::One,
+            false => Self::of_sets(mechanism, parts(mechanism, s)),
+        }
+    }
+
+    /// The same without regard to the size of the mechanism.
+    pub(crate) fn by_cycles(mechanism: &Mechanism, t: f64, q: &[f64]) -> Self {
+        Self::of_sets(mechanism, parts(mechanism, &evaluated(mechanism, t, q)))
+    }
+
+    fn of_sets(mechanism: &Mechanism, sets: Vec<Vec<usize>>) -> Self {
+        match sets.as_slice() {
+            [] => Self::One,
+            [all] if all.len() == mechanism.layout().groups.len() => Self::One,
+            _ => Self::Several(sets),
+        }
+    }
+
+    /// What `f` makes of each part, by their first joints, on the threads of the pool of `rayon` from which this is called; of several errors the one of
+    /// the first part.
+    pub(crate) fn map<T: Send, E: Send>(
+        &self,
+        mechanism: &Mechanism,
+        f: impl Fn(&Mechanism, Extent) -> Result<T, E> + Sync,
+    ) -> Result<Vec<T>, E> {
+        let sets = match self {
+            Self::One => return Ok(vec![f(mechanism, Extent::Whole)?]),
+            Self::Several(sets) => sets,
+        };
+        let each = sets.par_iter().map(|groups| {
+            let Part { mechanism, places } = mechanism.part_of_groups(groups);
+            f(&mechanism, Extent::Places(places))
+        });
+        let each: Vec<Result<T, E>> = each.collect();
+        each.into_iter().collect()
+    }
+}

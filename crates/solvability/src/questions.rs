@@ -1,0 +1,596 @@
+//! Questions about the reactions of an analysed configuration of any size, each answered by the parts that it touches.
+//!
+//! The left null space of C is the direct sum of those of the parts. So a number made of reactions of several parts is unique iff its share in
+//! each is; a choice among the solutions is one choice in each; and rows may be deleted together iff those of each part may be.
+
+use std::borrow::Cow;
+use std::sync::{Arc, OnceLock};
+
+use linalg::{DeletionError, Limits, count_deletions, deletions};
+use model::{BodyRef, ConstraintId, Mechanism, System};
+use rayon::prelude::*;
+
+use crate::analysis::Analysis;
+use crate::certificate::ROWS_MAX;
+use crate::choices::{
+    Choice, ChoiceError, Compliance, Distribution, Equations, Label, Solution, Value,
+};
+use crate::explain::{Explanation, ExplanationError, explain};
+use crate::frames::FrameVerdict;
+use crate::groups::{Configuration, Group, GroupVerdict, NO_REACTION, RequestError, Term, worst};
+use crate::make_unique::{Allowed, Proposals, make_unique};
+use crate::mechanism::ComponentVerdict;
+use crate::parts::PartAnalysis;
+use crate::units::{UnitCheck, UnitError, check_equations};
+use crate::verdict::{Judgement, Verdict};
+
+/// An analysed configuration, to be asked about its reactions.
+///
+/// ```
+/// use joints::{Direction, KnifeEdge};
+/// use model::{Body, BodyRef, ConstraintId, Description, Joint, Mechanism};
+/// use solvability::{Group, Questions, analyse};
+/// // A cart on two wheels of one axle: each stops the same sideways motion.
+/// let edge = |name: &str, y: f64| {
+///     let element = KnifeEdge { s: [0.0, y], normal: Direction::Y };
+///     Joint::new(name, &[BodyRef::Body(0)], element)
+/// };
+/// let cart = Description {
+///     bodies: vec![Body { name: "cart".into(), mass: 10.0, inertia: 1.0, ..Body::default() }],
+///     joints: vec![edge("left", 0.5), edge("right", -0.5)],
+///     ..Description::default()
+/// };
+/// let mechanism = Mechanism::build(&cart).unwrap();
+/// let q = [0.0; 3];
+/// let questions = Questions::new(&mechanism, &q, analyse(&mechanism, 0.0, &q)?.into());
+/// assert_eq!(questions.eliminations(), Ok(2));
+/// let both = Group::WrenchSum(vec![(1.0, ConstraintId(0)), (1.0, ConstraintId(1))]);
+/// let verdict = questions.group(&both)?;
+/// assert_eq!(verdict.components[1].judgement.verdict.word(), "unique");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub struct Questions<'a> {
+    mechanism: &'a Mechanism,
+    q: Vec<f64>,
+    analysis: Arc<Analysis>,
+    /// Of each part, made when it is asked for.
+    configurations: Vec<OnceLock<Configuration<'a>>>,
+    /// The part of each joint and drive.
+    part_of: Vec<usize>,
+}
+
+/// Why it cannot be told what may be deleted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum EliminationError {
+    /// In a part.
+    #[error(transparent)]
+    Deletion(#[from] DeletionError),
+    /// A part is too large.
+    #[error(transparent)]
+    Request(#[from] RequestError),
+    /// Every part has its number of sets, but their product is larger than any number that is counted with.
+    #[error(
+        "{parts} parts of the mechanism have their own sets, and the product of their numbers is more than 3.4e38"
+    )]
+    TooMany {
+        /// Parts with dependent rows.
+        parts: usize,
+    },
+}
+
+/// Numbers of a group by name.
+pub type Numbers = Vec<(&'static str, Value)>;
+
+impl<'a> Questions<'a> {
+    /// To the configuration q of a mechanism that was analysed there.
+    #[must_use]
+    pub fn new(mechanism: &'a Mechanism, q: &[f64], analysis: Arc<Analysis>) -> Self {
+        let mut part_of = vec![0; mechanism.layout().groups.len()];
+        for (k, part) in analysis.parts.iter().enumerate() {
+            part.extent
+                .groups()
+                .iter()
+                .for_each(|&group| part_of[group] = k);
+        }
+        Self {
+            mechanism,
+            q: q.to_vec(),
+            configurations: analysis.parts.iter().map(|_| OnceLock::new()).collect(),
+            analysis,
+            part_of,
+        }
+    }
+
+    fn parts(&self) -> &[PartAnalysis] {
+        &self.analysis.parts
+    }
+
+    /// The only part, if there is one, or that of a question.
+    fn configuration(&self, k: usize) -> Result<&Configuration<'a>, RequestError> {
+        let cell = &self.configurations[k];
+        if let Some(made) = cell.get() {
+            return Ok(made);
+        }
+        let part = &self.parts()[k];
+        let decision = part.decision.dense().ok_or_else(|| RequestError::Large {
+            joints: part.extent.name(self.mechanism),
+            rows: part.rows(),
+            most: ROWS_MAX,
+        })?;
+        let q = part.extent.coordinates(&self.q);
+        let mechanism = part.extent.mechanism(self.mechanism);
+        let made = Configuration::of(mechanism, self.analysis.time, &q, decision)?;
+        Ok(cell.get_or_init(|| made))
+    }
+
+    /// The part of a joint or drive, and its number there.
+    fn place(&self, id: ConstraintId) -> Result<(usize, ConstraintId), RequestError> {
+        let reactions = self.part_of.len();
+        let part = self.part_of.get(id.0).copied();
+        let own = part.and_then(|k| Some((k, self.parts()[k].extent.own_group(id.0)?)));
+        own.map(|(k, own)| (k, ConstraintId(own)))
+            .ok_or(RequestError::UnknownReaction {
+                id: id.0,
+                reactions,
+            })
+    }
+
+    /// The share of each part that a group touches.
+    fn shares(&self, group: &Group) -> Result<Vec<(usize, Group)>, RequestError> {
+        if let [one] = self.parts()
+            && one.extent.is_whole()
+        {
+            return Ok(vec![(0, group.clone())]);
+        }
+        Ok(match group {
+            Group::Members(ids) => {
+                let placed = ids.iter().map(|&id| self.place(id));
+                by_part(placed)?
+                    .map(|(k, ids)| (k, Group::Members(ids)))
+                    .collect()
+            }
+            Group::OneJoint(ids) => {
+                let placed = ids.iter().map(|&id| self.place(id));
+                by_part(placed)?
+                    .map(|(k, ids)| (k, Group::OneJoint(ids)))
+                    .collect()
+            }
+            Group::Combination(terms) => {
+                let placed = terms.iter().map(|term| {
+                    let (k, reaction) = self.place(term.reaction)?;
+                    let term = Term {
+                        reaction,
+                        ..term.clone()
+                    };
+                    Ok((k, term))
+                });
+                by_part(placed)?
+                    .map(|(k, terms)| (k, Group::Combination(terms)))
+                    .collect()
+            }
+            Group::WrenchSum(terms) => {
+                let placed = terms.iter().map(|&(factor, id)| {
+                    let (k, id) = self.place(id)?;
+                    Ok((k, (factor, id)))
+                });
+                by_part(placed)?
+                    .map(|(k, terms)| (k, Group::WrenchSum(terms)))
+                    .collect()
+            }
+            Group::Resultant(bodies) => {
+                let share = |(k, part): (usize, &PartAnalysis)| {
+                    let own: Vec<usize> = bodies
+                        .iter()
+                        .filter_map(|&b| part.extent.own_body(b))
+                        .collect();
+                    (!own.is_empty()).then_some((k, Group::Resultant(own)))
+                };
+                self.parts().iter().enumerate().filter_map(share).collect()
+            }
+        })
+    }
+
+    /// Where the T of a sum of wrenches or a resultant is about; checks bodies.
+    fn about(&self, group: &Group) -> Result<Option<[f64; 2]>, RequestError> {
+        match group {
+            Group::WrenchSum(terms) => {
+                let &(_, first) = terms.first().ok_or(NO_REACTION)?;
+                let (k, own) = self.place(first)?;
+                self.configuration(k)?.place(own).map(Some)
+            }
+            Group::Resultant(all) => {
+                let bodies = self.mechanism.bodies().len();
+                if let Some(&body) = all.iter().find(|&&body| body >= bodies) {
+                    return Err(RequestError::UnknownBody { body, bodies });
+                }
+                let &first = all.first().ok_or(RequestError::Empty { of: "body" })?;
+                let mut s = self.mechanism.scratch();
+                self.mechanism.pose(self.analysis.time, &self.q, &mut s);
+                Ok(Some([s.poses[first].x, s.poses[first].y]))
+            }
+            _ => Ok(None),
+        }
+    }
+
+    /// The verdict of a group: unique iff its share in each part is, with the largest margin.
+    ///
+    /// # Errors
+    /// As [`crate::judge_groups`], and [`RequestError::Large`]: it touches a part of too many rows.
+    pub fn group(&self, group: &Group) -> Result<GroupVerdict, RequestError> {
+        let about = self.about(group)?;
+        let judged = self.shares(group)?.into_iter();
+        let judged = judged.map(|(k, share)| self.configuration(k)?.group_about(&share, about));
+        let judged: Vec<GroupVerdict> = judged.collect::<Result<_, _>>()?;
+        let [first, others @ ..] = judged.as_slice() else {
+            return self.of_nothing(group, about);
+        };
+        let component = |(i, of_first): (usize, &ComponentVerdict)| {
+            let of_others = others.iter().filter_map(|g| g.components.get(i));
+            let all = std::iter::once(of_first).chain(of_others);
+            ComponentVerdict {
+                name: of_first.name,
+                judgement: worst(all.map(|c| c.judgement.clone()))
+                    .unwrap_or_else(|| of_first.judgement.clone()),
+            }
+        };
+        Ok(GroupVerdict {
+            components: first.components.iter().enumerate().map(component).collect(),
+            judgement: worst(judged.iter().map(|g| g.judgement.clone())).ok_or(NO_REACTION)?,
+            about,
+        })
+    }
+
+    /// The resultant on bodies without joints; any other group of nothing is none.
+    fn of_nothing(
+        &self,
+        group: &Group,
+        about: Option<[f64; 2]>,
+    ) -> Result<GroupVerdict, RequestError> {
+        let judgement = Judgement {
+            verdict: Verdict::Unique,
+            margin: 0.0,
+        };
+        match group {
+            Group::Resultant(_) => Ok(GroupVerdict {
+                components: model::reaction::COMPONENTS
+                    .map(|name| ComponentVerdict {
+                        name,
+                        judgement: judgement.clone(),
+                    })
+                    .to_vec(),
+                judgement,
+                about,
+            }),
+            Group::Combination(_) => Err(RequestError::Empty { of: "term" }),
+            _ => Err(NO_REACTION),
+        }
+    }
+
+    /// The numbers of a group that every solution shares, by name; several reactions side by side have none.
+    ///
+    /// # Errors
+    /// As [`Questions::group`].
+    pub fn determined(&self, group: &Group, solution: &Solution) -> Result<Numbers, RequestError> {
+        let lambda = &solution.multipliers;
+        self.numbers(group, |k, configuration, form| {
+            let is_unique = configuration.judge(form)?.verdict.is_unique();
+            let own = self.parts()[k].extent.of_rows(lambda);
+            Ok(is_unique.then(|| Value::Unique(configuration.value(form, &own))))
+        })
+    }
+
+    /// All numbers of a group as a choice gives them.
+    ///
+    /// # Errors
+    /// As [`Questions::group`].
+    pub fn chosen(
+        &self,
+        group: &Group,
+        distribution: &Distribution,
+    ) -> Result<Numbers, RequestError> {
+        self.numbers(group, |k, configuration, form| {
+            let extent = &self.parts()[k].extent;
+            distribution.value_in(extent, configuration, form).map(Some)
+        })
+    }
+
+    /// Sums over parts; nothing where a share is missing.
+    fn numbers(
+        &self,
+        group: &Group,
+        value: impl Fn(
+            usize,
+            &Configuration<'a>,
+            &crate::groups::LinearForm,
+        ) -> Result<Option<Value>, RequestError>,
+    ) -> Result<Numbers, RequestError> {
+        let about = self.about(group)?;
+        let mut sums: Vec<(&'static str, Option<Value>)> = Vec::new();
+        for (k, share) in self.shares(group)? {
+            let configuration = self.configuration(k)?;
+            for (name, form) in configuration.numbers_about(&share, about)? {
+                let own = value(k, configuration, &form)?;
+                match sums.iter_mut().find(|(known, _)| *known == name) {
+                    Some((_, sum)) => *sum = sum.take().zip(own).map(|(a, b)| a + b),
+                    None => sums.push((name, own)),
+                }
+            }
+        }
+        let told = sums.into_iter();
+        Ok(told.filter_map(|(name, sum)| Some((name, sum?))).collect())
+    }
+
+    /// The verdicts of a reaction in all frames that it has.
+    ///
+    /// # Errors
+    /// [`RequestError::UnknownReaction`], [`RequestError::Large`]
+    pub fn frames(&self, id: ConstraintId) -> Result<Vec<FrameVerdict>, RequestError> {
+        let (k, own) = self.place(id)?;
+        self.configuration(k)?.frames(own)
+    }
+
+    /// The distribution that a choice makes of a solution: one choice in each part.
+    ///
+    /// # Errors
+    /// As [`Configuration::distribute`], and [`RequestError::Large`].
+    pub fn distribute(
+        &self,
+        solution: &Solution,
+        choice: &Choice,
+    ) -> Result<Distribution, ChoiceError> {
+        let lambda = &solution.multipliers;
+        if let [one] = self.parts()
+            && one.extent.is_whole()
+        {
+            return self.configuration(0)?.distribute(lambda, choice);
+        }
+        let rows = self.part_of.len();
+        let rigid = match choice {
+            Choice::Compliance(joints) => {
+                for joint in joints {
+                    self.place(joint.reaction)?;
+                }
+                self.rigid(joints)?
+            }
+            _ => Vec::new(),
+        };
+        let label = Label::of(self.mechanism.layout(), choice, &rigid);
+        let share = |k: usize| {
+            let extent = &self.parts()[k].extent;
+            let own = match choice {
+                Choice::MinimumNorm(weights) => Choice::MinimumNorm(*weights),
+                Choice::Compliance(joints) => Choice::Compliance(self.listed(k, joints)),
+                Choice::Elimination(rows) => Choice::Elimination(extent.own_rows(rows)),
+            };
+            let configuration = self.configuration(k)?;
+            let found = configuration.distribute_as(&extent.of_rows(lambda), &own, label.clone());
+            Ok((extent, found?))
+        };
+        let parts: Vec<Result<_, ChoiceError>> =
+            (0..self.parts().len()).into_par_iter().map(share).collect();
+        let parts = parts.into_iter().collect::<Result<Vec<_>, _>>()?;
+        Ok(Distribution::of_parts(label.clone(), lambda, rows, parts))
+    }
+
+    /// Those of some supports that belong to a part.
+    fn listed(&self, k: usize, joints: &[Compliance]) -> Vec<Compliance> {
+        let own = |joint: &Compliance| {
+            let reaction = self.parts()[k].extent.own_group(joint.reaction.0)?;
+            Some(Compliance {
+                reaction: ConstraintId(reaction),
+                ..*joint
+            })
+        };
+        joints.iter().filter_map(own).collect()
+    }
+
+    fn rigid(&self, joints: &[Compliance]) -> Result<Vec<ConstraintId>, RequestError> {
+        let mut rigid = Vec::new();
+        for (k, part) in self.parts().iter().enumerate() {
+            if part.decision.redundancy() == 0 {
+                continue;
+            }
+            let own = self.configuration(k)?.rigid(&self.listed(k, joints));
+            rigid.extend(own.iter().map(|id| ConstraintId(part.extent.group(id.0))));
+        }
+        rigid.sort_unstable();
+        Ok(rigid)
+    }
+
+    /// Which components are facts, and which depend on a choice: told by a change of units, without any verdict.
+    ///
+    /// # Errors
+    /// As [`crate::check_units`], and [`RequestError::Large`].
+    pub fn facts(&self, v: &[f64], solution: &Solution) -> Result<Vec<UnitCheck>, UnitError> {
+        let time = self.analysis.time;
+        let of_part = |k: usize| {
+            let extent = &self.parts()[k].extent;
+            let configuration = self.configuration(k)?;
+            let equations = match extent.is_whole() {
+                true => Equations::of(self.mechanism, time, &self.q, v)?,
+                false => {
+                    let state = (time, &self.q[..], v);
+                    Equations::of_part(&configuration.mechanism, extent, state, solution)?
+                }
+            };
+            let mut checks = check_equations(configuration, &equations)?;
+            for check in &mut checks {
+                check.id = ConstraintId(extent.group(check.id.0));
+            }
+            Ok(checks)
+        };
+        let parts: Vec<Result<_, UnitError>> = (0..self.parts().len())
+            .into_par_iter()
+            .map(of_part)
+            .collect();
+        let parts = parts.into_iter().collect::<Result<Vec<_>, _>>()?;
+        let mut checks: Vec<UnitCheck> = parts.into_iter().flatten().collect();
+        // In the order of joints; those of one joint stay as they are.
+        checks.sort_by_key(|check| check.id.0);
+        Ok(checks)
+    }
+
+    /// Why the reactions are not unique; of parts whose rank is undecided, or that are too large, nothing is said. `None` if nothing can be said at all.
+    ///
+    /// # Errors
+    /// [`ExplanationError::Rank`], [`ExplanationError::Query`]
+    pub fn explanation(&self) -> Result<Option<Explanation>, ExplanationError> {
+        let of_part = |k: usize| {
+            let Ok(configuration) = self.configuration(k) else {
+                return Ok(None);
+            };
+            let extent = &self.parts()[k].extent;
+            let q = extent.coordinates(&self.q);
+            let solvability = configuration.solvability();
+            match explain(&configuration.mechanism, &configuration.s, &q, solvability) {
+                Ok(mut found) => {
+                    if !extent.is_whole() {
+                        found.renumber(
+                            |row| extent.row(row),
+                            |id| ConstraintId(extent.group(id.0)),
+                            |body| match body {
+                                BodyRef::Ground => BodyRef::Ground,
+                                BodyRef::Body(k) => BodyRef::Body(extent.body(k)),
+                            },
+                        );
+                    }
+                    Ok(Some(found))
+                }
+                Err(ExplanationError::Undecided(_)) => Ok(None),
+                Err(e) => Err(e),
+            }
+        };
+        let parts: Vec<Result<_, ExplanationError>> = (0..self.parts().len())
+            .into_par_iter()
+            .map(of_part)
+            .collect();
+        let mut all: Option<Explanation> = None;
+        for part in parts {
+            match (&mut all, part?) {
+                (Some(all), Some(part)) => all.add(part),
+                (None, Some(part)) => all = Some(part),
+                (_, None) => {}
+            }
+        }
+        if self.parts().len() > 1
+            && let Some(all) = &mut all
+        {
+            all.sort();
+        }
+        Ok(all)
+    }
+
+    /// The number of sets of rows that can be deleted without a change of motion, as many rows as the degree of redundancy.
+    ///
+    /// # Errors
+    /// If the rank of a part or one of its sets is undecided, a part is too large, or they are too many.
+    pub fn eliminations(&self) -> Result<u128, EliminationError> {
+        let mut product = 1_u128;
+        for k in self.redundant() {
+            let own = count_deletions(self.configuration(k)?.solvability().decision())?;
+            product = product.checked_mul(own).ok_or(EliminationError::TooMany {
+                parts: self.redundant().count(),
+            })?;
+        }
+        Ok(product)
+    }
+
+    /// Parts of which something has to be said before anything may be deleted.
+    fn redundant(&self) -> impl Iterator<Item = usize> {
+        let parts = self.parts().iter().enumerate();
+        parts
+            .filter(|(_, part)| {
+                let is_decided = part.decision.status() == linalg::RankStatus::Decided;
+                part.decision.redundancy() > 0 || !is_decided
+            })
+            .map(|(k, _)| k)
+    }
+
+    /// The first of these sets, rows from 0: those of the parts combine like the digits of a number.
+    ///
+    /// # Errors
+    /// If the rank of a part or one of its sets is undecided, or a part is too large.
+    pub fn elimination_sets(&self, limit: usize) -> Result<Vec<Vec<usize>>, EliminationError> {
+        let mut sets = vec![Vec::new()];
+        sets.truncate(limit);
+        for k in self.redundant() {
+            let extent = &self.parts()[k].extent;
+            let own = deletions(self.configuration(k)?.solvability().decision(), limit)?;
+            let placed = |set: &Vec<usize>| set.iter().map(|&row| extent.row(row)).collect();
+            let own: Vec<Vec<usize>> = own.iter().map(placed).collect();
+            let both = |set: &Vec<usize>, own: &Vec<usize>| [set.as_slice(), own].concat();
+            sets = sets
+                .iter()
+                .flat_map(|set| own.iter().map(move |own| both(set, own)))
+                .take(limit)
+                .collect();
+        }
+        sets.iter_mut()
+            .for_each(|set: &mut Vec<usize>| set.sort_unstable());
+        Ok(sets)
+    }
+
+    /// The smallest deletions that make a reaction unique without a change of motion. They are in its part.
+    ///
+    /// # Errors
+    /// If the rank of the part or an answer is undecided, a row that is allowed does not exist, or the part is too large.
+    pub fn make_unique(
+        &self,
+        id: ConstraintId,
+        allowed: &Allowed,
+        limits: Limits,
+    ) -> Result<Proposals, EliminationError> {
+        let (k, own) = self.place(id)?;
+        let extent = &self.parts()[k].extent;
+        let allowed = match (allowed, extent.is_whole()) {
+            (Allowed::Rows(all), false) => {
+                let rows = self.mechanism.layout().rows();
+                if let Some(&row) = all.iter().find(|&&row| row >= rows) {
+                    return Err(DeletionError::RowOutOfRange { row, rows }.into());
+                }
+                Cow::Owned(Allowed::Rows(extent.own_rows(all)))
+            }
+            _ => Cow::Borrowed(allowed),
+        };
+        let configuration = self.configuration(k)?;
+        let solvability = configuration.solvability();
+        let mut found = make_unique(&configuration.mechanism, solvability, own, &allowed, limits)?;
+        for way in &mut found.ways {
+            way.rows.iter_mut().for_each(|row| *row = extent.row(*row));
+        }
+        Ok(found)
+    }
+}
+
+/// What belongs together by parts, in the order of parts.
+fn by_part<T>(
+    placed: impl Iterator<Item = Result<(usize, T), RequestError>>,
+) -> Result<impl Iterator<Item = (usize, Vec<T>)>, RequestError> {
+    let mut parts = std::collections::BTreeMap::<usize, Vec<T>>::new();
+    for item in placed {
+        let (k, item) = item?;
+        parts.entry(k).or_default().push(item);
+    }
+    Ok(parts.into_iter())
+}
+
+impl std::ops::Add for Value {
+    type Output = Self;
+
+    /// A sum is a fact iff both are; of two choices it is that of the first.
+    fn add(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Unique(a), Self::Unique(b)) => Self::Unique(a + b),
+            (Self::Unique(a), Self::Chosen { value, by })
+            | (Self::Chosen { value, by }, Self::Unique(a)) => Self::Chosen {
+                value: value + a,
+                by,
+            },
+            (Self::Chosen { value, by }, Self::Chosen { value: other, .. }) => Self::Chosen {
+                value: value + other,
+                by,
+            },
+        }
+    }
+}

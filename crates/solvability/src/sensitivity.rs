@@ -1,0 +1,291 @@
+//! How much a reaction hangs on the data: by what share it changes when one point moves a little. A reaction may be unique and yet be made of the
+//! last digits of a drawing.
+//!
+//! With the rank held, `M·a + C_Kᵀ·λ = Q`, `C_K·a = Γ` change with a point by its own part of C and Γ, by the pose, which follows so that `Φ_K = 0`, and
+//! by the velocities, which follow so that `C_K·v = b`. For a component `wᵀ·λ` one solution y of the same symmetric equations with right-hand side
+//! (0, w) gives the change by all points at once: `y_aᵀ·(δQ − δCᵀ·λ) + y_λᵀ·(δΓ − δC·a)`.
+//!
+//! Without any load there is nothing that could change. The answer is then given for a load of 1 N on each body, in directions that favour nothing: a
+//! combination of rows of norm σ makes reactions of about 1/σ of it, which change by the share moved/(σ·size).
+//!
+//! Not here: data within which the rank itself changes (`meant`).
+
+mod instant;
+#[cfg(test)]
+mod tests;
+
+use model::{ConstraintId, DataUnit, Layout, Mechanism, Part, System};
+use rayon::prelude::*;
+
+use crate::analysis::Analysis;
+use crate::certificate::ROWS_MAX;
+use crate::choices::ChoiceError;
+use crate::groups::check;
+use crate::words;
+use instant::Instant;
+
+/// A point moves by this share of the mechanism's size (in long chains: of the size of its links), a direction by as many radians: what a careful workshop holds.
+pub const MOVED: f64 = 1e-4;
+
+/// A reaction that changes by more than this share of itself, or of the largest load, is fragile.
+pub const FRAGILE: f64 = 0.1;
+
+/// Joints and drives that are named where nothing can be said of all in a component.
+const NAMED: usize = 3;
+
+/// Changes of a reaction with one point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Sensitivity {
+    /// Largest change, relative to the larger of the reaction and of the largest applied or inertial load, torques divided by the size.
+    pub change: f64,
+    /// What changes it most. `None` if nothing does.
+    pub by: Option<Datum>,
+}
+
+/// A point, direction or number of a joint or drive, and how far it is moved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Datum {
+    /// The joint or drive.
+    pub joint: ConstraintId,
+    /// Its name there.
+    pub name: &'static str,
+    /// How far it is moved (m or rad).
+    pub moved: f64,
+    /// The unit of that.
+    pub unit: DataUnit,
+    /// Whether it is a single number, not a point or a direction.
+    pub is_number: bool,
+}
+
+impl Sensitivity {
+    /// Whether it hangs on the data.
+    #[must_use]
+    pub fn is_fragile(&self) -> bool {
+        self.change > FRAGILE
+    }
+
+    /// In words, for the reaction of this name: that it is unique but changes, by how much, and with what.
+    #[must_use]
+    pub fn sentence(&self, reaction: &str, layout: &Layout) -> String {
+        let change = share(self.change, "its");
+        match &self.by {
+            None => format!("`{reaction}` is unique, and no point of the scene changes it"),
+            Some(by) => format!(
+                "`{reaction}` is unique but changes by {change} if {}",
+                by.condition(layout)
+            ),
+        }
+    }
+}
+
+impl Datum {
+    /// That it is moved, and how far.
+    fn condition(&self, layout: &Layout) -> String {
+        let (what, verb) = match (self.is_number, self.unit) {
+            (true, _) => ("", "changes"),
+            (false, DataUnit::Length) => ("point ", "moves"),
+            (false, DataUnit::Angle) => ("direction ", "turns"),
+        };
+        let moved = match self.unit {
+            DataUnit::Length => length(self.moved),
+            DataUnit::Angle => format!("{:.1e} rad", self.moved),
+        };
+        let joint = &layout.groups[self.joint.0].name;
+        format!("{what}`{}` of `{joint}` {verb} by {moved}", self.name)
+    }
+}
+
+/// A change relative to a size.
+fn share(change: f64, whose: &str) -> String {
+    match change {
+        share if share < 10.0 => format!("{:.2} %", Digits(100.0 * share)),
+        times => format!("{times:.0e} times {whose} size"),
+    }
+}
+
+/// A number for people, with so many digits that count as the precision says.
+struct Digits(f64);
+
+impl std::fmt::Display for Digits {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let digits = f.precision().unwrap_or(2) as i32;
+        let places = match self.0.abs() {
+            x if x > 0.0 && x.is_finite() => digits - 1 - x.log10().floor() as i32,
+            _ => 0,
+        };
+        let unit = 10f64.powi(places);
+        let rounded = (self.0 * unit).round() / unit;
+        write!(f, "{rounded:.*}", places.clamp(0, 12) as usize)
+    }
+}
+
+/// A small length in words.
+#[must_use]
+pub fn length(metres: f64) -> String {
+    match metres.abs() {
+        x if x >= 1.0 => format!("{:.2} m", Digits(metres)),
+        x if x >= 1e-5 => format!("{:.2} mm", Digits(1e3 * metres)),
+        x if x >= 1e-9 => format!("{:.2} µm", Digits(1e6 * metres)),
+        _ => format!("{metres:.1e} m"),
+    }
+}
+
+/// Sensitivities of the reactions of a mechanism of any size.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Sensitivities {
+    /// Joints and drives in the order of their rows. `None` if the reaction is not unique, or if nothing can be said.
+    pub each: Vec<Option<Sensitivity>>,
+    /// Of which unique reactions nothing can be said, and why, in sentences.
+    pub left_out: Vec<String>,
+}
+
+impl Sensitivities {
+    /// The fragile ones.
+    pub fn fragile(&self) -> impl Iterator<Item = (ConstraintId, &Sensitivity)> {
+        let each = self.each.iter().enumerate();
+        let known = each.filter_map(|(k, s)| Some((ConstraintId(k), s.as_ref()?)));
+        known.filter(|(_, s)| s.is_fragile())
+    }
+
+    /// The fragile reactions in words: one sentence for those that hang most on the same point.
+    #[must_use]
+    pub fn sentences(&self, layout: &Layout) -> Vec<String> {
+        let mut groups: Vec<(Option<Datum>, f64, Vec<ConstraintId>)> = Vec::new();
+        for (id, s) in self.fragile() {
+            match groups.iter_mut().find(|(by, ..)| *by == s.by) {
+                Some((_, change, ids)) => {
+                    *change = change.max(s.change);
+                    ids.push(id);
+                }
+                None => groups.push((s.by, s.change, vec![id])),
+            }
+        }
+        let sentence = |(by, change, ids): (Option<Datum>, f64, Vec<ConstraintId>)| {
+            let condition = by.map(|by| by.condition(layout)).unwrap_or_default();
+            let change = share(change, if ids.len() == 1 { "its" } else { "their" });
+            let names = words::list(&words::names(layout, &ids));
+            match ids.len() {
+                1 => format!("{names} is unique but changes by {change} if {condition}"),
+                _ => format!("{names} are unique but change by up to {change} if {condition}"),
+            }
+        };
+        groups.into_iter().map(sentence).collect()
+    }
+}
+
+impl Analysis {
+    /// How much each unique reaction hangs on the data, at the configuration of the analysis and velocities v that satisfy the constraints, component of
+    /// bodies by component, on the threads of the pool of `rayon` from which this is called. Nothing is said where the rank is undecided, and of components
+    /// with more rows than dense matrices are made of.
+    ///
+    /// # Errors
+    /// [`ChoiceError::Request`]: q or v do not fit the mechanism.
+    pub fn sensitivities(
+        &self,
+        mechanism: &Mechanism,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<Sensitivities, ChoiceError> {
+        let layout = mechanism.layout();
+        let mut all = Sensitivities {
+            each: vec![None; layout.groups.len()],
+            left_out: Vec::new(),
+        };
+        let is_unique = |group: usize| self.reactions[group].wrench.verdict.is_unique();
+        if !self.decision.is_decided() || !(0..layout.groups.len()).any(is_unique) {
+            return Ok(all);
+        }
+        check("q", q, layout.n_q)?;
+        check("v", v, layout.n_v)?;
+        let components = mechanism.apart();
+        let judged = components.par_iter().map(|component| {
+            let Part { mechanism, places } = component;
+            let wanted: Vec<usize> = (0..places.groups.len())
+                .filter(|&k| is_unique(places.groups[k]))
+                .collect();
+            if wanted.is_empty() {
+                return Ok(Vec::new());
+            }
+            if places.rows.len() > ROWS_MAX {
+                let rows = places.rows.len();
+                return Err(format!(
+                    "{rows} rows are joined, and matrices of all of them are made up to {ROWS_MAX} rows"
+                ));
+            }
+            let own = |x: &[f64], places: &[usize]| places.iter().map(|&j| x[j]).collect::<Vec<_>>();
+            let (q, v) = (own(q, &places.coordinates), own(v, &places.velocities));
+            let row = |row: &usize| places.rows.binary_search(row).ok();
+            let kept: Vec<usize> = self.decision.kept.iter().filter_map(row).collect();
+            let each = at(mechanism, self.time, &q, &v, &kept, &wanted);
+            let placed = each.map_err(|e| e.to_string())?.into_iter().map(|mut s| {
+                if let Some(by) = &mut s.by {
+                    by.joint = ConstraintId(places.groups[by.joint.0]);
+                }
+                s
+            });
+            let ids = wanted.iter().map(|&k| places.groups[k]);
+            Ok(ids.zip(placed).collect())
+        });
+        let judged: Vec<Result<Vec<(usize, Sensitivity)>, String>> = judged.collect();
+        for (component, judged) in components.iter().zip(judged) {
+            match judged {
+                Ok(found) => {
+                    for (group, sensitivity) in found {
+                        all.each[group] = Some(sensitivity).filter(|s| s.change.is_finite());
+                    }
+                }
+                Err(reason) => {
+                    let groups = &component.places.groups;
+                    let first: Vec<ConstraintId> = groups
+                        .iter()
+                        .take(NAMED)
+                        .map(|&k| ConstraintId(k))
+                        .collect();
+                    let mut names = words::names(layout, &first).join(", ");
+                    if groups.len() > NAMED {
+                        names += &format!(" and {} more", groups.len() - NAMED);
+                    }
+                    all.left_out.push(format!(
+                        "how much the reactions of {names} hang on the data is not known: {reason}"
+                    ));
+                }
+            }
+        }
+        Ok(all)
+    }
+}
+
+/// The sensitivities of all joints and drives, in the order of their rows, at time t, coordinates q and velocities v that satisfy the constraints, with
+/// independent rows `kept`. They mean something for unique reactions only.
+///
+/// # Errors
+/// - [`ChoiceError::Request`]: t, q or v do not fit the mechanism.
+/// - [`ChoiceError::Saddle`]: the kept rows and the masses do not determine the accelerations.
+pub fn sensitivities(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    v: &[f64],
+    kept: &[usize],
+) -> Result<Vec<Sensitivity>, ChoiceError> {
+    let layout = mechanism.layout();
+    check("t", &[t], 1)?;
+    check("q", q, layout.n_q)?;
+    check("v", v, layout.n_v)?;
+    let all: Vec<usize> = (0..layout.groups.len()).collect();
+    at(mechanism, t, q, v, kept, &all)
+}
+
+/// Those of some joints and drives.
+fn at(
+    mechanism: &Mechanism,
+    t: f64,
+    q: &[f64],
+    v: &[f64],
+    kept: &[usize],
+    wanted: &[usize],
+) -> Result<Vec<Sensitivity>, ChoiceError> {
+    let mut instant = Instant::new(mechanism, t, q, v, kept)?;
+    let each = wanted.iter().map(|&k| instant.of(ConstraintId(k)));
+    each.collect()
+}

@@ -1,0 +1,189 @@
+//! Free motions of the gallery: as many as the mobility, independent, on the constraints by
+//! differences of Φ, and in words that were derived by hand.
+
+use linalg::{Matrix, PivotedQr};
+use model::{Mechanism, Registry, System};
+use pfaff::solvability::{FreeMotions, Freedoms};
+use pfaff::{Overrides, Study};
+
+use super::examples::{files, read, scene};
+
+/// Half the step of a difference: its error is a few times its square, rounding of Φ divided by it
+/// is smaller.
+const STEP: f64 = 1e-5;
+
+/// What a difference may miss by for velocities and lengths of a few units.
+const DIFFERENCE: f64 = 1e-7;
+
+/// What a row of Ψ may miss by.
+const ROUNDING: f64 = 1e-11;
+
+/// Directions that differ by more than this are independent.
+const INDEPENDENT: f64 = 1e-3;
+
+fn study(name: &str) -> Study {
+    let text = read(&scene(name));
+    let found = Study::read(name, &text, &Registry::planar(), &Overrides::default());
+    found.unwrap_or_else(|e| panic!("{name}: {e}"))
+}
+
+fn freedoms(study: &Study) -> Freedoms {
+    let start = study.inquire(0.0, None).expect("a start");
+    start.freedoms().expect("its configuration")
+}
+
+fn texts(motions: &FreeMotions) -> Vec<&str> {
+    motions.motions.iter().map(|m| m.text.as_str()).collect()
+}
+
+/// All velocities of all motions, n_v each.
+fn velocities(mechanism: &Mechanism, motions: &FreeMotions) -> Vec<Vec<f64>> {
+    let all = motions.motions.iter().flat_map(|m| &m.velocities);
+    all.map(|bodies| {
+        let mut v = vec![0.0; mechanism.layout().n_v];
+        for (body, own) in bodies {
+            v[mechanism.layout().columns(*body)].copy_from_slice(own);
+        }
+        v
+    })
+    .collect()
+}
+
+/// The rows of Φ do not change along a motion, those of Ψ vanish on it. Drives stand still, or are
+/// left out.
+fn stays_on(mechanism: &Mechanism, q: &[f64], v: &[f64], drives: bool, name: &str) {
+    let layout = mechanism.layout();
+    let left_out = if drives {
+        Vec::new()
+    } else {
+        layout.drive_rows()
+    };
+    let rows = (0..layout.rows()).filter(|row| !left_out.contains(row));
+    let phi = |along: f64| {
+        let mut s = mechanism.scratch();
+        let moved: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + along * v).collect();
+        mechanism.pose(0.0, &moved, &mut s);
+        mechanism.phi(&mut s);
+        s.phi
+    };
+    let (ahead, behind) = (phi(STEP), phi(-STEP));
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, q, &mut s);
+    mechanism.c(&mut s);
+    for row in rows {
+        let (rate, allowed) = match row < layout.m {
+            true => ((ahead[row] - behind[row]) / (2.0 * STEP), DIFFERENCE),
+            false => (layout.row(&s, row).map(|(j, c)| c * v[j]).sum(), ROUNDING),
+        };
+        let label = &layout.labels[row];
+        assert!(rate.abs() < allowed, "{name}, row {label}: {rate:e}");
+    }
+}
+
+#[test]
+fn motions_of_the_gallery_are_a_basis_of_what_the_rows_allow() {
+    let mut seen = 0;
+    for name in files(".toml")
+        .iter()
+        .map(String::as_str)
+        .chain(["robot-trolley"])
+    {
+        let study = study(name);
+        let (mechanism, q) = (&study.prepared.mechanism, &study.prepared.q);
+        let found = freedoms(&study);
+        let without = found.without_drives.as_ref();
+        let with = Some((true, found.mobility, &found.motions));
+        let without = without.map(|d| (false, d.mobility, &d.motions));
+        for (drives, mobility, motions) in [with, without].into_iter().flatten() {
+            assert_eq!(motions.left_out, None, "{name}");
+            let all = velocities(mechanism, motions);
+            assert_eq!(all.len(), mobility, "{name}: {motions:?}");
+            let n = mechanism.layout().n_v;
+            let units = Matrix::from_fn(all.len(), n, |i, j| {
+                let length = all[i].iter().map(|v| v * v).sum::<f64>().sqrt();
+                all[i][j] / length
+            });
+            let smallest = PivotedQr::of_rows(units).r_diagonal().last();
+            assert!(smallest.is_none_or(|p| p.abs() > INDEPENDENT), "{name}");
+            for v in &all {
+                stays_on(mechanism, q, v, drives, name);
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 25, "{seen} motions");
+}
+
+/// The slider moves the links, which turn the knuckles of both axles; all else stands. With the
+/// drive the cart rolls straight ahead.
+#[test]
+fn the_robot_rolls_and_steers() {
+    let found = freedoms(&study("robot-trolley"));
+    let rolls = "`platform`, `front-knuckle`, `rear-knuckle`, `front-link`, `rear-link`, `slider` and `trolley` slide together along (1, 0)";
+    assert_eq!((found.mobility, texts(&found.motions)), (1, vec![rolls]));
+    let without = found.without_drives.expect("it is steered by a drive");
+    let ranks = (without.ranks.rank, without.ranks.redundancy);
+    assert_eq!((without.mobility, ranks), (2, (19, 2)));
+    let steers = "`slider` slides along (0, 1); with it `front-knuckle`, `rear-knuckle`, `front-link` and `rear-link` turn";
+    let mut all = texts(&without.motions);
+    all.sort_unstable();
+    assert_eq!(all, [rolls, steers]);
+}
+
+/// Rotor and axles turn by themselves, each about its pivot; the board with all of them rolls along
+/// its wheels.
+#[test]
+fn the_snakeboard_has_a_motion_for_each_drive() {
+    let found = freedoms(&study("snakeboard"));
+    let rolls = "`board`, `rotor`, `front` and `rear` slide together along (1, 0)";
+    assert_eq!(texts(&found.motions), [rolls]);
+    let without = found.without_drives.expect("three drives");
+    assert_eq!((without.drives, without.mobility), (3, 4));
+    let mut all = texts(&without.motions);
+    all.sort_unstable();
+    let expected = [
+        rolls,
+        "`front` turns about `front-pivot`",
+        "`rear` turns about `rear-pivot`",
+        "`rotor` turns about `hip`",
+    ];
+    assert_eq!(all, expected);
+}
+
+/// ω of sun, carrier and planets are 3 : 1 : −3, and the centres of the planets move with the
+/// carrier.
+#[test]
+fn the_planetary_gear_turns_as_one() {
+    let study = study("planetary-gear");
+    let found = freedoms(&study);
+    let words = "`sun` turns about `sun-bearing`; with it `carrier`, `planet-1`, `planet-2` and `planet-3` turn";
+    assert_eq!(texts(&found.motions), [words]);
+    let v = &velocities(&study.prepared.mechanism, &found.motions)[0];
+    let q = &study.prepared.q;
+    let carrier = 1.0 / 3.0;
+    for (body, omega) in [1.0, carrier, -1.0, -1.0, -1.0].into_iter().enumerate() {
+        let [x, y] = [q[3 * body], q[3 * body + 1]];
+        let derived = [-carrier * y, carrier * x, omega];
+        for (found, derived) in v[3 * body..].iter().zip(derived) {
+            assert!((found - derived).abs() < 1e-12, "{v:?}");
+        }
+    }
+}
+
+/// Two motors drive two cranks, and a third law is one too many; without them crank and link move,
+/// one at a time where the other stands.
+#[test]
+fn redundancy_of_drives_goes_with_them() {
+    let found = freedoms(&study("five-bar"));
+    let without = found.without_drives.expect("drives");
+    assert_eq!((without.ranks.redundancy, without.mobility), (0, 2));
+}
+
+/// What cannot move is told so, and what moves by its drive alone is not.
+#[test]
+fn a_truss_and_a_door_cannot_move() {
+    for (name, cannot) in [("truss", true), ("door", true), ("four-bar", false)] {
+        let found = freedoms(&study(name));
+        assert_eq!((found.mobility, found.cannot_move), (0, cannot), "{name}");
+    }
+}

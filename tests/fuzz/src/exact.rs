@@ -1,0 +1,71 @@
+//! A foreign examiner of verdicts: degenerate scenes that are drawn in fractions, moved, written as
+//! text with every number rounded once, and judged by exact arithmetic. What `analyze` says of the
+//! text must be what holds of the fractions: ranks, verdicts, components, rows, dependencies, and
+//! every sentence.
+//!
+//! The oracle shares nothing with what it examines: the rows are lines of force in the coordinates
+//! of the drawing, not derivatives of Φ at coordinates of bodies, and their ranks come from
+//! elimination of whole numbers.
+//!
+//! | module | content |
+//! | --- | --- |
+//! | [`ratio`] | fractions, and sums with one square root |
+//! | [`drawing`] | bodies and joints at one configuration, in fractions |
+//! | [`families`] | kinds of degenerate drawings, with their near relatives that are not |
+//! | [`pose`] | where and how a drawing is written down: moved, turned, swapped, in another order |
+//! | [`text`] | the scene as text |
+//! | [`rows`] | its constraint rows as lines of force |
+//! | [`truth`] | what exact arithmetic says |
+//! | [`told`] | what the program says |
+//! | [`examine`] | the two compared |
+//! | [`words`] | the same for sentences |
+//! | [`deletions`] | the same for what may be deleted |
+//! | [`tally`] | many scenes |
+
+pub mod deletions;
+pub mod drawing;
+pub mod examine;
+pub mod families;
+pub mod pose;
+pub mod ratio;
+pub mod rows;
+pub mod tally;
+pub mod text;
+pub mod told;
+pub mod truth;
+pub mod words;
+
+use tests::numbers::Numbers;
+
+use drawing::Drawing;
+use families::Family;
+use pose::{Posed, Writing};
+
+/// One scene: a drawing, and how it is written down.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Its family.
+    pub family: Family,
+    /// How it is written down.
+    pub writing: Writing,
+    /// The drawing, moved and in its order.
+    pub posed: Posed,
+}
+
+/// Scene `number` of a seed. Scenes `4·k` to `4·k + 3` are the same drawing, written down in the
+/// ways of [`Writing::ALL`].
+#[must_use]
+pub fn scene(seed: u64, number: u64) -> Scene {
+    let ways = Writing::ALL.len() as u64;
+    let (drawn, way) = (number / ways, number % ways);
+    let family = Family::ALL[(drawn % Family::ALL.len() as u64) as usize];
+    let stream = |salt: u64| Numbers::new(seed ^ Numbers::new(salt).bits());
+    let drawing: Drawing = family.draw(&mut stream(drawn));
+    let writing = Writing::ALL[way as usize];
+    let posed = Posed::new(&drawing, writing, &mut stream(!number));
+    Scene {
+        family,
+        writing,
+        posed,
+    }
+}

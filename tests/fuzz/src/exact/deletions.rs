@@ -1,0 +1,86 @@
+//! What may be deleted: the number of sets of rows without which the motion is the same, and what
+//! makes a reaction unique.
+
+use serde_json::Value;
+
+use super::examine::{Findings, Kind, list, rows};
+use super::truth::Truth;
+
+/// More sets than this are not counted one by one.
+const COUNTED: usize = 400;
+
+/// Examines both.
+pub fn examine(truth: &Truth, told: &Value, findings: &mut Findings) {
+    let (all, redundancy) = (truth.rows.len(), truth.redundancy());
+    if binomial(all, redundancy).is_some_and(|sets| sets <= COUNTED) {
+        let right = count(truth, redundancy, 0, &mut Vec::new());
+        let told = &told["eliminations"];
+        match told["count"].is_null() {
+            true => findings.note(Kind::Undecided, format!("eliminations: {}", told["reason"])),
+            false => findings.number(Kind::Sentence, "eliminations", &told["count"], right),
+        }
+    }
+    for proposals in list(&told["make_unique"]) {
+        make_unique(truth, proposals, findings);
+    }
+}
+
+/// Sets of rows in ascending order that can be deleted besides those of `deleted`.
+fn count(truth: &Truth, missing: usize, from: usize, deleted: &mut Vec<usize>) -> usize {
+    if missing == 0 {
+        return usize::from(truth.keeps_motion(deleted));
+    }
+    let mut sum = 0;
+    for row in from..truth.rows.len() {
+        // A row that no other replaces is in no set.
+        if !truth.row_is_unique(row) {
+            deleted.push(row);
+            sum += count(truth, missing - 1, row + 1, deleted);
+            deleted.pop();
+        }
+    }
+    sum
+}
+
+fn binomial(n: usize, k: usize) -> Option<usize> {
+    (0..k).try_fold(1_usize, |product, i| {
+        Some(product.checked_mul(n - i)? / (i + 1))
+    })
+}
+
+fn make_unique(truth: &Truth, told: &Value, findings: &mut Findings) {
+    let name = told["reaction"].as_str().unwrap_or_default();
+    let mut links = truth.posed.links.iter();
+    let Some(link) = links.position(|p| p.link.name == name) else {
+        findings.note(Kind::Sentence, format!("nobody asked for `{name}`"));
+        return;
+    };
+    if told["reason"].is_string() {
+        let text = format!("what makes `{name}` unique: {}", told["reason"]);
+        findings.note(Kind::Undecided, text);
+        return;
+    }
+    let own = truth.rows_of(link);
+    let works =
+        |deleted: &[usize]| truth.keeps_motion(deleted) && truth.is_unique_without(&own, deleted);
+    let ways: Vec<Vec<usize>> = list(&told["ways"])
+        .iter()
+        .map(|w| rows(&w["rows"]))
+        .collect();
+    for way in &ways {
+        if !works(way) {
+            let text = format!("`{name}` is not unique without rows (from 0) {way:?}");
+            findings.note(Kind::Sentence, text);
+        }
+    }
+    // All of the smallest size are told; the reaction itself stays.
+    let others = (0..truth.rows.len()).filter(|row| !own.contains(row));
+    let alone: Vec<usize> = others.filter(|&row| works(&[row])).collect();
+    let is_left_out = alone.iter().any(|row| !ways.contains(&vec![*row]));
+    if told["complete"] == true && is_left_out {
+        let text = format!(
+            "`{name}` is unique without each of rows (from 0) {alone:?}, told are {ways:?}"
+        );
+        findings.note(Kind::Sentence, text);
+    }
+}

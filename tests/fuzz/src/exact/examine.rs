@@ -1,0 +1,295 @@
+//! What the program says, compared with what exact arithmetic says.
+
+use serde_json::{Value, json};
+
+use super::pose::Posed;
+use super::truth::Truth;
+use super::{deletions, words};
+
+/// What is to be thought of one thing that was said, from bad to worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Kind {
+    /// No answer: the scene was refused.
+    Refused,
+    /// The program says that it does not know.
+    Undecided,
+    /// A dependency or a sentence that does not hold.
+    Sentence,
+    /// A force or torque that a joint carries in a dependency is wrong.
+    Load,
+    /// A wrong verdict.
+    Verdict,
+    /// A wrong number: a rank, a redundancy, kept rows.
+    Rank,
+    /// The program panicked.
+    Panic,
+}
+
+impl Kind {
+    /// Whether somebody was told something that is not so.
+    #[must_use]
+    pub fn is_wrong(self) -> bool {
+        !matches!(self, Self::Refused | Self::Undecided)
+    }
+
+    /// In words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Refused => "refused",
+            Self::Undecided => "undecided",
+            Self::Rank => "rank wrong",
+            Self::Verdict => "verdict wrong",
+            Self::Sentence => "sentence wrong",
+            Self::Load => "load wrong",
+            Self::Panic => "panic",
+        }
+    }
+}
+
+/// One thing that is not right.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// What is to be thought of it.
+    pub kind: Kind,
+    /// What was said, and what is so.
+    pub text: String,
+}
+
+/// All that is not right.
+#[derive(Debug, Default)]
+pub struct Findings(pub Vec<Finding>);
+
+impl Findings {
+    /// Adds one.
+    pub fn note(&mut self, kind: Kind, text: String) {
+        self.0.push(Finding { kind, text });
+    }
+
+    /// Compares a number.
+    pub(super) fn number(&mut self, kind: Kind, what: &str, told: &Value, right: usize) {
+        if told.as_u64() != Some(right as u64) {
+            self.note(kind, format!("{what}: told {told}, is {right}"));
+        }
+    }
+
+    /// Compares a verdict.
+    fn verdict(&mut self, what: &str, told: &Value, is_unique: bool) {
+        let right = if is_unique { "unique" } else { "not_unique" };
+        match told.as_str() {
+            Some("undecided") => self.note(Kind::Undecided, format!("{what}: undecided")),
+            Some(told) if told == right => {}
+            _ => self.note(Kind::Verdict, format!("{what}: told {told}, is {right}")),
+        }
+    }
+}
+
+/// Numbers of dependencies are right to this share of the largest: they were computed in doubles.
+const ROUNDING: f64 = 1e-9;
+
+/// The same for each metre that a scene was moved: coordinates are known to 1e-16 of that, and
+/// rounding grows ten thousandfold on the way through small angles.
+const ROUNDING_PER_METRE: f64 = 1e-12;
+
+/// What numbers of dependencies may be off by.
+#[must_use]
+pub fn rounding(posed: &Posed) -> f64 {
+    ROUNDING.max(ROUNDING_PER_METRE * posed.distance())
+}
+
+/// The entries of an array.
+pub(super) fn list(value: &Value) -> &[Value] {
+    value.as_array().map_or(&[], Vec::as_slice)
+}
+
+/// Rows of the program, from 0.
+pub(super) fn rows(value: &Value) -> Vec<usize> {
+    let row = |x: &Value| x.as_u64().and_then(|x| x.checked_sub(1));
+    list(value)
+        .iter()
+        .filter_map(row)
+        .map(|x| x as usize)
+        .collect()
+}
+
+/// Compares a document with the truth.
+#[must_use]
+pub fn examine(truth: &Truth, told: &Value) -> Findings {
+    let mut findings = Findings::default();
+    let is_decided = told["evidence"]["status"] == "decided";
+    if is_decided {
+        ranks(truth, told, &mut findings);
+    } else {
+        let reason = &told["evidence"]["reason"];
+        findings.note(Kind::Undecided, format!("rank {}: {reason}", told["rank"]));
+    }
+    for (link, placed) in truth.posed.links.iter().enumerate() {
+        let name = &placed.link.name;
+        let reactions = list(&told["reactions"]).iter();
+        match reactions.clone().find(|r| r["name"] == name.as_str()) {
+            Some(reaction) => of_reaction(truth, link, reaction, &mut findings),
+            None => findings.note(Kind::Verdict, format!("{name} has no verdict")),
+        }
+    }
+    if is_decided {
+        words::examine(truth, told, &mut findings);
+        deletions::examine(truth, told, &mut findings);
+    }
+    findings
+}
+
+fn ranks(truth: &Truth, told: &Value, findings: &mut Findings) {
+    let (rows_in_all, rank) = (truth.rows.len(), truth.rank());
+    let freedom = 3 * truth.posed.frames.len() - rank;
+    findings.number(Kind::Rank, "rows", &told["rows"], rows_in_all);
+    findings.number(Kind::Rank, "rank", &told["rank"], rank);
+    findings.number(
+        Kind::Rank,
+        "redundancy",
+        &told["redundancy"],
+        rows_in_all - rank,
+    );
+    findings.number(Kind::Rank, "mobility", &told["mobility"], freedom);
+    for (key, what, nonholonomic) in [
+        ("rank_holonomic", "Φq", false),
+        ("rank_nonholonomic", "Ψ", true),
+    ] {
+        let doubt = format!("the rank of {what} alone is undecided");
+        let mut warnings = list(&told["warnings"]).iter();
+        match warnings.any(|w| w.as_str().is_some_and(|w| w.contains(&doubt))) {
+            true => findings.note(Kind::Undecided, doubt),
+            false => findings.number(Kind::Rank, key, &told[key], truth.rank_where(nonholonomic)),
+        }
+    }
+    if truth.posed.has_constant_rank {
+        let elsewhere = &told["generic"]["redundancy"];
+        if !elsewhere.is_null() {
+            let what = "redundancy elsewhere";
+            findings.number(Kind::Sentence, what, elsewhere, truth.redundancy());
+        }
+        if told["evidence"]["permanent"] == false {
+            findings.note(Kind::Sentence, "the rank is the same everywhere".to_owned());
+        }
+    }
+    let kept = rows(&told["kept_rows"]);
+    if kept.len() != rank || truth.rank_of(&kept) != rank {
+        let text = format!(
+            "the kept rows {} have rank {}",
+            told["kept_rows"],
+            truth.rank_of(&kept)
+        );
+        findings.note(Kind::Rank, text);
+    }
+}
+
+fn of_reaction(truth: &Truth, link: usize, told: &Value, findings: &mut Findings) {
+    let name = &truth.posed.links[link].link.name;
+    let own = truth.rows_of(link);
+    if rows(&told["rows"]) != own {
+        findings.note(Kind::Rank, format!("{name}: told rows {}", told["rows"]));
+        return;
+    }
+    let is_unique = truth.is_unique(&own);
+    findings.verdict(name, &told["verdict"], is_unique);
+    if told["settled"].is_string() && !is_unique {
+        findings.note(
+            Kind::Sentence,
+            format!("{name}: settled as {}, is not unique", told["settled"]),
+        );
+    }
+    let all_rows = own.iter().all(|&i| truth.row_is_unique(i));
+    findings.verdict(
+        &format!("{name}, multipliers"),
+        &told["multipliers"],
+        all_rows,
+    );
+    for row in list(&told["row_verdicts"]) {
+        let what = format!("{name}, row {}", row["row"]);
+        match rows(&json!([row["row"]])).first().copied() {
+            Some(i) if own.contains(&i) => {
+                findings.verdict(&what, &row["verdict"], truth.row_is_unique(i));
+            }
+            _ => findings.note(Kind::Rank, what),
+        }
+    }
+    let Some(free) = truth.free_wrenches(link) else {
+        return;
+    };
+    for component in list(&told["components"]) {
+        let axis = component["name"].as_str().unwrap_or_default();
+        let is_unique = free.iter().all(|w| w.is_zero(axis, truth.posed));
+        findings.verdict(&format!("{name}.{axis}"), &component["verdict"], is_unique);
+    }
+    directions(truth, link, told, findings);
+}
+
+/// The unique directions are as many as there are, and no solution without loads has a component
+/// along them.
+fn directions(truth: &Truth, link: usize, told: &Value, findings: &mut Findings) {
+    let name = &truth.posed.links[link].link.name;
+    let directions = list(&told["unique_directions"]);
+    let verdicts = list(&told["components"]).iter().map(|c| &c["verdict"]);
+    if verdicts.chain([&told["verdict"]]).any(|v| v == "undecided")
+        || told["unique_directions"].is_null()
+    {
+        return;
+    }
+    let right = truth.live_directions(link);
+    if directions.len() != right {
+        // None at all are told where their number is in doubt.
+        let kind = if directions.is_empty() {
+            Kind::Undecided
+        } else {
+            Kind::Verdict
+        };
+        let text = format!(
+            "{name}: told {} unique directions, has {right}",
+            directions.len()
+        );
+        findings.note(kind, text);
+        return;
+    }
+    let axes = list(&told["components"]).iter().map(|c| &c["name"]);
+    let axes: Vec<usize> = axes
+        .filter_map(|name| ["Fx", "Fy", "T"].iter().position(|axis| name == axis))
+        .collect();
+    let vectors = directions
+        .iter()
+        .map(|d| list(d).iter().map(|x| x.as_f64().unwrap_or(f64::NAN)));
+    let vectors: Vec<Vec<f64>> = vectors.map(Iterator::collect).collect();
+    for direction in &vectors {
+        if let Some(share) = along_free(truth, link, &axes, direction) {
+            let text = format!(
+                "{name}: direction {direction:?} is not unique: {share:.1e} of a free wrench"
+            );
+            findings.note(Kind::Verdict, text);
+        }
+    }
+}
+
+/// What a free wrench has along a direction of components, relative to both, if that is more than
+/// rounding.
+pub(super) fn along_free(
+    truth: &Truth,
+    link: usize,
+    axes: &[usize],
+    direction: &[f64],
+) -> Option<f64> {
+    let norm = |v: &[f64]| v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let shares = truth.free_wrenches(link)?.into_iter().map(|w| {
+        let w = w.rounded(truth.posed);
+        let w: Vec<f64> = axes.iter().map(|&axis| w[axis]).collect();
+        let product: f64 = w.iter().zip(direction).map(|(a, b)| a * b).sum();
+        match norm(&w) * norm(direction) {
+            0.0 => 0.0,
+            size => product.abs() / size,
+        }
+    });
+    // Directions are printed with all digits, sentences have four.
+    shares.fold(None, |worst: Option<f64>, share| {
+        match share <= rounding(truth.posed) {
+            true => worst,
+            false => Some(worst.map_or(share, |worst| worst.max(share))),
+        }
+    })
+}

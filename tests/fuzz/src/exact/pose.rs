@@ -1,0 +1,276 @@
+//! Where and how a drawing is written down: moved as a whole, each body with a frame of its own,
+//! bodies and joints in another order, first and second body exchanged, places in the world or in
+//! the frames of bodies. None of this changes what is true.
+
+use tests::numbers::Numbers;
+
+use super::drawing::{Drawing, Link, Side, Tie, Vector};
+use super::ratio::{Ratio, Surd};
+
+/// A way to write down a drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Writing {
+    /// As it is drawn.
+    AsDrawn,
+    /// In another order, in quarter turns, with other frames of the bodies.
+    Reordered,
+    /// The same, turned by any angle and moved by its size.
+    Moved,
+    /// The same, moved by 1e3 m to 1e6 m.
+    Far,
+}
+
+impl Writing {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::AsDrawn, Self::Reordered, Self::Moved, Self::Far];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::AsDrawn => "as drawn",
+            Self::Reordered => "reordered",
+            Self::Moved => "moved",
+            Self::Far => "far",
+        }
+    }
+}
+
+/// Legs and hypotenuses: angles whose sine and cosine are fractions.
+const TRIPLES: [[i64; 3]; 7] = [
+    [3, 4, 5],
+    [5, 12, 13],
+    [8, 15, 17],
+    [7, 24, 25],
+    [20, 21, 29],
+    [12, 35, 37],
+    [336, 527, 625],
+];
+
+/// Cosine and sine.
+type Turn = [Ratio; 2];
+
+const NO_TURN: Turn = [Ratio::ONE, Ratio::ZERO];
+
+/// The frame of a body.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    /// Its origin, in the drawing.
+    pub origin: Vector,
+    /// Its angle in the world.
+    pub turn: Turn,
+}
+
+/// A joint or drive as it is written.
+#[derive(Clone, Debug)]
+pub struct Placed {
+    /// The joint.
+    pub link: Link,
+    /// Whether its points are written in the frames of its bodies.
+    pub is_local: bool,
+    /// A direction is written times this; divided by its length where there is no factor.
+    pub factor: Option<Ratio>,
+}
+
+/// A drawing in the world.
+#[derive(Clone, Debug)]
+pub struct Posed {
+    /// The stretch of the drawing, before it is turned.
+    pub stretch: u32,
+    /// How it is turned.
+    pub turn: Turn,
+    /// How it is moved then.
+    pub shift: Vector,
+    /// Frames of the bodies.
+    pub frames: Vec<Frame>,
+    /// The bodies in the order of the file.
+    pub order: Vec<usize>,
+    /// Joints and drives in the order of the file.
+    pub links: Vec<Placed>,
+    /// As in the drawing.
+    pub redundancy: Option<usize>,
+    /// As in the drawing.
+    pub has_constant_rank: bool,
+    /// As in the drawing, with the seed of the errors.
+    pub careless: Option<u64>,
+}
+
+impl Posed {
+    /// Writes down a drawing.
+    #[must_use]
+    pub fn new(drawing: &Drawing, writing: Writing, numbers: &mut Numbers) -> Self {
+        let n = drawing.origins.len();
+        let is_as_drawn = writing == Writing::AsDrawn;
+        let by_quarters = writing == Writing::Reordered
+            || drawing.stretch != 1 && drawing.links.iter().any(|l| l.tie.has_axes());
+        let turn = match (is_as_drawn, by_quarters) {
+            (true, _) => NO_TURN,
+            (false, true) => quarter(numbers),
+            (false, false) => any_turn(numbers),
+        };
+        let shift = match writing {
+            Writing::AsDrawn => [Ratio::ZERO; 2],
+            Writing::Reordered => [0; 2].map(|_| thirds(numbers, 3)),
+            Writing::Moved => [0; 2].map(|_| thirds(numbers, 30)),
+            Writing::Far => {
+                let size = 10_i32.pow(3 + numbers.below(4) as u32);
+                [0; 2].map(|_| thirds(numbers, 3 * size))
+            }
+        };
+        let frame = |(body, origin): (usize, &Option<Vector>)| Frame {
+            origin: origin.unwrap_or_else(|| origin_of(drawing, body, is_as_drawn, numbers)),
+            turn: match (is_as_drawn, numbers.below(4)) {
+                (true, _) | (false, 0) => NO_TURN,
+                (false, 1) => quarter(numbers),
+                (false, _) => any_turn(numbers),
+            },
+        };
+        let frames = drawing.origins.iter().enumerate().map(frame).collect();
+        let (order, links) = match is_as_drawn {
+            true => ((0..n).collect(), (0..drawing.links.len()).collect()),
+            false => (numbers.order(n), numbers.order(drawing.links.len())),
+        };
+        Self {
+            stretch: drawing.stretch,
+            turn,
+            shift,
+            frames,
+            order,
+            links: placed(drawing, &links, is_as_drawn, numbers),
+            redundancy: drawing.redundancy,
+            has_constant_rank: drawing.has_constant_rank,
+            careless: drawing.is_careless.then(|| numbers.bits()),
+        }
+    }
+
+    /// A vector of the drawing in the world.
+    #[must_use]
+    pub fn vector(&self, [x, y]: Vector) -> [Surd; 2] {
+        let [c, s] = self.turn;
+        // Turned after the stretch; √1 is rational.
+        let surd = |x: Ratio, y: Ratio| match self.stretch {
+            1 => Surd {
+                a: x + y,
+                b: Ratio::ZERO,
+            },
+            _ => Surd { a: x, b: y },
+        };
+        [surd(c * x, -s * y), surd(s * x, c * y)]
+    }
+
+    /// A point of the drawing in the world.
+    #[must_use]
+    pub fn point(&self, p: Vector) -> [Surd; 2] {
+        let shift = self.shift.map(|a| Surd { a, b: Ratio::ZERO });
+        let [x, y] = self.vector(p);
+        [x + shift[0], y + shift[1]]
+    }
+
+    /// A vector of the drawing in the frame of a side.
+    #[must_use]
+    pub fn vector_in(&self, side: Side, v: Vector) -> [Surd; 2] {
+        let [c, s] = side.map_or(NO_TURN, |k| self.frames[k].turn);
+        let [x, y] = self.vector(v);
+        [x.times(c) + y.times(s), x.times(-s) + y.times(c)]
+    }
+
+    /// A point of the drawing in the frame of a side.
+    #[must_use]
+    pub fn point_in(&self, side: Side, p: Vector) -> [Surd; 2] {
+        let Some(k) = side else { return self.point(p) };
+        let o = self.frames[k].origin;
+        self.vector_in(side, [p[0] - o[0], p[1] - o[1]])
+    }
+
+    /// The origin of a side, in the drawing. `None` for the ground of a drawing that was moved: it
+    /// lies nowhere in it.
+    #[must_use]
+    pub fn origin(&self, side: Side) -> Option<Vector> {
+        side.map(|k| self.frames[k].origin)
+    }
+
+    /// How far it was moved (m).
+    #[must_use]
+    pub fn distance(&self) -> f64 {
+        self.shift[0].rounded().hypot(self.shift[1].rounded())
+    }
+}
+
+/// At one of its own points, where levers vanish, or anywhere.
+fn origin_of(drawing: &Drawing, body: usize, is_as_drawn: bool, numbers: &mut Numbers) -> Vector {
+    let links = drawing
+        .links
+        .iter()
+        .filter(|l| l.sides.contains(&Some(body)));
+    let points: Vec<Vector> = links.flat_map(|l| l.tie.points()).collect();
+    match (numbers.below(3), is_as_drawn) {
+        (0, _) if !points.is_empty() => points[numbers.below(points.len())],
+        (1, true) => [Ratio::ZERO; 2],
+        _ => [0; 2].map(|_| tenths(numbers, 20)),
+    }
+}
+
+/// Joints and drives in an order, each written in some way.
+fn placed(
+    drawing: &Drawing,
+    order: &[usize],
+    is_as_drawn: bool,
+    numbers: &mut Numbers,
+) -> Vec<Placed> {
+    let swaps: Vec<bool> = (drawing.links.iter())
+        .map(|_| !is_as_drawn && numbers.once_in(2))
+        .collect();
+    let place = |&k: &usize| {
+        let link = &drawing.links[k];
+        // A drive has the bodies of its joint, in their order.
+        let is_swapped = match link.tie {
+            Tie::AngleDrive { joint } => swaps[joint],
+            _ => swaps[k],
+        };
+        let link = match (is_swapped, link.tie) {
+            (true, Tie::AngleDrive { .. }) => Link {
+                sides: link.sides.iter().rev().copied().collect(),
+                ..link.clone()
+            },
+            (true, _) => link.swapped().unwrap_or_else(|| link.clone()),
+            (false, _) => link.clone(),
+        };
+        Placed {
+            link,
+            is_local: numbers.once_in(2),
+            factor: match numbers.below(4) {
+                0 => Some(Ratio::ONE),
+                1 => Some(Ratio::new(1, 7)),
+                2 => Some(Ratio::new(11, 10)),
+                _ => None,
+            },
+        }
+    };
+    order.iter().map(place).collect()
+}
+
+/// A whole number of thirds.
+fn thirds(numbers: &mut Numbers, most: i32) -> Ratio {
+    Ratio::new(numbers.between(-most, most).into(), 3)
+}
+
+fn tenths(numbers: &mut Numbers, most: i32) -> Ratio {
+    Ratio::new(numbers.between(-most, most).into(), 10)
+}
+
+fn quarter(numbers: &mut Numbers) -> Turn {
+    let one = Ratio::whole(1 - 2 * numbers.below(2) as i64);
+    match numbers.once_in(2) {
+        true => [one, Ratio::ZERO],
+        false => [Ratio::ZERO, one],
+    }
+}
+
+fn any_turn(numbers: &mut Numbers) -> Turn {
+    let [mut a, mut b, c] = TRIPLES[numbers.below(TRIPLES.len())];
+    if numbers.once_in(2) {
+        (a, b) = (b, a);
+    }
+    let mut leg = |a: i64| Ratio::new((a * (1 - 2 * numbers.below(2) as i64)).into(), c.into());
+    [leg(a), leg(b)]
+}

@@ -1,0 +1,229 @@
+//! Fractions, and sums `a + b·√k` of fractions, rounded to `f64` once.
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+/// A fraction in lowest terms, with a positive denominator. Numbers of drawings are small: what
+/// does not fit is a fault of the drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ratio {
+    numerator: i128,
+    denominator: i128,
+}
+
+const FITS: &str = "numbers of a drawing fit into 127 bits";
+
+impl Ratio {
+    /// 0
+    pub const ZERO: Self = Self::whole(0);
+    /// 1
+    pub const ONE: Self = Self::whole(1);
+
+    /// A whole number.
+    #[must_use]
+    pub const fn whole(n: i64) -> Self {
+        Self {
+            numerator: n as i128,
+            denominator: 1,
+        }
+    }
+
+    /// `numerator/denominator`
+    ///
+    /// # Panics
+    /// If the denominator is 0.
+    #[must_use]
+    pub fn new(numerator: i128, denominator: i128) -> Self {
+        assert!(denominator != 0, "{numerator}/0");
+        let common = gcd(numerator, denominator) * denominator.signum();
+        Self {
+            numerator: numerator / common,
+            denominator: denominator / common,
+        }
+    }
+
+    /// The numerator.
+    #[must_use]
+    pub fn numerator(self) -> i128 {
+        self.numerator
+    }
+
+    /// The denominator, positive.
+    #[must_use]
+    pub fn denominator(self) -> i128 {
+        self.denominator
+    }
+
+    /// Whether it is 0.
+    #[must_use]
+    pub fn is_zero(self) -> bool {
+        self.numerator == 0
+    }
+
+    /// `1/self`
+    ///
+    /// # Panics
+    /// If it is 0.
+    #[must_use]
+    pub fn inverse(self) -> Self {
+        Self::new(self.denominator, self.numerator)
+    }
+
+    /// The nearest `f64`.
+    #[must_use]
+    pub fn rounded(self) -> f64 {
+        const EXACT: u128 = 1 << 53;
+        let (n, d) = (self.numerator, self.denominator);
+        if n.unsigned_abs() <= EXACT && d.unsigned_abs() <= EXACT {
+            return n as f64 / d as f64;
+        }
+        // As many bits of the quotient as fit, and one for all that follow: the conversion of whole
+        // numbers rounds to nearest.
+        let shift = n.unsigned_abs().leading_zeros() - 1;
+        let scaled = n.unsigned_abs() << shift;
+        let (quotient, rest) = (scaled / d.unsigned_abs(), scaled % d.unsigned_abs());
+        let size = (quotient | u128::from(rest != 0)) as f64 * 2_f64.powi(-(shift as i32));
+        size.copysign(n.signum() as f64)
+    }
+
+    /// What rounding leaves, rounded: `self − rounded`.
+    fn rest(self) -> f64 {
+        let (n, d) = (self.numerator as f64, self.denominator as f64);
+        match n as i128 == self.numerator && d as i128 == self.denominator {
+            true => -self.rounded().mul_add(d, -n) / d,
+            false => 0.0,
+        }
+    }
+}
+
+fn gcd(a: i128, b: i128) -> i128 {
+    let (mut a, mut b) = (a.abs(), b.abs());
+    while b != 0 {
+        (a, b) = (b, a % b);
+    }
+    a
+}
+
+impl Add for Ratio {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        let common = gcd(self.denominator, other.denominator);
+        let (a, b) = (other.denominator / common, self.denominator / common);
+        let left = self.numerator.checked_mul(a).expect(FITS);
+        let right = other.numerator.checked_mul(b).expect(FITS);
+        Self::new(
+            left.checked_add(right).expect(FITS),
+            self.denominator.checked_mul(a).expect(FITS),
+        )
+    }
+}
+
+impl Neg for Ratio {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self {
+            numerator: -self.numerator,
+            denominator: self.denominator,
+        }
+    }
+}
+
+impl Sub for Ratio {
+    type Output = Self;
+
+    fn sub(self, other: Self) -> Self {
+        self + -other
+    }
+}
+
+impl Mul for Ratio {
+    type Output = Self;
+
+    fn mul(self, other: Self) -> Self {
+        let first = gcd(self.numerator, other.denominator).max(1);
+        let second = gcd(other.numerator, self.denominator).max(1);
+        let n = (self.numerator / first).checked_mul(other.numerator / second);
+        let d = (self.denominator / second).checked_mul(other.denominator / first);
+        Self::new(n.expect(FITS), d.expect(FITS))
+    }
+}
+
+/// `a + b·√k`; what k is belongs to the drawing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Surd {
+    /// The rational part.
+    pub a: Ratio,
+    /// The factor of √k.
+    pub b: Ratio,
+}
+
+impl Surd {
+    /// A multiple.
+    #[must_use]
+    pub fn times(self, factor: Ratio) -> Self {
+        Self {
+            a: self.a * factor,
+            b: self.b * factor,
+        }
+    }
+
+    /// The nearest `f64`, but for rounding errors of second order.
+    #[must_use]
+    pub fn rounded(self, k: u32) -> f64 {
+        if self.b.is_zero() {
+            return self.a.rounded();
+        }
+        let root = f64::from(k).sqrt();
+        let root_rest = -root.mul_add(root, -f64::from(k)) / (2.0 * root);
+        let (b, b_rest) = (self.b.rounded(), self.b.rest());
+        let product = b * root;
+        let product_rest = b.mul_add(root, -product) + (b * root_rest + b_rest * root);
+        let (a, a_rest) = (self.a.rounded(), self.a.rest());
+        let sum = a + product;
+        let taken = sum - a;
+        let sum_rest = (a - (sum - taken)) + (product - taken);
+        sum + (sum_rest + (a_rest + product_rest))
+    }
+}
+
+impl Add for Surd {
+    type Output = Self;
+
+    fn add(self, other: Self) -> Self {
+        Self {
+            a: self.a + other.a,
+            b: self.b + other.b,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn fractions_are_rounded_once() {
+        assert_eq!(Ratio::new(3, 10).rounded(), 0.3);
+        assert_eq!(Ratio::new(-2, -6), Ratio::new(1, 3));
+        // 2⁶⁰ + 1 lies above the middle of two neighbours when a third bit follows far behind.
+        let middle = (1_i128 << 60) + (1 << 7);
+        assert_eq!(Ratio::new(middle, 1).rounded(), 2_f64.powi(60));
+        let above = Ratio::new(middle, 1) + Ratio::new(1, 1 << 20);
+        assert_eq!(above.rounded(), 2_f64.powi(60) + 256.0);
+        assert_eq!(Ratio::new(-(1 << 70), 3).rounded(), -(2_f64.powi(70) / 3.0));
+    }
+
+    #[test]
+    fn roots_are_rounded_once() {
+        let surd = |a, b| Surd {
+            a: Ratio::whole(a),
+            b: Ratio::whole(b),
+        };
+        assert_eq!(surd(0, 1).rounded(3), 3_f64.sqrt());
+        // 97² − 3·56² = 1, so 97 − 56·√3 = 1/(97 + 56·√3): four digits cancel.
+        let cancelled = surd(97, -56).rounded(3);
+        let expected = (97.0 + 56.0 * 3_f64.sqrt()).recip();
+        assert!((cancelled / expected - 1.0).abs() < 1e-15, "{cancelled:e}");
+    }
+}

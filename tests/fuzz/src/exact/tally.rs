@@ -1,0 +1,286 @@
+//! Many scenes, on the threads of the pool.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::io;
+use std::panic::{self, AssertUnwindSafe};
+use std::path::Path;
+
+use rayon::prelude::*;
+
+use super::examine::{Findings, Kind, examine};
+use super::families::Family;
+use super::pose::Writing;
+use super::truth::Truth;
+use super::{Scene, scene, text, told};
+
+/// Numbers of scenes that are listed for each kind of finding.
+const LISTED: usize = 6;
+
+/// Scenes of each family, way and kind that are kept as files.
+const KEPT: usize = 2;
+
+/// Near the origin less than one scene in so many may be undecided.
+const UNDECIDED: usize = 1000;
+
+/// What came of one scene.
+pub struct Outcome {
+    /// The scene.
+    pub scene: Scene,
+    /// Its text.
+    pub text: String,
+    /// What is not right.
+    pub findings: Findings,
+    /// The rank that was told, if any was.
+    pub rank: Option<u64>,
+    /// What exact arithmetic says, in words.
+    pub truth: String,
+    /// The redundancy by exact arithmetic.
+    pub redundancy: usize,
+}
+
+impl Outcome {
+    /// The worst thing that is not right.
+    #[must_use]
+    pub fn worst(&self) -> Option<Kind> {
+        self.findings.0.iter().map(|f| f.kind).max()
+    }
+
+    /// The scene with what is so and what was told at its head, as comments.
+    #[must_use]
+    pub fn page(&self) -> String {
+        let (family, writing) = (self.scene.family.name(), self.scene.writing.name());
+        let mut page = format!("# {family}, {writing}\n# Exact arithmetic:\n");
+        for line in self.truth.lines() {
+            page.push_str(&format!("#   {line}\n"));
+        }
+        match self.findings.0.as_slice() {
+            [] => page.push_str("# Everything that is told is right.\n"),
+            _ => page.push_str("# Told:\n"),
+        }
+        for finding in &self.findings.0 {
+            let (kind, text) = (finding.kind.name(), finding.text.replace('\n', "\n#     "));
+            page.push_str(&format!("#   {kind}: {text}\n"));
+        }
+        page + &self.text
+    }
+}
+
+/// Examines one scene.
+#[must_use]
+pub fn outcome(seed: u64, number: u64) -> Outcome {
+    let scene = scene(seed, number);
+    let truth = Truth::of(&scene.posed);
+    let text = text::text(&scene.posed);
+    let (mut findings, mut rank) = (Findings::default(), None);
+    match panic::catch_unwind(AssertUnwindSafe(|| told::told(&text))) {
+        Ok(Ok(document)) => {
+            if document["evidence"]["status"] == "decided" {
+                rank = document["rank"].as_u64();
+            }
+            findings = examine(&truth, &document);
+        }
+        Ok(Err(refusal)) => findings.note(Kind::Refused, refusal),
+        Err(_) => findings.note(Kind::Panic, "the analysis panicked".to_owned()),
+    }
+    Outcome {
+        text,
+        findings,
+        rank,
+        truth: truth.describe(),
+        redundancy: truth.redundancy(),
+        scene,
+    }
+}
+
+/// Scenes of one family, written in one way.
+#[derive(Clone, Debug, Default)]
+pub struct Count {
+    /// How many.
+    pub scenes: usize,
+    /// Those of which exact arithmetic says that they are redundant.
+    pub redundant: usize,
+    /// Those of which everything is right.
+    pub right: usize,
+    /// By the worst thing that is not: how many, and the first ones.
+    pub not: BTreeMap<Kind, (usize, Vec<u64>)>,
+}
+
+impl Count {
+    fn add(&mut self, other: Self) {
+        self.scenes += other.scenes;
+        self.redundant += other.redundant;
+        self.right += other.right;
+        for (kind, (count, first)) in other.not {
+            let own = self.not.entry(kind).or_default();
+            own.0 += count;
+            own.1.extend(first);
+            own.1.sort_unstable();
+            own.1.truncate(LISTED);
+        }
+    }
+
+    fn of(&self, wanted: impl Fn(Kind) -> bool) -> usize {
+        let counts = self.not.iter().filter(|(kind, _)| wanted(**kind));
+        counts.map(|(_, (count, _))| count).sum()
+    }
+}
+
+/// What came of many scenes.
+#[derive(Clone, Debug, Default)]
+pub struct Tally {
+    /// By family and way of writing.
+    pub counts: BTreeMap<(Family, Writing), Count>,
+    /// Drawings of which two ways of writing were told different ranks.
+    pub contradicting: Vec<u64>,
+}
+
+impl Tally {
+    /// Examines scenes `from..from + scenes` of a seed.
+    #[must_use]
+    pub fn of(seed: u64, from: u64, scenes: u64) -> Self {
+        let ways = Writing::ALL.len() as u64;
+        let drawings: Vec<u64> = (from / ways..(from + scenes).div_ceil(ways)).collect();
+        let of_drawing = |&drawing: &u64| {
+            let numbers = (ways * drawing..ways * (drawing + 1))
+                .filter(|n| (from..from + scenes).contains(n));
+            let mut tally = Self::default();
+            let mut ranks = Vec::new();
+            for number in numbers {
+                let outcome = outcome(seed, number);
+                ranks.extend(outcome.rank);
+                tally.note(number, &outcome);
+            }
+            ranks.dedup();
+            if ranks.len() > 1 {
+                tally.contradicting.push(drawing);
+            }
+            tally
+        };
+        drawings
+            .par_iter()
+            .map(of_drawing)
+            .reduce(Self::default, Self::joined)
+    }
+
+    fn note(&mut self, number: u64, outcome: &Outcome) {
+        let key = (outcome.scene.family, outcome.scene.writing);
+        let count = self.counts.entry(key).or_default();
+        count.scenes += 1;
+        count.redundant += usize::from(outcome.redundancy > 0);
+        match outcome.worst() {
+            Some(worst) => {
+                let own = count.not.entry(worst).or_default();
+                own.0 += 1;
+                own.1.push(number);
+            }
+            None => count.right += 1,
+        }
+    }
+
+    fn joined(mut self, other: Self) -> Self {
+        for (key, count) in other.counts {
+            self.counts.entry(key).or_default().add(count);
+        }
+        self.contradicting.extend(other.contradicting);
+        self
+    }
+
+    /// The counts of scenes near the origin, or of those far away.
+    #[must_use]
+    pub fn sum(&self, is_far: bool) -> Count {
+        let mut sum = Count::default();
+        let own = self
+            .counts
+            .iter()
+            .filter(|((_, w), _)| (*w == Writing::Far) == is_far);
+        for (_, count) in own {
+            sum.add(count.clone());
+        }
+        sum
+    }
+
+    /// How many scenes were told something that is not so.
+    #[must_use]
+    pub fn wrong(&self) -> usize {
+        [true, false]
+            .map(|far| self.sum(far).of(Kind::is_wrong))
+            .iter()
+            .sum()
+    }
+
+    /// How many scenes near the origin have no answer, or none to some question.
+    #[must_use]
+    pub fn undecided_near(&self) -> usize {
+        self.sum(false).of(|kind| !kind.is_wrong())
+    }
+
+    /// Whether nothing is wrong, and fewer than one scene in a thousand near the origin is
+    /// undecided.
+    #[must_use]
+    pub fn passes(&self) -> bool {
+        let near = self.sum(false);
+        self.wrong() == 0 && UNDECIDED * self.undecided_near() < near.scenes
+    }
+
+    /// Writes the listed scenes with their pages into a folder, the shortest ones of each family
+    /// and kind.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    pub fn keep(&self, seed: u64, folder: &Path) -> io::Result<()> {
+        fs::create_dir_all(folder)?;
+        for ((family, writing), count) in &self.counts {
+            for (kind, (_, first)) in &count.not {
+                let pages = first.iter().map(|&n| (n, outcome(seed, n).page()));
+                let mut pages: Vec<(u64, String)> = pages.collect();
+                pages.sort_by_key(|(_, page)| page.len());
+                for (number, page) in pages.into_iter().take(KEPT) {
+                    let name = format!(
+                        "{}--{}--{}--{seed}-{number}.toml",
+                        family.name(),
+                        kind.name(),
+                        writing.name()
+                    );
+                    fs::write(folder.join(name.replace(' ', "-")), page)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The tally in words.
+    #[must_use]
+    pub fn describe(&self) -> String {
+        let mut text = String::new();
+        for ((family, writing), count) in &self.counts {
+            text.push_str(&format!(
+                "{:26}{:10} {:5} scenes, {:5} redundant, {:5} right",
+                family.name(),
+                writing.name(),
+                count.scenes,
+                count.redundant,
+                count.right
+            ));
+            for (kind, (n, first)) in &count.not {
+                text.push_str(&format!(", {n} {} {first:?}", kind.name()));
+            }
+            text.push('\n');
+        }
+        for (far, name) in [(false, "near"), (true, "far")] {
+            let sum = self.sum(far);
+            text.push_str(&format!(
+                "{name}: {} scenes, {} right, {} undecided or refused, {} wrong\n",
+                sum.scenes,
+                sum.right,
+                sum.of(|kind| !kind.is_wrong()),
+                sum.of(Kind::is_wrong)
+            ));
+        }
+        text.push_str(&format!(
+            "{} drawings with ranks that contradict each other\n",
+            self.contradicting.len()
+        ));
+        text
+    }
+}

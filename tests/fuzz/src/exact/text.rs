@@ -1,0 +1,236 @@
+//! The scene of a drawing as text, each number rounded once.
+
+use std::fmt::Write;
+
+use tests::numbers::Numbers;
+
+use super::drawing::{Side, Tie, Vector};
+use super::pose::{Placed, Posed};
+use super::ratio::{Ratio, Surd};
+
+/// The scene as text.
+#[must_use]
+pub fn text(posed: &Posed) -> String {
+    let mut pen = Pen {
+        posed,
+        errors: posed.careless.map(Numbers::new),
+        text: "scene = { name = \"exact\", space = \"plane\" }\n".to_owned(),
+    };
+    for &k in &posed.order {
+        pen.body(k);
+    }
+    let links = || posed.links.iter();
+    for placed in links().filter(|p| !p.link.tie.is_drive()) {
+        pen.joint(placed);
+    }
+    for placed in links().filter(|p| p.link.tie.is_drive()) {
+        pen.drive(placed);
+    }
+    pen.text
+}
+
+/// The name of a side.
+#[must_use]
+pub fn name(side: Side) -> String {
+    side.map_or("ground".to_owned(), |k| format!("b{k}"))
+}
+
+struct Pen<'a> {
+    posed: &'a Posed,
+    /// Where positions of bodies are written by a careless script.
+    errors: Option<Numbers>,
+    text: String,
+}
+
+impl Pen<'_> {
+    fn line(&mut self, key: &str, value: &str) {
+        // A `String` takes everything.
+        let _ = writeln!(self.text, "{key} = {value}");
+    }
+
+    fn number(&self, x: Surd) -> f64 {
+        x.rounded(self.posed.stretch)
+    }
+
+    fn pair(&self, p: [Surd; 2]) -> String {
+        let [x, y] = p.map(|x| self.number(x));
+        format!("[{x:?}, {y:?}]")
+    }
+
+    fn body(&mut self, k: usize) {
+        let frame = &self.posed.frames[k];
+        let mut position = self.posed.point(frame.origin).map(|x| self.number(x));
+        if let Some(errors) = &mut self.errors {
+            for x in position.iter_mut().filter(|x| **x != 0.0) {
+                *x = match errors.once_in(2) {
+                    true => x.next_down(),
+                    false => x.next_up(),
+                };
+            }
+        }
+        let [x, y] = position;
+        let [c, s] = frame.turn.map(Ratio::rounded);
+        let angle = s.atan2(c);
+        self.text.push_str("\n[[body]]\n");
+        self.line("name", &format!("\"b{k}\""));
+        self.line("mass", "1.0");
+        self.line("inertia", "1.0");
+        self.line("position", &format!("[{x:?}, {y:?}]"));
+        self.line("angle", &format!("{angle:?}"));
+    }
+
+    fn joint(&mut self, placed: &Placed) {
+        let link = &placed.link;
+        let sides = &link.sides;
+        self.text.push_str("\n[[joint]]\n");
+        self.line("name", &format!("\"{}\"", link.name));
+        self.line("type", &format!("\"{}\"", kind(&link.tie)));
+        match sides.as_slice() {
+            [one] => self.line("body", &format!("\"{}\"", name(*one))),
+            [first, second, ..] => {
+                let names = format!("[\"{}\", \"{}\"]", name(*first), name(*second));
+                self.line("bodies", &names);
+            }
+            [] => {}
+        }
+        match link.tie {
+            Tie::Revolute { at } | Tie::Fixed { at } => {
+                self.place(placed, &[(0, at), (1, at)], false);
+            }
+            Tie::Translational { from, at, along } | Tie::PinInSlot { from, at, along } => {
+                self.place(placed, &[(0, from), (1, at)], false);
+                let axis = self.direction(placed, self.across(sides[0], along));
+                self.line("axis", &axis);
+            }
+            Tie::PointOnLine { at, along } => {
+                self.place(placed, &[(0, at)], false);
+                let [dx, dy] = self.across(None, along);
+                let [x, y] = self.posed.point(at);
+                let point = |f: i64| {
+                    let f = Ratio::whole(f);
+                    self.pair([x + dx.times(f), y + dy.times(f)])
+                };
+                let line = format!("[{}, {}]", point(-1), point(2));
+                self.line("line", &line);
+            }
+            Tie::Distance { from, at } => self.place(placed, &[(0, from), (1, at)], true),
+            Tie::Angle | Tie::AngleDrive { .. } => {}
+            Tie::Gear { ratio } => {
+                self.line("ratio", &format!("{:?}", ratio.rounded()));
+                // The ground may be left out.
+                if sides[2].is_some() || placed.is_local {
+                    self.line("carrier", &format!("\"{}\"", name(sides[2])));
+                }
+            }
+            Tie::Rack { at, along, radius } => {
+                self.place(placed, &[(1, at)], false);
+                self.rolls(placed, "axis", along, radius);
+            }
+            Tie::Rolling { at, along, radius } => {
+                self.place(placed, &[(0, at)], false);
+                self.rolls(placed, "direction", along, radius);
+            }
+            Tie::KnifeEdge { at, along } => {
+                self.place(placed, &[(0, at)], false);
+                let normal = self.posed.vector_in(sides[0], along);
+                let normal = self.direction(placed, normal);
+                self.line("normal", &normal);
+            }
+            Tie::Velocity { at, along } => {
+                self.place(placed, &[(0, at)], false);
+                let direction = self.posed.vector_in(sides[0], along);
+                let direction = self.direction(placed, direction);
+                self.line("direction", &direction);
+                self.line("rate", "0.0");
+            }
+        }
+    }
+
+    fn drive(&mut self, placed: &Placed) {
+        let Tie::AngleDrive { joint } = placed.link.tie else {
+            return;
+        };
+        self.text.push_str("\n[[drive]]\n");
+        self.line("name", &format!("\"{}\"", placed.link.name));
+        self.line("joint", &format!("\"j{joint}\""));
+        self.line("type", "\"angle\"");
+        self.line("motion", "{ type = \"polynomial\", coefficients = [0.0] }");
+    }
+
+    /// The points of some slots.
+    fn place(&mut self, placed: &Placed, points: &[(usize, Vector)], is_apart: bool) {
+        let sides = &placed.link.sides;
+        let is_one = points.windows(2).all(|w| w[0].1 == w[1].1);
+        if !(placed.is_local || !is_apart && !is_one) {
+            let world = |p: Vector| self.pair(self.posed.point(p));
+            let at = match is_apart {
+                true => format!("[{}, {}]", world(points[0].1), world(points[1].1)),
+                false => world(points[0].1),
+            };
+            return self.line("at", &at);
+        }
+        let local = |&(slot, p): &(usize, Vector)| self.pair(self.posed.point_in(sides[slot], p));
+        match sides.as_slice() {
+            [_] => {
+                let point = local(&points[0]);
+                self.line("point", &point);
+            }
+            _ => {
+                let all = points.iter();
+                let all: Vec<String> = all
+                    .map(|point| format!("{} = {}", name(sides[point.0]), local(point)))
+                    .collect();
+                self.line("points", &format!("{{ {} }}", all.join(", ")));
+            }
+        }
+    }
+
+    /// What a force along `along` is perpendicular to, in the frame of a side: turned back by a
+    /// quarter.
+    fn across(&self, side: Side, along: Vector) -> [Surd; 2] {
+        let [x, y] = self.posed.vector_in(side, along);
+        [y, x.times(-Ratio::ONE)]
+    }
+
+    fn direction(&self, placed: &Placed, v: [Surd; 2]) -> String {
+        match placed.factor {
+            Some(factor) => self.pair(v.map(|x| x.times(factor))),
+            None => {
+                let [x, y] = v.map(|x| self.number(x));
+                let length = x.hypot(y);
+                format!("[{:?}, {:?}]", x / length, y / length)
+            }
+        }
+    }
+
+    /// Direction and radius: the unit of force is that of `along`, so that the radius is the torque
+    /// divided by its length.
+    fn rolls(&mut self, placed: &Placed, key: &str, along: Vector, radius: Ratio) {
+        let direction = self.posed.vector_in(placed.link.sides[0], along);
+        let direction = self.direction(placed, direction);
+        self.line(key, &direction);
+        let ([x, y], k) = (along, Ratio::whole(i64::from(self.posed.stretch)));
+        let square = radius * radius * k * (x * x + k * y * y).inverse();
+        let radius = square.rounded().sqrt().copysign(radius.rounded());
+        self.line("radius", &format!("{radius:?}"));
+    }
+}
+
+/// The value of `type`.
+fn kind(tie: &Tie) -> &'static str {
+    match tie {
+        Tie::Revolute { .. } => "revolute",
+        Tie::Fixed { .. } => "fixed",
+        Tie::Translational { .. } => "translational",
+        Tie::PinInSlot { .. } => "pin-in-slot",
+        Tie::PointOnLine { .. } => "point-on-line",
+        Tie::Distance { .. } => "distance",
+        Tie::Angle => "angle",
+        Tie::Gear { .. } => "gear",
+        Tie::Rack { .. } => "rack-and-pinion",
+        Tie::KnifeEdge { .. } => "knife-edge",
+        Tie::Velocity { .. } => "velocity",
+        Tie::Rolling { .. } => "rolling",
+        Tie::AngleDrive { .. } => "angle",
+    }
+}

@@ -1,0 +1,49 @@
+//! What `pfaff analyze` says of a text, as its document.
+
+use pfaff::linalg::Limits;
+use pfaff::model::Registry;
+use pfaff::report::documents::MakeUniqueDocument;
+use pfaff::solvability::{Allowed, Verdict};
+use pfaff::{Blueprint, Inquiry, Overrides, StudyError};
+use serde_json::Value;
+
+/// Reactions of which it is asked what makes them unique.
+const ASKED: usize = 2;
+
+/// Sets that are tried for an answer.
+const LIMITS: Limits = Limits {
+    trials: 5_000,
+    sets: 1_000,
+};
+
+/// The document of the start, found in the way of the command, with `--make-unique` of the first
+/// reactions that are not unique.
+///
+/// # Errors
+/// The refusal in words.
+pub fn told(text: &str) -> Result<Value, String> {
+    let read = || Blueprint::read("scene.toml", text, &Registry::planar());
+    match read().and_then(|blueprint| blueprint.prepare(&Overrides::default())) {
+        Ok(study) => document(study.inquire(0.0, None)),
+        Err(e) if e.only_motion().is_some() => match read() {
+            Ok(mut blueprint) => document(blueprint.inquire(None)),
+            Err(e) => Err(e.to_string()),
+        },
+        Err(e) => Err(e.to_string()),
+    }
+}
+
+fn document(inquiry: Result<Inquiry<'_>, StudyError>) -> Result<Value, String> {
+    let inquiry = inquiry.map_err(|e| e.to_string())?;
+    let mut document = inquiry.document(&[]).map_err(|e| e.to_string())?;
+    let reactions = inquiry.analysis.reactions.iter();
+    let open = reactions.filter(|r| r.wrench.verdict == Verdict::NotUnique);
+    document.make_unique = open
+        .take(ASKED)
+        .map(|r| {
+            let found = inquiry.make_unique(r.id, &Allowed::Sensible, LIMITS);
+            MakeUniqueDocument::new(&r.name, &Allowed::Sensible, found)
+        })
+        .collect();
+    serde_json::to_value(document).map_err(|e| e.to_string())
+}

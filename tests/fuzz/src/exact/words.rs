@@ -1,0 +1,358 @@
+//! Dependencies and sentences: the sets of rows are minimal and dependent, coefficients and forces
+//! are those of exact arithmetic, and sentences name what takes part, in its ratio, and claim
+//! nothing of a sum that does not hold.
+
+use num_bigint::BigInt;
+use serde_json::Value;
+
+use super::examine::{Findings, Kind, along_free, list, rounding, rows};
+use super::text;
+use super::truth::Truth;
+
+/// Numbers in sentences have four digits.
+const FOUR_DIGITS: f64 = 6e-4;
+
+/// Examines all dependencies and sentences of a decided document.
+pub fn examine(truth: &Truth, told: &Value, findings: &mut Findings) {
+    let redundancy = truth.redundancy();
+    let dependencies = list(&told["dependencies"]);
+    if dependencies.len() != redundancy {
+        let text = format!(
+            "{} dependencies, redundancy {redundancy}",
+            dependencies.len()
+        );
+        findings.note(Kind::Sentence, text);
+    }
+    for (place, dependency) in dependencies.iter().enumerate() {
+        let own = rows(&dependency["rows"]);
+        match truth.circuit(&own) {
+            Some(circuit) => {
+                let dependency = Dependency {
+                    truth,
+                    place,
+                    rows: &own,
+                    circuit: &circuit,
+                    told: dependency,
+                };
+                dependency.coefficients(findings);
+                dependency.forces(told, findings);
+                dependency.sentence(findings);
+            }
+            None => {
+                let text = format!("rows {} are no minimal dependent set", dependency["rows"]);
+                findings.note(Kind::Sentence, text);
+            }
+        }
+    }
+    mixing(truth, told, findings);
+    for (link, placed) in truth.posed.links.iter().enumerate() {
+        let name = placed.link.name.as_str();
+        let mut reactions = list(&told["reactions"]).iter();
+        if let Some(reaction) = reactions.find(|r| r["name"] == name)
+            && let Some(text) = reaction["explanation"].as_str()
+        {
+            explanation(truth, link, reaction, text, findings);
+        }
+    }
+}
+
+/// A dependency that is one.
+struct Dependency<'a> {
+    truth: &'a Truth<'a>,
+    place: usize,
+    rows: &'a [usize],
+    circuit: &'a [BigInt],
+    told: &'a Value,
+}
+
+impl Dependency<'_> {
+    fn note(&self, findings: &mut Findings, text: String) {
+        let of = format!("dependency of rows {}: {text}", self.told["rows"]);
+        findings.note(Kind::Sentence, of);
+    }
+
+    fn load(&self, findings: &mut Findings, text: String) {
+        let of = format!("dependency of rows {}: {text}", self.told["rows"]);
+        findings.note(Kind::Load, of);
+    }
+
+    fn right(&self) -> Vec<f64> {
+        self.truth.coefficients(self.rows, self.circuit)
+    }
+
+    fn coefficients(&self, findings: &mut Findings) {
+        let told = list(&self.told["coefficients"]).iter();
+        let told: Vec<f64> = told.map(|x| x.as_f64().unwrap_or(f64::NAN)).collect();
+        if !are_proportional(&told, &self.right(), rounding(self.truth.posed)) {
+            let text = format!("coefficients {told:?} are {:?}", self.right());
+            self.note(findings, text);
+        }
+    }
+
+    /// The places of its joints in the file, each once.
+    fn links(&self) -> Vec<usize> {
+        let mut links: Vec<usize> = self.rows.iter().map(|&i| self.truth.rows[i].link).collect();
+        links.sort_unstable();
+        links.dedup();
+        links
+    }
+
+    /// What its joints carry, which may be drawn.
+    fn forces(&self, document: &Value, findings: &mut Findings) {
+        let (mut told, mut right) = (Vec::new(), Vec::new());
+        for link in self.links() {
+            let placed = &self.truth.posed.links[link];
+            let mut reactions = list(&document["reactions"]).iter();
+            let reaction = reactions.find(|r| r["name"] == placed.link.name.as_str());
+            let directions = reaction.map_or(&[][..], |r| list(&r["free_directions"]));
+            let mut own = directions.iter();
+            let Some(found) = own.find(|d| d["dependency"] == self.place) else {
+                let text = format!("`{}` is not told what it carries", placed.link.name);
+                self.load(findings, text);
+                return;
+            };
+            let number = |x: &Value| x.as_f64().unwrap_or(f64::NAN);
+            let Some(carried) = self.truth.carried(link, self.rows, self.circuit) else {
+                continue;
+            };
+            let numbers = [&found["force"][0], &found["force"][1], &found["torque"]].map(number);
+            for (axis, told) in ["Fx", "Fy", "T"].iter().zip(numbers) {
+                if told != 0.0 && carried.is_zero(axis, self.truth.posed) {
+                    let text =
+                        format!("`{}`.{axis} is told as {told:e}, is zero", placed.link.name);
+                    self.load(findings, text);
+                }
+            }
+            told.extend(numbers);
+            right.extend(carried.rounded(self.truth.posed));
+        }
+        // Moments are rounded relative to the forces at the arms of the scene.
+        if !are_proportional(&told, &right, 1e2 * rounding(self.truth.posed)) {
+            self.load(
+                findings,
+                format!("forces {told:?} are {right:?} but for a factor"),
+            );
+        }
+    }
+
+    fn sentence(&self, findings: &mut Findings) {
+        let text = self.told["text"].as_str().unwrap_or_default();
+        let links = self.links();
+        let name = |link: &usize| self.truth.posed.links[*link].link.name.clone();
+        let joints: Vec<String> = links.iter().map(name).collect();
+        let mut named = list(&self.told["joints"]).iter().filter_map(Value::as_str);
+        if joints.len() != named.clone().count() || !named.all(|n| joints.iter().any(|j| j == n)) {
+            self.note(
+                findings,
+                format!("joints {} are {joints:?}", self.told["joints"]),
+            );
+        }
+        let sides = links
+            .iter()
+            .flat_map(|&l| &self.truth.posed.links[l].link.sides);
+        let bodies: Vec<String> = sides.map(|side| text::name(*side)).collect();
+        for quoted in text.split('`').skip(1).step_by(2) {
+            if !joints.iter().chain(&bodies).any(|known| known == quoted) {
+                self.note(findings, format!("`{quoted}` takes no part: {text}"));
+            }
+        }
+        let right = self.right();
+        for (lead, expected) in [
+            (" in the ratio ", right.clone()),
+            (
+                " their sum with weights ",
+                right
+                    .iter()
+                    .rev()
+                    .zip([1.0, -1.0])
+                    .map(|(x, s)| s * x)
+                    .collect(),
+            ),
+        ] {
+            let Some((_, rest)) = text.split_once(lead) else {
+                continue;
+            };
+            let printed = ratio(rest);
+            let sizes = printed.iter().zip(&expected).all(|(a, b)| {
+                let (first, other) = (printed[0] / expected[0], a / b);
+                (other / first - 1.0).abs() <= 4.0 * FOUR_DIGITS
+            });
+            if printed.len() != expected.len() || !sizes {
+                self.note(findings, format!("the ratio is {expected:?}: {text}"));
+            }
+        }
+        if let [i, j] = *self.rows {
+            let is_unique = self.truth.sum_is_unique([i, j], self.circuit);
+            let says = |words: &str| text.contains(words);
+            if says("their sum with weights") && !is_unique {
+                self.note(findings, format!("the sum is not determined: {text}"));
+            }
+            if says("their sum depends on other") && is_unique {
+                self.note(findings, format!("the sum is determined: {text}"));
+            }
+        }
+        let forces = links
+            .iter()
+            .filter_map(|&l| self.truth.carried(l, self.rows, self.circuit));
+        let posed = self.truth.posed;
+        let pushes = forces
+            .clone()
+            .any(|w| !(w.is_zero("Fx", posed) && w.is_zero("Fy", posed)));
+        let is_known = forces.count() == links.len();
+        if is_known && pushes && text.contains(" from turning") {
+            self.note(findings, format!("they push as well: {text}"));
+        }
+        if is_known && !pushes && (text.contains("along the same line")) {
+            self.note(findings, format!("they do not push: {text}"));
+        }
+    }
+}
+
+/// Whether one list is the other times some factor, zeros where the other has zeros.
+fn are_proportional(told: &[f64], right: &[f64], rounding: f64) -> bool {
+    let Some(at) = (0..right.len()).max_by(|&a, &b| right[a].abs().total_cmp(&right[b].abs()))
+    else {
+        return told.is_empty();
+    };
+    if told.len() != right.len() || right[at] == 0.0 {
+        return told.len() == right.len() && told.iter().all(|x| *x == 0.0);
+    }
+    let factor = told[at] / right[at];
+    let off = told.iter().zip(right).map(|(a, b)| (a - factor * b).abs());
+    factor != 0.0 && off.fold(0.0, f64::max) <= rounding * told[at].abs()
+}
+
+/// The numbers of "1 : −0.5 : 0.25 cancel out", with or without units.
+fn ratio(text: &str) -> Vec<f64> {
+    let mut numbers = Vec::new();
+    for part in text.split(" : ") {
+        let number = part.trim_start().split([' ', ')', ',', ';']).next();
+        let number = number.unwrap_or_default().replace('−', "-");
+        numbers.push(number.parse().unwrap_or(f64::NAN));
+    }
+    numbers
+}
+
+/// Groups of joints that share loads: unions of components, all of them once, with their
+/// redundancy.
+fn mixing(truth: &Truth, told: &Value, findings: &mut Findings) {
+    let mut open = truth.components();
+    for mixing in list(&told["mixing"]) {
+        let own = rows(&mixing["rows"]);
+        let mut covered = 0;
+        open.retain(|component| {
+            let is_in = component.iter().all(|i| own.contains(i));
+            covered += if is_in { component.len() } else { 0 };
+            !is_in
+        });
+        let redundancy = own.len() - truth.rank_of(&own);
+        if covered != own.len() || mixing["redundancy"] != redundancy {
+            let text = format!("rows {} share loads: {}", mixing["rows"], mixing["text"]);
+            findings.note(Kind::Sentence, text);
+        }
+        let names = own
+            .iter()
+            .map(|&i| truth.posed.links[truth.rows[i].link].link.name.as_str());
+        let mut names: Vec<&str> = names.collect();
+        names.sort_unstable();
+        names.dedup();
+        let mut told: Vec<&str> = list(&mixing["reactions"])
+            .iter()
+            .filter_map(Value::as_str)
+            .collect();
+        told.sort_unstable();
+        let text = mixing["text"].as_str().unwrap_or_default();
+        let quoted: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
+        if names != told
+            || !names.iter().all(|name| quoted.contains(name))
+            || quoted.len() != names.len()
+        {
+            findings.note(Kind::Sentence, format!("{names:?} share loads: {text}"));
+        }
+    }
+    if !open.is_empty() {
+        findings.note(
+            Kind::Sentence,
+            format!("nobody says that rows {open:?} (from 0) share loads"),
+        );
+    }
+}
+
+/// "the reaction of `a` is not determined: it shares loads with `b` and `c`; determined is Fx and
+/// 0.6·Fx + 0.8·Fy"
+fn explanation(truth: &Truth, link: usize, told: &Value, text: &str, findings: &mut Findings) {
+    let mut wrong = |why: &str| findings.note(Kind::Sentence, format!("{why}: {text}"));
+    let own = truth.rows_of(link);
+    if truth.is_unique(&own) {
+        wrong("is unique");
+    }
+    let name = |&i: &usize| truth.posed.links[truth.rows[i].link].link.name.as_str();
+    let touching = truth
+        .components()
+        .into_iter()
+        .filter(|c| own.iter().any(|i| c.contains(i)));
+    let mut others: Vec<String> = touching.flatten().map(|i| name(&i).to_owned()).collect();
+    others.sort_unstable();
+    others.dedup();
+    let quoted: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
+    let mut sorted = quoted.clone();
+    sorted.sort_unstable();
+    if sorted != others {
+        wrong(&format!("{others:?} share loads"));
+    }
+    let live = truth.live_directions(link);
+    if text.contains("nothing of it is determined") && live > 0 {
+        wrong("something is determined");
+    }
+    if text.contains("is not decided") {
+        findings.note(Kind::Undecided, text.to_owned());
+        return;
+    }
+    let Some((_, determined)) = text.split_once("determined is ") else {
+        return;
+    };
+    let components = list(&told["components"])
+        .iter()
+        .filter_map(|c| c["name"].as_str());
+    let components: Vec<&str> = components.collect();
+    let all: Vec<&str> = determined
+        .split(", ")
+        .flat_map(|part| part.split(" and "))
+        .collect();
+    // Those along which the reaction is always zero may be said as well.
+    if all.len() < live || all.len() > truth.shared_directions(link, &components) {
+        wrong(&format!("{live} directions are determined"));
+    }
+    let axes: Vec<usize> = components
+        .iter()
+        .filter_map(|name| ["Fx", "Fy", "T"].iter().position(|axis| name == axis))
+        .collect();
+    for combination in all {
+        let Some(direction) = terms(combination, &components) else {
+            wrong("cannot be read");
+            return;
+        };
+        if along_free(truth, link, &axes, &direction).is_some_and(|share| share > 2.0 * FOUR_DIGITS)
+        {
+            wrong("is not determined");
+        }
+    }
+}
+
+/// "0.6·Fx − 0.8·Fy" as coefficients of these components.
+fn terms(text: &str, components: &[&str]) -> Option<Vec<f64>> {
+    let mut direction = vec![0.0; components.len()];
+    let signed = text.replace(" − ", " + −");
+    for term in signed.split(" + ") {
+        let (sign, term) = match term.strip_prefix('−') {
+            Some(rest) => (-1.0, rest),
+            None => (1.0, term),
+        };
+        let (factor, name) = match term.split_once('·') {
+            Some((factor, name)) => (factor.replace('−', "-").parse().ok()?, name),
+            None => (1.0, term),
+        };
+        direction[components.iter().position(|c| *c == name)?] += sign * factor;
+    }
+    Some(direction)
+}

@@ -1,0 +1,280 @@
+//! Degenerate scenes: what is told of them is what exact arithmetic says. `cargo run --release -p
+//! fuzz -- exact` makes 20 000 of them.
+
+use fuzz::exact::drawing::{Drawing, GROUND, Tie, Vector};
+use fuzz::exact::examine::{Kind, examine};
+use fuzz::exact::families::Family;
+use fuzz::exact::pose::{Posed, Writing};
+use fuzz::exact::ratio::Ratio;
+use fuzz::exact::tally::Tally;
+use fuzz::exact::told::told;
+use fuzz::exact::truth::Truth;
+use fuzz::exact::{scene, text};
+use serde_json::{Value, json};
+use tests::numbers::Numbers;
+
+const SEED: u64 = 1;
+
+/// Each family in each way of writing a dozen times.
+const SCENES: u64 = 384;
+
+#[test]
+fn nothing_is_told_that_exact_arithmetic_contradicts() {
+    let tally = Tally::of(SEED, 0, SCENES);
+    assert!(tally.passes(), "\n{}", tally.describe());
+    assert_eq!(tally.contradicting, [0; 0], "\n{}", tally.describe());
+}
+
+/// A judge that calls everything redundant, or nothing, is wrong in every family.
+#[test]
+fn every_family_has_members_of_full_rank_and_others() {
+    for (place, family) in Family::ALL.into_iter().enumerate() {
+        let redundancies: Vec<usize> = (0..40)
+            .map(|k| 4 * (Family::ALL.len() as u64 * k + place as u64))
+            .map(|number| Truth::of(&scene(SEED, number).posed).redundancy())
+            .collect();
+        let full = redundancies.iter().filter(|p| **p == 0).count();
+        assert!((1..=38).contains(&full), "{family:?}: {full} of 40");
+    }
+}
+
+/// Tenths.
+fn at(x: i128, y: i128) -> Vector {
+    [x, y].map(|x| Ratio::new(x, 10))
+}
+
+/// The oracle against closed forms: trains of gears, planets and parallel cranks.
+#[test]
+fn exact_arithmetic_finds_what_theory_tells() {
+    let mut told = 0;
+    for number in 0..1000 {
+        let scene = scene(SEED, number);
+        if let Some(redundancy) = scene.posed.redundancy {
+            assert_eq!(Truth::of(&scene.posed).redundancy(), redundancy, "{number}");
+            told += 1;
+        }
+    }
+    assert!(told > 80, "{told}");
+}
+
+/// In all ways of writing: what exact arithmetic says is what was found by hand, and it is what is
+/// told.
+fn assert_told(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
+    for seed in 0..8 * Writing::ALL.len() as u64 {
+        let writing = Writing::ALL[seed as usize % Writing::ALL.len()];
+        let posed = Posed::new(drawing, writing, &mut Numbers::new(seed));
+        let truth = Truth::of(&posed);
+        assert_eq!(truth.rank(), rank, "{writing:?}");
+        for (link, placed) in posed.links.iter().enumerate() {
+            let (name, is_unique) = (
+                placed.link.name.as_str(),
+                truth.is_unique(&truth.rows_of(link)),
+            );
+            assert_eq!(
+                is_unique,
+                !not_unique.contains(&name),
+                "{name}, {writing:?}"
+            );
+        }
+        let text = text::text(&posed);
+        let document = told(&text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let mut findings = examine(&truth, &document).0;
+        // Far away doubles may know too little.
+        findings.retain(|f| writing != Writing::Far || f.kind.is_wrong());
+        assert!(findings.is_empty(), "{writing:?}: {findings:#?}\n{text}");
+    }
+}
+
+/// Three distances between three points on a line, and an oblique bar: the line has one load too
+/// many, the bar is unique.
+#[test]
+fn three_bars_on_a_line_and_an_oblique_one() {
+    let mut drawing = Drawing::new();
+    let nodes = [at(0, 30), at(0, 70), at(0, 40)];
+    let [a, b, c] = nodes.map(|node| drawing.body_at(node));
+    for (pair, [i, j]) in [([a, b], [0, 1]), ([b, c], [1, 2]), ([c, a], [2, 0])] {
+        let (from, at) = (nodes[i], nodes[j]);
+        drawing.link(&pair, Tie::Distance { from, at });
+    }
+    let (from, at) = (nodes[0], at(-40, 40));
+    drawing.link(&[a, GROUND], Tie::Distance { from, at });
+    assert_told(&drawing, 3, &["j0", "j1", "j2"]);
+}
+
+/// The normals meet in the body's origin: it turns there.
+#[test]
+fn three_edges_whose_normals_meet() {
+    for centre in [at(0, 0), at(10, 0), at(3, -11)] {
+        let mut drawing = Drawing::new();
+        let body = drawing.body_at(centre);
+        for (p, along) in [
+            (at(3, 1), at(9, 3)),
+            (at(0, 7), at(0, 10)),
+            (at(7, 7), at(1, 1)),
+        ] {
+            let at = [centre[0] + p[0], centre[1] + p[1]];
+            drawing.link(&[body], Tie::KnifeEdge { at, along });
+        }
+        assert_told(&drawing, 2, &["j0", "j1", "j2"]);
+    }
+}
+
+/// Wheels at 120° with radial normals, each with a spinning wheel: rows of the wheels add nothing
+/// to what three normals have, rank 2.
+#[test]
+fn three_wheels_at_120_degrees() {
+    for centre in [at(0, 0), at(10, 0)] {
+        let mut drawing = Drawing::new();
+        drawing.stretch = 3;
+        let body = drawing.body_at(centre);
+        for spoke in [at(10, 0), at(-5, 5), at(-5, -5)] {
+            let at = [centre[0] + spoke[0], centre[1] + spoke[1]];
+            let along = spoke;
+            drawing.link(&[body], Tie::KnifeEdge { at, along });
+            let wheel = drawing.body_at(at);
+            let (along, radius) = (drawing.across(spoke), Ratio::new(1, 10));
+            drawing.link(&[body, wheel], Tie::Rolling { at, along, radius });
+        }
+        assert_told(&drawing, 5, &["j0", "j2", "j4"]);
+    }
+}
+
+/// A wheel in a bearing at its centre, which a script has written one unit in the last place away:
+/// it turns freely beside whatever else is held.
+#[test]
+fn a_wheel_pinned_at_its_centre() {
+    let mut drawing = Drawing::new();
+    let (body, wheel) = (drawing.body_at(at(0, 0)), drawing.body_at(at(3, 0)));
+    drawing.link(&[body, wheel], Tie::Revolute { at: at(3, 0) });
+    for y in [-5, 5] {
+        let (at, along) = (at(0, y), at(0, 10));
+        drawing.link(&[body], Tie::KnifeEdge { at, along });
+    }
+    for is_careless in [false, true] {
+        drawing.is_careless = is_careless;
+        assert_told(&drawing, 3, &["j1", "j2"]);
+    }
+}
+
+/// Ratios of 1/3 and 3: the second mesh says what the first one says.
+#[test]
+fn two_meshes_of_the_same_wheels() {
+    for (closing, rank) in [(Ratio::whole(3), 1), (Ratio::new(301, 100), 2)] {
+        let mut drawing = Drawing::new();
+        let wheels = [drawing.body(), drawing.body()];
+        let ratio = Ratio::new(1, 3);
+        drawing.link(&[wheels[0], wheels[1], GROUND], Tie::Gear { ratio });
+        let ratio = closing;
+        drawing.link(&[wheels[1], wheels[0], GROUND], Tie::Gear { ratio });
+        let not_unique: &[&str] = if rank == 1 { &["j0", "j1"] } else { &[] };
+        assert_told(&drawing, rank, not_unique);
+    }
+}
+
+/// What the examiner finds in a right document that somebody has changed.
+#[test]
+fn a_changed_document_is_found_out() {
+    // Two bars along one line between the same bodies, and a third that is unique.
+    let mut drawing = Drawing::new();
+    let (a, b) = (drawing.body(), drawing.body());
+    let (from, end) = (at(2, 3), at(14, 8));
+    drawing.link(&[a, b], Tie::Distance { from, at: end });
+    drawing.link(
+        &[a, b],
+        Tie::Distance {
+            from,
+            at: at(26, 13),
+        },
+    );
+    let (from, at) = (at(1, 1), at(0, 9));
+    drawing.link(&[a, GROUND], Tie::Distance { from, at });
+    let posed = Posed::new(&drawing, Writing::AsDrawn, &mut Numbers::new(SEED));
+    let truth = Truth::of(&posed);
+    let document = told(&text::text(&posed)).expect("it is a scene");
+    let kinds = |document: &Value| {
+        let findings = examine(&truth, document).0;
+        findings.into_iter().map(|f| f.kind).collect::<Vec<_>>()
+    };
+    assert_eq!(kinds(&document), []);
+    let changes = [
+        ("/rank", json!(3), Kind::Rank),
+        ("/mobility", json!(3), Kind::Rank),
+        ("/kept_rows", json!([1, 2]), Kind::Rank),
+        ("/rank_holonomic", json!(3), Kind::Rank),
+        ("/reactions/0/verdict", json!("unique"), Kind::Verdict),
+        ("/reactions/2/verdict", json!("not_unique"), Kind::Verdict),
+        ("/reactions/0/multipliers", json!("unique"), Kind::Verdict),
+        (
+            "/reactions/0/row_verdicts/0/verdict",
+            json!("unique"),
+            Kind::Verdict,
+        ),
+        (
+            "/reactions/0/components/1/verdict",
+            json!("unique"),
+            Kind::Verdict,
+        ),
+        (
+            "/reactions/0/unique_directions",
+            json!([[0.0, 1.0]]),
+            Kind::Verdict,
+        ),
+        ("/dependencies/0/rows", json!([1, 2, 3]), Kind::Sentence),
+        (
+            "/dependencies/0/coefficients",
+            json!([1.0, 1.0]),
+            Kind::Sentence,
+        ),
+        (
+            "/dependencies/0/coefficients",
+            json!([1.0, -1.0 + 1e-8]),
+            Kind::Sentence,
+        ),
+        ("/dependencies", json!([]), Kind::Sentence),
+        (
+            "/reactions/1/free_directions/0/force",
+            json!([1.0, 0.5]),
+            Kind::Load,
+        ),
+        (
+            "/reactions/0/free_directions/0/torque",
+            json!(1e-6),
+            Kind::Load,
+        ),
+        ("/mixing/0/rows", json!([1, 2, 3]), Kind::Sentence),
+        ("/mixing", json!([]), Kind::Sentence),
+        ("/reactions/0/settled", json!("bridge"), Kind::Sentence),
+        ("/eliminations/count", json!(3), Kind::Sentence),
+        ("/make_unique/0/ways/0/rows", json!([3]), Kind::Sentence),
+        ("/make_unique/0/ways", json!([]), Kind::Sentence),
+        ("/evidence/status", json!("undecided"), Kind::Undecided),
+    ];
+    for (pointer, value, kind) in changes {
+        let mut changed = document.clone();
+        let place = changed.pointer_mut(pointer);
+        *place.unwrap_or_else(|| panic!("{pointer} of {document:#}")) = value.clone();
+        assert!(kinds(&changed).contains(&kind), "{pointer} = {value}");
+    }
+    let sentences = [
+        ("/dependencies/0/text", "`j1`", "`j2`"),
+        ("/dependencies/0/text", " 1 : ", " 1.1 : "),
+        ("/mixing/0/text", "`j1`", "`j2`"),
+        ("/reactions/0/explanation", "`j1`", "`j2`"),
+        (
+            "/reactions/0/explanation",
+            "nothing of it is determined",
+            "determined is Fx",
+        ),
+    ];
+    for (pointer, words, other) in sentences {
+        let mut changed = document.clone();
+        let place = changed.pointer_mut(pointer);
+        let place = place.unwrap_or_else(|| panic!("{pointer} of {document:#}"));
+        let text = place.as_str().unwrap_or_default().to_owned();
+        *place = json!(text.replace(words, other));
+        assert!(
+            kinds(&changed).contains(&Kind::Sentence),
+            "{words} in {text}"
+        );
+    }
+}
