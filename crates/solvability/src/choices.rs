@@ -196,6 +196,21 @@ pub enum ChoiceError {
         /// The joint or drive.
         reaction: String,
     },
+    /// Not as many rows as one part of the mechanism has too many.
+    #[error(
+        "rows without reaction are as many as are redundant, {redundancy} in all: {joints} have {own} of them, but {listed} of their rows {} listed",
+        if *listed == 1 { "is" } else { "are" }
+    )]
+    Count {
+        /// Of the whole mechanism.
+        redundancy: usize,
+        /// The first joints and drives of the part.
+        joints: String,
+        /// Redundancy of the part.
+        own: usize,
+        /// Its rows among those asked for.
+        listed: usize,
+    },
     /// These rows cannot be without reaction.
     #[error(
         "no solution has zero reactions in {} {}: {}",

@@ -6,7 +6,7 @@
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 
-use linalg::{DeletionError, Limits, count_deletions, deletions};
+use linalg::{DeletionError, Limits, RankStatus, count_deletions, deletions};
 use model::{BodyRef, ConstraintId, Mechanism, System};
 use rayon::prelude::*;
 
@@ -353,7 +353,11 @@ impl<'a> Questions<'a> {
                 }
                 self.rigid(joints)?
             }
-            _ => Vec::new(),
+            Choice::Elimination(rows) => {
+                self.check_counts(rows)?;
+                Vec::new()
+            }
+            Choice::MinimumNorm(_) => Vec::new(),
         };
         let label = Label::of(self.mechanism.layout(), choice, &rigid);
         let share = |k: usize| {
@@ -371,6 +375,23 @@ impl<'a> Questions<'a> {
             (0..self.parts().len()).into_par_iter().map(share).collect();
         let parts = parts.into_iter().collect::<Result<Vec<_>, _>>()?;
         Ok(Distribution::of_parts(label.clone(), lambda, rows, parts))
+    }
+
+    /// Checks that each part can do without these rows by their number.
+    fn check_counts(&self, rows: &[usize]) -> Result<(), ChoiceError> {
+        for part in self.parts() {
+            let (own, listed) = (part.decision.redundancy(), part.extent.own_rows(rows).len());
+            let is_decided = part.decision.status() == RankStatus::Decided;
+            if is_decided && own != listed {
+                return Err(ChoiceError::Count {
+                    redundancy: self.analysis.decision.redundancy,
+                    joints: part.extent.name(self.mechanism),
+                    own,
+                    listed,
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Those of some supports that belong to a part.
@@ -501,7 +522,7 @@ impl<'a> Questions<'a> {
         let parts = self.parts().iter().enumerate();
         parts
             .filter(|(_, part)| {
-                let is_decided = part.decision.status() == linalg::RankStatus::Decided;
+                let is_decided = part.decision.status() == RankStatus::Decided;
                 part.decision.redundancy() > 0 || !is_decided
             })
             .map(|(k, _)| k)

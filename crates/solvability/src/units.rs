@@ -104,9 +104,22 @@ pub(crate) fn check_equations(
     let mechanism = &configuration.mechanism;
     let numbers = Numbers::of(configuration)?;
     let mut checks = numbers.checks.clone();
+    if configuration.solvability.null_space().ncols() == 0 {
+        // One solution has nothing to choose.
+        let lambda = real.multipliers(configuration.solvability.decision())?;
+        for (check, form) in checks.iter_mut().zip(&numbers.forms) {
+            check.value = form.value(&lambda);
+        }
+        return Ok(checks);
+    }
+    let in_si = numbers.rewritten(real, Units::SI)?;
+    let others = [Units::MILLIMETRE, Units::GRAM, Units::MILLISECOND]
+        .map(|units| numbers.rewritten(real, units))
+        .into_iter()
+        .collect::<Result<Vec<_>, _>>()?;
     for (is_real, equations) in [(true, real), (false, &numbers.probing_load(real))] {
-        let in_si = numbers.rewritten(equations, Units::SI)?;
-        let reference = numbers.least(&in_si, None)?;
+        let lambda_0 = in_si.multipliers(equations)?;
+        let reference = numbers.least(&in_si, &lambda_0, None)?;
         let scale = numbers.scale(equations, &reference);
         let mut compare = |other: &[f64]| {
             for (k, check) in checks.iter_mut().enumerate() {
@@ -114,11 +127,11 @@ pub(crate) fn check_equations(
                 check.change = check.change.max((other[k] - reference[k]).abs() / unit);
             }
         };
-        for units in [Units::MILLIMETRE, Units::GRAM, Units::MILLISECOND] {
-            compare(&numbers.least(&numbers.rewritten(equations, units)?, None)?);
+        for other in &others {
+            compare(&numbers.least(other, &other.multipliers(equations)?, None)?);
         }
         for id in mechanism.constraint_ids() {
-            compare(&numbers.least(&in_si, Some(id))?);
+            compare(&numbers.least(&in_si, &lambda_0, Some(id))?);
         }
         if is_real {
             for (check, value) in checks.iter_mut().zip(reference) {
@@ -135,12 +148,19 @@ pub(crate) fn check_equations(
     Ok(checks)
 }
 
-/// Equations in other units, solved.
+/// C in other units, judged anew.
 struct Rewritten {
     units: Units,
     rewriting: Rewriting,
-    lambda_0: Vec<f64>,
     solvability: Solvability,
+}
+
+impl Rewritten {
+    /// One solution in these units; the equations are in SI units.
+    fn multipliers(&self, equations: &Equations) -> Result<Vec<f64>, ChoiceError> {
+        let equations = self.rewriting.equations(equations);
+        equations.multipliers(self.solvability.decision())
+    }
 }
 
 /// The numbers that are compared, and the wrenches whose norm is least.
@@ -190,7 +210,7 @@ impl<'a> Numbers<'a> {
         })
     }
 
-    /// One solution in other units, and what is free there.
+    /// What is free in other units.
     fn rewritten(&self, equations: &Equations, units: Units) -> Result<Rewritten, UnitError> {
         let decided = self.configuration.solvability.decision();
         let kinds = self.configuration.mechanism.column_kinds();
@@ -206,22 +226,21 @@ impl<'a> Numbers<'a> {
         }
         Ok(Rewritten {
             units,
-            lambda_0: equations.multipliers(&decision)?,
             solvability: Solvability::from_decision(&equations.c, decision),
             rewriting,
         })
     }
 
-    /// The numbers in SI units that the least norm in other units gives; the reaction `alone` counts in units of its own.
+    /// The numbers in SI units that the least norm in other units gives, from one solution there; the reaction `alone` counts in units of its own.
     fn least(
         &self,
         rewritten: &Rewritten,
+        lambda_0: &[f64],
         alone: Option<ConstraintId>,
     ) -> Result<Vec<f64>, UnitError> {
         let Rewritten {
             units,
             rewriting,
-            lambda_0,
             solvability,
         } = rewritten;
         let wrench = |(id, dimension, form): &(ConstraintId, Dimension, LinearForm)| {

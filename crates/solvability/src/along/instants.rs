@@ -60,6 +60,13 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             };
             let from = neighbour(coarse[0], -1).unwrap_or(coarse[0]);
             let to = neighbour(coarse[1], 1).unwrap_or(coarse[1]);
+            let near = times.iter().zip(&margins).filter(|(t, _)| (from..=to).contains(*t));
+            let (least, largest) = near
+                .filter_map(|(_, margin)| *margin)
+                .fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));
+            if !search::may_reach(0.0, least, largest) {
+                continue;
+            }
             let step = (to - from) / f64::from(FINER);
             let finer: Vec<f64> = (0..=FINER).map(|k| from + f64::from(k) * step).collect();
             let values = finer
@@ -82,9 +89,12 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             let (t, there) = match given.find(|s| is_unique(&s.analysis)) {
                 Some(sample) => (sample.t, sample.analysis.clone()),
                 None => {
-                    let (t, _) = search::minimum(bracket, |t| {
+                    let least = search::minimum(bracket, 0.0, |t| {
                         Ok::<_, AlongError>(margin(&path.analysis(t)?, part))
                     })?;
+                    let Some((t, _)) = least else {
+                        continue;
+                    };
                     (t, path.analysis(t)?)
                 }
             };

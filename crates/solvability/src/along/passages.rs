@@ -49,8 +49,10 @@ pub(super) fn passages<F: FnMut(f64) -> State>(
         if found.iter().any(|c| a <= c.t && c.t <= b) {
             continue;
         }
-        let (t, sigma) = search::minimum(bracket, |t| path.sigma(t))?;
-        if sigma < NEARLY_SINGULAR {
+        let least = search::minimum(bracket, NEARLY_SINGULAR, |t| path.sigma(t))?;
+        if let Some((t, sigma)) = least
+            && sigma < NEARLY_SINGULAR
+        {
             let proved = false;
             found.push(Candidate { t, sigma, proved });
         }

@@ -74,16 +74,26 @@ pub(super) fn edge<E>(
     Ok(direction * root(along, values, enough, |x| f(direction * x))?)
 }
 
+/// A convex function with these values around its minimum lies above `least − 1.62·(largest − least)` where it was asked at golden sections; the
+/// rest is room for functions that are not convex.
+const FALL: f64 = 4.0;
+
+/// Whether a function that was found to be no smaller than `least` around its minimum, and no larger than `largest`, may fall to `limit` between.
+pub(super) fn may_reach(limit: f64, least: f64, largest: f64) -> bool {
+    // NaN may be anything.
+    !(least - FALL * (largest - least) > limit)
+}
+
 /// Where `f` is smallest between a and b, if it has one minimum there, and its value: golden sections, which find the corner of an
-/// absolute value to rounding.
+/// absolute value to rounding. `None` as soon as it is clear that it stays above `limit`.
 pub(super) fn minimum<E>(
     [mut a, mut b]: [f64; 2],
+    limit: f64,
     mut f: impl FnMut(f64) -> Result<f64, E>,
-) -> Result<(f64, f64), E> {
+) -> Result<Option<(f64, f64)>, E> {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
-    let mut best = [(a, f(a)?), (b, f(b)?)]
-        .into_iter()
-        .fold((a, f64::INFINITY), lower);
+    let (mut f_a, mut f_b) = (f(a)?, f(b)?);
+    let mut best = lower(lower((a, f64::INFINITY), (a, f_a)), (b, f_b));
     let (mut x, mut y) = (b - golden * (b - a), a + golden * (b - a));
     let (mut f_x, mut f_y) = (f(x)?, f(y)?);
     for _ in 0..ITERATIONS {
@@ -91,17 +101,20 @@ pub(super) fn minimum<E>(
         if b - a <= RESOLUTION * a.abs().max(b.abs()) || best.1 == 0.0 {
             break;
         }
+        if !may_reach(limit, best.1, f_a.max(f_b)) {
+            return Ok(None);
+        }
         if f_x <= f_y {
-            (b, y, f_y) = (y, x, f_x);
+            (b, f_b, y, f_y) = (y, f_y, x, f_x);
             x = b - golden * (b - a);
             f_x = f(x)?;
         } else {
-            (a, x, f_x) = (x, y, f_y);
+            (a, f_a, x, f_x) = (x, f_x, y, f_y);
             y = a + golden * (b - a);
             f_y = f(y)?;
         }
     }
-    Ok(best)
+    Ok(Some(best))
 }
 
 fn lower(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
@@ -145,10 +158,22 @@ mod tests {
 
     #[test]
     fn minima_of_corners_and_parabolas() {
-        let found =
-            |f: &dyn Fn(f64) -> f64| minimum([-1.0, 2.0], |t| Ok::<_, Infallible>(f(t))).unwrap();
-        assert!((found(&|t| (t - 0.3).abs()).0 - 0.3).abs() < 1e-15);
-        assert!((found(&|t| (t - 0.3).powi(2)).0 - 0.3).abs() < 1e-8);
-        assert_eq!(found(&|t| t).0, -1.0);
+        let found = |limit: f64, f: &dyn Fn(f64) -> f64| {
+            let mut asked = 0;
+            let found = minimum([-1.0, 2.0], limit, |t| {
+                asked += 1;
+                Ok::<_, Infallible>(f(t))
+            });
+            (found.unwrap(), asked)
+        };
+        let at = |f: &dyn Fn(f64) -> f64| found(0.0, f).0.unwrap().0;
+        assert!((at(&|t| (t - 0.3).abs()) - 0.3).abs() < 1e-15);
+        assert!((at(&|t| (t - 0.3).powi(2)) - 0.3).abs() < 1e-8);
+        assert_eq!(at(&|t| t), -1.0);
+        // Above the limit by a tenth: few questions; below it by as much: found.
+        let above = |t: f64| 0.1 + (t - 0.3).abs().sqrt();
+        assert!(matches!(found(0.0, &|t| 0.1 + (t - 0.3).powi(2)), (None, asked) if asked < 14));
+        assert!(matches!(found(0.0, &above), (None, asked) if asked < 24));
+        assert!((found(0.11, &above).0.unwrap().0 - 0.3).abs() < 1e-15);
     }
 }

@@ -83,11 +83,12 @@ impl ValuesDocument {
     }
 }
 
+/// `checks` in the order of joints.
 fn nature(checks: &[UnitCheck], id: ConstraintId, name: &str) -> Option<&'static str> {
     let names = Frame::Global.components();
-    let found = checks
-        .iter()
-        .find(|c| c.id == id && c.frame == Frame::Global && names[c.component] == name)?;
+    let from = checks.partition_point(|c| c.id < id);
+    let mut own = checks[from..].iter().take_while(|c| c.id == id);
+    let found = own.find(|c| c.frame == Frame::Global && names[c.component] == name)?;
     Some(match found.nature {
         Nature::Fact => "fact",
         Nature::Choice => "choice",
