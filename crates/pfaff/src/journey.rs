@@ -17,8 +17,10 @@ const INTERVALS: usize = 200;
 const INTERVALS_OF_ROWS: usize = 240_000;
 const INTERVALS_LEAST: usize = 24;
 
-/// Recorded rows between two judged states: what lies between rows is interpolated.
+/// Recorded rows between two judged states: what lies between rows is interpolated, with an error of REACH⁴/384 of a row's distance, and moved onto the
+/// constraints. Of mechanisms of more than `MANY` rows one has to do: writing rows would take longer than judging them.
 const ROWS: usize = 4;
+const MANY: usize = 10_000;
 
 /// Between judged states no body moves by more than this share of the mechanism's size, or as many radians.
 const REACH: f64 = 0.1;
@@ -151,7 +153,7 @@ impl Study {
         progress: &mut (impl FnMut(Progress) + Send),
     ) -> Option<Journey> {
         let last = run.rows.last().filter(|_| run.rows.len() > 1)?.t;
-        let to = run.reached + BEYOND * (run.reached - last).max(last / (ROWS * intervals) as f64);
+        let to = run.reached + BEYOND * (run.reached - last).max(last / (run.between * intervals) as f64);
         let along = self.along(run, to, intervals, progress).ok()?;
         let passed = along.passages.iter().any(|p| {
             p.time > last && p.time < to && matches!(p.kind, PassageKind::RankDrops { .. })
@@ -219,9 +221,11 @@ impl Study {
         progress: &mut (impl FnMut(Progress) + Send),
     ) -> Result<Record, StudyError> {
         let base = self.options.clone();
+        let many = self.prepared.mechanism.layout().rows() > MANY;
+        let between = if many { 1 } else { ROWS };
         let options = MotionOptions {
             t_end,
-            output_step: t_end / (ROWS * intervals) as f64,
+            output_step: t_end / (between * intervals) as f64,
             ..base.unwrap_or_else(|| MotionOptions::to(t_end))
         };
         options.check()?;
@@ -247,6 +251,7 @@ impl Study {
         };
         Ok(Record {
             rows,
+            between,
             reached,
             stopped,
         })
@@ -265,6 +270,8 @@ struct Row {
 /// The rows of a run.
 struct Record {
     rows: Vec<Row>,
+    /// So many of them from one judged state to the next.
+    between: usize,
     /// The last accepted time (s), at or after the last row.
     reached: f64,
     stopped: Option<MotionError>,
@@ -289,7 +296,7 @@ impl Record {
         };
         let moved =
             |pair: &[Row]| (pair[1].t - pair[0].t) * fastest(&pair[0]).max(fastest(&pair[1]));
-        ROWS as f64 * self.rows.windows(2).map(moved).fold(0.0, f64::max)
+        self.between as f64 * self.rows.windows(2).map(moved).fold(0.0, f64::max)
     }
 
     /// The motion at a time between the first row and the last, or near them; there must be two.

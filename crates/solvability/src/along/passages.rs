@@ -4,7 +4,7 @@ use linalg::{Matrix, PivotedQr, RankStatus, least_squares_step};
 use model::{Mechanism, System};
 
 use super::border::Border;
-use super::path::{NEARLY_SINGULAR, Path, Point, Sample};
+use super::path::{NEARLY_SINGULAR, Path, Point, Sample, singular_value};
 use super::{AlongError, Passage, PassageKind, Stretch, differences, search, words};
 use crate::analysis::Analysis;
 use crate::mechanism::velocity_units;
@@ -22,6 +22,9 @@ const SMALL: f64 = 0.1;
 
 /// An interval between samples is halved as often at most.
 const HALVINGS: usize = 8;
+
+/// Between two samples C is no farther from the first than this times their distance: a motion is nearly straight there.
+const BENT: f64 = 2.0;
 
 /// Directions of the regular motion are those at this share of the nearly singular interval beside the instant.
 const BESIDE: f64 = 1e-2;
@@ -86,17 +89,37 @@ pub(super) fn local_minima(times: &[f64], values: &[Option<f64>]) -> Vec<[f64; 2
         .collect()
 }
 
+/// An end of an interval.
+#[derive(Clone)]
+struct End {
+    t: f64,
+    /// σ_r
+    sigma: f64,
+    /// C, equilibrated as all samples.
+    matrix: Matrix,
+    kept: Vec<usize>,
+}
+
+/// The Frobenius norm of a difference.
+fn distance(a: &Matrix, b: &Matrix) -> f64 {
+    let pairs = a.as_slice().iter().zip(b.as_slice());
+    pairs.map(|(a, b)| (a - b) * (a - b)).sum::<f64>().sqrt()
+}
+
 /// Roots of the bordered determinant between regular samples.
 fn sign_changes<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
 ) -> Result<Vec<Candidate>, AlongError> {
-    /// An end of an interval: time, equilibrated C and kept rows.
-    type End = (f64, Matrix, Vec<usize>);
     let ends: Vec<End> = path
         .samples
         .iter()
         .filter(|s| s.regular)
-        .map(|s| (s.t, s.c.clone(), s.decision.kept.clone()))
+        .map(|s| End {
+            t: s.t,
+            sigma: s.sigma,
+            matrix: s.c.clone(),
+            kept: s.decision.kept.clone(),
+        })
         .collect();
     let mut found: Vec<Candidate> = Vec::new();
     let mut intervals: Vec<(End, End, usize)> = ends
@@ -104,14 +127,18 @@ fn sign_changes<F: FnMut(f64) -> State>(
         .map(|w| (w[0].clone(), w[1].clone(), HALVINGS))
         .collect();
     while let Some((a, b, halvings)) = intervals.pop() {
-        let border = Border::new(&a.1, &a.2);
-        let value = border.value(&b.1);
+        // No matrix so near to one of rank r has a lower rank.
+        if BENT * distance(&a.matrix, &b.matrix) < a.sigma.max(b.sigma) {
+            continue;
+        }
+        let border = Border::new(&a.matrix, &a.kept);
+        let value = border.value(&b.matrix);
         if value < 0.0 {
             let at = |t: f64| -> Result<f64, AlongError> {
                 let point = path.at(t)?;
                 Ok(border.value(&path.equilibrated(&point)))
             };
-            let t = search::root([a.0, b.0], [1.0, value], 0.0, at)?;
+            let t = search::root([a.t, b.t], [1.0, value], 0.0, at)?;
             let sigma = path.sigma(t)?;
             if sigma < SINGULAR {
                 let proved = true;
@@ -120,16 +147,22 @@ fn sign_changes<F: FnMut(f64) -> State>(
             }
         }
         // The same the other way round: rows and frame of b.
-        let back = Border::new(&b.1, &b.2);
+        let back = Border::new(&b.matrix, &b.kept);
         let doubtful = value < SMALL
-            || back.value(&a.1) < SMALL
-            || border.overlap(&b.1).min(back.overlap(&a.1)) < OVERLAP;
+            || back.value(&a.matrix) < SMALL
+            || border.overlap(&b.matrix).min(back.overlap(&a.matrix)) < OVERLAP;
         if halvings > 0 && doubtful {
-            let t = 0.5 * (a.0 + b.0);
+            let t = 0.5 * (a.t + b.t);
             let point = path.at(t)?;
             let decision = path.decide(&point, 0.0)?;
             if decision.is_decided() && decision.rank == path.rank {
-                let middle = (t, path.equilibrated(&point), decision.kept);
+                let matrix = path.equilibrated(&point);
+                let middle = End {
+                    t,
+                    sigma: singular_value(&matrix, path.rank),
+                    matrix,
+                    kept: decision.kept,
+                };
                 intervals.push((a, middle.clone(), halvings - 1));
                 intervals.push((middle, b, halvings - 1));
             }

@@ -191,7 +191,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
 }
 
 /// σ_r, infinite for rank 0.
-fn singular_value(c: &Matrix, rank: usize) -> f64 {
+pub(super) fn singular_value(c: &Matrix, rank: usize) -> f64 {
     match rank {
         0 => f64::INFINITY,
         r => linalg::singular_values(c)[r - 1],
