@@ -377,7 +377,7 @@ fn summary_has_the_keys_of_the_contract() {
         "events": [],
         "reactions": {
             "upper": { "verdict": "unique", "margin": 0.0, "sensitivity": 0.25, "fragile": true,
-                "hangs_on": "`upper` is unique but changes by 25 % if point `s_i` of `lower` moves by 0.20 mm" },
+                "hangs_on": "`upper` is unique but changes by about 25 % if point `s_i` of `lower` moves by 0.20 mm" },
             "lower \"2\"": { "verdict": "not_unique", "margin": 0.5, "sensitivity": null, "fragile": false,
                 "choice": { "method": "kept-rows", "deleted_rows": [4] } } },
         "plan": { "components": "solved as one", "generated_code": "interpreted", "rows_of_output": "201", "accelerations": "at rows of output", "method": "dop853", "linear_systems": "none",
