@@ -247,10 +247,7 @@ impl<'a> Questions<'a> {
         group: &Group,
         about: Option<[f64; 2]>,
     ) -> Result<GroupVerdict, RequestError> {
-        let judgement = Judgement {
-            verdict: Verdict::Unique,
-            margin: 0.0,
-        };
+        let judgement = Judgement::new(Verdict::Unique, 0.0);
         match group {
             Group::Resultant(_) => Ok(GroupVerdict {
                 components: model::reaction::COMPONENTS

@@ -38,8 +38,8 @@ pub(super) struct Instant<'a> {
     force_dq: &'a [(usize, usize, f64)],
     force_dv: &'a [(usize, usize, f64)],
     by_data: DataGradients,
-    /// Kept rows of C, and kept rows of Φ, with columns in velocity units, factored.
-    c: Follow,
+    /// Kept rows of C, where anything depends on velocities, and kept rows of Φ, with columns in velocity units, factored.
+    c: Option<Follow>,
     phi_q: Follow,
     /// Points, directions and numbers, and how far each is moved.
     blocks: Vec<(DataBlock, f64)>,
@@ -122,6 +122,9 @@ impl<'a> Instant<'a> {
         }
         let mut derivatives = mechanism.derivatives();
         mechanism.differentiate(&a, &lambda, &s, &mut derivatives);
+        let feels_velocities = (derivatives.gamma_dv.iter())
+            .chain(force_dv.iter().copied())
+            .any(|(.., value)| value != 0.0);
         let holonomic = kept.partition_point(|&i| i < layout.m);
         let moved = |block: DataBlock| {
             let workshop = match block.unit {
@@ -132,7 +135,7 @@ impl<'a> Instant<'a> {
             (block, moved)
         };
         Ok(Self {
-            c: Follow::new(&rows, kept.to_vec(), &units),
+            c: feels_velocities.then(|| Follow::new(&rows, kept.to_vec(), &units)),
             phi_q: Follow::new(&rows, kept[..holonomic].to_vec(), &units),
             blocks: mechanism.data_blocks(&s).into_iter().map(moved).collect(),
             by_data: mechanism.data_gradients(&s, &lambda, &a, &v),
@@ -221,10 +224,12 @@ impl<'a> Instant<'a> {
         }
         let d = &self.derivatives;
         // By velocities, which follow the data and the pose.
-        w.by_pose.fill(0.0);
-        add_transposed(d.gamma_dv.iter(), &w.y_lambda, 1.0, &mut w.by_pose);
-        add_transposed(self.force_dv.iter().copied(), &w.y, 1.0, &mut w.by_pose);
-        self.c.multipliers(&mut w.by_pose, &mut w.w_v);
+        if let Some(c) = &self.c {
+            w.by_pose.fill(0.0);
+            add_transposed(d.gamma_dv.iter(), &w.y_lambda, 1.0, &mut w.by_pose);
+            add_transposed(self.force_dv.iter().copied(), &w.y, 1.0, &mut w.by_pose);
+            c.multipliers(&mut w.by_pose, &mut w.w_v);
+        }
         // By the pose, which follows the data.
         w.by_pose.fill(0.0);
         add_transposed(self.force_dq.iter().copied(), &w.y, 1.0, &mut w.by_pose);
@@ -259,10 +264,6 @@ impl Follow {
     /// `w` with `gᵀ·δx = −wᵀ·δr` for the smallest δx that answers a change δr of the rows; all rows of the mechanism, of which the others are left
     /// as they are. Overwrites g.
     fn multipliers(&self, g: &mut [f64], w: &mut [f64]) {
-        if g.iter().all(|g| *g == 0.0) {
-            self.rows.iter().for_each(|&row| w[row] = 0.0);
-            return;
-        }
         g.iter_mut()
             .zip(&self.units)
             .for_each(|(g, unit)| *g *= unit);
