@@ -5,7 +5,7 @@ use std::hint::black_box;
 use std::ops::Range;
 
 use divan::Bencher;
-use dynamics::{RowChoice, prepare};
+use dynamics::{Prepared, RowChoice, prepare};
 use linalg::{DdMatrix, Matrix};
 use model::{Mechanism, StartOptions, System};
 use solvability::Solvability;
@@ -15,11 +15,15 @@ fn main() {
     divan::main();
 }
 
+/// The robot at its start.
+fn prepared() -> Prepared {
+    let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
+    prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("the robot starts")
+}
+
 /// C of the robot at its start, and the rows of its fourteen reactions.
 fn matrix() -> (Matrix, Vec<Range<usize>>) {
-    let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
-    let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)
-        .expect("the robot starts");
+    let p = prepared();
     let mut s = p.mechanism.scratch();
     p.mechanism.pose(0.0, &p.q, &mut s);
     p.mechanism.c(&mut s);
@@ -64,4 +68,23 @@ fn certify_within(bencher: Bencher<'_, '_>) {
 fn verdicts_from_the_matrix(bencher: Bencher<'_, '_>) {
     let (c, groups) = matrix();
     bencher.bench_local(|| Solvability::of(black_box(&c), 0.0).map(|s| unique(&s, &groups)));
+}
+
+/// The verdict of every reaction of the robot, with its certificate and what the data would have to be wrong by for a lower rank.
+#[divan::bench]
+fn analysis(bencher: Bencher<'_, '_>) {
+    let p = prepared();
+    let analysed = || solvability::analyse(&p.mechanism, 0.0, black_box(&p.q));
+    assert!(analysed().is_ok_and(|a| a.decision.rank == 20));
+    bencher.bench_local(analysed);
+}
+
+/// How much each unique reaction of the robot hangs on the data.
+#[divan::bench]
+fn sensitivities(bencher: Bencher<'_, '_>) {
+    let p = prepared();
+    let analysis = solvability::analyse(&p.mechanism, 0.0, &p.q).expect("finite");
+    let told = || analysis.sensitivities(&p.mechanism, black_box(&p.q), &p.v);
+    assert!(told().is_ok_and(|s| s.each.iter().flatten().count() == 8 && s.fragile().count() == 0));
+    bencher.bench_local(told);
 }

@@ -167,8 +167,8 @@ pub enum Doubt {
     },
     /// The rank hangs on where in the tolerance the data are.
     #[error(
-        "with data known to {tolerance:.1e} m the rank is {lower} or {upper}: one row is redundant from about {from:.1e} m on; \
-         state a tolerance below {:.1e} m or above {:.1e} m",
+        "with data known to {tolerance:.1e} {unit} the rank is {lower} or {upper}: one row is redundant from about {from:.1e} {unit} on; \
+         state a tolerance below {:.1e} {unit} or above {:.1e} {unit}",
         from / 3.0,
         3.0 * from
     )]
@@ -177,10 +177,12 @@ pub enum Doubt {
         lower: usize,
         /// The rank of the data as read.
         upper: usize,
-        /// Where the reading changes (m).
+        /// Where the reading changes.
         from: f64,
-        /// What is stated (m).
+        /// What is stated.
         tolerance: f64,
+        /// The unit of both: `m`, or `rad` where a tolerance is stated for angles alone.
+        unit: &'static str,
     },
     /// Rows that are not zero are hidden by what the data are known to.
     #[error(

@@ -2,6 +2,8 @@
 //!
 //! Not here: how a pose answers to a change of the data, and what a change means for a rank (`solvability`).
 
+mod gradients;
+
 use std::ops::Range;
 
 use joints::Twist;
@@ -11,6 +13,8 @@ use crate::description::BodyRef;
 use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint, column_of};
 use crate::start::size_of;
 use crate::system::{Scratch, System};
+
+pub use gradients::DataGradients;
 
 /// A point, a direction or a single number of a constraint: what changes together.
 #[derive(Clone, Debug, PartialEq)]
@@ -134,33 +138,8 @@ impl Mechanism {
         factor: f64,
         out: &mut [f64],
     ) {
-        // Without velocities and functions of time Γ vanishes.
-        self.add_by_data(s, lambda, v, None, factor, out);
-    }
-
-    /// The same of `λᵀ·(C·a − Γ)`, which needs the twists of the scratch too.
-    pub fn add_residual_by_data(
-        &self,
-        s: &Scratch,
-        lambda: &[f64],
-        a: &[f64],
-        factor: f64,
-        out: &mut [f64],
-    ) {
-        self.add_by_data(s, lambda, a, Some(&s.slot_twists), factor, out);
-    }
-
-    fn add_by_data(
-        &self,
-        s: &Scratch,
-        lambda: &[f64],
-        a: &[f64],
-        twists: Option<&[Twist]>,
-        factor: f64,
-        out: &mut [f64],
-    ) {
         let mut first = 0;
-        let (mut at_rest, mut slots, mut f) = (Vec::new(), Vec::new(), Vec::new());
+        let (mut still, mut slots, mut f) = (Vec::new(), Vec::new(), Vec::new());
         let mut own = Vec::new();
         for c in self.constraints() {
             let element = c.element.element();
@@ -171,14 +150,11 @@ impl Mechanism {
                 own.resize(count, 0.0);
                 let x = &s.slot_poses[c.slots.clone()];
                 slots.clear();
-                slots.extend(c.bodies.iter().map(|&body| twist_of(body, a)));
-                at_rest.resize(slots.len(), Twist::zero());
+                slots.extend(c.bodies.iter().map(|&body| twist_of(body, v)));
+                // Without velocities and functions of time Γ vanishes.
+                still.resize(slots.len(), Twist::zero());
                 f.resize(c.functions.len(), [0.0; 3]);
-                let (v, f) = match twists {
-                    Some(twists) => (&twists[c.slots.clone()], &s.jets[c.functions.clone()]),
-                    None => (&at_rest[..], &f[..]),
-                };
-                element.d_residual_dp(x, v, &slots, f, lambda, &mut own);
+                element.d_residual_dp(x, &still, &slots, &f, lambda, &mut own);
                 for (out, own) in out[first..first + count].iter_mut().zip(&own) {
                     *out += factor * own;
                 }

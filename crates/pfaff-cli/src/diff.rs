@@ -238,10 +238,7 @@ fn verdicts(names: &[String; 2], c: &Comparison<'_>) -> String {
 
 /// The verdict of a reaction, with its type where that matters, and which components are not unique.
 fn words(r: &ReactionDocument, with_type: bool) -> String {
-    let verdict = match r.data.fragile {
-        true => "unique, FRAGILE".to_owned(),
-        false => r.wrench.verdict.replace('_', " "),
-    };
+    let verdict = r.said();
     let free = r
         .components
         .iter()

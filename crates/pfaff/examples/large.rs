@@ -1,4 +1,5 @@
-//! What a large scene costs: reading, building, assembling, the verdict of every reaction, choosing rows, and one right-hand side.
+//! What a large scene costs: reading, building, assembling, the verdict of every reaction, how much each hangs on the data, choosing rows, and one
+//! right-hand side.
 //!
 //! `cargo run --release -p pfaff --example large -- SCENE.toml …`
 #![allow(clippy::print_stdout)]
@@ -7,7 +8,7 @@ use std::error::Error;
 use std::time::Instant;
 
 use pfaff::dynamics::{KeptRowMotion, Motion, RowChoice, prepare};
-use pfaff::model::{Mechanism, Registry, System};
+use pfaff::model::{Assembly, Mechanism, Registry, System};
 use pfaff::solvability::{Verdict, analyse};
 
 /// Evaluations; the least time counts.
@@ -15,7 +16,7 @@ const RUNS: usize = 25;
 
 fn main() -> Result<(), Box<dyn Error>> {
     println!(
-        "     rows   columns        p      read     build  assemble  verdicts      rows     order   right-hand side  not unique"
+        "     rows   columns        p      read     build  assemble  verdicts   fragile      rows     order   right-hand side  not unique"
     );
     for file in std::env::args().skip(1) {
         let text = std::fs::read_to_string(&file)?;
@@ -25,9 +26,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut mechanism = mechanism.map_err(|all| format!("{:?}", all.first()))?;
         let (assemble, assembly) =
             timed(|| pfaff::model::start::assemble(&mut mechanism, &scene.start));
-        let q = assembly?.q;
+        let Assembly { q, v, .. } = assembly?;
         let (verdicts, found) = timed(|| analyse(&mechanism, 0.0, &q));
         let found = found?;
+        let (fragile, hanging) = timed(|| found.sensitivities(&mechanism, &q, &v));
+        hanging?;
         let open = found
             .reactions
             .iter()
@@ -47,7 +50,7 @@ fn main() -> Result<(), Box<dyn Error>> {
             least = least.min(seconds);
         }
         println!(
-            "{rows:9} {columns:9} {:8} {read:7.3} s {build:7.3} s {assemble:7.3} s {verdicts:7.3} s {choose:7.3} s {plan:7.3} s {:9.3} ms  {count}",
+            "{rows:9} {columns:9} {:8} {read:7.3} s {build:7.3} s {assemble:7.3} s {verdicts:7.3} s {fragile:7.3} s {choose:7.3} s {plan:7.3} s {:9.3} ms  {count}",
             found.decision.redundancy,
             1e3 * least
         );

@@ -44,7 +44,7 @@ pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<
     out.flush()
 }
 
-/// A verdict with its number: `verdict`, `margin`, and a `reason` where it is undecided.
+/// A verdict with its number: `verdict`, `margin`, `within_tolerance`, and a `reason` where it is undecided.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct VerdictDocument {
@@ -55,6 +55,9 @@ pub struct VerdictDocument {
     pub reason: Option<String>,
     /// How far the reaction is from unique; 0 is unique.
     pub margin: f64,
+    /// Whether it is unique within the tolerance that the scene states only: the margin is above the rounding of the data, but data within their
+    /// tolerance explain it.
+    pub within_tolerance: bool,
 }
 
 impl From<&Judgement> for VerdictDocument {
@@ -67,6 +70,7 @@ impl From<&Judgement> for VerdictDocument {
             verdict: judgement.verdict.word(),
             reason,
             margin: judgement.margin,
+            within_tolerance: judgement.within_tolerance,
         }
     }
 }

@@ -181,6 +181,7 @@ impl<'a> Rows<'a> {
 fn with_nearness(mut decision: RankDecision, nearness: Option<Nearness>) -> RankDecision {
     if let (Some(certificate), Some(near)) = (&mut decision.evidence.certificate, nearness) {
         certificate.lower_rank_here = Some(near.here);
+        certificate.lower_rank_by_angles = near.by_angles;
         certificate.lower_rank_from = near.everywhere.is_finite().then_some(near.everywhere);
     }
     decision

@@ -2,23 +2,23 @@
 //! choice that was made, and a number that depends on it cannot be taken without its label.
 
 mod equations;
+mod error;
 mod minimise;
+mod value;
 
-use std::fmt;
-use std::sync::Arc;
-
-use linalg::{Doubt, KeptRowsError, RankStatus, SaddleError};
+use linalg::{KeptRowsError, RankStatus};
 use model::reaction::COMPONENTS;
-use model::{ConstraintId, Layout, RowLabel, System};
+use model::{ConstraintId, System};
 
 pub use equations::{Equations, Solution, solution};
+pub use error::ChoiceError;
 pub use minimise::minimise;
+pub use value::{Label, Value};
 
 use crate::groups::{Configuration, LinearForm, RequestError, check};
 use crate::mechanism::dimensionless;
 use crate::parts::Extent;
 use crate::verdict::Verdict;
-use crate::words;
 use minimise::independent_columns;
 
 /// A way to choose one of the solutions.
@@ -78,42 +78,6 @@ pub struct Compliance {
     pub rotation: f64,
 }
 
-/// Names the choice that a number depends on.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Label(Arc<str>);
-
-impl fmt::Display for Label {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.0)
-    }
-}
-
-/// A number of a distribution.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Value {
-    /// The same in every solution: a fact of the model.
-    Unique(f64),
-    /// One of many. A number whose verdict is undecided is given like this too.
-    Chosen {
-        /// The number.
-        value: f64,
-        /// Who says so.
-        by: Label,
-    },
-}
-
-impl fmt::Display for Value {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Unique(value) => fmt::Display::fmt(value, f),
-            Self::Chosen { value, by } => {
-                fmt::Display::fmt(value, f)?;
-                write!(f, " ({by})")
-            }
-        }
-    }
-}
-
 /// One solution, with what of it is a fact and what a choice.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
@@ -138,114 +102,6 @@ pub struct ReactionValues {
     pub name: String,
     /// Components (N, N·m) that are not identically zero, by name.
     pub components: Vec<(&'static str, Value)>,
-}
-
-/// Why there is no such distribution.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ChoiceError {
-    /// The rank is undecided: what is a choice is not known.
-    #[error("the rank is undecided, and with it what may be chosen: {0}")]
-    Undecided(Doubt),
-    /// An argument is wrong.
-    #[error(transparent)]
-    Request(#[from] RequestError),
-    /// The equations cannot be solved on the kept rows.
-    #[error(transparent)]
-    Saddle(#[from] SaddleError),
-    /// Redundant rows ask for different accelerations: there are no reactions at all.
-    #[error(
-        "row {} asks for an acceleration that differs by {by:.3e} from what the kept rows give (rounding: {allowed:.3e}): \
-         there are no reactions that satisfy both",
-        row + 1
-    )]
-    Contradiction {
-        /// The dropped row, from 0.
-        row: usize,
-        /// By how much.
-        by: f64,
-        /// What rounding explains.
-        allowed: f64,
-    },
-    /// A weight or compliance is negative or no number.
-    #[error("a weight is {value:.3e}, need a finite number ≥ 0")]
-    Weight {
-        /// What it is.
-        value: f64,
-    },
-    /// A weight of a norm is not positive.
-    #[error("the norm has the weight {value:.3e}, need a finite number > 0")]
-    NormWeight {
-        /// What it is.
-        value: f64,
-    },
-    /// Rigid supports share a load in no particular way.
-    #[error(
-        "the choice leaves open how loads are shared ({free} missing): what has weight zero (a rigid joint) stays undetermined among its like; \
-         give a compliance to one more of the joints that mix"
-    )]
-    Indeterminate {
-        /// Directions that nothing determines.
-        free: usize,
-    },
-    /// The wrench on the first body does not show all that a joint does.
-    #[error(
-        "the reaction of `{reaction}` on its first body does not tell those on its other bodies, which are not unique"
-    )]
-    Hidden {
-        /// The joint or drive.
-        reaction: String,
-    },
-    /// Not as many rows as one part of the mechanism has too many.
-    #[error(
-        "rows without reaction are as many as are redundant, {redundancy} in all: {joints} have {own} of them, but {listed} of their rows {} listed",
-        if *listed == 1 { "is" } else { "are" }
-    )]
-    Count {
-        /// Of the whole mechanism.
-        redundancy: usize,
-        /// The first joints and drives of the part.
-        joints: String,
-        /// Redundancy of the part.
-        own: usize,
-        /// Its rows among those asked for.
-        listed: usize,
-    },
-    /// These rows cannot be without reaction.
-    #[error(
-        "no solution has zero reactions in {} {}: {}",
-        row_word(rows),
-        list(rows),
-        cause(unique, source)
-    )]
-    Rows {
-        /// The rows asked for that exist.
-        rows: Vec<RowLabel>,
-        /// Those of them whose multiplier is unique.
-        unique: Vec<RowLabel>,
-        /// Why; rows are counted from 0 here.
-        source: KeptRowsError,
-    },
-}
-
-fn list(rows: &[RowLabel]) -> String {
-    let names: Vec<String> = rows.iter().map(RowLabel::to_string).collect();
-    names.join(", ")
-}
-
-fn row_word(rows: &[RowLabel]) -> &'static str {
-    match rows {
-        [_] => "row",
-        _ => "the rows",
-    }
-}
-
-fn cause(unique: &[RowLabel], source: &KeptRowsError) -> String {
-    match unique {
-        [] => source.to_string(),
-        [row] => format!("that of {row} is unique"),
-        rows => format!("those of {} are unique", list(rows)),
-    }
 }
 
 impl Distribution {
@@ -521,42 +377,5 @@ impl Configuration<'_> {
         let ids = self.mechanism.constraint_ids();
         ids.filter(|id| listed.iter().all(|j| j.reaction != *id) && shares(id))
             .collect()
-    }
-}
-
-impl Label {
-    /// Of a choice where these joints and drives do not give way.
-    pub(crate) fn of(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) -> Self {
-        let text = match choice {
-            Choice::MinimumNorm(w) => format!(
-                "minimum norm, forces weighted by {}/N and torques by {}/(N·m)",
-                w.force, w.torque
-            ),
-            Choice::Compliance(joints) => {
-                let joint = |j: &Compliance| {
-                    let name = &layout.groups[j.reaction.0].name;
-                    let along = match j.x == j.y {
-                        true => format!("{:e} m/N", j.x),
-                        false => format!("{:e} m/N along x, {:e} m/N along y", j.x, j.y),
-                    };
-                    match j.rotation == 0.0 {
-                        true => format!("`{name}` {along}"),
-                        false => format!("`{name}` {along}, {:e} rad/(N·m)", j.rotation),
-                    }
-                };
-                let listed: Vec<String> = joints.iter().map(joint).collect();
-                let rigid = match words::names(layout, rigid).as_slice() {
-                    [] => String::new(),
-                    names => format!("; rigid: {}", names.join(", ")),
-                };
-                format!("elastic supports: {}{rigid}", listed.join("; "))
-            }
-            Choice::Elimination(rows) => {
-                let known = rows.iter().filter_map(|&i| layout.labels.get(i));
-                let labels: Vec<RowLabel> = known.cloned().collect();
-                format!("no reaction in {} {}", row_word(&labels), list(&labels))
-            }
-        };
-        Self(text.into())
     }
 }

@@ -254,9 +254,16 @@ pub(crate) fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judge
         Verdict::Undecided { .. } => 1,
         Verdict::NotUnique => 2,
     };
-    judgements.max_by(|a, b| {
+    let mut within_tolerance = false;
+    let judgements = judgements.inspect(|j| within_tolerance |= j.within_tolerance);
+    let worst = judgements.max_by(|a, b| {
         let margins = a.margin.total_cmp(&b.margin);
         severity(a).cmp(&severity(b)).then(margins)
+    })?;
+    let within_tolerance = within_tolerance && worst.verdict.is_unique();
+    Some(Judgement {
+        within_tolerance,
+        ..worst
     })
 }
 
@@ -267,7 +274,7 @@ mod tests {
     /// Noise differs from row to row: a small margin may be certain where a larger one is rounding.
     #[test]
     fn one_part_that_is_not_unique_decides_whatever_the_margins() {
-        let judged = |verdict, margin| Judgement { verdict, margin };
+        let judged = Judgement::new;
         let unclear = Verdict::Undecided {
             reason: String::new(),
         };

@@ -114,6 +114,7 @@ impl Decided {
                 status: self.found.status,
                 row_factor: own.clone().map(|i| scaling.row_factor(i)).collect(),
                 row_noise: vec![noise; own.len()],
+                row_rounding: Vec::new(),
                 tolerance: noise,
                 spread: e.uncertainty * (entries as f64).sqrt(),
                 uncertainty: e.uncertainty,

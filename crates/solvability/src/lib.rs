@@ -95,7 +95,7 @@ pub use parts::{Extent, ONE_PART, PartAnalysis, PartDecision};
 pub use questions::{EliminationError, Numbers, Questions};
 pub use rows::{RowDecision, Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows};
 pub use second_order::{Continuation, KERNEL_MAX, Undetermined, is_locked, second_order};
-pub use sensitivity::{Datum, FRAGILE, MOVED, Sensitivities, Sensitivity, sensitivities};
+pub use sensitivity::{Datum, FRAGILE, MOVED, Sensitivities, Sensitivity};
 pub use state::{State, StateError};
 pub use structure::structure;
 pub use units::{Nature, UnitCheck, UnitError, Units, check_units};

@@ -134,7 +134,11 @@ impl Solvability {
                     .clone()
                     .map(|i| decision.scaling.row_factor(i))
                     .collect(),
-                row_noise: rows.map(|i| decision.row_noise(i)).collect(),
+                row_noise: rows.clone().map(|i| decision.row_noise(i)).collect(),
+                row_rounding: match decision.has_tolerance() {
+                    true => rows.map(|i| decision.row_rounding(i)).collect(),
+                    false => Vec::new(),
+                },
                 tolerance: decision.coefficient_tolerance(),
                 spread: certificate.map_or(0.0, |c| c.spread),
                 uncertainty: certificate.map_or(0.0, |c| c.uncertainty),

@@ -3,10 +3,10 @@
 //! The left null space of C is the direct sum of those of the parts. So a number made of reactions of several parts is unique iff its share in
 //! each is; a choice among the solutions is one choice in each; and rows may be deleted together iff those of each part may be.
 
-use std::borrow::Cow;
+mod eliminations;
+
 use std::sync::{Arc, OnceLock};
 
-use linalg::{DeletionError, Limits, RankStatus, count_deletions, deletions};
 use model::{BodyRef, ConstraintId, Mechanism, System};
 use rayon::prelude::*;
 
@@ -18,11 +18,12 @@ use crate::choices::{
 use crate::explain::{Explanation, ExplanationError, explain};
 use crate::frames::FrameVerdict;
 use crate::groups::{Configuration, Group, GroupVerdict, NO_REACTION, RequestError, Term, worst};
-use crate::make_unique::{Allowed, Proposals, make_unique};
 use crate::mechanism::ComponentVerdict;
 use crate::parts::PartAnalysis;
 use crate::units::{UnitCheck, UnitError, check_equations};
 use crate::verdict::{Judgement, Verdict};
+
+pub use eliminations::EliminationError;
 
 /// An analysed configuration, to be asked about its reactions.
 ///
@@ -57,26 +58,6 @@ pub struct Questions<'a> {
     configurations: Vec<OnceLock<Configuration<'a>>>,
     /// The part of each joint and drive.
     part_of: Vec<usize>,
-}
-
-/// Why it cannot be told what may be deleted.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum EliminationError {
-    /// In a part.
-    #[error(transparent)]
-    Deletion(#[from] DeletionError),
-    /// A part is too large.
-    #[error(transparent)]
-    Request(#[from] RequestError),
-    /// Every part has its number of sets, but their product is larger than any number that is counted with.
-    #[error(
-        "{parts} parts of the mechanism have their own sets, and the product of their numbers is more than 3.4e38"
-    )]
-    TooMany {
-        /// Parts with dependent rows.
-        parts: usize,
-    },
 }
 
 /// Numbers of a group by name.
@@ -247,10 +228,7 @@ impl<'a> Questions<'a> {
         group: &Group,
         about: Option<[f64; 2]>,
     ) -> Result<GroupVerdict, RequestError> {
-        let judgement = Judgement {
-            verdict: Verdict::Unique,
-            margin: 0.0,
-        };
+        let judgement = Judgement::new(Verdict::Unique, 0.0);
         match group {
             Group::Resultant(_) => Ok(GroupVerdict {
                 components: model::reaction::COMPONENTS
@@ -381,7 +359,7 @@ impl<'a> Questions<'a> {
     fn check_counts(&self, rows: &[usize]) -> Result<(), ChoiceError> {
         for part in self.parts() {
             let (own, listed) = (part.decision.redundancy(), part.extent.own_rows(rows).len());
-            let is_decided = part.decision.status() == RankStatus::Decided;
+            let is_decided = part.decision.status() == linalg::RankStatus::Decided;
             if is_decided && own != listed {
                 return Err(ChoiceError::Count {
                     redundancy: self.analysis.decision.redundancy,
@@ -501,87 +479,6 @@ impl<'a> Questions<'a> {
         }
         Ok(all)
     }
-
-    /// The number of sets of rows that can be deleted without a change of motion, as many rows as the degree of redundancy.
-    ///
-    /// # Errors
-    /// If the rank of a part or one of its sets is undecided, a part is too large, or they are too many.
-    pub fn eliminations(&self) -> Result<u128, EliminationError> {
-        let mut product = 1_u128;
-        for k in self.redundant() {
-            let own = count_deletions(self.configuration(k)?.solvability().decision())?;
-            product = product.checked_mul(own).ok_or(EliminationError::TooMany {
-                parts: self.redundant().count(),
-            })?;
-        }
-        Ok(product)
-    }
-
-    /// Parts of which something has to be said before anything may be deleted.
-    fn redundant(&self) -> impl Iterator<Item = usize> {
-        let parts = self.parts().iter().enumerate();
-        parts
-            .filter(|(_, part)| {
-                let is_decided = part.decision.status() == RankStatus::Decided;
-                part.decision.redundancy() > 0 || !is_decided
-            })
-            .map(|(k, _)| k)
-    }
-
-    /// The first of these sets, rows from 0: those of the parts combine like the digits of a number.
-    ///
-    /// # Errors
-    /// If the rank of a part or one of its sets is undecided, or a part is too large.
-    pub fn elimination_sets(&self, limit: usize) -> Result<Vec<Vec<usize>>, EliminationError> {
-        let mut sets = vec![Vec::new()];
-        sets.truncate(limit);
-        for k in self.redundant() {
-            let extent = &self.parts()[k].extent;
-            let own = deletions(self.configuration(k)?.solvability().decision(), limit)?;
-            let placed = |set: &Vec<usize>| set.iter().map(|&row| extent.row(row)).collect();
-            let own: Vec<Vec<usize>> = own.iter().map(placed).collect();
-            let both = |set: &Vec<usize>, own: &Vec<usize>| [set.as_slice(), own].concat();
-            sets = sets
-                .iter()
-                .flat_map(|set| own.iter().map(move |own| both(set, own)))
-                .take(limit)
-                .collect();
-        }
-        sets.iter_mut()
-            .for_each(|set: &mut Vec<usize>| set.sort_unstable());
-        Ok(sets)
-    }
-
-    /// The smallest deletions that make a reaction unique without a change of motion. They are in its part.
-    ///
-    /// # Errors
-    /// If the rank of the part or an answer is undecided, a row that is allowed does not exist, or the part is too large.
-    pub fn make_unique(
-        &self,
-        id: ConstraintId,
-        allowed: &Allowed,
-        limits: Limits,
-    ) -> Result<Proposals, EliminationError> {
-        let (k, own) = self.place(id)?;
-        let extent = &self.parts()[k].extent;
-        let allowed = match (allowed, extent.is_whole()) {
-            (Allowed::Rows(all), false) => {
-                let rows = self.mechanism.layout().rows();
-                if let Some(&row) = all.iter().find(|&&row| row >= rows) {
-                    return Err(DeletionError::RowOutOfRange { row, rows }.into());
-                }
-                Cow::Owned(Allowed::Rows(extent.own_rows(all)))
-            }
-            _ => Cow::Borrowed(allowed),
-        };
-        let configuration = self.configuration(k)?;
-        let solvability = configuration.solvability();
-        let mut found = make_unique(&configuration.mechanism, solvability, own, &allowed, limits)?;
-        for way in &mut found.ways {
-            way.rows.iter_mut().for_each(|row| *row = extent.row(*row));
-        }
-        Ok(found)
-    }
 }
 
 /// What belongs together by parts, in the order of parts.
@@ -594,24 +491,4 @@ fn by_part<T>(
         parts.entry(k).or_default().push(item);
     }
     Ok(parts.into_iter())
-}
-
-impl std::ops::Add for Value {
-    type Output = Self;
-
-    /// A sum is a fact iff both are; of two choices it is that of the first.
-    fn add(self, other: Self) -> Self {
-        match (self, other) {
-            (Self::Unique(a), Self::Unique(b)) => Self::Unique(a + b),
-            (Self::Unique(a), Self::Chosen { value, by })
-            | (Self::Chosen { value, by }, Self::Unique(a)) => Self::Chosen {
-                value: value + a,
-                by,
-            },
-            (Self::Chosen { value, by }, Self::Chosen { value: other, .. }) => Self::Chosen {
-                value: value + other,
-                by,
-            },
-        }
-    }
 }

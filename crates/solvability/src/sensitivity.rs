@@ -5,24 +5,28 @@
 //! by the velocities, which follow so that `C_K·v = b`. For a component `wᵀ·λ` one solution y of the same symmetric equations with right-hand side
 //! (0, w) gives the change by all points at once: `y_aᵀ·(δQ − δCᵀ·λ) + y_λᵀ·(δΓ − δC·a)`.
 //!
-//! Without any load there is nothing that could change. The answer is then given for a load of 1 N on each body, in directions that favour nothing: a
-//! combination of rows of norm σ makes reactions of about 1/σ of it, which change by the share moved/(σ·size).
+//! Size and loads are those of the bodies that joints connect: a robot says the same of itself alone and in a fleet, also where springs couple it to others.
+//!
+//! Without any load there is nothing that could change. The answer is then given for a load of 1 N on each body, in directions that favour nothing, at
+//! rest and with equal masses: a combination of rows of norm σ makes reactions of about 1/σ of it, which change by the share moved/(σ·size).
 //!
 //! Not here: data within which the rank itself changes (`meant`).
 
 mod instant;
+mod joined;
 #[cfg(test)]
 mod tests;
 
-use model::{ConstraintId, DataUnit, Layout, Mechanism, Part, System};
-use rayon::prelude::*;
+use model::{ConstraintId, DataUnit, Layout, Mechanism, System};
 
 use crate::analysis::Analysis;
 use crate::certificate::ROWS_MAX;
 use crate::choices::ChoiceError;
 use crate::groups::check;
+use crate::parts::Extent;
 use crate::words;
 use instant::Instant;
+use joined::{Joined, each_joined};
 
 /// A point moves by this share of the mechanism's size (in long chains: of the size of its links), a direction by as many radians: what a careful workshop holds.
 pub const MOVED: f64 = 1e-4;
@@ -30,8 +34,11 @@ pub const MOVED: f64 = 1e-4;
 /// A reaction that changes by more than this share of itself, or of the largest load, is fragile.
 pub const FRAGILE: f64 = 0.1;
 
-/// Joints and drives that are named where nothing can be said of all in a component.
-const NAMED: usize = 3;
+/// From this change on, relative to its size, the first order does not say how far a reaction changes: it says that none of its digits is left.
+const BEYOND: f64 = 1.0;
+
+/// From here on "several times" would be too little.
+const MANY: f64 = 30.0;
 
 /// Changes of a reaction with one point.
 #[derive(Clone, Debug, PartialEq)]
@@ -67,11 +74,11 @@ impl Sensitivity {
     /// In words, for the reaction of this name: that it is unique but changes, by how much, and with what.
     #[must_use]
     pub fn sentence(&self, reaction: &str, layout: &Layout) -> String {
-        let change = share(self.change, "its");
         match &self.by {
             None => format!("`{reaction}` is unique, and no point of the scene changes it"),
             Some(by) => format!(
-                "`{reaction}` is unique but changes by {change} if {}",
+                "`{reaction}` is unique but {} if {}",
+                told(self.change, 1),
                 by.condition(layout)
             ),
         }
@@ -95,12 +102,20 @@ impl Datum {
     }
 }
 
-/// A change relative to a size.
-fn share(change: f64, whose: &str) -> String {
-    match change {
-        share if share < 10.0 => format!("{:.2} %", Digits(100.0 * share)),
-        times => format!("{times:.0e} times {whose} size"),
+/// That so many reactions change by at most this share of their size. The share is of the first order: it is a number only where it is small.
+fn told(change: f64, reactions: usize) -> String {
+    let (verb, up_to, whose) = match reactions {
+        1 => ("changes", "", "its"),
+        _ => ("change", "up to ", "their"),
+    };
+    if change < BEYOND {
+        return format!("{verb} by {up_to}about {:.2} %", Digits(100.0 * change));
     }
+    let times = match change < MANY {
+        true => "several times",
+        false => "many times",
+    };
+    format!("would change by {up_to}{times} {whose} size")
 }
 
 /// A number for people, with so many digits that count as the precision says.
@@ -162,21 +177,19 @@ impl Sensitivities {
         }
         let sentence = |(by, change, ids): (Option<Datum>, f64, Vec<ConstraintId>)| {
             let condition = by.map(|by| by.condition(layout)).unwrap_or_default();
-            let change = share(change, if ids.len() == 1 { "its" } else { "their" });
             let names = words::list(&words::names(layout, &ids));
-            match ids.len() {
-                1 => format!("{names} is unique but changes by {change} if {condition}"),
-                _ => format!("{names} are unique but change by up to {change} if {condition}"),
-            }
+            let are = if ids.len() == 1 { "is" } else { "are" };
+            let change = told(change, ids.len());
+            format!("{names} {are} unique but {change} if {condition}")
         };
         groups.into_iter().map(sentence).collect()
     }
 }
 
 impl Analysis {
-    /// How much each unique reaction hangs on the data, at the configuration of the analysis and velocities v that satisfy the constraints, component of
-    /// bodies by component, on the threads of the pool of `rayon` from which this is called. Nothing is said where the rank is undecided, and of components
-    /// with more rows than dense matrices are made of.
+    /// How much each unique reaction hangs on the data, at the configuration of the analysis and velocities v that satisfy the constraints. Each set of
+    /// bodies that joints and drives connect is asked alone, with its own size and loads, on the threads of the pool of `rayon` from which this is
+    /// called. Nothing is said where the rank is undecided, and of sets with more rows than dense matrices are made of.
     ///
     /// # Errors
     /// [`ChoiceError::Request`]: q or v do not fit the mechanism.
@@ -197,95 +210,72 @@ impl Analysis {
         }
         check("q", q, layout.n_q)?;
         check("v", v, layout.n_v)?;
-        let components = mechanism.apart();
-        let judged = components.par_iter().map(|component| {
-            let Part { mechanism, places } = component;
-            let wanted: Vec<usize> = (0..places.groups.len())
-                .filter(|&k| is_unique(places.groups[k]))
-                .collect();
-            if wanted.is_empty() {
-                return Ok(Vec::new());
-            }
-            if places.rows.len() > ROWS_MAX {
-                let rows = places.rows.len();
-                return Err(format!(
-                    "{rows} rows are joined, and matrices of all of them are made up to {ROWS_MAX} rows"
-                ));
-            }
-            let own = |x: &[f64], places: &[usize]| places.iter().map(|&j| x[j]).collect::<Vec<_>>();
-            let (q, v) = (own(q, &places.coordinates), own(v, &places.velocities));
-            let row = |row: &usize| places.rows.binary_search(row).ok();
-            let kept: Vec<usize> = self.decision.kept.iter().filter_map(row).collect();
-            let each = at(mechanism, self.time, &q, &v, &kept, &wanted);
-            let placed = each.map_err(|e| e.to_string())?.into_iter().map(|mut s| {
-                if let Some(by) = &mut s.by {
-                    by.joint = ConstraintId(places.groups[by.joint.0]);
-                }
-                s
-            });
-            let ids = wanted.iter().map(|&k| places.groups[k]);
-            Ok(ids.zip(placed).collect())
-        });
-        let judged: Vec<Result<Vec<(usize, Sensitivity)>, String>> = judged.collect();
-        for (component, judged) in components.iter().zip(judged) {
-            match judged {
+        let kept = &self.decision.kept;
+        for judged in by_sets(mechanism, (self.time, q, v), kept, is_unique) {
+            match judged.found {
                 Ok(found) => {
                     for (group, sensitivity) in found {
                         all.each[group] = Some(sensitivity).filter(|s| s.change.is_finite());
                     }
                 }
-                Err(reason) => {
-                    let groups = &component.places.groups;
-                    let first: Vec<ConstraintId> = groups
-                        .iter()
-                        .take(NAMED)
-                        .map(|&k| ConstraintId(k))
-                        .collect();
-                    let mut names = words::names(layout, &first).join(", ");
-                    if groups.len() > NAMED {
-                        names += &format!(" and {} more", groups.len() - NAMED);
-                    }
-                    all.left_out.push(format!(
-                        "how much the reactions of {names} hang on the data is not known: {reason}"
-                    ));
-                }
+                Err(reason) => all.left_out.push(format!(
+                    "how much the reactions of {} hang on the data is not known: {reason}",
+                    judged.extent.name(mechanism)
+                )),
             }
         }
         Ok(all)
     }
 }
 
-/// The sensitivities of all joints and drives, in the order of their rows, at time t, coordinates q and velocities v that satisfy the constraints, with
-/// independent rows `kept`. They mean something for unique reactions only.
-///
-/// # Errors
-/// - [`ChoiceError::Request`]: t, q or v do not fit the mechanism.
-/// - [`ChoiceError::Saddle`]: the kept rows and the masses do not determine the accelerations.
-pub fn sensitivities(
-    mechanism: &Mechanism,
-    t: f64,
-    q: &[f64],
-    v: &[f64],
-    kept: &[usize],
-) -> Result<Vec<Sensitivity>, ChoiceError> {
-    let layout = mechanism.layout();
-    check("t", &[t], 1)?;
-    check("q", q, layout.n_q)?;
-    check("v", v, layout.n_v)?;
-    let all: Vec<usize> = (0..layout.groups.len()).collect();
-    at(mechanism, t, q, v, kept, &all)
+/// What is known of a set of joined bodies.
+struct JudgedSet {
+    extent: Extent,
+    /// By the joints and drives of the whole.
+    found: Result<Vec<(usize, Sensitivity)>, SetError>,
 }
 
-/// Those of some joints and drives.
-fn at(
+/// Why nothing is known of a set.
+#[derive(Debug, thiserror::Error)]
+enum SetError {
+    #[error("{rows} rows are joined, and matrices of all of them are made up to {max} rows", max = ROWS_MAX)]
+    TooLarge { rows: usize },
+    #[error(transparent)]
+    Equations(#[from] ChoiceError),
+}
+
+/// The sensitivities of the reactions that are wanted, set by set of bodies that joints connect.
+fn by_sets(
     mechanism: &Mechanism,
-    t: f64,
-    q: &[f64],
-    v: &[f64],
+    (t, q, v): (f64, &[f64], &[f64]),
     kept: &[usize],
-    wanted: &[usize],
-) -> Result<Vec<Sensitivity>, ChoiceError> {
-    let mut instant = Instant::new(mechanism, t, q, v, kept)?;
-    let each = wanted.iter().map(|&k| instant.of(ConstraintId(k)));
-    each.collect()
+    is_wanted: impl Fn(usize) -> bool + Sync,
+) -> Vec<JudgedSet> {
+    let sensitivities = |joined: &Joined<'_>| {
+        let (extent, layout) = (joined.extent, joined.mechanism.layout());
+        let wanted = (0..layout.groups.len()).filter(|&k| is_wanted(extent.group(k)));
+        let wanted: Vec<usize> = wanted.collect();
+        if wanted.is_empty() {
+            return Ok(Vec::new());
+        }
+        if layout.rows() > ROWS_MAX {
+            let rows = layout.rows();
+            return Err(SetError::TooLarge { rows });
+        }
+        let kept = extent.own_rows(kept);
+        let mut instant = Instant::new(joined, t, &kept)?;
+        let mut found = Vec::with_capacity(wanted.len());
+        for k in wanted {
+            let mut sensitivity = instant.of(ConstraintId(k))?;
+            if let Some(by) = &mut sensitivity.by {
+                by.joint = ConstraintId(extent.group(by.joint.0));
+            }
+            found.push((extent.group(k), sensitivity));
+        }
+        Ok(found)
+    };
+    each_joined(mechanism, (t, q, v), |joined| JudgedSet {
+        found: sensitivities(&joined),
+        extent: joined.extent.clone(),
+    })
 }

@@ -42,11 +42,25 @@ pub struct Judgement {
     pub verdict: Verdict,
     /// How far the reaction is from unique, dimensionless: 0 is unique.
     pub margin: f64,
+    /// Whether it is unique within the tolerance that the scene states only: rounding of the data does not explain the margin.
+    pub within_tolerance: bool,
 }
 
 impl Judgement {
-    /// Judges a margin as [`linalg::RankDecision::read_coefficient`] reads it.
-    pub(crate) fn of(margin: f64, reading: CoefficientReading) -> Self {
+    /// Without a stated tolerance.
+    #[must_use]
+    pub fn new(verdict: Verdict, margin: f64) -> Self {
+        Self {
+            verdict,
+            margin,
+            within_tolerance: false,
+        }
+    }
+
+    /// Judges a margin as [`linalg::RankDecision::read_coefficient`] reads it; what reads as zero does so within the tolerance of the scene only if
+    /// it is above the rounding.
+    pub(crate) fn of(margin: f64, reading: CoefficientReading, is_above_rounding: bool) -> Self {
+        let within_tolerance = is_above_rounding && reading == CoefficientReading::Zero;
         let verdict = match reading {
             CoefficientReading::Zero => Verdict::Unique,
             CoefficientReading::NonZero => Verdict::NotUnique,
@@ -59,31 +73,24 @@ impl Judgement {
                 ),
             },
         };
-        Self { verdict, margin }
+        Self {
+            verdict,
+            margin,
+            within_tolerance,
+        }
     }
 
     /// The judgement of data that are meant exactly: what vanishes has no margin, what does not has one, however small.
     pub(crate) fn exact(margin: f64, vanishes: bool) -> Self {
-        if vanishes {
-            Self {
-                verdict: Verdict::Unique,
-                margin: 0.0,
-            }
-        } else {
-            Self {
-                verdict: Verdict::NotUnique,
-                margin: margin.max(f64::MIN_POSITIVE),
-            }
+        match vanishes {
+            true => Self::new(Verdict::Unique, 0.0),
+            false => Self::new(Verdict::NotUnique, margin.max(f64::MIN_POSITIVE)),
         }
     }
 
     /// The judgement where the rank itself is undecided.
     pub(crate) fn without_rank(margin: f64, doubt: &linalg::Doubt) -> Self {
-        Self {
-            verdict: Verdict::Undecided {
-                reason: format!("rank undecided: {doubt}"),
-            },
-            margin,
-        }
+        let reason = format!("rank undecided: {doubt}");
+        Self::new(Verdict::Undecided { reason }, margin)
     }
 }

@@ -31,6 +31,8 @@ pub struct Certificate {
     /// The same by one change of the data that lowers the rank at all configurations near this one: from there on a row is redundant. `None` where
     /// no change does, or none is near.
     pub lower_rank_from: Option<f64>,
+    /// Whether only angles were wrong by these two, because a tolerance is stated for angles alone.
+    pub lower_rank_by_angles: bool,
     /// By how much each row of the left null space changes with data within the tolerance that the scene states, m values; nothing without one.
     pub row_tolerance: Option<Vec<f64>>,
 }

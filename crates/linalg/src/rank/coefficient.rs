@@ -129,6 +129,15 @@ impl RankDecision {
         }
     }
 
+    /// What of [`RankDecision::row_noise`] is there without a stated tolerance: a row that is shorter than that vanishes by itself, a longer one within
+    /// the tolerance only.
+    #[must_use]
+    pub fn row_rounding(&self, i: usize) -> f64 {
+        let certificate = self.evidence.certificate.as_ref();
+        let noise = certificate.and_then(|c| c.row_noise.get(i));
+        POSE_FACTOR * NOISE_FACTOR * (f64::EPSILON + noise.copied().unwrap_or(0.0))
+    }
+
     /// Reads the size of a coefficient, or of a norm of some, of which the noise is known.
     #[must_use]
     pub fn read_coefficient(&self, size: f64, noise: f64) -> CoefficientReading {

@@ -122,6 +122,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
         lower_rank_here: None,
         lower_rank_from: None,
         row_tolerance: None,
+        lower_rank_by_angles: false,
     });
     Ok(decision)
 }

@@ -231,6 +231,7 @@ impl Found {
             lower_rank_here: None,
             lower_rank_from: None,
             row_tolerance: None,
+            lower_rank_by_angles: false,
         });
         decision
     }

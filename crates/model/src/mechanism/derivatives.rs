@@ -104,9 +104,10 @@ impl Mechanism {
     /// Storage for [`Mechanism::differentiate`]; the values are zero.
     #[must_use]
     pub fn derivatives(&self) -> Derivatives {
+        let [force_dq, force_dv] = self.force_patterns();
         let mut d = Derivatives {
-            force_dq: Sparse::default(),
-            force_dv: Sparse::default(),
+            force_dq,
+            force_dv,
             reaction_dq: Sparse::default(),
             residual_dq: Sparse::default(),
             gamma_dv: Sparse::default(),
@@ -121,12 +122,6 @@ impl Mechanism {
             d.residual_dq.push_block(spec.d_residual_dx, row, &column);
             d.gamma_dv.push_block(spec.d_gamma_dv, row, &column);
             d.velocity_dq.push_block(spec.d_velocity_dx, row, &column);
-        }
-        for f in &self.forces {
-            let spec = f.element.element().spec();
-            let column = column_of(&f.bodies);
-            d.force_dq.push_block(spec.dq_dx, &column, &column);
-            d.force_dv.push_block(spec.dq_dv, &column, &column);
         }
         d
     }
@@ -177,8 +172,32 @@ impl Mechanism {
             element.d_gamma_dv(x, v, f, gamma_dv(spec.d_gamma_dv.len()));
             element.d_velocity_dx(x, v, f, velocity_dq(spec.d_velocity_dx.len()));
         }
-        let mut force_dq = d.force_dq.blocks();
-        let mut force_dv = d.force_dv.blocks();
+        self.differentiate_forces(s, [&mut d.force_dq, &mut d.force_dv]);
+    }
+
+    /// `∂Q/∂q` and `∂Q/∂v` alone, at the pose and the twist of the scratch; allocates.
+    #[must_use]
+    pub fn force_derivatives(&self, s: &Scratch) -> [Sparse; 2] {
+        let [mut by_q, mut by_v] = self.force_patterns();
+        self.differentiate_forces(s, [&mut by_q, &mut by_v]);
+        [by_q, by_v]
+    }
+
+    /// Room for both.
+    fn force_patterns(&self) -> [Sparse; 2] {
+        let mut patterns = [Sparse::default(), Sparse::default()];
+        for f in &self.forces {
+            let spec = f.element.element().spec();
+            let column = column_of(&f.bodies);
+            patterns[0].push_block(spec.dq_dx, &column, &column);
+            patterns[1].push_block(spec.dq_dv, &column, &column);
+        }
+        patterns
+    }
+
+    fn differentiate_forces(&self, s: &Scratch, [by_q, by_v]: [&mut Sparse; 2]) {
+        let mut force_dq = by_q.blocks();
+        let mut force_dv = by_v.blocks();
         for force in &self.forces {
             let element = force.element.element();
             let spec = element.spec();

@@ -57,11 +57,46 @@ impl Mechanism {
     /// ```
     #[must_use]
     pub fn components(&self) -> Vec<Vec<usize>> {
+        self.connected(self.places().map(|(_, bodies)| bodies))
+    }
+
+    /// Bodies that these joints and drives connect, in the same order; those of none of them alone. Forces connect nothing here: springs between two
+    /// machines make no third one.
+    ///
+    /// ```
+    /// use joints::{Revolute, TorsionSpringDamper};
+    /// use model::{Body, BodyRef, Description, Mechanism};
+    /// let mut d = Description::new("two pendulums on a spring");
+    /// let [a, b] = ["a", "b"].map(|name| d.body(Body::new(name, 1.0, 1.0)));
+    /// for body in [a, b] {
+    ///     let pin = Revolute { s_i: [0.0; 2], s_j: [0.0; 2] };
+    ///     d.joint(&format!("{body:?}"), &[BodyRef::Ground, body], pin);
+    /// }
+    /// let spring = TorsionSpringDamper { stiffness: 1.0, damping: 0.0, free_angle: None, free_angle_0: 0.0 };
+    /// d.force("spring", &[a, b], spring);
+    /// let mechanism = Mechanism::build(&d).unwrap();
+    /// assert_eq!(mechanism.components(), [vec![0, 1]]);
+    /// assert_eq!(mechanism.joined(&[0, 1]), [vec![0], vec![1]]);
+    /// ```
+    ///
+    /// # Panics
+    /// If a group does not exist.
+    #[must_use]
+    pub fn joined(&self, groups: &[usize]) -> Vec<Vec<usize>> {
+        let bodies = groups.iter().map(|&k| &self.constraints[k].bodies[..]);
+        self.connected(bodies)
+    }
+
+    /// Sets of bodies, each ascending, ordered by their first bodies: those of each of these lists belong together.
+    fn connected<'a>(&self, lists: impl Iterator<Item = &'a [BodyRef]>) -> Vec<Vec<usize>> {
         let mut leader: Vec<usize> = (0..self.bodies.len()).collect();
-        for (_, bodies) in self.places() {
-            let members: Vec<usize> = bodies.iter().filter_map(|b| b.moving()).collect();
-            for pair in members.windows(2) {
-                let [a, b] = [pair[0], pair[1]].map(|k| find(&mut leader, k));
+        for bodies in lists {
+            let mut members = bodies.iter().filter_map(|b| b.moving());
+            let Some(first) = members.next() else {
+                continue;
+            };
+            for member in members {
+                let [a, b] = [first, member].map(|k| find(&mut leader, k));
                 leader[a.max(b)] = a.min(b);
             }
         }
@@ -97,44 +132,6 @@ impl Mechanism {
             &groups,
             forces.filter(|f| f.bodies.iter().any(is_here)),
         )
-    }
-
-    /// The parts of all [`Mechanism::components`], in their order, by one pass over joints and forces.
-    ///
-    /// ```
-    /// use model::{Body, Description, Mechanism};
-    /// let mut d = Description::new("two stones");
-    /// d.body(Body::new("first", 1.0, 1.0));
-    /// d.body(Body::new("second", 1.0, 1.0));
-    /// let mechanism = Mechanism::build(&d).unwrap();
-    /// let stones = mechanism.apart();
-    /// assert_eq!((stones.len(), &stones[1].places.bodies), (2, &vec![1]));
-    /// ```
-    #[must_use]
-    pub fn apart(&self) -> Vec<Part> {
-        let sets = self.components();
-        let mut component = vec![0; self.bodies.len()];
-        for (k, set) in sets.iter().enumerate() {
-            set.iter().for_each(|&body| component[body] = k);
-        }
-        // What joins parts of the ground only belongs to no component.
-        let of = |bodies: &[BodyRef]| bodies.iter().find_map(|b| b.moving()).map(|b| component[b]);
-        let mut groups = vec![Vec::new(); sets.len()];
-        for (k, c) in self.constraints.iter().enumerate() {
-            if let Some(own) = of(&c.bodies) {
-                groups[own].push(k);
-            }
-        }
-        let mut forces: Vec<Vec<&PlacedForce>> = vec![Vec::new(); sets.len()];
-        for f in &self.forces {
-            if let Some(own) = of(&f.bodies) {
-                forces[own].push(f);
-            }
-        }
-        let parts = sets.iter().zip(groups).zip(forces);
-        parts
-            .map(|((bodies, groups), forces)| self.assembled(bodies, &groups, forces.into_iter()))
-            .collect()
     }
 
     /// The mechanism of some joints and drives, ascending, with the bodies that they join and no forces: for questions about constraints. Initial

@@ -12,6 +12,11 @@ pub(super) fn describe(d: &AnalysisDocument) -> String {
             "one row is redundant from a tolerance of {} on (`--tolerance {from:.1e}`)",
             length(from)
         )),
+        _ if data.lower_rank_from_angle.is_some() => data.lower_rank_from_angle.map(|from| {
+            format!(
+                "one row is redundant from an angle tolerance of {from:.1e} rad on (`--angle-tolerance {from:.1e}`)"
+            )
+        }),
         (None, Some(here)) => Some(format!("this pose is {here:.1e} m from a singular one")),
         (None, None) => None,
     };

@@ -124,10 +124,7 @@ fn line(r: &ReactionDocument) -> Vec<String> {
         r.name.clone(),
         r.kind.to_owned(),
         rows,
-        match r.data.fragile {
-            true => "unique, FRAGILE".to_owned(),
-            false => spoken(r.wrench.verdict),
-        },
+        r.said(),
         margin(&r.wrench),
         components,
     ]
@@ -150,10 +147,10 @@ fn fragile(d: &AnalysisDocument) -> String {
     out
 }
 
-/// What is left of a margin by rounding is no number for people; the document has it.
+/// What is left of a margin by rounding is no number for people; the document has it. What is unique within a tolerance only has a margin to look at.
 fn margin(v: &VerdictDocument) -> String {
     match v.verdict {
-        "unique" => "~0".to_owned(),
+        "unique" if !v.within_tolerance => "~0".to_owned(),
         _ => format!("{:.1e}", v.margin),
     }
 }

@@ -71,8 +71,8 @@ fn a_pin_that_is_off_is_told_in_every_output() {
     for words in [
         "FRAGILE: O1, P1, O2, P2, O3, P3",
         "O3 revolute 9–10 unique, FRAGILE",
-        "`P3` are unique but change by up to",
-        "if point `s_j` of `P2` moves by 0.24 mm",
+        "`P3` are unique but would change by up to several times their size",
+        "if point `s_i` of `O2` moves by 0.24 mm",
         "one row is redundant from a tolerance of 0.049 mm on",
     ] {
         assert!(text.contains(words), "{words}: {text}");
@@ -94,7 +94,7 @@ fn a_pin_that_is_off_is_told_in_every_output() {
 
     let text = flat(&said(&["check", &off]));
     assert!(
-        text.contains("warning: `O1`, `P1`, `O2`, `P2`, `O3` and `P3` are unique but change"),
+        text.contains("warning: `O1`, `P1`, `O2`, `P2`, `O3` and `P3` are unique but would change"),
         "{text}"
     );
 
@@ -234,5 +234,42 @@ joint = [
         let scene = scene.to_str().expect("UTF-8");
         let d = document(&["view", scene, "--json", "--no-open", "--out", picture]);
         assert_eq!(d["fragile"], 0, "{scene}");
+    }
+}
+
+/// Every robot of a fleet says of itself what the one robot says, whether springs couple them or nothing does.
+#[test]
+fn robots_of_a_fleet_are_as_fragile_as_one() {
+    let folder = Folder::new("fragile-fleet");
+    fs::create_dir_all(&folder.0).expect("writable");
+    let sensitivities = |scene: &str| -> Vec<(String, Option<f64>)> {
+        let d = document(&["analyze", scene, "--json"]);
+        let reactions = d["reactions"].as_array().expect("a list").iter();
+        let told = reactions.map(|r| {
+            assert_eq!(r["fragile"], false, "{r:#}");
+            let name = r["name"].as_str().expect("a name");
+            (name.to_owned(), r["sensitivity"].as_f64())
+        });
+        told.collect()
+    };
+    let alone = sensitivities(ROBOT);
+    assert!(alone.iter().filter(|(_, s)| s.is_some()).count() >= 7);
+    for n in [1, 2, 3, 10] {
+        let path = folder.0.join(format!("fleet-{n}.toml"));
+        let path = path.to_str().expect("UTF-8");
+        said(&["generate", "fleet", "--n", &n.to_string(), "--out", path]);
+        let found = sensitivities(path);
+        assert_eq!(found.len(), n * alone.len());
+        for (name, sensitivity) in &found {
+            let own = name.split_once('.').expect("of a robot").1;
+            let expected = alone.iter().find(|(name, _)| name == own);
+            let expected = expected.expect("the same joint").1;
+            // Both are printed to three digits.
+            let is_near = match (sensitivity, expected) {
+                (Some(found), Some(alone)) => (found - alone).abs() <= 0.011 * alone,
+                (found, alone) => found.is_none() && alone.is_none(),
+            };
+            assert!(is_near, "{n}, {name}: {sensitivity:?}, alone {expected:?}");
+        }
     }
 }

@@ -31,7 +31,7 @@ fn data(output: &std::process::Output) -> Value {
 fn known_to(tolerance: Value, angle: Value) -> Value {
     json!({
         "tolerance": tolerance, "angle_tolerance": angle,
-        "lower_rank_from": null, "lower_rank_here": null,
+        "lower_rank_from": null, "lower_rank_from_angle": null, "lower_rank_here": null,
     })
 }
 
@@ -122,4 +122,199 @@ fn every_command_that_judges_takes_them() {
         let output = pfaff(&[command, &["--tolerance", "1e-9"]].concat());
         assert_eq!(output.status.code(), Some(0), "{output:?}");
     }
+}
+
+/// An arm that two parallel cylinders turn about its hinge, the direction of their axes typed with four digits.
+fn cylinders(axis: &str) -> String {
+    let mut text = String::from(
+        r#"
+[scene]
+name = "cylinders"
+space = "plane"
+[[body]]
+name = "arm"
+mass = 1.0
+inertia = 1.0
+position = [1.2380034223645, 0.8469637100925]
+[[joint]]
+name = "hinge"
+type = "revolute"
+bodies = ["ground", "arm"]
+at = [1.2, -0.1]
+"#,
+    );
+    let (sin, cos) = 0.6_f64.sin_cos();
+    for (k, offset) in [(1, -0.2), (2, 0.2)] {
+        let at = |s: f64| format!("[{}, {}]", s * cos - offset * sin, s * sin + offset * cos);
+        text += &format!(
+            r#"
+[[body]]
+name = "tube{k}"
+mass = 1.0
+inertia = 1.0
+position = {tube}
+[[body]]
+name = "rod{k}"
+mass = 1.0
+inertia = 1.0
+position = {rod}
+[[joint]]
+name = "A{k}"
+type = "revolute"
+bodies = ["ground", "tube{k}"]
+at = {foot}
+[[joint]]
+name = "S{k}"
+type = "translational"
+bodies = ["tube{k}", "rod{k}"]
+points = {{ tube{k} = [0.0, 0.0], rod{k} = [0.0, 0.0] }}
+axis = {axis}
+[[joint]]
+name = "B{k}"
+type = "revolute"
+bodies = ["rod{k}", "arm"]
+at = {eye}
+[[drive]]
+name = "pump{k}"
+joint = "S{k}"
+type = "displacement"
+motion = {{ type = "constant-rate", rate = 0.0 }}
+"#,
+            foot = at(0.0),
+            tube = at(0.4),
+            rod = at(1.1),
+            eye = at(1.5),
+        );
+    }
+    text
+}
+
+/// What the last digits of an axis leave to the slides is nothing within the tolerance, and its margin is told.
+#[test]
+fn what_is_unique_within_the_tolerance_says_so() {
+    let slides = |axis: &str, flags: &[&str]| -> Vec<Value> {
+        let arguments = [&["analyze", "-", "--json"], flags].concat();
+        let output = with_scene(&arguments, &cylinders(axis));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        let d: Value = serde_json::from_str(&stdout(&output)).expect("one document");
+        assert_eq!(d["redundancy"], 1);
+        let all = d["reactions"].as_array().expect("a list");
+        for r in all {
+            let name = r["name"].as_str().expect("a name");
+            if !name.starts_with('S') {
+                assert_eq!(
+                    (&r["verdict"], &r["within_tolerance"]),
+                    (&json!("not_unique"), &json!(false))
+                );
+            }
+        }
+        let slides = all
+            .iter()
+            .filter(|r| r["name"] == "S1" || r["name"] == "S2");
+        slides.cloned().collect()
+    };
+    let typed = "[0.8253, 0.5646]";
+    for r in slides(typed, &["--tolerance", "1e-4"]) {
+        assert_eq!(
+            (&r["verdict"], &r["within_tolerance"]),
+            (&json!("unique"), &json!(true))
+        );
+        let margin = r["margin"].as_f64().expect("a number");
+        // The direction is off by 1.5e-5 rad.
+        assert!((1e-6..1.5e-5).contains(&margin), "{margin:e}");
+        let row = &r["row_verdicts"][0];
+        assert_eq!(
+            (&row["verdict"], &row["within_tolerance"]),
+            (&json!("unique"), &json!(true))
+        );
+    }
+    for r in slides(typed, &[]) {
+        assert_eq!(
+            (&r["verdict"], &r["within_tolerance"]),
+            (&json!("not_unique"), &json!(false))
+        );
+    }
+    for r in slides(
+        "[0.825335614909678, 0.564642473395035]",
+        &["--tolerance", "1e-4"],
+    ) {
+        assert_eq!(
+            (&r["verdict"], &r["within_tolerance"]),
+            (&json!("unique"), &json!(false))
+        );
+    }
+    let output = with_scene(&["analyze", "-", "--tolerance", "1e-4"], &cylinders(typed));
+    let text = stdout(&output);
+    let line = text
+        .lines()
+        .find(|line| line.starts_with("S1 "))
+        .expect("a line");
+    assert!(
+        line.contains("unique within the tolerance  4.6e-6"),
+        "{line}"
+    );
+}
+
+/// Two wheels of one axle, whose directions differ by 1e-4 rad, with a line of `[scene]`.
+fn axle(stated: &str) -> String {
+    format!(
+        r#"
+[scene]
+name = "cart"
+space = "plane"
+{stated}
+[[body]]
+name = "cart"
+mass = 10.0
+inertia = 1.0
+[[joint]]
+name = "left"
+type = "knife-edge"
+body = "cart"
+point = [0.0, 0.5]
+normal = [0.0, 1.0]
+[[joint]]
+name = "right"
+type = "knife-edge"
+body = "cart"
+point = [0.0, -0.5]
+normal = [1e-4, 1.0]
+"#
+    )
+}
+
+/// What is known of directions decides by itself, by the flag as by the scene.
+#[test]
+fn an_angle_tolerance_changes_verdicts_without_a_length() {
+    let judged = |stated: &str, flags: &[&str]| -> Value {
+        let arguments = [&["analyze", "-", "--json"], flags].concat();
+        let output = with_scene(&arguments, &axle(stated));
+        assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
+        serde_json::from_str(&stdout(&output)).expect("one document")
+    };
+    let ways: [(&str, &[&str]); 2] = [
+        ("angle_tolerance = 1e-3", &[]),
+        ("", &["--angle-tolerance", "1e-3"]),
+    ];
+    for (stated, flags) in ways {
+        let d = judged(stated, flags);
+        assert_eq!((&d["rank"], &d["redundancy"]), (&json!(1), &json!(1)));
+        assert_eq!(d["evidence"]["grounds"], "within_tolerance");
+        assert_eq!(d["data"]["tolerance"], Value::Null);
+    }
+    let d = judged("angle_tolerance = 1e-5", &[]);
+    assert_eq!((&d["rank"], &d["redundancy"]), (&json!(2), &json!(0)));
+    assert_eq!(d["data"]["lower_rank_from"], Value::Null);
+    let from = d["data"]["lower_rank_from_angle"].as_f64().expect("near");
+    // One of them turns by all of the difference: both are to be perpendicular to the axle.
+    assert!((from / 1e-4 - 1.0).abs() < 0.06, "{from:e}");
+    let output = with_scene(&["analyze", "-"], &axle("angle_tolerance = 1e-5"));
+    let text = stdout(&output)
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ");
+    assert!(
+        text.contains("one row is redundant from an angle tolerance of 9.9e-5 rad on (`--angle-tolerance 9.9e-5`)"),
+        "{text}"
+    );
 }

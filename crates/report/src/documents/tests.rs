@@ -25,7 +25,7 @@ use super::{
 };
 
 fn judged(verdict: Verdict, margin: f64) -> Judgement {
-    Judgement { verdict, margin }
+    Judgement::new(verdict, margin)
 }
 
 /// A door on two hinges, with round numbers for the evidence.
@@ -142,7 +142,7 @@ fn analysis_has_the_keys_of_the_contract() {
         "rank": 3, "rank_holonomic": 3, "rank_nonholonomic": 0, "redundancy": 1, "mobility": 0,
         "without_drives": null, "free_motions": [], "cannot_move": false,
         "kept_rows": [1, 2, 3], "dropped_rows": [4],
-        "data": { "tolerance": 0.25, "angle_tolerance": 0.125, "lower_rank_from": null, "lower_rank_here": null },
+        "data": { "tolerance": 0.25, "angle_tolerance": 0.125, "lower_rank_from": null, "lower_rank_from_angle": null, "lower_rank_here": null },
         "evidence": { "status": "decided", "sigma_r": 0.5, "sigma_next": 0.0, "gap": null,
             "tolerance": 0.25, "constraint_residual": 0.0, "permanent": null, "certified": false,
             "rank_at_least": null, "sigma_bound": null, "sigma_next_extended": null, "grounds": null,
@@ -150,19 +150,19 @@ fn analysis_has_the_keys_of_the_contract() {
         "generic": null,
         "reactions": [
             { "name": "upper", "type": "revolute", "rows": [1, 2],
-              "verdict": "not_unique", "margin": 0.5, "sensitivity": null, "fragile": false, "multipliers": "not_unique",
-              "row_verdicts": [ { "row": 1, "verdict": "unique", "margin": 0.0 },
-                                { "row": 2, "verdict": "not_unique", "margin": 0.5 } ],
-              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0 },
-                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5 } ],
+              "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false, "multipliers": "not_unique",
+              "row_verdicts": [ { "row": 1, "verdict": "unique", "margin": 0.0, "within_tolerance": false },
+                                { "row": 2, "verdict": "not_unique", "margin": 0.5, "within_tolerance": false } ],
+              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0, "within_tolerance": false },
+                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5, "within_tolerance": false } ],
               "unique_directions": [[1.0, 0.0]],
               "settled": null, "explanation": null, "free_directions": [] },
             { "name": "lower \"2\"", "type": "revolute", "rows": [3, 4],
-              "verdict": "not_unique", "margin": 0.5, "sensitivity": null, "fragile": false, "multipliers": "not_unique",
-              "row_verdicts": [ { "row": 3, "verdict": "unique", "margin": 0.0 },
-                                { "row": 4, "verdict": "not_unique", "margin": 0.5 } ],
-              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0 },
-                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5 } ],
+              "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false, "multipliers": "not_unique",
+              "row_verdicts": [ { "row": 3, "verdict": "unique", "margin": 0.0, "within_tolerance": false },
+                                { "row": 4, "verdict": "not_unique", "margin": 0.5, "within_tolerance": false } ],
+              "components": [ { "name": "Fx", "verdict": "unique", "margin": 0.0, "within_tolerance": false },
+                              { "name": "Fy", "verdict": "not_unique", "margin": 0.5, "within_tolerance": false } ],
               "unique_directions": [[1.0, 0.0]],
               "settled": null, "explanation": null, "free_directions": [] } ],
         "groups": [],
@@ -186,6 +186,7 @@ fn certificate(grounds: Grounds) -> Certificate {
         spread: 0.0,
         row_noise: Vec::new(),
         row_tolerance: None,
+        lower_rank_by_angles: false,
         nearly_redundant: None,
         lower_rank_here: None,
         lower_rank_from: None,
@@ -373,12 +374,12 @@ fn summary_has_the_keys_of_the_contract() {
         "wall_seconds": 0.125, "max_position_residual": 0.0, "max_velocity_residual": null,
         "energy_balance": 0.0, "start_correction": 0.0, "start_velocity_correction": 0.0,
         "mobility": 0, "without_drives": null, "free_motions": [], "cannot_move": true,
-        "data": { "tolerance": 0.25, "angle_tolerance": 0.125, "lower_rank_from": null, "lower_rank_here": null },
+        "data": { "tolerance": 0.25, "angle_tolerance": 0.125, "lower_rank_from": null, "lower_rank_from_angle": null, "lower_rank_here": null },
         "events": [],
         "reactions": {
-            "upper": { "verdict": "unique", "margin": 0.0, "sensitivity": 0.25, "fragile": true,
-                "hangs_on": "`upper` is unique but changes by 25 % if point `s_i` of `lower` moves by 0.20 mm" },
-            "lower \"2\"": { "verdict": "not_unique", "margin": 0.5, "sensitivity": null, "fragile": false,
+            "upper": { "verdict": "unique", "margin": 0.0, "within_tolerance": false, "sensitivity": 0.25, "fragile": true,
+                "hangs_on": "`upper` is unique but changes by about 25 % if point `s_i` of `lower` moves by 0.20 mm" },
+            "lower \"2\"": { "verdict": "not_unique", "margin": 0.5, "within_tolerance": false, "sensitivity": null, "fragile": false,
                 "choice": { "method": "kept-rows", "deleted_rows": [4] } } },
         "plan": { "components": "solved as one", "generated_code": "interpreted", "rows_of_output": "201", "accelerations": "at rows of output", "method": "dop853", "linear_systems": "none",
             "elimination": "dense, 3 × 3", "refinement": "none", "freedom": "none", "nonholonomic_rows": "none", "dropped_rows": "1 monitored",

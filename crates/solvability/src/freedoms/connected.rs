@@ -32,14 +32,7 @@ impl<'a> Connected<'a> {
         let chosen = groups.filter(|(_, group)| drives || !group.is_drive());
         let chosen: Vec<usize> = chosen.map(|(k, _)| k).collect();
         let joined = whole.part_of_groups(&chosen);
-        let bodies = &joined.places.bodies;
-        let of_joints = joined.mechanism.components().into_iter();
-        let mut sets: Vec<Vec<usize>> = of_joints
-            .map(|set| set.into_iter().map(|b| bodies[b]).collect())
-            .collect();
-        let alone = (0..whole.bodies().len()).filter(|b| bodies.binary_search(b).is_err());
-        sets.extend(alone.map(|b| vec![b]));
-        sets.sort_unstable();
+        let sets = whole.joined(&chosen);
         Self {
             whole,
             joined,

@@ -38,6 +38,8 @@ pub(crate) struct Known {
     pub(crate) row_factor: Vec<f64>,
     /// How far each row of Z may be off (norm).
     pub(crate) row_noise: Vec<f64>,
+    /// What of that is there without the tolerance that the scene states; empty where it states none.
+    pub(crate) row_rounding: Vec<f64>,
     /// How far any coefficient may be off.
     pub(crate) tolerance: f64,
     /// What the rows of C are known to (Frobenius norm).
@@ -96,9 +98,10 @@ impl Basis {
         let rows = self.set(rows)?;
         // Rows that cancel in C do so to what its entries are known to.
         let cancelled = rows.iter().map(|&i| norm(self.z.row(i)));
+        let spread = self.known.spread * cancelled.fold(0.0, f64::hypot);
         let noise = self
             .noise(rows.iter().map(|&i| (i, norm(self.c.row(i)))))
-            .hypot(self.known.spread * cancelled.fold(0.0, f64::hypot));
+            .with(spread);
         let margin = self.product(&rows).frobenius_norm();
         Ok(self.judge(margin, noise, |z| z.wrench_vanishes(&rows)))
     }
@@ -149,7 +152,7 @@ impl Basis {
                 z.rank_of(&rows)
             }
             None => {
-                let noise = self.noise(other.iter().map(|&i| (i, 1.0)));
+                let noise = self.noise(other.iter().map(|&i| (i, 1.0))).known;
                 let qr = PivotedQr::of_rows(self.z.select_rows(other));
                 self.clear_rank(&qr, noise).ok()?
             }
@@ -234,15 +237,20 @@ impl Basis {
     }
 
     /// Noise of a combination of rows of Z with these weights; Z is `[−T̃, I]` in a basis that makes no row longer.
-    fn noise(&self, weights: impl Iterator<Item = (usize, f64)>) -> f64 {
-        let term = |(i, weight): (usize, f64)| self.known.row_noise[i] * weight.abs();
-        weights.map(term).fold(0.0, f64::hypot)
+    fn noise(&self, weights: impl Iterator<Item = (usize, f64)>) -> Noise {
+        let rounding = &self.known.row_rounding;
+        weights.fold(Noise::default(), |noise, (i, weight)| Noise {
+            known: noise.known.hypot(self.known.row_noise[i] * weight.abs()),
+            rounding: rounding.get(i).map_or(f64::INFINITY, |known| {
+                noise.rounding.hypot(known * weight.abs())
+            }),
+        })
     }
 
     /// Noise of `wᵀ·D_r·Z_X / size`.
-    pub(super) fn noise_of_row(&self, w: &[f64], rows: &[usize], size: f64) -> f64 {
+    pub(super) fn noise_of_row(&self, w: &[f64], rows: &[usize], size: f64) -> Noise {
         if size == 0.0 {
-            return 0.0;
+            return Noise::default();
         }
         let scaled = |(&i, w): (&usize, &f64)| (i, w * self.known.row_factor[i] / size);
         self.noise(rows.iter().zip(w).map(scaled))
@@ -252,13 +260,35 @@ impl Basis {
     pub(super) fn judge(
         &self,
         margin: f64,
-        noise: f64,
+        noise: Noise,
         vanishes: impl FnOnce(&ExactNullSpace) -> bool,
     ) -> Judgement {
         match (&self.exact, &self.known.status) {
             (Some(z), _) => Judgement::exact(margin, vanishes(z)),
             (None, RankStatus::Undecided(doubt)) => Judgement::without_rank(margin, doubt),
-            (None, _) => Judgement::of(margin, self.known.readings.read(margin, noise)),
+            (None, _) => {
+                let reading = self.known.readings.read(margin, noise.known);
+                Judgement::of(margin, reading, margin > noise.rounding)
+            }
+        }
+    }
+}
+
+/// How far a margin may be from its true value.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Noise {
+    /// As all that is known of the data says.
+    pub(super) known: f64,
+    /// Without the tolerance that the scene states; infinite where it states none.
+    rounding: f64,
+}
+
+impl Noise {
+    /// With one more source.
+    fn with(self, other: f64) -> Self {
+        Self {
+            known: self.known.hypot(other),
+            rounding: self.rounding.hypot(other),
         }
     }
 }

@@ -5,7 +5,7 @@
 use linalg::{CoefficientReading, Matrix, PivotedQr, RankStatus};
 
 use super::QueryError;
-use super::basis::{Basis, ROUNDING_OF_MAP, check_coefficients, combination, norm};
+use super::basis::{Basis, Noise, ROUNDING_OF_MAP, check_coefficients, combination, norm};
 use crate::verdict::Judgement;
 
 /// A map W (k × |X|) from the multipliers of rows X to components, and what it makes of their null space.
@@ -93,7 +93,11 @@ impl<'a> Mapped<'a> {
             return Ok(false);
         }
         let whole = norm(self.images.row(k));
-        let own = self.basis.known.readings.read(whole, self.noise(k, size));
+        let own = self
+            .basis
+            .known
+            .readings
+            .read(whole, self.noise(k, size).known);
         Ok(own == CoefficientReading::NonZero)
     }
 
@@ -114,7 +118,7 @@ impl<'a> Mapped<'a> {
                 z.rank_of(&rows.collect::<Vec<_>>())
             }
             None => {
-                let noise = (0..k).map(|i| self.noise(i, self.sizes[i]));
+                let noise = (0..k).map(|i| self.noise(i, self.sizes[i]).known);
                 self.basis.clear_rank(&qr, noise.fold(0.0, f64::max))?
             }
         };
@@ -175,7 +179,7 @@ impl<'a> Mapped<'a> {
     }
 
     /// Noise of row k of `W·D_r·Z_X / size`.
-    fn noise(&self, k: usize, size: f64) -> f64 {
+    fn noise(&self, k: usize, size: f64) -> Noise {
         self.basis.noise_of_row(self.map.row(k), &self.rows, size)
     }
 }

@@ -54,13 +54,7 @@ fn exact_verdicts_have_no_smallest_number() {
         assert!((directions[0][1] - 1.0).abs() < 1e-6, "{directions:?}");
     }
     let s = Solvability::of_exact(&bar(0.0)).unwrap();
-    assert_eq!(
-        s.row(1).unwrap(),
-        Judgement {
-            verdict: Verdict::Unique,
-            margin: 0.0
-        }
-    );
+    assert_eq!(s.row(1).unwrap(), Judgement::new(Verdict::Unique, 0.0));
 }
 
 /// Entries with rounding cannot tell ε = 1e-14 from zero, and say so.
@@ -102,13 +96,7 @@ fn groups_overlap_repeat_and_may_be_empty() {
         Solvability::of(&bar(0.0), 0.0).unwrap(),
         Solvability::of_exact(&bar(0.0)).unwrap(),
     ] {
-        assert_eq!(
-            s.group([]).unwrap(),
-            Judgement {
-                verdict: Verdict::Unique,
-                margin: 0.0
-            }
-        );
+        assert_eq!(s.group([]).unwrap(), Judgement::new(Verdict::Unique, 0.0));
         assert_eq!(s.multipliers([]).unwrap().verdict, Verdict::Unique);
         assert_eq!(s.group([0, 1, 0]).unwrap(), s.group([1, 0]).unwrap());
         assert_eq!(s.group([0, 2]).unwrap().verdict, Verdict::Unique);

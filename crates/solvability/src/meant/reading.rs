@@ -93,7 +93,8 @@ impl MeantMatrix {
         }
         let (mut nearness, mut grounds) = (None, Grounds::WithinData);
         let tolerance = question.tolerance();
-        let limit = (TOLD * question.size).max(FULL * tolerance.unwrap_or(0.0));
+        let metres = tolerance.map_or(0.0, |stated| stated.metres);
+        let limit = (TOLD * question.size).max(FULL * metres);
         while status == RankStatus::Decided
             && let Some(near) = question.nearness(rank, limit)
         {
@@ -101,18 +102,23 @@ impl MeantMatrix {
             let Some(tolerance) = tolerance else {
                 break;
             };
-            let share = near.everywhere / tolerance;
+            let share = near.everywhere / tolerance.metres;
             if share < LOWER {
                 rank -= 1;
                 grounds = Grounds::WithinTolerance;
                 continue;
             }
             if share <= FULL {
+                let (one, unit) = match tolerance.by_angles {
+                    true => (question.size, "rad"),
+                    false => (1.0, "m"),
+                };
                 status = RankStatus::Undecided(Doubt::WithinTolerance {
                     lower: rank - 1,
                     upper: rank,
-                    from: near.everywhere,
-                    tolerance,
+                    from: near.everywhere / one,
+                    tolerance: tolerance.metres / one,
+                    unit,
                 });
             }
             break;

@@ -41,6 +41,17 @@ pub(crate) struct Nearness {
     pub(crate) here: f64,
     /// By one change of the data that serves all poses of a walk: from there on a row is redundant. Infinite where none does.
     pub(crate) everywhere: f64,
+    /// Whether only angles change, because a tolerance is stated for them alone.
+    pub(crate) by_angles: bool,
+}
+
+/// What the scene states of its data.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StatedTolerance {
+    /// The largest one of a point or a length; where none is stated, the largest one of an angle times the size (m).
+    pub(super) metres: f64,
+    /// Whether it is that of an angle.
+    pub(super) by_angles: bool,
 }
 
 impl Question<'_> {
@@ -90,11 +101,19 @@ impl Question<'_> {
         of_body.collect()
     }
 
-    /// The largest tolerance that the scene states for a point or a length (m).
-    pub(super) fn tolerance(&self) -> Option<f64> {
-        let blocks = self.mechanism.data_blocks(self.s).into_iter();
-        let lengths = blocks.filter(|b| b.unit == DataUnit::Length);
-        lengths.filter_map(|b| b.tolerance).reduce(f64::max)
+    /// The largest tolerance that the scene states for a point or a length; for an angle if it states none for lengths, which are then known to their
+    /// rounding.
+    pub(super) fn tolerance(&self) -> Option<StatedTolerance> {
+        let blocks = self.mechanism.data_blocks(self.s);
+        let largest = |unit: DataUnit| {
+            let of_unit = blocks.iter().filter(|b| b.unit == unit);
+            of_unit.filter_map(|b| b.tolerance).reduce(f64::max)
+        };
+        let stated = |metres, by_angles| StatedTolerance { metres, by_angles };
+        match largest(DataUnit::Length) {
+            Some(length) => Some(stated(length, false)),
+            None => largest(DataUnit::Angle).map(|angle| stated(angle * self.size, true)),
+        }
     }
 
     /// By how much each row of an orthonormal basis Z of the left null space (m × p, by rows in this scaling) changes with data within their tolerance,
@@ -136,7 +155,7 @@ impl Question<'_> {
 
     /// How near the data are to one rank less than `rank`, if that is nearer than `limit` (m).
     pub(super) fn nearness(&self, rank: usize, limit: f64) -> Option<Nearness> {
-        let tolerance = self.tolerance();
+        let stated = self.tolerance();
         let lower = rank.checked_sub(1)?;
         let dimensions = self.mechanism.dimension_scaling(self.size);
         let (scaled, scaling) = self.uniform(self.s);
@@ -153,6 +172,7 @@ impl Question<'_> {
             candidate,
         );
         let blocks = self.mechanism.data_blocks(self.s);
+        let tolerance = stated.map(|stated| stated.metres);
         let unit: Vec<f64> = blocks.iter().map(|b| self.unit(b, tolerance)).collect();
         let gradient = here.gradient(0, 0).data;
         let parts = blocks.iter().zip(&unit).map(|(block, unit)| {
@@ -211,6 +231,7 @@ impl Question<'_> {
         Some(Nearness {
             here: at_this_pose,
             everywhere: least * least_change(&equations).middle(),
+            by_angles: stated.is_some_and(|stated| stated.by_angles),
         })
     }
 

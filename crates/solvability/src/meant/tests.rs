@@ -2,7 +2,9 @@
 //! method (linear programming over coordinates, poses by finite differences), and by hand where it says so.
 
 use joints::{Distance, Revolute};
-use model::{Body, BodyRef, Description, Mechanism};
+use model::{Body, BodyRef, Description, Function, Mechanism};
+
+use linalg::RankStatus;
 
 use crate::{Analysis, analyse};
 
@@ -203,7 +205,8 @@ fn a_door_turns_within_its_tolerance() {
     assert_eq!((turns.decision.rank, turns.mobility()), (2, 1));
 }
 
-/// Two parallel hydraulic cylinders between a frame and an arm, their axes in the directions that they have with so many digits.
+/// Two parallel hydraulic cylinders that turn an arm about its hinge, their axes in the directions that they have with so many digits: what one pushes
+/// the other may take back.
 fn cylinders(digits: Option<i32>) -> Description {
     let mut d = Description::new("cylinders");
     let angle = 0.6_f64;
@@ -218,12 +221,18 @@ fn cylinders(digits: Option<i32>) -> Description {
     let axis = axis.expect("a direction");
     let arm_at = [1.5 * angle.cos(), 1.5 * angle.sin()];
     let arm = d.body(bar("arm", arm_at, 0.0));
+    let local = |p: [f64; 2], q: [f64; 2]| [p[0] - q[0], p[1] - q[1]];
+    let foot = [1.2, -0.1];
+    let hinge = Revolute {
+        s_i: foot,
+        s_j: local(foot, arm_at),
+    };
+    d.joint("hinge", &[BodyRef::Ground, arm], hinge);
     for (k, offset) in [-0.2, 0.2].into_iter().enumerate() {
         let foot = [-offset * angle.sin(), offset * angle.cos()];
         let at = |s: f64| [foot[0] + s * angle.cos(), foot[1] + s * angle.sin()];
         let tube = d.body(bar(&format!("tube {k}"), at(0.4), 0.0));
         let rod = d.body(bar(&format!("rod {k}"), at(1.1), 0.0));
-        let local = |p: [f64; 2], q: [f64; 2]| [p[0] - q[0], p[1] - q[1]];
         let pin = Revolute {
             s_i: foot,
             s_j: local(foot, at(0.4)),
@@ -231,11 +240,18 @@ fn cylinders(digits: Option<i32>) -> Description {
         d.joint(&format!("A{k}"), &[BodyRef::Ground, tube], pin);
         let slide = joints::Translational {
             s_i: [0.0; 2],
-            s_j: local(at(0.4), at(1.1)),
+            s_j: [0.0; 2],
             axis,
             angle_0: 0.0,
         };
+        let drive = slide.displacement_drive();
         d.joint(&format!("S{k}"), &[tube, rod], slide);
+        d.drive(
+            &format!("pump {k}"),
+            &[tube, rod],
+            drive,
+            Function::constant(0.0).expect("a number"),
+        );
         let eye = at(1.5);
         let pin = Revolute {
             s_i: local(eye, at(1.1)),
@@ -246,25 +262,62 @@ fn cylinders(digits: Option<i32>) -> Description {
     d
 }
 
-/// One mechanism, whatever digits its axes are typed with: verdicts of all joints are those of the exact one.
+/// One mechanism, whatever digits its axes are typed with: verdicts of all joints are those of the exact one, and where the digits leave a share of the
+/// free force to a slide, its margin is told.
 #[test]
 fn parallel_cylinders_are_one_mechanism_with_any_digits() {
-    let verdicts = |d: &Description| -> Vec<&'static str> {
-        let analysis = analysed(d);
+    let verdicts = |analysis: &Analysis| -> Vec<&'static str> {
         assert!(
             analysis.decision.is_decided(),
             "{:?}",
             analysis.decision.status
         );
+        assert_eq!(
+            (analysis.decision.rank, analysis.decision.redundancy),
+            (15, 1)
+        );
         let reactions = analysis.reactions.iter();
         reactions.map(|r| r.wrench.verdict.word()).collect()
     };
-    let exact = verdicts(&cylinders(None));
-    for digits in [4, 6, 12] {
-        assert_eq!(
-            verdicts(&within(cylinders(Some(digits)), 1e-4)),
-            exact,
-            "{digits}"
+    let slides = |analysis: &Analysis| -> Vec<crate::Judgement> {
+        let slides = analysis
+            .reactions
+            .iter()
+            .filter(|r| r.name.starts_with('S'));
+        slides.map(|r| r.wrench.clone()).collect()
+    };
+    let exact = analysed(&cylinders(None));
+    let exact = verdicts(&exact);
+    // Joints in order, then the drives: the force in both cylinders, from which the slides keep out.
+    let [u, n] = ["unique", "not_unique"];
+    assert_eq!(exact, [n, n, u, n, n, u, n, n, n]);
+    for (digits, least, most) in [
+        (None, 0.0, 1e-15),
+        // The cosine of 0.6 is wrong by 3.6e-5, the sine by 4.2e-5, the direction by 1.5e-5 rad.
+        (Some(4), 1e-6, 1.5e-5),
+        (Some(6), 1e-8, 1.5e-6),
+        (Some(12), 0.0, 1e-12),
+    ] {
+        let analysis = analysed(&within(cylinders(digits), 1e-4));
+        assert_eq!(verdicts(&analysis), exact, "{digits:?}");
+        for slide in slides(&analysis) {
+            assert!(
+                (least..most).contains(&slide.margin),
+                "{digits:?}: {slide:?}"
+            );
+            assert_eq!(slide.within_tolerance, slide.margin > 1e-9, "{digits:?}");
+        }
+    }
+    // Digits that are meant leave the slides a share of the free force.
+    for tolerance in [None, Some(1e-8)] {
+        let mut meant = cylinders(Some(4));
+        meant.tolerance.length = tolerance;
+        let analysis = analysed(&meant);
+        assert!(verdicts(&analysis).iter().all(|v| *v == n), "{tolerance:?}");
+        assert!(
+            slides(&analysis)
+                .iter()
+                .all(|slide| !slide.within_tolerance)
         );
     }
 }
@@ -272,19 +325,7 @@ fn parallel_cylinders_are_one_mechanism_with_any_digits() {
 /// Two edges of one axle that are parallel but for a thousandth: within a centimetre one of them is redundant, and neither force is unique.
 #[test]
 fn edges_of_one_axle_share_their_force_within_a_tolerance() {
-    let mut d = Description::new("cart");
-    let cart = d.body(Body::new("cart", 10.0, 1.0));
-    for (name, y, x) in [("left", 0.5, 0.0), ("right", -0.5, 1e-3)] {
-        let normal = joints::Direction::new([x, 1.0]).expect("a direction");
-        d.joint(
-            name,
-            &[cart],
-            joints::KnifeEdge {
-                s: [0.0, y],
-                normal,
-            },
-        );
-    }
+    let d = axle(1e-3);
     assert_eq!(analysed(&d).decision.rank, 2);
     let analysis = analysed(&within(d, 1e-2));
     assert_eq!((analysis.decision.rank, analysis.mobility()), (1, 2));
@@ -296,4 +337,73 @@ fn edges_of_one_axle_share_their_force_within_a_tolerance() {
             reaction.name
         );
     }
+}
+
+/// A cart on two edges of one axle, whose directions differ by this angle.
+fn axle(angle: f64) -> Description {
+    let mut d = Description::new("cart");
+    let cart = d.body(Body::new("cart", 10.0, 1.0));
+    for (name, y, x) in [("left", 0.5, 0.0), ("right", -0.5, angle)] {
+        let normal = joints::Direction::new([x, 1.0]).expect("a direction");
+        let s = [0.0, y];
+        d.joint(name, &[cart], joints::KnifeEdge { s, normal });
+    }
+    d
+}
+
+/// Both directions have to be perpendicular to the axle, so one turns by all of the difference. Nothing is stated of lengths, which keep their rounding.
+#[test]
+fn an_angle_tolerance_counts_alone() {
+    let judged = |tolerance: model::Tolerance| {
+        let mut d = axle(1e-4);
+        d.tolerance = tolerance;
+        analysed(&d)
+    };
+    let angle = |angle: f64| model::Tolerance {
+        length: None,
+        angle: Some(angle),
+    };
+    let redundant = judged(angle(1e-3));
+    let certificate = redundant.evidence().certificate.clone();
+    let certificate = certificate.expect("certified");
+    assert_eq!((redundant.decision.rank, redundant.mobility()), (1, 2));
+    assert_eq!(certificate.grounds, linalg::Grounds::WithinTolerance);
+    assert!(
+        redundant
+            .reactions
+            .iter()
+            .all(|r| r.wrench.verdict == crate::Verdict::NotUnique)
+    );
+
+    let full = judged(angle(1e-5));
+    assert!(full.decision.is_decided());
+    assert_eq!(full.decision.rank, 2);
+    let certificate = full.evidence().certificate.clone();
+    let certificate = certificate.expect("certified");
+    // Edges 1 m apart: the size is one.
+    let from = certificate.lower_rank_from.expect("near");
+    assert!(certificate.lower_rank_by_angles);
+    assert!((from / 1e-4 - 1.0).abs() < 0.06, "{from:e}");
+
+    let RankStatus::Undecided(doubt) = judged(angle(5e-5)).decision.status else {
+        panic!("decided");
+    };
+    let text = doubt.to_string();
+    assert!(
+        text.contains("with data known to 5.0e-5 rad the rank is 1 or 2"),
+        "{text}"
+    );
+
+    // A length says the same of angles, divided by the size.
+    let length = model::Tolerance {
+        length: Some(1e-3),
+        angle: None,
+    };
+    assert_eq!(judged(length).decision.rank, 1);
+    // Small lengths with large angles: the angles decide.
+    let both = model::Tolerance {
+        length: Some(1e-9),
+        angle: Some(1e-3),
+    };
+    assert_eq!(judged(both).decision.rank, 1);
 }

@@ -1,9 +1,12 @@
-//! The equations of motion at one instant, solved, and the gradients of reactions by all data.
+//! The equations of motion of joined bodies at one instant, solved, and the gradients of reactions by all data.
+
+use std::borrow::Cow;
 
 use linalg::{KeptRowSaddle, Matrix, PivotedQr};
 use model::start::scene_size;
-use model::{ColumnKind, ConstraintId, DataUnit, Mechanism, System};
+use model::{ColumnKind, ConstraintId, DataBlock, DataGradients, DataUnit, Mechanism, System};
 
+use super::joined::Joined;
 use super::{Datum, MOVED, Sensitivity};
 use crate::choices::ChoiceError;
 use crate::mechanism::velocity_units;
@@ -15,174 +18,228 @@ const LOAD_ROUNDING: f64 = 1e-9;
 /// links is made link by link, and its holes are not a hundred times worse than those of one. In mechanisms of a few bodies it plays no part.
 const PIECE: f64 = 20.0;
 
+/// Of points whose effects differ by less than this factor, as those of two points that coincide, the first is told: reactions that hang on the same
+/// misfit are then told in one sentence.
+const SAME: f64 = 1.01;
+
 /// Angle between the directions of successive unit loads (rad): the golden one, which comes near no simple fraction of a turn.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
-/// The equations at one instant, solved.
+/// The equations of joined bodies at one instant, solved.
 pub(super) struct Instant<'a> {
     mechanism: &'a Mechanism,
     s: model::Scratch,
-    v: &'a [f64],
     kept: &'a [usize],
     size: f64,
     saddle: KeptRowSaddle,
-    a: Vec<f64>,
     lambda: Vec<f64>,
     derivatives: model::Derivatives,
-    /// Kept rows of C, and kept rows of Φ, with columns in velocity units, factored.
-    c: Follow,
+    /// Those of the applied forces; none where unit loads are asked.
+    force_dq: &'a [(usize, usize, f64)],
+    force_dv: &'a [(usize, usize, f64)],
+    by_data: DataGradients,
+    /// Kept rows of C, where anything depends on velocities, and kept rows of Φ, with columns in velocity units, factored.
+    c: Option<Follow>,
     phi_q: Follow,
-    blocks: Vec<model::DataBlock>,
+    /// Points, directions and numbers, and how far each is moved.
+    blocks: Vec<(DataBlock, f64)>,
     /// Largest applied or inertial load (N; torques divided by the size).
     load: f64,
+    work: Work,
+}
+
+/// Storage of one gradient.
+struct Work {
+    zero: Vec<f64>,
+    of_kept: Vec<f64>,
+    y: Vec<f64>,
+    y_kept: Vec<f64>,
+    y_lambda: Vec<f64>,
+    by_pose: Vec<f64>,
+    w_v: Vec<f64>,
+    w_q: Vec<f64>,
+}
+
+impl Work {
+    fn new(n: usize, m: usize, kept: usize) -> Self {
+        Self {
+            zero: vec![0.0; n],
+            of_kept: vec![0.0; kept],
+            y: vec![0.0; n],
+            y_kept: vec![0.0; kept],
+            y_lambda: vec![0.0; m],
+            by_pose: vec![0.0; n],
+            w_v: vec![0.0; m],
+            w_q: vec![0.0; m],
+        }
+    }
 }
 
 impl<'a> Instant<'a> {
+    /// At time t, with independent rows `kept`.
     pub(super) fn new(
-        mechanism: &'a Mechanism,
+        joined: &'a Joined<'a>,
         t: f64,
-        q: &[f64],
-        v: &'a [f64],
         kept: &'a [usize],
     ) -> Result<Self, ChoiceError> {
+        let mechanism = joined.mechanism;
         let layout = mechanism.layout();
         let (n, m) = (layout.n_v, layout.rows());
         let mut s = mechanism.scratch();
-        mechanism.pose(t, q, &mut s);
+        mechanism.pose(t, &joined.q, &mut s);
         mechanism.c(&mut s);
-        mechanism.twist(v, &mut s);
+        mechanism.twist(&joined.v, &mut s);
         mechanism.gamma(&mut s);
-        mechanism.force(&mut s);
-        let dense = layout.dense(&s);
+        let size = scene_size(mechanism, &joined.q);
+        let units = velocity_units(mechanism, size);
+        let mut rows = Matrix::zeros(kept.len(), n);
+        for (k, &i) in kept.iter().enumerate() {
+            layout.scatter_row(&s, i, rows.row_mut(k));
+        }
         let mut saddle = KeptRowSaddle::new(n, kept.len())?;
-        saddle.factor(|k| dense.row(kept[k]), mechanism.mass())?;
-        let gamma: Vec<f64> = kept.iter().map(|&i| s.gamma[i]).collect();
+        saddle.factor(|k| rows.row(k), mechanism.mass())?;
+        let mut gamma: Vec<f64> = kept.iter().map(|&i| s.gamma[i]).collect();
         let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; kept.len()]);
-        saddle.solve(&s.force, &gamma, &mut a, &mut of_kept)?;
+        saddle.solve(&joined.force, &gamma, &mut a, &mut of_kept)?;
+        let mut v = Cow::Borrowed(&joined.v[..]);
+        let (mut force_dq, mut force_dv) = (joined.force_dq, joined.force_dv);
+        let mut load = largest_load(mechanism, &joined.force, &a, size);
+        if load <= LOAD_ROUNDING * largest_stop(mechanism, &v, size) {
+            // At rest, with equal masses: neither speed nor mass has a measure where there is no load.
+            v = Cow::Owned(vec![0.0; n]);
+            mechanism.twist(&v, &mut s);
+            gamma.fill(0.0);
+            let mass: Vec<f64> = units.iter().map(|unit| 1.0 / (unit * unit)).collect();
+            saddle.factor(|k| rows.row(k), &mass)?;
+            let unit = unit_loads(mechanism, size);
+            saddle.solve(&unit, &gamma, &mut a, &mut of_kept)?;
+            (force_dq, force_dv) = (&[], &[]);
+            load = 1.0;
+        }
         let mut lambda = vec![0.0; m];
         for (&i, l) in kept.iter().zip(of_kept) {
             lambda[i] = l;
         }
-        let size = scene_size(mechanism, q);
-        let units = velocity_units(mechanism, size);
-        let holonomic: Vec<usize> = kept.iter().copied().filter(|&i| i < layout.m).collect();
-        let c = Follow::new(&dense, kept.to_vec(), &units);
-        let mut load = largest_load(mechanism, &s.force, &a, size);
-        if load <= LOAD_ROUNDING * largest_stop(mechanism, v, size) {
-            // Reactions of the unit loads alone; what they leave of them would accelerate.
-            let unit = unit_loads(mechanism, size);
-            lambda = c.multipliers(&unit, m);
-            a.fill(0.0);
-            load = 1.0;
-        }
         let mut derivatives = mechanism.derivatives();
         mechanism.differentiate(&a, &lambda, &s, &mut derivatives);
+        let feels_velocities = (derivatives.gamma_dv.iter())
+            .chain(force_dv.iter().copied())
+            .any(|(.., value)| value != 0.0);
+        let holonomic = kept.partition_point(|&i| i < layout.m);
+        let moved = |block: DataBlock| {
+            let workshop = match block.unit {
+                DataUnit::Length => MOVED * size.min(piece(mechanism, block.group)),
+                DataUnit::Angle => MOVED,
+            };
+            let moved = workshop.max(block.tolerance.unwrap_or(0.0));
+            (block, moved)
+        };
         Ok(Self {
-            c,
-            phi_q: Follow::new(&dense, holonomic, &units),
-            blocks: mechanism.data_blocks(&s),
+            c: feels_velocities.then(|| Follow::new(&rows, kept.to_vec(), &units)),
+            phi_q: Follow::new(&rows, kept[..holonomic].to_vec(), &units),
+            blocks: mechanism.data_blocks(&s).into_iter().map(moved).collect(),
+            by_data: mechanism.data_gradients(&s, &lambda, &a, &v),
+            work: Work::new(n, m, kept.len()),
             mechanism,
             s,
-            v,
             kept,
             size,
             saddle,
-            a,
             lambda,
             derivatives,
+            force_dq,
+            force_dv,
             load,
         })
     }
 
     pub(super) fn of(&mut self, id: ConstraintId) -> Result<Sensitivity, ChoiceError> {
-        let group = &self.mechanism.layout().groups[id.0];
-        let map = self.mechanism.wrench_map(id, &self.s);
-        let components = group.components();
+        let mechanism = self.mechanism;
+        let group = &mechanism.layout().groups[id.0];
+        let map = mechanism.wrench_map(id, &self.s);
+        let first = self.kept.partition_point(|&row| row < group.rows.start);
+        let own = self.kept.partition_point(|&row| row < group.rows.end) - first;
+        let n = mechanism.data_count();
+        let mut gradients = vec![0.0; own * n];
+        for (k, gradient) in gradients.chunks_exact_mut(n.max(1)).enumerate() {
+            self.gradient(first + k, gradient)?;
+        }
         let mut squares = vec![0.0; self.blocks.len()];
         let mut reaction = 0.0_f64;
-        for &component in &components {
+        let mut gradient = vec![0.0; n];
+        for component in group.components() {
             // Torques count as forces at the size of the mechanism.
             let unit = if component == 2 { 1.0 / self.size } else { 1.0 };
             let row = map.row(component);
             let terms = row.iter().zip(&self.lambda[group.rows.clone()]);
             reaction = reaction.hypot(unit * terms.map(|(w, l)| w * l).sum::<f64>());
-            let gradient = self.gradient(group.rows.clone().zip(row.iter().map(|w| w * unit)))?;
-            for (sum, block) in squares.iter_mut().zip(&self.blocks) {
+            gradient.fill(0.0);
+            let kept = &self.kept[first..first + own];
+            for (&i, of_row) in kept.iter().zip(gradients.chunks_exact(n.max(1))) {
+                let weight = unit * row[i - group.rows.start];
+                for (sum, g) in gradient.iter_mut().zip(of_row) {
+                    *sum += weight * g;
+                }
+            }
+            for (sum, (block, _)) in squares.iter_mut().zip(&self.blocks) {
                 let [x, y] = block.part(&gradient);
                 *sum += x * x + y * y;
             }
         }
-        let (size, mechanism) = (self.size, self.mechanism);
-        let moved = |block: &model::DataBlock| {
-            let workshop = match block.unit {
-                DataUnit::Length => MOVED * size.min(piece(mechanism, block.group)),
-                DataUnit::Angle => MOVED,
-            };
-            workshop.max(block.tolerance.unwrap_or(0.0))
-        };
         let changes = squares.iter().zip(&self.blocks);
-        let changes = changes.map(|(sum, block)| (sum.sqrt() * moved(block), block));
-        let largest = changes.max_by(|a, b| a.0.total_cmp(&b.0));
+        let changes: Vec<f64> = changes
+            .map(|(sum, (_, moved))| sum.sqrt() * moved)
+            .collect();
+        let largest = changes.iter().copied().fold(0.0, f64::max);
+        let first = changes.iter().position(|change| SAME * change >= largest);
+        let by = first.filter(|_| largest > 0.0).map(|k| &self.blocks[k]);
+        // Not a number where the equations are at their limit.
+        let is_known = changes.iter().all(|change| change.is_finite());
         let reference = reaction.max(self.load);
-        Ok(match largest {
-            Some((change, block)) if change > 0.0 && reference > 0.0 => Sensitivity {
-                change: change / reference,
-                by: Some(Datum {
-                    joint: ConstraintId(block.group),
-                    name: block.name,
-                    moved: moved(block),
-                    unit: block.unit,
-                    is_number: block.numbers.len() == 1,
-                }),
+        Ok(Sensitivity {
+            change: match (is_known, by) {
+                (false, _) => f64::NAN,
+                (true, None) => 0.0,
+                (true, Some(_)) => largest / reference,
             },
-            _ => Sensitivity {
-                change: 0.0,
-                by: None,
-            },
+            by: by.map(|(block, moved)| Datum {
+                joint: ConstraintId(block.group),
+                name: block.name,
+                moved: *moved,
+                unit: block.unit,
+                is_number: block.numbers.len() == 1,
+            }),
         })
     }
 
-    /// The gradient of `wᵀ·λ` by all numbers of the constraints, for weights of some rows.
-    fn gradient(
-        &mut self,
-        weights: impl Iterator<Item = (usize, f64)>,
-    ) -> Result<Vec<f64>, ChoiceError> {
-        let layout = self.mechanism.layout();
-        let mut of_kept = vec![0.0; self.kept.len()];
-        for (row, w) in weights {
-            if let Ok(k) = self.kept.binary_search(&row) {
-                of_kept[k] = w;
-            }
-        }
-        let (mut y, mut y_kept) = (vec![0.0; layout.n_v], vec![0.0; self.kept.len()]);
+    /// The gradient of `−λ_k` by all numbers of the constraints, for one kept row.
+    fn gradient(&mut self, k: usize, out: &mut [f64]) -> Result<(), ChoiceError> {
+        let w = &mut self.work;
+        w.of_kept.fill(0.0);
+        w.of_kept[k] = 1.0;
         self.saddle
-            .solve(&vec![0.0; layout.n_v], &of_kept, &mut y, &mut y_kept)?;
-        let mut y_lambda = vec![0.0; layout.rows()];
-        for (&i, value) in self.kept.iter().zip(y_kept) {
-            y_lambda[i] = value;
+            .solve(&w.zero, &w.of_kept, &mut w.y, &mut w.y_kept)?;
+        for (&i, value) in self.kept.iter().zip(&w.y_kept) {
+            w.y_lambda[i] = *value;
         }
         let d = &self.derivatives;
         // By velocities, which follow the data and the pose.
-        let mut by_v = vec![0.0; layout.n_v];
-        add_transposed(&d.gamma_dv, &y_lambda, 1.0, &mut by_v);
-        add_transposed(&d.force_dv, &y, 1.0, &mut by_v);
-        let w_v = self.c.multipliers(&by_v, layout.rows());
+        if let Some(c) = &self.c {
+            w.by_pose.fill(0.0);
+            add_transposed(d.gamma_dv.iter(), &w.y_lambda, 1.0, &mut w.by_pose);
+            add_transposed(self.force_dv.iter().copied(), &w.y, 1.0, &mut w.by_pose);
+            c.multipliers(&mut w.by_pose, &mut w.w_v);
+        }
         // By the pose, which follows the data.
-        let mut by_q = vec![0.0; layout.n_v];
-        add_transposed(&d.force_dq, &y, 1.0, &mut by_q);
-        add_transposed(&d.reaction_dq, &y, -1.0, &mut by_q);
-        add_transposed(&d.residual_dq, &y_lambda, -1.0, &mut by_q);
-        add_transposed(&d.velocity_dq, &w_v, -1.0, &mut by_q);
-        let w_q = self.phi_q.multipliers(&by_q, layout.rows());
-        let mut gradient = vec![0.0; self.mechanism.data_count()];
-        let (s, out) = (&self.s, &mut gradient);
-        self.mechanism
-            .add_power_by_data(s, &self.lambda, &y, -1.0, out);
-        self.mechanism
-            .add_residual_by_data(s, &y_lambda, &self.a, -1.0, out);
-        self.mechanism.add_power_by_data(s, &w_v, self.v, -1.0, out);
-        self.mechanism.add_phi_by_data(s, &w_q, -1.0, out);
-        Ok(gradient)
+        w.by_pose.fill(0.0);
+        add_transposed(self.force_dq.iter().copied(), &w.y, 1.0, &mut w.by_pose);
+        add_transposed(d.reaction_dq.iter(), &w.y, -1.0, &mut w.by_pose);
+        add_transposed(d.residual_dq.iter(), &w.y_lambda, -1.0, &mut w.by_pose);
+        add_transposed(d.velocity_dq.iter(), &w.w_v, -1.0, &mut w.by_pose);
+        self.phi_q.multipliers(&mut w.by_pose, &mut w.w_q);
+        self.by_data
+            .gradient(&w.y, [&w.y_lambda, &w.w_v, &w.w_q], out);
+        Ok(())
     }
 }
 
@@ -194,40 +251,39 @@ struct Follow {
 }
 
 impl Follow {
-    fn new(dense: &Matrix, rows: Vec<usize>, units: &[f64]) -> Self {
-        let mut selected = dense.select_rows(&rows);
-        for i in 0..selected.nrows() {
-            let row = selected.row_mut(i).iter_mut();
-            row.zip(units).for_each(|(entry, unit)| *entry *= unit);
-        }
+    /// The first of some rows, which are these of the mechanism.
+    fn new(first: &Matrix, rows: Vec<usize>, units: &[f64]) -> Self {
+        let scaled = |i: usize, j: usize| first[(i, j)] * units[j];
         Self {
-            qr: PivotedQr::of_rows(selected),
+            qr: PivotedQr::of_rows(Matrix::from_fn(rows.len(), units.len(), scaled)),
             rows,
             units: units.to_vec(),
         }
     }
 
-    /// `w` with `gᵀ·δx = −wᵀ·δr` for the smallest δx that answers a change δr of the rows; all rows of the mechanism.
-    fn multipliers(&self, g: &[f64], all: usize) -> Vec<f64> {
-        let mut answer: Vec<f64> = g
-            .iter()
+    /// `w` with `gᵀ·δx = −wᵀ·δr` for the smallest δx that answers a change δr of the rows; all rows of the mechanism, of which the others are left
+    /// as they are. Overwrites g.
+    fn multipliers(&self, g: &mut [f64], w: &mut [f64]) {
+        g.iter_mut()
             .zip(&self.units)
-            .map(|(g, unit)| g * unit)
-            .collect();
-        self.qr.q_transpose_mul(&mut answer);
-        let mut w = answer[..self.rows.len()].to_vec();
-        self.qr.solve_r(&mut w);
-        let mut out = vec![0.0; all];
-        for (w, &k) in w.iter().zip(self.qr.permutation()) {
-            out[self.rows[k]] = *w;
+            .for_each(|(g, unit)| *g *= unit);
+        self.qr.q_transpose_mul(g);
+        let found = &mut g[..self.rows.len()];
+        self.qr.solve_r(found);
+        for (found, &k) in found.iter().zip(self.qr.permutation()) {
+            w[self.rows[k]] = *found;
         }
-        out
     }
 }
 
 /// `y ← y + factor·Aᵀ·x`
-fn add_transposed(matrix: &model::Sparse, x: &[f64], factor: f64, y: &mut [f64]) {
-    for (row, column, value) in matrix.iter() {
+fn add_transposed(
+    matrix: impl Iterator<Item = (usize, usize, f64)>,
+    x: &[f64],
+    factor: f64,
+    y: &mut [f64],
+) {
+    for (row, column, value) in matrix {
         y[column] += factor * value * x[row];
     }
 }

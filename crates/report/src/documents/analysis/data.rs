@@ -17,7 +17,10 @@ pub struct DataDocument {
     /// The tolerance from which on a row is redundant (m): some points may be elsewhere by this, and the rank is lower wherever the mechanism
     /// moves. `None` if no such tolerance is near.
     pub lower_rank_from: Option<f64>,
-    /// By how much points would have to be elsewhere for a lower rank at this configuration (m). `None` if that is not near.
+    /// The same of angles (rad) where a tolerance is stated for them alone: some directions may be turned by this. `lower_rank_from` is `None` then.
+    pub lower_rank_from_angle: Option<f64>,
+    /// By how much points would have to be elsewhere for a lower rank at this configuration (m; angles times the size of the mechanism). `None` if that
+    /// is not near.
     pub lower_rank_here: Option<f64>,
 }
 
@@ -39,10 +42,18 @@ impl DataDocument {
             .clone()
             .filter_map(|(size, _)| tolerance.angle_at(size));
         let known = || parts.clone().filter_map(|(_, certificate)| certificate);
+        let by_angles = |(size, certificate): (f64, Option<&Certificate>)| {
+            let certificate = certificate.filter(|c| c.lower_rank_by_angles)?;
+            Some(certificate.lower_rank_from? / size)
+        };
+        let by_lengths = known().filter(|c| !c.lower_rank_by_angles);
         Self {
             tolerance: tolerance.length,
             angle_tolerance: angles.reduce(f64::max).or(tolerance.angle),
-            lower_rank_from: known().filter_map(|c| c.lower_rank_from).reduce(f64::min),
+            lower_rank_from: by_lengths
+                .filter_map(|c| c.lower_rank_from)
+                .reduce(f64::min),
+            lower_rank_from_angle: parts.clone().filter_map(by_angles).reduce(f64::min),
             lower_rank_here: known().filter_map(|c| c.lower_rank_here).reduce(f64::min),
         }
     }
@@ -65,6 +76,7 @@ mod tests {
             spread: 0.0,
             row_noise: Vec::new(),
             row_tolerance: None,
+            lower_rank_by_angles: false,
             nearly_redundant: None,
             lower_rank_here: here,
             lower_rank_from: from,
@@ -85,9 +97,18 @@ mod tests {
             tolerance: Some(1e-4),
             angle_tolerance: Some(1e-4),
             lower_rank_from: Some(5e-5),
+            lower_rank_from_angle: None,
             lower_rank_here: Some(1e-6),
         };
         assert_eq!(told, expected);
+        let turned = Certificate {
+            lower_rank_by_angles: true,
+            ..near
+        };
+        let parts = [(4.0, Some(&turned)), (2.0, Some(&singular))];
+        let told = DataDocument::of(drawing, parts.into_iter());
+        let told = (told.lower_rank_from, told.lower_rank_from_angle);
+        assert_eq!(told, (None, Some(1.25e-5)));
     }
 
     #[test]
@@ -95,7 +116,7 @@ mod tests {
         let told = DataDocument::of(Tolerance::default(), [(1.0, None)].into_iter());
         assert_eq!(
             serde_json::to_string(&told).expect("JSON"),
-            r#"{"tolerance":null,"angle_tolerance":null,"lower_rank_from":null,"lower_rank_here":null}"#
+            r#"{"tolerance":null,"angle_tolerance":null,"lower_rank_from":null,"lower_rank_from_angle":null,"lower_rank_here":null}"#
         );
     }
 }

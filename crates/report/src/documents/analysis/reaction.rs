@@ -118,6 +118,18 @@ pub struct GroupDocument {
 }
 
 impl ReactionDocument {
+    /// The verdict as it is said in a line: with what hangs on the last digits, or on the tolerance that the scene states.
+    #[must_use]
+    pub fn said(&self) -> String {
+        let verdict = self.wrench.verdict.replace('_', " ");
+        let within = match self.wrench.within_tolerance {
+            true => " within the tolerance",
+            false => "",
+        };
+        let fragile = if self.data.fragile { ", FRAGILE" } else { "" };
+        format!("{verdict}{within}{fragile}")
+    }
+
     /// Adds what is known of all reactions, in the order of joints and drives.
     pub(super) fn explain_all(all: &mut [Self], explanation: &Explanation) {
         for (ConstraintId(k), why) in &explanation.settled {

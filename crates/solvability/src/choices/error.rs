@@ -1,0 +1,114 @@
+//! Why a choice cannot be made.
+
+use linalg::{Doubt, KeptRowsError, SaddleError};
+use model::RowLabel;
+
+use crate::groups::RequestError;
+
+/// Why there is no such distribution.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ChoiceError {
+    /// The rank is undecided: what is a choice is not known.
+    #[error("the rank is undecided, and with it what may be chosen: {0}")]
+    Undecided(Doubt),
+    /// An argument is wrong.
+    #[error(transparent)]
+    Request(#[from] RequestError),
+    /// The equations cannot be solved on the kept rows.
+    #[error(transparent)]
+    Saddle(#[from] SaddleError),
+    /// Redundant rows ask for different accelerations: there are no reactions at all.
+    #[error(
+        "row {} asks for an acceleration that differs by {by:.3e} from what the kept rows give (rounding: {allowed:.3e}): \
+         there are no reactions that satisfy both",
+        row + 1
+    )]
+    Contradiction {
+        /// The dropped row, from 0.
+        row: usize,
+        /// By how much.
+        by: f64,
+        /// What rounding explains.
+        allowed: f64,
+    },
+    /// A weight or compliance is negative or no number.
+    #[error("a weight is {value:.3e}, need a finite number ≥ 0")]
+    Weight {
+        /// What it is.
+        value: f64,
+    },
+    /// A weight of a norm is not positive.
+    #[error("the norm has the weight {value:.3e}, need a finite number > 0")]
+    NormWeight {
+        /// What it is.
+        value: f64,
+    },
+    /// Rigid supports share a load in no particular way.
+    #[error(
+        "the choice leaves open how loads are shared ({free} missing): what has weight zero (a rigid joint) stays undetermined among its like; \
+         give a compliance to one more of the joints that mix"
+    )]
+    Indeterminate {
+        /// Directions that nothing determines.
+        free: usize,
+    },
+    /// The wrench on the first body does not show all that a joint does.
+    #[error(
+        "the reaction of `{reaction}` on its first body does not tell those on its other bodies, which are not unique"
+    )]
+    Hidden {
+        /// The joint or drive.
+        reaction: String,
+    },
+    /// Not as many rows as one part of the mechanism has too many.
+    #[error(
+        "rows without reaction are as many as are redundant, {redundancy} in all: {joints} have {own} of them, but {listed} of their rows {} listed",
+        if *listed == 1 { "is" } else { "are" }
+    )]
+    Count {
+        /// Of the whole mechanism.
+        redundancy: usize,
+        /// The first joints and drives of the part.
+        joints: String,
+        /// Redundancy of the part.
+        own: usize,
+        /// Its rows among those asked for.
+        listed: usize,
+    },
+    /// These rows cannot be without reaction.
+    #[error(
+        "no solution has zero reactions in {} {}: {}",
+        row_word(rows),
+        list(rows),
+        cause(unique, source)
+    )]
+    Rows {
+        /// The rows asked for that exist.
+        rows: Vec<RowLabel>,
+        /// Those of them whose multiplier is unique.
+        unique: Vec<RowLabel>,
+        /// Why; rows are counted from 0 here.
+        source: KeptRowsError,
+    },
+}
+
+pub(super) fn list(rows: &[RowLabel]) -> String {
+    let names: Vec<String> = rows.iter().map(RowLabel::to_string).collect();
+    names.join(", ")
+}
+
+pub(super) fn row_word(rows: &[RowLabel]) -> &'static str {
+    match rows {
+        [_] => "row",
+        _ => "the rows",
+    }
+}
+
+fn cause(unique: &[RowLabel], source: &KeptRowsError) -> String {
+    match unique {
+        [] => source.to_string(),
+        [row] => format!("that of {row} is unique"),
+        rows => format!("those of {} are unique", list(rows)),
+    }
+}

@@ -1,0 +1,103 @@
+//! Numbers of a distribution: facts, and choices under their names.
+
+use std::fmt;
+use std::sync::Arc;
+
+use model::{ConstraintId, Layout, RowLabel};
+
+use super::error::{list, row_word};
+use super::{Choice, Compliance};
+use crate::words;
+
+/// A number of a distribution.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// The same in every solution: a fact of the model.
+    Unique(f64),
+    /// One of many. A number whose verdict is undecided is given like this too.
+    Chosen {
+        /// The number.
+        value: f64,
+        /// Who says so.
+        by: Label,
+    },
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unique(value) => fmt::Display::fmt(value, f),
+            Self::Chosen { value, by } => {
+                fmt::Display::fmt(value, f)?;
+                write!(f, " ({by})")
+            }
+        }
+    }
+}
+
+impl std::ops::Add for Value {
+    type Output = Self;
+
+    /// A sum is a fact iff both are; of two choices it is that of the first.
+    fn add(self, other: Self) -> Self {
+        match (self, other) {
+            (Self::Unique(a), Self::Unique(b)) => Self::Unique(a + b),
+            (Self::Unique(a), Self::Chosen { value, by })
+            | (Self::Chosen { value, by }, Self::Unique(a)) => Self::Chosen {
+                value: value + a,
+                by,
+            },
+            (Self::Chosen { value, by }, Self::Chosen { value: other, .. }) => Self::Chosen {
+                value: value + other,
+                by,
+            },
+        }
+    }
+}
+
+/// Names the choice that a number depends on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Label(Arc<str>);
+
+impl fmt::Display for Label {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+impl Label {
+    /// Of a choice where these joints and drives do not give way.
+    pub(crate) fn of(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) -> Self {
+        let text = match choice {
+            Choice::MinimumNorm(w) => format!(
+                "minimum norm, forces weighted by {}/N and torques by {}/(N·m)",
+                w.force, w.torque
+            ),
+            Choice::Compliance(joints) => {
+                let joint = |j: &Compliance| {
+                    let name = &layout.groups[j.reaction.0].name;
+                    let along = match j.x == j.y {
+                        true => format!("{:e} m/N", j.x),
+                        false => format!("{:e} m/N along x, {:e} m/N along y", j.x, j.y),
+                    };
+                    match j.rotation == 0.0 {
+                        true => format!("`{name}` {along}"),
+                        false => format!("`{name}` {along}, {:e} rad/(N·m)", j.rotation),
+                    }
+                };
+                let listed: Vec<String> = joints.iter().map(joint).collect();
+                let rigid = match words::names(layout, rigid).as_slice() {
+                    [] => String::new(),
+                    names => format!("; rigid: {}", names.join(", ")),
+                };
+                format!("elastic supports: {}{rigid}", listed.join("; "))
+            }
+            Choice::Elimination(rows) => {
+                let known = rows.iter().filter_map(|&i| layout.labels.get(i));
+                let labels: Vec<RowLabel> = known.cloned().collect();
+                format!("no reaction in {} {}", row_word(&labels), list(&labels))
+            }
+        };
+        Self(text.into())
+    }
+}

@@ -1,0 +1,123 @@
+//! Bodies that joints connect, asked set by set: a machine answers the same alone and among others.
+//!
+//! Springs connect nothing here. What they carry is a load, and how it changes where the bodies of a set move belongs to the set; the bodies at their
+//! other ends stay where they are.
+
+use std::borrow::Cow;
+
+use model::{Mechanism, System};
+
+use crate::parts::{Extent, Partition};
+
+/// An entry of a derivative: row, column, value.
+type Entry = (usize, usize, f64);
+
+/// A set of bodies with the joints between them, and the forces on it.
+pub(super) struct Joined<'a> {
+    /// Without forces, unless it is the whole.
+    pub(super) mechanism: &'a Mechanism,
+    /// Where it is in the whole.
+    pub(super) extent: &'a Extent,
+    /// Its coordinates and velocities.
+    pub(super) q: Cow<'a, [f64]>,
+    pub(super) v: Cow<'a, [f64]>,
+    /// Applied forces, and their derivatives by its own coordinates and velocities.
+    pub(super) force: Cow<'a, [f64]>,
+    pub(super) force_dq: &'a [Entry],
+    pub(super) force_dv: &'a [Entry],
+}
+
+/// The sets of bodies of a mechanism that its joints and drives connect.
+struct Sets {
+    partition: Partition,
+    /// The set of each group; none of those that move no body.
+    of_group: Vec<Option<usize>>,
+    /// The set of each body, and its place there.
+    of_body: Vec<(usize, usize)>,
+    count: usize,
+}
+
+impl Sets {
+    fn of(mechanism: &Mechanism) -> Self {
+        let groups = &mechanism.layout().groups;
+        let all: Vec<usize> = (0..groups.len()).collect();
+        let bodies = mechanism.joined(&all);
+        let mut of_body = vec![(0, 0); mechanism.bodies().len()];
+        for (set, bodies) in bodies.iter().enumerate() {
+            for (place, &body) in bodies.iter().enumerate() {
+                of_body[body] = (set, place);
+            }
+        }
+        let first_body = |k: usize| groups[k].bodies.iter().find_map(|b| b.moving());
+        let of_group: Vec<Option<usize>> = (all.iter())
+            .map(|&k| first_body(k).map(|b| of_body[b].0))
+            .collect();
+        let mut members = vec![Vec::new(); bodies.len()];
+        for (k, set) in of_group.iter().enumerate() {
+            if let Some(set) = set {
+                members[*set].push(k);
+            }
+        }
+        let partition = match &members[..] {
+            [one] if one.len() == groups.len() => Partition::One,
+            // Bodies of no joint have no reaction.
+            _ => Partition::Several(members.into_iter().filter(|m| !m.is_empty()).collect()),
+        };
+        Self {
+            partition,
+            of_group,
+            of_body,
+            count: bodies.len(),
+        }
+    }
+
+    /// The entries of a derivative of forces that are a set's own, numbered there.
+    fn entries(&self, all: &model::Sparse) -> Vec<Vec<Entry>> {
+        let mut own = vec![Vec::new(); self.count];
+        for (row, column, value) in all.iter() {
+            let [(i, a), (j, b)] = [row, column].map(|k| self.of_body[k / COLUMNS]);
+            if i == j {
+                let [row, column] =
+                    [(row, a), (column, b)].map(|(k, place)| COLUMNS * place + k % COLUMNS);
+                own[i].push((row, column, value));
+            }
+        }
+        own
+    }
+}
+
+/// Columns of a planar body.
+const COLUMNS: usize = 3;
+
+/// What `f` makes of each set of bodies that joints and drives connect, at time t, coordinates q and velocities v, on the threads of the pool of `rayon`
+/// from which this is called.
+pub(super) fn each_joined<T: Send>(
+    mechanism: &Mechanism,
+    (t, q, v): (f64, &[f64], &[f64]),
+    f: impl Fn(Joined<'_>) -> T + Sync,
+) -> Vec<T> {
+    let sets = Sets::of(mechanism);
+    let mut s = mechanism.scratch();
+    mechanism.pose(t, q, &mut s);
+    mechanism.twist(v, &mut s);
+    mechanism.force(&mut s);
+    let [by_q, by_v] = mechanism.force_derivatives(&s);
+    let [by_q, by_v] = [by_q, by_v].map(|all| sets.entries(&all));
+    let found = sets.partition.map(mechanism, |part, extent| {
+        let first = extent.groups().first();
+        let set = first.and_then(|&k| sets.of_group[k]).unwrap_or(0);
+        Ok::<_, std::convert::Infallible>(f(Joined {
+            mechanism: part,
+            q: extent.coordinates(q),
+            v: extent.velocities(v),
+            force: extent.velocities(&s.force),
+            force_dq: &by_q[set],
+            force_dv: &by_v[set],
+            extent: &extent,
+        }))
+    });
+    match found {
+        Ok(found) => found,
+        Err(never) => match never {},
+    }
+}
