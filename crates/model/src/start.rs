@@ -8,6 +8,7 @@ use linalg::{Matrix, StepError, least_squares_step};
 
 use crate::mechanism::{Mechanism, N_BODY};
 use crate::system::{Layout, RowLabel, Scratch, System};
+use crate::uncertainty::ROUNDING;
 
 /// What a start may and may not do.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -340,6 +341,9 @@ fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
     )
 }
 
+/// Places that are no farther apart than so many roundings of where they stand are one place.
+const COINCIDE: f64 = 1e3;
+
 /// Diagonal of the box around all bodies and joints, or 1 m where there is one place only.
 #[must_use]
 pub fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
@@ -359,7 +363,12 @@ pub(crate) fn size_of(mechanism: &Mechanism, s: &Scratch) -> f64 {
         high - low
     };
     let size = span(0).hypot(span(1));
-    if size > 0.0 { size } else { 1.0 }
+    let farthest = points.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
+    if size > COINCIDE * ROUNDING * farthest {
+        size
+    } else {
+        1.0
+    }
 }
 
 /// The configuration nearest to q, in the mass metric, on the given rows of Φ at time t; allocates.

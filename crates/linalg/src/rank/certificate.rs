@@ -31,8 +31,12 @@ pub struct Certificate {
     /// The same by one change of the data that lowers the rank at all configurations near this one: from there on a row is redundant. `None` where
     /// no change does, or none is near.
     pub lower_rank_from: Option<f64>,
-    /// By how much each row of the left null space changes with data within the tolerance that the scene states, m values; nothing without one.
-    pub row_tolerance: Option<Vec<f64>>,
+    /// By how much each row of the left null space changes with data within what they are known to, m values; nothing where nobody asked.
+    pub row_data: Option<Vec<f64>>,
+    /// Whether that is a tolerance which the scene states.
+    pub has_tolerance: bool,
+    /// By what angle (rad) the force of each row turns with data within that tolerance, m values; nothing without one.
+    pub row_turn: Option<Vec<f64>>,
 }
 
 /// Why a rank is not larger than it was read.

@@ -230,7 +230,9 @@ impl Found {
             nearly_redundant,
             lower_rank_here: None,
             lower_rank_from: None,
-            row_tolerance: None,
+            row_data: None,
+            row_turn: None,
+            has_tolerance: false,
         });
         decision
     }

@@ -44,6 +44,8 @@ pub(crate) struct Known {
     pub(crate) spread: f64,
     /// What an entry of C is known to.
     pub(crate) uncertainty: f64,
+    /// By what angle the force of each row turns within a stated tolerance (rad); zero without one.
+    pub(crate) row_turn: Vec<f64>,
     /// How margins are read.
     pub(crate) readings: Readings,
 }
@@ -158,8 +160,11 @@ impl Basis {
     }
 
     /// A map is known as well as the entries of C, which stand at the same poses.
-    pub(super) fn rounding_of_map(&self) -> f64 {
-        (MAP_FACTOR * self.known.uncertainty).max(ROUNDING_OF_MAP)
+    pub(super) fn rounding_of_map(&self, rows: &[usize]) -> f64 {
+        let turns = rows.iter().map(|&i| self.known.row_turn[i]);
+        turns
+            .fold(ROUNDING_OF_MAP, f64::max)
+            .max(MAP_FACTOR * self.known.uncertainty)
     }
 
     /// How many pivots are certainly not zero, if the others certainly are.

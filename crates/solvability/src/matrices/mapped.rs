@@ -35,7 +35,7 @@ impl<'a> Mapped<'a> {
             .collect();
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         if basis.exact.is_none() {
-            let rounding = basis.rounding_of_map() * largest;
+            let rounding = basis.rounding_of_map(&rows) * largest;
             for (i, size) in sizes.iter_mut().enumerate() {
                 if *size <= rounding {
                     images.row_mut(i).fill(0.0);
@@ -156,7 +156,7 @@ impl<'a> Mapped<'a> {
             size => self.map[(i, j)] * self.basis.known.row_factor[self.rows[j]] / size,
         });
         let qr = PivotedQr::of_columns(&equal);
-        let rounding = self.basis.rounding_of_map();
+        let rounding = self.basis.rounding_of_map(&self.rows);
         let rank = qr.r_diagonal().filter(|r| r.abs() > rounding).count();
         if rank == k {
             return Matrix::zeros(k, 0);
