@@ -9,6 +9,7 @@ use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 
 use crate::matrices::{QueryError, Solvability};
+use crate::mechanism::TRANSLATIONS;
 use crate::verdict::Verdict;
 use crate::words::{self, list, names};
 
@@ -161,10 +162,16 @@ pub fn explain(
         .into_iter()
         .map(|circuit| stress(mechanism, s, q, solvability, circuit))
         .collect();
+    // What the shape settles for the numbers as they stand may be open within a tolerance.
+    let is_unique = |id: &ConstraintId| {
+        let rows = mechanism.layout().groups[id.0].rows.clone();
+        let judged = solvability.group(rows);
+        judged.is_ok_and(|j| j.verdict.is_unique())
+    };
     let settled = mechanism
         .constraint_ids()
         .zip(structure.groups)
-        .filter(|(_, why)| !matches!(why, Settled::Open(_)));
+        .filter(|(id, why)| !matches!(why, Settled::Open(_)) && is_unique(id));
     Ok(Explanation {
         stresses,
         mixing,
@@ -236,7 +243,9 @@ fn reaction(
     let map = linalg::Matrix::from_fn(components.len(), group.rows.len(), |i, j| {
         full[(components[i], j)]
     });
+    let forces = components.iter().filter(|&&c| c < TRANSLATIONS).count();
     let mapped = solvability.basis().mapped(&map, group.rows.clone())?;
+    let mapped = mapped.with_forces(forces);
     let directions = match mapped.unique_directions() {
         Err(QueryError::Directions { .. }) => None,
         known => Some(mapped.live_directions(&known?)),

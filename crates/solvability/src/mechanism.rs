@@ -16,6 +16,9 @@ use crate::state::StateError;
 use crate::verdict::{Judgement, Verdict};
 use crate::words;
 
+/// Components of a planar reaction that are forces; the torque follows.
+pub(crate) const TRANSLATIONS: usize = 2;
+
 /// The verdict of a joint or drive.
 #[derive(Clone, Debug)]
 pub struct ReactionVerdict {
@@ -319,7 +322,8 @@ pub(crate) fn reaction(
     let map = Matrix::from_fn(components.len(), rows.len(), |i, j| {
         full[(components[i], j)]
     });
-    let mapped = basis.mapped(&map, rows.clone())?;
+    let forces = components.iter().filter(|&&c| c < TRANSLATIONS).count();
+    let mapped = basis.mapped(&map, rows.clone())?.with_forces(forces);
     let mut zero_components = Vec::new();
     for (i, &c) in components.iter().enumerate() {
         if mapped.is_zero(i)? {

@@ -18,6 +18,9 @@ const CLEARANCE: f64 = 10.0;
 /// Evidence that cannot tell a coefficient of this size from zero calls nothing zero.
 const TOLERANCE_MAX: f64 = 1e-5;
 
+/// The same where the noise is that of a stated tolerance: of larger changes the first order says nothing.
+const STATED_MAX: f64 = 0.1;
+
 /// A coefficient that has come out as small as this in double-double is zero, whatever the data are known to.
 const VANISHED: f64 = 1e-13;
 
@@ -166,7 +169,7 @@ impl Readings {
     pub fn read(&self, size: f64, noise: f64) -> CoefficientReading {
         let far_below = self.smallest / SPREAD;
         let required = (CLEARANCE * noise).max(CERTAIN);
-        if self.has_tolerance && size <= noise {
+        if self.has_tolerance && size <= noise && noise <= STATED_MAX {
             return CoefficientReading::Zero;
         }
         if self.has_tolerance && size <= required {

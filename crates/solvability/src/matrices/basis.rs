@@ -160,11 +160,8 @@ impl Basis {
     }
 
     /// A map is known as well as the entries of C, which stand at the same poses.
-    pub(super) fn rounding_of_map(&self, rows: &[usize]) -> f64 {
-        let turns = rows.iter().map(|&i| self.known.row_turn[i]);
-        turns
-            .fold(ROUNDING_OF_MAP, f64::max)
-            .max(MAP_FACTOR * self.known.uncertainty)
+    pub(super) fn rounding_of_map(&self) -> f64 {
+        (MAP_FACTOR * self.known.uncertainty).max(ROUNDING_OF_MAP)
     }
 
     /// How many pivots are certainly not zero, if the others certainly are.

@@ -8,6 +8,9 @@ use super::QueryError;
 use super::basis::{Basis, ROUNDING_OF_MAP, check_coefficients, combination, norm};
 use crate::verdict::Judgement;
 
+/// What the first order says of larger angles (rad) means nothing.
+const LARGEST_TURN: f64 = 0.1;
+
 /// A map W (k × |X|) from the multipliers of rows X to components, and what it makes of their null space.
 #[derive(Clone, Debug)]
 pub(crate) struct Mapped<'a> {
@@ -35,7 +38,7 @@ impl<'a> Mapped<'a> {
             .collect();
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         if basis.exact.is_none() {
-            let rounding = basis.rounding_of_map(&rows) * largest;
+            let rounding = basis.rounding_of_map() * largest;
             for (i, size) in sizes.iter_mut().enumerate() {
                 if *size <= rounding {
                     images.row_mut(i).fill(0.0);
@@ -51,6 +54,21 @@ impl<'a> Mapped<'a> {
             sizes,
             largest,
         })
+    }
+
+    /// The first components are those of a force: where its direction is known to an angle, a component that is smaller beside the others is none.
+    #[must_use]
+    pub(crate) fn with_forces(mut self, forces: usize) -> Self {
+        let turns = self.rows.iter().map(|&i| self.basis.known.row_turn[i]);
+        let turn = turns.fold(0.0, f64::max).min(LARGEST_TURN);
+        let whole = self.sizes[..forces].iter().copied().fold(0.0, f64::hypot);
+        for i in 0..forces {
+            if self.basis.exact.is_none() && self.sizes[i] <= turn * whole {
+                self.images.row_mut(i).fill(0.0);
+                self.sizes[i] = 0.0;
+            }
+        }
+        self
     }
 
     /// Component `k`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest row of W. A row that is rounding beside the
@@ -156,7 +174,7 @@ impl<'a> Mapped<'a> {
             size => self.map[(i, j)] * self.basis.known.row_factor[self.rows[j]] / size,
         });
         let qr = PivotedQr::of_columns(&equal);
-        let rounding = self.basis.rounding_of_map(&self.rows);
+        let rounding = self.basis.rounding_of_map();
         let rank = qr.r_diagonal().filter(|r| r.abs() > rounding).count();
         if rank == k {
             return Matrix::zeros(k, 0);

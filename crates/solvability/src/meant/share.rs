@@ -250,6 +250,7 @@ impl Question<'_> {
             );
             equations.extend(of_pose(&there, WALKED));
         }
+        if std::env::var("DBG").is_ok() { eprintln!("rank {rank} least {least:e} here {at_this_pose:e} equations {} everywhere {:?} curved {curved:e}", equations.len(), least_change(&equations)); }
         Some(Nearness {
             here: at_this_pose,
             everywhere: least * least_change(&equations).middle(),

@@ -15,7 +15,14 @@ use super::minimax::{Bounds, Equation, least_change};
 /// Poses to each side, the way from one to the next as a share of the size, and in how many steps.
 const POSES: usize = 3;
 const REACH: f64 = 0.05;
-const STEPS: usize = 5;
+const STEPS: usize = 20;
+
+/// A walk ends where a step is corrected by more than this share of it, turns by more than this
+/// cosine tells, or comes near a singular pose, by this share of the least singular value of the
+/// kept rows at its start: there it may go on in another branch.
+const CORRECTED: f64 = 0.3;
+const TURNED: f64 = 0.9;
+const REGULAR: f64 = 0.3;
 
 /// Residuals after which positions are met, as a share of the size.
 const MET: f64 = 1e-12;
@@ -61,8 +68,8 @@ impl Doubles {
             equations.extend(self.equations(&q, &kept, &there));
         }
         // No bound above which the first order means nothing.
-        let high = least_change(&equations, MET).high;
-        let mut low = least_change(&equations, MET).low.min(0.3 * self.size);
+        let Bounds { low, high } = least_change(&equations, MET);
+        let mut low = low.min(0.3 * self.size);
         for _ in 0..40 {
             let slack = CURVED * low / self.size;
             if least_change(&equations, slack).low >= low {
@@ -97,6 +104,49 @@ impl Doubles {
         })
     }
 
+    /// The size of some rows in the left null space of C (of an orthonormal basis), and by how much
+    /// data within a tolerance (m) change it together, to first order with the rank held.
+    #[must_use]
+    pub fn margin(&self, rank: usize, rows: &[usize], tolerance: f64) -> [f64; 2] {
+        let holonomic: Vec<usize> = independent_rows(&self.c(&self.q, &self.data), rank);
+        let holonomic: Vec<usize> = holonomic
+            .into_iter()
+            .filter(|&i| i < self.holonomic)
+            .collect();
+        let answer = pseudo_inverse(&self.c(&self.q, &self.data).select_rows(&holonomic));
+        // Rows of the projector on the null space: they do not depend on a basis.
+        let projector = |q: &[f64], d: &[f64]| {
+            let svd = small_svd(&self.c(q, d));
+            let m = self.rows();
+            Matrix::from_fn(rows.len(), m, |a, j| {
+                let known = (0..rank).map(|k| svd.u[(rows[a], k)] * svd.u[(j, k)]);
+                f64::from(u8::from(rows[a] == j)) - known.sum::<f64>()
+            })
+        };
+        let size = projector(&self.q, &self.data).frobenius_norm();
+        let mut change = 0.0;
+        for block in &self.blocks {
+            for k in 0..block.count {
+                let h = STEP * self.size;
+                let moved = |sign: f64| {
+                    let mut d = self.data.clone();
+                    d[block.first + k] += sign * h * self.unit(block);
+                    let phi = self.phi(&self.q, &d);
+                    let here = self.phi(&self.q, &self.data);
+                    let missed: Vec<f64> = holonomic.iter().map(|&i| here[i] - phi[i]).collect();
+                    let mut q = self.q.clone();
+                    self.step(&mut q, &answer.times(&missed));
+                    projector(&q, &d)
+                };
+                let (plus, less) = (moved(1.0), moved(-1.0));
+                let apart = plus.as_slice().iter().zip(less.as_slice());
+                let apart: f64 = apart.map(|(a, b)| (a - b) * (a - b)).sum();
+                change += apart.sqrt() / (2.0 * h) * tolerance;
+            }
+        }
+        [size, change]
+    }
+
     fn keeps(&self, q: &[f64], rank: usize) -> bool {
         let phi = self.phi(q, &self.data);
         let svd = small_svd(&self.c(q, &self.data));
@@ -107,12 +157,20 @@ impl Doubles {
     /// Poses on both sides, on the kept rows of Φ.
     fn walk(&self, kept: &[usize], heading: &[f64]) -> Vec<Vec<f64>> {
         let mut poses = Vec::new();
+        let weakest = |q: &[f64]| {
+            let c = self.c(q, &self.data).select_rows(kept);
+            small_svd(&c).sigma.last().copied().unwrap_or(1.0)
+        };
+        let regular = REGULAR * weakest(&self.q);
         for sign in [1.0, -1.0] {
             let mut q = self.q.clone();
+            let start = self.c(&q, &self.data).select_rows(kept);
+            let heading = project_out(&start, heading);
             let mut heading: Vec<f64> = heading.iter().map(|x| sign * x).collect();
             'side: for _ in 0..POSES {
                 for _ in 0..STEPS {
-                    if self.advance(kept, &mut q, &mut heading).is_none() {
+                    let advanced = self.advance(kept, &mut q, &mut heading);
+                    if advanced.is_none() || weakest(&q) < regular {
                         break 'side;
                     }
                 }
@@ -126,7 +184,7 @@ impl Doubles {
         let c = self.c(q, &self.data).select_rows(kept);
         let along = project_out(&c, heading);
         let largest = along.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-        if largest.is_nan() || largest < 1e-6 {
+        if largest.is_nan() || dot(&along, heading) < TURNED * norm(&along) * norm(heading) {
             return None;
         }
         let stride = REACH / STEPS as f64 * self.size / largest;
@@ -145,7 +203,11 @@ impl Doubles {
                 return Some(());
             }
             let c = self.c(q, &self.data).select_rows(&holonomic);
-            self.step(q, &pseudo_inverse(&c).times(&missed));
+            let correction = pseudo_inverse(&c).times(&missed);
+            if norm(&correction) > CORRECTED * norm(&step) {
+                return None;
+            }
+            self.step(q, &correction);
         }
         None
     }

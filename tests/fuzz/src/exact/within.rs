@@ -1,11 +1,13 @@
 //! What is told of a drawing whose numbers are known to a tolerance, compared with what exact
 //! arithmetic says of the drawing, and with how far its data are from a lower rank.
 
+use std::rc::Rc;
+
 use serde_json::Value;
 
 use super::doubles::Doubles;
 use super::drawing::Tie;
-use super::examine::{Findings, Kind, kept_rows, list, reactions};
+use super::examine::{Finding, Findings, Kind, kept_rows, list, reactions};
 use super::loads::Reactions;
 use super::minimax::Bounds;
 use super::truth::Truth;
@@ -41,6 +43,8 @@ pub struct Meant<'a> {
     pub from: Bounds,
     /// Reactions under gravity.
     pub reactions: Reactions,
+    /// The drawing in doubles.
+    pub doubles: Rc<Doubles>,
 }
 
 /// What came of a comparison.
@@ -65,6 +69,7 @@ impl<'a> Meant<'a> {
             is_permanent: truth.redundancy() == 0 || doubles.is_permanent(rank, seed),
             from: doubles.lower_rank_from(rank),
             reactions: doubles.reactions(truth.posed, rank, gravity),
+            doubles: Rc::new(doubles),
         }
     }
 
@@ -124,11 +129,35 @@ impl<'a> Meant<'a> {
             judged.other_rank = Some("verdicts near a lower rank");
             return judged;
         }
-        reactions(self.truth, told, findings);
+        self.verdicts(told, tolerance, findings);
         kept_rows(self.truth, told, findings);
         words::circuits(self.truth, told, findings);
         self.loads(told, tolerance, findings);
         judged
+    }
+
+    /// Verdicts are those of the drawing; what is not unique there may be told unique where data
+    /// within the tolerance make it so.
+    fn verdicts(&self, told: &Value, tolerance: f64, findings: &mut Findings) {
+        let mut all = Findings::default();
+        reactions(self.truth, told, &mut all);
+        let rank = self.truth.rank();
+        let links = self.truth.posed.links.iter().enumerate();
+        let hidden: Vec<&str> = links
+            .filter(|(link, placed)| {
+                let is_named = |f: &Finding| concerns(&f.text, &placed.link.name);
+                let wrong = |f: &Finding| f.kind.is_wrong() && is_named(f);
+                let rows = self.truth.rows_of(*link);
+                all.0.iter().any(wrong) && {
+                    let [size, change] = self.doubles.margin(rank, &rows, tolerance);
+                    size <= change
+                }
+            })
+            .map(|(_, placed)| placed.link.name.as_str())
+            .collect();
+        let is_open = |text: &str| hidden.iter().any(|name| concerns(text, name));
+        let kept = all.0.into_iter().filter(|f| !is_open(&f.text));
+        findings.0.extend(kept);
     }
 
     /// Unique reactions are those of the drawing, to what their sensitivity says.
@@ -185,4 +214,10 @@ impl<'a> Meant<'a> {
             }
         }
     }
+}
+
+/// Whether a finding is about the joint or drive of this name.
+fn concerns(text: &str, name: &str) -> bool {
+    let rest = text.strip_prefix(name);
+    rest.is_some_and(|rest| rest.starts_with([':', ',', '.']))
 }
