@@ -153,13 +153,18 @@ pub fn explain(
         return Err(ExplanationError::Undecided(doubt));
     }
     let structure = crate::structure::structure(mechanism, s, q)?;
-    let mixing = mixing(mechanism, solvability);
+    let mut mixing = mixing(mechanism, solvability);
+    // What the tolerance leaves open is not told as if it were known.
+    let open = linalg::open_rows(solvability.decision());
+    let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
+    mixing.retain(|m| is_known(&m.rows));
     let ids = mechanism.constraint_ids();
     let reactions = ids
-        .filter_map(|id| reaction(mechanism, s, solvability, &mixing, id).transpose())
+        .filter_map(|id| reaction(mechanism, s, solvability, (&mixing, &open), id).transpose())
         .collect::<Result<_, _>>()?;
     let stresses = linalg::short_circuits(solvability.decision())
         .into_iter()
+        .filter(|circuit| is_known(&circuit.rows))
         .map(|circuit| stress(mechanism, s, q, solvability, circuit))
         .collect();
     // What the shape settles for the numbers as they stand may be open within a tolerance.
@@ -222,7 +227,7 @@ fn reaction(
     mechanism: &Mechanism,
     s: &Scratch,
     solvability: &Solvability,
-    mixing: &[Mixing],
+    (mixing, open): (&[Mixing], &[usize]),
     id: ConstraintId,
 ) -> Result<Option<ReactionExplanation>, QueryError> {
     let layout = mechanism.layout();
@@ -270,7 +275,9 @@ fn reaction(
         Some([]) => "nothing of it is determined".to_owned(),
         Some(told) => format!("determined is {}", list(told)),
     };
+    let is_open = group.rows.clone().any(|row| open.binary_search(&row).is_ok());
     let shared = match others.as_slice() {
+        _ if is_open => "within the tolerance it is open what it shares loads with".to_owned(),
         [] => "its rows depend on each other".to_owned(),
         others => format!("it shares loads with {}", list(&names(layout, others))),
     };

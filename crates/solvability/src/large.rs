@@ -117,7 +117,7 @@ impl Decided {
                 tolerance: noise,
                 spread: e.uncertainty * (entries as f64).sqrt(),
                 uncertainty: e.uncertainty,
-                row_turn: vec![0.0; own.len()],
+                row_turn: None,
                 readings: self.found.readings(),
             },
             exact: None,

@@ -234,8 +234,10 @@ pub(crate) fn judge(
 ) -> Result<Judged, AnalysisError> {
     let mut found = judge_reactions(mechanism, s, rows, decision)?;
     if let Some(decision) = found.part.decision.dense() {
+        let open = linalg::open_rows(decision);
+        let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
         let circuits = linalg::short_circuits(decision).into_iter();
-        let dependencies = circuits.map(|circuit| Dependency {
+        let dependencies = circuits.filter(|circuit| is_known(&circuit.rows)).map(|circuit| Dependency {
             text: words::describe(mechanism, &circuit),
             rows: circuit.rows,
             coefficients: circuit.coefficients,

@@ -35,8 +35,9 @@ pub struct Certificate {
     pub row_data: Option<Vec<f64>>,
     /// Whether that is a tolerance which the scene states.
     pub has_tolerance: bool,
-    /// By what angle (rad) the force of each row turns with data within that tolerance, m values; nothing without one.
-    pub row_turn: Option<Vec<f64>>,
+    /// By what angle (rad) the force of each row turns with data within that tolerance, and by what length (m) it shifts, m values; nothing without
+    /// one.
+    pub row_turn: Option<Vec<[f64; 2]>>,
 }
 
 /// Why a rank is not larger than it was read.

@@ -44,8 +44,8 @@ pub(crate) struct Known {
     pub(crate) spread: f64,
     /// What an entry of C is known to.
     pub(crate) uncertainty: f64,
-    /// By what angle the force of each row turns within a stated tolerance (rad); zero without one.
-    pub(crate) row_turn: Vec<f64>,
+    /// By what angle (rad) the force of each row turns within a stated tolerance, and by what length (m) it shifts; nothing without one.
+    pub(crate) row_turn: Option<Vec<[f64; 2]>>,
     /// How margins are read.
     pub(crate) readings: Readings,
 }

@@ -23,6 +23,8 @@ pub(crate) struct Mapped<'a> {
     sizes: Vec<f64>,
     /// The largest of them.
     largest: f64,
+    /// What the entries of W are known to within a stated tolerance.
+    wobble: Option<Matrix>,
 }
 
 impl<'a> Mapped<'a> {
@@ -53,17 +55,35 @@ impl<'a> Mapped<'a> {
             images,
             sizes,
             largest,
+            wobble: None,
         })
     }
 
-    /// The first components are those of a force: where its direction is known to an angle, a component that is smaller beside the others is none.
+    /// The first components are those of a force, others of torques. Where its direction is known to an angle, and its line to a length, so are the
+    /// components; one of a force that is smaller beside the others is none.
     #[must_use]
     pub(crate) fn with_forces(mut self, forces: usize) -> Self {
-        let turns = self.rows.iter().map(|&i| self.basis.known.row_turn[i]);
-        let turn = turns.fold(0.0, f64::max).min(LARGEST_TURN);
+        let (Some(turns), None) = (&self.basis.known.row_turn, &self.basis.exact) else {
+            return self;
+        };
+        let known: Vec<[f64; 2]> = self.rows.iter().map(|&i| turns[i]).collect();
+        let turn = known.iter().map(|[turn, _]| turn.min(LARGEST_TURN));
+        let turn = turn.fold(0.0, f64::max);
+        let force = |j: usize| {
+            let parts = (0..forces).map(|k| self.map[(k, j)]);
+            parts.fold(0.0, f64::hypot)
+        };
+        let wobble = |k: usize, j: usize| {
+            let [turn, shift] = known[j];
+            match k < forces {
+                true => turn * force(j),
+                false => turn * self.map[(k, j)].abs() + shift * force(j),
+            }
+        };
+        self.wobble = Some(Matrix::from_fn(self.sizes.len(), self.rows.len(), wobble));
         let whole = self.sizes[..forces].iter().copied().fold(0.0, f64::hypot);
         for i in 0..forces {
-            if self.basis.exact.is_none() && self.sizes[i] <= turn * whole {
+            if self.sizes[i] <= turn * whole {
                 self.images.row_mut(i).fill(0.0);
                 self.sizes[i] = 0.0;
             }
@@ -194,7 +214,17 @@ impl<'a> Mapped<'a> {
 
     /// Noise of row k of `W·D_r·Z_X / size`.
     fn noise(&self, k: usize, size: f64) -> f64 {
-        self.basis.noise_of_row(self.map.row(k), &self.rows, size)
+        let of_rows = self.basis.noise_of_row(self.map.row(k), &self.rows, size);
+        match &self.wobble {
+            Some(wobble) if size > 0.0 => {
+                let rows = self.rows.iter().zip(wobble.row(k));
+                let of_map = rows.map(|(&i, wobble)| {
+                    wobble * self.basis.known.row_factor[i] * norm(self.basis.z.row(i)) / size
+                });
+                of_map.fold(of_rows, f64::hypot)
+            }
+            _ => of_rows,
+        }
     }
 }
 

@@ -145,8 +145,9 @@ impl Question<'_> {
         known
     }
 
-    /// By what angle the force of each row turns with data within what they are known to, with the pose that follows them.
-    pub(crate) fn turns(&self, scaled: &Matrix, decision: &RankDecision) -> Vec<f64> {
+    /// By what angle the force of each row turns with data within what they are known to, with the pose that follows them; and by what length it
+    /// shifts beside its place, which are two points.
+    pub(crate) fn turns(&self, scaled: &Matrix, decision: &RankDecision) -> Vec<[f64; 2]> {
         let dimensions = self.mechanism.dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, decision.rank);
         let matrices = (scaled, &dimensions, &decision.scaling);
@@ -173,7 +174,8 @@ impl Question<'_> {
             });
             changes.sum::<f64>() / size
         };
-        (0..scaled.nrows()).map(of_row).collect()
+        let shift = 2.0 * self.tolerance().unwrap_or(0.0);
+        (0..scaled.nrows()).map(|i| [of_row(i), shift]).collect()
     }
 
     /// How near the data are to one rank less than `rank`, if that is nearer than `limit` (m).
@@ -250,7 +252,6 @@ impl Question<'_> {
             );
             equations.extend(of_pose(&there, WALKED));
         }
-        if std::env::var("DBG").is_ok() { eprintln!("rank {rank} least {least:e} here {at_this_pose:e} equations {} everywhere {:?} curved {curved:e}", equations.len(), least_change(&equations)); }
         Some(Nearness {
             here: at_this_pose,
             everywhere: least * least_change(&equations).middle(),
