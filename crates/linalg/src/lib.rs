@@ -41,7 +41,9 @@ pub use jacobi::{SmallSvd, small_svd};
 pub use lu::{Lu, SingularPivot};
 pub use matrix::{Matrix, ShapeError};
 pub use minimum_norm::MinimumNormSaddle;
-pub use null_space::{Components, components, dependencies, orthonormal, support_tolerance};
+pub use null_space::{
+    Components, components, dependencies, open_rows, orthonormal, support_tolerance,
+};
 pub use proximal::{ProximalSaddle, ProximalTuning};
 pub use qr::PivotedQr;
 pub use rank::{

@@ -58,7 +58,37 @@ pub fn support_tolerance(decision: &RankDecision) -> f64 {
 /// # Ok::<(), linalg::RankError>(())
 /// ```
 pub fn components(decision: &RankDecision) -> Components {
-    let support = Support::new(decision);
+    components_of(decision, &Support::new(decision))
+}
+
+/// Rows of components in which a stated tolerance leaves open whether a row belongs to any dependency: which of them depend on each other is not
+/// known there. Ascending; none without a tolerance.
+pub fn open_rows(decision: &RankDecision) -> Vec<usize> {
+    let mut support = Support::new(decision);
+    if !decision.has_tolerance() || !support.open.contains(&true) {
+        return Vec::new();
+    }
+    // Open rows belong to all that their coefficients touch.
+    for (noise, _) in support.noise.iter_mut().zip(&support.open).filter(|x| *x.1) {
+        *noise = TOUCHES;
+    }
+    let is_open = |row: &usize| {
+        let kept = decision.kept.binary_search(row);
+        kept.is_ok_and(|i| support.open[i])
+    };
+    let coupled = components_of(decision, &support).coupled.into_iter();
+    let mut rows: Vec<usize> = coupled
+        .filter(|rows| rows.iter().any(is_open))
+        .flatten()
+        .collect();
+    rows.sort_unstable();
+    rows
+}
+
+/// Coefficients below this are rounding, whatever is stated.
+const TOUCHES: f64 = 1e-12;
+
+fn components_of(decision: &RankDecision, support: &Support) -> Components {
     let m = decision.rank + decision.redundancy;
     let mut label: Vec<usize> = (0..m).collect();
     let mut coloop = vec![true; m];
@@ -95,6 +125,8 @@ pub(crate) struct Support {
     size: Vec<f64>,
     /// Noise of the coefficients of each kept row, relative to it; infinite where the margin is zero.
     noise: Vec<f64>,
+    /// Whether it is open if the margin of a kept row is zero.
+    open: Vec<bool>,
 }
 
 impl Support {
@@ -103,19 +135,25 @@ impl Support {
         let z = orthonormal(decision);
         let noise = |&i: &usize| {
             if decision.is_exact() {
-                return 0.0;
+                return (0.0, false);
             }
             let (margin, noise) = (kernels::norm(z.row(i)), decision.row_noise(i));
             match decision.read_coefficient(margin, noise) {
-                CoefficientReading::Zero => f64::INFINITY,
-                _ => noise,
+                CoefficientReading::Zero => (f64::INFINITY, false),
+                CoefficientReading::NonZero => (noise, false),
+                CoefficientReading::Unclear { .. } => (noise, true),
             }
         };
-        let noise = decision.kept.iter().map(noise).collect();
+        let (noise, open) = decision.kept.iter().map(noise).unzip();
         let size = (0..t.nrows())
             .map(|j| t.row(j).iter().fold(1.0_f64, |a, b| a.max(b.abs())))
             .collect();
-        Self { t, size, noise }
+        Self {
+            t,
+            size,
+            noise,
+            open,
+        }
     }
 
     /// Whether kept row i is in the circuit of dropped row j.

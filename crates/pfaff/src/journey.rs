@@ -153,7 +153,8 @@ impl Study {
         progress: &mut (impl FnMut(Progress) + Send),
     ) -> Option<Journey> {
         let last = run.rows.last().filter(|_| run.rows.len() > 1)?.t;
-        let to = run.reached + BEYOND * (run.reached - last).max(last / (run.between * intervals) as f64);
+        let to = run.reached
+            + BEYOND * (run.reached - last).max(last / (run.between * intervals) as f64);
         let along = self.along(run, to, intervals, progress).ok()?;
         let passed = along.passages.iter().any(|p| {
             p.time > last && p.time < to && matches!(p.kind, PassageKind::RankDrops { .. })

@@ -21,6 +21,15 @@ pub(crate) const ROWS_MAX: usize = 600;
 /// cube of both.
 const TOLERANCE_ROWS: usize = 200;
 
+/// Coefficients that are larger belong to their dependency beyond doubt.
+const SMALL: f64 = 1e-3;
+
+/// Coefficients below this share of their noise are zero beyond doubt.
+const SAFELY: f64 = 0.1;
+
+/// Coefficients of which it is asked what the rounding of the data makes of them.
+const ASKED: usize = 2_000;
+
 /// C of a mechanism without dimensions, with what its entries are known to.
 pub(crate) struct Rows<'a> {
     mechanism: &'a Mechanism,
@@ -109,15 +118,38 @@ impl<'a> Rows<'a> {
             has_tolerance,
         } = self.meant.read(&question);
         let mut decision = self.certified(reading).map_err(failed)?;
-        if has_tolerance && self.places.len() <= TOLERANCE_ROWS {
-            let scaled = decision.scaling.apply(&self.meant.c);
-            let null = (decision.rank, &linalg::orthonormal(&decision));
-            let known = question.rows_within_tolerance(&scaled, &decision.scaling, null);
-            if let Some(certificate) = &mut decision.evidence.certificate {
-                certificate.row_tolerance = Some(known);
-            }
+        if self.places.len() <= TOLERANCE_ROWS {
+            self.know_rows(&question, &mut decision, has_tolerance);
         }
         Ok(with_nearness(decision, nearness))
+    }
+
+    /// Asks what the data make of the rows of the dependencies: with a tolerance of all, without one of those that the entries of C leave open.
+    fn know_rows(&self, question: &Question<'_>, decision: &mut RankDecision, has_tolerance: bool) {
+        let t = decision.equilibrated_dependence();
+        let is_open = |row: usize| -> bool {
+            let Ok(k) = decision.kept.binary_search(&row) else {
+                return false;
+            };
+            let noise = decision.row_noise(row);
+            let column = (0..t.nrows()).map(|j| t[(j, k)].abs());
+            column
+                .into_iter()
+                .any(|x| (SAFELY * noise..SMALL).contains(&x))
+        };
+        let rows = 0..decision.rank + decision.redundancy;
+        let asked: Vec<usize> = rows.filter(|&i| has_tolerance || is_open(i)).collect();
+        if asked.is_empty() || !has_tolerance && asked.len() * decision.redundancy > ASKED {
+            return;
+        }
+        let scaled = decision.scaling.apply(&self.meant.c);
+        let known = question.rows_within_data(&scaled, decision, &asked);
+        let turns = has_tolerance.then(|| question.turns(&scaled, decision));
+        if let Some(certificate) = &mut decision.evidence.certificate {
+            certificate.row_data = Some(known);
+            certificate.row_turn = turns;
+            certificate.has_tolerance = has_tolerance;
+        }
     }
 
     /// The decision for a rank that has been read, with the evidence of double-double.

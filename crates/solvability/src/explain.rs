@@ -9,6 +9,7 @@ use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 
 use crate::matrices::{QueryError, Solvability};
+use crate::mechanism::TRANSLATIONS;
 use crate::verdict::Verdict;
 use crate::words::{self, list, names};
 
@@ -152,19 +153,30 @@ pub fn explain(
         return Err(ExplanationError::Undecided(doubt));
     }
     let structure = crate::structure::structure(mechanism, s, q)?;
-    let mixing = mixing(mechanism, solvability);
+    let mut mixing = mixing(mechanism, solvability);
+    // What the tolerance leaves open is not told as if it were known.
+    let open = linalg::open_rows(solvability.decision());
+    let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
+    mixing.retain(|m| is_known(&m.rows));
     let ids = mechanism.constraint_ids();
     let reactions = ids
-        .filter_map(|id| reaction(mechanism, s, solvability, &mixing, id).transpose())
+        .filter_map(|id| reaction(mechanism, s, solvability, (&mixing, &open), id).transpose())
         .collect::<Result<_, _>>()?;
     let stresses = linalg::short_circuits(solvability.decision())
         .into_iter()
+        .filter(|circuit| is_known(&circuit.rows))
         .map(|circuit| stress(mechanism, s, q, solvability, circuit))
         .collect();
+    // What the shape settles for the numbers as they stand may be open within a tolerance.
+    let is_unique = |id: &ConstraintId| {
+        let rows = mechanism.layout().groups[id.0].rows.clone();
+        let judged = solvability.group(rows);
+        judged.is_ok_and(|j| j.verdict.is_unique())
+    };
     let settled = mechanism
         .constraint_ids()
         .zip(structure.groups)
-        .filter(|(_, why)| !matches!(why, Settled::Open(_)));
+        .filter(|(id, why)| !matches!(why, Settled::Open(_)) && is_unique(id));
     Ok(Explanation {
         stresses,
         mixing,
@@ -215,7 +227,7 @@ fn reaction(
     mechanism: &Mechanism,
     s: &Scratch,
     solvability: &Solvability,
-    mixing: &[Mixing],
+    (mixing, open): (&[Mixing], &[usize]),
     id: ConstraintId,
 ) -> Result<Option<ReactionExplanation>, QueryError> {
     let layout = mechanism.layout();
@@ -236,7 +248,9 @@ fn reaction(
     let map = linalg::Matrix::from_fn(components.len(), group.rows.len(), |i, j| {
         full[(components[i], j)]
     });
+    let forces = components.iter().filter(|&&c| c < TRANSLATIONS).count();
     let mapped = solvability.basis().mapped(&map, group.rows.clone())?;
+    let mapped = mapped.with_forces(forces);
     let directions = match mapped.unique_directions() {
         Err(QueryError::Directions { .. }) => None,
         known => Some(mapped.live_directions(&known?)),
@@ -261,7 +275,12 @@ fn reaction(
         Some([]) => "nothing of it is determined".to_owned(),
         Some(told) => format!("determined is {}", list(told)),
     };
+    let is_open = group
+        .rows
+        .clone()
+        .any(|row| open.binary_search(&row).is_ok());
     let shared = match others.as_slice() {
+        _ if is_open => "within the tolerance it is open what it shares loads with".to_owned(),
         [] => "its rows depend on each other".to_owned(),
         others => format!("it shares loads with {}", list(&names(layout, others))),
     };

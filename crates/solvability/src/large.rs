@@ -118,6 +118,7 @@ impl Decided {
                 tolerance: noise,
                 spread: e.uncertainty * (entries as f64).sqrt(),
                 uncertainty: e.uncertainty,
+                row_turn: None,
                 readings: self.found.readings(),
             },
             exact: None,

@@ -142,6 +142,7 @@ impl Solvability {
                 tolerance: decision.coefficient_tolerance(),
                 spread: certificate.map_or(0.0, |c| c.spread),
                 uncertainty: certificate.map_or(0.0, |c| c.uncertainty),
+                row_turn: certificate.and_then(|c| c.row_turn.clone()),
                 readings: decision.readings(),
             },
             exact,

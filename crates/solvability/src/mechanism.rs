@@ -16,6 +16,9 @@ use crate::state::StateError;
 use crate::verdict::{Judgement, Verdict};
 use crate::words;
 
+/// Components of a planar reaction that are forces; the torque follows.
+pub(crate) const TRANSLATIONS: usize = 2;
+
 /// The verdict of a joint or drive.
 #[derive(Clone, Debug)]
 pub struct ReactionVerdict {
@@ -231,12 +234,16 @@ pub(crate) fn judge(
 ) -> Result<Judged, AnalysisError> {
     let mut found = judge_reactions(mechanism, s, rows, decision)?;
     if let Some(decision) = found.part.decision.dense() {
+        let open = linalg::open_rows(decision);
+        let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
         let circuits = linalg::short_circuits(decision).into_iter();
-        let dependencies = circuits.map(|circuit| Dependency {
-            text: words::describe(mechanism, &circuit),
-            rows: circuit.rows,
-            coefficients: circuit.coefficients,
-        });
+        let dependencies = circuits
+            .filter(|circuit| is_known(&circuit.rows))
+            .map(|circuit| Dependency {
+                text: words::describe(mechanism, &circuit),
+                rows: circuit.rows,
+                coefficients: circuit.coefficients,
+            });
         found.dependencies = dependencies.collect();
         found.part.nearly_redundant = rows.nearly_redundant(mechanism, s, decision);
     }
@@ -319,7 +326,8 @@ pub(crate) fn reaction(
     let map = Matrix::from_fn(components.len(), rows.len(), |i, j| {
         full[(components[i], j)]
     });
-    let mapped = basis.mapped(&map, rows.clone())?;
+    let forces = components.iter().filter(|&&c| c < TRANSLATIONS).count();
+    let mapped = basis.mapped(&map, rows.clone())?.with_forces(forces);
     let mut zero_components = Vec::new();
     for (i, &c) in components.iter().enumerate() {
         if mapped.is_zero(i)? {

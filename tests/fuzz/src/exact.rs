@@ -21,18 +21,30 @@
 //! | [`words`] | the same for sentences |
 //! | [`deletions`] | the same for what may be deleted |
 //! | [`tally`] | many scenes |
+//! | [`doubles`] | a drawing in doubles, at any configuration and for any data |
+//! | [`minimax`] | the smallest change of data that satisfies equations, between proved bounds |
+//! | [`near`] | how far the data are from a lower rank, by these two |
+//! | [`loads`] | reactions under gravity, by doubles |
+//! | [`within`] | what is told within a tolerance, compared with these |
+//! | [`rounded`] | many scenes with few digits, and of full rank near a lower one |
 
 pub mod deletions;
+pub mod doubles;
 pub mod drawing;
 pub mod examine;
 pub mod families;
+pub mod loads;
+pub mod minimax;
+pub mod near;
 pub mod pose;
 pub mod ratio;
+pub mod rounded;
 pub mod rows;
 pub mod tally;
 pub mod text;
 pub mod told;
 pub mod truth;
+pub mod within;
 pub mod words;
 
 use tests::numbers::Numbers;

@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use clap::{Parser, Subcommand};
 use fuzz::campaign::{Campaign, Tally};
 use fuzz::exact;
+use fuzz::exact::rounded::{self, Suite};
 use fuzz::watch::Limits;
 use fuzz::{input, trial};
 
@@ -76,6 +77,11 @@ enum Command {
         #[arg(long, value_name = "DIR")]
         keep: Option<PathBuf>,
     },
+    /// Examines scenes with 3 … 16 significant digits; exit code 1 if one is told wrong
+    Rounded(Drawings),
+    /// Examines scenes of full rank near a lower one, with tolerances below a third of what they are off by; exit code 1 if one is told
+    /// redundant
+    FullRank(Drawings),
     /// Tries inputs one after the other and answers each with a letter: what `run` begins
     #[command(hide = true)]
     Work {
@@ -86,6 +92,45 @@ enum Command {
         /// The first one that is not tried
         to: u64,
     },
+}
+
+/// Which drawings, each of which is written down in several ways.
+#[derive(clap::Args)]
+struct Drawings {
+    /// How many
+    #[arg(long, default_value_t = 1_000)]
+    drawings: u64,
+    /// Seed of all scenes
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// The first drawing
+    #[arg(long, default_value_t = 0)]
+    from: u64,
+    /// Writes one scene with what is so and what was told, and ends
+    #[arg(long, value_name = "NUMBER")]
+    show: Option<u64>,
+}
+
+impl Drawings {
+    fn examine(&self, suite: Suite, out: &mut impl Write) -> io::Result<ExitCode> {
+        if let Some(number) = self.show {
+            let (drawn, way) = (number / suite.ways(), number % suite.ways());
+            let outcomes = rounded::outcomes(suite, self.seed, drawn);
+            if let Some(outcome) = outcomes.get(way as usize) {
+                out.write_all(outcome.page().as_bytes())?;
+            }
+            return Ok(ExitCode::SUCCESS);
+        }
+        let clock = Instant::now();
+        let tally = rounded::Tally::of(suite, self.seed, self.from, self.drawings);
+        let (seconds, scenes) = (clock.elapsed().as_secs_f64(), self.drawings * suite.ways());
+        let head = format!("seed {}: {scenes} scenes in {seconds:.1} s\n", self.seed);
+        out.write_all((head + &tally.describe()).as_bytes())?;
+        Ok(match tally.passes() {
+            true => ExitCode::SUCCESS,
+            false => ExitCode::from(1),
+        })
+    }
 }
 
 fn main() -> ExitCode {
@@ -175,6 +220,8 @@ fn go() -> io::Result<ExitCode> {
                 return Ok(ExitCode::from(1));
             }
         }
+        Command::Rounded(drawings) => return drawings.examine(Suite::Rounded, &mut out),
+        Command::FullRank(drawings) => return drawings.examine(Suite::FullRank, &mut out),
         Command::Show { seed, number } => out.write_all(input::text(seed, number).as_bytes())?,
         Command::Work { seed, from, to } => {
             for number in from..to {

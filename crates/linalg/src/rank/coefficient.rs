@@ -18,6 +18,9 @@ const CLEARANCE: f64 = 10.0;
 /// Evidence that cannot tell a coefficient of this size from zero calls nothing zero.
 const TOLERANCE_MAX: f64 = 1e-5;
 
+/// The same where the noise is that of a stated tolerance: of larger changes the first order says nothing.
+const STATED_MAX: f64 = 0.1;
+
 /// A coefficient that has come out as small as this in double-double is zero, whatever the data are known to.
 const VANISHED: f64 = 1e-13;
 
@@ -71,7 +74,7 @@ impl RankDecision {
     #[must_use]
     pub fn has_tolerance(&self) -> bool {
         let certificate = self.evidence.certificate.as_ref();
-        certificate.is_some_and(|c| c.row_tolerance.is_some())
+        certificate.is_some_and(|c| c.has_tolerance)
     }
 
     /// Whether the entries of the matrix are meant exactly as they stand, so that T is zero exactly where it is zero.
@@ -103,30 +106,33 @@ impl RankDecision {
             // T is right to double-double; what remains is the data: ‖δT‖ ≤ ‖δC‖·‖[T, I]‖/σ_r.
             // A rank that only data within their uncertainty have leaves σ_{r+1} of it.
             Some(certificate) => {
-                rounding.max(certificate.spread.max(e.sigma_next) / e.sigma_r.min(1.0))
+                let by_data = certificate.row_data.iter().flatten().copied();
+                by_data
+                    .fold(rounding, f64::max)
+                    .max(certificate.spread.max(e.sigma_next) / e.sigma_r.min(1.0))
             }
             None => coefficient_noise(e.tolerance, e.sigma_r),
         }
     }
 
     /// How far row i of `[−T̃, I]` may be from its true value (norm): that of the entries it depends on, that of dependencies which hold
-    /// within the data only, `10·‖C_D − T·C_K‖/σ_r`, and rounding. At most about [`RankDecision::coefficient_tolerance`], in a matrix of
-    /// mixed sizes much less.
+    /// within the data only, `10·‖C_D − T·C_K‖/σ_r`, and rounding; or what the data make of it, where that is known and more. At most about
+    /// [`RankDecision::coefficient_tolerance`], in a matrix of mixed sizes much less.
     #[must_use]
     pub fn row_noise(&self, i: usize) -> f64 {
         let tolerance = self.coefficient_tolerance();
         let e = &self.evidence;
         let certificate = e.certificate.as_ref();
-        if let Some(known) = certificate.and_then(|c| c.row_tolerance.as_ref()) {
-            return known[i];
-        }
-        match certificate.and_then(|c| c.row_noise.get(i)) {
+        let by_data = certificate.and_then(|c| c.row_data.as_ref());
+        let by_data = by_data.map_or(0.0, |known| known[i]);
+        let by_entries = match certificate.and_then(|c| c.row_noise.get(i)) {
             Some(noise) if e.sigma_r >= AS_READ => {
                 let inexact = SOLVE_FACTOR * e.dependence_residual / e.sigma_r.min(1.0);
                 (POSE_FACTOR * NOISE_FACTOR * (f64::EPSILON + noise) + inexact).min(tolerance)
             }
             _ => tolerance,
-        }
+        };
+        by_entries.max(by_data)
     }
 
     /// What of [`RankDecision::row_noise`] is there without a stated tolerance: a row that is shorter than that vanishes by itself, a longer one within
@@ -172,7 +178,7 @@ impl Readings {
     pub fn read(&self, size: f64, noise: f64) -> CoefficientReading {
         let far_below = self.smallest / SPREAD;
         let required = (CLEARANCE * noise).max(CERTAIN);
-        if self.has_tolerance && size <= noise {
+        if self.has_tolerance && size <= noise && noise <= STATED_MAX {
             return CoefficientReading::Zero;
         }
         if self.has_tolerance && size <= required {

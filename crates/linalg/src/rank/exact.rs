@@ -121,8 +121,10 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
         nearly_redundant,
         lower_rank_here: None,
         lower_rank_from: None,
-        row_tolerance: None,
         lower_rank_by_angles: false,
+        row_data: None,
+        row_turn: None,
+        has_tolerance: false,
     });
     Ok(decision)
 }

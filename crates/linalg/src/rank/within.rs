@@ -230,8 +230,10 @@ impl Found {
             nearly_redundant,
             lower_rank_here: None,
             lower_rank_from: None,
-            row_tolerance: None,
             lower_rank_by_angles: false,
+            row_data: None,
+            row_turn: None,
+            has_tolerance: false,
         });
         decision
     }

@@ -60,7 +60,10 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             };
             let from = neighbour(coarse[0], -1).unwrap_or(coarse[0]);
             let to = neighbour(coarse[1], 1).unwrap_or(coarse[1]);
-            let near = times.iter().zip(&margins).filter(|(t, _)| (from..=to).contains(*t));
+            let near = times
+                .iter()
+                .zip(&margins)
+                .filter(|(t, _)| (from..=to).contains(*t));
             let (least, largest) = near
                 .filter_map(|(_, margin)| *margin)
                 .fold((f64::INFINITY, 0.0_f64), |(a, b), x| (a.min(x), b.max(x)));

@@ -46,6 +46,8 @@ pub(crate) struct Known {
     pub(crate) spread: f64,
     /// What an entry of C is known to.
     pub(crate) uncertainty: f64,
+    /// By what angle (rad) the force of each row turns within a stated tolerance, and by what length (m) it shifts; nothing without one.
+    pub(crate) row_turn: Option<Vec<[f64; 2]>>,
     /// How margins are read.
     pub(crate) readings: Readings,
 }
@@ -284,6 +286,14 @@ pub(super) struct Noise {
 }
 
 impl Noise {
+    /// With one more source that only the stated tolerance has.
+    pub(super) fn within_tolerance(self, other: f64) -> Self {
+        Self {
+            known: self.known.hypot(other),
+            ..self
+        }
+    }
+
     /// With one more source.
     fn with(self, other: f64) -> Self {
         Self {

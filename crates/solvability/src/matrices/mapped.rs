@@ -8,6 +8,9 @@ use super::QueryError;
 use super::basis::{Basis, Noise, ROUNDING_OF_MAP, check_coefficients, combination, norm};
 use crate::verdict::Judgement;
 
+/// What the first order says of larger angles (rad) means nothing.
+const LARGEST_TURN: f64 = 0.1;
+
 /// A map W (k × |X|) from the multipliers of rows X to components, and what it makes of their null space.
 #[derive(Clone, Debug)]
 pub(crate) struct Mapped<'a> {
@@ -20,6 +23,8 @@ pub(crate) struct Mapped<'a> {
     sizes: Vec<f64>,
     /// The largest of them.
     largest: f64,
+    /// What the entries of W are known to within a stated tolerance.
+    wobble: Option<Matrix>,
 }
 
 impl<'a> Mapped<'a> {
@@ -50,7 +55,40 @@ impl<'a> Mapped<'a> {
             images,
             sizes,
             largest,
+            wobble: None,
         })
+    }
+
+    /// The first components are those of a force, others of torques. Where its direction is known to an angle, and its line to a length, so are the
+    /// components; one of a force that is smaller beside the others is none.
+    #[must_use]
+    pub(crate) fn with_forces(mut self, forces: usize) -> Self {
+        let (Some(turns), None) = (&self.basis.known.row_turn, &self.basis.exact) else {
+            return self;
+        };
+        let known: Vec<[f64; 2]> = self.rows.iter().map(|&i| turns[i]).collect();
+        let turn = known.iter().map(|[turn, _]| turn.min(LARGEST_TURN));
+        let turn = turn.fold(0.0, f64::max);
+        let force = |j: usize| {
+            let parts = (0..forces).map(|k| self.map[(k, j)]);
+            parts.fold(0.0, f64::hypot)
+        };
+        let wobble = |k: usize, j: usize| {
+            let [turn, shift] = known[j];
+            match k < forces {
+                true => turn * force(j),
+                false => turn * self.map[(k, j)].abs() + shift * force(j),
+            }
+        };
+        self.wobble = Some(Matrix::from_fn(self.sizes.len(), self.rows.len(), wobble));
+        let whole = self.sizes[..forces].iter().copied().fold(0.0, f64::hypot);
+        for i in 0..forces {
+            if self.sizes[i] <= turn * whole {
+                self.images.row_mut(i).fill(0.0);
+                self.sizes[i] = 0.0;
+            }
+        }
+        self
     }
 
     /// Component `k`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest row of W. A row that is rounding beside the
@@ -180,7 +218,17 @@ impl<'a> Mapped<'a> {
 
     /// Noise of row k of `W·D_r·Z_X / size`.
     fn noise(&self, k: usize, size: f64) -> Noise {
-        self.basis.noise_of_row(self.map.row(k), &self.rows, size)
+        let of_rows = self.basis.noise_of_row(self.map.row(k), &self.rows, size);
+        match &self.wobble {
+            Some(wobble) if size > 0.0 => {
+                let rows = self.rows.iter().zip(wobble.row(k));
+                let of_map = rows.map(|(&i, wobble)| {
+                    wobble * self.basis.known.row_factor[i] * norm(self.basis.z.row(i)) / size
+                });
+                of_rows.within_tolerance(of_map.fold(0.0, f64::hypot))
+            }
+            _ => of_rows,
+        }
     }
 }
 

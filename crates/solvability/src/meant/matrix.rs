@@ -13,6 +13,9 @@ use crate::mechanism::dimensionless;
 /// Velocities of a planar body that are translations; the rotation follows.
 const TRANSLATIONS: usize = 2;
 
+/// An entry sets the scale of its row and column only above this multiple of what it is known to.
+const SIGNIFICANT: f64 = 1e5;
+
 /// Columns of a planar body.
 const N_BODY: usize = 3;
 
@@ -84,8 +87,15 @@ impl MeantMatrix {
     }
 
     /// One factor for the translation of each body, one for its rotation, one for the force rows of each joint, one for its moment rows.
+    /// A lever sets the scale of its body only where it is far above what it is known to: what several roundings left of larger terms must never be
+    /// scaled up to size one, and the rank does not depend on scales.
     pub(crate) fn scaling(&self) -> Scaling {
-        equilibrate_blocks(&self.c, &self.row_blocks, &self.col_blocks)
+        let significant = |i: usize, j: usize| match self.c[(i, j)] {
+            c if c.abs() > SIGNIFICANT * self.uncertainty[(i, j)] => c,
+            _ => 0.0,
+        };
+        let c = Matrix::from_fn(self.c.nrows(), self.c.ncols(), significant);
+        equilibrate_blocks(&c, &self.row_blocks, &self.col_blocks)
     }
 
     /// The same matrix in double-double, given all its entries: what is none here is none there.

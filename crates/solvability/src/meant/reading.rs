@@ -69,7 +69,8 @@ impl MeantMatrix {
                 rank = lower;
                 break;
             }
-            if share.low <= FULL {
+            // Digits behind a stated tolerance mean nothing: the walk decides.
+            if share.low <= FULL && question.tolerance().is_none() {
                 status = RankStatus::Undecided(Doubt::WithinRounding {
                     lower,
                     upper,

@@ -1,6 +1,6 @@
 //! By what share of their uncertainty, or by how many metres, the data would have to be wrong for a lower rank.
 
-use linalg::{Matrix, Scaling, small_svd};
+use linalg::{Matrix, RankDecision, Scaling, small_svd};
 use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch};
 
 use super::cone::{Bounds, Equation, least_change};
@@ -18,6 +18,9 @@ const ROUNDINGS: f64 = 16.0;
 /// Equations of the first order are wrong by the square of the change, as a share of the size, times this: the change that serves all poses is up to
 /// ten times that of one entry, and second derivatives are of the order of ten where links are short.
 const CURVED: f64 = 100.0;
+
+/// Columns of a planar body, two translations and its rotation.
+const N_BODY: usize = 3;
 
 /// Positions on a walk are met to this share of the size.
 const WALKED: f64 = 1e-12;
@@ -116,22 +119,25 @@ impl Question<'_> {
         }
     }
 
-    /// By how much each row of an orthonormal basis Z of the left null space (m × p, by rows in this scaling) changes with data within their tolerance,
-    /// with the rank held: `δz_i = −(C⁺·e_i)ᵀ·δCᵀ·Z`.
-    pub(crate) fn rows_within_tolerance(
+    /// By how much some rows of the left null space of the scaled C change with data within what they are known to, with the rank held:
+    /// `δz_i = −(C⁺·e_i)ᵀ·δCᵀ·Z`, for an orthonormal basis Z, and for the dependency of each dropped row relative to its largest coefficient.
+    /// One value for each row, zero where nobody asked.
+    pub(crate) fn rows_within_data(
         &self,
         scaled: &Matrix,
-        scaling: &Scaling,
-        (rank, z): (usize, &Matrix),
+        decision: &RankDecision,
+        asked: &[usize],
     ) -> Vec<f64> {
+        let (rank, scaling) = (decision.rank, &decision.scaling);
         let dimensions = self.mechanism.dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, rank);
         let matrices = (scaled, &dimensions, scaling);
         let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
         let blocks = self.mechanism.data_blocks(self.s);
         let svd = small_svd(scaled);
-        let null = z.transpose();
-        let of_row = |i: usize| {
+        let bases = [linalg::orthonormal(decision), single(decision)].map(|z| z.transpose());
+        let mut known = vec![0.0; scaled.nrows()];
+        for &i in asked {
             // C⁺·e_i
             let mut y = vec![0.0; scaled.ncols()];
             for k in 0..rank.min(svd.sigma.len()) {
@@ -140,17 +146,56 @@ impl Question<'_> {
                     *y += weight * svd.v[(j, k)];
                 }
             }
-            let of_vector = |k: usize| {
-                let gradient = pose.gradient_between(null.row(k), &y).data;
+            let of_vector = |z: &[f64]| {
+                let gradient = pose.gradient_between(z, &y);
                 let changes = blocks.iter().map(|block| {
-                    let [x, y] = block.part(&gradient);
+                    let [x, y] = block.part(&gradient.data);
                     x.hypot(y) * block.tolerance.unwrap_or(ROUNDING * block.scale)
                 });
-                changes.sum::<f64>()
+                let by_start = self.by_start(&gradient.pose);
+                let by_start = by_start.iter().map(|[x, y]| x.hypot(*y));
+                changes.chain(by_start).sum::<f64>()
             };
-            (0..null.nrows()).map(of_vector).fold(0.0, f64::hypot)
+            let of_rows = |z: &Matrix| (0..z.nrows()).map(|k| of_vector(z.row(k))).collect();
+            let [all, each]: [Vec<f64>; 2] = bases.each_ref().map(of_rows);
+            let all = all.into_iter().fold(0.0, f64::hypot);
+            known[i] = each.into_iter().fold(all, f64::max);
+        }
+        known
+    }
+
+    /// By what angle the force of each row turns with data within what they are known to, with the pose that follows them; and by what length it
+    /// shifts beside its place, which are two points.
+    pub(crate) fn turns(&self, scaled: &Matrix, decision: &RankDecision) -> Vec<[f64; 2]> {
+        let dimensions = self.mechanism.dimension_scaling(self.size);
+        let candidate = Candidate::of_rank(scaled, decision.rank);
+        let matrices = (scaled, &dimensions, &decision.scaling);
+        let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
+        let blocks = self.mechanism.data_blocks(self.s);
+        let of_row = |i: usize| {
+            let bodies = scaled.row(i).chunks_exact(N_BODY).enumerate();
+            let size = |force: &[f64]| force[0].hypot(force[1]);
+            let Some((body, force)) = bodies.max_by(|a, b| size(a.1).total_cmp(&size(b.1))) else {
+                return 0.0;
+            };
+            let size = size(force);
+            if size == 0.0 {
+                return 0.0;
+            }
+            let (mut own, mut across) = (vec![0.0; scaled.nrows()], vec![0.0; scaled.ncols()]);
+            own[i] = 1.0;
+            across[N_BODY * body] = -force[1] / size;
+            across[N_BODY * body + 1] = force[0] / size;
+            let gradient = pose.gradient_between(&own, &across).data;
+            let changes = blocks.iter().map(|block| {
+                let [x, y] = block.part(&gradient);
+                x.hypot(y) * block.tolerance.unwrap_or(ROUNDING * block.scale)
+            });
+            changes.sum::<f64>() / size
         };
-        (0..scaled.nrows()).map(of_row).collect()
+        let lengths = self.tolerance().filter(|stated| !stated.by_angles);
+        let shift = 2.0 * lengths.map_or(0.0, |stated| stated.metres);
+        (0..scaled.nrows()).map(|i| [of_row(i), shift]).collect()
     }
 
     /// How near the data are to one rank less than `rank`, if that is nearer than `limit` (m).
@@ -262,6 +307,20 @@ impl Question<'_> {
             (None, DataUnit::Angle) => 1.0 / self.size,
         }
     }
+}
+
+/// The dependency of each dropped row in the scaled rows, its largest coefficient one.
+fn single(decision: &RankDecision) -> Matrix {
+    let t = decision.equilibrated_dependence();
+    let mut z = Matrix::zeros(decision.rank + decision.redundancy, decision.redundancy);
+    for (j, &dropped) in decision.dropped.iter().enumerate() {
+        let largest = t.row(j).iter().fold(1.0_f64, |a, x| a.max(x.abs()));
+        z[(dropped, j)] = largest.recip();
+        for (t, &kept) in t.row(j).iter().zip(&decision.kept) {
+            z[(kept, j)] = -t / largest;
+        }
+    }
+    z
 }
 
 /// A weakest entry above this share of the size of C belongs to no change of data below a thousandth of the size: an entry changes by its own size,

@@ -94,7 +94,9 @@ const ROUNDING_PER_METRE: f64 = 1e-12;
 /// What numbers of dependencies may be off by.
 #[must_use]
 pub fn rounding(posed: &Posed) -> f64 {
-    ROUNDING.max(ROUNDING_PER_METRE * posed.distance())
+    ROUNDING
+        .max(ROUNDING_PER_METRE * posed.distance())
+        .max(posed.known_to)
 }
 
 /// The entries of an array.
@@ -123,19 +125,24 @@ pub fn examine(truth: &Truth, told: &Value) -> Findings {
         let reason = &told["evidence"]["reason"];
         findings.note(Kind::Undecided, format!("rank {}: {reason}", told["rank"]));
     }
-    for (link, placed) in truth.posed.links.iter().enumerate() {
-        let name = &placed.link.name;
-        let reactions = list(&told["reactions"]).iter();
-        match reactions.clone().find(|r| r["name"] == name.as_str()) {
-            Some(reaction) => of_reaction(truth, link, reaction, &mut findings),
-            None => findings.note(Kind::Verdict, format!("{name} has no verdict")),
-        }
-    }
+    reactions(truth, told, &mut findings);
     if is_decided {
         words::examine(truth, told, &mut findings);
         deletions::examine(truth, told, &mut findings);
     }
     findings
+}
+
+/// Compares the verdicts of all joints and drives.
+pub(super) fn reactions(truth: &Truth, told: &Value, findings: &mut Findings) {
+    for (link, placed) in truth.posed.links.iter().enumerate() {
+        let name = &placed.link.name;
+        let mut reactions = list(&told["reactions"]).iter();
+        match reactions.find(|r| r["name"] == name.as_str()) {
+            Some(reaction) => of_reaction(truth, link, reaction, findings),
+            None => findings.note(Kind::Verdict, format!("{name} has no verdict")),
+        }
+    }
 }
 
 fn ranks(truth: &Truth, told: &Value, findings: &mut Findings) {
@@ -171,7 +178,12 @@ fn ranks(truth: &Truth, told: &Value, findings: &mut Findings) {
             findings.note(Kind::Sentence, "the rank is the same everywhere".to_owned());
         }
     }
-    let kept = rows(&told["kept_rows"]);
+    kept_rows(truth, told, findings);
+}
+
+/// The kept rows are independent and as many as the rank.
+pub(super) fn kept_rows(truth: &Truth, told: &Value, findings: &mut Findings) {
+    let (kept, rank) = (rows(&told["kept_rows"]), truth.rank());
     if kept.len() != rank || truth.rank_of(&kept) != rank {
         let text = format!(
             "the kept rows {} have rank {}",

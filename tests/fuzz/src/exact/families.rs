@@ -7,6 +7,7 @@ mod doubled;
 mod edges;
 mod gears;
 mod linkages;
+pub mod slender;
 mod trusses;
 mod wheels;
 

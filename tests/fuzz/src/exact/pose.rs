@@ -93,6 +93,9 @@ pub struct Posed {
     pub has_constant_rank: bool,
     /// As in the drawing, with the seed of the errors.
     pub careless: Option<u64>,
+    /// To what share numbers that depend on the drawing are known, where it is written with few
+    /// digits.
+    pub known_to: f64,
 }
 
 impl Posed {
@@ -140,6 +143,7 @@ impl Posed {
             redundancy: drawing.redundancy,
             has_constant_rank: drawing.has_constant_rank,
             careless: drawing.is_careless.then(|| numbers.bits()),
+            known_to: 0.0,
         }
     }
 
@@ -187,6 +191,15 @@ impl Posed {
     #[must_use]
     pub fn origin(&self, side: Side) -> Option<Vector> {
         side.map(|k| self.frames[k].origin)
+    }
+
+    /// The radius of a wheel on which a unit of `along` has this torque: the unit of force is that of
+    /// `along`, so that it is the torque divided by its length.
+    #[must_use]
+    pub fn lever(&self, along: Vector, radius: Ratio) -> f64 {
+        let ([x, y], k) = (along, Ratio::whole(i64::from(self.stretch)));
+        let square = radius * radius * k * (x * x + k * y * y).inverse();
+        square.rounded().sqrt().copysign(radius.rounded())
     }
 
     /// How far it was moved (m).

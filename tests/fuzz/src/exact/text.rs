@@ -8,13 +8,52 @@ use super::drawing::{Side, Tie, Vector};
 use super::pose::{Placed, Posed};
 use super::ratio::{Ratio, Surd};
 
+/// How numbers are written, and what is said of them.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Precision {
+    /// Significant digits. All that a double has where nothing is said.
+    pub digits: Option<usize>,
+    /// The tolerance that the scene states (m).
+    pub tolerance: Option<f64>,
+    /// Acceleration of gravity (m/s²).
+    pub gravity: [f64; 2],
+}
+
+impl Precision {
+    /// A number with these digits.
+    #[must_use]
+    pub fn rounded(&self, x: f64) -> f64 {
+        match self.digits {
+            Some(digits) => {
+                let decimal = format!("{x:.*e}", digits.saturating_sub(1));
+                decimal.parse().unwrap_or(x)
+            }
+            None => x,
+        }
+    }
+}
+
 /// The scene as text.
 #[must_use]
 pub fn text(posed: &Posed) -> String {
+    text_within(posed, &Precision::default())
+}
+
+/// The same with numbers of some precision.
+#[must_use]
+pub fn text_within(posed: &Posed, precision: &Precision) -> String {
+    let mut scene = "name = \"exact\", space = \"plane\"".to_owned();
+    if let Some(tolerance) = precision.tolerance {
+        scene.push_str(&format!(", tolerance = {tolerance:?}"));
+    }
+    if precision.gravity != [0.0; 2] {
+        scene.push_str(&format!(", gravity = {:?}", precision.gravity));
+    }
     let mut pen = Pen {
         posed,
+        precision,
         errors: posed.careless.map(Numbers::new),
-        text: "scene = { name = \"exact\", space = \"plane\" }\n".to_owned(),
+        text: format!("scene = {{ {scene} }}\n"),
     };
     for &k in &posed.order {
         pen.body(k);
@@ -37,6 +76,7 @@ pub fn name(side: Side) -> String {
 
 struct Pen<'a> {
     posed: &'a Posed,
+    precision: &'a Precision,
     /// Where positions of bodies are written by a careless script.
     errors: Option<Numbers>,
     text: String,
@@ -49,7 +89,11 @@ impl Pen<'_> {
     }
 
     fn number(&self, x: Surd) -> f64 {
-        x.rounded(self.posed.stretch)
+        self.rounded(x.rounded(self.posed.stretch))
+    }
+
+    fn rounded(&self, x: f64) -> f64 {
+        self.precision.rounded(x)
     }
 
     fn pair(&self, p: [Surd; 2]) -> String {
@@ -70,7 +114,7 @@ impl Pen<'_> {
         }
         let [x, y] = position;
         let [c, s] = frame.turn.map(Ratio::rounded);
-        let angle = s.atan2(c);
+        let angle = self.rounded(s.atan2(c));
         self.text.push_str("\n[[body]]\n");
         self.line("name", &format!("\"b{k}\""));
         self.line("mass", "1.0");
@@ -116,7 +160,7 @@ impl Pen<'_> {
             Tie::Distance { from, at } => self.place(placed, &[(0, from), (1, at)], true),
             Tie::Angle | Tie::AngleDrive { .. } => {}
             Tie::Gear { ratio } => {
-                self.line("ratio", &format!("{:?}", ratio.rounded()));
+                self.line("ratio", &format!("{:?}", self.rounded(ratio.rounded())));
                 // The ground may be left out.
                 if sides[2].is_some() || placed.is_local {
                     self.line("carrier", &format!("\"{}\"", name(sides[2])));
@@ -196,9 +240,10 @@ impl Pen<'_> {
         match placed.factor {
             Some(factor) => self.pair(v.map(|x| x.times(factor))),
             None => {
-                let [x, y] = v.map(|x| self.number(x));
+                let [x, y] = v.map(|x| x.rounded(self.posed.stretch));
                 let length = x.hypot(y);
-                format!("[{:?}, {:?}]", x / length, y / length)
+                let [x, y] = [x, y].map(|x| self.rounded(x / length));
+                format!("[{x:?}, {y:?}]")
             }
         }
     }
@@ -209,9 +254,7 @@ impl Pen<'_> {
         let direction = self.posed.vector_in(placed.link.sides[0], along);
         let direction = self.direction(placed, direction);
         self.line(key, &direction);
-        let ([x, y], k) = (along, Ratio::whole(i64::from(self.posed.stretch)));
-        let square = radius * radius * k * (x * x + k * y * y).inverse();
-        let radius = square.rounded().sqrt().copysign(radius.rounded());
+        let radius = self.rounded(self.posed.lever(along, radius));
         self.line("radius", &format!("{radius:?}"));
     }
 }

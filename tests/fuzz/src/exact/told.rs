@@ -2,8 +2,9 @@
 
 use pfaff::linalg::Limits;
 use pfaff::model::Registry;
+use pfaff::report::documents::DistributionDocument;
 use pfaff::report::documents::MakeUniqueDocument;
-use pfaff::solvability::{Allowed, Verdict};
+use pfaff::solvability::{Allowed, Choice, NormWeights, Verdict};
 use pfaff::{Blueprint, Inquiry, Overrides, StudyError};
 use serde_json::Value;
 
@@ -17,7 +18,7 @@ const LIMITS: Limits = Limits {
 };
 
 /// The document of the start, found in the way of the command, with `--make-unique` of the first
-/// reactions that are not unique.
+/// reactions that are not unique, and reactions of the least norm.
 ///
 /// # Errors
 /// The refusal in words.
@@ -45,5 +46,11 @@ fn document(inquiry: Result<Inquiry<'_>, StudyError>) -> Result<Value, String> {
             MakeUniqueDocument::new(&r.name, &Allowed::Sensible, found)
         })
         .collect();
+    if inquiry.analysis.decision.is_decided() {
+        let choice = Choice::MinimumNorm(NormWeights::NEWTON_METRE);
+        let chosen = inquiry.distribution(&choice);
+        let chosen = chosen.iter().map(|d| DistributionDocument::new(d, &[]));
+        document.choices = chosen.collect();
+    }
     serde_json::to_value(document).map_err(|e| e.to_string())
 }

@@ -56,6 +56,31 @@ pub fn examine(truth: &Truth, told: &Value, findings: &mut Findings) {
     }
 }
 
+/// The same for sets of rows alone: that they are minimal and dependent, and as many as the
+/// redundancy.
+pub fn circuits(truth: &Truth, told: &Value, findings: &mut Findings) {
+    let dependencies = list(&told["dependencies"]);
+    // What the tolerance leaves open is not told.
+    let open = findings.0.iter().any(|f| f.kind == Kind::Undecided);
+    if dependencies.len() != truth.redundancy() && !open {
+        let text = format!(
+            "{} dependencies, redundancy {}",
+            dependencies.len(),
+            truth.redundancy()
+        );
+        findings.note(Kind::Sentence, text);
+    }
+    for dependency in dependencies {
+        if truth.circuit(&rows(&dependency["rows"])).is_none() {
+            let text = format!("rows {} are no minimal dependent set", dependency["rows"]);
+            findings.note(Kind::Sentence, text);
+        }
+    }
+    if !open {
+        mixing(truth, told, findings);
+    }
+}
+
 /// A dependency that is one.
 struct Dependency<'a> {
     truth: &'a Truth<'a>,

@@ -1,0 +1,229 @@
+//! What is told of a drawing whose numbers are known to a tolerance, compared with what exact
+//! arithmetic says of the drawing, and with how far its data are from a lower rank.
+
+use std::rc::Rc;
+
+use serde_json::Value;
+
+use super::doubles::Doubles;
+use super::drawing::Tie;
+use super::examine::{Finding, Findings, Kind, kept_rows, list, reactions};
+use super::loads::Reactions;
+use super::minimax::Bounds;
+use super::truth::Truth;
+use super::words;
+
+/// Below this part of τ* a tolerance changes nothing of the rank; above the inverse it lowers it.
+pub const BEYOND_DOUBT: f64 = 3.0;
+
+/// At this distance everything has to be decided.
+pub const FAR: f64 = 30.0;
+
+/// A reaction of the first order is one whose change by all data together is below this share.
+const FIRST_ORDER: f64 = 0.1;
+
+/// Points of a joint that move at once, by their share of what the most sensitive one does.
+const AT_ONCE: f64 = 3.0;
+
+/// Digits of `sensitivity` and of double arithmetic in reactions.
+const ROUNDING: f64 = 1e-8;
+
+/// What holds of a drawing.
+#[derive(Clone)]
+pub struct Meant<'a> {
+    /// By exact arithmetic.
+    pub truth: &'a Truth<'a>,
+    /// The size of the drawing (m).
+    pub size: f64,
+    /// How many points, directions and numbers it has.
+    pub blocks: usize,
+    /// Whether its redundancy stays wherever it moves.
+    pub is_permanent: bool,
+    /// τ* (m) for a rank one lower still.
+    pub from: Bounds,
+    /// Reactions under gravity.
+    pub reactions: Reactions,
+    /// The drawing in doubles.
+    pub doubles: Rc<Doubles>,
+}
+
+/// What came of a comparison.
+#[derive(Debug, Default)]
+pub struct Judged {
+    /// What is not right.
+    pub findings: Findings,
+    /// Why verdicts were not compared: the rank that is told is another one, rightly.
+    pub other_rank: Option<&'static str>,
+}
+
+impl<'a> Meant<'a> {
+    /// Of a drawing.
+    #[must_use]
+    pub fn of(truth: &'a Truth<'a>, seed: u64, gravity: [f64; 2]) -> Self {
+        let doubles = Doubles::of(truth.posed);
+        let rank = truth.rank();
+        Self {
+            truth,
+            size: doubles.size,
+            blocks: doubles.blocks.len(),
+            is_permanent: truth.redundancy() == 0 || doubles.is_permanent(rank, seed),
+            from: doubles.lower_rank_from(rank),
+            reactions: doubles.reactions(truth.posed, rank, gravity),
+            doubles: Rc::new(doubles),
+        }
+    }
+
+    /// The same with another account of the exact drawing.
+    #[must_use]
+    pub fn with<'b>(&'b self, truth: &'b Truth<'b>) -> Meant<'b> {
+        Meant {
+            truth,
+            ..self.clone()
+        }
+    }
+
+    /// Whether a lower rank is so far away that everything has to be decided.
+    #[must_use]
+    pub fn is_far(&self, tolerance: f64) -> bool {
+        self.from.low >= FAR * tolerance
+    }
+
+    /// Compares a document.
+    #[must_use]
+    pub fn judge(&self, told: &Value, tolerance: f64) -> Judged {
+        let mut judged = Judged::default();
+        let findings = &mut judged.findings;
+        if told["evidence"]["status"] != "decided" {
+            let text = format!("rank {}: {}", told["rank"], told["evidence"]["reason"]);
+            findings.note(Kind::Undecided, text);
+            return judged;
+        }
+        let (told_rank, rank) = (
+            told["rank"].as_u64().unwrap_or(0) as usize,
+            self.truth.rank(),
+        );
+        let from = format!(
+            "tolerance {tolerance:.2e} m, τ* {:.2e} m to {:.2e} m",
+            self.from.low, self.from.high
+        );
+        let grounds = told["evidence"]["grounds"].as_str().unwrap_or_default();
+        if told_rank < rank {
+            if BEYOND_DOUBT * tolerance < self.from.low {
+                let text = format!("rank: told {told_rank}, is {rank}; {from}; {grounds}");
+                findings.note(Kind::Rank, text);
+            }
+            judged.other_rank = Some("lower within the tolerance");
+            return judged;
+        }
+        if told_rank > rank {
+            if self.is_permanent {
+                let text = format!("rank: told {told_rank}, is {rank} at all poses; {from}");
+                findings.note(Kind::Rank, text);
+            }
+            judged.other_rank = Some("singular pose");
+            return judged;
+        }
+        if !self.is_permanent && grounds == "within_tolerance" {
+            let text =
+                format!("rank: told {told_rank} within the tolerance, is so at one pose only");
+            findings.note(Kind::Rank, text);
+        }
+        if BEYOND_DOUBT * tolerance >= self.from.low {
+            // Coefficients may vanish within the tolerance.
+            judged.other_rank = Some("verdicts near a lower rank");
+            return judged;
+        }
+        self.verdicts(told, tolerance, findings);
+        kept_rows(self.truth, told, findings);
+        words::circuits(self.truth, told, findings);
+        self.loads(told, tolerance, findings);
+        judged
+    }
+
+    /// Verdicts are those of the drawing; what is not unique there may be told unique where data
+    /// within the tolerance make it so.
+    fn verdicts(&self, told: &Value, tolerance: f64, findings: &mut Findings) {
+        let mut all = Findings::default();
+        reactions(self.truth, told, &mut all);
+        let rank = self.truth.rank();
+        let links = self.truth.posed.links.iter().enumerate();
+        let hidden: Vec<&str> = links
+            .filter(|(link, placed)| {
+                let is_named = |f: &Finding| concerns(&f.text, &placed.link.name);
+                let wrong = |f: &Finding| f.kind.is_wrong() && is_named(f);
+                let rows = self.truth.rows_of(*link);
+                all.0.iter().any(wrong) && {
+                    let [size, change] = self.doubles.margin(rank, &rows, tolerance);
+                    size <= change
+                }
+            })
+            .map(|(_, placed)| placed.link.name.as_str())
+            .collect();
+        let is_open = |text: &str| hidden.iter().any(|name| concerns(text, name));
+        let kept = all.0.into_iter().filter(|f| !is_open(&f.text));
+        findings.0.extend(kept);
+    }
+
+    /// Unique reactions are those of the drawing, to what their sensitivity says.
+    fn loads(&self, told: &Value, tolerance: f64, findings: &mut Findings) {
+        let Some(chosen) = list(&told["choices"]).first() else {
+            return;
+        };
+        for (link, placed) in self.truth.posed.links.iter().enumerate() {
+            let name = placed.link.name.as_str();
+            let named = |of: &&Value| of["name"] == name;
+            let Some(reaction) = list(&told["reactions"]).iter().find(named) else {
+                continue;
+            };
+            let Some(change) = reaction["sensitivity"].as_f64() else {
+                continue;
+            };
+            if reaction["verdict"] != "unique" || !self.truth.is_unique(&self.truth.rows_of(link)) {
+                continue;
+            }
+            // Told for the larger of 1e-4 of the size and the tolerance.
+            let moved = tolerance.max(1e-4 * self.size);
+            let all = AT_ONCE * (self.blocks as f64).sqrt() * change * tolerance / moved;
+            if all > FIRST_ORDER {
+                continue;
+            }
+            let (force, torque) = self.reactions.each[link];
+            // Torque of a wheel about its own place may lie elsewhere.
+            let torque = torque.filter(|_| !matches!(placed.link.tie, Tie::Rack { .. }));
+            let size = force[0]
+                .hypot(force[1])
+                .max(torque.map_or(0.0, f64::abs) / self.size);
+            let allowed = (all + tolerance / self.size + ROUNDING) * size.max(self.reactions.load);
+            let Some(values) = list(&chosen["reactions"]).iter().find(named) else {
+                continue;
+            };
+            for component in list(&values["components"]) {
+                let (right, unit) = match component["name"].as_str() {
+                    Some("Fx") => (force[0], 1.0),
+                    Some("Fy") => (force[1], 1.0),
+                    Some("T") => match torque {
+                        Some(torque) => (torque, self.size),
+                        None => continue,
+                    },
+                    _ => continue,
+                };
+                let told = component["value"].as_f64().unwrap_or(f64::NAN);
+                if (told - right).abs() > allowed * unit || told.is_nan() {
+                    let text = format!(
+                        "{name}.{}: told {told:.6e}, is {right:.6e}, allowed {:.1e}; sensitivity {change:.2e}, \
+                         tolerance {tolerance:.1e}",
+                        component["name"],
+                        allowed * unit
+                    );
+                    findings.note(Kind::Load, text);
+                }
+            }
+        }
+    }
+}
+
+/// Whether a finding is about the joint or drive of this name.
+fn concerns(text: &str, name: &str) -> bool {
+    let rest = text.strip_prefix(name);
+    rest.is_some_and(|rest| rest.starts_with([':', ',', '.']))
+}
