@@ -1,9 +1,9 @@
 //! A scene with its mechanism, before anything is said of its rows: where a study begins, and all there is of a mechanism whose
 //! rank is too doubtful for a motion.
 
-use dynamics::{MotionError, MotionOptions, RowChoice, prepare};
-use model::start::{assemble, consistent_velocity};
-use model::{Assembly, Known, Mechanism, Registry, Tolerance};
+use dynamics::{MotionError, MotionOptions, RowChoice, prepare, start_velocity};
+use model::start::assemble;
+use model::{Assembly, Known, Mechanism, Registry, StartError, Tolerance};
 use scene::Scene;
 use solvability::{ConstraintLevel, State};
 
@@ -149,7 +149,7 @@ impl Blueprint {
     /// `f64`, or no motion begins there.
     ///
     /// # Errors
-    /// As [`Blueprint::assemble`], and [`StudyError::Analysis`]: C cannot be judged there.
+    /// As [`Blueprint::assemble`], also where no motion has the given velocities, and [`StudyError::Analysis`]: C cannot be judged there.
     pub fn inquire(&mut self, drop: Option<&[usize]>) -> Result<Inquiry<'_>, StudyError> {
         self.inquire_watched(drop, |_| ())
     }
@@ -181,8 +181,17 @@ impl Blueprint {
         let decision = &inquiry.analysis.decision;
         if decision.is_decided() {
             let (q, kept) = (&inquiry.state.q, &decision.kept);
-            let v = consistent_velocity(&self.mechanism, start, q, &assembly.v, kept);
-            inquiry.state.v = v.map_err(|e| refused(&self.scene, e.into()))?;
+            let rows = solvability::rows(&self.mechanism, 0.0, q)?;
+            inquiry.state.v = match start_velocity(&self.mechanism, start, &rows, q, kept) {
+                Ok((found, _)) => found.v,
+                // Rows that are independent by the certificate may be too nearly dependent for numbers.
+                Err(MotionError::Start(StartError::NoVelocity { .. }))
+                    if !rows.all.is_decided() =>
+                {
+                    Vec::new()
+                }
+                Err(e) => return Err(refused(&self.scene, e)),
+            };
         }
         Ok(inquiry)
     }

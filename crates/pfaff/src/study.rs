@@ -219,7 +219,7 @@ impl Study {
     ///
     /// // A body that is thrown: y = 5·t − g·t²/2.
     /// let mut thrown = Description { gravity: [0.0, -10.0], ..Description::new("thrown") };
-    /// thrown.body(Body { velocity: [0.0, 5.0], ..Body::new("stone", 1.0, 1.0) });
+    /// thrown.body(Body { velocity: Some([0.0, 5.0]), ..Body::new("stone", 1.0, 1.0) });
     /// let motion = Study::build(thrown)?.motion(&MotionOptions::to(1.0))?;
     /// let highest = motion.rows.iter().map(|row| row.bodies["stone"].y).fold(0.0, f64::max);
     /// assert!((highest - 1.25).abs() < 1e-9);

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use dynamics::{MotionError, Trip};
+use model::start::VelocityConflict;
 use model::{Body, BodyRef, BuildError, Description, RowLabel, StartError, Stated};
 
 use crate::diagnostic::Diagnostic;
@@ -80,21 +81,11 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
             return at_rows(map, labels, error, marks);
         }
         StartError::NoVelocity { worst, .. } => (row(map, worst), "misses most"),
+        StartError::Velocities(conflict) => return velocities(map, conflict, error),
         StartError::LargeCorrection { body, .. } => {
             let entry = map.body(body);
             let span = entry.map(|entry| entry.first_of(&["position", "angle"]));
             (span.unwrap_or(0..0), "moves most")
-        }
-        StartError::LargeVelocityCorrection {
-            body, coordinate, ..
-        } => {
-            let key = match *coordinate {
-                "omega" => "angular_velocity",
-                _ => "velocity",
-            };
-            let entry = map.body(body);
-            let span = entry.map(|entry| entry.first_of(&[key]));
-            (span.unwrap_or(0..0), "not with these constraints")
         }
         StartError::Requirement { name, .. } => {
             (element_key(map, name, &PLACE_KEYS), "required here")
@@ -102,6 +93,27 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
         _ => (map.section("start", ""), "of this scene"),
     };
     at(map, span, error, label)
+}
+
+/// Given velocities that no motion has: what is driven comes first, then the velocity, or the entry that holds it.
+fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) -> Diagnostic {
+    let span = match (conflict.is_kept, conflict.coordinate) {
+        (true, _) => map.section("start", "keep"),
+        (false, coordinate) => {
+            let key = match coordinate {
+                "omega" => "angular_velocity",
+                _ => "velocity",
+            };
+            let entry = map.body(&conflict.body);
+            entry.map_or(0..0, |entry| entry.first_of(&[key]))
+        }
+    };
+    let word = if conflict.is_kept { "held here" } else { "given here" };
+    match conflict.drives.first() {
+        Some(drive) => at(map, element_key(map, drive, &[]), error, "asks for other velocities")
+            .and(map.text.label(span, word)),
+        None => at(map, span, error, "not with these constraints"),
+    }
 }
 
 /// The place of an error of a run.
@@ -233,9 +245,9 @@ fn body_key(
         "inertia" => vec![body.inertia],
         "position" => body.position.to_vec(),
         "angle" => vec![body.angle],
-        "velocity" => body.velocity.to_vec(),
+        "velocity" => body.velocity.into_iter().flatten().collect(),
         "tolerance" => body.tolerance.into_iter().collect(),
-        _ => vec![body.angular_velocity],
+        _ => body.angular_velocity.into_iter().collect(),
     };
     let of_name = d.bodies.iter().zip(&map.bodies);
     let found = of_name
