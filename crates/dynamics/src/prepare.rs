@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use linalg::RankStatus;
 use model::start::{StartVelocity, assemble, consistent_velocity};
-use model::{Assembly, Mechanism, StartOptions, System};
+use model::{Assembly, Mechanism, StartError, StartOptions, System};
 use solvability::{
     ConstraintLevel, Contradiction, RowDecision, Rows, decide_rows_dropping, rows as rows_of,
 };
@@ -80,13 +80,15 @@ pub fn prepare(
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
     let found = rows_of(&mechanism, 0.0, &assembly.q)?;
-    if let Some(nearly) = found.inseparable(&mechanism, 0.0, &assembly.q) {
-        return Err(MotionError::inseparable(&nearly, &layout.labels));
-    }
-    for decision in [&found.all, &found.holonomic] {
-        if let RankStatus::Undecided(doubt) = decision.status {
-            return Err(MotionError::RankUndecided(doubt));
-        }
+    if let Some(error) = unmovable(&mechanism, &found, &assembly.q) {
+        // What no motion has is said first: it is wrong also where the mechanism is only judged.
+        return Err(match found.are_certified() {
+            true => start_velocity(&mechanism, start, &found, &assembly.q, &found.all.kept)
+                .err()
+                .filter(|e| !matches!(e, MotionError::Start(StartError::NoVelocity { .. })))
+                .unwrap_or(error),
+            false => error,
+        });
     }
     let decision = match rows {
         RowChoice::Automatic => found.all.clone(),
@@ -110,6 +112,18 @@ pub fn prepare(
         assembly,
         velocity_correction: correction,
         code: None,
+    })
+}
+
+/// Why no rows can be kept, if none can.
+fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionError> {
+    if let Some(nearly) = found.inseparable(mechanism, 0.0, q) {
+        return Some(MotionError::inseparable(&nearly, &mechanism.layout().labels));
+    }
+    let decisions = [&found.all, &found.holonomic];
+    decisions.into_iter().find_map(|decision| match decision.status {
+        RankStatus::Undecided(doubt) => Some(MotionError::RankUndecided(doubt)),
+        _ => None,
     })
 }
 

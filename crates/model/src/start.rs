@@ -123,7 +123,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     mechanism.initialise(&described);
     let size = scene_size(mechanism, &described);
     let rows = restricting_rows(mechanism);
-    let weights = position_weights(mechanism, options)?;
+    let weights = position_weights(mechanism, options, size)?;
     let mut s = mechanism.scratch();
     let q = nearest(mechanism, &mut s, 0.0, &rows, &weights, &described)?;
     mechanism.initialise(&q);
@@ -185,7 +185,7 @@ pub fn nearest_configuration(
     rows: &[usize],
     q: &[f64],
 ) -> Result<Vec<f64>, StartError> {
-    let weights = position_weights(mechanism, &StartOptions::default())?;
+    let weights = position_weights(mechanism, &StartOptions::default(), scene_size(mechanism, q))?;
     nearest(mechanism, &mut mechanism.scratch(), t, rows, &weights, q)
 }
 
@@ -202,17 +202,32 @@ fn restricting_rows(mechanism: &Mechanism) -> Vec<usize> {
 }
 
 /// Inverse weights of the coordinates in the mass metric, zero for those that are kept.
-fn position_weights(mechanism: &Mechanism, options: &StartOptions) -> Result<Vec<f64>, StartError> {
-    let mut weights = weights(mechanism);
+fn position_weights(
+    mechanism: &Mechanism,
+    options: &StartOptions,
+    size: f64,
+) -> Result<Vec<f64>, StartError> {
+    let mut weights = weights(mechanism, size);
     for column in kept_columns(mechanism, options, KeepLevel::Position)? {
         weights[column] = 0.0;
     }
     Ok(weights)
 }
 
+/// Masses, and inertias divided by the square of the size, below this share of the largest weigh as this share: what is lighter makes no difference to
+/// what is heavy, but its square would overflow.
+const LIGHTEST: f64 = 1e-30;
+
 /// Inverse weights of the coordinates in the mass metric; what has no mass or inertia weighs as the smallest one that has it.
-fn weights(mechanism: &Mechanism) -> Vec<f64> {
-    let mass = mechanism.mass();
+fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+    let unit = |k: usize| if k % N_BODY == 2 { size * size } else { 1.0 };
+    let comparable = mechanism.mass().iter().enumerate().map(|(k, m)| m / unit(k));
+    let heaviest = comparable.filter(|m| m.is_finite()).fold(0.0, f64::max);
+    let least = |(k, &m): (usize, &f64)| match m > 0.0 {
+        true => m.max(LIGHTEST * heaviest * unit(k)),
+        false => m,
+    };
+    let mass: Vec<f64> = mechanism.mass().iter().enumerate().map(least).collect();
     let smallest = |angles: bool| {
         let of_kind = mass
             .iter()

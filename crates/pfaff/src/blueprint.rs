@@ -100,7 +100,8 @@ impl Blueprint {
     /// # Errors
     /// - [`StudyError::Scene`]: there is no such start; of a scene without text [`StudyError::Motion`].
     /// - [`StudyError::SingularStart`]: there is one, but no motion begins with its velocities.
-    /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen.
+    /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen; or the options of the run are none, with their place if they are those of
+    ///   the scene.
     pub fn prepare(self, overrides: &Overrides) -> Result<Study, StudyError> {
         let Self { scene, mechanism } = self;
         let options = options(&scene, overrides);
@@ -109,6 +110,12 @@ impl Blueprint {
             (None, Some(options)) => options.rows.clone(),
             (None, None) => RowChoice::Automatic,
         };
+        if let Some(Err(e)) = options.as_ref().map(MotionOptions::check) {
+            return Err(match *overrides == Overrides::default() {
+                true => refused(&scene, e),
+                false => e.into(),
+            });
+        }
         let prepared = match prepare(mechanism, &scene.start, &rows) {
             Ok(prepared) => prepared,
             Err(e) if leaves_no_motion(&e) => {

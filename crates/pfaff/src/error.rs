@@ -120,7 +120,6 @@ impl StudyError {
         match self {
             Self::Scene(_)
             | Self::Build(_)
-            | Self::SingularStart { .. }
             | Self::NoEnd
             | Self::Combination { .. }
             | Self::UnknownReaction { .. }
@@ -146,7 +145,9 @@ impl StudyError {
                 !matches!(e, ChoiceError::Undecided(_) | ChoiceError::Saddle(_))
             }
             Self::Along(e) => matches!(e, AlongError::Times { .. }),
-            Self::State(_)
+            // The scene is a scene; its motion does not begin.
+            Self::SingularStart { .. }
+            | Self::State(_)
             | Self::Explanation(_)
             | Self::Units(_)
             | Self::File(_)

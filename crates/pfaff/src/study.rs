@@ -28,6 +28,9 @@ use crate::inquiry::{AskedRows, Inquiry};
 /// Rows of a mechanism up to which a moving picture has rows of its own between those of the tables.
 const PICTURED_ROWS: usize = 600;
 
+/// Rows of a mechanism up to which it is tried whether a motion begins.
+const BEGUN_ROWS: usize = 2000;
+
 /// A scene that has been assembled and can move.
 #[non_exhaustive]
 pub struct Study {
@@ -170,6 +173,25 @@ impl Study {
             Some(contradiction) => Err(refused(&self.scene, contradiction.into())),
             None => Ok(()),
         }
+    }
+
+    /// Why no motion begins although the start is one: a body without mass that is free to move, for example. `None` if one begins; of a mechanism of
+    /// many rows it is not asked, since the answer costs as much as a step.
+    #[must_use]
+    pub fn cannot_begin(&self) -> Option<String> {
+        if self.prepared.mechanism.layout().rows() > BEGUN_ROWS {
+            return None;
+        }
+        let options = MotionOptions {
+            t_end: 0.0,
+            ..self.motion_to(1.0)
+        };
+        let begun = self.run(&options, |sample| {
+            sample.reactions()?;
+            Ok(ControlFlow::Break(()))
+        });
+        let failure = begun.err()?;
+        Some(format!("this mechanism cannot be moved: {}", failure.error))
     }
 
     fn state_at(&self, t: f64) -> Result<State, StudyError> {

@@ -122,12 +122,12 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
         MotionError::Start(error) => return start(map, error),
         MotionError::Component { source, .. } => return motion(map, source),
         MotionError::Contradiction(contradiction) => {
-            return contradicting(map, contradiction.split_rows(), error);
+            return contradicting(map, contradiction.split_rows(), &contradiction.forcing(), error);
         }
         MotionError::Option { name, .. } => (map.section("simulate", name), "not possible"),
         MotionError::Rows(_) => (map.section("simulate", "drop"), "not these rows"),
         MotionError::Trip(Trip::Drives { contradiction, .. }) => {
-            return contradicting(map, contradiction.split_rows(), error);
+            return contradicting(map, contradiction.split_rows(), &contradiction.forcing(), error);
         }
         MotionError::Trip(trip) => match trip {
             Trip::RankLost { row: label, .. } => (row(map, label), "becomes dependent"),
@@ -152,8 +152,16 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
 fn contradicting(
     map: &SourceMap,
     (drives, others): (Vec<&RowLabel>, Vec<&RowLabel>),
+    forcing: &[&str],
     error: &impl std::error::Error,
 ) -> Diagnostic {
+    // Rows that drives leave no way to go on are as they should be.
+    let mut spans = forcing.iter().take(MARKS).map(|drive| element_key(map, drive, &[]));
+    if let Some(first) = spans.next() {
+        return spans.fold(at(map, first, error, "asks for what cannot go on"), |d, span| {
+            d.and(map.text.label(span, "together with this one"))
+        });
+    }
     let (rows, marks) = match drives.as_slice() {
         [] => (others, ["contradicts the others", "contradicts too"]),
         [drive] => {

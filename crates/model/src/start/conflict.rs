@@ -25,8 +25,10 @@ pub struct VelocityConflict {
     pub nearest: f64,
     /// What the difference may be (m/s, rad/s).
     pub limit: f64,
-    /// Rows that forbid it together with other given velocities; those that prescribe a motion come first.
+    /// Rows that forbid it; those that prescribe a motion come first.
     pub rows: Vec<RowLabel>,
+    /// Whether they forbid it only together with other velocities that are held.
+    pub with_others: bool,
     /// Drives, and joints that prescribe a velocity, among these.
     pub drives: Vec<String>,
     /// Without these the others hold.
@@ -115,11 +117,22 @@ impl VelocityConflict {
             false => format!(", more than {:.1e} off", self.limit),
         };
         let fact = format!("`{coordinate}` of body `{body}` is {held} {given}");
-        let nearest = format!("the nearest velocities that fit have {nearest:.5}{off}");
+        let nearest = format!(
+            "the nearest velocities that fit have {}{off}",
+            short(*nearest, *given)
+        );
         let rows = named(&rows);
         match self.drives.as_slice() {
             [] if self.rows.is_empty() => format!("{fact}, which the constraints do not allow: {nearest}"),
-            [] => format!("{fact}, which {word} {rows} and what else is given do not allow: {nearest}"),
+            [] => {
+                let (do_not, beside) = match (self.rows.len(), self.with_others) {
+                    (1, true) => ("does not", " beside what else is given"),
+                    (1, false) => ("does not", ""),
+                    (_, true) => ("do not", " beside what else is given"),
+                    (_, false) => ("do not", ""),
+                };
+                format!("{fact}, which {word} {rows} {do_not} allow{beside}: {nearest}")
+            }
             [only] => format!(
                 "drive `{only}` asks for what the given velocities do not allow: {fact}, and {nearest} ({word} {rows})"
             ),
@@ -140,9 +153,9 @@ impl VelocityConflict {
             [] => {}
             [only] => ways.push(format!("leave out {only}, so that it follows from the others")),
             // All of them are told: less would not be enough.
-            all => ways.push(format!(
-                "leave out {}, so that they follow from the others",
-                all.join(", ")
+            [first @ .., last] => ways.push(format!(
+                "leave out {} and {last}, so that they follow from the others",
+                first.join(", ")
             )),
         }
         if !self.is_enough {
@@ -155,6 +168,16 @@ impl VelocityConflict {
             ways.push("or set `allow_correction = true` in `[start]`, which takes the nearest ones that fit".to_owned());
         }
         ways.join("; ")
+    }
+}
+
+/// A velocity with five digits; what is rounding of another one is none.
+fn short(x: f64, beside: f64) -> String {
+    let x = if x.abs() <= CANCELLED * beside.abs() { 0.0 } else { x };
+    let rounded = format!("{x:.4e}");
+    match x.abs() {
+        size if size != 0.0 && !(1e-4..1e6).contains(&size) => rounded,
+        _ => rounded.parse::<f64>().map_or(rounded, |x| x.to_string()),
     }
 }
 
@@ -192,7 +215,7 @@ impl Start<'_> {
         };
         let mut v = self.written.clone();
         let can_be_corrected = self.solve(rows, &self.hold, CorrectionLimit::Any, &mut v)?.is_none();
-        let (rows_at_fault, drives) = self.rows_at_fault(rows, column)?;
+        let (rows_at_fault, drives, with_others) = self.rows_at_fault(rows, column)?;
         let (leave_out, is_enough) = self.leave_out(rows, &columns)?;
         let body = &mechanism.bodies()[column / N_BODY];
         Ok(VelocityConflict {
@@ -203,6 +226,7 @@ impl Start<'_> {
             nearest: nearest[column],
             limit: self.allowed(column, &columns, &self.hold, &nearest),
             rows: rows_at_fault,
+            with_others,
             drives,
             leave_out,
             is_enough,
@@ -234,29 +258,35 @@ impl Start<'_> {
         Ok(held().filter(is_far).max_by(farthest).or_else(|| held().max_by(farthest)))
     }
 
-    /// Rows that leave no other value to a velocity while the rest of what is held holds, and what among them prescribes a motion.
+    /// Rows that leave no other value to a velocity while the rest of what is held holds; what among them prescribes a motion; and whether others that
+    /// are held take part.
     fn rows_at_fault(
         &self,
         rows: &[usize],
         column: usize,
-    ) -> Result<(Vec<RowLabel>, Vec<String>), StartError> {
+    ) -> Result<(Vec<RowLabel>, Vec<String>, bool), StartError> {
         let of = &self.equations;
         let mut v = self.written.clone();
         let mut tier = Tier::new(of, rows, |j| self.hold[j] == Hold::No)?;
         tier.follow(of, &mut v)?;
-        let takes_part = |circuit: &&Circuit| {
+        let takes_part = |circuit: &Circuit, column: usize| {
             let c = of.matrix(&circuit.rows, &[column]);
             let terms = || circuit.coefficients.iter().zip(c.as_slice()).map(|(z, c)| z * c);
             let size: f64 = terms().map(f64::abs).sum();
             terms().sum::<f64>().abs() > CANCELLED * size
         };
-        let shortest = tier.open(of, &v).filter(takes_part).min_by_key(|c| c.rows.len());
-        let found: Vec<usize> = match shortest {
-            Some(circuit) => circuit.rows.clone(),
+        let shortest = tier.open(of, &v).filter(|circuit| takes_part(circuit, column));
+        let (found, with_others) = match shortest.min_by_key(|c| c.rows.len()) {
+            Some(circuit) => {
+                let columns = of.columns(&circuit.rows).into_iter();
+                let mut others = columns.filter(|&j| j != column && self.hold[j] != Hold::No);
+                let with_others = others.any(|j| takes_part(circuit, j));
+                (circuit.rows.clone(), with_others)
+            }
             // Of large sets there are no circuits: the rows that do not hold.
             None => {
                 let is_open = |&i: &usize| of.residual(i, &v).abs() > of.rounding(i, &v);
-                rows.iter().copied().filter(is_open).collect()
+                (rows.iter().copied().filter(is_open).collect::<Vec<_>>(), true)
             }
         };
         let layout = of.mechanism.layout();
@@ -268,7 +298,7 @@ impl Start<'_> {
         let mut names: Vec<String> = drives.iter().map(|&i| layout.labels[i].joint.clone()).collect();
         names.dedup();
         let labels = drives.into_iter().chain(joints).map(|i| layout.labels[i].clone());
-        Ok((labels.collect(), names))
+        Ok((labels.collect(), names, with_others))
     }
 
     /// Given velocities without which the others hold, the farthest off first, none of which could stay; and whether these are enough.

@@ -1,13 +1,13 @@
 //! Velocities that follow from others: of all that satisfy rows of C the ones with the least kinetic energy, `½·vᵀ·M·v → min` under `C·v = b`.
 //!
-//! Rows that share no velocity that follows are solved apart. Small sets are solved by orthogonal factors, after the rank of their columns has been
+//! Rows that share no velocity that follows are solved apart. Small sets are solved as they are, after the rank of their columns has been
 //! decided; the rows that are left over are circuits, whose sums of right-hand sides say whether there are such velocities. Large sets are
 //! solved by their Schur complement. Not here: which velocities follow, and what happens where the rows leave none.
 
 use std::collections::HashMap;
 
 use linalg::{
-    Circuit, Matrix, SchurSaddle, SchurStructure, SparseMatrix, StepError, circuits, decide,
+    Circuit, KeptRowSaddle, Matrix, SchurSaddle, SchurStructure, SparseMatrix, circuits, decide,
     least_squares_step,
 };
 
@@ -16,7 +16,7 @@ use crate::mechanism::{Mechanism, N_BODY};
 use crate::system::{Scratch, System};
 use crate::uncertainty::Known;
 
-/// Sets of more rows than this are solved by their Schur complement: orthogonal factors would take seconds.
+/// Sets of more rows than this are solved by their Schur complement: dense factors would take seconds.
 pub(super) const DENSE_ROWS: usize = 300;
 
 /// Rows of which less than this share is left beside others count as dependent on them, in large sets: the Schur complement has the square of their
@@ -62,7 +62,7 @@ impl<'m> Equations<'m> {
             s,
             q: q.to_vec(),
             size,
-            weights: weights(mechanism),
+            weights: weights(mechanism, size),
             // The second is the unit in which a scene is told; what falls under its weight has a shorter time of its own.
             rest_rate: (gravity / size).sqrt().max(1.0),
             known: None,
@@ -182,7 +182,7 @@ fn find(leader: &mut [usize], mut k: usize) -> usize {
 /// Rows, and the velocities that follow in them.
 pub(super) struct Tier {
     parts: Vec<Part>,
-    /// What is left of the rows that were solved by orthogonal factors: no velocity that follows changes these sums.
+    /// What is left of the rows of small sets: no velocity that follows changes these sums.
     pub(super) circuits: Vec<Circuit>,
 }
 
@@ -195,7 +195,7 @@ pub(super) struct Part {
 }
 
 enum Solver {
-    Orthogonal(Matrix),
+    Dense(Matrix),
     Schur(Box<(SparseMatrix, SchurSaddle)>),
 }
 
@@ -250,7 +250,7 @@ impl Tier {
                 tier.parts.push(Part {
                     rows,
                     columns,
-                    solver: Solver::Orthogonal(c),
+                    solver: Solver::Dense(c),
                 });
             }
         }
@@ -332,7 +332,7 @@ impl Part {
                 false => r.abs() / of.rounding(i, v),
             };
             let used = |k: usize| match &self.solver {
-                Solver::Orthogonal(_) => true,
+                Solver::Dense(_) => true,
                 Solver::Schur(sparse) => sparse.1.uses(k),
             };
             let rows = self.rows.iter().zip(&residual).enumerate();
@@ -354,7 +354,7 @@ impl Part {
     /// The shortest velocities that remove these residuals.
     fn step(&mut self, of: &Equations<'_>, residual: &[f64]) -> Result<Vec<f64>, StartError> {
         match &mut self.solver {
-            Solver::Orthogonal(c) => {
+            Solver::Dense(c) => {
                 let weights: Vec<f64> = self.columns.iter().map(|&j| of.weights[j]).collect();
                 shortest(c, residual, &weights)
             }
@@ -371,12 +371,22 @@ impl Part {
     }
 }
 
-/// The shortest step in a metric that removes residuals; damped where the metric hides that rows are independent.
-pub(super) fn shortest(c: &Matrix, residual: &[f64], weights: &[f64]) -> Result<Vec<f64>, StartError> {
-    match least_squares_step(c, residual, weights, 0.0) {
-        Err(StepError::Dependent { .. }) => {
-            Ok(least_squares_step(c, residual, weights, DAMPING)?)
+/// The shortest step in the metric of these inverse masses that removes residuals of rows. Exact where the rows are independent to working precision,
+/// however the masses differ; otherwise damped.
+pub(super) fn shortest(
+    c: &Matrix,
+    residual: &[f64],
+    weights: &[f64],
+) -> Result<Vec<f64>, StartError> {
+    if c.nrows() <= c.ncols() {
+        let masses: Vec<f64> = weights.iter().map(|w| w.recip()).collect();
+        let mut saddle = KeptRowSaddle::new(c.ncols(), c.nrows())?;
+        if saddle.factor(|k| c.row(k), &masses).is_ok() {
+            let gamma: Vec<f64> = residual.iter().map(|r| -r).collect();
+            let mut step = vec![0.0; c.ncols()];
+            saddle.motion(&vec![0.0; c.ncols()], &gamma, &mut step)?;
+            return Ok(step);
         }
-        step => Ok(step?),
     }
+    Ok(least_squares_step(c, residual, weights, DAMPING)?)
 }
