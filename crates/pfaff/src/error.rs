@@ -120,6 +120,7 @@ impl StudyError {
         match self {
             Self::Scene(_)
             | Self::Build(_)
+            | Self::SingularStart { .. }
             | Self::NoEnd
             | Self::Combination { .. }
             | Self::UnknownReaction { .. }
@@ -145,9 +146,7 @@ impl StudyError {
                 !matches!(e, ChoiceError::Undecided(_) | ChoiceError::Saddle(_))
             }
             Self::Along(e) => matches!(e, AlongError::Times { .. }),
-            // The scene is a scene; its motion does not begin.
-            Self::SingularStart { .. }
-            | Self::State(_)
+            Self::State(_)
             | Self::Explanation(_)
             | Self::Units(_)
             | Self::File(_)
