@@ -32,12 +32,16 @@ struct Rows {
 }
 
 fn read(text: &str) -> Blueprint {
-    Blueprint::read("starts.toml", text, &Registry::planar()).unwrap_or_else(|e| panic!("{e}\n{text}"))
+    Blueprint::read("starts.toml", text, &Registry::planar())
+        .unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
 fn rows(text: &str) -> Rows {
     let mut blueprint = read(text);
-    let q = blueprint.assemble().unwrap_or_else(|e| panic!("{e}\n{text}")).q;
+    let q = blueprint
+        .assemble()
+        .unwrap_or_else(|e| panic!("{e}\n{text}"))
+        .q;
     let m = &blueprint.mechanism;
     let size = scene_size(m, &q);
     let mut s = m.scratch();
@@ -46,12 +50,16 @@ fn rows(text: &str) -> Rows {
     m.b(&mut s);
     let layout = m.layout();
     let dense = layout.dense(&s);
-    let unit: Vec<f64> = (0..layout.n_v).map(|j| if j % 3 == 2 { 1.0 / size } else { 1.0 }).collect();
+    let unit: Vec<f64> = (0..layout.n_v)
+        .map(|j| if j % 3 == 2 { 1.0 / size } else { 1.0 })
+        .collect();
     // Rows of angles are as long as those of lengths.
     let scale = |i: usize| if m.is_angular(i) { size } else { 1.0 };
     let drives = layout.drive_rows();
     Rows {
-        c: DMatrix::from_fn(layout.rows(), layout.n_v, |i, j| scale(i) * dense[(i, j)] * unit[j]),
+        c: DMatrix::from_fn(layout.rows(), layout.n_v, |i, j| {
+            scale(i) * dense[(i, j)] * unit[j]
+        }),
         b: DVector::from_fn(layout.rows(), |i, _| scale(i) * s.b[i]),
         mass: m.mass().iter().zip(&unit).map(|(m, u)| m * u * u).collect(),
         unit,
@@ -71,7 +79,9 @@ fn range(a: &DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
     let svd = wide.svd(true, false);
     let u = svd.u.expect("asked for");
     let largest = svd.singular_values.max();
-    let live: Vec<usize> = (0..n).filter(|&k| svd.singular_values[k] > ZERO * largest).collect();
+    let live: Vec<usize> = (0..n)
+        .filter(|&k| svd.singular_values[k] > ZERO * largest)
+        .collect();
     let dead: Vec<usize> = (0..n).filter(|k| !live.contains(k)).collect();
     (u.select_columns(&live), u.select_columns(&dead))
 }
@@ -151,7 +161,9 @@ fn held(sketch: &Sketch, rows: &Rows) -> Vec<Option<f64>> {
         let [vx, vy] = b.velocity.map_or([None; 2], |v| v.map(Some));
         [vx, vy, b.angular_velocity]
     });
-    all.zip(&rows.unit).map(|(v, unit)| v.map(|v| v / unit)).collect()
+    all.zip(&rows.unit)
+        .map(|(v, unit)| v.map(|v| v / unit))
+        .collect()
 }
 
 /// What is so.
@@ -172,9 +184,15 @@ fn split(held: &[Option<f64>]) -> (Vec<usize>, Vec<usize>) {
 }
 
 fn truth(rows: &Rows, held: &[Option<f64>]) -> Truth {
-    let size = rows.b.norm().max(held.iter().flatten().fold(0.0, |a: f64, v| a.max(v.abs())));
+    let size = rows
+        .b
+        .norm()
+        .max(held.iter().flatten().fold(0.0, |a: f64, v| a.max(v.abs())));
     if size == 0.0 {
-        return Truth::Velocities { g: held.iter().flatten().copied().collect(), is_exact: true };
+        return Truth::Velocities {
+            g: held.iter().flatten().copied().collect(),
+            is_exact: true,
+        };
     }
     if outside(&rows.c, &rows.b) > 1e-6 * rows.b.norm() {
         return Truth::Drives;
@@ -185,10 +203,16 @@ fn truth(rows: &Rows, held: &[Option<f64>]) -> Truth {
     let (_, z) = range(&cf);
     let rhs = z.transpose() * (&rows.b - &cg * &g);
     if rhs.norm() <= 1e-11 * size {
-        return Truth::Velocities { g: g.iter().copied().collect(), is_exact: true };
+        return Truth::Velocities {
+            g: g.iter().copied().collect(),
+            is_exact: true,
+        };
     }
     // The shortest correction in the mass metric.
-    let root = DVector::from_iterator(given.len(), given.iter().map(|&j| rows.mass[j].sqrt().recip()));
+    let root = DVector::from_iterator(
+        given.len(),
+        given.iter().map(|&j| rows.mass[j].sqrt().recip()),
+    );
     let a = z.transpose() * &cg * DMatrix::from_diagonal(&root);
     let delta = solve(&a, &rhs).component_mul(&root);
     let corrected = &g + &delta;
@@ -199,48 +223,81 @@ fn truth(rows: &Rows, held: &[Option<f64>]) -> Truth {
     // The limit is that of bodies that hang together: between these bounds the pieces of a scene may differ.
     match delta.amax() / fastest {
         share if share > 2e-2 => Truth::Given,
-        share if share < 1e-4 => Truth::Velocities { g: corrected.iter().copied().collect(), is_exact: false },
+        share if share < 1e-4 => Truth::Velocities {
+            g: corrected.iter().copied().collect(),
+            is_exact: false,
+        },
         _ => Truth::Border,
     }
 }
 
 /// Checks C·v = b, what is given, and M·v = Cᵀ·μ in what follows.
 fn check_accepted(rows: &Rows, held: &[Option<f64>], study: &Study, g: &[f64], is_exact: bool) {
-    let v: Vec<f64> = study.prepared.v.iter().zip(&rows.unit).map(|(v, u)| v / u).collect();
+    let v: Vec<f64> = study
+        .prepared
+        .v
+        .iter()
+        .zip(&rows.unit)
+        .map(|(v, u)| v / u)
+        .collect();
     let v = DVector::from_vec(v);
     let fastest = v.amax().max(rows.b.amax());
     let misses = (&rows.c * &v - &rows.b).amax();
-    assert!(misses <= AGREES * fastest, "C·v − b = {misses:e} of {fastest:e}");
+    assert!(
+        misses <= AGREES * fastest,
+        "C·v − b = {misses:e} of {fastest:e}"
+    );
     let (given, free) = split(held);
     for (&j, &g) in given.iter().zip(g) {
         let off = (v[j] - g).abs();
         let exact = held[j].expect("given");
-        assert!(off <= AGREES * fastest || is_exact && v[j] == exact, "given {g:e}, {off:e} off");
+        assert!(
+            off <= AGREES * fastest || is_exact && v[j] == exact,
+            "given {g:e}, {off:e} off"
+        );
     }
     // M·v in the range of C_Fᵀ.
     let momentum = DVector::from_iterator(free.len(), free.iter().map(|&j| rows.mass[j] * v[j]));
     let left = outside(&rows.c.select_columns(&free).transpose(), &momentum);
     let heaviest = rows.mass.iter().copied().fold(0.0, f64::max);
-    assert!(left <= AGREES * heaviest * fastest, "M·v − Cᵀ·μ = {left:e} of {:e}", heaviest * fastest);
+    assert!(
+        left <= AGREES * heaviest * fastest,
+        "M·v − Cᵀ·μ = {left:e} of {:e}",
+        heaviest * fastest
+    );
 }
 
 /// The scene without what is to be left out.
 fn without(sketch: &Sketch, leave_out: &[HeldVelocity]) -> Sketch {
     let mut sketch = sketch.clone();
     for held in leave_out {
-        let at = |name: &String, s: &Sketch| s.bodies.iter().position(|b| b.name == *name).expect("a body");
+        let at = |name: &String, s: &Sketch| {
+            s.bodies
+                .iter()
+                .position(|b| b.name == *name)
+                .expect("a body")
+        };
         match held {
             HeldVelocity::Velocity { body } => {
                 let k = at(body, &sketch);
-                assert!(sketch.bodies[k].velocity.take().is_some(), "`{body}` gives no velocity");
+                assert!(
+                    sketch.bodies[k].velocity.take().is_some(),
+                    "`{body}` gives no velocity"
+                );
             }
             HeldVelocity::AngularVelocity { body } => {
                 let k = at(body, &sketch);
-                assert!(sketch.bodies[k].angular_velocity.take().is_some(), "`{body}` gives no rate");
+                assert!(
+                    sketch.bodies[k].angular_velocity.take().is_some(),
+                    "`{body}` gives no rate"
+                );
             }
             HeldVelocity::Keep { body, coordinate } => {
                 let k = at(body, &sketch);
-                let dof = NAMES.iter().position(|name| name == coordinate).expect("a velocity");
+                let dof = NAMES
+                    .iter()
+                    .position(|name| name == coordinate)
+                    .expect("a velocity");
                 let before = sketch.keep.len();
                 sketch.keep.retain(|kept| *kept != (k, dof));
                 assert_eq!(sketch.keep.len() + 1, before);
@@ -271,7 +328,9 @@ fn refusal(sketch: &Sketch, error: &StudyError) -> Refusal {
             assert!(c.is_of_drives(), "{c}");
             Refusal::Drives
         }
-        Err(dynamics::MotionError::Start(StartError::Velocities(conflict))) => Refusal::Given(conflict),
+        Err(dynamics::MotionError::Start(StartError::Velocities(conflict))) => {
+            Refusal::Given(conflict)
+        }
         // Accelerations: with these velocities drives ask for what the joints do not go on with.
         Ok((_, Some(_))) => Refusal::Later,
         other => panic!("{:?}: {error}", other.err()),
@@ -303,7 +362,11 @@ fn a_thousand_random_starts() {
                 if is_exact { "accepted" } else { "corrected" }
             }
             (Truth::Drives, Err(e)) => {
-                assert!(matches!(refusal(&sketch, e), Refusal::Drives), "{e}\n{}", context());
+                assert!(
+                    matches!(refusal(&sketch, e), Refusal::Drives),
+                    "{e}\n{}",
+                    context()
+                );
                 "drives named"
             }
             (Truth::Given, Err(e)) => {
@@ -311,7 +374,11 @@ fn a_thousand_random_starts() {
                     panic!("{e}\n{}", context());
                 };
                 check_conflict(&bare, &held, &sketch, &conflict, &context());
-                if conflict.drives.is_empty() { "given velocity named" } else { "drive and given velocity named" }
+                if conflict.drives.is_empty() {
+                    "given velocity named"
+                } else {
+                    "drive and given velocity named"
+                }
             }
             (Truth::Velocities { .. }, Err(e)) => {
                 let is_later = matches!(refusal(&sketch, e), Refusal::Later);
@@ -323,10 +390,21 @@ fn a_thousand_random_starts() {
         *tally.entry(kind).or_default() += 1;
     }
     println!("{tally:?}");
-    for kind in ["accepted", "corrected", "drives named", "given velocity named", "drive and given velocity named"] {
+    for kind in [
+        "accepted",
+        "corrected",
+        "drives named",
+        "given velocity named",
+        "drive and given velocity named",
+    ] {
         assert!(tally.get(kind).is_some_and(|n| *n >= 20), "{tally:?}");
     }
-    assert!(tally.get("too near to a limit").is_none_or(|n| *n < SCENES / 20), "{tally:?}");
+    assert!(
+        tally
+            .get("too near to a limit")
+            .is_none_or(|n| *n < SCENES / 20),
+        "{tally:?}"
+    );
 }
 
 fn check_conflict(
@@ -337,20 +415,33 @@ fn check_conflict(
     context: &str,
 ) {
     // The velocity is given, and without it less is wrong.
-    let body = sketch.bodies.iter().position(|b| b.name == conflict.body).expect("a body");
-    let dof = NAMES.iter().position(|name| *name == conflict.coordinate).expect("a velocity");
+    let body = sketch
+        .bodies
+        .iter()
+        .position(|b| b.name == conflict.body)
+        .expect("a body");
+    let dof = NAMES
+        .iter()
+        .position(|name| *name == conflict.coordinate)
+        .expect("a velocity");
     let column = 3 * body + dof;
     assert!(held[column].is_some(), "{conflict}\n{context}");
     let miss = |held: &[Option<f64>], c: &DMatrix<f64>, b: &DVector<f64>| {
         let (given, free) = split(held);
         let g = DVector::from_iterator(given.len(), given.iter().filter_map(|&j| held[j]));
-        outside(&c.select_columns(&free), &(b - c.select_columns(&given) * g))
+        outside(
+            &c.select_columns(&free),
+            &(b - c.select_columns(&given) * g),
+        )
     };
     let before = miss(held, &rows.c, &rows.b);
     let mut freed = held.to_vec();
     freed[column] = None;
     let after = miss(&freed, &rows.c, &rows.b);
-    assert!(after < before * (1.0 - 1e-9), "{before:e} → {after:e}: {conflict}\n{context}");
+    assert!(
+        after < before * (1.0 - 1e-9),
+        "{before:e} → {after:e}: {conflict}\n{context}"
+    );
     // A drive is named if joints alone do not forbid the velocity with the others.
     let joints = rows.c.select_rows(&rows.is_joint_alone);
     let nothing = DVector::zeros(joints.nrows());
@@ -361,7 +452,10 @@ fn check_conflict(
         assert!(conflict.drives.is_empty(), "{conflict}\n{context}");
     }
     // What is advised works.
-    assert!(conflict.is_enough && !conflict.leave_out.is_empty(), "{conflict}\n{context}");
+    assert!(
+        conflict.is_enough && !conflict.leave_out.is_empty(),
+        "{conflict}\n{context}"
+    );
     let mended = without(sketch, &conflict.leave_out);
     match read(&mended.text()).prepare(&Overrides::default()) {
         Ok(_) => {}
@@ -371,9 +465,14 @@ fn check_conflict(
         ),
     }
     if conflict.can_be_corrected {
-        let allowed = sketch.text().replace("[start]", "[start]\nallow_correction = true");
+        let allowed = sketch
+            .text()
+            .replace("[start]", "[start]\nallow_correction = true");
         if let Err(e) = read(&allowed).prepare(&Overrides::default()) {
-            assert!(sketch.is_singular && e.only_motion().is_some(), "{e}\n{context}");
+            assert!(
+                sketch.is_singular && e.only_motion().is_some(),
+                "{e}\n{context}"
+            );
         }
     }
 }
@@ -400,17 +499,30 @@ fn locked_parts() {
                 )
             };
             for speed in [1e-9, 1e-3, 1.0, 1e3] {
-                for (velocity, rate) in [(speed * size, 0.0), (0.0, speed), (speed * size, -speed)] {
-                    let error = read(&scene(velocity, rate)).prepare(&Overrides::default()).err();
+                for (velocity, rate) in [(speed * size, 0.0), (0.0, speed), (speed * size, -speed)]
+                {
+                    let error = read(&scene(velocity, rate))
+                        .prepare(&Overrides::default())
+                        .err();
                     let said = error.expect("it is locked").to_string();
-                    assert!(said.contains("of body `part` is given as"), "{size:e}, {far}: {said}");
+                    assert!(
+                        said.contains("of body `part` is given as"),
+                        "{size:e}, {far}: {said}"
+                    );
                     assert!(said.contains("leave out"), "{said}");
                 }
             }
             for rounding in [0.0, 1e-17, -1e-20, 1e-300] {
-                let study = read(&scene(rounding * size, 0.3 * rounding)).prepare(&Overrides::default());
+                let study =
+                    read(&scene(rounding * size, 0.3 * rounding)).prepare(&Overrides::default());
                 let study = study.unwrap_or_else(|e| panic!("{size:e}, {rounding:e}: {e}"));
-                assert!(study.prepared.v.iter().all(|v| v.abs() <= rounding.abs() * size.max(1.0)));
+                assert!(
+                    study
+                        .prepared
+                        .v
+                        .iter()
+                        .all(|v| v.abs() <= rounding.abs() * size.max(1.0))
+                );
             }
         }
     }

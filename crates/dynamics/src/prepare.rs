@@ -118,13 +118,18 @@ pub fn prepare(
 /// Why no rows can be kept, if none can.
 fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionError> {
     if let Some(nearly) = found.inseparable(mechanism, 0.0, q) {
-        return Some(MotionError::inseparable(&nearly, &mechanism.layout().labels));
+        return Some(MotionError::inseparable(
+            &nearly,
+            &mechanism.layout().labels,
+        ));
     }
     let decisions = [&found.all, &found.holonomic];
-    decisions.into_iter().find_map(|decision| match decision.status {
-        RankStatus::Undecided(doubt) => Some(MotionError::RankUndecided(doubt)),
-        _ => None,
-    })
+    decisions
+        .into_iter()
+        .find_map(|decision| match decision.status {
+            RankStatus::Undecided(doubt) => Some(MotionError::RankUndecided(doubt)),
+            _ => None,
+        })
 }
 
 /// Velocities of an assembled start, see [`consistent_velocity`], and what stands against accelerations there: redundant rows may allow the velocities

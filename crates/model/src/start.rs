@@ -185,7 +185,11 @@ pub fn nearest_configuration(
     rows: &[usize],
     q: &[f64],
 ) -> Result<Vec<f64>, StartError> {
-    let weights = position_weights(mechanism, &StartOptions::default(), scene_size(mechanism, q))?;
+    let weights = position_weights(
+        mechanism,
+        &StartOptions::default(),
+        scene_size(mechanism, q),
+    )?;
     nearest(mechanism, &mut mechanism.scratch(), t, rows, &weights, q)
 }
 
@@ -221,7 +225,11 @@ const LIGHTEST: f64 = 1e-30;
 /// Inverse weights of the coordinates in the mass metric; what has no mass or inertia weighs as the smallest one that has it.
 fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let unit = |k: usize| if k % N_BODY == 2 { size * size } else { 1.0 };
-    let comparable = mechanism.mass().iter().enumerate().map(|(k, m)| m / unit(k));
+    let comparable = mechanism
+        .mass()
+        .iter()
+        .enumerate()
+        .map(|(k, m)| m / unit(k));
     let heaviest = comparable.filter(|m| m.is_finite()).fold(0.0, f64::max);
     let least = |(k, &m): (usize, &f64)| match m > 0.0 {
         true => m.max(LIGHTEST * heaviest * unit(k)),
@@ -252,10 +260,12 @@ fn kept_columns(
 ) -> Result<Vec<usize>, StartError> {
     let bodies = mechanism.bodies().len();
     let kept = options.keep.iter().filter(|c| c.level == level);
-    kept.map(|&Coordinate { body, dof, .. }| match body < bodies && dof < N_BODY {
-        true => Ok(N_BODY * body + dof),
-        false => Err(StartError::NoCoordinate { body, dof, bodies }),
-    })
+    kept.map(
+        |&Coordinate { body, dof, .. }| match body < bodies && dof < N_BODY {
+            true => Ok(N_BODY * body + dof),
+            false => Err(StartError::NoCoordinate { body, dof, bodies }),
+        },
+    )
     .collect()
 }
 

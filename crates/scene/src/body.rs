@@ -89,13 +89,11 @@ impl Bodies {
                 .and_then(|field| field.pair(key.expected, findings))
         };
         let (position, velocity) = (pair(&POSITION).unwrap_or_default(), pair(&VELOCITY));
-        let mut number = |key: &Key| {
-            table
-                .optional(key)
-                .and_then(|field| field.number(findings))
-        };
-        let (angle, angular_velocity) =
-            (number(&ANGLE).unwrap_or_default(), number(&ANGULAR_VELOCITY));
+        let mut number = |key: &Key| table.optional(key).and_then(|field| field.number(findings));
+        let (angle, angular_velocity) = (
+            number(&ANGLE).unwrap_or_default(),
+            number(&ANGULAR_VELOCITY),
+        );
         let tolerance = tolerance::read(&mut table, &TOLERANCE, findings);
         let at = self.list.len();
         let is_own = table.peek("name") == Some(name) && name != GROUND;

@@ -108,10 +108,19 @@ fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) 
             entry.map_or(0..0, |entry| entry.first_of(&[key]))
         }
     };
-    let word = if conflict.is_kept { "held here" } else { "given here" };
+    let word = if conflict.is_kept {
+        "held here"
+    } else {
+        "given here"
+    };
     match conflict.drives.first() {
-        Some(drive) => at(map, element_key(map, drive, &[]), error, "asks for other velocities")
-            .and(map.text.label(span, word)),
+        Some(drive) => at(
+            map,
+            element_key(map, drive, &[]),
+            error,
+            "asks for other velocities",
+        )
+        .and(map.text.label(span, word)),
         None => at(map, span, error, "not with these constraints"),
     }
 }
@@ -122,12 +131,22 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
         MotionError::Start(error) => return start(map, error),
         MotionError::Component { source, .. } => return motion(map, source),
         MotionError::Contradiction(contradiction) => {
-            return contradicting(map, contradiction.split_rows(), &contradiction.forcing(), error);
+            return contradicting(
+                map,
+                contradiction.split_rows(),
+                &contradiction.forcing(),
+                error,
+            );
         }
         MotionError::Option { name, .. } => (map.section("simulate", name), "not possible"),
         MotionError::Rows(_) => (map.section("simulate", "drop"), "not these rows"),
         MotionError::Trip(Trip::Drives { contradiction, .. }) => {
-            return contradicting(map, contradiction.split_rows(), &contradiction.forcing(), error);
+            return contradicting(
+                map,
+                contradiction.split_rows(),
+                &contradiction.forcing(),
+                error,
+            );
         }
         MotionError::Trip(trip) => match trip {
             Trip::RankLost { row: label, .. } => (row(map, label), "becomes dependent"),
@@ -156,11 +175,15 @@ fn contradicting(
     error: &impl std::error::Error,
 ) -> Diagnostic {
     // Rows that drives leave no way to go on are as they should be.
-    let mut spans = forcing.iter().take(MARKS).map(|drive| element_key(map, drive, &[]));
+    let mut spans = forcing
+        .iter()
+        .take(MARKS)
+        .map(|drive| element_key(map, drive, &[]));
     if let Some(first) = spans.next() {
-        return spans.fold(at(map, first, error, "asks for what cannot go on"), |d, span| {
-            d.and(map.text.label(span, "together with this one"))
-        });
+        return spans.fold(
+            at(map, first, error, "asks for what cannot go on"),
+            |d, span| d.and(map.text.label(span, "together with this one")),
+        );
     }
     let (rows, marks) = match drives.as_slice() {
         [] => (others, ["contradicts the others", "contradicts too"]),

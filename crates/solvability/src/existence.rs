@@ -117,7 +117,10 @@ impl Contradiction {
             let asked = words::list(&asked.collect::<Vec<_>>());
             let (word, verb) = match self.demands.len() {
                 1 => ("drive", "asks for a velocity"),
-                _ => ("drives", "contradict each other: together they ask for velocities"),
+                _ => (
+                    "drives",
+                    "contradict each other: together they ask for velocities",
+                ),
             };
             let drives = self.demands.iter().map(|d| format!("`{}`", d.drive));
             return format!(
@@ -387,7 +390,11 @@ impl Comparison<'_> {
             return BTreeSet::new();
         };
         let is_here = |k: usize| bodies(k).any(|body| component.binary_search(&body).is_ok());
-        let kept = self.decision.kept.iter().filter(|&&row| is_here(group(row)));
+        let kept = self
+            .decision
+            .kept
+            .iter()
+            .filter(|&&row| is_here(group(row)));
         let freedoms = component.len() * layout.n_v / mechanism.bodies().len();
         if kept.count() < freedoms {
             return BTreeSet::new();
@@ -396,6 +403,9 @@ impl Comparison<'_> {
             let functions = mechanism.prescribed(ConstraintId(*k), self.prescribed);
             layout.groups[*k].is_drive() && functions.iter().any(|[_, rate, _]| *rate != 0.0)
         };
-        (0..layout.groups.len()).filter(|&k| is_here(k)).filter(moves).collect()
+        (0..layout.groups.len())
+            .filter(|&k| is_here(k))
+            .filter(moves)
+            .collect()
     }
 }

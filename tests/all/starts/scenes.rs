@@ -75,13 +75,24 @@ impl Sketch {
             }
         }
         text.push_str(&self.rest);
-        let keep = self.keep.iter().map(|&(body, dof)| format!("\"{}.{}\"", self.bodies[body].name, NAMES[dof]));
-        write!(text, "[start]\nkeep = [{}]\n", keep.collect::<Vec<_>>().join(", ")).expect("memory");
+        let keep = self
+            .keep
+            .iter()
+            .map(|&(body, dof)| format!("\"{}.{}\"", self.bodies[body].name, NAMES[dof]));
+        write!(
+            text,
+            "[start]\nkeep = [{}]\n",
+            keep.collect::<Vec<_>>().join(", ")
+        )
+        .expect("memory");
         text
     }
 
     fn at(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [self.origin[0] + self.size * x, self.origin[1] + self.size * y]
+        [
+            self.origin[0] + self.size * x,
+            self.origin[1] + self.size * y,
+        ]
     }
 
     fn name(&mut self, kind: &str) -> String {
@@ -221,7 +232,11 @@ impl Sketch {
             (which @ (2 | 3), Some(rail)) => {
                 let rail = rail.clone();
                 self.drive(&rails[0], "displacement", rate);
-                self.drive(&rail, "displacement", if which == 2 { rate } else { 2.0 * rate });
+                self.drive(
+                    &rail,
+                    "displacement",
+                    if which == 2 { rate } else { 2.0 * rate },
+                );
             }
             _ => {}
         }

@@ -123,7 +123,9 @@ impl VelocityConflict {
         );
         let rows = named(&rows);
         match self.drives.as_slice() {
-            [] if self.rows.is_empty() => format!("{fact}, which the constraints do not allow: {nearest}"),
+            [] if self.rows.is_empty() => {
+                format!("{fact}, which the constraints do not allow: {nearest}")
+            }
             [] => {
                 let (do_not, beside) = match (self.rows.len(), self.with_others) {
                     (1, true) => ("does not", " beside what else is given"),
@@ -151,7 +153,9 @@ impl VelocityConflict {
         let mut ways = Vec::new();
         match out.as_slice() {
             [] => {}
-            [only] => ways.push(format!("leave out {only}, so that it follows from the others")),
+            [only] => ways.push(format!(
+                "leave out {only}, so that it follows from the others"
+            )),
             // All of them are told: less would not be enough.
             [first @ .., last] => ways.push(format!(
                 "leave out {} and {last}, so that they follow from the others",
@@ -173,7 +177,11 @@ impl VelocityConflict {
 
 /// A velocity with five digits; what is rounding of another one is none.
 fn short(x: f64, beside: f64) -> String {
-    let x = if x.abs() <= CANCELLED * beside.abs() { 0.0 } else { x };
+    let x = if x.abs() <= CANCELLED * beside.abs() {
+        0.0
+    } else {
+        x
+    };
     let rounded = format!("{x:.4e}");
     match x.abs() {
         size if size != 0.0 && !(1e-4..1e6).contains(&size) => rounded,
@@ -183,7 +191,12 @@ fn short(x: f64, beside: f64) -> String {
 
 /// The first of some names, and how many more.
 fn named(all: &[String]) -> String {
-    let first = all.iter().take(NAMED).cloned().collect::<Vec<_>>().join(", ");
+    let first = all
+        .iter()
+        .take(NAMED)
+        .cloned()
+        .collect::<Vec<_>>()
+        .join(", ");
     match all.len().saturating_sub(NAMED) {
         0 => first,
         more => format!("{first} and {more} more"),
@@ -214,7 +227,9 @@ impl Start<'_> {
             });
         };
         let mut v = self.written.clone();
-        let can_be_corrected = self.solve(rows, &self.hold, CorrectionLimit::Any, &mut v)?.is_none();
+        let can_be_corrected = self
+            .solve(rows, &self.hold, CorrectionLimit::Any, &mut v)?
+            .is_none();
         let (rows_at_fault, drives, with_others) = self.rows_at_fault(rows, column)?;
         let (leave_out, is_enough) = self.leave_out(rows, &columns)?;
         let body = &mechanism.bodies()[column / N_BODY];
@@ -246,7 +261,10 @@ impl Start<'_> {
         for &j in columns.iter().filter(|&&j| hold[j] == Hold::Kept) {
             all[j] = Hold::Given;
         }
-        if self.solve(rows, &all, CorrectionLimit::Any, nearest)?.is_some() {
+        if self
+            .solve(rows, &all, CorrectionLimit::Any, nearest)?
+            .is_some()
+        {
             return Ok(None);
         }
         let by = |j: usize| self.equations.arm(j) * (nearest[j] - self.written[j]).abs();
@@ -255,7 +273,10 @@ impl Start<'_> {
             (nearest[*j] - self.written[*j]).abs() > self.allowed(*j, columns, hold, nearest)
         };
         let farthest = |a: &usize, b: &usize| by(*a).total_cmp(&by(*b));
-        Ok(held().filter(is_far).max_by(farthest).or_else(|| held().max_by(farthest)))
+        Ok(held()
+            .filter(is_far)
+            .max_by(farthest)
+            .or_else(|| held().max_by(farthest)))
     }
 
     /// Rows that leave no other value to a velocity while the rest of what is held holds; what among them prescribes a motion; and whether others that
@@ -271,11 +292,19 @@ impl Start<'_> {
         tier.follow(of, &mut v)?;
         let takes_part = |circuit: &Circuit, column: usize| {
             let c = of.matrix(&circuit.rows, &[column]);
-            let terms = || circuit.coefficients.iter().zip(c.as_slice()).map(|(z, c)| z * c);
+            let terms = || {
+                circuit
+                    .coefficients
+                    .iter()
+                    .zip(c.as_slice())
+                    .map(|(z, c)| z * c)
+            };
             let size: f64 = terms().map(f64::abs).sum();
             terms().sum::<f64>().abs() > CANCELLED * size
         };
-        let shortest = tier.open(of, &v).filter(|circuit| takes_part(circuit, column));
+        let shortest = tier
+            .open(of, &v)
+            .filter(|circuit| takes_part(circuit, column));
         let (found, with_others) = match shortest.min_by_key(|c| c.rows.len()) {
             Some(circuit) => {
                 let columns = of.columns(&circuit.rows).into_iter();
@@ -286,7 +315,10 @@ impl Start<'_> {
             // Of large sets there are no circuits: the rows that do not hold.
             None => {
                 let is_open = |&i: &usize| of.residual(i, &v).abs() > of.rounding(i, &v);
-                (rows.iter().copied().filter(is_open).collect::<Vec<_>>(), true)
+                (
+                    rows.iter().copied().filter(is_open).collect::<Vec<_>>(),
+                    true,
+                )
             }
         };
         let layout = of.mechanism.layout();
@@ -295,9 +327,15 @@ impl Start<'_> {
             layout.groups[at].spec.rheonomic
         };
         let (drives, joints): (Vec<usize>, Vec<usize>) = found.into_iter().partition(prescribes);
-        let mut names: Vec<String> = drives.iter().map(|&i| layout.labels[i].joint.clone()).collect();
+        let mut names: Vec<String> = drives
+            .iter()
+            .map(|&i| layout.labels[i].joint.clone())
+            .collect();
         names.dedup();
-        let labels = drives.into_iter().chain(joints).map(|i| layout.labels[i].clone());
+        let labels = drives
+            .into_iter()
+            .chain(joints)
+            .map(|i| layout.labels[i].clone());
         Ok((labels.collect(), names, with_others))
     }
 
@@ -336,7 +374,9 @@ impl Start<'_> {
 
     /// Frees a velocity by what one who writes scenes can take away, and says how the velocities were held that this frees.
     fn free(&self, column: usize, hold: &mut [Hold]) -> (HeldVelocity, Vec<(usize, Hold)>) {
-        let body = self.equations.mechanism.bodies()[column / N_BODY].name.clone();
+        let body = self.equations.mechanism.bodies()[column / N_BODY]
+            .name
+            .clone();
         let first = column - column % N_BODY;
         let own = match column % N_BODY {
             2 => column..column + 1,
@@ -350,7 +390,10 @@ impl Start<'_> {
             };
             let coordinate = NAMES[kept % N_BODY];
             let before = std::mem::replace(&mut hold[kept], to);
-            return (HeldVelocity::Keep { body, coordinate }, vec![(kept, before)]);
+            return (
+                HeldVelocity::Keep { body, coordinate },
+                vec![(kept, before)],
+            );
         }
         let what = match column % N_BODY {
             2 => HeldVelocity::AngularVelocity { body },

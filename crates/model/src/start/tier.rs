@@ -157,9 +157,7 @@ impl<'m> Equations<'m> {
             known,
             ..
         } = self;
-        known.get_or_insert_with(|| {
-            mechanism.uncertainty_of_entries(s, q, *size, Known::AsStored)
-        });
+        known.get_or_insert_with(|| mechanism.uncertainty_of_entries(s, q, *size, Known::AsStored));
     }
 
     fn known(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
@@ -222,7 +220,8 @@ impl Tier {
                 continue;
             }
             let exponents = of.mechanism.dimension_scaling(of.size).cols;
-            let scaled = |k: usize, l: usize, x: f64| (k, l, x * f64::from(exponents[columns[l]]).exp2());
+            let scaled =
+                |k: usize, l: usize, x: f64| (k, l, x * f64::from(exponents[columns[l]]).exp2());
             let mut c = Matrix::zeros(set.len(), columns.len());
             let mut known = Matrix::zeros(set.len(), columns.len());
             for (k, &i) in set.iter().enumerate() {
@@ -262,7 +261,9 @@ impl Tier {
     /// # Errors
     /// If a row is not finite.
     pub(super) fn follow(&mut self, of: &Equations<'_>, v: &mut [f64]) -> Result<(), StartError> {
-        self.parts.iter_mut().try_for_each(|part| part.follow(of, v))
+        self.parts
+            .iter_mut()
+            .try_for_each(|part| part.follow(of, v))
     }
 
     /// Circuits whose sum of residuals is above the rounding of its terms.
@@ -310,7 +311,9 @@ impl Part {
         let mut blocks: Vec<std::ops::Range<usize>> = Vec::new();
         for l in 0..columns.len() {
             match blocks.last_mut() {
-                Some(last) if columns[last.start] / N_BODY == columns[l] / N_BODY => last.end = l + 1,
+                Some(last) if columns[last.start] / N_BODY == columns[l] / N_BODY => {
+                    last.end = l + 1
+                }
                 _ => blocks.push(l..l + 1),
             }
         }

@@ -152,7 +152,8 @@ impl<'m> Start<'m> {
     /// Whether one of these rows misses by more than rounding.
     fn misses(&self, rows: &[usize], v: &[f64]) -> bool {
         let of = &self.equations;
-        rows.iter().any(|&i| !(of.residual(i, v).abs() <= of.rounding(i, v)))
+        rows.iter()
+            .any(|&i| !(of.residual(i, v).abs() <= of.rounding(i, v)))
     }
 
     /// Finds the velocities of some rows, all that share one with them. Returns why there are none to be taken.
@@ -176,9 +177,14 @@ impl<'m> Start<'m> {
         }
         let mut tier = Tier::new(of, rows, |j| hold[j] == Hold::No)?;
         tier.follow(of, v)?;
-        let given: Vec<usize> = columns.iter().copied().filter(|&j| hold[j] == Hold::Given).collect();
+        let given: Vec<usize> = columns
+            .iter()
+            .copied()
+            .filter(|&j| hold[j] == Hold::Given)
+            .collect();
         for _ in 0..PASSES {
-            let is_open = tier.open(of, v).next().is_some() || rows.len() > DENSE_ROWS && self.misses(rows, v);
+            let is_open = tier.open(of, v).next().is_some()
+                || rows.len() > DENSE_ROWS && self.misses(rows, v);
             if given.is_empty() || !is_open {
                 break;
             }
@@ -188,7 +194,9 @@ impl<'m> Start<'m> {
             }
             tier.follow(of, v)?;
         }
-        Ok(self.open(rows, v).or_else(|| self.far(&columns, hold, limit, v)))
+        Ok(self
+            .open(rows, v)
+            .or_else(|| self.far(&columns, hold, limit, v)))
     }
 
     /// Adds the shortest correction of given velocities that closes the circuits.
@@ -199,7 +207,11 @@ impl<'m> Start<'m> {
         for circuit in &tier.circuits {
             let c = of.matrix(&circuit.rows, given);
             let sum = c.transpose_times(&circuit.coefficients);
-            let terms = |l: usize| (0..c.nrows()).map(|k| (circuit.coefficients[k] * c[(k, l)]).abs()).sum::<f64>();
+            let terms = |l: usize| {
+                (0..c.nrows())
+                    .map(|k| (circuit.coefficients[k] * c[(k, l)]).abs())
+                    .sum::<f64>()
+            };
             let largest = (0..given.len()).map(terms).fold(0.0, f64::max);
             // Rows among velocities that are kept: nothing that is given closes them.
             if sum.iter().all(|x| x.abs() <= CANCELLED * largest) {
@@ -225,7 +237,8 @@ impl<'m> Start<'m> {
         let of = &self.equations;
         let mut columns = of.columns(rows);
         columns.retain(|&j| hold[j] != Hold::Kept);
-        let cost = |&j: &usize| of.weights[j].recip() * if hold[j] == Hold::No { CHEAP } else { 1.0 };
+        let cost =
+            |&j: &usize| of.weights[j].recip() * if hold[j] == Hold::No { CHEAP } else { 1.0 };
         let masses: Vec<f64> = columns.iter().map(cost).collect();
         let mut moved = v.to_vec();
         if let Some(mut part) = Part::schur(of, rows, columns.clone(), &masses)? {
@@ -241,10 +254,12 @@ impl<'m> Start<'m> {
     fn open(&self, rows: &[usize], v: &[f64]) -> Option<Miss> {
         let of = &self.equations;
         // Rounding may leave a little more than that of the terms of one row.
-        let excess = |i: usize| {
-            of.residual(i, v).abs() / (ROUNDINGS * of.rounding(i, v) + of.rest(i))
-        };
-        let excesses = rows.iter().map(|&i| (i, excess(i))).filter(|(i, _)| of.residual(*i, v) != 0.0);
+        let excess =
+            |i: usize| of.residual(i, v).abs() / (ROUNDINGS * of.rounding(i, v) + of.rest(i));
+        let excesses = rows
+            .iter()
+            .map(|&i| (i, excess(i)))
+            .filter(|(i, _)| of.residual(*i, v) != 0.0);
         let (row, worst) = super::largest(excesses);
         (!(worst <= 1.0)).then_some(Miss::Open(row))
     }

@@ -322,10 +322,15 @@ fn without(scene: &str, message: &str) -> String {
         text = match names.as_slice() {
             ["", entry, " in ", "keep", ""] => text.replace(&format!("\"{entry}\""), ""),
             ["", key, " of body ", body, ""] => {
-                let at = text.find(&format!("name = \"{body}\"")).expect("the body");
+                let at = text
+                    .find(&format!("[[body]]\nname = \"{body}\""))
+                    .expect("the body");
                 let (before, after) = text.split_at(at);
-                let (own, rest) = after.split_at(after[1..].find("[[").map_or(after.len(), |k| k + 1));
-                let lines = own.lines().filter(|line| !line.starts_with(&format!("{key} =")));
+                let (own, rest) =
+                    after.split_at(after[1..].find("[[").map_or(after.len(), |k| k + 1));
+                let lines = own
+                    .lines()
+                    .filter(|line| !line.starts_with(&format!("{key} =")));
                 format!("{before}{}\n{rest}", lines.collect::<Vec<_>>().join("\n"))
             }
             other => panic!("{other:?} in {message}"),
@@ -338,7 +343,8 @@ fn without(scene: &str, message: &str) -> String {
 #[test]
 fn the_advice_on_velocities_works() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/wrong");
-    let read = |name: &str| std::fs::read_to_string(format!("{folder}/{name}.toml")).expect("a scene");
+    let read =
+        |name: &str| std::fs::read_to_string(format!("{folder}/{name}.toml")).expect("a scene");
     let bar = |k: usize, velocity: &str| {
         format!(
             "[[body]]\nname = \"bar {k}\"\nmass = 1.0\ninertia = 0.1\nposition = [{}.5, 0.0]\n{velocity}\n",
@@ -346,7 +352,9 @@ fn the_advice_on_velocities_works() {
         )
     };
     let pin = |k: usize, bodies: &str| {
-        format!("[[joint]]\nname = \"pin {k}\"\ntype = \"revolute\"\nbodies = [{bodies}]\nat = [{k}.0, 0.0]\n")
+        format!(
+            "[[joint]]\nname = \"pin {k}\"\ntype = \"revolute\"\nbodies = [{bodies}]\nat = [{k}.0, 0.0]\n"
+        )
     };
     // Three bars in a row on two pivots: locked along, and across but for the middle ones.
     let chain = format!(

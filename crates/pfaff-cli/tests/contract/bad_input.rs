@@ -478,7 +478,10 @@ fn velocities_that_contradict_the_constraints_are_refused_by_name() {
     );
     let output = with_scene(&["check", "-"], &format!("{PENDULUM}{motor}"));
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
-    for start in ["allow_correction = true", "keep = [\"bob.omega\"]\nallow_correction = true"] {
+    for start in [
+        "allow_correction = true",
+        "keep = [\"bob.omega\"]\nallow_correction = true",
+    ] {
         let scene = PENDULUM.replace(
             "position = [1.0, 0.0]",
             "position = [1.0, 0.0]\nvelocity = [0.0, 1.01]\nangular_velocity = 1.0",

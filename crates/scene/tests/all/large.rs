@@ -74,7 +74,9 @@ fn a_hundred_thousand_joints_are_read_and_started_without_a_matrix() {
     mechanism.c(&mut s);
     mechanism.b(&mut s);
     let misses = |i: usize| mechanism.layout().velocity_residual(&s, i, &found.v).abs();
-    let worst = (0..mechanism.layout().rows()).map(misses).fold(0.0, f64::max);
+    let worst = (0..mechanism.layout().rows())
+        .map(misses)
+        .fold(0.0, f64::max);
     assert!(worst < 1e-9, "{worst:e}");
     assert!(begin.elapsed() < PATIENCE, "{:?}", begin.elapsed());
 }

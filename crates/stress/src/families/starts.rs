@@ -129,10 +129,8 @@ fn corrected(text: &str, off: f64) -> Result<Outcome, Outcome> {
 /// The bob is described with (0, 1) m/s and no rotation: the nearest motion turns about the pivot.
 fn turned(ratio: f64) -> Result<Outcome, Outcome> {
     let allowed = "start = { allow_correction = true }";
-    let given = bob(0.0, 1.0, ratio, [0.7, 1.0], allowed).replace(
-        "velocity = [",
-        "angular_velocity = 0.0, velocity = [",
-    );
+    let given = bob(0.0, 1.0, ratio, [0.7, 1.0], allowed)
+        .replace("velocity = [", "angular_velocity = 0.0, velocity = [");
     let found = study(&given)?.prepared;
     let omega = 1.0 / (1.0 + ratio);
     let error = worst([
