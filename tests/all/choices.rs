@@ -301,12 +301,12 @@ fn three_cranks(theta: f64, rate: f64) -> Description {
     let tangent = [theta.cos(), theta.sin()];
     for crank in &mut d.bodies[..3] {
         let inertia = 1.2 * length * length / 12.0;
-        (crank.mass, crank.inertia, crank.angular_velocity) = (1.2, inertia, rate);
-        crank.velocity = tangent.map(|t| 0.5 * length * rate * t);
+        (crank.mass, crank.inertia, crank.angular_velocity) = (1.2, inertia, Some(rate));
+        crank.velocity = Some(tangent.map(|t| 0.5 * length * rate * t));
     }
     let coupler = rod("coupler", 3.0, [-half_span, 0.0], [half_span, 0.0]);
     (d.bodies[3].mass, d.bodies[3].inertia) = (coupler.mass, coupler.inertia);
-    d.bodies[3].velocity = tangent.map(|t| length * rate * t);
+    d.bodies[3].velocity = Some(tangent.map(|t| length * rate * t));
     d
 }
 
@@ -455,7 +455,7 @@ fn contradicting_drives_have_no_reactions() {
     let with = |rates: [[f64; 2]; 2]| {
         let joints = vec![drive("first", rates[0]), drive("second", rates[1])];
         let mut d = bar(joints, vec![load([10.0, 0.0], [0.0, 0.0])]);
-        d.bodies[0].velocity = [2.0, 0.0];
+        d.bodies[0].velocity = Some([2.0, 0.0]);
         // Not by `prepare`, which refuses such drives itself.
         let mechanism = Mechanism::build(&d).expect("builds");
         let (q, v) = mechanism.described_state();

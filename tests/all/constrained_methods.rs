@@ -84,8 +84,8 @@ fn the_motion_is_that_of_the_index_one_equations() {
 fn generalized_alpha_steps_over_the_oscillations_of_a_stiff_spring() {
     let mut held = falling_cranks();
     for body in &mut held.bodies {
-        body.velocity = [0.0; 2];
-        body.angular_velocity = 0.0;
+        body.velocity = Some([0.0; 2]);
+        body.angular_velocity = Some(0.0);
     }
     let spring = SpringDamper {
         s_i: [0.3, 2.0],

@@ -44,7 +44,7 @@ fn steered(displacement: f64) -> Case {
     let ramp = Function::steps(0.0, &[[0.0, 1.0, displacement]]).expect("a step");
     let mut d = robot(ramp);
     for body in &mut d.bodies {
-        body.velocity = [0.0, 0.0];
+        body.velocity = None;
     }
     let mechanism = Mechanism::build(&d).expect("the robot builds");
     let rows = dynamics::RowChoice::Automatic;

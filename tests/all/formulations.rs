@@ -210,8 +210,8 @@ fn proximal_iterations_are_tuned_again() {
     let coupler = d.bodies.len() - 1;
     for (k, body) in d.bodies.iter_mut().enumerate() {
         let arm = if k == coupler { length } else { 0.5 * length };
-        body.velocity = [-arm * rate * theta.sin(), arm * rate * theta.cos()];
-        body.angular_velocity = if k == coupler { 0.0 } else { rate };
+        body.velocity = Some([-arm * rate * theta.sin(), arm * rate * theta.cos()]);
+        body.angular_velocity = Some(if k == coupler { 0.0 } else { rate });
     }
     let p = started(&d, &RowChoice::Automatic);
     let kept = Run::of(&p, &to(1.1, Formulation::KeptRows, 1e-10));

@@ -59,26 +59,26 @@ fn description() -> Description {
             d.body(Body {
                 position: [x, 0.4],
                 angle: 0.9272952180016122,
-                velocity: [-0.4, 0.3],
-                angular_velocity: 1.0,
+                velocity: Some([-0.4, 0.3]),
+                angular_velocity: Some(1.0),
                 ..Body::new(name, mass, inertia)
             })
         })
         .collect();
     let coupler = d.body(Body {
         position: [1.6, 0.8],
-        velocity: [-0.8, 0.6],
+        velocity: Some([-0.8, 0.6]),
         ..Body::new("coupler", 4.0, 0.7)
     });
     let slide = d.body(Body {
         position: [1.7, 0.8],
-        velocity: [-0.5316718427, 0.7341640786],
+        velocity: Some([-0.5316718427, 0.7341640786]),
         ..Body::new("slide", 0.5, 0.1)
     });
     let cart = d.body(Body {
         position: [0.0, -3.0],
-        velocity: [0.5, 0.0],
-        angular_velocity: 1.0,
+        velocity: Some([0.5, 0.0]),
+        angular_velocity: Some(1.0),
         ..Body::new("cart", 10.0, 1.0)
     });
     let at = |d: &Description, i, j, point| Revolute {

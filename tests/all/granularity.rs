@@ -556,7 +556,7 @@ fn questions_without_an_answer_are_refused() {
 #[test]
 fn coordinates_to_keep_must_exist() {
     let mut m = Mechanism::build(&robot(steering())).expect("builds");
-    let (q, v) = m.described_state();
+    let (q, given) = (m.described_state().0, m.given_velocities());
     for (body, dof) in [(7, 0), (0, 3), (usize::MAX, 0)] {
         let keep = |level| StartOptions {
             keep: vec![Coordinate { body, dof, level }],
@@ -571,7 +571,7 @@ fn coordinates_to_keep_must_exist() {
             assemble(&mut m, &keep(KeepLevel::Position)),
             Err(expected.clone())
         );
-        let velocity = consistent_velocity(&m, &keep(KeepLevel::Velocity), &q, &v, &[0]);
+        let velocity = consistent_velocity(&m, &keep(KeepLevel::Velocity), &q, &given, &[0]);
         assert_eq!(velocity, Err(expected));
     }
 }

@@ -218,16 +218,16 @@ mod held {
         let (sin, cos) = theta.sin_cos();
         for crank in &mut d.bodies[..3] {
             crank.inertia = 0.1;
-            crank.angular_velocity = omega;
-            crank.velocity = [-0.5 * omega * sin, 0.5 * omega * cos];
+            crank.angular_velocity = Some(omega);
+            crank.velocity = Some([-0.5 * omega * sin, 0.5 * omega * cos]);
         }
         d.bodies[3].mass = 0.5;
-        d.bodies[3].velocity = [-omega * sin, omega * cos];
+        d.bodies[3].velocity = Some([-omega * sin, omega * cos]);
         d.bodies.push(Body {
             name: "hand".into(),
             mass: 1.0,
             inertia: 0.01,
-            angular_velocity: 0.3,
+            angular_velocity: Some(0.3),
             ..Body::default()
         });
         let pair = [BodyRef::Ground, BodyRef::Body(4)];
@@ -312,8 +312,8 @@ fn charts_are_renewed_as_a_blade_turns() {
             name: "sleigh".into(),
             mass: 1.0,
             inertia: 0.5,
-            velocity: [speed, 0.0],
-            angular_velocity: omega,
+            velocity: Some([speed, 0.0]),
+            angular_velocity: Some(omega),
             ..Body::default()
         }],
         joints: vec![Joint::new("edge", &[BodyRef::Body(0)], edge)],

@@ -118,8 +118,8 @@ fn masses_loads_and_speed() {
             for body in &mut d.bodies {
                 body.mass = 10_f64.powi(numbers.between(-9, 9));
                 body.inertia = 10_f64.powi(numbers.between(-9, 9));
-                body.velocity = [1e3 * numbers.unit(), numbers.unit()];
-                body.angular_velocity = 100.0 * numbers.unit();
+                body.velocity = Some([1e3 * numbers.unit(), numbers.unit()]);
+                body.angular_velocity = Some(100.0 * numbers.unit());
             }
             assert_eq!(said(&analysed(&d)), expected);
         }

@@ -293,7 +293,7 @@ fn steered_edges_at_a_right_angle_split_the_circuits() {
         let ramp = Function::steps(0.0, &[[0.0, 1.0, displacement]]).expect("a step");
         let mut description = robot(ramp);
         for body in &mut description.bodies {
-            body.velocity = [0.0, 0.0];
+            body.velocity = None;
         }
         let mechanism = Mechanism::build(&description).expect("the robot builds");
         let p =

@@ -30,5 +30,5 @@ pub use events::{Event, EventKind};
 pub use motion::{Correction, KeptRowMotion, Motion, Reduced};
 pub use options::{Formulation, Method, MotionOptions, RowChoice, Stabilisation};
 pub use plan::{Plan, Wanted};
-pub use prepare::{Prepared, prepare};
+pub use prepare::{Prepared, prepare, start_velocity};
 pub use simulate::{ComponentSummary, Failure, Sample, Summary, simulate};

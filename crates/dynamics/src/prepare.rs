@@ -4,9 +4,11 @@
 use std::sync::Arc;
 
 use linalg::RankStatus;
-use model::start::{assemble, consistent_velocity, velocity_correction};
-use model::{Assembly, Mechanism, StartOptions, System};
-use solvability::{RowDecision, Rows, decide_rows_dropping, rows as rows_of};
+use model::start::{StartVelocity, assemble, consistent_velocity};
+use model::{Assembly, Mechanism, StartError, StartOptions, System};
+use solvability::{
+    ConstraintLevel, Contradiction, RowDecision, Rows, decide_rows_dropping, rows as rows_of,
+};
 
 use crate::code::SceneCode;
 use crate::error::{DropError, MotionError};
@@ -32,7 +34,7 @@ pub struct Prepared {
     pub decided: Option<Arc<Rows>>,
     /// How the configuration was assembled.
     pub assembly: Assembly,
-    /// Velocities at the start minus the described ones.
+    /// Velocities at the start minus the given ones; zero where none is given.
     pub velocity_correction: Vec<f64>,
     /// Code generated for this mechanism on these rows, if there is some: see [`Prepared::with_code`].
     pub(crate) code: Option<Arc<dyn SceneCode>>,
@@ -78,24 +80,25 @@ pub fn prepare(
     mechanism.phi(&mut s);
     mechanism.c(&mut s);
     let found = rows_of(&mechanism, 0.0, &assembly.q)?;
-    if let Some(nearly) = found.inseparable(&mechanism, 0.0, &assembly.q) {
-        return Err(MotionError::inseparable(&nearly, &layout.labels));
-    }
-    for decision in [&found.all, &found.holonomic] {
-        if let RankStatus::Undecided(doubt) = decision.status {
-            return Err(MotionError::RankUndecided(doubt));
-        }
+    if let Some(error) = unmovable(&mechanism, &found, &assembly.q) {
+        // What no motion has is said first: it is wrong also where the mechanism is only judged.
+        return Err(match found.are_certified() {
+            true => start_velocity(&mechanism, start, &found, &assembly.q, &found.all.kept)
+                .err()
+                .filter(|e| !matches!(e, MotionError::Start(StartError::NoVelocity { .. })))
+                .unwrap_or(error),
+            false => error,
+        });
     }
     let decision = match rows {
         RowChoice::Automatic => found.all.clone(),
         RowChoice::Drop(dropped) => decide_rows_dropping(&mechanism, &s, &assembly.q, dropped)
             .map_err(|e| DropError::new(e, &layout.labels, found.all.redundancy))?,
     };
-    let v = consistent_velocity(&mechanism, start, &assembly.q, &assembly.v, &decision.kept)?;
-    let velocity_correction = velocity_correction(&mechanism, start, &assembly.q, &assembly.v, &v)?;
-    let contradictions = found.contradictions(&mechanism, 0.0, &assembly.q, &v)?;
-    if let Some(worst) = contradictions.into_iter().next() {
-        return Err(worst.into());
+    let (StartVelocity { v, correction }, against) =
+        start_velocity(&mechanism, start, &found, &assembly.q, &decision.kept)?;
+    if let Some(contradiction) = against {
+        return Err(contradiction.into());
     }
     let q = assembly.q.clone();
     Ok(Prepared {
@@ -107,7 +110,61 @@ pub fn prepare(
         position_decision: found.holonomic.clone(),
         decided: Some(Arc::new(found)),
         assembly,
-        velocity_correction,
+        velocity_correction: correction,
         code: None,
     })
+}
+
+/// Why no rows can be kept, if none can.
+fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionError> {
+    if let Some(nearly) = found.inseparable(mechanism, 0.0, q) {
+        return Some(MotionError::inseparable(
+            &nearly,
+            &mechanism.layout().labels,
+        ));
+    }
+    let decisions = [&found.all, &found.holonomic];
+    decisions
+        .into_iter()
+        .find_map(|decision| match decision.status {
+            RankStatus::Undecided(doubt) => Some(MotionError::RankUndecided(doubt)),
+            _ => None,
+        })
+}
+
+/// Velocities of an assembled start, see [`consistent_velocity`], and what stands against accelerations there: redundant rows may allow the velocities
+/// but no motion that begins with them. Rows that contradict each other whatever is given, as drives may, are named before given velocities that
+/// contradict them.
+///
+/// # Errors
+/// - [`MotionError::Start`]: no motion has the given velocities.
+/// - [`MotionError::Contradiction`]: redundant rows ask for different positions or velocities.
+pub fn start_velocity(
+    mechanism: &Mechanism,
+    start: &StartOptions,
+    rows: &Rows,
+    q: &[f64],
+    kept: &[usize],
+) -> Result<(StartVelocity, Option<Contradiction>), MotionError> {
+    let given = mechanism.given_velocities();
+    let found = consistent_velocity(mechanism, start, q, &given, kept);
+    if !rows.all.is_decided() || !rows.holonomic.is_decided() {
+        return Ok((found?, None));
+    }
+    let free;
+    let v = match &found {
+        Ok(found) => &found.v,
+        Err(_) => {
+            let nothing = vec![None; given.len()];
+            free = consistent_velocity(mechanism, &StartOptions::default(), q, &nothing, kept)?;
+            &free.v
+        }
+    };
+    let all = rows.contradictions(mechanism, 0.0, q, v)?;
+    let is_late = |c: &Contradiction| c.level == ConstraintLevel::Acceleration;
+    let (late, now): (Vec<_>, Vec<_>) = all.into_iter().partition(is_late);
+    match now.into_iter().next() {
+        Some(worst) => Err(worst.into()),
+        None => Ok((found?, late.into_iter().next())),
+    }
 }

@@ -124,17 +124,18 @@ pub struct Body {
     pub position: [f64; 2],
     /// Angle (rad).
     pub angle: f64,
-    /// Velocity of the centre of mass (m/s).
-    pub velocity: [f64; 2],
-    /// Angular velocity (rad/s).
-    pub angular_velocity: f64,
+    /// Velocity of the centre of mass (m/s). `None`: it follows from the given velocities and from what moves by itself, with the least
+    /// kinetic energy.
+    pub velocity: Option<[f64; 2]>,
+    /// Angular velocity (rad/s). `None`: it follows in the same way.
+    pub angular_velocity: Option<f64>,
     /// What points and directions in its frame are known to (m; directions: divided by the size of the mechanism); goes before that of
     /// the scene.
     pub tolerance: Option<f64>,
 }
 
 impl Body {
-    /// A body of this mass (kg) and moment of inertia about the centre of mass (kg·m²), at rest at the origin.
+    /// A body of this mass (kg) and moment of inertia about the centre of mass (kg·m²), at the origin, its velocities not given.
     #[must_use]
     pub fn new(name: &str, mass: f64, inertia: f64) -> Self {
         Self {

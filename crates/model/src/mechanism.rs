@@ -163,7 +163,7 @@ impl Mechanism {
         &self.bodies
     }
 
-    /// Coordinates and velocities as described, not corrected.
+    /// Coordinates and velocities as described, not corrected; velocities that are not given are zero here.
     #[must_use]
     pub fn described_state(&self) -> (Vec<f64>, Vec<f64>) {
         let q = self
@@ -171,12 +171,18 @@ impl Mechanism {
             .iter()
             .flat_map(|b| [b.position[0], b.position[1], b.angle])
             .collect();
-        let v = self
-            .bodies
-            .iter()
-            .flat_map(|b| [b.velocity[0], b.velocity[1], b.angular_velocity])
-            .collect();
-        (q, v)
+        let v = self.given_velocities().into_iter();
+        (q, v.map(Option::unwrap_or_default).collect())
+    }
+
+    /// Velocities that the description gives, n_v.
+    #[must_use]
+    pub fn given_velocities(&self) -> Vec<Option<f64>> {
+        let of = |b: &Body| {
+            let [vx, vy] = b.velocity.map_or([None; 2], |v| v.map(Some));
+            [vx, vy, b.angular_velocity]
+        };
+        self.bodies.iter().flat_map(of).collect()
     }
 
     /// Whether forces are applied that a potential of the weight does not explain: energy may be fed or lost.

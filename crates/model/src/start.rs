@@ -4,19 +4,28 @@
 //! No rank is decided here: away from the constraints a redundant row is not yet redundant. The correction is the
 //! regularised least-squares step of `linalg`, repeated to rounding.
 
-use linalg::{Matrix, StepError, least_squares_step};
+mod conflict;
+mod error;
+mod tier;
+mod velocity;
+
+use linalg::{Matrix, least_squares_step};
 
 use crate::mechanism::{Mechanism, N_BODY};
-use crate::system::{Layout, RowLabel, Scratch, System};
+use crate::system::{Layout, Scratch, System};
 use crate::uncertainty::ROUNDING;
+
+pub use conflict::{HeldVelocity, VelocityConflict};
+pub use error::{Misfit, StartError};
+pub use velocity::{StartVelocity, consistent_velocity};
 
 /// What a start may and may not do.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StartOptions {
-    /// Coordinates and velocities that keep their described values exactly.
+    /// Coordinates and velocities that keep their described values exactly; a velocity that is not given keeps zero.
     pub keep: Vec<Coordinate>,
     /// Whether a correction of more than a thousandth of the scene's size is accepted, or one of given velocities by more than a
-    /// thousandth of the fastest.
+    /// thousandth of the fastest that hang together with them.
     pub correction: CorrectionLimit,
 }
 
@@ -55,8 +64,6 @@ pub enum KeepLevel {
 pub struct Assembly {
     /// Coordinates on the constraints.
     pub q: Vec<f64>,
-    /// Velocities as described, not yet on the constraints.
-    pub v: Vec<f64>,
     /// `q` minus the described coordinates.
     pub correction: Vec<f64>,
     /// Largest |Φ|.
@@ -65,138 +72,11 @@ pub struct Assembly {
     pub size: f64,
 }
 
-/// Why no consistent start was found.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StartError {
-    /// The constraints cannot be satisfied from the described configuration.
-    #[error(
-        "the constraints cannot be assembled: after {iterations} iterations these rows still miss: {}; \
-         they contradict each other, or the start is too far from an assembled one",
-        list(rows)
-    )]
-    NoAssembly {
-        /// The rows that cannot be reconciled, the worst first.
-        rows: Vec<Misfit>,
-        /// Iterations made.
-        iterations: usize,
-    },
-    /// The nearest assembled configuration is far from the described one.
-    #[error(
-        "the start must be corrected by {correction:.3e} ({coordinate} of body `{body}`), more than the allowed {limit:.3e}; \
-         correct the scene, or set `allow_correction = true` in `[start]`"
-    )]
-    LargeCorrection {
-        /// The body that moves most.
-        body: String,
-        /// Which coordinate.
-        coordinate: &'static str,
-        /// By how much.
-        correction: f64,
-        /// What is allowed.
-        limit: f64,
-    },
-    /// The nearest velocities that the constraints allow are far from given ones.
-    #[error(
-        "the start must be corrected by {:.3e} ({coordinate} of body `{body}`: given {given}, corrected {corrected:.4e}), more than the allowed {limit:.3e}; \
-         correct the velocities of the scene; or leave out those that follow from others, and hold these by `keep`, as \
-         `keep = [\"{body}.{coordinate}\"]` in `[start]`; or set `allow_correction = true` there",
-        (corrected - given).abs()
-    )]
-    LargeVelocityCorrection {
-        /// The body whose velocity changes most.
-        body: String,
-        /// `vx`, `vy` or `omega`.
-        coordinate: &'static str,
-        /// The velocity that is given.
-        given: f64,
-        /// The one that satisfies the constraints.
-        corrected: f64,
-        /// What the difference may be.
-        limit: f64,
-    },
-    /// A definition requires something that the start does not have.
-    #[error("`{name}` requires at the start: {requirement}")]
-    Requirement {
-        /// The joint, drive or force.
-        name: String,
-        /// What is required.
-        requirement: &'static str,
-    },
-    /// A coordinate that does not exist is to be kept.
-    #[error(
-        "`keep` names coordinate {dof} of body {body}; bodies are 0..{bodies}, coordinates 0 x, 1 y, 2 angle"
-    )]
-    NoCoordinate {
-        /// The body asked for.
-        body: usize,
-        /// The coordinate asked for.
-        dof: usize,
-        /// Number of bodies.
-        bodies: usize,
-    },
-    /// The velocity constraints cannot be satisfied with the velocities that are kept.
-    #[error(
-        "no velocities satisfy the constraints: row {worst} still misses by {residual:.3e}; \
-         the velocities held by `keep` leave no freedom for it, or redundant drives contradict each other"
-    )]
-    NoVelocity {
-        /// The row that misses most.
-        worst: RowLabel,
-        /// By how much.
-        residual: f64,
-    },
-    /// The start has to be corrected, and the matrix for it would fill the memory.
-    #[error(
-        "the start has to be corrected, which takes a dense matrix of {rows} × {columns} numbers, more than {most:e}; \
-         describe positions and velocities that satisfy the constraints"
-    )]
-    TooLarge {
-        /// Rows that have to be satisfied.
-        rows: usize,
-        /// Coordinates.
-        columns: usize,
-        /// Most entries of a matrix.
-        most: f64,
-    },
-    /// The correction step failed.
-    #[error("the start cannot be corrected: {0}")]
-    Step(#[from] StepError),
-}
-
-/// A row that is not satisfied.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Misfit {
-    /// The row.
-    pub row: RowLabel,
-    /// Its residual.
-    pub residual: f64,
-}
-
-fn list(rows: &[Misfit]) -> String {
-    let parts = rows.iter().take(NAMED_ROWS);
-    let parts: Vec<String> = parts
-        .map(|m| format!("{} by {:.3e}", m.row, m.residual))
-        .collect();
-    let named = parts.join(", ");
-    match rows.len().saturating_sub(NAMED_ROWS) {
-        0 => named,
-        more => format!("{named}, and {more} more"),
-    }
-}
-
-/// Rows that a message names.
-const NAMED_ROWS: usize = 20;
-
 /// Rows that miss by less than this share of the worst one are not named.
 const NAMED_MISFIT: f64 = 1e-2;
 
 /// Iterations of the assembly; each gains digits linearly with the size of the correction.
 const ITERATIONS: usize = 60;
-
-/// A correction of the velocities has to leave less than this share of the residuals: one step is exact but for rounding, and for damping
-/// where velocities are held.
-const PROGRESS: f64 = 0.5;
 
 /// Damping of the least-squares step, relative to rows of size one: small against any row that matters,
 /// large against rounding.
@@ -240,11 +120,11 @@ fn dense_rows(layout: &Layout, s: &Scratch, rows: &[usize]) -> Result<Matrix, St
 /// - [`StartError::Requirement`]: a definition's requirement does not hold.
 /// - [`StartError::NoCoordinate`]: a coordinate that `options` keep does not exist.
 pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Assembly, StartError> {
-    let (described, v) = mechanism.described_state();
+    let (described, _) = mechanism.described_state();
     mechanism.initialise(&described);
     let size = scene_size(mechanism, &described);
     let rows = restricting_rows(mechanism);
-    let weights = weights(mechanism, options, KeepLevel::Position)?;
+    let weights = position_weights(mechanism, options, size)?;
     let mut s = mechanism.scratch();
     let q = nearest(mechanism, &mut s, 0.0, &rows, &weights, &described)?;
     mechanism.initialise(&q);
@@ -260,77 +140,10 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     let residual = s.phi.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
     Ok(Assembly {
         q,
-        v,
         correction,
         residual,
         size,
     })
-}
-
-/// The velocities nearest to `v` in the mass metric that satisfy `C·v = b` in the kept rows at an assembled
-/// configuration. Velocities that `options` keep do not change.
-///
-/// # Errors
-/// - [`StartError::NoVelocity`]: the kept velocities leave no freedom for the constraints.
-/// - [`StartError::TooLarge`]: they have to be corrected, by a matrix beyond memory.
-/// - [`StartError::NoCoordinate`]: a velocity that `options` keep does not exist.
-pub fn consistent_velocity(
-    mechanism: &Mechanism,
-    options: &StartOptions,
-    q: &[f64],
-    v: &[f64],
-    kept: &[usize],
-) -> Result<Vec<f64>, StartError> {
-    let layout = mechanism.layout();
-    let weights = weights(mechanism, options, KeepLevel::Velocity)?;
-    let mut s = mechanism.scratch();
-    mechanism.pose(0.0, q, &mut s);
-    mechanism.c(&mut s);
-    mechanism.b(&mut s);
-    // A consistent start needs no matrix.
-    let mut c = None;
-    let mut v = v.to_vec();
-    let mut best = f64::INFINITY;
-    loop {
-        let residual: Vec<f64> = kept
-            .iter()
-            .map(|&i| layout.velocity_residual(&s, i, &v))
-            .collect();
-        let scale = kept
-            .iter()
-            .map(|&i| mechanism.bounded_velocity_scale(&s, i, &v))
-            .fold(0.0, f64::max);
-        let (worst, size) = largest(kept.iter().copied().zip(residual.iter().map(|r| r.abs())));
-        let tolerance = ROUNDINGS * f64::EPSILON * scale;
-        let is_stuck = size.is_nan() || size > PROGRESS * best;
-        // Rounding may leave a little more than the tolerance.
-        if size <= tolerance || (is_stuck && size <= ROUNDINGS * tolerance) {
-            return Ok(v);
-        }
-        let missing = || StartError::NoVelocity {
-            worst: layout.labels[worst].clone(),
-            residual: size,
-        };
-        if is_stuck || !size.is_finite() {
-            return Err(missing());
-        }
-        best = size;
-        let c = match &mut c {
-            Some(c) => c,
-            none => none.insert(dense_rows(layout, &s, kept)?),
-        };
-        // The kept rows are independent; they need no damping unless velocities are held.
-        let step = match least_squares_step(c, &residual, &weights, 0.0) {
-            Ok(step) => step,
-            Err(StepError::Dependent { .. }) => {
-                least_squares_step(c, &residual, &weights, DAMPING)?
-            }
-            Err(e) => return Err(e.into()),
-        };
-        for (v, dv) in v.iter_mut().zip(step) {
-            *v += dv;
-        }
-    }
 }
 
 /// The row with the largest value, NaN above all.
@@ -398,7 +211,11 @@ pub fn nearest_configuration(
     rows: &[usize],
     q: &[f64],
 ) -> Result<Vec<f64>, StartError> {
-    let weights = weights(mechanism, &StartOptions::default(), KeepLevel::Position)?;
+    let weights = position_weights(
+        mechanism,
+        &StartOptions::default(),
+        scene_size(mechanism, q),
+    )?;
     nearest(mechanism, &mut mechanism.scratch(), t, rows, &weights, q)
 }
 
@@ -415,12 +232,36 @@ fn restricting_rows(mechanism: &Mechanism) -> Vec<usize> {
 }
 
 /// Inverse weights of the coordinates in the mass metric, zero for those that are kept.
-fn weights(
+fn position_weights(
     mechanism: &Mechanism,
     options: &StartOptions,
-    level: KeepLevel,
+    size: f64,
 ) -> Result<Vec<f64>, StartError> {
-    let mass = mechanism.mass();
+    let mut weights = weights(mechanism, size);
+    for column in kept_columns(mechanism, options, KeepLevel::Position)? {
+        weights[column] = 0.0;
+    }
+    Ok(weights)
+}
+
+/// Masses, and inertias divided by the square of the size, below this share of the largest weigh as this share: what is lighter makes no difference to
+/// what is heavy, but its square would overflow.
+const LIGHTEST: f64 = 1e-30;
+
+/// Inverse weights of the coordinates in the mass metric; what has no mass or inertia weighs as the smallest one that has it.
+fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+    let unit = |k: usize| if k % N_BODY == 2 { size * size } else { 1.0 };
+    let comparable = mechanism
+        .mass()
+        .iter()
+        .enumerate()
+        .map(|(k, m)| m / unit(k));
+    let heaviest = comparable.filter(|m| m.is_finite()).fold(0.0, f64::max);
+    let least = |(k, &m): (usize, &f64)| match m > 0.0 {
+        true => m.max(LIGHTEST * heaviest * unit(k)),
+        false => m,
+    };
+    let mass: Vec<f64> = mechanism.mass().iter().enumerate().map(least).collect();
     let smallest = |angles: bool| {
         let of_kind = mass
             .iter()
@@ -430,25 +271,28 @@ fn weights(
         positive.fold(f64::INFINITY, f64::min)
     };
     let fallback = [smallest(false), smallest(true)].map(|m| if m.is_finite() { m } else { 1.0 });
-    let mut weights: Vec<f64> = mass
-        .iter()
-        .enumerate()
-        .map(|(k, &m)| {
-            1.0 / if m > 0.0 {
-                m
-            } else {
-                fallback[usize::from(k % N_BODY == 2)]
-            }
-        })
-        .collect();
+    let weight = |(k, &m): (usize, &f64)| match m > 0.0 {
+        true => 1.0 / m,
+        false => 1.0 / fallback[usize::from(k % N_BODY == 2)],
+    };
+    mass.iter().enumerate().map(weight).collect()
+}
+
+/// Columns that are kept at a level.
+fn kept_columns(
+    mechanism: &Mechanism,
+    options: &StartOptions,
+    level: KeepLevel,
+) -> Result<Vec<usize>, StartError> {
     let bodies = mechanism.bodies().len();
-    for &Coordinate { body, dof, .. } in options.keep.iter().filter(|c| c.level == level) {
-        if body >= bodies || dof >= N_BODY {
-            return Err(StartError::NoCoordinate { body, dof, bodies });
-        }
-        weights[N_BODY * body + dof] = 0.0;
-    }
-    Ok(weights)
+    let kept = options.keep.iter().filter(|c| c.level == level);
+    kept.map(
+        |&Coordinate { body, dof, .. }| match body < bodies && dof < N_BODY {
+            true => Ok(N_BODY * body + dof),
+            false => Err(StartError::NoCoordinate { body, dof, bodies }),
+        },
+    )
+    .collect()
 }
 
 /// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, until Φ is zero to rounding.
@@ -548,47 +392,5 @@ fn check_correction(
         coordinate,
         correction: correction[worst].abs(),
         limit: limits[worst % N_BODY],
-    })
-}
-
-/// Consistent velocities minus the described ones. Those of bodies that are described as moving are given; the others follow from these and from the
-/// constraints. Given ones are measured by the fastest, rotations by what they move at the size of the mechanism assembled at q.
-///
-/// # Errors
-/// [`StartError::LargeVelocityCorrection`]: a given one changes by more than `options` allow.
-pub fn velocity_correction(
-    mechanism: &Mechanism,
-    options: &StartOptions,
-    q: &[f64],
-    described: &[f64],
-    found: &[f64],
-) -> Result<Vec<f64>, StartError> {
-    let correction: Vec<f64> = found.iter().zip(described).map(|(a, b)| a - b).collect();
-    if options.correction == CorrectionLimit::Any {
-        return Ok(correction);
-    }
-    let size = scene_size(mechanism, q);
-    let arm = |k: usize| if k % N_BODY == 2 { size } else { 1.0 };
-    let states = described.iter().enumerate().chain(found.iter().enumerate());
-    let fastest = states.fold(0.0_f64, |a, (k, v)| a.max(arm(k) * v.abs()));
-    let limit = |k: usize| SMALL_CORRECTION * fastest / arm(k);
-    let by = |k: usize| correction[k].abs();
-    // A zero that is spelled out is the default; one beside a component that is not is meant.
-    let is_given = |k: usize| match k % N_BODY {
-        2 => described[k] != 0.0,
-        dof => described[k - dof..k - dof + 2] != [0.0; 2],
-    };
-    let worst = (0..correction.len())
-        .filter(|&k| is_given(k) && by(k) > limit(k))
-        .max_by(|&a, &b| (arm(a) * by(a)).total_cmp(&(arm(b) * by(b))));
-    let Some(k) = worst else {
-        return Ok(correction);
-    };
-    Err(StartError::LargeVelocityCorrection {
-        body: mechanism.bodies()[k / N_BODY].name.clone(),
-        coordinate: ["vx", "vy", "omega"][k % N_BODY],
-        given: described[k],
-        corrected: found[k],
-        limit: limit(k),
     })
 }

@@ -70,6 +70,9 @@ fn of_study(
     {
         document.warnings.insert(0, later.to_string());
     }
+    if arguments.at_time == 0.0 {
+        document.warnings.extend(study.cannot_begin());
+    }
     if let Some(t_end) = arguments.along {
         document.along = Some(along::judge(source, study, t_end)?);
     }

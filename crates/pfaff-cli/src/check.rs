@@ -1,6 +1,6 @@
 //! `pfaff check`: read and assemble, and say everything that is wrong.
 
-use pfaff::model::{Layout, Mechanism, System, start};
+use pfaff::model::{Layout, Mechanism, System};
 use pfaff::report::documents::FreedomsDocument;
 use pfaff::scene::Scene;
 use pfaff::{Inquiry, Overrides, StudyError};
@@ -89,6 +89,7 @@ impl Checked {
                 checked
                     .warnings
                     .extend(hanging.into_iter().take(FRAGILE_TOLD));
+                checked.warnings.extend(study.cannot_begin());
                 if more > 0 {
                     checked.warnings.push(
                         "more reactions are unique but fragile: `pfaff analyze` names all"
@@ -105,16 +106,13 @@ impl Checked {
                 let Some(warning) = e.only_motion() else {
                     return Err(source.failure(e));
                 };
+                // What `analyze` judges, and nothing else.
                 let mut blueprint = resources.blueprint(source)?;
-                let start = &blueprint.scene.start;
-                let assembly =
-                    start::assemble(&mut blueprint.mechanism, start).map_err(
-                        |e| match blueprint.scene.locate_start(&e) {
-                            Some(place) => source.failure(StudyError::Scene(vec![place])),
-                            None => source.failure(StudyError::Motion(e.into())),
-                        },
-                    )?;
-                let mut checked = new(&blueprint.scene, &blueprint.mechanism, &assembly.correction);
+                let start = blueprint.inquire(None).map_err(|e| source.failure(e))?;
+                let (described, _) = start.mechanism.described_state();
+                let moved = start.state.q.iter().zip(&described).map(|(a, b)| a - b);
+                let correction: Vec<f64> = moved.collect();
+                let mut checked = new(start.scene, start.mechanism, &correction);
                 checked.warnings.insert(0, warning);
                 Ok(checked)
             }

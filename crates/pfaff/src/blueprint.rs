@@ -1,9 +1,9 @@
 //! A scene with its mechanism, before anything is said of its rows: where a study begins, and all there is of a mechanism whose
 //! rank is too doubtful for a motion.
 
-use dynamics::{MotionError, MotionOptions, RowChoice, prepare};
-use model::start::{assemble, consistent_velocity};
-use model::{Assembly, Known, Mechanism, Registry, Tolerance};
+use dynamics::{MotionError, MotionOptions, RowChoice, prepare, start_velocity};
+use model::start::assemble;
+use model::{Assembly, Known, Mechanism, Registry, StartError, Tolerance};
 use scene::Scene;
 use solvability::{ConstraintLevel, State};
 
@@ -100,7 +100,8 @@ impl Blueprint {
     /// # Errors
     /// - [`StudyError::Scene`]: there is no such start; of a scene without text [`StudyError::Motion`].
     /// - [`StudyError::SingularStart`]: there is one, but no motion begins with its velocities.
-    /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen.
+    /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen; or the options of the run are none, with their place if they are those of
+    ///   the scene.
     pub fn prepare(self, overrides: &Overrides) -> Result<Study, StudyError> {
         let Self { scene, mechanism } = self;
         let options = options(&scene, overrides);
@@ -109,6 +110,12 @@ impl Blueprint {
             (None, Some(options)) => options.rows.clone(),
             (None, None) => RowChoice::Automatic,
         };
+        if let Some(Err(e)) = options.as_ref().map(MotionOptions::check) {
+            return Err(match *overrides == Overrides::default() {
+                true => refused(&scene, e),
+                false => e.into(),
+            });
+        }
         let prepared = match prepare(mechanism, &scene.start, &rows) {
             Ok(prepared) => prepared,
             Err(e) if leaves_no_motion(&e) => {
@@ -149,7 +156,7 @@ impl Blueprint {
     /// `f64`, or no motion begins there.
     ///
     /// # Errors
-    /// As [`Blueprint::assemble`], and [`StudyError::Analysis`]: C cannot be judged there.
+    /// As [`Blueprint::assemble`], also where no motion has the given velocities, and [`StudyError::Analysis`]: C cannot be judged there.
     pub fn inquire(&mut self, drop: Option<&[usize]>) -> Result<Inquiry<'_>, StudyError> {
         self.inquire_watched(drop, |_| ())
     }
@@ -181,8 +188,17 @@ impl Blueprint {
         let decision = &inquiry.analysis.decision;
         if decision.is_decided() {
             let (q, kept) = (&inquiry.state.q, &decision.kept);
-            let v = consistent_velocity(&self.mechanism, start, q, &assembly.v, kept);
-            inquiry.state.v = v.map_err(|e| refused(&self.scene, e.into()))?;
+            let rows = solvability::rows(&self.mechanism, 0.0, q)?;
+            inquiry.state.v = match start_velocity(&self.mechanism, start, &rows, q, kept) {
+                Ok((found, _)) => found.v,
+                // Rows that are independent by the certificate may be too nearly dependent for numbers.
+                Err(MotionError::Start(StartError::NoVelocity { .. }))
+                    if !rows.all.is_decided() =>
+                {
+                    Vec::new()
+                }
+                Err(e) => return Err(refused(&self.scene, e)),
+            };
         }
         Ok(inquiry)
     }

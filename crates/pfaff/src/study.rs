@@ -28,6 +28,9 @@ use crate::inquiry::{AskedRows, Inquiry};
 /// Rows of a mechanism up to which a moving picture has rows of its own between those of the tables.
 const PICTURED_ROWS: usize = 600;
 
+/// Rows of a mechanism up to which it is tried whether a motion begins.
+const BEGUN_ROWS: usize = 2000;
+
 /// A scene that has been assembled and can move.
 #[non_exhaustive]
 pub struct Study {
@@ -172,6 +175,25 @@ impl Study {
         }
     }
 
+    /// Why no motion begins although the start is one: a body without mass that is free to move, for example. `None` if one begins; of a mechanism of
+    /// many rows it is not asked, since the answer costs as much as a step.
+    #[must_use]
+    pub fn cannot_begin(&self) -> Option<String> {
+        if self.prepared.mechanism.layout().rows() > BEGUN_ROWS {
+            return None;
+        }
+        let options = MotionOptions {
+            t_end: 0.0,
+            ..self.motion_to(1.0)
+        };
+        let begun = self.run(&options, |sample| {
+            sample.reactions()?;
+            Ok(ControlFlow::Break(()))
+        });
+        let failure = begun.err()?;
+        Some(format!("this mechanism cannot be moved: {}", failure.error))
+    }
+
     fn state_at(&self, t: f64) -> Result<State, StudyError> {
         let mut state = State {
             q: self.prepared.q.clone(),
@@ -219,7 +241,7 @@ impl Study {
     ///
     /// // A body that is thrown: y = 5·t − g·t²/2.
     /// let mut thrown = Description { gravity: [0.0, -10.0], ..Description::new("thrown") };
-    /// thrown.body(Body { velocity: [0.0, 5.0], ..Body::new("stone", 1.0, 1.0) });
+    /// thrown.body(Body { velocity: Some([0.0, 5.0]), ..Body::new("stone", 1.0, 1.0) });
     /// let motion = Study::build(thrown)?.motion(&MotionOptions::to(1.0))?;
     /// let highest = motion.rows.iter().map(|row| row.bodies["stone"].y).fold(0.0, f64::max);
     /// assert!((highest - 1.25).abs() < 1e-9);

@@ -25,10 +25,11 @@ const INERTIA: Key = number("inertia", "a number ≥ 0", Interval::NotNegative)
     .doc("Moment of inertia about the centre of mass");
 const POSITION: Key = pair("position")
     .unit("m")
-    .doc("Centre of mass [x, y] at the start");
-const VELOCITY: Key = pair("velocity")
-    .unit("m/s")
-    .doc("Velocity [vx, vy] of the centre of mass at the start");
+    .doc("Centre of mass [x, y] at the start")
+    .or(|| json!([0.0, 0.0]));
+const VELOCITY: Key = pair("velocity").unit("m/s").doc(
+    "Velocity [vx, vy] of the centre of mass at the start; it follows from what is given and driven, with the least kinetic energy, where it is left out",
+);
 const ANGLE: Key = number("angle", "a number", Interval::Any)
     .unit("rad")
     .doc("Angle of the body's frame at the start")
@@ -38,8 +39,7 @@ const TOLERANCE: Key = tolerance::length(
 );
 const ANGULAR_VELOCITY: Key = number("angular_velocity", "a number", Interval::Any)
     .unit("rad/s")
-    .doc("Angular velocity at the start")
-    .or(|| 0.0.into());
+    .doc("Angular velocity at the start; it follows in the same way where it is left out");
 
 /// Keys of a body beside its name.
 pub(crate) const KEYS: [Key; 7] = [
@@ -57,7 +57,7 @@ const fn number(name: &'static str, expected: &'static str, range: Interval) -> 
 }
 
 const fn pair(name: &'static str) -> Key {
-    Key::optional(name, "a pair [x, y]", Takes::Pair(Interval::Any)).or(|| json!([0.0, 0.0]))
+    Key::optional(name, "a pair [x, y]", Takes::Pair(Interval::Any))
 }
 
 /// The bodies that were read, with their places.
@@ -87,16 +87,13 @@ impl Bodies {
             table
                 .optional(key)
                 .and_then(|field| field.pair(key.expected, findings))
-                .unwrap_or_default()
         };
-        let (position, velocity) = (pair(&POSITION), pair(&VELOCITY));
-        let mut number = |key: &Key| {
-            table
-                .optional(key)
-                .and_then(|field| field.number(findings))
-                .unwrap_or_default()
-        };
-        let (angle, angular_velocity) = (number(&ANGLE), number(&ANGULAR_VELOCITY));
+        let (position, velocity) = (pair(&POSITION).unwrap_or_default(), pair(&VELOCITY));
+        let mut number = |key: &Key| table.optional(key).and_then(|field| field.number(findings));
+        let (angle, angular_velocity) = (
+            number(&ANGLE).unwrap_or_default(),
+            number(&ANGULAR_VELOCITY),
+        );
         let tolerance = tolerance::read(&mut table, &TOLERANCE, findings);
         let at = self.list.len();
         let is_own = table.peek("name") == Some(name) && name != GROUND;

@@ -4,6 +4,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 use dynamics::{MotionError, Trip};
+use model::start::VelocityConflict;
 use model::{Body, BodyRef, BuildError, Description, RowLabel, StartError, Stated};
 
 use crate::diagnostic::Diagnostic;
@@ -80,21 +81,11 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
             return at_rows(map, labels, error, marks);
         }
         StartError::NoVelocity { worst, .. } => (row(map, worst), "misses most"),
+        StartError::Velocities(conflict) => return velocities(map, conflict, error),
         StartError::LargeCorrection { body, .. } => {
             let entry = map.body(body);
             let span = entry.map(|entry| entry.first_of(&["position", "angle"]));
             (span.unwrap_or(0..0), "moves most")
-        }
-        StartError::LargeVelocityCorrection {
-            body, coordinate, ..
-        } => {
-            let key = match *coordinate {
-                "omega" => "angular_velocity",
-                _ => "velocity",
-            };
-            let entry = map.body(body);
-            let span = entry.map(|entry| entry.first_of(&[key]));
-            (span.unwrap_or(0..0), "not with these constraints")
         }
         StartError::Requirement { name, .. } => {
             (element_key(map, name, &PLACE_KEYS), "required here")
@@ -104,18 +95,58 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
     at(map, span, error, label)
 }
 
+/// Given velocities that no motion has: what is driven comes first, then the velocity, or the entry that holds it.
+fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) -> Diagnostic {
+    let span = match (conflict.is_kept, conflict.coordinate) {
+        (true, _) => map.section("start", "keep"),
+        (false, coordinate) => {
+            let key = match coordinate {
+                "omega" => "angular_velocity",
+                _ => "velocity",
+            };
+            let entry = map.body(&conflict.body);
+            entry.map_or(0..0, |entry| entry.first_of(&[key]))
+        }
+    };
+    let word = if conflict.is_kept {
+        "held here"
+    } else {
+        "given here"
+    };
+    match conflict.drives.first() {
+        Some(drive) => at(
+            map,
+            element_key(map, drive, &[]),
+            error,
+            "asks for other velocities",
+        )
+        .and(map.text.label(span, word)),
+        None => at(map, span, error, "not with these constraints"),
+    }
+}
+
 /// The place of an error of a run.
 pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
     let (span, label) = match error {
         MotionError::Start(error) => return start(map, error),
         MotionError::Component { source, .. } => return motion(map, source),
         MotionError::Contradiction(contradiction) => {
-            return contradicting(map, contradiction.split_rows(), error);
+            return contradicting(
+                map,
+                contradiction.split_rows(),
+                &contradiction.forcing(),
+                error,
+            );
         }
         MotionError::Option { name, .. } => (map.section("simulate", name), "not possible"),
         MotionError::Rows(_) => (map.section("simulate", "drop"), "not these rows"),
         MotionError::Trip(Trip::Drives { contradiction, .. }) => {
-            return contradicting(map, contradiction.split_rows(), error);
+            return contradicting(
+                map,
+                contradiction.split_rows(),
+                &contradiction.forcing(),
+                error,
+            );
         }
         MotionError::Trip(trip) => match trip {
             Trip::RankLost { row: label, .. } => (row(map, label), "becomes dependent"),
@@ -140,8 +171,20 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
 fn contradicting(
     map: &SourceMap,
     (drives, others): (Vec<&RowLabel>, Vec<&RowLabel>),
+    forcing: &[&str],
     error: &impl std::error::Error,
 ) -> Diagnostic {
+    // Rows that drives leave no way to go on are as they should be.
+    let mut spans = forcing
+        .iter()
+        .take(MARKS)
+        .map(|drive| element_key(map, drive, &[]));
+    if let Some(first) = spans.next() {
+        return spans.fold(
+            at(map, first, error, "asks for what cannot go on"),
+            |d, span| d.and(map.text.label(span, "together with this one")),
+        );
+    }
     let (rows, marks) = match drives.as_slice() {
         [] => (others, ["contradicts the others", "contradicts too"]),
         [drive] => {
@@ -233,9 +276,9 @@ fn body_key(
         "inertia" => vec![body.inertia],
         "position" => body.position.to_vec(),
         "angle" => vec![body.angle],
-        "velocity" => body.velocity.to_vec(),
+        "velocity" => body.velocity.into_iter().flatten().collect(),
         "tolerance" => body.tolerance.into_iter().collect(),
-        _ => vec![body.angular_velocity],
+        _ => body.angular_velocity.into_iter().collect(),
     };
     let of_name = d.bodies.iter().zip(&map.bodies);
     let found = of_name

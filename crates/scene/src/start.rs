@@ -30,10 +30,10 @@ const KEEP: Key = Key::optional(
     "a list of coordinates [\"body.angle\", …]",
     Takes::Texts(0),
 )
-.doc("Coordinates and velocities that the start holds exactly, as \"crank.angle\": x, y, angle, vx, vy, omega of a body")
+.doc("Coordinates and velocities that the start holds exactly, as \"crank.angle\": x, y, angle, vx, vy, omega of a body; a velocity that is not given is held at zero")
 .or(|| json!([]));
 const ALLOW_CORRECTION: Key = Key::optional("allow_correction", "true or false", Takes::Flag)
-    .doc("Whether the start may be corrected by more than a thousandth of the scene's size, and given velocities by more than a thousandth of the fastest")
+    .doc("Whether the start may be corrected by more than a thousandth of the scene's size, and given velocities by more than a thousandth of the fastest that hang together with them")
     .or(|| false.into());
 
 /// Keys of the section.

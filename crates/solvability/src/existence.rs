@@ -75,8 +75,11 @@ pub struct Contradiction {
     pub tolerance: f64,
     /// How many joints and drives with functions of time take part.
     pub drives: usize,
-    /// What the drives among them ask for, in the order of their rows.
+    /// What the drives among them ask for, in the order of their rows; of accelerations that no drive takes part in, what the drives ask for that leave
+    /// the bodies no other velocities.
     pub demands: Vec<Demand>,
+    /// Whether these drives take no part in the rows: they ask for velocities with which the rows cannot go on.
+    pub is_forced: bool,
 }
 
 impl Contradiction {
@@ -93,12 +96,39 @@ impl Contradiction {
         self.rows.iter().partition(is_drive)
     }
 
+    /// Drives that leave the rows no way to go on, if it is these that contradict each other.
+    #[must_use]
+    pub fn forcing(&self) -> Vec<&str> {
+        let demands = self.demands.iter().filter(|_| self.is_forced);
+        demands.map(|d| d.drive.as_str()).collect()
+    }
+
     fn what(&self) -> String {
         let Self {
             level, size, unit, ..
         } = self;
         let (_, joints) = self.split_rows();
         let rows: Vec<String> = joints.into_iter().map(RowLabel::to_string).collect();
+        if self.is_forced {
+            let asked = self.demands.iter().map(|d| {
+                let rate = d.asked(ConstraintLevel::Velocity);
+                format!("`{}` asks {} {rate}", d.drive, d.of_what())
+            });
+            let asked = words::list(&asked.collect::<Vec<_>>());
+            let (word, verb) = match self.demands.len() {
+                1 => ("drive", "asks for a velocity"),
+                _ => (
+                    "drives",
+                    "contradict each other: together they ask for velocities",
+                ),
+            };
+            let drives = self.demands.iter().map(|d| format!("`{}`", d.drive));
+            return format!(
+                "{word} {} {verb} with which {} cannot hold any longer: these then ask for different {level}, which differ by {size:.3e} {unit} ({asked})",
+                words::list(&drives.collect::<Vec<_>>()),
+                of_rows(&rows)
+            );
+        }
         match self.demands.as_slice() {
             [] => format!(
                 "rows {} depend on each other but ask for different {level}: they differ by {size:.3e} {unit}",
@@ -132,6 +162,9 @@ impl Contradiction {
     }
 
     fn advice(&self) -> &'static str {
+        if self.is_forced {
+            return "The joints do not allow the motion that is prescribed: prescribe another one, or begin at another configuration";
+        }
         match (self.drives, self.level) {
             (1, _) => {
                 "The others do not allow the motion that one of them prescribes: the mechanism is locked, or in a singular configuration. Begin at \
@@ -311,6 +344,12 @@ impl Comparison<'_> {
             layout.groups[group].spec.rheonomic.then_some(group)
         };
         let drives: BTreeSet<usize> = terms().filter_map(|(i, _)| driven_by(i)).collect();
+        let forced = match (drives.is_empty(), self.level) {
+            (true, ConstraintLevel::Acceleration) => self.forcing(mechanism, &circuit.rows),
+            _ => BTreeSet::new(),
+        };
+        let is_forced = !forced.is_empty();
+        let drives = if is_forced { forced } else { drives };
         let demands = drives
             .iter()
             .filter_map(|&k| Demand::of(mechanism, ConstraintId(k), self.prescribed));
@@ -331,8 +370,42 @@ impl Comparison<'_> {
             size,
             unit: self.level.unit(mechanism.is_angular(row)),
             tolerance,
-            drives: drives.len(),
             demands: demands.collect(),
+            drives: drives.len(),
+            is_forced,
         })
+    }
+
+    /// Drives that move the bodies of these rows and with the joints leave them no other velocities, as groups; none if there are others, with
+    /// which the rows might go on.
+    fn forcing(&self, mechanism: &Mechanism, rows: &[usize]) -> BTreeSet<usize> {
+        let layout = mechanism.layout();
+        let group = |row: usize| layout.groups.partition_point(|g| g.rows.end <= row);
+        let bodies = |k: usize| layout.groups[k].bodies.iter().filter_map(|b| b.moving());
+        let Some(first) = rows.first().and_then(|&row| bodies(group(row)).next()) else {
+            return BTreeSet::new();
+        };
+        let all = mechanism.components().into_iter();
+        let Some(component) = all.into_iter().find(|set| set.contains(&first)) else {
+            return BTreeSet::new();
+        };
+        let is_here = |k: usize| bodies(k).any(|body| component.binary_search(&body).is_ok());
+        let kept = self
+            .decision
+            .kept
+            .iter()
+            .filter(|&&row| is_here(group(row)));
+        let freedoms = component.len() * layout.n_v / mechanism.bodies().len();
+        if kept.count() < freedoms {
+            return BTreeSet::new();
+        }
+        let moves = |k: &usize| {
+            let functions = mechanism.prescribed(ConstraintId(*k), self.prescribed);
+            layout.groups[*k].is_drive() && functions.iter().any(|[_, rate, _]| *rate != 0.0)
+        };
+        (0..layout.groups.len())
+            .filter(|&k| is_here(k))
+            .filter(moves)
+            .collect()
     }
 }

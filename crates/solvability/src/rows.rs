@@ -354,6 +354,15 @@ impl Rows {
         })
     }
 
+    /// Whether the rank of all rows is decided, if only by a certificate: kept rows are independent then, though numbers in `f64` may not show it.
+    #[must_use]
+    pub fn are_certified(&self) -> bool {
+        self.parts.iter().all(|part| match &part.certified {
+            Some(certified) => certified[0].is_decided(),
+            None => part.all.is_decided(),
+        })
+    }
+
     /// Redundant rows that cannot hold together, the worst of a part first. See [`contradictions`].
     ///
     /// # Errors

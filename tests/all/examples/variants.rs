@@ -90,7 +90,7 @@ const NEIGHBOURS: [Neighbour; 12] = [
                 "position = [-6.0, 0.0], velocity = [20.0, 0.0]",
                 "position = [-5.2, -2.4], angle = 0.6435011087932844",
             ),
-            ("velocity = [20.0, 0.0]", "velocity = [0.0, 0.0]"),
+            ("velocity = [20.0, 0.0]", "angular_velocity = 0.0"),
             ("at = [-8.5, 0.0]", "point = [-2.5, 0.0]"),
             ("at = [-9.8, 0.0]", "point = [-3.8, 0.0]"),
         ],

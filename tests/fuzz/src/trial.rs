@@ -138,6 +138,8 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
                 }
                 Err(e) => {
                     named(&e);
+                    // `check` and `analyze` warn of what `simulate` refuses, and accept the same.
+                    assert!(!e.is_input(), "a start that can be judged is refused: {e}");
                     Reach::NoStart
                 }
             };
@@ -157,7 +159,14 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
         .get_or_insert_with(|| MotionOptions::to(T_END));
     options.t_end = options.t_end.min(T_END);
     begin(Stage::Move);
-    moved::check(&study)
+    let warning = study.cannot_begin();
+    let (reach, rows) = moved::check(&study);
+    // What `simulate` refuses at the start, `check` and `analyze` warn of.
+    assert!(
+        rows > 0 || warning.is_some(),
+        "no motion begins, and nobody was warned"
+    );
+    reach
 }
 
 /// Problems are there, and lie in the text.

@@ -80,7 +80,6 @@ fn prepared(whole: &Prepared, part: Part) -> PreparedPart {
     let of_whole = &whole.assembly;
     let assembly = Assembly {
         q: pick(&of_whole.q, &places.coordinates),
-        v: pick(&of_whole.v, &places.velocities),
         correction: pick(&of_whole.correction, &places.coordinates),
         residual: s.phi.iter().fold(0.0, |a, phi| f64::max(a, phi.abs())),
         size: scene_size(&mechanism, &q),

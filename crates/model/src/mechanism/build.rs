@@ -222,9 +222,9 @@ fn check_bodies(d: &Description, errors: &mut Vec<BuildError>) {
             ("position", b.position[0]),
             ("position", b.position[1]),
             ("angle", b.angle),
-            ("velocity", b.velocity[0]),
-            ("velocity", b.velocity[1]),
-            ("angular velocity", b.angular_velocity),
+            ("velocity", b.velocity.unwrap_or_default()[0]),
+            ("velocity", b.velocity.unwrap_or_default()[1]),
+            ("angular velocity", b.angular_velocity.unwrap_or_default()),
         ];
         for (field, value) in fields {
             let body = b.name.clone();

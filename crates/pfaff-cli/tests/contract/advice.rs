@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::analyze::{contains, document};
-use super::{pfaff, stderr, stdout, with_scene};
+use super::{Folder, pfaff, stderr, stdout, with_scene};
 
 fn example(name: &str) -> String {
     format!("{}/../../examples/{name}.toml", env!("CARGO_MANIFEST_DIR"))
@@ -310,4 +310,89 @@ fn who_does_not_say_how_long_is_told_how() {
         &stderr(&output),
         &["no `[simulate]`", "`--t-end`", "after `--along`"],
     );
+}
+
+/// The scene without what a message says to leave out.
+fn without(scene: &str, message: &str) -> String {
+    let (_, advice) = message.split_once("leave out ").expect("an advice");
+    let (advice, _) = advice.split_once(", so that ").expect("its end");
+    let mut text = scene.to_owned();
+    for item in advice.replace(" and ", ", ").split(", ") {
+        let names: Vec<&str> = item.split('`').collect();
+        text = match names.as_slice() {
+            ["", entry, " in ", "keep", ""] => text.replace(&format!("\"{entry}\""), ""),
+            ["", key, " of body ", body, ""] => {
+                let at = text
+                    .find(&format!("[[body]]\nname = \"{body}\""))
+                    .expect("the body");
+                let (before, after) = text.split_at(at);
+                let (own, rest) =
+                    after.split_at(after[1..].find("[[").map_or(after.len(), |k| k + 1));
+                let lines = own
+                    .lines()
+                    .filter(|line| !line.starts_with(&format!("{key} =")));
+                format!("{before}{}\n{rest}", lines.collect::<Vec<_>>().join("\n"))
+            }
+            other => panic!("{other:?} in {message}"),
+        };
+    }
+    text
+}
+
+/// What is printed works: without what is to be left out, and with the correction that is offered, each by itself, every command takes the scene.
+#[test]
+fn the_advice_on_velocities_works() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/wrong");
+    let read =
+        |name: &str| std::fs::read_to_string(format!("{folder}/{name}.toml")).expect("a scene");
+    let bar = |k: usize, velocity: &str| {
+        format!(
+            "[[body]]\nname = \"bar {k}\"\nmass = 1.0\ninertia = 0.1\nposition = [{}.5, 0.0]\n{velocity}\n",
+            k
+        )
+    };
+    let pin = |k: usize, bodies: &str| {
+        format!(
+            "[[joint]]\nname = \"pin {k}\"\ntype = \"revolute\"\nbodies = [{bodies}]\nat = [{k}.0, 0.0]\n"
+        )
+    };
+    // Three bars in a row on two pivots: locked along, and across but for the middle ones.
+    let chain = format!(
+        "[scene]\nname = \"chain\"\nspace = \"plane\"\n{}{}{}{}{}{}{}",
+        bar(0, "velocity = [0.3, 0.1]\nangular_velocity = 0.7"),
+        bar(1, "velocity = [0.0, 0.2]\nangular_velocity = -0.4"),
+        bar(2, "velocity = [-0.1, 0.0]\nangular_velocity = 0.0"),
+        pin(0, "\"ground\", \"bar 0\""),
+        pin(1, "\"bar 0\", \"bar 1\""),
+        pin(2, "\"bar 1\", \"bar 2\""),
+        pin(3, "\"bar 2\", \"ground\"")
+    );
+    let chain_kept = format!("{chain}\n[start]\nkeep = [\"bar 1.vy\", \"bar 1.omega\"]\n");
+    for scene in [
+        read("start-velocity-of-what-is-locked"),
+        read("start-velocity-against-drive"),
+        read("start-keep-against-pivot"),
+        chain,
+        chain_kept,
+    ] {
+        let output = with_scene(&["check", "-"], &scene);
+        let message = stderr(&output);
+        assert_eq!(output.status.code(), Some(2), "{message}");
+        let mut mended = vec![without(&scene, &message)];
+        if message.contains("allow_correction = true") {
+            mended.push(format!("{scene}\n[start]\nallow_correction = true\n"));
+        }
+        for text in mended {
+            let folder = Folder::new("velocity-advice");
+            let out = folder.0.to_str().expect("UTF-8").to_owned();
+            for command in [
+                &["check", "-"][..],
+                &["analyze", "-"],
+                &["simulate", "-", "--t-end", "0.01", "--out", &out],
+            ] {
+                let output = with_scene(command, &text);
+                assert_eq!(output.status.code(), Some(0), "{text}\n{}", stderr(&output));
+            }
+        }
+    }
 }

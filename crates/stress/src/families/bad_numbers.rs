@@ -161,8 +161,10 @@ fn fields() -> Vec<Case> {
         ("inertia", |d, x| d.bodies[0].inertia = x),
         ("position", |d, x| d.bodies[0].position[1] = x),
         ("angle", |d, x| d.bodies[0].angle = x),
-        ("velocity", |d, x| d.bodies[0].velocity[0] = x),
-        ("angular velocity", |d, x| d.bodies[0].angular_velocity = x),
+        ("velocity", |d, x| d.bodies[0].velocity = Some([x, 0.0])),
+        ("angular velocity", |d, x| {
+            d.bodies[0].angular_velocity = Some(x)
+        }),
     ];
     let mut cases = Vec::new();
     for (bad, word) in [

@@ -157,7 +157,7 @@ fn towed([front, rear]: [Function; 2]) -> Description {
             name: "cart".into(),
             mass: 1.0,
             inertia: 1.0,
-            velocity: [1.0, 0.0],
+            velocity: Some([1.0, 0.0]),
             ..Body::default()
         }],
         joints: vec![pull("front", 1.0, front), pull("rear", -1.0, rear)],

@@ -151,7 +151,7 @@ fn robot(change: &Change) -> Description {
     for body in &mut d.bodies {
         let [x, y] = change.turned(body.position);
         body.position = [x + change.by[0], y + change.by[1]];
-        body.velocity = change.turned(body.velocity);
+        body.velocity = body.velocity.map(|v| change.turned(v));
         body.angle += change.angle;
     }
     if change.reversed {

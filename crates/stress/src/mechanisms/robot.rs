@@ -67,7 +67,7 @@ pub fn robot_of_size(size: f64, motion: Function) -> Description {
             mass,
             inertia: inertia * size * size,
             position: by(position),
-            velocity: by([1.0, 0.0]),
+            velocity: Some(by([1.0, 0.0])),
             ..Body::default()
         })
         .collect();

@@ -20,13 +20,14 @@ const RESIDUAL: f64 = 1e-6;
 /// Rates of what stands still, in sizes of the mechanism each second.
 const REST: f64 = 1e-14;
 
-/// Moves it, as far as a trial goes. Tables are written as `simulate` writes them, and must be readable.
-pub(super) fn check(study: &Study) -> Reach {
+/// Moves it, as far as a trial goes, and says how far that was and how many rows were shown. Tables are written as `simulate` writes them, and must be
+/// readable.
+pub(super) fn check(study: &Study) -> (Reach, usize) {
     let plan = match study.plan() {
         Ok(plan) => plan,
         Err(e) => {
             named(&e);
-            return Reach::Judged;
+            return (Reach::Judged, 0);
         }
     };
     let mechanism = &study.prepared.mechanism;
@@ -74,7 +75,7 @@ pub(super) fn check(study: &Study) -> Reach {
         with_reactions == rows || outcome.is_err(),
         "rows without reactions"
     );
-    match outcome {
+    let reach = match outcome {
         Ok(summary) if summary.t >= plan.options().t_end => {
             assert!(rows >= 1, "a run without rows");
             Reach::Moved
@@ -95,7 +96,8 @@ pub(super) fn check(study: &Study) -> Reach {
             );
             Reach::Stopped
         }
-    }
+    };
+    (reach, rows)
 }
 
 /// Rows of a run, one after the other.

@@ -93,11 +93,11 @@ fn chain(mass: impl Fn(usize) -> f64, length: impl Fn(usize) -> f64) -> Descript
         let end = [at[0] + arm[0], at[1] + arm[1]];
         let of_end = [velocity[0] - rate * arm[1], velocity[1] + rate * arm[0]];
         bodies.push(Body {
-            velocity: [
+            velocity: Some([
                 0.5 * (velocity[0] + of_end[0]),
                 0.5 * (velocity[1] + of_end[1]),
-            ],
-            angular_velocity: rate,
+            ]),
+            angular_velocity: Some(rate),
             ..rod(&format!("link {}", k + 1), mass(k), at, end)
         });
         let before = k.checked_sub(1).map_or(BodyRef::Ground, BodyRef::Body);
@@ -189,7 +189,7 @@ fn loops(power: i32) -> [(&'static str, Description); 5] {
     let heavier = |mut d: Description, body: usize| {
         d.bodies[body].mass *= by;
         d.bodies[body].inertia *= by;
-        d.bodies[0].angular_velocity = 0.8;
+        d.bodies[0].angular_velocity = Some(0.8);
         d.gravity = GRAVITY;
         d
     };
@@ -261,7 +261,7 @@ fn turned_robot(by: impl Fn(&Body) -> f64) -> Description {
         body.mass *= factor;
         body.inertia *= factor;
         body.position = turn(body.position);
-        body.velocity = turn(body.velocity);
+        body.velocity = body.velocity.map(turn);
         body.angle += 0.4;
     }
     // The trolley stands across, and so turns while it is pulled.

@@ -1,0 +1,395 @@
+//! Velocities that follow from others: of all that satisfy rows of C the ones with the least kinetic energy, `½·vᵀ·M·v → min` under `C·v = b`.
+//!
+//! Rows that share no velocity that follows are solved apart. Small sets are solved as they are, after the rank of their columns has been
+//! decided; the rows that are left over are circuits, whose sums of right-hand sides say whether there are such velocities. Large sets are
+//! solved by their Schur complement. Not here: which velocities follow, and what happens where the rows leave none.
+
+use std::collections::HashMap;
+
+use linalg::{
+    Circuit, KeptRowSaddle, Matrix, SchurSaddle, SchurStructure, SparseMatrix, circuits, decide,
+    least_squares_step,
+};
+
+use super::{DAMPING, ROUNDINGS, StartError, weights};
+use crate::mechanism::{Mechanism, N_BODY};
+use crate::system::{Scratch, System};
+use crate::uncertainty::Known;
+
+/// Sets of more rows than this are solved by their Schur complement: dense factors would take seconds.
+pub(super) const DENSE_ROWS: usize = 300;
+
+/// Rows of which less than this share is left beside others count as dependent on them, in large sets: the Schur complement has the square of their
+/// condition.
+const LEFT: f64 = 1e-7;
+
+/// A large set takes no row whose entries are below this many of their uncertainties: scaled to size one they would be noise.
+const SIGNIFICANT: f64 = 1e3;
+
+/// Repetitions of a solution; each gains all digits but for rounding, and for damping where a metric hides that rows are independent.
+const REPETITIONS: usize = 6;
+
+/// A repetition has to leave less than this share of the residuals.
+const PROGRESS: f64 = 0.5;
+
+/// `C·v = b` of a start.
+pub(super) struct Equations<'m> {
+    pub(super) mechanism: &'m Mechanism,
+    pub(super) s: Scratch,
+    pub(super) q: Vec<f64>,
+    pub(super) size: f64,
+    /// Diagonal of M⁻¹; what has no mass weighs as the smallest that has.
+    pub(super) weights: Vec<f64>,
+    /// What is at rest to rounding moves by less than a rounding of its place in this time (1/s).
+    rest_rate: f64,
+    /// What the entries of C are known to, by its pattern; made when it is needed.
+    known: Option<Vec<f64>>,
+}
+
+impl<'m> Equations<'m> {
+    pub(super) fn new(mechanism: &'m Mechanism, q: &[f64]) -> Self {
+        let mut s = mechanism.scratch();
+        mechanism.pose(0.0, q, &mut s);
+        mechanism.phi(&mut s);
+        mechanism.c(&mut s);
+        mechanism.b(&mut s);
+        let size = super::size_of(mechanism, &s);
+        let weight = mechanism.weight().iter().zip(mechanism.mass());
+        let gravity = weight.filter(|(_, m)| **m > 0.0).map(|(w, m)| w.abs() / m);
+        let gravity = gravity.fold(0.0, f64::max);
+        Self {
+            mechanism,
+            s,
+            q: q.to_vec(),
+            size,
+            weights: weights(mechanism, size),
+            // The second is the unit in which a scene is told; what falls under its weight has a shorter time of its own.
+            rest_rate: (gravity / size).sqrt().max(1.0),
+            known: None,
+        }
+    }
+
+    /// `C·v − b` of row `i`.
+    pub(super) fn residual(&self, i: usize, v: &[f64]) -> f64 {
+        self.mechanism.layout().velocity_residual(&self.s, i, v)
+    }
+
+    /// Up to here a residual of row `i` is rounding: of its terms, and of the places of its bodies, which turn with the fastest of them.
+    pub(super) fn rounding(&self, i: usize, v: &[f64]) -> f64 {
+        let rate = |(j, _): (usize, f64)| v[j].abs() / self.mechanism.unit(j, self.size);
+        let row = self.mechanism.layout().row(&self.s, i);
+        let fastest = row.map(rate).fold(0.0, f64::max);
+        let places = self.mechanism.position_scale(&self.s, i, &self.q);
+        let terms = self.mechanism.bounded_velocity_scale(&self.s, i, v);
+        ROUNDINGS * f64::EPSILON * (terms + fastest * places)
+    }
+
+    /// Up to here row `i` is at rest.
+    pub(super) fn rest(&self, i: usize) -> f64 {
+        let places = self.mechanism.position_scale(&self.s, i, &self.q);
+        ROUNDINGS * f64::EPSILON * self.rest_rate * places
+    }
+
+    /// Up to here velocity `j` is none.
+    pub(super) fn rest_of(&self, j: usize) -> f64 {
+        let first = j - j % N_BODY;
+        let place = self.q[first].hypot(self.q[first + 1]).max(self.size);
+        let rest = ROUNDINGS * f64::EPSILON * self.rest_rate * place;
+        rest / self.arm(j)
+    }
+
+    /// What a velocity is multiplied by to be one of a point: the size of the mechanism for rotations.
+    pub(super) fn arm(&self, j: usize) -> f64 {
+        if j % N_BODY == 2 { self.size } else { 1.0 }
+    }
+
+    /// The velocities of some rows, ascending.
+    pub(super) fn columns(&self, rows: &[usize]) -> Vec<usize> {
+        let layout = self.mechanism.layout();
+        let all = rows.iter().flat_map(|&i| layout.row(&self.s, i));
+        let mut columns: Vec<usize> = all.map(|(j, _)| j).collect();
+        columns.sort_unstable();
+        columns.dedup();
+        columns
+    }
+
+    /// Sets of rows that share velocities, each ascending, in the order of their first rows. Of the velocities those are meant that `joins` names.
+    pub(super) fn sets(&self, rows: &[usize], joins: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
+        let layout = self.mechanism.layout();
+        let mut leader: Vec<usize> = (0..rows.len()).collect();
+        let mut first: HashMap<usize, usize> = HashMap::new();
+        for (k, &i) in rows.iter().enumerate() {
+            for (j, _) in layout.row(&self.s, i).filter(|(j, _)| joins(*j)) {
+                let other = *first.entry(j).or_insert(k);
+                let [a, b] = [other, k].map(|k| find(&mut leader, k));
+                leader[a.max(b)] = a.min(b);
+            }
+        }
+        let mut sets: Vec<Vec<usize>> = vec![Vec::new(); rows.len()];
+        for (k, &i) in rows.iter().enumerate() {
+            let of = find(&mut leader, k);
+            sets[of].push(i);
+        }
+        sets.retain(|set| !set.is_empty());
+        sets
+    }
+
+    /// These rows and columns of C; allocates.
+    pub(super) fn matrix(&self, rows: &[usize], columns: &[usize]) -> Matrix {
+        let mut c = Matrix::zeros(rows.len(), columns.len());
+        for (k, &i) in rows.iter().enumerate() {
+            for (j, x) in self.mechanism.layout().row(&self.s, i) {
+                if let Ok(l) = columns.binary_search(&j) {
+                    c[(k, l)] += x;
+                }
+            }
+        }
+        c
+    }
+
+    /// Uncertainties of the entries of the pattern of C.
+    pub(super) fn learn(&mut self) {
+        let Self {
+            mechanism,
+            s,
+            q,
+            size,
+            known,
+            ..
+        } = self;
+        known.get_or_insert_with(|| mechanism.uncertainty_of_entries(s, q, *size, Known::AsStored));
+    }
+
+    fn known(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+        let pattern = &self.mechanism.layout().pattern;
+        let known = self.known.as_deref().unwrap_or_default();
+        let range = pattern.start[i]..pattern.start[i + 1];
+        range.map(move |k| (pattern.column[k], known.get(k).copied().unwrap_or_default()))
+    }
+}
+
+/// The first of a set.
+fn find(leader: &mut [usize], mut k: usize) -> usize {
+    while leader[k] != k {
+        leader[k] = leader[leader[k]];
+        k = leader[k];
+    }
+    k
+}
+
+/// Rows, and the velocities that follow in them.
+pub(super) struct Tier {
+    parts: Vec<Part>,
+    /// What is left of the rows of small sets: no velocity that follows changes these sums.
+    pub(super) circuits: Vec<Circuit>,
+}
+
+/// Rows that are solved together.
+pub(super) struct Part {
+    /// Independent in these columns.
+    rows: Vec<usize>,
+    columns: Vec<usize>,
+    solver: Solver,
+}
+
+enum Solver {
+    Dense(Matrix),
+    Schur(Box<(SparseMatrix, SchurSaddle)>),
+}
+
+impl Tier {
+    /// Of some rows and the velocities that `follows` names.
+    ///
+    /// # Errors
+    /// If C is not finite.
+    pub(super) fn new(
+        of: &Equations<'_>,
+        rows: &[usize],
+        follows: impl Fn(usize) -> bool,
+    ) -> Result<Self, StartError> {
+        let mut tier = Self {
+            parts: Vec::new(),
+            circuits: Vec::new(),
+        };
+        for set in of.sets(rows, &follows) {
+            let mut columns = of.columns(&set);
+            columns.retain(|j| follows(*j));
+            if set.len() > DENSE_ROWS {
+                let masses: Vec<f64> = columns.iter().map(|&j| of.weights[j].recip()).collect();
+                tier.parts.extend(Part::schur(of, &set, columns, &masses)?);
+                continue;
+            }
+            let exponents = of.mechanism.dimension_scaling(of.size).cols;
+            let scaled =
+                |k: usize, l: usize, x: f64| (k, l, x * f64::from(exponents[columns[l]]).exp2());
+            let mut c = Matrix::zeros(set.len(), columns.len());
+            let mut known = Matrix::zeros(set.len(), columns.len());
+            for (k, &i) in set.iter().enumerate() {
+                let place = |j: usize| columns.binary_search(&j).ok();
+                for (j, x) in of.mechanism.layout().row(&of.s, i) {
+                    if let Some((k, l, x)) = place(j).map(|l| scaled(k, l, x)) {
+                        c[(k, l)] += x;
+                    }
+                }
+                for (j, x) in of.known(i) {
+                    if let Some((k, l, x)) = place(j).map(|l| scaled(k, l, x)) {
+                        known[(k, l)] += x;
+                    }
+                }
+            }
+            let decision = decide(&c, &known)?;
+            let left = circuits(&decision).into_iter().map(|circuit| Circuit {
+                rows: circuit.rows.iter().map(|&k| set[k]).collect(),
+                ..circuit
+            });
+            tier.circuits.extend(left);
+            let rows: Vec<usize> = decision.kept.iter().map(|&k| set[k]).collect();
+            if !rows.is_empty() {
+                let c = of.matrix(&rows, &columns);
+                tier.parts.push(Part {
+                    rows,
+                    columns,
+                    solver: Solver::Dense(c),
+                });
+            }
+        }
+        Ok(tier)
+    }
+
+    /// Adds to v, in the velocities that follow, what the rows still miss.
+    ///
+    /// # Errors
+    /// If a row is not finite.
+    pub(super) fn follow(&mut self, of: &Equations<'_>, v: &mut [f64]) -> Result<(), StartError> {
+        self.parts
+            .iter_mut()
+            .try_for_each(|part| part.follow(of, v))
+    }
+
+    /// Circuits whose sum of residuals is above the rounding of its terms.
+    pub(super) fn open<'t>(
+        &'t self,
+        of: &'t Equations<'_>,
+        v: &'t [f64],
+    ) -> impl Iterator<Item = &'t Circuit> + 't {
+        let is_open = |circuit: &&Circuit| {
+            let terms = || circuit.rows.iter().zip(&circuit.coefficients);
+            let sum: f64 = terms().map(|(&i, z)| z * of.residual(i, v)).sum();
+            let rounding: f64 = terms().map(|(&i, z)| z.abs() * of.rounding(i, v)).sum();
+            // A sum that is no number is open.
+            !(sum.abs() <= rounding)
+        };
+        self.circuits.iter().filter(is_open)
+    }
+}
+
+impl Part {
+    /// A large set; `None` if no row of it says anything about these columns.
+    pub(super) fn schur(
+        of: &Equations<'_>,
+        set: &[usize],
+        columns: Vec<usize>,
+        masses: &[f64],
+    ) -> Result<Option<Self>, StartError> {
+        let layout = of.mechanism.layout();
+        let is_here = |j: usize| columns.binary_search(&j).is_ok();
+        let says = |i: &&usize| {
+            let known: HashMap<usize, f64> = of.known(**i).collect();
+            let mut own = layout.row(&of.s, **i).filter(|(j, _)| is_here(*j));
+            own.any(|(j, c)| c.abs() > SIGNIFICANT * known.get(&j).copied().unwrap_or_default())
+        };
+        let rows: Vec<usize> = set.iter().filter(says).copied().collect();
+        if rows.is_empty() {
+            return Ok(None);
+        }
+        let entries = |&i: &usize| {
+            let own = layout.row(&of.s, i);
+            let own = own.filter_map(|(j, c)| Some((columns.binary_search(&j).ok()?, c)));
+            own.collect::<Vec<_>>()
+        };
+        let c = SparseMatrix::from_rows(columns.len(), rows.iter().map(entries))?;
+        let mut blocks: Vec<std::ops::Range<usize>> = Vec::new();
+        for l in 0..columns.len() {
+            match blocks.last_mut() {
+                Some(last) if columns[last.start] / N_BODY == columns[l] / N_BODY => {
+                    last.end = l + 1
+                }
+                _ => blocks.push(l..l + 1),
+            }
+        }
+        let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &blocks));
+        saddle.factor_above(LEFT, &c, masses)?;
+        Ok(Some(Self {
+            rows,
+            columns,
+            solver: Solver::Schur(Box::new((c, saddle))),
+        }))
+    }
+
+    pub(super) fn follow(&mut self, of: &Equations<'_>, v: &mut [f64]) -> Result<(), StartError> {
+        let mut best = f64::INFINITY;
+        for _ in 0..REPETITIONS {
+            let residual: Vec<f64> = self.rows.iter().map(|&i| of.residual(i, v)).collect();
+            let ratio = |(&i, r): (&usize, &f64)| match *r == 0.0 {
+                true => 0.0,
+                false => r.abs() / of.rounding(i, v),
+            };
+            let used = |k: usize| match &self.solver {
+                Solver::Dense(_) => true,
+                Solver::Schur(sparse) => sparse.1.uses(k),
+            };
+            let rows = self.rows.iter().zip(&residual).enumerate();
+            let ratios = rows.filter(|(k, _)| used(*k)).map(|(_, row)| ratio(row));
+            let worst = ratios.fold(0.0, |a: f64, x| if x.is_nan() { x } else { a.max(x) });
+            // A tenth of what is allowed, where that is to be had: what follows from this has its own rounding.
+            if worst <= 1.0 / ROUNDINGS || !(worst <= PROGRESS * best) {
+                return Ok(());
+            }
+            best = worst;
+            let step = self.step(of, &residual)?;
+            for (&j, dv) in self.columns.iter().zip(step) {
+                v[j] += dv;
+            }
+        }
+        Ok(())
+    }
+
+    /// The shortest velocities that remove these residuals.
+    fn step(&mut self, of: &Equations<'_>, residual: &[f64]) -> Result<Vec<f64>, StartError> {
+        match &mut self.solver {
+            Solver::Dense(c) => {
+                let weights: Vec<f64> = self.columns.iter().map(|&j| of.weights[j]).collect();
+                shortest(c, residual, &weights)
+            }
+            Solver::Schur(sparse) => {
+                let (c, saddle) = &mut **sparse;
+                let gamma: Vec<f64> = residual.iter().map(|r| -r).collect();
+                let mut dv = vec![0.0; self.columns.len()];
+                let mut lambda = vec![0.0; self.rows.len()];
+                let forces = vec![0.0; dv.len()];
+                saddle.solve(c, &forces, &gamma, &mut dv, &mut lambda)?;
+                Ok(dv)
+            }
+        }
+    }
+}
+
+/// The shortest step in the metric of these inverse masses that removes residuals of rows. Exact where the rows are independent to working precision,
+/// however the masses differ; otherwise damped.
+pub(super) fn shortest(
+    c: &Matrix,
+    residual: &[f64],
+    weights: &[f64],
+) -> Result<Vec<f64>, StartError> {
+    if c.nrows() <= c.ncols() {
+        let masses: Vec<f64> = weights.iter().map(|w| w.recip()).collect();
+        let mut saddle = KeptRowSaddle::new(c.ncols(), c.nrows())?;
+        if saddle.factor(|k| c.row(k), &masses).is_ok() {
+            let gamma: Vec<f64> = residual.iter().map(|r| -r).collect();
+            let mut step = vec![0.0; c.ncols()];
+            saddle.motion(&vec![0.0; c.ncols()], &gamma, &mut step)?;
+            return Ok(step);
+        }
+    }
+    Ok(least_squares_step(c, residual, weights, DAMPING)?)
+}

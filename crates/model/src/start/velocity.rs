@@ -1,0 +1,295 @@
+//! Velocities of a start. What is given holds, the others follow from it and from what moves by itself, with the least kinetic energy.
+//!
+//! Given velocities may be rounded to some digits. Where no motion has them, the nearest ones in the mass metric are taken, and the others follow from
+//! these; if they are farther off than a start may be corrected, the velocities at fault are named. Velocities that `keep` holds do not move at all.
+//!
+//! Residuals are compared with the rounding of their own terms, and what is at rest with the rounding of its place: never with a solution, which may
+//! be zero.
+
+use linalg::Matrix;
+
+use super::conflict::VelocityConflict;
+use super::tier::{DENSE_ROWS, Equations, Part, Tier, shortest};
+use super::{
+    CorrectionLimit, KeepLevel, ROUNDINGS, SMALL_CORRECTION, StartError, StartOptions, kept_columns,
+};
+use crate::mechanism::Mechanism;
+
+/// Velocities that satisfy the constraints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StartVelocity {
+    /// The velocities.
+    pub v: Vec<f64>,
+    /// These minus the given ones; zero where none is given.
+    pub correction: Vec<f64>,
+}
+
+/// How a velocity stands to what is asked.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Hold {
+    /// It follows.
+    No,
+    /// It is given, to its digits.
+    Given,
+    /// It is given, and does not move.
+    Kept,
+}
+
+/// Corrections of given velocities; each but the first removes what rounding has left.
+const PASSES: usize = 5;
+
+/// What follows costs so little of what is given in large sets that it might as well cost nothing.
+const CHEAP: f64 = 1e-6;
+
+/// Entries of a sum of rows below this share of its terms are rounding.
+const CANCELLED: f64 = 1e-12;
+
+/// Velocities that satisfy `C·v = b` in the kept rows at an assembled configuration: given ones hold, and the others follow with the least
+/// kinetic energy, `M·v = Cᵀ·μ` in them. What has no mass or inertia weighs as the smallest that has it.
+///
+/// Given velocities that fit to rounding do not change. Those that miss are corrected by the least, in the mass metric; those that `options`
+/// keep, and that need not be given, are held to all digits.
+///
+/// ```
+/// use joints::Revolute;
+/// use model::start::{StartOptions, assemble, consistent_velocity};
+/// use model::{Body, BodyRef, Description, Mechanism, System};
+///
+/// // A bob 2 m below its pivot, turning with 3 rad/s: its centre moves with 6 m/s.
+/// let mut d = Description::new("pendulum");
+/// let bob = d.body(Body { position: [0.0, -2.0], angular_velocity: Some(3.0), ..Body::new("bob", 1.0, 0.1) });
+/// d.joint("pivot", &[BodyRef::Ground, bob], Revolute { s_i: [0.0, 0.0], s_j: [0.0, 2.0] });
+/// let mut mechanism = Mechanism::build(&d).unwrap();
+/// let options = StartOptions::default();
+/// let q = assemble(&mut mechanism, &options)?.q;
+/// let found = consistent_velocity(&mechanism, &options, &q, &mechanism.given_velocities(), &[0, 1])?;
+/// assert_eq!((found.v, found.correction), (vec![6.0, 0.0, 3.0], vec![0.0; 3]));
+/// # Ok::<(), model::StartError>(())
+/// ```
+///
+/// # Errors
+/// - [`StartError::Velocities`]: no motion has the given velocities, or only others by more than `options` allow.
+/// - [`StartError::NoVelocity`]: the rows leave none.
+/// - [`StartError::NoCoordinate`]: a velocity that `options` keep does not exist.
+pub fn consistent_velocity(
+    mechanism: &Mechanism,
+    options: &StartOptions,
+    q: &[f64],
+    given: &[Option<f64>],
+    kept: &[usize],
+) -> Result<StartVelocity, StartError> {
+    let mut start = Start::new(mechanism, options, q, given)?;
+    let mut v = start.written.clone();
+    let mut conflicts: Vec<VelocityConflict> = Vec::new();
+    // A consistent start needs no matrix.
+    if start.misses(kept, &v) {
+        start.equations.learn();
+        for rows in start.equations.sets(kept, |_| true) {
+            if !start.misses(&rows, &v) {
+                continue;
+            }
+            match start.solve(&rows, &start.hold, start.limit, &mut v)? {
+                None => {}
+                Some(miss) => conflicts.push(start.conflict(&rows, miss)?),
+            }
+        }
+    }
+    if let Some(conflict) = VelocityConflict::merged(conflicts) {
+        return Err(Box::new(conflict).into());
+    }
+    let found = v.iter().zip(&start.written).zip(&start.hold);
+    let correction = found.map(|((v, written), hold)| match hold {
+        Hold::No => 0.0,
+        _ => v - written,
+    });
+    Ok(StartVelocity {
+        correction: correction.collect(),
+        v,
+    })
+}
+
+/// What is asked of the velocities of a start.
+pub(super) struct Start<'m> {
+    pub(super) equations: Equations<'m>,
+    /// Given velocities, and zero.
+    pub(super) written: Vec<f64>,
+    /// Whether they stand in the scene.
+    pub(super) is_written: Vec<bool>,
+    pub(super) hold: Vec<Hold>,
+    pub(super) limit: CorrectionLimit,
+}
+
+/// Why some rows have no velocities that may be taken.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Miss {
+    /// The nearest ones are too far off.
+    Far,
+    /// There are none; this row misses most.
+    Open(usize),
+}
+
+impl<'m> Start<'m> {
+    fn new(
+        mechanism: &'m Mechanism,
+        options: &StartOptions,
+        q: &[f64],
+        given: &[Option<f64>],
+    ) -> Result<Self, StartError> {
+        let hold = |x: &Option<f64>| x.map_or(Hold::No, |_| Hold::Given);
+        let mut hold: Vec<Hold> = given.iter().map(hold).collect();
+        for column in kept_columns(mechanism, options, KeepLevel::Velocity)? {
+            hold[column] = Hold::Kept;
+        }
+        Ok(Self {
+            equations: Equations::new(mechanism, q),
+            written: given.iter().map(|x| x.unwrap_or_default()).collect(),
+            is_written: given.iter().map(Option::is_some).collect(),
+            hold,
+            limit: options.correction,
+        })
+    }
+
+    /// Whether one of these rows misses by more than rounding.
+    fn misses(&self, rows: &[usize], v: &[f64]) -> bool {
+        let of = &self.equations;
+        rows.iter()
+            .any(|&i| !(of.residual(i, v).abs() <= of.rounding(i, v)))
+    }
+
+    /// Finds the velocities of some rows, all that share one with them. Returns why there are none to be taken.
+    ///
+    /// # Errors
+    /// If a number is not finite.
+    pub(super) fn solve(
+        &self,
+        rows: &[usize],
+        hold: &[Hold],
+        limit: CorrectionLimit,
+        v: &mut [f64],
+    ) -> Result<Option<Miss>, StartError> {
+        let of = &self.equations;
+        let columns = of.columns(rows);
+        for &j in &columns {
+            v[j] = match hold[j] {
+                Hold::No => 0.0,
+                _ => self.written[j],
+            };
+        }
+        let mut tier = Tier::new(of, rows, |j| hold[j] == Hold::No)?;
+        tier.follow(of, v)?;
+        let given: Vec<usize> = columns
+            .iter()
+            .copied()
+            .filter(|&j| hold[j] == Hold::Given)
+            .collect();
+        for _ in 0..PASSES {
+            let is_open = tier.open(of, v).next().is_some()
+                || rows.len() > DENSE_ROWS && self.misses(rows, v);
+            if given.is_empty() || !is_open {
+                break;
+            }
+            match rows.len() > DENSE_ROWS {
+                true => self.correct_many(rows, hold, v)?,
+                false => self.correct(&tier, &given, v)?,
+            }
+            tier.follow(of, v)?;
+        }
+        Ok(self
+            .open(rows, v)
+            .or_else(|| self.far(&columns, hold, limit, v)))
+    }
+
+    /// Adds the shortest correction of given velocities that closes the circuits.
+    fn correct(&self, tier: &Tier, given: &[usize], v: &mut [f64]) -> Result<(), StartError> {
+        let of = &self.equations;
+        let mut sums: Vec<Vec<f64>> = Vec::new();
+        let mut residual = Vec::new();
+        for circuit in &tier.circuits {
+            let c = of.matrix(&circuit.rows, given);
+            let sum = c.transpose_times(&circuit.coefficients);
+            let terms = |l: usize| {
+                (0..c.nrows())
+                    .map(|k| (circuit.coefficients[k] * c[(k, l)]).abs())
+                    .sum::<f64>()
+            };
+            let largest = (0..given.len()).map(terms).fold(0.0, f64::max);
+            // Rows among velocities that are kept: nothing that is given closes them.
+            if sum.iter().all(|x| x.abs() <= CANCELLED * largest) {
+                continue;
+            }
+            let terms = circuit.rows.iter().zip(&circuit.coefficients);
+            residual.push(terms.map(|(&i, z)| z * of.residual(i, v)).sum());
+            sums.push(sum);
+        }
+        if sums.is_empty() {
+            return Ok(());
+        }
+        let sums = Matrix::from_fn(sums.len(), given.len(), |k, l| sums[k][l]);
+        let weights: Vec<f64> = given.iter().map(|&j| of.weights[j]).collect();
+        for (&j, dv) in given.iter().zip(shortest(&sums, &residual, &weights)?) {
+            v[j] += dv;
+        }
+        Ok(())
+    }
+
+    /// The same of many rows: what follows moves with the given velocities, at next to no cost.
+    fn correct_many(&self, rows: &[usize], hold: &[Hold], v: &mut [f64]) -> Result<(), StartError> {
+        let of = &self.equations;
+        let mut columns = of.columns(rows);
+        columns.retain(|&j| hold[j] != Hold::Kept);
+        let cost =
+            |&j: &usize| of.weights[j].recip() * if hold[j] == Hold::No { CHEAP } else { 1.0 };
+        let masses: Vec<f64> = columns.iter().map(cost).collect();
+        let mut moved = v.to_vec();
+        if let Some(mut part) = Part::schur(of, rows, columns.clone(), &masses)? {
+            part.follow(of, &mut moved)?;
+        }
+        for &j in columns.iter().filter(|&&j| hold[j] == Hold::Given) {
+            v[j] = moved[j];
+        }
+        Ok(())
+    }
+
+    /// The row that misses most, beyond rounding and rest.
+    fn open(&self, rows: &[usize], v: &[f64]) -> Option<Miss> {
+        let of = &self.equations;
+        // Rounding may leave a little more than that of the terms of one row.
+        let excess =
+            |i: usize| of.residual(i, v).abs() / (ROUNDINGS * of.rounding(i, v) + of.rest(i));
+        let excesses = rows
+            .iter()
+            .map(|&i| (i, excess(i)))
+            .filter(|(i, _)| of.residual(*i, v) != 0.0);
+        let (row, worst) = super::largest(excesses);
+        (!(worst <= 1.0)).then_some(Miss::Open(row))
+    }
+
+    /// Whether a given velocity was corrected by more than is allowed.
+    fn far(
+        &self,
+        columns: &[usize],
+        hold: &[Hold],
+        limit: CorrectionLimit,
+        v: &[f64],
+    ) -> Option<Miss> {
+        if limit == CorrectionLimit::Any {
+            return None;
+        }
+        let mut given = columns.iter().filter(|&&j| hold[j] == Hold::Given);
+        given
+            .any(|&j| (v[j] - self.written[j]).abs() > self.allowed(j, columns, hold, v))
+            .then_some(Miss::Far)
+    }
+
+    /// What a given velocity may be corrected by: a thousandth of the fastest of the velocities that share rows with it, rotations by what they move at
+    /// the size of the mechanism; and what is rest.
+    pub(super) fn allowed(&self, j: usize, columns: &[usize], hold: &[Hold], v: &[f64]) -> f64 {
+        let of = &self.equations;
+        if hold[j] == Hold::Kept {
+            return of.rest_of(j);
+        }
+        let speed = |k: &usize| of.arm(*k) * v[*k].abs().max(self.written[*k].abs());
+        let fastest = columns.iter().map(speed).fold(0.0, f64::max);
+        (SMALL_CORRECTION * fastest / of.arm(j)).max(of.rest_of(j))
+    }
+}
