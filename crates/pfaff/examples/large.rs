@@ -8,7 +8,7 @@ use std::error::Error;
 use std::time::Instant;
 
 use pfaff::dynamics::{KeptRowMotion, Motion, RowChoice, prepare};
-use pfaff::model::{Assembly, Mechanism, Registry, System};
+use pfaff::model::{Mechanism, Registry, System};
 use pfaff::solvability::{Verdict, analyse};
 
 /// Evaluations; the least time counts.
@@ -26,11 +26,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut mechanism = mechanism.map_err(|all| format!("{:?}", all.first()))?;
         let (assemble, assembly) =
             timed(|| pfaff::model::start::assemble(&mut mechanism, &scene.start));
-        let Assembly { q, v, .. } = assembly?;
+        let q = assembly?.q;
         let (verdicts, found) = timed(|| analyse(&mechanism, 0.0, &q));
         let found = found?;
-        let (fragile, hanging) = timed(|| found.sensitivities(&mechanism, &q, &v));
-        hanging?;
         let open = found
             .reactions
             .iter()
@@ -39,6 +37,9 @@ fn main() -> Result<(), Box<dyn Error>> {
         let (rows, columns) = (mechanism.layout().rows(), mechanism.layout().n_v);
         let (choose, prepared) = timed(|| prepare(mechanism, &scene.start, &RowChoice::Automatic));
         let prepared = prepared?;
+        let hanging = || found.sensitivities(&prepared.mechanism, &prepared.q, &prepared.v);
+        let (fragile, hanging) = timed(hanging);
+        hanging?;
         let (plan, motion) = timed(|| KeptRowMotion::new(&prepared));
         let mut motion = motion?;
         let mut a = vec![0.0; columns];
