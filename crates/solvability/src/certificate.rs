@@ -125,12 +125,7 @@ impl<'a> Rows<'a> {
     }
 
     /// Asks what the data make of the rows of the dependencies: with a tolerance of all, without one of those that the entries of C leave open.
-    fn know_rows(
-        &self,
-        question: &Question<'_>,
-        decision: &mut RankDecision,
-        has_tolerance: bool,
-    ) {
+    fn know_rows(&self, question: &Question<'_>, decision: &mut RankDecision, has_tolerance: bool) {
         let t = decision.equilibrated_dependence();
         let is_open = |row: usize| -> bool {
             let Ok(k) = decision.kept.binary_search(&row) else {
@@ -138,7 +133,9 @@ impl<'a> Rows<'a> {
             };
             let noise = decision.row_noise(row);
             let column = (0..t.nrows()).map(|j| t[(j, k)].abs());
-            column.into_iter().any(|x| (SAFELY * noise..SMALL).contains(&x))
+            column
+                .into_iter()
+                .any(|x| (SAFELY * noise..SMALL).contains(&x))
         };
         let rows = 0..decision.rank + decision.redundancy;
         let asked: Vec<usize> = rows.filter(|&i| has_tolerance || is_open(i)).collect();

@@ -275,7 +275,10 @@ fn reaction(
         Some([]) => "nothing of it is determined".to_owned(),
         Some(told) => format!("determined is {}", list(told)),
     };
-    let is_open = group.rows.clone().any(|row| open.binary_search(&row).is_ok());
+    let is_open = group
+        .rows
+        .clone()
+        .any(|row| open.binary_search(&row).is_ok());
     let shared = match others.as_slice() {
         _ if is_open => "within the tolerance it is open what it shares loads with".to_owned(),
         [] => "its rows depend on each other".to_owned(),

@@ -237,11 +237,13 @@ pub(crate) fn judge(
         let open = linalg::open_rows(decision);
         let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
         let circuits = linalg::short_circuits(decision).into_iter();
-        let dependencies = circuits.filter(|circuit| is_known(&circuit.rows)).map(|circuit| Dependency {
-            text: words::describe(mechanism, &circuit),
-            rows: circuit.rows,
-            coefficients: circuit.coefficients,
-        });
+        let dependencies = circuits
+            .filter(|circuit| is_known(&circuit.rows))
+            .map(|circuit| Dependency {
+                text: words::describe(mechanism, &circuit),
+                rows: circuit.rows,
+                coefficients: circuit.coefficients,
+            });
         found.dependencies = dependencies.collect();
         found.part.nearly_redundant = rows.nearly_redundant(mechanism, s, decision);
     }

@@ -9,8 +9,8 @@ use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand};
 use fuzz::campaign::{Campaign, Tally};
-use fuzz::exact::rounded::{self, Suite};
 use fuzz::exact;
+use fuzz::exact::rounded::{self, Suite};
 use fuzz::watch::Limits;
 use fuzz::{input, trial};
 

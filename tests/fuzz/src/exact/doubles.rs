@@ -25,7 +25,10 @@ pub struct Block {
 #[derive(Clone, Copy, Debug)]
 enum Kept {
     /// Points coincide.
-    Point { sides: [Side; 2], points: [usize; 2] },
+    Point {
+        sides: [Side; 2],
+        points: [usize; 2],
+    },
     /// `normal·(p_j − p_i)`, the normal turned from an axis of the first body
     Offset {
         sides: [Side; 2],
@@ -162,7 +165,10 @@ impl Kept {
     fn phi(&self, q: &[f64], d: &[f64], out: &mut Vec<f64>) {
         let of = |side: Side| Place::of(side, q);
         let apart = |sides: [Side; 2], points: [usize; 2]| {
-            minus(of(sides[1]).point(d, points[1]), of(sides[0]).point(d, points[0]))
+            minus(
+                of(sides[1]).point(d, points[1]),
+                of(sides[0]).point(d, points[0]),
+            )
         };
         match *self {
             Self::Point { sides, points } => out.extend(apart(sides, points)),
@@ -214,7 +220,10 @@ impl Kept {
         let moving = |side: Side, point: usize| velocity(twist(side, v), of(side).arm(d, point));
         let apart = |sides: [Side; 2], points: [usize; 2]| {
             (
-                minus(of(sides[1]).point(d, points[1]), of(sides[0]).point(d, points[0])),
+                minus(
+                    of(sides[1]).point(d, points[1]),
+                    of(sides[0]).point(d, points[0]),
+                ),
                 minus(moving(sides[1], points[1]), moving(sides[0], points[0])),
             )
         };
@@ -402,10 +411,8 @@ impl Pen<'_> {
                 }]
             }
             Tie::KnifeEdge { at, along } | Tie::Velocity { at, along } => {
-                let (point, direction) = (
-                    self.point(sides[0], at),
-                    self.direction(sides[0], along),
-                );
+                let (point, direction) =
+                    (self.point(sides[0], at), self.direction(sides[0], along));
                 vec![Kept::Edge {
                     side: sides[0],
                     point,
@@ -414,10 +421,8 @@ impl Pen<'_> {
                 }]
             }
             Tie::Rolling { at, along, radius } => {
-                let (point, direction) = (
-                    self.point(sides[0], at),
-                    self.direction(sides[0], along),
-                );
+                let (point, direction) =
+                    (self.point(sides[0], at), self.direction(sides[0], along));
                 let length = self.posed.lever(along, radius);
                 let radius = self.add(&[length], false);
                 vec![Kept::Edge {
@@ -530,7 +535,10 @@ impl Doubles {
     #[must_use]
     pub fn power(&self, q: &[f64], d: &[f64], v: &[f64]) -> Vec<f64> {
         let mut v = v.to_vec();
-        v.iter_mut().skip(2).step_by(3).for_each(|x| *x /= self.size);
+        v.iter_mut()
+            .skip(2)
+            .step_by(3)
+            .for_each(|x| *x /= self.size);
         self.rate(q, d, &v)
     }
 

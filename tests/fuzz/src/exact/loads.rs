@@ -61,15 +61,23 @@ impl Doubles {
         link: usize,
     ) -> ([f64; 2], Option<f64>) {
         let tie = &posed.links[link].link;
-        let own: Vec<usize> = (0..self.rows()).filter(|&i| self.links[i] == link).collect();
+        let own: Vec<usize> = (0..self.rows())
+            .filter(|&i| self.links[i] == link)
+            .collect();
         let on = |j: usize| -> f64 { own.iter().map(|&i| -c[(i, j)] * lambda[i]).sum() };
-        let world = |p| posed.point(p).map(|x: super::ratio::Surd| x.rounded(posed.stretch));
+        let world = |p| {
+            posed
+                .point(p)
+                .map(|x: super::ratio::Surd| x.rounded(posed.stretch))
+        };
         let place = rows::place(&tie.tie).map(world);
         let moving = |body: usize| {
-            let ([x, y], about) = ([on(3 * body), on(3 * body + 1)], self.size * on(3 * body + 2));
+            let ([x, y], about) = (
+                [on(3 * body), on(3 * body + 1)],
+                self.size * on(3 * body + 2),
+            );
             let origin = [self.q[3 * body], self.q[3 * body + 1]];
-            let moment =
-                place.map(|p| about + (origin[0] - p[0]) * y - (origin[1] - p[1]) * x);
+            let moment = place.map(|p| about + (origin[0] - p[0]) * y - (origin[1] - p[1]) * x);
             ([x, y], moment)
         };
         match tie.sides[0] {

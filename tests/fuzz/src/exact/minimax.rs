@@ -156,23 +156,20 @@ mod tests {
         // 6 = 1·x + 2·y + |(0, 3)·z|: all change by 1.
         let one = [equation(6.0, &[[1.0, 0.0], [2.0, 0.0], [0.0, 3.0]])];
         // x = 3, y = 4 of one point: 5; of two numbers: 4.
-        let point = [
-            equation(3.0, &[[1.0, 0.0]]),
-            equation(4.0, &[[0.0, 1.0]]),
-        ];
+        let point = [equation(3.0, &[[1.0, 0.0]]), equation(4.0, &[[0.0, 1.0]])];
         let numbers = [
             equation(3.0, &[[1.0, 0.0], [0.0; 2]]),
             equation(4.0, &[[0.0; 2], [1.0, 0.0]]),
         ];
         for (equations, right) in [(&one[..], 1.0), (&point[..], 5.0), (&numbers[..], 4.0)] {
             let Bounds { low, high } = least_change(equations, 1e-9);
-            assert!(low <= right * 1.001 && high >= right * 0.999, "{low} {high}");
+            assert!(
+                low <= right * 1.001 && high >= right * 0.999,
+                "{low} {high}"
+            );
             assert!(high < 1.11 * low, "{low} {high}");
         }
-        let never = [
-            equation(1.0, &[[1.0, 0.0]]),
-            equation(-1.0, &[[1.0, 0.0]]),
-        ];
+        let never = [equation(1.0, &[[1.0, 0.0]]), equation(-1.0, &[[1.0, 0.0]])];
         assert!(least_change(&never, 1e-9).low > 1e6);
     }
 }

@@ -7,6 +7,7 @@ use std::panic::{self, AssertUnwindSafe};
 use rayon::prelude::*;
 use tests::numbers::Numbers;
 
+use super::doubles::{Doubles, extent};
 use super::examine::{Kind, examine};
 use super::families::Family;
 use super::families::slender::Slender;
@@ -16,7 +17,6 @@ use super::text::{Precision, text_within};
 use super::told;
 use super::truth::Truth;
 use super::within::{BEYOND_DOUBT, Judged, Meant};
-use super::doubles::{Doubles, extent};
 
 /// Significant digits. With the last ones no tolerance is stated.
 pub const DIGITS: [usize; 14] = [3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16];
@@ -110,7 +110,13 @@ impl Outcome {
         let findings = self.judged.findings.0.iter();
         let findings = findings.map(|f| format!("{}: {}", f.kind.name(), f.text));
         let other = self.judged.other_rank.iter().map(|x| (*x).to_owned());
-        for line in self.truth.lines().map(str::to_owned).chain(findings).chain(other) {
+        for line in self
+            .truth
+            .lines()
+            .map(str::to_owned)
+            .chain(findings)
+            .chain(other)
+        {
             page.push_str(&format!("# {}\n", line.replace('\n', "\n#   ")));
         }
         page + &self.text
@@ -189,7 +195,11 @@ fn outcome(
             meant.from.low,
             meant.from.high,
             meant.size,
-            if meant.is_permanent { "permanent" } else { "singular pose" },
+            if meant.is_permanent {
+                "permanent"
+            } else {
+                "singular pose"
+            },
         ),
         text,
         judged,
@@ -246,7 +256,10 @@ impl Count {
     }
 
     fn of(&self, wanted: impl Fn(Kind, bool) -> bool) -> usize {
-        let counts = self.not.iter().filter(|((kind, far), _)| wanted(*kind, *far));
+        let counts = self
+            .not
+            .iter()
+            .filter(|((kind, far), _)| wanted(*kind, *far));
         counts.map(|(_, (count, _))| count).sum()
     }
 }
@@ -295,9 +308,7 @@ impl Tally {
         };
         match (outcome.worst(), outcome.judged.other_rank) {
             (Some(worst), _) => {
-                count
-                    .not
-                    .insert((worst, outcome.is_far), (1, vec![number]));
+                count.not.insert((worst, outcome.is_far), (1, vec![number]));
             }
             (None, Some(why)) => {
                 count.other.insert(why, 1);

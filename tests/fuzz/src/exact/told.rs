@@ -2,8 +2,8 @@
 
 use pfaff::linalg::Limits;
 use pfaff::model::Registry;
-use pfaff::report::documents::MakeUniqueDocument;
 use pfaff::report::documents::DistributionDocument;
+use pfaff::report::documents::MakeUniqueDocument;
 use pfaff::solvability::{Allowed, Choice, NormWeights, Verdict};
 use pfaff::{Blueprint, Inquiry, Overrides, StudyError};
 use serde_json::Value;

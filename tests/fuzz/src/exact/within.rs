@@ -98,7 +98,10 @@ impl<'a> Meant<'a> {
             findings.note(Kind::Undecided, text);
             return judged;
         }
-        let (told_rank, rank) = (told["rank"].as_u64().unwrap_or(0) as usize, self.truth.rank());
+        let (told_rank, rank) = (
+            told["rank"].as_u64().unwrap_or(0) as usize,
+            self.truth.rank(),
+        );
         let from = format!(
             "tolerance {tolerance:.2e} m, τ* {:.2e} m to {:.2e} m",
             self.from.low, self.from.high
@@ -121,7 +124,8 @@ impl<'a> Meant<'a> {
             return judged;
         }
         if !self.is_permanent && grounds == "within_tolerance" {
-            let text = format!("rank: told {told_rank} within the tolerance, is so at one pose only");
+            let text =
+                format!("rank: told {told_rank} within the tolerance, is so at one pose only");
             findings.note(Kind::Rank, text);
         }
         if BEYOND_DOUBT * tolerance >= self.from.low {
@@ -187,7 +191,9 @@ impl<'a> Meant<'a> {
             let (force, torque) = self.reactions.each[link];
             // Torque of a wheel about its own place may lie elsewhere.
             let torque = torque.filter(|_| !matches!(placed.link.tie, Tie::Rack { .. }));
-            let size = force[0].hypot(force[1]).max(torque.map_or(0.0, f64::abs) / self.size);
+            let size = force[0]
+                .hypot(force[1])
+                .max(torque.map_or(0.0, f64::abs) / self.size);
             let allowed = (all + tolerance / self.size + ROUNDING) * size.max(self.reactions.load);
             let Some(values) = list(&chosen["reactions"]).iter().find(named) else {
                 continue;
