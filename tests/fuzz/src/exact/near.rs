@@ -186,7 +186,7 @@ impl Doubles {
         poses
     }
 
-    fn advance(&self, kept: &[usize], q: &mut Vec<f64>, heading: &mut Vec<f64>) -> Option<()> {
+    fn advance(&self, kept: &[usize], q: &mut [f64], heading: &mut Vec<f64>) -> Option<()> {
         let c = self.c(q, &self.data).select_rows(kept);
         let along = project_out(&c, heading);
         let largest = along.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
