@@ -1,14 +1,18 @@
 //! Degenerate scenes: what is told of them is what exact arithmetic says. `cargo run --release -p
 //! fuzz -- exact` makes 20 000 of them.
 
+use fuzz::exact::doubles::Doubles;
 use fuzz::exact::drawing::{Drawing, GROUND, Tie, Vector};
-use fuzz::exact::examine::{Kind, examine};
+use fuzz::exact::examine::{Kind, examine, list};
 use fuzz::exact::families::Family;
 use fuzz::exact::pose::{Posed, Writing};
 use fuzz::exact::ratio::Ratio;
+use fuzz::exact::rounded::{self, Suite};
 use fuzz::exact::tally::Tally;
+use fuzz::exact::text::Precision;
 use fuzz::exact::told::told;
 use fuzz::exact::truth::Truth;
+use fuzz::exact::within::Meant;
 use fuzz::exact::{scene, text};
 use serde_json::{Value, json};
 use tests::numbers::Numbers;
@@ -276,5 +280,137 @@ fn a_changed_document_is_found_out() {
             kinds(&changed).contains(&Kind::Sentence),
             "{words} in {text}"
         );
+    }
+}
+
+/// Drawings for each of the suites with a tolerance.
+const DRAWINGS: u64 = 40;
+
+/// Degenerate drawings with 3 … 16 digits: nothing is told that exact arithmetic contradicts, and
+/// with the last ones, without a tolerance, nothing is undecided.
+#[test]
+fn with_few_digits_nothing_wrong_is_told() {
+    let tally = rounded::Tally::of(Suite::Rounded, SEED, 0, DRAWINGS);
+    assert_eq!(tally.wrong(), 0, "\n{}", tally.describe());
+    let all = tally.by_way[&(rounded::DIGITS.len() - 1)].clone();
+    assert_eq!(
+        (all.right, all.not.len()),
+        (40, 0),
+        "\n{}",
+        tally.describe()
+    );
+}
+
+/// What is of full rank stays so below a third of what its data would have to be wrong by.
+#[test]
+fn no_tolerance_below_a_third_makes_a_row_redundant() {
+    let tally = rounded::Tally::of(Suite::FullRank, SEED, 0, DRAWINGS);
+    assert!(tally.passes(), "\n{}", tally.describe());
+}
+
+/// The oracle of τ* against a closed form: a pin that is off by δ is shared by eight points, of
+/// which each has to move by an eighth.
+#[test]
+fn a_third_crank_is_redundant_from_an_eighth_of_its_misfit_on() {
+    for (off, right) in [
+        (Ratio::new(1, 100_000), 1.25e-6),
+        (Ratio::new(1, 2_500), 5e-5),
+    ] {
+        let mut drawing = Drawing::new();
+        let coupler = drawing.body_at(at(10, 0));
+        let arm = at(4, 3);
+        for k in 0..3 {
+            let crank = drawing.body();
+            let [x, y] = at(10 * k, 0);
+            let pin = match k {
+                2 => [x + off, y],
+                _ => [x, y],
+            };
+            let tip = [x + arm[0], y + arm[1]];
+            drawing.link(&[GROUND, crank], Tie::Revolute { at: pin });
+            drawing.link(&[crank, coupler], Tie::Revolute { at: tip });
+        }
+        let posed = Posed::new(&drawing, Writing::AsDrawn, &mut Numbers::new(SEED));
+        let truth = Truth::of(&posed);
+        assert_eq!(truth.rank(), 12);
+        let found = Doubles::of(&posed).lower_rank_from(12);
+        assert!(
+            found.low <= 1.02 * right && found.high >= 0.98 * right,
+            "{found:?}, {right}"
+        );
+        // The second order that is left open, and where the iteration ends.
+        assert!(found.high < 1.25 * found.low, "{found:?}");
+    }
+}
+
+/// A changed document is found out within a tolerance, too: a row too many or too few, a reaction
+/// that is none.
+#[test]
+fn a_changed_document_is_found_out_within_a_tolerance() {
+    let mut drawing = Drawing::new();
+    let body = drawing.body_at(at(0, 0));
+    for x in [-20, 10, 30] {
+        drawing.link(&[GROUND, body], Tie::Revolute { at: at(x, 0) });
+    }
+    drawing.links[2].tie = Tie::PinInSlot {
+        from: at(-20, 0),
+        at: at(-20, 0),
+        along: at(10, 0),
+    };
+    drawing.links[1].tie = Tie::PinInSlot {
+        from: at(10, 0),
+        at: at(10, 0),
+        along: at(0, 10),
+    };
+    let posed = Posed::new(&drawing, Writing::AsDrawn, &mut Numbers::new(SEED));
+    let truth = Truth::of(&posed);
+    assert_eq!((truth.rank(), truth.redundancy()), (3, 1));
+    let gravity = [1.0, -10.0];
+    let meant = Meant::of(&truth, SEED, gravity);
+    assert!(meant.is_permanent);
+    let tolerance = 1e-4;
+    let precision = Precision {
+        digits: Some(6),
+        tolerance: Some(tolerance),
+        gravity,
+    };
+    let document = told(&text::text_within(&posed, &precision)).expect("it is a scene");
+    let kinds = |document: &Value| {
+        let findings = meant.judge(document, tolerance).findings.0;
+        findings.into_iter().map(|f| f.kind).collect::<Vec<_>>()
+    };
+    assert_eq!(kinds(&document), []);
+    let unique = list(&document["reactions"])
+        .iter()
+        .position(|r| r["verdict"] == "unique");
+    let unique = unique.expect("one is unique");
+    for (pointer, value, kind) in [
+        ("/rank".to_owned(), json!(2), Kind::Rank),
+        ("/rank".to_owned(), json!(4), Kind::Rank),
+        (
+            format!("/reactions/{unique}/verdict"),
+            json!("not_unique"),
+            Kind::Verdict,
+        ),
+        (
+            format!("/choices/0/reactions/{unique}/components/0/value"),
+            json!(1e3),
+            Kind::Load,
+        ),
+        (
+            "/dependencies/0/rows".to_owned(),
+            json!([1, 2, 3]),
+            Kind::Sentence,
+        ),
+        (
+            "/evidence/status".to_owned(),
+            json!("undecided"),
+            Kind::Undecided,
+        ),
+    ] {
+        let mut changed = document.clone();
+        let place = changed.pointer_mut(&pointer);
+        *place.unwrap_or_else(|| panic!("{pointer} of {document:#}")) = value.clone();
+        assert!(kinds(&changed).contains(&kind), "{pointer} = {value}");
     }
 }

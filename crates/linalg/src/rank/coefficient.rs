@@ -21,6 +21,9 @@ const TOLERANCE_MAX: f64 = 1e-5;
 /// The same where the noise is that of a stated tolerance: of larger changes the first order says nothing.
 const STATED_MAX: f64 = 0.1;
 
+/// By this factor a coefficient is certainly not zero there: all data together would have to be wrong by as many tolerances, as for ranks.
+const STATED_CLEARANCE: f64 = 3.0;
+
 /// A coefficient that has come out as small as this in double-double is zero, whatever the data are known to.
 const VANISHED: f64 = 1e-13;
 
@@ -176,17 +179,18 @@ impl Readings {
     /// Reads the size of a coefficient, or of a norm of some, of which the noise is known.
     #[must_use]
     pub fn read(&self, size: f64, noise: f64) -> CoefficientReading {
-        let far_below = self.smallest / SPREAD;
-        let required = (CLEARANCE * noise).max(CERTAIN);
-        if self.has_tolerance && size <= noise && noise <= STATED_MAX {
-            return CoefficientReading::Zero;
-        }
-        if self.has_tolerance && size <= required {
-            return CoefficientReading::Unclear {
-                tolerance: noise,
-                required,
+        if self.has_tolerance {
+            let required = (STATED_CLEARANCE * noise).max(CERTAIN);
+            return match size {
+                _ if size <= noise && noise <= STATED_MAX => CoefficientReading::Zero,
+                _ if size > required => CoefficientReading::NonZero,
+                _ => CoefficientReading::Unclear {
+                    tolerance: noise,
+                    required,
+                },
             };
         }
+        let far_below = self.smallest / SPREAD;
         match CoefficientReading::of(size, noise) {
             CoefficientReading::Zero if size > far_below => CoefficientReading::Unclear {
                 tolerance: far_below,

@@ -232,29 +232,34 @@ impl Question<'_> {
         // Shares of what one entry alone would need, so that rounding is no obstacle.
         let least = least.max(self.size * f64::EPSILON);
         let known: Vec<f64> = unit.iter().map(|unit| unit * least).collect();
-        // What the second order leaves of equations of the first.
-        let curved = CURVED * (least / self.size).powi(2);
-        let of_pose = |pose: &Pose<'_>, noise: f64| -> Vec<Equation> {
+        // Equations of lengths are those of entries, times the size.
+        let of_pose = |pose: &Pose<'_>, noise: f64| -> Vec<(Equation, f64)> {
             let of_pair = |at: (usize, usize)| {
-                let gradient = pose.gradient(at.0, at.1);
-                let slack = noise.max(curved);
-                equation(pose.target(at), &gradient.data, (&blocks, &known), slack)
+                let gradient = pose.gradient(at.0, at.1).data;
+                let equation = equation(pose.target(at), &gradient, (&blocks, &known), noise);
+                (equation, 1.0)
             };
             // What depends on each other must hold together, too.
             let of_row = |a: usize| {
                 let (target, gradient) = pose.misfit(a)?;
-                Some(equation(
-                    target,
-                    &gradient,
-                    (&blocks, &known),
-                    noise.max(curved) * self.size,
-                ))
+                let noise = noise * self.size;
+                let equation = equation(target, &gradient, (&blocks, &known), noise);
+                Some((equation, self.size))
             };
             let rows = (0..pose.left.nrows().min(PAIRS)).filter_map(of_row);
             pairs(pose).map(of_pair).chain(rows).collect()
         };
+        // The share of `least` by which the data have to change, where the second order of a change by at most `share` of it is left open.
+        let change = |equations: &[(Equation, f64)], share: f64| {
+            let curved = CURVED * (least / self.size).powi(2) * share.min(1.0);
+            let loose = |(equation, unit): &(Equation, f64)| Equation {
+                rounding: equation.rounding.max(curved * unit),
+                ..equation.clone()
+            };
+            least_change(&equations.iter().map(loose).collect::<Vec<_>>()).middle()
+        };
         let mut equations = of_pose(&here, rounding(&scaled));
-        let at_this_pose = least * least_change(&equations).middle();
+        let at_this_pose = least * change(&equations, 1.0);
         if at_this_pose > limit {
             return None;
         }
@@ -275,7 +280,7 @@ impl Question<'_> {
         }
         Some(Nearness {
             here: at_this_pose,
-            everywhere: least * least_change(&equations).middle(),
+            everywhere: least * change(&equations, change(&equations, 1.0)),
             by_angles: stated.is_some_and(|stated| stated.by_angles),
         })
     }

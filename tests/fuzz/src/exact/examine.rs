@@ -100,7 +100,8 @@ pub fn rounding(posed: &Posed) -> f64 {
 }
 
 /// The entries of an array.
-pub(super) fn list(value: &Value) -> &[Value] {
+#[must_use]
+pub fn list(value: &Value) -> &[Value] {
     value.as_array().map_or(&[], Vec::as_slice)
 }
 

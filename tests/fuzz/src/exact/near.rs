@@ -41,6 +41,9 @@ const RIGHT: usize = 3;
 /// it, and all data take part.
 const CURVED: f64 = 100.0;
 
+/// Refinements of the lower bound.
+const REFINED: usize = 12;
+
 /// A nonholonomic row of less weight takes no part in a misfit.
 const HOLONOMIC: f64 = 1e-6;
 
@@ -69,15 +72,18 @@ impl Doubles {
         }
         // No bound above which the first order means nothing.
         let Bounds { low, high } = least_change(&equations, MET);
-        let mut low = low.min(0.3 * self.size);
-        for _ in 0..40 {
-            let slack = CURVED * low / self.size;
-            if least_change(&equations, slack).low >= low {
+        // A change of s leaves the second order of s open: the larger s, the lower the bound, so
+        // that the bound for any s above it holds.
+        let (mut s, mut proved) = (low.min(0.3 * self.size), 0.0_f64);
+        for _ in 0..REFINED {
+            let bound = least_change(&equations, CURVED * s / self.size).low;
+            proved = proved.max(bound.min(s));
+            if bound >= s {
                 break;
             }
-            low *= 0.7;
+            s = (s * bound).sqrt();
         }
-        Bounds { low, high }
+        Bounds { low: proved, high }
     }
 
     /// Whether the mechanism keeps this rank wherever the kept rows let it move.
@@ -180,7 +186,7 @@ impl Doubles {
         poses
     }
 
-    fn advance(&self, kept: &[usize], q: &mut Vec<f64>, heading: &mut Vec<f64>) -> Option<()> {
+    fn advance(&self, kept: &[usize], q: &mut [f64], heading: &mut Vec<f64>) -> Option<()> {
         let c = self.c(q, &self.data).select_rows(kept);
         let along = project_out(&c, heading);
         let largest = along.iter().fold(0.0_f64, |a, x| a.max(x.abs()));

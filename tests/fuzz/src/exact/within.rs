@@ -152,7 +152,8 @@ impl<'a> Meant<'a> {
                 let is_named = |f: &Finding| concerns(&f.text, &placed.link.name);
                 let wrong = |f: &Finding| f.kind.is_wrong() && is_named(f);
                 let rows = self.truth.rows_of(*link);
-                all.0.iter().any(wrong) && {
+                // Only what the data may make unique.
+                !self.truth.is_unique(&rows) && all.0.iter().any(wrong) && {
                     let [size, change] = self.doubles.margin(rank, &rows, tolerance);
                     size <= change
                 }
