@@ -27,8 +27,7 @@ fn mechanism(theta: f64, rate: f64) -> Mechanism {
     let tangent = [theta.cos(), theta.sin()];
     for crank in &mut d.bodies[..3] {
         let inertia = 1.2 * length * length / 12.0;
-        (crank.mass, crank.inertia, crank.angular_velocity) =
-            (1.2, inertia, Some(rate));
+        (crank.mass, crank.inertia, crank.angular_velocity) = (1.2, inertia, Some(rate));
         crank.velocity = Some(tangent.map(|t| 0.5 * length * rate * t));
     }
     let coupler = rod("coupler", 3.0, [-half_span, 0.0], [half_span, 0.0]);

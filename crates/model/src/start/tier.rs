@@ -40,7 +40,7 @@ pub(super) struct Equations<'m> {
     pub(super) size: f64,
     /// Diagonal of M⁻¹; what has no mass weighs as the smallest that has.
     pub(super) weights: Vec<f64>,
-    /// What is at rest to rounding moves by less than a rounding of its place in this time (1/s).
+    /// What is at rest to rounding moves by less than a hundred roundings of its place in this time (1/s).
     rest_rate: f64,
     /// What the entries of C are known to, by its pattern; made when it is needed.
     known: Option<Vec<f64>>,
@@ -76,25 +76,33 @@ impl<'m> Equations<'m> {
 
     /// Up to here a residual of row `i` is rounding: of its terms, and of the places of its bodies, which turn with the fastest of them.
     pub(super) fn rounding(&self, i: usize, v: &[f64]) -> f64 {
-        let rate = |(j, _): (usize, f64)| v[j].abs() / self.mechanism.unit(j, self.size);
         let row = self.mechanism.layout().row(&self.s, i);
-        let fastest = row.map(rate).fold(0.0, f64::max);
+        let fastest = self.fastest(row.map(|(j, _)| j), v);
         let places = self.mechanism.position_scale(&self.s, i, &self.q);
         let terms = self.mechanism.bounded_velocity_scale(&self.s, i, v);
         ROUNDINGS * f64::EPSILON * (terms + fastest * places)
     }
 
-    /// Up to here row `i` is at rest.
-    pub(super) fn rest(&self, i: usize) -> f64 {
+    /// The fastest rate of some velocities (1/s): rotations, and translations divided by the longest arm of their body.
+    pub(super) fn fastest(&self, columns: impl Iterator<Item = usize>, v: &[f64]) -> f64 {
+        let arm = |j: usize| match j % N_BODY {
+            2 => 1.0,
+            _ => self.mechanism.reach(j / N_BODY),
+        };
+        columns.map(|j| v[j].abs() / arm(j)).fold(0.0, f64::max)
+    }
+
+    /// What row `i` may miss by at velocities that are known to the rounding of this rate (1/s), and at rest.
+    pub(super) fn slack(&self, i: usize, rate: f64) -> f64 {
         let places = self.mechanism.position_scale(&self.s, i, &self.q);
-        ROUNDINGS * f64::EPSILON * self.rest_rate * places
+        ROUNDINGS * f64::EPSILON * (ROUNDINGS * self.rest_rate + rate) * places
     }
 
     /// Up to here velocity `j` is none.
     pub(super) fn rest_of(&self, j: usize) -> f64 {
         let first = j - j % N_BODY;
         let place = self.q[first].hypot(self.q[first + 1]).max(self.size);
-        let rest = ROUNDINGS * f64::EPSILON * self.rest_rate * place;
+        let rest = ROUNDINGS.powi(2) * f64::EPSILON * self.rest_rate * place;
         rest / self.arm(j)
     }
 

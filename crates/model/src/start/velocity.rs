@@ -194,8 +194,15 @@ impl<'m> Start<'m> {
             }
             tier.follow(of, v)?;
         }
+        // What is at rest but for rounding rests: that of a locked part runs to zero without end.
+        let is_still = |&j: &usize| v[j].abs() <= of.rest_of(j);
+        if columns.iter().all(is_still) && rows.iter().all(|&i| of.s.b[i] == 0.0) {
+            for &j in columns.iter().filter(|&&j| hold[j] != Hold::Kept) {
+                v[j] = 0.0;
+            }
+        }
         Ok(self
-            .open(rows, v)
+            .open(rows, &columns, v)
             .or_else(|| self.far(&columns, hold, limit, v)))
     }
 
@@ -251,11 +258,14 @@ impl<'m> Start<'m> {
     }
 
     /// The row that misses most, beyond rounding and rest.
-    fn open(&self, rows: &[usize], v: &[f64]) -> Option<Miss> {
+    fn open(&self, rows: &[usize], columns: &[usize], v: &[f64]) -> Option<Miss> {
         let of = &self.equations;
+        // All that are solved for together are known to the rounding of the fastest.
+        let rate = of.fastest(columns.iter().copied(), v);
         // Rounding may leave a little more than that of the terms of one row.
-        let excess =
-            |i: usize| of.residual(i, v).abs() / (ROUNDINGS * of.rounding(i, v) + of.rest(i));
+        let excess = |i: usize| {
+            of.residual(i, v).abs() / (ROUNDINGS * of.rounding(i, v) + of.slack(i, rate))
+        };
         let excesses = rows
             .iter()
             .map(|&i| (i, excess(i)))
