@@ -349,8 +349,8 @@ impl Part {
             let rows = self.rows.iter().zip(&residual).enumerate();
             let ratios = rows.filter(|(k, _)| used(*k)).map(|(_, row)| ratio(row));
             let worst = ratios.fold(0.0, |a: f64, x| if x.is_nan() { x } else { a.max(x) });
-            // A tenth of what is allowed, where that is to be had: what follows from this has its own rounding.
-            if worst <= 1.0 / ROUNDINGS || !(worst <= PROGRESS * best) {
+            // As far as it goes: what follows from this has its own rounding.
+            if worst == 0.0 || !(worst <= PROGRESS * best) {
                 return Ok(());
             }
             best = worst;
