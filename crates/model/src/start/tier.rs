@@ -176,6 +176,11 @@ impl<'m> Equations<'m> {
     }
 }
 
+/// Whether a size is above a limit, or no number.
+pub(super) fn exceeds(size: f64, limit: f64) -> bool {
+    size > limit || size.is_nan() || limit.is_nan()
+}
+
 /// The first of a set.
 fn find(leader: &mut [usize], mut k: usize) -> usize {
     while leader[k] != k {
@@ -284,8 +289,7 @@ impl Tier {
             let terms = || circuit.rows.iter().zip(&circuit.coefficients);
             let sum: f64 = terms().map(|(&i, z)| z * of.residual(i, v)).sum();
             let rounding: f64 = terms().map(|(&i, z)| z.abs() * of.rounding(i, v)).sum();
-            // A sum that is no number is open.
-            !(sum.abs() <= rounding)
+            exceeds(sum.abs(), rounding)
         };
         self.circuits.iter().filter(is_open)
     }
@@ -320,7 +324,7 @@ impl Part {
         for l in 0..columns.len() {
             match blocks.last_mut() {
                 Some(last) if columns[last.start] / N_BODY == columns[l] / N_BODY => {
-                    last.end = l + 1
+                    last.end = l + 1;
                 }
                 _ => blocks.push(l..l + 1),
             }
@@ -350,7 +354,7 @@ impl Part {
             let ratios = rows.filter(|(k, _)| used(*k)).map(|(_, row)| ratio(row));
             let worst = ratios.fold(0.0, |a: f64, x| if x.is_nan() { x } else { a.max(x) });
             // As far as it goes: what follows from this has its own rounding.
-            if worst == 0.0 || !(worst <= PROGRESS * best) {
+            if worst == 0.0 || exceeds(worst, PROGRESS * best) {
                 return Ok(());
             }
             best = worst;

@@ -9,7 +9,7 @@
 use linalg::Matrix;
 
 use super::conflict::VelocityConflict;
-use super::tier::{DENSE_ROWS, Equations, Part, Tier, shortest};
+use super::tier::{DENSE_ROWS, Equations, Part, Tier, exceeds, shortest};
 use super::{
     CorrectionLimit, KeepLevel, ROUNDINGS, SMALL_CORRECTION, StartError, StartOptions, kept_columns,
 };
@@ -153,7 +153,7 @@ impl<'m> Start<'m> {
     fn misses(&self, rows: &[usize], v: &[f64]) -> bool {
         let of = &self.equations;
         rows.iter()
-            .any(|&i| !(of.residual(i, v).abs() <= of.rounding(i, v)))
+            .any(|&i| exceeds(of.residual(i, v).abs(), of.rounding(i, v)))
     }
 
     /// Finds the velocities of some rows, all that share one with them. Returns why there are none to be taken.
@@ -271,7 +271,7 @@ impl<'m> Start<'m> {
             .map(|&i| (i, excess(i)))
             .filter(|(i, _)| of.residual(*i, v) != 0.0);
         let (row, worst) = super::largest(excesses);
-        (!(worst <= 1.0)).then_some(Miss::Open(row))
+        exceeds(worst, 1.0).then_some(Miss::Open(row))
     }
 
     /// Whether a given velocity was corrected by more than is allowed.
