@@ -193,7 +193,8 @@ impl Blueprint {
                 Ok((found, _)) => found.v,
                 // Rows that are independent by the certificate may be too nearly dependent for numbers.
                 Err(MotionError::Start(StartError::NoVelocity { .. }))
-                    if !rows.all.is_decided() =>
+                    if !rows.all.is_decided()
+                        || rows.inseparable(&self.mechanism, 0.0, q).is_some() =>
                 {
                     Vec::new()
                 }

@@ -20,6 +20,9 @@ use crate::words;
 pub use demands::Demand;
 pub use drives::{contradicting_drives, contradicting_drives_along};
 
+/// Rates of what is at rest to rounding (1/s): it moves by less than a hundred roundings of its place in a second.
+const REST: f64 = 100.0 * f64::EPSILON;
+
 /// Where rows are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConstraintLevel {
@@ -257,7 +260,8 @@ pub fn contradictions(
             scale: &|i| {
                 let [terms, blurred] =
                     [v, &blurred].map(|v| mechanism.acceleration_scale(&s, i, v, size));
-                terms + (blurred - terms) / noise + prescribed(i)
+                let rest = REST.powi(2) * mechanism.position_scale(&s, i, q);
+                terms + (blurred - terms + rest) / noise + prescribed(i)
             },
             share: 0.0,
         },

@@ -13,7 +13,7 @@ use crate::system::{RowLabel, System};
 #[error("{}; {}", self.what(), self.advice())]
 #[non_exhaustive]
 pub struct VelocityConflict {
-    /// The body of the velocity that is farthest from the nearest ones that fit.
+    /// The body of the velocity that is at fault: the one that is farthest from where it would be if it were left out with the others of its kind.
     pub body: String,
     /// `vx`, `vy` or `omega`.
     pub coordinate: &'static str,
@@ -21,7 +21,7 @@ pub struct VelocityConflict {
     pub given: f64,
     /// Whether `keep` holds it.
     pub is_kept: bool,
-    /// What it is in the nearest velocities that fit, in the mass metric.
+    /// What it is in velocities that fit: if it is left out, or else in the nearest ones in the mass metric.
     pub nearest: f64,
     /// What the difference may be (m/s, rad/s).
     pub limit: f64,
@@ -78,8 +78,8 @@ const NAMED: usize = 6;
 /// Velocities to leave out that are looked for.
 const LEFT_OUT: usize = 40;
 
-/// A velocity takes no part in a sum of rows below this share of its terms.
-const CANCELLED: f64 = 1e-12;
+/// A velocity takes no part in a sum of rows below this share of its terms: what is left is rounding, also far from the origin.
+const CANCELLED: f64 = 1e-10;
 
 impl VelocityConflict {
     /// One for all: the worst is told, and what to leave out of all.
@@ -116,9 +116,14 @@ impl VelocityConflict {
             true => String::new(),
             false => format!(", more than {:.1e} off", self.limit),
         };
-        let fact = format!("`{coordinate}` of body `{body}` is {held} {given}");
+        // As it is written.
+        let given_as = match (format!("{given}"), format!("{given:?}")) {
+            (plain, scientific) if scientific.len() < plain.len() => scientific,
+            (plain, _) => plain,
+        };
+        let fact = format!("`{coordinate}` of body `{body}` is {held} {given_as}");
         let nearest = format!(
-            "the nearest velocities that fit have {}{off}",
+            "in velocities that fit it is {}{off}",
             short(*nearest, *given)
         );
         let rows = named(&rows);
@@ -203,6 +208,17 @@ fn named(all: &[String]) -> String {
     }
 }
 
+/// A velocity that rows forbid.
+struct Fault {
+    column: usize,
+    /// What prescribes a motion comes first.
+    rows: Vec<RowLabel>,
+    /// What prescribes a motion.
+    drives: Vec<String>,
+    /// Whether others that are held take part.
+    with_others: bool,
+}
+
 impl Start<'_> {
     /// Why some rows have no velocities that may be taken, `miss` being what was found first.
     ///
@@ -230,8 +246,25 @@ impl Start<'_> {
         let can_be_corrected = self
             .solve(rows, &self.hold, CorrectionLimit::Any, &mut v)?
             .is_none();
-        let (rows_at_fault, drives, with_others) = self.rows_at_fault(rows, column)?;
-        let (leave_out, is_enough) = self.leave_out(rows, &columns)?;
+        let (leave_out, hold, is_enough) = self.leave_out(rows, &columns)?;
+        // Of what is to be left out the one that then is farthest from what is given: the rest is not at fault.
+        let mut candidates = vec![column];
+        if is_enough && self.solve(rows, &hold, self.limit, &mut v)?.is_none() {
+            let by = |j: usize| self.equations.arm(j) * (v[j] - self.written[j]).abs();
+            let freed = columns.iter().copied().filter(|&j| hold[j] != self.hold[j]);
+            let mut freed: Vec<usize> = freed.filter(|&j| by(j) > 0.0).collect();
+            if !freed.is_empty() {
+                freed.sort_by(|&a, &b| by(b).total_cmp(&by(a)));
+                candidates = freed;
+                nearest.copy_from_slice(&v);
+            }
+        }
+        let Fault {
+            column,
+            rows: rows_at_fault,
+            drives,
+            with_others,
+        } = self.fault(rows, &candidates)?;
         let body = &mechanism.bodies()[column / N_BODY];
         Ok(VelocityConflict {
             body: body.name.clone(),
@@ -279,13 +312,8 @@ impl Start<'_> {
             .or_else(|| held().max_by(farthest)))
     }
 
-    /// Rows that leave no other value to a velocity while the rest of what is held holds; what among them prescribes a motion; and whether others that
-    /// are held take part.
-    fn rows_at_fault(
-        &self,
-        rows: &[usize],
-        column: usize,
-    ) -> Result<(Vec<RowLabel>, Vec<String>, bool), StartError> {
+    /// The first of these velocities that rows forbid while the rest of what is held holds.
+    fn fault(&self, rows: &[usize], candidates: &[usize]) -> Result<Fault, StartError> {
         let of = &self.equations;
         let mut v = self.written.clone();
         let mut tier = Tier::new(of, rows, |j| self.hold[j] == Hold::No)?;
@@ -302,23 +330,22 @@ impl Start<'_> {
             let size: f64 = terms().map(f64::abs).sum();
             terms().sum::<f64>().abs() > CANCELLED * size
         };
-        let shortest = tier
-            .open(of, &v)
-            .filter(|circuit| takes_part(circuit, column));
-        let (found, with_others) = match shortest.min_by_key(|c| c.rows.len()) {
-            Some(circuit) => {
+        let shortest = candidates.iter().find_map(|&column| {
+            let open = tier.open(of, &v).filter(|c| takes_part(c, column));
+            Some((column, open.min_by_key(|c| c.rows.len())?))
+        });
+        let (column, found, with_others) = match shortest {
+            Some((column, circuit)) => {
                 let columns = of.columns(&circuit.rows).into_iter();
                 let mut others = columns.filter(|&j| j != column && self.hold[j] != Hold::No);
                 let with_others = others.any(|j| takes_part(circuit, j));
-                (circuit.rows.clone(), with_others)
+                (column, circuit.rows.clone(), with_others)
             }
             // Of large sets there are no circuits: the rows that do not hold.
             None => {
                 let is_open = |&i: &usize| of.residual(i, &v).abs() > of.rounding(i, &v);
-                (
-                    rows.iter().copied().filter(is_open).collect::<Vec<_>>(),
-                    true,
-                )
+                let open = rows.iter().copied().filter(is_open);
+                (candidates[0], open.collect::<Vec<_>>(), true)
             }
         };
         let layout = of.mechanism.layout();
@@ -336,15 +363,20 @@ impl Start<'_> {
             .into_iter()
             .chain(joints)
             .map(|i| layout.labels[i].clone());
-        Ok((labels.collect(), names, with_others))
+        Ok(Fault {
+            column,
+            rows: labels.collect(),
+            drives: names,
+            with_others,
+        })
     }
 
-    /// Given velocities without which the others hold, the farthest off first, none of which could stay; and whether these are enough.
+    /// Given velocities without which the others hold, the farthest off first, none of which could stay; what is held then; and whether these are enough.
     fn leave_out(
         &self,
         rows: &[usize],
         columns: &[usize],
-    ) -> Result<(Vec<HeldVelocity>, bool), StartError> {
+    ) -> Result<(Vec<HeldVelocity>, Vec<Hold>, bool), StartError> {
         let mut hold = self.hold.clone();
         let mut v = self.written.clone();
         let mut freed: Vec<(HeldVelocity, Vec<(usize, Hold)>)> = Vec::new();
@@ -352,7 +384,8 @@ impl Start<'_> {
             let mut nearest = self.written.clone();
             let worst = self.culprit(rows, columns, &hold, &mut nearest)?;
             let (Some(column), true) = (worst, freed.len() < LEFT_OUT) else {
-                return Ok((freed.into_iter().map(|(what, _)| what).collect(), false));
+                let freed = freed.into_iter().map(|(what, _)| what);
+                return Ok((freed.collect(), hold, false));
             };
             freed.push(self.free(column, &mut hold));
         }
@@ -363,13 +396,19 @@ impl Start<'_> {
             for &(j, was) in &before {
                 tried[j] = was;
             }
-            match self.solve(rows, &tried, self.limit, &mut v)? {
-                None => hold = tried,
-                Some(_) => needed.push(what),
+            // An entry of `keep` whose velocity is left out would hold zero.
+            let is_other = |&(j, was): &(usize, Hold)| {
+                was == Hold::Kept && hold[j] == Hold::No && self.is_written[j]
+            };
+            match before.iter().any(is_other)
+                || self.solve(rows, &tried, self.limit, &mut v)?.is_some()
+            {
+                false => hold = tried,
+                true => needed.push(what),
             }
         }
         needed.extend(last.map(|(what, _)| what));
-        Ok((needed, true))
+        Ok((needed, hold, true))
     }
 
     /// Frees a velocity by what one who writes scenes can take away, and says how the velocities were held that this frees.

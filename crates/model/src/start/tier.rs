@@ -40,7 +40,7 @@ pub(super) struct Equations<'m> {
     pub(super) size: f64,
     /// Diagonal of M⁻¹; what has no mass weighs as the smallest that has.
     pub(super) weights: Vec<f64>,
-    /// What is at rest to rounding moves by less than a rounding of its place in this time (1/s).
+    /// What is at rest to rounding moves by less than a hundred roundings of its place in this time (1/s).
     rest_rate: f64,
     /// What the entries of C are known to, by its pattern; made when it is needed.
     known: Option<Vec<f64>>,
@@ -76,25 +76,33 @@ impl<'m> Equations<'m> {
 
     /// Up to here a residual of row `i` is rounding: of its terms, and of the places of its bodies, which turn with the fastest of them.
     pub(super) fn rounding(&self, i: usize, v: &[f64]) -> f64 {
-        let rate = |(j, _): (usize, f64)| v[j].abs() / self.mechanism.unit(j, self.size);
         let row = self.mechanism.layout().row(&self.s, i);
-        let fastest = row.map(rate).fold(0.0, f64::max);
+        let fastest = self.fastest(row.map(|(j, _)| j), v);
         let places = self.mechanism.position_scale(&self.s, i, &self.q);
         let terms = self.mechanism.bounded_velocity_scale(&self.s, i, v);
         ROUNDINGS * f64::EPSILON * (terms + fastest * places)
     }
 
-    /// Up to here row `i` is at rest.
-    pub(super) fn rest(&self, i: usize) -> f64 {
+    /// The fastest rate of some velocities (1/s): rotations, and translations divided by the longest arm of their body.
+    pub(super) fn fastest(&self, columns: impl Iterator<Item = usize>, v: &[f64]) -> f64 {
+        let arm = |j: usize| match j % N_BODY {
+            2 => 1.0,
+            _ => self.mechanism.reach(j / N_BODY),
+        };
+        columns.map(|j| v[j].abs() / arm(j)).fold(0.0, f64::max)
+    }
+
+    /// What row `i` may miss by at velocities that are known to the rounding of this rate (1/s), and at rest.
+    pub(super) fn slack(&self, i: usize, rate: f64) -> f64 {
         let places = self.mechanism.position_scale(&self.s, i, &self.q);
-        ROUNDINGS * f64::EPSILON * self.rest_rate * places
+        ROUNDINGS * f64::EPSILON * (ROUNDINGS * self.rest_rate + rate) * places
     }
 
     /// Up to here velocity `j` is none.
     pub(super) fn rest_of(&self, j: usize) -> f64 {
         let first = j - j % N_BODY;
         let place = self.q[first].hypot(self.q[first + 1]).max(self.size);
-        let rest = ROUNDINGS * f64::EPSILON * self.rest_rate * place;
+        let rest = ROUNDINGS.powi(2) * f64::EPSILON * self.rest_rate * place;
         rest / self.arm(j)
     }
 
@@ -166,6 +174,11 @@ impl<'m> Equations<'m> {
         let range = pattern.start[i]..pattern.start[i + 1];
         range.map(move |k| (pattern.column[k], known.get(k).copied().unwrap_or_default()))
     }
+}
+
+/// Whether a size is above a limit, or no number.
+pub(super) fn exceeds(size: f64, limit: f64) -> bool {
+    size > limit || size.is_nan() || limit.is_nan()
 }
 
 /// The first of a set.
@@ -276,8 +289,7 @@ impl Tier {
             let terms = || circuit.rows.iter().zip(&circuit.coefficients);
             let sum: f64 = terms().map(|(&i, z)| z * of.residual(i, v)).sum();
             let rounding: f64 = terms().map(|(&i, z)| z.abs() * of.rounding(i, v)).sum();
-            // A sum that is no number is open.
-            !(sum.abs() <= rounding)
+            exceeds(sum.abs(), rounding)
         };
         self.circuits.iter().filter(is_open)
     }
@@ -312,7 +324,7 @@ impl Part {
         for l in 0..columns.len() {
             match blocks.last_mut() {
                 Some(last) if columns[last.start] / N_BODY == columns[l] / N_BODY => {
-                    last.end = l + 1
+                    last.end = l + 1;
                 }
                 _ => blocks.push(l..l + 1),
             }
@@ -341,8 +353,8 @@ impl Part {
             let rows = self.rows.iter().zip(&residual).enumerate();
             let ratios = rows.filter(|(k, _)| used(*k)).map(|(_, row)| ratio(row));
             let worst = ratios.fold(0.0, |a: f64, x| if x.is_nan() { x } else { a.max(x) });
-            // A tenth of what is allowed, where that is to be had: what follows from this has its own rounding.
-            if worst <= 1.0 / ROUNDINGS || !(worst <= PROGRESS * best) {
+            // As far as it goes: what follows from this has its own rounding.
+            if worst == 0.0 || exceeds(worst, PROGRESS * best) {
                 return Ok(());
             }
             best = worst;

@@ -9,7 +9,7 @@
 use linalg::Matrix;
 
 use super::conflict::VelocityConflict;
-use super::tier::{DENSE_ROWS, Equations, Part, Tier, shortest};
+use super::tier::{DENSE_ROWS, Equations, Part, Tier, exceeds, shortest};
 use super::{
     CorrectionLimit, KeepLevel, ROUNDINGS, SMALL_CORRECTION, StartError, StartOptions, kept_columns,
 };
@@ -153,7 +153,7 @@ impl<'m> Start<'m> {
     fn misses(&self, rows: &[usize], v: &[f64]) -> bool {
         let of = &self.equations;
         rows.iter()
-            .any(|&i| !(of.residual(i, v).abs() <= of.rounding(i, v)))
+            .any(|&i| exceeds(of.residual(i, v).abs(), of.rounding(i, v)))
     }
 
     /// Finds the velocities of some rows, all that share one with them. Returns why there are none to be taken.
@@ -194,8 +194,15 @@ impl<'m> Start<'m> {
             }
             tier.follow(of, v)?;
         }
+        // What is at rest but for rounding rests: that of a locked part runs to zero without end.
+        let is_still = |&j: &usize| v[j].abs() <= of.rest_of(j);
+        if columns.iter().all(is_still) && rows.iter().all(|&i| of.s.b[i] == 0.0) {
+            for &j in columns.iter().filter(|&&j| hold[j] != Hold::Kept) {
+                v[j] = 0.0;
+            }
+        }
         Ok(self
-            .open(rows, v)
+            .open(rows, &columns, v)
             .or_else(|| self.far(&columns, hold, limit, v)))
     }
 
@@ -251,17 +258,20 @@ impl<'m> Start<'m> {
     }
 
     /// The row that misses most, beyond rounding and rest.
-    fn open(&self, rows: &[usize], v: &[f64]) -> Option<Miss> {
+    fn open(&self, rows: &[usize], columns: &[usize], v: &[f64]) -> Option<Miss> {
         let of = &self.equations;
+        // All that are solved for together are known to the rounding of the fastest.
+        let rate = of.fastest(columns.iter().copied(), v);
         // Rounding may leave a little more than that of the terms of one row.
-        let excess =
-            |i: usize| of.residual(i, v).abs() / (ROUNDINGS * of.rounding(i, v) + of.rest(i));
+        let excess = |i: usize| {
+            of.residual(i, v).abs() / (ROUNDINGS * of.rounding(i, v) + of.slack(i, rate))
+        };
         let excesses = rows
             .iter()
             .map(|&i| (i, excess(i)))
             .filter(|(i, _)| of.residual(*i, v) != 0.0);
         let (row, worst) = super::largest(excesses);
-        (!(worst <= 1.0)).then_some(Miss::Open(row))
+        exceeds(worst, 1.0).then_some(Miss::Open(row))
     }
 
     /// Whether a given velocity was corrected by more than is allowed.

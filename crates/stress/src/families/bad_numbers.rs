@@ -163,7 +163,7 @@ fn fields() -> Vec<Case> {
         ("angle", |d, x| d.bodies[0].angle = x),
         ("velocity", |d, x| d.bodies[0].velocity = Some([x, 0.0])),
         ("angular velocity", |d, x| {
-            d.bodies[0].angular_velocity = Some(x)
+            d.bodies[0].angular_velocity = Some(x);
         }),
     ];
     let mut cases = Vec::new();
