@@ -11,6 +11,7 @@ mod velocity;
 
 use linalg::{Matrix, least_squares_step};
 
+use crate::data::DataUnit;
 use crate::mechanism::{Mechanism, N_BODY};
 use crate::system::{Layout, Scratch, System};
 use crate::uncertainty::ROUNDING;
@@ -126,7 +127,15 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     let rows = restricting_rows(mechanism);
     let weights = position_weights(mechanism, options, size)?;
     let mut s = mechanism.scratch();
-    let q = nearest(mechanism, &mut s, 0.0, &rows, &weights, &described)?;
+    let within = mechanism.has_tolerances();
+    let q = nearest(
+        mechanism,
+        &mut s,
+        (0.0, within),
+        &rows,
+        &weights,
+        &described,
+    )?;
     mechanism.initialise(&q);
     if let Some((name, requirement)) = mechanism.unmet_requirement(&q) {
         return Err(StartError::Requirement { name, requirement });
@@ -216,7 +225,8 @@ pub fn nearest_configuration(
         &StartOptions::default(),
         scene_size(mechanism, q),
     )?;
-    nearest(mechanism, &mut mechanism.scratch(), t, rows, &weights, q)
+    let mut s = mechanism.scratch();
+    nearest(mechanism, &mut s, (t, false), rows, &weights, q)
 }
 
 /// Rows of Φ that restrict the start.
@@ -295,11 +305,12 @@ fn kept_columns(
     .collect()
 }
 
-/// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, until Φ is zero to rounding.
+/// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, until Φ is zero to rounding; if rows disagree, until the sum of squares of
+/// Φ is least, where that is `within` the tolerances that the scene states.
 fn nearest(
     mechanism: &Mechanism,
     s: &mut Scratch,
-    t: f64,
+    (t, within): (f64, bool),
     rows: &[usize],
     weights: &[f64],
     described: &[f64],
@@ -320,6 +331,9 @@ fn nearest(
         best = best.min(residual);
         // Rounding may leave a little more than the tolerance: a stalled iteration near it is done.
         if residual <= tolerance || (stalled > 1 && residual <= ROUNDINGS * tolerance) {
+            return Ok(q);
+        }
+        if within && stalled > 1 && residual.is_finite() && within_tolerance(mechanism, s, rows) {
             return Ok(q);
         }
         if iteration == ITERATIONS || !residual.is_finite() {
@@ -353,6 +367,37 @@ fn nearest(
         }
     }
     unreachable!("the last iteration returns")
+}
+
+/// Rows of a mechanism with contradicting data miss by no more than so many times what their own data make: they share what others are wrong by.
+const SHARED: f64 = 3.0;
+
+/// Whether data within the tolerance make as much of each of these rows as it misses by. Whose data are wrong is not known, so the largest tolerance
+/// counts.
+fn within_tolerance(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> bool {
+    let blocks = mechanism.data_blocks(s);
+    let largest = |unit: DataUnit| {
+        let of_unit = blocks.iter().filter(|b| b.unit == unit);
+        of_unit.filter_map(|b| b.tolerance).fold(0.0, f64::max)
+    };
+    let [length, angle] = [DataUnit::Length, DataUnit::Angle].map(largest);
+    let mut lambda = vec![0.0; mechanism.layout().rows()];
+    let mut gradient = vec![0.0; mechanism.data_count()];
+    rows.iter().all(|&row| {
+        lambda[row] = 1.0;
+        gradient.fill(0.0);
+        mechanism.add_phi_by_data(s, &lambda, 1.0, &mut gradient);
+        lambda[row] = 0.0;
+        let reach = blocks.iter().map(|block| {
+            let [x, y] = block.part(&gradient);
+            let stated = match block.unit {
+                DataUnit::Length => length,
+                DataUnit::Angle => angle,
+            };
+            x.hypot(y) * stated.max(ROUNDING * block.scale)
+        });
+        s.phi[row].abs() <= SHARED * reach.sum::<f64>()
+    })
 }
 
 /// Rows that miss, the worst first. What a least-squares solution leaves is orthogonal to all motions, so

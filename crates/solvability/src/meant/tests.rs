@@ -407,3 +407,50 @@ fn an_angle_tolerance_counts_alone() {
     };
     assert_eq!(judged(both).decision.rank, 1);
 }
+
+/// A bar between two pins on the ground, one 0.05 mm too far: nothing satisfies all rows, but data within 0.1 mm would.
+#[test]
+fn data_that_contradict_each_other_within_the_tolerance_are_assembled() {
+    let clamped = |tolerance: Option<f64>| {
+        let mut d = Description::new("clamped bar");
+        d.tolerance.length = tolerance;
+        let bar = d.body(bar("bar", [0.5, 0.0], 0.0));
+        for (name, s_i, s_j) in [
+            ("left", [0.0, 0.0], [-0.5, 0.0]),
+            ("right", [1.0, 0.0], [0.500_05, 0.0]),
+        ] {
+            d.joint(name, &[BodyRef::Ground, bar], Revolute { s_i, s_j });
+        }
+        let mut mechanism = Mechanism::build(&d).expect("it builds");
+        let start = model::start::assemble(&mut mechanism, &Default::default());
+        start.map(|start| {
+            let analysis = analyse(&mechanism, 0.0, &start.q).expect("it is analysed");
+            (start.residual, analysis)
+        })
+    };
+    for tolerance in [None, Some(1e-6)] {
+        let refused = clamped(tolerance).map(|_| ());
+        assert!(
+            matches!(refused, Err(model::StartError::NoAssembly { .. })),
+            "{tolerance:?}: {refused:?}"
+        );
+    }
+    let (residual, analysis) = clamped(Some(1e-4)).expect("it is assembled");
+    // Both pins miss by half.
+    assert!((residual - 2.5e-5).abs() < 1e-8, "{residual:e}");
+    assert!(analysis.decision.is_decided());
+    assert_eq!(
+        (analysis.decision.rank, analysis.decision.redundancy),
+        (3, 1)
+    );
+    // Along the bar the pins press against each other.
+    let verdicts = analysis.reactions.iter().map(|r| {
+        let components = r.components.iter();
+        components
+            .map(|c| c.judgement.verdict.word())
+            .collect::<Vec<_>>()
+    });
+    for verdict in verdicts {
+        assert_eq!(verdict, ["not_unique", "unique"]);
+    }
+}
