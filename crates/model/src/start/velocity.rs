@@ -194,8 +194,8 @@ impl<'m> Start<'m> {
             }
             tier.follow(of, v)?;
         }
-        // What is at rest but for rounding rests: that of a locked part runs to zero without end.
-        let is_still = |&j: &usize| v[j].abs() <= of.rest_of(j);
+        // What is given at rest but for rounding rests: that of a locked part runs to zero without end.
+        let is_still = |&j: &usize| v[j].abs().max(self.written[j].abs()) <= of.rest_of(j);
         if columns.iter().all(is_still) && rows.iter().all(|&i| of.s.b[i] == 0.0) {
             for &j in columns.iter().filter(|&&j| hold[j] != Hold::Kept) {
                 v[j] = 0.0;
