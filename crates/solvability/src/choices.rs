@@ -10,6 +10,7 @@ use linalg::{KeptRowsError, RankStatus};
 use model::reaction::COMPONENTS;
 use model::{ConstraintId, System};
 
+pub(crate) use equations::solution_under;
 pub use equations::{Equations, Solution, solution};
 pub use error::ChoiceError;
 pub use minimise::minimise;

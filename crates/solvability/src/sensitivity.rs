@@ -21,9 +21,10 @@ use model::{ConstraintId, DataUnit, Layout, Mechanism, System};
 
 use crate::analysis::Analysis;
 use crate::certificate::ROWS_MAX;
-use crate::choices::ChoiceError;
+use crate::choices::{ChoiceError, solution_under};
 use crate::groups::check;
-use crate::parts::Extent;
+use crate::parts::{Extent, Partition};
+use crate::rows::RowDecision;
 use crate::words;
 use instant::Instant;
 use joined::{Joined, each_joined};
@@ -189,7 +190,8 @@ impl Sensitivities {
 impl Analysis {
     /// How much each unique reaction hangs on the data, at the configuration of the analysis and velocities v that satisfy the constraints. Each set of
     /// bodies that joints and drives connect is asked alone, with its own size and loads, on the threads of the pool of `rayon` from which this is
-    /// called. Nothing is said where the rank is undecided, and of sets with more rows than dense matrices are made of.
+    /// called. In sets with more rows than dense matrices are made of each part on common cycles is asked by its own data, with its own size and under what
+    /// the rest of the set does to it. Nothing is said where the rank is undecided, and of parts that are as large.
     ///
     /// # Errors
     /// [`ChoiceError::Request`]: q or v do not fit the mechanism.
@@ -228,17 +230,20 @@ impl Analysis {
     }
 }
 
+/// Sensitivities by joints and drives.
+type Found = Vec<(usize, Sensitivity)>;
+
 /// What is known of a set of joined bodies.
 struct JudgedSet {
     extent: Extent,
     /// By the joints and drives of the whole.
-    found: Result<Vec<(usize, Sensitivity)>, SetError>,
+    found: Result<Found, SetError>,
 }
 
 /// Why nothing is known of a set.
 #[derive(Debug, thiserror::Error)]
 enum SetError {
-    #[error("{rows} rows are joined, and matrices of all of them are made up to {max} rows", max = ROWS_MAX)]
+    #[error("{rows} rows share cycles, and matrices of all of them are made up to {max} rows", max = ROWS_MAX)]
     TooLarge { rows: usize },
     #[error(transparent)]
     Equations(#[from] ChoiceError),
@@ -252,30 +257,82 @@ fn by_sets(
     is_wanted: impl Fn(usize) -> bool + Sync,
 ) -> Vec<JudgedSet> {
     let sensitivities = |joined: &Joined<'_>| {
-        let (extent, layout) = (joined.extent, joined.mechanism.layout());
-        let wanted = (0..layout.groups.len()).filter(|&k| is_wanted(extent.group(k)));
-        let wanted: Vec<usize> = wanted.collect();
-        if wanted.is_empty() {
-            return Ok(Vec::new());
-        }
-        if layout.rows() > ROWS_MAX {
-            let rows = layout.rows();
-            return Err(SetError::TooLarge { rows });
-        }
+        let extent = joined.extent;
         let kept = extent.own_rows(kept);
-        let mut instant = Instant::new(joined, t, &kept)?;
-        let mut found = Vec::with_capacity(wanted.len());
-        for k in wanted {
-            let mut sensitivity = instant.of(ConstraintId(k))?;
-            if let Some(by) = &mut sensitivity.by {
-                by.joint = ConstraintId(extent.group(by.joint.0));
-            }
-            found.push((extent.group(k), sensitivity));
-        }
+        let is_wanted = |k: usize| is_wanted(extent.group(k));
+        let mut found = match joined.mechanism.layout().rows() <= ROWS_MAX {
+            true => of_joined(joined, t, &kept, is_wanted),
+            false => by_parts(joined, t, kept, is_wanted),
+        }?;
+        placed(&mut found, extent);
         Ok(found)
     };
     each_joined(mechanism, (t, q, v), |joined| JudgedSet {
         found: sensitivities(&joined),
         extent: joined.extent.clone(),
     })
+}
+
+/// Numbers joints and drives as in the mechanism that this is a part of.
+fn placed(found: &mut Found, extent: &Extent) {
+    for (group, sensitivity) in found {
+        *group = extent.group(*group);
+        if let Some(by) = &mut sensitivity.by {
+            by.joint = ConstraintId(extent.group(by.joint.0));
+        }
+    }
+}
+
+/// Those of the reactions of joined bodies that are wanted, by all their data; joints and drives by their numbers there.
+fn of_joined(
+    joined: &Joined<'_>,
+    t: f64,
+    kept: &[usize],
+    is_wanted: impl Fn(usize) -> bool,
+) -> Result<Found, SetError> {
+    let groups = 0..joined.mechanism.layout().groups.len();
+    let wanted: Vec<usize> = groups.filter(|&k| is_wanted(k)).collect();
+    if wanted.is_empty() {
+        return Ok(Found::new());
+    }
+    let mut instant = Instant::new(joined, t, kept)?;
+    let of = |k: usize| Ok((k, instant.of(ConstraintId(k))?));
+    wanted.into_iter().map(of).collect()
+}
+
+/// The same part by part, each by its own data; of parts that are too large nothing is found.
+fn by_parts(
+    joined: &Joined<'_>,
+    t: f64,
+    kept: Vec<usize>,
+    is_wanted: impl Fn(usize) -> bool + Sync,
+) -> Result<Found, SetError> {
+    let layout = joined.mechanism.layout();
+    let rows = layout.rows();
+    let is_kept = |row: &usize| kept.binary_search(row).is_ok();
+    let decision = RowDecision {
+        rank: kept.len(),
+        redundancy: rows - kept.len(),
+        dropped: (0..rows).filter(|row| !is_kept(row)).collect(),
+        kept: kept.clone(),
+        ..RowDecision::empty()
+    };
+    let state = (t, &joined.q[..], &joined.v[..]);
+    let solution = solution_under(joined.mechanism, state, &joined.force, &decision)?;
+    let parts = Partition::by_cycles(joined.mechanism, t, &joined.q);
+    let found = parts.map(joined.mechanism, |part, extent| {
+        let own_rows = part.layout().rows();
+        if own_rows > ROWS_MAX {
+            return Ok(Found::new());
+        }
+        let kept = extent.own_rows(&kept);
+        let within = joined.of_part(part, &extent, t, &solution);
+        let mut found = of_joined(&within, t, &kept, |k| is_wanted(extent.group(k)))?;
+        placed(&mut found, &extent);
+        Ok::<_, SetError>(found)
+    })?;
+    match parts {
+        Partition::One => Err(SetError::TooLarge { rows }),
+        Partition::Several(_) => Ok(found.into_iter().flatten().collect()),
+    }
 }

@@ -60,7 +60,7 @@ impl Equations {
     /// # Errors
     /// [`RequestError::Length`], [`RequestError::NotFinite`]: t, q or v do not fit the mechanism.
     pub fn of(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Result<Self, RequestError> {
-        let Terms { s, gamma_terms, .. } = Terms::of(mechanism, t, q, v)?;
+        let Terms { s, gamma_terms } = Terms::of(mechanism, t, q, v)?;
         Ok(Self {
             mass: mechanism.mass().to_vec(),
             c: mechanism.layout().dense(&s),
@@ -192,24 +192,45 @@ pub fn solution(
     (t, q, v): (f64, &[f64], &[f64]),
     rows: &RowDecision,
 ) -> Result<Solution, ChoiceError> {
-    let layout = mechanism.layout();
-    if layout.rows() <= ROWS_MAX {
+    if mechanism.layout().rows() <= ROWS_MAX {
         return Equations::of(mechanism, t, q, v)?.solution(rows);
     }
+    let terms = Terms::of(mechanism, t, q, v)?;
+    sparse_solution(mechanism, q, &terms, &terms.s.force, rows)
+}
+
+/// The same on sparse matrices under other forces than those of the mechanism, n_v values.
+pub(crate) fn solution_under(
+    mechanism: &Mechanism,
+    (t, q, v): (f64, &[f64], &[f64]),
+    force: &[f64],
+    rows: &RowDecision,
+) -> Result<Solution, ChoiceError> {
+    let terms = Terms::of(mechanism, t, q, v)?;
+    sparse_solution(mechanism, q, &terms, force, rows)
+}
+
+fn sparse_solution(
+    mechanism: &Mechanism,
+    q: &[f64],
+    Terms { s, gamma_terms }: &Terms,
+    force: &[f64],
+    rows: &RowDecision,
+) -> Result<Solution, ChoiceError> {
+    let layout = mechanism.layout();
     check_rows(rows, layout.rows())?;
-    let Terms { s, gamma_terms } = Terms::of(mechanism, t, q, v)?;
     let units = velocity_units(mechanism, model::start::scene_size(mechanism, q));
     let scaled = |x: &[f64]| -> Vec<f64> { x.iter().zip(&units).map(|(x, u)| x * u).collect() };
     let kept = &rows.kept;
-    let c = rows_of(mechanism, &s, kept.iter().copied(), |j| units[j]);
+    let c = rows_of(mechanism, s, kept.iter().copied(), |j| units[j]);
     let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &blocks(mechanism)));
     saddle.factor(&c, &scaled(&scaled(mechanism.mass())))?;
     let gamma: Vec<f64> = kept.iter().map(|&i| s.gamma[i]).collect();
     let (mut x, mut of_kept) = (vec![0.0; layout.n_v], vec![0.0; kept.len()]);
-    saddle.solve(&c, &scaled(&s.force), &gamma, &mut x, &mut of_kept)?;
+    saddle.solve(&c, &scaled(force), &gamma, &mut x, &mut of_kept)?;
     let a = scaled(&x);
-    let row = |i: usize| layout.row(&s, i);
-    agree(rows, row, &a, &units, [&s.gamma, &gamma_terms])?;
+    let row = |i: usize| layout.row(s, i);
+    agree(rows, row, &a, &units, [&s.gamma, gamma_terms])?;
     Ok(Solution {
         acceleration: a,
         multipliers: on_all_rows(kept, of_kept, layout.rows()),

@@ -102,7 +102,7 @@ impl<'a> Instant<'a> {
         let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; kept.len()]);
         saddle.solve(&joined.force, &gamma, &mut a, &mut of_kept)?;
         let mut v = Cow::Borrowed(&joined.v[..]);
-        let (mut force_dq, mut force_dv) = (joined.force_dq, joined.force_dv);
+        let (mut force_dq, mut force_dv) = (&joined.force_dq[..], &joined.force_dv[..]);
         let mut load = largest_load(mechanism, &joined.force, &a, size);
         if load <= LOAD_ROUNDING * largest_stop(mechanism, &v, size) {
             // At rest, with equal masses: neither speed nor mass has a measure where there is no load.

@@ -7,6 +7,7 @@ use std::borrow::Cow;
 
 use model::{Mechanism, System};
 
+use crate::choices::Solution;
 use crate::parts::{Extent, Partition};
 
 /// An entry of a derivative: row, column, value.
@@ -23,8 +24,47 @@ pub(super) struct Joined<'a> {
     pub(super) v: Cow<'a, [f64]>,
     /// Applied forces, and their derivatives by its own coordinates and velocities.
     pub(super) force: Cow<'a, [f64]>,
-    pub(super) force_dq: &'a [Entry],
-    pub(super) force_dv: &'a [Entry],
+    pub(super) force_dq: Cow<'a, [Entry]>,
+    pub(super) force_dv: Cow<'a, [Entry]>,
+}
+
+impl Joined<'_> {
+    /// A part of them with its own joints at a solution of all: what the other joints do to its bodies is a load that stays as it is.
+    pub(super) fn of_part<'b>(
+        &self,
+        part: &'b Mechanism,
+        extent: &'b Extent,
+        t: f64,
+        solution: &Solution,
+    ) -> Joined<'b> {
+        let own = |x: &[f64]| extent.velocities(x).into_owned();
+        let entries = |all: &[Entry]| {
+            let place = |k: usize| Some(COLUMNS * extent.own_body(k / COLUMNS)? + k % COLUMNS);
+            let entry = |&(i, j, value): &Entry| Some((place(i)?, place(j)?, value));
+            Cow::Owned(all.iter().filter_map(entry).collect())
+        };
+        let q = extent.coordinates(&self.q).into_owned();
+        let mut s = part.scratch();
+        part.pose(t, &q, &mut s);
+        part.c(&mut s);
+        let lambda = extent.of_rows(&solution.multipliers);
+        let mut force = own(&solution.acceleration);
+        force.iter_mut().zip(part.mass()).for_each(|(f, m)| *f *= m);
+        for (i, l) in lambda.iter().enumerate() {
+            part.layout()
+                .row(&s, i)
+                .for_each(|(j, c)| force[j] += c * l);
+        }
+        Joined {
+            mechanism: part,
+            extent,
+            q: q.into(),
+            v: own(&self.v).into(),
+            force: force.into(),
+            force_dq: entries(&self.force_dq),
+            force_dv: entries(&self.force_dv),
+        }
+    }
 }
 
 /// The sets of bodies of a mechanism that its joints and drives connect.
@@ -111,8 +151,8 @@ pub(super) fn each_joined<T: Send>(
             q: extent.coordinates(q),
             v: extent.velocities(v),
             force: extent.velocities(&s.force),
-            force_dq: &by_q[set],
-            force_dv: &by_v[set],
+            force_dq: by_q[set][..].into(),
+            force_dv: by_v[set][..].into(),
             extent: &extent,
         }))
     });

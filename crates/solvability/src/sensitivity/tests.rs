@@ -5,6 +5,7 @@ use linalg::Matrix;
 use model::{Body, BodyRef, Description, Function};
 
 mod fleets;
+mod parts;
 
 use super::*;
 
