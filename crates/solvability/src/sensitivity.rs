@@ -258,7 +258,7 @@ fn by_sets(
 ) -> Vec<JudgedSet> {
     let sensitivities = |joined: &Joined<'_>| {
         let extent = joined.extent;
-        let kept = extent.own_rows(kept);
+        let kept = own_kept(kept, extent, joined.mechanism);
         let is_wanted = |k: usize| is_wanted(extent.group(k));
         let mut found = match joined.mechanism.layout().rows() <= ROWS_MAX {
             true => of_joined(joined, t, &kept, is_wanted),
@@ -271,6 +271,12 @@ fn by_sets(
         found: sensitivities(&joined),
         extent: joined.extent.clone(),
     })
+}
+
+/// Those of some rows of the whole, ascending, that are rows of this part, numbered there.
+fn own_kept(kept: &[usize], extent: &Extent, part: &Mechanism) -> Vec<usize> {
+    let is_kept = |&row: &usize| kept.binary_search(&extent.row(row)).is_ok();
+    (0..part.layout().rows()).filter(is_kept).collect()
 }
 
 /// Numbers joints and drives as in the mechanism that this is a part of.
@@ -321,13 +327,16 @@ fn by_parts(
     let solution = solution_under(joined.mechanism, state, &joined.force, &decision)?;
     let parts = Partition::by_cycles(joined.mechanism, t, &joined.q);
     let found = parts.map(joined.mechanism, |part, extent| {
-        let own_rows = part.layout().rows();
-        if own_rows > ROWS_MAX {
+        if part.layout().rows() > ROWS_MAX {
             return Ok(Found::new());
         }
-        let kept = extent.own_rows(&kept);
+        let is_wanted = |k: usize| is_wanted(extent.group(k));
+        if !(0..part.layout().groups.len()).any(is_wanted) {
+            return Ok(Found::new());
+        }
+        let kept = own_kept(&kept, &extent, part);
         let within = joined.of_part(part, &extent, t, &solution);
-        let mut found = of_joined(&within, t, &kept, |k| is_wanted(extent.group(k)))?;
+        let mut found = of_joined(&within, t, &kept, is_wanted)?;
         placed(&mut found, &extent);
         Ok::<_, SetError>(found)
     })?;
