@@ -14,7 +14,7 @@ use crate::mechanism::{
     AnalysisError, Dependency, ReactionVerdict, decide_dropping, evaluated, judge,
 };
 use crate::parts::{Extent, PartAnalysis, Partition};
-use crate::rows::RowDecision;
+use crate::rows::{RowDecision, told_of_whole};
 use crate::state::check_configuration;
 
 /// The verdicts of one configuration.
@@ -333,7 +333,7 @@ pub fn analyse_dropping(
         return Err(refused(KeptRowsError::RowOutOfRange { row, rows }));
     }
     let partition = Partition::of(mechanism, t, q);
-    by_parts(mechanism, t, q, &partition, |part, q, extent| {
+    let found = by_parts(mechanism, t, q, &partition, |part, q, extent| {
         let own = extent.own_rows(dropped);
         if part.layout().rows() > ROWS_MAX {
             let found = judged_alone(part, t, q, Known::AsStored)?;
@@ -361,6 +361,13 @@ pub fn analyse_dropping(
         let mut found = judge(part, &s, &rows, decision)?;
         found.part.certificate = certified.evidence.certificate.filter(|_| same);
         Ok(found)
+    });
+    found.map_err(|e| match e {
+        AnalysisError::Rows { time, source } => AnalysisError::Rows {
+            time,
+            source: told_of_whole(mechanism, &evaluated(mechanism, t, q), q, dropped, source),
+        },
+        other => other,
     })
 }
 

@@ -347,6 +347,13 @@ impl<'a> Questions<'a> {
             };
             let configuration = self.configuration(k)?;
             let found = configuration.distribute_as(&extent.of_rows(lambda), &own, label.clone());
+            let found = found.map_err(|source| match source {
+                ChoiceError::Indeterminate { .. } => ChoiceError::InPart {
+                    joints: extent.name(self.mechanism),
+                    source: Box::new(source),
+                },
+                other => other,
+            });
             Ok((extent, found?))
         };
         let parts: Vec<Result<_, ChoiceError>> =

@@ -298,7 +298,7 @@ pub fn decide_rows_dropping(
     if let Some(&row) = dropped.iter().find(|&&row| row >= rows) {
         return Err(KeptRowsError::RowOutOfRange { row, rows });
     }
-    of_parts(mechanism, s, q, |part, s, q, extent| {
+    let found = of_parts(mechanism, s, q, |part, s, q, extent| {
         let found = decide_dropping(part, s, q, &extent.own_rows(dropped));
         found.map(|d| (&d).into()).map_err(|e| match e {
             KeptRowsError::Duplicate { row } => KeptRowsError::Duplicate {
@@ -306,7 +306,36 @@ pub fn decide_rows_dropping(
             },
             other => other,
         })
-    })
+    });
+    found.map_err(|e| told_of_whole(mechanism, s, q, dropped, e))
+}
+
+/// An error that counts the rows of one part, in numbers of the whole. Where as many rows are dropped as are redundant, but not in their parts, what is
+/// kept is dependent.
+pub(crate) fn told_of_whole(
+    mechanism: &Mechanism,
+    s: &Scratch,
+    q: &[f64],
+    dropped: &[usize],
+    error: KeptRowsError,
+) -> KeptRowsError {
+    let rows = mechanism.layout().rows();
+    let (KeptRowsError::WrongCount { .. }, Ok(whole)) = (error, decide_rows(mechanism, s, q))
+    else {
+        return error;
+    };
+    match dropped.len() == whole.redundancy {
+        true => KeptRowsError::Dependent {
+            smallest_singular_value: 0.0,
+            required: NEARLY_SINGULAR,
+        },
+        false => KeptRowsError::WrongCount {
+            dropped: dropped.len(),
+            kept: rows - dropped.len(),
+            rank: whole.rank,
+            rows,
+        },
+    }
 }
 
 /// Adds up what is decided of each part, by its mechanism, scratch and coordinates.

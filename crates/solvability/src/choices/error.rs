@@ -61,6 +61,14 @@ pub enum ChoiceError {
         /// The joint or drive.
         reaction: String,
     },
+    /// The same in one part of the mechanism.
+    #[error("among {joints}: {source}")]
+    InPart {
+        /// The first joints and drives of the part.
+        joints: String,
+        /// Why.
+        source: Box<ChoiceError>,
+    },
     /// Not as many rows as one part of the mechanism has too many.
     #[error(
         "rows without reaction are as many as are redundant, {redundancy} in all: {joints} have {own} of them, but {listed} of their rows {} listed",
