@@ -125,3 +125,50 @@ fn a_part_that_is_too_large_is_named() {
         "{said}"
     );
 }
+
+/// Rows are counted in the whole, and a part that an answer lacks is named; every unique reaction has a sensitivity.
+#[test]
+fn what_is_asked_of_all_parts_is_told_of_all() {
+    let scene = stdout(&pfaff(&["generate", "parallelograms", "--n", "80"]));
+    let known = document(&[], &scene);
+    let reactions = known["reactions"].as_array().expect("a list");
+    for r in reactions {
+        let is_unique = r["verdict"] == "unique";
+        assert_eq!(r["sensitivity"].is_number(), is_unique, "{r}");
+    }
+    let p = known["redundancy"].as_u64().expect("a number");
+    // As many as are redundant, all in the first parts.
+    let many: Vec<String> = (1..=p).map(|row| row.to_string()).collect();
+    for (option, asked, expected) in [
+        (
+            "--drop",
+            "6",
+            format!("1 row is dropped, but the degree of redundancy is {p}"),
+        ),
+        (
+            "--drop",
+            &*many.join(","),
+            "what is kept is dependent".to_owned(),
+        ),
+        (
+            "--choose",
+            "drop:6",
+            format!(
+                "as many as are redundant, {p} in all: `low-1-0`, `top-1-0`, `low-1-1` and 3 more have 1 of them, but 0 of their rows are listed"
+            ),
+        ),
+        (
+            "--choose",
+            "compliance:low-0-0=1e-6",
+            "among `low-1-0`, `top-1-0`, `low-1-1` and 3 more: the choice leaves open".to_owned(),
+        ),
+    ] {
+        let output = with_scene(&["analyze", "-", option, asked], &scene);
+        let said = stderr(&output)
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ");
+        assert_eq!(output.status.code(), Some(2), "{option} {asked}: {said}");
+        assert!(said.contains(&expected), "{option} {asked}: {said}");
+    }
+}
