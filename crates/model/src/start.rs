@@ -8,10 +8,10 @@ mod conflict;
 mod error;
 mod tier;
 mod velocity;
+mod within;
 
 use linalg::{Matrix, least_squares_step};
 
-use crate::data::DataUnit;
 use crate::mechanism::{Mechanism, N_BODY};
 use crate::system::{Layout, Scratch, System};
 use crate::uncertainty::ROUNDING;
@@ -76,6 +76,9 @@ pub struct Assembly {
 /// Rows that miss by less than this share of the worst one are not named.
 const NAMED_MISFIT: f64 = 1e-2;
 
+/// Rows that restrict a start, and the inverse weights of its coordinates.
+type Restricting<'a> = (&'a [usize], &'a [f64]);
+
 /// Iterations of the assembly; each gains digits linearly with the size of the correction.
 const ITERATIONS: usize = 60;
 
@@ -135,7 +138,11 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
         &rows,
         &weights,
         &described,
-    )?;
+    );
+    let q = match within {
+        true => within::meant(mechanism, &mut s, (&rows, &weights), &described, size, q)?,
+        false => q?,
+    };
     mechanism.initialise(&q);
     if let Some((name, requirement)) = mechanism.unmet_requirement(&q) {
         return Err(StartError::Requirement { name, requirement });
@@ -333,7 +340,8 @@ fn nearest(
         if residual <= tolerance || (stalled > 1 && residual <= ROUNDINGS * tolerance) {
             return Ok(q);
         }
-        if within && stalled > 1 && residual.is_finite() && within_tolerance(mechanism, s, rows) {
+        let is_at_rest = stalled > 1 || iteration == ITERATIONS;
+        if within && is_at_rest && residual.is_finite() && within::is_within(mechanism, s, rows) {
             return Ok(q);
         }
         if iteration == ITERATIONS || !residual.is_finite() {
@@ -367,37 +375,6 @@ fn nearest(
         }
     }
     unreachable!("the last iteration returns")
-}
-
-/// Rows of a mechanism with contradicting data miss by no more than so many times what their own data make: they share what others are wrong by.
-const SHARED: f64 = 3.0;
-
-/// Whether data within the tolerance make as much of each of these rows as it misses by. Whose data are wrong is not known, so the largest tolerance
-/// counts.
-fn within_tolerance(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> bool {
-    let blocks = mechanism.data_blocks(s);
-    let largest = |unit: DataUnit| {
-        let of_unit = blocks.iter().filter(|b| b.unit == unit);
-        of_unit.filter_map(|b| b.tolerance).fold(0.0, f64::max)
-    };
-    let [length, angle] = [DataUnit::Length, DataUnit::Angle].map(largest);
-    let mut lambda = vec![0.0; mechanism.layout().rows()];
-    let mut gradient = vec![0.0; mechanism.data_count()];
-    rows.iter().all(|&row| {
-        lambda[row] = 1.0;
-        gradient.fill(0.0);
-        mechanism.add_phi_by_data(s, &lambda, 1.0, &mut gradient);
-        lambda[row] = 0.0;
-        let reach = blocks.iter().map(|block| {
-            let [x, y] = block.part(&gradient);
-            let stated = match block.unit {
-                DataUnit::Length => length,
-                DataUnit::Angle => angle,
-            };
-            x.hypot(y) * stated.max(ROUNDING * block.scale)
-        });
-        s.phi[row].abs() <= SHARED * reach.sum::<f64>()
-    })
 }
 
 /// Rows that miss, the worst first. What a least-squares solution leaves is orthogonal to all motions, so

@@ -2,7 +2,8 @@
 //!
 //! With r' kept rows K, the rank is r' iff `S = C_D·V` vanishes, V the null space of C_K; with `U = [−Tᵀ; I]`, `T = C_D·C_K⁺`, it is `Uᵀ·C·V`, and changes
 //! with the data to first order by `Uᵀ·δC·V`. δC has two parts: that of the points and directions at the pose as it is, and that of the pose, which
-//! follows the data so that the kept rows of Φ stay satisfied: `δq = −C_K⁺·∂Φ_K/∂d·δd`, nothing along the motions that are left.
+//! follows the data so that the kept rows of Φ are satisfied: `δq = −C_K⁺·(Φ_K + ∂Φ_K/∂d·δd)`, nothing along the motions that are left. Φ_K is not zero
+//! where rows contradict each other within a tolerance and the start shares what they miss.
 
 use linalg::{Matrix, PivotedQr, Scaling, small_svd};
 use model::{Mechanism, Scratch, System};
@@ -116,6 +117,8 @@ pub(super) struct Gradient {
     pub(super) data: Vec<f64>,
     /// By the coordinates along the motions that the kept rows leave (physical units), n_v values.
     pub(super) pose: Vec<f64>,
+    /// What the entry changes by where the pose moves onto the kept rows, the data as they are.
+    pub(super) onto_kept: f64,
 }
 
 impl<'a> Pose<'a> {
@@ -157,12 +160,14 @@ impl<'a> Pose<'a> {
         }
     }
 
-    /// `u_aᵀ·C·v_b` (scaled).
-    pub(super) fn target(&self, (a, b): (usize, usize)) -> f64 {
-        match a == b {
+    /// `u_aᵀ·C·v_b` (scaled) where the kept rows are satisfied, and its gradient.
+    pub(super) fn entry(&self, a: usize, b: usize) -> (f64, Gradient) {
+        let here = match a == b {
             true => self.sigma.get(a).copied().unwrap_or(0.0),
             false => 0.0,
-        }
+        };
+        let gradient = self.gradient_between(self.left.row(a), self.right.row(b));
+        (here + gradient.onto_kept, gradient)
     }
 
     /// `u_aᵀ·Φ` and its gradient by the numbers of the constraints. `None` if nonholonomic rows take part: what they imply of velocities they do not
@@ -194,11 +199,6 @@ impl<'a> Pose<'a> {
         u
     }
 
-    /// The gradient of `u_aᵀ·C·v_b` (scaled).
-    pub(super) fn gradient(&self, a: usize, b: usize) -> Gradient {
-        self.gradient_between(self.left.row(a), self.right.row(b))
-    }
-
     /// The gradient of `uᵀ·C·v` (scaled), u by the rows that are judged.
     pub(super) fn gradient_between(&self, u: &[f64], v: &[f64]) -> Gradient {
         let scaled =
@@ -223,6 +223,7 @@ impl<'a> Pose<'a> {
         }
         self.mechanism
             .add_phi_by_data(self.s, &lambda, -1.0, &mut data);
+        let onto_kept = -lambda.iter().zip(&self.s.phi).map(|(l, phi)| l * phi).sum::<f64>();
         answer[..r].fill(0.0);
         self.phi_q.q_mul(&mut answer);
         let pose = answer
@@ -230,6 +231,10 @@ impl<'a> Pose<'a> {
             .zip(&self.columns)
             .map(|(x, f)| x / f)
             .collect();
-        Gradient { data, pose }
+        Gradient {
+            data,
+            pose,
+            onto_kept,
+        }
     }
 }

@@ -80,8 +80,8 @@ impl Question<'_> {
         let noise = rounding(scaled);
         let mut equations = Vec::new();
         for at in pairs(&pose) {
-            let gradient = pose.gradient(at.0, at.1);
-            let mut equation = equation(pose.target(at), &gradient.data, (&blocks, &known), noise);
+            let (target, gradient) = pose.entry(at.0, at.1);
+            let mut equation = equation(target, &gradient.data, (&blocks, &known), noise);
             equation.parts.extend(self.by_start(&gradient.pose));
             equations.push(equation);
         }
@@ -219,12 +219,12 @@ impl Question<'_> {
         let blocks = self.mechanism.data_blocks(self.s);
         let tolerance = stated.map(|stated| stated.metres);
         let unit: Vec<f64> = blocks.iter().map(|b| self.unit(b, tolerance)).collect();
-        let gradient = here.gradient(0, 0).data;
+        let (weakest, gradient) = here.entry(0, 0);
         let parts = blocks.iter().zip(&unit).map(|(block, unit)| {
-            let [x, y] = block.part(&gradient);
+            let [x, y] = block.part(&gradient.data);
             x.hypot(y) * unit
         });
-        let least = here.sigma[0] / parts.sum::<f64>();
+        let least = weakest.abs() / parts.sum::<f64>();
         // Without a datum that changes it, it stays.
         if least.is_nan() || least > limit {
             return None;
@@ -235,8 +235,8 @@ impl Question<'_> {
         // Equations of lengths are those of entries, times the size.
         let of_pose = |pose: &Pose<'_>, noise: f64| -> Vec<(Equation, f64)> {
             let of_pair = |at: (usize, usize)| {
-                let gradient = pose.gradient(at.0, at.1).data;
-                let equation = equation(pose.target(at), &gradient, (&blocks, &known), noise);
+                let (target, gradient) = pose.entry(at.0, at.1);
+                let equation = equation(target, &gradient.data, (&blocks, &known), noise);
                 (equation, 1.0)
             };
             // What depends on each other must hold together, too.

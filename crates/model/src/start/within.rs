@@ -1,0 +1,181 @@
+//! Starts of mechanisms whose data are known to a stated tolerance: rows may miss by what the data make of them, and no body is moved far to mend a miss
+//! that the data explain.
+//!
+//! Two sliders on one line that differ by a rounding meet where one of them is turned by its root, or far away: such a configuration satisfies all rows
+//! and is not the one that is meant.
+
+use linalg::{Matrix, small_svd};
+
+use super::{Restricting, StartError, dense_rows};
+use crate::data::{DataBlock, DataUnit};
+use crate::mechanism::{Mechanism, N_BODY};
+use crate::system::{Scratch, System};
+use crate::uncertainty::ROUNDING;
+
+/// Rows of a mechanism with contradicting data miss by no more than so many times what their own data make: they share what others are wrong by.
+const SHARED: f64 = 3.0;
+
+/// Data that move a body by more than so many tolerances do not say where it is: what misses there is left as it is.
+const AMPLIFIED: f64 = 10.0;
+
+/// Rows up to which such directions are looked for: the work grows with their cube.
+const ROWS: usize = 200;
+
+/// Iterations; away from the directions that are left, each doubles the digits.
+const ITERATIONS: usize = 20;
+
+/// A step below this share of the tolerance is none.
+const STILL: f64 = 1e-6;
+
+/// The largest tolerance of lengths and of angles. Whose data are wrong is not known, so the largest counts.
+fn largest(blocks: &[DataBlock]) -> [f64; 2] {
+    [DataUnit::Length, DataUnit::Angle].map(|unit| {
+        let of_unit = blocks.iter().filter(|b| b.unit == unit);
+        of_unit.filter_map(|b| b.tolerance).fold(0.0, f64::max)
+    })
+}
+
+/// What data within the tolerance make of each of these rows.
+fn reach(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<f64> {
+    let blocks = mechanism.data_blocks(s);
+    let [length, angle] = largest(&blocks);
+    let mut lambda = vec![0.0; mechanism.layout().rows()];
+    let mut gradient = vec![0.0; mechanism.data_count()];
+    let of_row = |&row: &usize| {
+        lambda[row] = 1.0;
+        gradient.fill(0.0);
+        mechanism.add_phi_by_data(s, &lambda, 1.0, &mut gradient);
+        lambda[row] = 0.0;
+        let changes = blocks.iter().map(|block| {
+            let [x, y] = block.part(&gradient);
+            let stated = match block.unit {
+                DataUnit::Length => length,
+                DataUnit::Angle => angle,
+            };
+            x.hypot(y) * stated.max(ROUNDING * block.scale)
+        });
+        changes.sum()
+    };
+    rows.iter().map(of_row).collect()
+}
+
+/// Whether data within the tolerance make as much of each of these rows as it misses by.
+pub(super) fn is_within(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> bool {
+    let reach = reach(mechanism, s, rows);
+    let mut each = rows.iter().zip(reach);
+    each.all(|(&row, reach)| s.phi[row].abs() <= SHARED * reach)
+}
+
+/// How far each coordinate moves by one tolerance: lengths, and angles that move a point at the size of the mechanism by as much.
+fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
+    let [length, angle] = largest(&mechanism.data_blocks(s));
+    let length = match length {
+        0.0 => angle * size,
+        length => length,
+    };
+    let unit = |k: usize| {
+        if k % N_BODY == 2 {
+            length / size
+        } else {
+            length
+        }
+    };
+    (0..mechanism.layout().n_q).map(unit).collect()
+}
+
+/// The configuration that the described one means, where `found` satisfies the rows as well as possible: `found`, unless it is farther away than the
+/// data say, from one whose rows all miss by no more than the data make of them.
+pub(super) fn meant(
+    mechanism: &Mechanism,
+    s: &mut Scratch,
+    (rows, weights): Restricting<'_>,
+    described: &[f64],
+    size: f64,
+    found: Result<Vec<f64>, StartError>,
+) -> Result<Vec<f64>, StartError> {
+    if rows.len() > ROWS
+        || matches!(found, Err(ref e) if !matches!(e, StartError::NoAssembly { .. }))
+    {
+        return found;
+    }
+    let units = units(mechanism, s, size);
+    let far = |from: &[f64], to: &[f64]| {
+        let moved = from
+            .iter()
+            .zip(to)
+            .zip(&units)
+            .map(|((a, b), unit)| (a - b).abs() / unit);
+        moved.fold(0.0, f64::max) > AMPLIFIED
+    };
+    if let Ok(found) = &found
+        && !far(found, described)
+    {
+        return Ok(found.clone());
+    }
+    match truncated(mechanism, s, (rows, weights), described, &units)? {
+        Some(q) if found.as_ref().map_or(true, |found| far(found, &q)) => Ok(q),
+        _ => found,
+    }
+}
+
+/// The nearest configuration, in the mass metric, of those that satisfy the rows wherever the data say where the bodies are: singular directions along
+/// which one tolerance moves a body by many are left. `None` if a row misses by more than the data explain.
+fn truncated(
+    mechanism: &Mechanism,
+    s: &mut Scratch,
+    (rows, weights): Restricting<'_>,
+    described: &[f64],
+    units: &[f64],
+) -> Result<Option<Vec<f64>>, StartError> {
+    let root: Vec<f64> = weights.iter().map(|w| w.sqrt()).collect();
+    let mut q = described.to_vec();
+    let mut is_still = false;
+    for _ in 0..ITERATIONS {
+        mechanism.pose(0.0, &q, s);
+        mechanism.phi(s);
+        mechanism.c(s);
+        if is_still {
+            break;
+        }
+        let reach = reach(mechanism, s, rows);
+        let scale = |i: usize| if reach[i] > 0.0 { reach[i] } else { 1.0 };
+        let c = dense_rows(mechanism.layout(), s, rows)?;
+        let scaled = Matrix::from_fn(rows.len(), q.len(), |i, j| c[(i, j)] * root[j] / scale(i));
+        if scaled.first_non_finite().is_some() {
+            return Ok(None);
+        }
+        // C·(q₀ + δ − q) + Φ = 0
+        let shift: Vec<f64> = described.iter().zip(&q).map(|(a, b)| a - b).collect();
+        let moved = c.times(&shift);
+        let misfit: Vec<f64> = (0..rows.len())
+            .map(|i| (s.phi[rows[i]] + moved[i]) / scale(i))
+            .collect();
+        let svd = small_svd(&scaled);
+        let mut next = described.to_vec();
+        for (k, &sigma) in svd.sigma.iter().enumerate() {
+            let along = |j: usize| root[j] * svd.v[(j, k)] / sigma;
+            let amplified = (0..q.len())
+                .map(|j| along(j).abs() / units[j])
+                .fold(0.0, f64::max);
+            if amplified.is_nan() || amplified > AMPLIFIED {
+                continue;
+            }
+            let step: f64 = misfit
+                .iter()
+                .enumerate()
+                .map(|(i, m)| svd.u[(i, k)] * m)
+                .sum();
+            for (j, q) in next.iter_mut().enumerate() {
+                *q -= along(j) * step;
+            }
+        }
+        let moved = q
+            .iter()
+            .zip(&next)
+            .zip(units)
+            .map(|((a, b), unit)| (a - b).abs() / unit);
+        is_still = moved.fold(0.0, f64::max) <= STILL;
+        q = next;
+    }
+    Ok((is_still && is_within(mechanism, s, rows)).then_some(q))
+}
