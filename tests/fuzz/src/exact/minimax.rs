@@ -11,6 +11,9 @@ const CLOSE: f64 = 1.1;
 /// No weight falls below this share of the largest.
 const LEAST_WEIGHT: f64 = 1e-8;
 
+/// Equations whose left sides depend on each other contradict each other by more than this share of the right ones.
+const CONTRADICTS: f64 = 1e-6;
+
 /// One equation.
 #[derive(Clone, Debug)]
 pub struct Equation {
@@ -53,10 +56,17 @@ pub fn least_change(equations: &[Equation], slack: f64) -> Bounds {
             }
             matrix[i][i] += slack * slack / weights[blocks + i];
         }
-        let targets = equations.iter().map(|eq| eq.target).collect();
-        let Some(y) = solve(matrix, targets) else {
+        let targets: Vec<f64> = equations.iter().map(|eq| eq.target).collect();
+        let largest = targets.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+        let Some(Solved { y, left }) = solve(matrix, targets) else {
             break;
         };
+        if left > CONTRADICTS * largest {
+            // No data do; only the slack of the equations that contradict each other.
+            bounds.low = bounds.low.max(left / (slack * e as f64));
+            bounds.high = f64::INFINITY;
+            break;
+        }
         // Aᵀ·y, block by block.
         let size = |p: usize| match p.checked_sub(blocks) {
             Some(i) => (slack * y[i]).abs(),
@@ -92,9 +102,15 @@ pub fn least_change(equations: &[Equation], slack: f64) -> Bounds {
     bounds
 }
 
+/// A solution, and what it leaves of the largest equation that was left out.
+struct Solved {
+    y: Vec<f64>,
+    left: f64,
+}
+
 /// Gauss with complete pivoting of a symmetric matrix; what is rounding beside the first pivot is
 /// left out. `None` if there is nothing else.
-fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Vec<f64>> {
+fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Solved> {
     const ROUNDING: f64 = 1e-13;
     let n = b.len();
     let mut columns: Vec<usize> = (0..n).collect();
@@ -132,12 +148,13 @@ fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Vec<f64>> {
     if rank == 0 {
         return None;
     }
+    let left = b[rank..].iter().fold(0.0_f64, |a, x| a.max(x.abs()));
     let mut x = vec![0.0; n];
     for k in (0..rank).rev() {
         let known: f64 = (k + 1..rank).map(|j| a[k][j] * x[columns[j]]).sum();
         x[columns[k]] = (b[k] - known) / a[k][k];
     }
-    Some(x)
+    Some(Solved { y: x, left })
 }
 
 #[cfg(test)]
