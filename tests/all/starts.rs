@@ -388,7 +388,6 @@ fn a_thousand_random_starts() {
         };
         *tally.entry(kind).or_default() += 1;
     }
-    println!("{tally:?}");
     for kind in [
         "accepted",
         "corrected",

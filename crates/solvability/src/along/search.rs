@@ -80,8 +80,9 @@ const FALL: f64 = 4.0;
 
 /// Whether a function that was found to be no smaller than `least` around its minimum, and no larger than `largest`, may fall to `limit` between.
 pub(super) fn may_reach(limit: f64, least: f64, largest: f64) -> bool {
-    // NaN may be anything.
-    !(least - FALL * (largest - least) > limit)
+    let lowest = least - FALL * (largest - least);
+    // Not a number may be anything.
+    lowest.is_nan() || lowest <= limit
 }
 
 /// Where `f` is smallest between a and b, if it has one minimum there, and its value: golden sections, which find the corner of an

@@ -223,7 +223,11 @@ impl<'a> Pose<'a> {
         }
         self.mechanism
             .add_phi_by_data(self.s, &lambda, -1.0, &mut data);
-        let onto_kept = -lambda.iter().zip(&self.s.phi).map(|(l, phi)| l * phi).sum::<f64>();
+        let onto_kept = -lambda
+            .iter()
+            .zip(&self.s.phi)
+            .map(|(l, phi)| l * phi)
+            .sum::<f64>();
         answer[..r].fill(0.0);
         self.phi_q.q_mul(&mut answer);
         let pose = answer
