@@ -19,7 +19,7 @@ const CLEARANCE: f64 = 10.0;
 const TOLERANCE_MAX: f64 = 1e-5;
 
 /// The same where the noise is that of a stated tolerance: of larger changes the first order says nothing.
-const STATED_MAX: f64 = 0.1;
+const STATED_MAX: f64 = 0.01;
 
 /// By this factor a coefficient is certainly not zero there: all data together would have to be wrong by as many tolerances, as for ranks.
 const STATED_CLEARANCE: f64 = 3.0;
