@@ -10,6 +10,7 @@ use linalg::{Dd, DdMatrix, StepError, least_squares_step};
 use crate::description::BodyRef;
 use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint};
 use crate::start::scene_size;
+use crate::start::within::is_beyond;
 use crate::system::System;
 
 /// A configuration that satisfies the kept holonomic rows to double-double, and what the others miss there.
@@ -33,7 +34,7 @@ const ROUNDINGS: f64 = 16.0;
 
 impl Mechanism {
     /// Polishes the coordinates q, which satisfy Φ = 0 to `f64`, in the rows `kept` of Φ, which are independent. The correction
-    /// is the smallest one; it ends when it no longer shrinks.
+    /// is the smallest one; it ends when it no longer shrinks, or would move a body farther than a stated tolerance says where it is.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
@@ -58,7 +59,8 @@ impl Mechanism {
         let weights: Vec<f64> = (0..q.len())
             .map(|k| if k % N_BODY == 2 { rotation } else { 1.0 })
             .collect();
-        let mut q: Vec<Dd> = q.iter().map(|&q| Dd::from(q)).collect();
+        let described = q;
+        let mut q: Vec<Dd> = described.iter().map(|&q| Dd::from(q)).collect();
         let residual = |phi: &[Dd]| {
             let miss = |(&row, &scale): (&usize, &f64)| match phi[row].abs().to_f64() {
                 0.0 => 0.0,
@@ -76,7 +78,8 @@ impl Mechanism {
             let step = least_squares_step(&c, &missing, &weights, 0.0)?;
             let moved: Vec<Dd> = q.iter().zip(step).map(|(&q, d)| q + Dd::from(d)).collect();
             let phi_moved = self.extended_phi(t, &moved);
-            if residual(&phi_moved) >= least {
+            let there: Vec<f64> = moved.iter().map(|q| q.to_f64()).collect();
+            if residual(&phi_moved) >= least || is_beyond(self, &s, described, &there) {
                 break;
             }
             (q, phi) = (moved, phi_moved);

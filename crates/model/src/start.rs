@@ -8,7 +8,7 @@ mod conflict;
 mod error;
 mod tier;
 mod velocity;
-mod within;
+pub(crate) mod within;
 
 use linalg::{Matrix, least_squares_step};
 

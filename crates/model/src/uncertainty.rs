@@ -13,6 +13,9 @@ use crate::system::{Scratch, System};
 /// reading of the number, the place of its body (two), its turn into the frame of the body (two), sine and cosine, and the evaluation of C (two).
 pub const ROUNDING: f64 = 8.0 * f64::EPSILON / 2.0;
 
+/// An assembled start is closed to so many roundings.
+const CLOSED: f64 = 10.0;
+
 /// How well a configuration is known along the motions that the constraints leave free.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Known {
@@ -38,7 +41,8 @@ impl Mechanism {
     /// A number is known to the relative error of the data times the size of the terms it adds up, which its kernel on magnitudes
     /// gives, but never entry by entry: of a force and of the place of a point all components are known equally well, whichever way the
     /// axes point, and no zero is exact. A lever is known to the rounding of the longest arm of its body and of where its bodies stand,
-    /// and to what the constraints leave open, |Φ_i|. `size` is that of the mechanism. Needs Φ and C at the pose of the scratch.
+    /// and to what the constraints leave open, |Φ_i|: where a tolerance is stated no more than rounding, for what contradicting rows miss within it
+    /// is no fault of the entries. `size` is that of the mechanism. Needs Φ and C at the pose of the scratch.
     #[must_use]
     pub fn uncertainty(&self, s: &Scratch, q: &[f64], size: f64, known: Known) -> Matrix {
         let layout = self.layout();
@@ -65,7 +69,15 @@ impl Mechanism {
         let pattern = &layout.pattern;
         let magnitudes = self.magnitudes(s);
         // How far bodies may be turned; a mechanism that stands far away is turned about itself.
-        let turned = known.turned() + self.relative_opening(s, size);
+        let opening = |i: usize| {
+            let missed = s.phi.get(i).map_or(0.0, |phi| phi.abs());
+            match self.has_tolerances() {
+                true => missed.min(CLOSED * ROUNDING * self.position_scale(s, i, q)),
+                false => missed,
+            }
+        };
+        let of_row = |i: usize| self.relative_to_reach(s, i, size, opening(i));
+        let turned = known.turned() + (0..layout.m).map(of_row).fold(0.0, f64::max);
         let mut u = Vec::with_capacity(pattern.column.len());
         for i in 0..layout.rows() {
             let row = pattern.start[i]..pattern.start[i + 1];
@@ -74,8 +86,7 @@ impl Mechanism {
             let places = |&(body, force, _): &(usize, f64, f64)| {
                 force * q[N_BODY * body].hypot(q[N_BODY * body + 1])
             };
-            let shift = ROUNDING * forces.iter().map(places).sum::<f64>()
-                + s.phi.get(i).map_or(0.0, |phi| phi.abs());
+            let shift = ROUNDING * forces.iter().map(places).sum::<f64>() + opening(i);
             for k in row {
                 let (body, dof) = (pattern.column[k] / N_BODY, pattern.column[k] % N_BODY);
                 let of_body = forces.iter().find(|(other, ..)| *other == body);

@@ -192,6 +192,9 @@ fn of_rows(rows: &[String]) -> String {
     format!("{word} {}", words::list(rows))
 }
 
+/// Redundant rows may miss by so many times what their own data make within the tolerance: they share what others are wrong by.
+const SHARED: f64 = 3.0;
+
 /// Rank decisions at one configuration.
 #[derive(Clone, Copy, Debug)]
 pub struct Ranks<'a> {
@@ -338,7 +341,8 @@ impl Comparison<'_> {
         let terms = || circuit.rows.iter().copied().zip(&circuit.coefficients);
         let sum: f64 = terms().map(|(i, z)| z * self.values[i]).sum();
         let equilibrated = terms().map(|(i, z)| z.abs() / self.decision.scaling.row_factor(i));
-        let tolerance = noise * equilibrated.fold(0.0, f64::max);
+        let tolerance =
+            noise * equilibrated.fold(0.0, f64::max) + self.within_data(mechanism, circuit);
         if sum.abs() <= tolerance {
             return None;
         }
@@ -378,6 +382,25 @@ impl Comparison<'_> {
             drives: drives.len(),
             is_forced,
         })
+    }
+
+    /// What data within a stated tolerance make of the sum over a circuit of positions; zero where none is stated.
+    fn within_data(&self, mechanism: &Mechanism, circuit: &Circuit) -> f64 {
+        let blocks = mechanism.data_blocks(self.prescribed);
+        if self.level != ConstraintLevel::Position || blocks.iter().all(|b| b.tolerance.is_none()) {
+            return 0.0;
+        }
+        let mut weights = vec![0.0; mechanism.layout().rows()];
+        for (&row, z) in circuit.rows.iter().zip(&circuit.coefficients) {
+            weights[row] = *z;
+        }
+        let mut gradient = vec![0.0; mechanism.data_count()];
+        mechanism.add_phi_by_data(self.prescribed, &weights, 1.0, &mut gradient);
+        let changes = blocks.iter().map(|block| {
+            let [x, y] = block.part(&gradient);
+            x.hypot(y) * block.tolerance.unwrap_or(0.0)
+        });
+        SHARED * changes.sum::<f64>()
     }
 
     /// Drives that move the bodies of these rows and with the joints leave them no other velocities, as groups; none if there are others, with

@@ -21,6 +21,10 @@ const TOLERANCE_MAX: f64 = 1e-5;
 /// The same where the noise is that of a stated tolerance: of larger changes the first order says nothing.
 const STATED_MAX: f64 = 0.1;
 
+/// A coefficient above this is not called zero there: more of a reaction would go untold than is wanted of one, and that data within the tolerance could make it zero
+/// does not say that they do.
+const STATED_ZERO: f64 = 0.01;
+
 /// By this factor a coefficient is certainly not zero there: all data together would have to be wrong by as many tolerances, as for ranks.
 const STATED_CLEARANCE: f64 = 3.0;
 
@@ -182,7 +186,9 @@ impl Readings {
         if self.has_tolerance {
             let required = (STATED_CLEARANCE * noise).max(CERTAIN);
             return match size {
-                _ if size <= noise && noise <= STATED_MAX => CoefficientReading::Zero,
+                _ if size <= noise.min(STATED_ZERO) && noise <= STATED_MAX => {
+                    CoefficientReading::Zero
+                }
                 _ if size > required => CoefficientReading::NonZero,
                 _ => CoefficientReading::Unclear {
                     tolerance: noise,

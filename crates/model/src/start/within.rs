@@ -6,7 +6,7 @@
 
 use linalg::{Matrix, small_svd};
 
-use super::{Restricting, StartError, dense_rows};
+use super::{Restricting, StartError, dense_rows, size_of};
 use crate::data::{DataBlock, DataUnit};
 use crate::mechanism::{Mechanism, N_BODY};
 use crate::system::{Scratch, System};
@@ -83,6 +83,20 @@ fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
     (0..mechanism.layout().n_q).map(unit).collect()
 }
 
+/// How far coordinates are apart in these units.
+fn farthest(a: &[f64], b: &[f64], units: &[f64]) -> f64 {
+    let apart = a.iter().zip(b).zip(units);
+    apart.fold(0.0, |most, ((a, b), unit)| {
+        f64::max(most, (a - b).abs() / unit)
+    })
+}
+
+/// Whether a tolerance is stated, and these coordinates are farther apart than data within it say where the bodies are.
+pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[f64]) -> bool {
+    mechanism.has_tolerances()
+        && farthest(from, to, &units(mechanism, s, size_of(mechanism, s))) > AMPLIFIED
+}
+
 /// The configuration that the described one means, where `found` satisfies the rows as well as possible: `found`, unless it is farther away than the
 /// data say, from one whose rows all miss by no more than the data make of them.
 pub(super) fn meant(
@@ -99,14 +113,7 @@ pub(super) fn meant(
         return found;
     }
     let units = units(mechanism, s, size);
-    let far = |from: &[f64], to: &[f64]| {
-        let moved = from
-            .iter()
-            .zip(to)
-            .zip(&units)
-            .map(|((a, b), unit)| (a - b).abs() / unit);
-        moved.fold(0.0, f64::max) > AMPLIFIED
-    };
+    let far = |from: &[f64], to: &[f64]| farthest(from, to, &units) > AMPLIFIED;
     if let Ok(found) = &found
         && !far(found, described)
     {
@@ -169,12 +176,7 @@ fn truncated(
                 *q -= along(j) * step;
             }
         }
-        let moved = q
-            .iter()
-            .zip(&next)
-            .zip(units)
-            .map(|((a, b), unit)| (a - b).abs() / unit);
-        is_still = moved.fold(0.0, f64::max) <= STILL;
+        is_still = farthest(&q, &next, units) <= STILL;
         q = next;
     }
     Ok((is_still && is_within(mechanism, s, rows)).then_some(q))

@@ -81,18 +81,24 @@ impl Candidate {
         let svd = small_svd(&rest);
         Self {
             kept,
-            left: complete(&svd.u).transpose().product(&u),
-            right: complete(&svd.v).transpose().product(&v.transpose()),
+            left: complete(&svd.u, &svd.sigma).transpose().product(&u),
+            right: complete(&svd.v, &svd.sigma)
+                .transpose()
+                .product(&v.transpose()),
             sigma: svd.sigma,
         }
     }
 }
 
-/// An orthonormal basis that begins with the columns of an orthonormal set; columns of zeros are replaced.
-fn complete(columns: &Matrix) -> Matrix {
-    let (n, k) = (columns.nrows(), columns.ncols());
-    let known: Vec<usize> = (0..k)
-        .filter(|&j| (0..n).any(|i| columns[(i, j)] != 0.0))
+/// Singular vectors below this share of the largest singular value are rounding and need not be orthogonal to the others.
+const RESOLVED: f64 = 1e-13;
+
+/// An orthonormal basis that begins with singular vectors; those that are rounding are replaced.
+fn complete(columns: &Matrix, sigma: &[f64]) -> Matrix {
+    let n = columns.nrows();
+    let largest = sigma.iter().copied().fold(0.0, f64::max);
+    let known: Vec<usize> = (0..sigma.len())
+        .filter(|&j| sigma[j] > RESOLVED * largest)
         .collect();
     let set = Matrix::from_fn(known.len(), n, |i, j| columns[(j, known[i])]);
     let rest = PivotedQr::of_rows(set).q_columns(known.len()..n);
