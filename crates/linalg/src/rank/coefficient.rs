@@ -23,7 +23,7 @@ const STATED_MAX: f64 = 0.1;
 
 /// A coefficient above this is not called zero there: more of a reaction would go untold than is wanted of one, and that data within the tolerance could make it zero
 /// does not say that they do.
-const STATED_ZERO: f64 = 0.01;
+const STATED_ZERO: f64 = 0.001;
 
 /// By this factor a coefficient is certainly not zero there: all data together would have to be wrong by as many tolerances, as for ranks.
 const STATED_CLEARANCE: f64 = 3.0;
