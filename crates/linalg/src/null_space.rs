@@ -140,8 +140,8 @@ impl Support {
             let (margin, noise) = (kernels::norm(z.row(i)), decision.row_noise(i));
             match decision.read_coefficient(margin, noise) {
                 CoefficientReading::Zero => (f64::INFINITY, false),
-                CoefficientReading::NonZero => (noise, false),
-                CoefficientReading::Unclear { .. } => (noise, true),
+                CoefficientReading::NonZero => (decision.largest_zero(noise), false),
+                CoefficientReading::Unclear { .. } => (decision.largest_zero(noise), true),
             }
         };
         let (noise, open) = decision.kept.iter().map(noise).unzip();

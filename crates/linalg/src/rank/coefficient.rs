@@ -21,9 +21,9 @@ const TOLERANCE_MAX: f64 = 1e-5;
 /// The same where the noise is that of a stated tolerance: of larger changes the first order says nothing.
 const STATED_MAX: f64 = 0.1;
 
-/// A coefficient above this is not called zero there: more of a reaction would go untold than is wanted of one, and that data within the tolerance could make it zero
-/// does not say that they do.
-const STATED_ZERO: f64 = 0.01;
+/// A coefficient above this is not called zero there: that data within the tolerance could make it zero does not say that they do, and what is told as
+/// none must not matter.
+const STATED_ZERO: f64 = 1e-3;
 
 /// By this factor a coefficient is certainly not zero there: all data together would have to be wrong by as many tolerances, as for ranks.
 const STATED_CLEARANCE: f64 = 3.0;
@@ -155,6 +155,14 @@ impl RankDecision {
     #[must_use]
     pub fn read_coefficient(&self, size: f64, noise: f64) -> CoefficientReading {
         self.readings().read(size, noise)
+    }
+
+    /// Up to here a coefficient with this noise is left out of a dependency.
+    pub(crate) fn largest_zero(&self, noise: f64) -> f64 {
+        match self.has_tolerance() {
+            true => noise.min(STATED_ZERO),
+            false => noise,
+        }
     }
 
     /// How its coefficients are read.

@@ -11,6 +11,9 @@ use crate::verdict::Judgement;
 /// What the first order says of larger angles (rad) means nothing.
 const LARGEST_TURN: f64 = 0.1;
 
+/// A part of a unit vector above this is told, whatever a stated tolerance makes of it: without it the direction is another one.
+const LARGEST_ROUNDING: f64 = 1e-5;
+
 /// A map W (k × |X|) from the multipliers of rows X to components, and what it makes of their null space.
 #[derive(Clone, Debug)]
 pub(crate) struct Mapped<'a> {
@@ -166,7 +169,7 @@ impl<'a> Mapped<'a> {
         let basis = qr.q_columns(rank..k);
         let direction = |j: usize| (0..k).map(|i| basis[(i, j)] / self.scale(i)).collect();
         Ok((0..k - rank)
-            .map(|j| normalised(direction(j), self.basis.known.tolerance))
+            .map(|j| normalised(direction(j), self.nothing()))
             .collect())
     }
 
@@ -186,8 +189,13 @@ impl<'a> Mapped<'a> {
         let rest = Matrix::from_fn(k, unique.ncols(), |i, j| unique[(i, j)] - idle_part[(i, j)]);
         let basis = PivotedQr::of_columns(&rest).q_columns(0..live);
         let column = |j: usize| (0..k).map(|i| basis[(i, j)]).collect();
-        let rounding = self.basis.known.tolerance.max(ROUNDING_OF_MAP);
+        let rounding = self.nothing().max(ROUNDING_OF_MAP);
         (0..live).map(|j| normalised(column(j), rounding)).collect()
+    }
+
+    /// Parts of unit vectors up to here are rounding.
+    fn nothing(&self) -> f64 {
+        self.basis.known.tolerance.min(LARGEST_ROUNDING)
     }
 
     /// Orthonormal basis of the left null space of W, one vector in each column. Whether a component is nothing is told from rows of equal size.
