@@ -69,9 +69,10 @@ impl Mechanism {
         let pattern = &layout.pattern;
         let magnitudes = self.magnitudes(s);
         // How far bodies may be turned; a mechanism that stands far away is turned about itself.
+        let has_tolerances = self.has_tolerances();
         let opening = |i: usize| {
             let missed = s.phi.get(i).map_or(0.0, |phi| phi.abs());
-            match self.has_tolerances() {
+            match has_tolerances {
                 true => missed.min(CLOSED * ROUNDING * self.position_scale(s, i, q)),
                 false => missed,
             }
