@@ -219,3 +219,25 @@ impl Readings {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A tenth of a reaction is not left out because data within the tolerance could make it zero.
+    #[test]
+    fn within_a_tolerance_only_what_is_small_is_zero() {
+        let within = Readings {
+            is_certified: true,
+            has_tolerance: true,
+            smallest: f64::INFINITY,
+        };
+        assert_eq!(within.read(5e-4, 0.02), CoefficientReading::Zero);
+        assert_eq!(within.read(0.3, 0.095), CoefficientReading::NonZero);
+        for (size, noise) in [(0.093, 0.095), (5e-3, 0.02), (5e-4, 0.2), (0.03, 0.02)] {
+            let reading = within.read(size, noise);
+            let is_open = matches!(reading, CoefficientReading::Unclear { .. });
+            assert!(is_open, "{size}, {noise}: {reading:?}");
+        }
+    }
+}

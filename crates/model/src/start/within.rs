@@ -181,3 +181,63 @@ fn truncated(
     }
     Ok((is_still && is_within(mechanism, s, rows)).then_some(q))
 }
+
+#[cfg(test)]
+mod tests {
+    use joints::{Direction, PinInSlot};
+
+    use super::AMPLIFIED;
+    use crate::start::{CorrectionLimit, assemble};
+    use crate::{Body, BodyRef, Description, Joint, Mechanism, StartOptions, Tolerance};
+
+    /// A body that slides on the x-axis by its own point and by the origin of the ground in its own slot, 0.1 µm beside that point: `y = 0` and
+    /// `x·sin θ + 1e-7·cos θ = 0`, which hold together only where the body is turned or shifted by the root of 0.1 µm.
+    fn assembled(tolerance: Option<f64>) -> Vec<f64> {
+        let slot = |name: &str, bodies: [BodyRef; 2], x: f64, y: f64| {
+            let slot = PinInSlot {
+                s_i: [x, 0.0],
+                s_j: [0.0, y],
+                axis: Direction::X,
+            };
+            Joint::new(name, &bodies, slot)
+        };
+        let (ground, body) = (BodyRef::Ground, BodyRef::Body(0));
+        let description = Description {
+            bodies: vec![Body {
+                mass: 1.0,
+                inertia: 1.0,
+                ..Body::default()
+            }],
+            joints: vec![
+                slot("A", [ground, body], 1.0, 0.0),
+                slot("B", [body, ground], 0.0, 1e-7),
+            ],
+            tolerance: Tolerance {
+                length: tolerance,
+                angle: None,
+            },
+            ..Description::default()
+        };
+        let mut mechanism = Mechanism::build(&description).expect("it builds");
+        let options = StartOptions {
+            correction: CorrectionLimit::Any,
+            ..StartOptions::default()
+        };
+        let start = assemble(&mut mechanism, &options);
+        start.expect("it assembles").q
+    }
+
+    #[test]
+    fn no_body_is_moved_far_to_mend_what_the_data_explain() {
+        let largest = |q: &[f64]| q.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
+        let within = assembled(Some(1e-6));
+        assert!(largest(&within) <= AMPLIFIED * 1e-6, "{within:?}");
+        // Data that are known to their rounding have the configuration far away.
+        let exact = assembled(None);
+        assert!(
+            (exact[0] * exact[2].tan() + 1e-7).abs() < 1e-14,
+            "{exact:?}"
+        );
+        assert!(largest(&exact) > 1e-4, "{exact:?}");
+    }
+}
