@@ -14,6 +14,9 @@ const LARGEST_TURN: f64 = 0.1;
 /// A part of a unit vector above this is told, whatever a stated tolerance makes of it: without it the direction is another one.
 const LARGEST_ROUNDING: f64 = 1e-5;
 
+/// A component below this share of what its direction is known to is none, as data are beyond doubt within a third of their tolerance.
+const NONE: f64 = 1.0 / 3.0;
+
 /// A map W (k × |X|) from the multipliers of rows X to components, and what it makes of their null space.
 #[derive(Clone, Debug)]
 pub(crate) struct Mapped<'a> {
@@ -63,7 +66,7 @@ impl<'a> Mapped<'a> {
     }
 
     /// The first components are those of a force, others of torques. Where its direction is known to an angle, and its line to a length, so are the
-    /// components; one of a force that is smaller beside the others is none.
+    /// components; one of a force that is far smaller beside the others is none.
     #[must_use]
     pub(crate) fn with_forces(mut self, forces: usize) -> Self {
         let (Some(turns), None) = (&self.basis.known.row_turn, &self.basis.exact) else {
@@ -86,7 +89,7 @@ impl<'a> Mapped<'a> {
         self.wobble = Some(Matrix::from_fn(self.sizes.len(), self.rows.len(), wobble));
         let whole = self.sizes[..forces].iter().copied().fold(0.0, f64::hypot);
         for i in 0..forces {
-            if self.sizes[i] <= turn * whole {
+            if self.sizes[i] <= NONE * turn * whole {
                 self.images.row_mut(i).fill(0.0);
                 self.sizes[i] = 0.0;
             }
