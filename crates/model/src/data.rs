@@ -13,6 +13,7 @@ use crate::description::BodyRef;
 use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint, column_of};
 use crate::start::size_of;
 use crate::system::{Scratch, System};
+use crate::uncertainty::ROUNDING;
 
 pub use gradients::DataGradients;
 
@@ -56,7 +57,24 @@ impl DataBlock {
             _ => [0.0; 2],
         }
     }
+
+    /// The largest change of a number with this gradient, where it moves by so much.
+    #[must_use]
+    pub fn change(&self, gradient: &[f64], moved: f64) -> f64 {
+        let [x, y] = self.part(gradient);
+        x.hypot(y) * moved
+    }
+
+    /// What it is known to: the tolerance that is stated, or its rounding.
+    #[must_use]
+    pub fn known_to(&self) -> f64 {
+        self.tolerance.unwrap_or(ROUNDING * self.scale)
+    }
 }
+
+/// Rows that contradict each other within a stated tolerance miss by no more than so many times what their own data make of them: they share what
+/// others are wrong by.
+pub const SHARED: f64 = 3.0;
 
 impl Mechanism {
     /// How many numbers all constraints store.
@@ -185,6 +203,21 @@ impl Mechanism {
             }
             first += count;
         }
+    }
+
+    /// The largest change of `λᵀ·Φ` where each datum moves by what `moved` tells; `lambda` has at least m values.
+    #[must_use]
+    pub fn phi_change(
+        &self,
+        s: &Scratch,
+        lambda: &[f64],
+        blocks: &[DataBlock],
+        moved: impl Fn(&DataBlock) -> f64,
+    ) -> f64 {
+        let mut gradient = vec![0.0; self.data_count()];
+        self.add_phi_by_data(s, lambda, 1.0, &mut gradient);
+        let changes = blocks.iter().map(|b| b.change(&gradient, moved(b)));
+        changes.sum()
     }
 
     /// Adds the gradient of `λᵀ·C·v` by the pose, n_v values along velocity directions, to `out`.

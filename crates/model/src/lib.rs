@@ -48,7 +48,7 @@ pub mod system;
 mod tolerance;
 mod uncertainty;
 
-pub use data::{DataBlock, DataGradients, DataUnit};
+pub use data::{DataBlock, DataGradients, DataUnit, SHARED};
 pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
 pub use extended::Polished;
 pub use function::{Function, FunctionError};

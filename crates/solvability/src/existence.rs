@@ -12,7 +12,7 @@ use std::collections::BTreeSet;
 
 use linalg::{Circuit, RankDecision};
 use model::start::scene_size;
-use model::{ConstraintId, Mechanism, RowLabel, Scratch, System};
+use model::{ConstraintId, DataBlock, Mechanism, RowLabel, SHARED, Scratch, System};
 
 use crate::mechanism::velocity_units;
 use crate::state::{self, StateError};
@@ -191,9 +191,6 @@ fn of_rows(rows: &[String]) -> String {
     let word = if rows.len() == 1 { "row" } else { "rows" };
     format!("{word} {}", words::list(rows))
 }
-
-/// Redundant rows may miss by so many times what their own data make within the tolerance: they share what others are wrong by.
-const SHARED: f64 = 3.0;
 
 /// Rank decisions at one configuration.
 #[derive(Clone, Copy, Debug)]
@@ -394,13 +391,8 @@ impl Comparison<'_> {
         for (&row, z) in circuit.rows.iter().zip(&circuit.coefficients) {
             weights[row] = *z;
         }
-        let mut gradient = vec![0.0; mechanism.data_count()];
-        mechanism.add_phi_by_data(self.prescribed, &weights, 1.0, &mut gradient);
-        let changes = blocks.iter().map(|block| {
-            let [x, y] = block.part(&gradient);
-            x.hypot(y) * block.tolerance.unwrap_or(0.0)
-        });
-        SHARED * changes.sum::<f64>()
+        let moved = |block: &DataBlock| block.tolerance.unwrap_or(0.0);
+        SHARED * mechanism.phi_change(self.prescribed, &weights, &blocks, moved)
     }
 
     /// Drives that move the bodies of these rows and with the joints leave them no other velocities, as groups; none if there are others, with

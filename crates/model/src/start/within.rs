@@ -7,13 +7,10 @@
 use linalg::{Matrix, small_svd};
 
 use super::{Restricting, StartError, dense_rows, size_of};
-use crate::data::{DataBlock, DataUnit};
+use crate::data::{DataBlock, DataUnit, SHARED};
 use crate::mechanism::{Mechanism, N_BODY};
 use crate::system::{Scratch, System};
 use crate::uncertainty::ROUNDING;
-
-/// Rows of a mechanism with contradicting data miss by no more than so many times what their own data make: they share what others are wrong by.
-const SHARED: f64 = 3.0;
 
 /// Data that move a body by more than so many tolerances do not say where it is: what misses there is left as it is.
 const AMPLIFIED: f64 = 10.0;
@@ -40,21 +37,18 @@ fn reach(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<f64> {
     let blocks = mechanism.data_blocks(s);
     let [length, angle] = largest(&blocks);
     let mut lambda = vec![0.0; mechanism.layout().rows()];
-    let mut gradient = vec![0.0; mechanism.data_count()];
+    let moved = |block: &DataBlock| {
+        let stated = match block.unit {
+            DataUnit::Length => length,
+            DataUnit::Angle => angle,
+        };
+        stated.max(ROUNDING * block.scale)
+    };
     let of_row = |&row: &usize| {
         lambda[row] = 1.0;
-        gradient.fill(0.0);
-        mechanism.add_phi_by_data(s, &lambda, 1.0, &mut gradient);
+        let change = mechanism.phi_change(s, &lambda, &blocks, moved);
         lambda[row] = 0.0;
-        let changes = blocks.iter().map(|block| {
-            let [x, y] = block.part(&gradient);
-            let stated = match block.unit {
-                DataUnit::Length => length,
-                DataUnit::Angle => angle,
-            };
-            x.hypot(y) * stated.max(ROUNDING * block.scale)
-        });
-        changes.sum()
+        change
     };
     rows.iter().map(of_row).collect()
 }

@@ -148,10 +148,9 @@ impl Question<'_> {
             }
             let of_vector = |z: &[f64]| {
                 let gradient = pose.gradient_between(z, &y);
-                let changes = blocks.iter().map(|block| {
-                    let [x, y] = block.part(&gradient.data);
-                    x.hypot(y) * block.tolerance.unwrap_or(ROUNDING * block.scale)
-                });
+                let changes = blocks
+                    .iter()
+                    .map(|b| b.change(&gradient.data, b.known_to()));
                 let by_start = self.by_start(&gradient.pose);
                 let by_start = by_start.iter().map(|[x, y]| x.hypot(*y));
                 changes.chain(by_start).sum::<f64>()
@@ -187,10 +186,7 @@ impl Question<'_> {
             across[N_BODY * body] = -force[1] / size;
             across[N_BODY * body + 1] = force[0] / size;
             let gradient = pose.gradient_between(&own, &across).data;
-            let changes = blocks.iter().map(|block| {
-                let [x, y] = block.part(&gradient);
-                x.hypot(y) * block.tolerance.unwrap_or(ROUNDING * block.scale)
-            });
+            let changes = blocks.iter().map(|b| b.change(&gradient, b.known_to()));
             changes.sum::<f64>() / size
         };
         let lengths = self.tolerance().filter(|stated| !stated.by_angles);
@@ -220,10 +216,8 @@ impl Question<'_> {
         let tolerance = stated.map(|stated| stated.metres);
         let unit: Vec<f64> = blocks.iter().map(|b| self.unit(b, tolerance)).collect();
         let (weakest, gradient) = here.entry(0, 0);
-        let parts = blocks.iter().zip(&unit).map(|(block, unit)| {
-            let [x, y] = block.part(&gradient.data);
-            x.hypot(y) * unit
-        });
+        let parts = blocks.iter().zip(&unit);
+        let parts = parts.map(|(block, unit)| block.change(&gradient.data, *unit));
         let least = weakest.abs() / parts.sum::<f64>();
         // Without a datum that changes it, it stays.
         if least.is_nan() || least > limit {
@@ -307,7 +301,7 @@ impl Question<'_> {
     /// it, and those that have none their rounding.
     fn unit(&self, block: &DataBlock, tolerance: Option<f64>) -> f64 {
         match (tolerance, block.unit) {
-            (Some(tolerance), _) => block.tolerance.unwrap_or(ROUNDING * block.scale) / tolerance,
+            (Some(tolerance), _) => block.known_to() / tolerance,
             (None, DataUnit::Length) => 1.0,
             (None, DataUnit::Angle) => 1.0 / self.size,
         }
