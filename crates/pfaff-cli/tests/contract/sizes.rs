@@ -137,6 +137,15 @@ fn what_is_asked_of_all_parts_is_told_of_all() {
         assert_eq!(r["sensitivity"].is_number(), is_unique, "{r}");
     }
     let p = known["redundancy"].as_u64().expect("a number");
+    // The rows that analyze drops itself: the label at every number stays short.
+    let dropped = known["dropped_rows"].as_array().expect("a list");
+    let dropped: Vec<String> = dropped.iter().map(Value::to_string).collect();
+    let chosen = document(
+        &["--choose", &format!("drop:{}", dropped.join(","))],
+        &scene,
+    );
+    let label = chosen["choices"][0]["label"].as_str().expect("a label");
+    assert!(label.ends_with(&format!("and {} more", p - 3)), "{label}");
     // As many as are redundant, all in the first parts.
     let many: Vec<String> = (1..=p).map(|row| row.to_string()).collect();
     for (option, asked, expected) in [

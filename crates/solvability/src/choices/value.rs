@@ -65,6 +65,10 @@ impl fmt::Display for Label {
     }
 }
 
+/// Rows that a label names; of more it names the first few.
+const NAMED: usize = 12;
+const FIRST: usize = 3;
+
 impl Label {
     /// Of a choice where these joints and drives do not give way.
     pub(crate) fn of(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) -> Self {
@@ -95,7 +99,16 @@ impl Label {
             Choice::Elimination(rows) => {
                 let known = rows.iter().filter_map(|&i| layout.labels.get(i));
                 let labels: Vec<RowLabel> = known.cloned().collect();
-                format!("no reaction in {} {}", row_word(&labels), list(&labels))
+                // The label stands at every number.
+                let (told, more) = match labels.len() > NAMED {
+                    true => labels.split_at(FIRST),
+                    false => (&labels[..], &[][..]),
+                };
+                let word = row_word(&labels);
+                match more.len() {
+                    0 => format!("no reaction in {word} {}", list(told)),
+                    more => format!("no reaction in {word} {} and {more} more", list(told)),
+                }
             }
         };
         Self(text.into())
