@@ -1,14 +1,14 @@
 //! Circles of modules.
 //!
-//! A module is a file with the modules written inside it; tests and generated files are left out. The
-//! module A **uses** the module B if code of A names what B defines: in a `use` that is not a re-export,
-//! or by a path anywhere in code, also in the argument of a macro. What counts is where the thing is
-//! defined: a path through re-exports leads to its definition, so `mod b; pub use b::X;` makes no use
-//! of `b`, and `use super::X` of a child is a use of the parent only if the parent defines `X`. `mod b;`
-//! alone is no use, neither is `use super::b`, which gives the module a name, nor a path that only passes
-//! through a module; `use super::b::*` is one. Where the `impl` blocks of a
-//! type are in several files, `self.f()` uses the file that has `f`. Other calls of methods are not
-//! followed: whoever has the value has named its type or got it from one who has.
+//! A module is a file with the modules written inside it; tests and generated files are left out.
+//! The module A **uses** the module B if code of A names what B defines: in a `use` that is not a
+//! re-export, or by a path anywhere in code, also in the argument of a macro. What counts is where
+//! the thing is defined: a path through re-exports leads to its definition, so `mod b; pub use
+//! b::X;` makes no use of `b`, and `use super::X` of a child is a use of the parent only if the
+//! parent defines `X`. `mod b;` alone is no use, neither is `use super::b`, which gives the module
+//! a name, nor a path that only passes through a module; `use super::b::*` is one. Where the `impl`
+//! blocks of a type are in several files, `self.f()` uses the file that has `f`. Other calls of
+//! methods are not followed: whoever has the value has named its type or got it from one who has.
 //!
 //! A **circle** is a largest set of modules in which each reaches each by uses.
 

@@ -1,8 +1,8 @@
 //! Lines and tokens of code.
 //!
-//! A line counts if a token stands on it, as the tokenizer of `proc_macro2` cuts the file: blank lines
-//! and comments have none, a doc comment is a comment, and a string over several lines counts all of
-//! them. The number of tokens stands beside the lines, because long lines do not lower it.
+//! A line counts if a token stands on it, as the tokenizer of `proc_macro2` cuts the file: blank
+//! lines and comments have none, a doc comment is a comment, and a string over several lines counts
+//! all of them. The number of tokens stands beside the lines, because long lines do not lower it.
 
 use std::collections::BTreeSet;
 use std::ops::AddAssign;
@@ -85,7 +85,8 @@ impl Seen {
     }
 }
 
-/// A doc comment becomes an attribute whose `#` has the span of the comment; a written `#` has width one.
+/// A doc comment becomes an attribute whose `#` has the span of the comment; a written `#` has
+/// width one.
 fn is_comment(hash: Span) -> bool {
     let (start, end) = (hash.start(), hash.end());
     (end.line, end.column) != (start.line, start.column + 1)

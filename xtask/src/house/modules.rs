@@ -107,8 +107,8 @@ impl<'a> Modules<'a> {
         }
     }
 
-    /// What a path in the module `from` leads to; re-exports are followed. `None` for what is not of this
-    /// crate, and for local names.
+    /// What a path in the module `from` leads to; re-exports are followed. `None` for what is not
+    /// of this crate, and for local names.
     pub(super) fn resolve(&self, from: usize, path: &[String]) -> Option<Target> {
         self.resolve_within(from, path, DEPTH_MOST)
     }

@@ -134,20 +134,24 @@ pub(super) fn crates(root: &Path) -> Result<Vec<Crate>, String> {
 }
 
 fn empty(folder: &str, product: &BTreeSet<String>) -> Crate {
-    let name = folder.strip_prefix("crates/").unwrap_or(folder);
-    let group = match name {
-        _ if name.split('/').next() == Some("tests") => Group::Tests,
-        _ if name.split('/').next() == Some("xtask") || name == "bench" => Group::Developers,
+    Crate {
+        name: folder.strip_prefix("crates/").unwrap_or(folder).to_owned(),
+        folder: folder.to_owned(),
+        group: group(folder, product),
+        files: Vec::new(),
+    }
+}
+
+/// The group of a crate by its folder.
+pub(super) fn group(folder: &str, product: &BTreeSet<String>) -> Group {
+    let (top, name) = folder.split_once('/').unwrap_or((folder, folder));
+    match top {
+        "tests" => Group::Tests,
+        "xtask" => Group::Developers,
+        _ if name == "bench" => Group::Developers,
         _ if LABORATORY.contains(&name) => Group::Laboratory,
         _ if product.contains(folder) => Group::Product,
         _ => Group::Beside,
-    };
-    let (name, folder) = (name.to_owned(), folder.to_owned());
-    Crate {
-        name,
-        folder,
-        group,
-        files: Vec::new(),
     }
 }
 
@@ -156,13 +160,19 @@ fn product(root: &Path) -> Result<BTreeSet<String>, String> {
     let mut tree = cargo(root);
     tree.args(["tree", "--manifest-path", COMMAND, "--all-features"]);
     tree.args(["--edges", "normal,build", "--prefix", "none"]);
-    let root = format!("{}/", root.display());
-    let said = said_by(&mut tree)?;
+    Ok(folders_in(
+        &said_by(&mut tree)?,
+        &format!("{}/", root.display()),
+    ))
+}
+
+/// Folders of the crates of the workspace in what `cargo tree` says; `root` ends with `/`.
+pub(super) fn folders_in(said: &str, root: &str) -> BTreeSet<String> {
     let folders = said.lines().filter_map(|line| {
-        let (_, rest) = line.split_once(root.as_str())?;
+        let (_, rest) = line.split_once(root)?;
         Some(rest.split_once(')')?.0.to_owned())
     });
-    Ok(folders.collect())
+    folders.collect()
 }
 
 /// What a file is by its path from the folder of its crate.

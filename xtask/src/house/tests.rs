@@ -3,8 +3,10 @@
 use super::circles::circles;
 use super::constants::{Constant, constants};
 use super::modules::Modules;
-use super::source::{Crate, Group, Kind, Source, kind, submodules};
+use super::source::{Crate, Group, Kind, Source, folders_in, group, kind, submodules};
+use super::table::{Table, json, plain};
 use super::types::large;
+use super::{Count, Counted, DYNAMICS_MOST, limits};
 
 fn house(files: &[(&str, &str)]) -> Crate {
     let read = |(path, text): &(&str, &str)| Source::new((*path).to_owned(), kind(path), text);
@@ -41,6 +43,67 @@ fn files_are_told_by_their_paths() {
 }
 
 #[test]
+fn the_product_is_what_the_command_depends_on_without_the_laboratory() {
+    let said = "pfaff-cli v0.1.0 (/r/crates/pfaff-cli)\nserde v1.0.0\nstress v0.1.0 (/r/crates/stress) (*)\n";
+    let product = folders_in(said, "/r/");
+    assert_eq!(product.len(), 2);
+    let groups = ["pfaff-cli", "stress", "symbolic", "bench"]
+        .map(|n| group(&format!("crates/{n}"), &product));
+    assert_eq!(
+        groups,
+        [
+            Group::Product,
+            Group::Laboratory,
+            Group::Beside,
+            Group::Developers
+        ]
+    );
+    assert_eq!(group("tests/fuzz", &product), Group::Tests);
+}
+
+#[test]
+fn a_limit_is_exceeded_by_one_line() {
+    let verdict = |code: usize| {
+        let count = Count {
+            code,
+            ..Count::default()
+        };
+        let counted = Counted {
+            name: "dynamics".into(),
+            folder: "crates/dynamics".into(),
+            group: Group::Product,
+            count,
+            types: Vec::new(),
+            circles: Vec::new(),
+        };
+        let rows = limits(&[counted]).rows;
+        rows.iter().map(|r| r[3] == "exceeded").collect::<Vec<_>>()
+    };
+    assert_eq!(verdict(DYNAMICS_MOST), [false; 5]);
+    assert_eq!(
+        verdict(DYNAMICS_MOST + 1),
+        [false, false, true, false, false]
+    );
+}
+
+#[test]
+fn tables_are_told_plainly_and_as_json() {
+    let rows = vec![vec!["a".into(), 7.into()], vec!["bc".into(), 10.into()]];
+    let table = Table {
+        name: "t",
+        rule: "r".into(),
+        columns: &["c", "n"],
+        rows,
+    };
+    assert_eq!(
+        plain(std::slice::from_ref(&table)),
+        "t: r\n  c    n\n  a    7\n  bc  10\n"
+    );
+    let read: serde_json::Value = serde_json::from_str(&json(&[table])).expect("JSON");
+    assert_eq!(read["t"][1]["n"], 10);
+}
+
+#[test]
 fn three_modules_in_a_circle_are_found_and_a_chain_is_not() {
     let root = ("src/lib.rs", "mod a; mod b; mod c;");
     let a = ("src/a.rs", "use crate::b::B; pub(crate) struct A(B);");
@@ -64,12 +127,15 @@ fn a_reexport_is_no_use_but_leads_to_the_definition() {
         ]
     };
     assert!(circles_of(&files(parent, "pub struct B;")).is_empty());
+    let with_own = format!("{parent} pub struct P;");
+    let of_parent = "pub struct B; fn f(_: super::P) {}";
+    assert!(circles_of(&files(&with_own, of_parent)).is_empty());
     // Siblings that meet through their parent are a circle without it.
     let siblings = circles_of(&files(parent, "pub struct B; fn f(_: super::C) {}"));
     assert_eq!(siblings, [["crate::a::b", "crate::a::c"]]);
     // The parent works with `c`, `c` with `b`, and `b` with what the parent defines.
     let working = "mod b; mod c; pub use b::B; struct P(B); fn p(_: c::C) {}";
-    let all = circles_of(&files(working, "pub struct B; fn f(_: super::P) {}"));
+    let all = circles_of(&files(working, of_parent));
     assert_eq!(all, [["crate::a", "crate::a::b", "crate::a::c"]]);
 }
 

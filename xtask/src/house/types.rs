@@ -1,10 +1,10 @@
 //! Types with much state or many methods.
 //!
-//! A type is **plain data** if all its fields are `pub`, or as visible as the type itself, and nothing in
-//! its crate has a method of it with `&mut self`: it is a record or a set of options. All others are
-//! **stateful**. The fields of an enum are those of its largest variant. Methods are the functions of all
-//! `impl` blocks of the type without a trait, with `self` or without; tests are left out, and so is what
-//! macros write.
+//! A type is **plain data** if all its fields are `pub`, or as visible as the type itself, and
+//! nothing in its crate has a method of it with `&mut self`: it is a record or a set of options.
+//! All others are **stateful**. The fields of an enum are those of its largest variant. Methods are
+//! the functions of all `impl` blocks of the type without a trait, with `self` or without; tests
+//! are left out, and so is what macros write.
 
 use std::collections::BTreeMap;
 
