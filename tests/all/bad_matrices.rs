@@ -1,8 +1,8 @@
 //! Input that a user can give by mistake: named errors or right answers, never a panic.
 
+use exact::Exact;
 use linalg::{Matrix, RankError};
 use solvability::{QueryError, Solvability, Verdict};
-use stress::reference::Exact;
 use tests::numbers::Numbers;
 
 use crate::plain::Plain;

@@ -1,6 +1,6 @@
 //! The judge judged: matrices worked out by hand, and every verdict by two derivations.
 
-use stress::reference::Exact;
+use exact::Exact;
 use tests::numbers::Numbers;
 
 #[test]

@@ -1,10 +1,10 @@
 //! The third of three parallel cranks misaligned by ε, from 1e-3 to 1e-20: full rank in exact arithmetic for every ε, with reactions of
 //! size 1/ε, until ε is less than what the data are known to. No answer in between may be wrong.
 
+use exact::Exact;
 use linalg::{Grounds, Matrix};
 use model::{Mechanism, System};
 use solvability::{Analysis, Verdict, analyse};
-use stress::reference::Exact;
 use tests::cranks;
 
 use crate::plain::Plain;

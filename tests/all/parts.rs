@@ -2,13 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use exact::{Dyadic, Exact};
 use linalg::Limits;
 use model::{ConstraintId, Mechanism, System};
 use solvability::{
     Allowed, Analysis, Choice, Distribution, Group, GroupVerdict, NormWeights, Questions, Solution,
     Value, Verdict, analyse, analyse_by_cycles,
 };
-use stress::reference::{Dyadic, Exact};
 use tests::numbers::Numbers;
 
 use crate::planted_mechanisms::generate::{Kind, draw};

@@ -5,8 +5,8 @@
 
 mod generate;
 
+use exact::Exact;
 use linalg::Matrix;
-use stress::reference::Exact;
 use tests::numbers::Numbers;
 
 use crate::plain::Plain;

@@ -5,9 +5,9 @@
 
 pub(crate) mod generate;
 
+use exact::{Dyadic, Exact};
 use model::Mechanism;
 use solvability::analyse;
-use stress::reference::{Dyadic, Exact};
 use tests::numbers::Numbers;
 use tests::sketch::{Sketch, Tie};
 

@@ -10,14 +10,12 @@
 //! | [`mechanisms`] | mechanisms that cases and tests use |
 //! | [`motion`] | scenes to the last row of their motion, by every method and formulation |
 //! | [`mod@families`] | the list of families, each in a file of its own |
-//! | [`mod@reference`] | what is right, in exact arithmetic |
 
 pub mod case;
 pub mod families;
 pub mod judge;
 pub mod mechanisms;
 pub mod motion;
-pub mod reference;
 pub mod run;
 
 pub use case::{Case, Expected, Family, Outcome};

@@ -11,7 +11,7 @@ use model::{Description, System};
 
 use crate::case::{Case, Expected, Family, Outcome};
 use crate::motion::prepared;
-use crate::reference::solve;
+use exact::solve;
 use scenes::{Scene, scenes};
 use score::Errors;
 

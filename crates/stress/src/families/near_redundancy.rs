@@ -9,7 +9,7 @@ use solvability::Analysis;
 use crate::case::{Case, Expected, Family, Outcome};
 use crate::mechanisms::cranks::misaligned;
 use crate::motion::{analysed, asking, built, last_row, moving, prepared, worst};
-use crate::reference::Exact;
+use exact::Exact;
 
 /// Nearly parallel knife edges and cranks.
 pub(super) const FAMILY: Family = Family {

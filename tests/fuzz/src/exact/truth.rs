@@ -2,9 +2,9 @@
 
 use std::collections::BTreeSet;
 
+use exact::Exact;
 use num_bigint::BigInt;
 use num_traits::{ToPrimitive, Zero};
-use stress::reference::Exact;
 
 use super::pose::Posed;
 use super::ratio::Ratio;

@@ -4,7 +4,7 @@ use dynamics::{KeptRowMotion, Prepared};
 use model::System;
 
 use crate::motion::worst;
-use crate::reference::Solution;
+use exact::Solution;
 
 /// Relative to the largest of its body and kind, smaller accelerations count as this share of it.
 const LEAST: f64 = 1e-3;

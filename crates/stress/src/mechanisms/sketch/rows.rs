@@ -4,7 +4,7 @@
 use model::BodyRef;
 
 use super::{Link, Sketch, Tie, Vector};
-use crate::reference::Dyadic;
+use exact::Dyadic;
 
 /// One row of C.
 type Row = Vec<Dyadic>;

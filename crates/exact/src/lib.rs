@@ -1,5 +1,6 @@
-//! What is right, in exact arithmetic: an `f64` is a whole number times a power of two, so that what is asked of a matrix of them has one
-//! answer. Shares no code and no idea with the crates that are judged by it: no floating point, no prime field, no singular value.
+#![doc = include_str!("../README.md")]
+//!
+//! # Code map
 //!
 //! | module | content |
 //! | --- | --- |

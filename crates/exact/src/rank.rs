@@ -3,13 +3,13 @@
 use num_bigint::BigInt;
 use num_traits::Zero;
 
-use super::dyadic::Dyadic;
-use super::elimination::eliminate;
+use crate::dyadic::Dyadic;
+use crate::elimination::eliminate;
 
 /// Rank and left null space of a matrix, exactly.
 ///
 /// ```
-/// use stress::reference::Exact;
+/// use exact::Exact;
 /// // Rows 0 and 1 say the same but for one part in 2⁶⁶⁴; row 2 is their sum.
 /// let tiny = 2_f64.powi(-664);
 /// let exact = Exact::of(&[[1.0, 0.0], [1.0, tiny], [2.0, tiny]]);
@@ -46,7 +46,7 @@ impl Exact {
     /// The same for whole entries.
     ///
     /// ```
-    /// use stress::reference::Exact;
+    /// use exact::Exact;
     /// let rows = [[2, 4], [3, 6]].map(|row| row.map(Into::into).to_vec());
     /// let exact = Exact::of_whole(rows.to_vec());
     /// assert_eq!((exact.rank(), exact.null_space().len()), (1, 1));

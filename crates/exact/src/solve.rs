@@ -12,9 +12,9 @@
 use num_bigint::{BigInt, BigUint};
 use num_traits::{One, ToPrimitive, Zero};
 
-use super::dyadic::Dyadic;
-use super::elimination::eliminate;
-use super::rank::Exact;
+use crate::dyadic::Dyadic;
+use crate::elimination::eliminate;
+use crate::rank::Exact;
 
 /// The solution, each number rounded to the nearest `f64`.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,7 +43,7 @@ pub enum Singular {
 /// | `force`, `gamma` | n, r | Q, Γ |
 ///
 /// ```
-/// use stress::reference::solve;
+/// use exact::solve;
 /// // Two carts tied together, 1 kg and 2⁻⁷⁰ kg, and 3 N on the light one: in f64 the sum of the masses is 1 kg.
 /// let tiny = 2_f64.powi(-70);
 /// let found = solve(&[1.0, tiny], &[[1.0, -1.0]], &[0.0, 3.0], &[0.0]).unwrap();
