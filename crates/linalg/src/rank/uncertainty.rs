@@ -56,10 +56,10 @@ impl Uncertainty<'_> {
                 let mut significant = c.clone();
                 let entries = significant.as_mut_slice().iter_mut();
                 for (c, u) in entries.zip(u.as_slice()) {
-                    // Not a number is not significant.
-                    if !(c.abs() > SIGNIFICANT * u) {
-                        *c = 0.0;
-                    }
+                    *c = match c.abs() > SIGNIFICANT * u {
+                        true => *c,
+                        false => 0.0,
+                    };
                 }
                 equilibrate(&significant)
             }
