@@ -48,6 +48,9 @@ pub enum Rows {
     /// At 0, every output step, and the end.
     #[default]
     Every,
+    /// The same times, but states as they are interpolated within steps: off the constraints by
+    /// about the tolerance of the run. For who moves them there anyway.
+    Interpolated,
     /// At 0 and the end.
     Ends,
 }
@@ -262,11 +265,18 @@ fn code(prepared: &Prepared, options: &MotionOptions) -> Result<Decided<bool>, M
 
 fn rows(options: &MotionOptions, rows: Rows) -> Decided<Rows> {
     let every = (options.t_end / options.output_step).ceil().max(0.0) as u64 + 1;
+    let wanted = format!("wanted every {} s", options.output_step);
     match rows {
         Rows::Every => Decided {
             value: rows,
             taken: format!("{every}"),
-            reason: format!("wanted every {} s", options.output_step),
+            reason: wanted,
+            saves: None,
+        },
+        Rows::Interpolated => Decided {
+            value: rows,
+            taken: format!("{every}, as interpolated within steps"),
+            reason: format!("{wanted}, and moved onto the constraints elsewhere"),
             saves: None,
         },
         Rows::Ends => Decided {

@@ -103,6 +103,7 @@ fn run_component(
     };
     let motion = KeptRowMotion::with(prepared, options).map_err(|e| not_begun(e.into()))?;
     let wanted = AtRows {
+        on_constraints: plan.rows.value != plan::Rows::Interpolated,
         accelerations: plan.accelerations.value,
         reactions: component.decisions.reactions.value.clone(),
     };
@@ -226,7 +227,9 @@ fn output_times(plan: &Plan<'_>) -> OutputTimes {
         // A run that takes no time has one row.
         _ if t_end <= 0.0 => OutputTimes::At(vec![0.0]),
         plan::Rows::Ends => OutputTimes::At(vec![0.0, t_end]),
-        plan::Rows::Every => OutputTimes::Every(plan.options().output_step),
+        plan::Rows::Every | plan::Rows::Interpolated => {
+            OutputTimes::Every(plan.options().output_step)
+        }
     }
 }
 

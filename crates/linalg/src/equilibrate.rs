@@ -158,9 +158,17 @@ impl Scaling {
 
     fn map(&self, c: &Matrix, sign: i32) -> Matrix {
         self.check(c.nrows(), c.ncols());
-        Matrix::from_fn(c.nrows(), c.ncols(), |i, j| {
-            scale(c[(i, j)], sign * (self.rows[i] + self.cols[j]))
-        })
+        let largest = |of: &[i32]| of.iter().map(|e| e.unsigned_abs()).max().unwrap_or(0);
+        let has_factors = largest(&self.rows) + largest(&self.cols) <= STEP.unsigned_abs();
+        let mut scaled = c.clone();
+        for (i, row) in self.rows.iter().enumerate() {
+            let entries = scaled.row_mut(i).iter_mut().zip(&self.cols);
+            match has_factors {
+                true => entries.for_each(|(c, col)| *c *= power(sign * (row + col))),
+                false => entries.for_each(|(c, col)| *c = scale(*c, sign * (row + col))),
+            }
+        }
+        scaled
     }
 
     fn check(&self, m: usize, n: usize) {
@@ -194,11 +202,16 @@ fn exponent(x: f64) -> Option<i32> {
     }
 }
 
+/// Largest power of two whose inverse is normal too.
+const STEP: i32 = 1022;
+
+/// `2^e` for `−STEP ≤ e ≤ STEP`.
+fn power(e: i32) -> f64 {
+    f64::from_bits(((e + 1023) as u64) << 52)
+}
+
 /// `x·2^e`, exact unless the result leaves the range of normal numbers.
 pub(crate) fn scale(x: f64, e: i32) -> f64 {
-    // Largest power of two whose inverse is normal too.
-    const STEP: i32 = 1022;
-    let power = |e: i32| f64::from_bits(((e + 1023) as u64) << 52);
     if (-STEP..=STEP).contains(&e) {
         return x * power(e);
     }
@@ -240,6 +253,22 @@ mod tests {
         assert_eq!(scale(1.5, -1022), 1.5 * f64::MIN_POSITIVE);
         assert_eq!(scale(1.0, 5000), f64::INFINITY);
         assert_eq!(scale(0.0, i32::MAX), 0.0);
+    }
+
+    /// Factors that are no numbers of their own are applied in parts.
+    #[test]
+    fn factors_beyond_the_range_of_numbers() {
+        let scaling = Scaling {
+            rows: vec![1000, -1000],
+            cols: vec![1000, -20],
+        };
+        let c = Matrix::from_rows(&[[f64::from_bits(1), 3.0], [5.0, f64::MAX]]);
+        let scaled = scaling.apply(&c);
+        let last = f64::MAX * 2f64.powi(-1020);
+        assert_eq!(
+            scaled.as_slice(),
+            [2f64.powi(926), 3.0 * 2f64.powi(980), 5.0, last]
+        );
     }
 
     #[test]

@@ -271,8 +271,11 @@ pub fn decide<'a>(
     uncertainty: impl Into<Uncertainty<'a>>,
 ) -> Result<RankDecision, RankError> {
     let (scaling, scaled, reading) = read(c, uncertainty.into())?;
-    let qr = PivotedQr::of_rows(scaled.clone());
-    let basis = strong_basis::bounded(&scaled, qr.permutation()[..reading.rank].to_vec());
+    let kept = match reading.rank == c.nrows() {
+        true => (0..reading.rank).collect(),
+        false => PivotedQr::of_rows(scaled.clone()).permutation()[..reading.rank].to_vec(),
+    };
+    let basis = strong_basis::bounded(&scaled, kept);
     Ok(reading.with_basis(scaling, basis))
 }
 

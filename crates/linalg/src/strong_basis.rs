@@ -80,10 +80,18 @@ pub(crate) fn exchange_all(t: &mut Matrix, kept: &mut [usize], dropped: &mut [us
 pub(crate) fn express(c: &Matrix, mut kept: Vec<usize>) -> Basis {
     kept.sort_unstable();
     let dropped = complement(c.nrows(), &kept);
-    let qr = PivotedQr::of_rows(c.select_rows(&kept));
     let rank = kept.len();
     let mut t = Matrix::zeros(dropped.len(), rank);
     let mut residual = 0.0_f64;
+    if dropped.is_empty() {
+        return Basis {
+            kept,
+            dropped,
+            t,
+            residual,
+        };
+    }
+    let qr = PivotedQr::of_rows(c.select_rows(&kept));
     let mut y = vec![0.0; c.ncols()];
     for (j, &row) in dropped.iter().enumerate() {
         y.copy_from_slice(c.row(row));

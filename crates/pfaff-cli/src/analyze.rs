@@ -10,7 +10,7 @@ mod numbers;
 mod rank;
 mod text;
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use pfaff::report::{AnalysisDocument, write_json};
 use pfaff::{Inquiry, Overrides, Study};
 
@@ -57,12 +57,24 @@ fn of_study(
     drop: Option<&[usize]>,
 ) -> Outcome {
     let joints = study.scene.description.joints.len() + study.scene.description.drives.len();
-    let bar = Judging::begin(joints);
-    let inquiry = study
-        .inquire_watched(arguments.at_time, drop, |judged| bar.at(judged))
-        .map_err(|e| source.failure(e))?;
-    bar.end();
-    let mut document = ask::document(arguments, source, &inquiry)?;
+    let bars = MultiProgress::new();
+    let of_configuration = || {
+        let bar = Judging::begin(&bars, joints);
+        let inquiry = study
+            .inquire_watched(arguments.at_time, drop, |judged| bar.at(judged))
+            .map_err(|e| source.failure(e))?;
+        bar.end();
+        let document = ask::document(arguments, source, &inquiry)?;
+        Ok::<_, Failure>((inquiry, document))
+    };
+    // A motion is computed step by step, and leaves the verdicts of the start a thread of their own.
+    let (of_configuration, along) = match arguments.along {
+        Some(t_end) => pfaff::both(of_configuration, || {
+            Some(along::judge(source, study, t_end, &bars))
+        }),
+        None => (of_configuration(), None),
+    };
+    let (inquiry, mut document) = of_configuration?;
     if arguments.at_time == 0.0
         && let Some(later) = study
             .contradicting_drives()
@@ -73,9 +85,7 @@ fn of_study(
     if arguments.at_time == 0.0 {
         document.warnings.extend(study.cannot_begin());
     }
-    if let Some(t_end) = arguments.along {
-        document.along = Some(along::judge(source, study, t_end)?);
-    }
+    document.along = along.transpose()?;
     answer(arguments, &inquiry, &document)?;
     match document.along.is_some_and(|along| along.stopped.is_some()) {
         // Said above, with what was computed.
@@ -93,7 +103,8 @@ fn of_start(
     let failure = |e| source.failure(e);
     let mut blueprint = arguments.resources.blueprint(source)?;
     let description = &blueprint.scene.description;
-    let bar = Judging::begin(description.joints.len() + description.drives.len());
+    let joints = description.joints.len() + description.drives.len();
+    let bar = Judging::begin(&MultiProgress::new(), joints);
     let inquiry = blueprint.inquire_watched(drop, |judged| bar.at(judged));
     let inquiry = inquiry.map_err(failure)?;
     bar.end();
@@ -114,11 +125,11 @@ fn answer(arguments: &Analyze, inquiry: &Inquiry<'_>, document: &AnalysisDocumen
 struct Judging(ProgressBar);
 
 impl Judging {
-    fn begin(joints: usize) -> Self {
+    fn begin(bars: &MultiProgress, joints: usize) -> Self {
         let style = "{bar:30} {pos} of {len} joints, {per_sec}, {eta} left";
         let style = ProgressStyle::with_template(style);
         let style = style.unwrap_or_else(|_| ProgressStyle::default_bar());
-        Self(ProgressBar::new(joints as u64).with_style(style))
+        Self(bars.add(ProgressBar::new(joints as u64).with_style(style)))
     }
 
     fn at(&self, judged: usize) {

@@ -33,7 +33,7 @@ impl<'a> Chronicle<'a> {
         let options = plan.options();
         let mechanism = &study.prepared.mechanism;
         let rows = match plan.rows.value {
-            Rows::Every => options.t_end / options.output_step + 1.0,
+            Rows::Every | Rows::Interpolated => options.t_end / options.output_step + 1.0,
             Rows::Ends => 2.0,
         };
         Self {

@@ -3,7 +3,8 @@
 use std::ops::ControlFlow;
 use std::sync::Mutex;
 
-use dynamics::{MotionError, MotionOptions};
+use dynamics::plan::{Reactions, Rows};
+use dynamics::{MotionError, MotionOptions, Plan, Wanted};
 use model::start::scene_size;
 use model::{ColumnKind, Mechanism, System};
 use report::documents::AlongDocument;
@@ -17,8 +18,11 @@ const INTERVALS: usize = 200;
 const INTERVALS_OF_ROWS: usize = 240_000;
 const INTERVALS_LEAST: usize = 24;
 
-/// Recorded rows between two judged states: what lies between rows is interpolated, with an error of REACH⁴/384 of a row's distance, and moved onto the
-/// constraints. Of mechanisms of more than `MANY` rows one has to do: writing rows would take longer than judging them.
+/// Recorded rows between two judged states: what lies between rows is interpolated, with an error
+/// of REACH⁴/384 of a row's distance, and moved onto the constraints. Of mechanisms of more than
+/// `MANY` rows one has to do, as the integrator interpolates it, because rows on the constraints
+/// take longer than all steps; their accelerations are slopes of the velocities, which say at
+/// singular instants only which way the motion goes.
 const ROWS: usize = 4;
 const MANY: usize = 10_000;
 
@@ -224,6 +228,15 @@ impl Study {
         let base = self.options.clone();
         let many = self.prepared.mechanism.layout().rows() > MANY;
         let between = if many { 1 } else { ROWS };
+        let wanted = Wanted {
+            rows: if many {
+                Rows::Interpolated
+            } else {
+                Rows::Every
+            },
+            accelerations: !many,
+            reactions: Reactions::None,
+        };
         let options = MotionOptions {
             t_end,
             output_step: t_end / (between * intervals) as f64,
@@ -232,7 +245,8 @@ impl Study {
         options.check()?;
         let mechanism = &self.prepared.mechanism;
         let mut rows: Vec<Row> = Vec::new();
-        let outcome = self.run(&options, |sample| {
+        let plan = Plan::new(&self.prepared, &options, &wanted)?;
+        let outcome = plan.simulate(|sample| {
             progress(Progress::Moving(sample.t));
             let mut qd = vec![0.0; sample.q.len()];
             mechanism.rate(sample.q, sample.v, &mut qd);
@@ -250,6 +264,9 @@ impl Study {
             Err(failure) if failure.summary.t > 0.0 => (failure.summary.t, Some(failure.error)),
             Err(failure) => return Err(failure.error.into()),
         };
+        if !wanted.accelerations {
+            differentiate(&mut rows);
+        }
         Ok(Record {
             rows,
             between,
@@ -266,6 +283,33 @@ struct Row {
     qd: Vec<f64>,
     v: Vec<f64>,
     a: Vec<f64>,
+}
+
+/// Sets the acceleration of each row to the slope of the parabola through its velocities and those of
+/// the rows beside it, at the ends through the nearest three; of two rows to that of the line.
+fn differentiate(rows: &mut [Row]) {
+    let secant = |pair: &[Row]| {
+        let h = pair[1].t - pair[0].t;
+        let both = pair[0].v.iter().zip(&pair[1].v);
+        (h, both.map(|(x, y)| (y - x) / h).collect::<Vec<f64>>())
+    };
+    let secants: Vec<(f64, Vec<f64>)> = rows.windows(2).map(secant).collect();
+    let of = |k: Option<usize>| k.and_then(|k| secants.get(k));
+    for (k, row) in rows.iter_mut().enumerate() {
+        let (near, other, is_end) = match (of(k.checked_sub(1)), of(Some(k))) {
+            (Some(before), Some(after)) => (before, Some(after), false),
+            (Some(last), None) => (last, of(k.checked_sub(2)), true),
+            (None, Some(first)) => (first, of(Some(1)), true),
+            (None, None) => continue,
+        };
+        let ((h, d), Some((h_2, d_2))) = (near, other) else {
+            row.a.clone_from(&near.1);
+            continue;
+        };
+        let share = if is_end { -h } else { *h } / (h + h_2);
+        let slopes = d.iter().zip(d_2).map(|(x, y)| x + share * (y - x));
+        row.a = slopes.collect();
+    }
 }
 
 /// The rows of a run.
@@ -329,4 +373,39 @@ fn hermite(u: f64, [x, slope_x]: [f64; 2], [y, slope_y]: [f64; 2]) -> f64 {
         slope_x + slope_y - 2.0 * d,
     );
     x + u * (slope_x + u * (c_2 + u * c_3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Slopes of parabolas are exact for velocities that are quadratic in time, at uneven times,
+    /// ends included.
+    #[test]
+    fn slopes_of_recorded_velocities() {
+        let v = |t: f64| vec![3.0 - 2.0 * t + 0.5 * t * t, 7.0 * t];
+        let row = |t: f64| Row {
+            t,
+            q: Vec::new(),
+            qd: Vec::new(),
+            v: v(t),
+            a: Vec::new(),
+        };
+        let mut rows: Vec<Row> = [0.0, 0.5, 1.25, 1.5].into_iter().map(row).collect();
+        differentiate(&mut rows);
+        for row in &rows {
+            let exact = [-2.0 + row.t, 7.0];
+            let off = row.a.iter().zip(exact).map(|(a, b)| (a - b).abs());
+            assert!(
+                row.a.len() == 2 && off.fold(0.0, f64::max) < 1e-14,
+                "{:?}",
+                row.a
+            );
+        }
+        // Through two points there is a line.
+        let mut rows: Vec<Row> = [1.0, 3.0].into_iter().map(row).collect();
+        differentiate(&mut rows);
+        assert!(rows.iter().all(|row| row.a == [0.0, 7.0]));
+        differentiate(&mut []);
+    }
 }

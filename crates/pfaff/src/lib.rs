@@ -59,6 +59,15 @@ pub fn limit_threads(threads: std::num::NonZeroUsize) -> Result<(), rayon::Threa
     pool.build_global()
 }
 
+/// What two computations find, side by side where there are threads for both, else one after the
+/// other.
+pub fn both<A: Send, B: Send>(
+    a: impl FnOnce() -> A + Send,
+    b: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    rayon::join(a, b)
+}
+
 /// Threads on which this program computes in parallel.
 #[must_use]
 pub fn threads() -> usize {

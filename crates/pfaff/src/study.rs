@@ -389,7 +389,7 @@ impl Study {
             flow
         };
         let watch = |t: f64| match plan.rows.value {
-            Rows::Every => ControlFlow::Continue(()),
+            Rows::Every | Rows::Interpolated => ControlFlow::Continue(()),
             Rows::Ends => go_on(t),
         };
         let mut unwritten = None;

@@ -323,40 +323,61 @@ fn ends_of_pieces(mechanism: &Mechanism, first: f64, last: f64) -> Vec<f64> {
     [first].into_iter().chain(inside).chain([last]).collect()
 }
 
-/// Every verdict of an analysis, with the name of the reaction, and whether it is that of a component which is zero under any load.
-fn verdicts<'a>(
-    mechanism: &Mechanism,
-    analysis: &'a Analysis,
-) -> Vec<(&'a str, Part, &'a Judgement, bool)> {
-    let labels = &mechanism.layout().labels;
+/// A verdict of an analysis.
+struct VerdictOf<'a> {
+    /// Name of the joint or drive.
+    reaction: &'a str,
+    place: Place,
+    judgement: &'a Judgement,
+    /// Whether it is that of a component which is zero under any load.
+    is_zero: bool,
+}
+
+/// What a verdict is of, as [`Part`], with the number of a row.
+#[derive(Clone, Copy)]
+enum Place {
+    Wrench,
+    Component(&'static str),
+    Row(usize),
+}
+
+/// Every verdict of an analysis; those of one mechanism come in the same order whatever they say.
+fn verdicts<'a>(analysis: &'a Analysis) -> impl Iterator<Item = VerdictOf<'a>> {
     let of_reaction = |r: &'a ReactionVerdict| {
-        let wrench = [(Part::Wrench, &r.wrench)].into_iter();
         let components = r.components.iter();
+        let components = components.map(|c| (Place::Component(c.name), &c.judgement));
         let rows = r.rows.iter();
-        wrench
-            .chain(components.map(|c| (Part::Component(c.name), &c.judgement)))
-            .chain(rows.map(|row| (Part::Row(labels[row.row].clone()), &row.judgement)))
-            .map(|(part, judgement)| {
-                let is_zero = matches!(part, Part::Component(c) if r.zero_components.contains(&c));
-                (r.name.as_str(), part, judgement, is_zero)
+        let rows = rows.map(|row| (Place::Row(row.row), &row.judgement));
+        std::iter::once((Place::Wrench, &r.wrench))
+            .chain(components)
+            .chain(rows)
+            .map(move |(place, judgement)| VerdictOf {
+                reaction: &r.name,
+                is_zero: matches!(place, Place::Component(c) if r.zero_components.contains(&c)),
+                place,
+                judgement,
             })
     };
-    analysis.reactions.iter().flat_map(of_reaction).collect()
+    analysis.reactions.iter().flat_map(of_reaction)
 }
 
 /// Verdicts that are not the same in two analyses of one mechanism. That a component is zero says nothing of what is determined.
 fn differences(mechanism: &Mechanism, generic: &Analysis, here: &Analysis) -> Vec<Difference> {
-    let both = verdicts(mechanism, generic)
-        .into_iter()
-        .zip(verdicts(mechanism, here));
-    both.filter(|(a, b)| a.2.verdict.word() != b.2.verdict.word() && !a.3 && !b.3)
-        .map(
-            |((reaction, part, generic, _), (_, _, here, _))| Difference {
-                reaction: reaction.to_owned(),
-                part,
-                generic: generic.verdict.clone(),
-                here: here.verdict.clone(),
-            },
-        )
+    let labels = &mechanism.layout().labels;
+    let part = |place: Place| match place {
+        Place::Wrench => Part::Wrench,
+        Place::Component(name) => Part::Component(name),
+        Place::Row(row) => Part::Row(labels[row].clone()),
+    };
+    let word = |v: &VerdictOf<'_>| v.judgement.verdict.word();
+    verdicts(generic)
+        .zip(verdicts(here))
+        .filter(|(a, b)| word(a) != word(b) && !a.is_zero && !b.is_zero)
+        .map(|(generic, here)| Difference {
+            reaction: generic.reaction.to_owned(),
+            part: part(generic.place),
+            generic: generic.judgement.verdict.clone(),
+            here: here.judgement.verdict.clone(),
+        })
         .collect()
 }

@@ -13,7 +13,7 @@ use crate::large::judge_sparse;
 use crate::mechanism::{
     AnalysisError, Dependency, ReactionVerdict, decide_dropping, evaluated, judge,
 };
-use crate::parts::{Extent, PartAnalysis, Partition};
+use crate::parts::{Extent, ListedRows, PartAnalysis, Partition};
 use crate::rows::{RowDecision, told_of_whole};
 use crate::state::check_configuration;
 
@@ -333,8 +333,9 @@ pub fn analyse_dropping(
         return Err(refused(KeptRowsError::RowOutOfRange { row, rows }));
     }
     let partition = Partition::of(mechanism, t, q);
+    let listed = ListedRows::new(dropped);
     let found = by_parts(mechanism, t, q, &partition, |part, q, extent| {
-        let own = extent.own_rows(dropped);
+        let own = extent.own_rows(&listed);
         if part.layout().rows() > ROWS_MAX {
             let found = judged_alone(part, t, q, Known::AsStored)?;
             // The same rows are dropped, or none can be chosen among so many.

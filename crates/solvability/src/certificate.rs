@@ -3,6 +3,8 @@
 //!
 //! Not for motion: a run decides in `f64`, where a nearly redundant mechanism cannot be integrated anyway.
 
+use std::borrow::Cow;
+
 use linalg::{
     DdMatrix, Grounds, Matrix, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision,
     RankError, RankReading, certify_rank,
@@ -34,8 +36,8 @@ const ASKED: usize = 2_000;
 pub(crate) struct Rows<'a> {
     mechanism: &'a Mechanism,
     /// Φ and C evaluated at q.
-    scratch: Scratch,
-    q: Vec<f64>,
+    scratch: Cow<'a, Scratch>,
+    q: Cow<'a, [f64]>,
     size: f64,
     /// Rows of the mechanism that are judged, ascending.
     places: Vec<usize>,
@@ -47,18 +49,42 @@ pub(crate) struct Rows<'a> {
 
 impl<'a> Rows<'a> {
     /// C at the pose of the scratch, in `f64`; q are its coordinates.
-    pub(crate) fn in_double(mechanism: &'a Mechanism, s: &Scratch, q: &[f64]) -> Self {
-        Self::at(mechanism, s.clone(), q, Known::AsStored)
+    pub(crate) fn in_double(mechanism: &'a Mechanism, s: &'a Scratch, q: &'a [f64]) -> Self {
+        Self::at(mechanism, Cow::Borrowed(s), q, Known::AsStored)
     }
 
-    fn at(mechanism: &'a Mechanism, scratch: Scratch, q: &[f64], known: Known) -> Self {
+    /// C without dimensions of a mechanism of this size, and what its entries are known to, as they
+    /// were found at the pose of the scratch, where q are its coordinates.
+    pub(crate) fn of_matrix(
+        mechanism: &'a Mechanism,
+        (s, q, size): (&'a Scratch, &'a [f64], f64),
+        c: &Matrix,
+        uncertainty: &Matrix,
+    ) -> Self {
+        Self::of_meant(
+            mechanism,
+            (Cow::Borrowed(s), q, size),
+            MeantMatrix::of(mechanism, c.clone(), uncertainty.clone()),
+        )
+    }
+
+    fn at(mechanism: &'a Mechanism, scratch: Cow<'a, Scratch>, q: &'a [f64], known: Known) -> Self {
         let size = scene_size(mechanism, q);
+        let meant = MeantMatrix::new(mechanism, &scratch, size, known);
+        Self::of_meant(mechanism, (scratch, q, size), meant)
+    }
+
+    fn of_meant(
+        mechanism: &'a Mechanism,
+        (scratch, q, size): (Cow<'a, Scratch>, &'a [f64], f64),
+        meant: MeantMatrix,
+    ) -> Self {
         Self {
-            meant: MeantMatrix::new(mechanism, &scratch, size, known),
+            meant,
             places: (0..mechanism.layout().rows()).collect(),
             mechanism,
             scratch,
-            q: q.to_vec(),
+            q: Cow::Borrowed(q),
             size,
             extended: None,
         }
@@ -68,11 +94,12 @@ impl<'a> Rows<'a> {
     pub(crate) fn new(
         mechanism: &'a Mechanism,
         t: f64,
-        q: &[f64],
+        q: &'a [f64],
         known: Known,
     ) -> Result<Self, AnalysisError> {
         check_configuration(mechanism, t, q)?;
-        let mut rows = Self::at(mechanism, evaluated(mechanism, t, q), q, known);
+        let scratch = Cow::Owned(evaluated(mechanism, t, q));
+        let mut rows = Self::at(mechanism, scratch, q, known);
         if mechanism.layout().rows() <= ROWS_MAX && rows.meant.c.first_non_finite().is_none() {
             let kept = promising_holonomic(mechanism, &rows.scratch, q)?;
             if let Ok(polished) = mechanism.polish(t, q, &kept) {

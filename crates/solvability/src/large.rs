@@ -16,7 +16,7 @@ use crate::analysis::{Judged, analyse};
 use crate::certificate::ROWS_MAX;
 use crate::freedoms::WithoutDrives;
 use crate::matrices::{self, Basis};
-use crate::mechanism::{AnalysisError, Dependency, ReactionVerdict, evaluated, reaction};
+use crate::mechanism::{AnalysisError, Dependency, ReactionVerdict, Told, evaluated, reaction};
 use crate::parts::{Extent, PartAnalysis, PartDecision, parts};
 
 /// Sets of more rows are decided sparsely.
@@ -188,7 +188,7 @@ pub(crate) fn judge_sparse(
     let verdict = |id: ConstraintId| {
         let rows = layout.groups[id.0].rows.clone();
         let own = 0..rows.len();
-        reaction(mechanism, id, s, &all.basis(rows), own)
+        reaction(mechanism, id, s, &all.basis(rows), own, Told::Directions)
     };
     let reactions: Vec<ReactionVerdict> = mechanism
         .constraint_ids()

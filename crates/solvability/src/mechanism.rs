@@ -232,7 +232,7 @@ pub(crate) fn judge(
     rows: &Rows,
     decision: RankDecision,
 ) -> Result<Judged, AnalysisError> {
-    let mut found = judge_reactions(mechanism, s, rows, decision)?;
+    let mut found = judge_reactions(mechanism, s, rows, decision, Told::Directions)?;
     if let Some(decision) = found.part.decision.dense() {
         let open = linalg::open_rows(decision);
         let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
@@ -250,12 +250,22 @@ pub(crate) fn judge(
     Ok(found)
 }
 
+/// What is told of each reaction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Told {
+    /// The verdicts of its wrench, its components and its rows.
+    Verdicts,
+    /// The directions in which it is unique, too.
+    Directions,
+}
+
 /// The same without dependencies, also near ones.
 pub(crate) fn judge_reactions(
     mechanism: &Mechanism,
     s: &Scratch,
     rows: &Rows,
     decision: RankDecision,
+    told: Told,
 ) -> Result<Judged, AnalysisError> {
     let layout = mechanism.layout();
     let t = s.t;
@@ -285,7 +295,7 @@ pub(crate) fn judge_reactions(
         .constraint_ids()
         .map(|id| {
             let rows = layout.groups[id.0].rows.clone();
-            reaction(mechanism, id, s, solvability.basis(), rows)
+            reaction(mechanism, id, s, solvability.basis(), rows, told)
         })
         .collect::<Result<_, _>>()
         .map_err(|source| AnalysisError::Query { time: t, source })?;
@@ -319,6 +329,7 @@ pub(crate) fn reaction(
     s: &Scratch,
     basis: &Basis,
     rows: Range<usize>,
+    told: Told,
 ) -> Result<ReactionVerdict, QueryError> {
     let group = &mechanism.layout().groups[id.0];
     let components = group.components();
@@ -350,9 +361,12 @@ pub(crate) fn reaction(
         _ => on_bodies,
     };
     // Where their number is undecided there are none to show; the verdicts above say so.
-    let unique_directions = match mapped.unique_directions() {
-        Err(QueryError::Rank(_) | QueryError::Directions { .. }) => None,
-        known => Some(known?),
+    let unique_directions = match told {
+        Told::Verdicts => None,
+        Told::Directions => match mapped.unique_directions() {
+            Err(QueryError::Rank(_) | QueryError::Directions { .. }) => None,
+            known => Some(known?),
+        },
     };
     let live_directions = unique_directions
         .as_deref()

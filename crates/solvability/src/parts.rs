@@ -68,10 +68,13 @@ impl Extent {
             .map_or(Some(row), |p| p.rows.binary_search(&row).ok())
     }
 
-    /// Those of some rows of the whole that belong to the part, numbered there.
-    #[must_use]
-    pub fn own_rows(&self, rows: &[usize]) -> Vec<usize> {
-        rows.iter().filter_map(|&row| self.own_row(row)).collect()
+    /// Those of some rows of the whole that belong to the part, numbered there, in the order in
+    /// which they are listed.
+    pub(crate) fn own_rows(&self, listed: &ListedRows<'_>) -> Vec<usize> {
+        match self.places() {
+            None => listed.rows.to_vec(),
+            Some(places) => listed.among(&places.rows),
+        }
     }
 
     /// The joint or drive of the whole that is this one of the part.
@@ -166,6 +169,37 @@ impl Extent {
             Some(more @ 1..) => format!("{} and {more} more", names.join(", ")),
             _ => words::list(&names),
         }
+    }
+}
+
+/// Rows of the whole in the order in which a caller lists them, found by their numbers: each of
+/// many parts then finds its own without reading the whole list.
+pub(crate) struct ListedRows<'a> {
+    rows: &'a [usize],
+    /// Each row with its place in the list, ascending.
+    by_number: Vec<(usize, usize)>,
+}
+
+impl<'a> ListedRows<'a> {
+    pub(crate) fn new(rows: &'a [usize]) -> Self {
+        let places = rows.iter().enumerate();
+        let mut by_number: Vec<_> = places.map(|(place, &row)| (row, place)).collect();
+        by_number.sort_unstable();
+        Self { rows, by_number }
+    }
+
+    /// Places in `own`, which ascends, of the rows that are listed, as often and in the order as
+    /// these are.
+    fn among(&self, own: &[usize]) -> Vec<usize> {
+        let mut found: Vec<(usize, usize)> = Vec::new();
+        for (k, row) in own.iter().enumerate() {
+            let first = self.by_number.partition_point(|(other, _)| other < row);
+            let same = self.by_number[first..].iter();
+            let same = same.take_while(|(other, _)| other == row);
+            found.extend(same.map(|&(_, place)| (place, k)));
+        }
+        found.sort_unstable();
+        found.into_iter().map(|(_, k)| k).collect()
     }
 }
 
@@ -357,5 +391,22 @@ impl Partition {
         });
         let each: Vec<Result<T, E>> = each.collect();
         each.into_iter().collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As a search through the whole list finds them: in its order, repeated where it repeats.
+    #[test]
+    fn listed_rows_of_a_part() {
+        let listed = [9, 4, 7, 4, 30, 0];
+        let rows = ListedRows::new(&listed);
+        for own in [&[4, 7, 8][..], &[0, 1, 2, 9], &[5], &[]] {
+            let places = listed.iter().filter_map(|row| own.binary_search(row).ok());
+            assert_eq!(rows.among(own), places.collect::<Vec<_>>());
+        }
+        assert_eq!(Extent::Whole.own_rows(&rows), listed);
     }
 }

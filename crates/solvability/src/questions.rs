@@ -19,7 +19,7 @@ use crate::explain::{Explanation, ExplanationError, explain};
 use crate::frames::FrameVerdict;
 use crate::groups::{Configuration, Group, GroupVerdict, NO_REACTION, RequestError, Term, worst};
 use crate::mechanism::ComponentVerdict;
-use crate::parts::PartAnalysis;
+use crate::parts::{ListedRows, PartAnalysis};
 use crate::units::{UnitCheck, UnitError, check_equations};
 use crate::verdict::{Judgement, Verdict};
 
@@ -323,7 +323,11 @@ impl<'a> Questions<'a> {
         {
             return self.configuration(0)?.distribute(lambda, choice);
         }
-        let rows = self.part_of.len();
+        let reactions = self.part_of.len();
+        let eliminated = ListedRows::new(match choice {
+            Choice::Elimination(rows) => rows,
+            _ => &[],
+        });
         let rigid = match choice {
             Choice::Compliance(joints) => {
                 for joint in joints {
@@ -331,8 +335,8 @@ impl<'a> Questions<'a> {
                 }
                 self.rigid(joints)?
             }
-            Choice::Elimination(rows) => {
-                self.check_counts(rows)?;
+            Choice::Elimination(_) => {
+                self.check_counts(&eliminated)?;
                 Vec::new()
             }
             Choice::MinimumNorm(_) => Vec::new(),
@@ -343,7 +347,7 @@ impl<'a> Questions<'a> {
             let own = match choice {
                 Choice::MinimumNorm(weights) => Choice::MinimumNorm(*weights),
                 Choice::Compliance(joints) => Choice::Compliance(self.listed(k, joints)),
-                Choice::Elimination(rows) => Choice::Elimination(extent.own_rows(rows)),
+                Choice::Elimination(_) => Choice::Elimination(extent.own_rows(&eliminated)),
             };
             let configuration = self.configuration(k)?;
             let found = configuration.distribute_as(&extent.of_rows(lambda), &own, label.clone());
@@ -359,11 +363,16 @@ impl<'a> Questions<'a> {
         let parts: Vec<Result<_, ChoiceError>> =
             (0..self.parts().len()).into_par_iter().map(share).collect();
         let parts = parts.into_iter().collect::<Result<Vec<_>, _>>()?;
-        Ok(Distribution::of_parts(label.clone(), lambda, rows, parts))
+        Ok(Distribution::of_parts(
+            label.clone(),
+            lambda,
+            reactions,
+            parts,
+        ))
     }
 
     /// Checks that each part can do without these rows by their number.
-    fn check_counts(&self, rows: &[usize]) -> Result<(), ChoiceError> {
+    fn check_counts(&self, rows: &ListedRows<'_>) -> Result<(), ChoiceError> {
         for part in self.parts() {
             let (own, listed) = (part.decision.redundancy(), part.extent.own_rows(rows).len());
             let is_decided = part.decision.status() == linalg::RankStatus::Decided;

@@ -14,7 +14,7 @@ use crate::large::{SPARSE_FROM, decide_range};
 use crate::mechanism::{
     AnalysisError, decide, decide_dropping, decide_holonomic, evaluated, uncertainty,
 };
-use crate::parts::{Extent, Partition};
+use crate::parts::{Extent, ListedRows, Partition};
 use crate::state::{StateError, check, check_configuration};
 
 /// Rank and rows to keep.
@@ -298,8 +298,9 @@ pub fn decide_rows_dropping(
     if let Some(&row) = dropped.iter().find(|&&row| row >= rows) {
         return Err(KeptRowsError::RowOutOfRange { row, rows });
     }
+    let listed = ListedRows::new(dropped);
     let found = of_parts(mechanism, s, q, |part, s, q, extent| {
-        let found = decide_dropping(part, s, q, &extent.own_rows(dropped));
+        let found = decide_dropping(part, s, q, &extent.own_rows(&listed));
         found.map(|d| (&d).into()).map_err(|e| match e {
             KeptRowsError::Duplicate { row } => KeptRowsError::Duplicate {
                 row: extent.row(row),

@@ -245,6 +245,37 @@ fn rows_that_nobody_wants_are_not_computed() {
     assert!(stopped.t < 2.0 && rows == 1, "{} {rows}", stopped.t);
 }
 
+/// A pendulum: the same steps, and rows that miss the pivot by no more than the tolerance.
+#[test]
+fn interpolated_rows_are_those_on_the_constraints_to_the_tolerance() {
+    let p = scene(|d| pendulum(d, "bob", 0.0));
+    let states = |rows: Rows| {
+        let wanted = Wanted {
+            rows,
+            accelerations: false,
+            reactions: Reactions::None,
+        };
+        let plan = Plan::new(&p, &to(2.0), &wanted).expect("a plan");
+        let mut states = Vec::new();
+        let summary = plan.simulate(|sample| {
+            states.push((sample.t, [sample.q, sample.v].concat()));
+            Ok(ControlFlow::Continue(()))
+        });
+        (states, summary.expect("moves"))
+    };
+    let (on, all) = states(Rows::Every);
+    let (off, fewer) = states(Rows::Interpolated);
+    assert_eq!(all.steps, fewer.steps);
+    assert_eq!(on.len(), off.len());
+    let mut largest = 0.0_f64;
+    for ((t, x), (same, y)) in on.iter().zip(&off) {
+        assert_eq!(t, same);
+        let apart = x.iter().zip(y).map(|(x, y)| (x - y).abs());
+        largest = apart.fold(largest, f64::max);
+    }
+    assert!(0.0 < largest && largest < 1e-6, "{largest:e}");
+}
+
 /// One row: time, q, v, accelerations, reactions.
 type Row = (f64, Vec<f64>, Vec<f64>, Vec<f64>, Vec<model::Reaction>);
 

@@ -198,13 +198,20 @@ impl<'m> Equations<'m> {
             t
         };
         let (q, rest) = y.split_at_mut(self.n_q);
-        let found = self.motion.end_row(t_before, q, &mut rest[..self.n_v])?;
+        // On a chart only independent coordinates are interpolated, and code knows its own.
+        let is_whole = self.motion.independent().is_none() && !self.motion.is_coded();
+        let found = match self.wanted.on_constraints || !is_whole {
+            true => Some(self.motion.end_row(t_before, q, &mut rest[..self.n_v])?),
+            false => None,
+        };
         let mechanism = self.motion.mechanism();
         if GUARDED {
             finite(mechanism, t, y)?;
             self.last.check(mechanism, self.motion.size(), t, y)?;
         }
-        self.note(y, found);
+        if let Some(found) = found {
+            self.note(y, found);
+        }
         let (q, v) = (&y[..self.n_q], &y[self.n_q..self.n_q + self.n_v]);
         let work = self.work(y);
         let blind = (BLIND_TOLERANCES * self.rtol).clamp(BLIND, BLIND_MAX);

@@ -39,6 +39,8 @@ pub(super) struct OfMotion<'s, 'm> {
 /// What is wanted at rows of output of a component.
 #[derive(Clone, Debug)]
 pub(super) struct AtRows {
+    /// Whether states are moved onto the constraints.
+    pub(super) on_constraints: bool,
     pub(super) accelerations: bool,
     /// Joints and drives whose reactions are wanted, ascending.
     pub(super) reactions: Vec<usize>,

@@ -53,12 +53,15 @@ impl Uncertainty<'_> {
             Self::Equilibrated(_) => equilibrate(c),
             Self::Entries(u) => {
                 self.check(c)?;
-                equilibrate(&Matrix::from_fn(c.nrows(), c.ncols(), |i, j| {
-                    match c[(i, j)].abs() > SIGNIFICANT * u[(i, j)] {
-                        true => c[(i, j)],
+                let mut significant = c.clone();
+                let entries = significant.as_mut_slice().iter_mut();
+                for (c, u) in entries.zip(u.as_slice()) {
+                    *c = match c.abs() > SIGNIFICANT * u {
+                        true => *c,
                         false => 0.0,
-                    }
-                }))
+                    };
+                }
+                equilibrate(&significant)
             }
         };
         let spread = self.equilibrated(c, &scaling)?;

@@ -1,6 +1,6 @@
 //! Verdicts along the motion, with progress on a terminal, and in words.
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use pfaff::report::documents::AlongDocument;
 use pfaff::{Progress, Study, StudyError};
 
@@ -18,6 +18,7 @@ pub(super) fn judge(
     source: &Source,
     study: &Study,
     t_end: Option<f64>,
+    bars: &MultiProgress,
 ) -> Result<AlongDocument, Failure> {
     let own = study.options.as_ref().map(|options| options.t_end);
     let Some(end) = t_end.or(own) else {
@@ -29,16 +30,20 @@ pub(super) fn judge(
         )));
     }
     // Hidden by itself where standard error is no terminal.
-    let bar = ProgressBar::new(TICKS);
+    let bar = bars.add(ProgressBar::new(TICKS));
     if let Ok(style) = ProgressStyle::with_template("{msg} {bar:40}") {
         bar.set_style(style);
     }
+    let mut doing = "";
     let journey = study.journey(t_end, |progress| {
         let (what, t) = match progress {
             Progress::Moving(t) => ("moving ", t),
             Progress::Judging(t) => ("judging", t),
         };
-        bar.set_message(what);
+        if what != doing {
+            bar.set_message(what);
+            doing = what;
+        }
         bar.set_position((t / end * TICKS as f64) as u64);
     });
     bar.finish_and_clear();

@@ -1,5 +1,7 @@
 //! Choices and permissions as they are written on the command line.
 
+use std::collections::HashSet;
+
 use pfaff::Inquiry;
 use pfaff::model::System;
 use pfaff::solvability::{Allowed, Choice, Compliance, NormWeights};
@@ -118,9 +120,8 @@ fn row_list(option: &str, list: &str, rows: usize) -> Result<Vec<usize>, Failure
             "{option}: there is no row {row}; rows are 1 to {rows}"
         )));
     }
-    let again = (1..numbers.len()).find(|&k| numbers[..k].contains(&numbers[k]));
-    if let Some(k) = again {
-        let row = numbers[k];
+    let mut listed = HashSet::new();
+    if let Some(row) = numbers.iter().find(|row| !listed.insert(**row)) {
         return Err(Failure::input(format!(
             "{option}: row {row} is listed twice"
         )));

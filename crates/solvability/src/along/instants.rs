@@ -28,22 +28,21 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
     // Margins of what is generically not unique, sample by sample; nothing where another verdict is known to hold.
     let is_known = |s: &Sample| s.regular && !is_special(s.t);
     let of_all_parts = |s: &Sample| -> Option<Vec<f64>> {
-        is_known(s).then(|| {
-            verdicts(mechanism, &s.analysis)
-                .iter()
-                .map(|p| p.2.margin)
-                .collect()
-        })
+        let margins = || verdicts(&s.analysis).map(|v| v.judgement.margin).collect();
+        is_known(s).then(margins)
     };
     let times: Vec<f64> = path.samples.iter().map(|s| s.t).collect();
     let known: Vec<Option<Vec<f64>>> = path.samples.iter().map(of_all_parts).collect();
-    let not_unique: Vec<usize> = verdicts(mechanism, generic)
-        .iter()
+    let not_unique: Vec<usize> = verdicts(generic)
         .enumerate()
-        .filter(|(_, p)| p.2.verdict == Verdict::NotUnique)
+        .filter(|(_, v)| v.judgement.verdict == Verdict::NotUnique)
         .map(|(k, _)| k)
         .collect();
-    let margin = |analysis: &Analysis, part: usize| verdicts(mechanism, analysis)[part].2.margin;
+    // Each analysis has as many verdicts.
+    let margin = |analysis: &Analysis, part: usize| {
+        let of_part = verdicts(analysis).nth(part);
+        of_part.map_or(f64::NAN, |v| v.judgement.margin)
+    };
     let mut found: Vec<(f64, Analysis)> = Vec::new();
     for part in not_unique {
         let margins: Vec<Option<f64>> = known
@@ -80,8 +79,8 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
         }
         for bracket in brackets {
             let is_unique = |a: &Analysis| {
-                let (_, _, judgement, is_zero) = &verdicts(mechanism, a)[part];
-                judgement.verdict.is_unique() && !is_zero
+                let of_part = verdicts(a).nth(part);
+                of_part.is_some_and(|v| v.judgement.verdict.is_unique() && !v.is_zero)
             };
             let inside = |t: f64| bracket[0] <= t && t <= bracket[1];
             if found.iter().any(|(t, a)| inside(*t) && is_unique(a)) {

@@ -8,7 +8,7 @@ use super::AlongError;
 use crate::analysis::Analysis;
 use crate::certificate::Rows;
 use crate::mechanism::{
-    AnalysisError, dimensionless, evaluated, judge, judge_reactions, uncertainty,
+    AnalysisError, Told, dimensionless, evaluated, judge, judge_reactions, uncertainty,
 };
 use crate::state::{self, State};
 
@@ -40,8 +40,9 @@ pub(super) struct Point {
     pub(super) q: Vec<f64>,
     pub(super) v: Vec<f64>,
     pub(super) s: Scratch,
-    /// C without dimensions.
+    /// C without dimensions, and what its entries are known to.
     pub(super) c: Matrix,
+    known: Matrix,
 }
 
 /// A point where the rank was asked for.
@@ -138,7 +139,15 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
             .map_err(|source| AlongError::OffConstraints { time: t, source })?;
         let s = evaluated(self.mechanism, t, &q);
         let c = dimensionless(self.mechanism, &s, self.size);
-        Ok(Point { t, q, v, s, c })
+        let known = uncertainty(self.mechanism, &s, self.size);
+        Ok(Point {
+            t,
+            q,
+            v,
+            s,
+            c,
+            known,
+        })
     }
 
     /// Length that makes C dimensionless.
@@ -148,12 +157,16 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
 
     /// The rank at a point; `distance` is how far its C may be from the matrix that is asked for.
     pub(super) fn decide(&self, p: &Point, distance: f64) -> Result<RankDecision, AlongError> {
-        let known = uncertainty(self.mechanism, &p.s, self.size);
-        let known = Matrix::from_fn(known.nrows(), known.ncols(), |i, j| {
-            known[(i, j)] + distance
-        });
-        linalg::decide(&p.c, &known)
-            .map_err(|source| AnalysisError::Rank { time: p.t, source }.into())
+        let decision = match distance {
+            0.0 => linalg::decide(&p.c, &p.known),
+            _ => {
+                let mut known = p.known.clone();
+                let entries = known.as_mut_slice().iter_mut();
+                entries.for_each(|known| *known += distance);
+                linalg::decide(&p.c, &known)
+            }
+        };
+        decision.map_err(|source| AnalysisError::Rank { time: p.t, source }.into())
     }
 
     /// C at a point, equilibrated as all samples.
@@ -182,10 +195,11 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
         Ok(Analysis::of(self.mechanism, t, &p.q, vec![judged]))
     }
 
-    /// The verdicts at a point where the rank has been decided.
+    /// The verdicts at a point where the rank has been decided, without directions.
     pub(super) fn judged(&self, p: &Point, decision: RankDecision) -> Result<Analysis, AlongError> {
-        let rows = Rows::in_double(self.mechanism, &p.s, &p.q);
-        let judged = judge_reactions(self.mechanism, &p.s, &rows, decision)?;
+        let pose = (&p.s, &p.q[..], self.size);
+        let rows = Rows::of_matrix(self.mechanism, pose, &p.c, &p.known);
+        let judged = judge_reactions(self.mechanism, &p.s, &rows, decision, Told::Verdicts)?;
         Ok(Analysis::of(self.mechanism, p.t, &p.q, vec![judged]))
     }
 }

@@ -3,8 +3,6 @@
 //! At constant rank a reaction that is not unique at one instant is not unique at almost all: margins that are not zero stay so
 //! nearby. So of several verdicts the one with the most reactions that are not unique is generic.
 
-use model::Mechanism;
-
 use super::path::{Path, Sample};
 use super::{Stretch, differences, ends_of_pieces, verdicts, words};
 use crate::analysis::Analysis;
@@ -20,12 +18,12 @@ pub(super) fn stretches<F>(path: &Path<'_, F>) -> (Analysis, Vec<Stretch>) {
         .windows(2)
         .filter_map(|e| {
             let inside = samples.iter().filter(|s| e[0] < s.t && s.t < e[1]);
-            Some(([e[0], e[1]], most_generic(mechanism, inside)?))
+            Some(([e[0], e[1]], most_generic(inside)?))
         })
         .collect();
     let all = typical.iter().map(|piece| piece.1);
-    let generic = most_generic(mechanism, all)
-        .or_else(|| most_generic(mechanism, samples.iter()))
+    let generic = most_generic(all)
+        .or_else(|| most_generic(samples.iter()))
         .unwrap_or(&samples[0])
         .analysis
         .clone();
@@ -61,15 +59,16 @@ pub(super) fn stretches<F>(path: &Path<'_, F>) -> (Analysis, Vec<Stretch>) {
 
 /// The sample with the largest rank, of these the one with the most verdicts "not unique" and the fewest "undecided", of these the one
 /// that is farthest from singular.
-fn most_generic<'a>(
-    mechanism: &Mechanism,
-    samples: impl Iterator<Item = &'a Sample>,
-) -> Option<&'a Sample> {
+fn most_generic<'a>(samples: impl Iterator<Item = &'a Sample>) -> Option<&'a Sample> {
     let standing = |s: &Sample| {
-        let parts = verdicts(mechanism, &s.analysis);
-        let count = |is: fn(&Verdict) -> bool| parts.iter().filter(|p| is(&p.2.verdict)).count();
-        let not_unique = count(|v| *v == Verdict::NotUnique);
-        let undecided = count(|v| matches!(v, Verdict::Undecided { .. }));
+        let (mut not_unique, mut undecided) = (0, 0);
+        for v in verdicts(&s.analysis) {
+            match v.judgement.verdict {
+                Verdict::NotUnique => not_unique += 1,
+                Verdict::Undecided { .. } => undecided += 1,
+                Verdict::Unique => {}
+            }
+        }
         (s.decision.rank, not_unique, std::cmp::Reverse(undecided))
     };
     samples

@@ -35,15 +35,20 @@ pub(crate) struct MeantMatrix {
 impl MeantMatrix {
     /// At the pose of the scratch, where Φ and C have been evaluated, for a mechanism of this size.
     pub(crate) fn new(mechanism: &Mechanism, s: &Scratch, size: f64, known: Known) -> Self {
-        let n_v = mechanism.layout().n_v;
+        let uncertainty = mechanism
+            .dimension_scaling(size)
+            .apply(&mechanism.uncertainty(s, size, known));
+        Self::of(mechanism, dimensionless(mechanism, s, size), uncertainty)
+    }
+
+    /// Of C without dimensions, and of what its entries are known to.
+    pub(crate) fn of(mechanism: &Mechanism, c: Matrix, uncertainty: Matrix) -> Self {
         let mut meant = Self {
-            c: dimensionless(mechanism, s, size),
-            uncertainty: mechanism
-                .dimension_scaling(size)
-                .apply(&mechanism.uncertainty(s, size, known)),
-            zeros: Vec::new(),
+            col_blocks: (0..c.ncols()).map(col_block).collect(),
             row_blocks: row_blocks(mechanism),
-            col_blocks: (0..n_v).map(col_block).collect(),
+            zeros: Vec::new(),
+            c,
+            uncertainty,
         };
         let mut first = 0;
         for end in 1..=meant.row_blocks.len() {
@@ -64,10 +69,17 @@ impl MeantMatrix {
                 continue;
             }
             let size = |of: &Matrix| {
-                let entries = rows.clone().flat_map(|i| &of.row(i)[first..end]);
-                entries.map(|x| x * x).sum::<f64>()
+                let mut sum = 0.0;
+                for i in rows.clone() {
+                    for x in &of.row(i)[first..end] {
+                        sum += x * x;
+                    }
+                }
+                sum
             };
-            if size(&self.c) <= size(&self.uncertainty) {
+            let (force, known) = (size(&self.c), size(&self.uncertainty));
+            // Most bodies are not touched at all.
+            if force <= known && known > 0.0 {
                 for i in rows.clone() {
                     for j in (first..end).filter(|&j| self.c[(i, j)] != 0.0) {
                         self.zeros.push((i, j));

@@ -8,6 +8,7 @@ use model::{ConstraintId, System};
 use super::Questions;
 use crate::groups::RequestError;
 use crate::make_unique::{Allowed, Proposals, make_unique};
+use crate::parts::ListedRows;
 
 /// Why it cannot be told what may be deleted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -98,7 +99,7 @@ impl Questions<'_> {
                 if let Some(&row) = all.iter().find(|&&row| row >= rows) {
                     return Err(DeletionError::RowOutOfRange { row, rows }.into());
                 }
-                Cow::Owned(Allowed::Rows(extent.own_rows(all)))
+                Cow::Owned(Allowed::Rows(extent.own_rows(&ListedRows::new(all))))
             }
             _ => Cow::Borrowed(allowed),
         };
