@@ -140,9 +140,14 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
         &described,
     );
     let q = match within {
-        true => within::meant(mechanism, &mut s, (&rows, &weights), &described, size, q)?,
-        false => q?,
+        true => within::meant(mechanism, &mut s, (&rows, &weights), &described, size, q),
+        false => q,
     };
+    // What a definition asks of its numbers explains more than rows that miss because of them.
+    let q = q.map_err(|error| match mechanism.unmet_requirement(&described) {
+        Some((name, requirement)) => StartError::Requirement { name, requirement },
+        None => error,
+    })?;
     mechanism.initialise(&q);
     if let Some((name, requirement)) = mechanism.unmet_requirement(&q) {
         return Err(StartError::Requirement { name, requirement });

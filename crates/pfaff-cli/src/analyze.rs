@@ -14,13 +14,13 @@ use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use pfaff::report::{AnalysisDocument, write_json};
 use pfaff::{Inquiry, Overrides, Study};
 
-use crate::Outcome;
 use crate::args::Analyze;
+use crate::console::Console;
 use crate::input::{Source, rows_from_zero};
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, print};
+use crate::output::{Failure, Outcome};
 
-pub(crate) fn run(arguments: &Analyze) -> Outcome {
+pub(crate) fn run(arguments: &Analyze, console: &Console<'_>) -> Outcome {
     if !(arguments.at_time >= 0.0 && arguments.at_time.is_finite()) {
         return Err(Failure::input(format!(
             "--at-time is {}, need a time ≥ 0",
@@ -29,7 +29,7 @@ pub(crate) fn run(arguments: &Analyze) -> Outcome {
     }
     Interrupt::ends_at_once()?;
     let drop = rows_from_zero(arguments.drop.as_deref())?;
-    let source = Source::read(&arguments.scene)?.known(arguments.known);
+    let source = Source::read(&arguments.scene, console)?.known(arguments.known);
     arguments.resources.apply()?;
     let blueprint = arguments.resources.blueprint(&source)?;
     let overrides = Overrides {
@@ -37,7 +37,7 @@ pub(crate) fn run(arguments: &Analyze) -> Outcome {
         ..Overrides::default()
     };
     let error = match blueprint.prepare(&overrides) {
-        Ok(study) => return of_study(arguments, &source, &study, drop.as_deref()),
+        Ok(study) => return of_study(arguments, &source, &study, drop.as_deref(), console),
         Err(e) => e,
     };
     // What cannot move can be judged all the same, at the start.
@@ -45,7 +45,7 @@ pub(crate) fn run(arguments: &Analyze) -> Outcome {
         return Err(source.failure(error));
     };
     match arguments.at_time == 0.0 && arguments.along.is_none() {
-        true => of_start(arguments, &source, drop.as_deref(), warning),
+        true => of_start(arguments, &source, drop.as_deref(), warning, console),
         false => Err(source.failure(error)),
     }
 }
@@ -55,6 +55,7 @@ fn of_study(
     source: &Source,
     study: &Study,
     drop: Option<&[usize]>,
+    console: &Console<'_>,
 ) -> Outcome {
     let joints = study.scene.description.joints.len() + study.scene.description.drives.len();
     let bars = MultiProgress::new();
@@ -86,7 +87,7 @@ fn of_study(
         document.warnings.extend(study.cannot_begin());
     }
     document.along = along.transpose()?;
-    answer(arguments, &inquiry, &document)?;
+    answer(arguments, &inquiry, &document, console)?;
     match document.along.is_some_and(|along| along.stopped.is_some()) {
         // Said above, with what was computed.
         true => Err(Failure::Incomplete),
@@ -99,6 +100,7 @@ fn of_start(
     source: &Source,
     drop: Option<&[usize]>,
     warning: String,
+    console: &Console<'_>,
 ) -> Outcome {
     let failure = |e| source.failure(e);
     let mut blueprint = arguments.resources.blueprint(source)?;
@@ -110,15 +112,20 @@ fn of_start(
     bar.end();
     let mut document = ask::document(arguments, source, &inquiry)?;
     document.warnings.insert(0, warning);
-    answer(arguments, &inquiry, &document)
+    answer(arguments, &inquiry, &document, console)
 }
 
-fn answer(arguments: &Analyze, inquiry: &Inquiry<'_>, document: &AnalysisDocument) -> Outcome {
+fn answer(
+    arguments: &Analyze,
+    inquiry: &Inquiry<'_>,
+    document: &AnalysisDocument,
+    console: &Console<'_>,
+) -> Outcome {
     if arguments.json {
-        return json(document);
+        return json(document, console);
     }
     let hints = ask::hints(inquiry)?;
-    print(&text::describe(document, &hints))
+    console.print(&text::describe(document, &hints))
 }
 
 /// How many joints and drives are judged, on a terminal.
@@ -141,8 +148,8 @@ impl Judging {
     }
 }
 
-fn json(document: &AnalysisDocument) -> Outcome {
+fn json(document: &AnalysisDocument, console: &Console<'_>) -> Outcome {
     let mut out = Vec::new();
     write_json(&mut out, document).map_err(|e| Failure::stopped(e.to_string()))?;
-    print(&String::from_utf8_lossy(&out))
+    console.print(&String::from_utf8_lossy(&out))
 }

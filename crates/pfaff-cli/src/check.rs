@@ -6,25 +6,25 @@ use pfaff::scene::Scene;
 use pfaff::{Inquiry, Overrides, StudyError};
 use serde_json::json;
 
-use crate::Outcome;
 use crate::args::Check;
+use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, count, print, wrapped};
+use crate::output::{Failure, Outcome, count, wrapped};
 use crate::resources::Resources;
 use crate::watch;
 
-pub(crate) fn run(arguments: &Check) -> Outcome {
+pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
     if arguments.watch {
-        return watch::run(arguments);
+        return watch::run(arguments, console);
     }
     Interrupt::ends_at_once()?;
     arguments.resources.apply()?;
-    let source = Source::read(&arguments.scene)?.known(arguments.known);
+    let source = Source::read(&arguments.scene, console)?.known(arguments.known);
     let checked = Checked::of(&source, arguments.resources)?;
     match arguments.json {
-        true => print(&format!("{:#}\n", checked.facts())),
-        false => print(&checked.describe()),
+        true => console.print(&format!("{:#}\n", checked.facts())),
+        false => console.print(&checked.describe()),
     }
 }
 

@@ -8,17 +8,17 @@ use pfaff::report::documents::{DependencyDocument, ReactionDocument};
 use pfaff::{Comparison, Overrides, StudyError};
 use serde_json::{Value, json};
 
-use crate::Outcome;
 use crate::args::Diff;
+use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, columns, print, wrapped};
+use crate::output::{Failure, Outcome, columns, wrapped};
 use crate::start::Start;
 
 /// Bodies whose motion is listed; the document has all.
 const LISTED: usize = 12;
 
-pub(crate) fn run(arguments: &Diff) -> Outcome {
+pub(crate) fn run(arguments: &Diff, console: &Console<'_>) -> Outcome {
     if [&arguments.a, &arguments.b]
         .iter()
         .all(|path| path.as_os_str() == "-")
@@ -28,7 +28,7 @@ pub(crate) fn run(arguments: &Diff) -> Outcome {
         ));
     }
     Interrupt::ends_at_once()?;
-    let read = |path| Ok(Source::read(path)?.known(arguments.known));
+    let read = |path| Ok(Source::read(path, console)?.known(arguments.known));
     let sources = [read(&arguments.a)?, read(&arguments.b)?];
     arguments.resources.apply()?;
     let [a, b] = &sources;
@@ -40,8 +40,8 @@ pub(crate) fn run(arguments: &Diff) -> Outcome {
     let comparison = Comparison::of(x, y);
     let motion = motion(&sources, &starts, arguments)?;
     match arguments.json {
-        true => print(&format!("{:#}\n", document([x, y], &comparison, &motion))),
-        false => print(&describe(&names(&sources), [x, y], &comparison, &motion)),
+        true => console.print(&format!("{:#}\n", document([x, y], &comparison, &motion))),
+        false => console.print(&describe(&names(&sources), [x, y], &comparison, &motion)),
     }
 }
 

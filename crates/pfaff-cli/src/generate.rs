@@ -2,7 +2,7 @@
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
-use std::io::{self, ErrorKind, IsTerminal, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -10,13 +10,13 @@ use pfaff::report::OutputDirectory;
 use pfaff::suite::generate::{Answer, Generator, Order};
 use serde_json::json;
 
-use crate::Outcome;
 use crate::args::Generate;
+use crate::console::Console;
 use crate::input::LARGEST;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, count, print};
+use crate::output::{Failure, Outcome, count};
 
-pub(crate) fn run(arguments: &Generate) -> Outcome {
+pub(crate) fn run(arguments: &Generate, console: &Console<'_>) -> Outcome {
     let order = Order {
         kind: arguments.kind,
         n: arguments.n,
@@ -28,29 +28,25 @@ pub(crate) fn run(arguments: &Generate) -> Outcome {
         .map_err(|e| Failure::input(e.to_string()))?;
     let Some(path) = &arguments.out else {
         Interrupt::ends_at_once()?;
-        return to_standard_output(&generator);
+        return to_standard_output(&generator, console);
     };
     let bytes = to_file(&generator, path)?;
     match arguments.json {
-        true => print(&format!("{:#}\n", facts(&generator, path, bytes))),
-        false => print(&describe(&generator, path, bytes)),
+        true => console.print(&format!("{:#}\n", facts(&generator, path, bytes))),
+        false => console.print(&describe(&generator, path, bytes)),
     }
 }
 
-fn to_standard_output(generator: &Generator) -> Outcome {
-    let stdout = io::stdout().lock();
+fn to_standard_output(generator: &Generator, console: &Console<'_>) -> Outcome {
     // Two things on one terminal would overwrite each other.
-    let target = match stdout.is_terminal() {
+    let target = match console.is_terminal() {
         true => ProgressDrawTarget::hidden(),
         false => ProgressDrawTarget::stderr(),
     };
     let bar = bar(generator, target);
-    let written = generator.write(bar.wrap_write(stdout));
+    let written = console.write(|out| generator.write(bar.wrap_write(out)));
     bar.finish_and_clear();
-    written.map_err(|e| match e.kind() {
-        ErrorKind::BrokenPipe => Failure::Closed,
-        _ => Failure::stopped(format!("cannot write to standard output: {e}")),
-    })
+    written
 }
 
 /// Writes beside the file and renames, so that what has its name is whole; pipes and devices are written as they are. Tells how many bytes

@@ -4,11 +4,12 @@ use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-use pfaff::model::Tolerance;
+use pfaff::model::{Registry, Tolerance};
 use pfaff::scene::nearest;
 use pfaff::{Blueprint, Overrides, Study, StudyError};
 
 use crate::args::Known;
+use crate::console::Console;
 use crate::output::Failure;
 use crate::resources::{Resources, Stage};
 
@@ -20,16 +21,18 @@ pub(crate) const LARGEST: u64 = 1 << 28;
 const LOOKED_AT: usize = 10_000;
 
 /// The text of a scene with the name that messages call it by, and what the command line says of its numbers.
-pub(crate) struct Source {
+pub(crate) struct Source<'r> {
     pub(crate) name: String,
     pub(crate) text: String,
     /// Goes before what the scene states.
     pub(crate) tolerance: Tolerance,
+    /// The joints and forces that it may name.
+    pub(crate) registry: &'r Registry,
 }
 
-impl Source {
+impl<'r> Source<'r> {
     /// Reads a file, or standard input for `-`.
-    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+    pub(crate) fn read(path: &Path, console: &Console<'r>) -> Result<Self, Failure> {
         let standard_input = path.as_os_str() == "-";
         let name = if standard_input {
             "<stdin>".to_owned()
@@ -58,6 +61,7 @@ impl Source {
             name,
             text,
             tolerance: Tolerance::default(),
+            registry: console.registry,
         })
     }
 

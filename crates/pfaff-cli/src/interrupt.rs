@@ -1,8 +1,8 @@
 //! Requests to stop from outside: Ctrl-C, the end of the terminal, and the signal that ends processes.
 
 use std::process;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::output::Failure;
 
@@ -43,7 +43,24 @@ impl Interrupt {
     }
 }
 
-fn on_request(action: impl FnMut() + 'static + Send) -> Result<(), Failure> {
-    ctrlc::set_handler(action)
+/// What a request does at present: a later command of the same process takes it over.
+static ACTION: Mutex<Option<Action>> = Mutex::new(None);
+
+type Action = Box<dyn FnMut() + Send>;
+
+fn on_request(action: impl FnMut() + Send + 'static) -> Result<(), Failure> {
+    let mut present = ACTION.lock().unwrap_or_else(PoisonError::into_inner);
+    let is_first = present.replace(Box::new(action)).is_none();
+    drop(present);
+    if !is_first {
+        return Ok(());
+    }
+    let asked = || {
+        let mut present = ACTION.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(action) = present.as_mut() {
+            action();
+        }
+    };
+    ctrlc::set_handler(asked)
         .map_err(|e| Failure::stopped(format!("cannot listen for interrupts: {e}")))
 }

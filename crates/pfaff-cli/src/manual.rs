@@ -2,28 +2,27 @@
 
 use clap::CommandFactory;
 use clap_mangen::Man;
-use pfaff::model::Registry;
 use pfaff::scene;
 
-use crate::Outcome;
 use crate::args::{Arguments, Completions, Man as Page};
-use crate::output::{Failure, print};
+use crate::console::Console;
+use crate::output::{Failure, Outcome};
 
 /// `pfaff schema`
-pub(crate) fn schema() -> Outcome {
-    print(&format!("{:#}\n", scene::schema(&Registry::planar())))
+pub(crate) fn schema(console: &Console<'_>) -> Outcome {
+    console.print(&format!("{:#}\n", scene::schema(console.registry)))
 }
 
 /// `pfaff completions`
-pub(crate) fn completions(arguments: &Completions) -> Outcome {
+pub(crate) fn completions(arguments: &Completions, console: &Console<'_>) -> Outcome {
     let mut out = Vec::new();
     let mut command = Arguments::command();
     clap_complete::generate(arguments.shell, &mut command, "pfaff", &mut out);
-    print(&String::from_utf8_lossy(&out))
+    console.print(&String::from_utf8_lossy(&out))
 }
 
 /// `pfaff man`
-pub(crate) fn page(arguments: &Page) -> Outcome {
+pub(crate) fn page(arguments: &Page, console: &Console<'_>) -> Outcome {
     let mut whole = Arguments::command();
     whole.build();
     let command = match &arguments.command {
@@ -42,7 +41,7 @@ pub(crate) fn page(arguments: &Page) -> Outcome {
         text.push_str(&set(&examples));
         text.push_str(".fi\n");
     }
-    print(&text)
+    console.print(&text)
 }
 
 /// Lines as they are, in the signs of `man`.

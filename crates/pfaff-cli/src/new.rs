@@ -6,14 +6,14 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
-use crate::Outcome;
 use crate::args::New;
-use crate::output::{Failure, columns, print};
+use crate::console::Console;
+use crate::output::{Failure, Outcome, columns};
 use crate::template::Template;
 
-pub(crate) fn run(arguments: &New) -> Outcome {
+pub(crate) fn run(arguments: &New, console: &Console<'_>) -> Outcome {
     let Some(template) = arguments.template else {
-        return list(arguments.json);
+        return list(arguments.json, console);
     };
     let path = match &arguments.out {
         Some(path) => path.clone(),
@@ -30,16 +30,16 @@ pub(crate) fn run(arguments: &New) -> Outcome {
             true => Err(Failure::input(
                 "--json and --out - both want standard output".to_owned(),
             )),
-            false => print(&text),
+            false => console.print(&text),
         };
     }
     write(&path, &text, arguments.force)?;
     match arguments.json {
-        true => print(&format!(
+        true => console.print(&format!(
             "{:#}\n",
             json!({ "ok": true, "template": template.name(), "file": file })
         )),
-        false => print(&format!("written to {file}\nnext: pfaff analyze {file}\n")),
+        false => console.print(&format!("written to {file}\nnext: pfaff analyze {file}\n")),
     }
 }
 
@@ -68,20 +68,20 @@ fn write(path: &Path, text: &str, force: bool) -> Outcome {
     written.map_err(|e| Failure::stopped(format!("cannot write `{}`: {e}", path.display())))
 }
 
-fn list(json: bool) -> Outcome {
+fn list(json: bool, console: &Console<'_>) -> Outcome {
     let all = Template::ALL.iter();
     if json {
         let templates: Vec<_> = all
             .map(|t| json!({ "name": t.name(), "summary": t.summary() }))
             .collect();
-        return print(&format!(
+        return console.print(&format!(
             "{:#}\n",
             json!({ "ok": true, "templates": templates })
         ));
     }
     let mut rows = vec![["template", "is"].map(str::to_owned).to_vec()];
     rows.extend(all.map(|t| vec![t.name().to_owned(), t.summary()]));
-    print(&format!(
+    console.print(&format!(
         "{}\n`pfaff new TEMPLATE` writes one\n",
         columns(&rows)
     ))

@@ -1,13 +1,11 @@
-//! Everything that is printed. A closed standard output ends the program quietly.
-
-use std::io::{self, IsTerminal, Write};
-use std::process::ExitCode;
+//! How answers and failures look; where they go is told by the console.
 
 use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, Source};
 use pfaff::scene::{Diagnostic, Severity};
 use serde_json::{Value, json};
 
-use crate::args::Answer;
+/// What every command ends with.
+pub(crate) type Outcome = Result<(), Failure>;
 
 /// Why a command did not do all it was asked.
 pub(crate) enum Failure {
@@ -36,25 +34,6 @@ impl Failure {
         Self::Stopped(message)
     }
 
-    /// Says why, and gives the exit code: in words on standard error, or as a document on standard output.
-    pub(crate) fn report(self, answer: Answer) -> ExitCode {
-        let code = match self {
-            Self::Closed => return ExitCode::SUCCESS,
-            Self::Incomplete => return ExitCode::from(1),
-            Self::Scene { .. } | Self::Input(_) => 2,
-            Self::Stopped(_) => 1,
-        };
-        let unsaid = match answer {
-            Answer::Json => print(&format!("{:#}\n", self.document())).err(),
-            Answer::Words => Some(self),
-        };
-        if let Some(failure) = unsaid {
-            // Nothing can be said about an error of standard error.
-            let _ = io::stderr().write_all(failure.words(is_coloured(&io::stderr())).as_bytes());
-        }
-        ExitCode::from(code)
-    }
-
     /// For people.
     pub(crate) fn words(&self, color: bool) -> String {
         match self {
@@ -69,7 +48,7 @@ impl Failure {
     }
 
     /// For programs: `error` is one line, `problems` are the places of a scene that are at fault, if any are.
-    fn document(&self) -> Value {
+    pub(crate) fn document(&self) -> Value {
         let (error, problems) = match self {
             Self::Scene { diagnostics, .. } => (in_one_line(diagnostics), diagnostics.as_slice()),
             Self::Input(message) | Self::Stopped(message) => (message.clone(), [].as_slice()),
@@ -91,47 +70,6 @@ fn in_one_line(diagnostics: &[Diagnostic]) -> String {
 /// A number of things, as `1 body` or `7 bodies`.
 pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
-}
-
-/// Writes to standard output.
-pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    let mut out = io::stdout().lock();
-    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-    written.map_err(|e| match e.kind() {
-        io::ErrorKind::BrokenPipe => Failure::Closed,
-        _ => unprintable(&e),
-    })
-}
-
-/// Writes what was reached of something that was not done to its end. That it was not is the answer, whoever listens.
-pub(crate) fn incomplete(text: &str) -> Failure {
-    match print(text) {
-        Ok(()) | Err(Failure::Closed) => Failure::Incomplete,
-        Err(unsaid) => unsaid,
-    }
-}
-
-/// Help that was asked for, or what is wrong with the words of the command line.
-pub(crate) fn usage(message: &clap::Error) -> ExitCode {
-    if message.use_stderr() {
-        // Nothing can be said about an error of standard error.
-        let _ = message.print();
-        return ExitCode::from(2);
-    }
-    match message.print() {
-        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => unprintable(&e).report(Answer::Words),
-        _ => ExitCode::SUCCESS,
-    }
-}
-
-fn unprintable(e: &io::Error) -> Failure {
-    Failure::Stopped(format!("cannot write to standard output: {e}"))
-}
-
-/// Whether colours are shown there, and wanted: an empty `NO_COLOR` is none (no-color.org).
-pub(crate) fn is_coloured(stream: &impl IsTerminal) -> bool {
-    let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
-    stream.is_terminal() && !refused
 }
 
 /// Problems of a scene with its lines and carets.

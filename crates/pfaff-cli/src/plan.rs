@@ -5,16 +5,16 @@ use pfaff::dynamics::Plan;
 use pfaff::dynamics::plan::Line;
 use pfaff::report::{PlanDocument, write_json};
 
-use crate::Outcome;
 use crate::args;
+use crate::console::Console;
 use crate::input::{Source, rows_from_zero};
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, columns, count, print};
+use crate::output::{Failure, Outcome, columns, count};
 use crate::resources::Bytes;
 
-pub(crate) fn run(arguments: &args::Plan) -> Outcome {
+pub(crate) fn run(arguments: &args::Plan, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
-    let source = Source::read(&arguments.scene)?.known(arguments.known);
+    let source = Source::read(&arguments.scene, console)?.known(arguments.known);
     let overrides = Overrides {
         t_end: arguments.t_end,
         method: arguments.method,
@@ -29,12 +29,12 @@ pub(crate) fn run(arguments: &args::Plan) -> Outcome {
         .memory(source.text.len())
         .map_err(|e| source.failure(e))?;
     if !arguments.json {
-        return print(&describe(study.scene.name(), &plan, memory));
+        return console.print(&describe(study.scene.name(), &plan, memory));
     }
     let mut out = Vec::new();
     write_json(&mut out, &PlanDocument::new(&plan, memory))
         .map_err(|e| Failure::stopped(e.to_string()))?;
-    print(&String::from_utf8_lossy(&out))
+    console.print(&String::from_utf8_lossy(&out))
 }
 
 /// A table for the whole, and one for each of several components.

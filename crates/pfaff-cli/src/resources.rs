@@ -9,7 +9,6 @@ use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::Blueprint;
 use pfaff::memory::of_reading;
-use pfaff::model::Registry;
 
 use crate::input::Source;
 use crate::output::Failure;
@@ -39,7 +38,7 @@ impl Resources {
         let reading = of_reading(text);
         self.allow(reading, "reading this scene")?;
         let _said = Stage::begin(source, "reading and building");
-        let read = Blueprint::read(&source.name, &source.text, &Registry::planar())
+        let read = Blueprint::read(&source.name, &source.text, source.registry)
             .and_then(|blueprint| blueprint.stating(source.tolerance));
         let blueprint = read.map_err(|e| source.failure(e))?;
         let threads = pfaff::threads();

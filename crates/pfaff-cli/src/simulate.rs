@@ -6,11 +6,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::report::{Origin, OutputDirectory, Provenance, RunDocument, write_json};
 use pfaff::{Overrides, StudyError};
 
-use crate::Outcome;
 use crate::args::Simulate;
+use crate::console::Console;
 use crate::input::{Source, rows_from_zero};
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, incomplete, print};
+use crate::output::{Failure, Outcome};
 use crate::work_precision::provenance;
 
 /// Share of the largest kinetic energy by which a run may miss its energy balance without a warning. Default tolerances
@@ -20,8 +20,8 @@ pub(crate) const TRUSTED_BALANCE: f64 = 1e-3;
 /// Ticks of the progress bar over the whole run.
 const TICKS: u64 = 1000;
 
-pub(crate) fn run(arguments: &Simulate) -> Outcome {
-    let source = Source::read(&arguments.scene)?.known(arguments.known);
+pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
+    let source = Source::read(&arguments.scene, console)?.known(arguments.known);
     let overrides = overrides(arguments)?;
     let study = source.study(&overrides, arguments.resources)?;
     let memory = study
@@ -64,8 +64,8 @@ pub(crate) fn run(arguments: &Simulate) -> Outcome {
         text
     };
     match document.partial {
-        true => Err(incomplete(&text)),
-        false => print(&text),
+        true => Err(console.incomplete(&text)),
+        false => console.print(&text),
     }
 }
 

@@ -12,16 +12,16 @@ use pfaff::report::{
 };
 use stress::Family;
 
-use crate::Outcome;
 use crate::args::Stress;
+use crate::console::Console;
 use crate::input::unknown;
-use crate::output::{Failure, columns, count, print, wrapped};
+use crate::output::{Failure, Outcome, columns, count, wrapped};
 use crate::work_precision::provenance;
 
-pub(crate) fn run(arguments: &Stress) -> Outcome {
+pub(crate) fn run(arguments: &Stress, console: &Console<'_>) -> Outcome {
     let families = families(arguments)?;
     if arguments.list {
-        return print(&list(&families));
+        return console.print(&list(&families));
     }
     let stopped = |e: &dyn std::error::Error| Failure::stopped(e.to_string());
     let Some(out) = &arguments.out else {
@@ -49,8 +49,8 @@ pub(crate) fn run(arguments: &Stress) -> Outcome {
         directory.write(name, text).map_err(|e| stopped(&e))?;
     }
     match arguments.json {
-        true => print(&String::from_utf8_lossy(&json))?,
-        false => print(&describe(&document, &out.display().to_string()))?,
+        true => console.print(&String::from_utf8_lossy(&json))?,
+        false => console.print(&describe(&document, &out.display().to_string()))?,
     }
     match document.partial || document.tally.failing > 0 {
         true => Err(Failure::Incomplete),

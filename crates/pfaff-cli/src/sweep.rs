@@ -3,20 +3,19 @@
 use std::num::NonZeroUsize;
 
 use indicatif::{ProgressBar, ProgressStyle};
-use pfaff::model::Registry;
 use pfaff::report::{SweepDocument, SweepStatus, write_json};
 use pfaff::sweep::{Sweep, SweepError, SweepProgress, SweepSettings, merge};
 
-use crate::Outcome;
 use crate::args;
+use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, count, incomplete, print, wrapped};
+use crate::output::{Failure, Outcome, count, wrapped};
 use crate::simulate::TRUSTED_BALANCE;
 
-pub(crate) fn run(arguments: &args::Sweep) -> Outcome {
+pub(crate) fn run(arguments: &args::Sweep, console: &Console<'_>) -> Outcome {
     let (document, ending) = match &arguments.scene {
-        Some(scene) => make(arguments, &Source::read(scene)?)?,
+        Some(scene) => make(arguments, &Source::read(scene, console)?)?,
         None => {
             let document = merge(&arguments.merge, &arguments.out).map_err(|e| failure(&e))?;
             let ending = match document.partial {
@@ -35,8 +34,8 @@ pub(crate) fn run(arguments: &args::Sweep) -> Outcome {
         false => describe(&document, ending, &arguments.out.display().to_string()),
     };
     match ending {
-        Ending::Whole if document.done == document.finished => print(&text),
-        _ => Err(incomplete(&text)),
+        Ending::Whole if document.done == document.finished => console.print(&text),
+        _ => Err(console.incomplete(&text)),
     }
 }
 
@@ -53,11 +52,10 @@ enum Ending {
 
 /// Makes the runs.
 fn make(arguments: &args::Sweep, source: &Source) -> Result<(SweepDocument, Ending), Failure> {
-    let registry = Registry::planar();
     let sweep = Sweep::read(
         &source.name,
         &source.text,
-        &registry,
+        source.registry,
         arguments.vary.clone(),
     );
     let mut sweep = sweep.map_err(|e| match e {

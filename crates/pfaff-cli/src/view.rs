@@ -8,16 +8,16 @@ use std::process::{Command, Stdio};
 use pfaff::report::figures::{Labels, Marking, labelled_mechanism};
 use serde_json::json;
 
-use crate::Outcome;
 use crate::args::View;
+use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, count, print};
+use crate::output::{Failure, Outcome, count};
 use crate::start::Start;
 
-pub(crate) fn run(arguments: &View) -> Outcome {
+pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     Interrupt::ends_at_once()?;
-    let source = Source::read(&arguments.scene)?.known(arguments.known);
+    let source = Source::read(&arguments.scene, console)?.known(arguments.known);
     let path = place(arguments)?;
     arguments.resources.apply()?;
     let start = Start::of(&source, arguments.resources)?;
@@ -51,7 +51,7 @@ pub(crate) fn run(arguments: &View) -> Outcome {
             "mobility": start.document.mobility,
             "mobility_without_drives": start.document.freedoms.mobility_without_drives(),
         });
-        return print(&format!("{facts:#}\n"));
+        return console.print(&format!("{facts:#}\n"));
     }
     let opened = match arguments.no_open {
         true => String::new(),
@@ -64,7 +64,7 @@ pub(crate) fn run(arguments: &View) -> Outcome {
         0 => String::new(),
         n => format!(", {n} unique but FRAGILE"),
     };
-    print(&format!(
+    console.print(&format!(
         "{}: {}, {open} not unique{fragile}; {}\nwritten to {}\n{opened}",
         start.scene.name(),
         count(start.reactions.len(), "joint or drive", "joints and drives"),

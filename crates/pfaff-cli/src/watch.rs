@@ -6,12 +6,12 @@ use std::path::Path;
 use std::thread::sleep;
 use std::time::{Duration, SystemTime};
 
-use crate::Outcome;
 use crate::args::Check;
 use crate::check::Checked;
+use crate::console::Console;
 use crate::input::{Source, unreadable};
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, is_coloured, print};
+use crate::output::{Failure, Outcome};
 
 /// Time between two looks at the file.
 const PAUSE: Duration = Duration::from_millis(500);
@@ -19,7 +19,7 @@ const PAUSE: Duration = Duration::from_millis(500);
 /// Looks at a file that is gone, before that is said: editors replace a file by another one.
 const PATIENCE: usize = 3;
 
-pub(crate) fn run(arguments: &Check) -> Outcome {
+pub(crate) fn run(arguments: &Check, console: &Console<'_>) -> Outcome {
     let path = &arguments.scene;
     if path.as_os_str() == "-" {
         return Err(Failure::input(
@@ -31,25 +31,25 @@ pub(crate) fn run(arguments: &Check) -> Outcome {
     Interrupt::ends_well()?;
     arguments.resources.apply()?;
     loop {
-        print(&format!(
+        console.print(&format!(
             "──── {} ────\n{}",
             path.display(),
-            verdict(arguments)
+            verdict(arguments, console)
         ))?;
-        seen = changed(path, seen)?;
+        seen = changed(path, seen, console)?;
     }
 }
 
 /// What a check says, whether the scene is right or wrong.
-fn verdict(arguments: &Check) -> String {
-    let checked = Source::read(&arguments.scene)
+fn verdict(arguments: &Check, console: &Console<'_>) -> String {
+    let checked = Source::read(&arguments.scene, console)
         .map(|source| source.known(arguments.known))
         .and_then(|source| Ok(Checked::of(&source, arguments.resources)?.describe()));
-    checked.unwrap_or_else(|failure| failure.words(is_coloured(&io::stdout())))
+    checked.unwrap_or_else(|failure| failure.words(console.is_coloured()))
 }
 
 /// Waits until the file is another one than was seen.
-fn changed(path: &Path, seen: Stamp) -> Result<Stamp, Failure> {
+fn changed(path: &Path, seen: Stamp, console: &Console<'_>) -> Result<Stamp, Failure> {
     let mut missing = 0;
     loop {
         sleep(PAUSE);
@@ -59,7 +59,7 @@ fn changed(path: &Path, seen: Stamp) -> Result<Stamp, Failure> {
             Err(e) => {
                 missing += 1;
                 if missing == PATIENCE {
-                    print(&format!(
+                    console.print(&format!(
                         "──── {} ────\n{}",
                         path.display(),
                         unreadable(path, &e).words(false)

@@ -11,21 +11,21 @@ use pfaff::report::{
 use pfaff::suite;
 use pfaff::work_precision::{Plan, Subject, overview, provenance};
 
-use crate::Outcome;
 use crate::args::WorkPrecision;
+use crate::console::Console;
 use crate::input::{Source, unknown};
 use crate::interrupt::Interrupt;
-use crate::output::{Failure, incomplete, print, wrapped};
+use crate::output::{Failure, Outcome, wrapped};
 use crate::resources::Resources;
 
-pub(crate) fn run(arguments: &WorkPrecision) -> Outcome {
+pub(crate) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     let plan = match (arguments.quick, arguments.all) {
         (true, _) => Plan::quick(),
         (false, true) => Plan::everything(),
         (false, false) => Plan::standard(),
     };
     // All scenes are read before the first is run.
-    let subjects = subjects(arguments)?;
+    let subjects = subjects(arguments, console)?;
     let stopped = |e: &dyn std::error::Error| Failure::stopped(e.to_string());
     let directory = OutputDirectory::create(&arguments.out).map_err(|e| stopped(&e))?;
     let file = directory
@@ -55,13 +55,13 @@ pub(crate) fn run(arguments: &WorkPrecision) -> Outcome {
         false => describe(&document, &arguments.out.display().to_string()),
     };
     match document.partial {
-        true => Err(incomplete(&text)),
-        false => print(&text),
+        true => Err(console.incomplete(&text)),
+        false => console.print(&text),
     }
 }
 
 /// The scenes that are asked for, or those of the suite.
-fn subjects(arguments: &WorkPrecision) -> Result<Vec<Subject>, Failure> {
+fn subjects(arguments: &WorkPrecision, console: &Console<'_>) -> Result<Vec<Subject>, Failure> {
     let unreadable = |e: StudyError| Failure::stopped(e.to_string());
     if arguments.scenes.is_empty() {
         let cases = suite::COMPARED.iter().map(Subject::of_case);
@@ -81,7 +81,7 @@ fn subjects(arguments: &WorkPrecision) -> Result<Vec<Subject>, Failure> {
             let names: Vec<&str> = suite::all().map(|case| case.name).collect();
             return Err(unknown("file or case", name, &names));
         }
-        let source = Source::read(path)?;
+        let source = Source::read(path, console)?;
         let study = source.study(&pfaff::Overrides::default(), Resources::default())?;
         Subject::of_study(study).map_err(|e| source.failure(e))
     });

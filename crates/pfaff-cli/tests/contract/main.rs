@@ -17,6 +17,7 @@ mod generate;
 mod library;
 mod man;
 mod new;
+mod own_joint;
 mod plan;
 mod report;
 mod resources;

@@ -1,0 +1,144 @@
+//! Where answers go, and which joints and forces there are. A closed output ends the command quietly.
+
+use std::cell::RefCell;
+use std::io::{self, IsTerminal, Write};
+use std::process::ExitCode;
+
+use pfaff::model::Registry;
+
+use crate::args::Answer;
+use crate::output::{Failure, Outcome};
+
+/// A place that is written to, and what it can show.
+pub struct Stream<'w> {
+    writer: &'w mut dyn Write,
+    is_terminal: bool,
+}
+
+impl<'w> Stream<'w> {
+    /// A file or a buffer: without colours.
+    pub fn plain(writer: &'w mut dyn Write) -> Self {
+        Self {
+            writer,
+            is_terminal: false,
+        }
+    }
+
+    /// A stream of the process: with colours if it is a terminal.
+    pub fn terminal(writer: &'w mut (impl Write + IsTerminal)) -> Self {
+        Self {
+            is_terminal: writer.is_terminal(),
+            writer,
+        }
+    }
+
+    fn write(&mut self, text: &[u8]) -> io::Result<()> {
+        self.writer.write_all(text)?;
+        self.writer.flush()
+    }
+}
+
+/// What a command is given beside its arguments.
+pub(crate) struct Console<'c> {
+    /// The joints and forces of scenes.
+    pub(crate) registry: &'c Registry,
+    out: RefCell<Stream<'c>>,
+    err: RefCell<Stream<'c>>,
+}
+
+impl<'c> Console<'c> {
+    pub(crate) fn new(registry: &'c Registry, out: Stream<'c>, err: Stream<'c>) -> Self {
+        Self {
+            registry,
+            out: RefCell::new(out),
+            err: RefCell::new(err),
+        }
+    }
+
+    /// Writes an answer.
+    pub(crate) fn print(&self, text: &str) -> Outcome {
+        self.write(|out| out.write_all(text.as_bytes()))
+    }
+
+    /// Writes an answer piece by piece.
+    pub(crate) fn write(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Outcome {
+        let out = &mut self.out.borrow_mut();
+        let written = write(&mut *out.writer).and_then(|()| out.writer.flush());
+        written.map_err(|e| match e.kind() {
+            io::ErrorKind::BrokenPipe => Failure::Closed,
+            _ => unprintable(&e),
+        })
+    }
+
+    /// Writes what was reached of something that was not done to its end. That it was not is the answer, whoever listens.
+    pub(crate) fn incomplete(&self, text: &str) -> Failure {
+        match self.print(text) {
+            Ok(()) | Err(Failure::Closed) => Failure::Incomplete,
+            Err(unsaid) => unsaid,
+        }
+    }
+
+    /// Whether answers are shown on a terminal.
+    pub(crate) fn is_terminal(&self) -> bool {
+        self.out.borrow().is_terminal
+    }
+
+    /// Whether answers are shown in colours.
+    pub(crate) fn is_coloured(&self) -> bool {
+        is_coloured(&self.out.borrow())
+    }
+
+    /// Says why a command did not do all it was asked, and gives the exit code: in words, or as a document among the answers.
+    pub(crate) fn report(&self, failure: Failure, answer: Answer) -> ExitCode {
+        let code = match failure {
+            Failure::Closed => return ExitCode::SUCCESS,
+            Failure::Incomplete => return ExitCode::from(1),
+            Failure::Scene { .. } | Failure::Input(_) => 2,
+            Failure::Stopped(_) => 1,
+        };
+        let unsaid = match answer {
+            Answer::Json => self.print(&format!("{:#}\n", failure.document())).err(),
+            Answer::Words => Some(failure),
+        };
+        if let Some(failure) = unsaid {
+            let mut err = self.err.borrow_mut();
+            let words = failure.words(is_coloured(&err));
+            // Nothing can be said about an error of the place for errors.
+            let _ = err.write(words.as_bytes());
+        }
+        ExitCode::from(code)
+    }
+
+    /// Help that was asked for, or what is wrong with the words of the command line.
+    pub(crate) fn usage(&self, message: &clap::Error) -> ExitCode {
+        let is_fault = message.use_stderr();
+        let stream = match is_fault {
+            true => &self.err,
+            false => &self.out,
+        };
+        let mut stream = stream.borrow_mut();
+        let text = match is_coloured(&stream) {
+            true => message.render().ansi().to_string(),
+            false => message.render().to_string(),
+        };
+        let written = stream.write(text.as_bytes());
+        drop(stream);
+        match written {
+            _ if is_fault => ExitCode::from(2),
+            Err(e) if e.kind() != io::ErrorKind::BrokenPipe => {
+                self.report(unprintable(&e), Answer::Words)
+            }
+            _ => ExitCode::SUCCESS,
+        }
+    }
+}
+
+fn unprintable(e: &io::Error) -> Failure {
+    Failure::Stopped(format!("cannot write to standard output: {e}"))
+}
+
+/// Whether colours are shown there, and wanted: an empty `NO_COLOR` is none (no-color.org).
+fn is_coloured(stream: &Stream<'_>) -> bool {
+    let refused = std::env::var_os("NO_COLOR").is_some_and(|value| !value.is_empty());
+    stream.is_terminal && !refused
+}
