@@ -46,7 +46,7 @@ fn falling_cranks() -> Description {
     three
 }
 
-/// Both mechanisms are redundant. The half-explicit method never sees Γ, generalized-α no acceleration of a constraint; the reference does.
+/// Both mechanisms are redundant. Generalized-α sees no acceleration of a constraint; the reference does.
 #[test]
 fn the_motion_is_that_of_the_index_one_equations() {
     for (name, p, t_end) in [
@@ -54,11 +54,10 @@ fn the_motion_is_that_of_the_index_one_equations() {
         ("robot", prepared(&robot(steering())), 3.0),
     ] {
         let (exact, _) = run(&p, Method::Dop853, 1e-12, t_end);
-        let cases = [1e-4, 1e-6, 1e-8, 1e-10].map(|t: f64| (Method::Hem4, t, 5.0 * t));
         // A method of order 2 with steps of the size tolerance^(1/3).
         let alpha =
             [1e-3, 1e-5, 1e-7].map(|t: f64| (Method::GeneralizedAlpha, t, 2.0 * t.powf(2.0 / 3.0)));
-        for (method, tolerance, bound) in cases.into_iter().chain(alpha) {
+        for (method, tolerance, bound) in alpha {
             let (end, s) = run(&p, method, tolerance, t_end);
             let error = distance(&end, &exact);
             assert!(

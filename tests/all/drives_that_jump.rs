@@ -49,12 +49,11 @@ fn wheel(motion: Function) -> Prepared {
     prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts")
 }
 
-const METHODS: [Method; 5] = [
+const METHODS: [Method; 4] = [
     Method::Dop853,
     Method::Dopri5,
     Method::Gbs,
     Method::Radau5,
-    Method::Hem4,
 ];
 
 #[test]

@@ -33,10 +33,7 @@ pub(crate) fn method(
             "the state is a function of time: nothing is free, so that nothing can be stiff",
         );
     }
-    let needs_dense = matches!(
-        options.method,
-        Method::Radau5 | Method::Hem4 | Method::GeneralizedAlpha
-    );
+    let needs_dense = matches!(options.method, Method::Radau5 | Method::GeneralizedAlpha);
     if needs_dense && is_sparse(prepared) {
         let rows = prepared.decision.kept.len();
         return Err(Trip::Saddle {

@@ -25,8 +25,6 @@ pub enum Method {
     Gbs,
     /// Radau IIA of order 5 on independent coordinates, for stiff forces.
     Radau5,
-    /// Half-explicit Runge–Kutta method of order 4: without derivatives of the constraints.
-    Hem4,
     /// Generalized-α on positions with ρ∞ = 0.8, order 2: for stiff forces at low accuracy.
     GeneralizedAlpha,
 }
@@ -40,7 +38,6 @@ impl Method {
         Self::Tsit5,
         Self::Gbs,
         Self::Radau5,
-        Self::Hem4,
         Self::GeneralizedAlpha,
     ];
 
@@ -54,7 +51,6 @@ impl Method {
             Self::Dop853 => "dop853",
             Self::Gbs => "gbs",
             Self::Radau5 => "radau5",
-            Self::Hem4 => "hem4",
             Self::GeneralizedAlpha => "generalized-alpha",
         }
     }
@@ -307,10 +303,7 @@ impl MotionOptions {
                 why,
             })
         };
-        let has_own_equations = matches!(
-            method,
-            Method::Radau5 | Method::Hem4 | Method::GeneralizedAlpha
-        );
+        let has_own_equations = matches!(method, Method::Radau5 | Method::GeneralizedAlpha);
         if has_own_equations && !self.formulation.drops_rows() {
             return combination(method.name(), "the method solves equations on kept rows");
         }

@@ -52,7 +52,7 @@ impl Prepared {
     pub(crate) fn is_function_of_time(&self, options: &MotionOptions) -> bool {
         let layout = self.mechanism.layout();
         let is_held = self.decision.rank == layout.n_v && self.position_decision.rank == layout.n_q;
-        let evaluates_states = !matches!(options.method, Method::Hem4 | Method::GeneralizedAlpha);
+        let evaluates_states = options.method != Method::GeneralizedAlpha;
         let on_kept_rows = options.formulation.drops_rows();
         is_held
             && evaluates_states

@@ -16,8 +16,8 @@ mod span;
 mod summary;
 
 use integrators::{
-    Cause, Dop853, Dopri5, Gbs, GeneralizedAlpha, Hem4, IntegrationError, Interval, Options,
-    Outcome, OutputTimes, Radau5, Rows, Tsit5, integrate,
+    Cause, Dop853, Dopri5, Gbs, GeneralizedAlpha, IntegrationError, Interval, Options, Outcome,
+    OutputTimes, Radau5, Rows, Tsit5, integrate,
 };
 use model::System;
 use solvability::{contradicting_drives_along, generic};
@@ -139,7 +139,6 @@ fn run_component(
         Method::Auto | Method::Dop853 => run.go(&Dop853, &interval, &y0, &settings),
         Method::Gbs => run.go(&Gbs, &interval, &y0, &settings),
         Method::Radau5 => run.go(&Radau5, &interval, &y0, &settings),
-        Method::Hem4 => run.go(&Hem4, &interval, &y0, &settings),
         Method::GeneralizedAlpha => run.go(&GeneralizedAlpha::default(), &interval, &y0, &settings),
     };
     let wall_seconds = clock.elapsed().as_secs_f64();

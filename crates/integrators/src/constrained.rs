@@ -21,27 +21,6 @@ pub trait Constrained: Ode {
     /// Lengths of the parts. Between two steps holonomic rows may be exchanged for others; all lengths but these two are fixed, and so is r.
     fn sizes(&self) -> Sizes;
 
-    /// Writes q' = T(q)·v at (t, y) to `qd` (length n_q).
-    ///
-    /// # Errors
-    ///
-    /// The problem's own.
-    fn position_rate(&mut self, t: f64, y: &[f64], qd: &mut [f64]) -> Result<(), Self::Error>;
-
-    /// Writes y' at (t, y) to `dy` (length n), with accelerations and multipliers such that the velocities at the target obey the
-    /// constraints there: `M·v' + G(t, q)ᵀ·λ = f(t, q, v)` and `G(t₊, q₊)·(w + τ·v') = b(t₊, q₊)`.
-    ///
-    /// # Errors
-    ///
-    /// The problem's own.
-    fn rhs_towards(
-        &mut self,
-        t: f64,
-        y: &[f64],
-        target: &Target<'_>,
-        dy: &mut [f64],
-    ) -> Result<(), Self::Error>;
-
     /// Writes `q + T(q)·d` (or a better approximation of the motion from q over the small displacement d) to `out` (length n_q); d has
     /// length n_v.
     fn displace(&self, q: &[f64], d: &[f64], out: &mut [f64]);
@@ -125,17 +104,4 @@ impl Sizes {
     pub(crate) fn rest(&self) -> usize {
         self.positions + self.velocities
     }
-}
-
-/// Where the velocities are to obey the constraints, see [`Constrained::rhs_towards`].
-#[derive(Debug, Clone, Copy)]
-pub struct Target<'a> {
-    /// t₊.
-    pub t: f64,
-    /// q₊.
-    pub q: &'a [f64],
-    /// Velocities w without the acceleration asked for.
-    pub w: &'a [f64],
-    /// Its weight τ, in units of time.
-    pub tau: f64,
 }

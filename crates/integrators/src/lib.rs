@@ -21,10 +21,9 @@
 //! | `dense_implicit` | a plain problem with a dense Jacobian: [`DenseImplicit`] |
 //! | `radau5` | Radau IIA of order 5: `tableau`, `scale`, `newton`, `step`, `dense` |
 //! | `constrained` | problems with constraints as equations of their own: [`Constrained`] |
-//! | `hem4` | half-explicit Runge–Kutta method of order 4: `tableau`, `step` |
 //! | `generalized_alpha` | generalized-α on positions: `newton`, `step` |
 //! | `convergence` | when Newton's iterations end |
-//! | `hermite` | dense output from both ends of a step |
+//! | `hermite` | the cubic through both ends of a step |
 
 #![forbid(unsafe_code)]
 
@@ -39,7 +38,6 @@ mod error;
 mod events;
 mod gbs;
 mod generalized_alpha;
-mod hem4;
 mod hermite;
 mod implicit;
 mod interval;
@@ -58,14 +56,13 @@ mod step;
 #[cfg(test)]
 mod trees;
 
-pub use constrained::{Constrained, Linearisation, Sizes, Target};
+pub use constrained::{Constrained, Linearisation, Sizes};
 pub use dense_implicit::{DenseError, DenseImplicit, Differences, Jacobian};
 pub use dop853::Dop853;
 pub use error::{Cause, Failure, IntegrationError};
 pub use events::{Crossing, Crossings, Direction, integrate_until};
 pub use gbs::Gbs;
 pub use generalized_alpha::GeneralizedAlpha;
-pub use hem4::Hem4;
 pub use implicit::Implicit;
 pub use interval::Interval;
 pub use method::{End, Method, Outcome, integrate};

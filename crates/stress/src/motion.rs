@@ -44,7 +44,6 @@ pub fn combinations(base: &MotionOptions) -> Vec<MotionOptions> {
 pub fn steps(method: Method, phase: f64, rtol: f64) -> f64 {
     let order = match method {
         Method::GeneralizedAlpha => 2.0,
-        Method::Hem4 => 4.0,
         Method::Dopri5 | Method::Tsit5 | Method::Radau5 => 5.0,
         _ => 8.0,
     };

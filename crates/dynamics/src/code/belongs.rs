@@ -155,7 +155,7 @@ impl Prepared {
         let code = self.code.as_ref().ok_or(NoCode::None)?;
         match options.method {
             Method::Auto | Method::Dopri5 | Method::Tsit5 | Method::Dop853 | Method::Gbs => {}
-            Method::Radau5 | Method::Hem4 | Method::GeneralizedAlpha => {
+            Method::Radau5 | Method::GeneralizedAlpha => {
                 return Err(NoCode::Method(options.method.name()));
             }
         }

@@ -1,8 +1,7 @@
-//! The equations of motion with the kept constraints as equations of their own: what half-explicit methods and generalized-α ask for.
+//! The equations of motion with the kept constraints as equations of their own: what generalized-α asks for.
 //! Not for methods that see accelerations only.
 //!
-//! Both solve dense systems of n_v + r unknowns, `[A, C_Kᵀ; C_K, 0]`, in which masses may be zero: half-explicit methods with the rows of
-//! two configurations, implicit ones with the derivatives of the forces. Rows that are dependent for an instant are not left out here: the
+//! It solves dense systems of n_v + r unknowns, `[A, C_Kᵀ; C_K, 0]`, in which masses may be zero, with the derivatives of the forces. Rows that are dependent for an instant are not left out here: the
 //! projection at the end of the step and its monitors see to them.
 
 use linalg::{Lu, Matrix};
@@ -15,20 +14,11 @@ use crate::error::Trip;
 /// Storage for these systems.
 pub(crate) struct SaddlePoint {
     derivatives: Derivatives,
-    /// The matrix; its last columns hold C_Kᵀ, its last rows C_K, perhaps of another configuration.
+    /// The matrix; its last columns hold C_Kᵀ, its last rows C_K.
     matrix: Matrix,
     lu: Lu,
-    /// Solution, and multipliers of all rows.
-    x: Vec<f64>,
+    /// Multipliers of all rows.
     lambda: Vec<f64>,
-}
-
-/// Velocities that a half-explicit stage aims at: `C_K(t, q)·(w + τ·v̇) = b_K(t, q)`.
-pub(crate) struct Aim<'a> {
-    pub(crate) t: f64,
-    pub(crate) q: &'a [f64],
-    pub(crate) w: &'a [f64],
-    pub(crate) tau: f64,
 }
 
 impl SaddlePoint {
@@ -40,47 +30,8 @@ impl SaddlePoint {
             derivatives: motion.mechanism.derivatives(),
             matrix: Matrix::zeros(n, n),
             lu: Lu::new(n),
-            x: vec![0.0; n],
             lambda: vec![0.0; layout.rows()],
         }
-    }
-
-    /// `v̇` from `M·v̇ + C_K(t, q)ᵀ·λ_K = Q(t, q, v)` and the aim.
-    ///
-    /// # Errors
-    /// [`Trip::IterationMatrix`].
-    pub(crate) fn acceleration_towards(
-        &mut self,
-        motion: &mut KeptRowMotion<'_>,
-        (t, q, v): (f64, &[f64], &[f64]),
-        aim: &Aim<'_>,
-        a: &mut [f64],
-    ) -> Result<(), Trip> {
-        let mechanism = motion.mechanism;
-        let (layout, n) = (mechanism.layout(), a.len());
-        mechanism.pose(aim.t, aim.q, &mut motion.s);
-        mechanism.c(&mut motion.s);
-        motion.evaluate_b();
-        for (k, &i) in motion.velocity.kept.iter().enumerate() {
-            let residual = layout.velocity_residual(&motion.s, i, aim.w);
-            self.x[n + k] = -residual / aim.tau;
-        }
-        self.begin(motion);
-        self.add_rows(motion, n);
-        mechanism.pose(t, q, &mut motion.s);
-        mechanism.c(&mut motion.s);
-        mechanism.twist(v, &mut motion.s);
-        mechanism.force(&mut motion.s);
-        if motion.s.force.iter().any(|f| !f.is_finite()) {
-            let what = "a force".into();
-            return Err(motion.named(Trip::NotFinite { time: t, what }));
-        }
-        self.add_columns(motion, n);
-        self.factor(t)?;
-        self.x[..n].copy_from_slice(&motion.s.force);
-        self.lu.solve(&mut self.x);
-        a.copy_from_slice(&self.x[..n]);
-        Ok(())
     }
 
     /// Residuals of `M·a + C_Kᵀ·λ_K = Q`, then Φ of the kept holonomic rows, then `C·v = b` of the others.

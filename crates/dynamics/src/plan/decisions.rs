@@ -105,7 +105,7 @@ fn linear_systems(method: Method, sizes: &Sizes) -> Decided<bool> {
             "is implicit",
             saddle_point,
         ),
-        Method::Hem4 | Method::GeneralizedAlpha => (
+        Method::GeneralizedAlpha => (
             true,
             "with the kept rows",
             "takes the constraints as equations of their own",
@@ -177,7 +177,7 @@ fn refinement(
             format!("{} solves with all rows", formulation.name()),
         ));
     }
-    if matches!(method, Method::Hem4 | Method::GeneralizedAlpha) {
+    if method == Method::GeneralizedAlpha {
         let why = "takes the constraints as equations of their own";
         return Ok(decided(false, format!("{} {why}", method.name())));
     }

@@ -1,11 +1,10 @@
 //! The equations of a run for methods that treat the kept constraints as equations of their own.
 
-use integrators::{Constrained, Linearisation, Sizes, Target};
+use integrators::{Constrained, Linearisation, Sizes};
 use model::System;
 
 use super::equations::Equations;
 use crate::error::Trip;
-use crate::motion::constrained::Aim;
 
 /// Positions and velocities of a state.
 fn parts(y: &[f64], n_q: usize, n_v: usize) -> (&[f64], &[f64]) {
@@ -21,37 +20,6 @@ impl Constrained for Equations<'_> {
             holonomic,
             nonholonomic,
         }
-    }
-
-    fn position_rate(&mut self, _t: f64, y: &[f64], qd: &mut [f64]) -> Result<(), Trip> {
-        let (q, v) = parts(y, self.n_q, self.n_v);
-        self.motion.mechanism().rate(q, v, qd);
-        Ok(())
-    }
-
-    fn rhs_towards(
-        &mut self,
-        t: f64,
-        y: &[f64],
-        target: &Target<'_>,
-        dy: &mut [f64],
-    ) -> Result<(), Trip> {
-        let (q, v) = parts(y, self.n_q, self.n_v);
-        let (qd, rest) = dy.split_at_mut(self.n_q);
-        let (a, work) = rest.split_at_mut(self.n_v);
-        self.motion.mechanism().rate(q, v, qd);
-        let aim = Aim {
-            t: target.t,
-            q: target.q,
-            w: target.w,
-            tau: target.tau,
-        };
-        let (motion, saddle_point) = self.constrained();
-        saddle_point.acceleration_towards(motion, (t, q, v), &aim, a)?;
-        if let Some(work) = work.first_mut() {
-            *work = self.motion.mechanism().energy_rate(v, a);
-        }
-        Ok(())
     }
 
     fn displace(&self, q: &[f64], d: &[f64], out: &mut [f64]) {

@@ -1,6 +1,6 @@
 //! Small constrained problems with known solutions, and steps of a size that nobody controls, for the tests of the methods.
 
-use super::{Constrained, Linearisation, Sizes, Target};
+use super::{Constrained, Linearisation, Sizes};
 use crate::dense_implicit::lu::Lu;
 use crate::interval::Interval;
 use crate::method::{Method, Start, Stepper, Trial};
@@ -163,19 +163,14 @@ impl<S: System> Problem<S> {
         }
     }
 
-    /// Solves [M, Gᵀ; G₊, 0]·x = x.
-    fn accelerations(
-        &mut self,
-        row: &[f64],
-        row_end: &[f64],
-        x: &mut [f64],
-    ) -> Result<(), Singular> {
+    /// Solves [M, Gᵀ; G, 0]·x = x.
+    fn accelerations(&mut self, row: &[f64], x: &mut [f64]) -> Result<(), Singular> {
         let (n, m) = (S::SIZES.velocities, self.system.mass());
         self.lu
             .factor(|i, j| match (i < n, j < n) {
                 (true, true) if i == j => m[i],
                 (true, false) => row[i],
-                (false, true) => row_end[j],
+                (false, true) => row[j],
                 _ => 0.0,
             })
             .map_err(Singular)?;
@@ -209,7 +204,7 @@ impl<S: System> Ode for Problem<S> {
         let mut x = self.system.force(q);
         x.push(self.system.gamma(q, v));
         let row = self.system.row(q);
-        self.accelerations(&row, &row, &mut x)?;
+        self.accelerations(&row, &mut x)?;
         self.write(y, &x, dy);
         Ok(())
     }
@@ -218,29 +213,6 @@ impl<S: System> Ode for Problem<S> {
 impl<S: System> Constrained for Problem<S> {
     fn sizes(&self) -> Sizes {
         S::SIZES
-    }
-
-    fn position_rate(&mut self, _t: f64, y: &[f64], qd: &mut [f64]) -> Result<(), Singular> {
-        let n = qd.len();
-        qd.copy_from_slice(&y[n..2 * n]);
-        Ok(())
-    }
-
-    fn rhs_towards(
-        &mut self,
-        _t: f64,
-        y: &[f64],
-        target: &Target<'_>,
-        dy: &mut [f64],
-    ) -> Result<(), Singular> {
-        let n = S::SIZES.velocities;
-        let row_end = self.system.row(target.q);
-        let mut x = self.system.force(&y[..n]);
-        x.push(-dot(&row_end, target.w) / target.tau);
-        let row = self.system.row(&y[..n]);
-        self.accelerations(&row, &row_end, &mut x)?;
-        self.write(y, &x, dy);
-        Ok(())
     }
 
     fn displace(&self, q: &[f64], d: &[f64], out: &mut [f64]) {

@@ -624,7 +624,7 @@ fn help_lists_what_there_is() {
         (
             "t_end = 2.0",
             "t_end = 2.0\nmethod = \"euler\"",
-            "available are `auto`, `dopri5`, `dop853`, `tsit5`, `gbs`, `radau5`, `hem4`, `generalized-alpha`",
+            "available are `auto`, `dopri5`, `dop853`, `tsit5`, `gbs`, `radau5`, `generalized-alpha`",
         ),
         (
             "t_end = 2.0",

@@ -272,7 +272,6 @@ pub(super) fn wishes(draft: &mut Draft, values: &mut Values<'_>) {
             "gbs",
             "radau5",
             "generalized-alpha",
-            "hem4",
         ];
         draft.line(&format!("method = \"{}\"", values.one(&methods)));
         let formulations = [

@@ -1,0 +1,105 @@
+//! Other ways to move a mechanism: formulations as right-hand sides over [`model::System`], and two methods with steppers of their own.
+//!
+//! Each is short, dense and without monitors. The rank is that of the start and never decided again.
+//!
+//! | module | content |
+//! | --- | --- |
+//! | [`mod@equations`] | the differential equation, with Baumgarte's terms or projection |
+//! | `kept_rows`, `null_space`, `minimum_norm`, `proximal` | accelerations from the saddle equations |
+//! | `stepping` | the loop of steps for `gbs` and `generalized_alpha` |
+//! | `run` | from a prepared mechanism to rows at given times |
+
+pub mod equations;
+mod gbs;
+mod generalized_alpha;
+mod kept_rows;
+mod minimum_norm;
+mod null_space;
+mod proximal;
+mod run;
+mod stepping;
+
+use linalg::{Matrix, SaddleError};
+
+pub use kept_rows::KeptRows;
+pub use minimum_norm::MinimumNorm;
+pub use null_space::NullSpace;
+pub use proximal::{Proximal, Tuning};
+pub use run::{Drift, Formulation, Method, Row, Run, Way, run, run_within};
+
+/// `M·a + Cᵀ·λ = f`, `C·a = γ` at one instant, M = diag(mass).
+#[derive(Clone, Copy, Debug)]
+pub struct Saddle<'a> {
+    /// All rows, m × n.
+    pub c: &'a Matrix,
+    /// Diagonal of M, n.
+    pub mass: &'a [f64],
+    /// Forces, n.
+    pub force: &'a [f64],
+    /// Right-hand side of all rows, m.
+    pub gamma: &'a [f64],
+}
+
+/// Solves these equations although C has dependent rows.
+pub trait Solver {
+    /// Writes accelerations (n) and multipliers of all rows (m).
+    ///
+    /// # Errors
+    /// If the equations have no unique solution.
+    fn solve(&mut self, at: &Saddle<'_>, a: &mut [f64], lambda: &mut [f64]) -> Result<(), Fault>;
+}
+
+/// Why a comparator gives up.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Fault {
+    /// The kept rows have no solution.
+    #[error(transparent)]
+    Saddle(#[from] SaddleError),
+    /// Rows that were independent at the start no longer are.
+    #[error("the constraints have lost their rank {rank} of the start")]
+    RankLost {
+        /// The rank of the start.
+        rank: usize,
+    },
+    /// A motion that the constraints allow moves no mass.
+    #[error("a motion that the constraints allow moves no mass")]
+    Massless,
+    /// Corrections of the position do not converge.
+    #[error("at t = {time} s the state cannot be projected onto the constraints")]
+    Projection {
+        /// Time (s).
+        time: f64,
+    },
+    /// Newton's iterations of an implicit step do not converge.
+    #[error("the equations of a step cannot be solved")]
+    Newton,
+    /// Steps became too short.
+    #[error("at t = {time} s steps have become too short")]
+    StepTooShort {
+        /// Time (s).
+        time: f64,
+    },
+    /// Too many steps.
+    #[error("at t = {time} s there have been {steps} steps")]
+    TooManySteps {
+        /// Time (s).
+        time: f64,
+        /// Accepted and rejected steps.
+        steps: u64,
+    },
+    /// The loop of `integrators` ended.
+    #[error("{0}")]
+    Integration(String),
+    /// No finite number.
+    #[error("at t = {time} s there is a number that is not finite")]
+    NotFinite {
+        /// Time (s).
+        time: f64,
+    },
+}
+
+/// `Σ x·y`.
+fn dot(x: &[f64], y: &[f64]) -> f64 {
+    x.iter().zip(y).map(|(x, y)| x * y).sum()
+}

@@ -1,0 +1,272 @@
+//! The generalized-α method on the positions (index 3) and kept rows: order 2, with damping of high frequencies as chosen by ρ∞.
+//!
+//! ```text
+//! q1 = q0 + h·v0 + h²·((½ − β)·a0 + β·a1),   v1 = v0 + h·((1 − γ)·a0 + γ·a1)
+//! (1 − α_m)·a1 + α_m·a0 = (1 − α_f)·v'1 + α_f·v'0
+//! M·v'1 + Cᵀ·λ1 = Q(t1, q1, v1),   Φ(t1, q1) = 0,   C·v1 = b for rows that are not holonomic
+//! ```
+//!
+//! a is the acceleration at t + (α_m − α_f)·h: where the step size changes, it is moved along. Sources: J. Chung, G. M. Hulbert, J. Appl. Mech. 60
+//! (1993) 371–375, DOI 10.1115/1.2900803; M. Arnold, O. Brüls, Multibody Syst. Dyn. 18 (2007) 185–202, DOI 10.1007/s11044-007-9084-0.
+
+use integrators::Ode;
+use linalg::{Lu, Matrix};
+use model::{Derivatives, Mechanism, Scratch, System};
+
+use super::Fault;
+use super::equations::Equations;
+use super::stepping::{Stepper, Trial};
+
+/// ρ∞: what remains of an oscillation of infinite frequency after a step.
+const RHO: f64 = 0.8;
+const ALPHA_M: f64 = (2.0 * RHO - 1.0) / (RHO + 1.0);
+const ALPHA_F: f64 = RHO / (RHO + 1.0);
+const GAMMA: f64 = 0.5 + ALPHA_F - ALPHA_M;
+const BETA: f64 = 0.25 * (GAMMA + 0.5) * (GAMMA + 0.5);
+/// ∂a1/∂v'1.
+const SHARE: f64 = (1.0 - ALPHA_F) / (1.0 - ALPHA_M);
+
+/// Local errors of q and v over h³·y''', by Taylor expansion with a = v'(t + (α_m − α_f)·h).
+const LAG: f64 = ALPHA_F - ALPHA_M;
+const OF_POSITION: f64 = BETA - 0.5 * LAG - 1.0 / 6.0;
+const OF_VELOCITY: f64 = 1.0 / 12.0 - 0.5 * LAG * LAG;
+
+/// Newton's iterations of a step, at most.
+const ITERATIONS: usize = 10;
+/// Increments that Newton's method may leave, in tolerances: an error of Φ enters λ multiplied by 1/h².
+const PERMITTED: f64 = 1e-6;
+/// Increments below this share of the state are rounding.
+const ROUNDING: f64 = 10.0 * f64::EPSILON;
+
+/// What the method remembers at the end of a step.
+#[derive(Clone, Default)]
+struct Memory {
+    a: Vec<f64>,
+    vd: Vec<f64>,
+    lambda: Vec<f64>,
+}
+
+/// One step and memory.
+pub(super) struct GeneralizedAlpha<'a> {
+    mechanism: &'a Mechanism,
+    s: Scratch,
+    derivatives: Derivatives,
+    /// Kept rows; how many of them are holonomic. Position rows are those of Φq.
+    kept: Vec<usize>,
+    matrix: Matrix,
+    lu: Lu,
+    from: Memory,
+    to: Memory,
+    /// Size of the last accepted step, the derivative of a over it, and y' at its start.
+    before: Option<(f64, Vec<f64>, Vec<f64>)>,
+    /// y' at both ends of the last trial.
+    f0: Vec<f64>,
+    f1: Vec<f64>,
+    x: Vec<f64>,
+}
+
+impl<'a> GeneralizedAlpha<'a> {
+    pub(super) fn new(mechanism: &'a Mechanism, kept: &[usize]) -> Self {
+        let (layout, r) = (mechanism.layout(), kept.len());
+        let n = layout.n_v + r;
+        let memory = Memory {
+            a: vec![0.0; layout.n_v],
+            vd: vec![0.0; layout.n_v],
+            lambda: vec![0.0; r],
+        };
+        Self {
+            mechanism,
+            s: mechanism.scratch(),
+            derivatives: mechanism.derivatives(),
+            kept: kept.to_vec(),
+            matrix: Matrix::zeros(n, n),
+            lu: Lu::new(n),
+            from: memory.clone(),
+            to: memory,
+            before: None,
+            f0: vec![0.0; layout.n_q + layout.n_v],
+            f1: vec![0.0; layout.n_q + layout.n_v],
+            x: vec![0.0; n],
+        }
+    }
+
+    /// Positions and velocities at the end, and a there, from v' there.
+    fn move_to_end(&mut self, trial: &Trial<'_>, a0: &[f64], y1: &mut [f64]) {
+        let (h, n_q) = (trial.h, self.mechanism.layout().n_q);
+        let (q0, v0) = trial.y0.split_at(n_q);
+        let (q1, v1) = y1.split_at_mut(n_q);
+        let mut d = vec![0.0; v0.len()];
+        for i in 0..v0.len() {
+            let vd = (1.0 - ALPHA_F) * self.to.vd[i] + ALPHA_F * self.from.vd[i];
+            let a1 = (vd - ALPHA_M * a0[i]) / (1.0 - ALPHA_M);
+            self.to.a[i] = a1;
+            d[i] = h * (v0[i] + h * ((0.5 - BETA) * a0[i] + BETA * a1));
+            v1[i] = v0[i] + h * ((1.0 - GAMMA) * a0[i] + GAMMA * a1);
+        }
+        q1.copy_from_slice(q0);
+        self.mechanism.displace(q1, &d);
+    }
+
+    /// Factors `[M + c_v·D + c_q·K, C_Kᵀ; C_K, 0]` with `D = −∂Q/∂v`, `K = ∂(Cᵀ·λ − Q)/∂q`.
+    fn factor(&mut self, t: f64, y: &[f64], [c_v, c_q]: [f64; 2]) -> Result<(), Fault> {
+        let (mechanism, layout) = (self.mechanism, self.mechanism.layout());
+        let (n, (q, v)) = (layout.n_v, y.split_at(layout.n_q));
+        mechanism.pose(t, q, &mut self.s);
+        mechanism.c(&mut self.s);
+        mechanism.twist(v, &mut self.s);
+        let mut lambda = vec![0.0; layout.rows()];
+        for (&i, l) in self.kept.iter().zip(&self.to.lambda) {
+            lambda[i] = *l;
+        }
+        mechanism.differentiate(&self.to.vd, &lambda, &self.s, &mut self.derivatives);
+        self.matrix.as_mut_slice().fill(0.0);
+        for (i, m) in mechanism.mass().iter().enumerate() {
+            self.matrix[(i, i)] = *m;
+        }
+        for (k, &i) in self.kept.iter().enumerate() {
+            for (column, c) in layout.row(&self.s, i) {
+                self.matrix[(n + k, column)] += c;
+                self.matrix[(column, n + k)] += c;
+            }
+        }
+        let d = &self.derivatives;
+        let parts = [
+            (&d.force_dv, -c_v),
+            (&d.force_dq, -c_q),
+            (&d.reaction_dq, c_q),
+        ];
+        for (part, weight) in parts {
+            for (i, j, value) in part.iter() {
+                self.matrix[(i, j)] += weight * value;
+            }
+        }
+        let matrix = &self.matrix;
+        let factored = self.lu.factor(|i, j| matrix[(i, j)]);
+        factored.map_err(|_| Fault::Newton)
+    }
+
+    /// Minus the residuals, rows of constraints divided by what v'1 changes in them.
+    fn residual(&mut self, t: f64, y: &[f64], [c_v, c_q]: [f64; 2]) {
+        let (mechanism, layout) = (self.mechanism, self.mechanism.layout());
+        let (n, (q, v)) = (layout.n_v, y.split_at(layout.n_q));
+        mechanism.pose(t, q, &mut self.s);
+        mechanism.phi(&mut self.s);
+        mechanism.c(&mut self.s);
+        mechanism.b(&mut self.s);
+        mechanism.twist(v, &mut self.s);
+        mechanism.force(&mut self.s);
+        for (i, m) in mechanism.mass().iter().enumerate() {
+            self.x[i] = self.s.force[i] - m * self.to.vd[i];
+        }
+        for (k, (&i, l)) in self.kept.iter().zip(&self.to.lambda).enumerate() {
+            for (column, c) in layout.row(&self.s, i) {
+                self.x[column] -= c * l;
+            }
+            self.x[n + k] = match self.s.phi.get(i) {
+                Some(phi) => -phi / c_q,
+                None => -layout.velocity_residual(&self.s, i, v) / c_v,
+            };
+        }
+    }
+}
+
+impl Stepper for GeneralizedAlpha<'_> {
+    fn restart(&mut self) {
+        self.before = None;
+        self.from.lambda.fill(0.0);
+    }
+
+    fn step(
+        &mut self,
+        ode: &mut Equations<'_>,
+        trial: &Trial<'_>,
+        y1: &mut [f64],
+    ) -> Result<f64, Fault> {
+        let (h, n_q, n_v) = (trial.h, self.mechanism.layout().n_q, self.to.vd.len());
+        let (c, t1) = ([h * GAMMA * SHARE, h * h * BETA * SHARE], trial.time(1.0));
+        let a0 = match &self.before {
+            Some((h_before, jerk, _)) => {
+                for i in 0..n_v {
+                    self.to.vd[i] = self.from.vd[i] + h * jerk[i];
+                }
+                let moved = self.from.a.iter().zip(jerk);
+                moved
+                    .map(|(a, jerk)| a - LAG * (h - h_before) * jerk)
+                    .collect()
+            }
+            None => {
+                self.from.vd.copy_from_slice(&trial.f0[n_q..]);
+                self.to.vd.copy_from_slice(&trial.f0[n_q..]);
+                trial.f0[n_q..].to_vec()
+            }
+        };
+        self.to.lambda.copy_from_slice(&self.from.lambda);
+        self.f0.copy_from_slice(trial.f0);
+        self.move_to_end(trial, &a0, y1);
+        self.factor(t1, y1, c)?;
+        let (mut iterations, mut before) = (0, f64::INFINITY);
+        loop {
+            self.residual(t1, y1, c);
+            self.lu.solve(&mut self.x);
+            for (vd, x) in self.to.vd.iter_mut().zip(&self.x) {
+                *vd += x;
+            }
+            for (l, x) in self.to.lambda.iter_mut().zip(&self.x[n_v..]) {
+                *l += x;
+            }
+            self.move_to_end(trial, &a0, y1);
+            // What the increment has changed, against the tolerance and the rounding of the largest coordinate.
+            let largest = y1.iter().fold(1.0, |a: f64, y| a.max(y.abs()));
+            let of = |c: f64| {
+                self.x[..n_v]
+                    .iter()
+                    .fold(0.0, |a: f64, x| a.max((c * x).abs()))
+            };
+            let size = of(c[1]).max(of(c[0]) * (c[1] / c[0]).min(1.0)) / largest;
+            iterations += 1;
+            let is_noise = size >= before && before <= 1e3 * ROUNDING;
+            if size <= (PERMITTED * trial.tolerance).max(ROUNDING) || is_noise {
+                break;
+            }
+            if iterations == ITERATIONS || !size.is_finite() {
+                return Err(Fault::Newton);
+            }
+            before = size;
+        }
+        // The error is C·h³·y''', from y' at both ends and at the start of the step before, or in the middle.
+        ode.rhs(t1, y1, &mut self.f1)?;
+        let mut third = vec![0.0; y1.len()];
+        if let Some((h_before, _, f_before)) = &self.before {
+            for (i, d) in third.iter_mut().enumerate() {
+                let slope = (self.f1[i] - trial.f0[i]) / h;
+                let slope_before = (trial.f0[i] - f_before[i]) / h_before;
+                *d = 2.0 * (slope - slope_before) / (h + h_before);
+            }
+        } else {
+            let y = trial.y0.iter().zip(trial.f0).zip(&self.f1);
+            let middle: Vec<f64> = y
+                .map(|((y, f0), f1)| y + h * (0.375 * f0 + 0.125 * f1))
+                .collect();
+            ode.rhs(trial.time(0.5), &middle, &mut third)?;
+            for (i, d) in third.iter_mut().enumerate() {
+                *d = 4.0 * (trial.f0[i] - 2.0 * *d + self.f1[i]) / (h * h);
+            }
+        }
+        for (i, d) in third.iter_mut().enumerate() {
+            *d *= h * h * h * if i < n_q { OF_POSITION } else { OF_VELOCITY };
+        }
+        Ok(trial.norm(&third, y1))
+    }
+
+    /// For an estimate of order 2 of a method of order 2.
+    fn next_size(&mut self, h: f64, error: f64, is_accepted: bool) -> f64 {
+        if is_accepted {
+            let slopes = self.to.vd.iter().zip(&self.from.vd);
+            let jerk = slopes.map(|(to, from)| (to - from) / h).collect();
+            self.before = Some((h, jerk, self.f0.clone()));
+            std::mem::swap(&mut self.from, &mut self.to);
+        }
+        let factor = 0.9 * error.max(f64::MIN_POSITIVE).powf(-1.0 / 3.0);
+        h * factor.clamp(0.2, if is_accepted { 3.0 } else { 0.9 })
+    }
+}

@@ -1,0 +1,146 @@
+//! All rows by proximal iterations (an augmented Lagrangian), tuned once:
+//!
+//! ```text
+//! (M + C̃ᵀ·C̃/μ)·δ = f − M·a − C̃ᵀ·(λ̃ + (C̃·a − γ̃)/μ),   a ← a + δ,   λ̃ ← λ̃ + (C̃·a − γ̃)/μ,   C̃ = W·C
+//! ```
+//!
+//! W makes the diagonal of C̃·M⁻¹·C̃ᵀ one; μ compares with its eigenvalues σ². A direction σ is off by the share `(μ/(μ + σ²))^k` after k iterations; one
+//! that is zero on the constraints and δ off them gives accelerations of `k·δ²/μ`: a smaller μ is worse there, not better. No rank enters a solve. Source:
+//! J. Carpentier, R. Budhiraja, N. Mansard, Proximal and sparse resolution of constrained dynamic equations, Robotics: Science and Systems XVII
+//! (2021).
+
+use linalg::{Lu, Matrix, singular_values};
+
+use super::{Fault, Saddle, Solver, dot};
+
+/// μ lies this far below σ_r²: eleven times more accurate with each iteration.
+const DECADE: f64 = 0.1;
+
+/// Smallest mass that tuning divides by, relative to the largest: masses that vanish move with others.
+const LEAST_MASS: f64 = 1e-12;
+
+/// μ and the number of iterations.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tuning {
+    /// μ, compared with the eigenvalues of C̃·M⁻¹·C̃ᵀ.
+    pub mu: f64,
+    /// k
+    pub iterations: usize,
+}
+
+impl Tuning {
+    /// μ a decade below σ_r², and as many iterations as leave the share `tolerance` of the slowest direction.
+    ///
+    /// ```
+    /// let tuning = lab::comparators::Tuning::rule(4e-3, 1e-8);
+    /// assert!((tuning.mu - 4e-4).abs() < 1e-18);
+    /// assert_eq!(tuning.iterations, 8); // 11⁻⁸ = 4.7e-9
+    /// ```
+    #[must_use]
+    pub fn rule(sigma_squared: f64, tolerance: f64) -> Self {
+        let share = DECADE / (1.0 + DECADE);
+        let tolerance = tolerance.clamp(f64::EPSILON, share);
+        Self {
+            mu: DECADE * sigma_squared.min(1.0),
+            iterations: (tolerance.ln() / share.ln()).ceil() as usize,
+        }
+    }
+}
+
+/// A solver of all rows, of any rank.
+pub struct Proximal {
+    tuning: Tuning,
+    /// Diagonal of W.
+    weights: Vec<f64>,
+}
+
+impl Proximal {
+    /// Weights and tuning that reach a relative `tolerance` at rows C of this rank, where the masses are these.
+    ///
+    /// # Errors
+    /// [`Fault::RankLost`].
+    pub fn new(c: &Matrix, mass: &[f64], rank: usize, tolerance: f64) -> Result<Self, Fault> {
+        let least = LEAST_MASS * mass.iter().fold(0.0, |a: f64, m| a.max(*m));
+        let mobility = |i: usize| {
+            let terms = c.row(i).iter().zip(mass);
+            terms.map(|(c, m)| c * c / m.max(least)).sum::<f64>()
+        };
+        let weight = |i: usize| match mobility(i) {
+            0.0 => 1.0,
+            mobility => mobility.sqrt().recip(),
+        };
+        let weights: Vec<f64> = (0..c.nrows()).map(weight).collect();
+        let whitened = Matrix::from_fn(c.nrows(), c.ncols(), |i, j| {
+            weights[i] * c[(i, j)] / mass[j].max(least).sqrt()
+        });
+        let sigma = match rank.checked_sub(1) {
+            None => 1.0,
+            Some(last) => singular_values(&whitened).get(last).copied().unwrap_or(0.0),
+        };
+        if sigma <= f64::EPSILON {
+            return Err(Fault::RankLost { rank });
+        }
+        Ok(Self::with_tuning(
+            Tuning::rule(sigma * sigma, tolerance),
+            weights,
+        ))
+    }
+
+    /// The same with a tuning and weights of the caller's.
+    #[must_use]
+    pub fn with_tuning(tuning: Tuning, weights: Vec<f64>) -> Self {
+        Self { tuning, weights }
+    }
+
+    /// μ and the number of iterations.
+    #[must_use]
+    pub fn tuning(&self) -> Tuning {
+        self.tuning
+    }
+}
+
+impl Solver for Proximal {
+    fn solve(&mut self, at: &Saddle<'_>, a: &mut [f64], lambda: &mut [f64]) -> Result<(), Fault> {
+        let (m, n, mu) = (at.c.nrows(), at.c.ncols(), self.tuning.mu);
+        let rows = Matrix::from_fn(m, n, |i, j| self.weights[i] * at.c[(i, j)]);
+        let mut matrix = Matrix::zeros(n, n);
+        for (i, mass) in at.mass.iter().enumerate() {
+            matrix[(i, i)] = *mass;
+        }
+        for k in 0..m {
+            let row = rows.row(k);
+            for i in (0..n).filter(|&i| row[i] != 0.0) {
+                for (entry, c) in matrix.row_mut(i).iter_mut().zip(row) {
+                    *entry += row[i] * c / mu;
+                }
+            }
+        }
+        let mut lu = Lu::new(n);
+        lu.factor(|i, j| matrix[(i, j)])
+            .map_err(|_| Fault::Massless)?;
+        a.fill(0.0);
+        lambda.fill(0.0);
+        let missed =
+            |k: usize, a: &[f64]| (dot(rows.row(k), a) - self.weights[k] * at.gamma[k]) / mu;
+        for _ in 0..self.tuning.iterations {
+            let mut left: Vec<f64> = (0..n).map(|i| at.force[i] - at.mass[i] * a[i]).collect();
+            for k in 0..m {
+                let pull = lambda[k] + missed(k, a);
+                for (left, c) in left.iter_mut().zip(rows.row(k)) {
+                    *left -= pull * c;
+                }
+            }
+            lu.solve(&mut left);
+            for (a, d) in a.iter_mut().zip(&left) {
+                *a += d;
+            }
+            for (k, l) in lambda.iter_mut().enumerate() {
+                *l += missed(k, a);
+            }
+        }
+        for (l, w) in lambda.iter_mut().zip(&self.weights) {
+            *l *= w;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,334 @@
+//! Runs of comparators: from a prepared mechanism to rows at given times.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use dynamics::Prepared;
+use integrators::{
+    Cause, Dop853, Dopri5, IntegrationError, Interval, Ode, Options, OutputTimes, Tsit5, sample,
+};
+use model::{Reaction, System};
+
+use super::equations::Equations;
+use super::gbs::Gbs;
+use super::generalized_alpha::GeneralizedAlpha;
+use super::stepping::{Stepper, Steps, drive};
+use super::{Fault, KeptRows, MinimumNorm, NullSpace, Proximal, Solver};
+
+/// How redundant rows are dealt with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Formulation {
+    /// Independent rows, those of the start.
+    KeptRows,
+    /// A basis of the motions that C allows.
+    NullSpace,
+    /// All rows by a complete orthogonal decomposition.
+    MinimumNorm,
+    /// All rows by proximal iterations, tuned at the start to the tolerance of the run.
+    Proximal,
+}
+
+impl Formulation {
+    /// All of them.
+    pub const ALL: [Self; 4] = [
+        Self::KeptRows,
+        Self::NullSpace,
+        Self::MinimumNorm,
+        Self::Proximal,
+    ];
+
+    /// Its name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::KeptRows => "kept-rows",
+            Self::NullSpace => "null-space",
+            Self::MinimumNorm => "minimum-norm",
+            Self::Proximal => "proximal",
+        }
+    }
+}
+
+/// How the equations are integrated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// Dormand–Prince 8(5,3).
+    Dop853,
+    /// Dormand–Prince 5(4).
+    Dopri5,
+    /// Tsitouras 5(4).
+    Tsit5,
+    /// Extrapolated midpoint rule, order 4 to 18.
+    Gbs,
+    /// Generalized-α on positions and kept rows, order 2; the formulation gives the first accelerations and those of rows.
+    GeneralizedAlpha,
+}
+
+impl Method {
+    /// All of them.
+    pub const ALL: [Self; 5] = [
+        Self::Dop853,
+        Self::Dopri5,
+        Self::Tsit5,
+        Self::Gbs,
+        Self::GeneralizedAlpha,
+    ];
+
+    /// Its name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Dop853 => "dop853",
+            Self::Dopri5 => "dopri5",
+            Self::Tsit5 => "tsit5",
+            Self::Gbs => "gbs",
+            Self::GeneralizedAlpha => "generalized-alpha",
+        }
+    }
+}
+
+/// What is done about drift off the constraints.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Drift {
+    /// States are projected in the metric of the masses after each step.
+    Projection,
+    /// Accelerations pull back: `Γ − 2α·(C·v − b) − β²·Φ`, and `Γ − α·(C·v − b)` for nonholonomic rows.
+    Baumgarte {
+        /// α (1/s)
+        alpha: f64,
+        /// β (1/s)
+        beta: f64,
+    },
+    /// Nothing.
+    None,
+}
+
+impl Drift {
+    /// Baumgarte's method with gains of 5/s.
+    pub const BAUMGARTE: Self = Self::Baumgarte {
+        alpha: 5.0,
+        beta: 5.0,
+    };
+
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Projection, Self::BAUMGARTE, Self::None];
+
+    /// Its name in tables.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Projection => "projection",
+            Self::Baumgarte { .. } => "baumgarte",
+            Self::None => "none",
+        }
+    }
+}
+
+/// A way to move a mechanism.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Way {
+    /// Treatment of redundancy.
+    pub formulation: Formulation,
+    /// Integrator.
+    pub method: Method,
+    /// Treatment of drift.
+    pub drift: Drift,
+}
+
+/// A state of a run, with what follows from it.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Time (s).
+    pub t: f64,
+    /// Coordinates, velocities, accelerations.
+    pub q: Vec<f64>,
+    /// Velocities.
+    pub v: Vec<f64>,
+    /// Accelerations.
+    pub a: Vec<f64>,
+    /// Reactions of all joints and drives; those that are not unique belong to the formulation.
+    pub reactions: Vec<Reaction>,
+}
+
+/// A finished run.
+#[derive(Clone, Debug, Default)]
+pub struct Run {
+    /// One row for each time that was asked for.
+    pub rows: Vec<Row>,
+    /// Accepted and rejected steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Accelerations solved for, rows included.
+    pub evaluations: u64,
+    /// Projected states.
+    pub projections: u64,
+    /// Run time (s).
+    pub seconds: f64,
+}
+
+/// When a run is given up.
+pub(super) struct Limits<'a> {
+    pub(super) tolerance: f64,
+    /// Steps at most.
+    pub(super) steps: u64,
+    stop: &'a dyn Fn() -> bool,
+}
+
+impl Limits<'_> {
+    pub(super) fn check(&self, time: f64, steps: Steps) -> Result<(), Fault> {
+        let made = steps.accepted + steps.rejected;
+        match made >= self.steps || (self.stop)() {
+            true => Err(Fault::TooManySteps { time, steps: made }),
+            false => Ok(()),
+        }
+    }
+}
+
+/// Steps of a run at most.
+const MOST_STEPS: u64 = 1_000_000;
+
+/// Moves a prepared mechanism from t = 0 to the last of `times` (s; ascending and > 0), at a tolerance that is relative and absolute.
+///
+/// # Errors
+/// Why it did not reach the end.
+pub fn run(prepared: &Prepared, way: Way, tolerance: f64, times: &[f64]) -> Result<Run, Fault> {
+    run_within(prepared, way, tolerance, times, Duration::MAX)
+}
+
+/// The same, given up with [`Fault::TooManySteps`] once it takes longer than `budget`.
+///
+/// # Errors
+/// As [`run`].
+pub fn run_within(
+    prepared: &Prepared,
+    way: Way,
+    tolerance: f64,
+    times: &[f64],
+    budget: Duration,
+) -> Result<Run, Fault> {
+    let rank = prepared.decision.rank;
+    let kept = &prepared.decision.kept;
+    let n = prepared.mechanism.layout().n_v;
+    let mut equations = Equations::new(prepared, way.drift, |c, mass| {
+        Ok(match way.formulation {
+            Formulation::KeptRows => Box::new(KeptRows::new(n, kept)?) as Box<dyn Solver>,
+            Formulation::NullSpace => Box::new(NullSpace::new(rank)),
+            Formulation::MinimumNorm => Box::new(MinimumNorm::new(rank)),
+            Formulation::Proximal => Box::new(Proximal::new(c, mass, rank, tolerance)?),
+        })
+    })?;
+    let clock = Instant::now();
+    let stop = || clock.elapsed() > budget;
+    let y0 = [prepared.q.as_slice(), &prepared.v].concat();
+    let limits = Limits {
+        tolerance,
+        steps: MOST_STEPS,
+        stop: &stop,
+    };
+    let mut rows = Vec::with_capacity(times.len());
+    let show = |equations: &mut Equations<'_>, t: f64, y: &[f64]| {
+        let mut row = observed(equations, t, y)?;
+        row.t = times.get(rows.len()).copied().unwrap_or(t);
+        rows.push(row);
+        Ok(())
+    };
+    let dim = equations.dim();
+    let mut own: Box<dyn Stepper + '_> = match way.method {
+        Method::Gbs => Box::new(Gbs::new(dim, tolerance)),
+        _ => Box::new(GeneralizedAlpha::new(&prepared.mechanism, kept)),
+    };
+    let steps = match way.method {
+        Method::Dop853 => integrated(&Dop853, &mut equations, &y0, times, &limits, show)?,
+        Method::Dopri5 => integrated(&Dopri5, &mut equations, &y0, times, &limits, show)?,
+        Method::Tsit5 => integrated(&Tsit5, &mut equations, &y0, times, &limits, show)?,
+        Method::Gbs | Method::GeneralizedAlpha => {
+            drive(&mut *own, &mut equations, y0, times, &limits, show)?
+        }
+    };
+    Ok(Run {
+        rows,
+        steps: steps.accepted + steps.rejected,
+        rejected: steps.rejected,
+        evaluations: equations.evaluations,
+        projections: equations.projections,
+        seconds: clock.elapsed().as_secs_f64(),
+    })
+}
+
+/// The row of a state, projected where states are.
+fn observed(equations: &mut Equations<'_>, t: f64, y: &[f64]) -> Result<Row, Fault> {
+    let mut y = y.to_vec();
+    equations.end(t, &mut y)?;
+    let (q, v) = y.split_at(equations.sizes()[0]);
+    let (a, reactions) = equations.observe(t, q, v)?;
+    Ok(Row {
+        t,
+        q: q.to_vec(),
+        v: v.to_vec(),
+        a,
+        reactions,
+    })
+}
+
+/// By a method of `integrators`.
+fn integrated<'a, M: integrators::Method<Equations<'a>>>(
+    method: &M,
+    equations: &mut Equations<'a>,
+    y0: &[f64],
+    times: &[f64],
+    limits: &Limits<'_>,
+    mut show: impl FnMut(&mut Equations<'a>, f64, &[f64]) -> Result<(), Fault>,
+) -> Result<Steps, Fault> {
+    let mechanism = equations.mechanism();
+    let breaks = &mechanism.layout().break_times;
+    let interval = Interval {
+        t0: 0.0,
+        t_end: times.last().copied().unwrap_or(0.0),
+        break_times: breaks,
+    };
+    let options = Options {
+        max_steps: limits.steps,
+        ..Options::with_tolerance(limits.tolerance, limits.tolerance)
+    };
+    let mut refused = None;
+    let wanted = OutputTimes::At(times.to_vec());
+    let outcome = sample(
+        method,
+        equations,
+        &interval,
+        y0,
+        &options,
+        &wanted,
+        |e, t, y| {
+            // A row at a break time is that just before.
+            let t = if breaks.contains(&t) {
+                t.next_down()
+            } else {
+                t
+            };
+            let shown = show(e, t, y).and_then(|()| limits.check(t, Steps::default()));
+            match shown {
+                Ok(()) => ControlFlow::Continue(()),
+                Err(fault) => {
+                    refused = Some(fault);
+                    ControlFlow::Break(())
+                }
+            }
+        },
+    );
+    match (refused, outcome) {
+        (Some(fault), _) => Err(fault),
+        (None, Ok(outcome)) => Ok(Steps {
+            accepted: outcome.statistics.accepted,
+            rejected: outcome.statistics.rejected(),
+        }),
+        (None, Err(failure)) => Err(match failure.error {
+            IntegrationError::StepSizeCollapsed {
+                cause: Cause::Problem(fault),
+                ..
+            } => fault,
+            other => Fault::Integration(other.to_string()),
+        }),
+    }
+}

@@ -1,0 +1,160 @@
+//! The loop of steps for methods with steppers of their own. Steps end at all times that are asked for, and at break times.
+
+use integrators::Ode;
+use model::System;
+
+use super::equations::Equations;
+use super::{Fault, run::Limits};
+
+/// The first step, as share of the time there is.
+const FIRST: f64 = 1e-3;
+
+/// Steps shorter than so many roundings of the time are too short.
+const SHORTEST: f64 = 16.0;
+
+/// Step-size factor after a step that could not be made.
+const AFTER_FAILURE: f64 = 0.5;
+
+/// A method with a step of its own.
+pub(super) trait Stepper {
+    /// Forgets the steps before: the solution may jump here.
+    fn restart(&mut self);
+
+    /// Makes the step from (t, y0) with y0' = f0 over h to y1; returns its error, at most 1 if it is good enough.
+    ///
+    /// # Errors
+    /// If there is no such step.
+    fn step(
+        &mut self,
+        equations: &mut Equations<'_>,
+        step: &Trial<'_>,
+        y1: &mut [f64],
+    ) -> Result<f64, Fault>;
+
+    /// The size of the next step after one of this size and error, which was accepted or not.
+    fn next_size(&mut self, h: f64, error: f64, is_accepted: bool) -> f64;
+}
+
+/// One trial.
+pub(super) struct Trial<'a> {
+    /// Start and size (s); the last time at which the equations are those of the step.
+    pub(super) t: f64,
+    pub(super) h: f64,
+    pub(super) last: f64,
+    /// Whether the step is not of the size that was wanted.
+    pub(super) is_cut: bool,
+    pub(super) y0: &'a [f64],
+    pub(super) f0: &'a [f64],
+    /// Relative and absolute.
+    pub(super) tolerance: f64,
+}
+
+impl Trial<'_> {
+    /// The time at the share c of the step.
+    pub(super) fn time(&self, c: f64) -> f64 {
+        (self.t + c * self.h).min(self.last)
+    }
+
+    /// `√(1/n · Σ (d/scale)²)` with scale = tolerance·(1 + max(|y0|, |y1|)).
+    pub(super) fn norm(&self, d: &[f64], y1: &[f64]) -> f64 {
+        let terms = d.iter().zip(self.y0.iter().zip(y1));
+        let sum: f64 = terms
+            .map(|(d, (y0, y1))| {
+                let share = d / (self.tolerance * (1.0 + y0.abs().max(y1.abs())));
+                share * share
+            })
+            .sum();
+        (sum / d.len().max(1) as f64).sqrt()
+    }
+}
+
+/// Accepted and rejected steps.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Steps {
+    pub(super) accepted: u64,
+    pub(super) rejected: u64,
+}
+
+/// Integrates from t = 0 and shows the states at `times`, ascending and > 0.
+///
+/// # Errors
+/// Where steps become too short or too many, and whatever `show` returns.
+pub(super) fn drive(
+    stepper: &mut dyn Stepper,
+    equations: &mut Equations<'_>,
+    mut y: Vec<f64>,
+    times: &[f64],
+    limits: &Limits<'_>,
+    mut show: impl FnMut(&mut Equations<'_>, f64, &[f64]) -> Result<(), Fault>,
+) -> Result<Steps, Fault> {
+    let end = times.last().copied().unwrap_or(0.0);
+    let breaks = &equations.mechanism().layout().break_times;
+    let inside = breaks.iter().copied().filter(|t| *t > 0.0 && *t < end);
+    let mut stops: Vec<f64> = times.iter().copied().chain(inside).collect();
+    stops.sort_by(f64::total_cmp);
+    stops.dedup();
+    let (mut t, mut wanted, mut steps) = (0.0, FIRST * end, Steps::default());
+    let (mut f, mut y1) = (vec![0.0; y.len()], y.clone());
+    let mut is_fresh = true;
+    for stop in stops {
+        let is_break = breaks.contains(&stop);
+        let last = if is_break { stop.next_down() } else { stop };
+        while t < stop {
+            if is_fresh {
+                stepper.restart();
+                let now = if breaks.contains(&t) { t.next_up() } else { t };
+                equations.rhs(now, &y, &mut f)?;
+                is_fresh = false;
+            }
+            limits.check(t, steps)?;
+            let is_last = t + 1.01 * wanted >= stop;
+            let h = if is_last { stop - t } else { wanted };
+            let trial = Trial {
+                t,
+                h,
+                last,
+                is_cut: is_last,
+                y0: &y,
+                f0: &f,
+                tolerance: limits.tolerance,
+            };
+            let end = trial.time(1.0);
+            let made = stepper.step(equations, &trial, &mut y1).and_then(|error| {
+                if error <= 1.0 {
+                    equations.end(end, &mut y1)?;
+                }
+                Ok(error)
+            });
+            match made {
+                Ok(error) if error <= 1.0 => {
+                    let next = stepper.next_size(h, error, true);
+                    // A step that was cut short says little about the next one.
+                    wanted = if is_last { next.max(wanted) } else { next };
+                    steps.accepted += 1;
+                    t = if is_last { stop } else { t + h };
+                    y.copy_from_slice(&y1);
+                    equations.rhs(end, &y, &mut f)?;
+                }
+                Ok(error) => {
+                    wanted = stepper.next_size(h, error, false);
+                    steps.rejected += 1;
+                }
+                Err(_) => {
+                    wanted = AFTER_FAILURE * h;
+                    steps.rejected += 1;
+                }
+            }
+            if wanted.is_nan() || wanted < SHORTEST * f64::EPSILON * end {
+                return Err(made.err().unwrap_or(Fault::StepTooShort { time: t }));
+            }
+        }
+        if times.contains(&stop) {
+            show(equations, last, &y)?;
+        }
+        if is_break {
+            equations.at_break(stop.next_up(), &mut y)?;
+            is_fresh = true;
+        }
+    }
+    Ok(steps)
+}

@@ -1,0 +1,172 @@
+//! Every way against motions that are known from elsewhere, and against the product where the mechanism is redundant.
+
+use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
+use lab::comparators::{Drift, Formulation, Method, Way, run};
+use model::{Description, Mechanism, StartOptions, System};
+use std::ops::ControlFlow;
+use stress::mechanisms::cranks::cranks;
+use stress::mechanisms::robot::{robot, steering};
+use suite::{Instant, Quantity};
+
+pub(crate) fn started(d: &Description) -> Prepared {
+    let mechanism = Mechanism::build(d).expect("builds");
+    prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts")
+}
+
+/// A case of the suite, at its start.
+fn case(name: &str) -> (Prepared, Vec<Instant>) {
+    let case = suite::find(name).expect("a case");
+    let registry = model::Registry::planar();
+    let study = pfaff::Study::read(
+        case.name,
+        case.scene,
+        &registry,
+        &pfaff::Overrides::default(),
+    );
+    let instants = case.reference().instants;
+    let later = instants.into_iter().filter(|i| i.t > 0.0).collect();
+    (study.expect("starts").prepared, later)
+}
+
+/// The largest difference from the coordinates and velocities that are known.
+fn off(p: &Prepared, row: &lab::comparators::Row, instant: &Instant) -> f64 {
+    assert_eq!(row.t, instant.t);
+    let mechanism = &p.mechanism;
+    let coordinate = |of: &str, name: &str| {
+        (0..mechanism.layout().n_v).find(|&k| mechanism.coordinate(k) == (of, name))
+    };
+    let mut worst = 0.0_f64;
+    for fact in &instant.facts {
+        let (of, name) = match fact.quantity {
+            Quantity::X | Quantity::Vx => (&fact.of, "x"),
+            Quantity::Y | Quantity::Vy => (&fact.of, "y"),
+            Quantity::Angle | Quantity::Omega => (&fact.of, "angle"),
+            _ => continue,
+        };
+        let Some(k) = coordinate(of, name) else {
+            continue;
+        };
+        let found = match fact.quantity {
+            Quantity::X | Quantity::Y | Quantity::Angle => row.q[k],
+            _ => row.v[k],
+        };
+        worst = worst.max((found - fact.value).abs());
+    }
+    worst
+}
+
+/// Every formulation with projection, by every method; then every treatment of drift by one method. Not proximal iterations without any: a
+/// redundant row that is off by δ accelerates by k·δ²/μ there, so that drift feeds itself.
+fn ways() -> Vec<Way> {
+    let mut ways = Vec::new();
+    for formulation in Formulation::ALL {
+        for method in Method::ALL {
+            let drift = Drift::Projection;
+            ways.push(Way {
+                formulation,
+                method,
+                drift,
+            });
+        }
+        for drift in [Drift::BAUMGARTE, Drift::None] {
+            if (formulation, drift) == (Formulation::Proximal, Drift::None) {
+                continue;
+            }
+            let method = Method::Dop853;
+            ways.push(Way {
+                formulation,
+                method,
+                drift,
+            });
+        }
+    }
+    ways
+}
+
+/// Errors of a run at a tolerance: factors of it for the good methods, its power 2/3 for order 2.
+fn bound(way: Way, tolerance: f64, factor: f64) -> f64 {
+    match way.method {
+        Method::GeneralizedAlpha => factor * tolerance.powf(2.0 / 3.0),
+        _ => factor * tolerance,
+    }
+}
+
+/// Order 2 would need a million steps.
+fn tolerance(way: Way) -> f64 {
+    match way.method {
+        Method::GeneralizedAlpha => 1e-6,
+        _ => 1e-9,
+    }
+}
+
+fn check(name: &str, factor: f64) {
+    let (p, instants) = case(name);
+    let times: Vec<f64> = instants.iter().map(|i| i.t).collect();
+    for way in ways() {
+        let found = run(&p, way, tolerance(way), &times)
+            .unwrap_or_else(|e| panic!("{name} by {way:?}: {e}"));
+        assert_eq!(found.rows.len(), times.len());
+        let errors = found.rows.iter().zip(&instants).map(|(r, i)| off(&p, r, i));
+        let error = errors.fold(0.0, f64::max);
+        let bound = bound(way, tolerance(way), factor);
+        assert!(error < bound, "{name} by {way:?}: {error:.1e}, {bound:.1e}");
+        assert!(error > 0.0, "{name} by {way:?} knows the answer");
+    }
+}
+
+#[test]
+fn three_cranks_move_as_elliptic_functions_say() {
+    check("three-cranks", 300.0);
+}
+
+#[test]
+fn the_sleigh_moves_as_its_closed_form_says() {
+    check("sleigh", 300.0);
+}
+
+#[test]
+fn the_robot_moves_as_two_derivations_say() {
+    check("robot-trolley", 3000.0);
+}
+
+/// The last state of the product's motion.
+pub(crate) fn product(p: &Prepared, t_end: f64, tolerance: f64) -> (Vec<f64>, Vec<f64>) {
+    let options = MotionOptions {
+        rtol: tolerance,
+        atol: tolerance,
+        output_step: t_end,
+        ..MotionOptions::to(t_end)
+    };
+    let mut end = (Vec::new(), Vec::new());
+    simulate(p, &options, |row| {
+        end = (row.q.to_vec(), row.v.to_vec());
+        Ok(ControlFlow::Continue(()))
+    })
+    .expect("moves");
+    end
+}
+
+pub(crate) fn gap(a: &[f64], b: &[f64]) -> f64 {
+    let gaps = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+    gaps.fold(0.0, f64::max)
+}
+
+/// Three cranks under gravity and the robot with its drive and break times, both redundant; reactions that are unique are those of the product.
+#[test]
+fn redundant_mechanisms_move_as_the_product_moves_them() {
+    let mut swinging = cranks(&[-0.8, 0.0, 0.8], 0.5, -1.0);
+    swinging.gravity = [0.0, -9.81];
+    for (name, d, t_end) in [("cranks", swinging, 2.0), ("robot", robot(steering()), 3.0)] {
+        let p = started(&d);
+        assert!(p.decision.redundancy > 0);
+        let (q, v) = product(&p, t_end, 1e-12);
+        for way in ways() {
+            let found = run(&p, way, tolerance(way), &[t_end])
+                .unwrap_or_else(|e| panic!("{name} by {way:?}: {e}"));
+            let row = &found.rows[0];
+            let error = gap(&row.q, &q).max(gap(&row.v, &v));
+            let bound = bound(way, tolerance(way), 3000.0);
+            assert!(error < bound, "{name} by {way:?}: {error:.1e}");
+        }
+    }
+}

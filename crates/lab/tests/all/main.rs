@@ -1,0 +1,6 @@
+//! Every comparator against known motions and against the product.
+
+mod formulations;
+mod known;
+mod methods;
+mod solvers;
