@@ -122,3 +122,30 @@ fn every_module_says_what_it_is_for() {
         assert!(described, "{} does not begin with `//!`", path.display());
     }
 }
+
+/// Columns of a line of comment; tables, addresses and code of examples may be wider.
+const COLUMNS: usize = 100;
+
+#[test]
+fn comments_are_read_without_scrolling() {
+    let mut files = Vec::new();
+    sources(root(), &mut files);
+    let mut wide = Vec::new();
+    for path in files {
+        let text = fs::read_to_string(&path).expect("readable");
+        let mut is_code = false;
+        for (k, line) in text.lines().enumerate() {
+            let Some(comment) = line.trim_start().strip_prefix("//") else {
+                is_code = false;
+                continue;
+            };
+            let comment = comment.trim_start_matches(['/', '!']).trim_start();
+            is_code ^= comment.starts_with("```");
+            let may_be_wide = is_code || comment.starts_with('|') || comment.contains("://");
+            if !may_be_wide && line.chars().count() > COLUMNS {
+                wide.push(format!("{}:{}", path.display(), k + 1));
+            }
+        }
+    }
+    assert!(wide.is_empty(), "comments wider than {COLUMNS} columns: {wide:#?}");
+}
