@@ -235,6 +235,9 @@ pub(crate) fn judge(
     let mut found = judge_reactions(mechanism, s, rows, decision)?;
     if let Some(decision) = found.part.decision.dense() {
         let open = linalg::open_rows(decision);
+        if !open.is_empty() {
+            found.warnings.push(words::open(mechanism, &open));
+        }
         let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
         let circuits = linalg::short_circuits(decision).into_iter();
         let dependencies = circuits

@@ -188,6 +188,7 @@ fn certificate(grounds: Grounds) -> Certificate {
         lower_rank_by_angles: false,
         row_data: None,
         row_turn: None,
+        open_rows: Vec::new(),
         has_tolerance: false,
         nearly_redundant: None,
         lower_rank_here: None,
