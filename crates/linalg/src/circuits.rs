@@ -18,7 +18,8 @@ pub struct Circuit {
     pub rows: Vec<usize>,
     /// Coefficients for the rows of C as given, the first largest of them normalised to +1.
     pub coefficients: Vec<f64>,
-    /// The largest coefficient of the equilibrated rows that counts as zero, relative to the largest of all: the rows depend on each other but for this.
+    /// The largest coefficient of the equilibrated rows, relative to the largest of all, that counts as zero within a stated tolerance only; zero where
+    /// none does.
     pub left_out: f64,
 }
 
@@ -170,8 +171,11 @@ fn fundamental(decision: &RankDecision) -> Vec<Sparse> {
         .collect()
 }
 
-/// The largest coefficient that the dependency has by its dropped rows and that is none of these, relative to the largest.
+/// The largest coefficient that the dependency has by its dropped rows, that is none of these and no rounding, relative to the largest.
 fn left_out(decision: &RankDecision, z: &Sparse) -> f64 {
+    if !decision.has_tolerance() {
+        return 0.0;
+    }
     let of = |row: usize| {
         let at = z.binary_search_by_key(&row, |&(row, _)| row);
         at.map_or(0.0, |k| z[k].1)
@@ -180,12 +184,12 @@ fn left_out(decision: &RankDecision, z: &Sparse) -> f64 {
     for (j, &row) in decision.dropped.iter().enumerate() {
         kernels::axpy(of(row), decision.coefficients.row(j), &mut left);
     }
-    let kept = decision.kept.iter().zip(&left);
-    let left = kept
-        .filter(|(row, _)| of(**row) == 0.0)
-        .map(|(_, x)| x.abs());
     let largest = z.iter().fold(0.0_f64, |a, (_, z)| a.max(z.abs()));
-    left.fold(0.0, f64::max) / largest
+    let kept = decision.kept.iter().zip(&left);
+    let left = kept.filter(|(row, _)| of(**row) == 0.0);
+    let left = left.map(|(row, x)| (row, x.abs() / largest));
+    let left = left.filter(|(row, x)| *x > decision.row_rounding(**row));
+    left.fold(0.0, |most, (_, x)| f64::max(most, x))
 }
 
 /// Equilibrated coefficients in the scaling of C, normalised.

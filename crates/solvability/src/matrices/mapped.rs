@@ -20,8 +20,11 @@ const NONE: f64 = 1.0 / 3.0;
 /// A component above this share of its force matters, whatever its direction is known to: the limit of coefficients that are told as none.
 const SMALL: f64 = 1e-3;
 
+/// A component above this multiple of what its direction is known to is one, as for ranks.
+const SOME: f64 = 3.0;
+
 /// Why a component is open that the data do not tell from zero.
-const TURNED: &str = "the direction of the force is known to less than a tenth of a radian: what is zero beside it is not known";
+const TURNED: &str = "the tolerance leaves open whether the force has this component";
 
 /// What the direction of a force, as far as it is known, makes of one of its components.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +33,7 @@ enum Beside {
     Some,
     /// None within the tolerance: what it is, in the unit of margins.
     None { margin: f64 },
-    /// Some or none: the direction is not known to the first order.
+    /// Some or none: too large to be none, and too small to be some.
     Open,
 }
 
@@ -110,7 +113,9 @@ impl<'a> Mapped<'a> {
         let whole = self.sizes[..forces].iter().copied().fold(0.0, f64::hypot);
         for i in 0..forces {
             let share = self.sizes[i] / whole;
-            if turn >= LARGEST_TURN && share > SMALL {
+            // Of larger turns the first order says nothing.
+            let is_near = turn >= LARGEST_TURN || share <= SOME * turn;
+            if share > SMALL && is_near {
                 self.beside[i] = Beside::Open;
             } else if share > 0.0 && share <= NONE * turn {
                 self.beside[i] = Beside::None {
@@ -224,6 +229,33 @@ impl<'a> Mapped<'a> {
         Ok((0..k - rank)
             .map(|j| normalised(direction(j), self.nothing()))
             .collect())
+    }
+
+    /// The largest part of the reaction that counts as zero within a stated tolerance only for the unique directions, in the unit of margins; zero
+    /// where none does.
+    ///
+    /// # Errors
+    /// As [`Mapped::unique_directions`].
+    pub(crate) fn directions_left_out(&self) -> Result<f64, QueryError> {
+        let none = self.beside.iter().map(|beside| match beside {
+            Beside::None { margin } => *margin,
+            _ => 0.0,
+        });
+        if self.wobble.is_none() {
+            return Ok(0.0);
+        }
+        let noise = (0..self.sizes.len()).map(|i| self.noise(i, self.sizes[i]));
+        let (known, rounding) = noise.fold((0.0, 0.0), |(known, rounding), noise| {
+            (
+                f64::max(known, noise.known),
+                f64::max(rounding, noise.rounding),
+            )
+        });
+        let qr = PivotedQr::of_columns(&self.images);
+        let rank = self.basis.clear_rank(&qr, known)?;
+        let left = qr.r_diagonal().skip(rank).map(f64::abs);
+        let left = left.chain(none).filter(|left| *left > rounding);
+        Ok(left.fold(0.0, f64::max))
     }
 
     /// Those of the unique directions that say something: perpendicular to the ones along which the reaction is zero for all multipliers.
