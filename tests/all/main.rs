@@ -33,6 +33,7 @@ mod planted_mechanisms;
 mod robot_trolley;
 mod second_order;
 mod singular_passages;
+mod spaces;
 mod starts;
 mod tally;
 mod three_cranks;

@@ -1,6 +1,6 @@
 //! Commands for developers. `cargo xtask codegen` writes the kernels of all joints and forces from their
-//! definitions; with `--check` it compares and changes nothing; with `--scene` it writes one mechanism as one module. The others measure
-//! and write `docs/reports`.
+//! definitions; with `--check` it compares and changes nothing; with `--scene` it writes one mechanism as one module. `house` counts the
+//! code. The others measure and write `docs/reports`.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod browser;
@@ -8,6 +8,7 @@ mod choices;
 mod codegen;
 mod cold_start;
 mod guards;
+mod house;
 mod right_hand_side;
 mod scene;
 mod tree;
@@ -26,7 +27,9 @@ const USAGE: &str = "usage: cargo xtask COMMAND
   browser [--built]   reports of three scenes in headless Chromium, with pictures; written by a release build, or by what `cargo test` built
   browser --missing   what this machine lacks for it
   cold-start          times of the commands, process included
-  guards              what monitors cost in a run: the same run with them and compiled without";
+  guards              what monitors cost in a run: the same run with them and compiled without
+  house [--json] [--check]
+                      lines of code, large types, circles of modules, numeric constants; with --check the limits, as an error where one is exceeded";
 
 fn main() -> ExitCode {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -47,6 +50,9 @@ fn main() -> ExitCode {
         ["browser", "--missing"] => browser::missing(),
         ["cold-start"] => cold_start::tell(),
         ["guards"] => guards::tell(),
+        ["house", flags @ ..] if flags.iter().all(|f| ["--json", "--check"].contains(f)) => {
+            house::tell(flags.contains(&"--json"), flags.contains(&"--check"))
+        }
         ["help" | "--help" | "-h"] => Ok(USAGE.to_owned()),
         [] => Err(USAGE.to_owned()),
         other => Err(format!("no command `{}`\n{USAGE}", other.join(" "))),

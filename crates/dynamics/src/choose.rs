@@ -89,10 +89,7 @@ fn fastest_rate(prepared: &Prepared) -> Result<f64, Trip> {
     let mut reduced = Reduced::new(&motion);
     let y = [prepared.q.as_slice(), &prepared.v].concat();
     reduced.linearise(&mut motion, 0.0, &y)?;
-    let (columns, places) = reduced.jacobian();
-    let k = places.len();
-    let on_w = Matrix::from_fn(k, k, |i, j| columns[(places[i], j)]);
-    Ok(spectral_radius(&on_w))
+    Ok(spectral_radius(reduced.jacobian()))
 }
 
 /// By growth of a vector under the matrix: the geometric mean, which complex pairs have too.

@@ -84,7 +84,8 @@ pub struct Facts {
 ///
 /// | argument | length | meaning |
 /// | --- | --- | --- |
-/// | `q`, `dq` | n_q | coordinates and their change |
+/// | `q` | n_q | coordinates |
+/// | `dq` | n_v | a displacement of them, see [`model::System::displace`] |
 /// | `v`, `dv`, `a`, `da` | n_v | velocities, accelerations, and their changes |
 /// | `phi` | m | Φ(q, t) of all holonomic rows |
 /// | `residual`, `lambda` | m + h | C·v − b, and multipliers, of all rows |

@@ -105,7 +105,7 @@ pub struct KeptRowMotion<'a> {
     is_unsettled: bool,
     /// What happened at the last accepted steps and has not been told.
     pending: Option<Event>,
-    /// A state before it was completed, n_q.
+    /// A configuration before it was completed, n_q.
     guess: Vec<f64>,
     /// A correction, n_v.
     delta: Vec<f64>,
@@ -383,7 +383,7 @@ impl Motion for KeptRowMotion<'_> {
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, Trip> {
         self.complete_row(t, q, v)?;
         let iterations = self.settle(t, q)?;
-        self.finish(q, v, iterations)
+        self.finish(v, iterations)
     }
 
     fn multipliers(

@@ -50,13 +50,10 @@ impl Mechanism {
         self.pose(t, q, &mut s);
         self.c(&mut s);
         let c = self.layout().dense(&s).select_rows(&kept);
-        let scale: Vec<f64> = kept
-            .iter()
-            .map(|&i| self.position_scale(&s, i, q))
-            .collect();
+        let scale: Vec<f64> = kept.iter().map(|&i| self.position_scale(&s, i)).collect();
         // A correction is small beside the mechanism; counted in radians alone it would turn large bodies first.
         let rotation = scene_size(self, q).powi(-2);
-        let weights: Vec<f64> = (0..q.len())
+        let weights: Vec<f64> = (0..self.layout().n_v)
             .map(|k| if k % N_BODY == 2 { rotation } else { 1.0 })
             .collect();
         let described = q;
@@ -76,7 +73,9 @@ impl Mechanism {
             }
             let missing: Vec<f64> = kept.iter().map(|&i| phi[i].to_f64()).collect();
             let step = least_squares_step(&c, &missing, &weights, 0.0)?;
-            let moved: Vec<Dd> = q.iter().zip(step).map(|(&q, d)| q + Dd::from(d)).collect();
+            let step: Vec<Dd> = step.into_iter().map(Dd::from).collect();
+            let mut moved = q.clone();
+            self.displace_number(&mut moved, &step);
             let phi_moved = self.extended_phi(t, &moved);
             let there: Vec<f64> = moved.iter().map(|q| q.to_f64()).collect();
             if residual(&phi_moved) >= least || is_beyond(self, &s, described, &there) {
@@ -91,7 +90,7 @@ impl Mechanism {
     /// Φ in double-double, m values.
     fn extended_phi(&self, t: f64, q: &[Dd]) -> Vec<Dd> {
         let mut phi = vec![Dd::ZERO; self.layout().m];
-        let poses = extended_poses(q);
+        let poses = self.poses_of(q);
         for c in self.constraints() {
             if c.rows.start < phi.len() {
                 let (x, f) = (slots(c, &poses), self.extended_jets(c, t));
@@ -104,7 +103,7 @@ impl Mechanism {
     /// C in double-double.
     fn extended_c(&self, t: f64, q: &[Dd]) -> DdMatrix {
         let layout = self.layout();
-        let poses = extended_poses(q);
+        let poses = self.poses_of(q);
         let mut entries: Vec<Dd> = self
             .constant_entries()
             .iter()
@@ -129,21 +128,6 @@ impl Mechanism {
         let jets = self.functions_of(c).iter().map(|f| f.jet(t));
         jets.map(|jet| jet.map(Dd::from)).collect()
     }
-}
-
-/// Poses of all bodies.
-fn extended_poses(q: &[Dd]) -> Vec<Pose<Dd>> {
-    let pose = |q: &[Dd]| {
-        let (sin, cos) = q[2].sin_cos();
-        Pose {
-            x: q[0],
-            y: q[1],
-            angle: q[2],
-            cos,
-            sin,
-        }
-    };
-    q.chunks_exact(N_BODY).map(pose).collect()
 }
 
 /// Poses of the bodies of one constraint.

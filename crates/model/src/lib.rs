@@ -29,6 +29,7 @@
 //! | `scale` | what residuals are compared with |
 //! | `tolerance` | what the data are known to, where that is stated |
 //! | `uncertainty` | what the entries of C are known to |
+//! | [`space`] | coordinates of bodies, and how a configuration moves along velocities |
 //! | [`start`] | a consistent start |
 //! | [`reaction`] | multipliers to forces and torques |
 //! | `rigid` | which constraints act against the ground |
@@ -43,6 +44,7 @@ pub mod record;
 pub mod registry;
 mod rigid;
 mod scale;
+pub mod space;
 pub mod start;
 pub mod system;
 mod tolerance;
@@ -56,6 +58,7 @@ pub use mechanism::{AppliedForce, BuildError, Derivatives, Mechanism, Part, Plac
 pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction};
 pub use record::Recording;
 pub use registry::{ConstraintDefinition, ForceDefinition, PlaneConstraint, PlaneForce, Registry};
+pub use space::{Space, SpaceKind};
 pub use start::{Assembly, Coordinate, StartError, StartOptions};
 pub use system::{Layout, RowLabel, Scratch, System};
 pub use tolerance::{Stated, Tolerance};

@@ -8,6 +8,7 @@ mod holds;
 mod kernels;
 mod part;
 mod reach;
+mod seams;
 mod work;
 
 use std::ops::Range;
@@ -17,6 +18,8 @@ use joints::Pose;
 use crate::description::{Body, BodyRef};
 use crate::function::Function;
 use crate::registry::{PlaneConstraint, PlaneForce};
+pub(crate) use crate::space::N_BODY;
+use crate::space::{Space, SpaceKind, in_space};
 use crate::system::Layout;
 use crate::tolerance::Tolerance;
 
@@ -26,9 +29,6 @@ pub use derivatives::{Derivatives, Sparse};
 pub use holds::AppliedForce;
 pub use part::{Part, Places};
 pub use work::Work;
-
-/// Coordinates and velocities of a planar body.
-pub(crate) const N_BODY: usize = 3;
 
 /// A mechanism in the plane: bodies, constraints, forces, and the equations they make.
 ///
@@ -65,6 +65,7 @@ pub(crate) const N_BODY: usize = 3;
 #[derive(Clone)]
 pub struct Mechanism {
     name: String,
+    space: SpaceKind,
     bodies: Vec<Body>,
     constraints: Vec<PlacedConstraint>,
     forces: Vec<PlacedForce>,
@@ -166,11 +167,12 @@ impl Mechanism {
     /// Coordinates and velocities as described, not corrected; velocities that are not given are zero here.
     #[must_use]
     pub fn described_state(&self) -> (Vec<f64>, Vec<f64>) {
-        let q = self
-            .bodies
-            .iter()
-            .flat_map(|b| [b.position[0], b.position[1], b.angle])
-            .collect();
+        let mut q = vec![0.0; self.layout.n_q];
+        in_space!(self.space, S => {
+            for (b, q) in self.bodies.iter().zip(q.chunks_exact_mut(S::N_Q)) {
+                S::described(b, q);
+            }
+        });
         let v = self.given_velocities().into_iter();
         (q, v.map(Option::unwrap_or_default).collect())
     }
@@ -205,7 +207,7 @@ impl Mechanism {
         terms.map(|((m, a), (w, v))| (m * a - w) * v).sum()
     }
 
-    /// Name of the body and of its coordinate behind a column of C.
+    /// Name of the body and of its coordinate that changes with a column of C.
     #[must_use]
     pub fn coordinate(&self, column: usize) -> (&str, &'static str) {
         (
@@ -223,15 +225,18 @@ impl Mechanism {
     /// Potential energy of the weight (J).
     #[must_use]
     pub fn potential_energy(&self, q: &[f64]) -> f64 {
-        self.weight.iter().zip(q).map(|(w, q)| -w * q).sum()
+        let of_body = |(w, q): (&[f64], &[f64])| -w[0] * q[0] - w[1] * q[1];
+        let places = q.chunks_exact(self.space.n_q());
+        self.weight
+            .chunks_exact(N_BODY)
+            .zip(places)
+            .map(of_body)
+            .sum()
     }
 
     /// Takes initial values of joints, drives and forces from a configuration.
     pub(crate) fn initialise(&mut self, q: &[f64]) {
-        let poses: Vec<Pose> = q
-            .chunks_exact(N_BODY)
-            .map(|c| Pose::new(c[0], c[1], c[2]))
-            .collect();
+        let poses = self.poses(q);
         let of = |bodies: &[BodyRef]| -> Vec<Pose> {
             bodies.iter().map(|&b| pose_of(&poses, b)).collect()
         };
@@ -252,10 +257,7 @@ impl Mechanism {
 
     /// The first requirement of a definition that does not hold at a configuration: who, and what.
     pub(crate) fn unmet_requirement(&self, q: &[f64]) -> Option<(String, &'static str)> {
-        let poses: Vec<Pose> = q
-            .chunks_exact(N_BODY)
-            .map(|c| Pose::new(c[0], c[1], c[2]))
-            .collect();
+        let poses = self.poses(q);
         let of = |bodies: &[BodyRef]| -> Vec<Pose> {
             bodies.iter().map(|&b| pose_of(&poses, b)).collect()
         };

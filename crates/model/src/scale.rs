@@ -5,14 +5,20 @@ use linalg::Scaling;
 
 use crate::description::BodyRef;
 use crate::mechanism::{Mechanism, N_BODY};
+use crate::space::{Space, in_space};
 use crate::system::{Scratch, System};
 
 impl Mechanism {
-    /// Size of the terms of row `i` of Φ: `Σ |C_ij|·|q_j|`, an angle counting at least one radian, because arms turn with
-    /// it, and a position at least the longest arm of its body, because it is where the arms put it. Needs C at the pose of the scratch.
+    /// Size of the terms of row `i` of Φ at the pose of the scratch: `Σ |C_ij|·|q_j|`, an angle counting at least one radian,
+    /// because arms turn with it, and a position at least the longest arm of its body, because it is where the arms put it.
+    /// Needs C there.
     #[must_use]
-    pub fn position_scale(&self, s: &Scratch, i: usize, q: &[f64]) -> f64 {
-        let term = |(j, c): (usize, f64)| c.abs() * q[j].abs().max(self.least(j));
+    pub fn position_scale(&self, s: &Scratch, i: usize) -> f64 {
+        let at = |j: usize| {
+            let pose = &s.poses[j / N_BODY];
+            [pose.x, pose.y, pose.angle][j % N_BODY]
+        };
+        let term = |(j, c): (usize, f64)| c.abs() * at(j).abs().max(self.least(j));
         self.layout().row(s, i).map(term).sum()
     }
 
@@ -39,7 +45,7 @@ impl Mechanism {
     /// Size of the terms of row `i` of Φ for entries below `bounds`: as [`Mechanism::position_scale`].
     #[must_use]
     pub fn bounded_position_scale(&self, bounds: &[(usize, f64)], q: &[f64]) -> f64 {
-        let term = |&(j, c): &(usize, f64)| c * q[j].abs().max(self.least(j));
+        let term = |&(j, c): &(usize, f64)| c * self.position(q, j).abs().max(self.least(j));
         bounds.iter().map(term).sum()
     }
 
@@ -97,22 +103,31 @@ impl Mechanism {
         jets.iter().flatten().map(|x| x.abs()).sum()
     }
 
-    /// What coordinate `j` is measured by: lengths by `size`, angles by one radian.
+    /// What motions along column `j` of C are measured by: lengths by `size`, angles by one radian.
     #[must_use]
     pub fn unit(&self, j: usize, size: f64) -> f64 {
         if j % N_BODY == 2 { 1.0 } else { size }
     }
 
-    /// The coordinate in which two configurations differ most, and by how much: lengths as share of `size`, angles in radians.
+    /// The column of C along which two configurations differ most, and by how much: lengths as share of `size`, angles in
+    /// radians.
     #[must_use]
     pub fn largest_difference(&self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
         let mut largest = (0, 0.0);
-        for (j, (a, b)) in a.iter().zip(b).enumerate() {
-            let difference = (a - b).abs() / self.unit(j, size);
-            if difference > largest.1 {
-                largest = (j, difference);
+        let mut d = [0.0; N_BODY];
+        in_space!(self.space(), S => {
+            let bodies = a.chunks_exact(S::N_Q).zip(b.chunks_exact(S::N_Q));
+            for (body, (a, b)) in bodies.enumerate() {
+                S::difference(a, b, &mut d);
+                for (dof, d) in d.iter().enumerate() {
+                    let j = N_BODY * body + dof;
+                    let difference = d.abs() / self.unit(j, size);
+                    if difference > largest.1 {
+                        largest = (j, difference);
+                    }
+                }
             }
-        }
+        });
         largest
     }
 
@@ -167,10 +182,10 @@ impl Mechanism {
     /// What the entries of a dimensionless C may be wrong by at a configuration: the largest |Φ_i|, and at least the rounding of
     /// its terms, relative to what row `i` changes by when the mechanism moves by its own size. Needs Φ and C.
     #[must_use]
-    pub fn relative_residual(&self, s: &Scratch, q: &[f64], size: f64) -> f64 {
+    pub fn relative_residual(&self, s: &Scratch, size: f64) -> f64 {
         let layout = self.layout();
         let of_row = |i: usize| {
-            let rounding = f64::EPSILON * self.position_scale(s, i, q);
+            let rounding = f64::EPSILON * self.position_scale(s, i);
             self.relative_to_reach(s, i, size, s.phi[i].abs().max(rounding))
         };
         (0..layout.m).map(of_row).fold(0.0, f64::max)

@@ -65,7 +65,7 @@ pub enum KeepLevel {
 pub struct Assembly {
     /// Coordinates on the constraints.
     pub q: Vec<f64>,
-    /// `q` minus the described coordinates.
+    /// How far it is from the described coordinates, n_v.
     pub correction: Vec<f64>,
     /// Largest |Φ|.
     pub residual: f64,
@@ -147,7 +147,7 @@ pub fn assemble(mechanism: &mut Mechanism, options: &StartOptions) -> Result<Ass
     if let Some((name, requirement)) = mechanism.unmet_requirement(&q) {
         return Err(StartError::Requirement { name, requirement });
     }
-    let correction: Vec<f64> = q.iter().zip(&described).map(|(a, b)| a - b).collect();
+    let correction = mechanism.difference_of(&q, &described);
     if options.correction == CorrectionLimit::Small {
         check_correction(mechanism, &correction, size)?;
     }
@@ -329,7 +329,7 @@ fn nearest(
         mechanism.pose(t, &q, s);
         mechanism.phi(s);
         mechanism.c(s);
-        let ratio = |r: usize| s.phi[r].abs() / mechanism.position_scale(s, r, &q);
+        let ratio = |r: usize| s.phi[r].abs() / mechanism.position_scale(s, r);
         // A row without any term is satisfied or not a number.
         let misses = |r: usize| if s.phi[r] == 0.0 { 0.0 } else { ratio(r) };
         let (_, residual) = largest(rows.iter().map(|&r| (r, misses(r))));
@@ -352,7 +352,7 @@ fn nearest(
             });
         }
         let c = dense_rows(mechanism.layout(), s, rows)?;
-        let shift: Vec<f64> = described.iter().zip(&q).map(|(a, b)| a - b).collect();
+        let shift = mechanism.difference_of(described, &q);
         // C·(q₀ + δ − q) + Φ = 0
         let moved = c.times(&shift);
         let misfit: Vec<f64> = rows
@@ -370,9 +370,7 @@ fn nearest(
         {
             *a += b;
         }
-        for k in 0..q.len() {
-            q[k] = described[k] + step[k];
-        }
+        q = mechanism.displaced(described, 1.0, &step);
     }
     unreachable!("the last iteration returns")
 }

@@ -43,6 +43,25 @@ pub trait System: Sync {
 
     /// q̇ = T(q)·v.
     fn rate(&self, q: &[f64], v: &[f64], qd: &mut [f64]);
+
+    /// Moves the configuration q (n_q) by d (n_v): translations (m) and rotations (rad).
+    ///
+    /// ```
+    /// use model::{Body, Description, Mechanism, System};
+    /// let mut d = Description::new("stone");
+    /// d.body(Body::new("stone", 1.0, 1.0));
+    /// let mechanism = Mechanism::build(&d).unwrap();
+    /// let mut q = [1.0, 2.0, 0.5];
+    /// mechanism.displace(&mut q, &[0.5, 0.0, 1.0]);
+    /// assert_eq!(q, [1.5, 2.0, 1.5]);
+    /// let mut moved = [0.0; 3];
+    /// mechanism.difference(&q, &[1.0, 2.0, 0.5], &mut moved);
+    /// assert_eq!(moved, [0.5, 0.0, 1.0]);
+    /// ```
+    fn displace(&self, q: &mut [f64], d: &[f64]);
+
+    /// The displacement (n_v) that moves the configuration `from` to q.
+    fn difference(&self, q: &[f64], from: &[f64], d: &mut [f64]);
 }
 
 /// Sizes, patterns and labels of a mechanism.

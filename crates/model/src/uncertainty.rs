@@ -44,9 +44,9 @@ impl Mechanism {
     /// and to what the constraints leave open, |Φ_i|: where a tolerance is stated no more than rounding, for what contradicting rows miss within it
     /// is no fault of the entries. `size` is that of the mechanism. Needs Φ and C at the pose of the scratch.
     #[must_use]
-    pub fn uncertainty(&self, s: &Scratch, q: &[f64], size: f64, known: Known) -> Matrix {
+    pub fn uncertainty(&self, s: &Scratch, size: f64, known: Known) -> Matrix {
         let layout = self.layout();
-        let of_entries = self.uncertainty_of_entries(s, q, size, known);
+        let of_entries = self.uncertainty_of_entries(s, size, known);
         let mut u = Matrix::zeros(layout.rows(), layout.n_v);
         for i in 0..layout.rows() {
             for k in layout.pattern.start[i]..layout.pattern.start[i + 1] {
@@ -58,13 +58,7 @@ impl Mechanism {
 
     /// The same for each entry of the pattern of C, in its order.
     #[must_use]
-    pub fn uncertainty_of_entries(
-        &self,
-        s: &Scratch,
-        q: &[f64],
-        size: f64,
-        known: Known,
-    ) -> Vec<f64> {
+    pub fn uncertainty_of_entries(&self, s: &Scratch, size: f64, known: Known) -> Vec<f64> {
         let layout = self.layout();
         let pattern = &layout.pattern;
         let magnitudes = self.magnitudes(s);
@@ -73,7 +67,7 @@ impl Mechanism {
         let opening = |i: usize| {
             let missed = s.phi.get(i).map_or(0.0, |phi| phi.abs());
             match has_tolerances {
-                true => missed.min(CLOSED * ROUNDING * self.position_scale(s, i, q)),
+                true => missed.min(CLOSED * ROUNDING * self.position_scale(s, i)),
                 false => missed,
             }
         };
@@ -85,7 +79,7 @@ impl Mechanism {
             // Forces on the bodies of the row, and how far they stand from the origin.
             let forces: Vec<(usize, f64, f64)> = self.forces_of_row(s, &magnitudes, row.clone());
             let places = |&(body, force, _): &(usize, f64, f64)| {
-                force * q[N_BODY * body].hypot(q[N_BODY * body + 1])
+                force * s.poses[body].x.hypot(s.poses[body].y)
             };
             let shift = ROUNDING * forces.iter().map(places).sum::<f64>() + opening(i);
             for k in row {

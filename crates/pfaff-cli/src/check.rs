@@ -110,8 +110,7 @@ impl Checked {
                 let mut blueprint = resources.blueprint(source)?;
                 let start = blueprint.inquire(None).map_err(|e| source.failure(e))?;
                 let (described, _) = start.mechanism.described_state();
-                let moved = start.state.q.iter().zip(&described).map(|(a, b)| a - b);
-                let correction: Vec<f64> = moved.collect();
+                let correction = start.mechanism.difference_of(&start.state.q, &described);
                 let mut checked = new(start.scene, start.mechanism, &correction);
                 checked.warnings.insert(0, warning);
                 Ok(checked)

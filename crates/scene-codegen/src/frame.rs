@@ -265,9 +265,12 @@ fn anywhere(subject: &Subject<'_>, k: usize) -> State {
     let size = subject.prepared.assembly.size;
     // No symmetry of a mechanism is one of these numbers.
     let shift = |i: usize| (1.3 * (i + 1) as f64 + 2.3 * (k + 1) as f64).sin();
-    for (i, (q, v)) in q.iter_mut().zip(&mut v).enumerate() {
-        *q += shift(i) * mechanism.unit(i, size);
-        *v += shift(i + 7) * mechanism.unit(i, size);
+    let away: Vec<f64> = (0..v.len())
+        .map(|j| shift(j) * mechanism.unit(j, size))
+        .collect();
+    mechanism.displace(&mut q, &away);
+    for (j, v) in v.iter_mut().enumerate() {
+        *v += shift(j + 7) * mechanism.unit(j, size);
     }
     State { t, q, v }
 }

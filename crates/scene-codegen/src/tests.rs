@@ -107,9 +107,10 @@ fn states(study: &Study, subject: &Subject<'_>, n: usize) -> Vec<State> {
     };
     for k in 0..4 * n {
         let State { t, mut q, mut v } = subject.states[k % subject.states.len()].clone();
-        for (j, q) in q.iter_mut().enumerate() {
-            *q += 0.02 * random() * mechanism.unit(j, size);
-        }
+        let away: Vec<f64> = (0..v.len())
+            .map(|j| 0.02 * random() * mechanism.unit(j, size))
+            .collect();
+        mechanism.displace(&mut q, &away);
         for (j, v) in v.iter_mut().enumerate() {
             *v += random() * mechanism.unit(j, size);
         }

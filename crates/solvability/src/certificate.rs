@@ -54,7 +54,7 @@ impl<'a> Rows<'a> {
     fn at(mechanism: &'a Mechanism, scratch: Scratch, q: &[f64], known: Known) -> Self {
         let size = scene_size(mechanism, q);
         Self {
-            meant: MeantMatrix::new(mechanism, &scratch, q, size, known),
+            meant: MeantMatrix::new(mechanism, &scratch, size, known),
             places: (0..mechanism.layout().rows()).collect(),
             mechanism,
             scratch,

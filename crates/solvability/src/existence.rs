@@ -241,7 +241,7 @@ pub fn contradictions(
             prescribed: &s,
             decision: ranks.holonomic,
             values: &s.phi,
-            scale: &|i| mechanism.position_scale(&s, i, q),
+            scale: &|i| mechanism.position_scale(&s, i),
             share: 0.0,
         },
         Comparison {
@@ -260,7 +260,7 @@ pub fn contradictions(
             scale: &|i| {
                 let [terms, blurred] =
                     [v, &blurred].map(|v| mechanism.acceleration_scale(&s, i, v, size));
-                let rest = REST.powi(2) * mechanism.position_scale(&s, i, q);
+                let rest = REST.powi(2) * mechanism.position_scale(&s, i);
                 terms + (blurred - terms + rest) / noise + prescribed(i)
             },
             share: 0.0,

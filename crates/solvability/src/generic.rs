@@ -74,7 +74,7 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
             continue;
         };
         let is_new = |(t, q): &(f64, Vec<f64>)| {
-            let moved = there.1.iter().zip(q).map(|(a, b)| a - b);
+            let moved = mechanism.difference_of(&there.1, q).into_iter();
             there.0 != *t || length(moved, &units, size) >= APART
         };
         if visited.iter().all(is_new) {
@@ -144,9 +144,7 @@ fn walk_from(
         };
         heading = Some(step.clone());
         step.iter_mut().zip(units).for_each(|(d, unit)| *d *= unit);
-        let mut rate = vec![0.0; q.len()];
-        mechanism.rate(&q, &step, &mut rate);
-        let largest = length(step.into_iter(), units, size);
+        let largest = length(step.iter().copied(), units, size);
         let time = if moves_time { stride } else { 0.0 };
         let next = (0..HALVINGS).find_map(|halving| {
             let share = 0.5_f64.powi(halving);
@@ -155,7 +153,7 @@ fn walk_from(
             } else {
                 0.0
             };
-            let moved: Vec<f64> = q.iter().zip(&rate).map(|(q, d)| q + factor * d).collect();
+            let moved = mechanism.displaced(&q, factor, &step);
             let later = t + time * share;
             let there = nearest_configuration(mechanism, later, rows, &moved).ok()?;
             Some((later, there))

@@ -59,7 +59,7 @@ impl Decided {
         let unit = |j: usize| f64::from(dimensions.cols[j]).exp2();
         let c = rows_of(mechanism, s, rows.clone(), unit);
         let scaling = equilibrate_sparse(&c);
-        let known = mechanism.uncertainty_of_entries(s, q, size, Known::AsStored);
+        let known = mechanism.uncertainty_of_entries(s, size, Known::AsStored);
         let pattern = &layout.pattern;
         let mut largest = 0.0_f64;
         for i in rows.clone() {

@@ -141,10 +141,10 @@ pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Ma
 }
 
 /// What the entries of [`dimensionless`] C are known to in `f64`.
-pub(crate) fn uncertainty(mechanism: &Mechanism, s: &Scratch, q: &[f64], size: f64) -> Matrix {
+pub(crate) fn uncertainty(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
     mechanism
         .dimension_scaling(size)
-        .apply(&mechanism.uncertainty(s, q, size, Known::AsStored))
+        .apply(&mechanism.uncertainty(s, size, Known::AsStored))
 }
 
 /// The velocities that are one without dimensions: 1 m/s for translations, and for rotations what moves a point at the size of the
@@ -166,7 +166,7 @@ pub fn decide(
     let size = scene_size(mechanism, q);
     linalg::decide(
         &dimensionless(mechanism, s, size),
-        &uncertainty(mechanism, s, q, size),
+        &uncertainty(mechanism, s, size),
     )
     .map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
@@ -200,7 +200,7 @@ fn holonomic(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> (Matrix, Matrix) 
     let size = scene_size(mechanism, q);
     let rows: Vec<usize> = (0..mechanism.layout().m).collect();
     let phi_q = dimensionless(mechanism, s, size).select_rows(&rows);
-    let known = uncertainty(mechanism, s, q, size).select_rows(&rows);
+    let known = uncertainty(mechanism, s, size).select_rows(&rows);
     (phi_q, known)
 }
 
@@ -216,7 +216,7 @@ pub fn decide_dropping(
 ) -> Result<RankDecision, KeptRowsError> {
     let size = scene_size(mechanism, q);
     let c = dimensionless(mechanism, s, size);
-    let known = uncertainty(mechanism, s, q, size);
+    let known = uncertainty(mechanism, s, size);
     linalg::decide_dropping(&c, &known, dropped)
 }
 

@@ -191,7 +191,7 @@ fn in_double(
     s: &Scratch,
     q: &[f64],
 ) -> [RankDecision; 2] {
-    let known = uncertainty(part, s, q, scene_size(part, q));
+    let known = uncertainty(part, s, scene_size(part, q));
     certified.each_ref().map(|decision| {
         let rows: Vec<usize> = (0..decision.rank + decision.redundancy).collect();
         let known = ONE_ROUNDING * decision.scaling.apply(&known.select_rows(&rows)).max_abs();

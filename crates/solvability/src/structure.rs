@@ -24,7 +24,7 @@ pub fn structure(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Struct
     let blocks: Vec<_> = bodies.map(|b| layout.columns(b)).collect();
     linalg::structure(
         &dimensionless(mechanism, s, size),
-        &uncertainty(mechanism, s, q, size),
+        &uncertainty(mechanism, s, size),
         &groups,
         &blocks,
     )

@@ -276,12 +276,16 @@ fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMis
     for k in 0..STATES.max(times.len()) {
         // No symmetry of a mechanism is one of these numbers.
         let shift = |i: usize| (1.7 * (i + 1) as f64 + 2.9 * (k + 1) as f64).sin();
-        let moved = |x: &[f64], by: f64| -> Vec<f64> {
-            let unit = |i: usize| prepared.mechanism.unit(i, prepared.assembly.size);
-            let shifted = x.iter().enumerate();
-            shifted.map(|(i, x)| x + by * shift(i) * unit(i)).collect()
+        let away = |by: f64| -> Vec<f64> {
+            let unit = |j: usize| prepared.mechanism.unit(j, prepared.assembly.size);
+            let columns = 0..prepared.v.len();
+            columns.map(|j| by * shift(j) * unit(j)).collect()
         };
-        let (q, v) = (moved(&prepared.q, DISTANCE), moved(&prepared.v, SPEED));
+        let q = prepared
+            .mechanism
+            .displaced(&prepared.q, 1.0, &away(DISTANCE));
+        let faster = prepared.v.iter().zip(away(SPEED)).map(|(v, by)| v + by);
+        let v: Vec<f64> = faster.collect();
         compare(&mut motion, code, (times[k % times.len()], &q, &v))?;
     }
     Ok(())
@@ -312,7 +316,7 @@ fn compare(
     };
     let mut phi = vec![f64::NAN; layout.m];
     code.phi(t, q, &mut phi);
-    comparison("Φ", &phi, &s.phi, &|i| mechanism.position_scale(&s, i, q))?;
+    comparison("Φ", &phi, &s.phi, &|i| mechanism.position_scale(&s, i))?;
 
     let mut residual = vec![f64::NAN; layout.rows()];
     code.velocity_residual(t, q, v, &mut residual);

@@ -6,7 +6,7 @@
 //! The partition stays for a step and its dense output, because f must not change within them. Where its pivots have fallen it is chosen again
 //! at the accepted state, when the next step begins. Near a singular configuration there is none, and a step that needs one is refused.
 
-use model::System;
+use model::{Mechanism, System};
 
 use super::KeptRowMotion;
 use super::project::Correct;
@@ -14,7 +14,7 @@ use crate::error::Trip;
 
 /// A partition, and the state completed last.
 pub(super) struct Chart {
-    /// Independent coordinates: columns of Φq, which in the plane are places in q.
+    /// Columns of Φq along which coordinates are independent.
     pub(super) z: Vec<usize>,
     /// Independent velocities.
     pub(super) u: Vec<usize>,
@@ -22,8 +22,8 @@ pub(super) struct Chart {
     pub(super) v: Vec<f64>,
     /// Coordinates of the last accepted state.
     accepted: Vec<f64>,
-    /// Its rates and its time.
-    accepted_rate: Vec<f64>,
+    /// Its velocities and its time.
+    accepted_v: Vec<f64>,
     accepted_at: f64,
     /// How many partitions there were before.
     pub(super) generation: u64,
@@ -34,19 +34,17 @@ pub(super) struct Chart {
 }
 
 impl Chart {
-    /// The longest way of a coordinate from the last accepted state to time t at the rates there, in its `unit`.
+    /// The longest way along a column of C from the last accepted state to time t at the velocities there, in its `unit`.
     fn way_to(&self, t: f64, unit: impl Fn(usize) -> f64) -> f64 {
-        let rates = self.accepted_rate.iter().enumerate();
-        let largest = rates.fold(0.0, |a: f64, (i, rate)| a.max(rate.abs() / unit(i)));
+        let velocities = self.accepted_v.iter().enumerate();
+        let largest = velocities.fold(0.0, |a: f64, (j, v)| a.max(v.abs() / unit(j)));
         largest * (t - self.accepted_at).abs()
     }
 
     /// Takes the independent entries of a state. The others stay those of the state completed last: what an integrator carries for them
     /// may be off by as much as a step, and Newton's method would go from there to another branch or another turn.
-    fn take_independent(&mut self, q: &[f64], v: &[f64]) {
-        for &i in &self.z {
-            self.q[i] = q[i];
-        }
+    fn take_independent(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64]) {
+        mechanism.take(&mut self.q, q, &self.z);
         for &i in &self.u {
             self.v[i] = v[i];
         }
@@ -176,24 +174,25 @@ impl KeptRowMotion<'_> {
         }
     }
 
-    /// Whether an evaluated state at the end of a step, q with rates q̇, is where the rates at both ends lead: on another branch or another
-    /// turn it is not.
+    /// Whether an evaluated state (q, v) at the end of a step is where the velocities at both ends lead: on another branch or
+    /// another turn it is not.
     ///
     /// # Errors
     /// [`Trip::FarCompletion`]
-    pub(crate) fn check_travel(&mut self, t: f64, q: &[f64], qd: &[f64]) -> Result<(), Trip> {
+    pub(crate) fn check_travel(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), Trip> {
         let Some(chart) = &mut self.chart else {
             return Ok(());
         };
         let (mechanism, size) = (self.mechanism, self.size);
         let dt = t - chart.accepted_at;
         let mut farthest = 0.0_f64;
-        for (i, led) in self.guess.iter_mut().enumerate() {
-            let travel = 0.5 * dt * (chart.accepted_rate[i] + qd[i]);
-            *led = chart.accepted[i] + travel;
-            farthest = farthest
-                .max(dt * chart.accepted_rate[i].abs().max(qd[i].abs()) / mechanism.unit(i, size));
+        for (j, way) in self.delta.iter_mut().enumerate() {
+            let (from, to) = (chart.accepted_v[j], v[j]);
+            *way = 0.5 * dt * (from + to);
+            farthest = farthest.max(dt * from.abs().max(to.abs()) / mechanism.unit(j, size));
         }
+        self.guess.copy_from_slice(&chart.accepted);
+        mechanism.displace(&mut self.guess, &self.delta);
         let (place, by) = mechanism.largest_difference(q, &self.guess, size);
         if by <= FAR_IN_A_STEP * farthest + FAR_AT_REST {
             return Ok(());
@@ -214,13 +213,13 @@ impl KeptRowMotion<'_> {
         if chart.z.is_empty() {
             chart.q.copy_from_slice(q);
         }
-        chart.take_independent(q, v);
+        chart.take_independent(self.mechanism, q, v);
         let near = self.complete(t, far, &mut chart.q, &mut chart.v);
         if near.is_ok() {
             return near;
         }
         chart.q.copy_from_slice(&chart.accepted);
-        chart.take_independent(q, v);
+        chart.take_independent(self.mechanism, q, v);
         if self.complete(t, far, &mut chart.q, &mut chart.v).is_ok() {
             return Ok(());
         }
@@ -254,7 +253,7 @@ impl KeptRowMotion<'_> {
                 by,
             });
         }
-        self.check_positions(q)?;
+        self.check_positions()?;
         self.velocity.factor(self.mechanism, &self.s)?;
         self.evaluate_b();
         for (rhs, &i) in self.velocity.rhs.iter_mut().zip(&self.velocity.kept) {
@@ -289,8 +288,7 @@ impl KeptRowMotion<'_> {
             return;
         };
         chart.accepted.copy_from_slice(&chart.q);
-        self.mechanism
-            .rate(&chart.q, &chart.v, &mut chart.accepted_rate);
+        chart.accepted_v.copy_from_slice(&chart.v);
         chart.accepted_at = t;
         if worn {
             let (q, v) = (chart.q.clone(), chart.v.clone());
@@ -322,15 +320,14 @@ impl KeptRowMotion<'_> {
     fn choose_chart(&mut self, origin: Origin) -> Result<(), Trip> {
         let (mechanism, s) = (self.mechanism, &self.s);
         // Far from the origin places are known to fewer digits than angles.
-        let far = |j: usize| (origin.q[j].abs() / mechanism.unit(j, self.size)).max(1.0);
+        let place = |j: usize| mechanism.position(&origin.q, j).abs();
+        let far = |j: usize| (place(j) / mechanism.unit(j, self.size)).max(1.0);
         let z = self.position.partition(mechanism, s, far)?;
         let u = self.velocity.partition(mechanism, s, |_| 1.0)?;
         // Rows set aside are only solved on, at single instants.
         if let Some(aside) = &mut self.aside {
             aside.forget_partition();
         }
-        let mut accepted_rate = vec![0.0; origin.q.len()];
-        mechanism.rate(&origin.q, &origin.v, &mut accepted_rate);
         let generation = self.chart.as_ref().map_or(0, |c| c.generation + 1);
         self.chart = Some(Chart {
             z,
@@ -338,7 +335,7 @@ impl KeptRowMotion<'_> {
             q: origin.q.clone(),
             v: origin.v.clone(),
             accepted: origin.q.clone(),
-            accepted_rate,
+            accepted_v: origin.v.clone(),
             accepted_at: origin.t,
             generation,
             origin,

@@ -220,7 +220,7 @@ impl Coded {
             units,
             phi: vec![0.0; layout.m],
             residual: vec![0.0; layout.rows()],
-            dq: vec![0.0; layout.n_q],
+            dq: vec![0.0; layout.n_v],
             dv: vec![0.0; layout.n_v],
             code,
         }
@@ -254,7 +254,7 @@ impl Coded {
         loop {
             iterations += 1;
             check(code.position_correction(t, q, phi, dq), dq)?;
-            add(q, dq);
+            mechanism.displace(q, dq);
             code.phi(t, q, phi);
             let (row, by, share) = worst_kept(phi, keeps_position, sizes);
             if share <= ROUNDINGS * f64::EPSILON {

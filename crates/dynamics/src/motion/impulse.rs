@@ -42,7 +42,7 @@ impl KeptRowMotion<'_> {
         let [phi_wide, rate_wide] = self.change([at - wide, at + wide], q, v);
         for i in 0..layout.m {
             let jump = phi[i].abs();
-            let is_large = jump > NO_JUMP * mechanism.position_scale(&self.s, i, q)
+            let is_large = jump > NO_JUMP * mechanism.position_scale(&self.s, i)
                 && mechanism.relative_to_reach(&self.s, i, self.size, jump) > NO_JUMP;
             if is_large && jump > REMAINS * phi_wide[i].abs() {
                 return Err(Trip::PositionJump {
@@ -63,7 +63,7 @@ impl KeptRowMotion<'_> {
         let jump = -rate[row];
         let kinetic = mechanism.kinetic_energy(v);
         let iterations = self.settle(t, q)?;
-        self.finish(q, v, iterations)?;
+        self.finish(v, iterations)?;
         self.passage.forget_entry();
         self.restart_code(t);
         let energy = mechanism.kinetic_energy(v) - kinetic;

@@ -56,19 +56,18 @@ impl<'m> KeptRowMotion<'m> {
     ) -> Option<f64> {
         let expected = self.passage.expected().filter(|&e| e <= t_last)?;
         let noise = VANISHES * self.velocity.relative_pivot();
-        let (mut qd, mut qdd) = (vec![0.0; q.len()], vec![0.0; q.len()]);
-        self.mechanism.rate(q, v, &mut qd);
-        // Of the derivative of T(q)·v the part that is new at this place: enough for a place to look for.
-        self.mechanism.rate(q, a, &mut qdd);
-        let state = |time: f64, out: &mut [f64]| {
+        let mut way = vec![0.0; v.len()];
+        let mut state = |time: f64, out: &mut [f64]| {
             let dt = time - t;
-            for i in 0..out.len() {
-                out[i] = q[i] + dt * (qd[i] + 0.5 * dt * qdd[i]);
+            for ((way, v), a) in way.iter_mut().zip(v).zip(a) {
+                *way = dt * (v + 0.5 * dt * a);
             }
+            out.copy_from_slice(q);
+            self.mechanism.displace(out, &way);
         };
         let end = t + BEYOND * (expected - t);
         let mut search = self.search();
-        match search.is_promising([t, end], state) {
+        match search.is_promising([t, end], &mut state) {
             true => search.find([t, end], noise, state).map(|found| found.t),
             false => None,
         }

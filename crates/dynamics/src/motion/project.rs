@@ -81,7 +81,7 @@ impl KeptRowMotion<'_> {
         if std::mem::take(&mut self.is_unsettled) {
             self.settle(t, q)?;
         }
-        self.finish(q, v, iterations)
+        self.finish(v, iterations)
     }
 
     /// Moves a stage onto the constraints.
@@ -140,14 +140,9 @@ impl KeptRowMotion<'_> {
     }
 
     /// Moves v onto the constraints at a settled position and looks at all residuals.
-    pub(super) fn finish(
-        &mut self,
-        q: &[f64],
-        v: &mut [f64],
-        iterations: usize,
-    ) -> Result<Correction, Trip> {
+    pub(super) fn finish(&mut self, v: &mut [f64], iterations: usize) -> Result<Correction, Trip> {
         let left = self.project_velocity(v)?;
-        self.monitor(q, v, iterations, left)
+        self.monitor(v, iterations, left)
     }
 
     /// Newton's method on the kept rows of Φ.
@@ -183,7 +178,7 @@ impl KeptRowMotion<'_> {
                 if s.phi[i] == 0.0 || iteration > 0 && !position.uses(k) {
                     continue;
                 }
-                let size = mechanism.position_scale(s, i, q);
+                let size = mechanism.position_scale(s, i);
                 let roundings = s.phi[i].abs() / (f64::EPSILON * size);
                 if roundings > worst.1 || roundings.is_nan() {
                     worst = (i, roundings);
@@ -199,7 +194,7 @@ impl KeptRowMotion<'_> {
                     time: t,
                     row: mechanism.layout().labels[worst.0].clone(),
                     residual: s.phi[worst.0].abs(),
-                    tolerance: ROUNDINGS * f64::EPSILON * mechanism.position_scale(s, worst.0, q),
+                    tolerance: ROUNDINGS * f64::EPSILON * mechanism.position_scale(s, worst.0),
                     iterations: iteration,
                 });
             }
@@ -219,9 +214,7 @@ impl KeptRowMotion<'_> {
                     position.complete(mechanism, s, delta)?;
                 }
             }
-            for (q, d) in q.iter_mut().zip(&*delta) {
-                *q += d;
-            }
+            mechanism.displace(q, delta);
         }
     }
 
@@ -259,13 +252,7 @@ impl KeptRowMotion<'_> {
     }
 
     /// Residuals of all rows at a projected state, the kept ones being off by `left`; dropped rows refused above the limit.
-    fn monitor(
-        &mut self,
-        q: &[f64],
-        v: &[f64],
-        iterations: usize,
-        left: f64,
-    ) -> Result<Correction, Trip> {
+    fn monitor(&mut self, v: &[f64], iterations: usize, left: f64) -> Result<Correction, Trip> {
         if !GUARDED {
             return Ok(Correction {
                 iterations,
@@ -280,7 +267,7 @@ impl KeptRowMotion<'_> {
             position_residual: largest(&s.phi),
             velocity_residual: dropped.fold(left, |a, &i| a.max(residual(i))),
         };
-        self.check_positions(q)?;
+        self.check_positions()?;
         let s = &self.s;
         if !self.velocity.dropped.is_empty() {
             let scale = |i: usize| mechanism.velocity_scale(s, i, v);
@@ -293,7 +280,7 @@ impl KeptRowMotion<'_> {
             }
             // Off the constraints by rounding of its coordinates, the rows agree to the same share. Kept rows are solved to rounding of the
             // fastest of them, so that the others are no better.
-            let rounding = mechanism.relative_residual(s, q, size);
+            let rounding = mechanism.relative_residual(s, size);
             let rows = 0..mechanism.layout().rows();
             let fastest = rows.map(scale).fold(0.0, f64::max);
             let share = share.max(STALLED_ROUNDINGS * rounding);
@@ -311,8 +298,8 @@ impl KeptRowMotion<'_> {
         Ok(found)
     }
 
-    /// Dropped rows of Φ at a position on the kept ones: on another configuration of these they do not hold.
-    pub(super) fn check_positions(&mut self, q: &[f64]) -> Result<(), Trip> {
+    /// Dropped rows of Φ at the pose of the scratch, on the kept ones: on another configuration of these they do not hold.
+    pub(super) fn check_positions(&mut self) -> Result<(), Trip> {
         if self.position.dropped.is_empty() {
             return Ok(());
         }
@@ -321,7 +308,7 @@ impl KeptRowMotion<'_> {
             name: "position",
             share: dropped_misfit(&self.position),
             residual: |i: usize| s.phi[i].abs(),
-            scale: |i| mechanism.position_scale(s, i, q),
+            scale: |i| mechanism.position_scale(s, i),
             most: POSITION_MISFIT,
             floor: || 0.0,
         };

@@ -1,6 +1,7 @@
 //! The Jacobian of the motion on independent coordinates, and the linear systems of implicit methods.
 //!
-//! `f(y) = F(P·y)` depends on w = [z; u] only, so `∂f/∂y = D·S`, where S picks w from y and D has a column for each entry of w. By
+//! `f(y) = F(P·y)` depends on w = [z; u] only, so `∂f/∂y = D·S`, where S reads w from y (where q̇ = v it picks entries) and D has
+//! a column for each entry of w. By
 //! implicit differentiation, with the factors that solve the equations of motion themselves:
 //!
 //! | | equation |
@@ -11,7 +12,8 @@
 //!
 //! `(σ·I − D·S)·x = r` needs a factorisation of the order of w alone, `(σ·I − S·D)·x_w = r_w`. The dependent entries of x serve as a guess for
 //! completions only, so they follow from x_w as those of dq and dv do. The rest of the solution, `σ·x = r + D·x_w`, would let Newton's
-//! method see stiff forces off the slow motion through all levers of the mechanism, and stop it although w has converged.
+//! method see stiff forces off the slow motion through all levers of the mechanism, and stop it although w has converged. Along the
+//! normals of the coordinates, in which no pose changes, f does not depend on y and no lever leads: there `σ·x = r` it is.
 
 use linalg::{Lu, Matrix};
 use model::{Derivatives, System};
@@ -39,20 +41,26 @@ use crate::error::Trip;
 /// let mut motion = KeptRowMotion::new(&prepared)?;
 /// let mut reduced = Reduced::new(&motion);
 /// reduced.linearise(&mut motion, 0.0, &[0.0, -1.0, 0.0, 0.0, 0.0, 0.0])?;
-/// let (jacobian, places) = reduced.jacobian();
+/// let jacobian = reduced.jacobian();
 /// // w is [angle; angular velocity] or [x; v_x], which are the same here.
-/// let [z, u] = [places[0], places[1]];
-/// assert!((jacobian[(z, 1)] - 1.0).abs() < 1e-14 && (jacobian[(u, 0)] + 8.0).abs() < 1e-13);
+/// assert!((jacobian[(0, 1)] - 1.0).abs() < 1e-14 && (jacobian[(1, 0)] + 8.0).abs() < 1e-13);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub struct Reduced {
     derivatives: Derivatives,
-    /// Places of w in y.
-    places: Vec<usize>,
+    /// Columns of C along which coordinates are independent, and those whose velocities are.
+    z: Vec<usize>,
+    u: Vec<usize>,
+    /// Row j of S: entry j of w, as places in y with their coefficients.
+    reads: Vec<Vec<(usize, f64)>>,
+    /// Directions of y in which no pose changes.
+    normals: Vec<Vec<(usize, f64)>>,
     /// Place of the work in y.
     work: Option<usize>,
     /// Row j: column j of D.
     columns: Matrix,
+    /// S·D
+    on_w: Matrix,
     /// Row j: change of y with w_j along the constraints, without the work.
     tangents: Matrix,
     /// Time of the Jacobian.
@@ -84,9 +92,13 @@ impl Reduced {
         let layout = mechanism.layout();
         Self {
             derivatives: mechanism.derivatives(),
-            places: Vec::new(),
+            z: Vec::new(),
+            u: Vec::new(),
+            reads: Vec::new(),
+            normals: Vec::new(),
             work: None,
             columns: Matrix::default(),
+            on_w: Matrix::default(),
             tangents: Matrix::default(),
             time: 0.0,
             generation: 0,
@@ -125,7 +137,7 @@ impl Reduced {
         motion.begin_step(|_| true)?;
         self.dy.resize(y.len(), 0.0);
         motion.derivative(t, y, &mut self.dy)?;
-        self.take_places(motion, y.len());
+        self.take_partition(motion, y);
         self.generation = motion.chart.as_ref().map_or(0, |c| c.generation);
         let mechanism = motion.mechanism;
         let a = &self.dy[n_q..n_q + mechanism.layout().n_v];
@@ -133,9 +145,11 @@ impl Reduced {
         mechanism.differentiate(a, &self.lambda, &motion.s, &mut self.derivatives);
         motion.position.factor(mechanism, &motion.s)?;
         self.time = t;
-        for j in 0..self.places.len() {
+        for j in 0..self.reads.len() {
             self.differentiate(motion, j)?;
         }
+        let k = self.reads.len();
+        self.on_w = Matrix::from_fn(k, k, |i, j| read(&self.reads[i], self.columns.row(j)));
         Ok(())
     }
 
@@ -148,7 +162,7 @@ impl Reduced {
         let Some(chart) = &motion.chart else {
             return Ok(());
         };
-        if self.places.is_empty() || chart.generation == self.generation {
+        if self.reads.is_empty() || chart.generation == self.generation {
             return Ok(());
         }
         let Origin { t, q, v } = chart.origin.clone();
@@ -158,23 +172,39 @@ impl Reduced {
         self.factor(self.shift, self.complex_shift)
     }
 
-    /// `∂f/∂w`, dense, and the places of w in y.
+    /// `∂ẇ/∂w`, dense.
     #[must_use]
-    pub fn jacobian(&self) -> (Matrix, &[usize]) {
-        (self.columns.transpose(), &self.places)
+    pub fn jacobian(&self) -> &Matrix {
+        &self.on_w
     }
 
-    fn take_places(&mut self, motion: &KeptRowMotion<'_>, n: usize) {
+    /// `∂f/∂w`, dense; allocates.
+    #[must_use]
+    pub fn columns(&self) -> Matrix {
+        self.columns.transpose()
+    }
+
+    /// Takes the partition of the motion, and how w is read from y.
+    fn take_partition(&mut self, motion: &KeptRowMotion<'_>, y: &[f64]) {
         let (z, u) = motion.independent().expect("linearise has chosen a chart");
-        let n_q = motion.mechanism.layout().n_q;
-        let places = z.iter().copied().chain(u.iter().map(|u| n_q + u));
-        if self.columns.ncols() == n && places.clone().eq(self.places.iter().copied()) {
+        let (mechanism, n) = (motion.mechanism, y.len());
+        let n_q = mechanism.layout().n_q;
+        self.reads.resize_with(z.len() + u.len(), Vec::new);
+        for (terms, &z) in self.reads.iter_mut().zip(z) {
+            mechanism.read_velocity(&y[..n_q], z, terms);
+        }
+        self.normals = mechanism.normals(&y[..n_q]);
+        for (terms, u) in self.reads[z.len()..].iter_mut().zip(u) {
+            terms.clear();
+            terms.push((n_q + u, 1.0));
+        }
+        if self.columns.ncols() == n && z == self.z && u == self.u {
             return;
         }
-        self.places = places.collect();
-        let moving = n_q + motion.mechanism.layout().n_v;
+        (self.z, self.u) = (z.to_vec(), u.to_vec());
+        let moving = n_q + mechanism.layout().n_v;
         self.work = (n > moving).then_some(moving);
-        let k = self.places.len();
+        let k = self.reads.len();
         self.columns = Matrix::zeros(k, n);
         self.tangents = Matrix::zeros(k, n);
         self.real = Lu::new(k);
@@ -198,13 +228,13 @@ impl Reduced {
         let (dq, dv) = (&mut self.dq, &mut self.dv);
         dq.fill(0.0);
         dv.fill(0.0);
-        let place = self.places[j];
-        if j < chart.z.len() {
-            dq[place] = 1.0;
-            position.rhs.fill(0.0);
-            position.complete(mechanism, s, dq)?;
-        } else {
-            dv[place - layout.n_q] = 1.0;
+        match self.z.get(j) {
+            Some(&z) => {
+                dq[z] = 1.0;
+                position.rhs.fill(0.0);
+                position.complete(mechanism, s, dq)?;
+            }
+            None => dv[self.u[j - self.z.len()]] = 1.0,
         }
         self.rows_of_velocity.fill(0.0);
         d.velocity_dq
@@ -246,11 +276,10 @@ impl Reduced {
     /// # Errors
     /// [`Trip::IterationMatrix`] if one is singular.
     pub fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), Trip> {
-        let (k, time) = (self.places.len(), self.time);
-        let (columns, places) = (&self.columns, &self.places);
+        let (k, time, on_w) = (self.reads.len(), self.time, &self.on_w);
         let shifted = |sigma: f64, i: usize, j: usize| {
             let diagonal = if i == j { sigma } else { 0.0 };
-            diagonal - columns[(j, places[i])]
+            diagonal - on_w[(i, j)]
         };
         let singular = |source| Trip::IterationMatrix { time, source };
         self.real
@@ -272,16 +301,19 @@ impl Reduced {
 
     /// Solves `(σ·I − ∂f/∂y)·x = r` for the real σ, r in `x` on entry; dependent entries follow the independent ones.
     pub fn solve(&mut self, x: &mut [f64]) {
-        let k = self.places.len();
+        let k = self.reads.len();
         let w = &mut self.w[..k];
-        for (w, &place) in w.iter_mut().zip(&self.places) {
-            *w = x[place];
+        for (w, terms) in w.iter_mut().zip(&self.reads) {
+            *w = read(terms, x);
         }
         self.real.solve(w);
         let work = self
             .work
             .map(|at| (x[at] + self.work_along(&self.w[..k], at)) / self.shift);
+        let normals = self.normals.iter();
+        let along_normals: Vec<f64> = normals.map(|n| read(n, x) / self.shift).collect();
         self.follow_w(&self.w[..k], x);
+        self.add_normals(&along_normals, x);
         if let (Some(at), Some(work)) = (self.work, work) {
             x[at] = work;
         }
@@ -289,22 +321,29 @@ impl Reduced {
 
     /// The same for the complex σ.
     pub fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
-        let k = self.places.len();
-        for (j, &place) in self.places.iter().enumerate() {
-            self.w[j] = re[place];
-            self.w[k + j] = im[place];
+        let k = self.reads.len();
+        for (j, terms) in self.reads.iter().enumerate() {
+            self.w[j] = read(terms, re);
+            self.w[k + j] = read(terms, im);
         }
         self.complex.solve(&mut self.w);
         let (w_re, w_im) = self.w.split_at(k);
         let [alpha, beta] = self.complex_shift;
         let norm = alpha * alpha + beta * beta;
+        let quotient =
+            |a: f64, b: f64| ((alpha * a + beta * b) / norm, (alpha * b - beta * a) / norm);
         let work = self.work.map(|at| {
             let a = re[at] + self.work_along(w_re, at);
             let b = im[at] + self.work_along(w_im, at);
-            ((alpha * a + beta * b) / norm, (alpha * b - beta * a) / norm)
+            quotient(a, b)
         });
+        let normals = self.normals.iter();
+        let (n_re, n_im): (Vec<f64>, Vec<f64>) =
+            normals.map(|n| quotient(read(n, re), read(n, im))).unzip();
         self.follow_w(w_re, re);
         self.follow_w(w_im, im);
+        self.add_normals(&n_re, re);
+        self.add_normals(&n_im, im);
         if let (Some(at), Some(work)) = (self.work, work) {
             (re[at], im[at]) = work;
         }
@@ -318,6 +357,15 @@ impl Reduced {
             .sum()
     }
 
+    /// `x ← x + Σ factor_k·(normal k)`
+    fn add_normals(&self, factors: &[f64], x: &mut [f64]) {
+        for (normal, factor) in self.normals.iter().zip(factors) {
+            for &(place, entry) in normal {
+                x[place] += factor * entry;
+            }
+        }
+    }
+
     /// `x ← Σ w_j·(tangent j)`
     fn follow_w(&self, w: &[f64], x: &mut [f64]) {
         x.fill(0.0);
@@ -327,4 +375,9 @@ impl Reduced {
             }
         }
     }
+}
+
+/// An entry of w from a vector like y.
+fn read(terms: &[(usize, f64)], x: &[f64]) -> f64 {
+    terms.iter().map(|&(place, factor)| factor * x[place]).sum()
 }

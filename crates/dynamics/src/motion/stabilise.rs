@@ -58,10 +58,10 @@ impl KeptRowMotion<'_> {
             self.complete_row(t, q, v)?;
             let iterations = self.settle(t, q)?;
             return match self.better_for_row(q)? {
-                None => self.finish(q, v, iterations),
+                None => self.finish(v, iterations),
                 Some(mut rows) => {
                     std::mem::swap(&mut self.velocity, &mut rows);
-                    let found = self.finish(q, v, iterations);
+                    let found = self.finish(v, iterations);
                     std::mem::swap(&mut self.velocity, &mut rows);
                     found
                 }

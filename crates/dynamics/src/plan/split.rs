@@ -80,7 +80,7 @@ fn prepared(whole: &Prepared, part: Part) -> PreparedPart {
     let of_whole = &whole.assembly;
     let assembly = Assembly {
         q: pick(&of_whole.q, &places.coordinates),
-        correction: pick(&of_whole.correction, &places.coordinates),
+        correction: pick(&of_whole.correction, &places.velocities),
         residual: s.phi.iter().fold(0.0, |a, phi| f64::max(a, phi.abs())),
         size: scene_size(&mechanism, &q),
     };

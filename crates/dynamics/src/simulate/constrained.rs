@@ -55,10 +55,8 @@ impl Constrained for Equations<'_> {
     }
 
     fn displace(&self, q: &[f64], d: &[f64], out: &mut [f64]) {
-        self.motion.mechanism().rate(q, d, out);
-        for (out, q) in out.iter_mut().zip(q) {
-            *out += q;
-        }
+        out.copy_from_slice(q);
+        self.motion.mechanism().displace(out, d);
     }
 
     fn residual(

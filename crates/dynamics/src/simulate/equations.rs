@@ -379,11 +379,10 @@ fn finite(mechanism: &Mechanism, t: f64, y: &[f64]) -> Result<(), Trip> {
     let Some(k) = y.iter().position(|x| !x.is_finite()) else {
         return Ok(());
     };
-    let (column, what) = match k < n_q {
-        true => (k, ""),
-        false => (k - n_q, "rate of the "),
+    let (what, (body, coordinate)) = match k < n_q {
+        true => ("", mechanism.coordinate_name(k)),
+        false => ("rate of the ", mechanism.coordinate(k - n_q)),
     };
-    let (body, coordinate) = mechanism.coordinate(column);
     Err(Trip::NotFinite {
         time: t,
         what: format!("the {what}{coordinate} of `{body}`"),
@@ -468,8 +467,8 @@ impl Ode for Equations<'_> {
             }
             self.motion.note_sound(now);
             if self.motion.independent().is_some() {
-                self.motion
-                    .check_travel(step.t_rhs, &y[..self.n_q], &dy[..self.n_q])?;
+                let (q, rest) = y.split_at(self.n_q);
+                self.motion.check_travel(step.t_rhs, q, &rest[..self.n_v])?;
             }
         }
         // From here on the step stands.

@@ -19,14 +19,13 @@ pub(super) struct Span {
     ends: [Vec<f64>; 4],
     /// What rows of this step are compared with, from its first row on.
     sizes: Option<Sizes>,
-    units: Vec<f64>,
     led: Vec<f64>,
 }
 
 /// Sizes of a step.
 #[derive(Clone, Copy)]
 struct Sizes {
-    /// The longest way of a coordinate, in its unit.
+    /// The longest way along a column of C, in its unit.
     way: f64,
     /// Momentum, in the metric of the masses: what the velocities of the step are, and what going that way evenly would need.
     speed: f64,
@@ -70,17 +69,13 @@ impl Span {
         let n_q = mechanism.layout().n_q;
         let (q, v) = y.split_at(n_q);
         let (led_q, led_v) = self.led.split_at(n_q);
-        let shares = q.iter().zip(led_q).zip(&self.units);
-        let by = shares.fold(0.0, |by, ((q, led), unit)| {
-            f64::max(by, (q - led).abs() / unit)
-        });
+        let (column, by) = mechanism.largest_difference(q, led_q, size);
         let off = v.iter().zip(led_v).map(|(v, led)| v - led);
         let kink = momentum(mechanism.mass(), off);
         if by <= LED * way + LED_AT_REST && kink <= LED * speed + PEAK * mean {
             return Ok(());
         }
-        let (place, by) = mechanism.largest_difference(q, led_q, size);
-        let (body, coordinate) = mechanism.coordinate(place);
+        let (body, coordinate) = mechanism.coordinate(column);
         Err(Trip::FarRow {
             time: t,
             body: body.to_owned(),
@@ -91,23 +86,20 @@ impl Span {
 
     fn measure(&mut self, mechanism: &Mechanism, size: f64) -> Sizes {
         let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
-        self.units.clear();
-        self.units.extend((0..n_v).map(|i| mechanism.unit(i, size)));
-        let (units, mass) = (&self.units, mechanism.mass());
+        let unit = |j: usize| mechanism.unit(j, size);
+        let mass = mechanism.mass();
         let [y0, f0, y1, f1] = &self.ends;
         let h = self.times[1] - self.times[0];
-        let change = |i: usize| h * f0[i].abs().max(f1[i].abs());
-        let longest = |a: f64, i: usize| {
-            let way = change(i).max((y1[i] - y0[i]).abs());
-            a.max(way / units[i])
-        };
-        let way = (0..n_q).fold(0.0, longest);
-        let fastest = |i: usize| y0[i].abs().max(y1[i].abs()) + change(i);
+        let largest = |a: &[f64], b: &[f64], i: usize| a[i].abs().max(b[i].abs());
+        let at_speed = |j: usize| h * largest(y0, y1, n_q + j) / unit(j);
+        let (_, apart) = mechanism.largest_difference(&y1[..n_q], &y0[..n_q], size);
+        let way = (0..n_v).map(at_speed).fold(apart, f64::max);
+        let fastest = |i: usize| largest(y0, y1, i) + h * largest(f0, f1, i);
         Sizes {
             way,
             speed: momentum(mass, (n_q..n_q + n_v).map(fastest)),
             // A long step of a drive may begin and end at rest.
-            mean: momentum(mass, units.iter().map(|u| (way + LED_AT_REST) * u / h)),
+            mean: momentum(mass, (0..n_v).map(|j| (way + LED_AT_REST) * unit(j) / h)),
         }
     }
 

@@ -10,6 +10,7 @@ use crate::description::{Body, BodyRef, Description};
 use crate::function::Function;
 use crate::reaction::{ConstraintGroup, ConstraintKind};
 use crate::registry::{PlaneConstraint, PlaneForce};
+use crate::space::SpaceKind;
 use crate::system::{Layout, RowLabel};
 use crate::tolerance::{self, Stated, Tolerance};
 
@@ -199,7 +200,7 @@ impl Mechanism {
         let weight = weight
             .flat_map(|b| [b.mass * gx, b.mass * gy, 0.0])
             .collect();
-        let mut mechanism = b.finish(&d.name, d.bodies.clone(), weight);
+        let mut mechanism = b.finish(&d.name, SpaceKind::Plane, d.bodies.clone(), weight);
         mechanism.tolerance = d.tolerance;
         let (q, _) = mechanism.described_state();
         mechanism.initialise(&q);
@@ -516,9 +517,15 @@ impl Builder {
     }
 
     /// The mechanism of these bodies; no initial values are taken and no arms are measured.
-    pub(super) fn finish(mut self, name: &str, bodies: Vec<Body>, weight: Vec<f64>) -> Mechanism {
-        self.layout.n_q = N_BODY * bodies.len();
-        self.layout.n_v = self.layout.n_q;
+    pub(super) fn finish(
+        mut self,
+        name: &str,
+        space: SpaceKind,
+        bodies: Vec<Body>,
+        weight: Vec<f64>,
+    ) -> Mechanism {
+        self.layout.n_q = space.n_q() * bodies.len();
+        self.layout.n_v = N_BODY * bodies.len();
         if self.layout.pattern.start.is_empty() {
             self.layout.pattern.start.push(0);
         }
@@ -527,6 +534,7 @@ impl Builder {
         let mass = bodies.iter();
         let mut mechanism = Mechanism {
             name: name.to_owned(),
+            space,
             constraints: self.constraints,
             forces: self.forces,
             functions: self.functions,

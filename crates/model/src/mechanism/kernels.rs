@@ -8,6 +8,7 @@ use joints::{Pose, Twist};
 
 use super::{Mechanism, N_BODY, pose_of};
 use crate::description::BodyRef;
+use crate::space::{Space, in_space};
 use crate::system::{Layout, Scratch, System};
 
 /// What rounding moves an angle by that is held.
@@ -43,14 +44,16 @@ impl System for Mechanism {
 
     fn pose(&self, t: f64, q: &[f64], s: &mut Scratch) {
         s.t = t;
-        for (k, (pose, q)) in s.poses.iter_mut().zip(q.chunks_exact(N_BODY)).enumerate() {
-            (pose.x, pose.y, pose.angle) = (q[0], q[1], q[2]);
-            if !self.stays(k, s.turned_to[k], q[2]) {
-                s.turned_to[k] = q[2];
-                (pose.sin, pose.cos) = q[2].sin_cos();
-                note(Counted::Trigonometry);
+        in_space!(self.space, S => {
+            for (k, (pose, q)) in s.poses.iter_mut().zip(q.chunks_exact(S::N_Q)).enumerate() {
+                (pose.x, pose.y, pose.angle) = (q[0], q[1], S::angle(q));
+                if !self.stays(k, s.turned_to[k], pose.angle) {
+                    s.turned_to[k] = pose.angle;
+                    (pose.sin, pose.cos) = S::sin_cos(q);
+                    note(Counted::Trigonometry);
+                }
             }
-        }
+        });
         let (poses, slot_poses) = (&s.poses, &mut s.slot_poses);
         for (slots, bodies) in self.places() {
             for (pose, &body) in slot_poses[slots].iter_mut().zip(bodies) {
@@ -134,8 +137,26 @@ impl System for Mechanism {
         }
     }
 
-    fn rate(&self, _q: &[f64], v: &[f64], qd: &mut [f64]) {
-        qd.copy_from_slice(v);
+    fn rate(&self, q: &[f64], v: &[f64], qd: &mut [f64]) {
+        in_space!(self.space, S => {
+            let bodies = q.chunks_exact(S::N_Q).zip(v.chunks_exact(N_BODY));
+            for ((q, v), qd) in bodies.zip(qd.chunks_exact_mut(S::N_Q)) {
+                S::rate(q, v, qd);
+            }
+        });
+    }
+
+    fn displace(&self, q: &mut [f64], d: &[f64]) {
+        self.displace_number(q, d);
+    }
+
+    fn difference(&self, q: &[f64], from: &[f64], d: &mut [f64]) {
+        in_space!(self.space, S => {
+            let bodies = q.chunks_exact(S::N_Q).zip(from.chunks_exact(S::N_Q));
+            for ((q, from), d) in bodies.zip(d.chunks_exact_mut(N_BODY)) {
+                S::difference(q, from, d);
+            }
+        });
     }
 }
 

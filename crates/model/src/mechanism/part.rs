@@ -193,18 +193,19 @@ impl Mechanism {
             let to = translated(&f.name, &f.bodies);
             b.force(&f.name, &to, f.element.as_ref(), &functions);
         }
-        let velocities: Vec<usize> = bodies
-            .iter()
-            .flat_map(|k| N_BODY * k..N_BODY * (k + 1))
-            .collect();
+        let places = |n: usize| -> Vec<usize> {
+            let each = bodies.iter().flat_map(|k| n * k..n * (k + 1));
+            each.collect()
+        };
+        let velocities = places(N_BODY);
         let own = bodies.iter().map(|&k| self.bodies[k].clone()).collect();
         let weight = velocities.iter().map(|&j| self.weight[j]).collect();
-        let mut mechanism = b.finish(&self.name, own, weight);
+        let mut mechanism = b.finish(&self.name, self.space, own, weight);
         mechanism.tolerance = self.tolerance;
         mechanism.reach = bodies.iter().map(|&k| self.reach[k]).collect();
         let places = Places {
             bodies: bodies.to_vec(),
-            coordinates: velocities.clone(),
+            coordinates: places(self.space.n_q()),
             velocities,
             rows,
             groups: groups.to_vec(),

@@ -36,7 +36,6 @@ const PROGRESS: f64 = 0.5;
 pub(super) struct Equations<'m> {
     pub(super) mechanism: &'m Mechanism,
     pub(super) s: Scratch,
-    pub(super) q: Vec<f64>,
     pub(super) size: f64,
     /// Diagonal of M⁻¹; what has no mass weighs as the smallest that has.
     pub(super) weights: Vec<f64>,
@@ -60,7 +59,6 @@ impl<'m> Equations<'m> {
         Self {
             mechanism,
             s,
-            q: q.to_vec(),
             size,
             weights: weights(mechanism, size),
             // The second is the unit in which a scene is told; what falls under its weight has a shorter time of its own.
@@ -78,7 +76,7 @@ impl<'m> Equations<'m> {
     pub(super) fn rounding(&self, i: usize, v: &[f64]) -> f64 {
         let row = self.mechanism.layout().row(&self.s, i);
         let fastest = self.fastest(row.map(|(j, _)| j), v);
-        let places = self.mechanism.position_scale(&self.s, i, &self.q);
+        let places = self.mechanism.position_scale(&self.s, i);
         let terms = self.mechanism.bounded_velocity_scale(&self.s, i, v);
         ROUNDINGS * f64::EPSILON * (terms + fastest * places)
     }
@@ -94,14 +92,14 @@ impl<'m> Equations<'m> {
 
     /// What row `i` may miss by at velocities that are known to the rounding of this rate (1/s), and at rest.
     pub(super) fn slack(&self, i: usize, rate: f64) -> f64 {
-        let places = self.mechanism.position_scale(&self.s, i, &self.q);
+        let places = self.mechanism.position_scale(&self.s, i);
         ROUNDINGS * f64::EPSILON * (ROUNDINGS * self.rest_rate + rate) * places
     }
 
     /// Up to here velocity `j` is none.
     pub(super) fn rest_of(&self, j: usize) -> f64 {
-        let first = j - j % N_BODY;
-        let place = self.q[first].hypot(self.q[first + 1]).max(self.size);
+        let pose = &self.s.poses[j / N_BODY];
+        let place = pose.x.hypot(pose.y).max(self.size);
         let rest = ROUNDINGS.powi(2) * f64::EPSILON * self.rest_rate * place;
         rest / self.arm(j)
     }
@@ -160,12 +158,11 @@ impl<'m> Equations<'m> {
         let Self {
             mechanism,
             s,
-            q,
             size,
             known,
             ..
         } = self;
-        known.get_or_insert_with(|| mechanism.uncertainty_of_entries(s, q, *size, Known::AsStored));
+        known.get_or_insert_with(|| mechanism.uncertainty_of_entries(s, *size, Known::AsStored));
     }
 
     fn known(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {

@@ -60,7 +60,7 @@ pub(super) fn is_within(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> b
     each.all(|(&row, reach)| s.phi[row].abs() <= SHARED * reach)
 }
 
-/// How far each coordinate moves by one tolerance: lengths, and angles that move a point at the size of the mechanism by as much.
+/// How far a body moves along each column of C by one tolerance: lengths, and angles that move a point at the size of the mechanism by as much.
 fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
     let [length, angle] = largest(&mechanism.data_blocks(s));
     let length = match length {
@@ -74,21 +74,25 @@ fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
             length
         }
     };
-    (0..mechanism.layout().n_q).map(unit).collect()
+    (0..mechanism.layout().n_v).map(unit).collect()
 }
 
-/// How far coordinates are apart in these units.
-fn farthest(a: &[f64], b: &[f64], units: &[f64]) -> f64 {
-    let apart = a.iter().zip(b).zip(units);
-    apart.fold(0.0, |most, ((a, b), unit)| {
-        f64::max(most, (a - b).abs() / unit)
-    })
+/// How far configurations are apart in these units.
+fn farthest(mechanism: &Mechanism, a: &[f64], b: &[f64], units: &[f64]) -> f64 {
+    let apart = mechanism.difference_of(a, b);
+    let shares = apart.iter().zip(units).map(|(d, unit)| d.abs() / unit);
+    shares.fold(0.0, f64::max)
 }
 
 /// Whether a tolerance is stated, and these coordinates are farther apart than data within it say where the bodies are.
 pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[f64]) -> bool {
     mechanism.has_tolerances()
-        && farthest(from, to, &units(mechanism, s, size_of(mechanism, s))) > AMPLIFIED
+        && farthest(
+            mechanism,
+            from,
+            to,
+            &units(mechanism, s, size_of(mechanism, s)),
+        ) > AMPLIFIED
 }
 
 /// The configuration that the described one means, where `found` satisfies the rows as well as possible: `found`, unless it is farther away than the
@@ -107,7 +111,7 @@ pub(super) fn meant(
         return found;
     }
     let units = units(mechanism, s, size);
-    let far = |from: &[f64], to: &[f64]| farthest(from, to, &units) > AMPLIFIED;
+    let far = |from: &[f64], to: &[f64]| farthest(mechanism, from, to, &units) > AMPLIFIED;
     if let Ok(found) = &found
         && !far(found, described)
     {
@@ -141,36 +145,39 @@ fn truncated(
         let reach = reach(mechanism, s, rows);
         let scale = |i: usize| if reach[i] > 0.0 { reach[i] } else { 1.0 };
         let c = dense_rows(mechanism.layout(), s, rows)?;
-        let scaled = Matrix::from_fn(rows.len(), q.len(), |i, j| c[(i, j)] * root[j] / scale(i));
+        let scaled = Matrix::from_fn(rows.len(), root.len(), |i, j| {
+            c[(i, j)] * root[j] / scale(i)
+        });
         if scaled.first_non_finite().is_some() {
             return Ok(None);
         }
         // C·(q₀ + δ − q) + Φ = 0
-        let shift: Vec<f64> = described.iter().zip(&q).map(|(a, b)| a - b).collect();
+        let shift = mechanism.difference_of(described, &q);
         let moved = c.times(&shift);
         let misfit: Vec<f64> = (0..rows.len())
             .map(|i| (s.phi[rows[i]] + moved[i]) / scale(i))
             .collect();
         let svd = small_svd(&scaled);
-        let mut next = described.to_vec();
+        let mut step = vec![0.0; root.len()];
         for (k, &sigma) in svd.sigma.iter().enumerate() {
             let along = |j: usize| root[j] * svd.v[(j, k)] / sigma;
-            let amplified = (0..q.len())
+            let amplified = (0..root.len())
                 .map(|j| along(j).abs() / units[j])
                 .fold(0.0, f64::max);
             if sigma == 0.0 || amplified > AMPLIFIED {
                 continue;
             }
-            let step: f64 = misfit
+            let share: f64 = misfit
                 .iter()
                 .enumerate()
                 .map(|(i, m)| svd.u[(i, k)] * m)
                 .sum();
-            for (j, q) in next.iter_mut().enumerate() {
-                *q -= along(j) * step;
+            for (j, step) in step.iter_mut().enumerate() {
+                *step -= along(j) * share;
             }
         }
-        is_still = farthest(&q, &next, units) <= STILL;
+        let next = mechanism.displaced(described, 1.0, &step);
+        is_still = farthest(mechanism, &q, &next, units) <= STILL;
         q = next;
     }
     Ok((is_still && is_within(mechanism, s, rows)).then_some(q))

@@ -148,7 +148,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
 
     /// The rank at a point; `distance` is how far its C may be from the matrix that is asked for.
     pub(super) fn decide(&self, p: &Point, distance: f64) -> Result<RankDecision, AlongError> {
-        let known = uncertainty(self.mechanism, &p.s, &p.q, self.size);
+        let known = uncertainty(self.mechanism, &p.s, self.size);
         let known = Matrix::from_fn(known.nrows(), known.ncols(), |i, j| {
             known[(i, j)] + distance
         });

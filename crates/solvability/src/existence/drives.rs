@@ -238,13 +238,13 @@ fn compared(
     };
     // What cannot hold at all comes before what cannot go on.
     if let Some(positions) = JointsFirst::of_positions(mechanism, t, q)? {
-        let terms = |i| mechanism.position_scale(&positions.s, i, q);
+        let terms = |i| mechanism.position_scale(&positions.s, i);
         let level = ConstraintLevel::Position;
         add(positions.contradictions(mechanism, level, &terms, share));
     }
     if let Some(all) = JointsFirst::of_velocities(mechanism, t, q)? {
         // Rates that part the positions by nothing in the time of the run are none.
-        let slow = |i| per_second * mechanism.position_scale(&all.s, i, q);
+        let slow = |i| per_second * mechanism.position_scale(&all.s, i);
         let terms = |i| mechanism.prescribed_scale(&all.s, i) + slow(i);
         let level = ConstraintLevel::Velocity;
         add(all.contradictions(mechanism, level, &terms, share));
@@ -300,7 +300,7 @@ impl JointsFirst {
         for row in layout.drive_rows() {
             of_joints.phi[row] = 0.0;
         }
-        let known = uncertainty(mechanism, &of_joints, q, size).select_rows(&all);
+        let known = uncertainty(mechanism, &of_joints, size).select_rows(&all);
         let decided = |rows: &[usize]| -> Result<Option<RankDecision>, AnalysisError> {
             let [c, known]: [Matrix; 2] = [&c, &known].map(|m| m.select_rows(rows));
             let decision = linalg::decide(&c, &known)

@@ -131,8 +131,8 @@ impl<'a> Connected<'a> {
 
     /// Coordinates of a set.
     fn own(&self, set: &[usize], q: &[f64]) -> Vec<f64> {
-        let columns = set.iter().flat_map(|&b| self.whole.layout().columns(b));
-        columns.map(|j| q[j]).collect()
+        let places = set.iter().flat_map(|&b| self.whole.coordinates(b));
+        places.map(|k| q[k]).collect()
     }
 
     /// The mechanism of a set that joints connect; its places are those in the mechanism of the chosen joints.

@@ -74,7 +74,7 @@ impl<'a> Configuration<'a> {
         let size = scene_size(&mechanism, q);
         let c = dimensionless(&mechanism, &s, size);
         Ok(Self {
-            uncertainty: uncertainty(&mechanism, &s, q, size),
+            uncertainty: uncertainty(&mechanism, &s, size),
             mechanism,
             s,
             size,

@@ -33,11 +33,10 @@ pub(crate) struct MeantMatrix {
 }
 
 impl MeantMatrix {
-    /// At the pose of the scratch, where Φ and C have been evaluated at coordinates q, for a mechanism of this size.
+    /// At the pose of the scratch, where Φ and C have been evaluated, for a mechanism of this size.
     pub(crate) fn new(
         mechanism: &Mechanism,
         s: &Scratch,
-        q: &[f64],
         size: f64,
         known: Known,
     ) -> Self {
@@ -46,7 +45,7 @@ impl MeantMatrix {
             c: dimensionless(mechanism, s, size),
             uncertainty: mechanism
                 .dimension_scaling(size)
-                .apply(&mechanism.uncertainty(s, q, size, known)),
+                .apply(&mechanism.uncertainty(s, size, known)),
             zeros: Vec::new(),
             row_blocks: row_blocks(mechanism),
             col_blocks: (0..n_v).map(col_block).collect(),

@@ -64,9 +64,7 @@ fn step(
         .zip(&units)
         .map(|(d, unit)| d * unit)
         .collect();
-    let mut rate = vec![0.0; q.len()];
-    mechanism.rate(q, &velocity, &mut rate);
-    let moved: Vec<f64> = q.iter().zip(&rate).map(|(q, d)| q + stride * d).collect();
+    let moved = mechanism.displaced(q, stride, &velocity);
     let m = mechanism.layout().m;
     let holonomic: Vec<usize> = kept.iter().copied().filter(|&i| i < m).collect();
     *q = nearest_configuration(mechanism, t, &holonomic, &moved).ok()?;

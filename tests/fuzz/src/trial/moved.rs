@@ -142,7 +142,7 @@ impl Rows<'_> {
         mechanism.b(s);
         for i in 0..layout.rows() {
             if i < layout.m {
-                let (phi, scale) = (s.phi[i].abs(), mechanism.position_scale(s, i, q));
+                let (phi, scale) = (s.phi[i].abs(), mechanism.position_scale(s, i));
                 assert!(
                     phi <= RESIDUAL * scale,
                     "t = {t} s: |Φ| of row {} is {phi:e}, its terms {scale:e}",
@@ -157,7 +157,7 @@ impl Rows<'_> {
             let fastest = (0..layout.rows())
                 .map(|k| mechanism.velocity_scale(s, k, v))
                 .fold(scale, f64::max);
-            let limit = RESIDUAL * fastest + REST * mechanism.position_scale(s, i, q).max(*size);
+            let limit = RESIDUAL * fastest + REST * mechanism.position_scale(s, i).max(*size);
             assert!(
                 rate <= limit,
                 "t = {t} s: |C·v − b| of row {} is {rate:e}, the largest terms {fastest:e}",

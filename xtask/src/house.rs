@@ -1,0 +1,302 @@
+//! `cargo xtask house` counts the house: lines of code, large types, circles of modules, numeric
+//! constants, and the limits on them. With `--check` it fails where a limit is exceeded.
+//!
+//! The rules stand where they are applied: [`lines`] says what a line of code is, [`types`] which
+//! types are stateful, [`circles`] which module uses which. Everything is read with the tokenizer
+//! and the parser of Rust; what macros write and what other languages say in `.js` or `.toml` is
+//! not counted.
+
+mod circles;
+mod constants;
+mod lines;
+mod modules;
+mod source;
+mod table;
+#[cfg(test)]
+mod tests;
+mod types;
+
+use serde_json::{Value, json};
+
+use self::lines::Count;
+use self::modules::Modules;
+use self::source::{Crate, Group};
+use self::table::Table;
+use self::types::Type;
+use crate::tree::root;
+
+/// Lines of code of product, laboratory and what is beside them.
+const TOTAL_MOST: usize = 58_000;
+/// Lines of code of the product.
+const PRODUCT_MOST: usize = 50_000;
+/// Lines of code of `dynamics`.
+const DYNAMICS_MOST: usize = 5000;
+/// Modules in a circle.
+const CIRCLE_MOST: usize = 2;
+
+/// What was counted in one crate.
+struct Counted {
+    name: String,
+    folder: String,
+    group: Group,
+    count: Count,
+    types: Vec<Type>,
+    circles: Vec<circles::Circle>,
+}
+
+/// Counts the house of the workspace. `check` tells the limits only, and fails where one is
+/// exceeded.
+pub(crate) fn tell(is_json: bool, check: bool) -> Result<String, String> {
+    let crates = source::crates(&root())?;
+    let counted: Vec<Counted> = crates.iter().map(count).collect();
+    let limits = limits(&counted);
+    let exceeded = limits.rows.iter().any(|row| row[3] == "exceeded");
+    let tables = match check {
+        true => vec![faults(&counted), limits],
+        false => vec![
+            lines_table(&counted),
+            types_table("stateful types", &counted, true),
+            types_table("plain data", &counted, false),
+            circles_table(&counted),
+            constants_table(&crates),
+            limits,
+        ],
+    };
+    let text = match is_json {
+        true => table::json(&tables),
+        false => table::plain(&tables),
+    };
+    match check && exceeded {
+        true => Err(text),
+        false => Ok(text),
+    }
+}
+
+fn count(home: &Crate) -> Counted {
+    let mut count = Count::default();
+    for source in &home.files {
+        count += lines::count(source);
+    }
+    let modules = Modules::of(home);
+    Counted {
+        name: home.name.clone(),
+        folder: home.folder.clone(),
+        group: home.group,
+        count,
+        types: types::large(&modules),
+        circles: circles::circles(&modules, CIRCLE_MOST),
+    }
+}
+
+/// Sum over groups of crates.
+fn sum(counted: &[Counted], groups: &[Group]) -> Count {
+    let mut sum = Count::default();
+    for one in counted.iter().filter(|c| groups.contains(&c.group)) {
+        sum += one.count;
+    }
+    sum
+}
+
+fn lines_table(counted: &[Counted]) -> Table {
+    use Group::{Beside, Developers, Laboratory, Product, Tests};
+    let row = |group: &str, name: &str, count: &Count| {
+        let Count {
+            code,
+            tokens,
+            tests,
+            generated,
+            examples,
+        } = *count;
+        let group = Value::from(group.to_lowercase());
+        vec![
+            group,
+            name.into(),
+            code.into(),
+            tokens.into(),
+            tests.into(),
+            generated.into(),
+            examples.into(),
+        ]
+    };
+    let mut rows = Vec::new();
+    for group in [Product, Beside, Laboratory, Developers, Tests] {
+        let name = format!("{group:?}");
+        let members = counted.iter().filter(|c| c.group == group);
+        rows.extend(members.map(|c| row(&name, &c.name, &c.count)));
+        rows.push(row(&name, "all", &sum(counted, &[group])));
+    }
+    let all = sum(counted, &[Product, Beside, Laboratory, Developers, Tests]);
+    rows.push(row("all", "all", &all));
+    Table {
+        name: "lines",
+        rule: "lines with a token that is no comment; code is hand-written, outside of tests"
+            .into(),
+        columns: &[
+            "group",
+            "crate",
+            "code",
+            "tokens",
+            "tests",
+            "generated",
+            "examples",
+        ],
+        rows,
+    }
+}
+
+fn types_table(name: &'static str, counted: &[Counted], is_stateful: bool) -> Table {
+    let rows = counted.iter().flat_map(|home| {
+        let types = home
+            .types
+            .iter()
+            .filter(move |t| t.is_stateful == is_stateful);
+        types.map(|t| {
+            let file = format!("{}/{}", home.folder, t.file);
+            let over = match (
+                t.fields > types::FIELDS_MOST,
+                t.methods > types::METHODS_MOST,
+            ) {
+                (true, true) => "both",
+                (true, false) => "fields",
+                _ => "methods",
+            };
+            vec![
+                json!(t.name),
+                json!(t.fields),
+                json!(t.methods),
+                json!(over),
+                json!(file),
+            ]
+        })
+    });
+    let plain = if is_stateful {
+        ""
+    } else {
+        "all fields open and no `&mut self`: "
+    };
+    Table {
+        name,
+        rule: format!(
+            "{plain}more than {} fields or {} methods",
+            types::FIELDS_MOST,
+            types::METHODS_MOST
+        ),
+        columns: &["type", "fields", "methods", "too many", "file"],
+        rows: rows.collect(),
+    }
+}
+
+fn circles_table(counted: &[Counted]) -> Table {
+    let mut rows = Vec::new();
+    for home in counted {
+        for (number, circle) in home.circles.iter().enumerate() {
+            for (module, used, by) in &circle.uses {
+                rows.push(vec![
+                    json!(home.name),
+                    json!(number + 1),
+                    json!(circle.modules.len()),
+                    json!(module),
+                    json!(used),
+                    json!(by),
+                ]);
+            }
+        }
+    }
+    Table {
+        name: "circles",
+        rule: format!("more than {CIRCLE_MOST} modules that each reach each by uses"),
+        columns: &["crate", "circle", "modules", "module", "uses", "of it"],
+        rows,
+    }
+}
+
+fn constants_table(crates: &[Crate]) -> Table {
+    let homes = crates
+        .iter()
+        .filter(|c| constants::CRATES.contains(&c.name.as_str()));
+    let rows = homes.flat_map(|home| {
+        constants::constants(home).into_iter().map(|c| {
+            let place = format!("{}/{}", home.folder, c.place);
+            vec![json!(c.name), json!(c.value), json!(place)]
+        })
+    });
+    Table {
+        name: "constants",
+        rule: format!(
+            "numbers and ranges of numbers in {}",
+            constants::CRATES.join(", ")
+        ),
+        columns: &["constant", "value", "file"],
+        rows: rows.collect(),
+    }
+}
+
+/// What exceeds a limit by itself.
+fn faults(counted: &[Counted]) -> Table {
+    let mut rows = Vec::new();
+    for home in counted {
+        for t in home.types.iter().filter(|t| t.is_stateful) {
+            let what = format!(
+                "{} has {} fields and {} methods",
+                t.name, t.fields, t.methods
+            );
+            rows.push(vec![
+                json!(format!("{}/{}", home.folder, t.file)),
+                json!(what),
+            ]);
+        }
+        for circle in &home.circles {
+            let names = &circle.modules;
+            let what = format!("circle of {}: {}", names.len(), names.join(", "));
+            rows.push(vec![json!(home.folder), json!(what)]);
+        }
+    }
+    Table {
+        name: "faults",
+        rule: "stateful types and circles above their bounds".into(),
+        columns: &["place", "fault"],
+        rows,
+    }
+}
+
+fn limits(counted: &[Counted]) -> Table {
+    use Group::{Beside, Laboratory, Product};
+    let dynamics = counted.iter().find(|c| c.name == "dynamics");
+    let stateful = counted
+        .iter()
+        .flat_map(|c| &c.types)
+        .filter(|t| t.is_stateful);
+    let limits = [
+        (
+            "lines of product, laboratory and beside",
+            sum(counted, &[Product, Beside, Laboratory]).code,
+            TOTAL_MOST,
+        ),
+        (
+            "lines of the product",
+            sum(counted, &[Product]).code,
+            PRODUCT_MOST,
+        ),
+        (
+            "lines of `dynamics`",
+            dynamics.map_or(0, |c| c.count.code),
+            DYNAMICS_MOST,
+        ),
+        ("stateful types above the bounds", stateful.count(), 0),
+        (
+            "circles of more than two modules",
+            counted.iter().map(|c| c.circles.len()).sum(),
+            0,
+        ),
+    ];
+    let row = |(what, found, most): (&str, usize, usize)| {
+        let verdict = if found > most { "exceeded" } else { "kept" };
+        vec![json!(what), json!(found), json!(most), json!(verdict)]
+    };
+    Table {
+        name: "limits",
+        rule: "what is found must not exceed the most that is allowed".into(),
+        columns: &["what", "found", "most", "limit"],
+        rows: limits.into_iter().map(row).collect(),
+    }
+}

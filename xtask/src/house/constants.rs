@@ -1,0 +1,75 @@
+//! Numeric constants: where limits and thresholds may hide.
+
+use proc_macro2::Span;
+use syn::spanned::Spanned;
+use syn::visit::{self, Visit};
+
+use super::source::{Crate, Kind, Source};
+
+/// Crates whose constants are listed.
+pub(super) const CRATES: [&str; 4] = ["dynamics", "linalg", "rank", "solvability"];
+
+const NUMBERS: [&str; 14] = [
+    "f64", "f32", "usize", "u128", "u64", "u32", "u16", "u8", "isize", "i128", "i64", "i32", "i16",
+    "i8",
+];
+
+/// `const NAME: TYPE = VALUE;` with a number, or a range of numbers.
+#[derive(PartialEq, Debug)]
+pub(super) struct Constant {
+    /// From the folder of the crate, with the line.
+    pub(super) place: String,
+    pub(super) name: String,
+    pub(super) value: String,
+}
+
+/// All numeric constants of a crate outside of tests, in modules, types and functions.
+pub(super) fn constants(home: &Crate) -> Vec<Constant> {
+    let mut found = Vec::new();
+    for source in home.files.iter().filter(|f| f.kind == Kind::Code) {
+        let mut search = Search {
+            source,
+            found: Vec::new(),
+        };
+        if let Some(file) = &source.items {
+            search.visit_file(file);
+        }
+        found.append(&mut search.found);
+    }
+    found
+}
+
+struct Search<'a> {
+    source: &'a Source,
+    found: Vec<Constant>,
+}
+
+impl Search<'_> {
+    fn add(&mut self, name: &syn::Ident, ty: &syn::Type, value: Span) {
+        let ty = ty.span().source_text().unwrap_or_default();
+        let bare = ty.rsplit_once("Range").map_or(ty.as_str(), |(_, rest)| {
+            rest.split_once('<')
+                .map_or(rest, |(_, inner)| inner.trim_end_matches('>'))
+        });
+        if NUMBERS.contains(&bare) && !self.source.is_test(name.span()) {
+            let value = value.source_text().unwrap_or_default();
+            self.found.push(Constant {
+                place: format!("{}:{}", self.source.path, name.span().start().line),
+                name: name.to_string(),
+                value: value.split_whitespace().collect::<Vec<_>>().join(" "),
+            });
+        }
+    }
+}
+
+impl<'a> Visit<'a> for Search<'_> {
+    fn visit_item_const(&mut self, item: &'a syn::ItemConst) {
+        self.add(&item.ident, &item.ty, item.expr.span());
+        visit::visit_item_const(self, item);
+    }
+
+    fn visit_impl_item_const(&mut self, item: &'a syn::ImplItemConst) {
+        self.add(&item.ident, &item.ty, item.expr.span());
+        visit::visit_impl_item_const(self, item);
+    }
+}
