@@ -18,6 +18,9 @@ pub struct Circuit {
     pub rows: Vec<usize>,
     /// Coefficients for the rows of C as given, the first largest of them normalised to +1.
     pub coefficients: Vec<f64>,
+    /// The largest coefficient of the equilibrated rows, relative to the largest of all, that counts as zero within a stated tolerance only; zero where
+    /// none does.
+    pub left_out: f64,
 }
 
 /// The fundamental circuit of each dropped row, in the order of `dropped`.
@@ -168,6 +171,27 @@ fn fundamental(decision: &RankDecision) -> Vec<Sparse> {
         .collect()
 }
 
+/// The largest coefficient that the dependency has by its dropped rows, that is none of these and no rounding, relative to the largest.
+fn left_out(decision: &RankDecision, z: &Sparse) -> f64 {
+    if !decision.has_tolerance() {
+        return 0.0;
+    }
+    let of = |row: usize| {
+        let at = z.binary_search_by_key(&row, |&(row, _)| row);
+        at.map_or(0.0, |k| z[k].1)
+    };
+    let mut left = vec![0.0; decision.rank];
+    for (j, &row) in decision.dropped.iter().enumerate() {
+        kernels::axpy(of(row), decision.coefficients.row(j), &mut left);
+    }
+    let largest = z.iter().fold(0.0_f64, |a, (_, z)| a.max(z.abs()));
+    let kept = decision.kept.iter().zip(&left);
+    let left = kept.filter(|(row, _)| of(**row) == 0.0);
+    let left = left.map(|(row, x)| (row, x.abs() / largest));
+    let left = left.filter(|(row, x)| *x > decision.row_rounding(**row));
+    left.fold(0.0, |most, (_, x)| f64::max(most, x))
+}
+
 /// Equilibrated coefficients in the scaling of C, normalised.
 fn circuit(decision: &RankDecision, z: &Sparse) -> Circuit {
     let exponents = &decision.scaling.rows;
@@ -182,6 +206,7 @@ fn circuit(decision: &RankDecision, z: &Sparse) -> Circuit {
         .iter()
         .fold(0.0_f64, |a, &b| if b.abs() > a.abs() { b } else { a });
     Circuit {
+        left_out: left_out(decision, z),
         rows: z.iter().map(|&(row, _)| row).collect(),
         coefficients: scaled.iter().map(|z| z / largest).collect(),
     }

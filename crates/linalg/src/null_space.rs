@@ -61,20 +61,25 @@ pub fn components(decision: &RankDecision) -> Components {
     components_of(decision, &Support::new(decision))
 }
 
-/// Rows of components in which a stated tolerance leaves open whether a row belongs to any dependency: which of them depend on each other is not
-/// known there. Ascending; none without a tolerance.
+/// Rows of components in which a stated tolerance leaves open whether a row belongs to any dependency, or to which: which of them depend on each other
+/// is not known there. Ascending; none without a tolerance.
 pub fn open_rows(decision: &RankDecision) -> Vec<usize> {
-    let mut support = Support::new(decision);
-    if !decision.has_tolerance() || !support.open.contains(&true) {
+    if !decision.has_tolerance() {
         return Vec::new();
+    }
+    let mut support = Support::new(decision);
+    let certificate = decision.evidence.certificate.as_ref();
+    let told = certificate.map_or(&[][..], |c| &c.open_rows);
+    for (open, row) in support.open.iter_mut().zip(&decision.kept) {
+        *open |= told.binary_search(row).is_ok();
     }
     // Open rows belong to all that their coefficients touch.
     for (noise, _) in support.noise.iter_mut().zip(&support.open).filter(|x| *x.1) {
         *noise = TOUCHES;
     }
-    let is_open = |row: &usize| {
-        let kept = decision.kept.binary_search(row);
-        kept.is_ok_and(|i| support.open[i])
+    let is_open = |row: &usize| match decision.kept.binary_search(row) {
+        Ok(i) => support.open[i],
+        Err(_) => told.binary_search(row).is_ok(),
     };
     let coupled = components_of(decision, &support).coupled.into_iter();
     let mut rows: Vec<usize> = coupled

@@ -184,6 +184,21 @@ pub enum Doubt {
         /// The unit of both: `m`, or `rad` where a tolerance is stated for angles alone.
         unit: &'static str,
     },
+    /// At this pose the data within their tolerance have a lower rank; of too few other poses it is known whether they have it there.
+    #[error(
+        "with data known to {tolerance:.1e} {unit} the rank at this pose is {lower}; whether it is {lower} or {upper} at others is open, \
+         because on the rows that are left too few of them are reached, or none that is known well enough; move the start, or know the data better"
+    )]
+    OtherPoses {
+        /// The rank that data within the tolerance have here.
+        lower: usize,
+        /// The rank that they may have elsewhere.
+        upper: usize,
+        /// What is stated.
+        tolerance: f64,
+        /// Its unit: `m`, or `rad` where a tolerance is stated for angles alone.
+        unit: &'static str,
+    },
     /// Rows that are not zero are hidden by what the data are known to.
     #[error(
         "singular value {sigma:.3e} is not rounding, and lies below {tolerance:.3e}, what the uncertainty of the data explains, \

@@ -177,6 +177,12 @@ impl<'a> Rows<'a> {
             certificate.row_turn = turns;
             certificate.has_tolerance = has_tolerance;
         }
+        if has_tolerance {
+            let open = question.open_rows(&scaled, decision);
+            if let Some(certificate) = &mut decision.evidence.certificate {
+                certificate.open_rows = open;
+            }
+        }
     }
 
     /// The decision for a rank that has been read, with the evidence of double-double.

@@ -38,6 +38,8 @@ pub struct SelfStress {
     pub rows: Vec<usize>,
     /// `Σ coefficient·row = 0`, the largest coefficient 1.
     pub coefficients: Vec<f64>,
+    /// The largest coefficient (rows scaled) that counts as zero within the tolerance of the scene only; zero where none does.
+    pub left_out: f64,
     /// What each joint carries, in the order of rows; the largest force is 1 N, or the largest torque 1 N·m if there is no force.
     pub directions: Vec<FreeDirection>,
     /// What it means.
@@ -324,6 +326,7 @@ fn stress(
     normalise(&mut directions, scene_size(mechanism, q));
     SelfStress {
         text: words::of_stress(mechanism, solvability, &circuit, &directions),
+        left_out: circuit.left_out,
         rows: circuit.rows,
         coefficients: circuit.coefficients,
         directions,

@@ -7,6 +7,7 @@
 //! | `reading` | the rank of such a matrix |
 //! | `share` | by what share of their uncertainty the data would have to be wrong for a lower rank |
 //! | `pose` | how C changes with the data at one pose |
+//! | `support` | which rows belong to a dependency beyond doubt |
 //! | `walk` | other poses of the same mechanism |
 //! | `cone` | the smallest change of data that satisfies equations |
 //!
@@ -17,6 +18,7 @@ mod matrix;
 mod pose;
 mod reading;
 mod share;
+mod support;
 mod walk;
 
 pub(crate) use matrix::MeantMatrix;

@@ -43,6 +43,8 @@ pub struct ReactionVerdict {
     /// The same without what is zero under any load: perpendicular to the directions along which there is no reaction here. `None` if their number
     /// is undecided; there are no unique directions then either.
     pub live_directions: Option<Vec<Vec<f64>>>,
+    /// The largest part of the reaction that counts as zero within the tolerance of the scene only for these to be unique; zero where none does.
+    pub directions_left_out: f64,
 }
 
 /// The verdict of one row.
@@ -70,6 +72,8 @@ pub struct Dependency {
     pub rows: Vec<usize>,
     /// `Σ coefficient·row = 0`, the largest coefficient 1.
     pub coefficients: Vec<f64>,
+    /// The largest coefficient (rows scaled) that counts as zero within the tolerance of the scene only; zero where none does.
+    pub left_out: f64,
     /// What it means.
     pub text: String,
 }
@@ -235,12 +239,16 @@ pub(crate) fn judge(
     let mut found = judge_reactions(mechanism, s, rows, decision, Told::Directions)?;
     if let Some(decision) = found.part.decision.dense() {
         let open = linalg::open_rows(decision);
+        if !open.is_empty() {
+            found.warnings.push(words::open(mechanism, &open));
+        }
         let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
         let circuits = linalg::short_circuits(decision).into_iter();
         let dependencies = circuits
             .filter(|circuit| is_known(&circuit.rows))
             .map(|circuit| Dependency {
                 text: words::describe(mechanism, &circuit),
+                left_out: circuit.left_out,
                 rows: circuit.rows,
                 coefficients: circuit.coefficients,
             });
@@ -389,6 +397,10 @@ pub(crate) fn reaction(
         components,
         zero_components,
         unique_directions: unique_directions.unwrap_or_default(),
+        directions_left_out: match live_directions {
+            Some(_) => mapped.directions_left_out()?,
+            None => 0.0,
+        },
         live_directions,
     })
 }

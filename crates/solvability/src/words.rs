@@ -25,6 +25,20 @@ pub(crate) fn names(layout: &Layout, ids: &[ConstraintId]) -> Vec<String> {
     ids.iter().map(name).collect()
 }
 
+/// Rows of which a stated tolerance leaves open which depend on each other.
+pub(crate) fn open(mechanism: &Mechanism, rows: &[usize]) -> String {
+    let layout = mechanism.layout();
+    let touched = |id: &ConstraintId| {
+        let own = layout.groups[id.0].rows.clone();
+        rows.iter().any(|row| own.contains(row))
+    };
+    let ids: Vec<ConstraintId> = mechanism.constraint_ids().filter(touched).collect();
+    format!(
+        "within the tolerance it is open which rows of {} depend on each other; what is open is not told",
+        list(&names(layout, &ids))
+    )
+}
+
 /// A self-stress in the terms of joints and bodies, where its geometry allows; else in the terms of rows.
 pub(crate) fn of_stress(
     mechanism: &Mechanism,
@@ -125,6 +139,7 @@ fn sum(mechanism: &Mechanism, solvability: &Solvability, circuit: &Circuit) -> S
     let mut l = vec![0.0; decision.rank + decision.redundancy];
     (l[*i], l[*j]) = (*b, -*a);
     let combined = Circuit {
+        left_out: circuit.left_out,
         rows: circuit.rows.clone(),
         coefficients: vec![*b, -*a],
     };

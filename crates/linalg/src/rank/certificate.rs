@@ -40,6 +40,8 @@ pub struct Certificate {
     /// By what angle (rad) the force of each row turns with data within that tolerance, and by what length (m) it shifts, m values; nothing without
     /// one.
     pub row_turn: Option<Vec<[f64; 2]>>,
+    /// Rows of dependencies of which that tolerance leaves open which rows belong to them, ascending.
+    pub open_rows: Vec<usize>,
 }
 
 /// Why a rank is not larger than it was read.

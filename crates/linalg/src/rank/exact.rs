@@ -124,6 +124,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
         lower_rank_by_angles: false,
         row_data: None,
         row_turn: None,
+        open_rows: Vec::new(),
         has_tolerance: false,
     });
     Ok(decision)

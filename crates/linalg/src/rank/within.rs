@@ -233,6 +233,7 @@ impl Found {
             lower_rank_by_angles: false,
             row_data: None,
             row_turn: None,
+            open_rows: Vec::new(),
             has_tolerance: false,
         });
         decision

@@ -155,10 +155,21 @@ fn margin(v: &VerdictDocument) -> String {
     }
 }
 
+/// What is unique within a tolerance only says so with its margin.
+fn within(v: &VerdictDocument) -> String {
+    match v.within_tolerance {
+        true => format!(" within the tolerance ({:.1e})", v.margin),
+        false => String::new(),
+    }
+}
+
 fn each(components: &[ComponentDocument]) -> String {
     let words = components.iter();
     let words: Vec<String> = words
-        .map(|c| format!("{} {}", c.name, spoken(c.verdict.verdict)))
+        .map(|c| {
+            let spoken = spoken(c.verdict.verdict);
+            format!("{} {spoken}{}", c.name, within(&c.verdict))
+        })
         .collect();
     words.join(", ")
 }

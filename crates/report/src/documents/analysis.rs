@@ -129,6 +129,12 @@ pub struct DependencyDocument {
     pub joints: Vec<String>,
     /// `Σ coefficient·row = 0`, largest coefficient 1.
     pub coefficients: Vec<f64>,
+    /// Whether other rows take no part within the tolerance that the scene states only; absent if not.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub within_tolerance: bool,
+    /// The largest coefficient that counts as zero for that, of scaled rows and relative to the largest of all.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub margin: Option<f64>,
     /// In words.
     pub text: String,
 }
@@ -232,7 +238,9 @@ impl AnalysisDocument {
                 rows: from_one(&stress.rows),
                 joints: joints.cloned().collect(),
                 coefficients: stress.coefficients.clone(),
-                text: stress.text.clone(),
+                within_tolerance: stress.left_out > 0.0,
+                margin: (stress.left_out > 0.0).then_some(stress.left_out),
+                text: said_within(&stress.text, stress.left_out),
             }
         };
         // What is known of parts that were not explained stays.
@@ -270,6 +278,14 @@ impl AnalysisDocument {
     }
 }
 
+/// A dependency in words, with what of it holds within the tolerance only.
+fn said_within(text: &str, left_out: f64) -> String {
+    match left_out > 0.0 {
+        true => format!("{text}; within the tolerance (margin {left_out:.1e})"),
+        false => text.to_owned(),
+    }
+}
+
 impl DependencyDocument {
     fn new(dependency: &Dependency, reactions: &[ReactionVerdict], group_of: &[usize]) -> Self {
         let mut concerned: Vec<usize> = dependency.rows.iter().map(|&row| group_of[row]).collect();
@@ -282,7 +298,9 @@ impl DependencyDocument {
                 .map(|&k| reactions[k].name.clone())
                 .collect(),
             coefficients: dependency.coefficients.clone(),
-            text: dependency.text.clone(),
+            within_tolerance: dependency.left_out > 0.0,
+            margin: (dependency.left_out > 0.0).then_some(dependency.left_out),
+            text: said_within(&dependency.text, dependency.left_out),
         }
     }
 }

@@ -84,6 +84,7 @@ fn certified(certificate: Option<Certificate>) -> Analysis {
         }],
         reactions: vec![reaction("upper", 0), reaction("lower \"2\"", 2)],
         dependencies: vec![Dependency {
+            left_out: 0.0,
             rows: vec![1, 3],
             coefficients: vec![1.0, -1.0],
             text: "both hold the height".into(),
@@ -118,6 +119,7 @@ fn reaction(name: &str, row: usize) -> ReactionVerdict {
         zero_components: Vec::new(),
         unique_directions: vec![vec![1.0, 0.0]],
         live_directions: Some(vec![vec![1.0, 0.0]]),
+        directions_left_out: 0.0,
     }
 }
 
@@ -188,6 +190,7 @@ fn certificate(grounds: Grounds) -> Certificate {
         lower_rank_by_angles: false,
         row_data: None,
         row_turn: None,
+        open_rows: Vec::new(),
         has_tolerance: false,
         nearly_redundant: None,
         lower_rank_here: None,

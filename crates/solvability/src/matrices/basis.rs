@@ -282,7 +282,7 @@ pub(super) struct Noise {
     /// As all that is known of the data says.
     pub(super) known: f64,
     /// Without the tolerance that the scene states; infinite where it states none.
-    rounding: f64,
+    pub(super) rounding: f64,
 }
 
 impl Noise {

@@ -2,11 +2,11 @@
 //!
 //! Not here: the rows themselves and their null space (`basis`), and where W comes from (`mechanism`).
 
-use linalg::{CoefficientReading, Matrix, PivotedQr, RankStatus};
+use linalg::{CoefficientReading, ExactNullSpace, Matrix, PivotedQr, RankStatus};
 
 use super::QueryError;
 use super::basis::{Basis, Noise, ROUNDING_OF_MAP, check_coefficients, combination, norm};
-use crate::verdict::Judgement;
+use crate::verdict::{Judgement, Verdict};
 
 /// What the first order says of larger angles (rad) means nothing.
 const LARGEST_TURN: f64 = 0.1;
@@ -16,6 +16,26 @@ const LARGEST_ROUNDING: f64 = 1e-5;
 
 /// A component below this share of what its direction is known to is none, as data are beyond doubt within a third of their tolerance.
 const NONE: f64 = 1.0 / 3.0;
+
+/// A component above this share of its force matters, whatever its direction is known to: the limit of coefficients that are told as none.
+const SMALL: f64 = 1e-3;
+
+/// A component above this multiple of what its direction is known to is one, as for ranks.
+const SOME: f64 = 3.0;
+
+/// Why a component is open that the data do not tell from zero.
+const TURNED: &str = "the tolerance leaves open whether the force has this component";
+
+/// What the direction of a force, as far as it is known, makes of one of its components.
+#[derive(Clone, Copy, Debug)]
+enum Beside {
+    /// As it stands.
+    Some,
+    /// None within the tolerance: what it is, in the unit of margins.
+    None { margin: f64 },
+    /// Some or none: too large to be none, and too small to be some.
+    Open,
+}
 
 /// A map W (k × |X|) from the multipliers of rows X to components, and what it makes of their null space.
 #[derive(Clone, Debug)]
@@ -31,6 +51,8 @@ pub(crate) struct Mapped<'a> {
     largest: f64,
     /// What the entries of W are known to within a stated tolerance.
     wobble: Option<Matrix>,
+    /// What a stated tolerance makes of each component by itself.
+    beside: Vec<Beside>,
 }
 
 impl<'a> Mapped<'a> {
@@ -55,6 +77,7 @@ impl<'a> Mapped<'a> {
             }
         }
         Ok(Self {
+            beside: vec![Beside::Some; sizes.len()],
             basis,
             map,
             rows,
@@ -89,7 +112,15 @@ impl<'a> Mapped<'a> {
         self.wobble = Some(Matrix::from_fn(self.sizes.len(), self.rows.len(), wobble));
         let whole = self.sizes[..forces].iter().copied().fold(0.0, f64::hypot);
         for i in 0..forces {
-            if self.sizes[i] <= NONE * turn * whole {
+            let share = self.sizes[i] / whole;
+            // Of larger turns the first order says nothing.
+            let is_near = turn >= LARGEST_TURN || share <= SOME * turn;
+            if share > SMALL && is_near {
+                self.beside[i] = Beside::Open;
+            } else if share > 0.0 && share <= NONE * turn {
+                self.beside[i] = Beside::None {
+                    margin: self.margin(i),
+                };
                 self.images.row_mut(i).fill(0.0);
                 self.sizes[i] = 0.0;
             }
@@ -97,8 +128,17 @@ impl<'a> Mapped<'a> {
         self
     }
 
+    /// Norm of row k of `W·Z_X`, relative to the largest row of W.
+    fn margin(&self, k: usize) -> f64 {
+        match self.largest {
+            // Zero over zero: a map of zeros has no reaction.
+            0.0 => 0.0,
+            largest => norm(self.images.row(k)) * (self.sizes[k] / largest),
+        }
+    }
+
     /// Component `k`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest row of W. A row that is rounding beside the
-    /// others is zero, unless the entries are meant exactly.
+    /// others is zero, unless the entries are meant exactly; one that counts as zero within a stated tolerance says so, with its margin.
     ///
     /// # Errors
     /// If there is no such component.
@@ -109,17 +149,32 @@ impl<'a> Mapped<'a> {
                 components: self.sizes.len(),
             });
         }
-        // Zero over zero: a map of zeros has no reaction.
-        let share = match self.largest {
-            0.0 => 0.0,
-            largest => self.sizes[k] / largest,
-        };
-        let margin = norm(self.images.row(k)) * share;
         let noise = self.noise(k, self.largest);
         let (map, rows) = (self.map.row(k), &self.rows);
-        Ok(self
-            .basis
-            .judge(margin, noise, |z| z.annihilates(combination(map, rows))))
+        let vanishes = |z: &ExactNullSpace| z.annihilates(combination(map, rows));
+        let judged = self.basis.judge(self.margin(k), noise, vanishes);
+        Ok(match self.beside[k] {
+            _ if !judged.verdict.is_unique() => judged,
+            Beside::Some => judged,
+            Beside::None { margin } => Judgement {
+                margin,
+                within_tolerance: margin > noise.rounding,
+                ..judged
+            },
+            // Unique by its multipliers or not at all.
+            Beside::Open => {
+                let noise = self.basis.noise_of_row(map, rows, self.largest);
+                match self.basis.judge(judged.margin, noise, vanishes) {
+                    own if own.verdict.is_unique() => own,
+                    own => Judgement::new(
+                        Verdict::Undecided {
+                            reason: TURNED.to_owned(),
+                        },
+                        own.margin,
+                    ),
+                }
+            }
+        })
     }
 
     /// Whether component `k` is zero for all multipliers: row k of W is so small beside the largest one that the component is unique for this
@@ -174,6 +229,33 @@ impl<'a> Mapped<'a> {
         Ok((0..k - rank)
             .map(|j| normalised(direction(j), self.nothing()))
             .collect())
+    }
+
+    /// The largest part of the reaction that counts as zero within a stated tolerance only for the unique directions, in the unit of margins; zero
+    /// where none does.
+    ///
+    /// # Errors
+    /// As [`Mapped::unique_directions`].
+    pub(crate) fn directions_left_out(&self) -> Result<f64, QueryError> {
+        let none = self.beside.iter().map(|beside| match beside {
+            Beside::None { margin } => *margin,
+            _ => 0.0,
+        });
+        if self.wobble.is_none() {
+            return Ok(0.0);
+        }
+        let noise = (0..self.sizes.len()).map(|i| self.noise(i, self.sizes[i]));
+        let (known, rounding) = noise.fold((0.0, 0.0), |(known, rounding), noise| {
+            (
+                f64::max(known, noise.known),
+                f64::max(rounding, noise.rounding),
+            )
+        });
+        let qr = PivotedQr::of_columns(&self.images);
+        let rank = self.basis.clear_rank(&qr, known)?;
+        let left = qr.r_diagonal().skip(rank).map(f64::abs);
+        let left = left.chain(none).filter(|left| *left > rounding);
+        Ok(left.fold(0.0, f64::max))
     }
 
     /// Those of the unique directions that say something: perpendicular to the ones along which the reaction is zero for all multipliers.

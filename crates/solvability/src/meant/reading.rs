@@ -6,7 +6,7 @@
 use linalg::{Doubt, Grounds, RankReading, RankStatus, singular_values};
 
 use super::MeantMatrix;
-use super::share::{Nearness, Question};
+use super::share::{Nearness, Question, StatedTolerance};
 
 /// A singular value that the uncertainty of a matrix of size one hides must be below this: what is above is not known to be zero.
 const HIDDEN: f64 = 0.01;
@@ -96,6 +96,8 @@ impl MeantMatrix {
         let tolerance = question.tolerance();
         let metres = tolerance.map_or(0.0, |stated| stated.metres);
         let limit = (TOLD * question.size).max(FULL * metres);
+        // What was left out last, and whether poses enough say so. Its equations are those of all rows that are left out.
+        let mut is_short = false;
         while status == RankStatus::Decided
             && let Some(near) = question.nearness(rank, limit)
         {
@@ -103,26 +105,22 @@ impl MeantMatrix {
             let Some(tolerance) = tolerance else {
                 break;
             };
-            let share = near.everywhere / tolerance.metres;
-            if share < LOWER {
+            let share = |length: f64| length / tolerance.metres;
+            if share(near.everywhere) < LOWER {
                 rank -= 1;
                 grounds = Grounds::WithinTolerance;
+                is_short = !near.is_walked;
                 continue;
             }
-            if share <= FULL {
-                let (one, unit) = match tolerance.by_angles {
-                    true => (question.size, "rad"),
-                    false => (1.0, "m"),
-                };
-                status = RankStatus::Undecided(Doubt::WithinTolerance {
-                    lower: rank - 1,
-                    upper: rank,
-                    from: near.everywhere / one,
-                    tolerance: tolerance.metres / one,
-                    unit,
-                });
+            if share(near.everywhere) <= FULL {
+                status = open(question, tolerance, rank, Some(near.everywhere));
+            } else if share(near.at_least) <= FULL {
+                status = open(question, tolerance, rank, None);
             }
             break;
+        }
+        if let (RankStatus::Decided, true, Some(tolerance)) = (status, is_short, tolerance) {
+            status = open(question, tolerance, rank + 1, None);
         }
         // What is redundant within a tolerance is so where all lengths have one unit: a short lever must not be scaled up to size one.
         let (scaling, sigma) = match grounds {
@@ -147,4 +145,33 @@ impl MeantMatrix {
             has_tolerance: tolerance.is_some(),
         }
     }
+}
+
+/// It is open whether the rank is one less: from a change of this length on (m), or because nothing is known of other poses.
+fn open(
+    question: &Question<'_>,
+    stated: StatedTolerance,
+    upper: usize,
+    from: Option<f64>,
+) -> RankStatus {
+    let (one, unit) = match stated.by_angles {
+        true => (question.size, "rad"),
+        false => (1.0, "m"),
+    };
+    let (lower, tolerance) = (upper - 1, stated.metres / one);
+    RankStatus::Undecided(match from {
+        Some(from) => Doubt::WithinTolerance {
+            lower,
+            upper,
+            from: from / one,
+            tolerance,
+            unit,
+        },
+        None => Doubt::OtherPoses {
+            lower,
+            upper,
+            tolerance,
+            unit,
+        },
+    })
 }

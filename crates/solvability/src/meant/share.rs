@@ -1,7 +1,7 @@
 //! By what share of their uncertainty, or by how many metres, the data would have to be wrong for a lower rank.
 
 use linalg::{Matrix, RankDecision, Scaling, small_svd};
-use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch};
+use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch, System};
 
 use super::cone::{Bounds, Equation, least_change};
 use super::pose::{Candidate, Pose};
@@ -44,6 +44,11 @@ pub(crate) struct Nearness {
     pub(crate) here: f64,
     /// By one change of the data that serves all poses of a walk: from there on a row is redundant. Infinite where none does.
     pub(crate) everywhere: f64,
+    /// No change below this does, where nonholonomic rows lead: they hold no position, so that each pose of the walk is known to what data within
+    /// the change make of the way there. [`everywhere`](Self::everywhere) otherwise.
+    pub(crate) at_least: f64,
+    /// Whether the walk found the poses that it takes to tell a redundancy from a singular pose.
+    pub(crate) is_walked: bool,
     /// Whether only angles change, because a tolerance is stated for them alone.
     pub(crate) by_angles: bool,
 }
@@ -86,6 +91,14 @@ impl Question<'_> {
             equations.push(equation);
         }
         least_change(&equations)
+    }
+
+    /// Changes of an entry by where each body stands and by how it is turned, of a length (m) each.
+    fn by_place(&self, gradient: &[f64], length: f64, by_angles: bool) -> Vec<[f64; 2]> {
+        let place = if by_angles { 0.0 } else { length };
+        let turn = length / self.size;
+        let of_body = |by: &[f64]| [[by[0] * place, by[1] * place], [by[2] * turn, 0.0]];
+        gradient.chunks_exact(N_BODY).flat_map(of_body).collect()
     }
 
     /// Changes of where each body stands at the start, and of how it is turned, by what these are rounded to.
@@ -227,39 +240,50 @@ impl Question<'_> {
         let least = least.max(self.size * f64::EPSILON);
         let known: Vec<f64> = unit.iter().map(|unit| unit * least).collect();
         // Equations of lengths are those of entries, times the size.
-        let of_pose = |pose: &Pose<'_>, noise: f64| -> Vec<(Equation, f64)> {
+        let by_angles = stated.is_some_and(|stated| stated.by_angles);
+        let of_pose = |pose: &Pose<'_>, noise: f64| -> Vec<Asked> {
             let of_pair = |at: (usize, usize)| {
                 let (target, gradient) = pose.entry(at.0, at.1);
-                let equation = equation(target, &gradient.data, (&blocks, &known), noise);
-                (equation, 1.0)
+                Asked {
+                    equation: equation(target, &gradient.data, (&blocks, &known), noise),
+                    unit: 1.0,
+                    by_place: self.by_place(&gradient.pose, least, by_angles),
+                }
             };
             // What depends on each other must hold together, too.
             let of_row = |a: usize| {
                 let (target, gradient) = pose.misfit(a)?;
                 let noise = noise * self.size;
-                let equation = equation(target, &gradient, (&blocks, &known), noise);
-                Some((equation, self.size))
+                Some(Asked {
+                    equation: equation(target, &gradient, (&blocks, &known), noise),
+                    unit: self.size,
+                    by_place: vec![[0.0; 2]; 2 * self.s.poses.len()],
+                })
             };
             let rows = (0..pose.left.nrows().min(PAIRS)).filter_map(of_row);
             pairs(pose).map(of_pair).chain(rows).collect()
         };
         // The share of `least` by which the data have to change, where the second order of a change by at most `share` of it is left open.
-        let change = |equations: &[(Equation, f64)], share: f64| {
+        let change = |poses: &[Vec<Asked>], share: f64, are_places_free: bool| {
             let curved = CURVED * (least / self.size).powi(2) * share.min(1.0);
-            let loose = |(equation, unit): &(Equation, f64)| Equation {
-                rounding: equation.rounding.max(curved * unit),
-                ..equation.clone()
-            };
-            least_change(&equations.iter().map(loose).collect::<Vec<_>>()).middle()
+            let equations = poses.iter().enumerate().flat_map(|(k, asked)| {
+                let of = move |asked: &Asked| match are_places_free {
+                    true => asked.with_place(k, poses.len(), curved),
+                    false => asked.loose(curved),
+                };
+                asked.iter().map(of)
+            });
+            least_change(&equations.collect::<Vec<_>>()).middle()
         };
-        let mut equations = of_pose(&here, rounding(&scaled));
-        let at_this_pose = least * change(&equations, 1.0);
+        let mut poses = vec![of_pose(&here, rounding(&scaled))];
+        let at_this_pose = least * change(&poses, 1.0, false);
         if at_this_pose > limit {
             return None;
         }
         let kept_rows: Vec<usize> = kept.iter().map(|&k| self.places[k]).collect();
-        for q in walk(self, &kept_rows) {
-            let s = crate::mechanism::evaluated(self.mechanism, self.s.t, &q);
+        let walked = walk(self, &kept_rows);
+        for q in &walked.poses {
+            let s = crate::mechanism::evaluated(self.mechanism, self.s.t, q);
             // The scaling is that of the first pose: the equations have one unit.
             let scaled = scaling.apply(&self.dimensionless(&s));
             let candidate = Candidate::of_rows(&scaled, kept.clone());
@@ -270,12 +294,21 @@ impl Question<'_> {
                 (&scaled, &dimensions, &scaling),
                 candidate,
             );
-            equations.extend(of_pose(&there, WALKED));
+            poses.push(of_pose(&there, WALKED));
         }
+        let everywhere = least * change(&poses, change(&poses, 1.0, false), false);
+        let is_led = kept_rows.iter().any(|&i| i >= self.mechanism.layout().m);
+        let is_asked = tolerance.is_some() && is_led && everywhere > at_this_pose;
+        let at_least = match is_asked {
+            true => everywhere.min(least * change(&poses, 1.0, true)),
+            false => everywhere,
+        };
         Some(Nearness {
             here: at_this_pose,
-            everywhere: least * change(&equations, change(&equations, 1.0)),
-            by_angles: stated.is_some_and(|stated| stated.by_angles),
+            everywhere,
+            at_least,
+            is_walked: walked.is_complete,
+            by_angles,
         })
     }
 
@@ -325,6 +358,37 @@ fn single(decision: &RankDecision) -> Matrix {
 /// A weakest entry above this share of the size of C belongs to no change of data below a thousandth of the size: an entry changes by its own size,
 /// times what the pose answers, which is below the inverse of the entry.
 const CLEAR: f64 = 0.1;
+
+/// What has to vanish at a pose.
+struct Asked {
+    equation: Equation,
+    /// Unit of the equation (m, or one for an entry).
+    unit: f64,
+    /// Changes by where the bodies are at this pose.
+    by_place: Vec<[f64; 2]>,
+}
+
+impl Asked {
+    /// The equation with the second order of a change left open.
+    fn loose(&self, curved: f64) -> Equation {
+        Equation {
+            rounding: self.equation.rounding.max(curved * self.unit),
+            ..self.equation.clone()
+        }
+    }
+
+    /// The same where the bodies may be elsewhere at each of so many poses, of which this is the k-th.
+    fn with_place(&self, k: usize, poses: usize, curved: f64) -> Equation {
+        let mut equation = self.loose(curved);
+        let count = self.by_place.len();
+        let first = equation.parts.len() + k * count;
+        equation
+            .parts
+            .resize(equation.parts.len() + poses * count, [0.0; 2]);
+        equation.parts[first..first + count].copy_from_slice(&self.by_place);
+        equation
+    }
+}
 
 /// The pairs of directions that are asked to vanish.
 fn pairs(pose: &Pose<'_>) -> impl Iterator<Item = (usize, usize)> {

@@ -322,6 +322,84 @@ fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     }
 }
 
+/// Two slides between the ground and one body, whose forces act on lines this far apart, in a scene of two metres: `n_B − n_A` turns the body by that
+/// lever, which the angles carry. A lever that is none within the tolerance is left out with its size; one that may be none leaves open whether the
+/// angles belong to the forces; a large one is told.
+#[test]
+fn a_dependency_that_hangs_on_a_coefficient_is_marked_or_withheld() {
+    let judged = |apart: f64, tolerance: f64| {
+        let mut d = Description::new("slides");
+        let body = d.body(Body::new("slide", 10.0, 1.0));
+        for (name, ground, x) in [("A", -1.0, 0.0), ("B", 1.0, apart)] {
+            let slide = joints::Translational {
+                s_i: [ground, 0.0],
+                s_j: [x, 0.0],
+                axis: joints::Direction::X,
+                angle_0: 0.0,
+            };
+            d.joint(name, &[BodyRef::Ground, body], slide);
+        }
+        d.tolerance.length = Some(tolerance);
+        let found = analysed(&d);
+        let is_open = found.warnings.iter().any(|w| w.contains("it is open"));
+        let rows: Vec<usize> = found.dependencies.iter().map(|d| d.rows.len()).collect();
+        let left = found.dependencies.iter().map(|d| d.left_out);
+        (rows, is_open, left.fold(0.0, f64::max))
+    };
+    let (rows, is_open, left) = judged(1e-4, 1e-2);
+    assert_eq!((rows, is_open), (vec![2, 2], false));
+    // 1e-4 m of two metres, to the powers of two by which rows are scaled.
+    assert!((1e-5..4e-4).contains(&left), "{left:e}");
+    assert_eq!(judged(0.0, 1e-2), (vec![2, 2], false, 0.0));
+    let (rows, is_open, _) = judged(0.02, 1e-2);
+    assert_eq!((rows, is_open), (vec![], true));
+    assert_eq!(judged(0.02, 1e-5), (vec![2, 3], false, 0.0));
+}
+
+/// Two equal bars, one metre long, whose direction is this far from the y-axis: neither force is unique. Along x it is none within the tolerance where
+/// it is far below both that and a thousandth, and some where it is far above.
+#[test]
+fn a_component_that_is_none_within_the_tolerance_says_so() {
+    let judged = |across: f64, tolerance: f64| {
+        let mut d = Description::new("bars");
+        let body = d.body(Body {
+            position: [across, 1.0],
+            ..Body::new("weight", 10.0, 1.0)
+        });
+        for name in ["A", "B"] {
+            let bar = Distance {
+                s_i: [0.0; 2],
+                s_j: [0.0; 2],
+                length: 0.0,
+                half_inverse: 0.0,
+            };
+            d.joint(name, &[BodyRef::Ground, body], bar);
+        }
+        d.tolerance.length = Some(tolerance);
+        let found = analysed(&d);
+        let x = found.reactions[0]
+            .components
+            .iter()
+            .find(|c| c.name == "Fx");
+        x.expect("a component").judgement.clone()
+    };
+    let none = judged(1e-4, 1e-3);
+    assert!(
+        none.verdict.is_unique() && none.within_tolerance,
+        "{none:?}"
+    );
+    // One of two equal forces, whose sum is given: half of both, 1/√2 of a unit vector.
+    assert!(
+        (none.margin / 1e-4 - 0.5_f64.sqrt()).abs() < 0.01,
+        "{none:?}"
+    );
+    assert_eq!(judged(0.1, 1e-3).verdict, crate::Verdict::NotUnique);
+    for (across, tolerance) in [(1e-2, 1e-2), (1e-2, 4e-2), (1e-2, 0.2)] {
+        let open = judged(across, tolerance);
+        assert_eq!(open.verdict.word(), "undecided", "{tolerance}: {open:?}");
+    }
+}
+
 /// Two edges of one axle that are parallel but for a thousandth: within a centimetre one of them is redundant, and neither force is unique.
 #[test]
 fn edges_of_one_axle_share_their_force_within_a_tolerance() {

@@ -25,6 +25,9 @@ const FIRST_ORDER: f64 = 0.1;
 /// Points of a joint that move at once, by their share of what the most sensitive one does.
 const AT_ONCE: f64 = 3.0;
 
+/// What is said where dependencies are left open.
+const OPEN: &str = "within the tolerance it is open which rows of";
+
 /// Digits of `sensitivity` and of double arithmetic in reactions.
 const ROUNDING: f64 = 1e-8;
 
@@ -135,6 +138,10 @@ impl<'a> Meant<'a> {
         }
         self.verdicts(told, tolerance, findings);
         kept_rows(self.truth, told, findings);
+        let warnings = list(&told["warnings"]).iter().filter_map(Value::as_str);
+        for warning in warnings.filter(|w| w.contains(OPEN)) {
+            findings.note(Kind::Undecided, warning.to_owned());
+        }
         words::circuits(self.truth, told, findings);
         self.loads(told, tolerance, findings);
         judged

@@ -78,6 +78,7 @@ mod tests {
             lower_rank_by_angles: false,
             row_data: None,
             row_turn: None,
+            open_rows: Vec::new(),
             has_tolerance: false,
             nearly_redundant: None,
             lower_rank_here: here,

@@ -37,6 +37,9 @@ pub struct ReactionDocument {
     /// Basis of the unique directions in these components, without those along which the reaction is zero under any load; `null` if
     /// their number is undecided.
     pub unique_directions: Option<Vec<Vec<f64>>>,
+    /// What these count as zero within the tolerance that the scene states only, in the unit of margins; absent if nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub unique_directions_within_tolerance: Option<f64>,
     /// Why it is unique without any numbers: `peeled` or `bridge`.
     pub settled: Option<&'static str>,
     /// Why it is not unique.
@@ -178,6 +181,8 @@ impl From<&ReactionVerdict> for ReactionDocument {
             row_verdicts: rows.collect(),
             components: r.components.iter().map(Into::into).collect(),
             unique_directions: r.live_directions.clone(),
+            unique_directions_within_tolerance: (r.directions_left_out > 0.0)
+                .then_some(r.directions_left_out),
             settled: None,
             explanation: None,
             free_directions: Vec::new(),

@@ -1,0 +1,117 @@
+//! Which rows belong to a dependency beyond doubt, where the data are known to a stated tolerance.
+//!
+//! A dependency `row s = Σ t_k·row k` over independent rows K that contain all of its other rows has one coefficient for each row of K: those of its own
+//! rows are not zero, all others are. With the rank held it changes with the data by `δt_k = zᵀ·δC·C_K⁺·e_k`, z the dependency itself. A coefficient
+//! that this leaves between zero and not zero, or puts on the other side, leaves open which rows depend on each other.
+
+use linalg::{Circuit, CoefficientReading, Matrix, PivotedQr, RankDecision};
+
+use super::pose::{Candidate, Pose};
+use super::share::Question;
+
+/// Coefficients of the scaled rows below this are rounding, whatever is stated.
+const ROUNDING: f64 = 1e-12;
+
+/// A dependency over independent rows that contain its other rows.
+struct Fundamental {
+    /// Independent rows, ascending, as many as the rank.
+    kept: Vec<usize>,
+    /// Their coefficients.
+    t: Vec<f64>,
+    /// The dependency `e_s − Σ t_k·e_k`, one value for each row.
+    z: Vec<f64>,
+    /// `C_K⁺`
+    inverse: Matrix,
+}
+
+impl Fundamental {
+    /// Of a dependency of the scaled C; `None` where its rows without the largest are not independent in f64.
+    fn new(scaled: &Matrix, decision: &RankDecision, circuit: &Circuit) -> Option<Self> {
+        let (rank, n) = (decision.rank, scaled.ncols());
+        let size = |(&row, z): (&usize, &f64)| (z / decision.scaling.row_factor(row)).abs();
+        let sizes: Vec<f64> = circuit
+            .rows
+            .iter()
+            .zip(&circuit.coefficients)
+            .map(size)
+            .collect();
+        let at = (0..sizes.len()).max_by(|&a, &b| sizes[a].total_cmp(&sizes[b]))?;
+        let mut kept = circuit.rows.clone();
+        let largest = kept.remove(at);
+        if kept.len() > rank {
+            return None;
+        }
+        // The others that are most independent of these.
+        let own = PivotedQr::of_rows(scaled.select_rows(&kept));
+        let is_other = |row: &usize| !circuit.rows.contains(row);
+        let others: Vec<usize> = (0..scaled.nrows()).filter(is_other).collect();
+        let mut rest = Matrix::zeros(others.len(), n - kept.len());
+        let mut y = vec![0.0; n];
+        for (j, &row) in others.iter().enumerate() {
+            y.copy_from_slice(scaled.row(row));
+            own.q_transpose_mul(&mut y);
+            rest.row_mut(j).copy_from_slice(&y[kept.len()..]);
+        }
+        let more = rank - kept.len();
+        if more > others.len() {
+            return None;
+        }
+        let rest = PivotedQr::of_rows(rest);
+        kept.extend(rest.permutation()[..more].iter().map(|&j| others[j]));
+        kept.sort_unstable();
+        let qr = PivotedQr::of_rows(scaled.select_rows(&kept));
+        if qr.r_diagonal().any(|r| r == 0.0) {
+            return None;
+        }
+        let inverse = qr.pseudo_inverse();
+        let t = inverse.transpose_times(scaled.row(largest));
+        let mut z = vec![0.0; scaled.nrows()];
+        z[largest] = 1.0;
+        for (&row, t) in kept.iter().zip(&t) {
+            z[row] = -t;
+        }
+        Some(Self {
+            kept,
+            t,
+            z,
+            inverse,
+        })
+    }
+}
+
+impl Question<'_> {
+    /// Rows of the dependencies that the data, known to a stated tolerance, leave open; ascending.
+    pub(crate) fn open_rows(&self, scaled: &Matrix, decision: &RankDecision) -> Vec<usize> {
+        if decision.redundancy == 0 || !decision.is_decided() {
+            return Vec::new();
+        }
+        let dimensions = self.mechanism.dimension_scaling(self.size);
+        let candidate = Candidate::of_rank(scaled, decision.rank);
+        let matrices = (scaled, &dimensions, &decision.scaling);
+        let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
+        let blocks = self.mechanism.data_blocks(self.s);
+        let is_open = |circuit: &Circuit| {
+            let Some(of) = Fundamental::new(scaled, decision, circuit) else {
+                return true;
+            };
+            (0..of.kept.len()).any(|k| {
+                let column: Vec<f64> = (0..scaled.ncols()).map(|j| of.inverse[(j, k)]).collect();
+                let gradient = pose.gradient_between(&of.z, &column).data;
+                let changes = blocks.iter().map(|b| b.change(&gradient, b.known_to()));
+                let rounding = decision.row_rounding(of.kept[k]).max(ROUNDING);
+                let known = changes.sum::<f64>().max(rounding);
+                let reading = decision.read_coefficient(of.t[k].abs(), known);
+                let right = match circuit.rows.contains(&of.kept[k]) {
+                    true => CoefficientReading::NonZero,
+                    false => CoefficientReading::Zero,
+                };
+                reading != right
+            })
+        };
+        let open = linalg::short_circuits(decision).into_iter().filter(is_open);
+        let mut rows: Vec<usize> = open.flat_map(|circuit| circuit.rows).collect();
+        rows.sort_unstable();
+        rows.dedup();
+        rows
+    }
+}
