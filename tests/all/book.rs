@@ -8,7 +8,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use joints::spec::Shape;
-use pfaff::dynamics::{Formulation, Method, Stabilisation};
+use pfaff::dynamics::{Method, Stabilisation};
 use pfaff::model::Registry;
 
 fn root() -> &'static Path {
@@ -180,7 +180,6 @@ fn the_reference_of_scenes_is_complete() {
         }
     }
     let choices = Method::ALL.iter().map(|m| m.name());
-    let choices = choices.chain(Formulation::ALL.iter().map(|f| f.name()));
     for name in choices.chain(Stabilisation::ALL.iter().map(|s| s.name())) {
         has(&format!("`{name}`"));
     }

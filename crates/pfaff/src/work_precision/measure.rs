@@ -73,7 +73,6 @@ pub(super) fn options(base: &MotionOptions, curve: Curve, tolerance: f64) -> Mot
         rtol: tolerance,
         atol: tolerance,
         method: curve.method,
-        formulation: curve.formulation,
         stabilisation: curve.stabilisation,
         ..base.clone()
     }

@@ -34,12 +34,7 @@ pub(crate) struct MeantMatrix {
 
 impl MeantMatrix {
     /// At the pose of the scratch, where Φ and C have been evaluated, for a mechanism of this size.
-    pub(crate) fn new(
-        mechanism: &Mechanism,
-        s: &Scratch,
-        size: f64,
-        known: Known,
-    ) -> Self {
+    pub(crate) fn new(mechanism: &Mechanism, s: &Scratch, size: f64, known: Known) -> Self {
         let n_v = mechanism.layout().n_v;
         let mut meant = Self {
             c: dimensionless(mechanism, s, size),
