@@ -1,4 +1,5 @@
-//! The Rust blocks of the book as doc tests. `tests/all/book.rs` sees to it that no chapter is missing here.
+//! The Rust blocks of the book as doc tests. `tests/all/book.rs` sees to it that no chapter is
+//! missing here.
 
 #[doc = include_str!("../docs/book/introduction.md")]
 mod introduction {}
@@ -24,6 +25,8 @@ mod not_unique {}
 mod own_joint {}
 #[doc = include_str!("../docs/book/accuracy.md")]
 mod accuracy {}
+#[doc = include_str!("../docs/book/speed.md")]
+mod speed {}
 #[doc = include_str!("../docs/book/extremes.md")]
 mod extremes {}
 #[doc = include_str!("../docs/book/limits.md")]

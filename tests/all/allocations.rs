@@ -1,6 +1,6 @@
 //! An evaluation of the right-hand side allocates nothing.
 
-use dynamics::{Formulation, KeptRowMotion, Motion, MotionOptions, RowChoice, prepare};
+use dynamics::{KeptRowMotion, Method, Motion, MotionOptions, RowChoice, prepare};
 use model::{Mechanism, StartOptions};
 use tests::robot::{robot, steering};
 
@@ -29,13 +29,13 @@ fn evaluations_and_projections_allocate_nothing() {
 }
 
 #[test]
-fn accelerations_of_every_formulation_allocate_nothing() {
+fn accelerations_of_every_method_allocate_nothing() {
     let mechanism = Mechanism::build(&robot(steering())).expect("the robot builds");
     let p = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic).expect("starts");
     let mut a = vec![0.0; p.v.len()];
-    for &formulation in Formulation::ALL {
+    for &method in Method::ALL {
         let options = MotionOptions {
-            formulation,
+            method,
             ..MotionOptions::to(1.0)
         };
         let mut motion = KeptRowMotion::with(&p, &options).expect("moves");
@@ -44,6 +44,6 @@ fn accelerations_of_every_formulation_allocate_nothing() {
                 .acceleration(1.5, &p.q, &p.v, &mut a)
                 .expect("regular");
         });
-        assert_eq!(counted.count_total, 0, "{formulation:?}: {counted:?}");
+        assert_eq!(counted.count_total, 0, "{method:?}: {counted:?}");
     }
 }

@@ -1,4 +1,5 @@
-//! The book holds together: contents, links, figures, doc tests. What its examples show is compared by the contract of the command.
+//! The book holds together: contents, links, figures, doc tests. What its examples show is compared
+//! by the contract of the command.
 
 #[path = "../examples/book_figures/figures.rs"]
 mod figures;
@@ -8,7 +9,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use joints::spec::Shape;
-use pfaff::dynamics::{Formulation, Method, Stabilisation};
+use pfaff::dynamics::{Method, Stabilisation};
 use pfaff::model::Registry;
 
 fn root() -> &'static Path {
@@ -180,7 +181,6 @@ fn the_reference_of_scenes_is_complete() {
         }
     }
     let choices = Method::ALL.iter().map(|m| m.name());
-    let choices = choices.chain(Formulation::ALL.iter().map(|f| f.name()));
     for name in choices.chain(Stabilisation::ALL.iter().map(|s| s.name())) {
         has(&format!("`{name}`"));
     }
@@ -189,7 +189,7 @@ fn the_reference_of_scenes_is_complete() {
 #[test]
 fn every_library_has_an_example_of_its_own() {
     // Programs, and what nobody depends on who moves a mechanism.
-    let others = ["bench", "lab", "pfaff-cli", "robot-trolley"];
+    let others = ["bench", "exact", "lab", "pfaff-cli", "robot-trolley"];
     let headings = headings(&read("crates.md"));
     for entry in fs::read_dir(root().join("crates"))
         .expect("crates/")

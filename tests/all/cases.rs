@@ -1,6 +1,6 @@
 //! Every case of the suite with the best method there is, against its reference: how many digits come out, and how many are known.
 
-use dynamics::{Formulation, Method, Stabilisation};
+use dynamics::{Method, Stabilisation};
 use pfaff::StudyError;
 use pfaff::work_precision::{Curve, Errors, Subject};
 
@@ -52,7 +52,6 @@ fn run(name: &str, tolerance: f64) -> Result<Errors, StudyError> {
     let case = suite::find(name).expect("the case exists");
     let curve = Curve {
         method: Method::Auto,
-        formulation: Formulation::KeptRows,
         stabilisation: Stabilisation::Projection,
     };
     let errors = Subject::of_case(case)?.errors(curve, tolerance)?;
@@ -89,7 +88,6 @@ fn the_four_bars_keep_their_branch_at_sixty_four_tolerances() {
     let subject = Subject::of_case(suite::find("n-four-bar").expect("exists")).expect("builds");
     let curve = Curve {
         method: Method::Auto,
-        formulation: Formulation::KeptRows,
         stabilisation: Stabilisation::Projection,
     };
     for k in 0..64 {

@@ -1,14 +1,13 @@
-//! One motion by every formulation, whatever is done about redundancy; and what is seen of drift where nothing is projected.
+//! One motion by every elimination of redundant rows, and what is seen of drift where nothing is projected. Other formulations are compared in
+//! `crates/lab`.
 
 use std::ops::ControlFlow;
 
 use dynamics::{
-    Formulation, Method, MotionError, MotionOptions, Prepared, RowChoice, Stabilisation, Summary,
-    prepare, simulate,
+    Method, MotionOptions, Prepared, RowChoice, Stabilisation, Summary, prepare, simulate,
 };
 use model::{Description, Mechanism, StartOptions, System};
 use serde::Deserialize;
-use solvability::{Choice, Configuration, Equations, NormWeights, Value, analyse};
 use tests::cranks::cranks;
 use tests::largest;
 use tests::robot::{robot, steering};
@@ -122,23 +121,20 @@ fn swinging_cranks() -> Description {
     d
 }
 
-fn to(t_end: f64, formulation: Formulation, tolerance: f64) -> MotionOptions {
+fn to(t_end: f64, tolerance: f64) -> MotionOptions {
     MotionOptions {
         rtol: tolerance,
         atol: tolerance,
-        formulation,
         ..MotionOptions::to(t_end)
     }
 }
 
-const OTHERS: [Formulation; 2] = [Formulation::MinimumNorm, Formulation::Proximal];
-
 #[test]
-fn the_robot_moves_the_same_by_every_formulation_and_elimination() {
+fn the_robot_moves_the_same_by_every_elimination() {
     let reference: Reference = serde_json::from_str(REFERENCE).expect("the reference is JSON");
     let d = robot(steering());
     let automatic = started(&d, &RowChoice::Automatic);
-    let kept = Run::of(&automatic, &to(10.0, Formulation::KeptRows, 1e-10));
+    let kept = Run::of(&automatic, &to(10.0, 1e-10));
     let error = reference.rows.iter().map(|r| {
         let close = |t: &f64| (t - r.t).abs() < 1e-9;
         let at = kept
@@ -153,19 +149,13 @@ fn the_robot_moves_the_same_by_every_formulation_and_elimination() {
     assert!(error < 1e-7, "{error:e}");
     let allowed = f64::max(10.0 * error, 1e-11);
 
-    let runs = OTHERS.map(|f| {
-        (
-            f.name().to_owned(),
-            Run::of(&automatic, &to(10.0, f, 1e-10)),
-        )
-    });
     let eliminated = PAIRS.iter().map(|pair| {
         let rows = RowChoice::Drop(pair.iter().map(|row| row - 1).collect());
-        let run = Run::of(&started(&d, &rows), &to(10.0, Formulation::KeptRows, 1e-10));
+        let run = Run::of(&started(&d, &rows), &to(10.0, 1e-10));
         (format!("without {pair:?}"), run)
     });
     let groups = &automatic.mechanism.layout().groups;
-    for (name, run) in runs.into_iter().chain(eliminated) {
+    for (name, run) in eliminated {
         let motion = kept.distance_at_steps(&run);
         assert!(motion <= allowed, "{name}: {motion:e}, run {error:e}");
         for (k, group) in groups.iter().enumerate() {
@@ -174,103 +164,6 @@ fn the_robot_moves_the_same_by_every_formulation_and_elimination() {
                 !NOT_UNIQUE.contains(&group.name.as_str()),
             );
             assert!(!unique || d <= 1e-6, "{name}: {} by {d:e}", group.name);
-            if name == "minimum-norm" {
-                assert!(unique || d > 1.0, "{name}: {} is the same", group.name);
-            }
-        }
-    }
-}
-
-#[test]
-fn three_cranks_move_the_same_by_every_formulation() {
-    let p = started(&swinging_cranks(), &RowChoice::Automatic);
-    let tight = Run::of(&p, &to(3.0, Formulation::KeptRows, 1e-13));
-    let kept = Run::of(&p, &to(3.0, Formulation::KeptRows, 1e-10));
-    let error = kept.distance(&tight);
-    for formulation in OTHERS {
-        let run = Run::of(&p, &to(3.0, formulation, 1e-10));
-        let motion = kept.distance(&run);
-        assert!(
-            motion <= f64::max(10.0 * error, 1e-11),
-            "{formulation:?}: {motion:e} {error:e}"
-        );
-        let residual = run
-            .summary
-            .max_position_residual
-            .max(run.summary.max_velocity_residual);
-        assert!(residual < 1e-12, "{residual:e}");
-    }
-}
-
-/// Towards the flat configuration σ_r falls: iterations tuned at the start would end too early.
-#[test]
-fn proximal_iterations_are_tuned_again() {
-    let (theta, rate, length) = (1.2_f64, -1.0, 0.5);
-    let mut d = cranks(&[-0.8, 0.0, 0.8], length, theta);
-    let coupler = d.bodies.len() - 1;
-    for (k, body) in d.bodies.iter_mut().enumerate() {
-        let arm = if k == coupler { length } else { 0.5 * length };
-        body.velocity = Some([-arm * rate * theta.sin(), arm * rate * theta.cos()]);
-        body.angular_velocity = Some(if k == coupler { 0.0 } else { rate });
-    }
-    let p = started(&d, &RowChoice::Automatic);
-    let kept = Run::of(&p, &to(1.1, Formulation::KeptRows, 1e-10));
-    let early = Run::of(&p, &to(0.1, Formulation::Proximal, 1e-10));
-    let late = Run::of(&p, &to(1.1, Formulation::Proximal, 1e-10));
-    let mu = |run: &Run| run.summary.proximal.expect("iterates").mu;
-    assert!(
-        mu(&late) < 0.5 * mu(&early),
-        "{:e} {:e}",
-        mu(&late),
-        mu(&early)
-    );
-    // Without forces the cranks turn evenly.
-    let last = kept.q.len() - 1;
-    assert!((kept.q[last][2] - 0.1).abs() < 1e-9, "{}", kept.q[last][2]);
-    let motion = kept.distance(&late);
-    assert!(motion < 1e-9, "{motion:e}");
-}
-
-/// The run and `analyze --choose minimum-norm` mean the same norm.
-#[test]
-fn minimum_norm_is_that_of_the_analysis() {
-    for (d, t_end) in [(robot(steering()), 2.0), (swinging_cranks(), 1.0)] {
-        let p = started(&d, &RowChoice::Automatic);
-        let options = MotionOptions {
-            output_step: 0.25,
-            ..to(t_end, Formulation::MinimumNorm, 1e-10)
-        };
-        let run = Run::of(&p, &options);
-        for k in 0..run.t.len() {
-            let (t, q, v) = (run.t[k], &run.q[k], &run.v[k]);
-            let analysis = analyse(&p.mechanism, t, q).expect("C is finite");
-            let configuration =
-                Configuration::new(&p.mechanism, t, q, &analysis.whole().expect("one part"))
-                    .expect("fits");
-            let equations = Equations::of(&p.mechanism, t, q, v).expect("fits");
-            let lambda = equations.multipliers(&analysis.decision).expect("solves");
-            let choice = Choice::MinimumNorm(NormWeights::NEWTON_METRE);
-            let expected = configuration
-                .distribute(&lambda, &choice)
-                .expect("distributes");
-            for (reaction, found) in expected.reactions.iter().zip(&run.reactions[k]) {
-                for (name, value) in &reaction.components {
-                    let (Value::Unique(expected)
-                    | Value::Chosen {
-                        value: expected, ..
-                    }) = value;
-                    let found = match *name {
-                        "Fx" => found[0],
-                        "Fy" => found[1],
-                        _ => found[2],
-                    };
-                    assert!(
-                        (found - expected).abs() < 1e-8 * expected.abs().max(10.0),
-                        "{} {name} at {t}: {found} {expected}",
-                        reaction.name
-                    );
-                }
-            }
         }
     }
 }
@@ -292,20 +185,6 @@ fn what_cannot_be_dropped_is_refused_with_the_time() {
             "{text}"
         );
     }
-    let p = started(&robot(steering()), &RowChoice::Drop(vec![5, 20]));
-    let failure = simulate(&p, &to(1.0, Formulation::MinimumNorm, 1e-8), |_| {
-        Ok(ControlFlow::Continue(()))
-    });
-    let error = failure.expect_err("no row is dropped").error;
-    assert!(
-        matches!(
-            error,
-            MotionError::NothingToDrop {
-                formulation: "minimum-norm"
-            }
-        ),
-        "{error}"
-    );
 }
 
 /// Φ of a written state, evaluated here.
@@ -320,12 +199,12 @@ fn opening(p: &Prepared, t: f64, q: &[f64]) -> f64 {
 fn without_projection_the_drift_is_told() {
     let d = swinging_cranks();
     let p = started(&d, &RowChoice::Automatic);
-    let exact = Run::of(&p, &to(5.0, Formulation::KeptRows, 1e-12));
+    let exact = Run::of(&p, &to(5.0, 1e-12));
     let run = |stabilisation| {
         let options = MotionOptions {
             stabilisation,
             method: Method::Dopri5,
-            ..to(5.0, Formulation::KeptRows, 1e-7)
+            ..to(5.0, 1e-7)
         };
         let run = Run::of(&p, &options);
         let written = (0..run.t.len()).map(|k| opening(&p, run.t[k], &run.q[k]));
@@ -333,18 +212,9 @@ fn without_projection_the_drift_is_told() {
     };
     let (projected, run_projected) = run(Stabilisation::Projection);
     let (drifted, run_drifted) = run(Stabilisation::None);
-    let (pulled, run_pulled) = run(Stabilisation::BAUMGARTE);
     assert!(projected < 1e-14, "{projected:e}");
     assert!(drifted > 1e-9 && drifted < 1e-3, "{drifted:e}");
-    assert!(
-        pulled > 1e-13 && pulled < 0.5 * drifted,
-        "{pulled:e} {drifted:e}"
-    );
-    for (written, run) in [
-        (projected, &run_projected),
-        (drifted, &run_drifted),
-        (pulled, &run_pulled),
-    ] {
+    for (written, run) in [(projected, &run_projected), (drifted, &run_drifted)] {
         // Steps are in the summary, too.
         let told = run.summary.max_position_residual;
         assert!(
@@ -358,29 +228,21 @@ fn without_projection_the_drift_is_told() {
 
 /// Drives and knife edges, with break times: drift is no jump of a drive.
 #[test]
-fn the_robot_drifts_and_is_pulled_back() {
+fn the_robot_drifts_without_impulses() {
     let p = started(&robot(steering()), &RowChoice::Automatic);
-    let exact = Run::of(&p, &to(10.0, Formulation::KeptRows, 1e-10));
-    for stabilisation in [Stabilisation::None, Stabilisation::BAUMGARTE] {
-        let options = MotionOptions {
-            stabilisation,
-            ..to(10.0, Formulation::KeptRows, 1e-6)
-        };
-        let run = Run::of(&p, &options);
-        let (position, velocity) = (
-            run.summary.max_position_residual,
-            run.summary.max_velocity_residual,
-        );
-        assert!(
-            position > 1e-10 && position < 1e-4 && velocity > 1e-10 && velocity < 1e-4,
-            "{position:e} {velocity:e}"
-        );
-        assert!(run.distance(&exact) < 1e-3);
-        assert!(
-            run.summary
-                .events
-                .iter()
-                .all(|e| e.kind != dynamics::EventKind::Impulse)
-        );
-    }
+    let exact = Run::of(&p, &to(10.0, 1e-10));
+    let options = MotionOptions {
+        stabilisation: Stabilisation::None,
+        ..to(10.0, 1e-6)
+    };
+    let run = Run::of(&p, &options);
+    let summary = &run.summary;
+    let residuals = [summary.max_position_residual, summary.max_velocity_residual];
+    assert!(
+        residuals.iter().all(|r| *r > 1e-10 && *r < 1e-4),
+        "{residuals:?}"
+    );
+    assert!(run.distance(&exact) < 1e-3);
+    let is_impulse = |e: &dynamics::Event| e.kind == dynamics::EventKind::Impulse;
+    assert!(!summary.events.iter().any(is_impulse));
 }

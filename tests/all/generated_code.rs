@@ -8,8 +8,8 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use dynamics::{
-    CodeMismatch, EventKind, Facts, Formulation, Method, MotionOptions, NoCode, Plan, Prepared,
-    RowChoice, SceneCode, Stabilisation, Summary, Wanted, prepare, simulate,
+    CodeMismatch, EventKind, Facts, Method, MotionOptions, NoCode, Plan, Prepared, RowChoice,
+    SceneCode, Stabilisation, Summary, Wanted, prepare, simulate,
 };
 use model::start::CorrectionLimit;
 use model::{BodyRef, Description, Drive, Function, Mechanism, StartOptions};
@@ -77,7 +77,7 @@ fn tight(t_end: f64) -> MotionOptions {
 fn a_run_on_healthy_code_is_that_of_the_interpreter() {
     let p = trolley();
     let (expected, interpreted) = run(&p, &tight(10.0));
-    for method in [Method::Dop853, Method::Tsit5, Method::Gbs] {
+    for method in [Method::Dop853, Method::Tsit5] {
         let options = MotionOptions {
             method,
             ..tight(10.0)
@@ -451,13 +451,6 @@ fn runs_that_code_cannot_serve_say_why() {
                 ..options.clone()
             },
             NoCode::Method("radau5"),
-        ),
-        (
-            MotionOptions {
-                formulation: Formulation::MinimumNorm,
-                ..options.clone()
-            },
-            NoCode::Formulation("minimum-norm"),
         ),
         (
             MotionOptions {

@@ -4,7 +4,9 @@
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
-use dynamics::{Formulation, KeptRowMotion, Method, Motion, MotionOptions, simulate};
+use dynamics::{KeptRowMotion, Method, Motion, MotionOptions, simulate};
+use lab::comparators::equations::Equations;
+use lab::comparators::{Drift, MinimumNorm};
 use model::{Mechanism, Registry, System};
 use pfaff::{Overrides, Study};
 use solvability::{Verdict, analyse};
@@ -77,20 +79,18 @@ fn accelerate_alike(order: &Order) {
     let study = study(order);
     let prepared = &study.prepared;
     let n = prepared.v.len();
-    let accelerations = |formulation: Formulation| {
-        let options = MotionOptions {
-            formulation,
-            ..MotionOptions::to(1.0)
-        };
-        let mut motion = KeptRowMotion::with(prepared, &options).expect("regular");
-        let mut a = vec![0.0; n];
-        motion
-            .acceleration(0.0, &prepared.q, &prepared.v, &mut a)
-            .expect("regular");
-        a
-    };
-    let sparse = accelerations(Formulation::KeptRows);
-    let dense = accelerations(Formulation::MinimumNorm);
+    let (mut sparse, mut dense) = (vec![0.0; n], vec![0.0; n]);
+    let mut motion = KeptRowMotion::new(prepared).expect("regular");
+    motion
+        .acceleration(0.0, &prepared.q, &prepared.v, &mut sparse)
+        .expect("regular");
+    // All rows, by a complete orthogonal decomposition.
+    let rank = prepared.decision.rank;
+    Equations::new(prepared, Drift::None, |_, _| {
+        Ok(Box::new(MinimumNorm::new(rank)))
+    })
+    .and_then(|mut all| all.accelerate(0.0, &prepared.q, &prepared.v, &mut dense))
+    .expect("regular");
     let largest = dense.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
     assert!(largest > 1.0, "{largest}");
     for (a, b) in sparse.iter().zip(&dense) {

@@ -6,7 +6,6 @@ mod bad_matrices;
 mod book;
 mod cases;
 mod choices;
-mod constrained_methods;
 mod deletions;
 mod drives_that_jump;
 mod exact_oracle;

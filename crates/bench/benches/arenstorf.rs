@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use divan::Bencher;
 use divan::counter::ItemsCount;
 use integrators::{
-    Dop853, Dopri5, Function, Gbs, Interval, Method, Ode, Options, Outcome, Tsit5, integrate,
+    Dop853, Dopri5, Function, Interval, Method, Ode, Options, Outcome, Tsit5, integrate,
 };
 
 const MU: f64 = 0.012277471;
@@ -67,4 +67,3 @@ macro_rules! bench {
 bench!(dopri5, Dopri5, 3e-8);
 bench!(tsit5, Tsit5, 3e-8);
 bench!(dop853, Dop853, 2e-9);
-bench!(gbs, Gbs, 2e-7);

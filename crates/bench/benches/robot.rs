@@ -5,9 +5,7 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use divan::Bencher;
-use dynamics::{
-    Formulation, KeptRowMotion, Motion, MotionOptions, Prepared, RowChoice, prepare, simulate,
-};
+use dynamics::{KeptRowMotion, Motion, MotionOptions, Prepared, RowChoice, prepare, simulate};
 use joints::{Element, Pose, Revolute, Twist};
 use model::{Mechanism, StartOptions, System};
 use tests::robot::{robot, steering};
@@ -93,19 +91,6 @@ fn analysis(bencher: Bencher<'_, '_>) {
 fn right_hand_side(bencher: Bencher<'_, '_>) {
     let p = prepared();
     let mut motion = KeptRowMotion::new(&p).expect("moves");
-    let mut a = vec![0.0; p.v.len()];
-    bencher.bench_local(|| motion.acceleration(black_box(1.5), &p.q, &p.v, black_box(&mut a)));
-}
-
-/// The same with all rows.
-#[divan::bench(args = [Formulation::MinimumNorm, Formulation::Proximal])]
-fn right_hand_side_of_all_rows(bencher: Bencher<'_, '_>, formulation: Formulation) {
-    let p = prepared();
-    let options = MotionOptions {
-        formulation,
-        ..MotionOptions::to(10.0)
-    };
-    let mut motion = KeptRowMotion::with(&p, &options).expect("moves");
     let mut a = vec![0.0; p.v.len()];
     bencher.bench_local(|| motion.acceleration(black_box(1.5), &p.q, &p.v, black_box(&mut a)));
 }

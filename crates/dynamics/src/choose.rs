@@ -4,7 +4,7 @@ use linalg::{Matrix, SaddleError};
 
 use crate::error::Trip;
 use crate::motion::{KeptRowMotion, Reduced, is_sparse};
-use crate::options::{Formulation, Method, MotionOptions, Stabilisation};
+use crate::options::{Method, MotionOptions, Stabilisation};
 use crate::plan::Decided;
 use crate::prepare::Prepared;
 
@@ -33,8 +33,7 @@ pub(crate) fn method(
             "the state is a function of time: nothing is free, so that nothing can be stiff",
         );
     }
-    let needs_dense = matches!(options.method, Method::Radau5 | Method::GeneralizedAlpha);
-    if needs_dense && is_sparse(prepared) {
+    if options.method.needs_independent_coordinates() && is_sparse(prepared) {
         let rows = prepared.decision.kept.len();
         return Err(Trip::Saddle {
             time: 0.0,
@@ -52,13 +51,8 @@ pub(crate) fn method(
             "its rows are solved sparsely, for explicit methods alone; whether it is stiff was not measured",
         );
     }
-    let may_be_implicit = options.stabilisation == Stabilisation::Projection
-        && matches!(
-            options.formulation,
-            Formulation::KeptRows | Formulation::NullSpace
-        );
-    if !may_be_implicit {
-        return explicit("implicit methods need kept rows and projection");
+    if options.stabilisation != Stabilisation::Projection {
+        return explicit("implicit methods need projection");
     }
     let steps = fastest_rate(prepared)? * options.t_end / STABLE;
     let (method, is) = match steps > STIFF {

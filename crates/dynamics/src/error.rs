@@ -196,53 +196,6 @@ pub enum Trip {
         /// Why.
         what: String,
     },
-    /// Proximal iterations do not reach their tolerance, also after a new tuning.
-    #[error(
-        "at t = {time} s proximal iterations still change accelerations by {share:.1e} of their size, more than {allowed:.1e}: \
-         the constraints are too nearly dependent for this formulation; use kept-rows or minimum-norm"
-    )]
-    Unsettled {
-        /// When.
-        time: f64,
-        /// What the last iteration changed.
-        share: f64,
-        /// What is allowed.
-        allowed: f64,
-    },
-    /// With all rows the solution is not that of the kept ones, which is known better.
-    #[error(
-        "at t = {time} s the formulation with all rows misses {what} at the {coordinate} of `{body}` by {by:.1e} of its size, more than \
-         {allowed:.1e}: masses and inertias differ too much for it; use kept-rows"
-    )]
-    AllRows {
-        /// When.
-        time: f64,
-        /// Accelerations or forces of constraints.
-        what: &'static str,
-        /// The body where it misses most.
-        body: String,
-        /// Its coordinate.
-        coordinate: &'static str,
-        /// By how much.
-        by: f64,
-        /// What is allowed.
-        allowed: f64,
-    },
-    /// With all rows a mass is too small beside the others to be told from none.
-    #[error(
-        "at t = {time} s the formulation with all rows cannot tell the mass that moves with the {coordinate} of `{body}` from none: \
-         masses and inertias differ too much for it, by a factor of {spread:.1e}; use kept-rows"
-    )]
-    Graded {
-        /// When.
-        time: f64,
-        /// The body.
-        body: String,
-        /// Its coordinate.
-        coordinate: &'static str,
-        /// The heaviest divided by the lightest.
-        spread: f64,
-    },
     /// The saddle equations were refused for another reason.
     #[error("at t = {time} s: {source}")]
     Saddle {
@@ -276,14 +229,6 @@ pub enum MotionError {
         with: &'static str,
         /// Why not.
         why: &'static str,
-    },
-    /// Rows to drop where none are.
-    #[error(
-        "rows are dropped, but the formulation {formulation} uses all rows: choose kept-rows, or drop none"
-    )]
-    NothingToDrop {
-        /// The formulation.
-        formulation: &'static str,
     },
     /// No consistent start.
     #[error(transparent)]

@@ -28,7 +28,7 @@ pub use code::{CodeMismatch, Facts, NoCode, SceneCode};
 pub use error::{DropError, MotionError, Trip};
 pub use events::{Event, EventKind};
 pub use motion::{Correction, KeptRowMotion, Motion, Reduced};
-pub use options::{Formulation, Method, MotionOptions, RowChoice, Stabilisation};
+pub use options::{FORMULATION, Method, MotionOptions, RowChoice, Stabilisation};
 pub use plan::{Plan, Wanted};
 pub use prepare::{Prepared, prepare, start_velocity};
 pub use simulate::{ComponentSummary, Failure, Sample, Summary, simulate};

@@ -1,4 +1,4 @@
-//! The solved equations of motion on kept rows, or with all rows where the formulation says so.
+//! The solved equations of motion on kept rows.
 //!
 //! The rank is never re-decided at a stage, where the state is off the constraints by δ and a singular value that is
 //! exactly zero reads as about δ. The dropped rows are only monitored, at accepted steps: their residual after
@@ -9,11 +9,8 @@
 //! Positions and velocities have rows of their own. A holonomic row may be dropped because knife edges imply its
 //! velocity; nothing implies its position, and without it the configuration would drift.
 
-mod agreement;
-mod all_rows;
 mod chart;
 mod coded;
-pub(crate) mod constrained;
 mod impulse;
 mod locate;
 mod passage;
@@ -25,7 +22,6 @@ mod stabilise;
 
 use std::sync::Arc;
 
-use linalg::ProximalTuning;
 use model::{Mechanism, Scratch, System};
 
 use crate::counts::{Counted, note};
@@ -33,7 +29,6 @@ use crate::error::Trip;
 use crate::events::Event;
 use crate::options::{MotionOptions, RowChoice, Stabilisation};
 use crate::prepare::Prepared;
-use all_rows::AllRows;
 use chart::Chart;
 use coded::Coded;
 pub(crate) use locate::Singular;
@@ -45,7 +40,7 @@ pub use reduced::Reduced;
 
 /// Equations solved for what moves.
 pub trait Motion {
-    /// `v̇` from `M·v̇ + C_Kᵀ·λ_K = Q`, `C_K·v̇ = Γ_K`, or the same with all rows.
+    /// `v̇` from `M·v̇ + C_Kᵀ·λ_K = Q`, `C_K·v̇ = Γ_K`.
     ///
     /// # Errors
     /// If the equations have no (unique) solution here.
@@ -57,8 +52,8 @@ pub trait Motion {
     /// If that fails, or a dropped row is violated.
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, Trip>;
 
-    /// Multipliers of all rows as the formulation chooses them. On kept rows those of dropped rows are zero by decree, and NaN where
-    /// the kept rows are dependent at just this instant, so that no multipliers belong to them.
+    /// Multipliers of all rows: those of dropped rows are zero by decree, and all are NaN where the kept rows are dependent at just this
+    /// instant, so that no multipliers belong to them.
     ///
     /// # Errors
     /// As [`Motion::acceleration`].
@@ -94,8 +89,6 @@ pub struct KeptRowMotion<'a> {
     position: KeptRows,
     /// Independent coordinates, where the motion is one of these alone.
     chart: Option<Chart>,
-    /// All rows, where accelerations and reactions are theirs.
-    all_rows: Option<AllRows>,
     stabilisation: Stabilisation,
     /// Generated code, where there is some that may be used.
     coded: Option<Coded>,
@@ -119,27 +112,19 @@ impl<'a> KeptRowMotion<'a> {
     /// # Errors
     /// If more rows are kept than there are velocities.
     pub fn new(prepared: &'a Prepared) -> Result<Self, Trip> {
-        Self::kept(prepared, None, Stabilisation::Projection)
+        Self::kept(prepared, Stabilisation::Projection)
     }
 
-    /// The motion of a prepared mechanism with the formulation, stabilisation and relative tolerance of a run; on generated code, if there
-    /// is some for it.
+    /// The motion of a prepared mechanism with the method and stabilisation of a run; on generated code, if there is some for it.
     ///
     /// # Errors
-    /// As [`KeptRowMotion::new`]; also if the formulation has no solution at the start.
+    /// As [`KeptRowMotion::new`]; also if no independent coordinates can be chosen for an implicit method.
     pub fn with(prepared: &'a Prepared, options: &MotionOptions) -> Result<Self, Trip> {
-        let all_rows = AllRows::new(prepared, options.formulation, options.rtol)
-            .map_err(|trip| agreement::unless_graded(prepared, trip))?;
-        let mut motion = Self::kept(prepared, all_rows, options.stabilisation)?;
+        let mut motion = Self::kept(prepared, options.stabilisation)?;
         if options.t_end > 0.0 {
             motion.horizon = options.t_end;
         }
-        if motion.all_rows.is_some() {
-            let mut a = vec![0.0; prepared.v.len()];
-            motion.solve(0.0, &prepared.q, &prepared.v, &mut a)?;
-            motion.check_acceleration(&a)?;
-        }
-        if options.is_on_chart() {
+        if options.method.needs_independent_coordinates() {
             motion.use_chart(0.0, &prepared.q)?;
         }
         if let Ok(code) = prepared.code_for(options) {
@@ -148,11 +133,7 @@ impl<'a> KeptRowMotion<'a> {
         Ok(motion)
     }
 
-    fn kept(
-        prepared: &'a Prepared,
-        all_rows: Option<AllRows>,
-        stabilisation: Stabilisation,
-    ) -> Result<Self, Trip> {
+    fn kept(prepared: &'a Prepared, stabilisation: Stabilisation) -> Result<Self, Trip> {
         let n = prepared.mechanism.layout().n_v;
         let rows = |d: &solvability::RowDecision| {
             KeptRows::new(
@@ -173,7 +154,6 @@ impl<'a> KeptRowMotion<'a> {
             aside: None,
             position: rows(&prepared.position_decision)?,
             chart: None,
-            all_rows,
             stabilisation,
             coded: None,
             passage: Passage::default(),
@@ -202,12 +182,6 @@ impl<'a> KeptRowMotion<'a> {
         &self.s
     }
 
-    /// μ and the number of proximal iterations, where accelerations come from them.
-    #[must_use]
-    pub fn proximal_tuning(&self) -> Option<ProximalTuning> {
-        self.all_rows.as_ref().and_then(AllRows::proximal_tuning)
-    }
-
     /// Smallest pivot of the last factorisation relative to its row: small near singular configurations.
     #[must_use]
     pub fn pivot_ratio(&self) -> f64 {
@@ -225,19 +199,12 @@ impl<'a> KeptRowMotion<'a> {
         self.velocity.relative_pivot()
     }
 
-    /// Kept rows: how many are holonomic, and how many are not.
-    pub(crate) fn kept_rows(&self) -> [usize; 2] {
-        let kept = &self.velocity.kept;
-        let holonomic = kept.partition_point(|&i| i < self.mechanism.layout().m);
-        [holonomic, kept.len() - holonomic]
-    }
-
     /// Degrees of freedom.
     pub(crate) fn mobility(&self) -> usize {
         self.mechanism.layout().n_v - self.velocity.kept.len()
     }
 
-    /// Whether accelerations at coordinates q are refined, were they solved for on kept rows.
+    /// Whether accelerations at coordinates q are refined.
     ///
     /// # Errors
     /// If the equations have no unique solution here.
@@ -261,8 +228,7 @@ impl<'a> KeptRowMotion<'a> {
         }
     }
 
-    /// Solves for accelerations and multipliers. The kept rows are factored whatever the formulation: they tell how near a singular
-    /// configuration is.
+    /// Solves for accelerations.
     fn solve(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Trip> {
         let Self {
             mechanism,
@@ -284,23 +250,12 @@ impl<'a> KeptRowMotion<'a> {
         self.mechanism.twist(v, &mut self.s);
         self.mechanism.gamma(&mut self.s);
         self.mechanism.force(&mut self.s);
-        self.pull_back(v);
         let Self {
             mechanism,
             s,
             velocity,
-            all_rows,
             ..
         } = self;
-        if let Some(all) = all_rows {
-            let solved = all
-                .solve(mechanism, s, a)
-                .map_err(|trip| match velocity.are_refined() {
-                    true => agreement::too_graded(trip, mechanism.mass()),
-                    false => trip,
-                });
-            return solved.map_err(|trip| self.named(trip));
-        }
         for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
             *rhs = s.gamma[i];
         }
@@ -326,49 +281,14 @@ impl<'a> KeptRowMotion<'a> {
             mechanism,
             s,
             velocity,
-            all_rows,
             ..
         } = self;
-        if let Some(all) = all_rows {
-            lambda.copy_from_slice(&all.lambda);
-            return Ok(());
-        }
         velocity.find_multipliers(mechanism, s, a)?;
         lambda.fill(0.0);
         for (&i, &l) in velocity.kept.iter().zip(&velocity.lambda) {
             lambda[i] = l;
         }
         Ok(())
-    }
-
-    fn multipliers_of_all(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        lambda: &mut [f64],
-    ) -> Result<(), Trip> {
-        let mut a = std::mem::take(&mut self.delta);
-        let solved = self
-            .solve(t, q, v, &mut a)
-            .and_then(|()| self.choose_multipliers());
-        self.delta = a;
-        solved?;
-        if let Some(all) = &self.all_rows {
-            lambda.copy_from_slice(&all.lambda);
-        }
-        Ok(())
-    }
-
-    /// Makes sure that the acceleration just evaluated, at a state on the constraints, is as good as asked for.
-    ///
-    /// # Errors
-    /// [`Trip::Unsettled`], [`Trip::AllRows`] if it cannot be.
-    pub(crate) fn review_acceleration(&mut self, a: &mut [f64]) -> Result<(), Trip> {
-        if let Some(all) = &mut self.all_rows {
-            all.review(self.mechanism, &self.s, a)?;
-        }
-        self.check_acceleration(a)
     }
 }
 
@@ -394,9 +314,6 @@ impl Motion for KeptRowMotion<'_> {
         lambda: &mut [f64],
     ) -> Result<(), Trip> {
         note(Counted::Multipliers);
-        if self.all_rows.is_some() {
-            return self.multipliers_of_all(t, q, v, lambda);
-        }
         if self.coded_multipliers(t, q, v, lambda) {
             return Ok(());
         }

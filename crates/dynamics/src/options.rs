@@ -21,24 +21,18 @@ pub enum Method {
     Tsit5,
     /// Dormand–Prince 8(5,3).
     Dop853,
-    /// Extrapolated midpoint rule of variable order, for very tight tolerances.
-    Gbs,
     /// Radau IIA of order 5 on independent coordinates, for stiff forces.
     Radau5,
-    /// Generalized-α on positions with ρ∞ = 0.8, order 2: for stiff forces at low accuracy.
-    GeneralizedAlpha,
 }
 
 impl Method {
     /// All that can be asked for.
     pub const ALL: &[Self] = &[
         Self::Auto,
-        Self::Dopri5,
         Self::Dop853,
+        Self::Dopri5,
         Self::Tsit5,
-        Self::Gbs,
         Self::Radau5,
-        Self::GeneralizedAlpha,
     ];
 
     /// Its name in scenes and results.
@@ -49,9 +43,7 @@ impl Method {
             Self::Dopri5 => "dopri5",
             Self::Tsit5 => "tsit5",
             Self::Dop853 => "dop853",
-            Self::Gbs => "gbs",
             Self::Radau5 => "radau5",
-            Self::GeneralizedAlpha => "generalized-alpha",
         }
     }
 
@@ -62,88 +54,62 @@ impl Method {
     }
 }
 
-/// How redundant rows are dealt with. The motion is the same; reactions that are not unique are not.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Formulation {
-    /// r independent rows are kept, the others only monitored.
-    #[default]
-    KeptRows,
-    /// The same rows give dependent coordinates and velocities; the motion is one of the independent ones alone. Nothing drifts, and
-    /// nothing is stabilised.
-    NullSpace,
-    /// All rows by a complete orthogonal decomposition of locked rank; of all reactions those with the least
-    /// `Σ F² + T²` (N, N·m).
-    MinimumNorm,
-    /// All rows by proximal iterations, tuned once to the relative tolerance of the run.
-    Proximal,
-}
+/// What every run does about redundant rows: r independent ones are kept, the others only monitored. Its name in results; reactions that are
+/// not unique belong to it.
+pub const FORMULATION: &str = "kept-rows";
 
-impl Formulation {
-    /// All that can be asked for.
-    pub const ALL: &[Self] = &[
-        Self::KeptRows,
-        Self::NullSpace,
-        Self::MinimumNorm,
-        Self::Proximal,
-    ];
-
-    /// Its name in scenes and results.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::KeptRows => "kept-rows",
-            Self::NullSpace => "null-space",
-            Self::MinimumNorm => "minimum-norm",
-            Self::Proximal => "proximal",
+/// Where an option of a run has gone that is none any more, by the name of its key and its value.
+///
+/// ```
+/// let words = dynamics::options::moved("method", "gbs").unwrap();
+/// assert_eq!(words, "method `gbs` is a comparator of the laboratory (`lab work-precision`); a run takes `dop853` at tight tolerances");
+/// assert_eq!(dynamics::options::moved("method", "dop853"), None);
+/// ```
+#[must_use]
+pub fn moved(key: &str, value: &str) -> Option<String> {
+    let instead = match (key, value) {
+        ("formulation", "null-space" | "proximal") => "a run keeps independent rows",
+        ("formulation", "minimum-norm") => {
+            "a run keeps independent rows; for reactions of least norm use `analyze --choose minimum-norm`"
         }
-    }
-
-    /// Whether reactions in dropped rows are zero by decree.
-    #[must_use]
-    pub fn drops_rows(self) -> bool {
-        match self {
-            Self::KeptRows | Self::NullSpace => true,
-            Self::MinimumNorm | Self::Proximal => false,
+        ("formulation", FORMULATION) => {
+            return Some(format!(
+                "every run keeps independent rows (`{FORMULATION}`): leave the formulation out"
+            ));
         }
-    }
+        ("method", "gbs") => "a run takes `dop853` at tight tolerances",
+        ("method", "generalized-alpha") => "a run takes `radau5` where forces are stiff",
+        ("stabilisation", "baumgarte") => "a run projects, or does nothing about drift (`none`)",
+        ("method", "hem4") => {
+            return Some("method `hem4` is gone: no motion needed it; use `dop853`".to_owned());
+        }
+        _ => return None,
+    };
+    Some(format!(
+        "{key} `{value}` is a comparator of the laboratory (`lab work-precision`); {instead}"
+    ))
 }
 
 /// How drift off the constraints is prevented.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Stabilisation {
     /// Position and velocity are projected in the mass metric after each step.
     #[default]
     Projection,
-    /// Accelerations pull back what has drifted: `Γ − 2α·(C·v − b) − β²·Φ`, and `Γ − α·(C·v − b)` for nonholonomic rows. Nothing is projected;
-    /// residuals show what is left.
-    Baumgarte {
-        /// α (1/s)
-        alpha: f64,
-        /// β (1/s)
-        beta: f64,
-    },
     /// None. Residuals show the drift.
     None,
 }
 
 impl Stabilisation {
-    /// Baumgarte's method with the gains that are used where none are given.
-    pub const BAUMGARTE: Self = Self::Baumgarte {
-        alpha: 5.0,
-        beta: 5.0,
-    };
-
-    /// All that can be asked for, with the usual gains.
-    pub const ALL: &[Self] = &[Self::Projection, Self::BAUMGARTE, Self::None];
+    /// All that can be asked for.
+    pub const ALL: &[Self] = &[Self::Projection, Self::None];
 
     /// Its name in scenes and results.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Projection => "projection",
-            Self::Baumgarte { .. } => "baumgarte",
             Self::None => "none",
         }
     }
@@ -176,8 +142,6 @@ pub struct MotionOptions {
     pub max_steps: u64,
     /// Integrator.
     pub method: Method,
-    /// Treatment of redundancy.
-    pub formulation: Formulation,
     /// Treatment of drift.
     pub stabilisation: Stabilisation,
     /// Rows to keep: what [`crate::prepare()`] is given. A run has the rows of its [`crate::Prepared`].
@@ -202,12 +166,6 @@ impl MotionOptions {
     /// Accepted and rejected steps at most, where no other limit is given.
     pub const MAX_STEPS: u64 = 1_000_000;
 
-    /// Whether the motion is one of independent coordinates alone.
-    #[must_use]
-    pub fn is_on_chart(&self) -> bool {
-        self.formulation == Formulation::NullSpace || self.method.needs_independent_coordinates()
-    }
-
     /// The defaults for a run to `t_end`.
     #[must_use]
     pub fn to(t_end: f64) -> Self {
@@ -219,7 +177,6 @@ impl MotionOptions {
             max_step: f64::INFINITY,
             max_steps: Self::MAX_STEPS,
             method: Method::default(),
-            formulation: Formulation::default(),
             stabilisation: Stabilisation::default(),
             rows: RowChoice::default(),
             threads: None,
@@ -230,8 +187,7 @@ impl MotionOptions {
     ///
     /// # Errors
     /// - [`MotionError::Option`]: one is not finite or out of range.
-    /// - [`MotionError::Combination`]: method, formulation and stabilisation do not go together.
-    /// - [`MotionError::NothingToDrop`]: rows are dropped, but the formulation uses all.
+    /// - [`MotionError::Combination`]: method and stabilisation do not go together.
     pub fn check(&self) -> Result<(), MotionError> {
         let numbers = [
             ("t_end", self.t_end, self.t_end >= 0.0, "a finite time ≥ 0"),
@@ -255,18 +211,6 @@ impl MotionOptions {
             ),
             ("atol", self.atol, self.atol > 0.0, "a number > 0"),
         ];
-        let gains = match self.stabilisation {
-            Stabilisation::Baumgarte { alpha, beta } => [alpha, beta],
-            Stabilisation::Projection | Stabilisation::None => [0.0; 2],
-        };
-        let gains = gains.map(|gain| {
-            (
-                "a gain of baumgarte",
-                gain,
-                gain >= 0.0,
-                "a number ≥ 0 (1/s)",
-            )
-        });
         let max_step = |expected| {
             Err(MotionError::Option {
                 name: "max_step",
@@ -280,7 +224,7 @@ impl MotionOptions {
         if self.t_end / self.max_step > self.max_steps as f64 {
             return max_step("at least t_end/max_steps: the run would never end");
         }
-        for (name, value, right, expected) in numbers.into_iter().chain(gains) {
+        for (name, value, right, expected) in numbers {
             if !(right && value.is_finite()) {
                 return Err(MotionError::Option {
                     name,
@@ -289,57 +233,19 @@ impl MotionOptions {
                 });
             }
         }
-        self.check_combination()?;
-        self.check_rows(&self.rows)
+        self.check_combination()
     }
 
-    /// Whether method, formulation and stabilisation go together.
+    /// Whether method and stabilisation go together.
     fn check_combination(&self) -> Result<(), MotionError> {
-        let method = self.method;
-        let combination = |with, why| {
-            Err(MotionError::Combination {
-                chosen: self.formulation.name(),
-                with,
-                why,
-            })
-        };
-        let has_own_equations = matches!(method, Method::Radau5 | Method::GeneralizedAlpha);
-        if has_own_equations && !self.formulation.drops_rows() {
-            return combination(method.name(), "the method solves equations on kept rows");
-        }
-        if method == Method::GeneralizedAlpha && self.formulation == Formulation::NullSpace {
-            // Velocities miss their constraints by h² there. Completing them from independent ones changes the speed by as much, and the
-            // method has order 1; a projection in the mass metric does not.
-            return combination(
-                method.name(),
-                "the method integrates all coordinates, and only a projection in the mass metric keeps its order: use kept-rows",
-            );
-        }
-        if self.stabilisation == Stabilisation::Projection {
-            return Ok(());
-        }
-        if self.formulation == Formulation::NullSpace {
-            return combination(self.stabilisation.name(), "nothing drifts there");
-        }
-        match has_own_equations {
+        let projects = self.stabilisation == Stabilisation::Projection;
+        match self.method.needs_independent_coordinates() && !projects {
             true => Err(MotionError::Combination {
-                chosen: method.name(),
+                chosen: self.method.name(),
                 with: self.stabilisation.name(),
                 why: "the method relies on projection",
             }),
             false => Ok(()),
-        }
-    }
-
-    /// Whether rows that the user dropped have a meaning.
-    pub(crate) fn check_rows(&self, rows: &RowChoice) -> Result<(), MotionError> {
-        match rows {
-            RowChoice::Drop(_) if !self.formulation.drops_rows() => {
-                Err(MotionError::NothingToDrop {
-                    formulation: self.formulation.name(),
-                })
-            }
-            _ => Ok(()),
         }
     }
 }

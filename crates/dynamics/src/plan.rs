@@ -140,7 +140,7 @@ impl<'a> Plan<'a> {
     /// Decides everything that can be decided before the motion begins.
     ///
     /// # Errors
-    /// - [`MotionError::Option`], [`MotionError::Combination`], [`MotionError::NothingToDrop`]: the options are none.
+    /// - [`MotionError::Option`], [`MotionError::Combination`]: the options are none.
     /// - [`MotionError::NoReaction`]: a reaction is wanted of a joint that does not exist.
     /// - [`MotionError::Trip`]: the motion cannot be judged at its start.
     pub fn new(
@@ -149,7 +149,6 @@ impl<'a> Plan<'a> {
         wanted: &Wanted,
     ) -> Result<Self, MotionError> {
         options.check()?;
-        options.check_rows(&prepared.choice)?;
         let groups = wanted_groups(prepared, &wanted.reactions)?;
         let code = code(prepared, options)?;
         let (apart, parts) = match code.value {

@@ -12,7 +12,7 @@ use solvability::{
 
 use crate::code::SceneCode;
 use crate::error::{DropError, MotionError};
-use crate::options::{Method, MotionOptions, RowChoice, Stabilisation};
+use crate::options::{MotionOptions, RowChoice, Stabilisation};
 
 /// A mechanism with a consistent start and kept rows.
 #[derive(Clone)]
@@ -47,17 +47,11 @@ impl Prepared {
         crate::motion::memory(self)
     }
 
-    /// Whether a run evaluates the state as a function of time: no coordinate and no velocity is free, and the run evaluates derivatives
-    /// of states alone, on kept rows.
+    /// Whether a run evaluates the state as a function of time: no coordinate and no velocity is free, and states are projected.
     pub(crate) fn is_function_of_time(&self, options: &MotionOptions) -> bool {
         let layout = self.mechanism.layout();
         let is_held = self.decision.rank == layout.n_v && self.position_decision.rank == layout.n_q;
-        let evaluates_states = options.method != Method::GeneralizedAlpha;
-        let on_kept_rows = options.formulation.drops_rows();
-        is_held
-            && evaluates_states
-            && on_kept_rows
-            && options.stabilisation == Stabilisation::Projection
+        is_held && options.stabilisation == Stabilisation::Projection
     }
 }
 

@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 mod by_time;
-mod constrained;
 mod energy;
 mod equations;
 mod passages;
@@ -16,8 +15,8 @@ mod span;
 mod summary;
 
 use integrators::{
-    Cause, Dop853, Dopri5, Gbs, GeneralizedAlpha, IntegrationError, Interval, Options, Outcome,
-    OutputTimes, Radau5, Rows, Tsit5, integrate,
+    Cause, Dop853, Dopri5, IntegrationError, Interval, Options, Outcome, OutputTimes, Radau5, Rows,
+    Tsit5, integrate,
 };
 use model::System;
 use solvability::{contradicting_drives_along, generic};
@@ -137,9 +136,7 @@ fn run_component(
         Method::Dopri5 => run.go(&Dopri5, &interval, &y0, &settings),
         Method::Tsit5 => run.go(&Tsit5, &interval, &y0, &settings),
         Method::Auto | Method::Dop853 => run.go(&Dop853, &interval, &y0, &settings),
-        Method::Gbs => run.go(&Gbs, &interval, &y0, &settings),
         Method::Radau5 => run.go(&Radau5, &interval, &y0, &settings),
-        Method::GeneralizedAlpha => run.go(&GeneralizedAlpha::default(), &interval, &y0, &settings),
     };
     let wall_seconds = clock.elapsed().as_secs_f64();
     let (t, statistics) = match &outcome {

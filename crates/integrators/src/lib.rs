@@ -16,19 +16,14 @@
 //! | `combine` | sums of stages |
 //! | `rk5` | Dormand–Prince 5(4) and Tsitouras 5(4): `dopri5` and `tsit5` (tables), `step`, `dense` |
 //! | `dop853` | Dormand–Prince 8(5,3): `tableau`, `step`, `dense` |
-//! | `gbs` | extrapolated midpoint rule: `sequence`, `step`, `order`, `dense` |
 //! | `implicit` | problems with a Jacobian: [`Implicit`] |
 //! | `dense_implicit` | a plain problem with a dense Jacobian: [`DenseImplicit`] |
 //! | `radau5` | Radau IIA of order 5: `tableau`, `scale`, `newton`, `step`, `dense` |
-//! | `constrained` | problems with constraints as equations of their own: [`Constrained`] |
-//! | `generalized_alpha` | generalized-α on positions: `newton`, `step` |
 //! | `convergence` | when Newton's iterations end |
-//! | `hermite` | the cubic through both ends of a step |
 
 #![forbid(unsafe_code)]
 
 mod combine;
-mod constrained;
 mod control;
 mod convergence;
 mod dense_implicit;
@@ -36,9 +31,6 @@ mod dop853;
 mod drive;
 mod error;
 mod events;
-mod gbs;
-mod generalized_alpha;
-mod hermite;
 mod implicit;
 mod interval;
 mod method;
@@ -56,13 +48,10 @@ mod step;
 #[cfg(test)]
 mod trees;
 
-pub use constrained::{Constrained, Linearisation, Sizes};
 pub use dense_implicit::{DenseError, DenseImplicit, Differences, Jacobian};
 pub use dop853::Dop853;
 pub use error::{Cause, Failure, IntegrationError};
 pub use events::{Crossing, Crossings, Direction, integrate_until};
-pub use gbs::Gbs;
-pub use generalized_alpha::GeneralizedAlpha;
 pub use implicit::Implicit;
 pub use interval::Interval;
 pub use method::{End, Method, Outcome, integrate};

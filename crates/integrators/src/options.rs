@@ -82,17 +82,6 @@ impl Tolerance {
         }
     }
 
-    /// The smallest relative part that is not zero; 0 if all are.
-    pub(crate) fn relative(&self) -> f64 {
-        match self {
-            Self::Uniform { rtol, .. } => *rtol,
-            Self::PerComponent { rtol, .. } => {
-                let smallest = rtol.iter().copied().filter(|&r| r > 0.0);
-                smallest.min_by(f64::total_cmp).unwrap_or(0.0)
-            }
-        }
-    }
-
     /// Relative part for component `i`.
     pub(crate) fn rtol(&self, i: usize) -> f64 {
         match self {

@@ -88,6 +88,12 @@ pub enum Fault {
         /// Accepted and rejected steps.
         steps: u64,
     },
+    /// The run takes longer than it may.
+    #[error("the time of computing was over at t = {time} s")]
+    TooLong {
+        /// Time (s).
+        time: f64,
+    },
     /// The loop of `integrators` ended.
     #[error("{0}")]
     Integration(String),

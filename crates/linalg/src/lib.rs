@@ -10,13 +10,10 @@ mod jacobi;
 mod kernels;
 #[cfg(feature = "faer")]
 mod large;
-mod ldl;
 mod lu;
 mod matrix;
-mod minimum_norm;
 mod null_space;
 mod prime_field;
-mod proximal;
 mod qr;
 mod rank;
 mod regularized;
@@ -40,11 +37,9 @@ pub use equilibrate::{Scaling, equilibrate, equilibrate_blocks, equilibrate_spar
 pub use jacobi::{SmallSvd, small_svd};
 pub use lu::{Lu, SingularPivot};
 pub use matrix::{Matrix, ShapeError};
-pub use minimum_norm::MinimumNormSaddle;
 pub use null_space::{
     Components, components, dependencies, open_rows, orthonormal, support_tolerance,
 };
-pub use proximal::{ProximalSaddle, ProximalTuning};
 pub use qr::PivotedQr;
 pub use rank::{
     Certificate, CoefficientReading, Doubt, Evidence, ExactNullSpace, Grounds, KeptRowsError,

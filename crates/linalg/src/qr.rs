@@ -17,7 +17,7 @@ mod tests;
 
 use crate::Matrix;
 
-pub(crate) use factor::{Reflections, apply, factor_above, reflect};
+pub(crate) use factor::{apply, reflect};
 
 /// `A·P = Q·R` with `|R_00| ≥ |R_11| ≥ …`, the columns of the n×m matrix A given as m rows.
 ///

@@ -23,7 +23,6 @@ mod modular;
 mod perturbation;
 #[cfg(test)]
 mod tests;
-mod truncation;
 mod uncertainty;
 mod within;
 
@@ -40,7 +39,6 @@ pub use within::{RankReading, certify_rank, certify_within};
 pub(crate) use clear::{Size, independent, size};
 pub(crate) use coefficient::coefficient_noise;
 pub use explicit::{KeptRowsError, decide_dropping, decide_keeping};
-pub(crate) use truncation::{ROUNDING, TRUNCATION};
 
 /// Factor between the noise estimate and the tolerance τ: rounding of an equilibrated matrix and
 /// the polished residual were each measured within a factor 4 of the singular value they cause.

@@ -32,7 +32,6 @@ mod solve;
 #[cfg(test)]
 mod tests;
 
-use crate::Matrix;
 use crate::kernels::all_finite;
 use fill::{Fill, Lists};
 
@@ -371,33 +370,6 @@ pub(crate) fn check_length<T>(
             found: x.len(),
             expected,
         })
-    }
-}
-
-/// Whether C has the shape and the entries of a matrix, and the masses those of masses.
-pub(crate) fn check_equations(
-    c: &Matrix,
-    mass: &[f64],
-    (m, n): (usize, usize),
-) -> Result<(), SaddleError> {
-    for (argument, found, expected) in [("C, by rows,", c.nrows(), m), ("row of C", c.ncols(), n)] {
-        if found != expected {
-            return Err(SaddleError::Length {
-                argument,
-                found,
-                expected,
-            });
-        }
-    }
-    check_finite("C", c.as_slice(), 0)?;
-    check_length("mass", mass, n)?;
-    check_finite("mass", mass, 0)?;
-    match mass.iter().position(|&m| m < 0.0) {
-        Some(index) => Err(SaddleError::NegativeMass {
-            index,
-            value: mass[index],
-        }),
-        None => Ok(()),
     }
 }
 

@@ -1,7 +1,9 @@
 //! The combination of rows that comes closest to zero: what nearly depends on each other, and by how much.
 
-use crate::rank::ROUNDING;
 use crate::{Matrix, PivotedQr, kernels};
+
+/// Share of the longest direction below which one is rounding.
+const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Weights of rows that nearly cancel.
 #[derive(Debug, Clone, PartialEq)]

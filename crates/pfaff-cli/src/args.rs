@@ -3,13 +3,16 @@
 mod examples;
 mod known;
 
+use std::ffi::OsStr;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::ErrorKind;
 use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
-use pfaff::dynamics::{Formulation, Method, Stabilisation};
+use pfaff::dynamics::options::moved;
+use pfaff::dynamics::{Method, Stabilisation};
 use pfaff::suite::generate::Kind;
 use pfaff::sweep::{Axis, Shard};
 
@@ -176,13 +179,13 @@ pub(crate) struct Simulate {
     #[arg(long, value_name = "H", allow_hyphen_values = true)]
     pub(crate) max_step: Option<f64>,
     /// Integrator
-    #[arg(long, value_name = "M", value_parser = named(Method::ALL, Method::name))]
+    #[arg(long, value_name = "M", value_parser = chosen("method", Method::ALL, Method::name))]
     pub(crate) method: Option<Method>,
-    /// Treatment of redundant rows
-    #[arg(long, value_name = "F", value_parser = named(Formulation::ALL, Formulation::name))]
-    pub(crate) formulation: Option<Formulation>,
-    /// Treatment of drift; baumgarte has the gains of the scene, or 5 and 5 (1/s)
-    #[arg(long, value_name = "S", value_parser = named(Stabilisation::ALL, Stabilisation::name))]
+    /// None: every run keeps independent rows
+    #[arg(long, value_name = "F", value_parser = no_formulation, hide = true)]
+    pub(crate) formulation: Option<String>,
+    /// Treatment of drift
+    #[arg(long, value_name = "S", value_parser = chosen("stabilisation", Stabilisation::ALL, Stabilisation::name))]
     pub(crate) stabilisation: Option<Stabilisation>,
     /// Rows to eliminate, counted from 1
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
@@ -204,13 +207,13 @@ pub(crate) struct Plan {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub(crate) t_end: Option<f64>,
     /// Integrator
-    #[arg(long, value_name = "M", value_parser = named(Method::ALL, Method::name))]
+    #[arg(long, value_name = "M", value_parser = chosen("method", Method::ALL, Method::name))]
     pub(crate) method: Option<Method>,
-    /// Treatment of redundant rows
-    #[arg(long, value_name = "F", value_parser = named(Formulation::ALL, Formulation::name))]
-    pub(crate) formulation: Option<Formulation>,
-    /// Treatment of drift; baumgarte has the gains of the scene, or 5 and 5 (1/s)
-    #[arg(long, value_name = "S", value_parser = named(Stabilisation::ALL, Stabilisation::name))]
+    /// None: every run keeps independent rows
+    #[arg(long, value_name = "F", value_parser = no_formulation, hide = true)]
+    pub(crate) formulation: Option<String>,
+    /// Treatment of drift
+    #[arg(long, value_name = "S", value_parser = chosen("stabilisation", Stabilisation::ALL, Stabilisation::name))]
     pub(crate) stabilisation: Option<Stabilisation>,
     /// Rows to eliminate, counted from 1
     #[arg(long, value_name = "ROWS", value_delimiter = ',')]
@@ -262,7 +265,7 @@ pub(crate) struct WorkPrecision {
     /// Three tolerances, for a first look
     #[arg(long, conflicts_with = "all")]
     pub(crate) quick: bool,
-    /// Every method with every formulation and every stabilisation
+    /// Every method with every stabilisation
     #[arg(long)]
     pub(crate) all: bool,
     /// All results as one JSON document on standard output
@@ -396,4 +399,51 @@ fn named<T: Copy + Send + Sync + 'static>(
         let found = all.iter().find(|value| name(**value) == text);
         found.copied().ok_or("no such name")
     })
+}
+
+/// Reads one of the names of an option of a run; of a name that has moved it says where to.
+fn chosen<T: Copy + Send + Sync + 'static>(
+    key: &'static str,
+    all: &'static [T],
+    name: fn(T) -> &'static str,
+) -> impl TypedValueParser<Value = T> {
+    Moved {
+        key,
+        then: named(all, name),
+    }
+}
+
+/// A parser that first asks whether the value is one that has moved.
+#[derive(Clone)]
+struct Moved<P> {
+    key: &'static str,
+    then: P,
+}
+
+impl<P: TypedValueParser> TypedValueParser for Moved<P> {
+    type Value = P::Value;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        argument: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<Self::Value, clap::Error> {
+        match value.to_str().and_then(|text| moved(self.key, text)) {
+            Some(words) => Err(
+                clap::Error::raw(ErrorKind::InvalidValue, format!("{words}\n")).with_cmd(command),
+            ),
+            None => self.then.parse_ref(command, argument, value),
+        }
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        self.then.possible_values()
+    }
+}
+
+/// Refuses every formulation, and says where it has gone.
+fn no_formulation(text: &str) -> Result<String, String> {
+    let words = moved("formulation", text);
+    Err(words.unwrap_or_else(|| "a run has one formulation".to_owned()))
 }

@@ -18,7 +18,6 @@ pub(crate) fn run(arguments: &args::Plan, console: &Console<'_>) -> Outcome {
     let overrides = Overrides {
         t_end: arguments.t_end,
         method: arguments.method,
-        formulation: arguments.formulation,
         stabilisation: arguments.stabilisation,
         drop: rows_from_zero(arguments.drop.as_deref())?,
         ..Overrides::default()
@@ -44,7 +43,7 @@ fn describe(name: &str, plan: &Plan<'_>, memory: usize) -> String {
     let mut text = format!(
         "{name}: the plan of a run to t = {} s ({}, {}), about {} of memory\n\n",
         options.t_end,
-        options.formulation.name(),
+        pfaff::dynamics::FORMULATION,
         options.stabilisation.name(),
         Bytes(memory as u64),
     );

@@ -84,7 +84,6 @@ fn overrides(arguments: &Simulate) -> Result<Overrides, Failure> {
         atol: arguments.atol,
         max_step: arguments.max_step,
         method: arguments.method,
-        formulation: arguments.formulation,
         stabilisation: arguments.stabilisation,
         drop: rows_from_zero(arguments.drop.as_deref())?,
         threads: arguments.resources.threads,

@@ -239,13 +239,7 @@ fn options(scene: &Scene, overrides: &Overrides) -> Option<MotionOptions> {
     options.atol = overrides.atol.unwrap_or(options.atol);
     options.max_step = overrides.max_step.unwrap_or(options.max_step);
     options.method = overrides.method.unwrap_or(options.method);
-    options.formulation = overrides.formulation.unwrap_or(options.formulation);
-    match overrides.stabilisation {
-        Some(other) if other.name() != options.stabilisation.name() => {
-            options.stabilisation = other;
-        }
-        _ => {}
-    }
+    options.stabilisation = overrides.stabilisation.unwrap_or(options.stabilisation);
     options.threads = overrides.threads.or(options.threads);
     if let Some(drop) = &overrides.drop {
         options.rows = RowChoice::Drop(drop.clone());

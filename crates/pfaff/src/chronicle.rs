@@ -192,7 +192,7 @@ impl<'a> Chronicle<'a> {
                 format!(
                     "{}, {}, {}",
                     o.method.name(),
-                    o.formulation.name(),
+                    dynamics::FORMULATION,
                     o.stabilisation.name()
                 ),
             ),

@@ -134,7 +134,6 @@ impl StudyError {
                     | MotionError::Rows(_)
                     | MotionError::Option { .. }
                     | MotionError::Combination { .. }
-                    | MotionError::NothingToDrop { .. }
             ),
             Self::Analysis(e) => matches!(e, AnalysisError::Rows { .. }),
             Self::Deletion(e) => matches!(

@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use dynamics::plan::{Reactions, Rows};
 use dynamics::{
-    Failure, Formulation, Method, MotionOptions, Plan, Prepared, Sample, Stabilisation, Summary,
-    Trip, Wanted, simulate,
+    Failure, Method, MotionOptions, Plan, Prepared, Sample, Stabilisation, Summary, Trip, Wanted,
+    simulate,
 };
 use model::{Known, Registry, System};
 use report::documents::{DataDocument, MomentDocument, MotionDocument};
@@ -55,9 +55,7 @@ pub struct Overrides {
     pub max_step: Option<f64>,
     /// Integrator.
     pub method: Option<Method>,
-    /// Treatment of redundancy.
-    pub formulation: Option<Formulation>,
-    /// Treatment of drift; gains are those of the scene where it has some.
+    /// Treatment of drift.
     pub stabilisation: Option<Stabilisation>,
     /// Rows to drop, from 0.
     pub drop: Option<Vec<usize>>,

@@ -16,7 +16,7 @@ pub mod provenance;
 mod ranking;
 mod standard;
 
-use dynamics::{Method, MotionOptions};
+use dynamics::{Method, MotionOptions, Prepared};
 use model::Registry;
 use model::start::scene_size;
 use report::{ReferenceDocument, WorkPrecisionRow, WorkPrecisionScene};
@@ -28,6 +28,7 @@ use measure::{Ending, Look, Times, clock, look, options};
 use plan::ACCURATE;
 use standard::{Standard, unique_reactions};
 
+pub use observation::Observation;
 pub use overview::overview;
 pub use plan::{Curve, Plan};
 pub use standard::Errors;
@@ -48,6 +49,24 @@ pub struct Subject {
     times: Times,
     /// Size of the mechanism (m).
     size: f64,
+}
+
+/// What motions are compared with.
+pub struct Yardstick(Option<Standard>);
+
+impl Yardstick {
+    /// Errors of a motion that was looked at at all instants; `None` if one is missing or nothing is known.
+    #[must_use]
+    pub fn errors(&self, motion: &[Observation]) -> Option<Errors> {
+        self.0.as_ref()?.errors(motion)
+    }
+
+    /// How far the reference may be from the truth: the larger one of position and velocity; NaN where nothing is known.
+    #[must_use]
+    pub fn limit(&self) -> f64 {
+        let limits = self.0.as_ref().map(|s| s.limits);
+        limits.map_or(f64::NAN, |limits| limits[0].max(limits[1]))
+    }
 }
 
 /// A finished comparison, or what there is of it.
@@ -107,6 +126,27 @@ impl Subject {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The mechanism at its start.
+    #[must_use]
+    pub fn prepared(&self) -> &Prepared {
+        &self.study.prepared
+    }
+
+    /// Times at which motions are compared (s), ascending.
+    #[must_use]
+    pub fn instants(&self) -> &[f64] {
+        &self.times.wanted
+    }
+
+    /// What motions by other programs are compared with: the same as the runs of a plan.
+    ///
+    /// # Errors
+    /// [`StudyError::Analysis`]: it cannot be told which reactions are unique.
+    pub fn yardstick(&self, plan: &Plan) -> Result<Yardstick, StudyError> {
+        let (standard, _) = self.standard(plan, &|| false)?;
+        Ok(Yardstick(standard))
     }
 
     /// One run, compared with the reference of the suite: how far it is off, and how far the reference may be. `None` if nothing is known.

@@ -4,7 +4,8 @@ use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 use std::ops::Range;
 
-use dynamics::{Formulation, Method, MotionError, MotionOptions, RowChoice, Stabilisation};
+use dynamics::options::moved;
+use dynamics::{Method, MotionError, MotionOptions, RowChoice, Stabilisation};
 
 use crate::diagnostic::Diagnostic;
 use crate::field::Field;
@@ -25,12 +26,6 @@ const METHODS: Choice<Method> = Choice {
     key: METHOD,
     available: Method::ALL,
     name: Method::name,
-};
-
-const FORMULATIONS: Choice<Formulation> = Choice {
-    key: FORMULATION,
-    available: Formulation::ALL,
-    name: Formulation::name,
 };
 
 const STABILISATIONS: Choice<Stabilisation> = Choice {
@@ -72,13 +67,6 @@ const METHOD: Key = Key::optional(
 )
 .doc("Integrator; `auto` looks at the forces of the start")
 .or(|| Method::default().name().into());
-const FORMULATION: Key = Key::optional(
-    "formulation",
-    "the name of a formulation",
-    Takes::OneOf(|| names(Formulation::ALL, Formulation::name)),
-)
-.doc("Treatment of redundant rows")
-.or(|| Formulation::default().name().into());
 const STABILISATION: Key = Key::optional(
     "stabilisation",
     "the name of a stabilisation",
@@ -86,27 +74,18 @@ const STABILISATION: Key = Key::optional(
 )
 .doc("Treatment of drift")
 .or(|| Stabilisation::default().name().into());
-const BAUMGARTE: Key = Key::optional(
-    "baumgarte",
-    "two gains ≥ 0, `[alpha, beta]` (1/s)",
-    Takes::Pair(Interval::NotNegative),
-)
-.unit("1/s")
-.doc("Gains [alpha, beta] of `stabilisation = \"baumgarte\"`; [5, 5] where they are not given");
 const DROP: Key = Key::optional("drop", "a list of rows, counted from 1", Takes::Rows)
     .doc("Rows to eliminate, counted from 1; chosen automatically where they are not given");
 
 /// Keys of the section.
-pub(crate) const KEYS: [Key; 10] = [
+pub(crate) const KEYS: [Key; 8] = [
     T_END,
     OUTPUT_STEP,
     RTOL,
     ATOL,
     MAX_STEP,
     METHOD,
-    FORMULATION,
     STABILISATION,
-    BAUMGARTE,
     DROP,
 ];
 
@@ -154,25 +133,9 @@ pub(crate) fn read(mut table: Table, findings: &mut Findings) -> Option<Simulate
     number(&ATOL, &mut options.atol);
     number(&MAX_STEP, &mut options.max_step);
     options.method = choose(&mut table, &METHODS, findings).unwrap_or_default();
-    options.formulation = choose(&mut table, &FORMULATIONS, findings).unwrap_or_default();
+    refuse_moved(&mut table, findings);
     options.stabilisation = choose(&mut table, &STABILISATIONS, findings).unwrap_or_default();
-    if let Some(field) = table.optional(&BAUMGARTE) {
-        gains(&field, &mut options.stabilisation, findings);
-    }
-    let drop_field = table.optional(&DROP);
-    if let Some(field) = drop_field
-        .as_ref()
-        .filter(|_| !options.formulation.drops_rows())
-    {
-        let formulation = options.formulation.name();
-        let error = MotionError::NothingToDrop { formulation };
-        findings.error(
-            field.span(),
-            format!("{}: {error}", field.subject),
-            "no row is dropped here",
-        );
-    }
-    let drop = drop_field.map(|field| rows(&field, findings));
+    let drop = table.optional(&DROP).map(|field| rows(&field, findings));
     table.close(findings);
     if let Some(drop) = &drop {
         options.rows = RowChoice::Drop(drop.iter().map(|(row, _)| *row).collect());
@@ -237,6 +200,14 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
     if let Some(found) = available.find(|found| (choice.name)(*found) == value) {
         return Some(found);
     }
+    if let Some(words) = moved(&field.key, value) {
+        findings.error(
+            field.span(),
+            format!("{}: {words}", field.subject),
+            "not of a run",
+        );
+        return None;
+    }
     let help = did_you_mean(value, names());
     findings.error_with_help(
         field.span(),
@@ -247,36 +218,26 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
     None
 }
 
-/// The gains of Baumgarte's method, `[α, β]`, where it is asked for.
-fn gains(field: &Field, stabilisation: &mut Stabilisation, findings: &mut Findings) {
-    const EXPECTED: &str = BAUMGARTE.expected;
-    let Some(gains) = field.pair(EXPECTED, findings) else {
-        return;
-    };
-    if gains.iter().any(|gain| !BAUMGARTE.allows(*gain)) {
-        let [alpha, beta] = gains;
+/// A run has one formulation, and Baumgarte's method no gains: keys of these names are told where they have gone.
+fn refuse_moved(table: &mut Table, findings: &mut Findings) {
+    for (key, of) in [
+        ("formulation", "formulation"),
+        ("baumgarte", "stabilisation"),
+    ] {
+        if !table.has(key) {
+            continue;
+        }
+        let Some(field) = table.optional(key) else {
+            continue;
+        };
+        let value = table.peek(key).unwrap_or(key);
+        let words = moved(of, value);
+        let words = words.unwrap_or_else(|| format!("a run has no key `{key}`"));
         findings.error(
             field.span(),
-            format!(
-                "{}: `baumgarte` is [{alpha}, {beta}], need {EXPECTED}",
-                field.subject
-            ),
-            format!("expected {EXPECTED}"),
+            format!("{}: {words}", field.subject),
+            "not of a run",
         );
-        return;
-    }
-    match stabilisation {
-        Stabilisation::Baumgarte { alpha, beta } => [*alpha, *beta] = gains,
-        other => findings.error_with_help(
-            field.span(),
-            format!(
-                "{}: `baumgarte` gives gains, but the stabilisation is `{}`",
-                field.subject,
-                other.name()
-            ),
-            "no gains are used",
-            Some("add `stabilisation = \"baumgarte\"`".to_owned()),
-        ),
     }
 }
 

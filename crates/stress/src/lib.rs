@@ -8,7 +8,7 @@
 //! | [`mod@judge`] | what is to be thought of an outcome |
 //! | [`mod@run`] | many cases on some threads, each with a time limit |
 //! | [`mechanisms`] | mechanisms that cases and tests use |
-//! | [`motion`] | scenes to the last row of their motion, by every method and formulation |
+//! | [`motion`] | scenes to the last row of their motion, by every method |
 //! | [`mod@families`] | the list of families, each in a file of its own |
 
 pub mod case;

@@ -1,9 +1,9 @@
-//! A scene from its text, or from what the library describes, to the last row of its motion, by every method and formulation that go together.
+//! A scene from its text, or from what the library describes, to the last row of its motion, by every method.
 
 use std::ops::ControlFlow;
 
 use dynamics::{
-    Formulation, Method, MotionOptions, Prepared, RowChoice, Summary, prepare, simulate,
+    FORMULATION, Method, MotionOptions, Prepared, RowChoice, Summary, prepare, simulate,
 };
 use model::start::CorrectionLimit;
 use model::{Description, Mechanism, Registry, StartOptions};
@@ -23,18 +23,14 @@ pub struct Row {
     pub v: Vec<f64>,
 }
 
-/// The options of every method with every formulation that go together, otherwise those of `base`.
+/// The options of every method, otherwise those of `base`.
 #[must_use]
 pub fn combinations(base: &MotionOptions) -> Vec<MotionOptions> {
-    let all = Method::ALL.iter().flat_map(|&method| {
-        Formulation::ALL
-            .iter()
-            .map(move |&formulation| MotionOptions {
-                method,
-                formulation,
-                ..base.clone()
-            })
-    });
+    let of = |&method: &Method| MotionOptions {
+        method,
+        ..base.clone()
+    };
+    let all = Method::ALL.iter().map(of);
     all.filter(|options| options.check().is_ok()).collect()
 }
 
@@ -43,7 +39,6 @@ pub fn combinations(base: &MotionOptions) -> Vec<MotionOptions> {
 #[must_use]
 pub fn steps(method: Method, phase: f64, rtol: f64) -> f64 {
     let order = match method {
-        Method::GeneralizedAlpha => 2.0,
         Method::Dopri5 | Method::Tsit5 | Method::Radau5 => 5.0,
         _ => 8.0,
     };
@@ -57,9 +52,9 @@ pub fn moving(
     expected: Expected,
     run: impl Fn(&MotionOptions) -> Result<Outcome, Outcome> + Send + Sync + 'static,
 ) -> Case {
-    let (method, formulation) = (options.method.name(), options.formulation.name());
+    let method = options.method.name();
     let made = move || run(&options).unwrap_or_else(|refusal| refusal);
-    Case::new(name, method, formulation, expected, made)
+    Case::new(name, method, FORMULATION, expected, made)
 }
 
 /// A case in which something is asked and nothing moves.
@@ -115,7 +110,7 @@ pub fn analysed(description: &Description) -> Result<Analysis, Outcome> {
     analyse(&mechanism, 0.0, &q).map_err(Outcome::refused)
 }
 
-/// Accelerations at the start, as a run with these options has them: proximal iterations are tuned to its tolerance.
+/// Accelerations at the start, as a run with these options has them.
 ///
 /// # Errors
 /// Why there are none.

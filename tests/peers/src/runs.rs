@@ -51,7 +51,7 @@ pub fn of_mechanism<'c>(
     };
     let (as_they_are, _) = kinds[0];
     let mut runs = Vec::new();
-    let methods = [Method::Dop853, Method::Tsit5, Method::Gbs, Method::Radau5];
+    let methods = [Method::Dop853, Method::Tsit5, Method::Radau5];
     for method in methods {
         let series = Series {
             problem,
@@ -103,11 +103,10 @@ pub fn of_mechanism<'c>(
 
 /// The orbit, rtol = atol.
 pub fn of_arenstorf() -> Vec<Run<'static>> {
-    let methods: [(&str, &str, Solve<Arenstorf, 4>); 7] = [
+    let methods: [(&str, &str, Solve<Arenstorf, 4>); 6] = [
         ("integrators", "dop853", ours::dop853),
         ("integrators", "dopri5", ours::dopri5),
         ("integrators", "tsit5", ours::tsit5),
-        ("integrators", "gbs", ours::gbs),
         ("differential-equations", "dop853", de::dop853),
         ("differential-equations", "dopri5", de::dopri5),
         ("diffsol", "tsit45", ds::tsit45),

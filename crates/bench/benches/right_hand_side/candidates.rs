@@ -3,7 +3,9 @@
 
 use std::hint::black_box;
 
-use dynamics::{Formulation, KeptRowMotion, Motion, MotionOptions, SceneCode};
+use dynamics::{KeptRowMotion, Motion, SceneCode};
+use lab::comparators::equations::Equations;
+use lab::comparators::{Drift, MinimumNorm, Proximal, Solver};
 use linalg::KeptRowSaddle;
 use model::System;
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
@@ -88,13 +90,15 @@ pub(crate) fn all(robot: &Robot) -> Outcome<Vec<Work<'_>>> {
         )?
         .right_hand_side(
             "minimum-norm",
-            "all rows, least reactions",
-            all_rows(robot, Formulation::MinimumNorm)?,
+            "all rows, shortest multipliers",
+            all_rows(robot, |_, _, rank| Ok(Box::new(MinimumNorm::new(rank))))?,
         )?
         .right_hand_side(
             "proximal",
             "all rows, proximal iterations",
-            all_rows(robot, Formulation::Proximal)?,
+            all_rows(robot, |c, mass, rank| {
+                Ok(Box::new(Proximal::new(c, mass, rank, 0.1 * AGREES)?))
+            })?,
         )?
         .right_hand_side(
             "nalgebra",
@@ -270,16 +274,20 @@ fn kept_rows(robot: &Robot) -> Outcome<Call<'_>> {
     }))
 }
 
-/// Proximal iterations are tuned to the tolerance of a run: here to what is asked of every candidate.
-fn all_rows(robot: &Robot, formulation: Formulation) -> Outcome<Call<'_>> {
-    let options = MotionOptions {
-        formulation,
-        rtol: 0.1 * AGREES,
-        ..MotionOptions::to(10.0)
-    };
-    let mut motion = KeptRowMotion::with(&robot.prepared, &options)?;
+/// A comparator of the laboratory, made from C and M at the start and the rank there.
+fn all_rows<'r>(
+    robot: &'r Robot,
+    solver: impl FnOnce(
+        &linalg::Matrix,
+        &[f64],
+        usize,
+    ) -> Result<Box<dyn Solver + 'r>, lab::comparators::Fault>,
+) -> Outcome<Call<'r>> {
+    let (prepared, rank) = (&robot.prepared, robot.prepared.decision.rank);
+    let solver = |c: &linalg::Matrix, mass: &[f64]| solver(c, mass, rank);
+    let mut equations = Equations::new(prepared, Drift::None, solver)?;
     Ok(Box::new(move |s, a| {
-        motion.acceleration(s.t, &s.q, &s.v, a).is_ok()
+        equations.accelerate(s.t, &s.q, &s.v, a).is_ok()
     }))
 }
 

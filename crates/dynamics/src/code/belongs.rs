@@ -9,7 +9,7 @@ use model::{Mechanism, System};
 use super::{LEAVE, SceneCode};
 use crate::error::Trip;
 use crate::motion::{KeptRowMotion, Motion, is_far, mass_spread};
-use crate::options::{Formulation, Method, MotionOptions, Stabilisation};
+use crate::options::{Method, MotionOptions, Stabilisation};
 use crate::prepare::Prepared;
 
 /// Values of code and interpreter may differ by this share of the terms that they are made of.
@@ -111,9 +111,6 @@ pub enum NoCode {
     /// The method asks for more than accelerations.
     #[error("the method {0} asks for more than accelerations")]
     Method(&'static str),
-    /// The formulation is another.
-    #[error("code is generated for kept rows, the formulation is {0}")]
-    Formulation(&'static str),
     /// States are not projected.
     #[error("code is watched by its projections, the stabilisation is {0}")]
     Stabilisation(&'static str),
@@ -154,13 +151,8 @@ impl Prepared {
     pub fn code_for(&self, options: &MotionOptions) -> Result<&Arc<dyn SceneCode>, NoCode> {
         let code = self.code.as_ref().ok_or(NoCode::None)?;
         match options.method {
-            Method::Auto | Method::Dopri5 | Method::Tsit5 | Method::Dop853 | Method::Gbs => {}
-            Method::Radau5 | Method::GeneralizedAlpha => {
-                return Err(NoCode::Method(options.method.name()));
-            }
-        }
-        if options.formulation != Formulation::KeptRows {
-            return Err(NoCode::Formulation(options.formulation.name()));
+            Method::Auto | Method::Dopri5 | Method::Tsit5 | Method::Dop853 => {}
+            Method::Radau5 => return Err(NoCode::Method(options.method.name())),
         }
         match options.stabilisation {
             Stabilisation::Projection => {}

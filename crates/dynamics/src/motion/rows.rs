@@ -369,19 +369,6 @@ impl KeptRows {
         }
     }
 
-    /// The largest acceleration, in units of the mechanism, that one row alone asks for by its right-hand side.
-    pub(super) fn rate(&self) -> f64 {
-        let of_row = |(k, rhs): (usize, &f64)| {
-            let largest = self.solver.size_of_row(k);
-            if largest > 0.0 {
-                rhs.abs() / largest
-            } else {
-                0.0
-            }
-        };
-        self.rhs.iter().enumerate().map(of_row).fold(0.0, f64::max)
-    }
-
     /// The λ that belongs to the accelerations a just found by [`KeptRows::accelerate`]; refined, they have come with them.
     pub(super) fn find_multipliers(
         &mut self,

@@ -1,4 +1,4 @@
-//! What is done about drift off the constraints: projection, accelerations that pull back, or nothing. Without projection states stay as
+//! What is done about drift off the constraints: projection, or nothing. Without projection states stay as
 //! the integrator left them and residuals say so; kept rows are still watched, and redundancy is still checked at projected copies.
 
 use model::System;
@@ -71,7 +71,6 @@ impl KeptRowMotion<'_> {
         self.project(t, &mut polished_q, &mut polished_v)?;
         let mut a = vec![0.0; v.len()];
         self.acceleration(t, &polished_q, &polished_v, &mut a)?;
-        self.review_acceleration(&mut a)?;
         self.inspect(t, q, v)
     }
 
@@ -106,22 +105,5 @@ impl KeptRowMotion<'_> {
         velocity.factor(mechanism, s)?;
         self.evaluate_b();
         Ok(self.residuals(v))
-    }
-
-    /// Adds to Γ what pulls positions and velocities back. Needs Φ's pose, C and Γ.
-    pub(super) fn pull_back(&mut self, v: &[f64]) {
-        let Stabilisation::Baumgarte { alpha, beta } = self.stabilisation else {
-            return;
-        };
-        self.evaluate_b();
-        self.mechanism.phi(&mut self.s);
-        let layout = self.mechanism.layout();
-        for i in 0..layout.rows() {
-            let rate = layout.velocity_residual(&self.s, i, v);
-            self.s.gamma[i] -= match self.s.phi.get(i) {
-                Some(phi) => 2.0 * alpha * rate + beta * beta * phi,
-                None => alpha * rate,
-            };
-        }
     }
 }

@@ -11,7 +11,7 @@ use super::{Decided, Line, line};
 use crate::choose;
 use crate::error::MotionError;
 use crate::motion::{KeptRowMotion, is_far, is_sparse, mass_spread};
-use crate::options::{Formulation, Method, MotionOptions};
+use crate::options::{FORMULATION, Method, MotionOptions};
 use crate::prepare::Prepared;
 
 /// What was decided for one component.
@@ -56,11 +56,11 @@ impl Decisions {
         let method = choose::method(prepared, options)?;
         Ok(Self {
             linear_systems: linear_systems(method.value, &sizes),
-            elimination: dense(prepared, options.formulation, &sizes, &work),
-            refinement: refinement(prepared, options.formulation, method.value)?,
+            elimination: dense(prepared, &sizes, &work),
+            refinement: refinement(prepared)?,
             mobility: mobility(prepared, options, &sizes, &work),
             nonholonomic: nonholonomic(&sizes),
-            dropped: dropped(options.formulation, &sizes),
+            dropped: dropped(&sizes),
             of_time: of_time(&sizes, &work),
             entries: entries(&work),
             gamma: gamma(&sizes, &work),
@@ -93,58 +93,35 @@ impl Decisions {
 }
 
 fn linear_systems(method: Method, sizes: &Sizes) -> Decided<bool> {
-    let (n, r, w) = (sizes.velocities, sizes.rank, 2 * sizes.mobility());
+    let (n, w) = (sizes.velocities, 2 * sizes.mobility());
     // Derivatives along each independent entry, of [q; v]; the real system, and the complex one as a real one of twice the order.
     let reduced = 2 * w * 2 * n + w * w + 4 * w * w;
-    // The matrix and its factors.
-    let saddle_point = 2 * (n + r) * (n + r);
     let (value, taken, why, left_out) = match method {
-        Method::Radau5 => (
-            true,
-            "on independent coordinates",
-            "is implicit",
-            saddle_point,
-        ),
-        Method::GeneralizedAlpha => (
-            true,
-            "with the kept rows",
-            "takes the constraints as equations of their own",
-            reduced,
-        ),
-        _ => (false, "none", "is explicit", reduced + saddle_point),
+        Method::Radau5 => (true, "on independent coordinates", "is implicit", 0),
+        _ => (false, "none", "is explicit", reduced),
     };
     Decided {
         value,
         taken: taken.to_owned(),
         reason: format!("{} {why}", method.name()),
-        saves: Saving::of_sizes(left_out, reduced + saddle_point, Cost::Storage),
+        saves: Saving::of_sizes(left_out, reduced, Cost::Storage),
     }
 }
 
-fn dense(
-    prepared: &Prepared,
-    formulation: Formulation,
-    sizes: &Sizes,
-    work: &Work,
-) -> Decided<[usize; 2]> {
-    let rows = match formulation.drops_rows() {
-        true => sizes.rank,
-        false => sizes.rows(),
-    };
-    let n = sizes.velocities;
-    if formulation.drops_rows() && is_sparse(prepared) {
+fn dense(prepared: &Prepared, sizes: &Sizes, work: &Work) -> Decided<[usize; 2]> {
+    let (rows, n) = (sizes.rank, sizes.velocities);
+    if is_sparse(prepared) {
         return Decided {
             value: [rows, n],
             taken: format!("sparse, {rows} × {n}"),
             reason: format!(
-                "{}, {} entries of C; Schur complement of the masses, in an order chosen once",
-                formulation.name(),
+                "{FORMULATION}, {} entries of C; Schur complement of the masses, in an order chosen once",
                 work.entries
             ),
             saves: None,
         };
     }
-    let (all, n) = (elimination(&prepared.mechanism, rows), sizes.velocities);
+    let all = elimination(&prepared.mechanism, rows);
     // Of the whole saddle matrix, by LU.
     let order = (n + rows) as u64;
     let whole = order * order * order / 3;
@@ -152,35 +129,20 @@ fn dense(
         value: [rows, n],
         taken: format!("dense, {rows} × {n}"),
         reason: format!(
-            "{}, {} entries of C; saved against LU of the whole saddle matrix",
-            formulation.name(),
+            "{FORMULATION}, {} entries of C; saved against LU of the whole saddle matrix",
             work.entries
         ),
         saves: Saving::of(whole.saturating_sub(all), whole, Cost::Elimination),
     }
 }
 
-fn refinement(
-    prepared: &Prepared,
-    formulation: Formulation,
-    method: Method,
-) -> Result<Decided<bool>, MotionError> {
+fn refinement(prepared: &Prepared) -> Result<Decided<bool>, MotionError> {
     let decided = |value: bool, reason: String| Decided {
         value,
         taken: if value { "in double-double" } else { "none" }.to_owned(),
         reason,
         saves: None,
     };
-    if !formulation.drops_rows() {
-        return Ok(decided(
-            false,
-            format!("{} solves with all rows", formulation.name()),
-        ));
-    }
-    if method == Method::GeneralizedAlpha {
-        let why = "takes the constraints as equations of their own";
-        return Ok(decided(false, format!("{} {why}", method.name())));
-    }
     if is_sparse(prepared) {
         let why = "solved sparsely: each solution is compared with its rows, and corrected";
         return Ok(decided(false, why.to_owned()));
@@ -255,20 +217,16 @@ fn nonholonomic(sizes: &Sizes) -> Decided<usize> {
     }
 }
 
-fn dropped(formulation: Formulation, sizes: &Sizes) -> Decided<usize> {
+fn dropped(sizes: &Sizes) -> Decided<usize> {
     let value = sizes.redundancy();
-    let (taken, reason) = match (value, formulation.drops_rows()) {
-        (0, _) => (
+    let (taken, reason) = match value {
+        0 => (
             "none".to_owned(),
             "all rows are independent: no row is monitored or exchanged",
         ),
-        (p, true) => (
+        p => (
             format!("{p} monitored"),
             "implied by the kept ones; not solved for",
-        ),
-        (p, false) => (
-            format!("{p} monitored"),
-            "implied by the others; accelerations are those of all rows",
         ),
     };
     Decided {

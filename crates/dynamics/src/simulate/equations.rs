@@ -13,7 +13,6 @@ use super::span::Span;
 use crate::error::Trip;
 use crate::events::Event;
 use crate::guards::GUARDED;
-use crate::motion::constrained::SaddlePoint;
 use crate::motion::{Correction, KeptRowMotion, Reduced};
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
@@ -53,8 +52,6 @@ pub(super) struct Equations<'m> {
     wanted: AtRows,
     /// Of implicit methods, from their first step on.
     reduced: Option<Reduced>,
-    /// The constraints as equations of their own, from the first step that needs them.
-    saddle_point: Option<SaddlePoint>,
     pub(super) n_q: usize,
     pub(super) n_v: usize,
     /// Whether y carries the work.
@@ -123,7 +120,6 @@ impl<'m> Equations<'m> {
             stage: Vec::new(),
             wanted,
             reduced: None,
-            saddle_point: None,
             motion,
         }
     }
@@ -180,7 +176,6 @@ impl<'m> Equations<'m> {
             largest_kinetic_energy: self.energy.largest_kinetic(),
             min_pivot_ratio: self.min_pivot_ratio,
             events: self.events.clone(),
-            proximal: self.motion.proximal_tuning(),
             ..super::Summary::default()
         }
     }
@@ -235,13 +230,6 @@ impl<'m> Equations<'m> {
         let new = || Reduced::new(&self.motion);
         let reduced = self.reduced.get_or_insert_with(new);
         (&mut self.motion, reduced)
-    }
-
-    /// The motion with its constraints as equations of their own.
-    pub(super) fn constrained(&mut self) -> (&mut KeptRowMotion<'m>, &mut SaddlePoint) {
-        let new = || SaddlePoint::new(&self.motion);
-        let saddle_point = self.saddle_point.get_or_insert_with(new);
-        (&mut self.motion, saddle_point)
     }
 
     /// Takes an accepted step, for the rows in it.
@@ -466,9 +454,8 @@ impl Ode for Equations<'_> {
             if is_suspect || !is_known {
                 self.motion.derivative_of_projected(step.t_rhs, y, dy)?;
             }
-            let a = &mut dy[self.n_q..self.n_q + self.n_v];
-            self.motion.review_acceleration(a)?;
-            let now = (step.t, &y[self.n_q..self.n_q + self.n_v], &*a);
+            let a = &dy[self.n_q..self.n_q + self.n_v];
+            let now = (step.t, &y[self.n_q..self.n_q + self.n_v], a);
             if is_suspect && !self.motion.goes_on_smoothly(now) {
                 return Err(self.motion.no_way_over(step.t));
             }

@@ -87,7 +87,7 @@ impl Sample<'_, '_> {
     }
 
     /// Reactions of all joints and drives in the order of their rows; those that the plan leaves out are NaN. Those of non-unique joints
-    /// belong to the choice of this run (its kept rows, or the norm of its formulation) and to no other; allocates.
+    /// belong to the choice of this run (its kept rows) and to no other; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.

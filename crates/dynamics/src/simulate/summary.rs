@@ -1,6 +1,5 @@
 //! Numbers of a run, and of one whose components were run apart.
 
-use linalg::ProximalTuning;
 use model::Places;
 
 use super::energy;
@@ -42,8 +41,6 @@ pub struct Summary {
     pub min_pivot_ratio: f64,
     /// What happened on the way.
     pub events: Vec<Event>,
-    /// The last tuning of proximal iterations, where accelerations come from them; of components run apart each has its own.
-    pub proximal: Option<ProximalTuning>,
     /// Components that were run apart; none where all bodies were one.
     pub components: Vec<ComponentSummary>,
 }
@@ -103,7 +100,6 @@ impl Summary {
             largest_kinetic_energy: kinetic,
             min_pivot_ratio: smallest(|s| s.min_pivot_ratio),
             events: events(&components, dropped),
-            proximal: None,
             components,
         }
     }

@@ -2,7 +2,7 @@
 
 use crate::problems::kepler;
 use crate::problems::{Plain, plain};
-use integrators::{Dop853, Dopri5, Gbs, Interval, Method, Options, OutputTimes, Tsit5, sample};
+use integrators::{Dop853, Dopri5, Interval, Method, Options, OutputTimes, Tsit5, sample};
 use std::ops::ControlFlow;
 
 #[test]
@@ -10,7 +10,6 @@ fn the_number_of_allocations_does_not_depend_on_the_length() {
     check("dopri5", &Dopri5);
     check("tsit5", &Tsit5);
     check("dop853", &Dop853);
-    check("gbs", &Gbs);
 }
 
 fn check(name: &str, method: &impl Method<Plain>) {

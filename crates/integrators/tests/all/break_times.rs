@@ -2,8 +2,7 @@
 
 use crate::problems::{Plain, fixed_step, plain, run};
 use integrators::{
-    Dop853, Dopri5, Function, Gbs, Interval, Method, Ode, Options, OutputTimes, Tsit5, integrate,
-    sample,
+    Dop853, Dopri5, Function, Interval, Method, Ode, Options, OutputTimes, Tsit5, integrate, sample,
 };
 use std::convert::Infallible;
 use std::ops::ControlFlow;
@@ -115,7 +114,6 @@ fn all_methods_stay_on_their_side_of_a_jump() {
     check("dopri5", &Dopri5);
     check("tsit5", &Tsit5);
     check("dop853", &Dop853);
-    check("gbs", &Gbs);
 }
 
 #[test]

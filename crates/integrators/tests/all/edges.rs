@@ -2,7 +2,7 @@
 
 use crate::problems::{Plain, distance, kepler, oscillator, plain};
 use integrators::{
-    Cause, Dop853, Dopri5, Failure, Gbs, IntegrationError, Interval, Method, Options, Outcome,
+    Cause, Dop853, Dopri5, Failure, IntegrationError, Interval, Method, Options, Outcome,
     Tolerance, Tsit5, integrate,
 };
 use std::convert::Infallible;
@@ -109,7 +109,6 @@ fn edges() {
     check("dopri5", &Dopri5);
     check("tsit5", &Tsit5);
     check("dop853", &Dop853);
-    check("gbs", &Gbs);
 }
 
 /// Ten revolutions with eccentricity 0.6: the state after 10 periods of 2π is the initial one.
@@ -129,5 +128,4 @@ fn errors_follow_the_tolerance() {
     check("dopri5", &Dopri5);
     check("tsit5", &Tsit5);
     check("dop853", &Dop853);
-    check("gbs", &Gbs);
 }

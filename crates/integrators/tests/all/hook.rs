@@ -2,7 +2,7 @@
 
 use crate::problems::{WEIGHT, distance, fixed_step, observed_orders};
 use integrators::{
-    Cause, Dop853, Dopri5, Gbs, IntegrationError, Interval, Method, Ode, Options, Outcome, StepEnd,
+    Cause, Dop853, Dopri5, IntegrationError, Interval, Method, Ode, Options, Outcome, StepEnd,
     StepInfo, Tsit5, integrate,
 };
 use std::convert::Infallible;
@@ -162,7 +162,6 @@ fn dense_output_passes_smoothly_through_projected_states() {
     check_smoothness("dopri5", &Dopri5, 1.25);
     check_smoothness("tsit5", &Tsit5, 1.25);
     check_smoothness("dop853", &Dop853, 2.5);
-    check_smoothness("gbs", &Gbs, 1.5);
 }
 
 /// Twenty units of time on the circle with each method; `evaluations` of a trial, without the one of the hook.
@@ -193,7 +192,6 @@ fn all_methods_stay_on_the_circle() {
     check("dopri5", &Dopri5);
     check("tsit5", &Tsit5);
     check("dop853", &Dop853);
-    check("gbs", &Gbs);
 }
 
 #[test]

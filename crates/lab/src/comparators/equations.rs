@@ -1,5 +1,7 @@
 //! The differential equation of a comparator: y = [q; v], accelerations from a [`Solver`], and what is done about drift.
 
+use std::time::Instant;
+
 use dynamics::Prepared;
 use integrators::{Ode, StepEnd, StepInfo};
 use linalg::Matrix;
@@ -36,6 +38,8 @@ pub struct Equations<'a> {
     /// Right-hand sides evaluated, states projected.
     pub(super) evaluations: u64,
     pub(super) projections: u64,
+    /// After it nothing is evaluated any more.
+    pub(super) deadline: Option<Instant>,
 }
 
 /// C at a configuration in units of the mechanism: lengths in its size.
@@ -86,6 +90,7 @@ impl<'a> Equations<'a> {
             gamma: vec![0.0; m],
             evaluations: 0,
             projections: 0,
+            deadline: None,
         })
     }
 
@@ -102,10 +107,16 @@ impl<'a> Equations<'a> {
     /// Accelerations in `a`, multipliers of all rows in `self.lambda`.
     ///
     /// # Errors
-    /// Those of the solver.
+    /// Those of the solver; [`Fault::TooLong`].
     pub fn accelerate(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
         let (mechanism, s) = (self.mechanism, &mut self.s);
         self.evaluations += 1;
+        if self
+            .deadline
+            .is_some_and(|deadline| Instant::now() > deadline)
+        {
+            return Err(Fault::TooLong { time: t });
+        }
         mechanism.pose(t, q, s);
         mechanism.c(s);
         mechanism.twist(v, s);

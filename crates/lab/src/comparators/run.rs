@@ -168,17 +168,16 @@ pub struct Run {
 }
 
 /// When a run is given up.
-pub(super) struct Limits<'a> {
+pub(super) struct Limits {
     pub(super) tolerance: f64,
     /// Steps at most.
     pub(super) steps: u64,
-    stop: &'a dyn Fn() -> bool,
 }
 
-impl Limits<'_> {
+impl Limits {
     pub(super) fn check(&self, time: f64, steps: Steps) -> Result<(), Fault> {
         let made = steps.accepted + steps.rejected;
-        match made >= self.steps || (self.stop)() {
+        match made >= self.steps {
             true => Err(Fault::TooManySteps { time, steps: made }),
             false => Ok(()),
         }
@@ -196,7 +195,7 @@ pub fn run(prepared: &Prepared, way: Way, tolerance: f64, times: &[f64]) -> Resu
     run_within(prepared, way, tolerance, times, Duration::MAX)
 }
 
-/// The same, given up with [`Fault::TooManySteps`] once it takes longer than `budget`.
+/// The same, given up with [`Fault::TooLong`] once it takes longer than `budget`.
 ///
 /// # Errors
 /// As [`run`].
@@ -219,12 +218,11 @@ pub fn run_within(
         })
     })?;
     let clock = Instant::now();
-    let stop = || clock.elapsed() > budget;
+    equations.deadline = clock.checked_add(budget);
     let y0 = [prepared.q.as_slice(), &prepared.v].concat();
     let limits = Limits {
         tolerance,
         steps: MOST_STEPS,
-        stop: &stop,
     };
     let mut rows = Vec::with_capacity(times.len());
     let show = |equations: &mut Equations<'_>, t: f64, y: &[f64]| {
@@ -277,7 +275,7 @@ fn integrated<'a, M: integrators::Method<Equations<'a>>>(
     equations: &mut Equations<'a>,
     y0: &[f64],
     times: &[f64],
-    limits: &Limits<'_>,
+    limits: &Limits,
     mut show: impl FnMut(&mut Equations<'a>, f64, &[f64]) -> Result<(), Fault>,
 ) -> Result<Steps, Fault> {
     let mechanism = equations.mechanism();
@@ -307,7 +305,7 @@ fn integrated<'a, M: integrators::Method<Equations<'a>>>(
             } else {
                 t
             };
-            let shown = show(e, t, y).and_then(|()| limits.check(t, Steps::default()));
+            let shown = show(e, t, y);
             match shown {
                 Ok(()) => ControlFlow::Continue(()),
                 Err(fault) => {

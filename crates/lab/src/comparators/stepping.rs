@@ -84,7 +84,7 @@ pub(super) fn drive(
     equations: &mut Equations<'_>,
     mut y: Vec<f64>,
     times: &[f64],
-    limits: &Limits<'_>,
+    limits: &Limits,
     mut show: impl FnMut(&mut Equations<'_>, f64, &[f64]) -> Result<(), Fault>,
 ) -> Result<Steps, Fault> {
     let end = times.last().copied().unwrap_or(0.0);

@@ -4,3 +4,4 @@ mod formulations;
 mod known;
 mod methods;
 mod solvers;
+mod work_precision;

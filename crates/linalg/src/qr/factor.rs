@@ -15,64 +15,17 @@ struct Length {
     exact: f64,
 }
 
-/// What a factorisation needs beside the matrix itself; made once, used any number of times.
-#[derive(Debug, Clone)]
-pub(crate) struct Reflections {
-    /// Factor of each Householder step.
-    pub(crate) tau: Vec<f64>,
-    /// Position k of `A·P` is column `permutation[k]` of A.
-    pub(crate) permutation: Vec<usize>,
-    lengths: Vec<Length>,
-}
-
-impl Reflections {
-    /// Storage for m columns and at most so many steps.
-    pub(crate) fn new(m: usize, steps: usize) -> Self {
-        let none = Length {
-            now: 0.0,
-            exact: 0.0,
-        };
-        Self {
-            tau: vec![0.0; steps],
-            permutation: (0..m).collect(),
-            lengths: vec![none; m],
-        }
-    }
-}
-
 /// Factors completely; the rows of `a` are the columns that are pivoted.
 pub(super) fn factor(mut a: Matrix) -> PivotedQr {
-    let mut reflections = Reflections::new(a.nrows(), a.nrows().min(a.ncols()));
-    factor_above(f64::NEG_INFINITY, &mut a, &mut reflections);
-    let Reflections {
-        tau, permutation, ..
-    } = reflections;
-    PivotedQr {
-        factors: a,
-        tau,
-        permutation,
-    }
-}
-
-/// Factors in place as far as remaining columns are longer than `floor` and there is room for steps, and returns the number of
-/// steps; what remains is left as it is. Allocates nothing.
-pub(crate) fn factor_above(floor: f64, a: &mut Matrix, reflections: &mut Reflections) -> usize {
-    let m = a.nrows();
-    let Reflections {
-        tau,
-        permutation,
-        lengths,
-    } = reflections;
-    for (j, (place, length)) in permutation.iter_mut().zip(&mut *lengths).enumerate() {
-        *place = j;
+    let (m, steps) = (a.nrows(), a.nrows().min(a.ncols()));
+    let (mut tau, mut permutation) = (vec![0.0; steps], Vec::from_iter(0..m));
+    let length = |j: usize| {
         let exact = kernels::norm(a.row(j));
-        *length = Length { now: exact, exact };
-    }
-    for k in 0..tau.len() {
-        let pivot = longest(lengths, k);
-        if lengths[pivot].now <= floor {
-            return k;
-        }
+        Length { now: exact, exact }
+    };
+    let mut lengths: Vec<Length> = (0..m).map(length).collect();
+    for k in 0..steps {
+        let pivot = longest(&lengths, k);
         a.swap_rows(k, pivot);
         permutation.swap(k, pivot);
         lengths.swap(k, pivot);
@@ -84,7 +37,11 @@ pub(crate) fn factor_above(floor: f64, a: &mut Matrix, reflections: &mut Reflect
             downdate(&mut lengths[j], &column[k..]);
         }
     }
-    tau.len()
+    PivotedQr {
+        factors: a,
+        tau,
+        permutation,
+    }
 }
 
 /// First index from `k` on with the largest length, so that ties do not reorder.

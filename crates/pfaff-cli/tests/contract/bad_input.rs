@@ -289,57 +289,59 @@ fn rows_that_cannot_be_dropped() {
 }
 
 #[test]
-fn rows_to_drop_where_all_are_used() {
-    let folder = Folder::new("drop-all");
-    let simulate = ["simulate", ROBOT, "--out", folder.text(), "--drop", "6,21"];
-    let output = pfaff(&[&simulate[..], &["--formulation", "proximal"][..]].concat());
-    assert_eq!(output.status.code(), Some(2));
-    let text = stderr(&output);
-    assert!(
-        text.contains("the formulation proximal uses all rows"),
-        "{text}"
-    );
+fn what_moved_to_the_laboratory_is_told_where() {
+    let folder = Folder::new("moved");
+    for (option, value, message) in [
+        (
+            "--formulation",
+            "minimum-norm",
+            "for reactions of least norm use `analyze --choose minimum-norm`",
+        ),
+        (
+            "--formulation",
+            "null-space",
+            "formulation `null-space` is a comparator of the laboratory (`lab work-precision`)",
+        ),
+        ("--formulation", "kept-rows", "leave the formulation out"),
+        (
+            "--method",
+            "gbs",
+            "method `gbs` is a comparator of the laboratory (`lab work-precision`)",
+        ),
+        ("--method", "hem4", "method `hem4` is gone"),
+        (
+            "--stabilisation",
+            "baumgarte",
+            "stabilisation `baumgarte` is a comparator of the laboratory",
+        ),
+    ] {
+        for command in ["simulate", "plan"] {
+            let out = ["--out", folder.text()];
+            let out = if command == "plan" { &[][..] } else { &out[..] };
+            let output = pfaff(&[&[command, ROBOT, option, value][..], out].concat());
+            assert_eq!(output.status.code(), Some(2), "{option} {value}");
+            assert!(stderr(&output).contains(message), "{}", stderr(&output));
+        }
+    }
 }
 
 #[test]
 fn options_that_do_not_go_together() {
     let folder = Folder::new("together");
-    for (options, message) in [
-        (
-            ["--method", "radau5", "--stabilisation", "none"],
-            "radau5 does not go with none: the method relies on projection",
-        ),
-        (
-            [
-                "--formulation",
-                "null-space",
-                "--stabilisation",
-                "baumgarte",
-            ],
-            "null-space does not go with baumgarte: nothing drifts there",
-        ),
-        (
-            ["--method", "radau5", "--formulation", "proximal"],
-            "proximal does not go with radau5: the method solves equations on kept rows",
-        ),
-    ] {
-        let simulate = ["simulate", ROBOT, "--out", folder.text()];
-        let output = pfaff(&[&simulate[..], &options[..]].concat());
-        assert_eq!(output.status.code(), Some(2));
-        assert!(stderr(&output).contains(message), "{}", stderr(&output));
-    }
+    let simulate = ["simulate", ROBOT, "--out", folder.text()];
+    let options = ["--method", "radau5", "--stabilisation", "none"];
+    let output = pfaff(&[&simulate[..], &options[..]].concat());
+    assert_eq!(output.status.code(), Some(2));
+    let message = "radau5 does not go with none: the method relies on projection";
+    assert!(stderr(&output).contains(message), "{}", stderr(&output));
 }
 
 #[test]
 fn names_of_choices_are_listed() {
     let folder = Folder::new("names");
     for (option, names) in [
-        ("--method", "auto, dopri5, dop853, tsit5, "),
-        (
-            "--formulation",
-            "kept-rows, null-space, minimum-norm, proximal",
-        ),
-        ("--stabilisation", "projection, baumgarte, none"),
+        ("--method", "auto, dop853, dopri5, tsit5, radau5"),
+        ("--stabilisation", "projection, none"),
     ] {
         let output = pfaff(&["simulate", ROBOT, "--out", folder.text(), option, "best"]);
         assert_eq!(output.status.code(), Some(2));

@@ -81,21 +81,9 @@ fn flags_change_the_plan_as_they_change_the_run() {
         decision(&radau, "linear_systems", None)["taken"],
         "on independent coordinates"
     );
-    let proximal = json(&stdout(&pfaff(&[
-        "plan",
-        ROBOT,
-        "--json",
-        "--formulation",
-        "proximal",
-    ])));
-    assert_eq!(
-        decision(&proximal, "elimination", None)["taken"],
-        "dense, 22 × 21"
-    );
     // What no run does has no plan.
     for wrong in [
         &["--method", "radau5", "--stabilisation", "none"][..],
-        &["--formulation", "proximal", "--drop", "6,21"],
         &["--drop", "1,2"],
     ] {
         let output = pfaff(&[&["plan", ROBOT], wrong].concat());

@@ -18,7 +18,7 @@ pub(super) struct Times {
     /// Time between rows (s); all wanted times are multiples of it.
     step: f64,
     /// What is wanted.
-    wanted: Vec<f64>,
+    pub(super) wanted: Vec<f64>,
 }
 
 impl Times {
@@ -73,7 +73,6 @@ pub(super) fn options(base: &MotionOptions, curve: Curve, tolerance: f64) -> Mot
         rtol: tolerance,
         atol: tolerance,
         method: curve.method,
-        formulation: curve.formulation,
         stabilisation: curve.stabilisation,
         ..base.clone()
     }

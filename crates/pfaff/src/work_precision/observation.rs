@@ -2,7 +2,7 @@
 
 use dynamics::{Sample, Trip};
 use model::reaction::COMPONENTS;
-use model::{ColumnKind, Mechanism, System};
+use model::{ColumnKind, Mechanism, Reaction, System};
 use suite::{Fact, Kind, Quantity};
 
 /// Numbers per joint or drive: force, torque, and the named component, if it has one.
@@ -10,7 +10,7 @@ const PER_REACTION: usize = COMPONENTS.len() + 1;
 
 /// All that is compared at one instant, kind by kind in the order of [`Kind::ALL`].
 #[derive(Clone, Debug)]
-pub(super) struct Observation {
+pub struct Observation {
     /// Time (s).
     pub(super) t: f64,
     pub(super) q: Vec<f64>,
@@ -21,16 +21,23 @@ impl Observation {
     /// Looks at a row of output.
     pub(super) fn of(sample: &mut Sample<'_, '_>) -> Result<Self, Trip> {
         let (a, reactions) = (sample.acceleration()?, sample.reactions()?);
+        let [q, v] = [sample.q.to_vec(), sample.v.to_vec()];
+        Ok(Self::new(sample.t, [q, v, a], &reactions))
+    }
+
+    /// The coordinates, velocities and accelerations at a time, with the reactions of all joints and drives.
+    #[must_use]
+    pub fn new(t: f64, [q, v, a]: [Vec<f64>; 3], reactions: &[Reaction]) -> Self {
         let numbers = reactions.iter().flat_map(|r| {
             let component = r.component.unwrap_or(f64::NAN);
             [r.force[0], r.force[1], r.torque, component]
         });
         let reactions = numbers.collect();
-        Ok(Self {
-            t: sample.t,
-            q: sample.q.to_vec(),
-            values: [sample.q.to_vec(), sample.v.to_vec(), a, reactions],
-        })
+        Self {
+            t,
+            q: q.clone(),
+            values: [q, v, a, reactions],
+        }
     }
 }
 

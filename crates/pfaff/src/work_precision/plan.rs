@@ -1,6 +1,6 @@
 //! Which runs are made.
 
-use dynamics::{Formulation, Method, Stabilisation};
+use dynamics::{FORMULATION, Method, Stabilisation};
 use report::CurveName;
 
 /// A way to move a mechanism; with its tolerances it is a curve of error over time.
@@ -8,8 +8,6 @@ use report::CurveName;
 pub struct Curve {
     /// Integrator.
     pub method: Method,
-    /// Treatment of redundancy.
-    pub formulation: Formulation,
     /// Treatment of drift.
     pub stabilisation: Stabilisation,
 }
@@ -19,7 +17,7 @@ impl Curve {
     #[must_use]
     pub fn name(&self) -> CurveName {
         CurveName {
-            formulation: self.formulation.name(),
+            formulation: FORMULATION,
             method: self.method.name(),
             stabilisation: self.stabilisation.name(),
         }
@@ -31,11 +29,8 @@ fn methods() -> impl Iterator<Item = Method> {
     Method::ALL.iter().copied().filter(|m| *m != Method::Auto)
 }
 
-/// The explicit method with which treatments are compared.
+/// The explicit method with which treatments of drift are compared.
 const EXPLICIT: Method = Method::Dop853;
-
-/// Treatment of redundancy in the comparison of methods.
-const FORMULATION: Formulation = Formulation::KeptRows;
 
 /// Treatment of drift in the comparison of methods.
 const STABILISATION: Stabilisation = Stabilisation::Projection;
@@ -46,9 +41,8 @@ const TOLERANCES: [f64; 11] = [
 ];
 
 /// Methods whose order is high enough for a reference.
-pub(super) const ACCURATE: [Method; 5] = [
+pub(super) const ACCURATE: [Method; 4] = [
     Method::Dop853,
-    Method::Gbs,
     Method::Radau5,
     Method::Tsit5,
     Method::Dopri5,
@@ -70,18 +64,12 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Every method on kept rows with projection, one explicit method with every formulation and with every stabilisation; tolerances
-    /// 1e-3, 1e-4, … 1e-13.
+    /// Every method with projection, one explicit method with every stabilisation; tolerances 1e-3, 1e-4, … 1e-13.
     #[must_use]
     pub fn standard() -> Self {
-        let curves = everything().into_iter().filter(|curve| {
-            let usual = [
-                curve.method == EXPLICIT,
-                curve.formulation == FORMULATION,
-                curve.stabilisation == STABILISATION,
-            ];
-            usual.into_iter().filter(|u| !u).count() <= 1
-        });
+        let curves = everything()
+            .into_iter()
+            .filter(|curve| curve.method == EXPLICIT || curve.stabilisation == STABILISATION);
         Self {
             curves: curves.collect(),
             tolerances: TOLERANCES.to_vec(),
@@ -102,7 +90,7 @@ impl Plan {
         }
     }
 
-    /// Every method with every formulation and every stabilisation.
+    /// Every method with every stabilisation.
     #[must_use]
     pub fn everything() -> Self {
         Self {
@@ -121,7 +109,6 @@ impl Plan {
     pub(super) fn usual(method: Method) -> Curve {
         Curve {
             method,
-            formulation: FORMULATION,
             stabilisation: STABILISATION,
         }
     }
@@ -131,16 +118,13 @@ impl Plan {
 fn everything() -> Vec<Curve> {
     let mut curves: Vec<Curve> = methods().map(Plan::usual).collect();
     for method in methods() {
-        for &formulation in Formulation::ALL {
-            for &stabilisation in Stabilisation::ALL {
-                let curve = Curve {
-                    method,
-                    formulation,
-                    stabilisation,
-                };
-                if !curves.contains(&curve) {
-                    curves.push(curve);
-                }
+        for &stabilisation in Stabilisation::ALL {
+            let curve = Curve {
+                method,
+                stabilisation,
+            };
+            if !curves.contains(&curve) {
+                curves.push(curve);
             }
         }
     }

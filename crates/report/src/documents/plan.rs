@@ -86,7 +86,7 @@ impl PlanDocument {
         Self {
             scene: plan.prepared().mechanism.name().to_owned(),
             t_end: options.t_end,
-            formulation: options.formulation.name(),
+            formulation: dynamics::FORMULATION,
             stabilisation: options.stabilisation.name(),
             memory,
             components: plan.components.iter().map(Into::into).collect(),

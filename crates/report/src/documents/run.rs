@@ -3,7 +3,7 @@
 use std::fmt;
 
 use dynamics::{
-    ComponentSummary, Event, EventKind, Formulation, MotionError, Plan, Prepared, RowChoice,
+    ComponentSummary, Event, EventKind, FORMULATION, MotionError, Plan, Prepared, RowChoice,
     Summary,
 };
 use model::System;
@@ -174,28 +174,7 @@ pub enum ChoiceDocument {
         #[serde(skip_serializing_if = "Option::is_none")]
         valid_until: Option<f64>,
     },
-    /// The shortest solution.
-    MinimumNorm {
-        /// The norm.
-        norm: &'static str,
-    },
-    /// What proximal iterations tend to.
-    Proximal {
-        /// μ at the end of the run.
-        mu: f64,
-        /// Iterations for each evaluation at the end of the run.
-        iterations: usize,
-        /// The norm in which it is the shortest solution.
-        norm: &'static str,
-    },
 }
-
-/// Norm of the reactions of the formulation minimum-norm.
-const OF_REACTIONS: &str = "forces weighted by 1/N and torques by 1/(N·m)";
-
-/// Norm of the multipliers of the formulation proximal.
-const OF_MULTIPLIERS: &str =
-    "multipliers divided by the root of the mass that their row moves at the start";
 
 impl ChoiceDocument {
     /// The choice that the reaction of a joint or drive belongs to: that of its component, where there are several.
@@ -204,27 +183,17 @@ impl ChoiceDocument {
         let components = &run.summary.components;
         let own = components.iter().find(|c| c.places.groups.contains(&group));
         let summary = own.map_or(run.summary, |component| &component.summary);
-        match (run.plan.options().formulation, summary.proximal) {
-            (Formulation::MinimumNorm, _) => Self::MinimumNorm { norm: OF_REACTIONS },
-            (_, Some(tuning)) => Self::Proximal {
-                mu: tuning.mu,
-                iterations: tuning.iterations,
-                norm: OF_MULTIPLIERS,
-            },
-            _ => {
-                // Rows that the user asked for stay those of the reactions, whatever is kept for the motion.
-                let automatic = prepared.choice == RowChoice::Automatic;
-                let exchange = |e: &&Event| automatic && e.kind == EventKind::RowsExchanged;
-                let belongs = |row: &&usize| own.is_none_or(|c| c.places.rows.contains(row));
-                let dropped = match parts {
-                    Some(parts) => parts[group].iter().filter(belongs),
-                    None => prepared.decision.dropped.iter().filter(belongs),
-                };
-                Self::KeptRows {
-                    deleted_rows: dropped.map(|row| row + 1).collect(),
-                    valid_until: summary.events.iter().find(exchange).map(|e| e.time),
-                }
-            }
+        // Rows that the user asked for stay those of the reactions, whatever is kept for the motion.
+        let automatic = prepared.choice == RowChoice::Automatic;
+        let exchange = |e: &&Event| automatic && e.kind == EventKind::RowsExchanged;
+        let belongs = |row: &&usize| own.is_none_or(|c| c.places.rows.contains(row));
+        let dropped = match parts {
+            Some(parts) => parts[group].iter().filter(belongs),
+            None => prepared.decision.dropped.iter().filter(belongs),
+        };
+        Self::KeptRows {
+            deleted_rows: dropped.map(|row| row + 1).collect(),
+            valid_until: summary.events.iter().find(exchange).map(|e| e.time),
         }
     }
 }
@@ -264,15 +233,6 @@ impl fmt::Display for ChoiceDocument {
                     _ => f.write_str(" deleted"),
                 }
             }
-            Self::MinimumNorm { norm } => write!(f, "minimum-norm, {norm}"),
-            Self::Proximal {
-                mu,
-                iterations,
-                norm,
-            } => write!(
-                f,
-                "proximal, {iterations} iterations with mu = {mu:.1e}, {norm}"
-            ),
         }
     }
 }
@@ -300,7 +260,7 @@ impl RunDocument {
         });
         Self {
             method: run.summary.method.name(),
-            formulation: options.formulation.name(),
+            formulation: FORMULATION,
             stabilisation: options.stabilisation.name(),
             partial,
             error,

@@ -341,7 +341,6 @@ fn summary_has_the_keys_of_the_contract() {
         largest_kinetic_energy: 0.0,
         min_pivot_ratio: 1.0,
         events: Vec::new(),
-        proximal: None,
         components: Vec::new(),
     };
     let prepared = prepared();
@@ -455,27 +454,6 @@ fn valid_until(choice: Option<&ChoiceDocument>) -> Option<f64> {
         Some(ChoiceDocument::KeptRows { valid_until, .. }) => *valid_until,
         _ => None,
     }
-}
-
-#[test]
-fn choices_without_deleted_rows() {
-    let least = ChoiceDocument::MinimumNorm { norm: "the norm" };
-    assert_eq!(
-        serde_json::to_string(&least).unwrap(),
-        r#"{"method":"minimum-norm","norm":"the norm"}"#
-    );
-    assert_eq!(least.to_string(), "minimum-norm, the norm");
-    let proximal = ChoiceDocument::Proximal {
-        mu: 2.5e-4,
-        iterations: 8,
-        norm: "the norm",
-    };
-    assert_eq!(
-        serde_json::to_string(&proximal).unwrap(),
-        r#"{"method":"proximal","mu":0.00025,"iterations":8,"norm":"the norm"}"#
-    );
-    let words = "proximal, 8 iterations with mu = 2.5e-4, the norm";
-    assert_eq!(proximal.to_string(), words);
 }
 
 /// A crank with its motor: `null` without drives, else ranks and motions of the others; bodies that move, by name.

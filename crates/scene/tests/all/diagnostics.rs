@@ -486,27 +486,36 @@ fn runs_starts_and_groups() {
         ),
         (
             "t_end = 2.0",
-            "t_end = 2.0\nformulation = «\"all\"»",
-            "`[simulate]`: `formulation` `all` is unknown",
-            "no such choice",
+            "t_end = 2.0\nmethod = «\"gbs\"»",
+            "`[simulate]`: method `gbs` is a comparator of the laboratory (`lab work-precision`); a run takes `dop853` at tight tolerances",
+            "not of a run",
         ),
         (
             "t_end = 2.0",
-            "t_end = 2.0\nstabilisation = \"baumgarte\"\nbaumgarte = «[5.0, -1.0]»",
-            "`[simulate]`: `baumgarte` is [5, -1], need two gains ≥ 0, `[alpha, beta]` (1/s)",
-            "expected two gains ≥ 0, `[alpha, beta]` (1/s)",
+            "t_end = 2.0\nformulation = «\"all\"»",
+            "`[simulate]`: a run has no key `formulation`",
+            "not of a run",
+        ),
+        (
+            "t_end = 2.0",
+            "t_end = 2.0\nformulation = «\"minimum-norm\"»",
+            "`[simulate]`: formulation `minimum-norm` is a comparator of the laboratory (`lab work-precision`); a run keeps independent rows; for \
+             reactions of least norm use `analyze --choose minimum-norm`",
+            "not of a run",
+        ),
+        (
+            "t_end = 2.0",
+            "t_end = 2.0\nstabilisation = «\"baumgarte\"»",
+            "`[simulate]`: stabilisation `baumgarte` is a comparator of the laboratory (`lab work-precision`); a run projects, or does nothing \
+             about drift (`none`)",
+            "not of a run",
         ),
         (
             "t_end = 2.0",
             "t_end = 2.0\nbaumgarte = «[5.0, 5.0]»",
-            "`[simulate]`: `baumgarte` gives gains, but the stabilisation is `projection`",
-            "no gains are used",
-        ),
-        (
-            "drop = [1]",
-            "formulation = \"minimum-norm\"\ndrop = «[1]»",
-            "`[simulate]`: rows are dropped, but the formulation minimum-norm uses all rows: choose kept-rows, or drop none",
-            "no row is dropped here",
+            "`[simulate]`: stabilisation `baumgarte` is a comparator of the laboratory (`lab work-precision`); a run projects, or does nothing \
+             about drift (`none`)",
+            "not of a run",
         ),
         (
             "drop = [1]",
@@ -624,7 +633,7 @@ fn help_lists_what_there_is() {
         (
             "t_end = 2.0",
             "t_end = 2.0\nmethod = \"euler\"",
-            "available are `auto`, `dopri5`, `dop853`, `tsit5`, `gbs`, `radau5`, `generalized-alpha`",
+            "available are `auto`, `dop853`, `dopri5`, `tsit5`, `radau5`",
         ),
         (
             "t_end = 2.0",

@@ -68,7 +68,6 @@ fn the_joints_close_without_correction() {
 fn everything_optional_is_read() {
     let more = r#"
 method = "dopri5"
-formulation = "kept-rows"
 stabilisation = "projection"
 rtol = 1e-6
 atol = 1e-9

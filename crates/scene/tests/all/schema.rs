@@ -151,8 +151,7 @@ allow_correction = false
 [simulate]
 t_end = 1
 rtol = 1e-6
-baumgarte = [5.0, 5.0]
-stabilisation = "baumgarte"
+stabilisation = "none"
 drop = []
 
 [output]

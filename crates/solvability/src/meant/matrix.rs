@@ -1,7 +1,9 @@
-//! C of a mechanism as its data mean it: a force or a lever that is shorter than what it is known to is none.
+//! C of a mechanism as its data mean it: a force or a lever that is shorter than what it is known
+//! to is none.
 //!
-//! Forces and levers are judged as vectors, never by their components, which depend on the axes: the block of a joint's force rows, or of its moment
-//! rows, in the columns of the translation or of the rotation of one body. Each of these has one scale.
+//! Forces and levers are judged as vectors, never by their components, which depend on the axes:
+//! the block of a joint's force rows, or of its moment rows, in the columns of the translation or
+//! of the rotation of one body. Each of these has one scale.
 
 use std::ops::Range;
 
@@ -60,7 +62,8 @@ impl MeantMatrix {
         meant
     }
 
-    /// Sets the forces and levers of these rows, which belong to one block, to zero where they are none.
+    /// Sets the forces and levers of these rows, which belong to one block, to zero where they are
+    /// none.
     fn clear(&mut self, rows: Range<usize>) {
         let n = self.c.ncols();
         let mut first = 0;
@@ -92,9 +95,10 @@ impl MeantMatrix {
         }
     }
 
-    /// One factor for the translation of each body, one for its rotation, one for the force rows of each joint, one for its moment rows.
-    /// A lever sets the scale of its body only where it is far above what it is known to: what several roundings left of larger terms must never be
-    /// scaled up to size one, and the rank does not depend on scales.
+    /// One factor for the translation of each body, one for its rotation, one for the force rows of
+    /// each joint, one for its moment rows. A lever sets the scale of its body only where it is far
+    /// above what it is known to: what several roundings left of larger terms must never be scaled
+    /// up to size one, and the rank does not depend on scales.
     pub(crate) fn scaling(&self) -> Scaling {
         let significant = |i: usize, j: usize| match self.c[(i, j)] {
             c if c.abs() > SIGNIFICANT * self.uncertainty[(i, j)] => c,
@@ -135,7 +139,8 @@ fn col_block(j: usize) -> usize {
     2 * (j / N_BODY) + usize::from(j % N_BODY >= TRANSLATIONS)
 }
 
-/// The block of each row: the force rows or the moment rows of its joint. Rows of a block stand side by side, or their block is another one.
+/// The block of each row: the force rows or the moment rows of its joint. Rows of a block stand
+/// side by side, or their block is another one.
 fn row_blocks(mechanism: &Mechanism) -> Vec<usize> {
     let layout = mechanism.layout();
     let mut blocks = Vec::with_capacity(layout.rows());

@@ -6,7 +6,7 @@ mod score;
 
 use std::sync::{Arc, OnceLock};
 
-use dynamics::{Formulation, KeptRowMotion, Motion, MotionOptions};
+use dynamics::{FORMULATION, KeptRowMotion, Motion};
 use model::{Description, System};
 
 use crate::case::{Case, Expected, Family, Outcome};
@@ -29,43 +29,37 @@ const ACCELERATION: f64 = 1e-13;
 /// Multipliers on kept rows, relative to the largest of their joint.
 const REACTION: f64 = 1e-12;
 
-/// What formulations with all rows are held to: beside the largest acceleration; forces of the constraints beside their terms.
-const MINIMUM_NORM: f64 = 1e-9;
-const PROXIMAL: f64 = 100.0 * MotionOptions::RTOL;
-
 const EXACT: &str = "exact solution of the same equations; bound of the issue";
-const DOCUMENTED: &str = "exact solution of the same equations; tolerance of the formulation";
 
 fn cases() -> Vec<Case> {
     scenes().into_iter().flat_map(of_scene).collect()
 }
 
-/// Both questions by each formulation, each solved once.
+/// Both questions, solved once.
 fn of_scene(scene: Scene) -> Vec<Case> {
     let description = Arc::new(scene.description);
-    let of_formulation = |&formulation: &Formulation| {
-        let found = Arc::new(OnceLock::new());
-        [Question::Accelerations, Question::Reactions].map(|question| {
-            let (found, description) = (Arc::clone(&found), Arc::clone(&description));
-            let run = move || match found.get_or_init(|| errors(&description, formulation)) {
-                Ok(errors) => question.outcome(formulation, errors),
-                Err(refusal) => refusal.clone(),
-            };
-            let name = scene.name.clone();
-            // A start at the limit of f64 may be refused; where it is not, formulations with all rows are held to their own tolerance.
-            let right = match scene.limit {
-                Some(words) if formulation.drops_rows() => Expected::AnswerOrRefusal {
-                    bound: ACCELERATION,
-                    source: EXACT,
-                    parts: vec![words.to_owned()],
-                },
-                _ => question.right(formulation),
-            };
-            Case::new(name, question.name(), formulation.name(), right, run)
-                .at(scene.varied, scene.value)
-        })
+    let found = Arc::new(OnceLock::new());
+    let of_question = |question: Question| {
+        let (found, description) = (Arc::clone(&found), Arc::clone(&description));
+        let run = move || match found.get_or_init(|| errors(&description)) {
+            Ok(errors) => question.outcome(errors),
+            Err(refusal) => refusal.clone(),
+        };
+        let name = scene.name.clone();
+        // A start at the limit of f64 may be refused.
+        let right = match scene.limit {
+            Some(words) => Expected::AnswerOrRefusal {
+                bound: ACCELERATION,
+                source: EXACT,
+                parts: vec![words.to_owned()],
+            },
+            None => question.right(),
+        };
+        Case::new(name, question.name(), FORMULATION, right, run).at(scene.varied, scene.value)
     };
-    Formulation::ALL.iter().flat_map(of_formulation).collect()
+    [Question::Accelerations, Question::Reactions]
+        .map(of_question)
+        .into()
 }
 
 /// What is asked of a solution.
@@ -83,42 +77,26 @@ impl Question {
         }
     }
 
-    fn right(self, formulation: Formulation) -> Expected {
-        let refused = |bound| Expected::AnswerOrRefusal {
-            bound,
-            source: DOCUMENTED,
-            parts: vec![
-                "masses and inertias differ too much for it".to_owned(),
-                "use kept-rows".to_owned(),
-            ],
-        };
-        match (formulation, self) {
-            (Formulation::MinimumNorm, _) => refused(MINIMUM_NORM),
-            (Formulation::Proximal, _) => refused(PROXIMAL),
-            (_, Self::Accelerations) => Expected::answer(ACCELERATION, EXACT),
-            (_, Self::Reactions) => Expected::answer(REACTION, EXACT),
+    fn right(self) -> Expected {
+        match self {
+            Self::Accelerations => Expected::answer(ACCELERATION, EXACT),
+            Self::Reactions => Expected::answer(REACTION, EXACT),
         }
     }
 
-    fn outcome(self, formulation: Formulation, errors: &Errors) -> Outcome {
-        let error = match (self, formulation.drops_rows()) {
-            (Self::Accelerations, true) => errors.acceleration,
-            (Self::Accelerations, false) => errors.beside_largest,
-            (Self::Reactions, true) => errors.multipliers,
-            (Self::Reactions, false) => errors.forces,
+    fn outcome(self, errors: &Errors) -> Outcome {
+        let error = match self {
+            Self::Accelerations => errors.acceleration,
+            Self::Reactions => errors.multipliers,
         };
         Outcome::answer(error, format!("masses differ by {:.0e}", errors.spread))
     }
 }
 
 /// How far accelerations and reactions at the start are from the exact ones.
-fn errors(description: &Description, formulation: Formulation) -> Result<Errors, Outcome> {
+fn errors(description: &Description) -> Result<Errors, Outcome> {
     let prepared = prepared(description)?;
-    let options = MotionOptions {
-        formulation,
-        ..MotionOptions::to(1.0)
-    };
-    let mut motion = KeptRowMotion::with(&prepared, &options).map_err(Outcome::refused)?;
+    let mut motion = KeptRowMotion::new(&prepared).map_err(Outcome::refused)?;
     let layout = prepared.mechanism.layout();
     let (mut a, mut lambda) = (vec![f64::NAN; layout.n_v], vec![f64::NAN; layout.rows()]);
     let (q, v) = (&prepared.q, &prepared.v);
@@ -127,7 +105,6 @@ fn errors(description: &Description, formulation: Formulation) -> Result<Errors,
         .and_then(|()| motion.multipliers(0.0, q, v, &mut lambda));
     solved.map_err(Outcome::refused)?;
 
-    // Independent coordinates are completed before they are used: the equations are those of the scratch.
     let s = motion.scratch();
     let c = layout.dense(s);
     let kept = &prepared.decision.kept;
@@ -158,7 +135,7 @@ mod tests {
     #[test]
     fn a_digit_that_is_wrong_is_silently_wrong() {
         let found = Outcome::answer(1.1 * ACCELERATION, "");
-        let right = Question::Accelerations.right(Formulation::KeptRows);
+        let right = Question::Accelerations.right();
         assert_eq!(
             judge(&right, &found),
             report::stress::Judgement::SilentlyWrong

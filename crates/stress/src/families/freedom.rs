@@ -3,7 +3,7 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{Formulation, MotionOptions, Prepared, simulate};
+use dynamics::{MotionOptions, Prepared, simulate};
 
 use crate::case::{Case, Expected, Family, Outcome};
 use crate::motion::{combinations, moving, study, worst};
@@ -28,16 +28,10 @@ fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for options in combinations(&MotionOptions::to(2.0)) {
         for motors in [1, 2] {
-            let right = match options.formulation {
-                Formulation::Proximal => Expected::answer(
-                    10.0 * options.rtol,
-                    "moments about the pin; proximal iterations are tuned to the relative tolerance of the run",
-                ),
-                _ => Expected::answer(
-                    1e-12,
-                    "moments about the pin, (J + m·a²)·φ̈ + m·g·a·cos φ, the sum of both motors; some thousand roundings",
-                ),
-            };
+            let right = Expected::answer(
+                1e-12,
+                "moments about the pin, (J + m·a²)·φ̈ + m·g·a·cos φ, the sum of both motors; some thousand roundings",
+            );
             let name = format!("{motors} motors");
             cases.push(moving(name, options.clone(), right, move |options| {
                 Ok(torque(&study(&crank(motors))?.prepared, options))

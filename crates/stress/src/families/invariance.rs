@@ -1,7 +1,7 @@
 //! The same mechanism written down otherwise: elsewhere, turned, in other units, in another order. Verdicts are the same, and what moves is the same
 //! when it is taken back.
 
-use dynamics::{Formulation, MotionOptions};
+use dynamics::MotionOptions;
 use model::{BodyRef, Description};
 use solvability::Analysis;
 
@@ -127,19 +127,16 @@ fn cases() -> Vec<Case> {
             cases.push(asking(named.clone(), "analyze", right, move || {
                 verdicts(written, &change)
             }));
-            for formulation in Formulation::ALL {
-                let options = MotionOptions {
-                    formulation: *formulation,
-                    rtol: TIGHT,
-                    atol: TIGHT,
-                    ..MotionOptions::to(t_end)
-                };
-                let source = "the same motion taken back; sizes in that of the mechanism, rounding of far coordinates a hundredfold";
-                let right = Expected::answer(change.bound(), source);
-                cases.push(moving(named.clone(), options, right, move |o| {
-                    motion(written, &change, o)
-                }));
-            }
+            let options = MotionOptions {
+                rtol: TIGHT,
+                atol: TIGHT,
+                ..MotionOptions::to(t_end)
+            };
+            let source = "the same motion taken back; sizes in that of the mechanism, rounding of far coordinates a hundredfold";
+            let right = Expected::answer(change.bound(), source);
+            cases.push(moving(named.clone(), options, right, move |o| {
+                motion(written, &change, o)
+            }));
         }
     }
     cases

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use dynamics::{Formulation, Method, MotionOptions, Prepared};
+use dynamics::{Method, MotionOptions, Prepared};
 
 use crate::case::{Case, Expected, Family, Outcome};
 use crate::motion::{last_row, moving, study, worst};
@@ -23,13 +23,9 @@ const TIME_LIMIT: Duration = Duration::from_secs(120);
 
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
-    for (method, formulation) in [
-        (Method::Dop853, Formulation::KeptRows),
-        (Method::Tsit5, Formulation::KeptRows),
-    ] {
+    for method in [Method::Dop853, Method::Tsit5] {
         let options = MotionOptions {
             method,
-            formulation,
             rtol: 1e-14,
             atol: 1e-14,
             max_step: STEP,

@@ -1,6 +1,6 @@
 //! Bodies without mass or inertia: accepted exactly where no motion is without both; the massless motion is named where there is one.
 
-use dynamics::{Formulation, MotionOptions};
+use dynamics::MotionOptions;
 use joints::Fixed;
 use model::{Body, BodyRef, Description, Joint};
 
@@ -19,31 +19,18 @@ pub(super) const FAMILY: Family = Family {
 /// Acceleration of free fall (m/s²).
 const G: f64 = 9.81;
 
-/// Relative error of accelerations that all extreme masses have to reach; the proximal iterations are tuned to the tolerance of a run.
-fn bound(formulation: Formulation) -> f64 {
-    match formulation {
-        Formulation::Proximal => MotionOptions::RTOL,
-        _ => 1e-13,
-    }
-}
+/// Relative error of accelerations that all extreme masses have to reach.
+const BOUND: f64 = 1e-13;
 
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
-    for formulation in Formulation::ALL {
-        let options = MotionOptions {
-            formulation: *formulation,
-            ..MotionOptions::to(1.0)
-        };
+    {
+        let options = MotionOptions::to(1.0);
         for k in 0..32_u8 {
             let chain = Chain::nth(k);
             let run =
                 move |o: &MotionOptions| falling(&chain.description(), &chain.accelerations(), o);
-            cases.push(moving(
-                chain.name(),
-                options.clone(),
-                chain.expected(options.formulation),
-                run,
-            ));
+            cases.push(moving(chain.name(), options.clone(), chain.expected(), run));
         }
         for (name, pivots) in [
             ("parallelogram", &[0.0, 1.0][..]),
@@ -139,13 +126,10 @@ impl Chain {
         a * d - b * b
     }
 
-    fn expected(&self, formulation: Formulation) -> Expected {
+    fn expected(&self) -> Expected {
         let ([[a, _], [_, d]], _) = self.reduced();
         match (self.determinant() == 0.0, a, d) {
-            (false, ..) => Expected::answer(
-                bound(formulation),
-                "closed form: two equations in the angles",
-            ),
+            (false, ..) => Expected::answer(BOUND, "closed form: two equations in the angles"),
             // The second link alone turns for nothing.
             (true, 1.0.., 0.0) => Expected::refusal(&["without mass or inertia", "`second`"]),
             (true, ..) => Expected::refusal(&["without mass or inertia"]),
@@ -213,10 +197,7 @@ fn massless_cranks(name: &str, pivots: &[f64], massless: u8, options: &MotionOpt
     let alpha = moment / (length * length * (links / 3.0 + coupler));
     let right = match names.len() > pivots.len() {
         true => Expected::refusal(&["without mass or inertia"]),
-        false => Expected::answer(
-            bound(options.formulation),
-            "closed form: one equation in the common angle",
-        ),
+        false => Expected::answer(BOUND, "closed form: one equation in the common angle"),
     };
     let at = |r: f64| [-r * theta.sin() * alpha, r * theta.cos() * alpha];
     let mut a: Vec<f64> = Vec::new();
@@ -273,9 +254,6 @@ mod tests {
         let mut d = chain.description();
         d.bodies[0].inertia = 1.0 + 1e-11;
         let found = falling(&d, &chain.accelerations(), &MotionOptions::to(1.0)).expect("it falls");
-        assert_eq!(
-            judge(&chain.expected(Formulation::KeptRows), &found),
-            Judgement::SilentlyWrong
-        );
+        assert_eq!(judge(&chain.expected(), &found), Judgement::SilentlyWrong);
     }
 }

@@ -1,6 +1,6 @@
 //! Rows that are parallel but for ε, from 1e-2 to 1e-20: of full rank as they are written, and redundant only within what the data are known to.
 
-use dynamics::{Formulation, MotionOptions};
+use dynamics::MotionOptions;
 use joints::{Direction, KnifeEdge};
 use linalg::Grounds;
 use model::{Body, BodyRef, Description, Joint, System};
@@ -48,15 +48,13 @@ fn cases() -> Vec<Case> {
             );
             cases.push(case);
         }
-        for formulation in Formulation::ALL {
+        {
             let source = "closed form: turns about the contact of the right wheel; a hundred times the tolerance, and the rounding of the start over ε up to 1e-3";
             let bound = (1e-6 + 10.0 * f64::EPSILON / e).min(1e-3);
-            // Where velocities are not known any more, a refusal must name the edge; where the data may as well mean parallel edges, it must say so; and
-            // below that solvers with all rows may refuse the lower rank, which the stored digits contradict.
-            let named = match formulation {
-                _ if (READ_BOTH_WAYS..ROUNDED_AWAY).contains(&e) => "their rounding",
-                Formulation::MinimumNorm if e < READ_BOTH_WAYS => "without mass",
-                _ => "`right`",
+            // Where velocities are not known any more, a refusal must name the edge; where the data may as well mean parallel edges, it must say so.
+            let named = match (READ_BOTH_WAYS..ROUNDED_AWAY).contains(&e) {
+                true => "their rounding",
+                false => "`right`",
             };
             let right = match e < DECIDED {
                 false => Expected::answer(bound, source),
@@ -66,10 +64,7 @@ fn cases() -> Vec<Case> {
                     parts: vec![named.into()],
                 },
             };
-            let options = MotionOptions {
-                formulation: *formulation,
-                ..MotionOptions::to(0.5)
-            };
+            let options = MotionOptions::to(0.5);
             let run = move |o: &MotionOptions| about_the_wheel(&axle(e), o);
             let case = moving(
                 format!("edges of one axle, ε = {e:.0e}"),

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use dynamics::{Formulation, Method, MotionOptions};
+use dynamics::{Method, MotionOptions};
 
 use crate::case::{Case, Expected, Family};
 use crate::motion::{Row, case, combinations, steps, worst};
@@ -40,9 +40,7 @@ fn cases() -> Vec<Case> {
         // An error of the speed made in step k of N moves the phase by all steps after it: N²/2 tolerances, some tens of steps a turn.
         let drift = 0.05 * (50.0 * turns).powi(2);
         for options in combinations(&base) {
-            let is_shown = options.formulation == Formulation::KeptRows
-                && matches!(options.method, Method::Auto | Method::Gbs);
-            if !is_shown && turns > 100.0 {
+            if options.method != Method::Auto && turns > 100.0 {
                 continue;
             }
             let local = 100.0 * steps(options.method, TAU * turns, RTOL);

@@ -263,29 +263,12 @@ pub(super) fn wishes(draft: &mut Draft, values: &mut Values<'_>) {
     if !values.numbers.once_in(8) {
         let end = values.one(&["0.05", "0.1", "0.2", "1.0", "10", "0"]);
         draft.line(&format!("[simulate]\nt_end = {end}"));
-        let methods = [
-            "auto",
-            "auto",
-            "dopri5",
-            "dop853",
-            "tsit5",
-            "gbs",
-            "radau5",
-            "generalized-alpha",
-        ];
+        let methods = ["auto", "auto", "dopri5", "dop853", "tsit5", "radau5"];
         draft.line(&format!("method = \"{}\"", values.one(&methods)));
-        let formulations = [
-            "kept-rows",
-            "kept-rows",
-            "null-space",
-            "minimum-norm",
-            "proximal",
-        ];
-        draft.line(&format!("formulation = \"{}\"", values.one(&formulations)));
         if values.numbers.once_in(4) {
             draft.line(&format!(
                 "stabilisation = \"{}\"",
-                values.one(&["projection", "baumgarte", "none"])
+                values.one(&["projection", "none"])
             ));
         }
         if values.numbers.once_in(4) {

@@ -2,22 +2,17 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{Formulation, Method, MotionOptions, Prepared, simulate};
+use dynamics::{Method, MotionOptions, Prepared, simulate};
 
 use crate::problem::{Asked, End, Solved, array};
 
 /// A run with a method; Radau IIA on independent coordinates, the others on kept rows with projection.
 pub fn run<const N: usize>(method: Method, prepared: &Prepared, asked: &Asked<'_, N>) -> Solved<N> {
-    let formulation = match method.needs_independent_coordinates() {
-        true => Formulation::NullSpace,
-        false => Formulation::KeptRows,
-    };
     let options = MotionOptions {
         output_step: asked.t_end,
         rtol: asked.rtol,
         atol: asked.atol,
         method,
-        formulation,
         ..MotionOptions::to(asked.t_end)
     };
     let mut last = Vec::new();

@@ -4,7 +4,7 @@ use std::error::Error;
 use std::ops::ControlFlow;
 
 use integrators::{
-    DenseImplicit, Differences, Dop853, Dopri5, Function, Gbs, InitialStep, Interval, Method, Ode,
+    DenseImplicit, Differences, Dop853, Dopri5, Function, InitialStep, Interval, Method, Ode,
     Options, Radau5, Tsit5, integrate,
 };
 
@@ -32,11 +32,6 @@ pub fn dop853<const N: usize>(
     asked: &Asked<'_, N>,
 ) -> Solved<N> {
     solve(&Dop853, function(ode), ode, asked)
-}
-
-/// Extrapolated midpoint rule.
-pub fn gbs<const N: usize>(ode: &Counted<'_, impl Problem<N>>, asked: &Asked<'_, N>) -> Solved<N> {
-    solve(&Gbs, function(ode), ode, asked)
 }
 
 /// Radau IIA of order 5, the Jacobian by differences.

@@ -173,15 +173,6 @@ impl Solver {
         }
     }
 
-    /// Largest entry of a row, in units of the mechanism.
-    pub(super) fn size_of_row(&self, k: usize) -> f64 {
-        let row = match self {
-            Self::Dense(it) => it.c.row(k),
-            Self::Sparse(it) => it.c.row(k).1,
-        };
-        row.iter().fold(0.0, |a, c| f64::max(a, c.abs()))
-    }
-
     /// Writes a frame of the motions that the factored rows allow; nothing where they are solved sparsely.
     pub(super) fn null_frame(&self, frame: &mut Vec<f64>) {
         frame.clear();

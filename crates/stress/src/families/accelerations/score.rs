@@ -13,12 +13,8 @@ const LEAST: f64 = 1e-3;
 pub(super) struct Errors {
     /// Accelerations, each relative to itself, or to a share of the largest of its body and kind.
     pub(super) acceleration: f64,
-    /// The same relative to the largest of the mechanism, lengths in its size.
-    pub(super) beside_largest: f64,
     /// Multipliers of kept rows, relative to the largest of their joint.
     pub(super) multipliers: f64,
-    /// Forces of all constraints on each coordinate, relative to the terms that they are the sum of.
-    pub(super) forces: f64,
     /// The heaviest mass or moment of inertia divided by the lightest.
     pub(super) spread: f64,
 }
@@ -32,9 +28,7 @@ pub(super) fn errors(
 ) -> Errors {
     Errors {
         acceleration: of_accelerations(prepared, a, &exact.a),
-        beside_largest: beside_largest(prepared, a, &exact.a),
         multipliers: of_multipliers(prepared, motion, lambda, &exact.lambda),
-        forces: of_forces(prepared, motion, lambda, &exact.lambda),
         spread: linalg::mass_spread(prepared.mechanism.mass()),
     }
 }
@@ -60,12 +54,6 @@ fn rate(prepared: &Prepared, exact: &[f64]) -> f64 {
         worst([exact[j] / unit(j), speed * speed, weight])
     });
     worst(terms)
-}
-
-fn beside_largest(prepared: &Prepared, a: &[f64], exact: &[f64]) -> f64 {
-    let rate = rate(prepared, exact);
-    let size = |j: usize| rate * prepared.mechanism.unit(j, prepared.assembly.size);
-    worst((0..a.len()).map(|j| relative(a[j], exact[j], size(j))))
 }
 
 /// The measure of the issue.
@@ -105,22 +93,5 @@ fn of_multipliers(
             largest => largest,
         };
         worst(of_group().map(|(&i, &l)| relative(lambda[i], l, size)))
-    }))
-}
-
-fn of_forces(
-    prepared: &Prepared,
-    motion: &KeptRowMotion<'_>,
-    lambda: &[f64],
-    exact: &[f64],
-) -> f64 {
-    let c = prepared.mechanism.layout().dense(motion.scratch());
-    let kept = &prepared.decision.kept;
-    let largest = worst(exact.iter().copied());
-    worst((0..c.ncols()).map(|j| {
-        let terms = || (0..c.nrows()).map(|i| c[(i, j)] * lambda[i]);
-        let exact = kept.iter().zip(exact).map(|(&i, l)| c[(i, j)] * l);
-        let size = terms().map(f64::abs).sum::<f64>();
-        relative(terms().sum(), exact.sum(), size.max(f64::EPSILON * largest))
     }))
 }
