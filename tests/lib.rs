@@ -1,4 +1,5 @@
-//! What several tests use: numbers, and the mechanisms of `stress`. Test data live beside this crate; the tests are in `all/`.
+//! What several tests use: numbers, and the mechanisms of `stress`. Test data live beside this
+//! crate; the tests are in `all/`.
 
 pub mod numbers;
 

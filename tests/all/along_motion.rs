@@ -1,5 +1,5 @@
-//! Verdicts along a motion: one generic verdict, and what differs when. Parallel cranks in closed form: every crank stands at θ(t),
-//! the coupler translates; θ = 0 is flat.
+//! Verdicts along a motion: one generic verdict, and what differs when. Parallel cranks in closed
+//! form: every crank stands at θ(t), the coupler translates; θ = 0 is flat.
 
 use std::cell::RefCell;
 use std::f64::consts::FRAC_PI_2;
@@ -67,7 +67,8 @@ fn driven(pivots: &[f64], start: f64, motion: Function) -> Mechanism {
     p.expect("starts").mechanism
 }
 
-/// The one passage of a motion, where the rank drops: time, redundancy there, how it goes on, words.
+/// The one passage of a motion, where the rank drops: time, redundancy there, how it goes on,
+/// words.
 fn one_drop(along: &Along) -> (f64, usize, Continuation, String) {
     let [passage] = along.passages.as_slice() else {
         panic!("one passage: {:?}", along.passages);
@@ -192,7 +193,8 @@ fn a_flat_pose_that_is_only_touched_is_found() {
     }
 }
 
-/// Turning back before the flat pose: nearly singular, at 1e-9 rad so nearly that the rank cannot be told.
+/// Turning back before the flat pose: nearly singular, at 1e-9 rad so nearly that the rank cannot
+/// be told.
 #[test]
 fn a_flat_pose_that_is_nearly_reached_is_told_with_its_singular_value() {
     let nearest = |offset: f64| {
@@ -214,7 +216,8 @@ fn a_flat_pose_that_is_nearly_reached_is_told_with_its_singular_value() {
     assert!(matches!(nearest(1e-9), PassageKind::Undecided { .. }));
 }
 
-/// Turning three times round, the cranks are flat six times, and upright six times: there all forces along them are vertical.
+/// Turning three times round, the cranks are flat six times, and upright six times: there all
+/// forces along them are vertical.
 #[test]
 fn every_flat_pose_and_every_upright_one_of_several_turns() {
     let motion = |t: f64| parallel(&THREE, 0.3 + t, 1.0);
@@ -319,8 +322,9 @@ fn a_rest_in_a_singular_pose_is_a_stretch() {
     assert!(along.passages.is_empty(), "{:?}", along.passages);
 }
 
-/// The robot: rank 20 throughout. While it drives straight along the x-axis, the x-rows of B and C are unique; when an edge becomes
-/// parallel to the global y-axis, the y-row of its joint is, for an instant.
+/// The robot: rank 20 throughout. While it drives straight along the x-axis, the x-rows of B and C
+/// are unique; when an edge becomes parallel to the global y-axis, the y-row of its joint is, for
+/// an instant.
 #[test]
 fn the_robot_has_one_verdict_and_one_stretch_with_another() {
     let mechanism = Mechanism::build(&robot(steering())).expect("builds");
@@ -384,7 +388,8 @@ fn the_robot_has_one_verdict_and_one_stretch_with_another() {
             .iter()
             .all(|p| p.kind == PassageKind::Verdicts)
     );
-    // Twice within a tenth of a second row 6 of C has no part in any dependency: margins of neighbouring samples have one minimum for both.
+    // Twice within a tenth of a second row 6 of C has no part in any dependency: margins of
+    // neighbouring samples have one minimum for both.
     for expected in [6.485457, 6.566298] {
         let near = |p: &solvability::Passage| (p.time - expected).abs() < 1e-4;
         let times: Vec<f64> = along.passages.iter().map(|p| p.time).collect();

@@ -42,7 +42,8 @@ fn residuals_that_are_none_are_named() {
     }
 }
 
-/// Rows of zeros carry no force: their multipliers are not unique, their reaction is. Without columns all rows are such rows.
+/// Rows of zeros carry no force: their multipliers are not unique, their reaction is. Without
+/// columns all rows are such rows.
 #[test]
 fn empty_rows_and_columns() {
     for (m, n) in [(0, 0), (0, 4), (4, 0), (1, 1), (3, 2), (2, 5)] {
@@ -75,7 +76,8 @@ fn many_more_rows_than_columns() {
     assert_eq!(s.combination(&[1.0; 100]).verdict, Verdict::Unique);
 }
 
-/// A group without rows has no reaction that could be free; groups may overlap, each is judged by itself; a row counts once.
+/// A group without rows has no reaction that could be free; groups may overlap, each is judged by
+/// itself; a row counts once.
 #[test]
 fn empty_and_overlapping_groups() {
     let rows = [[1.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|r| r.to_vec());

@@ -1,4 +1,5 @@
-//! Every case of the suite with the best method there is, against its reference: how many digits come out, and how many are known.
+//! Every case of the suite with the best method there is, against its reference: how many digits
+//! come out, and how many are known.
 
 use dynamics::{Method, Stabilisation};
 use pfaff::StudyError;
@@ -8,14 +9,15 @@ use pfaff::work_precision::{Curve, Errors, Subject};
 const TIGHT: f64 = 1e-14;
 const TIGHT_PAST_SINGULAR: f64 = 1e-13;
 
-/// Case, tolerance, and the errors that double precision leaves: of position, velocity, acceleration and reactions, scaled as
-/// [`Errors::scaled`]; infinite where the reference says nothing. Twice what was measured when this was written.
+/// Case, tolerance, and the errors that double precision leaves: of position, velocity,
+/// acceleration and reactions, scaled as [`Errors::scaled`]; infinite where the reference says
+/// nothing. Twice what was measured when this was written.
 const REACHED: [(&str, f64, [f64; 4]); 14] = [
     // The reference is trusted to 1e-11 and 1e-9 only.
     ("robot-trolley", TIGHT, [1e-12, 1e-12, 1e-12, 1e-12]),
     ("three-cranks", TIGHT, [1e-14, 3e-14, 5e-14, UNKNOWN]),
-    // Thirty-one passages. Accelerations at the share σ of the reference pivots carry the rounding eps/σ²: 1e-10 at instants up to σ = 1e-3,
-    // where they fall by chance.
+    // Thirty-one passages. Accelerations at the share σ of the reference pivots carry the rounding
+    // eps/σ²: 1e-10 at instants up to σ = 1e-3, where they fall by chance.
     (
         "turning-cranks",
         TIGHT_PAST_SINGULAR,
@@ -82,7 +84,8 @@ fn every_case_is_reproduced_to_the_digits_of_double_precision() {
     assert!(misses.is_empty(), "\n{misses}");
 }
 
-/// Ten passages of horizontal positions where the rank drops by two: never the other branch, at whatever tolerance.
+/// Ten passages of horizontal positions where the rank drops by two: never the other branch, at
+/// whatever tolerance.
 #[test]
 fn the_four_bars_keep_their_branch_at_sixty_four_tolerances() {
     let subject = Subject::of_case(suite::find("n-four-bar").expect("exists")).expect("builds");

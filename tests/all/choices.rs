@@ -1,4 +1,5 @@
-//! Choices among the reactions that a model leaves open: closed forms, published numbers, and runs on other kept rows.
+//! Choices among the reactions that a model leaves open: closed forms, published numbers, and runs
+//! on other kept rows.
 
 use std::ops::ControlFlow;
 
@@ -123,8 +124,9 @@ fn roller(name: &str, x: f64) -> Joint {
     Joint::new(name, &[BodyRef::Body(0)], PointOnLine { s: [x, 0.0], line })
 }
 
-/// A bar of 1 m clamped at the left, pinned at the right, unit load at a quarter. With R on the right the rest is `1 − R` and the moment
-/// `1/4 − R`, so in units of length u (per metre) the least norm has `R = (1 + u²/4)/(2 + u²)`.
+/// A bar of 1 m clamped at the left, pinned at the right, unit load at a quarter. With R on the
+/// right the rest is `1 − R` and the moment `1/4 − R`, so in units of length u (per metre) the
+/// least norm has `R = (1 + u²/4)/(2 + u²)`.
 #[test]
 fn clamped_and_pinned_bar() {
     let pair = [BodyRef::Ground, BodyRef::Body(0)];
@@ -310,7 +312,8 @@ fn three_cranks(theta: f64, rate: f64) -> Description {
     d
 }
 
-/// The robot at t = 0, pushed sideways and turned at the platform so that there is something to share.
+/// The robot at t = 0, pushed sideways and turned at the platform so that there is something to
+/// share.
 fn pushed_robot() -> Description {
     let mut d = robot(steering());
     d.forces.push(Force {
@@ -484,9 +487,10 @@ fn facts_do_not_depend_on_units() {
     let robot_turning = run_without(&pushed_robot(), &[20, 19], 1.5).0;
     let robot_straight = State::at_start(&robot(steering()));
     let cranks = State::at_start(&three_cranks(0.5, 1.5));
-    // Of the robot 14 reactions have 3 + 2 components, 7 of them 2 more along and across their edge. B and C are open in both frames, W1 to W4
-    // across their edges, which is all of their global components while they turn. Of the cranks' 6 bearings only those at
-    // the tips are reported in the frame of a crank, where the force across it is a fact.
+    // Of the robot 14 reactions have 3 + 2 components, 7 of them 2 more along and across their
+    // edge. B and C are open in both frames, W1 to W4 across their edges, which is all of their
+    // global components while they turn. Of the cranks' 6 bearings only those at the tips are
+    // reported in the frame of a crank, where the force across it is a fact.
     for (name, state, facts, choices) in [
         ("turning", robot_turning, 60, 24),
         ("straight, without load", robot_straight, 68, 16),

@@ -1,4 +1,5 @@
-//! Deletions, structure and explanation of the robot and of small mechanisms, against facts that were worked out by hand.
+//! Deletions, structure and explanation of the robot and of small mechanisms, against facts that
+//! were worked out by hand.
 
 use linalg::{Limits, Settled};
 use model::{Description, Function, Mechanism, Scratch, StartOptions, System};

@@ -1,5 +1,5 @@
-//! Drives with kinks and jumps: a jump of the rate is an impulse with a known energy, a jump of the position is refused by name. And
-//! rows at a break time show what was just before.
+//! Drives with kinks and jumps: a jump of the rate is an impulse with a known energy, a jump of the
+//! position is refused by name. And rows at a break time show what was just before.
 
 use std::ops::ControlFlow;
 

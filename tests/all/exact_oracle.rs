@@ -24,7 +24,8 @@ fn by_hand() {
     assert!(!exact.combination_is_unique(&[4.0, 1.0, 5.0, 7.0, 0.0, 1.0]));
 }
 
-/// One tenth, two tenths and three tenths as `f64` are no sum of each other; twice one tenth is two tenths.
+/// One tenth, two tenths and three tenths as `f64` are no sum of each other; twice one tenth is two
+/// tenths.
 #[test]
 fn data_as_read() {
     let thirds = Exact::of(&[[0.1, 1.0, 0.0], [0.2, 1.0, 1.0], [0.3, 2.0, 1.0]]);
@@ -33,8 +34,8 @@ fn data_as_read() {
     assert_eq!(half.rank(), 2);
 }
 
-/// The reaction of X is unique iff `rank C = rank C_X + rank C_rest`; a row is unique iff the rank falls without it;
-/// `ℓᵀ·λ` is unique iff ℓ as another column leaves the rank.
+/// The reaction of X is unique iff `rank C = rank C_X + rank C_rest`; a row is unique iff the rank
+/// falls without it; `ℓᵀ·λ` is unique iff ℓ as another column leaves the rank.
 #[test]
 fn two_derivations_agree() {
     let mut numbers = Numbers::new(7);

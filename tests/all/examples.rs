@@ -1,4 +1,5 @@
-//! The gallery in `examples/`: each scene, its page, and the table in front of them. What is expected was worked out by hand.
+//! The gallery in `examples/`: each scene, its page, and the table in front of them. What is
+//! expected was worked out by hand.
 
 mod answers;
 mod fixed;
@@ -19,7 +20,8 @@ use pfaff::{Overrides, Study};
 /// Tolerance of the runs.
 const TIGHT: f64 = 1e-12;
 
-/// How far a run with [`TIGHT`] may be from a closed form, in units of the largest number around: the run's error, not rounding.
+/// How far a run with [`TIGHT`] may be from a closed form, in units of the largest number around:
+/// the run's error, not rounding.
 const CLOSE: f64 = 1e-9;
 
 fn root() -> &'static Path {

@@ -1,4 +1,5 @@
-//! Redundant drives that agree, and ones that do not: at the level of velocities, of accelerations, and later.
+//! Redundant drives that agree, and ones that do not: at the level of velocities, of accelerations,
+//! and later.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -60,8 +61,8 @@ fn drives_that_differ_are_named_with_the_difference() {
     }
 }
 
-/// Near the flat pose kept rows express the dropped ones with coefficients that are wrong by 1/σ roundings: no false alarm, and a real
-/// difference is still seen.
+/// Near the flat pose kept rows express the dropped ones with coefficients that are wrong by 1/σ
+/// roundings: no false alarm, and a real difference is still seen.
 #[test]
 fn nearly_singular_rows_give_no_false_alarm() {
     for theta in [1e-6, 1e-5, 1e-4, 1e-3, 1e-2] {
@@ -102,7 +103,8 @@ fn a_large_function_of_another_drive_hides_nothing() {
     );
 }
 
-/// Laws that agree in all derivatives at t = 0 and part later: positions contradict each other then.
+/// Laws that agree in all derivatives at t = 0 and part later: positions contradict each other
+/// then.
 #[test]
 fn positions_contradict_later() {
     let late = Function::steps(0.0, &[[1.0, 2.0, 1e-5]]).expect("ordered");
@@ -137,7 +139,8 @@ fn positions_contradict_later() {
     assert!((one.size - 1e-5).abs() < 1e-9 && one.unit == "rad", "{one}");
 }
 
-/// Two flat cranks turn the same way or opposite ways at equal speed; no other velocities can go on.
+/// Two flat cranks turn the same way or opposite ways at equal speed; no other velocities can go
+/// on.
 #[test]
 fn velocities_that_cannot_leave_a_flat_pose() {
     let (length, pitch) = (0.5, 1.0);

@@ -1,5 +1,6 @@
-//! Reactions on the first body of a joint by Newton and Euler: free-body diagrams on paper, and M·a − Q of bodies on which a joint is
-//! alone. Gears in every order of bodies and carriers, racks in both orders, and a joint of three bodies with forces.
+//! Reactions on the first body of a joint by Newton and Euler: free-body diagrams on paper, and M·a
+//! − Q of bodies on which a joint is alone. Gears in every order of bodies and carriers, racks in
+//! both orders, and a joint of three bodies with forces.
 
 use std::ops::ControlFlow;
 
@@ -10,7 +11,8 @@ use pfaff::prelude::*;
 /// Numbers below are of size 1 to 30 and pass through one factorisation of a few rows.
 const ROUNDING: f64 = 1e-11;
 
-/// Moved states are known to the tolerance of the run, accelerations at them to all digits: both sides take the same state.
+/// Moved states are known to the tolerance of the run, accelerations at them to all digits: both
+/// sides take the same state.
 const T_END: f64 = 0.3;
 
 fn close(found: f64, expected: f64, what: &str) {
@@ -67,7 +69,8 @@ fn at_rest(scene: &str, joint: &str) -> [f64; 3] {
     run(&study)[0].reactions[k]
 }
 
-/// Wheels a (2 kg·m²) and b (0.5 kg·m²) and an arm c (3 kg·m²) in bearings of the ground, with torques on them.
+/// Wheels a (2 kg·m²) and b (0.5 kg·m²) and an arm c (3 kg·m²) in bearings of the ground, with
+/// torques on them.
 fn wheels(gear: &str, torques: [f64; 3]) -> String {
     let [a, b, c] = torques;
     format!(
@@ -93,8 +96,9 @@ force = [
     )
 }
 
-/// S is the couple of the joint on its second body. Where it does no work in all, T·δφ_i + S·δφ_j + T_c·δφ_c = 0 for
-/// δφ_j = n·δφ_i + (1 − n)·δφ_c: T = −n·S on the first body, T_c = −(1 − n)·S on the carrier; the three add up to zero.
+/// S is the couple of the joint on its second body. Where it does no work in all, T·δφ_i + S·δφ_j +
+/// T_c·δφ_c = 0 for δφ_j = n·δφ_i + (1 − n)·δφ_c: T = −n·S on the first body, T_c = −(1 − n)·S on
+/// the carrier; the three add up to zero.
 #[test]
 fn gears_at_rest_by_hand() {
     let cases: [(&str, [f64; 3], f64, &str); 9] = [
@@ -161,7 +165,8 @@ fn gears_at_rest_by_hand() {
     }
 }
 
-/// A moving body is not taken twice: a wheel that carries its own mesh would only be fixed to the other one.
+/// A moving body is not taken twice: a wheel that carries its own mesh would only be fixed to the
+/// other one.
 #[test]
 fn a_body_is_not_its_own_carrier() {
     for gear in [
@@ -201,8 +206,8 @@ force = [
     )
 }
 
-/// The teeth give the rack the force R along x, the pinion −R, both through the pitch point, which is below P by the radius. Rolling:
-/// a = r·α.
+/// The teeth give the rack the force R along x, the pinion −R, both through the pitch point, which
+/// is below P by the radius. Rolling: a = r·α.
 #[test]
 fn racks_at_rest_by_hand() {
     let cases = [
@@ -239,9 +244,10 @@ fn racks_at_rest_by_hand() {
     }
 }
 
-/// A pinion (2 kg, 0.25 kg·m², r = 0.5 m) rolls along a rack of the ground, its centre held at y = 2 by a slot and pulled by 7 N, turned
-/// by 0.5 N·m: 2·a = 7 − R, 0.25·α = 0.5 − 0.5·R, α = −2·a, so a = 2 and R = 3. On the rack 3 N along y = 1.5, about (1, 2) 1.5 N·m, also when
-/// the pinion has left that point.
+/// A pinion (2 kg, 0.25 kg·m², r = 0.5 m) rolls along a rack of the ground, its centre held at y =
+/// 2 by a slot and pulled by 7 N, turned by 0.5 N·m: 2·a = 7 − R, 0.25·α = 0.5 − 0.5·R, α = −2·a,
+/// so a = 2 and R = 3. On the rack 3 N along y = 1.5, about (1, 2) 1.5 N·m, also when the pinion
+/// has left that point.
 #[test]
 fn the_place_of_a_rack_stays_in_the_rack() {
     let scene = r#"
@@ -300,7 +306,8 @@ fn free_bodies() -> (Description, [BodyRef; 3]) {
 /// Torques on the free bodies (N·m).
 const LOADS: [f64; 3] = [5.0, -2.0, 3.5];
 
-/// What acts on a body beside its weight and its torque, `[Fx, Fy, T]` about a point: M·a − Q, moved there.
+/// What acts on a body beside its weight and its torque, `[Fx, Fy, T]` about a point: M·a − Q,
+/// moved there.
 fn missing(d: &Description, row: &Row, body: usize, about: [f64; 2]) -> [f64; 3] {
     let b = &d.bodies[body];
     let (q, a) = (&row.q[3 * body..], &row.a[3 * body..]);
@@ -310,7 +317,8 @@ fn missing(d: &Description, row: &Row, body: usize, about: [f64; 2]) -> [f64; 3]
     [force[0], force[1], torque]
 }
 
-/// Compares the only reaction with M·a − Q: of its first body, or, for the ground, of all others, turned round.
+/// Compares the only reaction with M·a − Q: of its first body, or, for the ground, of all others,
+/// turned round.
 fn compare(study: &Study, d: &Description, first: BodyRef, place: impl Fn(&Row) -> [f64; 2]) {
     for row in run(study) {
         let about = place(&row);
@@ -400,7 +408,8 @@ fn racks_in_every_order_are_what_their_first_body_misses() {
 }
 
 pfaff::joint! { plane MiddleDistance(i, j, k) {
-    /// Point `s_i` of body i keeps its distance from the middle between point `s_j` of body j and the origin of body k.
+    /// Point `s_i` of body i keeps its distance from the middle between point `s_j` of body j and
+    /// the origin of body k.
     params {
         /// The point of body i.
         s_i: Point in i,

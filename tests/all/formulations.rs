@@ -1,5 +1,5 @@
-//! One motion by every elimination of redundant rows, and what is seen of drift where nothing is projected. Other formulations are compared in
-//! `crates/lab`.
+//! One motion by every elimination of redundant rows, and what is seen of drift where nothing is
+//! projected. Other formulations are compared in `crates/lab`.
 
 use std::ops::ControlFlow;
 
@@ -79,7 +79,8 @@ impl Run {
         (0..self.t.len()).filter(whole).collect()
     }
 
-    /// Largest difference of coordinates and velocities at the times of the reference: all but one are break times, where steps end.
+    /// Largest difference of coordinates and velocities at the times of the reference: all but one
+    /// are break times, where steps end.
     fn distance_at_steps(&self, other: &Self) -> f64 {
         let of = |a: &[f64], b: &[f64]| largest(a.iter().zip(b).map(|(a, b)| a - b));
         let at = |k: usize| of(&self.q[k], &other.q[k]).max(of(&self.v[k], &other.v[k]));

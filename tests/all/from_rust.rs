@@ -1,4 +1,5 @@
-//! The same mechanism as a scene and as a program: everything that comes out is the same to the last bit.
+//! The same mechanism as a scene and as a program: everything that comes out is the same to the
+//! last bit.
 
 use pfaff::dynamics::MotionError;
 use pfaff::joints::{SpringDamper, Torque, Velocity};
@@ -8,8 +9,9 @@ use pfaff::report::OutputDirectory;
 use pfaff::report::documents::MotionDocument;
 use serde_json::Value;
 
-/// A coupler on three parallel cranks, one of them too many, pulled by a spring and pushed by a torque that changes. On the coupler a
-/// slide with a drive, and beside it a cart on two wheels of one axle whose speed is prescribed.
+/// A coupler on three parallel cranks, one of them too many, pulled by a spring and pushed by a
+/// torque that changes. On the coupler a slide with a drive, and beside it a cart on two wheels of
+/// one axle whose speed is prescribed.
 const SCENE: &str = r#"
 scene = { name = "three cranks and a cart", space = "plane", gravity = [0.0, -9.81] }
 

@@ -1,5 +1,6 @@
-//! Runs on generated code. The code here is no generated one but solves the same equations its own way, so that faults can be put into it:
-//! whatever it does, the motion is that of the interpreter, and the run says who evaluated.
+//! Runs on generated code. The code here is no generated one but solves the same equations its own
+//! way, so that faults can be put into it: whatever it does, the motion is that of the interpreter,
+//! and the run says who evaluated.
 
 mod elimination;
 
@@ -98,7 +99,8 @@ fn a_run_on_healthy_code_is_that_of_the_interpreter() {
     }
 }
 
-/// From the last accepted state before the fault on the equations are interpreted, and from some time behind it on no more.
+/// From the last accepted state before the fault on the equations are interpreted, and from some
+/// time behind it on no more.
 #[test]
 fn code_that_is_not_sure_is_left_and_comes_back() {
     let p = trolley();
@@ -226,7 +228,8 @@ fn singular_configurations_are_passed_by_the_interpreter() {
     );
 }
 
-/// The mechanism is exchanged for another one behind the back of the run: whoever asked the interpreter would notice.
+/// The mechanism is exchanged for another one behind the back of the run: whoever asked the
+/// interpreter would notice.
 #[test]
 fn a_healthy_run_asks_the_interpreter_nothing() {
     let d = |length: f64| {

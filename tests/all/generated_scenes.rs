@@ -1,4 +1,5 @@
-//! Generated scenes of small sizes, read and judged: counts, ranks, and every verdict with its directions are those that the generator states.
+//! Generated scenes of small sizes, read and judged: counts, ranks, and every verdict with its
+//! directions are those that the generator states.
 
 use std::collections::BTreeMap;
 
@@ -132,7 +133,8 @@ fn two_loops_are_the_case_of_the_suite() {
     assert_eq!(joints(&case), joints(&generated));
 }
 
-/// θ of one angle's equation after a time, by the classical Runge–Kutta method with steps of 0.1 ms: its error is below 1e-13.
+/// θ of one angle's equation after a time, by the classical Runge–Kutta method with steps of 0.1
+/// ms: its error is below 1e-13.
 pub(crate) fn angle(n: usize, t: f64) -> f64 {
     let steps = (t / 1e-4).round() as usize;
     let h = t / steps as f64;

@@ -35,7 +35,8 @@ fn driven(mut d: Description) -> Description {
     d
 }
 
-/// n cranks: n − 2 redundant rows, and one more where they are flat, with a drive (no freedom left) or without.
+/// n cranks: n − 2 redundant rows, and one more where they are flat, with a drive (no freedom left)
+/// or without.
 #[test]
 fn cranks_are_compared_with_themselves_elsewhere() {
     for (pivots, usual) in [
@@ -133,7 +134,8 @@ fn elsewhere(scene: &str) -> Option<Generic> {
     start.generic()
 }
 
-/// Two wheels, each held at its centre, and two gears between them: no body has an arm. Neither place nor size nor mass has a say.
+/// Two wheels, each held at its centre, and two gears between them: no body has an arm. Neither
+/// place nor size nor mass has a say.
 #[test]
 fn wheels_are_compared_wherever_they_are_and_whatever_they_weigh() {
     for mass in [0.9, 1.0, 2.0, 3.0] {
@@ -162,8 +164,8 @@ joint = [
     }
 }
 
-/// The crank of a Scotch yoke turns about the origin, and its pin moves along the slot: no row feels its arm at this instant, however
-/// the slot is turned.
+/// The crank of a Scotch yoke turns about the origin, and its pin moves along the slot: no row
+/// feels its arm at this instant, however the slot is turned.
 #[test]
 fn a_pin_that_moves_along_its_slot_has_an_arm() {
     for turn in [0.0, 0.3, 0.7, 1.0, 2.5] {

@@ -1,4 +1,5 @@
-//! Verdicts at every granularity: frames, sums of wrenches, groups, resultants; with drives, affine and rheonomic rows.
+//! Verdicts at every granularity: frames, sums of wrenches, groups, resultants; with drives, affine
+//! and rheonomic rows.
 
 use joints::plane::{Direction, Line};
 use joints::{
@@ -141,7 +142,8 @@ fn sums_of_wrenches_of_the_robot() {
         ["not_unique", "unique", "not_unique", "unique", "unique"]
     );
     let parts = &groups(&m, &q, &asked[..1]).expect("judged")[0].components;
-    // W3 and W4 lie on one line across the platform, which stands askew: the torque about W3 vanishes.
+    // W3 and W4 lie on one line across the platform, which stands askew: the torque about W3
+    // vanishes.
     let parts: Vec<_> = parts
         .iter()
         .map(|c| (c.name, c.judgement.verdict.word()))
@@ -209,7 +211,8 @@ fn resultants_are_unique_and_are_those_of_newton_and_euler() {
         );
     }
     assert!(largest(lambda) > 10.0);
-    // Two pieces that only hold each other, twice: nothing acts on both together, to the last digit or not.
+    // Two pieces that only hold each other, twice: nothing acts on both together, to the last digit
+    // or not.
     let hinge = |name: &str| {
         let element = Revolute {
             s_i: [0.1, 0.2],
@@ -411,7 +414,8 @@ fn affine_and_rheonomic_rows() {
         Group::Combination(vec![term(0, "Fx", 1.0), term(1, "Fx", 1.0)]),
         Group::Combination(vec![term(0, "Fx", 1e-200), term(1, "Fx", -1e-200)]),
         Group::Combination(vec![term(0, "Fx", 1e200), term(1, "Fx", 1e200)]),
-        // Identically zero: across the row, about the place, with a coefficient of zero, in and out again.
+        // Identically zero: across the row, about the place, with a coefficient of zero, in and out
+        // again.
         Group::Combination(vec![
             term(0, "Fy", 1.0),
             term(1, "T", 3.0),

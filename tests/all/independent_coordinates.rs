@@ -1,4 +1,5 @@
-//! The motion on independent coordinates: completed states, and the Jacobian against differences of the motion itself.
+//! The motion on independent coordinates: completed states, and the Jacobian against differences of
+//! the motion itself.
 
 use std::ops::ControlFlow;
 
@@ -174,7 +175,8 @@ fn shifted_systems_are_solved() {
     assert!(of_w(&real) < 1e-10, "{:e}", of_w(&real));
     assert!(of_w(&imaginary) < 1e-10, "{:e}", of_w(&imaginary));
 
-    // The dependent entries move the state along the constraints: velocities, which q̇ shows once completed, miss by H² only.
+    // The dependent entries move the state along the constraints: velocities, which q̇ shows once
+    // completed, miss by H² only.
     const H: f64 = 1e-4;
     for x in [&x, &re, &im] {
         let size = largest(x.iter().copied());
@@ -189,8 +191,9 @@ fn shifted_systems_are_solved() {
     }
 }
 
-/// Three cranks whose first one is held by a spring of 1e12 N·m/rad and a damper of 1e6 N·m·s/rad to a hand that is driven by
-/// s(t) = −0.7 + 0.3·sin t: the fast motion decays with 3e5/s, and the crank follows the hand.
+/// Three cranks whose first one is held by a spring of 1e12 N·m/rad and a damper of 1e6 N·m·s/rad
+/// to a hand that is driven by s(t) = −0.7 + 0.3·sin t: the fast motion decays with 3e5/s, and the
+/// crank follows the hand.
 mod held {
     use super::*;
     use joints::RevoluteAngleDrive;
@@ -204,8 +207,8 @@ mod held {
     /// Moment of the weight at θ = 0, by g: 3·1·0.5 + 0.5·1.
     const LEVER: f64 = 2.0;
 
-    /// θ and θ̇ of the slow motion, `I·θ̈ = −G·cos θ − k·(θ − s) − c·(θ̇ − ṡ)`, by two terms of its series in 1/k: the third is
-    /// below 1e-20.
+    /// θ and θ̇ of the slow motion, `I·θ̈ = −G·cos θ − k·(θ − s) − c·(θ̇ − ṡ)`, by two terms of its
+    /// series in 1/k: the third is below 1e-20.
     pub(super) fn slow(t: f64) -> [f64; 2] {
         let (sin, cos) = t.sin_cos();
         let [s, d, dd, ddd] = [-0.7 + 0.3 * sin, 0.3 * cos, -0.3 * sin, -0.3 * cos];
@@ -281,9 +284,10 @@ fn held_crank(p: &Prepared, rtol: f64) -> (u64, f64, f64) {
     (summary.steps, position, velocity)
 }
 
-/// A stiffness of 1e12 is no reason for short steps: an explicit method would need 3e5 of them. The angle follows the hand to far below
-/// the tolerance. The velocity at the end of a step is the slope of a cubic through s at its Radau nodes, which misses that of s by
-/// `s⁗·h³/80`: after 2 s it depends on how long the last step happens to be.
+/// A stiffness of 1e12 is no reason for short steps: an explicit method would need 3e5 of them. The
+/// angle follows the hand to far below the tolerance. The velocity at the end of a step is the
+/// slope of a cubic through s at its Radau nodes, which misses that of s by `s⁗·h³/80`: after 2 s
+/// it depends on how long the last step happens to be.
 #[test]
 fn a_grip_of_1e12_takes_few_steps() {
     let p = prepared(&held::description());
@@ -302,8 +306,8 @@ fn a_grip_of_1e12_takes_few_steps() {
     assert!(smallest <= 1e-7, "{smallest:e}");
 }
 
-/// A blade through the centre of mass runs in circles: `x = v/ω·sin ωt`. The velocity that depends on the others is that across the
-/// blade, which is another one every quarter of a turn.
+/// A blade through the centre of mass runs in circles: `x = v/ω·sin ωt`. The velocity that depends
+/// on the others is that across the blade, which is another one every quarter of a turn.
 #[test]
 fn charts_are_renewed_as_a_blade_turns() {
     let (speed, omega) = (1.2, 1.5);
@@ -345,7 +349,8 @@ fn charts_are_renewed_as_a_blade_turns() {
     }
 }
 
-/// Independent coordinates, inside an implicit method, and all coordinates on kept rows are two ways to write one motion.
+/// Independent coordinates, inside an implicit method, and all coordinates on kept rows are two
+/// ways to write one motion.
 #[test]
 fn all_ways_lead_along_one_motion() {
     let end = |p: &Prepared, t: f64, method: Method| {

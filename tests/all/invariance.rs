@@ -1,5 +1,5 @@
-//! Verdicts do not depend on how a mechanism is written down: order, scaling and recombination of rows, order of bodies, units, place,
-//! frame, masses, loads, speed.
+//! Verdicts do not depend on how a mechanism is written down: order, scaling and recombination of
+//! rows, order of bodies, units, place, frame, masses, loads, speed.
 
 use linalg::Matrix;
 use model::{BodyRef, Description, Mechanism, System};
@@ -16,8 +16,8 @@ const SEED: u64 = 18_112_026;
 /// Random mechanisms of each kind.
 const EACH: usize = 50;
 
-/// What is said of a reaction whatever the frame: the words for its wrench and its multipliers, and the numbers of its unique directions and of
-/// those that say something.
+/// What is said of a reaction whatever the frame: the words for its wrench and its multipliers, and
+/// the numbers of its unique directions and of those that say something.
 type Said = (String, &'static str, &'static str, [Option<usize>; 2]);
 
 /// The verdicts of a configuration, by name: ranks, then every reaction.
@@ -126,7 +126,8 @@ fn masses_loads_and_speed() {
     }
 }
 
-/// Order, scaling, and recombination inside a joint, of the rows of the robot, the cranks and random mechanisms.
+/// Order, scaling, and recombination inside a joint, of the rows of the robot, the cranks and
+/// random mechanisms.
 #[test]
 fn rows() {
     let mut numbers = Numbers::new(SEED);
@@ -188,7 +189,8 @@ fn mixed(c: &Matrix, rows: &[usize], numbers: &mut Numbers) -> Vec<Vec<f64>> {
     out
 }
 
-/// The robot at any heading and place, in any size: it touches no ground, so it may be moved as a whole.
+/// The robot at any heading and place, in any size: it touches no ground, so it may be moved as a
+/// whole.
 #[test]
 fn robot_anywhere() {
     let facts = |size: f64, by: [f64; 2], angle: f64| {

@@ -1,5 +1,6 @@
-//! Mechanisms of hundreds of rows: judged by parts, moved on sparse kept rows. References are the answers that generators state, the one angle of chains of
-//! four-bars, and the dense solver with all rows.
+//! Mechanisms of hundreds of rows: judged by parts, moved on sparse kept rows. References are the
+//! answers that generators state, the one angle of chains of four-bars, and the dense solver with
+//! all rows.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
@@ -69,7 +70,8 @@ fn large_scenes_have_the_answer_that_their_generator_states() {
 
 #[test]
 fn sparse_rows_accelerate_as_dense_ones_do() {
-    // Weights of the lattice hang straight down: some accelerations are what rounding leaves of balanced multipliers.
+    // Weights of the lattice hang straight down: some accelerations are what rounding leaves of
+    // balanced multipliers.
     for (kind, n) in [(Kind::Parallelograms, 12), (Kind::Lattice, 4)] {
         accelerate_alike(&Order::of(kind, n));
     }
@@ -125,7 +127,8 @@ fn flat_poses_of_many_four_bars_are_passed_on_the_branch() {
     }
 }
 
-/// The benchmark A02 of the IFToMM/LIM library with forty loops: twenty seconds, forty flat poses. The library allows 1e-3.
+/// The benchmark A02 of the IFToMM/LIM library with forty loops: twenty seconds, forty flat poses.
+/// The library allows 1e-3.
 #[test]
 fn forty_four_bars_are_where_one_angle_says() {
     let n = 40;

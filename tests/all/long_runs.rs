@@ -7,7 +7,8 @@ use dynamics::{EventKind, Method, MotionOptions, RowChoice, Summary, prepare, si
 use model::{Description, Mechanism, StartOptions};
 use tests::cranks::cranks;
 
-/// Three cranks that swing under gravity from rest at θ. The flat poses are 0 and −π, the lowest one −π/2.
+/// Three cranks that swing under gravity from rest at θ. The flat poses are 0 and −π, the lowest
+/// one −π/2.
 fn swinging(theta: f64) -> Description {
     let mut d = cranks(&[0.0, 1.0, 1.7], 0.5, theta);
     d.gravity = [0.0, -9.81];
@@ -35,7 +36,8 @@ fn run(theta: f64, options: &MotionOptions) -> (Summary, Vec<f64>) {
 const ABOVE: f64 = 0.5;
 const BELOW: f64 = -0.7;
 
-/// 300 s, from above some 190 swings that pass a flat pose twice: there the drift of energy is larger, because rounding is.
+/// 300 s, from above some 190 swings that pass a flat pose twice: there the drift of energy is
+/// larger, because rounding is.
 #[test]
 fn three_cranks_swing_for_300_seconds() {
     for (theta, drift, passages) in [(BELOW, 1e-12, 0), (ABOVE, 1e-10, 300)] {

@@ -1,5 +1,6 @@
-//! The third of three parallel cranks misaligned by ε, from 1e-3 to 1e-20: full rank in exact arithmetic for every ε, with reactions of
-//! size 1/ε, until ε is less than what the data are known to. No answer in between may be wrong.
+//! The third of three parallel cranks misaligned by ε, from 1e-3 to 1e-20: full rank in exact
+//! arithmetic for every ε, with reactions of size 1/ε, until ε is less than what the data are known
+//! to. No answer in between may be wrong.
 
 use exact::Exact;
 use linalg::{Grounds, Matrix};
@@ -9,11 +10,12 @@ use tests::cranks;
 
 use crate::plain::Plain;
 
-/// Some thousand roundings of numbers of size one: σ₁₂ is about ε/10, and the noise of 12 × 12 entries about 10⁻¹⁴. Above it no
-/// misalignment may be taken for rounding.
+/// Some thousand roundings of numbers of size one: σ₁₂ is about ε/10, and the noise of 12 × 12
+/// entries about 10⁻¹⁴. Above it no misalignment may be taken for rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Misalignments that may stay undecided where the rank is certified: between what the data are known to and four times as much.
+/// Misalignments that may stay undecided where the rank is certified: between what the data are
+/// known to and four times as much.
 const UNDECIDED: usize = 2;
 
 fn misaligned(error: f64) -> Mechanism {
@@ -95,7 +97,8 @@ fn said(analysis: &Analysis) -> Said {
     }
 }
 
-/// The data of a mechanism are known to their rounding at best: there, and only there, a misaligned crank may be called redundant.
+/// The data of a mechanism are known to their rounding at best: there, and only there, a misaligned
+/// crank may be called redundant.
 #[test]
 fn mechanisms_are_redundant_only_within_what_their_data_are_known_to() {
     let (mut before, mut undecided) = (Said::FullRank, 0);
@@ -157,8 +160,8 @@ fn mechanisms_are_redundant_only_within_what_their_data_are_known_to() {
     }
 }
 
-/// What a certificate must say, where the rank is certified: on which grounds a misaligned crank is redundant, and how large the
-/// reactions are where it is not.
+/// What a certificate must say, where the rank is certified: on which grounds a misaligned crank is
+/// redundant, and how large the reactions are where it is not.
 fn check_certificate(analysis: &Analysis, found: Said, error: f64) {
     let decision = analysis.whole().expect("one part");
     let Some(certificate) = &decision.evidence.certificate else {

@@ -1,4 +1,5 @@
-//! `rust-version` is stated once, every member has it, no dependency asks for more, and the compiler at hand is it. See `docs/stability.md`.
+//! `rust-version` is stated once, every member has it, no dependency asks for more, and the
+//! compiler at hand is it. See `docs/stability.md`.
 
 use std::path::Path;
 use std::process::Command;
@@ -110,7 +111,8 @@ fn this_compiler_is_the_stated_one() {
     let (here, stated) = (version(here), version(&stated()));
     assert!(here >= stated, "{text}");
     if here[..2] != stated[..2] {
-        // Nothing can be concluded here, and an error would only say that somebody has a newer compiler.
+        // Nothing can be concluded here, and an error would only say that somebody has a newer
+        // compiler.
         eprintln!("{text} is newer than {stated:?}: the oldest compiler was not tried");
     }
 }

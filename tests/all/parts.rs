@@ -1,4 +1,5 @@
-//! Verdicts cycle by cycle are those of the whole: random mechanisms with planted redundancy, and ranks by exact arithmetic.
+//! Verdicts cycle by cycle are those of the whole: random mechanisms with planted redundancy, and
+//! ranks by exact arithmetic.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -81,7 +82,8 @@ fn described(found: &Analysis, whole: &Analysis) -> String {
     format!("{}whole: {:?}", parts.collect::<String>(), whole.decision)
 }
 
-/// Sums, choices and deletions, asked of the parts and of the whole: two ways through different null spaces.
+/// Sums, choices and deletions, asked of the parts and of the whole: two ways through different
+/// null spaces.
 #[test]
 fn questions_are_answered_by_parts_as_by_the_whole() {
     let mut numbers = Numbers::new(SEED + 1);

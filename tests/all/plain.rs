@@ -1,5 +1,5 @@
-//! Verdicts of plain matrices as the suites ask for them: the entries are meant exactly as they stand, and the questions
-//! are about rows that exist.
+//! Verdicts of plain matrices as the suites ask for them: the entries are meant exactly as they
+//! stand, and the questions are about rows that exist.
 
 use linalg::{Matrix, RankDecision};
 use solvability::{Judgement, Solvability};

@@ -1,5 +1,6 @@
-//! Mechanisms with planted redundancy at configurations on a grid, judged by `solvability` and by exact arithmetic. The bodies have
-//! arbitrary angles, so the parameters in their frames are rounded: what counts is the mechanism that was drawn.
+//! Mechanisms with planted redundancy at configurations on a grid, judged by `solvability` and by
+//! exact arithmetic. The bodies have arbitrary angles, so the parameters in their frames are
+//! rounded: what counts is the mechanism that was drawn.
 //!
 //! `PFAFF_CASES=20000 cargo test -p tests planted_mechanisms -- --nocapture` makes a longer run.
 
@@ -110,8 +111,8 @@ fn ranks_apart(sketch: &Sketch) -> (usize, usize) {
     (rank_where(false), rank_where(true))
 }
 
-/// One body on three parallel edges, at many headings. Where a heading makes the normals those of an axis but for rounding, a column
-/// of C holds nothing but that rounding: it must not count.
+/// One body on three parallel edges, at many headings. Where a heading makes the normals those of
+/// an axis but for rounding, a column of C holds nothing but that rounding: it must not count.
 #[test]
 fn parallel_edges_at_any_heading() {
     let mut numbers = Numbers::new(SEED);

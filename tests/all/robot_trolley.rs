@@ -1,5 +1,5 @@
-//! Published facts of the robot with its trolley (Wojtyra, Frączek 2013, section 4) at the reconstructed dimensions:
-//! ranks, verdicts, motion, reactions, elimination variants.
+//! Published facts of the robot with its trolley (Wojtyra, Frączek 2013, section 4) at the
+//! reconstructed dimensions: ranks, verdicts, motion, reactions, elimination variants.
 
 use std::ops::ControlFlow;
 
@@ -408,7 +408,8 @@ fn near_the_axis_the_margin_is_the_sine_of_the_angle() {
     );
 }
 
-/// Rows between steps come from dense output, then projected: they must be as good as the steps themselves.
+/// Rows between steps come from dense output, then projected: they must be as good as the steps
+/// themselves.
 #[test]
 fn written_rows_are_as_accurate_as_steps() {
     let p = prepared(&RowChoice::Automatic);

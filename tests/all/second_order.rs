@@ -1,5 +1,6 @@
-//! Blocked or bifurcation? The tips of flat parallel cranks, of length L and at pitch d, move across the line at v_k; two neighbours under
-//! one coupler demand `(v₂ − v₁)·[(v₂ + v₁)/L − (v₂ − v₁)/d] = 0`, worked out by hand.
+//! Blocked or bifurcation? The tips of flat parallel cranks, of length L and at pitch d, move
+//! across the line at v_k; two neighbours under one coupler demand
+//! `(v₂ − v₁)·[(v₂ + v₁)/L − (v₂ − v₁)/d] = 0`, worked out by hand.
 
 use joints::RevoluteAngleDrive;
 use linalg::Matrix;
@@ -212,7 +213,8 @@ fn chain(places: &[[f64; 2]]) -> Description {
     }
 }
 
-/// A straight chain between two pivots gives way by an infinitesimal amount only, with any number of pins: it would have to become longer.
+/// A straight chain between two pivots gives way by an infinitesimal amount only, with any number
+/// of pins: it would have to become longer.
 #[test]
 fn what_cannot_go_on_at_second_order_is_locked() {
     let locked = |d: &Description| {

@@ -33,8 +33,8 @@ fn driven(pivots: &[f64], start: f64) -> dynamics::Prepared {
     prepare(mechanism, &options, &RowChoice::Automatic).expect("starts")
 }
 
-/// A parallelogram driven through its flat pose at θ = 0 has two ways to go on: it stays a parallelogram, and the run says that
-/// the constraints did not determine that.
+/// A parallelogram driven through its flat pose at θ = 0 has two ways to go on: it stays a
+/// parallelogram, and the run says that the constraints did not determine that.
 #[test]
 fn a_driven_parallelogram_goes_on_smoothly_and_says_so() {
     for (start, rtol) in [
@@ -96,8 +96,9 @@ fn a_run_may_end_in_the_flat_pose_or_beside_it() {
             });
             let summary = match outcome {
                 Ok(summary) => summary,
-                // FIXME: two cranks that end so near to the flat pose stop by name or not as the last digit of their first velocities falls: changed by
-                // 1e-17 m/s, 26 of 40 starts stop at one of these offsets. With the exact velocities of the start they do.
+                // FIXME: two cranks that end so near to the flat pose stop by name or not as the
+                // last digit of their first velocities falls: changed by 1e-17 m/s, 26 of 40 starts
+                // stop at one of these offsets. With the exact velocities of the start they do.
                 Err(e) => {
                     let is_known = pivots.len() == 2 && (0.9e-6..4e-6).contains(&offset.abs());
                     let said = e.to_string();
@@ -117,7 +118,8 @@ fn a_run_may_end_in_the_flat_pose_or_beside_it() {
     }
 }
 
-/// The rear edge becomes parallel to the global y-axis twice between t = 6 and t = 7: row 6 carries nothing there.
+/// The rear edge becomes parallel to the global y-axis twice between t = 6 and t = 7: row 6 carries
+/// nothing there.
 #[test]
 fn rows_that_lose_their_independence_are_exchanged_and_come_back() {
     let run = |choice: &RowChoice| {

@@ -1,5 +1,6 @@
-//! A second space: planar bodies with coordinates (x, y, cos φ, sin φ), of which n_q = 4 are coordinates and n_v = 3 velocities,
-//! start, are judged and move as bodies with an angle do. What takes a velocity for a coordinate shows here.
+//! A second space: planar bodies with coordinates (x, y, cos φ, sin φ), of which n_q = 4 are
+//! coordinates and n_v = 3 velocities, start, are judged and move as bodies with an angle do. What
+//! takes a velocity for a coordinate shows here.
 
 use std::ops::ControlFlow;
 
@@ -20,8 +21,8 @@ fn both(d: &Description, start: &StartOptions) -> [Prepared; 2] {
     })
 }
 
-/// Scenes of the suite, and how long they are followed: those that go through many singular configurations stop before the first one that
-/// rounding would decide.
+/// Scenes of the suite, and how long they are followed: those that go through many singular
+/// configurations stop before the first one that rounding would decide.
 const SCENES: [(&str, f64); 9] = [
     ("robot-trolley", 4.0),
     ("three-cranks", 2.0),
@@ -167,7 +168,8 @@ fn passages_are_told_at_the_same_time() {
     }
 }
 
-/// What is assembled from a start beside the constraints is the same pose, also where bodies turn by radians on the way.
+/// What is assembled from a start beside the constraints is the same pose, also where bodies turn
+/// by radians on the way.
 #[test]
 fn a_start_far_beside_the_constraints_is_corrected_alike() {
     let mut d = cranks(&[0.0, 1.0, 2.5], 0.5, 0.4);

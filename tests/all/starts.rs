@@ -1,5 +1,6 @@
-//! Starts with velocities: given ones hold, the others follow with the least kinetic energy, drives give theirs; what no motion has is named, with advice
-//! that works. The truth is computed by singular values of the dense rows, of which the program has none here.
+//! Starts with velocities: given ones hold, the others follow with the least kinetic energy, drives
+//! give theirs; what no motion has is named, with advice that works. The truth is computed by
+//! singular values of the dense rows, of which the program has none here.
 
 mod scenes;
 
@@ -15,13 +16,16 @@ const SEED: u64 = 8;
 /// Scenes of the campaign.
 const SCENES: usize = 1000;
 
-/// Singular values below this share of the largest are zero; the scenes have none between this and a thousandth.
+/// Singular values below this share of the largest are zero; the scenes have none between this and
+/// a thousandth.
 const ZERO: f64 = 1e-8;
 
-/// What velocities of the program may miss by, relative to the fastest: rounding at a hundred sizes from the origin, times the condition of a linkage.
+/// What velocities of the program may miss by, relative to the fastest: rounding at a hundred sizes
+/// from the origin, times the condition of a linkage.
 const AGREES: f64 = 1e-9;
 
-/// Rows and right-hand sides of a start, columns in units of points: rotations at the size of the mechanism.
+/// Rows and right-hand sides of a start, columns in units of points: rotations at the size of the
+/// mechanism.
 struct Rows {
     c: DMatrix<f64>,
     b: DVector<f64>,
@@ -219,7 +223,8 @@ fn truth(rows: &Rows, held: &[Option<f64>]) -> Truth {
         let free = solve(&cf, &(&rows.b - &cg * &corrected));
         free.amax().max(g.amax()).max(corrected.amax())
     };
-    // The limit is that of bodies that hang together: between these bounds the pieces of a scene may differ.
+    // The limit is that of bodies that hang together: between these bounds the pieces of a scene
+    // may differ.
     match delta.amax() / fastest {
         share if share > 2e-2 => Truth::Given,
         share if share < 1e-4 => Truth::Velocities {
@@ -336,8 +341,8 @@ fn refusal(sketch: &Sketch, error: &StudyError) -> Refusal {
     }
 }
 
-/// A thousand scenes: accepted exactly if there are such velocities, these are the right ones, and otherwise what is named is at fault and what is
-/// advised works.
+/// A thousand scenes: accepted exactly if there are such velocities, these are the right ones, and
+/// otherwise what is named is at fault and what is advised works.
 #[test]
 fn a_thousand_random_starts() {
     let mut numbers = Numbers::new(SEED);
@@ -475,7 +480,8 @@ fn check_conflict(
     }
 }
 
-/// A locked part with any velocity that is more than rounding is refused by name; at rest to rounding it rests, wherever and however large.
+/// A locked part with any velocity that is more than rounding is refused by name; at rest to
+/// rounding it rests, wherever and however large.
 #[test]
 fn locked_parts() {
     for size in [1e-6, 1e-3, 1.0, 1e3, 1e6] {

@@ -109,7 +109,8 @@ impl Tally {
         })
     }
 
-    /// Prints the counts; fails if a verdict is wrong, or if one case in so many of these kinds is undecided.
+    /// Prints the counts; fails if a verdict is wrong, or if one case in so many of these kinds is
+    /// undecided.
     #[expect(
         clippy::print_stdout,
         reason = "the count and the seed are part of the result"

@@ -1,4 +1,5 @@
-//! Three parallel cranks under one coupler: overconstrained by one. Numbers from `reference/redundant_three_cranks.json`.
+//! Three parallel cranks under one coupler: overconstrained by one. Numbers from
+//! `reference/redundant_three_cranks.json`.
 
 use dynamics::{KeptRowMotion, Motion, RowChoice, prepare};
 use model::{BodyRef, Description, Mechanism, StartOptions, System};

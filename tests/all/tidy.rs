@@ -147,5 +147,8 @@ fn comments_are_read_without_scrolling() {
             }
         }
     }
-    assert!(wide.is_empty(), "comments wider than {COLUMNS} columns: {wide:#?}");
+    assert!(
+        wide.is_empty(),
+        "comments wider than {COLUMNS} columns: {wide:#?}"
+    );
 }

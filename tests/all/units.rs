@@ -1,4 +1,5 @@
-//! Motions do not depend on units: a mechanism `L` times as large moves √L times as slowly under the same gravity.
+//! Motions do not depend on units: a mechanism `L` times as large moves √L times as slowly under
+//! the same gravity.
 
 use std::ops::ControlFlow;
 

@@ -1,12 +1,13 @@
-//! `cargo xtask browser`: reports of three scenes in a real browser. Needs Node and Chromium, which are on no list of dependencies: without them
-//! the pages are tested as text only.
+//! `cargo xtask browser`: reports of three scenes in a real browser. Needs Node and Chromium, which
+//! are on no list of dependencies: without them the pages are tested as text only.
 
 use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::tree::{cargo, root, run, target};
 
-/// Scenes whose reports are opened: redundant and driven, closed loops, and nonholonomic without redundancy.
+/// Scenes whose reports are opened: redundant and driven, closed loops, and nonholonomic without
+/// redundancy.
 const SCENES: [(&str, &str); 3] = [
     ("robot-trolley", "crates/robot-trolley/robot-trolley.toml"),
     ("three-cranks", "crates/suite/scenes/three-cranks.toml"),

@@ -1,5 +1,6 @@
-//! What a program pays that uses a part of the house: clean build time, size and dependencies of the small programs in `xtask/choices` and of
-//! the command itself, one at a time in an empty target folder.
+//! What a program pays that uses a part of the house: clean build time, size and dependencies of
+//! the small programs in `xtask/choices` and of the command itself, one at a time in an empty
+//! target folder.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -93,7 +94,8 @@ Build times are those of the machine and its neighbours; processor seconds are o
 scripts use. Profiles are cargo's own, `release` stripped; the debug profile of the command is that of the workspace, which optimises.
 ";
 
-/// Builds everything; the table is written after each program, so that an interruption loses only the last one.
+/// Builds everything; the table is written after each program, so that an interruption loses only
+/// the last one.
 pub(crate) fn report() -> Result<String, String> {
     let target = std::env::temp_dir().join(format!("pfaff-choices-{}", std::process::id()));
     let path = root().join(REPORT);
@@ -223,7 +225,8 @@ fn remove(folder: &Path) -> Result<(), String> {
 /// User and system time of all children that have ended (s); Linux counts it in hundredths.
 fn processor_seconds() -> Option<f64> {
     let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    // The name, in parentheses, may contain spaces; children's times are the 14th and 15th value behind it.
+    // The name, in parentheses, may contain spaces; children's times are the 14th and 15th value
+    // behind it.
     let (_, values) = stat.rsplit_once(')')?;
     let ticks: Vec<f64> = values
         .split_whitespace()

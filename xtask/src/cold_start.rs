@@ -1,4 +1,5 @@
-//! How long the commands take from a cold start, process included: the robot with its trolley, optimised build.
+//! How long the commands take from a cold start, process included: the robot with its trolley,
+//! optimised build.
 
 use std::fmt::Write;
 use std::process::{Command, Stdio};

@@ -1,5 +1,6 @@
-//! What the monitors of a run cost: the robot's run with them, and compiled without (`--cfg pfaff_unguarded`). Both programs take turns,
-//! the least time of each counts; beside them the instructions of one run by callgrind.
+//! What the monitors of a run cost: the robot's run with them, and compiled without
+//! (`--cfg pfaff_unguarded`). Both programs take turns, the least time of each counts; beside them
+//! the instructions of one run by callgrind.
 
 use std::fmt::Write;
 use std::process::Command;

@@ -1,4 +1,5 @@
-//! The benchmark of right-hand sides and its report; what is compared is in `crates/bench/benches/right_hand_side`.
+//! The benchmark of right-hand sides and its report; what is compared is in
+//! `crates/bench/benches/right_hand_side`.
 
 use crate::tree::{cargo, root, run};
 

@@ -1,4 +1,5 @@
-//! What an explanation of the robot costs beyond its rank decision: `cargo bench -p bench --bench explanation`.
+//! What an explanation of the robot costs beyond its rank decision:
+//! `cargo bench -p bench --bench explanation`.
 
 use std::hint::black_box;
 

@@ -1,5 +1,5 @@
-//! The robot with its trolley, from one kernel to the whole run. Each benchmark asserts its result before it is timed.
-//! Compare ratios within one run: `cargo bench -p bench`.
+//! The robot with its trolley, from one kernel to the whole run. Each benchmark asserts its result
+//! before it is timed. Compare ratios within one run: `cargo bench -p bench`.
 
 use std::hint::black_box;
 use std::ops::ControlFlow;

@@ -1,5 +1,6 @@
-//! The 22 × 21 matrix of the robot as a library user sees it: certificates, and verdicts at a point that is certified already.
-//! Each benchmark asserts its result before it is timed: `cargo bench -p bench --bench verdicts`.
+//! The 22 × 21 matrix of the robot as a library user sees it: certificates, and verdicts at a point
+//! that is certified already. Each benchmark asserts its result before it is timed:
+//! `cargo bench -p bench --bench verdicts`.
 
 use std::hint::black_box;
 use std::ops::Range;
@@ -70,7 +71,8 @@ fn verdicts_from_the_matrix(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| Solvability::of(black_box(&c), 0.0).map(|s| unique(&s, &groups)));
 }
 
-/// The verdict of every reaction of the robot, with its certificate and what the data would have to be wrong by for a lower rank.
+/// The verdict of every reaction of the robot, with its certificate and what the data would have to
+/// be wrong by for a lower rank.
 #[divan::bench]
 fn analysis(bencher: Bencher<'_, '_>) {
     let p = prepared();

@@ -1,5 +1,6 @@
-//! Ten seconds of the robot at the default tolerances, 201 rows that go nowhere: the least time of a run, interpreted and on generated code.
-//! `cargo xtask guards` compares it with the same program compiled without monitors.
+//! Ten seconds of the robot at the default tolerances, 201 rows that go nowhere: the least time of
+//! a run, interpreted and on generated code. `cargo xtask guards` compares it with the same program
+//! compiled without monitors.
 #![allow(clippy::print_stdout)]
 
 use std::error::Error;

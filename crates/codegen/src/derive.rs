@@ -70,9 +70,9 @@ pub(crate) enum Component {
     Multiplier,
 }
 
-/// Derives the kernels of a constraint, or tells which row restricts no motion. Rows of Ψ are linear in velocities:
-/// elaboration refuses others. `data` are the derivations by the numbers that the constraint
-/// stores.
+/// Derives the kernels of a constraint, or tells which row restricts no motion. Rows of Ψ are
+/// linear in velocities: elaboration refuses others. `data` are the derivations by the numbers that
+/// the constraint stores.
 pub(crate) fn constraint(
     model: &mut Model,
     body: &ConstraintBody,
@@ -228,8 +228,8 @@ fn b_rows(model: &mut Model, velocity: &[Expr]) -> Vec<Expr> {
     }
 }
 
-/// `[Fx, Fy, T]` on the first body about the place, by multiplier: the force is `−C_vᵀ`, the torque at the mass centre
-/// `−C_ωᵀ`, moved by the lever from the body's origin to the place.
+/// `[Fx, Fy, T]` on the first body about the place, by multiplier: the force is `−C_vᵀ`, the torque
+/// at the mass centre `−C_ωᵀ`, moved by the lever from the body's origin to the place.
 fn wrench(model: &mut Model, c: &[Entry], place: [Expr; 2], rows: usize) -> Sparse {
     let [x, y, ..] = model.inputs.slots[0].pose;
     let lever = [model.g.sub(place[0], x), model.g.sub(place[1], y)];

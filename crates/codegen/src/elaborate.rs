@@ -1,5 +1,5 @@
-//! Expressions of the language become scalars of the expression graph. Shapes are checked here, and here names
-//! are resolved; after this step only mathematics is left.
+//! Expressions of the language become scalars of the expression graph. Shapes are checked here, and
+//! here names are resolved; after this step only mathematics is left.
 
 mod body;
 mod check;

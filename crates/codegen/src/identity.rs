@@ -1,5 +1,6 @@
-//! Is an expression zero for every pose? Decided by evaluation at fixed pseudo-random points that respect
-//! `cos² + sin² = 1` and unit directions; used only to leave structural zeros out of patterns.
+//! Is an expression zero for every pose? Decided by evaluation at fixed pseudo-random points that
+//! respect `cos² + sin² = 1` and unit directions; used only to leave structural zeros out of
+//! patterns.
 
 use std::ops::{Add, Div, Mul, Neg};
 
@@ -10,7 +11,8 @@ use crate::elaborate::{Inputs, Source};
 /// Points tried; a polynomial that is not zero vanishes at all of them with probability zero.
 const POINTS: u64 = 6;
 
-/// Rounding relative to the size of what cancels: ε = 2.2e-16 for each of at most some thousand operations.
+/// Rounding relative to the size of what cancels: ε = 2.2e-16 for each of at most some thousand
+/// operations.
 const ROUNDING: f64 = 1e-12;
 
 /// A value with the size of its terms: what the value would be, did nothing cancel.

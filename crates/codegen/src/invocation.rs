@@ -1,5 +1,5 @@
-//! The tokens between the braces of `joint! { … }` or `force! { … }`: an optional path of the crate `joints`, then
-//! the definition.
+//! The tokens between the braces of `joint! { … }` or `force! { … }`: an optional path of the crate
+//! `joints`, then the definition.
 
 use proc_macro2::{Delimiter, TokenStream, TokenTree};
 use quote::quote;
@@ -12,7 +12,8 @@ pub struct Invocation {
     pub runtime: TokenStream,
     /// The definition.
     pub body: TokenStream,
-    /// The call as its author wrote it: source text where the compiler knows it, printed tokens otherwise.
+    /// The call as its author wrote it: source text where the compiler knows it, printed tokens
+    /// otherwise.
     pub text: String,
 }
 
@@ -48,7 +49,8 @@ impl Invocation {
     }
 }
 
-/// The path in `#![runtime = path]`. It is not looked at: `$crate` of a wrapping macro passes through.
+/// The path in `#![runtime = path]`. It is not looked at: `$crate` of a wrapping macro passes
+/// through.
 fn runtime(attribute: &[TokenTree]) -> syn::Result<TokenStream> {
     if let [_, TokenTree::Punct(not), TokenTree::Group(group)] = attribute
         && not.as_char() == '!'

@@ -1,4 +1,5 @@
-//! One function from one list of expressions: inputs that are used, shared pieces, outputs, and the count.
+//! One function from one list of expressions: inputs that are used, shared pieces, outputs, and the
+//! count.
 
 use proc_macro2::{Ident, Literal, Span, TokenStream};
 use quote::quote;

@@ -44,12 +44,12 @@ pub struct Expansion {
     pub items: TokenStream,
 }
 
-/// Expands the body of one `joint!` or `force!`. `runtime` is the path of the crate `joints` as seen from
-/// the expanded code, `text` the definition as its author wrote it.
+/// Expands the body of one `joint!` or `force!`. `runtime` is the path of the crate `joints` as
+/// seen from the expanded code, `text` the definition as its author wrote it.
 ///
 /// # Errors
-/// At the token that is wrong: an unknown name, a wrong shape, a Ψ that is not linear in velocities,
-/// a parameter that is never used, …
+/// At the token that is wrong: an unknown name, a wrong shape, a Ψ that is not linear in
+/// velocities, a parameter that is never used, …
 pub fn expand(
     kind: Kind,
     body: TokenStream,

@@ -1,4 +1,5 @@
-//! Whatever the tokens, `expand` returns Rust or an error: no panic, no endless loop, no overflow of the stack.
+//! Whatever the tokens, `expand` returns Rust or an error: no panic, no endless loop, no overflow
+//! of the stack.
 
 use std::thread;
 
@@ -226,7 +227,8 @@ fn flat(tokens: TokenStream, out: &mut Vec<String>) {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
-    /// Correct definitions with some tokens removed, doubled or replaced by others of any definition.
+    /// Correct definitions with some tokens removed, doubled or replaced by others of any
+    /// definition.
     #[test]
     fn mutated_definitions(
         which in 0..SHIPPED.len(),

@@ -8,17 +8,20 @@ use crate::options::{Method, MotionOptions, Stabilisation};
 use crate::plan::Decided;
 use crate::prepare::Prepared;
 
-/// A motion for which an explicit method would need more steps than this, only to stay stable, is stiff.
+/// A motion for which an explicit method would need more steps than this, only to stay stable, is
+/// stiff.
 const STIFF: f64 = 2e4;
 
-/// Explicit steps are stable up to about this many times 1/|λ|: Dormand–Prince 8(5,3), along the negative real axis.
+/// Explicit steps are stable up to about this many times 1/|λ|: Dormand–Prince 8(5,3), along the
+/// negative real axis.
 const STABLE: f64 = 6.0;
 
 /// Iterations for the largest |λ|; the second half counts.
 const ITERATIONS: usize = 64;
 
-/// The method of a run: the one asked for, or Dormand–Prince 8(5,3), or Radau IIA where forces make the motion stiff at its start. Where
-/// nothing is free there is no equation for an implicit method to solve.
+/// The method of a run: the one asked for, or Dormand–Prince 8(5,3), or Radau IIA where forces make
+/// the motion stiff at its start. Where nothing is free there is no equation for an implicit method
+/// to solve.
 ///
 /// # Errors
 /// If the motion has no Jacobian at the start.

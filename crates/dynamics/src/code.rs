@@ -1,9 +1,11 @@
-//! What a run asks of straight-line code that was generated for one mechanism. Not here: how such code is made, and when a run may
-//! use it ([`Prepared::code_for`](crate::Prepared::code_for)).
+//! What a run asks of straight-line code that was generated for one mechanism. Not here: how such
+//! code is made, and when a run may use it ([`Prepared::code_for`](crate::Prepared::code_for)).
 //!
-//! Code keeps the rows that it was generated for and eliminates in an order that was chosen offline, so it cannot find new pivots. It says how good
-//! its pivots are instead: its *health*, the smallest pivot as a signed share of the smallest |pivot| of the same place that its
-//! generator saw. 1 is as good; 0 or less has passed a singular pivot; NaN never counts as healthy. Whoever calls it has to look.
+//! Code keeps the rows that it was generated for and eliminates in an order that was chosen
+//! offline, so it cannot find new pivots. It says how good its pivots are instead: its *health*,
+//! the smallest pivot as a signed share of the smallest |pivot| of the same place that its
+//! generator saw. 1 is as good; 0 or less has passed a singular pivot; NaN never counts as healthy.
+//! Whoever calls it has to look.
 
 mod belongs;
 
@@ -11,7 +13,8 @@ use std::borrow::Cow;
 
 pub use belongs::{CodeMismatch, NoCode};
 
-/// Runs leave code below this health: the interpreter has to see a singular configuration from afar. They do not begin on it either.
+/// Runs leave code below this health: the interpreter has to see a singular configuration from
+/// afar. They do not begin on it either.
 pub const LEAVE: f64 = 0.1;
 
 /// What code was generated for.
@@ -105,10 +108,12 @@ pub trait SceneCode: Send + Sync {
     /// `C·v − b` of all rows.
     fn velocity_residual(&self, t: f64, q: &[f64], v: &[f64], out: &mut [f64]);
 
-    /// The smallest `dq` in the mass metric with `Φq·dq = −phi` on the kept rows of Φq; the health of their pivots.
+    /// The smallest `dq` in the mass metric with `Φq·dq = −phi` on the kept rows of Φq; the health
+    /// of their pivots.
     fn position_correction(&self, t: f64, q: &[f64], phi: &[f64], dq: &mut [f64]) -> f64;
 
-    /// The smallest `dv` in the mass metric with `C·dv = −residual` on the kept rows of C; the health.
+    /// The smallest `dv` in the mass metric with `C·dv = −residual` on the kept rows of C; the
+    /// health.
     fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64;
 
     /// `da = (∂a/∂q)·dq + (∂a/∂v)·dv`, for implicit methods; the health.

@@ -1,4 +1,5 @@
-//! What tests count, to prove that work that a plan leaves out is not done. Costs nothing elsewhere.
+//! What tests count, to prove that work that a plan leaves out is not done. Costs nothing
+//! elsewhere.
 
 /// Work that is noted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

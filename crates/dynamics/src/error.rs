@@ -105,7 +105,8 @@ pub enum Trip {
         /// What is allowed.
         tolerance: f64,
     },
-    /// Redundant drives ask for different motions from a time after the start on, or one of them for what joints forbid.
+    /// Redundant drives ask for different motions from a time after the start on, or one of them
+    /// for what joints forbid.
     #[error("at t = {time} s redundant rows part: {contradiction}")]
     Drives {
         /// When the rows were seen to differ.
@@ -131,7 +132,8 @@ pub enum Trip {
         /// Its residual.
         residual: f64,
     },
-    /// Newton's method for dependent coordinates went to a configuration far away: another branch, or another turn.
+    /// Newton's method for dependent coordinates went to a configuration far away: another branch,
+    /// or another turn.
     #[error(
         "at t = {time} s the dependent coordinates could only be found {by:.2} (lengths of the mechanism, or radians) from where the \
          step expects them, at the {coordinate} of `{body}`"
@@ -271,7 +273,8 @@ pub enum MotionError {
         /// The name.
         name: String,
     },
-    /// One of several components that do not feel each other stopped; the others were stopped there.
+    /// One of several components that do not feel each other stopped; the others were stopped
+    /// there.
     #[error("{component}: {source}")]
     Component {
         /// Its bodies.
@@ -342,7 +345,8 @@ fn undecided(doubt: &Doubt) -> String {
     }
 }
 
-/// What a residual was compared with. A run goes on up to the last state that is allowed, so both may look the same.
+/// What a residual was compared with. A run goes on up to the last state that is allowed, so both
+/// may look the same.
 fn above(residual: f64, tolerance: f64) -> String {
     let [found, allowed] = [residual, tolerance].map(|x| format!("{x:.3e}"));
     match found == allowed {

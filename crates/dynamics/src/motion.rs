@@ -1,13 +1,15 @@
 //! The solved equations of motion on kept rows.
 //!
-//! The rank is never re-decided at a stage, where the state is off the constraints by δ and a singular value that is
-//! exactly zero reads as about δ. The dropped rows are only monitored, at accepted steps: their residual after
-//! projection is a free certificate of redundancy. Kept rows may become nearly dependent although the rank stays
-//! (an edge turns until it no longer carries what a dropped row carried): then, at an accepted and
-//! polished point, other rows are kept, which changes no motion.
+//! The rank is never re-decided at a stage, where the state is off the constraints by δ and a
+//! singular value that is exactly zero reads as about δ. The dropped rows are only monitored, at
+//! accepted steps: their residual after projection is a free certificate of redundancy. Kept rows
+//! may become nearly dependent although the rank stays (an edge turns until it no longer carries
+//! what a dropped row carried): then, at an accepted and polished point, other rows are kept, which
+//! changes no motion.
 //!
-//! Positions and velocities have rows of their own. A holonomic row may be dropped because knife edges imply its
-//! velocity; nothing implies its position, and without it the configuration would drift.
+//! Positions and velocities have rows of their own. A holonomic row may be dropped because knife
+//! edges imply its velocity; nothing implies its position, and without it the configuration would
+//! drift.
 
 mod chart;
 mod coded;
@@ -46,14 +48,15 @@ pub trait Motion {
     /// If the equations have no (unique) solution here.
     fn acceleration(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Trip>;
 
-    /// Moves q and v onto the constraints by the smallest correction in the mass metric, and checks the dropped rows.
+    /// Moves q and v onto the constraints by the smallest correction in the mass metric, and checks
+    /// the dropped rows.
     ///
     /// # Errors
     /// If that fails, or a dropped row is violated.
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, Trip>;
 
-    /// Multipliers of all rows: those of dropped rows are zero by decree, and all are NaN where the kept rows are dependent at just this
-    /// instant, so that no multipliers belong to them.
+    /// Multipliers of all rows: those of dropped rows are zero by decree, and all are NaN where the
+    /// kept rows are dependent at just this instant, so that no multipliers belong to them.
     ///
     /// # Errors
     /// As [`Motion::acceleration`].
@@ -72,13 +75,15 @@ pub struct Correction {
     pub velocity_residual: f64,
 }
 
-/// A mechanism on kept rows. All storage is made here; accelerations and projections allocate nothing.
+/// A mechanism on kept rows. All storage is made here; accelerations and projections allocate
+/// nothing.
 pub struct KeptRowMotion<'a> {
     mechanism: &'a Mechanism,
     s: Scratch,
     /// Length by which positions are measured (m).
     size: f64,
-    /// How long the run lasts (s); infinite where nobody has said, and where it takes no time: nothing may part then.
+    /// How long the run lasts (s); infinite where nobody has said, and where it takes no time:
+    /// nothing may part then.
     horizon: f64,
     choice: RowChoice,
     /// Independent rows of C.
@@ -115,10 +120,12 @@ impl<'a> KeptRowMotion<'a> {
         Self::kept(prepared, Stabilisation::Projection)
     }
 
-    /// The motion of a prepared mechanism with the method and stabilisation of a run; on generated code, if there is some for it.
+    /// The motion of a prepared mechanism with the method and stabilisation of a run; on generated
+    /// code, if there is some for it.
     ///
     /// # Errors
-    /// As [`KeptRowMotion::new`]; also if no independent coordinates can be chosen for an implicit method.
+    /// As [`KeptRowMotion::new`]; also if no independent coordinates can be chosen for an implicit
+    /// method.
     pub fn with(prepared: &'a Prepared, options: &MotionOptions) -> Result<Self, Trip> {
         let mut motion = Self::kept(prepared, options.stabilisation)?;
         if options.t_end > 0.0 {
@@ -182,14 +189,16 @@ impl<'a> KeptRowMotion<'a> {
         &self.s
     }
 
-    /// Smallest pivot of the last factorisation relative to its row: small near singular configurations.
+    /// Smallest pivot of the last factorisation relative to its row: small near singular
+    /// configurations.
     #[must_use]
     pub fn pivot_ratio(&self) -> f64 {
         self.velocity.pivot_ratio()
     }
 
-    /// Whether the motion is so near to a singular configuration that stages have to lie on the constraints: off them by δ,
-    /// accelerations are wrong by δ divided by the share of the reference pivots that is left.
+    /// Whether the motion is so near to a singular configuration that stages have to lie on the
+    /// constraints: off them by δ, accelerations are wrong by δ divided by the share of the
+    /// reference pivots that is left.
     pub(crate) fn is_delicate(&self) -> bool {
         self.velocity.are_delicate()
     }
@@ -263,7 +272,8 @@ impl<'a> KeptRowMotion<'a> {
         solved.map_err(|trip| self.named(trip))
     }
 
-    /// An error at the state just evaluated, with the name of the force that has no value, if there is one.
+    /// An error at the state just evaluated, with the name of the force that has no value, if there
+    /// is one.
     fn named(&mut self, trip: Trip) -> Trip {
         match trip {
             Trip::NotFinite { time, what } => {
@@ -275,7 +285,8 @@ impl<'a> KeptRowMotion<'a> {
         }
     }
 
-    /// Multipliers of all rows for accelerations a from the last solve; those of dropped rows are zero.
+    /// Multipliers of all rows for accelerations a from the last solve; those of dropped rows are
+    /// zero.
     fn multipliers_for(&mut self, a: &[f64], lambda: &mut [f64]) -> Result<(), Trip> {
         let Self {
             mechanism,

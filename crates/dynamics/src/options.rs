@@ -54,8 +54,8 @@ impl Method {
     }
 }
 
-/// What every run does about redundant rows: r independent ones are kept, the others only monitored. Its name in results; reactions that are
-/// not unique belong to it.
+/// What every run does about redundant rows: r independent ones are kept, the others only
+/// monitored. Its name in results; reactions that are not unique belong to it.
 pub const FORMULATION: &str = "kept-rows";
 
 /// Where an option of a run has gone that is none any more, by the name of its key and its value.
@@ -144,9 +144,11 @@ pub struct MotionOptions {
     pub method: Method,
     /// Treatment of drift.
     pub stabilisation: Stabilisation,
-    /// Rows to keep: what [`crate::prepare()`] is given. A run has the rows of its [`crate::Prepared`].
+    /// Rows to keep: what [`crate::prepare()`] is given. A run has the rows of its
+    /// [`crate::Prepared`].
     pub rows: RowChoice,
-    /// Components that compute at the same time, where there are several; all of them if nothing is said. Results do not depend on it.
+    /// Components that compute at the same time, where there are several; all of them if nothing is
+    /// said. Results do not depend on it.
     pub threads: Option<NonZeroUsize>,
 }
 
@@ -157,7 +159,8 @@ impl MotionOptions {
     pub const RTOL: f64 = 1e-8;
     /// Absolute tolerance where none is given.
     pub const ATOL: f64 = 1e-10;
-    /// Relative tolerances that can be asked for: below, rounding of a step is larger; above, its error is no longer small.
+    /// Relative tolerances that can be asked for: below, rounding of a step is larger; above, its
+    /// error is no longer small.
     pub const RTOL_RANGE: RangeInclusive<f64> = 1e-15..=0.1;
     /// That in words.
     pub const RTOL_EXPECTED: &str = "a number from 1e-15 (rounding) to 0.1";

@@ -1,5 +1,5 @@
-//! From an assembled mechanism to one that can move: a consistent start, a decided rank, kept rows. The rank is
-//! decided here, at a polished point, and nowhere else during a run.
+//! From an assembled mechanism to one that can move: a consistent start, a decided rank, kept rows.
+//! The rank is decided here, at a polished point, and nowhere else during a run.
 
 use std::sync::Arc;
 
@@ -30,24 +30,28 @@ pub struct Prepared {
     pub decision: RowDecision,
     /// Rank and kept rows of Φq alone: what holds the configuration.
     pub position_decision: RowDecision,
-    /// The decisions of the start part by part, which its verdicts are read from; `None` for a component of another mechanism.
+    /// The decisions of the start part by part, which its verdicts are read from; `None` for a
+    /// component of another mechanism.
     pub decided: Option<Arc<Rows>>,
     /// How the configuration was assembled.
     pub assembly: Assembly,
     /// Velocities at the start minus the given ones; zero where none is given.
     pub velocity_correction: Vec<f64>,
-    /// Code generated for this mechanism on these rows, if there is some: see [`Prepared::with_code`].
+    /// Code generated for this mechanism on these rows, if there is some: see
+    /// [`Prepared::with_code`].
     pub(crate) code: Option<Arc<dyn SceneCode>>,
 }
 
 impl Prepared {
-    /// Bytes that a run takes at most, about, beside the mechanism itself: solvers, stages, rows of output. An estimate from patterns alone.
+    /// Bytes that a run takes at most, about, beside the mechanism itself: solvers, stages, rows of
+    /// output. An estimate from patterns alone.
     #[must_use]
     pub fn memory(&self) -> usize {
         crate::motion::memory(self)
     }
 
-    /// Whether a run evaluates the state as a function of time: no coordinate and no velocity is free, and states are projected.
+    /// Whether a run evaluates the state as a function of time: no coordinate and no velocity is
+    /// free, and states are projected.
     pub(crate) fn is_function_of_time(&self, options: &MotionOptions) -> bool {
         let layout = self.mechanism.layout();
         let is_held = self.decision.rank == layout.n_v && self.position_decision.rank == layout.n_q;
@@ -59,9 +63,11 @@ impl Prepared {
 ///
 /// # Errors
 /// - [`MotionError::Start`]: no consistent configuration or velocities.
-/// - [`MotionError::Contradiction`]: redundant rows ask for different positions, velocities or accelerations.
+/// - [`MotionError::Contradiction`]: redundant rows ask for different positions, velocities or
+///   accelerations.
 /// - [`MotionError::Inseparable`]: independent rows differ by too little to move on.
-/// - [`MotionError::RankUndecided`], [`MotionError::Rows`]: no rows can be chosen, or not the ones asked for.
+/// - [`MotionError::RankUndecided`], [`MotionError::Rows`]: no rows can be chosen, or not the ones
+///   asked for.
 pub fn prepare(
     mut mechanism: Mechanism,
     start: &StartOptions,
@@ -126,9 +132,10 @@ fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionErr
         })
 }
 
-/// Velocities of an assembled start, see [`consistent_velocity`], and what stands against accelerations there: redundant rows may allow the velocities
-/// but no motion that begins with them. Rows that contradict each other whatever is given, as drives may, are named before given velocities that
-/// contradict them.
+/// Velocities of an assembled start, see [`consistent_velocity`], and what stands against
+/// accelerations there: redundant rows may allow the velocities but no motion that begins with
+/// them. Rows that contradict each other whatever is given, as drives may, are named before given
+/// velocities that contradict them.
 ///
 /// # Errors
 /// - [`MotionError::Start`]: no motion has the given velocities.

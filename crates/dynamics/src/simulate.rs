@@ -1,5 +1,5 @@
-//! A run as planned: integration of q̇ = T·v and the solved accelerations, projection after each step, projected rows of output, and the
-//! balance of energy.
+//! A run as planned: integration of q̇ = T·v and the solved accelerations, projection after each
+//! step, projected rows of output, and the balance of energy.
 
 use std::ops::ControlFlow;
 use std::time::Instant;
@@ -32,7 +32,8 @@ use sample::AtRows;
 pub use sample::Sample;
 pub use summary::{ComponentSummary, Failure, Summary};
 
-/// Runs a prepared mechanism from t = 0 and shows rows at 0, every output step and the end: its plan with everything wanted.
+/// Runs a prepared mechanism from t = 0 and shows rows at 0, every output step and the end: its
+/// plan with everything wanted.
 ///
 /// # Errors
 /// With the summary of what was reached; rows shown before stand.
@@ -46,7 +47,8 @@ pub fn simulate(
         .simulate(row)
 }
 
-/// Sees each row. Behind a pointer, so that a run is compiled once, here, and not again for each of its callers.
+/// Sees each row. Behind a pointer, so that a run is compiled once, here, and not again for each of
+/// its callers.
 type ShowRow<'r> = dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip> + 'r;
 
 /// Sees the time (s) of each accepted step of each component, and may end the run there.
@@ -158,7 +160,8 @@ fn run_component(
         (_, Some(error)) => error,
         (Ok(_), None) => return Ok(summary),
         (Err(f), None) => match named(f.error) {
-            // Error control fails beside a singular configuration because accelerations are rounding there.
+            // Error control fails beside a singular configuration because accelerations are
+            // rounding there.
             MotionError::Integration(e) if run.equations.is_lost(&e) => {
                 run.equations.motion.no_way_over(f.t).into()
             }
@@ -173,8 +176,8 @@ fn run_component(
     Err(Box::new(Failure { error, summary }))
 }
 
-/// Whether a dropped row was violated because drives contradict each other or ask for what joints forbid: then they are named, whichever row was
-/// dropped.
+/// Whether a dropped row was violated because drives contradict each other or ask for what joints
+/// forbid: then they are named, whichever row was dropped.
 fn of_drives(prepared: &Prepared, t_end: f64, error: MotionError) -> MotionError {
     let MotionError::Trip(Trip::DroppedRow { time, .. }) = &error else {
         return error;
@@ -191,7 +194,8 @@ fn of_drives(prepared: &Prepared, t_end: f64, error: MotionError) -> MotionError
     }
 }
 
-/// Whether a dropped row was violated because it is redundant at the start alone: then nothing contradicts it.
+/// Whether a dropped row was violated because it is redundant at the start alone: then nothing
+/// contradicts it.
 fn at_singular_start(prepared: &Prepared, error: MotionError) -> MotionError {
     let MotionError::Trip(Trip::DroppedRow {
         time,

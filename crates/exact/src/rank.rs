@@ -18,7 +18,8 @@ use crate::elimination::eliminate;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Exact {
-    /// Whole numbers: row i of the matrix is row i of these times `2^row_exponents[i]` times a power of two for each column.
+    /// Whole numbers: row i of the matrix is row i of these times `2^row_exponents[i]` times a
+    /// power of two for each column.
     rows: Vec<Vec<BigInt>>,
     row_exponents: Vec<i64>,
     rank: usize,
@@ -167,7 +168,8 @@ fn whole(matrix: &[Vec<Dyadic>]) -> (Vec<Vec<BigInt>>, Vec<i64>) {
     (rows.collect(), down)
 }
 
-/// Sweeps that bring the powers of two of rows and columns near their least-squares values; more would only save time.
+/// Sweeps that bring the powers of two of rows and columns near their least-squares values; more
+/// would only save time.
 const SWEEPS: usize = 12;
 
 /// The mean of the values at each place.

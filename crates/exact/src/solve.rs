@@ -5,9 +5,11 @@
 //! | C  0  | | λ | = | Γ |     M = diag(m) ≥ 0 (n), C the kept rows (r×n)
 //! ```
 //!
-//! All numbers are taken as they are given, as fractions of whole numbers, and the answer is rounded once, at the end. So this is right for the C, M, Q
-//! and Γ that a program in `f64` has to solve with; what rounding did to these numbers themselves is not in it. Of redundant rows only kept
-//! ones may be given: Γ of the others is off by its own rounding, and all rows together have no solution.
+//! All numbers are taken as they are given, as fractions of whole numbers, and the answer is
+//! rounded once, at the end. So this is right for the C, M, Q and Γ that a program in `f64` has to
+//! solve with; what rounding did to these numbers themselves is not in it. Of redundant rows only
+//! kept ones may be given: Γ of the others is off by its own rounding, and all rows together have
+//! no solution.
 
 use num_bigint::{BigInt, BigUint};
 use num_traits::{One, ToPrimitive, Zero};
@@ -30,7 +32,8 @@ pub struct Solution {
 pub enum Singular {
     /// The rows are dependent.
     Rows,
-    /// The rows are independent, and M is not positive definite on ker C: a motion that they allow moves no mass.
+    /// The rows are independent, and M is not positive definite on ker C: a motion that they allow
+    /// moves no mass.
     Massless,
 }
 
@@ -96,8 +99,9 @@ fn whole(row: &[f64]) -> Vec<BigInt> {
     row.iter().map(|x| x.over_power(least)).collect()
 }
 
-/// The unknowns of an upper triangular system whose last column is its right-hand side. Multiplied by the determinant they are whole numbers
-/// (Cramer's rule), so that all divisions but the last are exact.
+/// The unknowns of an upper triangular system whose last column is its right-hand side. Multiplied
+/// by the determinant they are whole numbers (Cramer's rule), so that all divisions but the last
+/// are exact.
 fn back_substituted(rows: &[Vec<BigInt>]) -> Vec<f64> {
     let n = rows.len();
     let determinant = rows
@@ -145,7 +149,8 @@ mod tests {
         ] {
             assert_eq!(quotient(&big(x), &big(y)), x / y, "{x}/{y}");
         }
-        // Half a unit of the last place, and a little more or less: only the digits far behind tell.
+        // Half a unit of the last place, and a little more or less: only the digits far behind
+        // tell.
         let half = (BigInt::one() << 200) + (BigInt::one() << 147);
         let one = BigInt::one() << 200;
         assert_eq!(quotient(&half, &one), 1.0);
@@ -155,12 +160,14 @@ mod tests {
 
     #[test]
     fn a_pendulum_released_level() {
-        // Mass at distance 2 on a massless rod: (x, y, φ), the pivot at −2 along the rod. φ̈ = −g/2, ÿ = −g, no force in the pivot.
+        // Mass at distance 2 on a massless rod: (x, y, φ), the pivot at −2 along the rod. φ̈ =
+        // −g/2, ÿ = −g, no force in the pivot.
         let rows = [[1.0, 0.0, 0.0], [0.0, 1.0, -2.0]];
         let found = solve(&[3.0, 3.0, 0.0], &rows, &[0.0, -30.0, 0.0], &[0.0, 0.0]).unwrap();
         assert_eq!(found.a, [0.0, -10.0, -5.0]);
         assert_eq!(found.lambda, [0.0, 0.0]);
-        // With a moment of inertia of 12 = m·l² half the acceleration is left, and the pivot carries half of the weight.
+        // With a moment of inertia of 12 = m·l² half the acceleration is left, and the pivot
+        // carries half of the weight.
         let found = solve(&[3.0, 3.0, 12.0], &rows, &[0.0, -30.0, 0.0], &[0.0, 0.0]).unwrap();
         assert_eq!(found.a, [0.0, -5.0, -2.5]);
         assert_eq!(found.lambda, [0.0, -15.0]);

@@ -1,9 +1,9 @@
 //! Step-size control from the estimated error: a PI controller with limits.
 //!
-//! `h_new = h · clamp(safety · err^(−α) · err_old^β)`: Gustafsson's controller in the form of Hairer, Nørsett, Wanner, Solving
-//! Ordinary Differential Equations I, 2nd ed., II.4 and of Hairer, Wanner, vol. II, IV.2; evaluated
-//! with one logarithm and one exponential a step.
-//! Not here: why a trial failed (`drive`), the error estimate itself (each method).
+//! `h_new = h · clamp(safety · err^(−α) · err_old^β)`: Gustafsson's controller in the form of
+//! Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4 and of Hairer,
+//! Wanner, vol. II, IV.2; evaluated with one logarithm and one exponential a step. Not here: why a
+//! trial failed (`drive`), the error estimate itself (each method).
 
 /// What the loop asks after each trial: the size of the next one.
 pub trait StepControl {
@@ -16,7 +16,8 @@ pub trait StepControl {
     /// After a trial of size `h` with error norm `error` > 1, possibly infinite.
     fn reject(&mut self, h: f64, error: f64) -> f64;
 
-    /// After a trial of size `h` that gave no error estimate or was not wanted; `factor` is what the loop proposes.
+    /// After a trial of size `h` that gave no error estimate or was not wanted; `factor` is what
+    /// the loop proposes.
     fn shorten(&mut self, h: f64, factor: f64) -> f64;
 }
 
@@ -90,7 +91,8 @@ impl StepControl for Control {
     }
 }
 
-/// `√(1/n · Σ (d_i / scale_i)²)`; 0 for n = 0. A component with d_i = 0 does not count even where its scale is 0.
+/// `√(1/n · Σ (d_i / scale_i)²)`; 0 for n = 0. A component with d_i = 0 does not count even where
+/// its scale is 0.
 pub(crate) fn weighted_rms(d: &[f64], scale: &[f64]) -> f64 {
     if d.is_empty() {
         return 0.0;

@@ -1,6 +1,8 @@
-//! When simplified Newton iterations have converged, will not converge, or can only stir the noise of rounding; for all implicit methods.
+//! When simplified Newton iterations have converged, will not converge, or can only stir the noise
+//! of rounding; for all implicit methods.
 //!
-//! Source: Hairer, Wanner II, 2nd ed., IV.8, and the constants of the authors' program RADAU5; the rule for noise is ours.
+//! Source: Hairer, Wanner II, 2nd ed., IV.8, and the constants of the authors' program RADAU5; the
+//! rule for noise is ours.
 
 pub(crate) const MAX_ITERATIONS: u32 = 7;
 /// Convergence at this rate or faster means that the matrices serve another step.
@@ -9,7 +11,8 @@ pub(crate) const GOOD_RATE: f64 = 1e-3;
 const BAD_RATE: f64 = 0.99;
 /// Step-size factor where nothing is known about the convergence.
 const FACTOR_WITHOUT_RATE: f64 = 0.5;
-/// Iterations that once converged at this rate and then no longer do have arrived at the noise of rounding ...
+/// Iterations that once converged at this rate and then no longer do have arrived at the noise of
+/// rounding ...
 const RATE_ABOVE_NOISE: f64 = 0.1;
 /// ... if their increments are below this part of the permitted error.
 const LARGEST_NOISE: f64 = 0.03;
@@ -32,7 +35,8 @@ pub(crate) struct Convergence {
     pub(crate) iterations: u32,
     /// Smoothed quotient of successive increments.
     pub(crate) rate: f64,
-    /// rate/(1 − rate): bound of the remaining error in terms of the last increment; for a first iteration from the steps before.
+    /// rate/(1 − rate): bound of the remaining error in terms of the last increment; for a first
+    /// iteration from the steps before.
     remaining: f64,
     norm: f64,
     quotient: f64,
@@ -61,7 +65,8 @@ impl Convergence {
         }
     }
 
-    /// Judges an iteration with increments of the given norm; what is left at the end may have the norm `permitted`.
+    /// Judges an iteration with increments of the given norm; what is left at the end may have the
+    /// norm `permitted`.
     pub(crate) fn judge(&mut self, norm: f64, permitted: f64) -> Verdict {
         self.iterations += 1;
         let (last_norm, last_quotient) = (self.norm.max(f64::EPSILON), self.quotient);

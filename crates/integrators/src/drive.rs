@@ -1,6 +1,8 @@
-//! The loop shared by all methods: trials, rejections, accepted steps, legs between break times, limits.
+//! The loop shared by all methods: trials, rejections, accepted steps, legs between break times,
+//! limits.
 //!
-//! Not here: formulas of a method (`Stepper`), the law of step control (`control`), output times (`sample`).
+//! Not here: formulas of a method (`Stepper`), the law of step control (`control`), output times
+//! (`sample`).
 
 use crate::error::{Cause, Failure, IntegrationError};
 use crate::interval::{Interval, Leg};
@@ -12,9 +14,11 @@ use crate::statistics::Statistics;
 use crate::step::Step;
 use std::ops::ControlFlow;
 
-/// A step below this many units in the last place of t counts as collapsed: stage times would no longer differ.
+/// A step below this many units in the last place of t counts as collapsed: stage times would no
+/// longer differ.
 const SMALLEST_STEP_IN_EPSILONS: f64 = 16.0;
-/// A step that would leave less than this part of itself before the end of a leg is stretched to the end.
+/// A step that would leave less than this part of itself before the end of a leg is stretched to
+/// the end.
 const STRETCH: f64 = 1.01;
 /// A step that stops before a delicate time leaves this part of what a step of its size could pass.
 const LEFT_TO_PASS: f64 = 0.8;
@@ -252,8 +256,9 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         finite(&self.y0).map_err(|component| failed(Cause::NonFinite { component }))
     }
 
-    /// Changes a step that would reach a delicate time, so that it or the next one passes it with the time in the widest gap between
-    /// its nodes. Where smaller steps would be no better, it passes from as far away as its slack allows.
+    /// Changes a step that would reach a delicate time, so that it or the next one passes it with
+    /// the time in the widest gap between its nodes. Where smaller steps would be no better, it
+    /// passes from as far away as its slack allows.
     fn step_over(&mut self, delicate: Delicate, gap: f64, order: i32) {
         let longest = match self.noise {
             Noise::None => 1.0,
@@ -264,7 +269,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         if distance <= 0.0 || distance >= 1.0 + reach {
             return;
         }
-        // In units of h: this step passes if it may be so long, else it leaves the next one a little less than its reach.
+        // In units of h: this step passes if it may be so long, else it leaves the next one a
+        // little less than its reach.
         let share = match distance <= reach {
             true => distance / gap,
             false => (distance - LEFT_TO_PASS * reach).min(1.0),
@@ -307,7 +313,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         })
     }
 
-    /// Stages, error test, hook. On success `y1`, `f1` and `error_norm` describe a step that is accepted.
+    /// Stages, error test, hook. On success `y1`, `f1` and `error_norm` describe a step that is
+    /// accepted.
     fn attempt<O: Ode<Error = E>, S: Stepper<O>>(
         &mut self,
         ode: &mut O,
@@ -392,7 +399,8 @@ impl<'a, E: std::error::Error + 'static> Run<'a, E> {
         self.t = trial.t1;
         self.failures = 0;
         self.last_rejection = None;
-        // A step cut by the end of its leg or before a delicate time says nothing against the size wanted before.
+        // A step cut by the end of its leg or before a delicate time says nothing against the size
+        // wanted before.
         let is_cut = trial.t1 == trial.leg.end || self.uncut.is_some();
         let wanted = self.uncut.take().unwrap_or(self.h);
         let mut h = stepper.after_acceptance(trial.h, self.error_norm.unwrap_or(0.0));

@@ -11,7 +11,8 @@ pub enum Cause<E: Error + 'static> {
     /// Error control asks for shorter steps.
     #[error("error control (the last estimated local error is {norm:.3e} of the permitted one)")]
     ErrorTest {
-        /// Weighted norm of the last estimated error; ≤ 1 if that step was accepted and the next one had to be shorter.
+        /// Weighted norm of the last estimated error; ≤ 1 if that step was accepted and the next
+        /// one had to be shorter.
         norm: f64,
     },
     /// A derivative or a new state was not finite.
@@ -100,7 +101,8 @@ pub enum IntegrationError<E: Error + 'static> {
         /// End of the interval.
         t_end: f64,
     },
-    /// f could not be evaluated at the start or just after a break time, where no shorter step can help.
+    /// f could not be evaluated at the start or just after a break time, where no shorter step can
+    /// help.
     #[error("f(t, y) cannot be evaluated at t = {t}, where a step has to start: {cause}")]
     StartFailed {
         /// The time.

@@ -1,4 +1,5 @@
-//! Events: times at which a function g(t, y) of the solution passes zero, found in the accurate dense output of accepted steps.
+//! Events: times at which a function g(t, y) of the solution passes zero, found in the accurate
+//! dense output of accepted steps.
 //!
 //! Not here: what happens at an event. A motion that jumps is integrated again from there.
 
@@ -27,7 +28,8 @@ pub enum Direction {
 /// A zero of g.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Crossing {
-    /// Time, exact to a few units in the last place of t for the dense output; g is zero there or has its new sign already.
+    /// Time, exact to a few units in the last place of t for the dense output; g is zero there or
+    /// has its new sign already.
     pub t: f64,
     /// Whether g was negative before.
     pub is_rising: bool,
@@ -40,15 +42,18 @@ const WIDTH_IN_EPSILONS: f64 = 2.0;
 
 /// Finds the zeros of one function g step by step, for use in an observer.
 ///
-/// g is looked at in eleven places of each step, first in the dense output that costs nothing; only a step in which its sign
-/// changes pays for the accurate one. A zero at the end of a step belongs to that step, one at the start of the integration to
-/// none. Not seen are two zeros between neighbouring places, a contact without change of sign (a grazing contact) unless g happens
-/// to be exactly 0 in one of the places, and a sign that changes with a jump of the state at a break time. Bound the step size
-/// where g changes faster than the solution, and look for zeros of dg/dt where contacts matter.
+/// g is looked at in eleven places of each step, first in the dense output that costs nothing; only
+/// a step in which its sign changes pays for the accurate one. A zero at the end of a step belongs
+/// to that step, one at the start of the integration to none. Not seen are two zeros between
+/// neighbouring places, a contact without change of sign (a grazing contact) unless g happens to be
+/// exactly 0 in one of the places, and a sign that changes with a jump of the state at a break
+/// time. Bound the step size where g changes faster than the solution, and look for zeros of dg/dt
+/// where contacts matter.
 ///
 /// # Examples
 ///
-/// The upward zeros of sin t = y, y' = cos t, between 0 and 20: 2π, 4π, 6π (0 is where the integration starts).
+/// The upward zeros of sin t = y, y' = cos t, between 0 and 20: 2π, 4π, 6π (0 is where the
+/// integration starts).
 ///
 /// ```
 /// use integrators::{Crossings, Direction, Dop853, Function, Interval, Options, integrate};
@@ -83,11 +88,13 @@ impl Crossings {
         }
     }
 
-    /// The zeros of g in this step, in the direction of travel. g is called with the problem, the time and the state.
+    /// The zeros of g in this step, in the direction of travel. g is called with the problem, the
+    /// time and the state.
     ///
     /// # Errors
     ///
-    /// [`IntegrationError::EventUndefined`] if g is not a number, [`IntegrationError::OutputFailed`] if an extra evaluation of f fails.
+    /// [`IntegrationError::EventUndefined`] if g is not a number,
+    /// [`IntegrationError::OutputFailed`] if an extra evaluation of f fails.
     pub fn locate<O: Ode>(
         &mut self,
         step: &mut Step<'_, O>,
@@ -159,11 +166,13 @@ fn number<E: Error + 'static>(t: f64, g: f64) -> Result<f64, IntegrationError<E>
     }
 }
 
-/// Integrates like [`integrate`] until g(t, y) passes zero in the given direction: the outcome is then
-/// [`End::Stopped`](crate::End::Stopped) with the time of the event and the state of the accurate dense output there.
+/// Integrates like [`integrate`] until g(t, y) passes zero in the given direction: the outcome is
+/// then [`End::Stopped`](crate::End::Stopped) with the time of the event and the state of the
+/// accurate dense output there.
 ///
-/// What [`Crossings`] says about zeros that are not seen holds here, too. A motion that goes on from an event begins with g = 0 but for
-/// rounding: choose the direction so that leaving does not count.
+/// What [`Crossings`] says about zeros that are not seen holds here, too. A motion that goes on
+/// from an event begins with g = 0 but for rounding: choose the direction so that leaving does not
+/// count.
 ///
 /// # Errors
 ///

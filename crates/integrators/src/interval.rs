@@ -1,8 +1,9 @@
 //! The time span, its break times, and the one-sided evaluation of f at them.
 //!
-//! Between two break times lies a *leg*. A step never crosses the border of a leg, ends there exactly, and f is only
-//! evaluated at times inside the leg: at a break time the neighbouring floating-point number is used instead, so that f
-//! has its left limit in the leg before and its right limit in the leg after, however the problem writes its `if t < …`.
+//! Between two break times lies a *leg*. A step never crosses the border of a leg, ends there
+//! exactly, and f is only evaluated at times inside the leg: at a break time the neighbouring
+//! floating-point number is used instead, so that f has its left limit in the leg before and its
+//! right limit in the leg after, however the problem writes its `if t < …`.
 
 use crate::error::IntegrationError;
 use std::error::Error;
@@ -14,8 +15,9 @@ pub struct Interval<'a> {
     pub t0: f64,
     /// End; may be smaller than `t0`.
     pub t_end: f64,
-    /// Times at which f or one of its derivatives with respect to t jumps, in any order. A step ends exactly at each of
-    /// them. Those outside the interval are ignored; `t0` and `t_end` may be among them.
+    /// Times at which f or one of its derivatives with respect to t jumps, in any order. A step
+    /// ends exactly at each of them. Those outside the interval are ignored; `t0` and `t_end` may
+    /// be among them.
     pub break_times: &'a [f64],
 }
 
@@ -31,7 +33,8 @@ impl Interval<'static> {
     }
 }
 
-/// A smooth part of the interval. `inside` are the times at which f may be evaluated, in the order of travel.
+/// A smooth part of the interval. `inside` are the times at which f may be evaluated, in the order
+/// of travel.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Leg {
     pub(crate) start: f64,
@@ -54,7 +57,8 @@ impl Interval<'_> {
         if self.t_end < self.t0 { -1.0 } else { 1.0 }
     }
 
-    /// Checks the times and cuts the interval into legs, in the order of travel; none if t0 = t_end.
+    /// Checks the times and cuts the interval into legs, in the order of travel; none if t0 =
+    /// t_end.
     pub(crate) fn legs<E: Error + 'static>(&self) -> Result<Vec<Leg>, IntegrationError<E>> {
         let invalid = |name, value| Err(IntegrationError::InvalidTime { name, value });
         if !self.t0.is_finite() {

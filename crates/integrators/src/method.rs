@@ -10,8 +10,8 @@ use crate::statistics::Statistics;
 use crate::step::Step;
 use std::ops::ControlFlow;
 
-/// A method that can integrate the problem `O`: [`Dopri5`](crate::Dopri5) and its like. A method asks of the problem what it needs:
-/// explicit methods are methods of every [`Ode`].
+/// A method that can integrate the problem `O`: [`Dopri5`](crate::Dopri5) and its like. A method
+/// asks of the problem what it needs: explicit methods are methods of every [`Ode`].
 ///
 /// Sealed: the loop behind [`integrate`] and the methods are written for each other.
 pub trait Method<O: Ode> {
@@ -43,7 +43,8 @@ pub struct Outcome {
     /// Whether `t_end` was reached.
     pub end: End,
     /// Size > 0 of the step that would have been tried next, cut by no end and no break time: the
-    /// [`InitialStep::Given`](crate::InitialStep::Given) of an integration that goes on from here. `None` if there was no step.
+    /// [`InitialStep::Given`](crate::InitialStep::Given) of an integration that goes on from here.
+    /// `None` if there was no step.
     pub next_step: Option<f64>,
     /// Cost.
     pub statistics: Statistics,
@@ -62,15 +63,18 @@ impl Outcome {
     }
 }
 
-/// Integrates y' = f(t, y), y(t0) = `y0` over `interval` and calls `observe` with each accepted step.
+/// Integrates y' = f(t, y), y(t0) = `y0` over `interval` and calls `observe` with each accepted
+/// step.
 ///
-/// Memory is allocated before the first step only. If t0 = t_end nothing is evaluated and nobody is called.
+/// Memory is allocated before the first step only. If t0 = t_end nothing is evaluated and nobody is
+/// called.
 ///
 /// # Errors
 ///
-/// A [`Failure`] with the last good state, its time and the statistics; what `observe` has seen stays valid. Its `error` is
-/// one of [`DimensionMismatch`], [`NonFiniteInitialState`], [`InvalidTime`], [`InvalidOption`], [`ToleranceLength`] (nothing
-/// was done), [`StartFailed`], [`StepSizeCollapsed`], [`TooManySteps`].
+/// A [`Failure`] with the last good state, its time and the statistics; what `observe` has seen
+/// stays valid. Its `error` is one of [`DimensionMismatch`], [`NonFiniteInitialState`],
+/// [`InvalidTime`], [`InvalidOption`], [`ToleranceLength`] (nothing was done), [`StartFailed`],
+/// [`StepSizeCollapsed`], [`TooManySteps`].
 ///
 /// [`DimensionMismatch`]: crate::IntegrationError::DimensionMismatch
 /// [`NonFiniteInitialState`]: crate::IntegrationError::NonFiniteInitialState
@@ -154,11 +158,13 @@ pub struct Start<'a> {
     pub(crate) tolerance: &'a Tolerance,
 }
 
-/// A delicate time lies at most so far into the step that passes it: then it ends farther behind the time than it began before it, so that a
-/// place that was far enough to begin is not too near to end.
+/// A delicate time lies at most so far into the step that passes it: then it ends farther behind
+/// the time than it began before it, so that a place that was far enough to begin is not too near
+/// to end.
 const AHEAD: f64 = 0.45;
 
-/// A place in the widest gap between nodes, 0 and 1 included: its middle, if a step that passes it there ends farther away than it began.
+/// A place in the widest gap between nodes, 0 and 1 included: its middle, if a step that passes it
+/// there ends farther away than it began.
 pub(crate) fn widest_gap(nodes: &[f64]) -> f64 {
     let all = || nodes.iter().copied().chain([0.0, 1.0]);
     let gap = |from: f64| (from, all().filter(|c| *c > from).fold(1.0, f64::min));
@@ -168,7 +174,8 @@ pub(crate) fn widest_gap(nodes: &[f64]) -> f64 {
     (0.5 * (from + to)).min(AHEAD.max(from))
 }
 
-/// What the shared loop needs from a method: a trial step, its error, the derivative at its end, the next step size.
+/// What the shared loop needs from a method: a trial step, its error, the derivative at its end,
+/// the next step size.
 pub trait Stepper<O: Ode>: Dense<O> {
     /// Order of the solution that is carried on.
     fn order(&self) -> i32;
@@ -201,7 +208,8 @@ pub trait Stepper<O: Ode>: Dense<O> {
         statistics: &mut Statistics,
     ) -> Result<f64, Cause<O::Error>>;
 
-    /// Writes the derivative at the end of the last trial to `f1`, for a state that the hook has left unchanged.
+    /// Writes the derivative at the end of the last trial to `f1`, for a state that the hook has
+    /// left unchanged.
     fn end_derivative(
         &mut self,
         ode: &mut O,
@@ -226,8 +234,8 @@ pub trait Stepper<O: Ode>: Dense<O> {
         self.control().reject(h, error_norm)
     }
 
-    /// Size of the next trial after one of size h that gave no error estimate or was not wanted; `factor` is what the loop
-    /// proposes.
+    /// Size of the next trial after one of size h that gave no error estimate or was not wanted;
+    /// `factor` is what the loop proposes.
     fn after_failure(&mut self, h: f64, factor: f64) -> f64 {
         self.control().shorten(h, factor)
     }

@@ -7,8 +7,9 @@ use std::error::Error;
 
 /// An ordinary differential equation `y' = f(t, y)`, y ∈ ℝⁿ.
 pub trait Ode {
-    /// Why f or the hook cannot be evaluated. A trial step that meets an error is rejected and repeated with a shorter
-    /// step; the error reaches the caller only when shortening does not help.
+    /// Why f or the hook cannot be evaluated. A trial step that meets an error is rejected and
+    /// repeated with a shorter step; the error reaches the caller only when shortening does not
+    /// help.
     type Error: Error + 'static;
 
     /// Number n of components of y.
@@ -21,7 +22,8 @@ pub trait Ode {
     /// The problem's own. Non-finite values need no error: they are found and treated alike.
     fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Error>;
 
-    /// Called after a trial step has passed the error test, before it is accepted. May move `y` onto a manifold.
+    /// Called after a trial step has passed the error test, before it is accepted. May move `y`
+    /// onto a manifold.
     ///
     /// | argument | length | meaning |
     /// | --- | --- | --- |
@@ -42,14 +44,15 @@ pub trait Ode {
         Ok(StepEnd::Unchanged)
     }
 
-    /// A time ahead near which f is better not evaluated, if one is known: a removable singularity, where values are mostly rounding.
-    /// Steps are then chosen such that it lies between two stages, as far from both as the method allows.
+    /// A time ahead near which f is better not evaluated, if one is known: a removable singularity,
+    /// where values are mostly rounding. Steps are then chosen such that it lies between two
+    /// stages, as far from both as the method allows.
     fn delicate_time(&self) -> Option<Delicate> {
         None
     }
 
-    /// Called at each break time inside the interval, before the first evaluation behind it, with the time just behind it. May
-    /// change `y` (length n): there the solution jumps.
+    /// Called at each break time inside the interval, before the first evaluation behind it, with
+    /// the time just behind it. May change `y` (length n): there the solution jumps.
     ///
     /// # Errors
     ///
@@ -65,8 +68,9 @@ pub trait Ode {
 pub struct Delicate {
     /// The time.
     pub t: f64,
-    /// Factor ≥ 1 by which a step over it may miss its tolerance: smaller steps would come nearer to it and be worse. For the same reason, once
-    /// error control has failed within a step before it, steps up to it may, too.
+    /// Factor ≥ 1 by which a step over it may miss its tolerance: smaller steps would come nearer
+    /// to it and be worse. For the same reason, once error control has failed within a step before
+    /// it, steps up to it may, too.
     pub slack: f64,
 }
 
@@ -77,8 +81,9 @@ pub struct StepInfo<'a> {
     pub t0: f64,
     /// Time at the end of the step.
     pub t: f64,
-    /// Time at which to evaluate f at the end of the step: `t`, except at a break time, where it is the
-    /// neighbouring floating-point number inside the step, so that f has its value from this side.
+    /// Time at which to evaluate f at the end of the step: `t`, except at a break time, where it is
+    /// the neighbouring floating-point number inside the step, so that f has its value from this
+    /// side.
     pub t_rhs: f64,
     /// Estimated local error in the weighted norm; at most 1, or the slack of a delicate time.
     pub error_norm: f64,
@@ -87,8 +92,9 @@ pub struct StepInfo<'a> {
 }
 
 impl StepInfo<'_> {
-    /// Weighted root mean square `√(1/n · Σ (d_i / scale_i)²)`: the norm in which the local error must stay below 1.
-    /// A projection whose correction is of the order 1 in this norm is as large as the permitted error.
+    /// Weighted root mean square `√(1/n · Σ (d_i / scale_i)²)`: the norm in which the local error
+    /// must stay below 1. A projection whose correction is of the order 1 in this norm is as large
+    /// as the permitted error.
     #[must_use]
     pub fn norm(&self, d: &[f64]) -> f64 {
         crate::control::weighted_rms(d, self.scale)
@@ -102,13 +108,14 @@ pub enum StepEnd {
     Unchanged,
     /// `y` was changed and `dy` holds f at the new `y`.
     Projected {
-        /// Size of the change in the norm of [`StepInfo::norm`]; the largest one is kept in the statistics.
+        /// Size of the change in the norm of [`StepInfo::norm`]; the largest one is kept in the
+        /// statistics.
         correction: f64,
         /// Evaluations of f spent, usually 1; added to `Statistics::hook_evaluations`.
         evaluations: u64,
     },
-    /// The step is not to be trusted, for instance because the correction is large compared with the permitted error;
-    /// it is repeated with half the size.
+    /// The step is not to be trusted, for instance because the correction is large compared with
+    /// the permitted error; it is repeated with half the size.
     Reject,
 }
 

@@ -3,15 +3,16 @@
 use crate::error::IntegrationError;
 use std::error::Error;
 
-/// How to integrate. `Options::default()` is a sound start; fields are documented with their defaults.
+/// How to integrate. `Options::default()` is a sound start; fields are documented with their
+/// defaults.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
     /// Permitted local error. Default: rtol = 1e-8, atol = 1e-10.
     pub tolerance: Tolerance,
     /// First trial step. Default: [`InitialStep::Automatic`].
     pub initial_step: InitialStep,
-    /// Largest step size, > 0, in units of t. A last step before a break time or the end may be 1 % longer.
-    /// Default: infinite.
+    /// Largest step size, > 0, in units of t. A last step before a break time or the end may be 1 %
+    /// longer. Default: infinite.
     pub max_step: f64,
     /// Limit on accepted and rejected steps together. Default: 1 000 000.
     pub max_steps: u64,
@@ -45,7 +46,8 @@ impl Options {
     }
 }
 
-/// Permitted local error per step and component: `atol + rtol·max(|y0|, |y1|)`, met in the root mean square.
+/// Permitted local error per step and component: `atol + rtol·max(|y0|, |y1|)`, met in the root
+/// mean square.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Tolerance {
     /// The same for all components. Both finite and ≥ 0, not both 0.

@@ -1,14 +1,17 @@
-//! A root in a bracket: the method ITP (interpolate, truncate, project), which never needs more than one evaluation more than
-//! bisection and converges faster than the secant method where the function is smooth.
+//! A root in a bracket: the method ITP (interpolate, truncate, project), which never needs more
+//! than one evaluation more than bisection and converges faster than the secant method where the
+//! function is smooth.
 //!
-//! Source: I. F. D. Oliveira, R. H. C. Takahashi, An enhancement of the bisection method average performance preserving minmax
-//! optimality, ACM Trans. Math. Softw. 47 (2020) 5, DOI 10.1145/3423597; its constants κ1 = 0.2/(b − a), κ2 = 2, n0 = 1.
+//! Source: I. F. D. Oliveira, R. H. C. Takahashi, An enhancement of the bisection method average
+//! performance preserving minmax optimality, ACM Trans. Math. Softw. 47 (2020) 5, DOI
+//! 10.1145/3423597; its constants κ1 = 0.2/(b − a), κ2 = 2, n0 = 1.
 
 /// One end of a bracket: a place and the value there.
 pub(crate) type End = (f64, f64);
 
-/// Shrinks the bracket from `near` to `far`, whose values have opposite signs or whose far value is zero, to a width of at most
-/// `width` (> 0), and returns its far end: there the value is zero or has the sign of the far one.
+/// Shrinks the bracket from `near` to `far`, whose values have opposite signs or whose far value is
+/// zero, to a width of at most `width` (> 0), and returns its far end: there the value is zero or
+/// has the sign of the far one.
 ///
 /// # Errors
 ///

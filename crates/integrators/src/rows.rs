@@ -1,6 +1,8 @@
-//! Rows at given output times, as accurate as the accurate dense output and independent of the size of the steps.
+//! Rows at given output times, as accurate as the accurate dense output and independent of the size
+//! of the steps.
 //!
-//! A part for observers, beside events and work of their own; [`crate::sample()`] is the convenience that integrates, too.
+//! A part for observers, beside events and work of their own; [`crate::sample()`] is the
+//! convenience that integrates, too.
 
 use crate::error::IntegrationError;
 use crate::interval::Interval;
@@ -12,8 +14,8 @@ use std::ops::ControlFlow;
 /// When rows are wanted.
 #[derive(Debug, Clone, PartialEq)]
 pub enum OutputTimes {
-    /// t0, t0 ± dt, t0 ± 2·dt, … and `t_end` exactly; dt > 0. A multiple of dt that falls within 1e-9·dt of `t_end` gives
-    /// way to it.
+    /// t0, t0 ± dt, t0 ± 2·dt, … and `t_end` exactly; dt > 0. A multiple of dt that falls within
+    /// 1e-9·dt of `t_end` gives way to it.
     Every(f64),
     /// These times inside the interval, ends included, strictly in the order of travel.
     At(Vec<f64>),
@@ -60,7 +62,8 @@ impl Rows {
     ///
     /// # Errors
     ///
-    /// [`IntegrationError::InvalidOption`] for a bad output step, [`IntegrationError::InvalidOutputTime`] for a bad list.
+    /// [`IntegrationError::InvalidOption`] for a bad output step,
+    /// [`IntegrationError::InvalidOutputTime`] for a bad list.
     pub fn new<E: std::error::Error + 'static>(
         times: OutputTimes,
         interval: &Interval<'_>,
@@ -74,7 +77,8 @@ impl Rows {
         })
     }
 
-    /// Calls `row` with the initial state if t0 is among the times. To be called before the integration.
+    /// Calls `row` with the initial state if t0 is among the times. To be called before the
+    /// integration.
     pub fn start<O: Ode>(
         &mut self,
         ode: &mut O,
@@ -90,8 +94,9 @@ impl Rows {
         ControlFlow::Continue(())
     }
 
-    /// Calls `row` with the problem, the time and the state at all output times up to the end of `step`. What `row` does to the
-    /// state (a projection, say) has no effect on the integration. After `Break` by `row` nothing more is called.
+    /// Calls `row` with the problem, the time and the state at all output times up to the end of
+    /// `step`. What `row` does to the state (a projection, say) has no effect on the integration.
+    /// After `Break` by `row` nothing more is called.
     ///
     /// # Errors
     ///
@@ -180,7 +185,8 @@ impl OutputTimes {
                 .and_then(|i| times.get(i))
                 .copied(),
             Self::Every(dt) => {
-                // A product, not a sum: rounding does not pile up. Time number i counts if i·dt is short of the length.
+                // A product, not a sum: rounding does not pile up. Time number i counts if i·dt is
+                // short of the length.
                 let length = (interval.t_end - interval.t0).abs();
                 let before_end = |i: u64| length - i as f64 * dt > SAME_ROW * dt.min(length);
                 if index == 0 || before_end(index) {

@@ -9,10 +9,11 @@ use crate::options::Options;
 use crate::rows::{OutputTimes, Rows};
 use std::ops::ControlFlow;
 
-/// Integrates like [`integrate`] and calls `row` at each of `times`, in order, with the problem, the time and the state.
+/// Integrates like [`integrate`] and calls `row` at each of `times`, in order, with the problem,
+/// the time and the state.
 ///
-/// The state may be changed by `row` (projected, say); the integration does not see the change. Inside steps it comes from
-/// [`crate::Step::interpolate_accurately`]; at t0 it is `y0` as given.
+/// The state may be changed by `row` (projected, say); the integration does not see the change.
+/// Inside steps it comes from [`crate::Step::interpolate_accurately`]; at t0 it is `y0` as given.
 ///
 /// # Errors
 ///

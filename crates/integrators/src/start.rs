@@ -1,7 +1,8 @@
 //! The automatic first step.
 //!
-//! Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4, "Starting step size", with the
-//! sums over the components (not their mean) and the constants of the authors' program DOPRI5.
+//! Source: Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.4,
+//! "Starting step size", with the sums over the components (not their mean) and the constants of
+//! the authors' program DOPRI5.
 
 use crate::control::weighted_square_sum;
 use crate::drive::evaluate;
@@ -21,11 +22,12 @@ pub(crate) struct StartScratch<'a> {
     pub(crate) f: &'a mut [f64],
 }
 
-/// Signed first step for a method of order `order` from (`leg.start`, `y0`) with f0 = f there; |h| ≤ `h_max`.
+/// Signed first step for a method of order `order` from (`leg.start`, `y0`) with f0 = f there; |h|
+/// ≤ `h_max`.
 ///
-/// An explicit Euler step of 1 % of |y|/|f| measures the second derivative; then h makes `h^order · max(|f|, |f'|) = 0.01`
-/// in the norm with weights `scale`. Where f cannot be evaluated after the Euler step, 1 % of that step is taken: error
-/// control and rejection find the rest.
+/// An explicit Euler step of 1 % of |y|/|f| measures the second derivative; then h makes
+/// `h^order · max(|f|, |f'|) = 0.01` in the norm with weights `scale`. Where f cannot be evaluated
+/// after the Euler step, 1 % of that step is taken: error control and rejection find the rest.
 pub(crate) fn initial_step<O: Ode>(
     ode: &mut O,
     leg: &Leg,

@@ -4,14 +4,15 @@
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Statistics {
-    /// Evaluations of f for the steps: starts, restarts at break times, stages, rejected trials included.
+    /// Evaluations of f for the steps: starts, restarts at break times, stages, rejected trials
+    /// included.
     pub evaluations: u64,
     /// Evaluations of f for dense output only.
     pub output_evaluations: u64,
     /// Evaluations of f reported by [`crate::Ode::end_of_step`].
     pub hook_evaluations: u64,
-    /// Evaluations of a Jacobian or of the matrices of a constrained problem; evaluations of f spent on differences are not in
-    /// `evaluations`.
+    /// Evaluations of a Jacobian or of the matrices of a constrained problem; evaluations of f
+    /// spent on differences are not in `evaluations`.
     pub jacobians: u64,
     /// Factorisations for one step size: a real and a complex one (Radau IIA) count once.
     pub factorisations: u64,

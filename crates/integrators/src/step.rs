@@ -36,10 +36,11 @@ pub enum OutputError<E: Error + 'static> {
 
 /// An accepted step from (t0, y0) to (t1, y1), y1 after projection by the hook.
 ///
-/// Both dense outputs give y0 at t0 and y1 at t1 bit for bit, have the derivatives f(t0, y0) and f(t1, y1) there, and are
-/// therefore continuously differentiable over all steps between two break times, with and without projection. (Those of
-/// [`Radau5`](crate::Radau5) are continuous, and their derivatives are right up to their error.)
-/// Between the ends they lie on no manifold: project what is written.
+/// Both dense outputs give y0 at t0 and y1 at t1 bit for bit, have the derivatives f(t0, y0) and
+/// f(t1, y1) there, and are therefore continuously differentiable over all steps between two break
+/// times, with and without projection. (Those of [`Radau5`](crate::Radau5) are continuous, and
+/// their derivatives are right up to their error.) Between the ends they lie on no manifold:
+/// project what is written.
 pub struct Step<'a, O: Ode> {
     ode: &'a mut O,
     dense: &'a mut dyn Dense<O>,
@@ -120,8 +121,8 @@ impl<'a, O: Ode> Step<'a, O> {
         self.ode
     }
 
-    /// Writes y(t) to `out` (length n) without evaluating f; less accurate than the steps, of the order that each method states.
-    /// For pictures and for seeing where events are.
+    /// Writes y(t) to `out` (length n) without evaluating f; less accurate than the steps, of the
+    /// order that each method states. For pictures and for seeing where events are.
     ///
     /// # Errors
     ///
@@ -141,12 +142,14 @@ impl<'a, O: Ode> Step<'a, O> {
         }
     }
 
-    /// Writes y(t) to `out` (length n), as accurate as the steps (of global order, that is). The first call inside a step makes
-    /// extra evaluations of f; further calls in the same step, and calls at its ends, make none.
+    /// Writes y(t) to `out` (length n), as accurate as the steps (of global order, that is). The
+    /// first call inside a step makes extra evaluations of f; further calls in the same step, and
+    /// calls at its ends, make none.
     ///
     /// # Errors
     ///
-    /// [`OutputError::OutsideStep`], [`OutputError::Length`]; [`OutputError::Evaluation`] if f fails.
+    /// [`OutputError::OutsideStep`], [`OutputError::Length`]; [`OutputError::Evaluation`] if f
+    /// fails.
     pub fn interpolate_accurately(
         &mut self,
         t: f64,

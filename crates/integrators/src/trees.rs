@@ -1,7 +1,8 @@
-//! Rooted trees and the order conditions of Butcher's theory, which know no table: what the tables are tested with.
+//! Rooted trees and the order conditions of Butcher's theory, which know no table: what the tables
+//! are tested with.
 //!
-//! A Runge–Kutta formula with weights b(θ) has order p if `Σ b_i(θ)·Φ_i(τ) = θ^|τ| / γ(τ)` for all rooted trees τ with at most
-//! p nodes. Source: Hairer, Nørsett, Wanner I, 2nd ed., II.2 and II.6.
+//! A Runge–Kutta formula with weights b(θ) has order p if `Σ b_i(θ)·Φ_i(τ) = θ^|τ| / γ(τ)` for all
+//! rooted trees τ with at most p nodes. Source: Hairer, Nørsett, Wanner I, 2nd ed., II.2 and II.6.
 
 /// A rooted tree: the sorted subtrees at its root.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
@@ -74,7 +75,8 @@ fn dot<const S: usize>(a: &[f64; S], b: &[f64; S]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
-/// The defects of `weights` at θ in the conditions of one order, each with the symmetry of its tree.
+/// The defects of `weights` at θ in the conditions of one order, each with the symmetry of its
+/// tree.
 fn defects<const S: usize>(
     a: &[[f64; S]; S],
     weights: &[f64; S],

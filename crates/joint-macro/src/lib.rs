@@ -3,9 +3,11 @@
 use codegen::{Invocation, Kind, expand, in_module};
 use proc_macro::TokenStream;
 
-/// Defines a constraint: its type, its facts and its kernels, as an implementation of `joints::Constraint`.
+/// Defines a constraint: its type, its facts and its kernels, as an implementation of
+/// `joints::Constraint`.
 ///
-/// The language is described in the crate `codegen`, an example is in the description of this crate.
+/// The language is described in the crate `codegen`, an example is in the description of this
+/// crate.
 #[proc_macro]
 pub fn joint(call: TokenStream) -> TokenStream {
     items(Kind::Constraint, call)

@@ -1,4 +1,5 @@
-//! Definitions that are not shipped, checked against numbers found by hand, and names that are awkward on purpose.
+//! Definitions that are not shipped, checked against numbers found by hand, and names that are
+//! awkward on purpose.
 
 #![deny(warnings)]
 
@@ -19,7 +20,8 @@ use joint_macro::{force, joint};
 use joints::{Constraint, Element, Force, Pose, Twist};
 
 joint! { plane EqualDistance(i, j, k) {
-    /// The origin of body k is as far from the origin of body i as from the origin of body j: `a·a − b·b = 0`.
+    /// The origin of body k is as far from the origin of body i as from the origin of body j:
+    /// `a·a − b·b = 0`.
     params {}
     let a = origin(k) - origin(i);
     let b = origin(k) - origin(j);
@@ -147,7 +149,8 @@ fn names_that_collide_are_told_apart() {
         f_0: 13.0,
         f_0_t: 14.0,
     };
-    // Body i turned by a right angle: its point is at r_i + (−20, 10), its n is (−1, 0), perp(n) is (0, −1).
+    // Body i turned by a right angle: its point is at r_i + (−20, 10), its n is (−1, 0), perp(n) is
+    // (0, −1).
     let x = [
         Pose {
             x: 100.0,

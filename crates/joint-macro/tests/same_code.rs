@@ -1,5 +1,6 @@
-//! A macro in a user's crate computes what the shipped code computes: every shipped definition goes through `joint!`
-//! or `force!` here, and facts and kernels must agree with those of the crate `joints`, bit for bit.
+//! A macro in a user's crate computes what the shipped code computes: every shipped definition goes
+//! through `joint!` or `force!` here, and facts and kernels must agree with those of the crate
+//! `joints`, bit for bit.
 
 use joints::{
     Argument, Constraint, ConstraintSpec, Force, ForceSpec, Pose, Twist, Visitor,

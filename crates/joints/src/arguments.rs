@@ -1,5 +1,5 @@
-//! Values for the parameters of a definition, checked against its [`Parameter`] list in one place, so that a
-//! kernel never meets a direction without length or a negative stiffness.
+//! Values for the parameters of a definition, checked against its [`Parameter`] list in one place,
+//! so that a kernel never meets a direction without length or a negative stiffness.
 
 use std::fmt;
 

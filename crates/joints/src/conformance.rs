@@ -1,8 +1,10 @@
-//! Property tests for every definition in one place, for those that are shipped and for a joint of one's own.
+//! Property tests for every definition in one place, for those that are shipped and for a joint of
+//! one's own.
 //!
-//! A definition is checked by its type alone; parameters, poses, motions, multipliers and functions of time are drawn
-//! from what its spec says, reproducibly from a seed: [`ORDINARY_CASES`] ordinary cases, and [`AWKWARD_CASES`]
-//! of each awkward [`Kind`]. What is compared is the largest difference of a [`Block`], relative to its largest entry.
+//! A definition is checked by its type alone; parameters, poses, motions, multipliers and functions
+//! of time are drawn from what its spec says, reproducibly from a seed: [`ORDINARY_CASES`] ordinary
+//! cases, and [`AWKWARD_CASES`] of each awkward [`Kind`]. What is compared is the largest
+//! difference of a [`Block`], relative to its largest entry.
 //!
 //! | block | reference, by dual numbers (1e-12) and, in every fourth ordinary case, by differences (1e-9) |
 //! | --- | --- |
@@ -17,12 +19,13 @@
 //! | start | rows that keep the start are zero there |
 //! | velocity terms of forces | never add energy |
 //!
-//! Balance and norms are expected of definitions that relate bodies to each other: those with two or more slots and
-//! without a line of the ground (balance of constraints: on position level, since velocities are against the ground).
-//! A joint against the ground takes the ground as a slot.
+//! Balance and norms are expected of definitions that relate bodies to each other: those with two
+//! or more slots and without a line of the ground (balance of constraints: on position level, since
+//! velocities are against the ground). A joint against the ground takes the ground as a slot.
 //!
-//! No derivative can see a wrong Φ, velocity row or law: a sign, an axis, a row that is missing. For that a definition needs a
-//! table of poses worked out by hand; this crate has one for each in `tests/golden`.
+//! No derivative can see a wrong Φ, velocity row or law: a sign, an axis, a row that is missing.
+//! For that a definition needs a table of poses worked out by hand; this crate has one for each in
+//! `tests/golden`.
 //!
 //! ```
 //! use joints::conformance::{check_constraint, check_force};
@@ -56,12 +59,12 @@ use crate::spec::{Shape, Spec};
 use crate::visitor::Visitor;
 use failure::fact;
 
-/// Against dual numbers and identities: both sides carry the round-off of some ten operations, about 1e-15,
-/// times up to 1e3 where coordinates or angles are that large.
+/// Against dual numbers and identities: both sides carry the round-off of some ten operations,
+/// about 1e-15, times up to 1e3 where coordinates or angles are that large.
 pub const DUAL_TOLERANCE: f64 = 1e-12;
 
-/// Against differences: the best step loses about a third of the digits of a first derivative, and extrapolation
-/// gives most of them back; second derivatives are the measure.
+/// Against differences: the best step loses about a third of the digits of a first derivative, and
+/// extrapolation gives most of them back; second derivatives are the measure.
 pub const DIFFERENCE_TOLERANCE: f64 = 1e-9;
 
 /// A way to a reference, and how far it is trusted.

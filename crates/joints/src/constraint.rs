@@ -1,8 +1,9 @@
 //! Constraints: the trait that a definition expands to, and its face as an object.
 //!
-//! A block has one row for each constraint row and three columns for each body slot (x, y, rotation). Slices `x` and `v` hold
-//! the poses and twists of the slots in order, `f` the jets `[f, ḟ, f̈]` of the functions of time.
-//! Output slices are overwritten. Sparse outputs follow the pattern of the [`ConstraintSpec`].
+//! A block has one row for each constraint row and three columns for each body slot (x, y,
+//! rotation). Slices `x` and `v` hold the poses and twists of the slots in order, `f` the jets
+//! `[f, ḟ, f̈]` of the functions of time. Output slices are overwritten. Sparse outputs follow the
+//! pattern of the [`ConstraintSpec`].
 
 use crate::arguments::{Argument, ArgumentError};
 use crate::plane::{Pose, Twist};
@@ -31,8 +32,8 @@ pub trait Constraint: Clone + Send + Sync + Sized + 'static {
     /// Whether requirement `k` of the definition holds at the assembled start.
     fn requirement(&self, k: usize, x: &[Pose]) -> bool;
 
-    /// Points that the definition takes hold of, each in the frame of its body: values of the parameters of this shape, in their
-    /// order. None where a definition does not say.
+    /// Points that the definition takes hold of, each in the frame of its body: values of the
+    /// parameters of this shape, in their order. None where a definition does not say.
     fn points(&self) -> Vec<[f64; 2]> {
         Vec::new()
     }
@@ -54,13 +55,15 @@ pub trait Constraint: Clone + Send + Sync + Sized + 'static {
     /// The other entries of the block of C: `C = ∂Φ̇/∂v` or `Ψ`.
     fn c<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// `b = −Φt` or `−ψ`, one value for each row. Nothing for scleronomic constraints, whose b is zero.
+    /// `b = −Φt` or `−ψ`, one value for each row. Nothing for scleronomic constraints, whose b is
+    /// zero.
     fn b<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
     /// `Γ` of `C·a = Γ`, one value for each row.
     fn gamma<T: Ring>(&self, x: &[Pose<T>], v: &[Twist<T>], f: &[[T; 3]], out: &mut [T]);
 
-    /// Entries of the 3 × rows map `W` of the wrench on the first body, `[Fx, Fy, T] = W·λ`, T about the place.
+    /// Entries of the 3 × rows map `W` of the wrench on the first body, `[Fx, Fy, T] = W·λ`, T
+    /// about the place.
     fn wrench<T: Ring>(&self, x: &[Pose<T>], f: &[[T; 3]], out: &mut [T]);
 
     /// Coefficients of the named component of the reaction, `Σ out·λ`. Nothing where there is none.

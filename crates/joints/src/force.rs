@@ -1,7 +1,7 @@
 //! Forces: the trait that a definition expands to, and its face as an object.
 //!
-//! Each force is a law on relative coordinates: `Q = Σ law·∂coordinate/∂x`, so that internal forces balance by
-//! construction. Slices as in [`crate::constraint`].
+//! Each force is a law on relative coordinates: `Q = Σ law·∂coordinate/∂x`, so that internal forces
+//! balance by construction. Slices as in [`crate::constraint`].
 
 use crate::arguments::{Argument, ArgumentError};
 use crate::plane::{Pose, Twist};
@@ -13,7 +13,8 @@ pub trait Force: Clone + Send + Sync + Sized + 'static {
     /// The facts of the definition.
     const SPEC: ForceSpec;
 
-    /// The force with these values for its parameters; initial values are zero until [`Force::initialise`].
+    /// The force with these values for its parameters; initial values are zero until
+    /// [`Force::initialise`].
     ///
     /// # Errors
     /// If a value is missing, of another shape or out of range.
@@ -25,8 +26,8 @@ pub trait Force: Clone + Send + Sync + Sized + 'static {
     /// Whether requirement `k` of the definition holds at the assembled start.
     fn requirement(&self, k: usize, x: &[Pose]) -> bool;
 
-    /// Points that the definition takes hold of, each in the frame of its body: values of the parameters of this shape, in their
-    /// order. None where a definition does not say.
+    /// Points that the definition takes hold of, each in the frame of its body: values of the
+    /// parameters of this shape, in their order. None where a definition does not say.
     fn points(&self) -> Vec<[f64; 2]> {
         Vec::new()
     }

@@ -1,5 +1,6 @@
-//! A number that writes down what is done with it: kernels run on it once and leave their operations, with the values of their
-//! parameters, on a tape. From tapes come programs for one mechanism; nothing is differentiated or simplified here.
+//! A number that writes down what is done with it: kernels run on it once and leave their
+//! operations, with the values of their parameters, on a tape. From tapes come programs for one
+//! mechanism; nothing is differentiated or simplified here.
 //!
 //! The tape belongs to the thread, because kernels copy numbers and know of nothing else.
 
@@ -39,8 +40,8 @@ thread_local! {
     static TAPE: RefCell<Vec<Operation>> = const { RefCell::new(Vec::new()) };
 }
 
-/// Runs `f` and returns the operations of all [`Recorded`] numbers in it, in their order. Numbers of one recording mean nothing in
-/// another.
+/// Runs `f` and returns the operations of all [`Recorded`] numbers in it, in their order. Numbers
+/// of one recording mean nothing in another.
 ///
 /// ```
 /// use joints::recorded::{Operation, Recorded, record};

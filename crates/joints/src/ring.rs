@@ -1,5 +1,5 @@
-//! Number types that kernels run on: `f64` for motion, double-double for certificates, dual numbers for
-//! tests.
+//! Number types that kernels run on: `f64` for motion, double-double for certificates, dual numbers
+//! for tests.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -35,8 +35,9 @@ impl Real for f64 {
     }
 }
 
-/// The size of the terms that a polynomial adds up: every operation on absolute values, differences as sums. A kernel on magnitudes
-/// gives for each of its results a bound of what cancels in it; times the relative error of the data, a bound of its error.
+/// The size of the terms that a polynomial adds up: every operation on absolute values, differences
+/// as sums. A kernel on magnitudes gives for each of its results a bound of what cancels in it;
+/// times the relative error of the data, a bound of its error.
 ///
 /// ```
 /// use joints::Magnitude;

@@ -1,5 +1,5 @@
-//! What a definition says of itself, as constants of the generated code: enough for a scene reader, an
-//! assembler and a report to treat a joint that they have never heard of.
+//! What a definition says of itself, as constants of the generated code: enough for a scene reader,
+//! an assembler and a report to treat a joint that they have never heard of.
 
 use std::fmt;
 use std::ops::Range;
@@ -21,7 +21,8 @@ pub struct Spec {
     pub slots: &'static [&'static str],
     /// Parameters, in the order of their arguments.
     pub parameters: &'static [Parameter],
-    /// Whether a place in a scene is one common point (`at = [x, y]`) or one point for each point parameter.
+    /// Whether a place in a scene is one common point (`at = [x, y]`) or one point for each point
+    /// parameter.
     pub points_apart: bool,
     /// What must hold at the assembled start, in words, in the order of `requirement`.
     pub requirements: &'static [&'static str],
@@ -220,8 +221,8 @@ pub struct ConstraintSpec {
     pub c: &'static [Entry],
     /// Whether it depends on time explicitly, so that b is not identically zero.
     pub rheonomic: bool,
-    /// Entries (component, row) of the map from multipliers to the wrench on the first body that are not
-    /// identically zero.
+    /// Entries (component, row) of the map from multipliers to the wrench on the first body that
+    /// are not identically zero.
     pub wrench: &'static [[usize; 2]],
     /// A named force component beside Fx, Fy and T.
     pub component: Option<&'static str>,

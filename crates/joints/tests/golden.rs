@@ -1,7 +1,8 @@
-//! Φ, velocity rows and forces against tables worked out by hand, one file for each definition in `tests/golden`: no
-//! derivative can see a wrong sign, a wrong axis or a missing row.
+//! Φ, velocity rows and forces against tables worked out by hand, one file for each definition in
+//! `tests/golden`: no derivative can see a wrong sign, a wrong axis or a missing row.
 //!
-//! A file has at least three poses with `phi`, `velocity` (C·v − b) or `q`; the way to the numbers is in its comments.
+//! A file has at least three poses with `phi`, `velocity` (C·v − b) or `q`; the way to the numbers
+//! is in its comments.
 
 mod table;
 
@@ -158,8 +159,8 @@ fn requirements(golden: &Golden, place: &str, holds: impl Fn(usize) -> bool) {
     }
 }
 
-/// A spring of free length zero is linear in d, also where its points meet: ∂Q/∂x is the stiffness there,
-/// though d has no direction.
+/// A spring of free length zero is linear in d, also where its points meet: ∂Q/∂x is the stiffness
+/// there, though d has no direction.
 #[test]
 fn a_spring_of_free_length_zero_keeps_its_stiffness_at_length_zero() {
     use joints::generated::SpringDamper;

@@ -1,6 +1,8 @@
-//! Other ways to move a mechanism: formulations as right-hand sides over [`model::System`], and two methods with steppers of their own.
+//! Other ways to move a mechanism: formulations as right-hand sides over [`model::System`], and two
+//! methods with steppers of their own.
 //!
-//! Each is short, dense and without monitors. The rank is that of the start and never decided again.
+//! Each is short, dense and without monitors. The rank is that of the start and never decided
+//! again.
 //!
 //! | module | content |
 //! | --- | --- |

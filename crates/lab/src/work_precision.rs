@@ -1,4 +1,5 @@
-//! Error against run time: the methods of the product and the comparators, on a case of the suite or on a scene, in the rows of one table.
+//! Error against run time: the methods of the product and the comparators, on a case of the suite
+//! or on a scene, in the rows of one table.
 
 use std::time::Duration;
 
@@ -8,8 +9,8 @@ use pfaff::work_precision::{Observation, Plan, Subject, Yardstick};
 
 use crate::comparators::{Drift, Formulation, Method, Run, Way, run_within};
 
-/// The ways that are compared beside those of the product: every method on kept rows with projection, and by one of them every formulation and
-/// every treatment of drift.
+/// The ways that are compared beside those of the product: every method on kept rows with
+/// projection, and by one of them every formulation and every treatment of drift.
 #[must_use]
 pub fn ways() -> Vec<Way> {
     let way = |formulation, method, drift| Way {
@@ -26,7 +27,8 @@ pub fn ways() -> Vec<Way> {
     own.into_iter().chain(others).chain([pulled]).collect()
 }
 
-/// All runs of a plan by the product, then the comparators at the same tolerances. A comparator that does not reach its end has a row that says why.
+/// All runs of a plan by the product, then the comparators at the same tolerances. A comparator
+/// that does not reach its end has a row that says why.
 ///
 /// # Errors
 /// As [`Subject::compare`].

@@ -1,4 +1,5 @@
-//! One acceleration by the dense and by the sparse solver, on kept rows of growing mechanisms: from how many rows on is sparse faster?
+//! One acceleration by the dense and by the sparse solver, on kept rows of growing mechanisms: from
+//! how many rows on is sparse faster?
 //!
 //! `cargo run --release -p linalg --example cross_over`
 #![allow(

@@ -1,4 +1,5 @@
-//! One right-hand side of a long chain of parallelograms: factorisation and solution through the Schur complement, from 3e2 to 1e5 rows.
+//! One right-hand side of a long chain of parallelograms: factorisation and solution through the
+//! Schur complement, from 3e2 to 1e5 rows.
 //!
 //! `cargo run --release -p linalg --example large_saddle`
 #![allow(clippy::print_stdout)]
@@ -64,7 +65,8 @@ fn main() {
     }
 }
 
-/// Cells of two or three equal cranks and a coupler that the next cell stands on; of each third crank one row is left out.
+/// Cells of two or three equal cranks and a coupler that the next cell stands on; of each third
+/// crank one row is left out.
 fn chain(cells: usize) -> (SparseMatrix, usize) {
     let mut rows: Vec<Vec<(usize, f64)>> = Vec::new();
     let (mut bodies, mut base) = (0, None);

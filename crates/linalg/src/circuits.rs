@@ -1,8 +1,10 @@
-//! Circuits: minimal sets of rows that depend on each other, the explanation of a redundancy in its smallest pieces.
+//! Circuits: minimal sets of rows that depend on each other, the explanation of a redundancy in its
+//! smallest pieces.
 //!
-//! Redundancy belongs to circuits, never to a row. The p fundamental circuits (one for each dropped row) depend on which rows
-//! were dropped and may be long. Every circuit is the support of a vector `Z·y` that vanishes on a hyperplane of the dual, so
-//! the hyperplanes list all circuits, and the short ones among them say the same in fewer rows.
+//! Redundancy belongs to circuits, never to a row. The p fundamental circuits (one for each dropped
+//! row) depend on which rows were dropped and may be long. Every circuit is the support of a vector
+//! `Z·y` that vanishes on a hyperplane of the dual, so the hyperplanes list all circuits, and the
+//! short ones among them say the same in fewer rows.
 
 use std::cmp::Ordering;
 
@@ -18,15 +20,16 @@ pub struct Circuit {
     pub rows: Vec<usize>,
     /// Coefficients for the rows of C as given, the first largest of them normalised to +1.
     pub coefficients: Vec<f64>,
-    /// The largest coefficient of the equilibrated rows, relative to the largest of all, that counts as zero within a stated tolerance only; zero where
-    /// none does.
+    /// The largest coefficient of the equilibrated rows, relative to the largest of all, that
+    /// counts as zero within a stated tolerance only; zero where none does.
     pub left_out: f64,
 }
 
 /// The fundamental circuit of each dropped row, in the order of `dropped`.
 ///
-/// The support is decided on equilibrated coefficients relative to the largest of the circuit, against the noise of their rows
-/// ([`RankDecision::row_noise`]); a row whose margin is zero is in none. A row of zeros is a circuit by itself.
+/// The support is decided on equilibrated coefficients relative to the largest of the circuit,
+/// against the noise of their rows ([`RankDecision::row_noise`]); a row whose margin is zero is in
+/// none. A row of zeros is a circuit by itself.
 #[must_use]
 pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
     fundamental(decision)
@@ -35,11 +38,13 @@ pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
         .collect()
 }
 
-/// p independent circuits, as short as possible: of all circuits the shortest, then the shortest independent of it, and so on, which
-/// makes the total length smallest. Shortest first, equal lengths by rows; they do not depend on the rows that were dropped.
+/// p independent circuits, as short as possible: of all circuits the shortest, then the shortest
+/// independent of it, and so on, which makes the total length smallest. Shortest first, equal
+/// lengths by rows; they do not depend on the rows that were dropped.
 ///
-/// A component (rows that mix) of redundancy p_c has at most as many circuits as subsets of p_c − 1 of its rows. Where that is more
-/// than 20 000, or where rounding hides which rows belong to one or that a row belongs to any, the fundamental circuits of the component stand in: minimal and
+/// A component (rows that mix) of redundancy p_c has at most as many circuits as subsets of p_c − 1
+/// of its rows. Where that is more than 20 000, or where rounding hides which rows belong to one or
+/// that a row belongs to any, the fundamental circuits of the component stand in: minimal and
 /// independent too, but perhaps longer.
 ///
 /// ```
@@ -78,7 +83,8 @@ pub fn short_circuits(decision: &RankDecision) -> Vec<Circuit> {
 /// Hyperplanes of one component that are tried at most.
 const HYPERPLANES_MAX: usize = 20_000;
 
-/// Vectors that span a hyperplane by less than this do not say where it lies: small coefficients would drown in the noise.
+/// Vectors that span a hyperplane by less than this do not say where it lies: small coefficients
+/// would drown in the noise.
 const PIVOT_MIN: f64 = 1e-4;
 
 /// Equilibrated coefficients by row, zeros left out.
@@ -95,8 +101,8 @@ fn covers(circuits: &[Sparse], rows: &[usize]) -> bool {
     rows.iter().all(|&row| is_in(row))
 }
 
-/// The shortest independent circuits of one component, greedily, which is optimal in a matroid. `None` if they are too many or
-/// too noisy.
+/// The shortest independent circuits of one component, greedily, which is optimal in a matroid.
+/// `None` if they are too many or too noisy.
 fn shortest(dual: &Dual) -> Option<Vec<Sparse>> {
     let p = dual.dimension();
     let classes = dual.parallel_classes().ok()?;
@@ -126,8 +132,8 @@ fn shortest(dual: &Dual) -> Option<Vec<Sparse>> {
     None
 }
 
-/// The circuit `Z̃·y` that vanishes on p − 1 independent vectors, with y. `None` if they are dependent or too noisy to say which other
-/// rows it contains.
+/// The circuit `Z̃·y` that vanishes on p − 1 independent vectors, with y. `None` if they are
+/// dependent or too noisy to say which other rows it contains.
 fn vanishing_on(vectors: Vec<Vec<f64>>, p: usize, dual: &Dual) -> Option<(Sparse, Vec<f64>)> {
     let hyperplane = eliminate(vectors, dual.noise).ok()?;
     if hyperplane.pivots.len() != p - 1 || hyperplane.smallest < PIVOT_MIN {
@@ -171,7 +177,8 @@ fn fundamental(decision: &RankDecision) -> Vec<Sparse> {
         .collect()
 }
 
-/// The largest coefficient that the dependency has by its dropped rows, that is none of these and no rounding, relative to the largest.
+/// The largest coefficient that the dependency has by its dropped rows, that is none of these and
+/// no rounding, relative to the largest.
 fn left_out(decision: &RankDecision, z: &Sparse) -> f64 {
     if !decision.has_tolerance() {
         return 0.0;
@@ -195,8 +202,8 @@ fn left_out(decision: &RankDecision, z: &Sparse) -> f64 {
 /// Equilibrated coefficients in the scaling of C, normalised.
 fn circuit(decision: &RankDecision, z: &Sparse) -> Circuit {
     let exponents = &decision.scaling.rows;
-    // z̃ᵀ·D_r·C·D_c = 0: the coefficient of row i of C is z̃_i·2^rows[i]. Exponents relative to one of the rows keep the
-    // numbers in range.
+    // z̃ᵀ·D_r·C·D_c = 0: the coefficient of row i of C is z̃_i·2^rows[i]. Exponents relative to one
+    // of the rows keep the numbers in range.
     let reference = z.last().map_or(0, |&(row, _)| exponents[row]);
     let scaled: Vec<f64> = z
         .iter()

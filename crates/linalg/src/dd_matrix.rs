@@ -1,7 +1,8 @@
 //! `DdMatrix`: a dense, row-major matrix of double-double numbers, for residuals and certificates.
 //!
-//! A constraint matrix evaluated in double-double at a point polished in double-double has singular values that are zero to 1e-30
-//! where they are zero. Not here: factorisations; those are done in `f64` and corrected by residuals of this type.
+//! A constraint matrix evaluated in double-double at a point polished in double-double has singular
+//! values that are zero to 1e-30 where they are zero. Not here: factorisations; those are done in
+//! `f64` and corrected by residuals of this type.
 
 use std::ops::{Index, IndexMut};
 

@@ -1,9 +1,12 @@
-//! Which rows may be deleted so that the motion stays, and which deletions make a wanted multiplier unique.
+//! Which rows may be deleted so that the motion stays, and which deletions make a wanted multiplier
+//! unique.
 //!
-//! A set D of p rows is admissible iff the other rows still have rank r; equivalently iff the block `Z_D` of a left null space basis
-//! is nonsingular. The multipliers of D are then zero by decree and all others are unique. Deleting fewer rows makes some of them
-//! unique: a combination `ℓᵀ·λ` becomes unique iff `ℓᵀ·Z` lies in the row space of `Z_D`. All of it is decided with the clear gap of
-//! rank decisions, on the coefficients of the decision; where a number lies in the gap, that is the answer.
+//! A set D of p rows is admissible iff the other rows still have rank r; equivalently iff the block
+//! `Z_D` of a left null space basis is nonsingular. The multipliers of D are then zero by decree
+//! and all others are unique. Deleting fewer rows makes some of them unique: a combination `ℓᵀ·λ`
+//! becomes unique iff `ℓᵀ·Z` lies in the row space of `Z_D`. All of it is decided with the clear
+//! gap of rank decisions, on the coefficients of the decision; where a number lies in the gap, that
+//! is the answer.
 //!
 //! Not here: which rows it is sensible to delete. The caller says which are candidates.
 
@@ -26,7 +29,8 @@ pub enum DeletionError {
     /// The rank itself is undecided.
     #[error("the rank is undecided, so no deletion can be judged: {0}")]
     Rank(Doubt),
-    /// Whether some rows may be deleted together hangs on a number that is neither zero nor certainly not.
+    /// Whether some rows may be deleted together hangs on a number that is neither zero nor
+    /// certainly not.
     #[error(
         "whether rows can be deleted together hangs on {value:.3e}, between the rounding {noise:.3e} of the dependencies and what is \
          certainly not zero; polish the point or decide in higher precision"
@@ -79,10 +83,12 @@ impl From<Unclear> for DeletionError {
     }
 }
 
-/// The first `limit` admissible sets of p rows: deleting one of them leaves the motion as it is and all multipliers unique.
+/// The first `limit` admissible sets of p rows: deleting one of them leaves the motion as it is and
+/// all multipliers unique.
 ///
-/// Sets ascend; those of one component (rows that mix) come in lexicographic order, several components combine like the digits of a
-/// number. How many there are is [`count_deletions`]. Full rank has one such set, the empty one.
+/// Sets ascend; those of one component (rows that mix) come in lexicographic order, several
+/// components combine like the digits of a number. How many there are is [`count_deletions`]. Full
+/// rank has one such set, the empty one.
 ///
 /// ```
 /// use linalg::{Matrix, count_deletions, decide, deletions};
@@ -133,8 +139,8 @@ fn require_rank(decision: &RankDecision) -> Result<(), DeletionError> {
     }
 }
 
-/// Adds to `bases` the bases that contain `chosen` and otherwise rows from place `next` on. Every branch that is entered ends in a
-/// basis, so the work for each of them is bounded.
+/// Adds to `bases` the bases that contain `chosen` and otherwise rows from place `next` on. Every
+/// branch that is entered ends in a basis, so the work for each of them is bounded.
 fn list_bases(
     dual: &Dual,
     all: &[usize],

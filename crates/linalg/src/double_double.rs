@@ -5,13 +5,14 @@
 //! transcendental functions, no formatting of all digits.
 //!
 //! Products are split after Dekker instead of using `f64::mul_add`. Both are exact, so both give
-//! the same bits on every platform; but on x86-64 without the FMA target feature `mul_add` is a call
-//! into a software routine, some twenty times slower. The price is range: operands of a product
-//! must stay below 2⁹⁹⁶ in absolute value, and products above 2⁻⁹⁶⁷, for the low part to be right.
+//! the same bits on every platform; but on x86-64 without the FMA target feature `mul_add` is a
+//! call into a software routine, some twenty times slower. The price is range: operands of a
+//! product must stay below 2⁹⁹⁶ in absolute value, and products above 2⁻⁹⁶⁷, for the low part to be
+//! right.
 //!
 //! Sources: T. J. Dekker, A floating-point technique for extending the available precision, Numer.
-//! Math. 18 (1971) 224–242; M. Joldes, J.-M. Muller, V. Popescu, Tight and rigorous error bounds for
-//! basic building blocks of double-word arithmetic, ACM TOMS 44 (2017) 15res.
+//! Math. 18 (1971) 224–242; M. Joldes, J.-M. Muller, V. Popescu, Tight and rigorous error bounds
+//! for basic building blocks of double-word arithmetic, ACM TOMS 44 (2017) 15res.
 
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};

@@ -1,11 +1,13 @@
 //! The rows of a left null space basis as vectors: the dual of the row matroid.
 //!
-//! Row i of Z̃ (m×p, of the equilibrated rows) is the vector of constraint i. A set D of constraints may be deleted without a
-//! change of motion iff its vectors are independent; rows with parallel vectors replace each other; the rows where `Z̃·y`
-//! vanishes and those where it does not are a hyperplane of the dual and a circuit of the rows.
+//! Row i of Z̃ (m×p, of the equilibrated rows) is the vector of constraint i. A set D of
+//! constraints may be deleted without a change of motion iff its vectors are independent; rows with
+//! parallel vectors replace each other; the rows where `Z̃·y` vanishes and those where it does not
+//! are a hyperplane of the dual and a circuit of the rows.
 //!
-//! Every question is a rank of a few vectors, answered by elimination with complete pivoting: multipliers are at most one, so the
-//! noise of all entries stays that of the decision, and an entry between "zero" and "certainly not" is an error, not a guess.
+//! Every question is a rank of a few vectors, answered by elimination with complete pivoting:
+//! multipliers are at most one, so the noise of all entries stays that of the decision, and an
+//! entry between "zero" and "certainly not" is an error, not a guess.
 
 use crate::null_space::Support;
 use crate::rank::{Size, size};
@@ -30,14 +32,15 @@ pub(crate) struct Dual {
 }
 
 impl Dual {
-    /// The vectors of `rows` (ascending); their coordinates belong to the dropped rows among them, so `rows` must be a union of
-    /// components.
+    /// The vectors of `rows` (ascending); their coordinates belong to the dropped rows among them,
+    /// so `rows` must be a union of components.
     pub(crate) fn new(decision: &RankDecision, support: &Support, rows: &[usize]) -> Self {
         let inside = |row: &usize| rows.binary_search(row).is_ok();
         let coordinates: Vec<usize> = (0..decision.redundancy)
             .filter(|&j| inside(&decision.dropped[j]))
             .collect();
-        // Coordinates in units of their largest coefficient: a change of basis that makes their noise equal.
+        // Coordinates in units of their largest coefficient: a change of basis that makes their
+        // noise equal.
         let unit = |j: usize| support.t.row(j).iter().fold(1.0_f64, |a, b| a.max(b.abs()));
         let vector = |row: usize| -> Vec<f64> {
             let of = |j: usize| match decision.kept.binary_search(&row) {

@@ -11,7 +11,8 @@
 use crate::{Matrix, SparseMatrix, kernels};
 
 /// Sweeps of the iteration at most. Each one halves the exponents still to be balanced, and the
-/// exponents of `f64` span 2098 < 2¹², so more sweeps change nothing unless the pattern fights back.
+/// exponents of `f64` span 2098 < 2¹², so more sweeps change nothing unless the pattern fights
+/// back.
 const SWEEPS_MAX: usize = 12;
 
 /// The diagonal matrices `D_r = diag(2^rows)` and `D_c = diag(2^cols)` of an equilibration.
@@ -40,8 +41,9 @@ pub fn equilibrate(c: &Matrix) -> Scaling {
     ruiz((m, n), dense_exponents(c))
 }
 
-/// The same with one factor for each block of rows and each block of columns: what the axes of a body or of a joint are called must not
-/// decide how its components are scaled. `row_blocks` and `col_blocks` number the block of each row and column from 0.
+/// The same with one factor for each block of rows and each block of columns: what the axes of a
+/// body or of a joint are called must not decide how its components are scaled. `row_blocks` and
+/// `col_blocks` number the block of each row and column from 0.
 ///
 /// ```
 /// use linalg::{Matrix, equilibrate_blocks};

@@ -1,7 +1,8 @@
-//! Singular vectors of small matrices, by one-sided Jacobi rotations: blocks between null spaces, a few rows and columns. Not for the evidence of
-//! ranks (`singular_values`).
+//! Singular vectors of small matrices, by one-sided Jacobi rotations: blocks between null spaces, a
+//! few rows and columns. Not for the evidence of ranks (`singular_values`).
 //!
-//! Source: M. R. Hestenes, Inversion of matrices by biorthogonalization and related results, J. SIAM 6 (1958) 51–90.
+//! Source: M. R. Hestenes, Inversion of matrices by biorthogonalization and related results, J.
+//! SIAM 6 (1958) 51–90.
 
 use crate::{Matrix, kernels};
 
@@ -11,8 +12,9 @@ const SWEEPS_MAX: usize = 40;
 /// Columns are orthogonal when the cosine between them is below this: a few roundings.
 const ORTHOGONAL: f64 = 4.0 * f64::EPSILON;
 
-/// `A = U·diag(σ)·Vᵀ` of an m×n matrix with k = min(m, n): left singular vectors in the columns of U (m×k), right ones in those of V (n×k), σ largest
-/// first. Where σ = 0 the columns of U, or of V if A is wide, are zero.
+/// `A = U·diag(σ)·Vᵀ` of an m×n matrix with k = min(m, n): left singular vectors in the columns of
+/// U (m×k), right ones in those of V (n×k), σ largest first. Where σ = 0 the columns of U, or of V
+/// if A is wide, are zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SmallSvd {
     /// m × k

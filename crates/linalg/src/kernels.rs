@@ -61,7 +61,8 @@ pub(crate) fn max_abs(x: &[f64]) -> f64 {
         .fold(0.0, |largest, &a| larger(largest, a))
 }
 
-/// Smallest and largest entry, without branches: `[∞, −∞]` for an empty slice; NaN entries are skipped.
+/// Smallest and largest entry, without branches: `[∞, −∞]` for an empty slice; NaN entries are
+/// skipped.
 pub(crate) fn extremes(x: &[f64]) -> [f64; 2] {
     let smaller = |a: f64, b: f64| if b < a { b } else { a };
     let larger = |a: f64, b: f64| if b > a { b } else { a };

@@ -3,16 +3,17 @@
 //! Why no more of it: up to some 150 rows our own pivoted QR is as fast, saddle solves of that size
 //! are called for every evaluation and must not allocate, and row choices should not depend on a
 //! feature. Singular values are only compared with limits well above the rounding error of either
-//! routine (tested below), so decisions are the same with and without faer. Functions are not generic on purpose:
-//! faer is compiled here and nowhere else.
+//! routine (tested below), so decisions are the same with and without faer. Functions are not
+//! generic on purpose: faer is compiled here and nowhere else.
 
 use faer::MatRef;
 
 use crate::Matrix;
 
-/// Smaller dimension from which faer is used: up to about 200 our own kernel is faster, at 400 it takes 1.4 times as long, at 600 1.5 times
-/// (measured by `cargo run --release -p linalg --features faer --example timings`). Our own gives the same bits on every processor, which faer's run-time
-/// choice of instructions does not.
+/// Smaller dimension from which faer is used: up to about 200 our own kernel is faster, at 400 it
+/// takes 1.4 times as long, at 600 1.5 times (measured by
+/// `cargo run --release -p linalg --features faer --example timings`). Our own gives the same bits
+/// on every processor, which faer's run-time choice of instructions does not.
 pub(crate) const CROSS_OVER: usize = 256;
 
 /// Singular values, largest first; `None` if faer's iteration did not converge.

@@ -1,5 +1,6 @@
-//! LU factorisation of small square matrices with partial pivoting, for the linear systems of implicit methods. Not for ranks: nothing
-//! here says how independent the rows are, beyond a pivot that is exactly zero or not finite.
+//! LU factorisation of small square matrices with partial pivoting, for the linear systems of
+//! implicit methods. Not for ranks: nothing here says how independent the rows are, beyond a pivot
+//! that is exactly zero or not finite.
 
 use crate::kernels::{axpy, dot};
 

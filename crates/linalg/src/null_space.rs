@@ -61,8 +61,9 @@ pub fn components(decision: &RankDecision) -> Components {
     components_of(decision, &Support::new(decision))
 }
 
-/// Rows of components in which a stated tolerance leaves open whether a row belongs to any dependency, or to which: which of them depend on each other
-/// is not known there. Ascending; none without a tolerance.
+/// Rows of components in which a stated tolerance leaves open whether a row belongs to any
+/// dependency, or to which: which of them depend on each other is not known there. Ascending; none
+/// without a tolerance.
 pub fn open_rows(decision: &RankDecision) -> Vec<usize> {
     if !decision.has_tolerance() {
         return Vec::new();
@@ -121,14 +122,16 @@ fn components_of(decision: &RankDecision, support: &Support) -> Components {
     }
 }
 
-/// Which equilibrated coefficients count as non-zero. A row whose margin, the norm of its row of [`orthonormal`], reads as zero is in no
-/// circuit: verdicts ask that question, and circuits must not tell another story.
+/// Which equilibrated coefficients count as non-zero. A row whose margin, the norm of its row of
+/// [`orthonormal`], reads as zero is in no circuit: verdicts ask that question, and circuits must
+/// not tell another story.
 pub(crate) struct Support {
     /// T of the equilibrated rows.
     pub(crate) t: Matrix,
     /// Largest coefficient for each dropped row, at least one.
     size: Vec<f64>,
-    /// Noise of the coefficients of each kept row, relative to it; infinite where the margin is zero.
+    /// Noise of the coefficients of each kept row, relative to it; infinite where the margin is
+    /// zero.
     noise: Vec<f64>,
     /// Whether it is open if the margin of a kept row is zero.
     open: Vec<bool>,
@@ -252,8 +255,9 @@ mod tests {
 
     #[test]
     fn a_row_that_is_unique_is_in_no_circuit() {
-        // Sixteen unit rows and their sum, in which the last has the coefficient x beside fifteen of 1: the dependency has the length 4, so
-        // the margin is x/4. A coefficient of twice the noise is no rounding by itself, but its row is unique.
+        // Sixteen unit rows and their sum, in which the last has the coefficient x beside fifteen
+        // of 1: the dependency has the length 4, so the margin is x/4. A coefficient of twice the
+        // noise is no rounding by itself, but its row is unique.
         let matrix = |x: f64| {
             Matrix::from_fn(17, 17, |i, j| match (i, j) {
                 (16, 15) => x,

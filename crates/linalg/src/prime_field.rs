@@ -1,14 +1,17 @@
 //! Arithmetic modulo a prime, for questions that have no tolerance: is a minor zero?
 //!
-//! A determinant that is not zero modulo one prime is not zero; one that is zero modulo so many primes that their product exceeds
-//! Hadamard's bound is zero. Every finite `f64` is an integer times a power of two, and a power of two is a unit modulo
-//! an odd prime, so constraint matrices are mapped without error. Not here: which rows, which minors (`rank::modular`).
+//! A determinant that is not zero modulo one prime is not zero; one that is zero modulo so many
+//! primes that their product exceeds Hadamard's bound is zero. Every finite `f64` is an integer
+//! times a power of two, and a power of two is a unit modulo an odd prime, so constraint matrices
+//! are mapped without error. Not here: which rows, which minors (`rank::modular`).
 //!
-//! The primes have 62 bits and are drawn from a fixed pseudo-random stream. Primes with a pattern would not do: modulo the convenient
-//! 2⁶¹ − 1 the determinant of [[1, 1], [1, 2⁶¹]] vanishes, and data in binary are full of powers of two.
+//! The primes have 62 bits and are drawn from a fixed pseudo-random stream. Primes with a pattern
+//! would not do: modulo the convenient 2⁶¹ − 1 the determinant of [[1, 1], [1, 2⁶¹]] vanishes, and
+//! data in binary are full of powers of two.
 //!
-//! Source: P. L. Montgomery, Modular multiplication without trial division, Math. Comp. 44 (1985) 519–521; the bases of the primality
-//! test after J. Sorenson, J. Webster, Strong pseudoprimes to twelve prime bases, Math. Comp. 86 (2017) 985–1003.
+//! Source: P. L. Montgomery, Modular multiplication without trial division, Math. Comp. 44 (1985)
+//! 519–521; the bases of the primality test after J. Sorenson, J. Webster, Strong pseudoprimes to
+//! twelve prime bases, Math. Comp. 86 (2017) 985–1003.
 
 use std::sync::LazyLock;
 
@@ -142,8 +145,8 @@ pub(crate) fn fields() -> impl Iterator<Item = PrimeField> {
     ready.iter().copied().chain(more.clone())
 }
 
-/// SplitMix64 (Steele, Lea, Flood 2014), filtered for primes. Two equal ones among n have probability n²/2⁵⁶; the reconstruction
-/// notices, because the second has no inverse of the first.
+/// SplitMix64 (Steele, Lea, Flood 2014), filtered for primes. Two equal ones among n have
+/// probability n²/2⁵⁶; the reconstruction notices, because the second has no inverse of the first.
 #[derive(Debug, Clone)]
 struct Stream(u64);
 
@@ -163,7 +166,8 @@ impl Iterator for Stream {
     }
 }
 
-/// Miller and Rabin's test with the first twelve primes as bases: no composite below 3.1e23 passes it.
+/// Miller and Rabin's test with the first twelve primes as bases: no composite below 3.1e23 passes
+/// it.
 fn is_prime(n: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
     if BASES.iter().any(|b| n.is_multiple_of(*b)) {

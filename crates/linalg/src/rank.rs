@@ -9,7 +9,8 @@
 //!
 //! The rule, with singular values σ of `D_r·C·D_c` (maxima of rows and columns near one):
 //! `τ = 10·max(eps·√(m·n), uncertainty)`, rank r is decided iff `σ_{r+1} ≤ τ` and
-//! `σ_r ≥ max(10³·τ, 10⁻⁷)`; where τ is above 0.01, only if σ_{r+1} is rounding. Two other rules give a certificate: `exact` reads the entries as they stand, `within` reads them in
+//! `σ_r ≥ max(10³·τ, 10⁻⁷)`; where τ is above 0.01, only if σ_{r+1} is rounding. Two other rules
+//! give a certificate: `exact` reads the entries as they stand, `within` reads them in
 //! double-double and knows what the data are worth.
 
 mod bound;
@@ -47,14 +48,16 @@ const NOISE_FACTOR: f64 = 10.0;
 /// The smallest non-zero singular value must clear τ by this factor, or the rank is undecided.
 const CLEARANCE: f64 = 1e3;
 
-/// Data that are known to less than this share of a row say nothing of it: what they hide is no redundancy.
+/// Data that are known to less than this share of a row say nothing of it: what they hide is no
+/// redundancy.
 const HIDDEN: f64 = 0.01;
 
 /// What is above the root of eps in a matrix of size one is no rounding of its entries.
 const NOT_ROUNDING: f64 = 1.5e-8;
 
-/// A configuration is known to about √eps near a singular one, whatever its residual: Newton's method stops there as at a
-/// double root. A smallest singular value below this may be zero at the true configuration.
+/// A configuration is known to about √eps near a singular one, whatever its residual: Newton's
+/// method stops there as at a double root. A smallest singular value below this may be zero at the
+/// true configuration.
 pub const NEARLY_SINGULAR: f64 = 1e-7;
 
 /// Rank of a constraint matrix C (m×n), with the rows to keep and the evidence for it.
@@ -68,8 +71,8 @@ pub struct RankDecision {
     pub kept: Vec<usize>,
     /// The other p rows D, ascending.
     pub dropped: Vec<usize>,
-    /// T̃ = C̃_D·C̃_K⁺ (p×r) between the equilibrated rows: row `dropped[j]` = Σ T̃_ji · row `kept[i]`. Its entries are at most
-    /// 2 unless the caller chose the rows.
+    /// T̃ = C̃_D·C̃_K⁺ (p×r) between the equilibrated rows: row `dropped[j]` = Σ T̃_ji · row
+    /// `kept[i]`. Its entries are at most 2 unless the caller chose the rows.
     pub coefficients: Matrix,
     /// The scaling under which the rank was decided.
     pub scaling: Scaling,
@@ -92,7 +95,8 @@ pub struct Evidence {
     pub gap: f64,
     /// τ: below it a singular value counts as zero.
     pub tolerance: f64,
-    /// The largest uncertainty of an equilibrated entry that the caller stated; 0 for exact entries.
+    /// The largest uncertainty of an equilibrated entry that the caller stated; 0 for exact
+    /// entries.
     pub constraint_residual: f64,
     /// Largest `‖row of C_D − T·C_K‖₂`: how far the dependencies are from exact.
     pub dependence_residual: f64,
@@ -104,7 +108,8 @@ pub struct Evidence {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum RankStatus {
-    /// `σ_{r+1} ≤ τ` and `σ_r ≥ max(10³·τ, 10⁻⁷)`, or, with a certificate, what its [`Grounds`] say.
+    /// `σ_{r+1} ≤ τ` and `σ_r ≥ max(10³·τ, 10⁻⁷)`, or, with a certificate, what its [`Grounds`]
+    /// say.
     Decided,
     /// Two ranks can be read from the singular values; do not build on either.
     Undecided(Doubt),
@@ -131,7 +136,8 @@ pub enum Doubt {
         /// max(10³·τ, 10⁻⁷).
         required: f64,
     },
-    /// A singular value that stays at every precision, about as large as what the data are known to.
+    /// A singular value that stays at every precision, about as large as what the data are known
+    /// to.
     #[error(
         "singular value {sigma:.3e} is the same at every precision and lies between {tolerance:.3e} and {required:.3e}, what \
          the uncertainty of the data explains: rank {lower} or {upper}; know the data better, or change them by more than that"
@@ -182,7 +188,8 @@ pub enum Doubt {
         /// The unit of both: `m`, or `rad` where a tolerance is stated for angles alone.
         unit: &'static str,
     },
-    /// At this pose the data within their tolerance have a lower rank; of too few other poses it is known whether they have it there.
+    /// At this pose the data within their tolerance have a lower rank; of too few other poses it is
+    /// known whether they have it there.
     #[error(
         "with data known to {tolerance:.1e} {unit} the rank at this pose is {lower}; whether it is {lower} or {upper} at others is open, \
          because on the rows that are left too few of them are reached, or none that is known well enough; move the start, or know the data better"
@@ -275,7 +282,8 @@ pub enum RankError {
 ///
 /// # Errors
 /// - [`RankError::NonFinite`]: an entry is NaN or infinite.
-/// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN, infinite or of another matrix.
+/// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN,
+///   infinite or of another matrix.
 ///
 /// Source: rank rule and scaling as in the module docs; rows by pivoted QR of `(D_r·C·D_c)ᵀ` and
 /// strong exchanges (Gu and Eisenstat 1996).
@@ -292,8 +300,8 @@ pub fn decide<'a>(
     Ok(reading.with_basis(scaling, basis))
 }
 
-/// Rows that look independent by the pivots of one factorisation, ascending: what a Newton iteration may solve with, which shows whether they are.
-/// Not a rank.
+/// Rows that look independent by the pivots of one factorisation, ascending: what a Newton
+/// iteration may solve with, which shows whether they are. Not a rank.
 ///
 /// ```
 /// use linalg::{Matrix, promising_rows};
@@ -374,7 +382,8 @@ fn projected(decision: &RankDecision, mut direction: Vec<f64>) -> Vec<f64> {
     direction
 }
 
-/// The status of a rank with a clear gap: decided, unless the tolerance hides singular values that are no rounding.
+/// The status of a rank with a clear gap: decided, unless the tolerance hides singular values that
+/// are no rounding.
 pub(crate) fn shown(sigma_next: f64, tolerance: f64) -> RankStatus {
     match tolerance > HIDDEN && sigma_next > NOT_ROUNDING {
         true => RankStatus::Undecided(Doubt::Hidden {
@@ -465,8 +474,9 @@ impl Reading {
 }
 
 impl RankDecision {
-    /// T = C_D·C_K⁺ (p×r) in the row scaling of C: row `dropped[j]` = Σ T_ji · row `kept[i]`. Leaves the range of `f64` where
-    /// rows differ by more than that; [`RankDecision::coefficients`] does not.
+    /// T = C_D·C_K⁺ (p×r) in the row scaling of C: row `dropped[j]` = Σ T_ji · row `kept[i]`.
+    /// Leaves the range of `f64` where rows differ by more than that;
+    /// [`RankDecision::coefficients`] does not.
     pub fn dependence(&self) -> Matrix {
         // D_r,D·C_D = T̃·D_r,K·C_K, hence T = D_r,D⁻¹·T̃·D_r,K.
         let rows = &self.scaling.rows;

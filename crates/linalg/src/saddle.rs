@@ -14,9 +14,11 @@
 //! [`KeptRowSaddle::new`], `factor` and `solve` allocate nothing. Not for redundant rows: choose
 //! the kept ones with [`decide`](crate::decide) first; no rank is decided here.
 //!
-//! Masses that differ by many powers of ten are graded: then, of the entries that are not much smaller than the largest, the pivot is that of the
-//! lightest coordinate. So the heavy coordinates are free, `Nᵀ·M·N` is their masses and little more, and λ comes
-//! from the equations of light bodies, where no large inertia cancels. What is left is rounding, which [`KeptRowSaddle::solve_refined`] removes.
+//! Masses that differ by many powers of ten are graded: then, of the entries that are not much
+//! smaller than the largest, the pivot is that of the lightest coordinate. So the heavy coordinates
+//! are free, `Nᵀ·M·N` is their masses and little more, and λ comes from the equations of light
+//! bodies, where no large inertia cancels. What is left is rounding, which
+//! [`KeptRowSaddle::solve_refined`] removes.
 //!
 //! The algebra, with `P·Cᵀ = L·U`, `L = [L₁; L₂]` unit lower trapezoidal and y = P·a:
 //! `C·a = γ ⇔ Lᵀ·y = U⁻ᵀ·γ`, `N = Pᵀ·[−L₁⁻ᵀ·L₂ᵀ; I]`, `(NᵀMN)·z = Nᵀ·(f − M·a_p)`,
@@ -37,7 +39,8 @@ use fill::{Fill, Lists};
 
 pub use refine::Refinement;
 
-/// Masses are graded from this spread on, see [`mass_spread`]: below it plain solutions keep about ten digits, and normally twelve.
+/// Masses are graded from this spread on, see [`mass_spread`]: below it plain solutions keep about
+/// ten digits, and normally twelve.
 pub const GRADED_MASSES: f64 = 1e6;
 
 /// Where elimination leaves less than this share of a reduced mass, so many digits are gone.
@@ -72,7 +75,8 @@ pub struct KeptRowSaddle {
     lu: Vec<f64>,
     /// 1/U_jj of each row in use: a product costs less than a quotient.
     inverse: Vec<f64>,
-    /// Coordinates in the order in which a factorisation takes them up, and how many of them it may solve for.
+    /// Coordinates in the order in which a factorisation takes them up, and how many of them it may
+    /// solve for.
     order: Vec<usize>,
     solvable: usize,
     order_parity: f64,
@@ -87,7 +91,8 @@ pub struct KeptRowSaddle {
     mass: Vec<f64>,
     /// L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. k×k, row-major.
     reduced_mass: Vec<f64>,
-    /// Whether no row of the present factorisation was solved for another coordinate than that of the order.
+    /// Whether no row of the present factorisation was solved for another coordinate than that of
+    /// the order.
     is_in_order: bool,
     pivot_ratio: f64,
     /// Smallest share of a diagonal entry of NᵀMN that its elimination left, infinite for k = 0.
@@ -238,8 +243,9 @@ impl KeptRowSaddle {
         Self::with_columns(n, &vec![Vec::from_iter(0..n); r])
     }
 
-    /// Storage for n coordinates and rows of which each is zero outside its columns: entries there are not looked at. The same solutions as
-    /// with [`KeptRowSaddle::new`], bit for bit, for less work where rows have few entries.
+    /// Storage for n coordinates and rows of which each is zero outside its columns: entries there
+    /// are not looked at. The same solutions as with [`KeptRowSaddle::new`], bit for bit, for less
+    /// work where rows have few entries.
     ///
     /// ```
     /// use linalg::KeptRowSaddle;
@@ -253,7 +259,8 @@ impl KeptRowSaddle {
     /// ```
     ///
     /// # Errors
-    /// [`SaddleError::TooManyRows`] if r > n, [`SaddleError::Column`] for a column that is not below n.
+    /// [`SaddleError::TooManyRows`] if r > n, [`SaddleError::Column`] for a column that is not
+    /// below n.
     pub fn with_columns(n: usize, columns: &[Vec<usize>]) -> Result<Self, SaddleError> {
         let r = columns.len();
         if r > n {
@@ -318,21 +325,24 @@ impl KeptRowSaddle {
         self.used[..self.r].binary_search(&k).is_ok()
     }
 
-    /// Whether the masses of the last factorisation are graded, so that light coordinates are solved for: [`mass_spread`] from
-    /// [`GRADED_MASSES`] on, and from a thousandth of it on beside masses that are zero.
+    /// Whether the masses of the last factorisation are graded, so that light coordinates are
+    /// solved for: [`mass_spread`] from [`GRADED_MASSES`] on, and from a thousandth of it on beside
+    /// masses that are zero.
     pub fn is_graded(&self) -> bool {
         self.is_graded
     }
 
-    /// Whether a plain solution of the last factorisation may miss digits that [`KeptRowSaddle::solve_refined`] has: [`mass_spread`]
-    /// from [`GRADED_MASSES`] on, or elimination has left less than 1e-3 of a reduced mass.
+    /// Whether a plain solution of the last factorisation may miss digits that
+    /// [`KeptRowSaddle::solve_refined`] has: [`mass_spread`] from [`GRADED_MASSES`] on, or
+    /// elimination has left less than 1e-3 of a reduced mass.
     pub fn wants_refinement(&self) -> bool {
         self.mass_spread >= GRADED_MASSES || self.mass_ratio < CANCELLED
     }
 
-    /// Smallest `|pivot| / largest entry of its row` of the last factorisation, rows left out included, infinite for r = 0:
-    /// the monitor for near-singular configurations. It changes smoothly along a motion except where
-    /// the pivot order changes, and falls towards zero as the kept rows become dependent.
+    /// Smallest `|pivot| / largest entry of its row` of the last factorisation, rows left out
+    /// included, infinite for r = 0: the monitor for near-singular configurations. It changes
+    /// smoothly along a motion except where the pivot order changes, and falls towards zero as the
+    /// kept rows become dependent.
     pub fn pivot_ratio(&self) -> f64 {
         self.pivot_ratio
     }

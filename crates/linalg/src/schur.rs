@@ -1,21 +1,26 @@
-//! Constrained equations of motion with many independent rows, solved through the Schur complement of the masses:
+//! Constrained equations of motion with many independent rows, solved through the Schur complement
+//! of the masses:
 //!
 //! ```text
 //! | M  Cᵀ | | a |   | f |        S·λ = C·M⁻¹·f − γ,   a = M⁻¹·(f − Cᵀ·λ)
 //! | C  0  | | λ | = | γ |        S = C·M⁻¹·Cᵀ,        M = diag(m) > 0 (n), C of full row rank (r×n), sparse
 //! ```
 //!
-//! S is symmetric and positive definite, so that no pivot has to be searched: the order of elimination is chosen once, from the bodies alone,
-//! and with it the place of every entry of L. What is left for an evaluation is arithmetic on small dense fronts. The work grows with
-//! the square of the width of the graph of bodies: linearly for chains and ladders, as n^1.5 for lattices.
+//! S is symmetric and positive definite, so that no pivot has to be searched: the order of
+//! elimination is chosen once, from the bodies alone, and with it the place of every entry of L.
+//! What is left for an evaluation is arithmetic on small dense fronts. The work grows with the
+//! square of the width of the graph of bodies: linearly for chains and ladders, as n^1.5 for
+//! lattices.
 //!
-//! The price: S has the square of the condition of C, and masses must not vanish. So every solution is compared with its rows, and what is missing
-//! is corrected by the same factors; rows that are dependent for an instant are left out. For small systems, zero masses and masses of many powers
+//! The price: S has the square of the condition of C, and masses must not vanish. So every solution
+//! is compared with its rows, and what is missing is corrected by the same factors; rows that are
+//! dependent for an instant are left out. For small systems, zero masses and masses of many powers
 //! of ten there is [`KeptRowSaddle`](crate::KeptRowSaddle).
 //!
-//! Sources: range space method, M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle point problems, Acta Numerica 14 (2005) 1–137, section 5;
-//! multifrontal elimination, I. S. Duff, J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM Trans.
-//! Math. Softw. 9 (1983) 302–325.
+//! Sources: range space method, M. Benzi, G. H. Golub, J. Liesen, Numerical solution of saddle
+//! point problems, Acta Numerica 14 (2005) 1–137, section 5; multifrontal elimination, I. S. Duff,
+//! J. K. Reid, The multifrontal solution of indefinite sparse symmetric linear equations, ACM
+//! Trans. Math. Softw. 9 (1983) 302–325.
 
 mod factor;
 mod front;
@@ -26,8 +31,9 @@ mod tests;
 
 pub use structure::SchurStructure;
 
-/// Solver of the saddle equations of n coordinates and r independent, sparse constraint rows. All storage is made in [`SchurSaddle::new`];
-/// factorisations and solutions allocate nothing unless they fail.
+/// Solver of the saddle equations of n coordinates and r independent, sparse constraint rows. All
+/// storage is made in [`SchurSaddle::new`]; factorisations and solutions allocate nothing unless
+/// they fail.
 ///
 /// ```
 /// use linalg::{SchurSaddle, SchurStructure, SparseMatrix};
@@ -101,8 +107,8 @@ impl SchurSaddle {
         &self.structure
     }
 
-    /// Smallest share of a row, in the metric of the inverse masses, that the rows eliminated before it do not imply: small near singular
-    /// configurations, infinite without rows.
+    /// Smallest share of a row, in the metric of the inverse masses, that the rows eliminated
+    /// before it do not imply: small near singular configurations, infinite without rows.
     #[must_use]
     pub fn pivot_ratio(&self) -> f64 {
         self.pivot_ratio

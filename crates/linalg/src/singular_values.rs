@@ -1,18 +1,21 @@
 //! Singular values, as evidence for rank decisions.
 //!
-//! Householder reflections from both sides make a matrix bidiagonal, Givens rotations with Wilkinson's shift make that diagonal; only
-//! values are carried along. Errors are a small multiple of `eps·σ₁`, which is what decisions compare with. No singular vectors: null
-//! spaces come from the row basis. Matrices of several hundred rows go to faer where that feature is on.
+//! Householder reflections from both sides make a matrix bidiagonal, Givens rotations with
+//! Wilkinson's shift make that diagonal; only values are carried along. Errors are a small multiple
+//! of `eps·σ₁`, which is what decisions compare with. No singular vectors: null spaces come from
+//! the row basis. Matrices of several hundred rows go to faer where that feature is on.
 //!
-//! Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed. (2013), §8.6. Should the rotations not come to an end, which is not known to
-//! happen, one-sided Jacobi rotations do: Z. Drmač, K. Veselić, New fast and accurate Jacobi SVD algorithm I, SIAM J. Matrix Anal.
-//! Appl. 29 (2008) 1322–1342.
+//! Source: G. H. Golub, C. F. Van Loan, Matrix Computations, 4th ed. (2013), §8.6. Should the
+//! rotations not come to an end, which is not known to happen, one-sided Jacobi rotations do: Z.
+//! Drmač, K. Veselić, New fast and accurate Jacobi SVD algorithm I, SIAM J. Matrix Anal. Appl. 29
+//! (2008) 1322–1342.
 
 use crate::{Matrix, PivotedQr, equilibrate, kernels, qr};
 
 mod diagonal;
 
-/// Sweeps of Jacobi rotations at most; after a pivoted QR four to six are needed, convergence is quadratic.
+/// Sweeps of Jacobi rotations at most; after a pivoted QR four to six are needed, convergence is
+/// quadratic.
 const SWEEPS_MAX: usize = 40;
 
 /// Squared rows below this (relative to a largest entry of one) are zero for every purpose; keeps
@@ -107,8 +110,8 @@ fn upper(d: &[f64], f: &[f64]) -> Matrix {
     })
 }
 
-/// Singular values of a matrix with entries near one by one-sided Jacobi rotations on the rows of R from a pivoted QR: slower, but they cannot fail,
-/// and small values have small errors too.
+/// Singular values of a matrix with entries near one by one-sided Jacobi rotations on the rows of R
+/// from a pivoted QR: slower, but they cannot fail, and small values have small errors too.
 pub(crate) fn by_jacobi(a: Matrix) -> Vec<f64> {
     // The second QR makes a wide R square and moves it closer to a diagonal: fewer sweeps.
     let r = PivotedQr::of_rows(a).r();

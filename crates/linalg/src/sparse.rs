@@ -1,8 +1,10 @@
 //! Sparse constraint matrices: hundreds of thousands of rows, each with entries of a few bodies.
 //!
-//! The dense code of this crate answers the same questions with more evidence; this one answers them in a time that grows with the
-//! number of bodies where each has few neighbours: linearly along chains, with the power 3/2 on plane lattices, with the square of the joints
-//! that one body has. What would take hours is refused. Not a sparse linear algebra library: there is what a rank needs, and no more.
+//! The dense code of this crate answers the same questions with more evidence; this one answers
+//! them in a time that grows with the number of bodies where each has few neighbours: linearly
+//! along chains, with the power 3/2 on plane lattices, with the square of the joints that one body
+//! has. What would take hours is refused. Not a sparse linear algebra library: there is what a rank
+//! needs, and no more.
 
 mod factor;
 mod front;

@@ -64,7 +64,8 @@ pub(crate) fn bounded(c: &Matrix, mut kept: Vec<usize>) -> Basis {
     basis
 }
 
-/// Exchanges rows until `|T_ji| ≤ 2`; T is updated, not computed afresh, and the lists are no longer ascending.
+/// Exchanges rows until `|T_ji| ≤ 2`; T is updated, not computed afresh, and the lists are no
+/// longer ascending.
 pub(crate) fn exchange_all(t: &mut Matrix, kept: &mut [usize], dropped: &mut [usize]) {
     let exchanges_max = 10 * (kept.len() + dropped.len());
     for _ in 0..exchanges_max {
@@ -105,7 +106,8 @@ pub(crate) fn express(c: &Matrix, mut kept: Vec<usize>) -> Basis {
     }
 }
 
-/// Coefficients of the row y in the rows that were factored, and the norm of what y has outside their span; y is overwritten.
+/// Coefficients of the row y in the rows that were factored, and the norm of what y has outside
+/// their span; y is overwritten.
 pub(crate) fn coefficients(qr: &PivotedQr, y: &mut [f64], t: &mut [f64]) -> f64 {
     qr.q_transpose_mul(y);
     let (x, outside) = y.split_at_mut(t.len());

@@ -1,17 +1,20 @@
-//! What the pattern of a constraint matrix settles before any rank of the whole: rows that are in no dependency because of where
-//! they act, and parts that have nothing to do with each other.
+//! What the pattern of a constraint matrix settles before any rank of the whole: rows that are in
+//! no dependency because of where they act, and parts that have nothing to do with each other.
 //!
-//! Columns come in blocks (bodies), rows in groups (joints). Three facts are used, each exact in one direction: what they settle is
-//! settled, what they leave open needs numbers.
+//! Columns come in blocks (bodies), rows in groups (joints). Three facts are used, each exact in
+//! one direction: what they settle is settled, what they leave open needs numbers.
 //!
-//! - **Parts.** Groups that share no block, directly or through others, are independent problems. The ground is no block.
-//! - **Peeling.** `Cᵀ·z = 0` on the columns of one block involves only the rows that touch it. If these rows, restricted to the block,
-//!   are independent, then z vanishes on all of them; they and the block leave.
-//! - **Bridges.** In the graph of blocks and ground a group that alone joins a set S of blocks to the rest has `C_Xᵀ·z_X = 0`: the
-//!   equilibrium of S. This needs mechanics, see [`RowGroup::ground`].
+//! - **Parts.** Groups that share no block, directly or through others, are independent problems.
+//!   The ground is no block.
+//! - **Peeling.** `Cᵀ·z = 0` on the columns of one block involves only the rows that touch it. If
+//!   these rows, restricted to the block, are independent, then z vanishes on all of them; they and
+//!   the block leave.
+//! - **Bridges.** In the graph of blocks and ground a group that alone joins a set S of blocks to
+//!   the rest has `C_Xᵀ·z_X = 0`: the equilibrium of S. This needs mechanics, see
+//!   [`RowGroup::ground`].
 //!
-//! Ranks here are those of a few rows of the equilibrated matrix, by the rule of `rank`; what is not certain stays open. Not here:
-//! names of joints, and verdicts from ranks.
+//! Ranks here are those of a few rows of the equilibrated matrix, by the rule of `rank`; what is
+//! not certain stays open. Not here: names of joints, and verdicts from ranks.
 
 mod cycles;
 mod graph;
@@ -32,8 +35,9 @@ pub struct RowGroup {
     pub rows: Range<usize>,
     /// Whether it acts between its blocks and the ground, not only among its blocks.
     ///
-    /// `false` promises that its rows vanish on every rigid motion that its blocks have in common, and that a rigid motion of one
-    /// block has as many freedoms as the block has columns. Without the promise say `true`: fewer bridges are found then.
+    /// `false` promises that its rows vanish on every rigid motion that its blocks have in common,
+    /// and that a rigid motion of one block has as many freedoms as the block has columns. Without
+    /// the promise say `true`: fewer bridges are found then.
     pub ground: bool,
 }
 
@@ -68,16 +72,19 @@ pub struct Structure {
     pub rows: Vec<Settled>,
     /// Parts of the whole matrix, by their first row.
     pub parts: Vec<Part>,
-    /// Parts of what is left open, by their first row: each can be judged alone, on its rows and the columns of its blocks.
+    /// Parts of what is left open, by their first row: each can be judged alone, on its rows and
+    /// the columns of its blocks.
     pub open: Vec<Part>,
 }
 
-/// Settles what the pattern settles. `blocks` are ranges of columns; a column of no block is a block of its own.
+/// Settles what the pattern settles. `blocks` are ranges of columns; a column of no block is a
+/// block of its own.
 ///
-/// A row touches a block where it has an entry that is not zero. Peeling and bridges take turns until neither finds more: each pass
-/// is linear in the entries of C, and their number at most that of the blocks. A group on more than two blocks, or on two
-/// and the ground (a gear with its carrier), joins all of them and is never called a bridge: what it transmits to one side may vanish
-/// while the rest does not.
+/// A row touches a block where it has an entry that is not zero. Peeling and bridges take turns
+/// until neither finds more: each pass is linear in the entries of C, and their number at most that
+/// of the blocks. A group on more than two blocks, or on two and the ground (a gear with its
+/// carrier), joins all of them and is never called a bridge: what it transmits to one side may
+/// vanish while the rest does not.
 ///
 /// ```
 /// use linalg::{Matrix, RowGroup, Settled, structure};
@@ -90,11 +97,13 @@ pub struct Structure {
 /// # Ok::<(), linalg::RankError>(())
 /// ```
 ///
-/// Ranges beyond the matrix are cut; a row in several groups, or a column in several blocks, counts for the first.
+/// Ranges beyond the matrix are cut; a row in several groups, or a column in several blocks, counts
+/// for the first.
 ///
 /// # Errors
 /// - [`RankError::NonFinite`]: an entry is NaN or infinite.
-/// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN, infinite or of another matrix.
+/// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN,
+///   infinite or of another matrix.
 pub fn structure<'a>(
     c: &Matrix,
     uncertainty: impl Into<Uncertainty<'a>>,
@@ -219,7 +228,8 @@ impl Incidence {
     }
 }
 
-/// `0..n` split by ranges, the first range that has a number takes it; then one set for each number in no range.
+/// `0..n` split by ranges, the first range that has a number takes it; then one set for each number
+/// in no range.
 pub(crate) fn partition<'a>(
     n: usize,
     ranges: impl Iterator<Item = &'a Range<usize>>,

@@ -1,4 +1,5 @@
-//! The combination of rows that comes closest to zero: what nearly depends on each other, and by how much.
+//! The combination of rows that comes closest to zero: what nearly depends on each other, and by
+//! how much.
 
 use crate::{Matrix, PivotedQr, kernels};
 
@@ -17,8 +18,9 @@ pub struct WeakestCombination {
 /// Inverse iterations; each gains the square of the gap between the two smallest singular values.
 const ITERATIONS: usize = 3;
 
-/// The smallest singular value of rows and its left singular vector, by inverse iteration with `C·Cᵀ = P·Rᵀ·R·Pᵀ`. Where rows are dependent to
-/// the last digit of `f64`, by one with `C·Cᵀ + δ²·I`, where δ is the rounding of the largest row. `None` without rows.
+/// The smallest singular value of rows and its left singular vector, by inverse iteration with
+/// `C·Cᵀ = P·Rᵀ·R·Pᵀ`. Where rows are dependent to the last digit of `f64`, by one with
+/// `C·Cᵀ + δ²·I`, where δ is the rounding of the largest row. `None` without rows.
 ///
 /// ```
 /// use linalg::{Matrix, weakest_combination};

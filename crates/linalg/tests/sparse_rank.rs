@@ -56,7 +56,8 @@ fn kept_rows_are_as_many_and_independent() {
     assert_eq!(found.dropped.len(), known.redundancy);
 }
 
-/// Bodies and rows in another order, another unit of length, and one for each row: the same answers.
+/// Bodies and rows in another order, another unit of length, and one for each row: the same
+/// answers.
 #[test]
 fn order_and_units_do_not_matter() {
     let known = chain(20);

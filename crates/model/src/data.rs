@@ -1,6 +1,8 @@
-//! The numbers that constraints store, as points, directions and single numbers, and how rows change with them.
+//! The numbers that constraints store, as points, directions and single numbers, and how rows
+//! change with them.
 //!
-//! Not here: how a pose answers to a change of the data, and what a change means for a rank (`solvability`).
+//! Not here: how a pose answers to a change of the data, and what a change means for a rank
+//! (`solvability`).
 
 mod gradients;
 
@@ -24,7 +26,8 @@ pub struct DataBlock {
     pub group: usize,
     /// Name of the parameter, or of the value kept from the start.
     pub name: &'static str,
-    /// Its numbers among all numbers of the mechanism: two for a point or a direction, one otherwise.
+    /// Its numbers among all numbers of the mechanism: two for a point or a direction, one
+    /// otherwise.
     pub numbers: Range<usize>,
     /// What a change of it is measured in.
     pub unit: DataUnit,
@@ -46,7 +49,8 @@ pub enum DataUnit {
 }
 
 impl DataBlock {
-    /// Its part of a gradient by all numbers, as a vector of its own change: two components for a point, one otherwise.
+    /// Its part of a gradient by all numbers, as a vector of its own change: two components for a
+    /// point, one otherwise.
     #[must_use]
     pub fn part(&self, gradient: &[f64]) -> [f64; 2] {
         let own = &gradient[self.numbers.clone()];
@@ -72,8 +76,8 @@ impl DataBlock {
     }
 }
 
-/// Rows that contradict each other within a stated tolerance miss by no more than so many times what their own data make of them: they share what
-/// others are wrong by.
+/// Rows that contradict each other within a stated tolerance miss by no more than so many times
+/// what their own data make of them: they share what others are wrong by.
 pub const SHARED: f64 = 3.0;
 
 impl Mechanism {
@@ -87,7 +91,8 @@ impl Mechanism {
         counts.sum()
     }
 
-    /// All points, directions and numbers of the constraints, at the poses of the scratch; allocates.
+    /// All points, directions and numbers of the constraints, at the poses of the scratch;
+    /// allocates.
     #[must_use]
     pub fn data_blocks(&self, s: &Scratch) -> Vec<DataBlock> {
         let mut blocks = Vec::new();
@@ -146,8 +151,8 @@ impl Mechanism {
         blocks
     }
 
-    /// Adds the gradient of `λᵀ·C·v` by all numbers of the constraints, times `factor`, to `out`; `lambda` has m + h values, `v` n_v. Needs the poses
-    /// of the scratch.
+    /// Adds the gradient of `λᵀ·C·v` by all numbers of the constraints, times `factor`, to `out`;
+    /// `lambda` has m + h values, `v` n_v. Needs the poses of the scratch.
     pub fn add_power_by_data(
         &self,
         s: &Scratch,
@@ -181,7 +186,8 @@ impl Mechanism {
         }
     }
 
-    /// Adds the gradient of `λᵀ·Φ` by all numbers of the constraints, times `factor`, to `out`; `lambda` has at least m values.
+    /// Adds the gradient of `λᵀ·Φ` by all numbers of the constraints, times `factor`, to `out`;
+    /// `lambda` has at least m values.
     pub fn add_phi_by_data(&self, s: &Scratch, lambda: &[f64], factor: f64, out: &mut [f64]) {
         let m = self.layout().m;
         let mut first = 0;
@@ -205,7 +211,8 @@ impl Mechanism {
         }
     }
 
-    /// The largest change of `λᵀ·Φ` where each datum moves by what `moved` tells; `lambda` has at least m values.
+    /// The largest change of `λᵀ·Φ` where each datum moves by what `moved` tells; `lambda` has at
+    /// least m values.
     #[must_use]
     pub fn phi_change(
         &self,
@@ -243,7 +250,8 @@ impl Mechanism {
         }
     }
 
-    /// The largest length that the points of a constraint are combined with (m): their own, the arms of its bodies, and where these stand.
+    /// The largest length that the points of a constraint are combined with (m): their own, the
+    /// arms of its bodies, and where these stand.
     fn length_scale(&self, c: &PlacedConstraint, s: &Scratch, numbers: &[f64]) -> f64 {
         let points = c.element.element().spec().data.iter().filter_map(|datum| {
             let at = &numbers[datum.numbers()];

@@ -1,5 +1,5 @@
-//! A mechanism as plain data: what the reader of scenes makes of a text, and what a program writes directly. Nothing is checked here;
-//! [`crate::Mechanism::build`] checks everything once.
+//! A mechanism as plain data: what the reader of scenes makes of a text, and what a program writes
+//! directly. Nothing is checked here; [`crate::Mechanism::build`] checks everything once.
 
 use joints::Pose;
 
@@ -9,7 +9,8 @@ use crate::tolerance::Tolerance;
 
 /// A mechanism before it is assembled.
 ///
-/// Its lists are there to be read and changed; [`Description::body`] and its like add to them, one thing with one name each.
+/// Its lists are there to be read and changed; [`Description::body`] and its like add to them, one
+/// thing with one name each.
 ///
 /// ```
 /// use joints::Revolute;
@@ -62,7 +63,8 @@ impl Description {
         BodyRef::Body(self.bodies.len() - 1)
     }
 
-    /// Adds a joint, points in the frames of its bodies. Of a joint that depends on time the functions are added to the result.
+    /// Adds a joint, points in the frames of its bodies. Of a joint that depends on time the
+    /// functions are added to the result.
     pub fn joint(
         &mut self,
         name: &str,
@@ -89,7 +91,8 @@ impl Description {
         });
     }
 
-    /// Adds a force, points in the frames of its bodies. Of a force that depends on time the functions are added to the result.
+    /// Adds a force, points in the frames of its bodies. Of a force that depends on time the
+    /// functions are added to the result.
     pub fn force(
         &mut self,
         name: &str,
@@ -104,7 +107,8 @@ impl Description {
         })
     }
 
-    /// Where a point of space (m) is in the frame of a body as described; see [`BodyRef::to_local`].
+    /// Where a point of space (m) is in the frame of a body as described; see
+    /// [`BodyRef::to_local`].
     #[must_use]
     pub fn local(&self, body: BodyRef, point: [f64; 2]) -> [f64; 2] {
         body.to_local(&self.bodies, point)
@@ -124,18 +128,19 @@ pub struct Body {
     pub position: [f64; 2],
     /// Angle (rad).
     pub angle: f64,
-    /// Velocity of the centre of mass (m/s). `None`: it follows from the given velocities and from what moves by itself, with the least
-    /// kinetic energy.
+    /// Velocity of the centre of mass (m/s). `None`: it follows from the given velocities and from
+    /// what moves by itself, with the least kinetic energy.
     pub velocity: Option<[f64; 2]>,
     /// Angular velocity (rad/s). `None`: it follows in the same way.
     pub angular_velocity: Option<f64>,
-    /// What points and directions in its frame are known to (m; directions: divided by the size of the mechanism); goes before that of
-    /// the scene.
+    /// What points and directions in its frame are known to (m; directions: divided by the size of
+    /// the mechanism); goes before that of the scene.
     pub tolerance: Option<f64>,
 }
 
 impl Body {
-    /// A body of this mass (kg) and moment of inertia about the centre of mass (kg·m²), at the origin, its velocities not given.
+    /// A body of this mass (kg) and moment of inertia about the centre of mass (kg·m²), at the
+    /// origin, its velocities not given.
     #[must_use]
     pub fn new(name: &str, mass: f64, inertia: f64) -> Self {
         Self {
@@ -172,8 +177,8 @@ impl BodyRef {
         }
     }
 
-    /// Where a point of space (m) is in the frame of this body, one of `bodies` as described: `Rᵀ·(point − r)`. Of the ground, and of a
-    /// body that is not there, the point itself.
+    /// Where a point of space (m) is in the frame of this body, one of `bodies` as described:
+    /// `Rᵀ·(point − r)`. Of the ground, and of a body that is not there, the point itself.
     #[must_use]
     pub fn to_local(self, bodies: &[Body], point: [f64; 2]) -> [f64; 2] {
         let described = self.moving().and_then(|at| bodies.get(at));
@@ -192,8 +197,8 @@ pub struct Joint {
     pub element: Box<dyn PlaneConstraint>,
     /// Its functions of time, in the order of the definition.
     pub functions: Vec<Function>,
-    /// What its points, directions and numbers are known to (m; angles: divided by the size of the mechanism); goes before those of its
-    /// bodies and of the scene.
+    /// What its points, directions and numbers are known to (m; angles: divided by the size of the
+    /// mechanism); goes before those of its bodies and of the scene.
     pub tolerance: Option<f64>,
 }
 
@@ -221,7 +226,8 @@ pub struct Drive {
     pub element: Box<dyn PlaneConstraint>,
     /// f
     pub motion: Function,
-    /// What its points, directions and numbers are known to (m), as of a joint: that of the joint that it drives.
+    /// What its points, directions and numbers are known to (m), as of a joint: that of the joint
+    /// that it drives.
     pub tolerance: Option<f64>,
 }
 

@@ -1,8 +1,10 @@
-//! Constraints in double-double at a configuration polished beyond `f64`: what a certificate of the rank is made from.
+//! Constraints in double-double at a configuration polished beyond `f64`: what a certificate of the
+//! rank is made from.
 //!
-//! At a configuration stored in `f64` a singular value that is zero is about 1e-16, like one that is merely tiny. Here Φ is
-//! driven to 1e-32 in the kept rows; then a true zero falls to 1e-32 as well, and a misalignment of the data stays what it
-//! is. Not for motion: this allocates and is a hundred times slower than the kernels in `f64`.
+//! At a configuration stored in `f64` a singular value that is zero is about 1e-16, like one that
+//! is merely tiny. Here Φ is driven to 1e-32 in the kept rows; then a true zero falls to 1e-32 as
+//! well, and a misalignment of the data stays what it is. Not for motion: this allocates and is a
+//! hundred times slower than the kernels in `f64`.
 
 use joints::Pose;
 use linalg::{Dd, DdMatrix, StepError, least_squares_step};
@@ -13,7 +15,8 @@ use crate::start::scene_size;
 use crate::start::within::is_beyond;
 use crate::system::System;
 
-/// A configuration that satisfies the kept holonomic rows to double-double, and what the others miss there.
+/// A configuration that satisfies the kept holonomic rows to double-double, and what the others
+/// miss there.
 #[derive(Clone, Debug)]
 pub struct Polished {
     /// Time (s).
@@ -26,15 +29,17 @@ pub struct Polished {
     pub c: DdMatrix,
 }
 
-/// Corrections at most. Each gains the digits of a factorisation in `f64`; near a singular configuration fewer.
+/// Corrections at most. Each gains the digits of a factorisation in `f64`; near a singular
+/// configuration fewer.
 const CORRECTIONS: usize = 6;
 
 /// Below this many roundings of double-double there is nothing left to correct.
 const ROUNDINGS: f64 = 16.0;
 
 impl Mechanism {
-    /// Polishes the coordinates q, which satisfy Φ = 0 to `f64`, in the rows `kept` of Φ, which are independent. The correction
-    /// is the smallest one; it ends when it no longer shrinks, or would move a body farther than a stated tolerance says where it is.
+    /// Polishes the coordinates q, which satisfy Φ = 0 to `f64`, in the rows `kept` of Φ, which are
+    /// independent. The correction is the smallest one; it ends when it no longer shrinks, or would
+    /// move a body farther than a stated tolerance says where it is.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
@@ -51,7 +56,8 @@ impl Mechanism {
         self.c(&mut s);
         let c = self.layout().dense(&s).select_rows(&kept);
         let scale: Vec<f64> = kept.iter().map(|&i| self.position_scale(&s, i)).collect();
-        // A correction is small beside the mechanism; counted in radians alone it would turn large bodies first.
+        // A correction is small beside the mechanism; counted in radians alone it would turn large
+        // bodies first.
         let rotation = scene_size(self, q).powi(-2);
         let weights: Vec<f64> = (0..self.layout().n_v)
             .map(|k| if k % N_BODY == 2 { rotation } else { 1.0 })
@@ -200,7 +206,8 @@ mod tests {
         for (p, q) in polished.q.iter().zip(q) {
             assert!((p.to_f64() - q).abs() < 1e-15);
         }
-        // C against the kernels in f64, and its entry −(R·s)_y = 0.7·sin a of the first row beyond f64.
+        // C against the kernels in f64, and its entry −(R·s)_y = 0.7·sin a of the first row beyond
+        // f64.
         let mut s = mechanism.scratch();
         mechanism.pose(0.0, &q, &mut s);
         mechanism.c(&mut s);

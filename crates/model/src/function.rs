@@ -1,5 +1,5 @@
-//! Functions of time, with their first two derivatives and the times where a derivative jumps. Nothing else in the
-//! house depends on time.
+//! Functions of time, with their first two derivatives and the times where a derivative jumps.
+//! Nothing else in the house depends on time.
 
 mod lines;
 mod parts;
@@ -146,7 +146,8 @@ impl Function {
         }))
     }
 
-    /// `start` and smooth steps `[from, to, by]`: between its times each adds `by·(10s³ − 15s⁴ + 6s⁵)`.
+    /// `start` and smooth steps `[from, to, by]`: between its times each adds
+    /// `by·(10s³ − 15s⁴ + 6s⁵)`.
     ///
     /// # Errors
     /// If a number is not finite or a step does not take time.
@@ -180,8 +181,8 @@ impl Function {
         Ok(Self(Law::Table(Spline::natural(times, values))))
     }
 
-    /// Straight lines through a table, the outer ones continued on both sides. Two points of one time make the value jump there;
-    /// at other points the rate jumps.
+    /// Straight lines through a table, the outer ones continued on both sides. Two points of one
+    /// time make the value jump there; at other points the rate jumps.
     ///
     /// ```
     /// use model::Function;
@@ -192,8 +193,8 @@ impl Function {
     /// ```
     ///
     /// # Errors
-    /// If there are fewer than two points, times fall or more than two are equal or the first or last two are, or a number is not
-    /// finite.
+    /// If there are fewer than two points, times fall or more than two are equal or the first or
+    /// last two are, or a number is not finite.
     pub fn lines(times: &[f64], values: &[f64]) -> Result<Self, FunctionError> {
         points(times, values, |earlier, later| later >= earlier)?;
         let last = times.len() - 1;
@@ -312,7 +313,8 @@ fn finite(name: &'static str, values: &[f64]) -> Result<(), FunctionError> {
 mod tests {
     use super::*;
 
-    /// Central differences of a smooth function, step 1e-4: error about 1e-8 of the third derivative.
+    /// Central differences of a smooth function, step 1e-4: error about 1e-8 of the third
+    /// derivative.
     const DIFFERENCE: f64 = 1e-6;
 
     #[test]

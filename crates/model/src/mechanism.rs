@@ -1,5 +1,5 @@
-//! The assembled mechanism: elements in a list, each with its bodies, rows and entries. Building checks
-//! everything that can be wrong; what is built has no invalid state.
+//! The assembled mechanism: elements in a list, each with its bodies, rows and entries. Building
+//! checks everything that can be wrong; what is built has no invalid state.
 
 mod build;
 mod derivatives;
@@ -164,7 +164,8 @@ impl Mechanism {
         &self.bodies
     }
 
-    /// Coordinates and velocities as described, not corrected; velocities that are not given are zero here.
+    /// Coordinates and velocities as described, not corrected; velocities that are not given are
+    /// zero here.
     #[must_use]
     pub fn described_state(&self) -> (Vec<f64>, Vec<f64>) {
         let mut q = vec![0.0; self.layout.n_q];
@@ -187,7 +188,8 @@ impl Mechanism {
         self.bodies.iter().flat_map(of).collect()
     }
 
-    /// Whether forces are applied that a potential of the weight does not explain: energy may be fed or lost.
+    /// Whether forces are applied that a potential of the weight does not explain: energy may be
+    /// fed or lost.
     #[must_use]
     pub fn has_applied_forces(&self) -> bool {
         !self.forces.is_empty()
@@ -199,8 +201,9 @@ impl Mechanism {
         self.mass.iter().zip(v).map(|(m, v)| 0.5 * m * v * v).sum()
     }
 
-    /// Rate of kinetic energy and potential of the weight at velocities v and accelerations a (W): `vᵀ·(M·a − weight)`. On the
-    /// constraints it is the power of drives and applied forces, because `M·a − Q = −Cᵀ·λ` and `C·v = b`.
+    /// Rate of kinetic energy and potential of the weight at velocities v and accelerations a (W):
+    /// `vᵀ·(M·a − weight)`. On the constraints it is the power of drives and applied forces,
+    /// because `M·a − Q = −Cᵀ·λ` and `C·v = b`.
     #[must_use]
     pub fn energy_rate(&self, v: &[f64], a: &[f64]) -> f64 {
         let terms = self.mass.iter().zip(a).zip(self.weight.iter().zip(v));
@@ -249,7 +252,8 @@ impl Mechanism {
         self.reach = reach::longest_arms(self, q);
     }
 
-    /// Longest arm of a body in the initial configuration (m): its position matters to about the rounding of this, wherever it is.
+    /// Longest arm of a body in the initial configuration (m): its position matters to about the
+    /// rounding of this, wherever it is.
     #[must_use]
     pub fn reach(&self, body: usize) -> f64 {
         self.reach[body]

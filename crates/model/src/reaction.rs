@@ -1,8 +1,9 @@
-//! From multipliers to what an engineer calls a reaction: force and torque on the first body of the joint,
-//! at the joint's place.
+//! From multipliers to what an engineer calls a reaction: force and torque on the first body of the
+//! joint, at the joint's place.
 //!
-//! It is all that the joint does to that body, so that M·a − Q of the body is the sum of the reactions on it. Where the
-//! first body takes several slots, as the ground may that is also the carrier of a gear, their parts add up.
+//! It is all that the joint does to that body, so that M·a − Q of the body is the sum of the
+//! reactions on it. Where the first body takes several slots, as the ground may that is also the
+//! carrier of a gear, their parts add up.
 
 use std::ops::Range;
 
@@ -45,7 +46,8 @@ pub struct ConstraintGroup {
 /// Names of the three components of a planar wrench.
 pub const COMPONENTS: [&str; 3] = ["Fx", "Fy", "T"];
 
-/// Place of the torque in [`COMPONENTS`], and of the rotation among the degrees of freedom of a body.
+/// Place of the torque in [`COMPONENTS`], and of the rotation among the degrees of freedom of a
+/// body.
 const TORQUE: usize = 2;
 
 impl ConstraintGroup {
@@ -64,7 +66,8 @@ impl ConstraintGroup {
             .collect()
     }
 
-    /// Entries (component, row) of the map from multipliers to the reaction that are not identically zero, sorted.
+    /// Entries (component, row) of the map from multipliers to the reaction that are not
+    /// identically zero, sorted.
     #[must_use]
     pub fn wrench_entries(&self) -> Vec<[usize; 2]> {
         let mut entries = self.spec.wrench.to_vec();
@@ -88,7 +91,8 @@ impl ConstraintGroup {
             .any(|[component, at]| *at == row && *component < TORQUE)
     }
 
-    /// Entries of the block of C, with their places in it, of other slots that the first body takes, too.
+    /// Entries of the block of C, with their places in it, of other slots that the first body
+    /// takes, too.
     fn repeated(&self) -> impl Iterator<Item = (usize, &'static Entry)> + '_ {
         let is_repeated = |e: &Entry| e.slot > 0 && self.bodies.get(e.slot) == self.bodies.first();
         self.spec
@@ -106,8 +110,9 @@ pub enum Frame {
     Global,
     /// The x and y of the first body of the joint; those of the ground are global.
     FirstBody,
-    /// Along the one direction in which the joint can push, then across it (that turned by +90°): normal and along for a knife edge, across
-    /// and along the axis for a slot. Joints with no row or several rows that push have no such frame.
+    /// Along the one direction in which the joint can push, then across it (that turned by +90°):
+    /// normal and along for a knife edge, across and along the axis for a slot. Joints with no row
+    /// or several rows that push have no such frame.
     Edge,
 }
 
@@ -206,8 +211,9 @@ impl Mechanism {
         map
     }
 
-    /// The map (3 × m + h) from all multipliers to the total of the reactions on one body, `−Cᵀ·λ`: force, and torque about a
-    /// global point. `None` if there is no such body. Needs C at the pose of the scratch; allocates.
+    /// The map (3 × m + h) from all multipliers to the total of the reactions on one body, `−Cᵀ·λ`:
+    /// force, and torque about a global point. `None` if there is no such body. Needs C at the pose
+    /// of the scratch; allocates.
     #[must_use]
     pub fn body_wrench_map(&self, body: usize, about: [f64; 2], s: &Scratch) -> Option<Matrix> {
         let pose = s.poses.get(body)?;
@@ -223,9 +229,9 @@ impl Mechanism {
         Some(map)
     }
 
-    /// Unit vectors (global components) of the axes in which the force of a reaction is taken apart. The first axis of
-    /// [`Frame::Edge`] has the sign for which the named component of the definition, or else the multiplier, is positive. `None`
-    /// if the reaction has no such frame.
+    /// Unit vectors (global components) of the axes in which the force of a reaction is taken
+    /// apart. The first axis of [`Frame::Edge`] has the sign for which the named component of the
+    /// definition, or else the multiplier, is positive. `None` if the reaction has no such frame.
     ///
     /// # Panics
     /// If the mechanism has no such joint or drive.
@@ -268,8 +274,9 @@ impl Mechanism {
         (0..self.layout().n_v).map(kind).collect()
     }
 
-    /// Coefficients of a component of a reaction, `Σ coefficient·λ` over the rows of the joint or drive: `Fx`, `Fy`, `T`, or the
-    /// named component of its definition. `None` if it has no such component; allocates.
+    /// Coefficients of a component of a reaction, `Σ coefficient·λ` over the rows of the joint or
+    /// drive: `Fx`, `Fy`, `T`, or the named component of its definition. `None` if it has no such
+    /// component; allocates.
     ///
     /// # Panics
     /// If the mechanism has no such joint or drive.
@@ -293,7 +300,8 @@ impl Mechanism {
         })
     }
 
-    /// The reaction of a joint or drive for multipliers λ (all rows) at the poses of the scratch; allocates.
+    /// The reaction of a joint or drive for multipliers λ (all rows) at the poses of the scratch;
+    /// allocates.
     ///
     /// # Panics
     /// If the mechanism has no such joint or drive, or λ is too short.

@@ -1,5 +1,6 @@
-//! The equations of a mechanism as operations: every kernel runs once on numbers that write down what is done with them. What comes
-//! out holds for this mechanism with its parameters and initial values, and for no other; generators of code for one scene begin here.
+//! The equations of a mechanism as operations: every kernel runs once on numbers that write down
+//! what is done with them. What comes out holds for this mechanism with its parameters and initial
+//! values, and for no other; generators of code for one scene begin here.
 
 use joints::recorded::{Operation, Recorded, record};
 use joints::{Pose, Twist};
@@ -120,7 +121,8 @@ struct Results {
 }
 
 impl Mechanism {
-    /// The functions of time of its joints, drives and forces, each with the value that is subtracted from it: f(0) for drives.
+    /// The functions of time of its joints, drives and forces, each with the value that is
+    /// subtracted from it: f(0) for drives.
     pub fn functions(&self) -> impl Iterator<Item = (&Function, f64)> {
         self.time_functions().iter().map(|f| f.parts())
     }

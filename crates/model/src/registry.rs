@@ -1,4 +1,5 @@
-//! Definitions by their scene type: what lets a scene reader build joints and forces that it does not know.
+//! Definitions by their scene type: what lets a scene reader build joints and forces that it does
+//! not know.
 
 use joints::spec::{ConstraintSpec, ForceSpec, Spec};
 use joints::{
@@ -6,7 +7,8 @@ use joints::{
 };
 use linalg::Dd;
 
-/// A planar constraint as an object: kernels in `f64`, in double-double, on magnitudes and on recorded numbers.
+/// A planar constraint as an object: kernels in `f64`, in double-double, on magnitudes and on
+/// recorded numbers.
 pub trait PlaneConstraint: Send + Sync {
     /// Kernels for motion.
     fn element(&self) -> &dyn Element<f64>;
@@ -158,7 +160,8 @@ impl Registry {
         self.force::<K>();
     }
 
-    /// Constraints of a scene type; several may share one and differ by a key or the number of bodies.
+    /// Constraints of a scene type; several may share one and differ by a key or the number of
+    /// bodies.
     pub fn constraints<'a>(
         &'a self,
         scene_type: &'a str,

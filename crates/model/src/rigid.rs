@@ -1,4 +1,5 @@
-//! Rigid motions of the whole mechanism: which constraints act among bodies only, and which against the ground.
+//! Rigid motions of the whole mechanism: which constraints act among bodies only, and which against
+//! the ground.
 
 use std::ops::Range;
 
@@ -6,8 +7,9 @@ use crate::mechanism::{Mechanism, N_BODY};
 use crate::reaction::ConstraintId;
 use crate::system::{Layout, Scratch, System};
 
-/// A row counts as vanishing on rigid motions below this share of its terms: rounding of points that a joint makes one, far from
-/// the origin. Rows above it are taken to act against the ground, which is the careful reading.
+/// A row counts as vanishing on rigid motions below this share of its terms: rounding of points
+/// that a joint makes one, far from the origin. Rows above it are taken to act against the ground,
+/// which is the careful reading.
 const ROUNDING: f64 = 1e-10;
 
 impl Layout {
@@ -19,8 +21,9 @@ impl Layout {
 }
 
 impl Mechanism {
-    /// Whether a joint or drive acts against the ground: one of its rows does not vanish when all bodies move as one rigid body. The
-    /// list of its bodies does not tell: an absolute velocity refers to the ground without naming it. `s.entries` must hold C.
+    /// Whether a joint or drive acts against the ground: one of its rows does not vanish when all
+    /// bodies move as one rigid body. The list of its bodies does not tell: an absolute velocity
+    /// refers to the ground without naming it. `s.entries` must hold C.
     #[must_use]
     pub fn acts_on_ground(&self, id: ConstraintId, s: &Scratch) -> bool {
         let [x, y] = self.place(id, s);

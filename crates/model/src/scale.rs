@@ -1,5 +1,5 @@
-//! What residuals are compared with. Each row has a size of its own, made of the terms that cancel in it, so that nothing
-//! depends on units, on the size of a mechanism or on where it stands.
+//! What residuals are compared with. Each row has a size of its own, made of the terms that cancel
+//! in it, so that nothing depends on units, on the size of a mechanism or on where it stands.
 
 use linalg::Scaling;
 
@@ -9,9 +9,9 @@ use crate::space::{Space, in_space};
 use crate::system::{Scratch, System};
 
 impl Mechanism {
-    /// Size of the terms of row `i` of Φ at the pose of the scratch: `Σ |C_ij|·|q_j|`, an angle counting at least one radian,
-    /// because arms turn with it, and a position at least the longest arm of its body, because it is where the arms put it.
-    /// Needs C there.
+    /// Size of the terms of row `i` of Φ at the pose of the scratch: `Σ |C_ij|·|q_j|`, an angle
+    /// counting at least one radian, because arms turn with it, and a position at least the longest
+    /// arm of its body, because it is where the arms put it. Needs C there.
     #[must_use]
     pub fn position_scale(&self, s: &Scratch, i: usize) -> f64 {
         let at = |j: usize| {
@@ -22,8 +22,9 @@ impl Mechanism {
         self.layout().row(s, i).map(term).sum()
     }
 
-    /// What the entries of row `i` of C are at most whichever way the bodies point: column and bound. A force on a body has one size in all
-    /// directions, and an arm is no longer than the body's longest one. Needs C at the pose of the scratch; allocates.
+    /// What the entries of row `i` of C are at most whichever way the bodies point: column and
+    /// bound. A force on a body has one size in all directions, and an arm is no longer than the
+    /// body's longest one. Needs C at the pose of the scratch; allocates.
     #[must_use]
     pub fn entry_bounds(&self, s: &Scratch, i: usize) -> Vec<(usize, f64)> {
         let row: Vec<(usize, f64)> = self.layout().row(s, i).collect();
@@ -42,7 +43,8 @@ impl Mechanism {
         bounds.collect()
     }
 
-    /// Size of the terms of row `i` of Φ for entries below `bounds`: as [`Mechanism::position_scale`].
+    /// Size of the terms of row `i` of Φ for entries below `bounds`: as
+    /// [`Mechanism::position_scale`].
     #[must_use]
     pub fn bounded_position_scale(&self, bounds: &[(usize, f64)], q: &[f64]) -> f64 {
         let term = |&(j, c): &(usize, f64)| c * self.position(q, j).abs().max(self.least(j));
@@ -64,17 +66,18 @@ impl Mechanism {
         terms.sum::<f64>() + s.b[i].abs()
     }
 
-    /// Size of the terms of row `i` of `C·v − b` whichever way the bodies point: a row that happens to be perpendicular to the motion is known to
-    /// the rounding of these, not to that of the terms it has. Needs C and b at the pose of the scratch; allocates.
+    /// Size of the terms of row `i` of `C·v − b` whichever way the bodies point: a row that happens
+    /// to be perpendicular to the motion is known to the rounding of these, not to that of the
+    /// terms it has. Needs C and b at the pose of the scratch; allocates.
     #[must_use]
     pub fn bounded_velocity_scale(&self, s: &Scratch, i: usize, v: &[f64]) -> f64 {
         let bounds = self.entry_bounds(s, i).into_iter();
         bounds.map(|(j, c)| c * v[j].abs()).sum::<f64>() + s.b[i].abs()
     }
 
-    /// Size of the terms of row `i` of `C·v̇ − Γ` at velocities v: `|Γ_i|` and what the row makes of the centripetal terms of its
-    /// bodies, `|C_ij|·(|v_j|·ω + size·ω²)` for translations and `|C_ij|·ω²` for rotations, with the largest |ω| of the
-    /// row. Needs C and Γ.
+    /// Size of the terms of row `i` of `C·v̇ − Γ` at velocities v: `|Γ_i|` and what the row makes
+    /// of the centripetal terms of its bodies, `|C_ij|·(|v_j|·ω + size·ω²)` for translations and
+    /// `|C_ij|·ω²` for rotations, with the largest |ω| of the row. Needs C and Γ.
     #[must_use]
     pub fn acceleration_scale(&self, s: &Scratch, i: usize, v: &[f64], size: f64) -> f64 {
         let row = || self.layout().row(s, i);
@@ -91,8 +94,8 @@ impl Mechanism {
         row().map(term).sum::<f64>() + s.gamma[i].abs()
     }
 
-    /// Size of what the functions of time prescribe in row `i` at the time of the scratch: the sum of `|f| + |ḟ| + |f̈|`. A rate
-    /// that is rounding beside it is zero.
+    /// Size of what the functions of time prescribe in row `i` at the time of the scratch: the sum
+    /// of `|f| + |ḟ| + |f̈|`. A rate that is rounding beside it is zero.
     #[must_use]
     pub fn prescribed_scale(&self, s: &Scratch, i: usize) -> f64 {
         // Rows are numbered in the order of the constraints.
@@ -109,8 +112,8 @@ impl Mechanism {
         if j % N_BODY == 2 { 1.0 } else { size }
     }
 
-    /// The column of C along which two configurations differ most, and by how much: lengths as share of `size`, angles in
-    /// radians.
+    /// The column of C along which two configurations differ most, and by how much: lengths as
+    /// share of `size`, angles in radians.
     #[must_use]
     pub fn largest_difference(&self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
         let mut largest = (0, 0.0);
@@ -139,9 +142,10 @@ impl Mechanism {
         columns.iter().all(|j| j % N_BODY == 2)
     }
 
-    /// Scaling of the columns of a dimensionless C as bodies feel them: one unit for all lengths, and for the rotation of each body the
-    /// distance of its farthest joint, where it has one. Unlike an equilibration it does not depend on the directions of joints. Needs
-    /// the poses of the scratch.
+    /// Scaling of the columns of a dimensionless C as bodies feel them: one unit for all lengths,
+    /// and for the rotation of each body the distance of its farthest joint, where it has one.
+    /// Unlike an equilibration it does not depend on the directions of joints. Needs the poses of
+    /// the scratch.
     #[must_use]
     pub fn felt_scaling(&self, s: &Scratch, size: f64) -> Scaling {
         let mut arms = vec![0.0_f64; self.bodies().len()];
@@ -164,8 +168,9 @@ impl Mechanism {
         scaling
     }
 
-    /// The scaling that makes C dimensionless for a mechanism of this size: columns of rotations divided by the size, rounded to a
-    /// power of two. Ranks, dependencies and verdicts of the scaled C are those of C; margins do not depend on units.
+    /// The scaling that makes C dimensionless for a mechanism of this size: columns of rotations
+    /// divided by the size, rounded to a power of two. Ranks, dependencies and verdicts of the
+    /// scaled C are those of C; margins do not depend on units.
     #[must_use]
     pub fn dimension_scaling(&self, size: f64) -> Scaling {
         let exponent = size.log2().round();
@@ -179,8 +184,9 @@ impl Mechanism {
         scaling
     }
 
-    /// What the entries of a dimensionless C may be wrong by at a configuration: the largest |Φ_i|, and at least the rounding of
-    /// its terms, relative to what row `i` changes by when the mechanism moves by its own size. Needs Φ and C.
+    /// What the entries of a dimensionless C may be wrong by at a configuration: the largest |Φ_i|,
+    /// and at least the rounding of its terms, relative to what row `i` changes by when the
+    /// mechanism moves by its own size. Needs Φ and C.
     #[must_use]
     pub fn relative_residual(&self, s: &Scratch, size: f64) -> f64 {
         let layout = self.layout();
@@ -191,8 +197,8 @@ impl Mechanism {
         (0..layout.m).map(of_row).fold(0.0, f64::max)
     }
 
-    /// How far the constraints are open: the largest |Φ_i| relative to what row `i` changes by when the mechanism moves by its own
-    /// size. Needs Φ and C.
+    /// How far the constraints are open: the largest |Φ_i| relative to what row `i` changes by when
+    /// the mechanism moves by its own size. Needs Φ and C.
     #[must_use]
     pub fn relative_opening(&self, s: &Scratch, size: f64) -> f64 {
         (0..self.layout().m)

@@ -1,8 +1,10 @@
-//! Spaces: how the coordinates of a body make its pose, and how a configuration moves along velocities.
+//! Spaces: how the coordinates of a body make its pose, and how a configuration moves along
+//! velocities.
 //!
-//! Coordinates and velocities are two things: a body has n_q of the ones and n_v of the others, and nothing outside this module
-//! adds a velocity to a coordinate. A configuration is moved by [`Space::displace`] and compared by [`Space::difference`], both
-//! in the directions of velocities: `(x, y)` along the axes of the ground, then the rotation.
+//! Coordinates and velocities are two things: a body has n_q of the ones and n_v of the others, and
+//! nothing outside this module adds a velocity to a coordinate. A configuration is moved by
+//! [`Space::displace`] and compared by [`Space::difference`], both in the directions of velocities:
+//! `(x, y)` along the axes of the ground, then the rotation.
 //!
 //! Not here: constraints and their kernels, which see poses and twists only.
 
@@ -66,7 +68,8 @@ impl Number for Dd {
     }
 }
 
-/// A space that bodies move in. All slices are those of one body: `q` has [`Space::N_Q`] values, `v` and `d` have three.
+/// A space that bodies move in. All slices are those of one body: `q` has [`Space::N_Q`] values,
+/// `v` and `d` have three.
 pub trait Space {
     /// Coordinates of a body; its place comes first.
     const N_Q: usize;
@@ -101,12 +104,13 @@ pub trait Space {
     /// q̇ = T(q)·v.
     fn rate(q: &[f64], v: &[f64], qd: &mut [f64]);
 
-    /// The velocity of one freedom, 0 … 2, as factors of q̇ = T(q)·v; what of q̇ leaves the poses does not count. Factors beyond
-    /// the coordinates are zero.
+    /// The velocity of one freedom, 0 … 2, as factors of q̇ = T(q)·v; what of q̇ leaves the poses
+    /// does not count. Factors beyond the coordinates are zero.
     #[must_use]
     fn velocity_from_rate(q: &[f64], dof: usize) -> [f64; MOST_COORDINATES];
 
-    /// The direction of q̇ in which no pose changes, of length one; none where every q̇ is that of a velocity.
+    /// The direction of q̇ in which no pose changes, of length one; none where every q̇ is that of
+    /// a velocity.
     #[must_use]
     fn normal(_q: &[f64]) -> Option<[f64; MOST_COORDINATES]> {
         None
@@ -118,7 +122,8 @@ pub trait Space {
     /// The d by which [`Space::displace`] moves `from` to `q`.
     fn difference(q: &[f64], from: &[f64], d: &mut [f64]);
 
-    /// Takes one freedom of velocity, 0 … 2, over from another configuration: exactly, where a difference would round.
+    /// Takes one freedom of velocity, 0 … 2, over from another configuration: exactly, where a
+    /// difference would round.
     fn take(q: &mut [f64], from: &[f64], dof: usize);
 }
 
@@ -167,11 +172,13 @@ impl Space for Plane {
     }
 }
 
-/// The plane with a point of the unit circle in the place of the angle: q = (x, y, cos φ, sin φ), n_q = 4. For tests alone: a
-/// space in which coordinates and velocities differ, as quaternions and angular velocities do.
+/// The plane with a point of the unit circle in the place of the angle: q = (x, y, cos φ, sin φ),
+/// n_q = 4. For tests alone: a space in which coordinates and velocities differ, as quaternions and
+/// angular velocities do.
 ///
-/// Of (c, s) only the direction counts, so that a stage of an integrator off the circle does no harm; a displacement leaves it on
-/// the circle. Angles are known up to full turns, so that rows which measure them hold within half a turn only.
+/// Of (c, s) only the direction counts, so that a stage of an integrator off the circle does no
+/// harm; a displacement leaves it on the circle. Angles are known up to full turns, so that rows
+/// which measure them hold within half a turn only.
 #[cfg(feature = "unit-circle")]
 #[derive(Clone, Copy, Debug)]
 pub struct UnitCircle;

@@ -1,8 +1,8 @@
 //! A consistent start: the configuration nearest to the described one, in the mass metric, that the
 //! constraints allow. Rows that keep an initial value do not restrict it: they hold at any start.
 //!
-//! No rank is decided here: away from the constraints a redundant row is not yet redundant. The correction is the
-//! regularised least-squares step of `linalg`, repeated to rounding.
+//! No rank is decided here: away from the constraints a redundant row is not yet redundant. The
+//! correction is the regularised least-squares step of `linalg`, repeated to rounding.
 
 mod conflict;
 mod error;
@@ -23,17 +23,19 @@ pub use velocity::{StartVelocity, consistent_velocity};
 /// What a start may and may not do.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct StartOptions {
-    /// Coordinates and velocities that keep their described values exactly; a velocity that is not given keeps zero.
+    /// Coordinates and velocities that keep their described values exactly; a velocity that is not
+    /// given keeps zero.
     pub keep: Vec<Coordinate>,
-    /// Whether a correction of more than a thousandth of the scene's size is accepted, or one of given velocities by more than a
-    /// thousandth of the fastest that hang together with them.
+    /// Whether a correction of more than a thousandth of the scene's size is accepted, or one of
+    /// given velocities by more than a thousandth of the fastest that hang together with them.
     pub correction: CorrectionLimit,
 }
 
 /// How far a start may be corrected.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum CorrectionLimit {
-    /// By a thousandth of the scene's size, and a thousandth of a radian; given velocities by a thousandth of the fastest.
+    /// By a thousandth of the scene's size, and a thousandth of a radian; given velocities by a
+    /// thousandth of the fastest.
     #[default]
     Small,
     /// By any amount.
@@ -82,11 +84,12 @@ type Restricting<'a> = (&'a [usize], &'a [f64]);
 /// Iterations of the assembly; each gains digits linearly with the size of the correction.
 const ITERATIONS: usize = 60;
 
-/// Damping of the least-squares step, relative to rows of size one: small against any row that matters,
-/// large against rounding.
+/// Damping of the least-squares step, relative to rows of size one: small against any row that
+/// matters, large against rounding.
 const DAMPING: f64 = 1e-10;
 
-/// Share of the scene's size (and of a radian, and of the fastest velocity) that a start may be corrected without being asked.
+/// Share of the scene's size (and of a radian, and of the fastest velocity) that a start may be
+/// corrected without being asked.
 const SMALL_CORRECTION: f64 = 1e-3;
 
 /// A row counts as satisfied below this many roundings of its terms.
@@ -112,10 +115,11 @@ fn dense_rows(layout: &Layout, s: &Scratch, rows: &[usize]) -> Result<Matrix, St
     Ok(c)
 }
 
-/// Finds a consistent configuration and takes the initial values of joints, drives and forces from it.
+/// Finds a consistent configuration and takes the initial values of joints, drives and forces from
+/// it.
 ///
-/// The correction minimises `(q − q₀)ᵀ·M·(q − q₀)` under Φ(q, 0) = 0; coordinates without mass or inertia weigh as the
-/// smallest one that has it, kept ones do not move.
+/// The correction minimises `(q − q₀)ᵀ·M·(q − q₀)` under Φ(q, 0) = 0; coordinates without mass or
+/// inertia weigh as the smallest one that has it, kept ones do not move.
 ///
 /// # Errors
 /// - [`StartError::NoAssembly`]: the constraints contradict each other or the start is too far off.
@@ -178,7 +182,8 @@ fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
 /// Places that are no farther apart than so many roundings of where they stand are one place.
 const COINCIDE: f64 = 1e3;
 
-/// Diagonal of the box around all bodies and joints; where these are one place, around all points of the joints; 1 m where these are, too.
+/// Diagonal of the box around all bodies and joints; where these are one place, around all points
+/// of the joints; 1 m where these are, too.
 #[must_use]
 pub fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
     let mut s = mechanism.scratch();
@@ -266,11 +271,12 @@ fn position_weights(
     Ok(weights)
 }
 
-/// Masses, and inertias divided by the square of the size, below this share of the largest weigh as this share: what is lighter makes no difference to
-/// what is heavy, but its square would overflow.
+/// Masses, and inertias divided by the square of the size, below this share of the largest weigh as
+/// this share: what is lighter makes no difference to what is heavy, but its square would overflow.
 const LIGHTEST: f64 = 1e-30;
 
-/// Inverse weights of the coordinates in the mass metric; what has no mass or inertia weighs as the smallest one that has it.
+/// Inverse weights of the coordinates in the mass metric; what has no mass or inertia weighs as the
+/// smallest one that has it.
 fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let unit = |k: usize| if k % N_BODY == 2 { size * size } else { 1.0 };
     let comparable = mechanism
@@ -317,8 +323,9 @@ fn kept_columns(
     .collect()
 }
 
-/// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, until Φ is zero to rounding; if rows disagree, until the sum of squares of
-/// Φ is least, where that is `within` the tolerances that the scene states.
+/// Repeats `q ← q₀ + argmin ‖δ‖_M` under the constraints linearised at q, until Φ is zero to
+/// rounding; if rows disagree, until the sum of squares of Φ is least, where that is `within` the
+/// tolerances that the scene states.
 fn nearest(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -380,8 +387,8 @@ fn nearest(
     unreachable!("the last iteration returns")
 }
 
-/// Rows that miss, the worst first. What a least-squares solution leaves is orthogonal to all motions, so
-/// these rows are the ones that cannot hold together.
+/// Rows that miss, the worst first. What a least-squares solution leaves is orthogonal to all
+/// motions, so these rows are the ones that cannot hold together.
 fn misfits(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<Misfit> {
     let worst = rows.iter().fold(0.0_f64, |a, &r| a.max(s.phi[r].abs()));
     let missing = |r: &&usize| {

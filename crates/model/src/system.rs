@@ -1,5 +1,5 @@
-//! What a solver sees of a mechanism: sizes, patterns and kernels on the caller's storage. No kernel
-//! allocates; each computes one thing, so that nobody pays for what he does not ask.
+//! What a solver sees of a mechanism: sizes, patterns and kernels on the caller's storage. No
+//! kernel allocates; each computes one thing, so that nobody pays for what he does not ask.
 
 use joints::{Pose, Twist};
 use linalg::Matrix;
@@ -8,8 +8,9 @@ use crate::reaction::ConstraintGroup;
 
 /// The equations of a mechanism.
 ///
-/// Order of calls at one instant: [`System::pose`]; then any of [`System::phi`], [`System::c`], [`System::b`];
-/// [`System::twist`]; then [`System::gamma`] and [`System::force`]. Results stand in the [`Scratch`].
+/// Order of calls at one instant: [`System::pose`]; then any of [`System::phi`], [`System::c`],
+/// [`System::b`]; [`System::twist`]; then [`System::gamma`] and [`System::force`]. Results stand in
+/// the [`Scratch`].
 pub trait System: Sync {
     /// Sizes, patterns and labels.
     fn layout(&self) -> &Layout;
@@ -160,8 +161,8 @@ impl std::fmt::Display for RowLabel {
     }
 }
 
-/// Storage of one evaluation. Made by [`System::scratch`]; holds the results of the kernels, and serves the mechanism that made it: what
-/// is known from the last evaluation is not computed again.
+/// Storage of one evaluation. Made by [`System::scratch`]; holds the results of the kernels, and
+/// serves the mechanism that made it: what is known from the last evaluation is not computed again.
 #[derive(Clone, Debug)]
 pub struct Scratch {
     /// Time of the poses.

@@ -1,4 +1,5 @@
-//! What the numbers of a scene are known to, where somebody says so. Without that they are known to their rounding.
+//! What the numbers of a scene are known to, where somebody says so. Without that they are known to
+//! their rounding.
 //!
 //! Not here: what a tolerance means for a rank (`solvability`).
 
@@ -20,8 +21,8 @@ pub struct Tolerance {
 }
 
 impl Tolerance {
-    /// That of angles in a mechanism of this size (m): the one stated, or the length tolerance divided by the size. Returns `None`
-    /// if neither is stated.
+    /// That of angles in a mechanism of this size (m): the one stated, or the length tolerance
+    /// divided by the size. Returns `None` if neither is stated.
     ///
     /// ```
     /// use model::Tolerance;
@@ -138,9 +139,9 @@ impl Mechanism {
             || self.constraints().iter().any(|c| c.tolerance.is_some())
     }
 
-    /// What data of this shape in a constraint are known to, in their unit, in a mechanism of this size (m). Lengths: as is stated of
-    /// the constraint, else of the body whose frame they are in, else of the scene. Angles: as the scene states, else that length
-    /// divided by the size.
+    /// What data of this shape in a constraint are known to, in their unit, in a mechanism of this
+    /// size (m). Lengths: as is stated of the constraint, else of the body whose frame they are in,
+    /// else of the scene. Angles: as the scene states, else that length divided by the size.
     pub(crate) fn tolerance_of(
         &self,
         c: &PlacedConstraint,

@@ -1,5 +1,6 @@
-//! What the entries of C are known to. Data stand in `f64`, rounded: an entry that is made of terms of size one and is 1e-17 may
-//! as well be zero, one that is made of terms of size 1e-8 and is 1e-9 means something.
+//! What the entries of C are known to. Data stand in `f64`, rounded: an entry that is made of terms
+//! of size one and is 1e-17 may as well be zero, one that is made of terms of size 1e-8 and is 1e-9
+//! means something.
 
 use std::ops::Range;
 
@@ -9,8 +10,9 @@ use linalg::Matrix;
 use crate::mechanism::{Mechanism, N_BODY, pose_of};
 use crate::system::{Scratch, System};
 
-/// Relative error of the numbers of a scene, and of what is made of them: half a unit in the last place for each of eight roundings, which are
-/// reading of the number, the place of its body (two), its turn into the frame of the body (two), sine and cosine, and the evaluation of C (two).
+/// Relative error of the numbers of a scene, and of what is made of them: half a unit in the last
+/// place for each of eight roundings, which are reading of the number, the place of its body (two),
+/// its turn into the frame of the body (two), sine and cosine, and the evaluation of C (two).
 pub const ROUNDING: f64 = 8.0 * f64::EPSILON / 2.0;
 
 /// An assembled start is closed to so many roundings.
@@ -21,7 +23,8 @@ const CLOSED: f64 = 10.0;
 pub enum Known {
     /// As stored: it is the one that is meant.
     AsStored,
-    /// To this share of a radian and of the lengths of the mechanism: what an integrator reached with about this tolerance.
+    /// To this share of a radian and of the lengths of the mechanism: what an integrator reached
+    /// with about this tolerance.
     To(f64),
 }
 
@@ -36,13 +39,16 @@ impl Known {
 }
 
 impl Mechanism {
-    /// How far each entry of C may be from that of the mechanism meant, (m+h) × n_v, in the units of C; allocates.
+    /// How far each entry of C may be from that of the mechanism meant, (m+h) × n_v, in the units
+    /// of C; allocates.
     ///
-    /// A number is known to the relative error of the data times the size of the terms it adds up, which its kernel on magnitudes
-    /// gives, but never entry by entry: of a force and of the place of a point all components are known equally well, whichever way the
-    /// axes point, and no zero is exact. A lever is known to the rounding of the longest arm of its body and of where its bodies stand,
-    /// and to what the constraints leave open, |Φ_i|: where a tolerance is stated no more than rounding, for what contradicting rows miss within it
-    /// is no fault of the entries. `size` is that of the mechanism. Needs Φ and C at the pose of the scratch.
+    /// A number is known to the relative error of the data times the size of the terms it adds up,
+    /// which its kernel on magnitudes gives, but never entry by entry: of a force and of the place
+    /// of a point all components are known equally well, whichever way the axes point, and no zero
+    /// is exact. A lever is known to the rounding of the longest arm of its body and of where its
+    /// bodies stand, and to what the constraints leave open, |Φ_i|: where a tolerance is stated no
+    /// more than rounding, for what contradicting rows miss within it is no fault of the entries.
+    /// `size` is that of the mechanism. Needs Φ and C at the pose of the scratch.
     #[must_use]
     pub fn uncertainty(&self, s: &Scratch, size: f64, known: Known) -> Matrix {
         let layout = self.layout();
@@ -89,7 +95,8 @@ impl Mechanism {
                 u.push(match dof {
                     2 => {
                         let lever = force * self.reach(body);
-                        // A rotation that comes without a force, as that of a rolling wheel, has no lever.
+                        // A rotation that comes without a force, as that of a rolling wheel, has no
+                        // lever.
                         let moved = if force > 0.0 || forces.is_empty() {
                             shift
                         } else {
@@ -106,7 +113,8 @@ impl Mechanism {
         u
     }
 
-    /// Of each body that this row of the pattern pushes: the body, the size of the force, and the size of the terms that it is made of.
+    /// Of each body that this row of the pattern pushes: the body, the size of the force, and the
+    /// size of the terms that it is made of.
     fn forces_of_row(
         &self,
         s: &Scratch,
@@ -154,7 +162,8 @@ impl Mechanism {
     }
 }
 
-/// Sizes of what a pose contributes to a polynomial; cosine and sine are known to the rounding of their angle.
+/// Sizes of what a pose contributes to a polynomial; cosine and sine are known to the rounding of
+/// their angle.
 fn magnitude(pose: &Pose) -> Pose<Magnitude> {
     let turned = Magnitude::from(pose.angle.abs().max(1.0));
     Pose {

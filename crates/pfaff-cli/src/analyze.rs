@@ -1,4 +1,5 @@
-//! `pfaff analyze`: the verdict of every reaction and what else was asked, for people or as JSON. Both tell the same document.
+//! `pfaff analyze`: the verdict of every reaction and what else was asked, for people or as JSON.
+//! Both tell the same document.
 
 mod along;
 mod ask;
@@ -68,7 +69,8 @@ fn of_study(
         let document = ask::document(arguments, source, &inquiry)?;
         Ok::<_, Failure>((inquiry, document))
     };
-    // A motion is computed step by step, and leaves the verdicts of the start a thread of their own.
+    // A motion is computed step by step, and leaves the verdicts of the start a thread of their
+    // own.
     let (of_configuration, along) = match arguments.along {
         Some(t_end) => pfaff::both(of_configuration, || {
             Some(along::judge(source, study, t_end, &bars))

@@ -21,7 +21,8 @@ pub(crate) use known::Known;
 use crate::resources::Resources;
 use crate::template::Template;
 
-/// Mechanisms with redundant constraints: how they move, and which of their joint reactions may be believed.
+/// Mechanisms with redundant constraints: how they move, and which of their joint reactions may be
+/// believed.
 #[derive(Parser)]
 #[command(
     name = "pfaff",
@@ -130,11 +131,12 @@ pub(crate) struct Analyze {
     /// A sum of components whose verdict is wanted, as "W3.N + W4.N"; may be given several times
     #[arg(long, value_name = "EXPR", allow_hyphen_values = true)]
     pub(crate) combine: Vec<String>,
-    /// What to delete so that this reaction becomes unique, the smallest sets; may be given several times
+    /// What to delete so that this reaction becomes unique, the smallest sets; may be given several
+    /// times
     #[arg(long, value_name = "NAME")]
     pub(crate) make_unique: Vec<String>,
-    /// What may be deleted for it: sensible (no joint of several rows loses all of them), whole (joints and drives as a whole),
-    /// rows (any), or rows:4,6,21 (these)
+    /// What may be deleted for it: sensible (no joint of several rows loses all of them), whole
+    /// (joints and drives as a whole), rows (any), or rows:4,6,21 (these)
     #[arg(long, value_name = "WHAT", default_value = "sensible")]
     pub(crate) allow: String,
     /// List the sets of rows that can be eliminated without a change of motion, N at most
@@ -143,11 +145,13 @@ pub(crate) struct Analyze {
     /// Verdicts in the frames of the first body and of the edge, too
     #[arg(long)]
     pub(crate) frames: bool,
-    /// Run the motion, as long as the scene says or to T_END (s): one verdict, and where another holds
+    /// Run the motion, as long as the scene says or to T_END (s): one verdict, and where another
+    /// holds
     #[arg(long, value_name = "T_END", num_args = 0..=1, allow_negative_numbers = true)]
     pub(crate) along: Option<Option<f64>>,
-    /// Reactions by a choice: minimum-norm, minimum-norm:length=L (torques count as forces at this arm),
-    /// compliance:W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds rad/(N·m)), drop:6,21; may be given several times
+    /// Reactions by a choice: minimum-norm, minimum-norm:length=L (torques count as forces at this
+    /// arm), compliance:W3=1e-6,W4=2e-6 (m/N; NAME=M/R adds rad/(N·m)), drop:6,21; may be given
+    /// several times
     #[arg(long, value_name = "CHOICE")]
     pub(crate) choose: Vec<String>,
     #[command(flatten)]
@@ -232,7 +236,8 @@ pub(crate) struct Sweep {
     /// Scene file, or - for standard input
     #[arg(required_unless_present = "merge", conflicts_with = "merge")]
     pub(crate) scene: Option<PathBuf>,
-    /// A number of the scene and its values: KEY=FROM:TO:N, KEY=FROM:TO:N:log or KEY=A,B,C; may be given several times
+    /// A number of the scene and its values: KEY=FROM:TO:N, KEY=FROM:TO:N:log or KEY=A,B,C; may be
+    /// given several times
     #[arg(long, value_name = "KEY=VALUES", required_unless_present = "merge")]
     pub(crate) vary: Vec<Axis>,
     /// Directory for the results
@@ -347,7 +352,8 @@ pub(crate) struct New {
 pub(crate) struct View {
     /// Scene file, or - for standard input
     pub(crate) scene: PathBuf,
-    /// File for the picture; the name of the scene file with .svg, in this directory, where it is not given
+    /// File for the picture; the name of the scene file with .svg, in this directory, where it is
+    /// not given
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) out: Option<PathBuf>,
     /// Do not open it

@@ -1,4 +1,5 @@
-//! Where answers go, and which joints and forces there are. A closed output ends the command quietly.
+//! Where answers go, and which joints and forces there are. A closed output ends the command
+//! quietly.
 
 use std::cell::RefCell;
 use std::io::{self, IsTerminal, Write};
@@ -70,7 +71,8 @@ impl<'c> Console<'c> {
         })
     }
 
-    /// Writes what was reached of something that was not done to its end. That it was not is the answer, whoever listens.
+    /// Writes what was reached of something that was not done to its end. That it was not is the
+    /// answer, whoever listens.
     pub(crate) fn incomplete(&self, text: &str) -> Failure {
         match self.print(text) {
             Ok(()) | Err(Failure::Closed) => Failure::Incomplete,
@@ -88,7 +90,8 @@ impl<'c> Console<'c> {
         is_coloured(&self.out.borrow())
     }
 
-    /// Says why a command did not do all it was asked, and gives the exit code: in words, or as a document among the answers.
+    /// Says why a command did not do all it was asked, and gives the exit code: in words, or as a
+    /// document among the answers.
     pub(crate) fn report(&self, failure: Failure, answer: Answer) -> ExitCode {
         let code = match failure {
             Failure::Closed => return ExitCode::SUCCESS,

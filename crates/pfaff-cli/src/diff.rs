@@ -236,7 +236,8 @@ fn verdicts(names: &[String; 2], c: &Comparison<'_>) -> String {
     }
 }
 
-/// The verdict of a reaction, with its type where that matters, and which components are not unique.
+/// The verdict of a reaction, with its type where that matters, and which components are not
+/// unique.
 fn words(r: &ReactionDocument, with_type: bool) -> String {
     let verdict = r.said();
     let free = r

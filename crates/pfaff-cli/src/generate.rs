@@ -49,8 +49,8 @@ fn to_standard_output(generator: &Generator, console: &Console<'_>) -> Outcome {
     written
 }
 
-/// Writes beside the file and renames, so that what has its name is whole; pipes and devices are written as they are. Tells how many bytes
-/// were written.
+/// Writes beside the file and renames, so that what has its name is whole; pipes and devices are
+/// written as they are. Tells how many bytes were written.
 fn to_file(generator: &Generator, path: &Path) -> Result<u64, Failure> {
     let refused =
         |e: io::Error| Failure::stopped(format!("cannot write `{}`: {e}", path.display()));

@@ -13,14 +13,15 @@ use crate::console::Console;
 use crate::output::Failure;
 use crate::resources::{Resources, Stage};
 
-/// Largest scene that is read (bytes): ten times what a hundred thousand bodies take. A device that never ends
-/// must not fill the memory.
+/// Largest scene that is read (bytes): ten times what a hundred thousand bodies take. A device that
+/// never ends must not fill the memory.
 pub(crate) const LARGEST: u64 = 1 << 28;
 
 /// Entries of a directory among which a name is looked for.
 const LOOKED_AT: usize = 10_000;
 
-/// The text of a scene with the name that messages call it by, and what the command line says of its numbers.
+/// The text of a scene with the name that messages call it by, and what the command line says of
+/// its numbers.
 pub(crate) struct Source<'r> {
     pub(crate) name: String,
     pub(crate) text: String,

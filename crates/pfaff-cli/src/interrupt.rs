@@ -1,4 +1,5 @@
-//! Requests to stop from outside: Ctrl-C, the end of the terminal, and the signal that ends processes.
+//! Requests to stop from outside: Ctrl-C, the end of the terminal, and the signal that ends
+//! processes.
 
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,8 +10,8 @@ use crate::output::Failure;
 /// Exit code of a program that was interrupted.
 const INTERRUPTED: i32 = 1;
 
-/// Whether somebody asked to stop. The first request is for the computation, which keeps what it has; a second one ends the program at
-/// once, wherever it is.
+/// Whether somebody asked to stop. The first request is for the computation, which keeps what it
+/// has; a second one ends the program at once, wherever it is.
 #[derive(Clone)]
 pub(crate) struct Interrupt(Arc<AtomicBool>);
 
@@ -32,7 +33,8 @@ impl Interrupt {
         on_request(|| process::exit(INTERRUPTED))
     }
 
-    /// Listens for a command that goes on until it is told to stop: that is its end, not its failure.
+    /// Listens for a command that goes on until it is told to stop: that is its end, not its
+    /// failure.
     pub(crate) fn ends_well() -> Result<(), Failure> {
         on_request(|| process::exit(0))
     }

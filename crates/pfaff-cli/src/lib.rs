@@ -32,10 +32,12 @@ use args::{Arguments, Command};
 use console::Console;
 pub use console::Stream;
 
-/// Runs one command: `arguments` begin with the name of the program, `registry` knows the joints and forces of scenes.
+/// Runs one command: `arguments` begin with the name of the program, `registry` knows the joints
+/// and forces of scenes.
 ///
-/// Answers go to `out`, what went wrong to `err`. Exit codes: 0 done (also when nobody reads `out` any more), 1 the
-/// computation stopped or was interrupted, 2 the input is wrong. With `--json`, `out` gets one document, whichever it is.
+/// Answers go to `out`, what went wrong to `err`. Exit codes: 0 done (also when nobody reads `out`
+/// any more), 1 the computation stopped or was interrupted, 2 the input is wrong. With `--json`,
+/// `out` gets one document, whichever it is.
 ///
 /// ```
 /// use pfaff::model::Registry;

@@ -47,7 +47,8 @@ impl Failure {
         }
     }
 
-    /// For programs: `error` is one line, `problems` are the places of a scene that are at fault, if any are.
+    /// For programs: `error` is one line, `problems` are the places of a scene that are at fault,
+    /// if any are.
     pub(crate) fn document(&self) -> Value {
         let (error, problems) = match self {
             Self::Scene { diagnostics, .. } => (in_one_line(diagnostics), diagnostics.as_slice()),
@@ -161,7 +162,8 @@ fn label<'a>(name: &'a str, l: &pfaff::scene::Label) -> Label<(&'a str, std::ops
 /// Letters in a line of text for people.
 const WIDTH: usize = 100;
 
-/// A text in lines of at most 100 letters where words allow it; the first begins with `lead`, the others are indented as far.
+/// A text in lines of at most 100 letters where words allow it; the first begins with `lead`, the
+/// others are indented as far.
 pub(crate) fn wrapped(lead: &str, text: &str) -> String {
     let indent = " ".repeat(lead.chars().count());
     let (mut out, mut line) = (String::new(), lead.to_owned());

@@ -1,4 +1,5 @@
-//! What a command may use of the machine: threads, and memory. More than there is is refused before it is taken, with the number.
+//! What a command may use of the machine: threads, and memory. More than there is is refused before
+//! it is taken, with the number.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -18,7 +19,8 @@ pub(crate) struct Resources {
     /// Threads at most; as many as there are cores where it is not given
     #[arg(long, value_name = "K")]
     pub(crate) threads: Option<NonZeroUsize>,
-    /// Memory at most, as 500MB or 4GiB: more is refused beforehand; what the machine has left where it is not given
+    /// Memory at most, as 500MB or 4GiB: more is refused beforehand; what the machine has left
+    /// where it is not given
     #[arg(long, value_name = "SIZE")]
     pub(crate) max_memory: Option<Bytes>,
 }
@@ -118,7 +120,8 @@ impl std::fmt::Display for Bytes {
     }
 }
 
-/// What may still be taken, where the system says so: of the machine, and of the group of processes that this one is in.
+/// What may still be taken, where the system says so: of the machine, and of the group of processes
+/// that this one is in.
 fn available() -> Option<Bytes> {
     let read = |path: &str| fs::read_to_string(path).ok();
     let machine = read("/proc/meminfo").and_then(|text| {

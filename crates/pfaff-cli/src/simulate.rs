@@ -13,8 +13,8 @@ use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome};
 use crate::work_precision::provenance;
 
-/// Share of the largest kinetic energy by which a run may miss its energy balance without a warning. Default tolerances
-/// stay below a thousandth of this; what is above shows in a plot.
+/// Share of the largest kinetic energy by which a run may miss its energy balance without a
+/// warning. Default tolerances stay below a thousandth of this; what is above shows in a plot.
 pub(crate) const TRUSTED_BALANCE: f64 = 1e-3;
 
 /// Ticks of the progress bar over the whole run.

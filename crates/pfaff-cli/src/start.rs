@@ -1,4 +1,5 @@
-//! The assembled start with its verdicts, of mechanisms of any size: what a picture and a comparison begin with.
+//! The assembled start with its verdicts, of mechanisms of any size: what a picture and a
+//! comparison begin with.
 
 use pfaff::model::{Mechanism, System};
 use pfaff::report::AnalysisDocument;

@@ -1,4 +1,5 @@
-//! `pfaff sweep`: many runs of one scene with other numbers, in parallel, in parts, resumable; with progress on a terminal.
+//! `pfaff sweep`: many runs of one scene with other numbers, in parallel, in parts, resumable; with
+//! progress on a terminal.
 
 use std::num::NonZeroUsize;
 

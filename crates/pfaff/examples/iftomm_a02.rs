@@ -1,9 +1,11 @@
-//! The benchmark A02 of the IFToMM/LIM library: forty four-bars in a row for twenty seconds, through flat poses. Largest error of the first top's
-//! coordinates over 400 rows of output, and time, for some tolerances and methods.
+//! The benchmark A02 of the IFToMM/LIM library: forty four-bars in a row for twenty seconds,
+//! through flat poses. Largest error of the first top's coordinates over 400 rows of output, and
+//! time, for some tolerances and methods.
 //!
 //! `cargo run --release -p pfaff --example iftomm_a02`
 //!
-//! The reference is one angle, θ of all uprights from the upward vertical: `[(N + 1)/3 + N]·θ̈ = [(N + 1)/2 + N]·g·sin θ`, θ̇(0) = 1 rad/s.
+//! The reference is one angle, θ of all uprights from the upward vertical:
+//! `[(N + 1)/3 + N]·θ̈ = [(N + 1)/2 + N]·g·sin θ`, θ̇(0) = 1 rad/s.
 #![allow(clippy::print_stdout)]
 
 use std::error::Error;

@@ -1,5 +1,5 @@
-//! What a large scene costs: reading, building, assembling, the verdict of every reaction, how much each hangs on the data, choosing rows, and one
-//! right-hand side.
+//! What a large scene costs: reading, building, assembling, the verdict of every reaction, how much
+//! each hangs on the data, choosing rows, and one right-hand side.
 //!
 //! `cargo run --release -p pfaff --example large -- SCENE.toml …`
 #![allow(clippy::print_stdout)]

@@ -1,4 +1,5 @@
-//! Chains of four-bars through their flat poses, where branches meet: time for an error, and how many of sixteen runs stay on their branch.
+//! Chains of four-bars through their flat poses, where branches meet: time for an error, and how
+//! many of sixteen runs stay on their branch.
 //!
 //! `cargo run --release -p pfaff --example n_four_bar -- 1 16 64`
 #![allow(clippy::print_stdout)]
@@ -83,7 +84,8 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Where the top of an upright is at the end, from its foot: the angle from the upward vertical by the classical method of Runge and Kutta.
+/// Where the top of an upright is at the end, from its foot: the angle from the upward vertical by
+/// the classical method of Runge and Kutta.
 fn tip(n: usize) -> [f64; 2] {
     let h = T_END / f64::from(STEPS);
     let f = |[angle, rate]: [f64; 2]| [rate, acceleration(n, angle)];

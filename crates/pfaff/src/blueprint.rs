@@ -1,5 +1,5 @@
-//! A scene with its mechanism, before anything is said of its rows: where a study begins, and all there is of a mechanism whose
-//! rank is too doubtful for a motion.
+//! A scene with its mechanism, before anything is said of its rows: where a study begins, and all
+//! there is of a mechanism whose rank is too doubtful for a motion.
 
 use dynamics::{MotionError, MotionOptions, RowChoice, prepare, start_velocity};
 use model::start::assemble;
@@ -66,8 +66,8 @@ impl Blueprint {
         }
     }
 
-    /// States what the numbers of the scene are known to, in place of what its `[scene]` says; what is not stated here stays. Tolerances of
-    /// bodies and joints go before these as before.
+    /// States what the numbers of the scene are known to, in place of what its `[scene]` says; what
+    /// is not stated here stays. Tolerances of bodies and joints go before these as before.
     ///
     /// ```
     /// use pfaff::Blueprint;
@@ -98,10 +98,11 @@ impl Blueprint {
     /// Finds a consistent start and chooses rows.
     ///
     /// # Errors
-    /// - [`StudyError::Scene`]: there is no such start; of a scene without text [`StudyError::Motion`].
+    /// - [`StudyError::Scene`]: there is no such start; of a scene without text
+    ///   [`StudyError::Motion`].
     /// - [`StudyError::SingularStart`]: there is one, but no motion begins with its velocities.
-    /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen; or the options of the run are none, with their place if they are those of
-    ///   the scene.
+    /// - [`StudyError::Motion`]: the start exists, but no rows can be chosen; or the options of the
+    ///   run are none, with their place if they are those of the scene.
     pub fn prepare(self, overrides: &Overrides) -> Result<Study, StudyError> {
         let Self { scene, mechanism } = self;
         let options = options(&scene, overrides);
@@ -144,7 +145,8 @@ impl Blueprint {
         })
     }
 
-    /// Moves the bodies to a consistent configuration of the start, the nearest one, where initial values of joints are taken.
+    /// Moves the bodies to a consistent configuration of the start, the nearest one, where initial
+    /// values of joints are taken.
     ///
     /// # Errors
     /// [`StudyError::Scene`]: there is none; of a scene without text [`StudyError::Motion`].
@@ -152,11 +154,12 @@ impl Blueprint {
         assemble(&mut self.mechanism, &self.scene.start).map_err(|e| refused(&self.scene, e.into()))
     }
 
-    /// The start, to be asked about its reactions, also where [`Blueprint::prepare`] refuses it: because the rank is undecided in
-    /// `f64`, or no motion begins there.
+    /// The start, to be asked about its reactions, also where [`Blueprint::prepare`] refuses it:
+    /// because the rank is undecided in `f64`, or no motion begins there.
     ///
     /// # Errors
-    /// As [`Blueprint::assemble`], also where no motion has the given velocities, and [`StudyError::Analysis`]: C cannot be judged there.
+    /// As [`Blueprint::assemble`], also where no motion has the given velocities, and
+    /// [`StudyError::Analysis`]: C cannot be judged there.
     pub fn inquire(&mut self, drop: Option<&[usize]>) -> Result<Inquiry<'_>, StudyError> {
         self.inquire_watched(drop, |_| ())
     }
@@ -191,7 +194,8 @@ impl Blueprint {
             let rows = solvability::rows(&self.mechanism, 0.0, q)?;
             inquiry.state.v = match start_velocity(&self.mechanism, start, &rows, q, kept) {
                 Ok((found, _)) => found.v,
-                // Rows that are independent by the certificate may be too nearly dependent for numbers.
+                // Rows that are independent by the certificate may be too nearly dependent for
+                // numbers.
                 Err(MotionError::Start(StartError::NoVelocity { .. }))
                     if !rows.all.is_decided()
                         || rows.inseparable(&self.mechanism, 0.0, q).is_some() =>
@@ -213,7 +217,8 @@ pub(crate) fn refused(scene: &Scene, error: MotionError) -> StudyError {
     }
 }
 
-/// Whether rows contradict each other in accelerations only, and none of them is driven: another velocity would do.
+/// Whether rows contradict each other in accelerations only, and none of them is driven: another
+/// velocity would do.
 fn leaves_no_motion(e: &MotionError) -> bool {
     matches!(e, MotionError::Contradiction(c) if c.level == ConstraintLevel::Acceleration && c.drives == 0)
 }

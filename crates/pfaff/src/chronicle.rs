@@ -1,5 +1,5 @@
-//! `report.html` of a run: what is kept while it moves, and what is asked of its start afterwards. What the scene does not want is not
-//! computed for it; the page shows what there is.
+//! `report.html` of a run: what is kept while it moves, and what is asked of its start afterwards.
+//! What the scene does not want is not computed for it; the page shows what there is.
 
 use dynamics::plan::Rows;
 use dynamics::{Plan, Sample, Trip};
@@ -16,7 +16,8 @@ use crate::comparison::compare;
 use crate::inquiry::Inquiry;
 use crate::study::Study;
 
-/// Reactions that are not unique for which the page says what would make them so, and sets tried for each.
+/// Reactions that are not unique for which the page says what would make them so, and sets tried
+/// for each.
 const HINTS: usize = 8;
 const HINT_TRIALS: usize = 2_000;
 

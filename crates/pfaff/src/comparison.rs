@@ -1,8 +1,10 @@
-//! Reactions that are not unique along a run, by several choices: the one of the run, the least norm, and sets of rows without reaction. Set
-//! by set of joints that share cycles, so that the work grows with the sets that are redundant and not with the mechanism.
+//! Reactions that are not unique along a run, by several choices: the one of the run, the least
+//! norm, and sets of rows without reaction. Set by set of joints that share cycles, so that the
+//! work grows with the sets that are redundant and not with the mechanism.
 //!
-//! All solutions at an instant are `λ + Z·y`. λ is that of the run; Z belongs to the configuration there, so that a component is told from
-//! facts at every instant and not at the start alone. Where the rank is in doubt nothing is said.
+//! All solutions at an instant are `λ + Z·y`. λ is that of the run; Z belongs to the configuration
+//! there, so that a component is told from facts at every instant and not at the start alone. Where
+//! the rank is in doubt nothing is said.
 
 #[cfg(test)]
 mod tests;
@@ -24,13 +26,15 @@ const SETS_MAX: usize = 24;
 const ELIMINATIONS: usize = 6;
 const CANDIDATES: usize = 400;
 
-/// Rows without reaction must fix what is free at least this well, or their numbers are large for that reason alone.
+/// Rows without reaction must fix what is free at least this well, or their numbers are large for
+/// that reason alone.
 const FIRM: f64 = 0.02;
 
 /// What is below this share of the largest free load of a set is rounding.
 const VISIBLE: f64 = 1e-9;
 
-/// Share of the square of a free force that lies across its main direction, if the force is free in the plane.
+/// Share of the square of a free force that lies across its main direction, if the force is free in
+/// the plane.
 const PLANE: f64 = 1e-9;
 
 /// The comparisons, and in words what is not compared.
@@ -270,8 +274,8 @@ impl<'a> Set<'a> {
     }
 }
 
-/// Directions of the forces `W_X·Z_X·y` of each joint, and which components of its wrench change with y; torques are measured by forces at the size
-/// of the set (m).
+/// Directions of the forces `W_X·Z_X·y` of each joint, and which components of its wrench change
+/// with y; torques are measured by forces at the size of the set (m).
 fn freedom(free: &[Matrix], turns: &[[f64; 2]], size: f64) -> Vec<Freedom> {
     let norm = |m: &Matrix, i: usize| m.row(i).iter().map(|x| x * x).sum::<f64>().sqrt();
     let along = |m: &Matrix, x: f64, y: f64| {
@@ -316,7 +320,8 @@ struct Instant {
     freedom: Vec<Freedom>,
 }
 
-/// Sets of rows, so that each row that can be without reaction is in one if they suffice; those that fix best come first.
+/// Sets of rows, so that each row that can be without reaction is in one if they suffice; those
+/// that fix best come first.
 fn eliminations(decision: &RankDecision) -> Vec<Vec<usize>> {
     let z = dependencies(decision);
     let all = deletions(decision, CANDIDATES).unwrap_or_default();

@@ -1,5 +1,5 @@
-//! Two scenes side by side: what changed in ranks, verdicts and dependencies, and how far apart the motions run. Things are the same where
-//! their names are.
+//! Two scenes side by side: what changed in ranks, verdicts and dependencies, and how far apart the
+//! motions run. Things are the same where their names are.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -48,7 +48,8 @@ pub struct Comparison<'a> {
     pub removed: Vec<&'a ReactionDocument>,
     /// Those that only the second has.
     pub added: Vec<&'a ReactionDocument>,
-    /// Those whose type, number of rows or verdicts differ, or whether they are fragile, in the order of the first.
+    /// Those whose type, number of rows or verdicts differ, or whether they are fragile, in the
+    /// order of the first.
     pub verdicts: Vec<VerdictChange<'a>>,
     /// Dependencies of the first whose joints depend so no more.
     pub gone: Vec<&'a DependencyDocument>,
@@ -56,7 +57,8 @@ pub struct Comparison<'a> {
     pub new: Vec<&'a DependencyDocument>,
 }
 
-/// A joint or drive that both scenes have, with another type or another verdict, or fragile in one of them only.
+/// A joint or drive that both scenes have, with another type or another verdict, or fragile in one
+/// of them only.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
 pub struct VerdictChange<'a> {
@@ -173,7 +175,8 @@ const TIMES: f64 = 200.0;
 const N_BODY: usize = 3;
 
 impl MotionComparison {
-    /// Runs both scenes with their own options and compares 201 states; nothing where one of them has no `[simulate]`.
+    /// Runs both scenes with their own options and compares 201 states; nothing where one of them
+    /// has no `[simulate]`.
     ///
     /// # Errors
     /// [`StudyError::Motion`]: one of the motions stopped.

@@ -20,8 +20,8 @@ pub enum StudyError {
     /// The description that a program has made is wrong, with all faults.
     #[error("{} problem(s) in the description, the first: {}", .0.len(), .0.first().map_or(String::new(), ToString::to_string))]
     Build(Vec<BuildError>),
-    /// The start is a singular configuration that cannot be left with its velocities. It can be judged all the same, by
-    /// [`Blueprint::inquire`](crate::Blueprint::inquire).
+    /// The start is a singular configuration that cannot be left with its velocities. It can be
+    /// judged all the same, by [`Blueprint::inquire`](crate::Blueprint::inquire).
     #[error("{contradiction}")]
     SingularStart {
         /// What stands against it.
@@ -99,8 +99,9 @@ fn suggestion(nearest: Option<&str>) -> String {
 }
 
 impl StudyError {
-    /// Why a scene cannot be moved although its start can be judged, by [`Blueprint::inquire`](crate::Blueprint::inquire); nothing where the start
-    /// is no start, or nothing keeps the scene from moving.
+    /// Why a scene cannot be moved although its start can be judged, by
+    /// [`Blueprint::inquire`](crate::Blueprint::inquire); nothing where the start is no start, or
+    /// nothing keeps the scene from moving.
     #[must_use]
     pub fn only_motion(&self) -> Option<String> {
         match self {

@@ -1,5 +1,5 @@
-//! One configuration of a scene, and everything that can be asked of its reactions. Each method answers one question; what
-//! nobody asks is not computed.
+//! One configuration of a scene, and everything that can be asked of its reactions. Each method
+//! answers one question; what nobody asks is not computed.
 
 mod document;
 mod requests;
@@ -47,7 +47,8 @@ pub struct Inquiry<'a> {
     pub scene: &'a Scene,
     /// Its mechanism.
     pub mechanism: &'a Mechanism,
-    /// Coordinates and velocities; the latter are empty where the rank is undecided, because none are known to be consistent.
+    /// Coordinates and velocities; the latter are empty where the rank is undecided, because none
+    /// are known to be consistent.
     pub state: State,
     /// Ranks and verdicts.
     pub analysis: Arc<Analysis>,
@@ -65,7 +66,8 @@ pub(crate) enum AskedRows<'r> {
 }
 
 impl<'a> Inquiry<'a> {
-    /// A state that satisfies the constraints at time t, and how well its configuration is known. `progress` is told how many joints are judged.
+    /// A state that satisfies the constraints at time t, and how well its configuration is known.
+    /// `progress` is told how many joints are judged.
     pub(crate) fn new(
         scene: &'a Scene,
         mechanism: &'a Mechanism,
@@ -107,7 +109,8 @@ impl<'a> Inquiry<'a> {
         Ok(&self.analysis.reactions[place])
     }
 
-    /// Verdicts by name: the groups of the scene, then sums of components as `W3.N + W4.N`, or of whole wrenches as `W3 + W4`.
+    /// Verdicts by name: the groups of the scene, then sums of components as `W3.N + W4.N`, or of
+    /// whole wrenches as `W3 + W4`.
     ///
     /// # Errors
     /// If a sum cannot be read, names something unknown, or touches a part that is too large.
@@ -127,10 +130,12 @@ impl<'a> Inquiry<'a> {
         Ok(self.questions.group(&group)?)
     }
 
-    /// The numbers of the same groups that every solution shares, by name; several reactions side by side have none.
+    /// The numbers of the same groups that every solution shares, by name; several reactions side
+    /// by side have none.
     ///
     /// # Errors
-    /// As [`Inquiry::groups`], and [`StudyError::Choice`]: there are no reactions, or the rank is undecided.
+    /// As [`Inquiry::groups`], and [`StudyError::Choice`]: there are no reactions, or the rank is
+    /// undecided.
     pub fn determined(&self, combine: &[String]) -> Result<Vec<Numbers>, StudyError> {
         let solution = self.solution()?;
         let groups = requests::groups(self.scene, self.mechanism, combine)?;
@@ -156,7 +161,8 @@ impl<'a> Inquiry<'a> {
         Ok(numbers.collect::<Result<_, _>>()?)
     }
 
-    /// How much each unique reaction hangs on the data. Nothing is known of it where the rank is undecided.
+    /// How much each unique reaction hangs on the data. Nothing is known of it where the rank is
+    /// undecided.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -194,9 +200,10 @@ impl<'a> Inquiry<'a> {
         generic(self.mechanism, self.analysis.time, &self.state.q)
     }
 
-    /// How the motion goes on at a singular configuration, where the redundancy is larger than elsewhere: along one branch only, or
-    /// not determined by the constraints. Nothing where the configuration is not singular, or where the velocities of the scene do
-    /// not say which motion is meant: it stands still, or has several freedoms.
+    /// How the motion goes on at a singular configuration, where the redundancy is larger than
+    /// elsewhere: along one branch only, or not determined by the constraints. Nothing where the
+    /// configuration is not singular, or where the velocities of the scene do not say which motion
+    /// is meant: it stands still, or has several freedoms.
     ///
     /// # Errors
     /// [`StudyError::State`]
@@ -225,8 +232,8 @@ impl<'a> Inquiry<'a> {
         Ok(Some(found))
     }
 
-    /// Whether the mechanism cannot move although it has freedoms of first order: second order blocks all of them. Not asked of mechanisms with too many
-    /// rows for matrices of all of them.
+    /// Whether the mechanism cannot move although it has freedoms of first order: second order
+    /// blocks all of them. Not asked of mechanisms with too many rows for matrices of all of them.
     ///
     /// # Errors
     /// [`StudyError::State`]
@@ -240,8 +247,8 @@ impl<'a> Inquiry<'a> {
         }
     }
 
-    /// Whether no motion is possible: the rows allow no velocity and do not depend on time, or second order blocks every velocity that
-    /// they allow ([`Inquiry::is_locked`]).
+    /// Whether no motion is possible: the rows allow no velocity and do not depend on time, or
+    /// second order blocks every velocity that they allow ([`Inquiry::is_locked`]).
     ///
     /// # Errors
     /// [`StudyError::State`]
@@ -251,8 +258,8 @@ impl<'a> Inquiry<'a> {
         Ok(is_fixed || self.is_locked()?)
     }
 
-    /// Why the reactions are not unique; nothing while the rank is undecided, where every sentence would build on one of two
-    /// readings.
+    /// Why the reactions are not unique; nothing while the rank is undecided, where every sentence
+    /// would build on one of two readings.
     ///
     /// # Errors
     /// [`StudyError::Explanation`]
@@ -260,7 +267,8 @@ impl<'a> Inquiry<'a> {
         Ok(self.questions.explanation()?)
     }
 
-    /// The number of sets of rows that can be deleted without a change of motion, as many rows as the degree of redundancy.
+    /// The number of sets of rows that can be deleted without a change of motion, as many rows as
+    /// the degree of redundancy.
     ///
     /// # Errors
     /// [`EliminationError`]: the rank or one of the sets is undecided, they are too many, or a part is too large.
@@ -297,7 +305,8 @@ impl<'a> Inquiry<'a> {
         Ok(self.questions.frames(id)?)
     }
 
-    /// The reactions that a choice gives at these velocities: what is unique, and one of many for the rest.
+    /// The reactions that a choice gives at these velocities: what is unique, and one of many for
+    /// the rest.
     ///
     /// # Errors
     /// [`StudyError::Choice`]: there is no such distribution, or the rank is undecided.
@@ -308,7 +317,8 @@ impl<'a> Inquiry<'a> {
         Ok(self.questions.distribute(&self.solution()?, choice)?)
     }
 
-    /// Which components are facts, and which depend on a choice: told by a change of units, without any verdict.
+    /// Which components are facts, and which depend on a choice: told by a change of units, without
+    /// any verdict.
     ///
     /// # Errors
     /// [`StudyError::Units`]: there is nothing to compare, or the rank depends on the units.
@@ -317,7 +327,8 @@ impl<'a> Inquiry<'a> {
         Ok(self.questions.facts(&self.state.v, &solution)?)
     }
 
-    /// What redundant rows contradict each other in, the worst first; nothing is known of this where the rank is undecided.
+    /// What redundant rows contradict each other in, the worst first; nothing is known of this
+    /// where the rank is undecided.
     ///
     /// # Errors
     /// If the configuration cannot be judged.

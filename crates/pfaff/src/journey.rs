@@ -1,4 +1,5 @@
-//! The verdicts along the motion of a scene: it is run, recorded as densely as it moves, and judged.
+//! The verdicts along the motion of a scene: it is run, recorded as densely as it moves, and
+//! judged.
 
 use std::ops::ControlFlow;
 use std::sync::Mutex;
@@ -13,7 +14,8 @@ use solvability::{Along, AlongError, Extent, PassageKind, State, along_motion_of
 use crate::error::StudyError;
 use crate::study::Study;
 
-/// Judged states at least, evenly in time; of large mechanisms so many times rows, but not below the lower number.
+/// Judged states at least, evenly in time; of large mechanisms so many times rows, but not below
+/// the lower number.
 const INTERVALS: usize = 200;
 const INTERVALS_OF_ROWS: usize = 240_000;
 const INTERVALS_LEAST: usize = 24;
@@ -26,10 +28,12 @@ const INTERVALS_LEAST: usize = 24;
 const ROWS: usize = 4;
 const MANY: usize = 10_000;
 
-/// Between judged states no body moves by more than this share of the mechanism's size, or as many radians.
+/// Between judged states no body moves by more than this share of the mechanism's size, or as many
+/// radians.
 const REACH: f64 = 0.1;
 
-/// A motion that stopped is continued by so many times what lies between its last row and its end, at least the distance of rows.
+/// A motion that stopped is continued by so many times what lies between its last row and its end,
+/// at least the distance of rows.
 const BEYOND: f64 = 8.0;
 
 /// Judged states at most.
@@ -45,12 +49,14 @@ pub struct Journey {
     pub to: f64,
     /// Number of judged states.
     pub samples: usize,
-    /// How far a body moves between two of them: a share of the mechanism's size, or as many radians.
+    /// How far a body moves between two of them: a share of the mechanism's size, or as many
+    /// radians.
     pub reach: f64,
     /// Why the motion stopped, if it did.
     pub stopped: Option<MotionError>,
-    /// Where the motion stopped at a singular configuration: until when (s) it was judged, continued beyond its last state as smoothly
-    /// as it came. How it goes on is what the passages say, not what was computed.
+    /// Where the motion stopped at a singular configuration: until when (s) it was judged,
+    /// continued beyond its last state as smoothly as it came. How it goes on is what the passages
+    /// say, not what was computed.
     pub continued_to: Option<f64>,
 }
 
@@ -76,8 +82,8 @@ pub enum Progress {
 }
 
 impl Study {
-    /// Runs the scene up to `t_end`, or as long as it says itself, and judges the motion. Where the run stops, what was computed
-    /// is judged.
+    /// Runs the scene up to `t_end`, or as long as it says itself, and judges the motion. Where the
+    /// run stops, what was computed is judged.
     ///
     /// ```
     /// use pfaff::model::Registry;
@@ -131,8 +137,9 @@ impl Study {
         if run.stopped.is_none() && intervals == least {
             return self.judge(run, intervals, &mut progress);
         }
-        // Once more, where the motion is too fast for these rows, or up to the last state before it stopped. That one may be too
-        // near to a singular configuration to be brought onto the constraints; then the last row before it has to do.
+        // Once more, where the motion is too fast for these rows, or up to the last state before it
+        // stopped. That one may be too near to a singular configuration to be brought onto the
+        // constraints; then the last row before it has to do.
         let again = self.record(run.reached, intervals, &mut progress)?;
         let stopped = again.stopped.is_some();
         match self.judge(again, intervals, &mut progress) {
@@ -285,8 +292,8 @@ struct Row {
     a: Vec<f64>,
 }
 
-/// Sets the acceleration of each row to the slope of the parabola through its velocities and those of
-/// the rows beside it, at the ends through the nearest three; of two rows to that of the line.
+/// Sets the acceleration of each row to the slope of the parabola through its velocities and those
+/// of the rows beside it, at the ends through the nearest three; of two rows to that of the line.
 fn differentiate(rows: &mut [Row]) {
     let secant = |pair: &[Row]| {
         let h = pair[1].t - pair[0].t;

@@ -2,7 +2,8 @@
 //!
 //! # Code map
 //!
-//! All crates of the house under one roof, by their own names, and a scene from its text, or from a description in code, to its results:
+//! All crates of the house under one roof, by their own names, and a scene from its text, or from a
+//! description in code, to its results:
 //!
 //! | module | content |
 //! | --- | --- |
@@ -49,8 +50,8 @@ pub use journey::{Journey, Progress};
 pub use solvability::Numbers;
 pub use study::{Overrides, Study};
 
-/// So many threads at most for all that this program computes in parallel from now on; runs of several components have an option of their
-/// own, [`dynamics::MotionOptions::threads`].
+/// So many threads at most for all that this program computes in parallel from now on; runs of
+/// several components have an option of their own, [`dynamics::MotionOptions::threads`].
 ///
 /// # Errors
 /// If threads have been started already, or cannot be.

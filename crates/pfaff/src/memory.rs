@@ -1,5 +1,5 @@
-//! How much memory work on a scene takes, before it is taken. Estimates from sizes and patterns alone, meant to be too large rather than too
-//! small.
+//! How much memory work on a scene takes, before it is taken. Estimates from sizes and patterns
+//! alone, meant to be too large rather than too small.
 
 use solvability::memory_of_verdicts;
 
@@ -7,7 +7,8 @@ use crate::blueprint::Blueprint;
 use crate::error::StudyError;
 use crate::study::Study;
 
-/// Bytes for a byte of a scene: its text, its tables with their places, the mechanism and its names.
+/// Bytes for a byte of a scene: its text, its tables with their places, the mechanism and its
+/// names.
 const OF_TEXT: usize = 45;
 
 /// Bytes that nothing can do without.
@@ -25,7 +26,8 @@ pub fn of_reading(text: usize) -> usize {
 }
 
 impl Blueprint {
-    /// Bytes that ranks, kept rows and verdicts take at most on so many threads, about, beside what was read: see [`memory_of_verdicts`].
+    /// Bytes that ranks, kept rows and verdicts take at most on so many threads, about, beside what
+    /// was read: see [`memory_of_verdicts`].
     ///
     /// # Errors
     /// [`StudyError::Analysis`]: rows are joined too closely for a sparse decision.
@@ -35,7 +37,8 @@ impl Blueprint {
 }
 
 impl Study {
-    /// Bytes that a run takes at most, about, reading a text of this length and the verdicts of the start included.
+    /// Bytes that a run takes at most, about, reading a text of this length and the verdicts of the
+    /// start included.
     ///
     /// # Errors
     /// [`StudyError::Analysis`]: rows are joined too closely for a sparse decision.

@@ -1,5 +1,5 @@
-//! What a program needs that builds a mechanism, asks and moves it: `use pfaff::prelude::*;`. The other joints and forces are in
-//! [`joints`], what comes out in [`report::documents`].
+//! What a program needs that builds a mechanism, asks and moves it: `use pfaff::prelude::*;`. The
+//! other joints and forces are in [`joints`], what comes out in [`report::documents`].
 
 pub use dynamics::MotionOptions;
 pub use joints::{Direction, KnifeEdge, Revolute, Translational};

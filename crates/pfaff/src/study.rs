@@ -1,5 +1,5 @@
-//! A scene from its text to its results: read, assemble, decide, move, write. What the commands do, without their
-//! printing.
+//! A scene from its text to its results: read, assemble, decide, move, write. What the commands do,
+//! without their printing.
 
 use std::num::NonZeroUsize;
 use std::ops::ControlFlow;
@@ -25,7 +25,8 @@ use crate::chronicle::Chronicle;
 use crate::error::StudyError;
 use crate::inquiry::{AskedRows, Inquiry};
 
-/// Rows of a mechanism up to which a moving picture has rows of its own between those of the tables.
+/// Rows of a mechanism up to which a moving picture has rows of its own between those of the
+/// tables.
 const PICTURED_ROWS: usize = 600;
 
 /// Rows of a mechanism up to which it is tried whether a motion begins.
@@ -38,7 +39,8 @@ pub struct Study {
     pub scene: Scene,
     /// Start and kept rows.
     pub prepared: Prepared,
-    /// What a run is asked to do; nothing where neither the scene nor the caller says how long it takes.
+    /// What a run is asked to do; nothing where neither the scene nor the caller says how long it
+    /// takes.
     pub options: Option<MotionOptions>,
 }
 
@@ -64,7 +66,8 @@ pub struct Overrides {
 }
 
 impl Study {
-    /// Reads a scene, finds its consistent start and chooses rows. `name` is the file's name in messages.
+    /// Reads a scene, finds its consistent start and chooses rows. `name` is the file's name in
+    /// messages.
     ///
     /// # Errors
     /// - [`StudyError::Scene`]: everything that is wrong with the text, the start included.
@@ -104,12 +107,13 @@ impl Study {
         Blueprint::build(scene)?.prepare(&Overrides::default())
     }
 
-    /// A configuration at a time of the motion, to be asked about its reactions; at t = 0 nothing has to move. `drop` (rows from
-    /// 0) says which rows carry the dependencies; no verdict depends on them.
+    /// A configuration at a time of the motion, to be asked about its reactions; at t = 0 nothing
+    /// has to move. `drop` (rows from 0) says which rows carry the dependencies; no verdict depends
+    /// on them.
     ///
     /// # Errors
-    /// If the motion does not reach that time, C cannot be judged there, redundant rows contradict each other there, or
-    /// the rows cannot be dropped.
+    /// If the motion does not reach that time, C cannot be judged there, redundant rows contradict
+    /// each other there, or the rows cannot be dropped.
     pub fn inquire(&self, t: f64, drop: Option<&[usize]>) -> Result<Inquiry<'_>, StudyError> {
         self.inquire_watched(t, drop, |_| ())
     }
@@ -148,8 +152,9 @@ impl Study {
         }
     }
 
-    /// The first contradiction of drives after the start: with each other, or with what joints allow, at a dozen times up to the last one of
-    /// the run. `None` if there is none, if nobody says how long the run takes, or where it cannot be told: see
+    /// The first contradiction of drives after the start: with each other, or with what joints
+    /// allow, at a dozen times up to the last one of the run. `None` if there is none, if nobody
+    /// says how long the run takes, or where it cannot be told: see
     /// [`solvability::contradicting_drives_along`].
     ///
     /// # Errors
@@ -165,7 +170,8 @@ impl Study {
     /// Refuses drives that contradict each other later in the run, with their places in the scene.
     ///
     /// # Errors
-    /// As [`Study::contradicting_drives`], and [`StudyError::Scene`], or of a scene without text [`StudyError::Motion`]: there are such drives.
+    /// As [`Study::contradicting_drives`], and [`StudyError::Scene`], or of a scene without text
+    /// [`StudyError::Motion`]: there are such drives.
     pub fn check_drives(&self) -> Result<(), StudyError> {
         match self.contradicting_drives()? {
             Some(contradiction) => Err(refused(&self.scene, contradiction.into())),
@@ -173,8 +179,9 @@ impl Study {
         }
     }
 
-    /// Why no motion begins although the start is one: a body without mass that is free to move, for example. `None` if one begins; of a mechanism of
-    /// many rows it is not asked, since the answer costs as much as a step.
+    /// Why no motion begins although the start is one: a body without mass that is free to move,
+    /// for example. `None` if one begins; of a mechanism of many rows it is not asked, since the
+    /// answer costs as much as a step.
     #[must_use]
     pub fn cannot_begin(&self) -> Option<String> {
         if self.prepared.mechanism.layout().rows() > BEGUN_ROWS {
@@ -231,8 +238,9 @@ impl Study {
         simulate(&self.prepared, options, row)
     }
 
-    /// The motion as plain data: state and reactions at t = 0, every output step and the end, with the numbers, events and verdicts of the
-    /// run. Numbers of reactions that are not unique belong to the choice that the summary states.
+    /// The motion as plain data: state and reactions at t = 0, every output step and the end, with
+    /// the numbers, events and verdicts of the run. Numbers of reactions that are not unique belong
+    /// to the choice that the summary states.
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -248,7 +256,8 @@ impl Study {
     /// ```
     ///
     /// # Errors
-    /// - [`StudyError::Motion`]: the run could not begin, or stopped; [`Study::run`] shows what was reached.
+    /// - [`StudyError::Motion`]: the run could not begin, or stopped; [`Study::run`] shows what was
+    ///   reached.
     /// - [`StudyError::Analysis`]: reactions cannot be judged at the start.
     pub fn motion(&self, options: &MotionOptions) -> Result<MotionDocument, StudyError> {
         let mechanism = &self.prepared.mechanism;
@@ -310,8 +319,9 @@ impl Study {
         Ok(Plan::new(&self.prepared, &options, &wanted)?)
     }
 
-    /// Rows that a run computes for each one that tables show: a moving picture needs more of them than a scene may ask for. A power of
-    /// two, so that the times of the tables stay what they are.
+    /// Rows that a run computes for each one that tables show: a moving picture needs more of them
+    /// than a scene may ask for. A power of two, so that the times of the tables stay what they
+    /// are.
     fn rows_between(&self, wanted: &Wanted) -> usize {
         let Some(options) = self.options.as_ref().filter(|_| self.scene.output.report) else {
             return 1;
@@ -327,9 +337,10 @@ impl Study {
         between
     }
 
-    /// Runs the scene and writes `trajectory.csv`, `reactions.csv`, `summary.json` and `report.html` into a directory, each if the scene
-    /// wants it. `progress` sees the time of each row, or of each step where no rows are written, and may stop the run. What a stopped run
-    /// has written stays, and its summary says `partial`.
+    /// Runs the scene and writes `trajectory.csv`, `reactions.csv`, `summary.json` and
+    /// `report.html` into a directory, each if the scene wants it. `progress` sees the time of each
+    /// row, or of each step where no rows are written, and may stop the run. What a stopped run has
+    /// written stays, and its summary says `partial`.
     ///
     /// # Errors
     /// - [`StudyError::NoEnd`]: nobody says how long the run takes.
@@ -505,7 +516,8 @@ fn write_row(
     Ok(Ok(()))
 }
 
-/// The figure of a comparison of methods in the same directory, if there is one and it is no larger than a page should be.
+/// The figure of a comparison of methods in the same directory, if there is one and it is no larger
+/// than a page should be.
 fn comparison_beside(directory: &OutputDirectory) -> Option<String> {
     let path = directory.path().join("work_precision.svg");
     let small = std::fs::metadata(&path).is_ok_and(|m| m.len() < FIGURE_MOST);

@@ -1,7 +1,9 @@
-//! Many runs of one scene with other numbers in it: in parallel, in parts, and so that an interruption costs nothing that was finished.
+//! Many runs of one scene with other numbers in it: in parallel, in parts, and so that an
+//! interruption costs nothing that was finished.
 //!
-//! Each run is read, checked, assembled and moved like any scene. What is wrong with one combination of numbers stands in its row; the
-//! others go on. Numbers of reactions are those of unique ones only.
+//! Each run is read, checked, assembled and moved like any scene. What is wrong with one
+//! combination of numbers stands in its row; the others go on. Numbers of reactions are those of
+//! unique ones only.
 //!
 //! Not here: what a key means ([`scene::Template`]), and what files look like ([`report::sweep`]).
 
@@ -30,7 +32,8 @@ pub use axis::{Axis, AxisError};
 pub use error::SweepError;
 pub use shard::{Shard, ShardError};
 
-/// A scene and the numbers that are varied in it. Several axes are a full grid, in which the last one runs fastest.
+/// A scene and the numbers that are varied in it. Several axes are a full grid, in which the last
+/// one runs fastest.
 ///
 /// ```
 /// use pfaff::model::Registry;
@@ -98,7 +101,8 @@ impl<'r> Sweep<'r> {
     /// Reads a scene and opens the numbers that are varied. `name` is the file's name in messages.
     ///
     /// # Errors
-    /// - [`SweepError::Study`]: the scene is wrong as it stands, or nobody says how long a run takes.
+    /// - [`SweepError::Study`]: the scene is wrong as it stands, or nobody says how long a run
+    ///   takes.
     /// - [`SweepError::Key`]: a key names no number of the scene.
     /// - [`SweepError::Axis`]: nothing is varied, or there are too many combinations.
     pub fn read(
@@ -185,13 +189,15 @@ impl<'r> Sweep<'r> {
         }
     }
 
-    /// Makes the runs of a shard that are not in a journal of the directory yet, and writes the tables of all that are there then:
-    /// `sweep.csv`, `sweep.parquet` and `summary.json`. `progress` sees each finished run, in no order; `interrupted` is asked often, and ends the
+    /// Makes the runs of a shard that are not in a journal of the directory yet, and writes the
+    /// tables of all that are there then: `sweep.csv`, `sweep.parquet` and `summary.json`.
+    /// `progress` sees each finished run, in no order; `interrupted` is asked often, and ends the
     /// sweep without losing a finished run.
     ///
     /// # Errors
     /// - [`SweepError::NoneBegins`]: no run can begin; nothing is written.
-    /// - [`SweepError::Journal`]: the directory belongs to another sweep, or another process works on this shard.
+    /// - [`SweepError::Journal`]: the directory belongs to another sweep, or another process works
+    ///   on this shard.
     /// - [`SweepError::File`], [`SweepError::Table`], [`SweepError::Threads`]: the system refused.
     pub fn run_into(
         &self,
@@ -239,7 +245,8 @@ impl<'r> Sweep<'r> {
         write_sweep(&output, || Ok(Journals::read(&[directory])?))
     }
 
-    /// Makes a run, with its trajectory in a directory if one is given; nothing if it was interrupted.
+    /// Makes a run, with its trajectory in a directory if one is given; nothing if it was
+    /// interrupted.
     fn whole_row(
         &self,
         run: u64,

@@ -1,4 +1,5 @@
-//! Error against run time: one scene by every method at many tolerances, compared with values that no run made itself.
+//! Error against run time: one scene by every method at many tolerances, compared with values that
+//! no run made itself.
 //!
 //! | module | content |
 //! | --- | --- |
@@ -55,13 +56,15 @@ pub struct Subject {
 pub struct Yardstick(Option<Standard>);
 
 impl Yardstick {
-    /// Errors of a motion that was looked at at all instants; `None` if one is missing or nothing is known.
+    /// Errors of a motion that was looked at at all instants; `None` if one is missing or nothing
+    /// is known.
     #[must_use]
     pub fn errors(&self, motion: &[Observation]) -> Option<Errors> {
         self.0.as_ref()?.errors(motion)
     }
 
-    /// How far the reference may be from the truth: the larger one of position and velocity; NaN where nothing is known.
+    /// How far the reference may be from the truth: the larger one of position and velocity; NaN
+    /// where nothing is known.
     #[must_use]
     pub fn limit(&self) -> f64 {
         let limits = self.0.as_ref().map(|s| s.limits);
@@ -149,7 +152,8 @@ impl Subject {
         Ok(Yardstick(standard))
     }
 
-    /// One run, compared with the reference of the suite: how far it is off, and how far the reference may be. `None` if nothing is known.
+    /// One run, compared with the reference of the suite: how far it is off, and how far the
+    /// reference may be. `None` if nothing is known.
     ///
     /// # Errors
     /// [`StudyError::Motion`]: the run did not reach its end.
@@ -163,7 +167,8 @@ impl Subject {
         Ok(known.and_then(|known| known.errors(&run.observations)))
     }
 
-    /// Makes all runs of a plan and shows each row when it is there. `interrupted` is asked now and then whether to stop.
+    /// Makes all runs of a plan and shows each row when it is there. `interrupted` is asked now and
+    /// then whether to stop.
     ///
     /// # Errors
     /// [`StudyError::Analysis`]: it cannot be told which reactions are unique. Whatever `row` returns.
@@ -307,7 +312,8 @@ impl Subject {
         Some(Standard::known(reference, mechanism, self.size))
     }
 
-    /// What runs are compared with: what is known, and for kinds of which nothing is known two runs of different methods that agree.
+    /// What runs are compared with: what is known, and for kinds of which nothing is known two runs
+    /// of different methods that agree.
     fn standard(
         &self,
         plan: &Plan,

@@ -1,5 +1,6 @@
-//! Results as JSON documents: plain structs whose fields are the keys, in their order. Rows are counted from 1, as
-//! everywhere a user sees them. JSON knows no NaN and no infinity: such numbers are `null`.
+//! Results as JSON documents: plain structs whose fields are the keys, in their order. Rows are
+//! counted from 1, as everywhere a user sees them. JSON knows no NaN and no infinity: such numbers
+//! are `null`.
 
 mod analysis;
 mod freedoms;
@@ -44,7 +45,8 @@ pub fn write_json(mut out: impl Write, document: &impl Serialize) -> io::Result<
     out.flush()
 }
 
-/// A verdict with its number: `verdict`, `margin`, `within_tolerance`, and a `reason` where it is undecided.
+/// A verdict with its number: `verdict`, `margin`, `within_tolerance`, and a `reason` where it is
+/// undecided.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct VerdictDocument {
@@ -55,8 +57,8 @@ pub struct VerdictDocument {
     pub reason: Option<String>,
     /// How far the reaction is from unique; 0 is unique.
     pub margin: f64,
-    /// Whether it is unique within the tolerance that the scene states only: the margin is above the rounding of the data, but data within their
-    /// tolerance explain it.
+    /// Whether it is unique within the tolerance that the scene states only: the margin is above
+    /// the rounding of the data, but data within their tolerance explain it.
     pub within_tolerance: bool,
 }
 

@@ -1,5 +1,5 @@
-//! Figures as SVG text: light background, system fonts, no external resources, and readable without colour. Values
-//! that are NaN or infinite are gaps.
+//! Figures as SVG text: light background, system fonts, no external resources, and readable without
+//! colour. Values that are NaN or infinite are gaps.
 //!
 //! | function | shows |
 //! | --- | --- |

@@ -1,6 +1,7 @@
-//! Files of an output directory. Each is written beside its place as `<name>.part` and renamed when it is finished: a
-//! file with its own name is always a whole one. What is abandoned keeps the name `.part` and what was written so far. Where the disk
-//! refuses, it is cut after the last line that is whole; an older file with its own name stays what it was.
+//! Files of an output directory. Each is written beside its place as `<name>.part` and renamed when
+//! it is finished: a file with its own name is always a whole one. What is abandoned keeps the name
+//! `.part` and what was written so far. Where the disk refuses, it is cut after the last line that
+//! is whole; an older file with its own name stays what it was.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, ErrorKind, Read, Seek, SeekFrom, Write};
@@ -121,15 +122,16 @@ impl OutputFile {
     /// Writes what is buffered and gives the file its name.
     ///
     /// # Errors
-    /// - [`FileError::Refused`]: not everything could be written, and the file stays `.part`; or it could not be renamed.
+    /// - [`FileError::Refused`]: not everything could be written, and the file stays `.part`; or it
+    ///   could not be renamed.
     pub fn finish(mut self) -> Result<PathBuf, FileError> {
         let flushed = self.with(Write::flush);
         flushed.map_err(FileError::refused("write", &self.part))?;
         self.rename()
     }
 
-    /// The same for a run that stopped early: what reached the disk gets its name, up to the last whole line if the rest could not be
-    /// written. The summary of the run says that it is partial.
+    /// The same for a run that stopped early: what reached the disk gets its name, up to the last
+    /// whole line if the rest could not be written. The summary of the run says that it is partial.
     ///
     /// # Errors
     /// - [`FileError::Refused`]: the end is missing, or the file could not be renamed.
@@ -154,7 +156,8 @@ impl OutputFile {
 
     fn rename(self) -> Result<PathBuf, FileError> {
         let Self { buffer, part, path } = self;
-        // Closed first: some systems do not rename open files. What could not be flushed is not tried again.
+        // Closed first: some systems do not rename open files. What could not be flushed is not
+        // tried again.
         drop(buffer.map(BufWriter::into_parts));
         fs::rename(&part, &path).map_err(FileError::refused("rename to", &path))?;
         Ok(path)

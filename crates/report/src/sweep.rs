@@ -1,7 +1,9 @@
-//! Many runs of one scene with other numbers in it: a row for each, a journal while they are made, tables at the end.
+//! Many runs of one scene with other numbers in it: a row for each, a journal while they are made,
+//! tables at the end.
 //!
-//! A journal is a text that only grows, one line for each finished run, behind a line that says what the sweep is. Tables are made of
-//! journals, whole and in the order of the grid, whoever did the runs and when.
+//! A journal is a text that only grows, one line for each finished run, behind a line that says
+//! what the sweep is. Tables are made of journals, whole and in the order of the grid, whoever did
+//! the runs and when.
 //!
 //! Journals are read back here and nowhere else.
 //!

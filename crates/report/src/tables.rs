@@ -1,5 +1,5 @@
-//! Tables of a run as CSV: one header, then one line per instant, written as they come. Numbers have the shortest
-//! text that reads back to the same bits; a value that does not exist is `NaN`.
+//! Tables of a run as CSV: one header, then one line per instant, written as they come. Numbers
+//! have the shortest text that reads back to the same bits; a value that does not exist is `NaN`.
 //!
 //! Not here: which instants are written, and where to.
 

@@ -23,7 +23,8 @@ pub struct CurveName {
     pub stabilisation: &'static str,
 }
 
-/// One run, or why there was none. Errors are scaled; see [`WorkPrecisionScene::reference`] for what they are compared with.
+/// One run, or why there was none. Errors are scaled; see [`WorkPrecisionScene::reference`] for
+/// what they are compared with.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WorkPrecisionRow {
     /// The scene.
@@ -33,7 +34,8 @@ pub struct WorkPrecisionRow {
     pub curve: CurveName,
     /// Relative and absolute tolerance.
     pub tolerance: f64,
-    /// Of position, velocity, acceleration and unique reactions; NaN where nothing is known, or the run did not reach its end.
+    /// Of position, velocity, acceleration and unique reactions; NaN where nothing is known, or the
+    /// run did not reach its end.
     pub errors: [f64; 4],
     /// Largest |Φ| or |C·v − b| at steps, all rows.
     pub constraint_residual: f64,
@@ -62,7 +64,8 @@ pub struct WorkPrecisionRow {
 }
 
 impl WorkPrecisionRow {
-    /// The larger error of position and velocity, if the run reached its end and something is known.
+    /// The larger error of position and velocity, if the run reached its end and something is
+    /// known.
     #[must_use]
     pub fn motion_error(&self) -> Option<f64> {
         let error = self.errors[0].max(self.errors[1]);
@@ -75,8 +78,8 @@ impl WorkPrecisionRow {
 pub struct ReferenceDocument {
     /// Where the values come from.
     pub source: String,
-    /// How far values of position, velocity, acceleration and reactions may be from the truth, scaled as the errors; NaN where
-    /// nothing is known.
+    /// How far values of position, velocity, acceleration and reactions may be from the truth,
+    /// scaled as the errors; NaN where nothing is known.
     pub limits: [f64; 4],
     /// How far the two best runs of different methods are apart, in words.
     pub agreement: String,

@@ -7,8 +7,8 @@ use report::{FigureError, Panel, Path, PathRecorder, Series, Style};
 use solvability::{Verdict, analyse};
 use tests::robot::{robot, steering};
 
-/// Reads a document as far as needed to know that it is well-formed: tags nest, attributes are quoted, nothing has
-/// to be escaped. Returns its texts.
+/// Reads a document as far as needed to know that it is well-formed: tags nest, attributes are
+/// quoted, nothing has to be escaped. Returns its texts.
 fn texts(svg: &str) -> Vec<String> {
     let mut open: Vec<String> = Vec::new();
     let mut found = Vec::new();

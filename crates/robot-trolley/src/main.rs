@@ -1,5 +1,5 @@
-//! The robot with its trolley of Wojtyra and Frączek (2013), section 4: prints what the paper publishes and draws its figures,
-//! for the dimensions of `robot-trolley.toml`.
+//! The robot with its trolley of Wojtyra and Frączek (2013), section 4: prints what the paper
+//! publishes and draws its figures, for the dimensions of `robot-trolley.toml`.
 #![allow(clippy::print_stdout, clippy::print_stderr)]
 
 mod figures;
@@ -18,7 +18,8 @@ use pfaff::{Overrides, Study, StudyError};
 /// The scene that is built in.
 const SCENE: &str = include_str!("../robot-trolley.toml");
 
-/// The published results for the robot with its trolley: ranks, verdicts, three elimination variants, figures
+/// The published results for the robot with its trolley: ranks, verdicts, three elimination
+/// variants, figures
 #[derive(Parser)]
 #[command(version, about)]
 struct Arguments {

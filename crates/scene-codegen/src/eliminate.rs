@@ -1,11 +1,14 @@
-//! Elimination of kept rows as straight-line code. The order of the pivots is chosen once, over all sampled states: the pivot with the
-//! least fill among those that are large beside their row and their column everywhere (Markowitz with a threshold).
+//! Elimination of kept rows as straight-line code. The order of the pivots is chosen once, over all
+//! sampled states: the pivot with the least fill among those that are large beside their row and
+//! their column everywhere (Markowitz with a threshold).
 //!
-//! The rows determine r dependent coordinates; the others are free. Every solve is one with the null space: x = x₀ + N·w, where x₀
-//! meets the rows with the free coordinates at zero, N is the motion that each of them causes, and w minimises what is left in the mass
-//! metric. Zeros and ones of the mechanism fold away, so that sparsity needs no bookkeeping.
+//! The rows determine r dependent coordinates; the others are free. Every solve is one with the
+//! null space: x = x₀ + N·w, where x₀ meets the rows with the free coordinates at zero, N is the
+//! motion that each of them causes, and w minimises what is left in the mass metric. Zeros and ones
+//! of the mechanism fold away, so that sparsity needs no bookkeeping.
 //!
-//! Source of the threshold rule: I. S. Duff, A. M. Erisman, J. K. Reid, Direct Methods for Sparse Matrices, 2nd ed. (2017), chapters 5 and 7.
+//! Source of the threshold rule: I. S. Duff, A. M. Erisman, J. K. Reid, Direct Methods for Sparse
+//! Matrices, 2nd ed. (2017), chapters 5 and 7.
 
 use std::cmp::Ordering;
 
@@ -14,13 +17,15 @@ use symbolic::Value;
 use crate::error::CodeError;
 use crate::sampled::Sampled;
 
-/// A pivot should be at least this share of the largest entry of its row and of its column, at every state.
+/// A pivot should be at least this share of the largest entry of its row and of its column, at
+/// every state.
 const THRESHOLD: f64 = 0.1;
 
 /// Below this share no pivot is taken: the motion has no fixed order of elimination.
 const SMALLEST: f64 = 1e-3;
 
-/// A free motion has no mass of its own if this share of it is left when the others have theirs: rounding.
+/// A free motion has no mass of its own if this share of it is left when the others have theirs:
+/// rounding.
 const MASSLESS: f64 = 1e-13;
 
 /// Rows in factored form, and the mass of the motions that they leave free.
@@ -50,7 +55,8 @@ struct Pivot {
 }
 
 impl Factored {
-    /// Factors `rows` (r × n, zeros as the constant 0) for the masses `mass`. Columns are compared after multiplication by `scale`.
+    /// Factors `rows` (r × n, zeros as the constant 0) for the masses `mass`. Columns are compared
+    /// after multiplication by `scale`.
     pub(crate) fn new(
         code: &mut Sampled,
         mut rows: Vec<Vec<Value>>,
@@ -114,7 +120,8 @@ impl Factored {
         Ok(factored)
     }
 
-    /// Smallest x in the mass metric beside M⁻¹·force with `rows·x = rhs`: the accelerations of force and Γ.
+    /// Smallest x in the mass metric beside M⁻¹·force with `rows·x = rhs`: the accelerations of
+    /// force and Γ.
     pub(crate) fn solve(
         &self,
         code: &mut Sampled,
@@ -294,7 +301,8 @@ fn dot(code: &mut Sampled, a: &[Value], b: &[Value]) -> Value {
     })
 }
 
-/// The entry with the least fill among those that are large enough everywhere; constants before others.
+/// The entry with the least fill among those that are large enough everywhere; constants before
+/// others.
 fn best_pivot(
     code: &mut Sampled,
     rows: &[Vec<Value>],

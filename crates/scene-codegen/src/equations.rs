@@ -1,4 +1,5 @@
-//! The recorded equations of a mechanism as one program, with the numbers of the mechanism folded in.
+//! The recorded equations of a mechanism as one program, with the numbers of the mechanism folded
+//! in.
 
 use joints::recorded::{Operation, Recorded};
 use model::record::Input;

@@ -1,8 +1,10 @@
-//! The equations in the frame of one of the bodies. What moves freely in the plane has the same accelerations whichever way it points; seen
-//! from a body, the arms on that body are constants, fewer products are left, and no pivot wears out because the whole has turned.
+//! The equations in the frame of one of the bodies. What moves freely in the plane has the same
+//! accelerations whichever way it points; seen from a body, the arms on that body are constants,
+//! fewer products are left, and no pivot wears out because the whole has turned.
 //!
-//! The frame stands still and is turned by the angle θ of the body: positions and velocities are turned by −θ, and accelerations back. Rows
-//! that are components x and y of one vector are turned in pairs. Whether a mechanism may be seen like this is not told from its parts: its C, Γ and Q
+//! The frame stands still and is turned by the angle θ of the body: positions and velocities are
+//! turned by −θ, and accelerations back. Rows that are components x and y of one vector are turned
+//! in pairs. Whether a mechanism may be seen like this is not told from its parts: its C, Γ and Q
 //! are compared with the turned ones at states far from any motion, to rounding.
 
 use model::System;
@@ -216,8 +218,8 @@ fn inputs_in(e: &mut Equations, frame: &Frame, angle: usize) -> Option<Vec<Value
     Some(seen)
 }
 
-/// Whether a mechanism may be seen from the body whose angle has this place: C, Γ and Q in its frame are the turned ones, at states that no
-/// constraint holds.
+/// Whether a mechanism may be seen from the body whose angle has this place: C, Γ and Q in its
+/// frame are the turned ones, at states that no constraint holds.
 pub(crate) fn may_be_seen_from(subject: &Subject<'_>, angle: usize) -> bool {
     let elsewhere = Subject {
         prepared: subject.prepared,

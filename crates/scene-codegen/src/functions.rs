@@ -1,4 +1,5 @@
-//! The functions of a module as programs: accelerations, multipliers, projection, derivatives, residuals.
+//! The functions of a module as programs: accelerations, multipliers, projection, derivatives,
+//! residuals.
 
 use dynamics::code::LEAVE;
 use model::System;
@@ -29,7 +30,8 @@ pub(crate) struct Function {
     pub(crate) program: Program,
 }
 
-/// Name, arguments and result of a function, the same for every mechanism: arrays with the constants that are their lengths.
+/// Name, arguments and result of a function, the same for every mechanism: arrays with the
+/// constants that are their lengths.
 pub(crate) struct Signature {
     pub(crate) name: &'static str,
     pub(crate) doc: &'static str,
@@ -127,7 +129,8 @@ pub(crate) struct Functions {
 }
 
 impl Functions {
-    /// From the ground, or from the body from which accelerations cost least, if the mechanism may be seen from its bodies.
+    /// From the ground, or from the body from which accelerations cost least, if the mechanism may
+    /// be seen from its bodies.
     pub(crate) fn new(subject: &Subject<'_>) -> Result<Self, CodeError> {
         let from_ground = Self::seen_from(subject, None);
         let angles: Vec<usize> = (2..subject.prepared.mechanism.layout().n_q)
@@ -158,7 +161,8 @@ impl Functions {
         }
     }
 
-    /// All functions, with the equations solved from the ground or in the frame of the body whose angle has this place in q.
+    /// All functions, with the equations solved from the ground or in the frame of the body whose
+    /// angle has this place in q.
     fn seen_from(subject: &Subject<'_>, angle: Option<usize>) -> Result<Self, CodeError> {
         let mut e = Equations::new(subject);
         let prepared = subject.prepared;
@@ -266,8 +270,9 @@ fn sparse(e: &Equations) -> (Vec<[usize; 2]>, Vec<Value>) {
     entries.filter(|(_, v)| !e.code.program.is_zero(*v)).unzip()
 }
 
-/// Each divisor as a signed share of its smallest size over the sampled states, or of a part of its median where it came nearer to zero: a
-/// motion that passes a singular configuration must not make that the measure.
+/// Each divisor as a signed share of its smallest size over the sampled states, or of a part of its
+/// median where it came nearer to zero: a motion that passes a singular configuration must not make
+/// that the measure.
 fn shares(e: &mut Equations, factored: &Factored) -> Vec<Value> {
     let share = |&divisor: &Value| {
         let at = e.code.at(divisor);

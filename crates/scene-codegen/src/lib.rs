@@ -23,8 +23,8 @@ use std::path::Path;
 
 use pfaff::{Blueprint, Overrides};
 
-/// The module of a scene file: made for the run that the scene asks for, or for its start if it asks for none. Rows `drop`, from 0,
-/// are dropped instead of those that the scene drops.
+/// The module of a scene file: made for the run that the scene asks for, or for its start if it
+/// asks for none. Rows `drop`, from 0, are dropped instead of those that the scene drops.
 ///
 /// # Errors
 /// If the file cannot be read, the scene is wrong or its run stops, or there is no code for it.

@@ -6,7 +6,8 @@ use std::process::ExitCode;
 use clap::Parser;
 use scene_codegen::{Choices, CodeError, scene};
 
-/// Writes one scene as one Rust module: its numbers folded in, its kept rows eliminated in an order that serves its whole motion.
+/// Writes one scene as one Rust module: its numbers folded in, its kept rows eliminated in an order
+/// that serves its whole motion.
 #[derive(Parser)]
 struct Arguments {
     /// The scene file.
@@ -17,7 +18,8 @@ struct Arguments {
     /// Rows to drop, from 1, separated by commas; default: those of the scene.
     #[arg(long, value_delimiter = ',', value_name = "ROWS")]
     drop: Option<Vec<usize>>,
-    /// Path of the crate `dynamics` as the module sees it; then the module implements its trait `SceneCode`.
+    /// Path of the crate `dynamics` as the module sees it; then the module implements its trait
+    /// `SceneCode`.
     #[arg(long)]
     dynamics: Option<String>,
     /// Sines and roots of the crate `libm`, for programs without the standard library.

@@ -1,4 +1,5 @@
-//! The text of a module: constants, functions on arrays, the same for several states at once, and the face for `dynamics`.
+//! The text of a module: constants, functions on arrays, the same for several states at once, and
+//! the face for `dynamics`.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -20,8 +21,8 @@ use crate::time;
 /// What a module has beside its functions on arrays.
 #[derive(Clone, Debug, Default)]
 pub struct Choices {
-    /// The path of the crate `dynamics` as the module sees it: then `Code` implements its trait `SceneCode`. Without, the module
-    /// imports nothing.
+    /// The path of the crate `dynamics` as the module sees it: then `Code` implements its trait
+    /// `SceneCode`. Without, the module imports nothing.
     pub dynamics: Option<String>,
     /// Sines, cosines and roots of the crate `libm` instead of `std`.
     pub libm: bool,
@@ -82,7 +83,8 @@ impl Module {
 /// The module of a subject.
 ///
 /// # Errors
-/// If no order of elimination serves all states, a free motion has no mass, or the code would be too long.
+/// If no order of elimination serves all states, a free motion has no mass, or the code would be
+/// too long.
 pub fn generate(subject: &Subject<'_>, choices: &Choices) -> Result<Module, CodeError> {
     let functions = Functions::new(subject)?;
     let mechanism = &subject.prepared.mechanism;
@@ -354,7 +356,8 @@ fn shared(shape: &Shape, jets: &str) -> Result<TokenStream, CodeError> {
     })
 }
 
-/// A function on arrays: its straight-line core on readers and a writer, the face for one state, and the face for many.
+/// A function on arrays: its straight-line core on readers and a writer, the face for one state,
+/// and the face for many.
 fn function(functions: &Functions, f: &Function, shape: &Shape) -> TokenStream {
     let e = &functions.equations;
     let (statements, outputs) = Printer::new(&e.names, &f.program, Scalar::F64, &[]).print();

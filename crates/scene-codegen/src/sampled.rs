@@ -1,4 +1,5 @@
-//! A program with its values at sampled states: what an elimination needs to choose pivots that serve a whole motion.
+//! A program with its values at sampled states: what an elimination needs to choose pivots that
+//! serve a whole motion.
 
 use symbolic::{Program, Value};
 

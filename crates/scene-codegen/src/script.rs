@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use crate::error::CodeError;
 use crate::module::Choices;
 
-/// Writes the module of a scene file as `NAME.rs` into the folder that cargo gives to build scripts, to be included as an item, and
-/// returns what the script has to tell cargo.
+/// Writes the module of a scene file as `NAME.rs` into the folder that cargo gives to build
+/// scripts, to be included as an item, and returns what the script has to tell cargo.
 ///
 /// ```no_run
 /// // build.rs

@@ -1,5 +1,6 @@
-//! The same code without a compiler: operations in a list, carried out one after the other. For scenes that are met at run time, and for
-//! tests of runs on code; a compiled module is about five times faster.
+//! The same code without a compiler: operations in a list, carried out one after the other. For
+//! scenes that are met at run time, and for tests of runs on code; a compiled module is about five
+//! times faster.
 
 use std::cell::RefCell;
 

@@ -1,4 +1,5 @@
-//! Code against the interpreter, which solves the same equations by another elimination in another order.
+//! Code against the interpreter, which solves the same equations by another elimination in another
+//! order.
 
 use dynamics::{KeptRowMotion, Motion};
 use linalg::KeptRowSaddle;
@@ -125,7 +126,8 @@ fn largest(x: &[f64]) -> f64 {
     x.iter().fold(0.0, |a, x| a.max(x.abs()))
 }
 
-/// Largest difference of accelerations and multipliers, relative, over states where neither is near a singular configuration.
+/// Largest difference of accelerations and multipliers, relative, over states where neither is near
+/// a singular configuration.
 fn compare(name: &str, text: &str, n: usize) -> (usize, f64) {
     let study = study(name, text);
     let subject = subject(&study, name);
@@ -143,7 +145,8 @@ fn compare(name: &str, text: &str, n: usize) -> (usize, f64) {
             continue;
         }
         compared += 1;
-        // What cancels in an acceleration is as large as the squares of velocities and the accelerations of forces.
+        // What cancels in an acceleration is as large as the squares of velocities and the
+        // accelerations of forces.
         let size = largest(&expected).max(largest(v).powi(2)).max(1e-3);
         let differences = a.iter().zip(&expected).map(|(a, e)| (a - e).abs() / size);
         let apart = differences.fold(0.0, f64::max);
@@ -316,7 +319,8 @@ fn verdicts_from_the_entries_of_c() {
     }
     let verdicts = Solvability::of(&c, 1e-14).expect("finite");
     assert_eq!(verdicts.decision().rank, 20);
-    // Rows of A, D … H, the drive and W5 are unique; B and C along x, and the four edges of the robot are not.
+    // Rows of A, D … H, the drive and W5 are unique; B and C along x, and the four edges of the
+    // robot are not.
     for i in 0..layout.rows() {
         let unique = !matches!(i, 3 | 5 | 17..=20);
         let verdict = verdicts.row(i).expect("a row").verdict;
@@ -324,7 +328,8 @@ fn verdicts_from_the_entries_of_c() {
     }
 }
 
-/// A vehicle that has turned right round is the same vehicle: seen from its bodies no pivot has changed.
+/// A vehicle that has turned right round is the same vehicle: seen from its bodies no pivot has
+/// changed.
 #[test]
 fn it_does_not_matter_which_way_a_vehicle_points() {
     let study = study("robot-trolley", ROBOT);

@@ -1,4 +1,5 @@
-//! Modules of all scenes as a compiler sees them: without imports, also without the standard library, one state at a time and several.
+//! Modules of all scenes as a compiler sees them: without imports, also without the standard
+//! library, one state at a time and several.
 
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
@@ -53,7 +54,8 @@ fn subject<'a>(study: &'a Study, name: &str) -> Subject<'a> {
     Subject::of_run(&study.prepared, options).unwrap_or_else(|e| panic!("{name}: {e}"))
 }
 
-/// Prints the bits of accelerations one state at a time, and asserts that several at once give the same.
+/// Prints the bits of accelerations one state at a time, and asserts that several at once give the
+/// same.
 const HARNESS: &str = "
 macro_rules! run { ($m:ident, $states:expr) => {{
     use $m::*;
@@ -157,7 +159,8 @@ fn modules_compile_without_the_standard_library() {
     rustc(&folder, &emit);
 }
 
-/// The modules of the robot are those of its scene: a change of the generator or of the scene has to write them again.
+/// The modules of the robot are those of its scene: a change of the generator or of the scene has
+/// to write them again.
 #[test]
 fn checked_in_modules_agree_with_their_scene() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");

@@ -11,7 +11,8 @@ use scene_codegen::{Subject, Tape};
 /// Two runs at this tolerance …
 const RTOL: f64 = 1e-10;
 
-/// … may differ by this share of the largest coordinate or velocity: stiff cranks forget nothing in their run.
+/// … may differ by this share of the largest coordinate or velocity: stiff cranks forget nothing in
+/// their run.
 const SAME: f64 = 1e-6;
 
 fn run(prepared: &Prepared, options: &MotionOptions) -> (Vec<Vec<f64>>, Summary) {
@@ -73,8 +74,9 @@ fn two_turning_cranks(three: &str) -> String {
         .join("\n\n")
 }
 
-/// Where cranks are in line branches of the motion meet. Code is left on the way there, at another place for every tolerance; the
-/// interpreter, alone or after it, passes at all of them and stays on the branch of parallel cranks.
+/// Where cranks are in line branches of the motion meet. Code is left on the way there, at another
+/// place for every tolerance; the interpreter, alone or after it, passes at all of them and stays
+/// on the branch of parallel cranks.
 #[test]
 fn passages_do_not_depend_on_tolerances_or_on_who_evaluates() {
     let three = suite::find("turning-cranks").expect("a case").scene;

@@ -12,8 +12,8 @@ use crate::function::{self, Domain};
 use crate::place::Place;
 use crate::table::Table;
 
-/// Values in the order of the parameters. Where one could not be read, a harmless one stands in, so that the others
-/// are checked all the same.
+/// Values in the order of the parameters. Where one could not be read, a harmless one stands in, so
+/// that the others are checked all the same.
 pub(crate) struct Arguments {
     pub(crate) values: Vec<Argument>,
     pub(crate) functions: Vec<Function>,
@@ -74,7 +74,8 @@ impl Arguments {
         self.spans.push(span);
     }
 
-    /// Builds the element and reports everything that its definition refuses. `None` if anything is wrong.
+    /// Builds the element and reports everything that its definition refuses. `None` if anything is
+    /// wrong.
     pub(crate) fn build<E>(
         &mut self,
         spec: &'static Spec,

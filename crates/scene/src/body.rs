@@ -133,7 +133,8 @@ impl Bodies {
         self.by_name.get(name).copied()
     }
 
-    /// Reports a body that does not exist, unless that is the consequence of a problem that is reported at the bodies.
+    /// Reports a body that does not exist, unless that is the consequence of a problem that is
+    /// reported at the bodies.
     pub(crate) fn unknown(
         &self,
         span: Range<usize>,

@@ -1,4 +1,5 @@
-//! Linear combinations of reactions: of components, as `W3.N + W4.N` or `2*A.Fx - B.T`, or of whole wrenches, as `W3 + W4`.
+//! Linear combinations of reactions: of components, as `W3.N + W4.N` or `2*A.Fx - B.T`, or of whole
+//! wrenches, as `W3 + W4`.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -10,7 +11,8 @@ use crate::nearest::{list, nearest};
 pub enum Combination {
     /// `Σ coefficient·component`: one number.
     Components(Vec<Term>),
-    /// `Σ coefficient·wrench`: force and torque, the torque about the place of the first joint or drive.
+    /// `Σ coefficient·wrench`: force and torque, the torque about the place of the first joint or
+    /// drive.
     Wrenches(Vec<WrenchTerm>),
 }
 

@@ -1,5 +1,5 @@
-//! Which bodies a joint or force connects: `body`, `bodies`, and keys of further slots. Their number chooses among
-//! the definitions that share a scene type, and so does the key of a variant.
+//! Which bodies a joint or force connects: `body`, `bodies`, and keys of further slots. Their
+//! number chooses among the definitions that share a scene type, and so does the key of a variant.
 
 use joints::spec::Spec;
 use model::BodyRef;
@@ -23,7 +23,8 @@ pub(crate) fn listed(spec: &Spec) -> usize {
 /// The bodies of the slots `body` or `bodies`, as far as they are known.
 pub(crate) type Named = Vec<Option<BodyRef>>;
 
-/// Reads `body` or `bodies`. `None`, reported, if they are missing or not what any of the definitions takes.
+/// Reads `body` or `bodies`. `None`, reported, if they are missing or not what any of the
+/// definitions takes.
 pub(crate) fn named(
     table: &mut Table,
     specs: &[&'static Spec],
@@ -36,7 +37,8 @@ pub(crate) fn named(
         (true, false) => "`body = …`",
         _ => "`bodies = [first, second]`",
     };
-    // A key that no definition takes is asked for only where it is written: otherwise it is not one of the keys.
+    // A key that no definition takes is asked for only where it is written: otherwise it is not one
+    // of the keys.
     let mut read = |key, is_taken| {
         let asked = is_taken || table.has(key);
         asked.then(|| table.optional(key)).flatten()
@@ -103,8 +105,8 @@ pub(crate) fn check_names(table: &mut Table, bodies: &Bodies, findings: &mut Fin
     }
 }
 
-/// The bodies of all slots of the definition: those that are named, then one key for each further slot, the ground
-/// where it is not given.
+/// The bodies of all slots of the definition: those that are named, then one key for each further
+/// slot, the ground where it is not given.
 pub(crate) fn slots(
     table: &mut Table,
     spec: &'static Spec,
@@ -121,7 +123,8 @@ pub(crate) fn slots(
     named
 }
 
-/// The definition that is meant, by the number of bodies and the key of the variant; its place in `specs`.
+/// The definition that is meant, by the number of bodies and the key of the variant; its place in
+/// `specs`.
 pub(crate) fn choose(
     table: &mut Table,
     specs: &[&'static Spec],

@@ -1,4 +1,5 @@
-//! What is wrong with a file, as data. Rendering with colours and source lines is the command's business.
+//! What is wrong with a file, as data. Rendering with colours and source lines is the command's
+//! business.
 
 use std::fmt;
 use std::ops::Range;

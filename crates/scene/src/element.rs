@@ -1,5 +1,5 @@
-//! What joints and forces have in common: a type from the registry, bodies, a place and parameters. No joint and no
-//! force is known here by name.
+//! What joints and forces have in common: a type from the registry, bodies, a place and parameters.
+//! No joint and no force is known here by name.
 
 use joints::ArgumentError;
 use joints::spec::Spec;
@@ -133,7 +133,8 @@ pub(crate) fn scene_type(
     None
 }
 
-/// Reads everything that the definitions of one scene type take. `None`, reported, if none of them can be meant.
+/// Reads everything that the definitions of one scene type take. `None`, reported, if none of them
+/// can be meant.
 pub(crate) fn read<'r, D: Definition>(
     table: &mut Table,
     definitions: &[&'r D],

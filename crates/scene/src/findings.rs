@@ -7,14 +7,15 @@ use crate::diagnostic::{Diagnostic, Severity};
 use crate::nearest::nearest;
 use crate::text::SourceText;
 
-/// Problems that come with suggested names. Comparing every unknown name with all known ones would take minutes where
-/// thousands are wrong.
+/// Problems that come with suggested names. Comparing every unknown name with all known ones would
+/// take minutes where thousands are wrong.
 const SUGGESTIONS: usize = 100;
 
 /// Names that may be compared for suggestions in one file.
 const COMPARED: usize = 1_000_000;
 
-/// Problems that are listed; the others are counted. Where one mistake is made in every line, that says enough.
+/// Problems that are listed; the others are counted. Where one mistake is made in every line, that
+/// says enough.
 pub(crate) const LISTED: usize = 5000;
 
 /// The problems of a file, as they are found.
@@ -159,7 +160,8 @@ impl<'s> Findings<'s> {
         self.source.line(offset)
     }
 
-    /// All problems in the order of the file, each once; where there are too many, the last one says how many more there are.
+    /// All problems in the order of the file, each once; where there are too many, the last one
+    /// says how many more there are.
     pub(crate) fn sorted(mut self) -> Vec<Diagnostic> {
         self.explained.sort_unstable();
         let mut place = 0;

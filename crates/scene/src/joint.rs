@@ -211,8 +211,8 @@ impl Drives {
     }
 }
 
-/// Warns of a motion that is a number other than zero: whoever writes one may expect a speed or a place, but a drive follows
-/// f(t) − f(0).
+/// Warns of a motion that is a number other than zero: whoever writes one may expect a speed or a
+/// place, but a drive follows f(t) − f(0).
 fn warn_if_held(motion: &Field, findings: &mut Findings) {
     let Some(value) = as_number(motion.value.get_ref()).filter(|value| *value != 0.0) else {
         return;

@@ -1,5 +1,5 @@
-//! The keys of the format: what the reader asks for is what the schema says. Keys of joints and forces are not here: they come from
-//! their definitions.
+//! The keys of the format: what the reader asks for is what the schema says. Keys of joints and
+//! forces are not here: they come from their definitions.
 
 use serde_json::Value;
 

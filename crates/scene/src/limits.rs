@@ -1,13 +1,13 @@
-//! What a text may have before it is taken apart: the parser needs memory for every value, and nothing is gained by lines that
-//! nobody can read.
+//! What a text may have before it is taken apart: the parser needs memory for every value, and
+//! nothing is gained by lines that nobody can read.
 
 use std::ops::Range;
 
 /// Longest line (bytes). A table of a hundred thousand values fits.
 pub(crate) const LONGEST_LINE: usize = 4 << 20;
 
-/// Signs `[`, `{`, `,` and `=`. A hundred thousand joints with their bodies have less than two million; each costs some 200 bytes while the file is
-/// read.
+/// Signs `[`, `{`, `,` and `=`. A hundred thousand joints with their bodies have less than two
+/// million; each costs some 200 bytes while the file is read.
 pub(crate) const MOST_SIGNS: usize = 1 << 23;
 
 /// What is beyond a limit: where, what to say, and at its place.

@@ -95,7 +95,8 @@ pub(crate) fn start(map: &SourceMap, error: &StartError) -> Diagnostic {
     at(map, span, error, label)
 }
 
-/// Given velocities that no motion has: what is driven comes first, then the velocity, or the entry that holds it.
+/// Given velocities that no motion has: what is driven comes first, then the velocity, or the entry
+/// that holds it.
 fn velocities(map: &SourceMap, conflict: &VelocityConflict, error: &StartError) -> Diagnostic {
     let span = match (conflict.is_kept, conflict.coordinate) {
         (true, _) => map.section("start", "keep"),
@@ -167,7 +168,8 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
     at(map, span, error, label)
 }
 
-/// Redundant rows that ask for different motions: the drives among them, or all where there are none.
+/// Redundant rows that ask for different motions: the drives among them, or all where there are
+/// none.
 fn contradicting(
     map: &SourceMap,
     (drives, others): (Vec<&RowLabel>, Vec<&RowLabel>),
@@ -210,7 +212,8 @@ fn at(
     Diagnostic::error(&map.text, span, error.to_string(), label)
 }
 
-/// An error of several rows at their joints and drives, each once. The first mark is that of the first one.
+/// An error of several rows at their joints and drives, each once. The first mark is that of the
+/// first one.
 fn at_rows<'a>(
     map: &SourceMap,
     labels: impl IntoIterator<Item = &'a RowLabel>,

@@ -3,7 +3,8 @@
 /// Longer names are not compared: the effort grows with the square of the length.
 const LONGEST: usize = 80;
 
-/// The candidate nearest to `name`, if one is near enough: at most a third of its letters differ, and not all. A plural is near.
+/// The candidate nearest to `name`, if one is near enough: at most a third of its letters differ,
+/// and not all. A plural is near.
 ///
 /// ```
 /// assert_eq!(scene::nearest("dor", ["cart", "door"]), Some("door"));
@@ -78,7 +79,8 @@ struct Rows {
 }
 
 impl Rows {
-    /// Letters to insert, delete, replace or swap with their neighbour (optimal string alignment), if not more than `limit`.
+    /// Letters to insert, delete, replace or swap with their neighbour (optimal string alignment),
+    /// if not more than `limit`.
     fn distance(&mut self, a: &[char], b: &[char], limit: usize) -> Option<usize> {
         if a.len().abs_diff(b.len()) > limit {
             return None;
@@ -90,7 +92,8 @@ impl Rows {
         for (j, x) in self.last.iter_mut().enumerate() {
             *x = j;
         }
-        // A swap reaches back two rows: no distance is below the smaller one of the least of the last two.
+        // A swap reaches back two rows: no distance is below the smaller one of the least of the
+        // last two.
         let mut least_before = 0;
         for i in 1..=a.len() {
             let Self { before, last, row } = self;

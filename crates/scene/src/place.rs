@@ -1,5 +1,5 @@
-//! Where a joint or force acts: `at`, a global point of the described configuration, or points in the frames of the
-//! bodies.
+//! Where a joint or force acts: `at`, a global point of the described configuration, or points in
+//! the frames of the bodies.
 
 use std::ops::Range;
 
@@ -13,8 +13,8 @@ use crate::findings::Findings;
 use crate::nearest::list;
 use crate::table::Table;
 
-/// Points in the frames of their bodies, in the order of the point parameters, `None` where not readable; and where
-/// they are written.
+/// Points in the frames of their bodies, in the order of the point parameters, `None` where not
+/// readable; and where they are written.
 pub(crate) struct Place {
     pub(crate) points: Vec<Option<[f64; 2]>>,
     pub(crate) span: Range<usize>,

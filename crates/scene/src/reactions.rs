@@ -90,7 +90,8 @@ const REPORT: Key = Key::optional("report", "true or false", Takes::Flag)
 /// Keys of `[output]`.
 pub(crate) const OUTPUT_KEYS: [Key; 3] = [TRAJECTORY, REACTIONS, REPORT];
 
-/// Components that can be asked for: force and torque, also where they are identically zero, and the named one.
+/// Components that can be asked for: force and torque, also where they are identically zero, and
+/// the named one.
 pub(crate) fn components(spec: &ConstraintSpec) -> Vec<&'static str> {
     COMPONENTS.into_iter().chain(spec.component).collect()
 }

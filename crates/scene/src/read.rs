@@ -32,11 +32,13 @@ use crate::tolerance;
 
 /// Reads a scene file.
 ///
-/// `source_name` is what diagnostics call it, usually its path; `registry` has the joints and forces that it may name.
+/// `source_name` is what diagnostics call it, usually its path; `registry` has the joints and
+/// forces that it may name.
 ///
 /// # Errors
-/// Everything that is wrong with the text, in the order of the text. A file that is not TOML is judged no further than
-/// that. A scene without problems is a description that [`model::Mechanism::build`] accepts.
+/// Everything that is wrong with the text, in the order of the text. A file that is not TOML is
+/// judged no further than that. A scene without problems is a description that
+/// [`model::Mechanism::build`] accepts.
 ///
 /// ```
 /// use model::Registry;
@@ -76,8 +78,8 @@ pub fn read(source_name: &str, text: &str, registry: &Registry) -> Result<Scene,
     }
 }
 
-/// Reports what is not TOML, one error for each line. An error at the end of the text means that something was never closed: only the first one
-/// tells where, and the others are its consequences.
+/// Reports what is not TOML, one error for each line. An error at the end of the text means that
+/// something was never closed: only the first one tells where, and the others are its consequences.
 fn syntax(errors: &[toml::de::Error], findings: &mut Findings) {
     let source = findings.source;
     let text = source.text();
@@ -328,7 +330,8 @@ impl Heading {
     }
 }
 
-/// Reports what the mechanism refuses. That there are bodies has been checked, and names, also those of what could not be read.
+/// Reports what the mechanism refuses. That there are bodies has been checked, and names, also
+/// those of what could not be read.
 fn check(description: &Description, source: &SourceMap, findings: &mut Findings) {
     let errors = Mechanism::build(description).err().unwrap_or_default();
     let of_drive = |of: &str| description.drives.iter().any(|drive| drive.name == of);

@@ -1,4 +1,5 @@
-//! A mechanism with what is to be done with it: what a text is read into, and what a program may write directly.
+//! A mechanism with what is to be done with it: what a text is read into, and what a program may
+//! write directly.
 
 use dynamics::{MotionError, MotionOptions};
 use model::{BuildError, Description, StartError, StartOptions};
@@ -10,7 +11,8 @@ use crate::nearest::nearest;
 use crate::reactions::{GroupRequest, Output, components};
 use crate::source_map::SourceMap;
 
-/// A mechanism, what is to be done with it, and where all of it stands in the file, if it was read from one.
+/// A mechanism, what is to be done with it, and where all of it stands in the file, if it was read
+/// from one.
 ///
 /// ```
 /// use dynamics::MotionOptions;
@@ -74,8 +76,8 @@ impl Scene {
         })
     }
 
-    /// The place of an error of [`model::Mechanism::build`], for descriptions that were changed after reading; nothing where there is
-    /// no text, as with the other places.
+    /// The place of an error of [`model::Mechanism::build`], for descriptions that were changed
+    /// after reading; nothing where there is no text, as with the other places.
     #[must_use]
     pub fn locate_build(&self, error: &BuildError) -> Option<Diagnostic> {
         let source = self.source.as_ref()?;
@@ -94,10 +96,12 @@ impl Scene {
         Some(locate::motion(self.source.as_ref()?, error))
     }
 
-    /// Reads a combination of reaction components of this scene, as the key `combine` of a group has it.
+    /// Reads a combination of reaction components of this scene, as the key `combine` of a group
+    /// has it.
     ///
     /// # Errors
-    /// If the text is no sum of terms, or names a reaction or component that the scene does not have.
+    /// If the text is no sum of terms, or names a reaction or component that the scene does not
+    /// have.
     pub fn combination(&self, text: &str) -> Result<Combination, CombinationError> {
         let joints = self.description.joints.iter();
         let joints = joints.map(|j| (&j.name, j.element.element().spec()));

@@ -1,5 +1,6 @@
-//! The format as a JSON schema, for editors: made of the keys that the reader asks for and of the definitions of the registry. What only a
-//! whole scene can tell (names that exist, rows, a start that assembles) is not in it.
+//! The format as a JSON schema, for editors: made of the keys that the reader asks for and of the
+//! definitions of the registry. What only a whole scene can tell (names that exist, rows, a start
+//! that assembles) is not in it.
 
 mod element;
 mod value;
@@ -23,8 +24,8 @@ use value::described;
 
 /// The JSON schema (draft 2020-12) of scene files that name joints and forces of this registry.
 ///
-/// What it refuses, [`read`](crate::read()) refuses; the reverse does not hold, because names, rows and a start that assembles are no matter
-/// of form.
+/// What it refuses, [`read`](crate::read()) refuses; the reverse does not hold, because names, rows
+/// and a start that assembles are no matter of form.
 ///
 /// ```
 /// let schema = scene::schema(&model::Registry::planar());

@@ -126,8 +126,8 @@ fn named<'t>(
 /// Letters of the longest name: it stands in every message and at the head of columns.
 pub(crate) const LONGEST_NAME: usize = 1000;
 
-/// Why a name cannot stand at the head of a column, if it cannot: tables have one line for their header, and are opened by spreadsheets. And
-/// what to say at its place.
+/// Why a name cannot stand at the head of a column, if it cannot: tables have one line for their
+/// header, and are opened by spreadsheets. And what to say at its place.
 fn unfit(name: &str) -> Option<(String, &'static str)> {
     if name.trim().is_empty() {
         return Some(("is empty".to_owned(), "expected a name"));

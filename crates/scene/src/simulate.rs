@@ -218,7 +218,8 @@ fn choose<T: Copy>(table: &mut Table, choice: &Choice<T>, findings: &mut Finding
     None
 }
 
-/// A run has one formulation, and Baumgarte's method no gains: keys of these names are told where they have gone.
+/// A run has one formulation, and Baumgarte's method no gains: keys of these names are told where
+/// they have gone.
 fn refuse_moved(table: &mut Table, findings: &mut Findings) {
     for (key, of) in [
         ("formulation", "formulation"),
@@ -241,8 +242,8 @@ fn refuse_moved(table: &mut Table, findings: &mut Findings) {
     }
 }
 
-/// Rows to drop, counted from 1 in the file and from 0 in the result. That they exist is checked when the mechanism
-/// is built.
+/// Rows to drop, counted from 1 in the file and from 0 in the result. That they exist is checked
+/// when the mechanism is built.
 fn rows(field: &Field, findings: &mut Findings) -> Vec<(usize, Range<usize>)> {
     const EXPECTED: &str = DROP.expected;
     let mut rows: Vec<(usize, Range<usize>)> = Vec::new();

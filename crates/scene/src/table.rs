@@ -125,7 +125,8 @@ impl<'t> Table<'t> {
         value.map_or_else(|| self.header.clone(), toml::Spanned::span)
     }
 
-    /// Reports keys that nobody asked for. One that is meant as a missing key is one problem with it.
+    /// Reports keys that nobody asked for. One that is meant as a missing key is one problem with
+    /// it.
     pub(crate) fn close(self, findings: &mut Findings) {
         let known = || self.known.iter().copied();
         for key in self.entries.keys() {

@@ -1,5 +1,6 @@
-//! A scene in which some numbers are open: the text with other values in their places. The rest of the text stays as it is, so that
-//! [`read`](crate::read()) judges what comes out like any other scene, line by line.
+//! A scene in which some numbers are open: the text with other values in their places. The rest of
+//! the text stays as it is, so that [`read`](crate::read()) judges what comes out like any other
+//! scene, line by line.
 //!
 //! Not here: which values; and whether a value makes sense.
 
@@ -20,9 +21,10 @@ const WHOLE: f64 = 9_007_199_254_740_992.0;
 
 /// The text of a scene with places for numbers.
 ///
-/// A key is written as people say it: `body.platform.mass`, `joint.H.axis[0]`, `drive.steer.motion.steps[0].by`, `scene.gravity[1]`,
-/// `simulate.rtol`. Things with names go by their names or by `[0]`, `[1]`, …; entries of lists are counted from 0. A key that the text leaves out is
-/// added to its table, which must be there.
+/// A key is written as people say it: `body.platform.mass`, `joint.H.axis[0]`,
+/// `drive.steer.motion.steps[0].by`, `scene.gravity[1]`, `simulate.rtol`. Things with names go by
+/// their names or by `[0]`, `[1]`, …; entries of lists are counted from 0. A key that the text
+/// leaves out is added to its table, which must be there.
 ///
 /// ```
 /// let text = "[scene]\nname = \"drop\"\n[[body]]\nname = \"bob\"\nmass = 1.0 # kg\n";
@@ -55,7 +57,8 @@ impl Template {
     /// # Errors
     /// - [`KeyError::NotToml`]: the text cannot be taken apart; [`read`](crate::read()) says why.
     /// - [`KeyError::Unknown`], [`KeyError::Index`]: a key names nothing.
-    /// - [`KeyError::NotANumber`], [`KeyError::NoRoom`]: there is no number, and none can be put there.
+    /// - [`KeyError::NotANumber`], [`KeyError::NoRoom`]: there is no number, and none can be put
+    ///   there.
     /// - [`KeyError::Repeated`]: two keys name the same number.
     pub fn new(text: &str, keys: &[&str]) -> Result<Self, KeyError> {
         if limits::excess(text).is_some() {

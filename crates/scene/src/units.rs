@@ -1,8 +1,10 @@
-//! Numbers with units, as people write them. The format has none: what is meant is told in its units, so that advice can be followed as it is.
+//! Numbers with units, as people write them. The format has none: what is meant is told in its
+//! units, so that advice can be followed as it is.
 
 use std::f64::consts::PI;
 
-/// Units beside those of the format, as `times/over`: quotients stay exact where the factor is none.
+/// Units beside those of the format, as `times/over`: quotients stay exact where the factor is
+/// none.
 const OTHERS: [(&str, f64, f64); 26] = [
     ("mm", 1.0, 1e3),
     ("cm", 1.0, 1e2),

@@ -1,12 +1,14 @@
 //! Verdicts along a motion: one that holds almost always, and what is different where.
 //!
-//! Rank and verdicts are constant on each component of the configuration set except on a nowhere dense part of it. Where the laws
-//! of drives are analytic, between break times, they are therefore constant except at isolated instants, or the whole stretch
-//! of the motion stays in the special part. So a motion has one generic verdict, stretches between break times where
-//! another one holds, and passages: instants with their times.
+//! Rank and verdicts are constant on each component of the configuration set except on a nowhere
+//! dense part of it. Where the laws of drives are analytic, between break times, they are therefore
+//! constant except at isolated instants, or the whole stretch of the motion stays in the special
+//! part. So a motion has one generic verdict, stretches between break times where another one
+//! holds, and passages: instants with their times.
 //!
-//! States are brought onto the constraints before anything is decided. An instant that falls between two sample times
-//! is seen if the smallest singular value falls towards it at these times, or if the kept rows change their orientation.
+//! States are brought onto the constraints before anything is decided. An instant that falls
+//! between two sample times is seen if the smallest singular value falls towards it at these times,
+//! or if the kept rows change their orientation.
 
 mod border;
 mod instants;
@@ -179,8 +181,9 @@ pub enum AlongError {
     },
 }
 
-/// Verdicts along a motion of a mechanism, which `motion` gives at any time between the first and the last sample time, and only
-/// there: a closed form, or the dense output of a simulation. Break times of functions of time are sampled too.
+/// Verdicts along a motion of a mechanism, which `motion` gives at any time between the first and
+/// the last sample time, and only there: a closed form, or the dense output of a simulation. Break
+/// times of functions of time are sampled too.
 ///
 /// ```
 /// use joints::Revolute;
@@ -235,7 +238,8 @@ pub fn along_motion(
     along_motion_of_parts(mechanism, of_part, times)
 }
 
-/// The same of a motion that can be asked for the coordinates and velocities of single parts: of large mechanisms it is asked often, and for few of them.
+/// The same of a motion that can be asked for the coordinates and velocities of single parts: of
+/// large mechanisms it is asked often, and for few of them.
 ///
 /// # Errors
 /// As [`along_motion`].
@@ -273,7 +277,8 @@ fn judged_as_one(
     })
 }
 
-/// The singular and nearly singular configurations of a motion alone: part of what [`along_motion`] finds, in a fraction of its time.
+/// The singular and nearly singular configurations of a motion alone: part of what [`along_motion`]
+/// finds, in a fraction of its time.
 ///
 /// # Errors
 /// As [`along_motion`].
@@ -361,7 +366,8 @@ fn verdicts<'a>(analysis: &'a Analysis) -> impl Iterator<Item = VerdictOf<'a>> {
     analysis.reactions.iter().flat_map(of_reaction)
 }
 
-/// Verdicts that are not the same in two analyses of one mechanism. That a component is zero says nothing of what is determined.
+/// Verdicts that are not the same in two analyses of one mechanism. That a component is zero says
+/// nothing of what is determined.
 fn differences(mechanism: &Mechanism, generic: &Analysis, here: &Analysis) -> Vec<Difference> {
     let labels = &mechanism.layout().labels;
     let part = |place: Place| match place {

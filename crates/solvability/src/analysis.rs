@@ -1,4 +1,5 @@
-//! Ranks and verdicts of one configuration of a mechanism of any size: those of its parts, added up and numbered as in the whole.
+//! Ranks and verdicts of one configuration of a mechanism of any size: those of its parts, added up
+//! and numbered as in the whole.
 
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -42,11 +43,13 @@ pub struct Analysis {
     pub rank_nonholonomic: usize,
     /// Rank, redundancy and kept rows of C.
     pub decision: RowDecision,
-    /// Kept rows that are independent, but only just: of the part where they come closest to a dependence.
+    /// Kept rows that are independent, but only just: of the part where they come closest to a
+    /// dependence.
     pub nearly_redundant: Option<NearlyRedundant>,
     /// Joints and drives in the order of their rows.
     pub reactions: Vec<ReactionVerdict>,
-    /// As many as the degree of redundancy, part by part, short ones first; fewer where more rows than can be judged together depend on each other.
+    /// As many as the degree of redundancy, part by part, short ones first; fewer where more rows
+    /// than can be judged together depend on each other.
     pub dependencies: Vec<Dependency>,
     /// What else the reader should know.
     pub warnings: Vec<String>,
@@ -61,7 +64,8 @@ impl Analysis {
         self.velocities - self.decision.rank
     }
 
-    /// The part whose rank is least certain: undecided, or else the one with the smallest σ_r. There is always one.
+    /// The part whose rank is least certain: undecided, or else the one with the smallest σ_r.
+    /// There is always one.
     #[must_use]
     pub fn weakest(&self) -> &PartAnalysis {
         let least = |a: &&PartAnalysis, b: &&PartAnalysis| a.strength().total_cmp(&b.strength());
@@ -85,8 +89,8 @@ impl Analysis {
         }
     }
 
-    /// The decision of all rows with all dependencies, made of those of the parts; `None` if there are too many rows for that. Its evidence is that of the
-    /// weakest part.
+    /// The decision of all rows with all dependencies, made of those of the parts; `None` if there
+    /// are too many rows for that. Its evidence is that of the weakest part.
     #[must_use]
     pub fn whole(&self) -> Option<Cow<'_, RankDecision>> {
         if let [one] = self.parts.as_slice()
@@ -228,12 +232,14 @@ impl Judged {
 /// # Errors
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
 /// - [`AnalysisError::Rank`]: C is not finite.
-/// - [`AnalysisError::Large`]: joints on common cycles are joined too closely for a sparse decision.
+/// - [`AnalysisError::Large`]: joints on common cycles are joined too closely for a sparse
+///   decision.
 pub fn analyse(mechanism: &Mechanism, t: f64, q: &[f64]) -> Result<Analysis, AnalysisError> {
     analyse_known(mechanism, t, q, Known::AsStored)
 }
 
-/// The same at a configuration that is known to less than it is stored with; what is zero to that is zero.
+/// The same at a configuration that is known to less than it is stored with; what is zero to that
+/// is zero.
 ///
 /// # Errors
 /// As [`analyse`].
@@ -246,8 +252,8 @@ pub fn analyse_known(
     analyse_watched(mechanism, t, q, known, |_| ())
 }
 
-/// The same; after each part `progress` is told how many joints are judged. Parts are judged on the threads of the pool of `rayon` from which this is
-/// called; the result does not depend on them.
+/// The same; after each part `progress` is told how many joints are judged. Parts are judged on the
+/// threads of the pool of `rayon` from which this is called; the result does not depend on them.
 ///
 /// # Errors
 /// As [`analyse`].
@@ -300,7 +306,8 @@ pub fn analyse_decided(
     Ok(Analysis::of(mechanism, t, q, judged))
 }
 
-/// Verdicts set of cycles by set of cycles, also of a mechanism that is small enough to be judged as one: they are the same.
+/// Verdicts set of cycles by set of cycles, also of a mechanism that is small enough to be judged
+/// as one: they are the same.
 ///
 /// # Errors
 /// As [`analyse`].
@@ -316,10 +323,12 @@ pub fn analyse_by_cycles(
     })
 }
 
-/// The same with dependencies told by the dropped rows that the caller chooses (from 0). Verdicts do not depend on them.
+/// The same with dependencies told by the dropped rows that the caller chooses (from 0). Verdicts
+/// do not depend on them.
 ///
 /// # Errors
-/// As [`analyse`], and [`AnalysisError::Rows`]: the rows cannot be dropped without changing the motion.
+/// As [`analyse`], and [`AnalysisError::Rows`]: the rows cannot be dropped without changing the
+/// motion.
 pub fn analyse_dropping(
     mechanism: &Mechanism,
     t: f64,

@@ -1,7 +1,9 @@
-//! The rank of a mechanism, as certain as it can be had: decided in double-double, at a configuration polished in double-double,
-//! for data known to the rounding with which a scene stores them.
+//! The rank of a mechanism, as certain as it can be had: decided in double-double, at a
+//! configuration polished in double-double, for data known to the rounding with which a scene
+//! stores them.
 //!
-//! Not for motion: a run decides in `f64`, where a nearly redundant mechanism cannot be integrated anyway.
+//! Not for motion: a run decides in `f64`, where a nearly redundant mechanism cannot be integrated
+//! anyway.
 
 use std::borrow::Cow;
 
@@ -19,8 +21,8 @@ use crate::state::check_configuration;
 /// Rows up to which a rank is certified: the work grows with their cube.
 pub(crate) const ROWS_MAX: usize = 600;
 
-/// Rows up to which coefficients are read to a stated tolerance: the work grows with the number of rows times that of dependencies, and with the
-/// cube of both.
+/// Rows up to which coefficients are read to a stated tolerance: the work grows with the number of
+/// rows times that of dependencies, and with the cube of both.
 const TOLERANCE_ROWS: usize = 200;
 
 /// Coefficients that are larger belong to their dependency beyond doubt.
@@ -42,8 +44,8 @@ pub(crate) struct Rows<'a> {
     /// Rows of the mechanism that are judged, ascending.
     places: Vec<usize>,
     meant: MeantMatrix,
-    /// At a configuration polished in double-double; nothing where that is no help: too many rows, or kept rows dependent to the last digit of
-    /// `f64`.
+    /// At a configuration polished in double-double; nothing where that is no help: too many rows,
+    /// or kept rows dependent to the last digit of `f64`.
     extended: Option<DdMatrix>,
 }
 
@@ -151,7 +153,8 @@ impl<'a> Rows<'a> {
         Ok(with_nearness(decision, nearness))
     }
 
-    /// Asks what the data make of the rows of the dependencies: with a tolerance of all, without one of those that the entries of C leave open.
+    /// Asks what the data make of the rows of the dependencies: with a tolerance of all, without
+    /// one of those that the entries of C leave open.
     fn know_rows(&self, question: &Question<'_>, decision: &mut RankDecision, has_tolerance: bool) {
         let t = decision.equilibrated_dependence();
         let is_open = |row: usize| -> bool {
@@ -207,8 +210,8 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Whether the kept rows nearly depend on each other as bodies feel it, at the pose of the scratch; equilibration may scale the only
-    /// misaligned entry of a column up to size one.
+    /// Whether the kept rows nearly depend on each other as bodies feel it, at the pose of the
+    /// scratch; equilibration may scale the only misaligned entry of a column up to size one.
     pub(crate) fn nearly_redundant(
         &self,
         mechanism: &Mechanism,
@@ -252,8 +255,9 @@ fn with_nearness(mut decision: RankDecision, nearness: Option<Nearness>) -> Rank
     decision
 }
 
-/// The combination of kept rows that comes closest to zero as bodies feel it, at the pose of the scratch, where C without dimensions is that of a
-/// mechanism of this size: rows with largest entry 1, rotations measured by the arms of their bodies.
+/// The combination of kept rows that comes closest to zero as bodies feel it, at the pose of the
+/// scratch, where C without dimensions is that of a mechanism of this size: rows with largest entry
+/// 1, rotations measured by the arms of their bodies.
 fn weakest_as_felt(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -279,9 +283,11 @@ fn weakest_as_felt(
     })
 }
 
-/// Kept rows that cannot be told from dependent ones in `f64` as bodies feel them, at the pose of the scratch, where C has been evaluated
-/// at coordinates q. The rank may be decided nevertheless: equilibration scales up a column whose only entries are the misalignment. It is that of the
-/// data as read, but velocities on these rows are known to the rounding of the state divided by σ only. Allocates.
+/// Kept rows that cannot be told from dependent ones in `f64` as bodies feel them, at the pose of
+/// the scratch, where C has been evaluated at coordinates q. The rank may be decided nevertheless:
+/// equilibration scales up a column whose only entries are the misalignment. It is that of the data
+/// as read, but velocities on these rows are known to the rounding of the state divided by σ only.
+/// Allocates.
 #[must_use]
 pub fn inseparable(
     mechanism: &Mechanism,
@@ -295,8 +301,9 @@ pub fn inseparable(
         .filter(|weakest| weakest.sigma < NEARLY_SINGULAR)
 }
 
-/// Decides the rank of C at time t and coordinates q, which satisfy the constraints, in double-double where that is possible
-/// (up to 600 rows); the evidence then has a certificate. Allocates.
+/// Decides the rank of C at time t and coordinates q, which satisfy the constraints, in
+/// double-double where that is possible (up to 600 rows); the evidence then has a certificate.
+/// Allocates.
 ///
 /// # Errors
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.

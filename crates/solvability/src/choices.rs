@@ -1,5 +1,6 @@
-//! Choices among the solutions `λ₀ + Z·y` where the model leaves one. None of them is *the* reaction: what is not unique is given with the
-//! choice that was made, and a number that depends on it cannot be taken without its label.
+//! Choices among the solutions `λ₀ + Z·y` where the model leaves one. None of them is *the*
+//! reaction: what is not unique is given with the choice that was made, and a number that depends
+//! on it cannot be taken without its label.
 
 mod equations;
 mod error;
@@ -25,10 +26,12 @@ use minimise::independent_columns;
 /// A way to choose one of the solutions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Choice {
-    /// The least `Σ (force·F)² + (torque·T)²` over all joints and drives, wrenches on the first body at its place.
+    /// The least `Σ (force·F)² + (torque·T)²` over all joints and drives, wrenches on the first
+    /// body at its place.
     MinimumNorm(NormWeights),
-    /// What elastic supports of these compliances would carry, in the limit of stiff ones: the least complementary energy
-    /// `½·Σ (x·Fx² + y·Fy² + rotation·T²)`. Joints and drives that are not listed are rigid.
+    /// What elastic supports of these compliances would carry, in the limit of stiff ones: the
+    /// least complementary energy `½·Σ (x·Fx² + y·Fy² + rotation·T²)`. Joints and drives that are
+    /// not listed are rigid.
     Compliance(Vec<Compliance>),
     /// No reaction in these rows (from 0).
     Elimination(Vec<usize>),
@@ -139,7 +142,8 @@ impl Distribution {
         })
     }
 
-    /// One solution of the whole, made of those of its parts; `reactions` and `rows` are numbers of joints and rows.
+    /// One solution of the whole, made of those of its parts; `reactions` and `rows` are numbers of
+    /// joints and rows.
     pub(crate) fn of_parts(
         label: Label,
         lambda_0: &[f64],
@@ -174,13 +178,15 @@ impl Distribution {
 const ROUNDINGS: f64 = 4.0;
 
 impl Configuration<'_> {
-    /// The distribution that a choice makes of one solution λ₀, as [`Equations::multipliers`] gives it.
+    /// The distribution that a choice makes of one solution λ₀, as [`Equations::multipliers`] gives
+    /// it.
     ///
     /// # Errors
     /// - [`ChoiceError::Undecided`]: the rank is.
     /// - [`ChoiceError::Rows`]: rows that cannot be eliminated.
     /// - [`ChoiceError::Indeterminate`], [`ChoiceError::Hidden`]: the choice leaves something open.
-    /// - [`ChoiceError::Weight`], [`ChoiceError::NormWeight`], [`ChoiceError::Request`]: wrong numbers.
+    /// - [`ChoiceError::Weight`], [`ChoiceError::NormWeight`], [`ChoiceError::Request`]: wrong
+    ///   numbers.
     pub fn distribute(
         &self,
         lambda_0: &[f64],
@@ -243,7 +249,8 @@ impl Configuration<'_> {
         Ok(distribution)
     }
 
-    /// The number that a form makes of multipliers; zero where it is less than their rounding leaves open.
+    /// The number that a form makes of multipliers; zero where it is less than their rounding
+    /// leaves open.
     ///
     /// # Panics
     /// If there is not one multiplier for each row.
@@ -337,7 +344,8 @@ impl Configuration<'_> {
         Ok(())
     }
 
-    /// `λ₀ − Z·(Z_D)⁻¹·λ₀_D` with Z from the dependence of the rows D on the others, for which Z_D = I: exactly zero on D.
+    /// `λ₀ − Z·(Z_D)⁻¹·λ₀_D` with Z from the dependence of the rows D on the others, for which Z_D
+    /// = I: exactly zero on D.
     fn without(&self, lambda_0: &[f64], rows: &[usize]) -> Result<Vec<f64>, ChoiceError> {
         let c = dimensionless(&self.mechanism, &self.s, self.size);
         let decision = linalg::decide_dropping(&c, &self.uncertainty, rows)

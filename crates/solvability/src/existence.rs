@@ -1,9 +1,10 @@
-//! Existence before uniqueness: redundant rows must agree. Of each circuit `Σ z_i·row_i = 0` the right-hand sides must satisfy
-//! the same sum: `Σ z_i·b_i = 0` or no velocity exists, `Σ z_i·Γ_i = 0` or no acceleration does. At position level the residuals
-//! of Φ take their place: that of a circuit does not vanish where a row was redundant only elsewhere.
+//! Existence before uniqueness: redundant rows must agree. Of each circuit `Σ z_i·row_i = 0` the
+//! right-hand sides must satisfy the same sum: `Σ z_i·b_i = 0` or no velocity exists,
+//! `Σ z_i·Γ_i = 0` or no acceleration does. At position level the residuals of Φ take their place:
+//! that of a circuit does not vanish where a row was redundant only elsewhere.
 //!
-//! Nothing is decided here about the rank: contradictions are those of the circuits of decided ranks. Drives that take part are named, with what
-//! each of them asks for.
+//! Nothing is decided here about the rank: contradictions are those of the circuits of decided
+//! ranks. Drives that take part are named, with what each of them asks for.
 
 mod demands;
 mod drives;
@@ -20,7 +21,8 @@ use crate::words;
 pub use demands::Demand;
 pub use drives::{contradicting_drives, contradicting_drives_along};
 
-/// Rates of what is at rest to rounding (1/s): it moves by less than a hundred roundings of its place in a second.
+/// Rates of what is at rest to rounding (1/s): it moves by less than a hundred roundings of its
+/// place in a second.
 const REST: f64 = 100.0 * f64::EPSILON;
 
 /// Where rows are compared.
@@ -69,8 +71,8 @@ pub struct Contradiction {
     pub rows: Vec<RowLabel>,
     /// Position, velocity or acceleration.
     pub level: ConstraintLevel,
-    /// What one row would have to change by to agree with the others: the last one that depends on time, or else the last one. At position
-    /// level to first order.
+    /// What one row would have to change by to agree with the others: the last one that depends on
+    /// time, or else the last one. At position level to first order.
     pub size: f64,
     /// Unit of `size`.
     pub unit: &'static str,
@@ -78,10 +80,11 @@ pub struct Contradiction {
     pub tolerance: f64,
     /// How many joints and drives with functions of time take part.
     pub drives: usize,
-    /// What the drives among them ask for, in the order of their rows; of accelerations that no drive takes part in, what the drives ask for that leave
-    /// the bodies no other velocities.
+    /// What the drives among them ask for, in the order of their rows; of accelerations that no
+    /// drive takes part in, what the drives ask for that leave the bodies no other velocities.
     pub demands: Vec<Demand>,
-    /// Whether these drives take no part in the rows: they ask for velocities with which the rows cannot go on.
+    /// Whether these drives take no part in the rows: they ask for velocities with which the rows
+    /// cannot go on.
     pub is_forced: bool,
 }
 
@@ -201,13 +204,16 @@ pub struct Ranks<'a> {
     pub holonomic: &'a RankDecision,
 }
 
-/// Contradictions between redundant rows at time t, coordinates q and velocities v, at all three levels; the one that exceeds its
-/// tolerance most comes first. Kept rows must hold: `Φ_K = 0` and `C_K·v = b_K` to rounding.
+/// Contradictions between redundant rows at time t, coordinates q and velocities v, at all three
+/// levels; the one that exceeds its tolerance most comes first. Kept rows must hold: `Φ_K = 0` and
+/// `C_K·v = b_K` to rounding.
 ///
-/// The sum over a circuit is compared with the size of the terms that cancel in it, times the noise of the coefficients,
+/// The sum over a circuit is compared with the size of the terms that cancel in it, times the noise
+/// of the coefficients,
 /// [`linalg::support_tolerance`]: near a singular configuration kept rows express the dropped ones with coefficients that are wrong
-/// by 1/σ_r roundings, and an agreement cannot be better than that. Rows that mix with those of the circuit count, others do not, so
-/// that nothing elsewhere hides a contradiction; velocities count as known to the same share of the fastest one.
+/// by 1/σ_r roundings, and an agreement cannot be better than that. Rows that mix with those of the
+/// circuit count, others do not, so that nothing elsewhere hides a contradiction; velocities count
+/// as known to the same share of the fastest one.
 ///
 /// # Errors
 /// If the state has not as many numbers as the mechanism, or one of them is not finite.
@@ -320,7 +326,8 @@ impl Comparison<'_> {
             .iter()
             .filter_map(|circuit| {
                 let first = circuit.rows.first()?;
-                // Coefficients of rows that mix with these may be wrong by the noise, also those that count as zero.
+                // Coefficients of rows that mix with these may be wrong by the noise, also those
+                // that count as zero.
                 let component = rows.coupled.iter().find(|rows| rows.contains(first))?;
                 let terms: f64 = component.iter().map(term).sum();
                 self.contradiction(mechanism, time, circuit, noise * terms + aside)
@@ -381,7 +388,8 @@ impl Comparison<'_> {
         })
     }
 
-    /// What data within a stated tolerance make of the sum over a circuit of positions; zero where none is stated.
+    /// What data within a stated tolerance make of the sum over a circuit of positions; zero where
+    /// none is stated.
     fn within_data(&self, mechanism: &Mechanism, circuit: &Circuit) -> f64 {
         let blocks = mechanism.data_blocks(self.prescribed);
         if self.level != ConstraintLevel::Position || blocks.iter().all(|b| b.tolerance.is_none()) {
@@ -395,8 +403,8 @@ impl Comparison<'_> {
         SHARED * mechanism.phi_change(self.prescribed, &weights, &blocks, moved)
     }
 
-    /// Drives that move the bodies of these rows and with the joints leave them no other velocities, as groups; none if there are others, with
-    /// which the rows might go on.
+    /// Drives that move the bodies of these rows and with the joints leave them no other
+    /// velocities, as groups; none if there are others, with which the rows might go on.
     fn forcing(&self, mechanism: &Mechanism, rows: &[usize]) -> BTreeSet<usize> {
         let layout = mechanism.layout();
         let group = |row: usize| layout.groups.partition_point(|g| g.rows.end <= row);

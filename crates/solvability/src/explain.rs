@@ -1,5 +1,6 @@
-//! Why reactions are not unique, in words and as directions that can be drawn: which joints mix, which loads they can put on each other
-//! without any effect, and what of a reaction is determined all the same.
+//! Why reactions are not unique, in words and as directions that can be drawn: which joints mix,
+//! which loads they can put on each other without any effect, and what of a reaction is determined
+//! all the same.
 //!
 //! Nothing is claimed of a sum or a component that has not been tested against all dependencies.
 
@@ -13,7 +14,8 @@ use crate::mechanism::TRANSLATIONS;
 use crate::verdict::Verdict;
 use crate::words::{self, list, names};
 
-/// A component of a self-stress is zero below this share of its largest one: rounding of the dependence, drawn or said.
+/// A component of a self-stress is zero below this share of its largest one: rounding of the
+/// dependence, drawn or said.
 const VISIBLE: f64 = 1e-9;
 
 /// What there is to say about the redundancy of a configuration.
@@ -38,9 +40,11 @@ pub struct SelfStress {
     pub rows: Vec<usize>,
     /// `Σ coefficient·row = 0`, the largest coefficient 1.
     pub coefficients: Vec<f64>,
-    /// The largest coefficient (rows scaled) that counts as zero within the tolerance of the scene only; zero where none does.
+    /// The largest coefficient (rows scaled) that counts as zero within the tolerance of the scene
+    /// only; zero where none does.
     pub left_out: f64,
-    /// What each joint carries, in the order of rows; the largest force is 1 N, or the largest torque 1 N·m if there is no force.
+    /// What each joint carries, in the order of rows; the largest force is 1 N, or the largest
+    /// torque 1 N·m if there is no force.
     pub directions: Vec<FreeDirection>,
     /// What it means.
     pub text: String,
@@ -333,7 +337,8 @@ fn stress(
     }
 }
 
-/// Largest force 1, or largest torque 1 where forces are rounding beside torques divided by the size; rounding set to zero.
+/// Largest force 1, or largest torque 1 where forces are rounding beside torques divided by the
+/// size; rounding set to zero.
 fn normalise(directions: &mut [FreeDirection], size: f64) {
     let force = |d: &FreeDirection| d.force[0].hypot(d.force[1]);
     let force = directions.iter().map(force).fold(0.0, f64::max);

@@ -1,5 +1,6 @@
-//! Components of reactions in the frames in which engineers think: global, of the first body, along and across an edge. What is mixed in one
-//! frame may be separate in another: of a crank's bearing force the part across the crank is unique, whatever the global components say.
+//! Components of reactions in the frames in which engineers think: global, of the first body, along
+//! and across an edge. What is mixed in one frame may be separate in another: of a crank's bearing
+//! force the part across the crank is unique, whatever the global components say.
 
 use linalg::RankDecision;
 use model::{ConstraintId, Frame, Mechanism};
@@ -15,8 +16,8 @@ pub struct FrameVerdict {
     pub frame: Frame,
     /// Unit vectors of its axes, global components.
     pub axes: [[f64; 2]; 2],
-    /// Along the first axis, along the second, torque about the place of the joint; names as [`Frame::components`] has them. A component that is
-    /// identically zero is unique.
+    /// Along the first axis, along the second, torque about the place of the joint; names as
+    /// [`Frame::components`] has them. A component that is identically zero is unique.
     pub components: [Judgement; 3],
 }
 

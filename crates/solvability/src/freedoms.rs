@@ -1,11 +1,14 @@
-//! What can move: rank, redundancy and mobility of the rows without those of drives, and free motions in words and numbers.
+//! What can move: rank, redundancy and mobility of the rows without those of drives, and free
+//! motions in words and numbers.
 //!
-//! A drive fills the rank like any row: with its drive a four-bar has mobility 0, as a truss has. Without drives the two differ, and
-//! the motions that are left say how. Ranks are those of [`crate::analyse`] and its machinery; nothing is decided here. Free motions are those of
-//! first order at one configuration: velocities v with `C·v = 0`.
+//! A drive fills the rank like any row: with its drive a four-bar has mobility 0, as a truss has.
+//! Without drives the two differ, and the motions that are left say how. Ranks are those of
+//! [`crate::analyse`] and its machinery; nothing is decided here. Free motions are those of first
+//! order at one configuration: velocities v with `C·v = 0`.
 //!
-//! A basis of these velocities is a matter of choice. Bodies that no joint connects move apart; of connected ones each motion moves as few joints
-//! as a search finds, and as few bodies; a body that nothing holds is told as free.
+//! A basis of these velocities is a matter of choice. Bodies that no joint connects move apart; of
+//! connected ones each motion moves as few joints as a search finds, and as few bodies; a body that
+//! nothing holds is told as free.
 
 mod basis;
 mod component;
@@ -43,7 +46,8 @@ pub struct Freedoms {
     pub motions: FreeMotions,
     /// The same without the drives. `None` if there are none.
     pub without_drives: Option<FreedomsWithoutDrives>,
-    /// Whether nothing moves whatever the drives do: no velocity is left without them, and no joint follows a function of time.
+    /// Whether nothing moves whatever the drives do: no velocity is left without them, and no joint
+    /// follows a function of time.
     pub cannot_move: bool,
 }
 
@@ -80,14 +84,16 @@ pub struct LeftOut {
     pub reason: String,
 }
 
-/// One free motion; of a body that nothing holds, and of bodies that are joined to each other alone, the three that it has as a whole.
+/// One free motion; of a body that nothing holds, and of bodies that are joined to each other
+/// alone, the three that it has as a whole.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct FreeMotion {
     /// What moves: "`crank` turns about `A`; with it `coupler` and `rocker` turn".
     pub text: String,
-    /// One list for each freedom, with the bodies that move: their place among the bodies, vx, vy (m/s) and ω (rad/s). The largest rotation is 1,
-    /// or the fastest translation where nothing turns.
+    /// One list for each freedom, with the bodies that move: their place among the bodies, vx, vy
+    /// (m/s) and ω (rad/s). The largest rotation is 1, or the fastest translation where nothing
+    /// turns.
     pub velocities: Vec<Vec<(usize, [f64; 3])>>,
 }
 
@@ -123,7 +129,8 @@ impl WithoutDrives {
     }
 }
 
-/// Ranks of rows that have been decided together: of the whole, or of a part that shares no cycle with others.
+/// Ranks of rows that have been decided together: of the whole, or of a part that shares no cycle
+/// with others.
 pub(crate) struct Decided {
     /// Rows of the whole, ascending.
     pub(crate) rows: Vec<usize>,

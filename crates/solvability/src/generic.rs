@@ -1,8 +1,10 @@
-//! Is a redundancy permanent, or only of this configuration? The rank is constant on each connected component of the
-//! configuration set except on a nowhere dense part of it, so a few other points of the same component tell.
+//! Is a redundancy permanent, or only of this configuration? The rank is constant on each connected
+//! component of the configuration set except on a nowhere dense part of it, so a few other points
+//! of the same component tell.
 //!
-//! The mechanism walks there on its constraints, by steps along its free directions. Drives are left free: what they prescribe
-//! changes with time. Where other constraints depend on time, time moves too.
+//! The mechanism walks there on its constraints, by steps along its free directions. Drives are
+//! left free: what they prescribe changes with time. Where other constraints depend on time, time
+//! moves too.
 
 use linalg::{Matrix, PivotedQr, RankDecision};
 use model::start::{nearest_configuration, scene_size};
@@ -23,13 +25,15 @@ const STEPS: usize = 4;
 /// Length of a step: a share of the mechanism's size, or as many radians.
 const STEP: f64 = 0.2;
 
-/// A step is tried at this many halved lengths, because not every displacement can be assembled again.
+/// A step is tried at this many halved lengths, because not every displacement can be assembled
+/// again.
 const HALVINGS: i32 = 5;
 
 /// Points must be this far from each other and from the given one, in the same measure.
 const APART: f64 = 0.1;
 
-/// Rows up to which other configurations are looked for: the work grows with their cube, and 600 rows would take half a minute.
+/// Rows up to which other configurations are looked for: the work grows with their cube, and 600
+/// rows would take half a minute.
 pub const GENERIC_ROWS: usize = 250;
 
 /// Redundancy at other configurations of the same component.
@@ -55,8 +59,9 @@ pub struct Elsewhere {
     pub redundancy: usize,
 }
 
-/// Ranks at other configurations than (t, q), which must lie on the constraints. `None` if none was found at which the rank is
-/// decided (a structure that cannot move has none), if there are more than [`GENERIC_ROWS`], or if t and q are no configuration of this mechanism.
+/// Ranks at other configurations than (t, q), which must lie on the constraints. `None` if none was
+/// found at which the rank is decided (a structure that cannot move has none), if there are more
+/// than [`GENERIC_ROWS`], or if t and q are no configuration of this mechanism.
 #[must_use]
 pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     crate::state::check_configuration(mechanism, t, q).ok()?;
@@ -96,7 +101,8 @@ fn length(d: impl Iterator<Item = f64>, units: &[f64], size: f64) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Whether the degree of redundancy is the same at other configurations. `None` where [`generic`] finds none, or the rank here is undecided.
+/// Whether the degree of redundancy is the same at other configurations. `None` where [`generic`]
+/// finds none, or the rank here is undecided.
 #[must_use]
 pub fn is_permanent(
     mechanism: &Mechanism,

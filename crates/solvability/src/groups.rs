@@ -1,5 +1,6 @@
-//! Verdicts of what a user puts together: several reactions, one number made of their components, a sum of wrenches, everything that acts
-//! on a set of bodies. The grouping is a decision of the one who asks, so each kind says what it means.
+//! Verdicts of what a user puts together: several reactions, one number made of their components, a
+//! sum of wrenches, everything that acts on a set of bodies. The grouping is a decision of the one
+//! who asks, so each kind says what it means.
 
 mod configuration;
 mod error;
@@ -26,9 +27,11 @@ pub enum Group {
     OneJoint(Vec<ConstraintId>),
     /// `Σ coefficient · component`: one number.
     Combination(Vec<Term>),
-    /// `Σ coefficient · wrench`, each wrench as it acts on the first body of its joint, torques about the place of the first one.
+    /// `Σ coefficient · wrench`, each wrench as it acts on the first body of its joint, torques
+    /// about the place of the first one.
     WrenchSum(Vec<(f64, ConstraintId)>),
-    /// Everything that acts on these bodies from joints and drives, torques about the origin of the first. Newton and Euler make it unique.
+    /// Everything that acts on these bodies from joints and drives, torques about the origin of the
+    /// first. Newton and Euler make it unique.
     Resultant(Vec<usize>),
 }
 
@@ -58,9 +61,11 @@ pub struct GroupVerdict {
 /// Judges groups at time t and coordinates q, where the rank has been decided.
 ///
 /// # Errors
-/// - [`RequestError::UnknownReaction`], [`RequestError::UnknownComponent`], [`RequestError::UnknownBody`]: a group names what does not exist.
+/// - [`RequestError::UnknownReaction`], [`RequestError::UnknownComponent`],
+///   [`RequestError::UnknownBody`]: a group names what does not exist.
 /// - [`RequestError::Empty`]: a group of nothing.
-/// - [`RequestError::NotFinite`], [`RequestError::Length`]: a coefficient is no number, or t, q and the decision do not fit the mechanism.
+/// - [`RequestError::NotFinite`], [`RequestError::Length`]: a coefficient is no number, or t, q and
+///   the decision do not fit the mechanism.
 pub fn judge_groups(
     mechanism: &Mechanism,
     t: f64,
@@ -116,7 +121,8 @@ impl Configuration<'_> {
         }
     }
 
-    /// The numbers of a group that is one, by name: the `sum` of a combination; `Fx`, `Fy` and `T` of wrenches. Several reactions side by side are none.
+    /// The numbers of a group that is one, by name: the `sum` of a combination; `Fx`, `Fy` and `T`
+    /// of wrenches. Several reactions side by side are none.
     ///
     /// # Errors
     /// As [`judge_groups`].
@@ -198,7 +204,8 @@ impl Configuration<'_> {
         Ok(sum)
     }
 
-    /// The total of the reactions of several joints on each body: `Σ C_Xᵀ·λ_X`, each joint counted once.
+    /// The total of the reactions of several joints on each body: `Σ C_Xᵀ·λ_X`, each joint counted
+    /// once.
     fn one_joint(&self, members: &[ConstraintId]) -> Result<GroupVerdict, RequestError> {
         let mut rows: Vec<usize> = self.rows_of(members)?.into_iter().flatten().collect();
         rows.sort_unstable();
@@ -246,8 +253,9 @@ fn whole(judgement: Judgement) -> GroupVerdict {
     }
 }
 
-/// The judgement of all together: not unique if one is not, else undecided if one is. Of equal verdicts that with the largest margin,
-/// NaN above all; margins of different verdicts do not compare, because each was read against its own noise.
+/// The judgement of all together: not unique if one is not, else undecided if one is. Of equal
+/// verdicts that with the largest margin, NaN above all; margins of different verdicts do not
+/// compare, because each was read against its own noise.
 pub(crate) fn worst(judgements: impl Iterator<Item = Judgement>) -> Option<Judgement> {
     let severity = |j: &Judgement| match j.verdict {
         Verdict::Unique => 0,

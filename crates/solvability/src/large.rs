@@ -1,7 +1,9 @@
-//! One large set of joints on common cycles: its rank, and verdicts from random combinations of its left null space.
+//! One large set of joints on common cycles: its rank, and verdicts from random combinations of its
+//! left null space.
 //!
-//! A joint is read from its own rows of `W = Z·Ω` alone, as it is read from those of Z in a small mechanism, at a cost that does not depend on
-//! the degree of redundancy. Dependencies are told where those rows that depend on others fall into small sets of cycles again.
+//! A joint is read from its own rows of `W = Z·Ω` alone, as it is read from those of Z in a small
+//! mechanism, at a cost that does not depend on the degree of redundancy. Dependencies are told
+//! where those rows that depend on others fall into small sets of cycles again.
 
 use std::ops::Range;
 
@@ -34,7 +36,8 @@ struct Decided {
     found: SparseRank,
 }
 
-/// Rank and kept rows of the rows of C in a range, at the pose of the scratch, where Φ and C have been evaluated at coordinates q.
+/// Rank and kept rows of the rows of C in a range, at the pose of the scratch, where Φ and C have
+/// been evaluated at coordinates q.
 ///
 /// # Errors
 /// If C is not finite, or too dense for a sparse decision.
@@ -157,7 +160,8 @@ pub(crate) fn sketch_of(mechanism: &Mechanism) -> Sketch {
     }
 }
 
-/// Ranks and verdicts of a large mechanism at the pose of the scratch, where Φ and C have been evaluated at coordinates q.
+/// Ranks and verdicts of a large mechanism at the pose of the scratch, where Φ and C have been
+/// evaluated at coordinates q.
 ///
 /// # Errors
 /// If C is not finite, or too dense for a sparse decision.
@@ -260,7 +264,8 @@ fn without_drives(
     }))
 }
 
-/// Minimal dependent sets of rows, where those joints that have dependent rows share small sets of cycles.
+/// Minimal dependent sets of rows, where those joints that have dependent rows share small sets of
+/// cycles.
 fn dependencies(
     mechanism: &Mechanism,
     s: &Scratch,

@@ -1,8 +1,9 @@
 //! What to delete so that a wanted reaction becomes unique, and the motion stays as it is.
 //!
-//! Deleting rows makes the rest unique by decree: it is a decision of the designer that these rows carry nothing, not a finding.
-//! The rule for what may be proposed is simple: any row may be relaxed as long as its joint keeps one row (a revolute becomes a pin in
-//! a slot), and a joint or drive of one row may be deleted.
+//! Deleting rows makes the rest unique by decree: it is a decision of the designer that these rows
+//! carry nothing, not a finding. The rule for what may be proposed is simple: any row may be
+//! relaxed as long as its joint keeps one row (a revolute becomes a pin in a slot), and a joint or
+//! drive of one row may be deleted.
 
 use std::ops::Range;
 
@@ -43,7 +44,8 @@ pub struct Proposals {
     pub complete: bool,
 }
 
-/// The smallest deletions that make the wrench of a joint or drive unique without a change of motion.
+/// The smallest deletions that make the wrench of a joint or drive unique without a change of
+/// motion.
 ///
 /// # Errors
 /// If the rank is undecided, an answer lies between yes and no, or a row does not exist.
@@ -90,7 +92,8 @@ pub fn make_unique(
 }
 
 impl Solvability {
-    /// The combinations of all multipliers that make up `C_Xᵀ·λ_X` (n × m), each in the scale of its equilibrated column.
+    /// The combinations of all multipliers that make up `C_Xᵀ·λ_X` (n × m), each in the scale of
+    /// its equilibrated column.
     fn wrench_combinations(&self, rows: Range<usize>) -> Matrix {
         let decision = self.decision();
         let m = decision.rank + decision.redundancy;

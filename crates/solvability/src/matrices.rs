@@ -1,12 +1,14 @@
-//! Solvability of a plain constraint matrix: which combinations of multipliers are the same in all solutions
-//! `λ = λ₀ + Z·y` of `M·a + Cᵀ·λ = Q`.
+//! Solvability of a plain constraint matrix: which combinations of multipliers are the same in all
+//! solutions `λ = λ₀ + Z·y` of `M·a + Cᵀ·λ = Q`.
 //!
-//! Rows may be grouped in any way; groups may overlap. A row named twice in a group counts once; a group without rows has no reaction,
-//! which is unique with margin 0. Not here: what rows and groups mean (`mechanism`), and how the rank is decided (`linalg`).
+//! Rows may be grouped in any way; groups may overlap. A row named twice in a group counts once; a
+//! group without rows has no reaction, which is unique with margin 0. Not here: what rows and
+//! groups mean (`mechanism`), and how the rank is decided (`linalg`).
 //!
-//! Source: Wojtyra, Frączek (2013), doi 10.1007/s11044-013-9352-0: with `C·P = Q·R` and the last p columns
-//! of Q as Z, the reaction of a joint with rows X is unique iff `B_X = C_Xᵀ·Z_X = 0` (27). Here Z is an orthonormal
-//! basis of the left null space of the equilibrated C; it spans the same space, up to the scaling of rows.
+//! Source: Wojtyra, Frączek (2013), doi 10.1007/s11044-013-9352-0: with `C·P = Q·R` and the last p
+//! columns of Q as Z, the reaction of a joint with rows X is unique iff `B_X = C_Xᵀ·Z_X = 0` (27).
+//! Here Z is an orthonormal basis of the left null space of the equilibrated C; it spans the same
+//! space, up to the scaling of rows.
 
 use linalg::{ExactNullSpace, Matrix, RankDecision, RankError, Uncertainty};
 
@@ -96,7 +98,8 @@ pub enum QueryError {
 }
 
 impl Solvability {
-    /// Decides the rank of `c` (m × n) and keeps what verdicts need; `uncertainty` is what its entries are known to beyond rounding.
+    /// Decides the rank of `c` (m × n) and keeps what verdicts need; `uncertainty` is what its
+    /// entries are known to beyond rounding.
     ///
     /// # Errors
     /// If an entry or the uncertainty is not finite.
@@ -104,9 +107,11 @@ impl Solvability {
         Ok(Self::from_decision(c, linalg::decide(c, uncertainty)?))
     }
 
-    /// The same for a matrix whose entries are meant exactly as they stand: every verdict is exact, none is undecided.
+    /// The same for a matrix whose entries are meant exactly as they stand: every verdict is exact,
+    /// none is undecided.
     ///
-    /// Zero tests are done modulo primes; margins are computed in `f64` and are upper estimates below 1e-15.
+    /// Zero tests are done modulo primes; margins are computed in `f64` and are upper estimates
+    /// below 1e-15.
     ///
     /// # Errors
     /// If an entry is not finite.
@@ -114,7 +119,8 @@ impl Solvability {
         Ok(Self::from_decision(c, linalg::certify_exact(c)?))
     }
 
-    /// The same for a rank that has been decided already for this matrix, or for the double-double matrix that was rounded to it.
+    /// The same for a rank that has been decided already for this matrix, or for the double-double
+    /// matrix that was rounded to it.
     ///
     /// # Panics
     /// If the decision is that of a matrix of another shape.
@@ -180,8 +186,8 @@ impl Solvability {
         self.basis.row(i)
     }
 
-    /// All multipliers of a group of rows: unique iff `Z_X = 0`. Stronger than [`Solvability::group`] where the rows
-    /// depend on each other.
+    /// All multipliers of a group of rows: unique iff `Z_X = 0`. Stronger than
+    /// [`Solvability::group`] where the rows depend on each other.
     ///
     /// # Errors
     /// If a row does not exist.
@@ -208,8 +214,8 @@ impl Solvability {
         self.basis.group(rows)
     }
 
-    /// A linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin is relative to ‖ℓ‖, both
-    /// for equilibrated rows.
+    /// A linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin is
+    /// relative to ‖ℓ‖, both for equilibrated rows.
     ///
     /// # Errors
     /// If there are not m coefficients, or one is not finite.
@@ -217,11 +223,13 @@ impl Solvability {
         self.basis.combination(l)
     }
 
-    /// Component `k` of a reaction `W·λ_X`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest row of W.
-    /// A row that is rounding beside the others is zero, unless the entries are meant exactly. Column l of W belongs to row l of the list.
+    /// Component `k` of a reaction `W·λ_X`: unique iff row k of `W·Z_X` is zero; the margin is
+    /// relative to the largest row of W. A row that is rounding beside the others is zero, unless
+    /// the entries are meant exactly. Column l of W belongs to row l of the list.
     ///
     /// # Errors
-    /// If a row or the component does not exist, or W does not have a column for each row, or is not finite.
+    /// If a row or the component does not exist, or W does not have a column for each row, or is
+    /// not finite.
     pub fn component(
         &self,
         map: &Matrix,
@@ -231,8 +239,9 @@ impl Solvability {
         self.basis.mapped(map, rows)?.component(k)
     }
 
-    /// Directions in which a reaction is unique: a basis of the left null space of `W·Z_X` for the map W
-    /// (k × |X|) from multipliers to components. Unit vectors with k entries; the largest entry is positive.
+    /// Directions in which a reaction is unique: a basis of the left null space of `W·Z_X` for the
+    /// map W (k × |X|) from multipliers to components. Unit vectors with k entries; the largest
+    /// entry is positive.
     ///
     /// # Errors
     /// As [`Solvability::component`], and where the numbers do not decide how many there are.

@@ -1,5 +1,5 @@
-//! The rank of the mechanism that is meant: its data are known to their rounding, or to a tolerance that the scene states, and the rank is that of
-//! the data within what they are known to.
+//! The rank of the mechanism that is meant: its data are known to their rounding, or to a tolerance
+//! that the scene states, and the rank is that of the data within what they are known to.
 //!
 //! | module | content |
 //! | --- | --- |

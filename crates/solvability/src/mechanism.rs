@@ -1,4 +1,5 @@
-//! Solvability of a mechanism at one configuration: ranks, and a verdict for every joint, drive, row and direction.
+//! Solvability of a mechanism at one configuration: ranks, and a verdict for every joint, drive,
+//! row and direction.
 
 use std::ops::Range;
 
@@ -28,7 +29,8 @@ pub struct ReactionVerdict {
     pub name: String,
     /// Its scene type.
     pub kind: &'static str,
-    /// The wrench: unique iff `B_X = 0`, and no component is free where a row moves no body, as between two parts of the ground.
+    /// The wrench: unique iff `B_X = 0`, and no component is free where a row moves no body, as
+    /// between two parts of the ground.
     pub wrench: Judgement,
     /// All its multipliers: unique iff `Z_X = 0`.
     pub multipliers: Judgement,
@@ -36,14 +38,17 @@ pub struct ReactionVerdict {
     pub rows: Vec<RowVerdict>,
     /// Each component of the reaction that is not identically zero.
     pub components: Vec<ComponentVerdict>,
-    /// Those of them that are zero at this configuration under any load, as the force of an edge along itself: unique, but no finding.
+    /// Those of them that are zero at this configuration under any load, as the force of an edge
+    /// along itself: unique, but no finding.
     pub zero_components: Vec<&'static str>,
     /// Basis of the unique directions, in these components.
     pub unique_directions: Vec<Vec<f64>>,
-    /// The same without what is zero under any load: perpendicular to the directions along which there is no reaction here. `None` if their number
-    /// is undecided; there are no unique directions then either.
+    /// The same without what is zero under any load: perpendicular to the directions along which
+    /// there is no reaction here. `None` if their number is undecided; there are no unique
+    /// directions then either.
     pub live_directions: Option<Vec<Vec<f64>>>,
-    /// The largest part of the reaction that counts as zero within the tolerance of the scene only for these to be unique; zero where none does.
+    /// The largest part of the reaction that counts as zero within the tolerance of the scene only
+    /// for these to be unique; zero where none does.
     pub directions_left_out: f64,
 }
 
@@ -72,7 +77,8 @@ pub struct Dependency {
     pub rows: Vec<usize>,
     /// `Σ coefficient·row = 0`, the largest coefficient 1.
     pub coefficients: Vec<f64>,
-    /// The largest coefficient (rows scaled) that counts as zero within the tolerance of the scene only; zero where none does.
+    /// The largest coefficient (rows scaled) that counts as zero within the tolerance of the scene
+    /// only; zero where none does.
     pub left_out: f64,
     /// What it means.
     pub text: String,
@@ -147,14 +153,15 @@ pub(crate) fn uncertainty(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matr
         .apply(&mechanism.uncertainty(s, size, Known::AsStored))
 }
 
-/// The velocities that are one without dimensions: 1 m/s for translations, and for rotations what moves a point at the size of the
-/// mechanism by about as much, a power of two.
+/// The velocities that are one without dimensions: 1 m/s for translations, and for rotations what
+/// moves a point at the size of the mechanism by about as much, a power of two.
 pub(crate) fn velocity_units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     let scaling = mechanism.dimension_scaling(size);
     scaling.cols.iter().map(|&e| f64::from(e).exp2()).collect()
 }
 
-/// Decides the rank of C at the pose of the scratch, where Φ and C have been evaluated at coordinates q.
+/// Decides the rank of C at the pose of the scratch, where Φ and C have been evaluated at
+/// coordinates q.
 ///
 /// # Errors
 /// If C is not finite.
@@ -204,7 +211,8 @@ fn holonomic(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> (Matrix, Matrix) 
     (phi_q, known)
 }
 
-/// The same with the dropped rows given (from 0): they must be as many as the redundancy, and the others independent.
+/// The same with the dropped rows given (from 0): they must be as many as the redundancy, and the
+/// others independent.
 ///
 /// # Errors
 /// If they are not, or C is not finite.
@@ -229,7 +237,8 @@ pub(crate) fn evaluated(mechanism: &Mechanism, t: f64, q: &[f64]) -> Scratch {
     s
 }
 
-/// Verdicts of a mechanism that is one part, at the pose of the scratch, where Φ and C have been evaluated and the rank has been decided.
+/// Verdicts of a mechanism that is one part, at the pose of the scratch, where Φ and C have been
+/// evaluated and the rank has been decided.
 pub(crate) fn judge(
     mechanism: &Mechanism,
     s: &Scratch,

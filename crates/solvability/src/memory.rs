@@ -14,8 +14,8 @@ const OF_VERDICT: usize = 1500;
 /// Matrices of all rows and columns that are held at once where a small mechanism is judged.
 const DENSE_MATRICES: usize = 24;
 
-/// Bytes that ranks, kept rows and verdicts of a mechanism take at most, about, beside the mechanism itself: the part with most rows, on
-/// each of `threads` threads, and all verdicts.
+/// Bytes that ranks, kept rows and verdicts of a mechanism take at most, about, beside the
+/// mechanism itself: the part with most rows, on each of `threads` threads, and all verdicts.
 ///
 /// # Errors
 /// [`AnalysisError::Large`]: rows are joined too closely for a sparse decision.

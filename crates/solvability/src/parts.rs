@@ -1,10 +1,12 @@
 //! Parts of a mechanism that are judged alone.
 //!
-//! Self-stresses live on cycles of the graph of bodies, ground and joints: every `z` with `Cᵀ·z = 0` is a sum of such vectors on single
-//! sets of [`linalg::cycles`]. So each set is a mechanism of its own with all the evidence that it has; the redundancy of the whole is the sum
+//! Self-stresses live on cycles of the graph of bodies, ground and joints: every `z` with
+//! `Cᵀ·z = 0` is a sum of such vectors on single sets of [`linalg::cycles`]. So each set is a
+//! mechanism of its own with all the evidence that it has; the redundancy of the whole is the sum
 //! of theirs, and no verdict depends on any other set. The work is linear in their number.
 //!
-//! Each part is measured by its own size: margins do not depend on how long the chain is in which it stands. Not here: how a part is judged.
+//! Each part is measured by its own size: margins do not depend on how long the chain is in which
+//! it stands. Not here: how a part is judged.
 
 use std::borrow::Cow;
 
@@ -17,8 +19,9 @@ use crate::mechanism::evaluated;
 use crate::rows::RowDecision;
 use crate::words;
 
-/// A mechanism of at most so many rows is one part, whatever its cycles: all of its verdicts are then read from one null space, and it
-/// can be compared with itself at other configurations, which takes matrices of all rows and columns.
+/// A mechanism of at most so many rows is one part, whatever its cycles: all of its verdicts are
+/// then read from one null space, and it can be compared with itself at other configurations, which
+/// takes matrices of all rows and columns.
 pub const ONE_PART: usize = 250;
 
 /// Names that tell which part is meant.
@@ -83,14 +86,16 @@ impl Extent {
         self.places().map_or(own, |p| p.groups[own])
     }
 
-    /// The joint or drive of the part that is this one of the whole; `None` if it belongs to another part.
+    /// The joint or drive of the part that is this one of the whole; `None` if it belongs to
+    /// another part.
     #[must_use]
     pub fn own_group(&self, group: usize) -> Option<usize> {
         self.places()
             .map_or(Some(group), |p| p.groups.binary_search(&group).ok())
     }
 
-    /// Joints and drives of the whole that belong to the part; none are listed where it is the whole.
+    /// Joints and drives of the whole that belong to the part; none are listed where it is the
+    /// whole.
     pub(crate) fn groups(&self) -> &[usize] {
         self.places().map_or(&[], |p| &p.groups)
     }
@@ -220,7 +225,8 @@ pub struct PartAnalysis {
     pub decision: PartDecision,
     /// The proof of the rank, also where the caller chose the dropped rows.
     pub certificate: Option<Certificate>,
-    /// Kept rows that are independent, but only just; in parts decided sparsely nothing is said of them.
+    /// Kept rows that are independent, but only just; in parts decided sparsely nothing is said of
+    /// them.
     pub nearly_redundant: Option<NearlyRedundant>,
 }
 
@@ -318,7 +324,8 @@ impl PartAnalysis {
     }
 }
 
-/// Joints and drives that lie on common cycles, at the pose of the scratch, where C has been evaluated: sets that can be judged alone.
+/// Joints and drives that lie on common cycles, at the pose of the scratch, where C has been
+/// evaluated: sets that can be judged alone.
 #[must_use]
 pub fn parts(mechanism: &Mechanism, s: &Scratch) -> Vec<Vec<usize>> {
     let ground = mechanism.bodies().len();
@@ -374,8 +381,8 @@ impl Partition {
         }
     }
 
-    /// What `f` makes of each part, by their first joints, on the threads of the pool of `rayon` from which this is called; of several errors the one of
-    /// the first part.
+    /// What `f` makes of each part, by their first joints, on the threads of the pool of `rayon`
+    /// from which this is called; of several errors the one of the first part.
     pub(crate) fn map<T: Send, E: Send>(
         &self,
         mechanism: &Mechanism,

@@ -1,7 +1,9 @@
-//! Questions about the reactions of an analysed configuration of any size, each answered by the parts that it touches.
+//! Questions about the reactions of an analysed configuration of any size, each answered by the
+//! parts that it touches.
 //!
-//! The left null space of C is the direct sum of those of the parts. So a number made of reactions of several parts is unique iff its share in
-//! each is; a choice among the solutions is one choice in each; and rows may be deleted together iff those of each part may be.
+//! The left null space of C is the direct sum of those of the parts. So a number made of reactions
+//! of several parts is unique iff its share in each is; a choice among the solutions is one choice
+//! in each; and rows may be deleted together iff those of each part may be.
 
 mod eliminations;
 
@@ -245,7 +247,8 @@ impl<'a> Questions<'a> {
         }
     }
 
-    /// The numbers of a group that every solution shares, by name; several reactions side by side have none.
+    /// The numbers of a group that every solution shares, by name; several reactions side by side
+    /// have none.
     ///
     /// # Errors
     /// As [`Questions::group`].
@@ -413,7 +416,8 @@ impl<'a> Questions<'a> {
         Ok(rigid)
     }
 
-    /// Which components are facts, and which depend on a choice: told by a change of units, without any verdict.
+    /// Which components are facts, and which depend on a choice: told by a change of units, without
+    /// any verdict.
     ///
     /// # Errors
     /// As [`crate::check_units`], and [`RequestError::Large`].
@@ -446,7 +450,8 @@ impl<'a> Questions<'a> {
         Ok(checks)
     }
 
-    /// Why the reactions are not unique; of parts whose rank is undecided, or that are too large, nothing is said. `None` if nothing can be said at all.
+    /// Why the reactions are not unique; of parts whose rank is undecided, or that are too large,
+    /// nothing is said. `None` if nothing can be said at all.
     ///
     /// # Errors
     /// [`ExplanationError::Rank`], [`ExplanationError::Query`]

@@ -1,5 +1,6 @@
-//! What a motion needs of the rows: which are independent, of C and of Φq alone, and whether the others agree with them. At the start they are those
-//! of the certificate; on the way other rows are chosen in `f64`, at the same rank.
+//! What a motion needs of the rows: which are independent, of C and of Φq alone, and whether the
+//! others agree with them. At the start they are those of the certificate; on the way other rows
+//! are chosen in `f64`, at the same rank.
 
 use linalg::{
     Doubt, Evidence, KeptRowsError, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankStatus,
@@ -65,7 +66,8 @@ impl RowDecision {
         self.support_tolerance = self.support_tolerance.max(part.support_tolerance);
     }
 
-    /// That of some of the rows, ascending, which no other row depends on: those of bodies that nothing joins to others.
+    /// That of some of the rows, ascending, which no other row depends on: those of bodies that
+    /// nothing joins to others.
     #[must_use]
     pub fn of_rows(&self, rows: &[usize]) -> Self {
         let own = |all: &[usize]| -> Vec<usize> {
@@ -122,10 +124,12 @@ impl From<&SparseRank> for RowDecision {
     }
 }
 
-/// Rows of C, and of Φq alone, at one configuration, as they were decided there, part by part. The motion, the verdicts and the words take them from here.
+/// Rows of C, and of Φq alone, at one configuration, as they were decided there, part by part. The
+/// motion, the verdicts and the words take them from here.
 #[derive(Clone, Debug)]
 pub struct Rows {
-    /// Of all rows of C; undecided also where the rank is certified, but too nearly another one to move by numbers in `f64`.
+    /// Of all rows of C; undecided also where the rank is certified, but too nearly another one to
+    /// move by numbers in `f64`.
     pub all: RowDecision,
     /// Of the rows of Φq alone.
     pub holonomic: RowDecision,
@@ -138,7 +142,8 @@ pub(crate) struct DecidedPart {
     pub(crate) extent: Extent,
     all: RowDecision,
     holonomic: RowDecision,
-    /// Of all rows and of the holonomic ones, as they were certified; `None` in a part that is decided sparsely.
+    /// Of all rows and of the holonomic ones, as they were certified; `None` in a part that is
+    /// decided sparsely.
     pub(crate) certified: Option<Box<[RankDecision; 2]>>,
 }
 
@@ -178,13 +183,14 @@ impl DecidedPart {
 
 /// The factor between noise and tolerance of numbers in `f64`: that of [`linalg::decide`].
 const NOISE_FACTOR: f64 = 10.0;
-/// By how much singular values must clear the tolerance: runs of the stress matrix keep their digits from a factor of thirty on.
+/// By how much singular values must clear the tolerance: runs of the stress matrix keep their
+/// digits from a factor of thirty on.
 const CLEARANCE: f64 = 30.0;
 /// Data are known to several roundings, the numbers of a motion to one.
 const ONE_ROUNDING: f64 = f64::EPSILON / 2.0 / model::ROUNDING;
 
-/// Certified decisions as far as they hold for numbers in `f64` at the pose of the scratch: velocities and residuals of a motion, which are known to the
-/// rounding of its coordinates.
+/// Certified decisions as far as they hold for numbers in `f64` at the pose of the scratch:
+/// velocities and residuals of a motion, which are known to the rounding of its coordinates.
 fn in_double(
     certified: &[RankDecision; 2],
     part: &Mechanism,
@@ -311,8 +317,8 @@ pub fn decide_rows_dropping(
     found.map_err(|e| told_of_whole(mechanism, s, q, dropped, e))
 }
 
-/// An error that counts the rows of one part, in numbers of the whole. Where as many rows are dropped as are redundant, but not in their parts, what is
-/// kept is dependent.
+/// An error that counts the rows of one part, in numbers of the whole. Where as many rows are
+/// dropped as are redundant, but not in their parts, what is kept is dependent.
 pub(crate) fn told_of_whole(
     mechanism: &Mechanism,
     s: &Scratch,
@@ -366,7 +372,8 @@ fn of_parts<E: Send>(
 }
 
 impl Rows {
-    /// Kept rows that cannot be told from dependent ones in `f64`; directions are those of all rows. See [`inseparable`].
+    /// Kept rows that cannot be told from dependent ones in `f64`; directions are those of all
+    /// rows. See [`inseparable`].
     #[must_use]
     pub fn inseparable(&self, mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<NearlyRedundant> {
         self.parts.iter().find_map(|part| {
@@ -384,7 +391,8 @@ impl Rows {
         })
     }
 
-    /// Whether the rank of all rows is decided, if only by a certificate: kept rows are independent then, though numbers in `f64` may not show it.
+    /// Whether the rank of all rows is decided, if only by a certificate: kept rows are independent
+    /// then, though numbers in `f64` may not show it.
     #[must_use]
     pub fn are_certified(&self) -> bool {
         self.parts.iter().all(|part| match &part.certified {

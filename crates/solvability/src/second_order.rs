@@ -1,12 +1,14 @@
-//! Is the motion unique where the rank drops? There more velocities satisfy `C·v = b` than elsewhere, but a velocity can go on only
-//! if accelerations exist: `z·Γ(v) = 0` for every z of the left null space, old self-stresses and new ones. These are quadratic
-//! equations in the velocities; the motion through the point solves them.
+//! Is the motion unique where the rank drops? There more velocities satisfy `C·v = b` than
+//! elsewhere, but a velocity can go on only if accelerations exist: `z·Γ(v) = 0` for every z of the
+//! left null space, old self-stresses and new ones. These are quadratic equations in the
+//! velocities; the motion through the point solves them.
 //!
-//! If nothing else does, the new motions are blocked at second order. If something does, there are branches. Where
-//! second order does not tell, that is said.
+//! If nothing else does, the new motions are blocked at second order. If something does, there are
+//! branches. Where second order does not tell, that is said.
 //!
-//! Source: S. Pellegrino, C. R. Calladine, Matrix analysis of statically and kinematically indeterminate frameworks, Int. J. Solids
-//! Structures 22 (1986) 409–428, here with velocities of the motion and drives.
+//! Source: S. Pellegrino, C. R. Calladine, Matrix analysis of statically and kinematically
+//! indeterminate frameworks, Int. J. Solids Structures 22 (1986) 409–428, here with velocities of
+//! the motion and drives.
 
 mod blocked;
 mod branches;
@@ -24,10 +26,11 @@ use forms::Forms;
 pub enum Continuation {
     /// No other velocity is compatible: the new motions are blocked at second order.
     Unique,
-    /// Other velocities are compatible to second order: the constraints do not determine on which branch the mechanism goes on.
+    /// Other velocities are compatible to second order: the constraints do not determine on which
+    /// branch the mechanism goes on.
     Bifurcation {
-        /// Velocities of other branches, n_v each. Without drives they are as fast as the motion, and may be reversed. Where a branch
-        /// has several freedoms these are examples.
+        /// Velocities of other branches, n_v each. Without drives they are as fast as the motion,
+        /// and may be reversed. Where a branch has several freedoms these are examples.
         branches: Vec<Vec<f64>>,
     },
     /// Second order does not decide.
@@ -95,14 +98,16 @@ pub enum Undetermined {
 /// New motions that are examined at once.
 pub const KERNEL_MAX: usize = 4;
 
-/// The given motion may miss the equations by this share of their coefficients: its directions may come from
-/// neighbouring configurations.
+/// The given motion may miss the equations by this share of their coefficients: its directions may
+/// come from neighbouring configurations.
 const REGULAR: f64 = 1e-6;
 
-/// Second-order test at time t, coordinates q on the constraints and velocities v with `C·v = b`, where `decision` is the rank there.
+/// Second-order test at time t, coordinates q on the constraints and velocities v with `C·v = b`,
+/// where `decision` is the rank there.
 ///
-/// `regular` (n_v × k) holds the velocities `w` with `C·w = 0` that the mechanism has also at neighbouring configurations: for a
-/// mechanism with one freedom and without drives the column v, for a driven one without freedom no column.
+/// `regular` (n_v × k) holds the velocities `w` with `C·w = 0` that the mechanism has also at
+/// neighbouring configurations: for a mechanism with one freedom and without drives the column v,
+/// for a driven one without freedom no column.
 ///
 /// # Errors
 /// If the state has not as many numbers as the mechanism, or one of them is not finite.
@@ -132,8 +137,9 @@ pub fn second_order(
     })
 }
 
-/// Whether the mechanism cannot move although C leaves it freedoms: second order excludes every velocity with `C·v = 0`, so its mobility is one of
-/// first order only. Not asked of mechanisms with functions of time, which move by these.
+/// Whether the mechanism cannot move although C leaves it freedoms: second order excludes every
+/// velocity with `C·v = 0`, so its mobility is one of first order only. Not asked of mechanisms
+/// with functions of time, which move by these.
 ///
 /// # Errors
 /// If the configuration has not as many numbers as the mechanism, or one of them is not finite.

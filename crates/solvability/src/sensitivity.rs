@@ -1,14 +1,18 @@
-//! How much a reaction hangs on the data: by what share it changes when one point moves a little. A reaction may be unique and yet be made of the
-//! last digits of a drawing.
+//! How much a reaction hangs on the data: by what share it changes when one point moves a little. A
+//! reaction may be unique and yet be made of the last digits of a drawing.
 //!
-//! With the rank held, `M·a + C_Kᵀ·λ = Q`, `C_K·a = Γ` change with a point by its own part of C and Γ, by the pose, which follows so that `Φ_K = 0`, and
-//! by the velocities, which follow so that `C_K·v = b`. For a component `wᵀ·λ` one solution y of the same symmetric equations with right-hand side
-//! (0, w) gives the change by all points at once: `y_aᵀ·(δQ − δCᵀ·λ) + y_λᵀ·(δΓ − δC·a)`.
+//! With the rank held, `M·a + C_Kᵀ·λ = Q`, `C_K·a = Γ` change with a point by its own part of C and
+//! Γ, by the pose, which follows so that `Φ_K = 0`, and by the velocities, which follow so that
+//! `C_K·v = b`. For a component `wᵀ·λ` one solution y of the same symmetric equations with
+//! right-hand side (0, w) gives the change by all points at once:
+//! `y_aᵀ·(δQ − δCᵀ·λ) + y_λᵀ·(δΓ − δC·a)`.
 //!
-//! Size and loads are those of the bodies that joints connect: a robot says the same of itself alone and in a fleet, also where springs couple it to others.
+//! Size and loads are those of the bodies that joints connect: a robot says the same of itself
+//! alone and in a fleet, also where springs couple it to others.
 //!
-//! Without any load there is nothing that could change. The answer is then given for a load of 1 N on each body, in directions that favour nothing, at
-//! rest and with equal masses: a combination of rows of norm σ makes reactions of about 1/σ of it, which change by the share moved/(σ·size).
+//! Without any load there is nothing that could change. The answer is then given for a load of 1 N
+//! on each body, in directions that favour nothing, at rest and with equal masses: a combination of
+//! rows of norm σ makes reactions of about 1/σ of it, which change by the share moved/(σ·size).
 //!
 //! Not here: data within which the rank itself changes (`meant`).
 
@@ -29,13 +33,15 @@ use crate::words;
 use instant::Instant;
 use joined::{Joined, each_joined};
 
-/// A point moves by this share of the mechanism's size (in long chains: of the size of its links), a direction by as many radians: what a careful workshop holds.
+/// A point moves by this share of the mechanism's size (in long chains: of the size of its links),
+/// a direction by as many radians: what a careful workshop holds.
 pub const MOVED: f64 = 1e-4;
 
 /// A reaction that changes by more than this share of itself, or of the largest load, is fragile.
 pub const FRAGILE: f64 = 0.1;
 
-/// From this change on, relative to its size, the first order does not say how far a reaction changes: it says that none of its digits is left.
+/// From this change on, relative to its size, the first order does not say how far a reaction
+/// changes: it says that none of its digits is left.
 const BEYOND: f64 = 1.0;
 
 /// From here on "several times" would be too little.
@@ -44,7 +50,8 @@ const MANY: f64 = 30.0;
 /// Changes of a reaction with one point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sensitivity {
-    /// Largest change, relative to the larger of the reaction and of the largest applied or inertial load, torques divided by the size.
+    /// Largest change, relative to the larger of the reaction and of the largest applied or
+    /// inertial load, torques divided by the size.
     pub change: f64,
     /// What changes it most. `None` if nothing does.
     pub by: Option<Datum>,
@@ -72,7 +79,8 @@ impl Sensitivity {
         self.change > FRAGILE
     }
 
-    /// In words, for the reaction of this name: that it is unique but changes, by how much, and with what.
+    /// In words, for the reaction of this name: that it is unique but changes, by how much, and
+    /// with what.
     #[must_use]
     pub fn sentence(&self, reaction: &str, layout: &Layout) -> String {
         match &self.by {
@@ -103,7 +111,8 @@ impl Datum {
     }
 }
 
-/// That so many reactions change by at most this share of their size. The share is of the first order: it is a number only where it is small.
+/// That so many reactions change by at most this share of their size. The share is of the first
+/// order: it is a number only where it is small.
 fn told(change: f64, reactions: usize) -> String {
     let (verb, up_to, whose) = match reactions {
         1 => ("changes", "", "its"),
@@ -149,7 +158,8 @@ pub fn length(metres: f64) -> String {
 /// Sensitivities of the reactions of a mechanism of any size.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sensitivities {
-    /// Joints and drives in the order of their rows. `None` if the reaction is not unique, or if nothing can be said.
+    /// Joints and drives in the order of their rows. `None` if the reaction is not unique, or if
+    /// nothing can be said.
     pub each: Vec<Option<Sensitivity>>,
     /// Of which unique reactions nothing can be said, and why, in sentences.
     pub left_out: Vec<String>,
@@ -188,10 +198,12 @@ impl Sensitivities {
 }
 
 impl Analysis {
-    /// How much each unique reaction hangs on the data, at the configuration of the analysis and velocities v that satisfy the constraints. Each set of
-    /// bodies that joints and drives connect is asked alone, with its own size and loads, on the threads of the pool of `rayon` from which this is
-    /// called. In sets with more rows than dense matrices are made of each part on common cycles is asked by its own data, with its own size and under what
-    /// the rest of the set does to it. Nothing is said where the rank is undecided, and of parts that are as large.
+    /// How much each unique reaction hangs on the data, at the configuration of the analysis and
+    /// velocities v that satisfy the constraints. Each set of bodies that joints and drives connect
+    /// is asked alone, with its own size and loads, on the threads of the pool of `rayon` from
+    /// which this is called. In sets with more rows than dense matrices are made of each part on
+    /// common cycles is asked by its own data, with its own size and under what the rest of the set
+    /// does to it. Nothing is said where the rank is undecided, and of parts that are as large.
     ///
     /// # Errors
     /// [`ChoiceError::Request`]: q or v do not fit the mechanism.
@@ -289,7 +301,8 @@ fn placed(found: &mut Found, extent: &Extent) {
     }
 }
 
-/// Those of the reactions of joined bodies that are wanted, by all their data; joints and drives by their numbers there.
+/// Those of the reactions of joined bodies that are wanted, by all their data; joints and drives by
+/// their numbers there.
 fn of_joined(
     joined: &Joined<'_>,
     t: f64,

@@ -1,5 +1,5 @@
-//! What the shape of a mechanism settles before any rank: reactions that are unique because of where they act. No verdict needs this; it
-//! says why some are no surprise.
+//! What the shape of a mechanism settles before any rank: reactions that are unique because of
+//! where they act. No verdict needs this; it says why some are no surprise.
 
 use linalg::{RankError, RowGroup, Structure};
 use model::start::scene_size;
@@ -7,8 +7,8 @@ use model::{Mechanism, Scratch, System};
 
 use crate::mechanism::{dimensionless, uncertainty};
 
-/// Groups of the structure are joints and drives in the order of their rows, blocks are bodies. The scratch must hold Φ and C at
-/// coordinates q.
+/// Groups of the structure are joints and drives in the order of their rows, blocks are bodies. The
+/// scratch must hold Φ and C at coordinates q.
 ///
 /// # Errors
 /// If C is not finite.

@@ -1,10 +1,12 @@
-//! Facts and choices told apart by a change of units. A least norm adds newtons to newton metres, so it depends on the units in which the
-//! model is written; what the model determines does not. The distribution is made again from scratch in other units, and each number is
-//! converted back and compared.
+//! Facts and choices told apart by a change of units. A least norm adds newtons to newton metres,
+//! so it depends on the units in which the model is written; what the model determines does not.
+//! The distribution is made again from scratch in other units, and each number is converted back
+//! and compared.
 //!
-//! Where only forces mix, millimetres change nothing; so each joint in turn gets units of its own, too. And where no load acts, every least norm
-//! is zero; so the same is done under a load on all coordinates that has no symmetry. The test knows nothing of Z and its tolerances, so
-//! it checks the verdicts.
+//! Where only forces mix, millimetres change nothing; so each joint in turn gets units of its own,
+//! too. And where no load acts, every least norm is zero; so the same is done under a load on all
+//! coordinates that has no symmetry. The test knows nothing of Z and its tolerances, so it checks
+//! the verdicts.
 
 mod rewrite;
 
@@ -36,7 +38,8 @@ pub struct UnitCheck {
     pub id: ConstraintId,
     /// The frame.
     pub frame: Frame,
-    /// The component in this frame: 0 and 1 forces, 2 the torque; names as [`Frame::components`] has them.
+    /// The component in this frame: 0 and 1 forces, 2 the torque; names as [`Frame::components`]
+    /// has them.
     pub component: usize,
     /// Its number in the least norm of N and N·m.
     pub value: f64,
@@ -78,13 +81,15 @@ const ROUNDING: f64 = 1e-9;
 /// The unit of one joint alone is this much smaller than that of the others.
 const OF_ONE_JOINT: f64 = 1e3;
 
-/// The components of all reactions in all frames, at a state whose rank has been decided: which of them are facts, and which depend on the choice
-/// that a least norm makes. Of the decision only the rank and the residual of the constraints are used. Torques stand with the global frame.
+/// The components of all reactions in all frames, at a state whose rank has been decided: which of
+/// them are facts, and which depend on the choice that a least norm makes. Of the decision only the
+/// rank and the residual of the constraints are used. Torques stand with the global frame.
 ///
 /// # Errors
 /// - [`UnitError::Choice`]: there is no least norm.
 /// - [`UnitError::RankChanges`]: a reason to trust nothing.
-/// - [`UnitError::Request`], [`UnitError::Rank`]: t, q or v do not fit the mechanism or are not finite.
+/// - [`UnitError::Request`], [`UnitError::Rank`]: t, q or v do not fit the mechanism or are not
+///   finite.
 pub fn check_units(
     mechanism: &Mechanism,
     t: f64,
@@ -231,7 +236,8 @@ impl<'a> Numbers<'a> {
         })
     }
 
-    /// The numbers in SI units that the least norm in other units gives, from one solution there; the reaction `alone` counts in units of its own.
+    /// The numbers in SI units that the least norm in other units gives, from one solution there;
+    /// the reaction `alone` counts in units of its own.
     fn least(
         &self,
         rewritten: &Rewritten,
@@ -263,8 +269,8 @@ impl<'a> Numbers<'a> {
         Ok(numbers)
     }
 
-    /// The same mechanism under a load on every coordinate, without symmetry, and at rest: golden fractions of 1 N, of 1 N at the arm of the
-    /// mechanism's size for rotations.
+    /// The same mechanism under a load on every coordinate, without symmetry, and at rest: golden
+    /// fractions of 1 N, of 1 N at the arm of the mechanism's size for rotations.
     fn probing_load(&self, equations: &Equations) -> Equations {
         let golden = 0.618_033_988_749_894_9;
         let kinds = self.configuration.mechanism.column_kinds();
@@ -284,7 +290,8 @@ impl<'a> Numbers<'a> {
         }
     }
 
-    /// The largest force: of the numbers, of the loads, and of inertia at these velocities, which is what reactions are rounded against.
+    /// The largest force: of the numbers, of the loads, and of inertia at these velocities, which
+    /// is what reactions are rounded against.
     fn scale(&self, equations: &Equations, numbers: &[f64]) -> f64 {
         let largest = |x: &[f64]| x.iter().fold(0.0, |a: f64, x| a.max(x.abs()));
         let size = self.configuration.size;

@@ -42,7 +42,8 @@ pub struct Judgement {
     pub verdict: Verdict,
     /// How far the reaction is from unique, dimensionless: 0 is unique.
     pub margin: f64,
-    /// Whether it is unique within the tolerance that the scene states only: rounding of the data does not explain the margin.
+    /// Whether it is unique within the tolerance that the scene states only: rounding of the data
+    /// does not explain the margin.
     pub within_tolerance: bool,
 }
 
@@ -57,8 +58,8 @@ impl Judgement {
         }
     }
 
-    /// Judges a margin as [`linalg::RankDecision::read_coefficient`] reads it; what reads as zero does so within the tolerance of the scene only if
-    /// it is above the rounding.
+    /// Judges a margin as [`linalg::RankDecision::read_coefficient`] reads it; what reads as zero
+    /// does so within the tolerance of the scene only if it is above the rounding.
     pub(crate) fn of(margin: f64, reading: CoefficientReading, is_above_rounding: bool) -> Self {
         let within_tolerance = is_above_rounding && reading == CoefficientReading::Zero;
         let verdict = match reading {
@@ -80,7 +81,8 @@ impl Judgement {
         }
     }
 
-    /// The judgement of data that are meant exactly: what vanishes has no margin, what does not has one, however small.
+    /// The judgement of data that are meant exactly: what vanishes has no margin, what does not has
+    /// one, however small.
     pub(crate) fn exact(margin: f64, vanishes: bool) -> Self {
         match vanishes {
             true => Self::new(Verdict::Unique, 0.0),

@@ -39,7 +39,8 @@ pub(crate) fn open(mechanism: &Mechanism, rows: &[usize]) -> String {
     )
 }
 
-/// A self-stress in the terms of joints and bodies, where its geometry allows; else in the terms of rows.
+/// A self-stress in the terms of joints and bodies, where its geometry allows; else in the terms of
+/// rows.
 pub(crate) fn of_stress(
     mechanism: &Mechanism,
     solvability: &Solvability,
@@ -117,7 +118,8 @@ fn against(bodies: &[String]) -> String {
     }
 }
 
-/// Whether all are single velocity conditions on one body that do not depend on time: wheels and blades.
+/// Whether all are single velocity conditions on one body that do not depend on time: wheels and
+/// blades.
 fn slips(layout: &Layout, ids: &[ConstraintId]) -> bool {
     ids.iter().all(|id| {
         let group = &layout.groups[id.0];
@@ -128,7 +130,8 @@ fn slips(layout: &Layout, ids: &[ConstraintId]) -> bool {
     })
 }
 
-/// What two rows share: forces that cancel, and whether the combination that this circuit leaves alone is determined.
+/// What two rows share: forces that cancel, and whether the combination that this circuit leaves
+/// alone is determined.
 fn sum(mechanism: &Mechanism, solvability: &Solvability, circuit: &Circuit) -> String {
     let loads = Loads::of(mechanism, circuit).word();
     let cancel = format!("; {loads} {} on them cancel", ratio(mechanism, circuit));
@@ -155,8 +158,8 @@ fn sum(mechanism: &Mechanism, solvability: &Solvability, circuit: &Circuit) -> S
     }
 }
 
-/// What a circuit means for the one who reads it. Nothing is said of sums that would be unique: rows may take part in other
-/// circuits too.
+/// What a circuit means for the one who reads it. Nothing is said of sums that would be unique:
+/// rows may take part in other circuits too.
 pub(crate) fn describe(mechanism: &Mechanism, circuit: &Circuit) -> String {
     let layout = mechanism.layout();
     let labels: Vec<String> = circuit
@@ -222,7 +225,8 @@ fn in_ratio(mechanism: &Mechanism, circuit: &Circuit) -> String {
     format!("{loads} in the ratio {}", ratio(mechanism, circuit))
 }
 
-/// Coefficients with the signs that are mostly positive, without trailing zeros; with units where they are not all of one kind.
+/// Coefficients with the signs that are mostly positive, without trailing zeros; with units where
+/// they are not all of one kind.
 fn ratio(mechanism: &Mechanism, circuit: &Circuit) -> String {
     let negative = circuit.coefficients.iter().filter(|c| **c < 0.0).count();
     let sign = if 2 * negative > circuit.coefficients.len() {

@@ -1,5 +1,5 @@
-//! A case with its right answer. The answer comes from a closed form, exact arithmetic, another derivation or a published value, never from
-//! the code that is judged.
+//! A case with its right answer. The answer comes from a closed form, exact arithmetic, another
+//! derivation or a published value, never from the code that is judged.
 
 use std::fmt::Display;
 use std::time::Duration;

@@ -1,4 +1,5 @@
-//! A scene from its text, or from what the library describes, to the last row of its motion, by every method.
+//! A scene from its text, or from what the library describes, to the last row of its motion, by
+//! every method.
 
 use std::ops::ControlFlow;
 
@@ -34,8 +35,9 @@ pub fn combinations(base: &MotionOptions) -> Vec<MotionOptions> {
     all.filter(|options| options.check().is_ok()).collect()
 }
 
-/// How many steps a method of its order takes for a motion by this phase (rad) at a relative tolerance, up to a factor: the local error of a
-/// step h is h to the power of the order and one more. What the errors of all steps add up to is judged by it.
+/// How many steps a method of its order takes for a motion by this phase (rad) at a relative
+/// tolerance, up to a factor: the local error of a step h is h to the power of the order and one
+/// more. What the errors of all steps add up to is judged by it.
 #[must_use]
 pub fn steps(method: Method, phase: f64, rtol: f64) -> f64 {
     let order = match method {
@@ -87,8 +89,9 @@ pub fn built(description: &Description) -> Result<Mechanism, Outcome> {
     })
 }
 
-/// A described mechanism with its start, without a scene. One body is described as moving; how fast the others go is left to the constraints, whose
-/// masses may stop it: cases about starts are texts.
+/// A described mechanism with its start, without a scene. One body is described as moving; how fast
+/// the others go is left to the constraints, whose masses may stop it: cases about starts are
+/// texts.
 ///
 /// # Errors
 /// The faults of the description, or why it cannot move.

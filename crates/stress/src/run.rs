@@ -1,5 +1,6 @@
-//! Runs cases on some threads. Each case has a thread of its own besides, so that a panic or a hang is an outcome of that case and of no other;
-//! for the same reason no pool of threads is shared with what the cases run.
+//! Runs cases on some threads. Each case has a thread of its own besides, so that a panic or a hang
+//! is an outcome of that case and of no other; for the same reason no pool of threads is shared
+//! with what the cases run.
 //!
 //! Not here: what is to be thought of an outcome, and files.
 
@@ -19,8 +20,9 @@ use crate::judge::judge;
 /// How often somebody is asked whether to stop.
 const ASK: Duration = Duration::from_millis(50);
 
-/// Runs all cases of some families on `threads` threads and shows each row when it is there; all rows, in the order of the families,
-/// come back. Where `interrupted` says to stop, those that are not there yet are left out.
+/// Runs all cases of some families on `threads` threads and shows each row when it is there; all
+/// rows, in the order of the families, come back. Where `interrupted` says to stop, those that are
+/// not there yet are left out.
 pub fn run(
     families: &[Family],
     threads: NonZeroUsize,
@@ -68,7 +70,8 @@ pub fn run(
     rows.into_iter().flatten().collect()
 }
 
-/// One case; nothing if somebody asked to stop. A case that hangs keeps its thread until the program ends.
+/// One case; nothing if somebody asked to stop. A case that hangs keeps its thread until the
+/// program ends.
 fn make(
     family: &'static str,
     case: Case,

@@ -11,7 +11,8 @@ pub struct Case {
     pub name: &'static str,
     /// What it is, in a few words.
     pub title: &'static str,
-    /// The scene: how long it takes, and an output step of which all times of the reference are multiples.
+    /// The scene: how long it takes, and an output step of which all times of the reference are
+    /// multiples.
     pub scene: &'static str,
     known: Known,
 }

@@ -1,4 +1,5 @@
-//! Motions that elementary functions describe, evaluated in `f64`: right to some units of the last digit.
+//! Motions that elementary functions describe, evaluated in `f64`: right to some units of the last
+//! digit.
 
 use crate::reference::{Fact, Instant, Quantity, Reference, Trust};
 
@@ -10,9 +11,11 @@ const TIMES: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 
 /// A knife edge at its centre of mass on a plane with slope `σ`, x downhill, turning at `ω`:
 ///
-/// `x = g·sin σ/(2ω²)·sin²ωt`, `y = g·sin σ/(2ω²)·(ωt − sin 2ωt/2)`, `φ = ωt`, `N = 2m·g·sin σ·sin ωt` across the edge.
+/// `x = g·sin σ/(2ω²)·sin²ωt`, `y = g·sin σ/(2ω²)·(ωt − sin 2ωt/2)`, `φ = ωt`,
+/// `N = 2m·g·sin σ·sin ωt` across the edge.
 ///
-/// Here g = 9.81 m/s², σ = 30°, m = 2 kg, ω = 0.5 rad/s. Source: Bloch, Nonholonomic Mechanics and Control, chapter 1.
+/// Here g = 9.81 m/s², σ = 30°, m = 2 kg, ω = 0.5 rad/s. Source: Bloch, Nonholonomic Mechanics and
+/// Control, chapter 1.
 ///
 /// ```
 /// let reference = suite::closed_forms::knife_edge();
@@ -53,9 +56,11 @@ pub fn knife_edge() -> Reference {
 
 /// A vertical disk that rolls with spin rate `Ω` while it turns with heading rate `ω`, a circle:
 ///
-/// `x = RΩ/ω·sin ωt`, `y = RΩ/ω·(1 − cos ωt)`; the contact pushes across the heading with `N = m·ω·RΩ`, and not along it.
+/// `x = RΩ/ω·sin ωt`, `y = RΩ/ω·(1 − cos ωt)`; the contact pushes across the heading with
+/// `N = m·ω·RΩ`, and not along it.
 ///
-/// Here m = 3 kg, R = 0.4 m, ω = 2 rad/s, Ω = 1 rad/s. Source: Bloch, Nonholonomic Mechanics and Control, chapter 1.
+/// Here m = 3 kg, R = 0.4 m, ω = 2 rad/s, Ω = 1 rad/s. Source: Bloch, Nonholonomic Mechanics and
+/// Control, chapter 1.
 ///
 /// ```
 /// let reference = suite::closed_forms::rolling_disk();

@@ -1,7 +1,8 @@
-//! Large scenes whose answer is known: families of mechanisms of any size, written as text, one thing after the other.
+//! Large scenes whose answer is known: families of mechanisms of any size, written as text, one
+//! thing after the other.
 //!
-//! An [`Order`] says what is wanted; [`Order::generate`] checks it; a [`Generator`] knows the answer and writes the scene. Same order,
-//! same bytes. Nothing is read here, and nothing moves.
+//! An [`Order`] says what is wanted; [`Order::generate`] checks it; a [`Generator`] knows the
+//! answer and writes the scene. Same order, same bytes. Nothing is read here, and nothing moves.
 //!
 //! | module | content |
 //! | --- | --- |

@@ -1,6 +1,7 @@
 //! Reference values: what is known of a motion, at which instants, and how well.
 
-/// What a value says of a body, a joint or a drive. SI units and radians, global components; reactions are forces on the first body.
+/// What a value says of a body, a joint or a drive. SI units and radians, global components;
+/// reactions are forces on the first body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
     /// Centre of mass, x.
@@ -66,7 +67,8 @@ impl Kind {
 }
 
 impl Quantity {
-    /// All quantities with their names in tables: those of `trajectory.csv` and `reactions.csv`, and `ax`, `ay`, `alpha`.
+    /// All quantities with their names in tables: those of `trajectory.csv` and `reactions.csv`,
+    /// and `ax`, `ay`, `alpha`.
     pub const NAMES: [(Self, &'static str); 13] = [
         (Self::X, "x"),
         (Self::Y, "y"),
@@ -115,8 +117,8 @@ pub struct Instant {
     pub facts: Vec<Fact>,
 }
 
-/// How far values of each kind are from the truth at most, relative to the largest value of the kind; infinite where nothing of
-/// the kind is known.
+/// How far values of each kind are from the truth at most, relative to the largest value of the
+/// kind; infinite where nothing of the kind is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trust {
     /// Coordinates.

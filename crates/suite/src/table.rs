@@ -1,4 +1,5 @@
-//! Reference values as text: `# source`, `trusted KIND BOUND`, `t TIME`, then `OWNER.QUANTITY VALUE` until the next time.
+//! Reference values as text: `# source`, `trusted KIND BOUND`, `t TIME`, then
+//! `OWNER.QUANTITY VALUE` until the next time.
 
 use crate::reference::{Fact, Instant, Kind, Quantity, Reference, Trust};
 

@@ -1,5 +1,6 @@
-//! Straight-line code built operation by operation. What is known is folded: numbers, zeros and ones, signs, `x − x`. Nothing is
-//! regrouped, so that the order of operations, which decides about rounding, stays that of the caller.
+//! Straight-line code built operation by operation. What is known is folded: numbers, zeros and
+//! ones, signs, `x − x`. Nothing is regrouped, so that the order of operations, which decides about
+//! rounding, stays that of the caller.
 
 use crate::evaluate::Number;
 use crate::graph::{Function, Symbol};
@@ -196,7 +197,8 @@ impl Program {
         }
     }
 
-    /// The values of the outputs where each input has the value `input(symbol)`: what printed code computes, bit for bit.
+    /// The values of the outputs where each input has the value `input(symbol)`: what printed code
+    /// computes, bit for bit.
     #[must_use]
     pub fn run(&self, input: impl Fn(Symbol) -> f64) -> Vec<f64> {
         let mut values: Vec<f64> = Vec::with_capacity(self.ops().len());

@@ -1,6 +1,6 @@
-//! Exact derivatives. A derivation is fixed by what it does to the inputs; sum, product and chain rule
-//! do the rest. A partial derivative, a derivative along a rotation (`cos ↦ −sin`, `sin ↦ cos`) and a total
-//! time derivative are the same mechanism with other images.
+//! Exact derivatives. A derivation is fixed by what it does to the inputs; sum, product and chain
+//! rule do the rest. A partial derivative, a derivative along a rotation (`cos ↦ −sin`,
+//! `sin ↦ cos`) and a total time derivative are the same mechanism with other images.
 
 use std::collections::{BTreeMap, HashMap};
 
@@ -90,7 +90,8 @@ impl Derivation {
             Node::Call(f, u) => {
                 let du = self.derive(g, u, done);
                 let outer = match f {
-                    // Zero at zero, so that the length of a vanishing vector has a finite derivative.
+                    // Zero at zero, so that the length of a vanishing vector has a finite
+                    // derivative.
                     Function::Sqrt => {
                         let recip = g.call(Function::RecipOrZero, e);
                         g.product(0.5, &[(recip, 1)])

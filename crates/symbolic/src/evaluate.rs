@@ -1,5 +1,5 @@
-//! Direct evaluation of an expression over any number type: constants of definitions, and the oracle
-//! against which printed code is tested.
+//! Direct evaluation of an expression over any number type: constants of definitions, and the
+//! oracle against which printed code is tested.
 
 use std::collections::HashMap;
 use std::ops::{Add, Div, Mul, Neg};

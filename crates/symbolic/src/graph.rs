@@ -1,13 +1,14 @@
 //! Expressions as nodes of one graph. Every constructor returns the canonical form, so that equal
 //! expressions are equal handles and a derivative meets the subexpressions it came from.
 //!
-//! What is simplified: like terms and like factors merge, numbers fold, a factor common to all terms
-//! of a sum moves out of it, the first term of a sum is positive, `√u²` is `u`. What is not: products are never
-//! multiplied out and nested sums stay nested unless terms cancel, because the nesting written in a
-//! definition is the sharing its kernel should have.
+//! What is simplified: like terms and like factors merge, numbers fold, a factor common to all
+//! terms of a sum moves out of it, the first term of a sum is positive, `√u²` is `u`. What is not:
+//! products are never multiplied out and nested sums stay nested unless terms cancel, because the
+//! nesting written in a definition is the sharing its kernel should have.
 //!
-//! Numbers fold in `f64`, in the order in which they are met: with coefficients that are no binary fractions, two
-//! groupings of the same constants may differ in the last digit, and are two expressions then.
+//! Numbers fold in `f64`, in the order in which they are met: with coefficients that are no binary
+//! fractions, two groupings of the same constants may differ in the last digit, and are two
+//! expressions then.
 
 use std::collections::HashMap;
 
@@ -49,8 +50,8 @@ pub enum Node {
     Number(f64),
     /// A named input.
     Symbol(Symbol),
-    /// `Σ coefficient · term`; at least two terms, sorted, the first coefficient positive. A constant
-    /// term is a multiple of the number 1.
+    /// `Σ coefficient · term`; at least two terms, sorted, the first coefficient positive. A
+    /// constant term is a multiple of the number 1.
     Sum(Vec<(f64, Expr)>),
     /// `coefficient · Π base^exponent`; sorted.
     Product(f64, Vec<(Expr, i32)>),

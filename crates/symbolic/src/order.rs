@@ -1,5 +1,5 @@
-//! The canonical order of terms and factors: by structure, never by the order of construction or by a
-//! hash, so that the same mathematics prints as the same bytes.
+//! The canonical order of terms and factors: by structure, never by the order of construction or by
+//! a hash, so that the same mathematics prints as the same bytes.
 
 use std::cmp::Ordering;
 

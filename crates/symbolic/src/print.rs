@@ -1,5 +1,5 @@
-//! Straight-line code as Rust tokens. What is used once is written where it is used; what is shared,
-//! or has a name, becomes a `let`.
+//! Straight-line code as Rust tokens. What is used once is written where it is used; what is
+//! shared, or has a name, becomes a `let`.
 
 use std::collections::{HashMap, HashSet};
 

@@ -1,5 +1,6 @@
-//! Straight-line code: binary operations with value numbering, so that what is shared is computed once, and the count of
-//! what is left. A program is lowered from expressions ([`Program::new`]) or built by operations that fold what is known.
+//! Straight-line code: binary operations with value numbering, so that what is shared is computed
+//! once, and the count of what is left. A program is lowered from expressions ([`Program::new`]) or
+//! built by operations that fold what is known.
 
 use std::collections::HashMap;
 use std::fmt;

@@ -1,10 +1,12 @@
-//! Derivatives of straight-line code along a direction of its inputs: every operation in turn, by the chain rule.
+//! Derivatives of straight-line code along a direction of its inputs: every operation in turn, by
+//! the chain rule.
 
 use crate::graph::{Function, Symbol};
 use crate::program::{Binary, Op, Program, Value};
 
 impl Program {
-    /// Appends code for the derivatives of `of` along the direction in which each input moves by `along(program, symbol, value)`.
+    /// Appends code for the derivatives of `of` along the direction in which each input moves by
+    /// `along(program, symbol, value)`.
     ///
     /// ```
     /// use symbolic::{Graph, Program};

@@ -1,4 +1,5 @@
-//! Ranks and verdicts of the examples, each counted on paper before the program was asked; pages and table against them.
+//! Ranks and verdicts of the examples, each counted on paper before the program was asked; pages
+//! and table against them.
 
 use std::collections::BTreeSet;
 
@@ -124,7 +125,8 @@ fn every_verdict_is_the_one_worked_out_by_hand() {
             })
             .map(|r| r.name.as_str())
             .collect();
-        // Drives stand after the joints, nonholonomic rows at the end; the page may name them in any order.
+        // Drives stand after the joints, nonholonomic rows at the end; the page may name them in
+        // any order.
         let sets = [not_unique, expected.not_unique.to_vec()].map(BTreeSet::from_iter);
         assert_eq!(sets[0], sets[1], "{name}");
     }
@@ -151,7 +153,8 @@ fn every_example_has_a_scene_a_page_and_a_row() {
     assert_eq!(files(".md"), answers, "pages and answers of the test");
 }
 
-/// Rows of the table: link, rank, redundancy, mobility, reactions that are not unique, what it teaches.
+/// Rows of the table: link, rank, redundancy, mobility, reactions that are not unique, what it
+/// teaches.
 #[test]
 fn the_table_says_what_is_expected() {
     let text = read(&root().join("examples/README.md"));

@@ -4,7 +4,8 @@ use super::{Run, close, says};
 
 const G: f64 = 9.81;
 
-/// Moments about a hinge: the couple of the two horizontal forces carries the weight at half the width.
+/// Moments about a hinge: the couple of the two horizontal forces carries the weight at half the
+/// width.
 #[test]
 fn door() {
     let run = Run::of("door");
@@ -46,7 +47,8 @@ fn truss() {
     close(fx("AC") - fx("CD"), load, load);
     close(fx("AC") + fx("BD"), load, load);
     close(fx("support"), load, load);
-    // Without BD: AC = √2·P, BC = −P. A unit force in BD: −1/√2 in the sides, 1 in AC. Equal EA: flexibilities are lengths.
+    // Without BD: AC = √2·P, BC = −P. A unit force in BD: −1/√2 in the sides, 1 in AC. Equal EA:
+    // flexibilities are lengths.
     let root = 2.0_f64.sqrt();
     let (mixed, own) = (root * root + 1.0 / root, 4.0 * 0.5 + 2.0 * root);
     let bd = -load * mixed / own;

@@ -27,7 +27,8 @@ fn knife_edge() {
     says("knife-edge", 2.0 * m * SLOPE, 3);
 }
 
-/// m·v² + J·ω² is kept, with J = m here: v = 2·tanh t, ω = 2/cosh t, and the runners feel m·v·ω + m·a·dω/dt together.
+/// m·v² + J·ω² is kept, with J = m here: v = 2·tanh t, ω = 2/cosh t, and the runners feel m·v·ω +
+/// m·a·dω/dt together.
 #[test]
 fn sleigh() {
     let run = Run::of("sleigh");
@@ -121,7 +122,8 @@ fn truck() {
     says("truck", 75.0, 0);
 }
 
-/// Angular momentum about the fixed centre of the turn: the board turns back by J_r/(J + m·R²) of what the rotor turns.
+/// Angular momentum about the fixed centre of the turn: the board turns back by J_r/(J + m·R²) of
+/// what the rotor turns.
 #[test]
 fn snakeboard() {
     let run = Run::of("snakeboard");

@@ -104,7 +104,8 @@ fn without_guide(text: &str) -> String {
     lines.flat_map(|line| [line, "\n"]).collect()
 }
 
-/// O, B and D lie on one line, OB·OD = 0.5² − 0.34², and B runs on the circle through O: D.x is constant.
+/// O, B and D lie on one line, OB·OD = 0.5² − 0.34², and B runs on the circle through O: D.x is
+/// constant.
 #[test]
 fn peaucellier() {
     // The straight line must come from the linkage, not from its guide.
@@ -159,7 +160,8 @@ fn chebyshev() {
         close(y, height(tilt), 1.0);
         highest = highest.max(y);
     }
-    // The largest deviation lies where the derivative of y² vanishes: −1/(5 − u) + 2/(u + 2) − 4/(5 + 4u) = 0.
+    // The largest deviation lies where the derivative of y² vanishes: −1/(5 − u) + 2/(u + 2) −
+    // 4/(5 + 4u) = 0.
     let slope = |u: f64| -1.0 / (5.0 - u) + 2.0 / (u + 2.0) - 4.0 / (5.0 + 4.0 * u);
     let (mut low, mut high) = (0.4, 1.0);
     for _ in 0..60 {
@@ -178,7 +180,8 @@ fn chebyshev() {
     );
 }
 
-/// The angle of the crank at t = 0.03 s from the test set of Mazzia and Magherini; its table is right to nine digits.
+/// The angle of the crank at t = 0.03 s from the test set of Mazzia and Magherini; its table is
+/// right to nine digits.
 #[test]
 fn andrews() {
     let run = Run::of("andrews");

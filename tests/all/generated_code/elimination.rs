@@ -1,4 +1,5 @@
-//! Code that is no generated one: dense elimination on the kept rows of a mechanism, with a fault in it.
+//! Code that is no generated one: dense elimination on the kept rows of a mechanism, with a fault
+//! in it.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex};

@@ -1,4 +1,5 @@
-//! Matrices of many kinds: exact redundancy, redundancy that rounding has spoilt, near redundancy, and all of it together.
+//! Matrices of many kinds: exact redundancy, redundancy that rounding has spoilt, near redundancy,
+//! and all of it together.
 
 use tests::numbers::Numbers;
 
@@ -17,7 +18,8 @@ pub(super) enum Kind {
     PowersOfTen,
     /// Duplicates and multiples of rows, empty rows and columns, often many more rows than columns.
     Duplicates,
-    /// The matrix of Kahan, whose pivots hide its smallest singular value, with multiples of its rows.
+    /// The matrix of Kahan, whose pivots hide its smallest singular value, with multiples of its
+    /// rows.
     Kahan,
     /// Parallel cranks under one coupler at points that are whole multiples of a power of two.
     Cranks,
@@ -270,8 +272,9 @@ fn near(numbers: &mut Numbers) -> Rows {
     rows
 }
 
-/// Three or four cranks with the same vector `a` from pivot to tip, under one coupler; the tip of the last one on the coupler
-/// misses by `error` across the line of the tips. Each crank turns about its pivot: one column. The coupler has three.
+/// Three or four cranks with the same vector `a` from pivot to tip, under one coupler; the tip of
+/// the last one on the coupler misses by `error` across the line of the tips. Each crank turns
+/// about its pivot: one column. The coupler has three.
 fn cranks(error: f64, numbers: &mut Numbers) -> Rows {
     let count = 3 + numbers.below(2);
     let size = 2_f64.powi(numbers.between(-27, 27));

@@ -185,7 +185,8 @@ impl Pen<'_> {
         bodies
     }
 
-    /// Cranks `a` from their pivots to their tips: n − 2 are redundant; each drive but the first as well.
+    /// Cranks `a` from their pivots to their tips: n − 2 are redundant; each drive but the first as
+    /// well.
     fn cranks(&mut self) -> usize {
         let count = 3 + self.numbers.below(3);
         let (pivots, a) = loop {
@@ -267,7 +268,8 @@ impl Pen<'_> {
         }
     }
 
-    /// Wheels on a carrier; two trains with the same ratio between the first and the last wheel: one mesh is redundant.
+    /// Wheels on a carrier; two trains with the same ratio between the first and the last wheel:
+    /// one mesh is redundant.
     fn gears(&mut self) -> usize {
         let carrier = match self.numbers.once_in(2) {
             true => GROUND,
@@ -300,7 +302,8 @@ impl Pen<'_> {
         1
     }
 
-    /// No three of its points lie on a line. It moves in one way, so all drives but one are redundant.
+    /// No three of its points lie on a line. It moves in one way, so all drives but one are
+    /// redundant.
     fn four_bar(&mut self) -> usize {
         let points = loop {
             let p = [0; 4].map(|_| self.point());

@@ -1,4 +1,5 @@
-//! Random scenes of several mechanisms side by side, with and without redundant rows, drives, locked parts and singular poses, at any size and place.
+//! Random scenes of several mechanisms side by side, with and without redundant rows, drives,
+//! locked parts and singular poses, at any size and place.
 
 use std::fmt::Write;
 

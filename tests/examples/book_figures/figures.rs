@@ -211,7 +211,8 @@ const DROPPED: [[usize; 2]; 4] = [[6, 21], [18, 21], [19, 21], [20, 21]];
 /// What is shown of a reaction.
 type Component = fn(&Reaction) -> f64;
 
-/// Reactions of the robot for several choices: not unique ones on the left, unique ones on the right.
+/// Reactions of the robot for several choices: not unique ones on the left, unique ones on the
+/// right.
 fn reactions(text: &str) -> Fallible<String> {
     let shown: [(&str, &str, Component); 6] = [
         ("W3.N, not unique", "W3", |r| {
@@ -339,7 +340,8 @@ fn work_precision(csv: &str) -> Fallible<String> {
     Ok(figures::work_precision(&[scene]))
 }
 
-/// The names that a row of the report may have: those of the product, and of the comparators of the laboratory.
+/// The names that a row of the report may have: those of the product, and of the comparators of the
+/// laboratory.
 fn known(name: &str) -> Fallible<&'static str> {
     use pfaff::dynamics::{Method, Stabilisation};
     const OTHERS: [&str; 8] = [

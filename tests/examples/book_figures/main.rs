@@ -1,5 +1,5 @@
-//! `cargo run --release -p tests --example book_figures` writes the figures of the book into `docs/book/figures`. That the ones
-//! which are there are these is a test.
+//! `cargo run --release -p tests --example book_figures` writes the figures of the book into
+//! `docs/book/figures`. That the ones which are there are these is a test.
 #![allow(clippy::print_stdout)]
 
 mod figures;

@@ -1,4 +1,5 @@
-//! What is done to a text: mostly such that it stays TOML, so that the reader of scenes and what follows are reached.
+//! What is done to a text: mostly such that it stays TOML, so that the reader of scenes and what
+//! follows are reached.
 
 use tests::numbers::Numbers;
 
@@ -116,7 +117,8 @@ pub fn damaged(text: &str, numbers: &mut Numbers) -> String {
         }
         3 => lines.insert(at, LINES[numbers.below(LINES.len())].to_owned()),
         4 => {
-            // A stretch of lines once more: things with the same name, or arrays that are twice as long.
+            // A stretch of lines once more: things with the same name, or arrays that are twice as
+            // long.
             let end = (at + 1 + numbers.below(8)).min(lines.len());
             let copy = lines[at..end].to_vec();
             lines.splice(at..at, copy);

@@ -1,8 +1,10 @@
-//! Random and damaged scenes, each through check, analyze and a short simulate. Whatever the text, the answer is a result whose numbers
-//! fit together or an error by name: no panic, no hang, no growth of memory, no number that contradicts another.
+//! Random and damaged scenes, each through check, analyze and a short simulate. Whatever the text,
+//! the answer is a result whose numbers fit together or an error by name: no panic, no hang, no
+//! growth of memory, no number that contradicts another.
 //!
-//! An input is a function of the seed and its number, so nothing has to be stored. Each is tried in a process of its own kind, which
-//! its parent watches: an overflow of the stack, an exhausted memory and an endless loop are found as panics are.
+//! An input is a function of the seed and its number, so nothing has to be stored. Each is tried in
+//! a process of its own kind, which its parent watches: an overflow of the stack, an exhausted
+//! memory and an endless loop are found as panics are.
 //!
 //! | module | content |
 //! | --- | --- |

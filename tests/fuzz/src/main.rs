@@ -1,5 +1,6 @@
-//! `cargo run --release -p fuzz -- run --inputs 1000000 --seed 1`: random and damaged scenes through check, analyze and simulate.
-//! `cargo run --release -p fuzz -- exact`: 20 000 degenerate scenes, judged by exact arithmetic.
+//! `cargo run --release -p fuzz -- run --inputs 1000000 --seed 1`: random and damaged scenes
+//! through check, analyze and simulate. `cargo run --release -p fuzz -- exact`: 20 000 degenerate
+//! scenes, judged by exact arithmetic.
 
 use std::fs;
 use std::io::{self, Read, Write};
@@ -79,8 +80,8 @@ enum Command {
     },
     /// Examines scenes with 3 … 16 significant digits; exit code 1 if one is told wrong
     Rounded(Drawings),
-    /// Examines scenes of full rank near a lower one, with tolerances below a third of what they are off by; exit code 1 if one is told
-    /// redundant
+    /// Examines scenes of full rank near a lower one, with tolerances below a third of what they
+    /// are off by; exit code 1 if one is told redundant
     FullRank(Drawings),
     /// Tries inputs one after the other and answers each with a letter: what `run` begins
     #[command(hide = true)]

@@ -1,5 +1,5 @@
-//! The shortest text that still fails alike: stretches of lines are left out, long ones first, then parts of lines (Zeller and
-//! Hildebrandt 2002, doi 10.1109/32.988498, without complements).
+//! The shortest text that still fails alike: stretches of lines are left out, long ones first, then
+//! parts of lines (Zeller and Hildebrandt 2002, doi 10.1109/32.988498, without complements).
 
 /// Makes a text shorter as long as `fails`.
 #[must_use]

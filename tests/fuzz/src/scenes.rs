@@ -1,5 +1,5 @@
-//! A random scene: every joint, drive, force and function of time, on bodies that mostly stand on a coarse grid, so that parallel axes,
-//! coinciding points and redundant loops are frequent.
+//! A random scene: every joint, drive, force and function of time, on bodies that mostly stand on a
+//! coarse grid, so that parallel axes, coinciding points and redundant loops are frequent.
 
 mod functions;
 mod things;

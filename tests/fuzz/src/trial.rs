@@ -1,4 +1,5 @@
-//! One text through the library as the commands take it: check, analyze, simulate. What comes out must fit together.
+//! One text through the library as the commands take it: check, analyze, simulate. What comes out
+//! must fit together.
 //!
 //! What is broken panics: a trial is made in a process that somebody watches.
 

@@ -1,5 +1,5 @@
-//! Processes that try texts, with limits of time and memory. A process that ends before it was asked to, or says nothing for too long,
-//! has found something.
+//! Processes that try texts, with limits of time and memory. A process that ends before it was
+//! asked to, or says nothing for too long, has found something.
 
 use std::io::{self, Read, Write};
 use std::path::PathBuf;
@@ -59,7 +59,8 @@ pub fn one(limits: &Limits, text: &str) -> io::Result<Result<Reach, Fault>> {
     Ok(answer)
 }
 
-/// A process at work. It writes a letter for each [`Stage`] that begins and for the [`Reach`] of each text.
+/// A process at work. It writes a letter for each [`Stage`] that begins and for the [`Reach`] of
+/// each text.
 pub struct Worker {
     child: Child,
     answers: Receiver<u8>,

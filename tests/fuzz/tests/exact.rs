@@ -301,8 +301,9 @@ fn with_few_digits_nothing_wrong_is_told() {
     );
 }
 
-/// Drawings of which a scene was told wrong once: contradicting rows that share what they miss, starts and polished poses that left the configuration
-/// that is meant, singular vectors of rounding, coefficients of a tenth that were read as zero.
+/// Drawings of which a scene was told wrong once: contradicting rows that share what they miss,
+/// starts and polished poses that left the configuration that is meant, singular vectors of
+/// rounding, coefficients of a tenth that were read as zero.
 #[test]
 fn what_was_told_wrong_once_is_right() {
     for drawn in [7, 62, 71, 127, 182, 231, 237, 278, 317] {

@@ -1,4 +1,5 @@
-//! Cost at equal error: between two neighbouring tolerances of a series, log(cost) is interpolated in log(error).
+//! Cost at equal error: between two neighbouring tolerances of a series, log(cost) is interpolated
+//! in log(error).
 
 /// Error and cost of one run.
 #[derive(Clone, Copy, Debug)]
@@ -20,7 +21,8 @@ pub enum Cost {
     Unknown,
 }
 
-/// The least cost at which a series, in the order of its tolerances, passes from errors above `error` to errors below.
+/// The least cost at which a series, in the order of its tolerances, passes from errors above
+/// `error` to errors below.
 pub fn cost_at(series: &[Point], error: f64) -> Cost {
     let crossings = series.windows(2).filter_map(|pair| {
         let [a, b] = [pair[0], pair[1]];

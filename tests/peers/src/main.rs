@@ -1,4 +1,5 @@
-//! Our methods and those of other crates on the same right-hand sides: `cargo run --release -- DIRECTORY` in `tests/peers`.
+//! Our methods and those of other crates on the same right-hand sides:
+//! `cargo run --release -- DIRECTORY` in `tests/peers`.
 
 mod equal_error;
 mod figure;

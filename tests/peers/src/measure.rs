@@ -98,7 +98,8 @@ impl Row {
     }
 }
 
-/// Rounds over all runs, so that a disturbance of some seconds does not spoil all repetitions of a run.
+/// Rounds over all runs, so that a disturbance of some seconds does not spoil all repetitions of a
+/// run.
 const ROUNDS: usize = 9;
 
 /// Each run is repeated in each round until this has passed …
@@ -109,8 +110,9 @@ const REPETITIONS: usize = 3;
 
 /// Makes all runs. The first one of each is the warm-up and gives the result.
 ///
-/// The least time of a round is one without interruptions; the median over the rounds is one at the usual speed of the processor, where
-/// the least over all would be that of runs which happened to meet a fast spell.
+/// The least time of a round is one without interruptions; the median over the rounds is one at the
+/// usual speed of the processor, where the least over all would be that of runs which happened to
+/// meet a fast spell.
 pub fn measure(runs: &[Run<'_>]) -> Vec<Row> {
     let mut rows: Vec<Row> = runs.iter().map(first).collect();
     let mut times = vec![Vec::with_capacity(ROUNDS); runs.len()];

@@ -1,4 +1,5 @@
-//! The problem that every library gets: one right-hand side, counted in one place, and what is asked of an integration.
+//! The problem that every library gets: one right-hand side, counted in one place, and what is
+//! asked of an integration.
 //!
 //! Not here: which problems there are (`problems`), who solves them (`libraries`).
 
@@ -117,7 +118,8 @@ pub struct End<const N: usize> {
 pub type Solved<const N: usize> = Result<End<N>, String>;
 
 impl<const N: usize> Asked<'_, N> {
-    /// Integrates from break time to break time: `leg(t0, t1, y)` moves y from t0 to t1 and returns the accepted steps.
+    /// Integrates from break time to break time: `leg(t0, t1, y)` moves y from t0 to t1 and returns
+    /// the accepted steps.
     ///
     /// # Errors
     /// As `leg`.

@@ -1,5 +1,5 @@
-//! Which methods of which libraries are tried on which problem, and at which tolerances. The first series of each problem is ours, the
-//! default of our runs where there is one.
+//! Which methods of which libraries are tried on which problem, and at which tolerances. The first
+//! series of each problem is ours, the default of our runs where there is one.
 
 use dynamics::Method;
 
@@ -129,7 +129,8 @@ pub fn of_arenstorf() -> Vec<Run<'static>> {
     )
 }
 
-/// The reaction with its Jacobian. y₂ is 10⁻¹³ at the end: atol = 10⁻⁸·rtol for all components, as the libraries take one number.
+/// The reaction with its Jacobian. y₂ is 10⁻¹³ at the end: atol = 10⁻⁸·rtol for all components, as
+/// the libraries take one number.
 pub fn of_robertson() -> Vec<Run<'static>> {
     let methods: [(&str, &str, Solve<Robertson, 3>); 3] = [
         ("integrators", "radau5", ours::radau5_with_jacobian),

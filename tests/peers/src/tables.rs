@@ -40,7 +40,8 @@ pub fn csv(rows: &[Row]) -> Result<String, fmt::Error> {
     Ok(out)
 }
 
-/// One problem: evaluations and time of each series at equal error, with ratios to the first series, and what failed.
+/// One problem: evaluations and time of each series at equal error, with ratios to the first
+/// series, and what failed.
 pub fn problem(title: &str, rows: &[&Row]) -> Result<String, fmt::Error> {
     let mut all: Vec<&Series> = Vec::new();
     for row in rows {

@@ -1,5 +1,5 @@
-//! What is compared. Each candidate is evaluated in every state of the motion and must give what is known there before it is timed. A new
-//! one is one line in [`all`].
+//! What is compared. Each candidate is evaluated in every state of the motion and must give what is
+//! known there before it is timed. A new one is one line in [`all`].
 
 use std::hint::black_box;
 
@@ -61,10 +61,11 @@ pub(crate) struct Work<'r> {
     pub(crate) lap: Box<dyn FnMut() + 'r>,
 }
 
-/// Largest difference, relative to the largest value that is known in any state. Ill-conditioned by 1/σ_r ≈ 25 at most; the rest is for solvers
-/// that square or truncate.
+/// Largest difference, relative to the largest value that is known in any state. Ill-conditioned by
+/// 1/σ_r ≈ 25 at most; the rest is for solvers that square or truncate.
 const AGREES: f64 = 1e-10;
-/// Singular values below this share of the largest one are zero: with all rows the smallest true one is 1e-3 of it.
+/// Singular values below this share of the largest one are zero: with all rows the smallest true
+/// one is 1e-3 of it.
 const SINGULAR: f64 = 1e-9;
 
 /// The candidates, in the order of the table.
@@ -360,7 +361,8 @@ fn dense_svd(robot: &Robot) -> Call<'_> {
     })
 }
 
-/// Rows of C_K out of the assembled matrix of a state: behind the mass its columns are those of C_Kᵀ.
+/// Rows of C_K out of the assembled matrix of a state: behind the mass its columns are those of
+/// C_Kᵀ.
 fn solve_kept_rows(robot: &Robot) -> Outcome<Call<'_>> {
     let mass = robot.prepared.mechanism.mass();
     let (n, r) = (mass.len(), robot.prepared.decision.kept.len());

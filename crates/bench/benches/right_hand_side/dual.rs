@@ -1,5 +1,6 @@
-//! C and Γ of the robot by dual numbers: each joint states Φ, or the velocity that an edge forbids, and `num-dual` differentiates. As good
-//! as it gets: forward derivatives over the six coordinates of one joint instead of all, sizes known to the compiler, nothing on the heap.
+//! C and Γ of the robot by dual numbers: each joint states Φ, or the velocity that an edge forbids,
+//! and `num-dual` differentiates. As good as it gets: forward derivatives over the six coordinates
+//! of one joint instead of all, sizes known to the compiler, nothing on the heap.
 
 use model::{Function, Mechanism};
 use nalgebra::SVector;
@@ -142,7 +143,8 @@ fn revolute<D: Number>(x: &[[D; 3]; 2], s: [[f64; 2]; 2]) -> [D; 2] {
     [i[0] - j[0], i[1] - j[1]]
 }
 
-/// The second point is on the y-axis of the first body, both bodies are parallel, and the displacement is f.
+/// The second point is on the y-axis of the first body, both bodies are parallel, and the
+/// displacement is f.
 fn slide<D: Number>(x: &[[D; 3]; 2], s: [[f64; 2]; 2], f: D) -> [D; 3] {
     let (i, j) = (point(&x[0], s[0]), point(&x[1], s[1]));
     let (sin, cos) = x[0][2].sin_cos();

@@ -1,4 +1,5 @@
-//! The dense equations by faer: LU with partial pivoting in place, all storage made beforehand, one thread.
+//! The dense equations by faer: LU with partial pivoting in place, all storage made beforehand, one
+//! thread.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
@@ -25,7 +26,8 @@ impl FaerLu {
         }
     }
 
-    /// Factors `matrix` (column-major) in place; `x` is the load before and the solution afterwards.
+    /// Factors `matrix` (column-major) in place; `x` is the load before and the solution
+    /// afterwards.
     pub(crate) fn solve(&mut self, matrix: &mut [f64], x: &mut [f64]) {
         let Self {
             n,

@@ -1,5 +1,5 @@
-//! Instructions per call by callgrind, which do not depend on neighbours or the speed of the processor. Callgrind shows no AVX-512 to programs, so faer
-//! takes its AVX2 kernels there.
+//! Instructions per call by callgrind, which do not depend on neighbours or the speed of the
+//! processor. Callgrind shows no AVX-512 to programs, so faer takes its AVX2 kernels there.
 
 use std::process::Command;
 

@@ -1,6 +1,7 @@
-//! The right-hand side of the robot with its trolley by every way we know, side by side in one run: `cargo bench -p bench --bench
-//! right_hand_side`. Candidates take turns, so that ratios survive a processor that changes its speed; each must give the
-//! accelerations (or the matrices) of the others before it is timed.
+//! The right-hand side of the robot with its trolley by every way we know, side by side in one run:
+//! `cargo bench -p bench --bench right_hand_side`. Candidates take turns, so that ratios survive a
+//! processor that changes its speed; each must give the accelerations (or the matrices) of the
+//! others before it is timed.
 //!
 //! | arguments | do |
 //! | --- | --- |

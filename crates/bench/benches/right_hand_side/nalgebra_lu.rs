@@ -1,4 +1,5 @@
-//! The dense equations by nalgebra: LU with partial pivoting of a matrix whose size the compiler knows or not, and singular values.
+//! The dense equations by nalgebra: LU with partial pivoting of a matrix whose size the compiler
+//! knows or not, and singular values.
 
 use nalgebra::{DMatrix, DVector, SMatrix, SVector};
 
@@ -15,7 +16,8 @@ pub(crate) fn solve_dynamic(matrix: DMatrix<f64>, x: &mut DVector<f64>) -> bool 
     matrix.lu().solve_mut(x)
 }
 
-/// Least solution of a singular system; singular values below `tolerance` times the largest are zero.
+/// Least solution of a singular system; singular values below `tolerance` times the largest are
+/// zero.
 pub(crate) fn solve_singular(
     matrix: DMatrix<f64>,
     load: &DVector<f64>,

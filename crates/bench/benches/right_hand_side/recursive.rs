@@ -1,16 +1,20 @@
-//! The robot by hand: what an engineer writes who has looked at this one mechanism for an afternoon. Nothing of it comes from a definition,
-//! and nothing of it is good for another mechanism.
+//! The robot by hand: what an engineer writes who has looked at this one mechanism for an
+//! afternoon. Nothing of it comes from a definition, and nothing of it is good for another
+//! mechanism.
 //!
-//! The wheels W3 and W4 leave the platform a speed u along its x-axis; W1 turns it with `ω = κ·u`, `κ = tan β/0.3`, β the angle of the front knuckle; W2 says the
-//! same by symmetry. β follows from the displacement d(t) of the slider in closed form, and the trolley follows its hitch:
-//! `ω₇ = −(sin δ/0.4 + κ·cos δ)·u`, δ its angle to the platform. All velocities are `J·u + c(t)`, all accelerations `J·u̇ + Γ`, hence
+//! The wheels W3 and W4 leave the platform a speed u along its x-axis; W1 turns it with `ω = κ·u`,
+//! `κ = tan β/0.3`, β the angle of the front knuckle; W2 says the same by symmetry. β follows from
+//! the displacement d(t) of the slider in closed form, and the trolley follows its hitch:
+//! `ω₇ = −(sin δ/0.4 + κ·cos δ)·u`, δ its angle to the platform. All velocities are `J·u + c(t)`,
+//! all accelerations `J·u̇ + Γ`, hence
 //!
 //! `(Σ Jᵀ·M·J)·u̇ = −Σ Jᵀ·M·Γ`.
 //!
-//! Off the constraints, where a stage of an integrator may be, it is another continuation of the same motion. Vectors are in the frame of
-//! the platform.
+//! Off the constraints, where a stage of an integrator may be, it is another continuation of the
+//! same motion. Vectors are in the frame of the platform.
 
-/// Half the wheelbase, and the distance from hitch to platform centre, hitch to trolley wheel and to the trolley's centre (m).
+/// Half the wheelbase, and the distance from hitch to platform centre, hitch to trolley wheel and
+/// to the trolley's centre (m).
 const WHEEL: f64 = 0.3;
 const HITCH: f64 = 0.4;
 const TONGUE: f64 = 0.4;
@@ -30,7 +34,8 @@ const LINK: [f64; 2] = [0.3, 0.0016];
 const SLIDER: [f64; 2] = [1.0, 0.02];
 const TROLLEY: [f64; 2] = [8.0, 0.5];
 
-/// A body carried by the platform: its place with two derivatives, and the second one of its angle, relative to the platform.
+/// A body carried by the platform: its place with two derivatives, and the second one of its angle,
+/// relative to the platform.
 #[derive(Clone, Copy)]
 struct Carried {
     r: [f64; 2],
@@ -52,7 +57,8 @@ impl Carried {
     }
 }
 
-/// Directions of the velocity and what the acceleration has besides: `a = J·u̇ + Γ`, two components and the angle.
+/// Directions of the velocity and what the acceleration has besides: `a = J·u̇ + Γ`, two components
+/// and the angle.
 type Share = ([f64; 3], [f64; 3]);
 
 /// v̇ of all bodies.
@@ -114,8 +120,9 @@ pub(crate) fn acceleration(t: f64, q: &[f64], v: &[f64], a: &mut [f64]) {
 
 /// Front knuckle, front link, slider, and `[κ, κ̇]`, for `[d, ḋ, d̈]`.
 ///
-/// The arm p of the knuckle and the link ℓ close the loop `w + p = ℓ` with w from the eye to the pivot; `|w + p| = |ℓ|` is
-/// `cos β·(w·s) + sin β·(w·s⊥) = c`, and its derivatives are two linear equations for the rates of p and ℓ.
+/// The arm p of the knuckle and the link ℓ close the loop `w + p = ℓ` with w from the eye to the
+/// pivot; `|w + p| = |ℓ|` is `cos β·(w·s) + sin β·(w·s⊥) = c`, and its derivatives are two linear
+/// equations for the rates of p and ℓ.
 fn linkage([d, dd, ddd]: [f64; 3]) -> (Carried, Carried, Carried, [f64; 2]) {
     let w = [WHEEL - EYE[0], -EYE[1] - d];
     let along = w[0] * ARM[0] + w[1] * ARM[1];

@@ -1,4 +1,5 @@
-//! The robot on its way: states of the motion in which all candidates are evaluated, and what must come out there.
+//! The robot on its way: states of the motion in which all candidates are evaluated, and what must
+//! come out there.
 
 use std::ops::ControlFlow;
 
@@ -10,7 +11,8 @@ use pfaff::{Overrides, Study};
 use crate::Outcome;
 use crate::saddle::Saddle;
 
-/// Time between the states (s). With the first at half of it none is at a break time, and half of them lie within turns.
+/// Time between the states (s). With the first at half of it none is at a break time, and half of
+/// them lie within turns.
 const STEP: f64 = 0.5;
 
 /// The robot and states of its motion.

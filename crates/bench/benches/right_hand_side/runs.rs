@@ -1,5 +1,6 @@
-//! Ten seconds of the robot at a wanted error: the loosest tolerance that gives it is looked for first, because errors and not tolerances are
-//! what runs are compared at. Two rows of output, not written anywhere; the start is not included, the storage of the motion is.
+//! Ten seconds of the robot at a wanted error: the loosest tolerance that gives it is looked for
+//! first, because errors and not tolerances are what runs are compared at. Two rows of output, not
+//! written anywhere; the start is not included, the storage of the motion is.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -69,8 +70,8 @@ struct Found {
     summary: Summary,
 }
 
-/// The loosest tolerance from which on all tighter ones give the wanted error. Tolerances are tried from the tight end, so that
-/// an accident at a loose one does not count.
+/// The loosest tolerance from which on all tighter ones give the wanted error. Tolerances are tried
+/// from the tight end, so that an accident at a loose one does not count.
 fn loosest(prepared: &Prepared, wanted: f64, known: &[f64]) -> Outcome<Found> {
     let mut best = None;
     for k in (PER_DECADE * DECADES[1]..=PER_DECADE * DECADES[0])

@@ -1,5 +1,6 @@
-//! Times of works that take turns: in each round all of them run for a while, so that changes of the machine's speed meet all alike. Neighbours on
-//! the machine can only add time: the least over the rounds is what a work needs, the median tells how much was added.
+//! Times of works that take turns: in each round all of them run for a while, so that changes of
+//! the machine's speed meet all alike. Neighbours on the machine can only add time: the least over
+//! the rounds is what a work needs, the median tells how much was added.
 
 use std::time::{Duration, Instant};
 

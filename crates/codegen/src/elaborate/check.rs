@@ -1,5 +1,5 @@
-//! What each part of a definition may depend on. A refusal points at the smallest part of the expression that is
-//! at fault, also where it hides behind a `let`.
+//! What each part of a definition may depend on. A refusal points at the smallest part of the
+//! expression that is at fault, also where it hides behind a `let`.
 
 use symbolic::{Derivation, Expr, Node};
 

@@ -8,7 +8,8 @@ use super::Scope;
 use crate::nearest::hint;
 use crate::vector::Vector;
 
-/// Magnitudes of numbers: products of a few of them, and of their derivatives, are far from overflow.
+/// Magnitudes of numbers: products of a few of them, and of their derivatives, are far from
+/// overflow.
 const NUMBERS: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
 
 /// Highest power; what needs more is no joint.

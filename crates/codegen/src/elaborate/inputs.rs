@@ -1,5 +1,5 @@
-//! The inputs of kernels: which symbol stands for which argument. Symbols are made in a fixed order, because
-//! the canonical order of terms follows it.
+//! The inputs of kernels: which symbol stands for which argument. Symbols are made in a fixed
+//! order, because the canonical order of terms follows it.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -224,8 +224,8 @@ impl Inputs {
         })
     }
 
-    /// A new input. Different inputs have different names, whatever the author called them: the point `s_i`
-    /// and a length `s_i_x` are told apart by an underscore.
+    /// A new input. Different inputs have different names, whatever the author called them: the
+    /// point `s_i` and a length `s_i_x` are told apart by an underscore.
     fn add(&mut self, g: &mut Graph, name: &str, source: Source) -> Expr {
         let mut name = name.to_owned();
         while !self.taken.insert(name.clone()) {

@@ -109,7 +109,8 @@ pub(super) fn structure(
     }
 }
 
-/// The drives of a joint with its parameters, one method for each measure; nothing where there is none.
+/// The drives of a joint with its parameters, one method for each measure; nothing where there is
+/// none.
 pub(super) fn drives(
     d: &Definition,
     model: &Model,

@@ -1,6 +1,7 @@
-//! Bounds on what is handed to the recursive parts of the pipeline: a definition that is absurdly long or deep is
-//! refused with an error, because a compiler that runs out of stack cannot say why. Words of Rust that are no words of
-//! this language, and paths, are refused here for the same reason: the parser of Rust would follow them to any depth.
+//! Bounds on what is handed to the recursive parts of the pipeline: a definition that is absurdly
+//! long or deep is refused with an error, because a compiler that runs out of stack cannot say why.
+//! Words of Rust that are no words of this language, and paths, are refused here for the same
+//! reason: the parser of Rust would follow them to any depth.
 
 use proc_macro2::{Ident, Spacing, TokenStream, TokenTree};
 

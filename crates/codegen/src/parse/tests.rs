@@ -1,5 +1,5 @@
-//! What may be written, and what is said about the rest. How errors point is shown by the compile-fail cases of
-//! `joint-macro`.
+//! What may be written, and what is said about the rest. How errors point is shown by the
+//! compile-fail cases of `joint-macro`.
 
 use super::{Definition, Kept, Kind, ParamKind, definition};
 

@@ -1,5 +1,6 @@
-//! Does code belong to a mechanism, and may a run use it? Decided by numbers, never by names: sizes, rows and break times have to be
-//! equal, and values have to agree where the motion starts and around it.
+//! Does code belong to a mechanism, and may a run use it? Decided by numbers, never by names:
+//! sizes, rows and break times have to be equal, and values have to agree where the motion starts
+//! and around it.
 
 use std::sync::Arc;
 
@@ -15,8 +16,9 @@ use crate::prepare::Prepared;
 /// Values of code and interpreter may differ by this share of the terms that they are made of.
 const SAME: f64 = 1e-9;
 
-/// States around the start at which values are compared, and how far they are from it in units of the mechanism (its size, or a radian),
-/// and in such units per second: terms in squares of velocities have to count.
+/// States around the start at which values are compared, and how far they are from it in units of
+/// the mechanism (its size, or a radian), and in such units per second: terms in squares of
+/// velocities have to count.
 const STATES: usize = 6;
 const DISTANCE: f64 = 0.01;
 const SPEED: f64 = 1.0;
@@ -283,7 +285,8 @@ fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMis
     Ok(())
 }
 
-/// Compares Φ, C·v − b, accelerations and multipliers; the last two only where both are sure of them.
+/// Compares Φ, C·v − b, accelerations and multipliers; the last two only where both are sure of
+/// them.
 fn compare(
     motion: &mut KeptRowMotion<'_>,
     code: &dyn SceneCode,

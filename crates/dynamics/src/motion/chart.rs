@@ -1,10 +1,12 @@
-//! Independent coordinates z and velocities u: the rows determine the others, and the motion is an ordinary differential equation of
-//! z and u alone. y keeps all coordinates: `f(y) = F(P·y)`, where P completes a state from its independent entries, so that results,
-//! projections and output do not know of the partition. Steps of explicit methods need no projection; implicit methods have a Jacobian without
-//! constraints ([`super::reduced`]).
+//! Independent coordinates z and velocities u: the rows determine the others, and the motion is an
+//! ordinary differential equation of z and u alone. y keeps all coordinates: `f(y) = F(P·y)`, where
+//! P completes a state from its independent entries, so that results, projections and output do not
+//! know of the partition. Steps of explicit methods need no projection; implicit methods have a
+//! Jacobian without constraints ([`super::reduced`]).
 //!
-//! The partition stays for a step and its dense output, because f must not change within them. Where its pivots have fallen it is chosen again
-//! at the accepted state, when the next step begins. Near a singular configuration there is none, and a step that needs one is refused.
+//! The partition stays for a step and its dense output, because f must not change within them.
+//! Where its pivots have fallen it is chosen again at the accepted state, when the next step
+//! begins. Near a singular configuration there is none, and a step that needs one is refused.
 
 use model::{Mechanism, System};
 
@@ -34,15 +36,17 @@ pub(super) struct Chart {
 }
 
 impl Chart {
-    /// The longest way along a column of C from the last accepted state to time t at the velocities there, in its `unit`.
+    /// The longest way along a column of C from the last accepted state to time t at the velocities
+    /// there, in its `unit`.
     fn way_to(&self, t: f64, unit: impl Fn(usize) -> f64) -> f64 {
         let velocities = self.accepted_v.iter().enumerate();
         let largest = velocities.fold(0.0, |a: f64, (j, v)| a.max(v.abs() / unit(j)));
         largest * (t - self.accepted_at).abs()
     }
 
-    /// Takes the independent entries of a state. The others stay those of the state completed last: what an integrator carries for them
-    /// may be off by as much as a step, and Newton's method would go from there to another branch or another turn.
+    /// Takes the independent entries of a state. The others stay those of the state completed last:
+    /// what an integrator carries for them may be off by as much as a step, and Newton's method
+    /// would go from there to another branch or another turn.
     fn take_independent(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64]) {
         mechanism.take(&mut self.q, q, &self.z);
         for &i in &self.u {
@@ -59,19 +63,22 @@ pub(super) struct Origin {
     pub(super) v: Vec<f64>,
 }
 
-/// Dependent coordinates that move by more than this when a state is completed, as share of the mechanism's size or in radians, may have
-/// gone to another branch or another turn.
+/// Dependent coordinates that move by more than this when a state is completed, as share of the
+/// mechanism's size or in radians, may have gone to another branch or another turn.
 const FAR: f64 = 0.6;
 
-/// Beside this they may move by so many times the way that the mechanism would go from the last accepted state with its rates.
+/// Beside this they may move by so many times the way that the mechanism would go from the last
+/// accepted state with its rates.
 const WAY: f64 = 2.0;
 
-/// The end of a step may lie so far from where the rates at both ends lead, as share of the largest way on it, and beside.
+/// The end of a step may lie so far from where the rates at both ends lead, as share of the largest
+/// way on it, and beside.
 const FAR_IN_A_STEP: f64 = 0.5;
 const FAR_AT_REST: f64 = 1e-2;
 
 impl KeptRowMotion<'_> {
-    /// From now on the motion is one of independent coordinates, chosen at q, which must lie on the constraints at t.
+    /// From now on the motion is one of independent coordinates, chosen at q, which must lie on the
+    /// constraints at t.
     ///
     /// ```
     /// use dynamics::{KeptRowMotion, RowChoice, prepare};
@@ -110,11 +117,12 @@ impl KeptRowMotion<'_> {
         self.chart.as_ref().map(|c| (&c.z[..], &c.u[..]))
     }
 
-    /// `ẏ = f(t, y)` of `y = [q; v]`, or `[q; v; W]` with the work W of drives and applied forces. On a chart the dependent entries of
-    /// y do not matter.
+    /// `ẏ = f(t, y)` of `y = [q; v]`, or `[q; v; W]` with the work W of drives and applied forces.
+    /// On a chart the dependent entries of y do not matter.
     ///
     /// # Errors
-    /// As [`super::Motion::acceleration`]; [`Trip::OffConstraints`], [`Trip::Chart`] if a state cannot be completed.
+    /// As [`super::Motion::acceleration`]; [`Trip::OffConstraints`], [`Trip::Chart`] if a state
+    /// cannot be completed.
     ///
     /// # Panics
     /// If `y` or `dy` are shorter than n_q + n_v.
@@ -142,7 +150,8 @@ impl KeptRowMotion<'_> {
         solved
     }
 
-    /// The same at a state that a projection has just moved onto the constraints, where the rows are factored.
+    /// The same at a state that a projection has just moved onto the constraints, where the rows
+    /// are factored.
     ///
     /// # Errors
     /// As [`KeptRowMotion::derivative`].
@@ -166,7 +175,8 @@ impl KeptRowMotion<'_> {
         Ok(())
     }
 
-    /// q̇ and, where there is room for it, the power of drives and applied forces at a state with acceleration a.
+    /// q̇ and, where there is room for it, the power of drives and applied forces at a state with
+    /// acceleration a.
     fn rates(&self, q: &[f64], v: &[f64], a: &[f64], (qd, work): (&mut [f64], &mut [f64])) {
         self.mechanism.rate(q, v, qd);
         if let Some(work) = work.first_mut() {
@@ -174,8 +184,8 @@ impl KeptRowMotion<'_> {
         }
     }
 
-    /// Whether an evaluated state (q, v) at the end of a step is where the velocities at both ends lead: on another branch or
-    /// another turn it is not.
+    /// Whether an evaluated state (q, v) at the end of a step is where the velocities at both ends
+    /// lead: on another branch or another turn it is not.
     ///
     /// # Errors
     /// [`Trip::FarCompletion`]
@@ -206,8 +216,9 @@ impl KeptRowMotion<'_> {
         })
     }
 
-    /// Completes a state on a chart: from the state completed last or, if that was too far away, from the one accepted last, or from what
-    /// the integrator carries. Where nothing is free that comes first, because nothing else tells how far the motion has gone.
+    /// Completes a state on a chart: from the state completed last or, if that was too far away,
+    /// from the one accepted last, or from what the integrator carries. Where nothing is free that
+    /// comes first, because nothing else tells how far the motion has gone.
     fn complete_on(&mut self, chart: &mut Chart, t: f64, q: &[f64], v: &[f64]) -> Result<(), Trip> {
         let far = FAR + WAY * chart.way_to(t, |i| self.mechanism.unit(i, self.size));
         if chart.z.is_empty() {
@@ -281,7 +292,8 @@ impl KeptRowMotion<'_> {
         completed
     }
 
-    /// Asks for another chart where the present one is worn: at the state just evaluated, which has been accepted at t.
+    /// Asks for another chart where the present one is worn: at the state just evaluated, which has
+    /// been accepted at t.
     pub(super) fn review_chart(&mut self, t: f64) {
         let worn = self.velocity.are_worn() || self.position.are_worn() || self.aside.is_some();
         let Some(chart) = &mut self.chart else {
@@ -296,7 +308,8 @@ impl KeptRowMotion<'_> {
         }
     }
 
-    /// Chooses the chart that has been asked for, if a step has begun: whether one has is told by the time of the accepted state.
+    /// Chooses the chart that has been asked for, if a step has begun: whether one has is told by
+    /// the time of the accepted state.
     pub(super) fn begin_step(&mut self, has_begun: impl Fn(f64) -> bool) -> Result<(), Trip> {
         let due = self.chart.as_ref().and_then(|c| c.renewal.as_ref());
         let Some(origin) = due.filter(|origin| has_begun(origin.t)).cloned() else {

@@ -1,9 +1,10 @@
-//! A motion on generated code: accelerations, multipliers and projections of a [`SceneCode`], watched at every stage and step.
-//! Whatever the code is not sure of is left to the interpreter, which begins again at the last accepted state; nothing here
-//! ends a run. Not here: whether code belongs to a mechanism ([`crate::code`]).
+//! A motion on generated code: accelerations, multipliers and projections of a [`SceneCode`],
+//! watched at every stage and step. Whatever the code is not sure of is left to the interpreter,
+//! which begins again at the last accepted state; nothing here ends a run. Not here: whether code
+//! belongs to a mechanism ([`crate::code`]).
 //!
-//! The interpreter sleeps while code is used. It wakes up at the last two accepted states, because it foresees
-//! singular configurations from the pivots of two.
+//! The interpreter sleeps while code is used. It wakes up at the last two accepted states, because
+//! it foresees singular configurations from the pivots of two.
 
 use std::sync::Arc;
 
@@ -18,7 +19,8 @@ use crate::guards::GUARDED;
 /// Code comes back above this health.
 const RETURN: f64 = 0.3;
 
-/// Accepted steps before code comes back at first; twice as many after every further time it was left.
+/// Accepted steps before code comes back at first; twice as many after every further time it was
+/// left.
 const PATIENCE: u64 = 8;
 
 /// Accelerations of code that comes back differ from interpreted ones by at most this share.
@@ -33,10 +35,12 @@ const VELOCITY_PASSES: usize = 3;
 /// Kept rows count as satisfied below this many roundings of their terms.
 const ROUNDINGS: f64 = 50.0;
 
-/// Rows of bodies at rest feel the rounding of others: their terms count as this share of the largest.
+/// Rows of bodies at rest feel the rounding of others: their terms count as this share of the
+/// largest.
 const AT_REST: f64 = 1e-4;
 
-/// Dropped rows count as implied by the kept ones below this share of the largest terms: as for the interpreter.
+/// Dropped rows count as implied by the kept ones below this share of the largest terms: as for the
+/// interpreter.
 const DROPPED_MISFIT: f64 = 1e-11;
 
 /// Why code is not sure.
@@ -166,7 +170,8 @@ fn largest(x: &[f64], units: &[f64]) -> f64 {
     shares.fold(0.0, f64::max)
 }
 
-/// The row that misses most of those that are kept, by how much, and as share of the size of its terms; infinite where that is not a number.
+/// The row that misses most of those that are kept, by how much, and as share of the size of its
+/// terms; infinite where that is not a number.
 fn worst_kept(x: &[f64], keeps: &[bool], sizes: &[f64]) -> (usize, f64, f64) {
     let rows = x.iter().zip(keeps).zip(sizes).enumerate();
     let rows = rows.filter(|(_, ((x, keeps), _))| **keeps && **x != 0.0);
@@ -179,7 +184,8 @@ fn worst_kept(x: &[f64], keeps: &[bool], sizes: &[f64]) -> (usize, f64, f64) {
     })
 }
 
-/// Dropped rows that miss what the kept ones imply: beside the largest row, because rounding of all of them reaches these.
+/// Dropped rows that miss what the kept ones imply: beside the largest row, because rounding of all
+/// of them reaches these.
 fn check_dropped(x: &[f64], keeps: &[bool], sizes: &[f64]) -> Result<(), Doubt> {
     if !GUARDED {
         return Ok(());
@@ -308,7 +314,8 @@ impl KeptRowMotion<'_> {
         matches!(&self.coded, Some(coded) if coded.phase == Phase::Code)
     }
 
-    /// Accelerations by code; `false` where there is none in use or it is not sure, and the interpreter has to answer.
+    /// Accelerations by code; `false` where there is none in use or it is not sure, and the
+    /// interpreter has to answer.
     pub(super) fn coded_acceleration(
         &mut self,
         t: f64,
@@ -324,7 +331,8 @@ impl KeptRowMotion<'_> {
         }
     }
 
-    /// The same for an evaluation of a run. Code that is not sure is left, and the interpreter wakes up.
+    /// The same for an evaluation of a run. Code that is not sure is left, and the interpreter
+    /// wakes up.
     pub(super) fn coded_stage(
         &mut self,
         t: f64,
@@ -348,7 +356,8 @@ impl KeptRowMotion<'_> {
         Ok(false)
     }
 
-    /// Multipliers by code, with the pose of the state in the scratch, where reactions are read; `false` as for accelerations.
+    /// Multipliers by code, with the pose of the state in the scratch, where reactions are read;
+    /// `false` as for accelerations.
     pub(super) fn coded_multipliers(
         &mut self,
         t: f64,
@@ -382,8 +391,8 @@ impl KeptRowMotion<'_> {
         }
     }
 
-    /// Projects a step of the code that passed its error test, and evaluates its end; nothing where the step has to begin again with the
-    /// interpreter.
+    /// Projects a step of the code that passed its error test, and evaluates its end; nothing where
+    /// the step has to begin again with the interpreter.
     pub(crate) fn end_coded_step(
         &mut self,
         t: f64,
@@ -436,16 +445,16 @@ impl KeptRowMotion<'_> {
         self.coded.as_mut().and_then(|c| c.departure.take())
     }
 
-    /// When the motion will be singular, as [`KeptRowMotion::foresee`] sees it from the last two states that the code has accepted, for so
-    /// many steps like that between them.
+    /// When the motion will be singular, as [`KeptRowMotion::foresee`] sees it from the last two
+    /// states that the code has accepted, for so many steps like that between them.
     pub(crate) fn foresee_from_code(&self, steps: f64) -> Option<f64> {
         let coded = self.coded.as_ref().filter(|c| c.n_accepted == 2)?;
         let [Accepted { t, q, v, a }, before] = &coded.accepted;
         self.foresee((*t, q, v, a), t + steps * (t - before.t))
     }
 
-    /// Goes back to code at an accepted, interpreted state far from singular configurations, if it is as good as before there and
-    /// has been left long enough ago.
+    /// Goes back to code at an accepted, interpreted state far from singular configurations, if it
+    /// is as good as before there and has been left long enough ago.
     pub(crate) fn return_to_code(
         &mut self,
         (t, q, v, a): (f64, &[f64], &[f64], &[f64]),

@@ -1,5 +1,6 @@
-//! Where a drive changes its rate at once, an impulse of the constraints changes the velocities: by the smallest change in the mass
-//! metric that the new rates allow. A drive that jumps itself would need an infinite force and is refused.
+//! Where a drive changes its rate at once, an impulse of the constraints changes the velocities: by
+//! the smallest change in the mass metric that the new rates allow. A drive that jumps itself would
+//! need an infinite force and is refused.
 
 use model::System;
 
@@ -7,11 +8,12 @@ use super::KeptRowMotion;
 use crate::error::Trip;
 use crate::events::{Event, EventKind};
 
-/// Residuals below this share of the terms of their row, or for rates of the largest row, are no jumps.
+/// Residuals below this share of the terms of their row, or for rates of the largest row, are no
+/// jumps.
 const NO_JUMP: f64 = 1e-9;
 
-/// Between times that are so many roundings apart a continuous function changes much more than between neighbouring ones: what
-/// remains of the wider change is a jump.
+/// Between times that are so many roundings apart a continuous function changes much more than
+/// between neighbouring ones: what remains of the wider change is a jump.
 const WIDE: f64 = 1e6;
 const REMAINS: f64 = 0.5;
 
@@ -26,7 +28,8 @@ impl KeptRowMotion<'_> {
     /// Takes the velocities just behind a break time from those just before, at t just behind it.
     ///
     /// # Errors
-    /// [`Trip::PositionJump`] if a constraint asks for another position; as [`super::Motion::project`].
+    /// [`Trip::PositionJump`] if a constraint asks for another position; as
+    /// [`super::Motion::project`].
     pub(crate) fn cross_break(
         &mut self,
         t: f64,
@@ -83,7 +86,8 @@ impl KeptRowMotion<'_> {
         Ok(Some(Impulse { energy, event }))
     }
 
-    /// By how much Φ and C·v − b of a state change from one time to another, where only functions of time change.
+    /// By how much Φ and C·v − b of a state change from one time to another, where only functions
+    /// of time change.
     fn change(&mut self, [from, to]: [f64; 2], q: &[f64], v: &[f64]) -> [Vec<f64>; 2] {
         let [phi_from, rate_from] = self.missed(from, q, v);
         let [mut phi, mut rate] = self.missed(to, q, v);

@@ -1,5 +1,5 @@
-//! When does a step pass a singular configuration, and how many rows are dependent there? Looked for in the dense output of
-//! an accepted step that was suspect.
+//! When does a step pass a singular configuration, and how many rows are dependent there? Looked
+//! for in the dense output of an accepted step that was suspect.
 
 use model::{Mechanism, Scratch, System};
 use solvability::decide_rows;
@@ -11,7 +11,8 @@ use crate::events::{Event, EventKind};
 /// Places at which a step is first looked at.
 const PLACES: usize = 16;
 
-/// Intervals are divided so often: the place is then found to 1e-10 of the step by halves, and to 1e-7 by golden sections, where a pivot is as small.
+/// Intervals are divided so often: the place is then found to 1e-10 of the step by halves, and to
+/// 1e-7 by golden sections, where a pivot is as small.
 const DIVISIONS: usize = 34;
 
 /// Share by which a golden section shortens an interval.
@@ -26,18 +27,22 @@ pub(crate) struct Singular {
     pub(crate) dependent: usize,
 }
 
-/// A singular configuration is looked for up to so many times the distance at which a straight line meets it.
+/// A singular configuration is looked for up to so many times the distance at which a straight line
+/// meets it.
 const BEYOND: f64 = 1.5;
 
-/// Where a pivot falls to this share of the present one and rises again, it vanishes: what is left is the error of a parabola.
+/// Where a pivot falls to this share of the present one and rises again, it vanishes: what is left
+/// is the error of a parabola.
 const VANISHES: f64 = 0.2;
 
-/// A search is worth its price where a pivot falls below this share of the present one at one of so many places: between two of them a pivot that
-/// vanishes on the way shows itself, unless that is much earlier than expected.
+/// A search is worth its price where a pivot falls below this share of the present one at one of so
+/// many places: between two of them a pivot that vanishes on the way shows itself, unless that is
+/// much earlier than expected.
 const STAYS: f64 = 0.75;
 const GLANCES: usize = 6;
 
-/// Between two places a pivot falls at most by so many times what it changes by between any two neighbouring ones.
+/// Between two places a pivot falls at most by so many times what it changes by between any two
+/// neighbouring ones.
 const STEEPER: f64 = 2.0;
 
 /// The largest change between neighbours.
@@ -47,8 +52,8 @@ fn steepest(pivots: &[f64]) -> f64 {
 }
 
 impl<'m> KeptRowMotion<'m> {
-    /// When the motion that was at q with velocities v and accelerations a at time t, the last accepted one, will be singular,
-    /// if that is to be expected before `t_last`.
+    /// When the motion that was at q with velocities v and accelerations a at time t, the last
+    /// accepted one, will be singular, if that is to be expected before `t_last`.
     pub(crate) fn foresee(
         &self,
         (t, q, v, a): (f64, &[f64], &[f64], &[f64]),
@@ -91,8 +96,8 @@ pub(crate) struct Search<'m> {
 }
 
 impl Search<'_> {
-    /// Whether the pivots fall or the bordered determinant has changed its sign at one of a few places, at a price of a factorisation for each until
-    /// they do; in doubt they do.
+    /// Whether the pivots fall or the bordered determinant has changed its sign at one of a few
+    /// places, at a price of a factorisation for each until they do; in doubt they do.
     fn is_promising(
         &mut self,
         [now, end]: [f64; 2],
@@ -127,8 +132,9 @@ impl Search<'_> {
         factored.ok().map(|()| self.rows.relative_pivot())
     }
 
-    /// The singular configuration between t0 and t1, if there is one: where the sign of the bordered determinant changes, or where
-    /// the smallest pivot falls below `noise` of its reference and rises again. `state` gives the coordinates on the way.
+    /// The singular configuration between t0 and t1, if there is one: where the sign of the
+    /// bordered determinant changes, or where the smallest pivot falls below `noise` of its
+    /// reference and rises again. `state` gives the coordinates on the way.
     pub(crate) fn find(
         &mut self,
         [t0, t1]: [f64; 2],
@@ -150,8 +156,9 @@ impl Search<'_> {
         let flip = signs.windows(2).position(|w| w[0] * w[1] < 0.0);
         let t = match flip {
             Some(k) => {
-                // The pivot with the sign of the determinant crosses zero nearly as a straight line: secants, halved where an end stays (Illinois), and
-                // every third time the middle.
+                // The pivot with the sign of the determinant crosses zero nearly as a straight
+                // line: secants, halved where an end stays (Illinois), and every third time the
+                // middle.
                 let (mut low, mut high) = (time(k), time(k + 1));
                 let (mut above, mut below) = (pivots[k], pivots[k + 1]);
                 let enough = (high - low) * 0.5_f64.powi(DIVISIONS as i32);
@@ -226,8 +233,8 @@ impl Search<'_> {
         })
     }
 
-    /// By how much the rank of all rows falls where that of the kept ones does: rows that are kept may become dependent where others take their
-    /// place. In doubt by as much.
+    /// By how much the rank of all rows falls where that of the kept ones does: rows that are kept
+    /// may become dependent where others take their place. In doubt by as much.
     pub(crate) fn rank_lost(
         &mut self,
         Singular { t, dependent }: Singular,

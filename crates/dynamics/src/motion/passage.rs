@@ -1,25 +1,30 @@
-//! Does a step pass a singular configuration? There the kept rows are dependent for an instant: branches of the motion may meet,
-//! and a step may land on another one with every residual at rounding.
+//! Does a step pass a singular configuration? There the kept rows are dependent for an instant:
+//! branches of the motion may meet, and a step may land on another one with every residual at
+//! rounding.
 //!
-//! What determines the accelerations there is a quotient of two numbers that both vanish: at the distance σ, a share of the reference
-//! pivots, a stage off the constraints by δ is wrong by δ/σ and rounding by eps/σ². So, near a singular configuration, stages are
-//! moved onto the constraints before they are evaluated, steps are chosen such that it falls between two stages
-//! ([`Passage::expected`]), and rows below 1e-6 are left out of a solve. A step must not end where a projection could not tell the
-//! branches apart, and one that goes over a singular configuration stands only if its correction is small beside the
-//! distance of the branches: the motion goes on as smoothly as it came.
+//! What determines the accelerations there is a quotient of two numbers that both vanish: at the
+//! distance σ, a share of the reference pivots, a stage off the constraints by δ is wrong by δ/σ
+//! and rounding by eps/σ². So, near a singular configuration, stages are moved onto the constraints
+//! before they are evaluated, steps are chosen such that it falls between two stages
+//! ([`Passage::expected`]), and rows below 1e-6 are left out of a solve. A step must not end where
+//! a projection could not tell the branches apart, and one that goes over a singular configuration
+//! stands only if its correction is small beside the distance of the branches: the motion goes on
+//! as smoothly as it came.
 
 use super::rows::KeptRows;
 use crate::guards::GUARDED;
 
-/// Velocities behind a singular configuration may miss those that the accelerations on both sides explain by this share: a step over it
-/// is short beside the curvature of the motion, and another branch leads elsewhere.
+/// Velocities behind a singular configuration may miss those that the accelerations on both sides
+/// explain by this share: a step over it is short beside the curvature of the motion, and another
+/// branch leads elsewhere.
 const KINK: f64 = 0.25;
 
 /// Stages below this share of the reference pivots make a step suspect.
 const SUSPECT: f64 = 0.1;
 
-/// A frame of the motions that were possible at the last accepted step, and the sign of the determinant of the kept rows
-/// bordered by it; and how near to a singular configuration the stages since then came.
+/// A frame of the motions that were possible at the last accepted step, and the sign of the
+/// determinant of the kept rows bordered by it; and how near to a singular configuration the stages
+/// since then came.
 #[derive(Default)]
 pub(super) struct Passage {
     frame: Vec<f64>,
@@ -60,13 +65,15 @@ impl Passage {
         self.lowest = Some(self.lowest.map_or(pivot, |lowest| lowest.min(pivot)));
     }
 
-    /// Whether the determinant of freshly factored rows has another sign than at the last accepted step.
+    /// Whether the determinant of freshly factored rows has another sign than at the last accepted
+    /// step.
     pub(super) fn is_beyond(&self, rows: &mut KeptRows) -> bool {
         self.sign * rows.orientation(&self.frame) < 0.0
     }
 
-    /// Whether velocities v at time t, with accelerations a and the weights `mass`, follow from those with which the motion came near a
-    /// singular configuration. On another branch they have another direction. Asked where the rows are sound again.
+    /// Whether velocities v at time t, with accelerations a and the weights `mass`, follow from
+    /// those with which the motion came near a singular configuration. On another branch they have
+    /// another direction. Asked where the rows are sound again.
     pub(super) fn is_continued_by(&self, (t, v, a): (f64, &[f64], &[f64]), mass: &[f64]) -> bool {
         let Some(entry) = &self.entry else {
             return true;

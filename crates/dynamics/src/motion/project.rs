@@ -1,5 +1,5 @@
-//! Projection onto the constraints: positions by Newton's method on the rows of Φq, velocities by one linear solve,
-//! both with the smallest correction in the mass metric.
+//! Projection onto the constraints: positions by Newton's method on the rows of Φq, velocities by
+//! one linear solve, both with the smallest correction in the mass metric.
 
 use model::{Mechanism, Scratch, System};
 
@@ -10,7 +10,8 @@ use crate::error::Trip;
 use crate::events::Event;
 use crate::guards::GUARDED;
 
-/// Corrections of the position per projection; one or two are the rule, more where a tolerance is very loose.
+/// Corrections of the position per projection; one or two are the rule, more where a tolerance is
+/// very loose.
 const CORRECTIONS: usize = 20;
 
 /// Corrections of the velocity per projection, at most.
@@ -19,28 +20,33 @@ const VELOCITY_PASSES: usize = 3;
 /// Kept rows count as satisfied below this many roundings of their terms.
 const ROUNDINGS: f64 = 10.0;
 
-/// The same where pivots have fallen below [`WEAK`] of their reference: what kept rows miss by is multiplied in the dropped ones.
+/// The same where pivots have fallen below [`WEAK`] of their reference: what kept rows miss by is
+/// multiplied in the dropped ones.
 const FEW_ROUNDINGS: f64 = 1.0;
 const WEAK: f64 = 0.5;
 
 /// The same where a further correction does not help.
 const STALLED_ROUNDINGS: f64 = 50.0;
 
-/// Dropped rows count as implied by the kept ones below this share of their own terms and of those of the kept rows, as much as these
-/// enter: a row with an arm of 1e30 m says nothing of what an angle may miss by. Rounding of the kept rows is 1e-15; the configuration
-/// is off them by as much.
+/// Dropped rows count as implied by the kept ones below this share of their own terms and of those
+/// of the kept rows, as much as these enter: a row with an arm of 1e30 m says nothing of what an
+/// angle may miss by. Rounding of the kept rows is 1e-15; the configuration is off them by as much.
 const DROPPED_MISFIT: f64 = 1e-11;
 
-/// The share of the size of the mechanism by which velocities may part in the time of a run, however slow it is: some hundred roundings.
+/// The share of the size of the mechanism by which velocities may part in the time of a run,
+/// however slow it is: some hundred roundings.
 const AT_REST: f64 = 1e-13;
 
-/// A dropped row of Φ never misses by more than this share of its own terms, however far away the places are from which the kept rows imply it.
+/// A dropped row of Φ never misses by more than this share of its own terms, however far away the
+/// places are from which the kept rows imply it.
 const POSITION_MISFIT: f64 = 1e-5;
 
-/// Smallest share of the reference pivots that is taken into account there: nearer, rows are left out.
+/// Smallest share of the reference pivots that is taken into account there: nearer, rows are left
+/// out.
 const NEAREST_PIVOT: f64 = 1e-6;
 
-/// Factors of an earlier configuration serve as long as a correction gains a digit: a factorisation costs about ten corrections.
+/// Factors of an earlier configuration serve as long as a correction gains a digit: a factorisation
+/// costs about ten corrections.
 const CONVERGENCE: f64 = 0.1;
 
 /// Which coordinates a correction moves.
@@ -53,12 +59,13 @@ pub(super) enum Correct {
 }
 
 impl KeptRowMotion<'_> {
-    /// Projects a step that passed its error test, and keeps other rows if the present ones have become nearly dependent there.
-    /// What happened is told by [`KeptRowMotion::accept`], once the step stands.
+    /// Projects a step that passed its error test, and keeps other rows if the present ones have
+    /// become nearly dependent there. What happened is told by [`KeptRowMotion::accept`], once the
+    /// step stands.
     ///
     /// # Errors
-    /// As [`super::Motion::project`]; also if the step ends nearer to a singular configuration than `nearest`, a share of
-    /// the reference pivots.
+    /// As [`super::Motion::project`]; also if the step ends nearer to a singular configuration than
+    /// `nearest`, a share of the reference pivots.
     pub(crate) fn project_step(
         &mut self,
         t: f64,
@@ -95,8 +102,8 @@ impl KeptRowMotion<'_> {
         GUARDED && self.passage.is_suspect(&mut self.velocity)
     }
 
-    /// Whether velocities v and accelerations a at the state just evaluated go on from where the motion came near a singular
-    /// configuration; as long as it is near, that remains to be seen.
+    /// Whether velocities v and accelerations a at the state just evaluated go on from where the
+    /// motion came near a singular configuration; as long as it is near, that remains to be seen.
     pub(crate) fn goes_on_smoothly(&self, now: (f64, &[f64], &[f64])) -> bool {
         !GUARDED
             || self.velocity.are_delicate()
@@ -118,7 +125,8 @@ impl KeptRowMotion<'_> {
         }
     }
 
-    /// Takes the state just evaluated as that of an accepted step; what happened since the last one.
+    /// Takes the state just evaluated as that of an accepted step; what happened since the last
+    /// one.
     pub(crate) fn accept(&mut self, t: f64) -> Option<Event> {
         self.review_chart(t);
         self.passage.take(&mut self.velocity, t);
@@ -218,7 +226,8 @@ impl KeptRowMotion<'_> {
         }
     }
 
-    /// Needs the factorisation of the projected position. Returns what the kept rows miss by at most.
+    /// Needs the factorisation of the projected position. Returns what the kept rows miss by at
+    /// most.
     fn project_velocity(&mut self, v: &mut [f64]) -> Result<f64, Trip> {
         self.evaluate_b();
         let Self {
@@ -251,7 +260,8 @@ impl KeptRowMotion<'_> {
         }
     }
 
-    /// Residuals of all rows at a projected state, the kept ones being off by `left`; dropped rows refused above the limit.
+    /// Residuals of all rows at a projected state, the kept ones being off by `left`; dropped rows
+    /// refused above the limit.
     fn monitor(&mut self, v: &[f64], iterations: usize, left: f64) -> Result<Correction, Trip> {
         if !GUARDED {
             return Ok(Correction {
@@ -278,8 +288,9 @@ impl KeptRowMotion<'_> {
             if self.velocity.dropped.iter().all(agrees) {
                 return Ok(found);
             }
-            // Off the constraints by rounding of its coordinates, the rows agree to the same share. Kept rows are solved to rounding of the
-            // fastest of them, so that the others are no better.
+            // Off the constraints by rounding of its coordinates, the rows agree to the same share.
+            // Kept rows are solved to rounding of the fastest of them, so that the others are no
+            // better.
             let rounding = mechanism.relative_residual(s, size);
             let rows = 0..mechanism.layout().rows();
             let fastest = rows.map(scale).fold(0.0, f64::max);
@@ -298,7 +309,8 @@ impl KeptRowMotion<'_> {
         Ok(found)
     }
 
-    /// Dropped rows of Φ at the pose of the scratch, on the kept ones: on another configuration of these they do not hold.
+    /// Dropped rows of Φ at the pose of the scratch, on the kept ones: on another configuration of
+    /// these they do not hold.
     pub(super) fn check_positions(&mut self) -> Result<(), Trip> {
         if self.position.dropped.is_empty() {
             return Ok(());
@@ -327,8 +339,9 @@ impl KeptRowMotion<'_> {
     }
 }
 
-/// What rows dropped from these may miss by, as share of their terms: rounding of the kept rows reaches them through the inverse of the
-/// pivots, near a singular configuration more than elsewhere.
+/// What rows dropped from these may miss by, as share of their terms: rounding of the kept rows
+/// reaches them through the inverse of the pivots, near a singular configuration more than
+/// elsewhere.
 fn dropped_misfit(rows: &KeptRows) -> f64 {
     DROPPED_MISFIT / rows.relative_pivot().clamp(NEAREST_PIVOT, 1.0)
 }
@@ -350,10 +363,12 @@ struct Level<R, S, F> {
     share: f64,
     residual: R,
     scale: S,
-    /// The same share whatever rounding of the kept rows explains: beyond it the row is not known to hold.
+    /// The same share whatever rounding of the kept rows explains: beyond it the row is not known
+    /// to hold.
     most: f64,
-    /// What they may miss by however small the terms are: as positions may, velocities may part by what moves the mechanism by no more than
-    /// a small share of its size while the run lasts, however slow the motion is.
+    /// What they may miss by however small the terms are: as positions may, velocities may part by
+    /// what moves the mechanism by no more than a small share of its size while the run lasts,
+    /// however slow the motion is.
     floor: F,
 }
 

@@ -1,8 +1,9 @@
-//! The Jacobian of the motion on independent coordinates, and the linear systems of implicit methods.
+//! The Jacobian of the motion on independent coordinates, and the linear systems of implicit
+//! methods.
 //!
-//! `f(y) = F(P·y)` depends on w = [z; u] only, so `∂f/∂y = D·S`, where S reads w from y (where q̇ = v it picks entries) and D has
-//! a column for each entry of w. By
-//! implicit differentiation, with the factors that solve the equations of motion themselves:
+//! `f(y) = F(P·y)` depends on w = [z; u] only, so `∂f/∂y = D·S`, where S reads w from y (where q̇ =
+//! v it picks entries) and D has a column for each entry of w. By implicit differentiation, with
+//! the factors that solve the equations of motion themselves:
 //!
 //! | | equation |
 //! | --- | --- |
@@ -10,10 +11,12 @@
 //! | velocities | `C·dv = −∂(C·v − b)/∂q·dq`, dv given on u |
 //! | accelerations | `M·da + Cᵀ·dλ = ∂(Q − Cᵀ·λ)/∂q·dq + ∂Q/∂v·dv`, `C·da = −∂(C·a − Γ)/∂q·dq + ∂Γ/∂v·dv` |
 //!
-//! `(σ·I − D·S)·x = r` needs a factorisation of the order of w alone, `(σ·I − S·D)·x_w = r_w`. The dependent entries of x serve as a guess for
-//! completions only, so they follow from x_w as those of dq and dv do. The rest of the solution, `σ·x = r + D·x_w`, would let Newton's
-//! method see stiff forces off the slow motion through all levers of the mechanism, and stop it although w has converged. Along the
-//! normals of the coordinates, in which no pose changes, f does not depend on y and no lever leads: there `σ·x = r` it is.
+//! `(σ·I − D·S)·x = r` needs a factorisation of the order of w alone, `(σ·I − S·D)·x_w = r_w`. The
+//! dependent entries of x serve as a guess for completions only, so they follow from x_w as those
+//! of dq and dv do. The rest of the solution, `σ·x = r + D·x_w`, would let Newton's method see
+//! stiff forces off the slow motion through all levers of the mechanism, and stop it although w has
+//! converged. Along the normals of the coordinates, in which no pose changes, f does not depend on
+//! y and no lever leads: there `σ·x = r` it is.
 
 use linalg::{Lu, Matrix};
 use model::{Derivatives, System};
@@ -153,8 +156,8 @@ impl Reduced {
         Ok(())
     }
 
-    /// Linearises and factors again where the chart has changed as the step began: f is another function of y then, although the motion is
-    /// the same.
+    /// Linearises and factors again where the chart has changed as the step began: f is another
+    /// function of y then, although the motion is the same.
     ///
     /// # Errors
     /// As [`Reduced::linearise`] and [`Reduced::factor`].
@@ -299,7 +302,8 @@ impl Reduced {
         Ok(())
     }
 
-    /// Solves `(σ·I − ∂f/∂y)·x = r` for the real σ, r in `x` on entry; dependent entries follow the independent ones.
+    /// Solves `(σ·I − ∂f/∂y)·x = r` for the real σ, r in `x` on entry; dependent entries follow the
+    /// independent ones.
     pub fn solve(&mut self, x: &mut [f64]) {
         let k = self.reads.len();
         let w = &mut self.w[..k];

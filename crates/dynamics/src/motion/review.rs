@@ -9,7 +9,8 @@ use crate::events::{Event, EventKind};
 use crate::guards::GUARDED;
 use crate::options::RowChoice;
 
-/// Rows of output are looked at below this share of the reference pivots only: what kept rows multiply rounding by is small above it.
+/// Rows of output are looked at below this share of the reference pivots only: what kept rows
+/// multiply rounding by is small above it.
 const SOUND: f64 = 0.5;
 
 /// Other rows are worth an exchange if their coefficients are so many times smaller.
@@ -21,7 +22,8 @@ impl KeptRowMotion<'_> {
         self.aside.is_some() || self.position_wants_exchange() || self.want_exchange()
     }
 
-    /// The same for the rows that hold the position, which nobody chooses. Projections that had nothing to do have not factored them here.
+    /// The same for the rows that hold the position, which nobody chooses. Projections that had
+    /// nothing to do have not factored them here.
     fn position_wants_exchange(&mut self) -> bool {
         let Self {
             mechanism,
@@ -34,7 +36,8 @@ impl KeptRowMotion<'_> {
             && (position.are_lost() || position.are_poor(mechanism, s))
     }
 
-    /// Whether other kept rows should be looked for. Rows that the user chose stay as long as they can.
+    /// Whether other kept rows should be looked for. Rows that the user chose stay as long as they
+    /// can.
     fn want_exchange(&mut self) -> bool {
         let may_choose = self.choice == RowChoice::Automatic;
         self.velocity.are_lost() || may_choose && self.velocity.are_poor(self.mechanism, &self.s)
@@ -73,8 +76,8 @@ impl KeptRowMotion<'_> {
         Ok(Some(self.event("the kept rows became nearly dependent")))
     }
 
-    /// Rows that imply the others better than the kept ones do at a settled row of output: between two steps that keep rows
-    /// which suit both, the mechanism may pass where they do not.
+    /// Rows that imply the others better than the kept ones do at a settled row of output: between
+    /// two steps that keep rows which suit both, the mechanism may pass where they do not.
     pub(super) fn better_for_row(&mut self, q: &[f64]) -> Result<Option<KeptRows>, Trip> {
         let is_sound = !GUARDED || self.velocity.relative_pivot() >= SOUND;
         if self.chart.is_some() || is_sound || !self.want_exchange() {
@@ -99,8 +102,9 @@ impl KeptRowMotion<'_> {
         aside.factor(self.mechanism, &self.s).is_ok() && aside.are_recovered()
     }
 
-    /// Freshly factored kept rows of a new decision, if they have the rank of the old ones and imply the dropped ones by smaller
-    /// coefficients. Another rank is that of a singular configuration nearby, not of the motion.
+    /// Freshly factored kept rows of a new decision, if they have the rank of the old ones and
+    /// imply the dropped ones by smaller coefficients. Another rank is that of a singular
+    /// configuration nearby, not of the motion.
     fn better(
         &self,
         decision: Result<RowDecision, solvability::AnalysisError>,

@@ -1,8 +1,9 @@
 //! Independent rows of C with everything that solving on them needs.
 //!
-//! They are factored in units of the mechanism: lengths in its size, rounded to a power of two, so that scaling rounds nothing. Otherwise a
-//! pivot of a rotation, a length, would be compared with one of a translation, which has no unit: pivots would fall and determinants change
-//! their signs where nothing happens but that metres are large or small. Callers see their own units only.
+//! They are factored in units of the mechanism: lengths in its size, rounded to a power of two, so
+//! that scaling rounds nothing. Otherwise a pivot of a rotation, a length, would be compared with
+//! one of a translation, which has no unit: pivots would fall and determinants change their signs
+//! where nothing happens but that metres are large or small. Callers see their own units only.
 
 mod dense;
 mod solver;
@@ -47,11 +48,12 @@ pub(super) struct KeptRows {
 #[derive(Clone, Copy)]
 struct PartitionPivot(Option<f64>);
 
-/// Other rows are kept once the pivots have fallen below this share of those at the choice: rounding of the kept
-/// rows reaches the dropped ones through the inverse of the pivots.
+/// Other rows are kept once the pivots have fallen below this share of those at the choice:
+/// rounding of the kept rows reaches the dropped ones through the inverse of the pivots.
 const PIVOT_LOSS: f64 = 0.1;
 
-/// A partition is renewed once its pivots have fallen below this share: steps should not reach those of lost rows.
+/// A partition is renewed once its pivots have fallen below this share: steps should not reach
+/// those of lost rows.
 const PARTITION_WORN: f64 = 0.5;
 
 /// Below this share of the reference pivots rows are delicate.
@@ -95,7 +97,8 @@ impl KeptRows {
         })
     }
 
-    /// Factors at the entries of C in the scratch. Rows that are dependent for an instant are left out, but not at the first time.
+    /// Factors at the entries of C in the scratch. Rows that are dependent for an instant are left
+    /// out, but not at the first time.
     pub(super) fn factor(&mut self, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
         let reference = self.reference();
         self.factor_above(PIVOT_SINGULAR, mechanism, s)?;
@@ -116,8 +119,9 @@ impl KeptRows {
         }
     }
 
-    /// Solves from now on for the coordinates that these rows determine best at the entries of C in the scratch, as multiples of what each is
-    /// known to; factors there, and returns the others, ascending.
+    /// Solves from now on for the coordinates that these rows determine best at the entries of C in
+    /// the scratch, as multiples of what each is known to; factors there, and returns the others,
+    /// ascending.
     pub(super) fn partition(
         &mut self,
         mechanism: &Mechanism,
@@ -172,7 +176,8 @@ impl KeptRows {
         }
     }
 
-    /// Overwrites the dependent entries of x so that `C·x = rhs`; of a row left out there would be none.
+    /// Overwrites the dependent entries of x so that `C·x = rhs`; of a row left out there would be
+    /// none.
     pub(super) fn complete(
         &mut self,
         mechanism: &Mechanism,
@@ -216,7 +221,8 @@ impl KeptRows {
         }
     }
 
-    /// Rows of the last factorisation that are dependent for an instant and were left out: their number.
+    /// Rows of the last factorisation that are dependent for an instant and were left out: their
+    /// number.
     pub(super) fn n_left_out(&self) -> usize {
         self.solver.n_left_out()
     }
@@ -226,7 +232,8 @@ impl KeptRows {
         self.solver.uses(k)
     }
 
-    /// Smallest pivot relative to that when the rows were chosen, whatever they are solved for; infinite without rows.
+    /// Smallest pivot relative to that when the rows were chosen, whatever they are solved for;
+    /// infinite without rows.
     pub(super) fn relative_pivot(&self) -> f64 {
         match self.reference_pivot {
             Some(reference) if reference.is_finite() => self.pivot_ratio() / reference,
@@ -239,8 +246,9 @@ impl KeptRows {
         self.relative_pivot() < DELICATE
     }
 
-    /// The largest coefficient by which a kept row enters a dropped one, at the entries of C in the scratch where the rows are freshly
-    /// factored: rounding of the kept rows reaches the dropped ones multiplied by it.
+    /// The largest coefficient by which a kept row enters a dropped one, at the entries of C in the
+    /// scratch where the rows are freshly factored: rounding of the kept rows reaches the dropped
+    /// ones multiplied by it.
     pub(super) fn largest_coefficient(&mut self, mechanism: &Mechanism, s: &Scratch) -> f64 {
         note(Counted::Coefficients);
         if self.solver.brings_multipliers() {
@@ -256,7 +264,8 @@ impl KeptRows {
         largest
     }
 
-    /// The same from two sums of all dropped rows with random signs: large mechanisms have thousands, each implied by a few rows of its own.
+    /// The same from two sums of all dropped rows with random signs: large mechanisms have
+    /// thousands, each implied by a few rows of its own.
     fn sampled_coefficient(&mut self, mechanism: &Mechanism, s: &Scratch) -> f64 {
         let mut largest = 0.0_f64;
         for seed in [1, 2] {
@@ -279,8 +288,9 @@ impl KeptRows {
         largest
     }
 
-    /// Size of row i, a dropped one, and of what the kept rows contribute to it: with `c_i = Σ T_ik·c_k` the sum of `scale(i)` and
-    /// `|T_ik|·scale(k)`. Rounding of these terms is what such a row may miss by. Needs the factorisation at the entries of C in the scratch.
+    /// Size of row i, a dropped one, and of what the kept rows contribute to it: with
+    /// `c_i = Σ T_ik·c_k` the sum of `scale(i)` and `|T_ik|·scale(k)`. Rounding of these terms is
+    /// what such a row may miss by. Needs the factorisation at the entries of C in the scratch.
     pub(super) fn implied_scale(
         &mut self,
         mechanism: &Mechanism,
@@ -313,7 +323,8 @@ impl KeptRows {
             .multipliers(&self.force, &self.motion, &mut self.lambda)
     }
 
-    /// Compares pivots from now on with what those of other rows were compared with: this place may be a singular one.
+    /// Compares pivots from now on with what those of other rows were compared with: this place may
+    /// be a singular one.
     pub(super) fn compare_as(&mut self, others: &Self) {
         self.reference_pivot = others.reference_pivot;
     }
@@ -345,7 +356,8 @@ impl KeptRows {
         self.is_far || self.solver.wants_refinement()
     }
 
-    /// Accelerations from `M·a + Cᵀ·λ = Q`, `C·a = rhs` with Q of the scratch, refined where plain ones may miss digits.
+    /// Accelerations from `M·a + Cᵀ·λ = Q`, `C·a = rhs` with Q of the scratch, refined where plain
+    /// ones may miss digits.
     pub(super) fn accelerate(
         &mut self,
         mechanism: &Mechanism,
@@ -369,7 +381,8 @@ impl KeptRows {
         }
     }
 
-    /// The λ that belongs to the accelerations a just found by [`KeptRows::accelerate`]; refined, they have come with them.
+    /// The λ that belongs to the accelerations a just found by [`KeptRows::accelerate`]; refined,
+    /// they have come with them.
     pub(super) fn find_multipliers(
         &mut self,
         mechanism: &Mechanism,
@@ -428,8 +441,8 @@ impl KeptRows {
         !self.dropped.is_empty() && self.relative_pivot() < PIVOT_LOSS
     }
 
-    /// Whether the rows imply the dropped ones by large coefficients, at the entries of C in the scratch, where they are freshly
-    /// factored.
+    /// Whether the rows imply the dropped ones by large coefficients, at the entries of C in the
+    /// scratch, where they are freshly factored.
     pub(super) fn are_poor(&mut self, mechanism: &Mechanism, s: &Scratch) -> bool {
         !self.dropped.is_empty() && self.largest_coefficient(mechanism, s) > LARGE_COEFFICIENT
     }
@@ -478,13 +491,14 @@ pub(super) fn mass_in_units(mechanism: &Mechanism, units: &[f64]) -> Vec<f64> {
     mass.map(|(unit, m)| unit * m * unit).collect()
 }
 
-/// Whether a mechanism of this size (m) is far larger or smaller than those of people: what is added up then, weights and centrifugal terms,
-/// differs by many powers of ten as well.
+/// Whether a mechanism of this size (m) is far larger or smaller than those of people: what is
+/// added up then, weights and centrifugal terms, differs by many powers of ten as well.
 pub(crate) fn is_far(size: f64) -> bool {
     !(1.0 / FAR..=FAR).contains(&size)
 }
 
-/// Bytes that a motion of a prepared mechanism takes at most, about: solvers for velocities and for positions, stages, and rows of output.
+/// Bytes that a motion of a prepared mechanism takes at most, about: solvers for velocities and for
+/// positions, stages, and rows of output.
 pub(crate) fn memory(prepared: &Prepared) -> usize {
     let mechanism = &prepared.mechanism;
     let units = units(mechanism, prepared.assembly.size);
@@ -506,14 +520,15 @@ pub(crate) fn is_sparse(prepared: &Prepared) -> bool {
     solver::is_sparse(&prepared.mechanism, &units, prepared.decision.kept.len())
 }
 
-/// The largest mass divided by the smallest that is not zero, moments of inertia divided by the square of the mechanism's size: the spread that
-/// decides whether solutions are refined.
+/// The largest mass divided by the smallest that is not zero, moments of inertia divided by the
+/// square of the mechanism's size: the spread that decides whether solutions are refined.
 pub(crate) fn mass_spread(prepared: &Prepared) -> f64 {
     let units = units(&prepared.mechanism, prepared.assembly.size);
     linalg::mass_spread(&mass_in_units(&prepared.mechanism, &units))
 }
 
-/// Why a solve at the instant of the scratch failed; `row_of` tells which row of C a row of the solver is.
+/// Why a solve at the instant of the scratch failed; `row_of` tells which row of C a row of the
+/// solver is.
 pub(super) fn trip(
     mechanism: &Mechanism,
     s: &Scratch,

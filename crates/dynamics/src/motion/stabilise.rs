@@ -1,5 +1,6 @@
-//! What is done about drift off the constraints: projection, or nothing. Without projection states stay as
-//! the integrator left them and residuals say so; kept rows are still watched, and redundancy is still checked at projected copies.
+//! What is done about drift off the constraints: projection, or nothing. Without projection states
+//! stay as the integrator left them and residuals say so; kept rows are still watched, and
+//! redundancy is still checked at projected copies.
 
 use model::System;
 
@@ -13,7 +14,8 @@ impl KeptRowMotion<'_> {
         self.chart.is_some() || self.stabilisation == Stabilisation::Projection
     }
 
-    /// Ends a step that passed its error test, which must not come nearer to a singular configuration than `nearest`.
+    /// Ends a step that passed its error test, which must not come nearer to a singular
+    /// configuration than `nearest`.
     ///
     /// # Errors
     /// As [`KeptRowMotion::project_step`].
@@ -41,7 +43,8 @@ impl KeptRowMotion<'_> {
         self.inspect(t, q, v)
     }
 
-    /// Ends a row of output: projects it, or says what it misses. Dropped rows are checked either way.
+    /// Ends a row of output: projects it, or says what it misses. Dropped rows are checked either
+    /// way.
     ///
     /// # Errors
     /// As [`Motion::project`].

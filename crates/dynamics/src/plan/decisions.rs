@@ -1,5 +1,5 @@
-//! The decisions about one component: each from a fact of its mechanism or its options, by the same question that the code asks which
-//! obeys it.
+//! The decisions about one component: each from a fact of its mechanism or its options, by the same
+//! question that the code asks which obeys it.
 
 use linalg::GRADED_MASSES;
 use model::{System, Work};
@@ -19,7 +19,8 @@ use crate::prepare::Prepared;
 pub struct Decisions {
     /// Its integrator.
     pub method: Decided<Method>,
-    /// Whether there is storage for linear systems of the integrator; it is made by the first step that needs it.
+    /// Whether there is storage for linear systems of the integrator; it is made by the first step
+    /// that needs it.
     pub linear_systems: Decided<bool>,
     /// Rows and columns of what is eliminated densely.
     pub elimination: Decided<[usize; 2]>,
@@ -41,7 +42,8 @@ pub struct Decisions {
     pub turning: Decided<usize>,
     /// Applied forces.
     pub forces: Decided<usize>,
-    /// Joints and drives whose reactions are computed at rows of output, among those of the component.
+    /// Joints and drives whose reactions are computed at rows of output, among those of the
+    /// component.
     pub reactions: Decided<Vec<usize>>,
 }
 
@@ -94,7 +96,8 @@ impl Decisions {
 
 fn linear_systems(method: Method, sizes: &Sizes) -> Decided<bool> {
     let (n, w) = (sizes.velocities, 2 * sizes.mobility());
-    // Derivatives along each independent entry, of [q; v]; the real system, and the complex one as a real one of twice the order.
+    // Derivatives along each independent entry, of [q; v]; the real system, and the complex one as
+    // a real one of twice the order.
     let reduced = 2 * w * 2 * n + w * w + 4 * w * w;
     let (value, taken, why, left_out) = match method {
         Method::Radau5 => (true, "on independent coordinates", "is implicit", 0),

@@ -1,4 +1,5 @@
-//! Taking a prepared mechanism apart into prepared components. Each has its share of the rows that were decided at the start of the whole.
+//! Taking a prepared mechanism apart into prepared components. Each has its share of the rows that
+//! were decided at the start of the whole.
 
 use model::start::scene_size;
 use model::{Assembly, Mechanism, Part, Places, System};
@@ -54,7 +55,8 @@ pub(super) fn stays(reason: String) -> (Decided<bool>, Vec<PreparedPart>) {
     (decided, Vec::new())
 }
 
-/// Multiply-adds of a dense elimination of r rows of n velocities, of which there may be fewer, and of what is left.
+/// Multiply-adds of a dense elimination of r rows of n velocities, of which there may be fewer, and
+/// of what is left.
 pub(super) fn elimination(mechanism: &Mechanism, r: usize) -> u64 {
     let (n, r) = (mechanism.layout().n_v as u64, r as u64);
     let (k, free) = (r.min(n), n.saturating_sub(r));

@@ -314,7 +314,8 @@ fn components_move_as_they_do_alone_and_each_at_its_own_pace() {
 
 #[test]
 fn the_first_component_to_stop_stops_all() {
-    // An arm of length 1 turns down, away from a rail at 0.8 that its rod of length 1 reaches as long as sin t < 0.2.
+    // An arm of length 1 turns down, away from a rail at 0.8 that its rod of length 1 reaches as
+    // long as sin t < 0.2.
     let p = scene(|d| {
         pendulum(d, "bob", 0.0);
         d.bodies.push(body("arm", [9.5, 0.0]));
@@ -436,7 +437,8 @@ fn a_component_does_not_work_for_another() {
     assert!(with == alone, "{} and {} of C", with.c, alone.c);
 }
 
-/// A block on a rail through the ground that rises by 0.6 in 1, pushed along it by a drive, with a weight that hangs from it.
+/// A block on a rail through the ground that rises by 0.6 in 1, pushed along it by a drive, with a
+/// weight that hangs from it.
 fn guided(d: &mut Description) {
     let axis = Direction::new([0.8, 0.6]).expect("a direction");
     let [block, held, bob] = [0, 1, 2].map(BodyRef::Body);

@@ -1,5 +1,6 @@
-//! Where nothing is free, the state is a function of time: stages are moved onto the constraints, and in a step none is evaluated twice at
-//! a time. For mechanisms with a freedom there is nothing of this.
+//! Where nothing is free, the state is a function of time: stages are moved onto the constraints,
+//! and in a step none is evaluated twice at a time. For mechanisms with a freedom there is nothing
+//! of this.
 
 use crate::error::Trip;
 use crate::options::MotionOptions;
@@ -17,8 +18,9 @@ pub(super) struct ByTime {
 }
 
 impl ByTime {
-    /// Room for derivatives in a run that evaluates them as functions of time. Where a run is on code, the interpreter is called near
-    /// singular configurations only, and there the integrator leads.
+    /// Room for derivatives in a run that evaluates them as functions of time. Where a run is on
+    /// code, the interpreter is called near singular configurations only, and there the integrator
+    /// leads.
     pub(super) fn for_run(prepared: &Prepared, options: &MotionOptions) -> Option<Self> {
         let is_interpreted = prepared.code_for(options).is_err();
         (is_interpreted && prepared.is_function_of_time(options)).then(Self::default)

@@ -1,4 +1,5 @@
-//! The balance of energy of a run: kinetic energy and potential of the weight against the work that was measured.
+//! The balance of energy of a run: kinetic energy and potential of the weight against the work that
+//! was measured.
 
 use model::Mechanism;
 
@@ -40,7 +41,8 @@ impl EnergyBalance {
     }
 }
 
-/// The larger of two numbers; NaN, an energy that has left the range of numbers, is larger than all.
+/// The larger of two numbers; NaN, an energy that has left the range of numbers, is larger than
+/// all.
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     match b > a || b.is_nan() {
         true => b,

@@ -1,5 +1,5 @@
-//! The differential equation of a run: y = [q; v], and the work of drives and applied forces where there are any. Steps are
-//! projected; where a rate jumps, so do the velocities.
+//! The differential equation of a run: y = [q; v], and the work of drives and applied forces where
+//! there are any. Steps are projected; where a rate jumps, so do the velocities.
 
 use std::ops::ControlFlow;
 
@@ -17,32 +17,34 @@ use crate::motion::{Correction, KeptRowMotion, Reduced};
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 
-/// Nearest approach of the end of a step to a singular configuration, as share of the reference pivots; and in units of the
-/// relative tolerance.
+/// Nearest approach of the end of a step to a singular configuration, as share of the reference
+/// pivots; and in units of the relative tolerance.
 const NEAREST: f64 = 1e-3;
 const NEAREST_TOLERANCES: f64 = 100.0;
 
 /// Loose tolerances must not keep a motion far from everything.
 const NEAREST_MAX: f64 = 0.1;
 
-/// Singular configurations are foreseen for so many steps like the last one: no method lets steps grow by more.
+/// Singular configurations are foreseen for so many steps like the last one: no method lets steps
+/// grow by more.
 const FORESIGHT: f64 = 12.0;
 
-/// Relative error of a step over a singular configuration that rounding may cause where steps are short; 1e-10 was not enough at 1e-10 where
-/// generated code is left on the way to one.
+/// Relative error of a step over a singular configuration that rounding may cause where steps are
+/// short; 1e-10 was not enough at 1e-10 where generated code is left on the way to one.
 const PASSED: f64 = 1e-9;
 
 /// Steps that end at a contradiction collapse within this share of the run before it.
 const JUST_AHEAD: f64 = 1e-9;
 
-/// Reactions are not told nearer to a singular configuration than this share of the reference pivots, or so many relative tolerances:
-/// a row off its motion by δ has reactions that are wrong by δ divided by that share.
+/// Reactions are not told nearer to a singular configuration than this share of the reference
+/// pivots, or so many relative tolerances: a row off its motion by δ has reactions that are wrong
+/// by δ divided by that share.
 const BLIND: f64 = 1e-6;
 const BLIND_TOLERANCES: f64 = 1e3;
 const BLIND_MAX: f64 = 1e-2;
 
-/// Largest relative correction of a step over a singular configuration, as share of the distance at which it ends: other branches are
-/// as far away as that.
+/// Largest relative correction of a step over a singular configuration, as share of the distance at
+/// which it ends: other branches are as far away as that.
 const SMOOTH: f64 = 0.01;
 
 /// The equations of a run with what is noted on the way.
@@ -73,7 +75,8 @@ pub(super) struct Equations<'m> {
     is_careful: bool,
     /// Derivatives by time, where nothing is free.
     by_time: Option<ByTime>,
-    /// Whether stages of the present step were evaluated by code that has been left since: it begins again.
+    /// Whether stages of the present step were evaluated by code that has been left since: it
+    /// begins again.
     is_void: bool,
     /// When the motion is expected to pass a singular configuration.
     delicate: Option<f64>,
@@ -135,20 +138,22 @@ impl<'m> Equations<'m> {
         y
     }
 
-    /// Whether stages are functions of time. On the way to a singular configuration, where branches meet, the integrator leads them.
+    /// Whether stages are functions of time. On the way to a singular configuration, where branches
+    /// meet, the integrator leads them.
     fn is_by_time(&self) -> bool {
         self.by_time.is_some() && self.delicate.is_none()
     }
 
-    /// Whether the next stages have to be moved onto the constraints: near singular configurations, and where they become functions of time
-    /// by that. On a chart all of them lie there; without projection none shall.
+    /// Whether the next stages have to be moved onto the constraints: near singular configurations,
+    /// and where they become functions of time by that. On a chart all of them lie there; without
+    /// projection none shall.
     fn wants_care(&self) -> bool {
         let off = self.motion.projects() && self.motion.independent().is_none();
         off && (self.is_by_time() || self.motion.is_delicate())
     }
 
-    /// The work is measured, not controlled: its error has no weight. It still counts as a component of the mean, which makes the
-    /// control looser by the factor √((n + 1)/n).
+    /// The work is measured, not controlled: its error has no weight. It still counts as a
+    /// component of the mean, which makes the control looser by the factor √((n + 1)/n).
     pub(super) fn tolerance(&self, options: &MotionOptions) -> Tolerance {
         if !self.works {
             return Tolerance::Uniform {
@@ -180,7 +185,8 @@ impl<'m> Equations<'m> {
         }
     }
 
-    /// Projects a row of output, where states are projected, and shows it. At a break time it is the state just before.
+    /// Projects a row of output, where states are projected, and shows it. At a break time it is
+    /// the state just before.
     pub(super) fn show(
         &mut self,
         t: f64,
@@ -253,8 +259,8 @@ impl<'m> Equations<'m> {
         has_collapsed && self.motion.is_delicate()
     }
 
-    /// The dropped row because of which steps have collapsed at time t: the ever smaller ones on this side of a contradiction are good, and
-    /// say nothing of it.
+    /// The dropped row because of which steps have collapsed at time t: the ever smaller ones on
+    /// this side of a contradiction are good, and say nothing of it.
     pub(super) fn contradiction(&mut self, error: &IntegrationError<Trip>, t: f64) -> Option<Trip> {
         let has_collapsed = matches!(error, IntegrationError::StepSizeCollapsed { .. });
         let (end, trip) = self.contradicted.take().filter(|_| has_collapsed)?;
@@ -309,7 +315,8 @@ impl<'m> Equations<'m> {
         })
     }
 
-    /// If code was left: the interpreter goes on from the last accepted state as if it had led there.
+    /// If code was left: the interpreter goes on from the last accepted state as if it had led
+    /// there.
     fn note_departure(&mut self) {
         let Some(departure) = self.motion.take_departure() else {
             return;
@@ -363,7 +370,8 @@ impl<'m> Equations<'m> {
     }
 }
 
-/// A row of output y = [q; v; …] has finite numbers: between the finite ends of a step, sums may leave their range.
+/// A row of output y = [q; v; …] has finite numbers: between the finite ends of a step, sums may
+/// leave their range.
 fn finite(mechanism: &Mechanism, t: f64, y: &[f64]) -> Result<(), Trip> {
     let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
     let y = &y[..n_q + n_v];

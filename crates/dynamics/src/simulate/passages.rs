@@ -1,5 +1,5 @@
-//! Records the singular configurations that the steps of a run have passed: when, by how many rows the rank drops, and whether the
-//! motion is unique there.
+//! Records the singular configurations that the steps of a run have passed: when, by how many rows
+//! the rank drops, and whether the motion is unique there.
 
 use integrators::Step;
 use model::System;
@@ -14,7 +14,8 @@ const STATES: usize = 8;
 /// Rows up to which the motion is judged: determinants at many instants grow with their cube.
 const JUDGED_MOST: usize = 64;
 
-/// Passages of one step that are told at most, and what they are apart at least, as share of the step.
+/// Passages of one step that are told at most, and what they are apart at least, as share of the
+/// step.
 const MOST: usize = 8;
 const BESIDE: f64 = 0.02;
 
@@ -26,7 +27,8 @@ pub(super) fn note(step: &mut Step<'_, Equations<'_>>) {
     for singular in found(step) {
         // Passages of one kind are of one kind also later.
         if step.ode().uniqueness_of(singular.dependent).is_none() {
-            // Second order is not asked where it has no answer, or where that takes longer than the run.
+            // Second order is not asked where it has no answer, or where that takes longer than the
+            // run.
             let motion = &step.ode().motion;
             let kernel = motion.mobility() + singular.dependent;
             let rows = motion.mechanism().layout().rows();
@@ -44,7 +46,8 @@ pub(super) fn note(step: &mut Step<'_, Equations<'_>>) {
     }
 }
 
-/// The singular configurations within a step, in order: where one is found, both sides of it are looked at, too.
+/// The singular configurations within a step, in order: where one is found, both sides of it are
+/// looked at, too.
 fn found(step: &mut Step<'_, Equations<'_>>) -> Vec<Singular> {
     let noise = step.ode().passage_noise();
     let mut search = step.ode().motion.search();

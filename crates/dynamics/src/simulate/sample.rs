@@ -74,8 +74,8 @@ impl Sample<'_, '_> {
         }
     }
 
-    /// Multipliers of all rows as [`Motion::multipliers`] gives them, NaN for rows of joints and drives whose reactions the plan leaves
-    /// out; allocates.
+    /// Multipliers of all rows as [`Motion::multipliers`] gives them, NaN for rows of joints and
+    /// drives whose reactions the plan leaves out; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.
@@ -86,8 +86,9 @@ impl Sample<'_, '_> {
         }
     }
 
-    /// Reactions of all joints and drives in the order of their rows; those that the plan leaves out are NaN. Those of non-unique joints
-    /// belong to the choice of this run (its kept rows) and to no other; allocates.
+    /// Reactions of all joints and drives in the order of their rows; those that the plan leaves
+    /// out are NaN. Those of non-unique joints belong to the choice of this run (its kept rows) and
+    /// to no other; allocates.
     ///
     /// # Errors
     /// If the equations have no unique solution here.

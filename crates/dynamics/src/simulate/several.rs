@@ -1,6 +1,7 @@
-//! Components that do not feel each other, run at the same time: each on its own thread with its own method, steps, events and break
-//! times. Each computes what the plan wants at its rows and runs ahead of the others by some rows at most; rows are shown once all have
-//! reached them. Not here: who belongs to which component (`plan::split`).
+//! Components that do not feel each other, run at the same time: each on its own thread with its
+//! own method, steps, events and break times. Each computes what the plan wants at its rows and
+//! runs ahead of the others by some rows at most; rows are shown once all have reached them. Not
+//! here: who belongs to which component (`plan::split`).
 
 use std::ops::ControlFlow;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -98,7 +99,8 @@ fn tell(sample: &mut Sample<'_, '_>, told: &SyncSender<Row>) -> ControlFlow<()> 
     }
 }
 
-/// Shows rows as long as all components reach them and more are wanted. Why it was stopped by a row, if it was.
+/// Shows rows as long as all components reach them and more are wanted. Why it was stopped by a
+/// row, if it was.
 fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Trip> {
     let mechanism = &plan.prepared().mechanism;
     let layout = mechanism.layout();

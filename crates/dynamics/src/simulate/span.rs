@@ -1,11 +1,13 @@
-//! Is a row of output where the step around it leads? Between the ends of a step nothing is checked by the error test: near a singular
-//! configuration dense output, or the completion of its independent entries, may be on another branch, on the constraints all the same.
+//! Is a row of output where the step around it leads? Between the ends of a step nothing is checked
+//! by the error test: near a singular configuration dense output, or the completion of its
+//! independent entries, may be on another branch, on the constraints all the same.
 
 use model::{Mechanism, System};
 
 use crate::error::Trip;
 
-/// A row may lie so far from the cubic through both ends of its step, as share of the way of the step, and beside.
+/// A row may lie so far from the cubic through both ends of its step, as share of the way of the
+/// step, and beside.
 const LED: f64 = 0.25;
 const LED_AT_REST: f64 = 1e-3;
 
@@ -27,7 +29,8 @@ pub(super) struct Span {
 struct Sizes {
     /// The longest way along a column of C, in its unit.
     way: f64,
-    /// Momentum, in the metric of the masses: what the velocities of the step are, and what going that way evenly would need.
+    /// Momentum, in the metric of the masses: what the velocities of the step are, and what going
+    /// that way evenly would need.
     speed: f64,
     mean: f64,
 }

@@ -12,7 +12,8 @@ use crate::options::Method;
 pub struct Summary {
     /// Last time reached (s).
     pub t: f64,
-    /// The integrator: the one asked for, or the one chosen; `auto` where components have different ones.
+    /// The integrator: the one asked for, or the one chosen; `auto` where components have different
+    /// ones.
     pub method: Method,
     /// Accepted steps.
     pub steps: u64,
@@ -30,14 +31,16 @@ pub struct Summary {
     pub max_position_residual: f64,
     /// Largest |C·v − b| at accepted steps and written rows.
     pub max_velocity_residual: f64,
-    /// Largest |E − E₀ − work of drives and applied forces| relative to the largest kinetic energy. Of components run apart, at least
-    /// that: the sum of their largest gaps relative to the largest of their largest kinetic energies.
+    /// Largest |E − E₀ − work of drives and applied forces| relative to the largest kinetic energy.
+    /// Of components run apart, at least that: the sum of their largest gaps relative to the
+    /// largest of their largest kinetic energies.
     pub energy_balance: f64,
     /// Largest |E − E₀ − work| (J).
     pub energy_gap: f64,
     /// Largest kinetic energy (J); of components run apart the largest of theirs.
     pub largest_kinetic_energy: f64,
-    /// Smallest pivot ratio of the kept rows at the start and at accepted steps that were interpreted.
+    /// Smallest pivot ratio of the kept rows at the start and at accepted steps that were
+    /// interpreted.
     pub min_pivot_ratio: f64,
     /// What happened on the way.
     pub events: Vec<Event>,
@@ -69,8 +72,9 @@ pub struct Failure {
 }
 
 impl Summary {
-    /// The numbers of the whole: sums of work, the worst residuals, all events by their times. It has reached what all components have.
-    /// `dropped` are the rows that each component dropped at the start, counted there.
+    /// The numbers of the whole: sums of work, the worst residuals, all events by their times. It
+    /// has reached what all components have. `dropped` are the rows that each component dropped at
+    /// the start, counted there.
     pub(super) fn of_components(
         components: Vec<ComponentSummary>,
         dropped: &[&[usize]],
@@ -105,7 +109,8 @@ impl Summary {
     }
 }
 
-/// Events of components in the order of time, with the rows and the degree of redundancy that the whole has then.
+/// Events of components in the order of time, with the rows and the degree of redundancy that the
+/// whole has then.
 fn events(components: &[ComponentSummary], dropped: &[&[usize]]) -> Vec<Event> {
     let of_whole = |k: usize, rows: &[usize]| -> Vec<usize> {
         rows.iter().map(|&i| components[k].places.rows[i]).collect()
@@ -171,7 +176,8 @@ mod tests {
 
     #[test]
     fn events_of_components_are_told_with_the_rows_of_the_whole() {
-        // Rows 0, 2, 4 of which the second is dropped at first, and rows 1, 3 of which the first is.
+        // Rows 0, 2, 4 of which the second is dropped at first, and rows 1, 3 of which the first
+        // is.
         let components = vec![
             component(
                 &[0, 2, 4],

@@ -45,7 +45,8 @@ impl Mul for Complex {
 impl Div for Complex {
     type Output = Self;
 
-    /// Smith's formula: neither |b|² nor its inverse is formed, so that nothing overflows before the quotient does.
+    /// Smith's formula: neither |b|² nor its inverse is formed, so that nothing overflows before
+    /// the quotient does.
     fn div(self, b: Self) -> Self {
         if b.re.abs() >= b.im.abs() {
             let ratio = b.im / b.re;

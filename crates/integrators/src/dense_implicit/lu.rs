@@ -1,4 +1,5 @@
-//! LU decomposition with partial pivoting of a dense real or complex matrix: P·A = L·U, row by row in one array.
+//! LU decomposition with partial pivoting of a dense real or complex matrix: P·A = L·U, row by row
+//! in one array.
 //!
 //! For the few unknowns of plain problems; nothing is blocked or scaled.
 
@@ -44,8 +45,8 @@ impl<T: Scalar> Lu<T> {
         }
     }
 
-    /// Decomposes the matrix with the entries `entry(row, column)`. `Err(k)`: no pivot in column k, none is different from zero and
-    /// finite.
+    /// Decomposes the matrix with the entries `entry(row, column)`. `Err(k)`: no pivot in column k,
+    /// none is different from zero and finite.
     pub(crate) fn factor(&mut self, entry: impl Fn(usize, usize) -> T) -> Result<(), usize> {
         let n = self.n;
         for (i, row) in self.a.chunks_exact_mut(n.max(1)).enumerate() {

@@ -1,4 +1,5 @@
-//! A plain problem made [`Implicit`]: dense Jacobian, by a formula or by differences, and dense LU decompositions.
+//! A plain problem made [`Implicit`]: dense Jacobian, by a formula or by differences, and dense LU
+//! decompositions.
 
 mod complex;
 pub(crate) mod lu;
@@ -41,7 +42,8 @@ pub struct DenseImplicit<O, J> {
 
 /// How to compute the Jacobian of a problem `O`: a closure `f(t, y, j)`, or [`Differences`].
 pub trait Jacobian<O: Ode> {
-    /// Writes J = ∂f/∂y at (t, y) to `j`, n×n row by row: `j[i·n + k]` = ∂f_i/∂y_k. On entry `j` holds the last J.
+    /// Writes J = ∂f/∂y at (t, y) to `j`, n×n row by row: `j[i·n + k]` = ∂f_i/∂y_k. On entry `j`
+    /// holds the last J.
     ///
     /// # Errors
     ///
@@ -56,7 +58,8 @@ impl<O: Ode, F: FnMut(f64, &[f64], &mut [f64])> Jacobian<O> for F {
     }
 }
 
-/// Forward differences with increments `√(eps·max(10⁻⁵, |y_k|))`, as in the program RADAU5: n + 1 evaluations of f.
+/// Forward differences with increments `√(eps·max(10⁻⁵, |y_k|))`, as in the program RADAU5: n + 1
+/// evaluations of f.
 #[derive(Debug, Clone, Default)]
 pub struct Differences {
     y: Vec<f64>,

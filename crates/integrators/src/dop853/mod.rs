@@ -1,7 +1,8 @@
-//! Dormand–Prince 8(5,3): twelve stages, order 8, error estimates of order 5 and 3 combined, dense output of order 6 and 8.
+//! Dormand–Prince 8(5,3): twelve stages, order 8, error estimates of order 5 and 3 combined, dense
+//! output of order 6 and 8.
 //!
-//! Source: the program DOP853 of E. Hairer and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I,
-//! 2nd ed., II.5, II.10. The dense outputs are of our own making.
+//! Source: the program DOP853 of E. Hairer and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary
+//! Differential Equations I, 2nd ed., II.5, II.10. The dense outputs are of our own making.
 
 mod dense;
 mod step;
@@ -15,9 +16,10 @@ use crate::method::Method;
 use crate::ode::Ode;
 use tableau::{STAGES, STEP_STAGES};
 
-/// Dormand–Prince 8(5,3): the method for smooth problems at 1e-6 and below. Order 8; an accepted step costs twelve evaluations, the
-/// derivative at its end included, a rejected one eleven. Dense output of order 6 (local error O(h⁷)) without and of order 8
-/// (local error O(h⁹), like the step) with six extra evaluations in the step.
+/// Dormand–Prince 8(5,3): the method for smooth problems at 1e-6 and below. Order 8; an accepted
+/// step costs twelve evaluations, the derivative at its end included, a rejected one eleven. Dense
+/// output of order 6 (local error O(h⁷)) without and of order 8 (local error O(h⁹), like the step)
+/// with six extra evaluations in the step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Dop853;
 
@@ -38,7 +40,8 @@ const CONTROL: ControlConstants = ControlConstants {
     max_factor: 6.0,
 };
 
-/// Stages and scratch; stages 1 and 13 are the derivatives at the ends of the step, kept by the caller.
+/// Stages and scratch; stages 1 and 13 are the derivatives at the ends of the step, kept by the
+/// caller.
 #[derive(Debug)]
 pub struct Stages {
     control: Control,

@@ -4,7 +4,8 @@ use super::dense::weights;
 use super::tableau::{A, C, D, E3, E5, FREE, STAGES, STEP_STAGES};
 use crate::trees::{error_size, violation};
 
-/// Rounding of sums of up to 12 products of size ≤ 50, with weights ≤ 6; in 40 digits the rounded table has defects ≤ 7.2e-16.
+/// Rounding of sums of up to 12 products of size ≤ 50, with weights ≤ 6; in 40 digits the rounded
+/// table has defects ≤ 7.2e-16.
 const TOLERANCE: f64 = 1e-14;
 /// The same for the dense outputs, whose coefficients go up to 2690 with a factor of at most 1/256.
 const DENSE_TOLERANCE: f64 = 3e-14;
@@ -110,7 +111,8 @@ fn accurate_output_is_as_accurate_as_the_step() {
     );
 }
 
-/// Rounding is not amplified: sums of the weights of the accurate output (12.907 at the end of the step) and of its stages.
+/// Rounding is not amplified: sums of the weights of the accurate output (12.907 at the end of the
+/// step) and of its stages.
 #[test]
 fn weights_of_the_accurate_output_are_small() {
     let size = |b: &[f64; STAGES]| b.iter().map(|b| b.abs()).sum::<f64>();

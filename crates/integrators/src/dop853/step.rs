@@ -149,8 +149,8 @@ impl<O: Ode> Stepper<O> for Stages {
         Ok(())
     }
 
-    /// `h·err5·(err5 / √(err5² + 0.01·err3²))` in the norm: the estimate of order 5 times a factor of about h², so that the whole behaves
-    /// like h⁸; HNW I, II.10, (10.17).
+    /// `h·err5·(err5 / √(err5² + 0.01·err3²))` in the norm: the estimate of order 5 times a factor
+    /// of about h², so that the whole behaves like h⁸; HNW I, II.10, (10.17).
     fn error_norm(
         &mut self,
         _ode: &mut O,

@@ -1,19 +1,21 @@
 //! The solution inside an accepted step.
 //!
-//! **Order 4** (local error O(h⁵)). The collocation polynomial p of degree 3 through y0, Y₁, Y₂, Y₃ has the right derivative at the
-//! nodes, not at the start. The quartic
+//! **Order 4** (local error O(h⁵)). The collocation polynomial p of degree 3 through y0, Y₁, Y₂, Y₃
+//! has the right derivative at the nodes, not at the start. The quartic
 //!
 //! ```text
 //! u(θ) = p(θ) + D·φ(θ) + θ²(3 − 2θ)·c,   φ(θ) = ∫₀^θ (s − c₁)(s − c₂)(s − 1)/(−c₁c₂) ds
 //! ```
 //!
-//! mends the start with its defect D = h·f0 − p'(0) and leaves the rest as it is: φ(1) = 0, because the Radau quadrature is exact for
-//! cubics, and φ' = 0 at the nodes. c is what a projection has added to y1.
-//! A stiff problem turns the rounding of y0 into a large D; so D is filtered by (I − h/u₁·J)⁻¹, which changes it by O(h⁵) where the
-//! problem is smooth. It is the error estimate (times u₁), already known.
+//! mends the start with its defect D = h·f0 − p'(0) and leaves the rest as it is: φ(1) = 0, because
+//! the Radau quadrature is exact for cubics, and φ' = 0 at the nodes. c is what a projection has
+//! added to y1. A stiff problem turns the rounding of y0 into a large D; so D is filtered by (I −
+//! h/u₁·J)⁻¹, which changes it by O(h⁵) where the problem is smooth. It is the error estimate
+//! (times u₁), already known.
 //!
-//! **Order 5** (local error O(h⁶)). u plus the quintic whose derivative takes the defects of u, `h·f(t, u) − u'`, filtered likewise, at θ = 0, ¼, ¾ and 1, and
-//! that vanishes at both ends; two extra evaluations (the same idea as in `dopri5`).
+//! **Order 5** (local error O(h⁶)). u plus the quintic whose derivative takes the defects of u,
+//! `h·f(t, u) − u'`, filtered likewise, at θ = 0, ¼, ¾ and 1, and that vanishes at both ends; two
+//! extra evaluations (the same idea as in `dopri5`).
 
 use super::Stages;
 use super::newton::dot;
@@ -132,7 +134,8 @@ pub(super) fn start_weight_derivative(theta: f64) -> f64 {
     (theta - a) * (theta - b) * (theta - 1.0) / (-a * b)
 }
 
-/// The polynomials of degree 5 that vanish at θ = 0 and 1 and are dual to the derivatives at the four places.
+/// The polynomials of degree 5 that vanish at θ = 0 and 1 and are dual to the derivatives at the
+/// four places.
 pub(super) fn defect_weights(theta: f64) -> [f64; 4] {
     let x = theta;
     let rest = 1.0 - x;

@@ -1,8 +1,10 @@
-//! Radau IIA of order 5: implicit, three stages, collocation at the Radau nodes, for stiff problems.
+//! Radau IIA of order 5: implicit, three stages, collocation at the Radau nodes, for stiff
+//! problems.
 //!
-//! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., IV.5 (method) and IV.8 (implementation), whose
-//! program RADAU5 also gave the constants. Deviations: the Jacobian is renewed before a step is given up, and the dense output has a
-//! higher order (see `dense`).
+//! Source: E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, 2nd ed., IV.5 (method)
+//! and IV.8 (implementation), whose program RADAU5 also gave the constants. Deviations: the
+//! Jacobian is renewed before a step is given up, and the dense output has a higher order (see
+//! `dense`).
 
 mod dense;
 mod newton;
@@ -20,12 +22,14 @@ use crate::method::Method;
 
 /// Radau IIA of order 5 with simplified Newton iterations, for stiff problems.
 ///
-/// L-stable. The error estimate is of order 3: it is compared with `0.1·ρ^(−1/3)` times the tolerance, ρ ≤ 10⁻³ being the relative
-/// tolerance, so that the error of the step, which is of order 5, follows the tolerance. Tolerances below 100 units of rounding of the
-/// state are taken as 100: stiff forces turn rounding into noise.
+/// L-stable. The error estimate is of order 3: it is compared with `0.1·ρ^(−1/3)` times the
+/// tolerance, ρ ≤ 10⁻³ being the relative tolerance, so that the error of the step, which is of
+/// order 5, follows the tolerance. Tolerances below 100 units of rounding of the state are taken as
+/// 100: stiff forces turn rounding into noise.
 ///
-/// Dense output of order 4 (local error O(h⁵)) without and of order 5 (local error O(h⁶), like the step) with two extra evaluations in
-/// the step. It is continuous; at the ends of steps its derivative has jumps of the size of its error.
+/// Dense output of order 4 (local error O(h⁵)) without and of order 5 (local error O(h⁶), like the
+/// step) with two extra evaluations in the step. It is continuous; at the ends of steps its
+/// derivative has jumps of the size of its error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Radau5;
 

@@ -24,7 +24,8 @@ use crate::statistics::Statistics;
 /// Iterations stop where their increments are this many units of rounding of the state.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
 impl Stages {
-    /// Starting values: the collocation polynomial of the last step, continued; zero where there is none.
+    /// Starting values: the collocation polynomial of the last step, continued; zero where there is
+    /// none.
     pub(super) fn predict(&mut self, h: f64) {
         let Some(h_before) = self.h_before else {
             for v in self.z.iter_mut().chain(&mut self.w) {
@@ -42,7 +43,8 @@ impl Stages {
         combine(&T_INVERSE, &self.z, &mut self.w);
     }
 
-    /// Iterates until `z` is as accurate as the tolerance asks, or will not become so. An error of f at a stage is an error of the trial.
+    /// Iterates until `z` is as accurate as the tolerance asks, or will not become so. An error of
+    /// f at a stage is an error of the trial.
     pub(super) fn solve_stages<O: Implicit>(
         &mut self,
         ode: &mut O,
@@ -106,7 +108,8 @@ impl Stages {
             .map_err(|component| Cause::NonFinite { component })
     }
 
-    /// Weighted norm of the last increments, with the present end of the step in the weights, and how large it may be at the end.
+    /// Weighted norm of the last increments, with the present end of the step in the weights, and
+    /// how large it may be at the end.
     fn increment_norm(&mut self, start: &Start<'_>) -> (f64, f64) {
         for ((y, y0), z) in self.y.iter_mut().zip(start.y0).zip(&self.z[2]) {
             *y = y0 + z;

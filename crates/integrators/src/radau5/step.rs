@@ -12,7 +12,8 @@ use crate::implicit::Implicit;
 use crate::method::{Start, Stepper, Trial, widest_gap};
 use crate::statistics::Statistics;
 
-/// Factors serve a step whose size differs by less than this part: Newton's method then loses no more than a good rate.
+/// Factors serve a step whose size differs by less than this part: Newton's method then loses no
+/// more than a good rate.
 const SAME_SIZE: f64 = 1e-3;
 /// A step that could grow by less than this factor keeps its size and with it the factors.
 const WORTH_GROWING: f64 = 1.2;
@@ -165,8 +166,9 @@ impl<O: Implicit> Stepper<O> for Stages {
         self.filter_twice = true;
     }
 
-    /// The smaller of two proposals: the classical one, and the predictive one of Gustafsson, which continues the trend of the error.
-    /// Many iterations count like a larger error. A size that would hardly change is kept, and the factors with it.
+    /// The smaller of two proposals: the classical one, and the predictive one of Gustafsson, which
+    /// continues the trend of the error. Many iterations count like a larger error. A size that
+    /// would hardly change is kept, and the factors with it.
     fn after_acceptance(&mut self, h: f64, error_norm: f64) -> f64 {
         let effort = self.effort();
         let mut next = self.control.accept(h, error_norm * effort.powi(4));
@@ -204,7 +206,8 @@ impl<O: Implicit> Stepper<O> for Stages {
 }
 
 impl Stages {
-    /// (n + 2·n_max)/(1 + 2·n_max) for n iterations: what the last step cost over what it might have cost.
+    /// (n + 2·n_max)/(1 + 2·n_max) for n iterations: what the last step cost over what it might
+    /// have cost.
     fn effort(&self) -> f64 {
         let (n, n_max) = (
             f64::from(self.convergence.iterations),

@@ -1,4 +1,5 @@
-//! The coefficients: nodes, the transformation that makes A⁻¹ block diagonal, the collocation polynomial.
+//! The coefficients: nodes, the transformation that makes A⁻¹ block diagonal, the collocation
+//! polynomial.
 //!
 //! Checked by `tests` against the matrix A that the nodes define.
 
@@ -47,14 +48,16 @@ pub(super) const T_INVERSE: [[f64; 3]; 3] = [
     ],
 ];
 
-/// `E_i = −L_i'(0)`: h·f0 + Σ E_i·z_i is the defect of the collocation polynomial at the start, the estimated error of order 3.
+/// `E_i = −L_i'(0)`: h·f0 + Σ E_i·z_i is the defect of the collocation polynomial at the start, the
+/// estimated error of order 3.
 pub(super) const E: [f64; 3] = [
     -(13.0 + 7.0 * SQRT_6) / 3.0,
     (-13.0 + 7.0 * SQRT_6) / 3.0,
     -1.0 / 3.0,
 ];
 
-/// Values at θ of the Lagrange polynomials L_i of the nodes 0, c₁, c₂, 1, without the one of 0: u(θ) = y0 + Σ L_i(θ)·z_i.
+/// Values at θ of the Lagrange polynomials L_i of the nodes 0, c₁, c₂, 1, without the one of 0:
+/// u(θ) = y0 + Σ L_i(θ)·z_i.
 pub(super) fn lagrange(theta: f64) -> [f64; 3] {
     let [a, b, _] = C;
     let x = theta;

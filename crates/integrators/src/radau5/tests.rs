@@ -1,4 +1,5 @@
-//! The method itself, free of step control: its coefficients, its stability function, its order, its dense output.
+//! The method itself, free of step control: its coefficients, its stability function, its order,
+//! its dense output.
 
 use super::Stages;
 use super::dense::{defect_weights, start_weight, start_weight_derivative};
@@ -25,7 +26,8 @@ fn assert_near(a: &Matrix, b: &Matrix, tolerance: f64) {
     }
 }
 
-/// A from its definition, Σ_j a_ij·c_j^k = c_i^(k+1)/(k+1) for k = 0, 1, 2, in the closed form of Hairer, Wanner II, table IV.5.6.
+/// A from its definition, Σ_j a_ij·c_j^k = c_i^(k+1)/(k+1) for k = 0, 1, 2, in the closed form of
+/// Hairer, Wanner II, table IV.5.6.
 fn a() -> Matrix {
     let s = 6.0_f64.sqrt();
     [
@@ -74,7 +76,8 @@ fn polynomials_are_dual_to_their_places() {
         assert!((e + l).abs() < 1e-14);
     }
     assert!(start_weight(1.0).abs() < 1e-15);
-    // The weights of the defects by their Taylor polynomials: six differences determine the derivative of a quintic.
+    // The weights of the defects by their Taylor polynomials: six differences determine the
+    // derivative of a quintic.
     let derivative = |theta: f64, k: usize| {
         let d = |h: f64| defect_weights(theta + h)[k] - defect_weights(theta - h)[k];
         (1.5 * d(0.25) - 0.3 * d(0.5) + d(0.75) / 30.0) / 0.5
@@ -115,7 +118,8 @@ where
         }
     }
 
-    /// From t over h, at full accuracy; `inside` are the two dense outputs at θ. Returns the size of the estimated error.
+    /// From t over h, at full accuracy; `inside` are the two dense outputs at θ. Returns the size
+    /// of the estimated error.
     fn step(&mut self, t: f64, h: f64, theta: f64, inside: &mut [Vec<f64>; 2]) -> f64 {
         let legs = Interval::new(t, t + h)
             .legs::<Infallible>()
@@ -166,8 +170,8 @@ where
     }
 }
 
-/// One step of size 1 on y' = z·y multiplies y by R(z) = (1 + 2z/5 + z²/20)/(1 − 3z/5 + 3z²/20 − z³/60), the (2, 3) Padé approximation of
-/// the exponential (Hairer, Wanner II, IV.3).
+/// One step of size 1 on y' = z·y multiplies y by R(z) = (1 + 2z/5 + z²/20)/(1 − 3z/5 + 3z²/20 −
+/// z³/60), the (2, 3) Padé approximation of the exponential (Hairer, Wanner II, IV.3).
 #[test]
 fn one_linear_step_is_the_stability_function() {
     for (re, im) in [
@@ -204,9 +208,11 @@ fn one_linear_step_is_the_stability_function() {
     }
 }
 
-/// Largest errors over [0, 2] with n steps: at the ends, of both outputs at θ = 0.4, and the largest estimate.
+/// Largest errors over [0, 2] with n steps: at the ends, of both outputs at θ = 0.4, and the
+/// largest estimate.
 fn errors(n: u32) -> [f64; 4] {
-    // y₁' = y₂·cos t, y₂' = −y₁·cos t + (1 − y₁² − y₂²)·y₂: (sin s, cos s) with s = sin t, nonlinear in y and dependent on t.
+    // y₁' = y₂·cos t, y₂' = −y₁·cos t + (1 − y₁² − y₂²)·y₂: (sin s, cos s) with s = sin t,
+    // nonlinear in y and dependent on t.
     let f = |t: f64, y: &[f64], dy: &mut [f64]| {
         let excess = 1.0 - y[0] * y[0] - y[1] * y[1];
         dy.copy_from_slice(&[
@@ -236,7 +242,8 @@ fn errors(n: u32) -> [f64; 4] {
     largest
 }
 
-/// Ends and accurate output: order 5; cheap output: local error O(h⁵); estimate: O(h⁴), as one of order 3.
+/// Ends and accurate output: order 5; cheap output: local error O(h⁵); estimate: O(h⁴), as one of
+/// order 3.
 #[test]
 fn orders_of_the_step_its_outputs_and_its_estimate() {
     let runs = [16, 32, 64].map(errors);

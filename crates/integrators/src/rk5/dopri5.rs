@@ -1,14 +1,16 @@
-//! Dormand–Prince 5(4): the coefficients, as printed in the paper's table 2 and in Hairer, Nørsett, Wanner I, 2nd ed.,
-//! table II.5.2. Checked by `order_conditions`, which knows trees but no table.
+//! Dormand–Prince 5(4): the coefficients, as printed in the paper's table 2 and in Hairer, Nørsett,
+//! Wanner I, 2nd ed., table II.5.2. Checked by `order_conditions`, which knows trees but no table.
 //!
-//! Source: J. R. Dormand, P. J. Prince, A family of embedded Runge–Kutta formulae, J. Comput. Appl. Math. 6 (1980) 19–26,
-//! DOI 10.1016/0771-050X(80)90013-3. Dense output: L. F. Shampine, Some practical Runge–Kutta formulas, Math. Comp. 46 (1986)
-//! 135–150, in the form of Hairer, Nørsett, Wanner I, 2nd ed., II.6.
+//! Source: J. R. Dormand, P. J. Prince, A family of embedded Runge–Kutta formulae, J. Comput. Appl.
+//! Math. 6 (1980) 19–26, DOI 10.1016/0771-050X(80)90013-3. Dense output: L. F. Shampine, Some
+//! practical Runge–Kutta formulas, Math. Comp. 46 (1986) 135–150, in the form of Hairer, Nørsett,
+//! Wanner I, 2nd ed., II.6.
 
 use super::Tableau;
 
-/// Dormand–Prince 5(4), seven stages, the last one reused; known as `ode45`. Order 5. Dense output of order 4
-/// (local error O(h⁵)) without and of order 5 (local error O(h⁶), like the step) with two extra evaluations in the step.
+/// Dormand–Prince 5(4), seven stages, the last one reused; known as `ode45`. Order 5. Dense output
+/// of order 4 (local error O(h⁵)) without and of order 5 (local error O(h⁶), like the step) with
+/// two extra evaluations in the step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Dopri5;
 

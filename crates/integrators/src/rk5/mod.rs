@@ -1,4 +1,5 @@
-//! Pairs of order 5(4) with seven stages of which the last is the first of the next step: one implementation, two tables.
+//! Pairs of order 5(4) with seven stages of which the last is the first of the next step: one
+//! implementation, two tables.
 
 mod dense;
 mod dopri5;
@@ -53,7 +54,8 @@ const CONTROL: ControlConstants = ControlConstants {
     max_factor: 10.0,
 };
 
-/// Stages and scratch; the first stage is the derivative at the start of the step, kept by the caller.
+/// Stages and scratch; the first stage is the derivative at the start of the step, kept by the
+/// caller.
 #[derive(Debug)]
 pub struct Stages<T> {
     control: Control,

@@ -8,8 +8,8 @@ use integrators::{
 };
 use std::ops::ControlFlow;
 
-/// Output of the Fortran program DOPRI5 of E. Hairer and G. Wanner for its example at rtol = atol = 1e-7, as quoted in the
-/// examples of the R package deSolve: time, x, y.
+/// Output of the Fortran program DOPRI5 of E. Hairer and G. Wanner for its example at rtol = atol =
+/// 1e-7, as quoted in the examples of the R package deSolve: time, x, y.
 const PUBLISHED_ROWS: [(f64, f64, f64); 8] = [
     (2.0, -0.579_878_141_1, 0.609_077_525_1),
     (4.0, -0.198_333_527_0, 1.137_638_086),
@@ -21,7 +21,8 @@ const PUBLISHED_ROWS: [(f64, f64, f64); 8] = [
     (16.0, 0.242_711_099_9, -0.389_994_883_3),
 ];
 const PUBLISHED_END: [f64; 2] = [0.994_002_101_6, 8.911_185_692e-6];
-/// Half a unit of the last printed digit is 5e-11 to 5e-10; rounding errors of another compiler grow on this orbit.
+/// Half a unit of the last printed digit is 5e-11 to 5e-10; rounding errors of another compiler
+/// grow on this orbit.
 const PRINTED: f64 = 1e-9;
 
 #[test]
@@ -50,12 +51,14 @@ fn reproduces_the_published_run_of_the_original_program() {
         "{:?}",
         end.y
     );
-    // fcn = 1442, step = 240, accpt = 216; the original does not count its 2 rejections before the first accepted step.
+    // fcn = 1442, step = 240, accpt = 216; the original does not count its 2 rejections before the
+    // first accepted step.
     let s = end.statistics;
     assert_eq!((s.evaluations, s.accepted, s.rejected()), (1442, 216, 24));
 }
 
-/// The original program started with h = 1e-4, as quoted in the tests of the crate russell_ode (MIT licence).
+/// The original program started with h = 1e-4, as quoted in the tests of the crate russell_ode (MIT
+/// licence).
 #[test]
 fn reproduces_the_original_program_with_given_first_step() {
     let options = Options {
@@ -74,7 +77,8 @@ fn reproduces_the_original_program_with_given_first_step() {
     assert_eq!((s.evaluations, s.accepted, s.rejected()), (1429, 217, 21));
 }
 
-/// Snapshot: rtol = atol, evaluations, accepted, rejected, error at the end after one period (rounded up).
+/// Snapshot: rtol = atol, evaluations, accepted, rejected, error at the end after one period
+/// (rounded up).
 type Snapshot = (f64, u64, u64, u64, f64);
 
 fn check_snapshots(name: &str, method: &impl Method<Plain>, snapshots: [Snapshot; 3]) {
@@ -115,7 +119,8 @@ fn costs_and_errors_are_as_recorded() {
         (1e-12, 13022, 2168, 2, 3.0e-9),
     ];
     check_snapshots("tsit5", &Tsit5, tsit5);
-    // The original program needs 1036, 2185 and 4250 evaluations, with an error of 1.6e-9 (as timed by other ports of it).
+    // The original program needs 1036, 2185 and 4250 evaluations, with an error of 1.6e-9 (as timed
+    // by other ports of it).
     let dop853 = [
         (1e-6, 1035, 65, 23, 7.0e-3),
         (1e-9, 2184, 136, 50, 7.4e-6),
@@ -124,7 +129,8 @@ fn costs_and_errors_are_as_recorded() {
     check_snapshots("dop853", &Dop853, dop853);
 }
 
-/// Rows are as accurate as steps: the largest distance of the rows from a much more accurate run, against that of the steps.
+/// Rows are as accurate as steps: the largest distance of the rows from a much more accurate run,
+/// against that of the steps.
 #[test]
 fn rows_are_as_accurate_as_steps() {
     check_rows("dopri5", &Dopri5, 1.5);

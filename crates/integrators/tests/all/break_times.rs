@@ -76,7 +76,8 @@ fn declared_jump_needs_no_rejection_on_either_side() {
     assert!(undeclared.statistics.evaluations > less.statistics.evaluations);
 }
 
-/// The side from which f is evaluated does not depend on how the problem writes its condition, for any method.
+/// The side from which f is evaluated does not depend on how the problem writes its condition, for
+/// any method.
 #[test]
 fn all_methods_stay_on_their_side_of_a_jump() {
     fn check(name: &str, method: &impl Method<Plain>) {

@@ -1,4 +1,5 @@
-//! What every method must survive: nothing to integrate, weights of zero, blow-up, values that are not numbers, giant and tiny tolerances.
+//! What every method must survive: nothing to integrate, weights of zero, blow-up, values that are
+//! not numbers, giant and tiny tolerances.
 
 use crate::problems::{Plain, distance, kepler, oscillator, plain};
 use integrators::{

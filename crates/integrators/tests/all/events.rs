@@ -69,7 +69,8 @@ fn a_pendulum_passes_the_vertical_on_time() {
     );
 }
 
-/// Dropped from 1 m (g = 2 m/s²) and thrown back with half the speed each time: it lands at 1 s, and 2·v/g = v later each time.
+/// Dropped from 1 m (g = 2 m/s²) and thrown back with half the speed each time: it lands at 1 s,
+/// and 2·v/g = v later each time.
 #[test]
 fn a_bouncing_ball_lands_when_it_should() {
     let mut fall = Function::new(2, |_t, y: &[f64], dy: &mut [f64]| {
@@ -92,7 +93,8 @@ fn a_bouncing_ball_lands_when_it_should() {
         )
         .expect("free fall");
         assert_eq!(end.end, End::Stopped);
-        // Rounding of t and y over some ten steps, magnified by 1/speed when the height is inverted.
+        // Rounding of t and y over some ten steps, magnified by 1/speed when the height is
+        // inverted.
         let error = 1e-15 / speed;
         assert!(
             (end.t - landing).abs() < 20.0 * error,

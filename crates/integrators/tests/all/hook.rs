@@ -8,7 +8,8 @@ use integrators::{
 use std::convert::Infallible;
 use std::ops::ControlFlow;
 
-/// The harmonic oscillator, kept on the unit circle; rejects corrections above `limit` in the norm of the error.
+/// The harmonic oscillator, kept on the unit circle; rejects corrections above `limit` in the norm
+/// of the error.
 struct Circle {
     limit: f64,
 }
@@ -63,7 +64,8 @@ fn circle(t_end: f64, options: &Options) -> Outcome {
         |step| {
             let (y1, f1) = ([step.y1()[0], step.y1()[1]], [step.f1()[0], step.f1()[1]]);
             assert!((y1[0].hypot(y1[1]) - 1.0).abs() < ON_CIRCLE);
-            // The derivative belongs to the projected state and is the first stage of the next step.
+            // The derivative belongs to the projected state and is the first stage of the next
+            // step.
             assert_eq!(f1, [y1[1], -y1[0]]);
             if let Some((y, f)) = previous.replace((y1, f1)) {
                 assert_eq!((&y[..], &f[..]), (step.y0(), step.f0()));
@@ -88,8 +90,9 @@ fn states_stay_on_the_circle_and_the_derivative_is_reused() {
     assert!(distance(&end.y, &[20.0_f64.cos(), -20.0_f64.sin()]) < 1e-4);
 }
 
-/// For q'' = −q a step of size h multiplies q − i·v by R(ih), R(z) = 1 + z + … + z⁵/120 + z⁶/600 being the stability function of the
-/// method (Hairer, Wanner II, IV.2); projection leaves the angle of R(ih) only, whose error is of order 6.
+/// For q'' = −q a step of size h multiplies q − i·v by R(ih), R(z) = 1 + z + … + z⁵/120 + z⁶/600
+/// being the stability function of the method (Hairer, Wanner II, IV.2); projection leaves the
+/// angle of R(ih) only, whose error is of order 6.
 #[test]
 fn projected_steps_turn_by_the_angle_of_the_stability_function() {
     const ROUNDING: f64 = 1e-13; // some hundred steps
@@ -109,7 +112,8 @@ fn projected_steps_turn_by_the_angle_of_the_stability_function() {
     );
 }
 
-/// Value and slope of the dense outputs at step ends, by one-sided differences inside steps of size h, with large corrections.
+/// Value and slope of the dense outputs at step ends, by one-sided differences inside steps of size
+/// h, with large corrections.
 fn check_smoothness(name: &str, method: &impl Method<Circle>, h: f64) {
     let mut ode = Circle {
         limit: f64::INFINITY,
@@ -164,7 +168,8 @@ fn dense_output_passes_smoothly_through_projected_states() {
     check_smoothness("dop853", &Dop853, 2.5);
 }
 
-/// Twenty units of time on the circle with each method; `evaluations` of a trial, without the one of the hook.
+/// Twenty units of time on the circle with each method; `evaluations` of a trial, without the one
+/// of the hook.
 #[test]
 fn all_methods_stay_on_the_circle() {
     fn check(name: &str, method: &impl Method<Circle>) {

@@ -17,7 +17,8 @@ fn start() -> [f64; 4] {
     [1.0 - e, 0.0, 0.0, ((1.0 + e) / (1.0 - e)).sqrt()]
 }
 
-/// Snapshots: rtol = atol, evaluations, accepted, rejected, error at the end after one period (rounded up).
+/// Snapshots: rtol = atol, evaluations, accepted, rejected, error at the end after one period
+/// (rounded up).
 const SNAPSHOTS: [(f64, u64, u64, u64, f64); 3] = [
     (1e-6, 236, 32, 7, 2.4e-4),
     (1e-9, 692, 115, 0, 2.0e-7),

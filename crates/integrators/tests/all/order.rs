@@ -22,7 +22,8 @@ fn exact(t: f64) -> f64 {
     t.sin().exp()
 }
 
-/// Largest errors over all steps: at the ends of the steps, and at nine places inside with both dense outputs.
+/// Largest errors over all steps: at the ends of the steps, and at nine places inside with both
+/// dense outputs.
 struct Errors {
     ends: f64,
     cheap: f64,
@@ -77,7 +78,8 @@ fn halved(method: &impl Method<Plain>, n: u32, output_evaluations: u64) -> [Erro
     [n, 2 * n].map(|n| largest_errors(method, 0.0, 10.0, n, output_evaluations))
 }
 
-/// In the sum over all steps the local errors of order 5 (inside) and 6 (at the ends) of the cheap output count alike.
+/// In the sum over all steps the local errors of order 5 (inside) and 6 (at the ends) of the cheap
+/// output count alike.
 #[test]
 fn pairs_and_both_dense_outputs_converge_with_order_five() {
     for (name, errors) in [
@@ -87,7 +89,8 @@ fn pairs_and_both_dense_outputs_converge_with_order_five() {
         assert_order(name, &errors.each_ref().map(|e| e.ends), 5.0);
         assert_order(name, &errors.each_ref().map(|e| e.cheap), 5.0);
         assert_order(name, &errors.each_ref().map(|e| e.accurate), 5.0);
-        // The accurate output adds next to nothing (the largest error lies between two ends); the cheap one is worse.
+        // The accurate output adds next to nothing (the largest error lies between two ends); the
+        // cheap one is worse.
         for e in &errors {
             assert!(
                 e.accurate < 1.1 * e.ends,
@@ -100,7 +103,8 @@ fn pairs_and_both_dense_outputs_converge_with_order_five() {
     }
 }
 
-/// The local error of order 7 of the cheap output counts like a global one; the accurate output is as good as the ends.
+/// The local error of order 7 of the cheap output counts like a global one; the accurate output is
+/// as good as the ends.
 #[test]
 fn dop853_and_its_accurate_output_converge_with_order_eight_and_the_cheap_one_with_seven() {
     let errors = halved(&Dop853, 35, 6);
@@ -154,7 +158,8 @@ fn backwards_returns_to_the_start() {
     let there = run_function(kepler, (0.0, 5.0), &y0, &options);
     let back = run_function(kepler, (5.0, 0.0), &there.y, &options);
     assert_eq!(back.t, 0.0);
-    // Some hundred steps, each with a local error of at most 1e-10, errors growing linearly with time.
+    // Some hundred steps, each with a local error of at most 1e-10, errors growing linearly with
+    // time.
     assert!(distance(&back.y, &y0) < 1e-7, "{:?}", back.y);
     assert!(back.statistics.accepted > 20);
 }

@@ -5,7 +5,8 @@ use integrators::{
 };
 use std::ops::ControlFlow;
 
-/// Restricted three-body problem, mass ratio and period of Hairer, Nørsett, Wanner I, 2nd ed., II.0 (0.1).
+/// Restricted three-body problem, mass ratio and period of Hairer, Nørsett, Wanner I, 2nd ed., II.0
+/// (0.1).
 pub(crate) mod arenstorf {
     pub(crate) const MU: f64 = 0.012277471;
     pub(crate) const Y0: [f64; 4] = [0.994, 0.0, 0.0, -2.001_585_106_379_082_5];

@@ -26,8 +26,9 @@ fn relative_error(y: &[f64], exact: &[f64]) -> f64 {
     errors.fold(0.0, f64::max)
 }
 
-/// Robertson's reaction to t = 10¹¹; reference of the Test Set for IVP Solvers. The program RADAU5 in another translation needs
-/// 1095 and 2159 evaluations for the errors 4.8e-6 and 2.5e-8 at the first two tolerances.
+/// Robertson's reaction to t = 10¹¹; reference of the Test Set for IVP Solvers. The program RADAU5
+/// in another translation needs 1095 and 2159 evaluations for the errors 4.8e-6 and 2.5e-8 at the
+/// first two tolerances.
 #[test]
 fn robertson_over_seventeen_decades() {
     let f = |_t: f64, y: &[f64], dy: &mut [f64]| {
@@ -66,7 +67,8 @@ fn robertson_over_seventeen_decades() {
     }
 }
 
-/// Van der Pol's oscillator with ε = 10⁻⁶ through two fast transitions; reference of the Test Set for IVP Solvers.
+/// Van der Pol's oscillator with ε = 10⁻⁶ through two fast transitions; reference of the Test Set
+/// for IVP Solvers.
 #[test]
 fn van_der_pol_keeps_its_jacobian_while_it_is_slow() {
     let f = |_t: f64, y: &[f64], dy: &mut [f64]| {
@@ -85,7 +87,8 @@ fn van_der_pol_keeps_its_jacobian_while_it_is_slow() {
         assert!(error < 2.0 * tolerance, "{tolerance}: {error:.2e}");
         let s = s.statistics;
         assert!(s.evaluations < evaluations, "{s:?}");
-        // A Jacobian serves several steps, a factorisation too, and each step needs a factor's worth of solves.
+        // A Jacobian serves several steps, a factorisation too, and each step needs a factor's
+        // worth of solves.
         assert!(3 * s.jacobians < 2 * s.accepted, "{s:?}");
         assert!(s.factorisations < s.accepted + s.rejected(), "{s:?}");
         assert!(s.newton_iterations < 3 * s.accepted, "{s:?}");
@@ -96,9 +99,10 @@ fn van_der_pol_keeps_its_jacobian_while_it_is_slow() {
     assert!(relative_error(&end.y, &exact) < 2e-6, "{:?}", end.y);
 }
 
-/// A pendulum of length 1 on a damped spring of stiffness k in polar coordinates, y = (φ, r, φ', r'), φ from the horizontal. With k = 10¹²
-/// its stretch is 10⁻¹¹, so it moves like the rigid pendulum of the SUNDIALS examples (period 2), and the noise of the spring's force is
-/// k·eps = 2·10⁻⁴. Neither the number of steps nor the error may feel that, at whatever tolerance.
+/// A pendulum of length 1 on a damped spring of stiffness k in polar coordinates, y = (φ, r, φ',
+/// r'), φ from the horizontal. With k = 10¹² its stretch is 10⁻¹¹, so it moves like the rigid
+/// pendulum of the SUNDIALS examples (period 2), and the noise of the spring's force is k·eps =
+/// 2·10⁻⁴. Neither the number of steps nor the error may feel that, at whatever tolerance.
 #[test]
 fn noise_of_a_stiff_spring_neither_stalls_nor_shows() {
     const G: f64 = 13.750_371_636_040_746;
@@ -128,8 +132,9 @@ fn noise_of_a_stiff_spring_neither_stalls_nor_shows() {
     }
 }
 
-/// y' = λ·(y − cos t) − sin t from y(0) = 1: y = cos t. The step is bounded by nothing but the error 1/|λ| that a stiff component has
-/// (its order is that of the stages); the estimate measures it, so it is below the stretched tolerance.
+/// y' = λ·(y − cos t) − sin t from y(0) = 1: y = cos t. The step is bounded by nothing but the
+/// error 1/|λ| that a stiff component has (its order is that of the stages); the estimate measures
+/// it, so it is below the stretched tolerance.
 #[test]
 fn a_slow_solution_of_a_stiff_problem_takes_few_steps() {
     for lambda in [-1e6, -1e9, -1e12] {
@@ -179,8 +184,8 @@ impl<F: FnMut(f64, &[f64], &mut [f64])> Ode for OnCircle<F> {
     }
 }
 
-/// Both outputs meet the projected ends, also where the projection is much larger than the error of a step (a wrong rate is integrated on
-/// purpose).
+/// Both outputs meet the projected ends, also where the projection is much larger than the error of
+/// a step (a wrong rate is integrated on purpose).
 #[test]
 fn outputs_end_in_projected_states_and_restart_behind_a_break() {
     // Exactly (cos t², sin t²)·√(1 + t/10⁴) without the hook.

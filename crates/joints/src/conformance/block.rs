@@ -1,12 +1,13 @@
-//! The currency of comparison: a dense matrix of kernel results, compared relative to its largest entry.
-//! Not a matrix for computing.
+//! The currency of comparison: a dense matrix of kernel results, compared relative to its largest
+//! entry. Not a matrix for computing.
 
 use approx::{AbsDiffEq, RelativeEq};
 
 /// A dense matrix, row by row, of what a kernel computed or should have.
 ///
-/// Equality is in the maximum norm. The relative one refers to the largest entry of both blocks, not entry
-/// by entry: an entry that is zero by cancellation may carry the round-off of its neighbours.
+/// Equality is in the maximum norm. The relative one refers to the largest entry of both blocks,
+/// not entry by entry: an entry that is zero by cancellation may carry the round-off of its
+/// neighbours.
 ///
 /// ```
 /// use approx::assert_relative_eq;
@@ -169,8 +170,8 @@ impl Block {
         self.entries.iter().map(|e| e * e).sum::<f64>().sqrt()
     }
 
-    /// Row and column of the entry that differs most from the same entry of `other`, a NaN before all;
-    /// `None` for empty blocks.
+    /// Row and column of the entry that differs most from the same entry of `other`, a NaN before
+    /// all; `None` for empty blocks.
     #[must_use]
     pub fn worst(&self, other: &Self) -> Option<(usize, usize)> {
         let difference = self.zip(other, |a, b| (a - b).abs());

@@ -1,4 +1,5 @@
-//! Cases: parameters, poses and motions drawn for a definition from what its spec says, ordinary and awkward ones.
+//! Cases: parameters, poses and motions drawn for a definition from what its spec says, ordinary
+//! and awkward ones.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt;
@@ -12,8 +13,8 @@ use crate::spec::{Parameter, Shape, Spec, Unit};
 pub const ORDINARY_CASES: usize = 1000;
 /// Awkward cases of one check, of each kind.
 pub const AWKWARD_CASES: usize = 25;
-/// Motions of one case. A right-hand side of one row can vanish by chance for one motion, and its relative error
-/// then means nothing; several side by side have a size.
+/// Motions of one case. A right-hand side of one row can vanish by chance for one motion, and its
+/// relative error then means nothing; several side by side have a size.
 pub(super) const MOTIONS: usize = 4;
 
 /// What is special about a case.
@@ -116,8 +117,8 @@ impl Case {
         })
     }
 
-    /// Whether kernels are also compared with differences: in every fourth ordinary case, which is the most expensive
-    /// part of a check.
+    /// Whether kernels are also compared with differences: in every fourth ordinary case, which is
+    /// the most expensive part of a check.
     pub(super) fn has_differences(&self) -> bool {
         self.kind == Kind::Ordinary && self.index.is_multiple_of(4)
     }
@@ -165,8 +166,8 @@ impl Case {
         Block::beside(&self.motions.iter().map(block).collect::<Vec<_>>())
     }
 
-    /// The largest coordinate of poses, start and parameters, at least 1: round-off of 1 ε in it moves Φ by
-    /// this number times ‖C‖·ε.
+    /// The largest coordinate of poses, start and parameters, at least 1: round-off of 1 ε in it
+    /// moves Φ by this number times ‖C‖·ε.
     pub(super) fn size(&self) -> f64 {
         let poses = self
             .x

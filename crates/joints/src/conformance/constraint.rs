@@ -183,7 +183,8 @@ impl<K: Constraint> Check<'_, K> {
             .decide(&claim, |row, column| self.entry(property, row, column))
     }
 
-    /// What a relative error of 1 in the coordinates does to Φ and, the rows of C having a size of about one length, to C.
+    /// What a relative error of 1 in the coordinates does to Φ and, the rows of C having a size of
+    /// about one length, to C.
     fn scale(&self) -> f64 {
         let c = kernels::c(self.constraint, &self.case.x, &self.case.f);
         c.largest().max(1.0) * self.case.size()

@@ -1,5 +1,5 @@
-//! Derivatives along a curve, by two ways that know nothing of the kernels: dual numbers, and central differences
-//! with Richardson extrapolation.
+//! Derivatives along a curve, by two ways that know nothing of the kernels: dual numbers, and
+//! central differences with Richardson extrapolation.
 
 use num_dual::{Dual2_64, Dual64};
 
@@ -33,16 +33,17 @@ impl Differentiate for DualNumbers {
     }
 }
 
-/// By central differences over halved steps, extrapolated to step zero: the error of a central difference is a series
-/// in h², so each extrapolation removes one power. Of the whole table the value counts that is
-/// closest to both values it was made of.
+/// By central differences over halved steps, extrapolated to step zero: the error of a central
+/// difference is a series in h², so each extrapolation removes one power. Of the whole table the
+/// value counts that is closest to both values it was made of.
 pub(super) struct Differences;
 
 /// The largest step, as a power of two: about a tenth of the sizes of ordinary cases.
 const LARGEST: i32 = -3;
 /// Steps of a first difference, down to 2⁻¹²: forces near a vanishing length need small ones.
 const FIRST_STEPS: i32 = 10;
-/// Steps of a second difference, down to 2⁻⁷: round-off grows as 1/h², and there it is 1e-11 at most.
+/// Steps of a second difference, down to 2⁻⁷: round-off grows as 1/h², and there it is 1e-11 at
+/// most.
 const SECOND_STEPS: i32 = 5;
 /// Extrapolations per step: with more, round-off grows faster than truncation falls.
 const ORDERS: usize = 4;

@@ -1,4 +1,5 @@
-//! What a check reports: the definition, the property, the entry, both values, and the case to repeat it.
+//! What a check reports: the definition, the property, the entry, both values, and the case to
+//! repeat it.
 
 use std::fmt;
 
@@ -184,8 +185,8 @@ pub(super) struct Claim<'a> {
     pub(super) found: &'a Block,
     pub(super) expected: &'a Block,
     pub(super) tolerance: f64,
-    /// What the difference is compared with where the largest entry is smaller: the size that the terms had
-    /// before they cancelled.
+    /// What the difference is compared with where the largest entry is smaller: the size that the
+    /// terms had before they cancelled.
     pub(super) floor: f64,
 }
 
@@ -231,7 +232,8 @@ impl Judge<'_> {
     }
 }
 
-/// A failure of a fact that is no comparison of blocks: `found` of something where `expected` was due.
+/// A failure of a fact that is no comparison of blocks: `found` of something where `expected` was
+/// due.
 pub(super) fn fact(
     definition: &'static str,
     property: Property,

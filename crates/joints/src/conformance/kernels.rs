@@ -1,4 +1,5 @@
-//! Kernels as dense blocks. What a kernel leaves alone stays NaN, so that no comparison passes over it.
+//! Kernels as dense blocks. What a kernel leaves alone stays NaN, so that no comparison passes over
+//! it.
 
 use super::block::Block;
 use super::case::Motion;

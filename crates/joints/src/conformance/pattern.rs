@@ -3,8 +3,8 @@
 use super::block::Block;
 use super::failure::{Failure, Property, fact};
 
-/// An entry is alive where it exceeds this part of its block: round-off of a sum that is identically zero stays
-/// below.
+/// An entry is alive where it exceeds this part of its block: round-off of a sum that is
+/// identically zero stays below.
 const ALIVE: f64 = 1e-10;
 
 /// Which entries of a pattern were seen different from zero.

@@ -1,4 +1,5 @@
-//! What moves while a derivative is taken: one degree of freedom of one body, time, or everything along the motion.
+//! What moves while a derivative is taken: one degree of freedom of one body, time, or everything
+//! along the motion.
 
 use super::case::{Case, Motion};
 use super::number::Number;

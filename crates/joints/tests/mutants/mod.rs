@@ -1,4 +1,5 @@
-//! Definitions with one wrong entry: the harness has to find each of them, and to name what is wrong.
+//! Definitions with one wrong entry: the harness has to find each of them, and to name what is
+//! wrong.
 
 use joints::conformance::{Failure, Property, check_constraint, check_force};
 use joints::generated::{Fixed, PinInSlotDisplacementDrive, SpringDamper, Velocity};

@@ -1,4 +1,5 @@
-//! The differential equation of a comparator: y = [q; v], accelerations from a [`Solver`], and what is done about drift.
+//! The differential equation of a comparator: y = [q; v], accelerations from a [`Solver`], and what
+//! is done about drift.
 
 use std::time::Instant;
 
@@ -10,7 +11,8 @@ use model::{Mechanism, Reaction, Scratch, System};
 use super::kept_rows::KeptRows;
 use super::{Drift, Fault, Saddle, Solver};
 
-/// Corrections of a projection at most: Newton's method converges quadratically from where a step ends.
+/// Corrections of a projection at most: Newton's method converges quadratically from where a step
+/// ends.
 const CORRECTIONS: usize = 10;
 
 /// A correction below this share of the size of the mechanism is rounding.
@@ -222,7 +224,8 @@ impl<'a> Equations<'a> {
         Ok(())
     }
 
-    /// The smallest correction that changes rows by γ; returns its largest component, in units of the mechanism.
+    /// The smallest correction that changes rows by γ; returns its largest component, in units of
+    /// the mechanism.
     fn correct(&mut self, of_positions: bool) -> Result<f64, Fault> {
         in_units(self.mechanism, &self.s, &self.units, &mut self.c);
         self.force.fill(0.0);

@@ -1,8 +1,11 @@
-//! Extrapolation of the explicit midpoint rule (Gragg, Bulirsch, Stoer): orders 4 to 18, chosen step by step together with the size.
+//! Extrapolation of the explicit midpoint rule (Gragg, Bulirsch, Stoer): orders 4 to 18, chosen
+//! step by step together with the size.
 //!
-//! Column j crosses the step with n_j = 2·j equal substeps of the midpoint rule; the results of columns 1 to k, extrapolated to infinitely many
-//! substeps, have order 2k. The step is not smoothed at its end, which saves one evaluation a column. Source: the program ODEX of E. Hairer and
-//! G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed., II.9.
+//! Column j crosses the step with n_j = 2·j equal substeps of the midpoint rule; the results of
+//! columns 1 to k, extrapolated to infinitely many substeps, have order 2k. The step is not
+//! smoothed at its end, which saves one evaluation a column. Source: the program ODEX of E. Hairer
+//! and G. Wanner; Hairer, Nørsett, Wanner, Solving Ordinary Differential Equations I, 2nd ed.,
+//! II.9.
 
 mod order;
 
@@ -26,8 +29,9 @@ fn work(j: usize) -> f64 {
     (1 + (1..=j).map(|l| substeps(l) - 1).sum::<usize>()) as f64
 }
 
-/// Weights w of columns `first` to `last`: Σ w_j·c_j is the value at h = 0 of the polynomial in h² through the c_j at h = 1/n_j:
-/// `w_j = Π_{l ≠ j} n_j² / (n_j² − n_l²)`. Weights of other columns are zero.
+/// Weights w of columns `first` to `last`: Σ w_j·c_j is the value at h = 0 of the polynomial in h²
+/// through the c_j at h = 1/n_j: `w_j = Π_{l ≠ j} n_j² / (n_j² − n_l²)`. Weights of other columns
+/// are zero.
 fn weights(first: usize, last: usize) -> [f64; COLUMNS] {
     let mut w = [0.0; COLUMNS];
     for j in first..=last {
@@ -67,7 +71,8 @@ impl Gbs {
         }
     }
 
-    /// Column j: `z_1 = h_j·f0`, `z_{m+1} = z_{m−1} + 2·h_j·f(t + m·h_j, y0 + z_m)`, z being the change of the state.
+    /// Column j: `z_1 = h_j·f0`, `z_{m+1} = z_{m−1} + 2·h_j·f(t + m·h_j, y0 + z_m)`, z being the
+    /// change of the state.
     fn column(
         &mut self,
         ode: &mut Equations<'_>,
@@ -159,7 +164,8 @@ mod tests {
         }
     }
 
-    /// The control takes more columns where more accuracy is wanted, and starts where the tolerance says.
+    /// The control takes more columns where more accuracy is wanted, and starts where the tolerance
+    /// says.
     #[test]
     fn the_column_to_begin_with_follows_the_tolerance() {
         let mut control = OrderControl::new();

@@ -1,4 +1,5 @@
-//! The generalized-α method on the positions (index 3) and kept rows: order 2, with damping of high frequencies as chosen by ρ∞.
+//! The generalized-α method on the positions (index 3) and kept rows: order 2, with damping of high
+//! frequencies as chosen by ρ∞.
 //!
 //! ```text
 //! q1 = q0 + h·v0 + h²·((½ − β)·a0 + β·a1),   v1 = v0 + h·((1 − γ)·a0 + γ·a1)
@@ -6,8 +7,9 @@
 //! M·v'1 + Cᵀ·λ1 = Q(t1, q1, v1),   Φ(t1, q1) = 0,   C·v1 = b for rows that are not holonomic
 //! ```
 //!
-//! a is the acceleration at t + (α_m − α_f)·h: where the step size changes, it is moved along. Sources: J. Chung, G. M. Hulbert, J. Appl. Mech. 60
-//! (1993) 371–375, DOI 10.1115/1.2900803; M. Arnold, O. Brüls, Multibody Syst. Dyn. 18 (2007) 185–202, DOI 10.1007/s11044-007-9084-0.
+//! a is the acceleration at t + (α_m − α_f)·h: where the step size changes, it is moved along.
+//! Sources: J. Chung, G. M. Hulbert, J. Appl. Mech. 60 (1993) 371–375, DOI 10.1115/1.2900803; M.
+//! Arnold, O. Brüls, Multibody Syst. Dyn. 18 (2007) 185–202, DOI 10.1007/s11044-007-9084-0.
 
 use integrators::Ode;
 use linalg::{Lu, Matrix};
@@ -33,7 +35,8 @@ const OF_VELOCITY: f64 = 1.0 / 12.0 - 0.5 * LAG * LAG;
 
 /// Newton's iterations of a step, at most.
 const ITERATIONS: usize = 10;
-/// Increments that Newton's method may leave, in tolerances: an error of Φ enters λ multiplied by 1/h².
+/// Increments that Newton's method may leave, in tolerances: an error of Φ enters λ multiplied by
+/// 1/h².
 const PERMITTED: f64 = 1e-6;
 /// Increments below this share of the state are rounding.
 const ROUNDING: f64 = 10.0 * f64::EPSILON;
@@ -215,7 +218,8 @@ impl Stepper for GeneralizedAlpha<'_> {
                 *l += x;
             }
             self.move_to_end(trial, &a0, y1);
-            // What the increment has changed, against the tolerance and the rounding of the largest coordinate.
+            // What the increment has changed, against the tolerance and the rounding of the largest
+            // coordinate.
             let largest = y1.iter().fold(1.0, |a: f64, y| a.max(y.abs()));
             let of = |c: f64| {
                 self.x[..n_v]
@@ -233,7 +237,8 @@ impl Stepper for GeneralizedAlpha<'_> {
             }
             before = size;
         }
-        // The error is C·h³·y''', from y' at both ends and at the start of the step before, or in the middle.
+        // The error is C·h³·y''', from y' at both ends and at the start of the step before, or in
+        // the middle.
         ode.rhs(t1, y1, &mut self.f1)?;
         let mut third = vec![0.0; y1.len()];
         if let Some((h_before, _, f_before)) = &self.before {

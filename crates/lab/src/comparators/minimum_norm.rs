@@ -1,8 +1,9 @@
-//! All rows by a complete orthogonal decomposition of locked rank: a where rows that contradict each other are met in the sense of least squares,
-//! and of all λ the shortest.
+//! All rows by a complete orthogonal decomposition of locked rank: a where rows that contradict
+//! each other are met in the sense of least squares, and of all λ the shortest.
 //!
-//! `Cᵀ·P = [Q₁ Q₂]·[R; ≈0]`, R r × m, and `Rᵀ·P' = Q'·R'`: `C⁺ = Q₁·P'·R'⁻¹·Q'ᵀ·Pᵀ`. Source: G. H. Golub, C. F. Van Loan, Matrix Computations,
-//! section 5.4.7; F. E. Udwadia, R. E. Kalaba, Proc. R. Soc. A 439 (1992) 407–410, DOI 10.1098/rspa.1992.0158.
+//! `Cᵀ·P = [Q₁ Q₂]·[R; ≈0]`, R r × m, and `Rᵀ·P' = Q'·R'`: `C⁺ = Q₁·P'·R'⁻¹·Q'ᵀ·Pᵀ`. Source: G. H.
+//! Golub, C. F. Van Loan, Matrix Computations, section 5.4.7; F. E. Udwadia, R. E. Kalaba, Proc. R.
+//! Soc. A 439 (1992) 407–410, DOI 10.1098/rspa.1992.0158.
 
 use linalg::{Matrix, PivotedQr};
 

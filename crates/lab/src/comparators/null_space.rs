@@ -1,8 +1,10 @@
-//! The null space: `C·a = γ` leaves `a = a_p + Z·w` with C·Z = 0, and `(Zᵀ·M·Z)·w = Zᵀ·(f − M·a_p)` has no multipliers.
+//! The null space: `C·a = γ` leaves `a = a_p + Z·w` with C·Z = 0, and `(Zᵀ·M·Z)·w = Zᵀ·(f − M·a_p)`
+//! has no multipliers.
 //!
-//! With `Cᵀ·P = [Q₁ Q₂]·R`, pivoted, of locked rank r: Z = Q₂, and a_p is the smallest solution of the first r pivoted rows. Source: S. S. Kim,
-//! M. J. Vanderploeg, QR decomposition for state space representation of constrained mechanical dynamic systems, J. Mech. Trans. Autom. Des. 108
-//! (1986) 183–188, DOI 10.1115/1.3260800.
+//! With `Cᵀ·P = [Q₁ Q₂]·R`, pivoted, of locked rank r: Z = Q₂, and a_p is the smallest solution of
+//! the first r pivoted rows. Source: S. S. Kim, M. J. Vanderploeg, QR decomposition for state space
+//! representation of constrained mechanical dynamic systems, J. Mech. Trans. Autom. Des. 108 (1986)
+//! 183–188, DOI 10.1115/1.3260800.
 
 use linalg::{Lu, Matrix, PivotedQr};
 

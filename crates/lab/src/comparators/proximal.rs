@@ -4,10 +4,11 @@
 //! (M + C̃ᵀ·C̃/μ)·δ = f − M·a − C̃ᵀ·(λ̃ + (C̃·a − γ̃)/μ),   a ← a + δ,   λ̃ ← λ̃ + (C̃·a − γ̃)/μ,   C̃ = W·C
 //! ```
 //!
-//! W makes the diagonal of C̃·M⁻¹·C̃ᵀ one; μ compares with its eigenvalues σ². A direction σ is off by the share `(μ/(μ + σ²))^k` after k iterations; one
-//! that is zero on the constraints and δ off them gives accelerations of `k·δ²/μ`: a smaller μ is worse there, not better. No rank enters a solve. Source:
-//! J. Carpentier, R. Budhiraja, N. Mansard, Proximal and sparse resolution of constrained dynamic equations, Robotics: Science and Systems XVII
-//! (2021).
+//! W makes the diagonal of C̃·M⁻¹·C̃ᵀ one; μ compares with its eigenvalues σ². A direction σ is off
+//! by the share `(μ/(μ + σ²))^k` after k iterations; one that is zero on the constraints and δ off
+//! them gives accelerations of `k·δ²/μ`: a smaller μ is worse there, not better. No rank enters a
+//! solve. Source: J. Carpentier, R. Budhiraja, N. Mansard, Proximal and sparse resolution of
+//! constrained dynamic equations, Robotics: Science and Systems XVII (2021).
 
 use linalg::{Lu, Matrix, singular_values};
 
@@ -16,7 +17,8 @@ use super::{Fault, Saddle, Solver, dot};
 /// μ lies this far below σ_r²: eleven times more accurate with each iteration.
 const DECADE: f64 = 0.1;
 
-/// Smallest mass that tuning divides by, relative to the largest: masses that vanish move with others.
+/// Smallest mass that tuning divides by, relative to the largest: masses that vanish move with
+/// others.
 const LEAST_MASS: f64 = 1e-12;
 
 /// μ and the number of iterations.
@@ -29,7 +31,8 @@ pub struct Tuning {
 }
 
 impl Tuning {
-    /// μ a decade below σ_r², and as many iterations as leave the share `tolerance` of the slowest direction.
+    /// μ a decade below σ_r², and as many iterations as leave the share `tolerance` of the slowest
+    /// direction.
     ///
     /// ```
     /// let tuning = lab::comparators::Tuning::rule(4e-3, 1e-8);
@@ -55,7 +58,8 @@ pub struct Proximal {
 }
 
 impl Proximal {
-    /// Weights and tuning that reach a relative `tolerance` at rows C of this rank, where the masses are these.
+    /// Weights and tuning that reach a relative `tolerance` at rows C of this rank, where the
+    /// masses are these.
     ///
     /// # Errors
     /// [`Fault::RankLost`].

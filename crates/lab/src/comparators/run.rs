@@ -60,7 +60,8 @@ pub enum Method {
     Tsit5,
     /// Extrapolated midpoint rule, order 4 to 18.
     Gbs,
-    /// Generalized-α on positions and kept rows, order 2; the formulation gives the first accelerations and those of rows.
+    /// Generalized-α on positions and kept rows, order 2; the formulation gives the first
+    /// accelerations and those of rows.
     GeneralizedAlpha,
 }
 
@@ -92,7 +93,8 @@ impl Method {
 pub enum Drift {
     /// States are projected in the metric of the masses after each step.
     Projection,
-    /// Accelerations pull back: `Γ − 2α·(C·v − b) − β²·Φ`, and `Γ − α·(C·v − b)` for nonholonomic rows.
+    /// Accelerations pull back: `Γ − 2α·(C·v − b) − β²·Φ`, and `Γ − α·(C·v − b)` for nonholonomic
+    /// rows.
     Baumgarte {
         /// α (1/s)
         alpha: f64,
@@ -187,7 +189,8 @@ impl Limits {
 /// Steps of a run at most.
 const MOST_STEPS: u64 = 1_000_000;
 
-/// Moves a prepared mechanism from t = 0 to the last of `times` (s; ascending and > 0), at a tolerance that is relative and absolute.
+/// Moves a prepared mechanism from t = 0 to the last of `times` (s; ascending and > 0), at a
+/// tolerance that is relative and absolute.
 ///
 /// # Errors
 /// Why it did not reach the end.

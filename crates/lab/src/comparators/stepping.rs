@@ -1,4 +1,5 @@
-//! The loop of steps for methods with steppers of their own. Steps end at all times that are asked for, and at break times.
+//! The loop of steps for methods with steppers of their own. Steps end at all times that are asked
+//! for, and at break times.
 
 use integrators::Ode;
 use model::System;
@@ -20,7 +21,8 @@ pub(super) trait Stepper {
     /// Forgets the steps before: the solution may jump here.
     fn restart(&mut self);
 
-    /// Makes the step from (t, y0) with y0' = f0 over h to y1; returns its error, at most 1 if it is good enough.
+    /// Makes the step from (t, y0) with y0' = f0 over h to y1; returns its error, at most 1 if it
+    /// is good enough.
     ///
     /// # Errors
     /// If there is no such step.

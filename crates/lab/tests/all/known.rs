@@ -1,4 +1,5 @@
-//! Every way against motions that are known from elsewhere, and against the product where the mechanism is redundant.
+//! Every way against motions that are known from elsewhere, and against the product where the
+//! mechanism is redundant.
 
 use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
 use lab::comparators::{Drift, Formulation, Method, Way, run};
@@ -55,8 +56,9 @@ fn off(p: &Prepared, row: &lab::comparators::Row, instant: &Instant) -> f64 {
     worst
 }
 
-/// Every formulation with projection, by every method; then every treatment of drift by one method. Not proximal iterations without any: a
-/// redundant row that is off by δ accelerates by k·δ²/μ there, so that drift feeds itself.
+/// Every formulation with projection, by every method; then every treatment of drift by one method.
+/// Not proximal iterations without any: a redundant row that is off by δ accelerates by k·δ²/μ
+/// there, so that drift feeds itself.
 fn ways() -> Vec<Way> {
     let mut ways = Vec::new();
     for formulation in Formulation::ALL {
@@ -151,7 +153,8 @@ pub(crate) fn gap(a: &[f64], b: &[f64]) -> f64 {
     gaps.fold(0.0, f64::max)
 }
 
-/// Three cranks under gravity and the robot with its drive and break times, both redundant; reactions that are unique are those of the product.
+/// Three cranks under gravity and the robot with its drive and break times, both redundant;
+/// reactions that are unique are those of the product.
 #[test]
 fn redundant_mechanisms_move_as_the_product_moves_them() {
     let mut swinging = cranks(&[-0.8, 0.0, 0.8], 0.5, -1.0);

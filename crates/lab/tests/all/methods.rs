@@ -23,7 +23,8 @@ fn falling_cranks() -> Description {
     three
 }
 
-/// Errors follow tolerances, at the price of an order: a thousandth of the error takes ten times the steps at order 2, and hardly more at high orders.
+/// Errors follow tolerances, at the price of an order: a thousandth of the error takes ten times
+/// the steps at order 2, and hardly more at high orders.
 #[test]
 fn work_grows_with_the_order() {
     let p = started(&falling_cranks());
@@ -44,8 +45,9 @@ fn work_grows_with_the_order() {
     }
 }
 
-/// A spring of k = 10¹⁰ N/m holds the cranks against gravity; it swings a hundred thousand times faster than the steps that generalized-α takes. Were
-/// the derivatives of its force wrong, Newton's method would diverge; Dormand-Prince would need a million steps.
+/// A spring of k = 10¹⁰ N/m holds the cranks against gravity; it swings a hundred thousand times
+/// faster than the steps that generalized-α takes. Were the derivatives of its force wrong,
+/// Newton's method would diverge; Dormand-Prince would need a million steps.
 #[test]
 fn generalized_alpha_steps_over_the_oscillations_of_a_stiff_spring() {
     let mut held = falling_cranks();

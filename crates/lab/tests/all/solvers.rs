@@ -1,4 +1,5 @@
-//! The solvers of the saddle equations with all rows: independent rows as oracle, planted combinations, hand results.
+//! The solvers of the saddle equations with all rows: independent rows as oracle, planted
+//! combinations, hand results.
 
 use lab::comparators::{Fault, MinimumNorm, NullSpace, Proximal, Saddle, Solver, Tuning};
 use linalg::{KeptRowSaddle, Matrix, singular_values};
@@ -38,8 +39,9 @@ proptest! {
         ..ProptestConfig::default()
     })]
 
-    /// r random rows and p combinations of them: all give the accelerations of the r rows, forces of the constraints agree, and the shortest λ has
-    /// nothing of the combinations that were planted.
+    /// r random rows and p combinations of them: all give the accelerations of the r rows, forces
+    /// of the constraints agree, and the shortest λ has nothing of the combinations that were
+    /// planted.
     #[test]
     fn all_rows_agree_with_independent_ones(
         n in 2..12_usize, r in 1..10_usize, p in 0..4_usize,
@@ -93,8 +95,8 @@ fn twice(delta: f64) -> Matrix {
     Matrix::from_rows(&[[1.0, 0.0, 0.0], [2.0, delta, 0.0], [0.0, 0.0, 1.0]])
 }
 
-/// Off the constraints by δ a redundant row is independent by δ. Solved as such its direction gets an acceleration of the order one; with the
-/// locked rank everything is off by δ.
+/// Off the constraints by δ a redundant row is independent by δ. Solved as such its direction gets
+/// an acceleration of the order one; with the locked rank everything is off by δ.
 #[test]
 fn noise_off_the_constraints_stays_noise() {
     let gamma = [1.0, 2.0 + 1e-6, 0.5];
@@ -159,8 +161,9 @@ fn the_response_of_one_direction() {
     }
 }
 
-/// A weak direction, σ_r² = 4e-3, and a redundant row that is off by δ, as at a stage of an integrator. The rule answers with noise of the order δ; a
-/// small μ with few iterations, as exact on the constraints, turns it into accelerations of the order one.
+/// A weak direction, σ_r² = 4e-3, and a redundant row that is off by δ, as at a stage of an
+/// integrator. The rule answers with noise of the order δ; a small μ with few iterations, as exact
+/// on the constraints, turns it into accelerations of the order one.
 #[test]
 fn off_the_constraints_the_rule_beats_a_small_mu() {
     let weak = 0.09;

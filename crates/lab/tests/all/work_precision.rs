@@ -6,7 +6,8 @@ use lab::comparators::{Fault, run_within};
 use lab::work_precision::ways;
 use pfaff::work_precision::{Plan, Subject};
 
-/// Cases of the suite by every way: all reach the end, and their errors are those of their tolerances.
+/// Cases of the suite by every way: all reach the end, and their errors are those of their
+/// tolerances.
 #[test]
 fn cases_are_compared_by_every_way() {
     for name in ["sleigh", "three-cranks"] {

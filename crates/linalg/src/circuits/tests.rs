@@ -1,4 +1,5 @@
-//! Circuits against brute force over all subsets of rows of small integer matrices, in exact arithmetic.
+//! Circuits against brute force over all subsets of rows of small integer matrices, in exact
+//! arithmetic.
 
 use super::*;
 use crate::{Matrix, decide};
@@ -105,7 +106,8 @@ fn short_circuits_are_the_shortest_basis_of_all_circuits() {
             decision.redundancy,
             "seed {seed}"
         );
-        // No independent set of circuits is shorter: the greedy choice over the exact list, ranks from the exact rows.
+        // No independent set of circuits is shorter: the greedy choice over the exact list, ranks
+        // from the exact rows.
         let total: usize = found.iter().map(|c| c.rows.len()).sum();
         assert_eq!(
             total,
@@ -119,7 +121,8 @@ fn short_circuits_are_the_shortest_basis_of_all_circuits() {
     );
 }
 
-/// Total length of a shortest basis of circuits. A circuit's vector comes from cofactors, so it is exact.
+/// Total length of a shortest basis of circuits. A circuit's vector comes from cofactors, so it is
+/// exact.
 fn shortest_total(rows: &[Vec<i128>], circuits: &[Vec<usize>], p: usize) -> usize {
     let mut basis: Vec<Vec<i128>> = Vec::new();
     let mut total = 0;

@@ -1,16 +1,19 @@
-//! The number of admissible deletions: deletion and contraction on classes of rows that replace each other, component by component.
+//! The number of admissible deletions: deletion and contraction on classes of rows that replace
+//! each other, component by component.
 
 use super::{DeletionError, duals};
 use crate::RankDecision;
 use crate::dual::{Dual, Unclear, rank};
 
-/// Steps of deletion and contraction that one component may take; each costs about m·p² multiplications.
+/// Steps of deletion and contraction that one component may take; each costs about m·p²
+/// multiplications.
 const STEPS_MAX: usize = 20_000;
 
 /// The number of admissible sets of p rows, the product over all components (rows that mix).
 ///
-/// Within a component it is exact: `b = w·b(contracted) + b(deleted)` for a class of w parallel vectors, with closed forms for
-/// redundancy 1 (the number of rows) and 2 (pairs of rows of different classes).
+/// Within a component it is exact: `b = w·b(contracted) + b(deleted)` for a class of w parallel
+/// vectors, with closed forms for redundancy 1 (the number of rows) and 2 (pairs of rows of
+/// different classes).
 ///
 /// # Errors
 /// - [`DeletionError::Rank`]: the rank is undecided.
@@ -43,7 +46,8 @@ fn weighted(dual: &Dual) -> Vec<Class> {
     dual.vectors.iter().map(class).collect()
 }
 
-/// Σ over all bases of the product of weights; `None` if the steps are used up or 128 bits are too few.
+/// Σ over all bases of the product of weights; `None` if the steps are used up or 128 bits are too
+/// few.
 fn count(
     classes: Vec<Class>,
     noise: f64,

@@ -27,15 +27,16 @@ impl Default for Limits {
 /// Smallest sets of candidates whose deletion makes a target unique.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Substitutes {
-    /// Each set lists candidates by their place, ascending; all have the same, smallest number of candidates. One empty set if the
-    /// target is unique as it is; none if no deletion of candidates makes it so.
+    /// Each set lists candidates by their place, ascending; all have the same, smallest number of
+    /// candidates. One empty set if the target is unique as it is; none if no deletion of
+    /// candidates makes it so.
     pub sets: Vec<Vec<usize>>,
     /// Whether these are all of that size. If not, a limit was reached.
     pub complete: bool,
 }
 
-/// Smallest sets of candidates that can be deleted without a change of motion and make all combinations `ℓᵀ·λ`, the rows of
-/// `target`, unique.
+/// Smallest sets of candidates that can be deleted without a change of motion and make all
+/// combinations `ℓᵀ·λ`, the rows of `target`, unique.
 ///
 /// | argument | shape | meaning |
 /// | --- | --- | --- |
@@ -43,7 +44,8 @@ pub struct Substitutes {
 /// | `candidates` | – | rows that are deleted together; those that share a row with the target, or cannot be deleted, are passed over |
 /// | `admits` | – | asked with all rows of a set, ascending: false refuses it; whoever refuses a set should refuse all larger ones |
 ///
-/// A set D is one iff its rows of Z are independent and span the rows `ℓᵀ·Z`. Nothing smaller does, so no part of a set suffices.
+/// A set D is one iff its rows of Z are independent and span the rows `ℓᵀ·Z`. Nothing smaller does,
+/// so no part of a set suffices.
 ///
 /// ```
 /// use linalg::{Limits, Matrix, decide, making_unique};
@@ -60,7 +62,8 @@ pub struct Substitutes {
 /// # Errors
 /// - [`DeletionError::Rank`]: the rank is undecided.
 /// - [`DeletionError::Unclear`]: an answer lies in the gap between yes and no.
-/// - [`DeletionError::TargetShape`], [`DeletionError::NonFinite`], [`DeletionError::RowOutOfRange`]: malformed input.
+/// - [`DeletionError::TargetShape`], [`DeletionError::NonFinite`],
+///   [`DeletionError::RowOutOfRange`]: malformed input.
 pub fn making_unique(
     decision: &RankDecision,
     target: &Matrix,
@@ -193,7 +196,8 @@ struct Unit {
     places: Vec<usize>,
 }
 
-/// Candidates of the components that the target touches, without those that share a row with it or cannot be deleted.
+/// Candidates of the components that the target touches, without those that share a row with it or
+/// cannot be deleted.
 fn units(
     decision: &RankDecision,
     target: &Matrix,

@@ -1,7 +1,8 @@
 //! Sine and cosine in double-double, for poses at which a rank is certified.
 //!
-//! The argument is reduced by multiples of π/2 held to 159 bits and halved three times; what is left is below 0.1 and its
-//! Taylor series ends. Doubling the angle works on `1 − cos`, which does not cancel.
+//! The argument is reduced by multiples of π/2 held to 159 bits and halved three times; what is
+//! left is below 0.1 and its Taylor series ends. Doubling the angle works on `1 − cos`, which does
+//! not cancel.
 
 use super::Dd;
 
@@ -18,11 +19,13 @@ const HALVINGS: i32 = 3;
 /// Terms of each series: 0.1³⁸ / 38! is far below the rounding of the format.
 const TERMS: u32 = 11;
 
-/// Above it the multiple of π/2 is no longer exact in the reduction, and the result is that of `f64`.
+/// Above it the multiple of π/2 is no longer exact in the reduction, and the result is that of
+/// `f64`.
 const LARGEST: f64 = 1e15;
 
 impl Dd {
-    /// Sine and cosine. Absolute error below 10⁻³¹·(1 + |x|), the rounding of the argument; that of `f64` above 10¹⁵. NaN for what is not finite.
+    /// Sine and cosine. Absolute error below 10⁻³¹·(1 + |x|), the rounding of the argument; that of
+    /// `f64` above 10¹⁵. NaN for what is not finite.
     ///
     /// ```
     /// use linalg::Dd;

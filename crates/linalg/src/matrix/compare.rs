@@ -1,4 +1,5 @@
-//! Comparison of matrices up to rounding through `approx`: shapes must agree, entries nearly. For tests.
+//! Comparison of matrices up to rounding through `approx`: shapes must agree, entries nearly. For
+//! tests.
 
 use approx::{AbsDiffEq, RelativeEq};
 

@@ -86,8 +86,8 @@ impl PivotedQr {
         );
     }
 
-    /// `C⁺` (n×r) of independent rows C (r×n, r ≤ n) factored by [`PivotedQr::of_rows`]: `C⁺ = Q·R⁻ᵀ·Pᵀ`, so that `C⁺·b` is the
-    /// smallest solution of `C·x = b`.
+    /// `C⁺` (n×r) of independent rows C (r×n, r ≤ n) factored by [`PivotedQr::of_rows`]:
+    /// `C⁺ = Q·R⁻ᵀ·Pᵀ`, so that `C⁺·b` is the smallest solution of `C·x = b`.
     ///
     /// ```
     /// use linalg::{Matrix, PivotedQr};

@@ -1,16 +1,20 @@
 //! A lower bound of the smallest singular value that is proved in floating point.
 //!
-//! With an approximate right inverse X of A (r×n) and `E = I − A·X`, `‖E‖ < 1` gives `σ_r(A) ≥ (1 − ‖E‖)/‖X‖`. X may come from anywhere;
-//! only E has to be bounded, and a product in floating point is wrong by at most `γ_n·|A|·|X|`.
+//! With an approximate right inverse X of A (r×n) and `E = I − A·X`, `‖E‖ < 1` gives
+//! `σ_r(A) ≥ (1 − ‖E‖)/‖X‖`. X may come from anywhere; only E has to be bounded, and a product in
+//! floating point is wrong by at most `γ_n·|A|·|X|`.
 //!
-//! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), section 3.1 for γ_n.
+//! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), section
+//! 3.1 for γ_n.
 
 use crate::{Matrix, PivotedQr, kernels};
 
-/// Covers the rounding of norms and of the last few operations, each a few eps times the number of entries (below 2³⁰).
+/// Covers the rounding of norms and of the last few operations, each a few eps times the number of
+/// entries (below 2³⁰).
 const SLACK: f64 = 1e-6;
 
-/// Lower bound of σ_r of every matrix within `perturbation` (Frobenius norm) of the r×n matrix `a`; 0 if nothing is proved.
+/// Lower bound of σ_r of every matrix within `perturbation` (Frobenius norm) of the r×n matrix `a`;
+/// 0 if nothing is proved.
 pub(super) fn smallest_singular_value(a: &Matrix, perturbation: f64) -> f64 {
     let (r, n) = (a.nrows(), a.ncols());
     if r == 0 {

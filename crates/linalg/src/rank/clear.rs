@@ -1,5 +1,5 @@
-//! Zero or not, with a clear gap between: the rule of rank decisions for single numbers, and for a few rows of a matrix that is
-//! equilibrated already.
+//! Zero or not, with a clear gap between: the rule of rank decisions for single numbers, and for a
+//! few rows of a matrix that is equilibrated already.
 
 use super::{CLEARANCE, required, tolerance};
 use crate::{Matrix, singular_values};
@@ -26,8 +26,9 @@ pub(crate) fn size(x: f64, noise: f64) -> Size {
     }
 }
 
-/// Whether rows of an equilibrated matrix are certainly independent, as they stand: `σ_min ≥ max(10³·τ, 10⁻⁷)`. They are not
-/// equilibrated again, because that would blow up entries that are rounding beside the rest of their row or column.
+/// Whether rows of an equilibrated matrix are certainly independent, as they stand:
+/// `σ_min ≥ max(10³·τ, 10⁻⁷)`. They are not equilibrated again, because that would blow up entries
+/// that are rounding beside the rest of their row or column.
 pub(crate) fn independent(rows: &Matrix, uncertainty: f64) -> bool {
     let tolerance = tolerance(rows.nrows(), rows.ncols(), uncertainty);
     rows.nrows() <= rows.ncols()

@@ -1,41 +1,48 @@
-//! Is a coefficient of the dependencies zero? The tolerance for T, Z and what is made of them, from the evidence of the rank.
+//! Is a coefficient of the dependencies zero? The tolerance for T, Z and what is made of them, from
+//! the evidence of the rank.
 
 use super::{NOISE_FACTOR, RankDecision};
 
 /// Noise of coefficients over that of singular values: the triangular solves.
 const SOLVE_FACTOR: f64 = 10.0;
 
-/// No coefficient below this is certainly not zero: where a small part hangs on a large one, the rounding of the data of the large part
-/// reaches the small one amplified by the ratio of their sizes, which the first order does not show.
+/// No coefficient below this is certainly not zero: where a small part hangs on a large one, the
+/// rounding of the data of the large part reaches the small one amplified by the ratio of their
+/// sizes, which the first order does not show.
 const CERTAIN: f64 = 1e-9;
 
-/// Below this σ_r of a certified matrix the uncertainty of the data would hide all coefficients; they are those of the matrix as read.
+/// Below this σ_r of a certified matrix the uncertainty of the data would hide all coefficients;
+/// they are those of the matrix as read.
 const AS_READ: f64 = 1e-6;
 
-/// A coefficient above the tolerance by this factor is certainly not zero; the tolerance is itself a tenfold bound of the noise.
+/// A coefficient above the tolerance by this factor is certainly not zero; the tolerance is itself
+/// a tenfold bound of the noise.
 const CLEARANCE: f64 = 10.0;
 
 /// Evidence that cannot tell a coefficient of this size from zero calls nothing zero.
 const TOLERANCE_MAX: f64 = 1e-5;
 
-/// The same where the noise is that of a stated tolerance: of larger changes the first order says nothing.
+/// The same where the noise is that of a stated tolerance: of larger changes the first order says
+/// nothing.
 const STATED_MAX: f64 = 0.1;
 
-/// A coefficient above this is not called zero there: that data within the tolerance could make it zero does not say that they do, and what is told as
-/// none must not matter.
+/// A coefficient above this is not called zero there: that data within the tolerance could make it
+/// zero does not say that they do, and what is told as none must not matter.
 const STATED_ZERO: f64 = 1e-3;
 
-/// By this factor a coefficient is certainly not zero there: all data together would have to be wrong by as many tolerances, as for ranks.
+/// By this factor a coefficient is certainly not zero there: all data together would have to be
+/// wrong by as many tolerances, as for ranks.
 const STATED_CLEARANCE: f64 = 3.0;
 
-/// A coefficient that has come out as small as this in double-double is zero, whatever the data are known to.
+/// A coefficient that has come out as small as this in double-double is zero, whatever the data are
+/// known to.
 const VANISHED: f64 = 1e-13;
 
 /// Random combinations of coefficients are zero and not zero only with this factor between them.
 const SPREAD: f64 = 1e4;
 
-/// Data move entries by themselves and through the pose that follows them, which links that are ten times shorter than others amplify. Never above what
-/// all entries together are known to, over σ_r.
+/// Data move entries by themselves and through the pose that follows them, which links that are ten
+/// times shorter than others amplify. Never above what all entries together are known to, over σ_r.
 const POSE_FACTOR: f64 = 10.0;
 
 /// How a coefficient of the equilibrated dependencies reads.
@@ -71,7 +78,8 @@ impl CoefficientReading {
     }
 }
 
-/// How far a coefficient may be from its true value where singular values are known to `tolerance`: `10·τ/σ_r`.
+/// How far a coefficient may be from its true value where singular values are known to `tolerance`:
+/// `10·τ/σ_r`.
 pub(crate) fn coefficient_noise(tolerance: f64, sigma_r: f64) -> f64 {
     SOLVE_FACTOR * tolerance / sigma_r.min(1.0)
 }
@@ -84,7 +92,8 @@ impl RankDecision {
         certificate.is_some_and(|c| c.has_tolerance)
     }
 
-    /// Whether the entries of the matrix are meant exactly as they stand, so that T is zero exactly where it is zero.
+    /// Whether the entries of the matrix are meant exactly as they stand, so that T is zero exactly
+    /// where it is zero.
     #[must_use]
     pub fn is_exact(&self) -> bool {
         self.evidence
@@ -96,8 +105,9 @@ impl RankDecision {
     /// How far a coefficient of T̃ or Z may be from its true value, absolute: `10·τ/σ_r`, or, for a
     /// certified rank of a matrix known to s (Frobenius norm), `s/σ_r`.
     ///
-    /// For exact entries, rounding alone. For a nearly redundant matrix, that of the matrix as it was read, `10·‖C_D − T·C_K‖/σ_r`: what the
-    /// uncertainty of the data does there is told by [`RankDecision::nearly_redundant`].
+    /// For exact entries, rounding alone. For a nearly redundant matrix, that of the matrix as it
+    /// was read, `10·‖C_D − T·C_K‖/σ_r`: what the uncertainty of the data does there is told by
+    /// [`RankDecision::nearly_redundant`].
     #[must_use]
     pub fn coefficient_tolerance(&self) -> f64 {
         let e = &self.evidence;
@@ -122,8 +132,9 @@ impl RankDecision {
         }
     }
 
-    /// How far row i of `[−T̃, I]` may be from its true value (norm): that of the entries it depends on, that of dependencies which hold
-    /// within the data only, `10·‖C_D − T·C_K‖/σ_r`, and rounding; or what the data make of it, where that is known and more. At most about
+    /// How far row i of `[−T̃, I]` may be from its true value (norm): that of the entries it
+    /// depends on, that of dependencies which hold within the data only, `10·‖C_D − T·C_K‖/σ_r`,
+    /// and rounding; or what the data make of it, where that is known and more. At most about
     /// [`RankDecision::coefficient_tolerance`], in a matrix of mixed sizes much less.
     #[must_use]
     pub fn row_noise(&self, i: usize) -> f64 {
@@ -142,8 +153,8 @@ impl RankDecision {
         by_entries.max(by_data)
     }
 
-    /// What of [`RankDecision::row_noise`] is there without a stated tolerance: a row that is shorter than that vanishes by itself, a longer one within
-    /// the tolerance only.
+    /// What of [`RankDecision::row_noise`] is there without a stated tolerance: a row that is
+    /// shorter than that vanishes by itself, a longer one within the tolerance only.
     #[must_use]
     pub fn row_rounding(&self, i: usize) -> f64 {
         let certificate = self.evidence.certificate.as_ref();

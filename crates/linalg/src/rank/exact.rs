@@ -1,6 +1,7 @@
 //! The rank of a matrix whose entries are meant exactly as they stand.
 //!
-//! Floating point proposes the rows, arithmetic modulo primes decides: there is no tolerance and nothing is ever undecided.
+//! Floating point proposes the rows, arithmetic modulo primes decides: there is no tolerance and
+//! nothing is ever undecided.
 
 use super::certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant};
 use super::graded::Graded;
@@ -11,10 +12,12 @@ use crate::{Dd, DdMatrix, Matrix, equilibrate, kernels};
 
 /// Decides the rank of C (m×n) exactly: the entries are dyadic rationals, meant as they stand.
 ///
-/// That the rank is at least r is proved by a minor that is not zero modulo a prime; that it is not larger, by all larger minors being zero
-/// modulo primes whose product exceeds Hadamard's bound. The dependencies T are rounded from their exact values, so
-/// its zeros are exactly the zeros. Time grows with the number of digits of the minors: a redundant 22×21 matrix takes less than a
-/// millisecond, a 200×200 one seconds. For entries that come from measured or rounded data ask [`certify_within`](crate::certify_within).
+/// That the rank is at least r is proved by a minor that is not zero modulo a prime; that it is not
+/// larger, by all larger minors being zero modulo primes whose product exceeds Hadamard's bound.
+/// The dependencies T are rounded from their exact values, so its zeros are exactly the zeros. Time
+/// grows with the number of digits of the minors: a redundant 22×21 matrix takes less than a
+/// millisecond, a 200×200 one seconds. For entries that come from measured or rounded data ask
+/// [`certify_within`](crate::certify_within).
 ///
 /// ```
 /// use linalg::{Grounds, Matrix, certify_exact};
@@ -38,7 +41,8 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
     let (m, n) = (c.nrows(), c.ncols());
     let scaling = equilibrate(c);
     let scaled = scaling.apply(c);
-    // Below this the readings are noise of double-double; there only the primes decide, but a proposal is not needed either.
+    // Below this the readings are noise of double-double; there only the primes decide, but a
+    // proposal is not needed either.
     let floor = 16.0 * (m.max(1) as f64) * (n.max(1) as f64) * Dd::EPSILON;
     let graded = Graded::new(&DdMatrix::from(&scaled), floor);
 

@@ -1,14 +1,18 @@
-//! Rows chosen level by level, from large singular values to small ones, with double-double residuals.
+//! Rows chosen level by level, from large singular values to small ones, with double-double
+//! residuals.
 //!
-//! On each level the rows with singular values within 1e-6 of the largest are expressed as usual; what the other rows have outside their
-//! span, `S_D = C_D − T·C_K` in double-double, is the matrix of the next level. Singular values from 1 down to 1e-28 are read this
-//! way, each from a well-conditioned problem in `f64`. The levels end where S falls below a floor. Not here: what the floor means.
+//! On each level the rows with singular values within 1e-6 of the largest are expressed as usual;
+//! what the other rows have outside their span, `S_D = C_D − T·C_K` in double-double, is the matrix
+//! of the next level. Singular values from 1 down to 1e-28 are read this way, each from a
+//! well-conditioned problem in `f64`. The levels end where S falls below a floor. Not here: what
+//! the floor means.
 
 use super::bound;
 use crate::strong_basis;
 use crate::{Dd, DdMatrix, Matrix, PivotedQr, equilibrate, kernels, singular_values};
 
-/// Singular values of one level, relative to its largest: above √eps, so that `f64` solves it with half of its digits to spare.
+/// Singular values of one level, relative to its largest: above √eps, so that `f64` solves it with
+/// half of its digits to spare.
 const SPREAD: f64 = 1e-6;
 
 /// Corrections of T by double-double residuals; each gains at least eight digits.
@@ -21,8 +25,8 @@ struct Level {
     /// S of these rows times 2^exponent, of size one.
     rows: Matrix,
     exponent: i32,
-    /// Coefficients in S of all rows that were left when the level began, and which rows these were: row `left[j]` of C is
-    /// `coefficients_j·C_before` + `S_j`.
+    /// Coefficients in S of all rows that were left when the level began, and which rows these
+    /// were: row `left[j]` of C is `coefficients_j·C_before` + `S_j`.
     coefficients: DdMatrix,
     before: Vec<usize>,
     /// Singular values of the equilibrated C that the level stands for.
@@ -54,7 +58,8 @@ impl Graded {
         Self::up_to(c, floor, c.ncols())
     }
 
-    /// Takes levels off until `rank` rows are kept, however small they are; fewer where nothing is left.
+    /// Takes levels off until `rank` rows are kept, however small they are; fewer where nothing is
+    /// left.
     pub(super) fn of_rank(c: &DdMatrix, rank: usize) -> Self {
         Self::up_to(c, 0.0, rank.min(c.ncols()))
     }
@@ -106,7 +111,8 @@ impl Graded {
         }
     }
 
-    /// Singular values of C belonging to what is left: those of S in an orthonormal basis of the combinations `[−T, I]` that made it.
+    /// Singular values of C belonging to what is left: those of S in an orthonormal basis of the
+    /// combinations `[−T, I]` that made it.
     fn readings(&self, exponent: i32) -> Vec<f64> {
         let mut s = power(&self.outside, exponent).hi();
         let count = s.nrows().min(s.ncols().saturating_sub(self.kept.len()));
@@ -156,7 +162,8 @@ impl Graded {
             .fold(0.0, f64::max)
     }
 
-    /// Proved lower bounds, one for each level: that of σ_r of C for the number r of rows kept up to this level.
+    /// Proved lower bounds, one for each level: that of σ_r of C for the number r of rows kept up
+    /// to this level.
     pub(super) fn bounds(&self) -> Vec<(usize, f64)> {
         let n = self.outside.ncols();
         let mut rows: Vec<f64> = Vec::new();
@@ -176,11 +183,12 @@ impl Graded {
         found
     }
 
-    /// Unit weights of the rows of C (length m) with which they sum to about σ of the smallest level: a left singular vector, but for
-    /// the left null space, which the caller takes out.
+    /// Unit weights of the rows of C (length m) with which they sum to about σ of the smallest
+    /// level: a left singular vector, but for the left null space, which the caller takes out.
     pub(super) fn smallest_direction(&self) -> Option<Vec<f64>> {
         let level = self.levels.last()?;
-        // Two inverse iterations with S·Sᵀ = P·Rᵀ·R·Pᵀ; any start has a part along the smallest direction.
+        // Two inverse iterations with S·Sᵀ = P·Rᵀ·R·Pᵀ; any start has a part along the smallest
+        // direction.
         let qr = PivotedQr::of_rows(level.rows.clone());
         let mut y: Vec<f64> = (0..level.kept.len())
             .map(|i| 1.0 + i as f64 / 7.0)
@@ -201,7 +209,8 @@ impl Graded {
         Some(direction)
     }
 
-    /// Weights of the rows of C that sum to what row `left[j]` has outside the span of the kept rows.
+    /// Weights of the rows of C that sum to what row `left[j]` has outside the span of the kept
+    /// rows.
     pub(super) fn left_direction(&self, j: usize) -> Vec<f64> {
         let mut direction = vec![0.0; self.kept.len() + self.left.len()];
         direction[self.left[j]] = 1.0;

@@ -1,11 +1,15 @@
-//! Dependencies of rows without rounding: elimination modulo a prime, and from many primes the numbers themselves.
+//! Dependencies of rows without rounding: elimination modulo a prime, and from many primes the
+//! numbers themselves.
 //!
-//! The matrix is scaled by powers of two to integers A (exact). For a row basis K with pivot columns J every coefficient of
-//! `A_D = T·A_K` is a quotient of minors of order r, `T_ji = N_ji/det A_KJ`. Minors are known modulo each prime; with primes whose
-//! product exceeds twice Hadamard's bound they are known, and the quotients follow to full precision. The same primes prove that all
-//! minors of order r + 1 vanish. Which rows to prefer comes from elsewhere: `graded`.
+//! The matrix is scaled by powers of two to integers A (exact). For a row basis K with pivot
+//! columns J every coefficient of `A_D = T·A_K` is a quotient of minors of order r,
+//! `T_ji = N_ji/det A_KJ`. Minors are known modulo each prime; with primes whose product exceeds
+//! twice Hadamard's bound they are known, and the quotients follow to full precision. The same
+//! primes prove that all minors of order r + 1 vanish. Which rows to prefer comes from elsewhere:
+//! `graded`.
 //!
-//! Source: mixed radix digits after H. L. Garner, The residue number system, IRE Trans. Electron. Comput. EC-8 (1959) 140–147.
+//! Source: mixed radix digits after H. L. Garner, The residue number system, IRE Trans. Electron.
+//! Comput. EC-8 (1959) 140–147.
 
 use std::cmp::{Ordering, Reverse};
 
@@ -14,8 +18,8 @@ use crate::prime_field::{PRIME_BITS, PrimeField, Residue, fields};
 use crate::strong_basis::complement;
 use crate::{Matrix, Scaling};
 
-/// Primes of the zero tests. A minor of thousands of bits is divisible by fewer than 2¹⁰ of the 2⁵⁵ primes, so three agree by chance
-/// with probability below 2⁻¹³⁰.
+/// Primes of the zero tests. A minor of thousands of bits is divisible by fewer than 2¹⁰ of the 2⁵⁵
+/// primes, so three agree by chance with probability below 2⁻¹³⁰.
 const WITNESSES: usize = 3;
 
 /// `A = D·C·D_c` with integer entries: mantissa·2^shift, and the exponents of D.
@@ -29,7 +33,8 @@ pub(super) struct Integers {
 }
 
 impl Integers {
-    /// The columns scaled as in `scaling`, the rows so that they become integers without a common factor of two.
+    /// The columns scaled as in `scaling`, the rows so that they become integers without a common
+    /// factor of two.
     pub(super) fn new(c: &Matrix, scaling: &Scaling) -> Self {
         let (m, n) = (c.nrows(), c.ncols());
         let mut entries = Vec::with_capacity(m * n);
@@ -137,7 +142,8 @@ struct Reduction {
     t: Vec<Residue>,
 }
 
-/// Eliminates the rows of `a` (n columns) in the order given; the rows that are independent of those before them are kept.
+/// Eliminates the rows of `a` (n columns) in the order given; the rows that are independent of
+/// those before them are kept.
 fn reduce(field: PrimeField, a: &[Residue], n: usize, order: &[usize]) -> Reduction {
     let mut kept = Vec::new();
     let mut pivots: Vec<usize> = Vec::new();
@@ -196,18 +202,21 @@ pub(super) struct ExactBasis {
     pub(super) kept: Vec<usize>,
     /// The others, ascending.
     pub(super) dropped: Vec<usize>,
-    /// T̃ between rows equilibrated by the scaling, p×r, each entry rounded from its exact value; what is not zero stays not zero.
+    /// T̃ between rows equilibrated by the scaling, p×r, each entry rounded from its exact value;
+    /// what is not zero stays not zero.
     pub(super) t: Matrix,
 }
 
-/// The rank and a row basis, rows earlier in `order` preferred, with exact dependencies of the others.
+/// The rank and a row basis, rows earlier in `order` preferred, with exact dependencies of the
+/// others.
 pub(super) fn exact_basis(a: &Integers, scaling: &Scaling, order: &[usize]) -> ExactBasis {
     let (m, n) = (order.len(), a.ncols);
     let mut position = vec![0; m];
     for (k, &i) in order.iter().enumerate() {
         position[i] = k;
     }
-    // Modulo a prime that divides minors the rank is less, or independent rows and pivot columns are found later.
+    // Modulo a prime that divides minors the rank is less, or independent rows and pivot columns
+    // are found later.
     let key = |r: &Reduction| {
         let rows: Vec<usize> = r.kept.iter().map(|&i| position[i]).collect();
         (Reverse(rows.len()), rows, r.pivots.clone())
@@ -277,7 +286,8 @@ pub(super) fn exact_basis(a: &Integers, scaling: &Scaling, order: &[usize]) -> E
     }
 }
 
-/// Signed integers by their mixed radix digits, `d_0 + d_1·p_0 + d_2·p_0·p_1 + …`, extended prime by prime.
+/// Signed integers by their mixed radix digits, `d_0 + d_1·p_0 + d_2·p_0·p_1 + …`, extended prime
+/// by prime.
 #[derive(Default)]
 struct MixedRadix {
     fields: Vec<PrimeField>,
@@ -340,7 +350,8 @@ impl MixedRadix {
                 exponent: 0,
             };
         };
-        // A number in the upper half of the product P stands for x − P; P − 1 − x has complementary digits.
+        // A number in the upper half of the product P stands for x − P; P − 1 − x has complementary
+        // digits.
         let negative = last[l] > p_last.p() / 2;
         let (mut mantissa, mut exponent) = (0.0_f64, 0_i64);
         for (digits, field) in self.digits.iter().zip(&self.fields).rev() {
@@ -364,9 +375,11 @@ impl MixedRadix {
     }
 }
 
-/// The left null space of a matrix modulo a few primes: tests whether something vanishes on it, without a tolerance.
+/// The left null space of a matrix modulo a few primes: tests whether something vanishes on it,
+/// without a tolerance.
 ///
-/// "Not zero" is proved. "Zero" is wrong with probability below 2⁻¹³⁰ for data that were not made against the primes.
+/// "Not zero" is proved. "Zero" is wrong with probability below 2⁻¹³⁰ for data that were not made
+/// against the primes.
 ///
 /// ```
 /// use linalg::{ExactNullSpace, Matrix};

@@ -41,7 +41,8 @@ fn planted(numbers: &mut Numbers, m: usize, n: usize, r: usize) -> Matrix {
     Matrix::from_fn(m, n, |i, j| rows[i] * product[(i, j)] * cols[j])
 }
 
-/// Three parallel cranks of length `l`, pitch `l`, angle θ on one coupler: 12×12, rank 11 unless flat.
+/// Three parallel cranks of length `l`, pitch `l`, angle θ on one coupler: 12×12, rank 11 unless
+/// flat.
 pub(super) fn parallel_cranks(l: f64, theta: f64) -> Matrix {
     let (s, c) = theta.sin_cos();
     let half = 0.5 * l;

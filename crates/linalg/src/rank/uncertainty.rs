@@ -15,9 +15,11 @@ use crate::{Matrix, Scaling, equilibrate};
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Uncertainty<'a> {
-    /// Absolute, the same for all entries of the equilibrated matrix: each entry of the matrix means what it says, however small.
+    /// Absolute, the same for all entries of the equilibrated matrix: each entry of the matrix
+    /// means what it says, however small.
     Equilibrated(f64),
-    /// Absolute, entry by entry, in the units of the matrix. Entries below theirs do not raise the scale of a row or column.
+    /// Absolute, entry by entry, in the units of the matrix. Entries below theirs do not raise the
+    /// scale of a row or column.
     Entries(&'a Matrix),
 }
 
@@ -42,12 +44,14 @@ pub(crate) struct Spread {
     pub(crate) norm: f64,
 }
 
-/// An entry sets the scale of its row and column only above this multiple of its uncertainty. Not less: an entry that is what several
-/// roundings left of larger terms must never be scaled up to size one; and nothing is lost, since the rank does not depend on scales.
+/// An entry sets the scale of its row and column only above this multiple of its uncertainty. Not
+/// less: an entry that is what several roundings left of larger terms must never be scaled up to
+/// size one; and nothing is lost, since the rank does not depend on scales.
 const SIGNIFICANT: f64 = 1e5;
 
 impl Uncertainty<'_> {
-    /// The equilibration of the significant entries of `c`, and the uncertainty of the equilibrated matrix.
+    /// The equilibration of the significant entries of `c`, and the uncertainty of the equilibrated
+    /// matrix.
     pub(crate) fn equilibrate(self, c: &Matrix) -> Result<(Scaling, Spread), RankError> {
         let scaling = match self {
             Self::Equilibrated(_) => equilibrate(c),

@@ -1,7 +1,9 @@
-//! The rank of a matrix that comes from a model: entries in double-double, data known to an uncertainty.
+//! The rank of a matrix that comes from a model: entries in double-double, data known to an
+//! uncertainty.
 //!
-//! A singular value that is exactly zero falls from 1e-16 to 1e-32 when the precision is doubled; one that is merely small stays. If it
-//! stays, it is compared with what the data are known to, never with the rounding of `f64`.
+//! A singular value that is exactly zero falls from 1e-16 to 1e-32 when the precision is doubled;
+//! one that is merely small stays. If it stays, it is compared with what the data are known to,
+//! never with the rounding of `f64`.
 
 use super::certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant};
 use super::graded::Graded;
@@ -13,22 +15,27 @@ use super::{
 use crate::strong_basis::{self, Basis};
 use crate::{Dd, DdMatrix, Scaling};
 
-/// σ_{r+1} vanishes if it falls by ten digits below the 1e-16 of `f64`; what remains is the polishing of the point in double-double.
+/// σ_{r+1} vanishes if it falls by ten digits below the 1e-16 of `f64`; what remains is the
+/// polishing of the point in double-double.
 const VANISHES: f64 = 1e-26;
 
 /// Above this multiple of the tolerance a singular value is larger than the data can explain.
 const CLEAR_OF_DATA: f64 = 4.0;
 
-/// Decides the rank of C (m×n), evaluated in double-double at a polished point, of a model whose data are known to `uncertainty`.
+/// Decides the rank of C (m×n), evaluated in double-double at a polished point, of a model whose
+/// data are known to `uncertainty`.
 ///
 /// | argument | meaning |
 /// | --- | --- |
 /// | `c` | constraint matrix; its entries carry errors of double-double only |
 /// | `uncertainty` | how far the entries may be from those of the model meant; see [`Uncertainty`]. Near a singular configuration they move with the root of the data |
 ///
-/// With u, the largest uncertainty of an equilibrated entry, s, the Frobenius norm of all, and `τ = max(10·u, s)`: a singular value below τ is zero for some matrix within the uncertainty, one above 4·τ is not zero for any. Then:
-/// redundant exactly (σ_{r+1} ≤ 1e-26, [`Grounds::Vanishes`]); redundant within the data ([`Grounds::WithinData`]); of full rank although
-/// [nearly redundant](RankDecision::nearly_redundant); or undecided between τ and 4·τ, and where τ is above 0.01: entries of size one would be hidden.
+/// With u, the largest uncertainty of an equilibrated entry, s, the Frobenius norm of all, and
+/// `τ = max(10·u, s)`: a singular value below τ is zero for some matrix within the uncertainty, one
+/// above 4·τ is not zero for any. Then: redundant exactly (σ_{r+1} ≤ 1e-26, [`Grounds::Vanishes`]);
+/// redundant within the data ([`Grounds::WithinData`]); of full rank although
+/// [nearly redundant](RankDecision::nearly_redundant); or undecided between τ and 4·τ, and where τ
+/// is above 0.01: entries of size one would be hidden.
 ///
 /// ```
 /// use linalg::{Dd, DdMatrix, Grounds, Matrix, certify_within};
@@ -45,7 +52,8 @@ const CLEAR_OF_DATA: f64 = 4.0;
 ///
 /// # Errors
 /// - [`RankError::NonFinite`]: an entry is NaN or infinite.
-/// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN, infinite or of another matrix.
+/// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN,
+///   infinite or of another matrix.
 pub fn certify_within<'a>(
     c: &DdMatrix,
     uncertainty: impl Into<Uncertainty<'a>>,
@@ -122,12 +130,14 @@ pub struct RankReading {
     pub noise: f64,
     /// Singular values of the rank are above this; a matrix that has one below it is another one.
     pub separation: f64,
-    /// On what the other rows are called redundant if they do not vanish when the precision is doubled.
+    /// On what the other rows are called redundant if they do not vanish when the precision is
+    /// doubled.
     pub grounds: Grounds,
 }
 
-/// Kept rows, dependencies and the evidence of double-double for a rank that has been read from data known to `uncertainty` (m×n, in the units of
-/// C). If the rank that separates there is another one, `None`: the reading does not belong to this matrix.
+/// Kept rows, dependencies and the evidence of double-double for a rank that has been read from
+/// data known to `uncertainty` (m×n, in the units of C). If the rank that separates there is
+/// another one, `None`: the reading does not belong to this matrix.
 ///
 /// # Errors
 /// As [`certify_within`].

@@ -8,11 +8,13 @@ use crate::kernels::{axpy, dot, extremes, max_abs};
 /// A pivot below this fraction of its row is rounding noise, whatever the configuration.
 const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
 
-/// Where some masses are zero, the others are graded from this spread on: nothing of a massless coordinate's own is left in NᵀMN to stand
-/// against what cancels there. Below it pivots by mass would only be smaller.
+/// Where some masses are zero, the others are graded from this spread on: nothing of a massless
+/// coordinate's own is left in NᵀMN to stand against what cancels there. Below it pivots by mass
+/// would only be smaller.
 const GRADED_BESIDE_MASSLESS: f64 = 1e3;
 
-/// Graded masses choose among the entries above this share of the largest one: multipliers of the elimination stay below its inverse.
+/// Graded masses choose among the entries above this share of the largest one: multipliers of the
+/// elimination stay below its inverse.
 const CANDIDATE: f64 = 0.1;
 
 /// What became of a row.
@@ -37,7 +39,8 @@ impl KeptRowSaddle {
     /// After an error the solver holds no factorisation.
     ///
     /// # Errors
-    /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad input.
+    /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad
+    ///   input.
     /// - [`SaddleError::RankLost`]: a row depends on the ones before it to working precision.
     /// - [`SaddleError::MasslessMotion`]: M is not positive definite on ker C; carries the motion.
     pub fn factor<'c>(
@@ -60,9 +63,9 @@ impl KeptRowSaddle {
         self.finish(row, mass)
     }
 
-    /// As [`KeptRowSaddle::factor`], but a row whose pivot is at most `floor` of its largest entry is left out: where rows are
-    /// dependent for an instant, the others determine the solution. The multiplier of a row left out is zero, and its
-    /// equation does not hold.
+    /// As [`KeptRowSaddle::factor`], but a row whose pivot is at most `floor` of its largest entry
+    /// is left out: where rows are dependent for an instant, the others determine the solution. The
+    /// multiplier of a row left out is zero, and its equation does not hold.
     ///
     /// ```
     /// use linalg::KeptRowSaddle;
@@ -135,7 +138,8 @@ impl KeptRowSaddle {
         Ok(())
     }
 
-    /// The next column of U and of L from a row of C: gather, eliminate with the rows before, pivot.
+    /// The next column of U and of L from a row of C: gather, eliminate with the rows before,
+    /// pivot.
     fn eliminate(
         &mut self,
         row: usize,
@@ -159,7 +163,8 @@ impl KeptRowSaddle {
         if zero != 0.0 {
             check_finite("C", c_j, row * n)?;
         }
-        // As long as rows are solved for the coordinates of the order, their entries are those of the lists.
+        // As long as rows are solved for the coordinates of the order, their entries are those of
+        // the lists.
         let below = match row == j && self.is_in_order {
             true => {
                 for &k in self.fill.upper.of(j) {
@@ -263,7 +268,8 @@ impl KeptRowSaddle {
     ) -> Result<(), SaddleError> {
         let (r, k) = (self.r, self.n - self.r);
         let heaviest = max_abs(&self.mass);
-        // What cancels in NᵀMN, and what rounding of N, which has no rounding in the free coordinates, turns from zero into mass.
+        // What cancels in NᵀMN, and what rounding of N, which has no rounding in the free
+        // coordinates, turns from zero into mass.
         let cancelled = k as f64 * f64::EPSILON;
         let spurious = (self.n as f64 * f64::EPSILON).powi(2) * max_abs(&self.mass[..r]);
         self.mass_ratio = f64::INFINITY;

@@ -1,7 +1,9 @@
-//! Which entries of L and U can be other than zero, for rows whose columns are known and an order in which coordinates are solved for.
+//! Which entries of L and U can be other than zero, for rows whose columns are known and an order
+//! in which coordinates are solved for.
 //!
-//! Elimination in that order visits these entries only, and skips nothing but products with zero: its results are those of visiting all.
-//! Where rows turn to other coordinates the lists say nothing; then all entries are visited.
+//! Elimination in that order visits these entries only, and skips nothing but products with zero:
+//! its results are those of visiting all. Where rows turn to other coordinates the lists say
+//! nothing; then all entries are visited.
 
 /// Lists of indices, those of list k at `start[k]..start[k + 1]`.
 #[derive(Debug, Clone)]

@@ -1,10 +1,11 @@
-//! On which side of a singular configuration? The determinant of C bordered by a fixed frame of its null space changes its
-//! sign where the rows lose their rank once, also if no step ends there.
+//! On which side of a singular configuration? The determinant of C bordered by a fixed frame of its
+//! null space changes its sign where the rows lose their rank once, also if no step ends there.
 
 use super::KeptRowSaddle;
 
 impl KeptRowSaddle {
-    /// Writes a basis of the null space of the factored rows, k = n − r vectors of n, one after the other.
+    /// Writes a basis of the null space of the factored rows, k = n − r vectors of n, one after the
+    /// other.
     ///
     /// # Panics
     /// If `frame` has not k·n entries.
@@ -25,8 +26,8 @@ impl KeptRowSaddle {
         }
     }
 
-    /// The sign of `det [Cᵀ B]` for k vectors B, one after the other: +1, −1, or 0 if they border nothing. Compare values for one
-    /// B and neighbouring C only.
+    /// The sign of `det [Cᵀ B]` for k vectors B, one after the other: +1, −1, or 0 if they border
+    /// nothing. Compare values for one B and neighbouring C only.
     ///
     /// With `P·Cᵀ = L·U` and the null space basis N it is `sign(P)·Π sign(u_jj)·sign det(Nᵀ·B)`.
     ///

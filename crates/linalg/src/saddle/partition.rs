@@ -1,17 +1,20 @@
-//! A partition of the coordinates into dependent and free ones that stays the same from factorisation to factorisation. Without it
-//! every factorisation chooses its own, which is safer and gives the same solutions; with it the free coordinates are
-//! coordinates of a manifold, and the rows determine the others.
+//! A partition of the coordinates into dependent and free ones that stays the same from
+//! factorisation to factorisation. Without it every factorisation chooses its own, which is safer
+//! and gives the same solutions; with it the free coordinates are coordinates of a manifold, and
+//! the rows determine the others.
 
 use super::orientation::parity;
 use super::{KeptRowSaddle, SaddleError, State, check_finite, check_length};
 
 impl KeptRowSaddle {
-    /// From the next factorisation on, solves for these coordinates: one for each row, in any order. Choose them well, for instance as
-    /// the first columns of a [`PivotedQr`](crate::PivotedQr) of the rows; [`KeptRowSaddle::pivot_ratio`] tells when they have
-    /// become a bad choice.
+    /// From the next factorisation on, solves for these coordinates: one for each row, in any
+    /// order. Choose them well, for instance as the first columns of a
+    /// [`PivotedQr`](crate::PivotedQr) of the rows; [`KeptRowSaddle::pivot_ratio`] tells when they
+    /// have become a bad choice.
     ///
     /// # Errors
-    /// [`SaddleError::Length`], [`SaddleError::Partition`]: not r different coordinates; nothing is changed.
+    /// [`SaddleError::Length`], [`SaddleError::Partition`]: not r different coordinates; nothing is
+    /// changed.
     pub fn partition(&mut self, dependent: &[usize]) -> Result<(), SaddleError> {
         check_length("dependent", dependent, self.rows)?;
         let mut is_dependent = vec![false; self.n];
@@ -33,13 +36,15 @@ impl KeptRowSaddle {
         Ok(())
     }
 
-    /// The coordinates that the last factorisation solved for, one for each row in use: with graded masses the light ones.
+    /// The coordinates that the last factorisation solved for, one for each row in use: with graded
+    /// masses the light ones.
     pub fn solved_for(&self) -> &[usize] {
         &self.permutation[..self.r]
     }
 
-    /// From the next factorisation on, takes coordinates up in the order of the last one. Each still solves for the largest entries, but where
-    /// these are the same, or as large, nothing has to be moved.
+    /// From the next factorisation on, takes coordinates up in the order of the last one. Each
+    /// still solves for the largest entries, but where these are the same, or as large, nothing has
+    /// to be moved.
     pub fn keep_order(&mut self) {
         self.order.copy_from_slice(&self.permutation);
         self.order_is_new();
@@ -57,8 +62,8 @@ impl KeptRowSaddle {
         self.order_parity = parity(&self.order);
     }
 
-    /// Overwrites the dependent entries of `x` so that `C·x = γ`, and leaves the free ones alone. Needs no masses; allocates
-    /// nothing.
+    /// Overwrites the dependent entries of `x` so that `C·x = γ`, and leaves the free ones alone.
+    /// Needs no masses; allocates nothing.
     ///
     /// ```
     /// use linalg::KeptRowSaddle;

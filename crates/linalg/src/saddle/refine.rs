@@ -1,10 +1,12 @@
-//! Iterative refinement: what a factorisation in double precision leaves of the equations is computed in double-double and solved for
-//! again, until the solution, which is double-double too, has all digits of an `f64`.
+//! Iterative refinement: what a factorisation in double precision leaves of the equations is
+//! computed in double-double and solved for again, until the solution, which is double-double too,
+//! has all digits of an `f64`.
 //!
-//! One round multiplies the error by about that of the factorisation, so one or two are enough. The solution is that of C, M, f and γ
-//! as they are given; rounding that is in these stays. Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition,
-//! chapter 12; the extended iterate after J. Demmel et al., Error bounds from extra-precise iterative refinement, ACM TOMS 32
-//! (2006) 325–351.
+//! One round multiplies the error by about that of the factorisation, so one or two are enough. The
+//! solution is that of C, M, f and γ as they are given; rounding that is in these stays. Source: N.
+//! J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd edition, chapter 12; the extended
+//! iterate after J. Demmel et al., Error bounds from extra-precise iterative refinement, ACM TOMS
+//! 32 (2006) 325–351.
 
 use super::{KeptRowSaddle, SaddleError, check_length};
 use crate::Dd;
@@ -13,10 +15,12 @@ use crate::kernels::max_abs;
 /// More rounds than these only happen where the equations are singular.
 const ROUNDS: usize = 8;
 
-/// What the next round would change, as a share: below the rounding of an `f64` there is nothing to gain.
+/// What the next round would change, as a share: below the rounding of an `f64` there is nothing to
+/// gain.
 const SETTLED: f64 = 0.0625 * f64::EPSILON;
 
-/// Changes this much smaller than the largest unknown of their kind, twice running, are rounding of double-double numbers: 2⁻⁹⁶.
+/// Changes this much smaller than the largest unknown of their kind, twice running, are rounding of
+/// double-double numbers: 2⁻⁹⁶.
 const NOISE: f64 = 1.262_177_448_353_619e-29;
 
 /// Storage for the refinement of solutions of n coordinates and r rows.
@@ -65,8 +69,8 @@ impl Unknowns {
         self.add();
     }
 
-    /// Adds the change; returns the largest share of a size that it is, or NaN. An unknown that is zero but for rounding has the size of its
-    /// rounding.
+    /// Adds the change; returns the largest share of a size that it is, or NaN. An unknown that is
+    /// zero but for rounding has the size of its rounding.
     fn add(&mut self) -> f64 {
         let mut largest = 0.0;
         for (i, change) in self.change.iter().enumerate() {
@@ -103,8 +107,9 @@ impl Refinement {
 }
 
 impl KeptRowSaddle {
-    /// As [`KeptRowSaddle::solve`], with all digits of the equations as they are given; allocates nothing. Two to three times the work of a
-    /// factorisation, most of it in double-double: see [`KeptRowSaddle::wants_refinement`].
+    /// As [`KeptRowSaddle::solve`], with all digits of the equations as they are given; allocates
+    /// nothing. Two to three times the work of a factorisation, most of it in double-double: see
+    /// [`KeptRowSaddle::wants_refinement`].
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
@@ -224,7 +229,8 @@ mod tests {
     /// What double-double leaves of zero where other numbers are as large as 2⁵³.
     const ZERO_LEFT: f64 = 1e-15 * f64::EPSILON;
 
-    /// All numbers are whole and below 2⁵³, so that f = M·a + Cᵀ·λ and γ = C·a are exact: every bit of a and λ must come back.
+    /// All numbers are whole and below 2⁵³, so that f = M·a + Cᵀ·λ and γ = C·a are exact: every bit
+    /// of a and λ must come back.
     #[test]
     fn whole_numbers_come_back_exactly() {
         const N: usize = 9;
@@ -270,8 +276,8 @@ mod tests {
         }
     }
 
-    /// Five carts tied one to the next, pushed at the end: a = F/Σm, and each tie carries what the carts behind it weigh.
-    /// Plain solutions are good to rounding wherever the heavy carts stand.
+    /// Five carts tied one to the next, pushed at the end: a = F/Σm, and each tie carries what the
+    /// carts behind it weigh. Plain solutions are good to rounding wherever the heavy carts stand.
     #[test]
     fn light_coordinates_are_solved_for() {
         const N: usize = 5;
@@ -308,10 +314,12 @@ mod tests {
         }
     }
 
-    /// What is exactly zero in a plain solution is rounding of double-double numbers in a refined one, and stays that.
+    /// What is exactly zero in a plain solution is rounding of double-double numbers in a refined
+    /// one, and stays that.
     #[test]
     fn unknowns_that_are_zero_do_not_keep_others_waiting() {
-        // The first two rows hold x and y; the third and fourth tie z and w to them by numbers that no binary fraction is.
+        // The first two rows hold x and y; the third and fourth tie z and w to them by numbers that
+        // no binary fraction is.
         let c = Matrix::from_rows(&[
             [1.0, 0.0, 0.0, 0.0, 0.0],
             [0.1, 0.3, 0.0, 0.0, 0.0],

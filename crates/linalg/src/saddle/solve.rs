@@ -54,7 +54,8 @@ impl KeptRowSaddle {
         Ok(())
     }
 
-    /// λ from `Cᵀ·λ = f − M·a` with the last factorisation, for an a that solves the equations; allocates nothing.
+    /// λ from `Cᵀ·λ = f − M·a` with the last factorisation, for an a that solves the equations;
+    /// allocates nothing.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |

@@ -103,8 +103,8 @@ fn massless_motion_is_named() {
     assert_eq!(refused, Err(SaddleError::NotFactored));
 }
 
-/// The null vector is (0, t, −s) exactly; rounding puts some 1e-17 into its first entry, the only one
-/// with a mass. That is no mass.
+/// The null vector is (0, t, −s) exactly; rounding puts some 1e-17 into its first entry, the only
+/// one with a mass. That is no mass.
 #[test]
 fn rounding_of_the_null_vector_gives_no_mass() {
     let (s, t) = (0.3, 0.7);

@@ -4,16 +4,19 @@ use super::SchurSaddle;
 use super::front::{add_element, add_update, eliminate};
 use crate::{SaddleError, SparseMatrix};
 
-/// A row of which less than this share is left, in the metric of the inverse masses, is rounding noise: S has the square of it.
+/// A row of which less than this share is left, in the metric of the inverse masses, is rounding
+/// noise: S has the square of it.
 const NOISE: f64 = 1e-7;
 
 impl SchurSaddle {
     /// Factors `S = C·M⁻¹·Cᵀ` for rows of the pattern of the structure and the diagonal of M.
     ///
     /// # Errors
-    /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad input.
+    /// - [`SaddleError::Length`], [`SaddleError::NonFinite`], [`SaddleError::NegativeMass`]: bad
+    ///   input.
     /// - [`SaddleError::ZeroMass`]: a coordinate without mass.
-    /// - [`SaddleError::RankLost`]: a row depends on others, as far as S can tell: less than 1e-7 of it is left.
+    /// - [`SaddleError::RankLost`]: a row depends on others, as far as S can tell: less than 1e-7
+    ///   of it is left.
     pub fn factor(&mut self, c: &SparseMatrix, mass: &[f64]) -> Result<(), SaddleError> {
         self.factor_above(0.0, c, mass)?;
         let Some(row) = (0..self.inverse.len()).find(|&k| !self.uses(k)) else {
@@ -28,8 +31,9 @@ impl SchurSaddle {
         })
     }
 
-    /// The same, but a row of which at most the share `floor` is left is left out: where rows are dependent for an instant, the others determine
-    /// the solution. The multiplier of a row left out is zero, and its equation does not hold.
+    /// The same, but a row of which at most the share `floor` is left is left out: where rows are
+    /// dependent for an instant, the others determine the solution. The multiplier of a row left
+    /// out is zero, and its equation does not hold.
     ///
     /// # Errors
     /// As [`SchurSaddle::factor`], without [`SaddleError::RankLost`].

@@ -1,11 +1,13 @@
 //! One dense front: what goes into it, and the elimination of its pivots.
 //!
-//! A front of order f is stored by columns, f numbers each, of which those from the diagonal on count.
+//! A front of order f is stored by columns, f numbers each, of which those from the diagonal on
+//! count.
 
 use super::structure::NONE;
 use crate::kernels::axpy;
 
-/// Adds the triangle that a child has left, `later` × `later` packed by columns, at these indices, which ascend.
+/// Adds the triangle that a child has left, `later` × `later` packed by columns, at these indices,
+/// which ascend.
 pub(super) fn add_update(front: &mut [f64], f: usize, update: &[f64], at: &[u32]) {
     let mut from = 0;
     for (k, &j) in at.iter().enumerate() {
@@ -18,7 +20,8 @@ pub(super) fn add_update(front: &mut [f64], f: usize, update: &[f64], at: &[u32]
     }
 }
 
-/// Adds `E·diag(weight)·Eᵀ` for a block: its rows at these indices, which ascend, and for each row and column the place of the entry in `values`.
+/// Adds `E·diag(weight)·Eᵀ` for a block: its rows at these indices, which ascend, and for each row
+/// and column the place of the entry in `values`.
 pub(super) fn add_element(
     front: &mut [f64],
     f: usize,
@@ -53,8 +56,9 @@ pub(super) fn add_element(
     }
 }
 
-/// Eliminates the first pivots, as many as `inverse` has places: `F = L·D·Lᵀ + [0, 0; 0, update]`. A pivot at most `least[k]` is left out: its column
-/// of L is zero, and so is its inverse. The smallest share `D_k/size_k` of those that are not.
+/// Eliminates the first pivots, as many as `inverse` has places: `F = L·D·Lᵀ + [0, 0; 0, update]`.
+/// A pivot at most `least[k]` is left out: its column of L is zero, and so is its inverse. The
+/// smallest share `D_k/size_k` of those that are not.
 pub(super) fn eliminate(
     front: &mut [f64],
     f: usize,

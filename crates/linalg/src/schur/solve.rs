@@ -17,8 +17,9 @@ const PROGRESS: f64 = 0.5;
 const POOR: f64 = 1e-9;
 
 impl SchurSaddle {
-    /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the rows of the last factorisation. Rows that are not solved to rounding are corrected with the same
-    /// factors until they are, or nothing is gained; rows left out do not count.
+    /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the rows of the last factorisation. Rows that are
+    /// not solved to rounding are corrected with the same factors until they are, or nothing is
+    /// gained; rows left out do not count.
     ///
     /// | argument | shape | meaning |
     /// | --- | --- | --- |
@@ -28,7 +29,8 @@ impl SchurSaddle {
     ///
     /// # Errors
     /// - [`SaddleError::NotFactored`], [`SaddleError::Length`], [`SaddleError::NonFinite`].
-    /// - [`SaddleError::Unrefined`]: a row misses by more than 1e-9 of its terms whatever is corrected.
+    /// - [`SaddleError::Unrefined`]: a row misses by more than 1e-9 of its terms whatever is
+    ///   corrected.
     pub fn solve(
         &mut self,
         c: &SparseMatrix,
@@ -83,7 +85,8 @@ impl SchurSaddle {
         Ok(())
     }
 
-    /// λ of least `‖Cᵀ·λ − (f − M·a)‖` in the metric of the inverse masses, for a motion a that is known; not corrected.
+    /// λ of least `‖Cᵀ·λ − (f − M·a)‖` in the metric of the inverse masses, for a motion a that is
+    /// known; not corrected.
     ///
     /// # Errors
     /// As [`SchurSaddle::solve`].
@@ -163,7 +166,8 @@ impl SchurSaddle {
         self.misfit(c, gamma, a)
     }
 
-    /// The largest misfit as share of all that was added up: where multipliers balance, accelerations are what rounding leaves of them.
+    /// The largest misfit as share of all that was added up: where multipliers balance,
+    /// accelerations are what rounding leaves of them.
     fn misfit_of_all(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
         std::mem::swap(&mut self.terms, &mut self.all);
         self.misfit(c, gamma, a)
@@ -192,7 +196,8 @@ impl SchurSaddle {
         largest
     }
 
-    /// Adds the multipliers in x, and takes what they do to the motion; the sizes of what is taken add up.
+    /// Adds the multipliers in x, and takes what they do to the motion; the sizes of what is taken
+    /// add up.
     fn add_solution(&mut self, c: &SparseMatrix, a: &mut [f64], lambda: &mut [f64]) {
         let s = &self.structure;
         for (place, (&x, &row)) in self.x.iter().zip(&s.row).enumerate() {

@@ -1,16 +1,19 @@
 //! What depends on the pattern alone: an order of elimination, fronts, and where every number goes.
 //!
-//! Rows that touch the same blocks (bodies) are eliminated together. They are the nodes of a graph in which each block joins the rows that touch it,
-//! ordered by minimum degree. A front is a dense triangle over the rows that are eliminated in it, its pivots, and the later rows that they meet.
-//! `C_b·M_b⁻¹·C_bᵀ` of a block b goes into the front in which the first of its rows is a pivot; what elimination leaves of a front goes into
-//! the front of the first of its other rows, its parent. Fronts that are nearly as their parent become one with it.
+//! Rows that touch the same blocks (bodies) are eliminated together. They are the nodes of a graph
+//! in which each block joins the rows that touch it, ordered by minimum degree. A front is a dense
+//! triangle over the rows that are eliminated in it, its pivots, and the later rows that they meet.
+//! `C_b·M_b⁻¹·C_bᵀ` of a block b goes into the front in which the first of its rows is a pivot;
+//! what elimination leaves of a front goes into the front of the first of its other rows, its
+//! parent. Fronts that are nearly as their parent become one with it.
 
 use std::ops::Range;
 
 use crate::{SparseMatrix, minimum_degree};
 
-/// A front becomes one with its parent where that leaves at most this share of zeros in the columns of both, or adds no more than a few entries:
-/// a front of its own costs as much as some ten products.
+/// A front becomes one with its parent where that leaves at most this share of zeros in the columns
+/// of both, or adds no more than a few entries: a front of its own costs as much as some ten
+/// products.
 const ZEROS: f64 = 0.15;
 const FEW_ZEROS: usize = 24;
 
@@ -36,7 +39,8 @@ pub struct SchurStructure {
     /// The row at each place of the order of elimination, and the place of each row.
     pub(super) row: Vec<usize>,
     pub(super) place: Vec<usize>,
-    /// For each place, where its columns begin in `row_columns` and its values in C; one more for the end.
+    /// For each place, where its columns begin in `row_columns` and its values in C; one more for
+    /// the end.
     row_start: Vec<[u32; 2]>,
     /// Columns of all rows, in the order of elimination.
     row_columns: Vec<u32>,
@@ -93,8 +97,8 @@ pub(super) struct Element {
 }
 
 impl SchurStructure {
-    /// For rows with this pattern, whose values do not matter, and blocks of columns; a column of no block is one by itself, and a column of
-    /// several belongs to the first.
+    /// For rows with this pattern, whose values do not matter, and blocks of columns; a column of
+    /// no block is one by itself, and a column of several belongs to the first.
     #[must_use]
     pub fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Self {
         let blocks = Blocks::new(c, blocks);
@@ -252,7 +256,8 @@ impl Nodes {
 struct Tree {
     /// Nodes in this order.
     order: Vec<usize>,
-    /// Of each place: the later places that it meets, ascending, and how many places before it are one with it.
+    /// Of each place: the later places that it meets, ascending, and how many places before it are
+    /// one with it.
     meets: Vec<Vec<usize>>,
     merged: Vec<usize>,
 }
@@ -472,7 +477,8 @@ impl SchurStructure {
     }
 }
 
-/// Places and what they meet, renumbered such that children stand just before their parents, the one with the widest front last.
+/// Places and what they meet, renumbered such that children stand just before their parents, the
+/// one with the widest front last.
 fn postordered(nodes: &Nodes, order: &[usize]) -> (Vec<usize>, Vec<Vec<usize>>) {
     let n = order.len();
     let mut place = vec![0; n];

@@ -89,7 +89,8 @@ fn random_mechanisms_move_as_with_the_dense_solver() {
 
 #[test]
 fn a_hanging_chain_of_point_masses_pulls_with_its_weight() {
-    // Row k holds the distance of masses k − 1 and k along the vertical; mass 0 hangs on the ground.
+    // Row k holds the distance of masses k − 1 and k along the vertical; mass 0 hangs on the
+    // ground.
     let n = 5000;
     let row =
         |k: usize| (k.saturating_sub(1)..=k).map(move |j| (j, if j == k { 1.0 } else { -1.0 }));

@@ -1,13 +1,15 @@
-//! A bidiagonal matrix made diagonal by rotations from both sides; only its singular values are kept.
+//! A bidiagonal matrix made diagonal by rotations from both sides; only its singular values are
+//! kept.
 //!
-//! Each step is one of the implicit QR algorithm for BᵀB, without forming it: a rotation of two columns with Wilkinson's shift makes an entry
-//! below the diagonal, which further rotations chase out. A block whose diagonal has a zero is cut there first.
+//! Each step is one of the implicit QR algorithm for BᵀB, without forming it: a rotation of two
+//! columns with Wilkinson's shift makes an entry below the diagonal, which further rotations chase
+//! out. A block whose diagonal has a zero is cut there first.
 
 /// Steps at most for each value; two or three are needed.
 const STEPS_EACH: usize = 60;
 
-/// Turns the diagonal `d` (n) and the superdiagonal `f` (n − 1) of a matrix with entries near one into singular values, unsorted and with any sign;
-/// false if the steps do not come to an end.
+/// Turns the diagonal `d` (n) and the superdiagonal `f` (n − 1) of a matrix with entries near one
+/// into singular values, unsorted and with any sign; false if the steps do not come to an end.
 pub(super) fn iterate(d: &mut [f64], f: &mut [f64]) -> bool {
     let largest = |x: &[f64]| x.iter().fold(0.0_f64, |a, &b| a.max(b.abs()));
     let zero = f64::EPSILON * largest(d).max(largest(f));
@@ -68,7 +70,8 @@ fn step(d: &mut [f64], f: &mut [f64]) {
     }
 }
 
-/// Where the first diagonal entry of the block is zero: rotations with the rows below empty its row.
+/// Where the first diagonal entry of the block is zero: rotations with the rows below empty its
+/// row.
 fn cut_row(d: &mut [f64], f: &mut [f64]) {
     let mut bulge = f[0];
     d[0] = 0.0;
@@ -82,7 +85,8 @@ fn cut_row(d: &mut [f64], f: &mut [f64]) {
     }
 }
 
-/// Where the last diagonal entry of the block is zero: rotations with the columns before empty its column.
+/// Where the last diagonal entry of the block is zero: rotations with the columns before empty its
+/// column.
 fn cut_column(d: &mut [f64], f: &mut [f64]) {
     let n = d.len();
     let mut bulge = f[n - 2];

@@ -1,15 +1,18 @@
 //! The factorisation: C = Q·R, body by body, with the rank found on the way.
 //!
-//! Each front is triangularised by Householder reflections. A pivot column of which less than the tolerance is left is *dead* and stepped
-//! over (Heath's rule); there is no exchange of columns but among those of one body. What is left of the front below its pivots is
-//! triangularised too, so that it has no more rows than columns when it goes up; rows that have nothing left are the left null space.
-//! All that is set to zero on the way is E: `C + E = Q·R` up to rounding, hence `σ_{r+1}(C) ≤ ‖E‖`. The live columns lose nothing with the
-//! dead ones.
+//! Each front is triangularised by Householder reflections. A pivot column of which less than the
+//! tolerance is left is *dead* and stepped over (Heath's rule); there is no exchange of columns but
+//! among those of one body. What is left of the front below its pivots is triangularised too, so
+//! that it has no more rows than columns when it goes up; rows that have nothing left are the left
+//! null space. All that is set to zero on the way is E: `C + E = Q·R` up to rounding, hence
+//! `σ_{r+1}(C) ≤ ‖E‖`. The live columns lose nothing with the dead ones.
 //!
-//! Not here: whether to believe that rank. The live columns may be nearly dependent without one of them showing it.
+//! Not here: whether to believe that rank. The live columns may be nearly dependent without one of
+//! them showing it.
 //!
-//! Source: M. T. Heath, Some extensions of an algorithm for sparse linear least squares problems, SIAM J. Sci. Stat. Comput. 3 (1982)
-//! 223–237; T. A. Davis, Algorithm 915: SuiteSparseQR, ACM Trans. Math. Softw. 38 (2011) 8.
+//! Source: M. T. Heath, Some extensions of an algorithm for sparse linear least squares problems,
+//! SIAM J. Sci. Stat. Comput. 3 (1982) 223–237; T. A. Davis, Algorithm 915: SuiteSparseQR, ACM
+//! Trans. Math. Softw. 38 (2011) 8.
 
 use std::ops::Range;
 
@@ -107,7 +110,8 @@ struct Householder {
     /// The vector v of the reflection in work: (row of the front, value).
     v: Vec<(usize, f64)>,
     product: Vec<f64>,
-    /// What is finished; until the end squares are in place of what was dropped, and `dropped` is without the rest.
+    /// What is finished; until the end squares are in place of what was dropped, and `dropped` is
+    /// without the rest.
     found: SparseQr,
 }
 
@@ -143,7 +147,8 @@ impl Householder {
         self.front.leave(pivots, first..top);
     }
 
-    /// Brings that of the columns `at..end` to `at` of which most is left from row `top` on; its norm, and the square of that of all of them.
+    /// Brings that of the columns `at..end` to `at` of which most is left from row `top` on; its
+    /// norm, and the square of that of all of them.
     fn largest_first(&mut self, top: usize, at: usize, end: usize) -> (f64, f64) {
         let width = self.front.width();
         let (mut square, mut largest, mut total) = (0.0, at, 0.0);
@@ -170,7 +175,8 @@ impl Householder {
         }
     }
 
-    /// Turns column `at`, of which `norm` is left from row `top` on, into that row; the rows in which it is zero stay as they are.
+    /// Turns column `at`, of which `norm` is left from row `top` on, into that row; the rows in
+    /// which it is zero stay as they are.
     fn reflect(&mut self, top: usize, at: usize, norm: f64) {
         let width = self.front.width();
         let entry = |i: usize| (i, self.front.values[i * width + at]);

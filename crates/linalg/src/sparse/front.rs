@@ -1,4 +1,5 @@
-//! One front at a time: put together from rows of C and the rests of the fronts below, and its own rest left for the front above.
+//! One front at a time: put together from rows of C and the rests of the fronts below, and its own
+//! rest left for the front above.
 //!
 //! Not here: what is done to a front, which is in `factor`.
 
@@ -113,7 +114,8 @@ impl Assembly {
         self.waiting_values.truncate(values);
     }
 
-    /// Leaves these rows, without the pivots, for the front above; if there is one, it expects even none.
+    /// Leaves these rows, without the pivots, for the front above; if there is one, it expects even
+    /// none.
     pub(super) fn leave(&mut self, pivots: usize, rows: impl Iterator<Item = usize>) {
         let width = self.width();
         if pivots == width {

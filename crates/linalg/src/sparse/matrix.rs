@@ -5,7 +5,8 @@ use crate::{Matrix, kernels};
 #[cfg(test)]
 mod tests;
 
-/// A sparse matrix of `f64` in compressed rows: row i has the columns `column[start[i]..start[i + 1]]`, ascending, each once.
+/// A sparse matrix of `f64` in compressed rows: row i has the columns
+/// `column[start[i]..start[i + 1]]`, ascending, each once.
 ///
 /// ```
 /// use linalg::SparseMatrix;
@@ -41,7 +42,8 @@ pub enum SparseError {
 }
 
 impl SparseMatrix {
-    /// From the entries (column, value) of each row, in any order; values of the same column are summed. Zeros given are kept.
+    /// From the entries (column, value) of each row, in any order; values of the same column are
+    /// summed. Zeros given are kept.
     ///
     /// # Errors
     /// [`SparseError::Column`]: a column is not below `ncols`.

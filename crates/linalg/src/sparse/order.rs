@@ -1,12 +1,14 @@
-//! The order in which bodies are eliminated: approximate minimum degree on the graph in which the bodies of one joint are joined.
+//! The order in which bodies are eliminated: approximate minimum degree on the graph in which the
+//! bodies of one joint are joined.
 //!
-//! Eliminating a node joins all its neighbours to each other, so the graph is kept as a cover by cliques and never edge by edge: the
-//! joints are the first cliques, an eliminated node unites its cliques into one (element absorption), and storage never grows.
-//! A degree is bounded by `|L_p ∖ i| + Σ_e |L_e ∖ L_p|` over the cliques e of i, where `L_p` is the clique just made. Nodes that lie in
-//! the same cliques stay together to the end and are treated as one.
+//! Eliminating a node joins all its neighbours to each other, so the graph is kept as a cover by
+//! cliques and never edge by edge: the joints are the first cliques, an eliminated node unites its
+//! cliques into one (element absorption), and storage never grows. A degree is bounded by
+//! `|L_p ∖ i| + Σ_e |L_e ∖ L_p|` over the cliques e of i, where `L_p` is the clique just made.
+//! Nodes that lie in the same cliques stay together to the end and are treated as one.
 //!
-//! Source: P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering algorithm, SIAM J. Matrix Anal. Appl. 17
-//! (1996) 886–905.
+//! Source: P. R. Amestoy, T. A. Davis, I. S. Duff, An approximate minimum degree ordering
+//! algorithm, SIAM J. Matrix Anal. Appl. 17 (1996) 886–905.
 
 mod buckets;
 #[cfg(test)]
@@ -14,9 +16,11 @@ mod tests;
 
 use buckets::Buckets;
 
-/// An elimination order of the nodes `0..n` with little fill: approximately the node of least degree first.
+/// An elimination order of the nodes `0..n` with little fill: approximately the node of least
+/// degree first.
 ///
-/// `cliques` are sets of nodes that are all joined to each other; nodes not below `n` are ignored. The same input gives the same order.
+/// `cliques` are sets of nodes that are all joined to each other; nodes not below `n` are ignored.
+/// The same input gives the same order.
 ///
 /// ```
 /// use linalg::minimum_degree;

@@ -1,11 +1,15 @@
-//! Numbers without a pattern, from a counter: the same seed and place, the same bits, on every platform.
+//! Numbers without a pattern, from a counter: the same seed and place, the same bits, on every
+//! platform.
 //!
-//! Uniform instead of normal: no logarithm or cosine, whose last bits differ between platforms. What is needed of them holds for both. The
-//! mean is zero and the variance one, so that `E (zᵀx)² = ‖z‖²`; and `zᵀx` is rarely much smaller than that: for ‖z‖ = 1 its density is at
-//! most `√2/(2·√3) < 0.41` (the normal one: 0.40), because no section of the unit cube is larger than √2.
+//! Uniform instead of normal: no logarithm or cosine, whose last bits differ between platforms.
+//! What is needed of them holds for both. The mean is zero and the variance one, so that
+//! `E (zᵀx)² = ‖z‖²`; and `zᵀx` is rarely much smaller than that: for ‖z‖ = 1 its density is at
+//! most `√2/(2·√3) < 0.41` (the normal one: 0.40), because no section of the unit cube is larger
+//! than √2.
 //!
-//! Source: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators, OOPSLA (2014), for SplitMix64; K. Ball, Cube
-//! slicing in Rⁿ, Proc. Amer. Math. Soc. 97 (1986) 465–473.
+//! Source: G. L. Steele, D. Lea, C. H. Flood, Fast splittable pseudorandom number generators,
+//! OOPSLA (2014), for SplitMix64; K. Ball, Cube slicing in Rⁿ, Proc. Amer. Math. Soc. 97 (1986)
+//! 465–473.
 
 use super::reflectors::Lanes;
 

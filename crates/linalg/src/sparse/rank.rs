@@ -1,19 +1,24 @@
-//! The rank of a sparse matrix, by the rule of dense rank decisions, with evidence that can be had for the price of a few factorisations.
+//! The rank of a sparse matrix, by the rule of dense rank decisions, with evidence that can be had
+//! for the price of a few factorisations.
 //!
 //! `C̃ = D_r·C·D_c` is equilibrated and factored twice:
 //!
-//! - `C̃ = Q·R` by columns gives r, and random combinations W of the left null space. What ‖C̃ᵀ·W‖ leaves is σ_{r+1}, from above.
-//! - `C̃ᵀ = Q'·R'` by rows gives as its live columns the kept rows K. `R'₁₁ᵀ·R'₁₁ = C̃_K·C̃_Kᵀ`, so that its smallest singular value is that
-//!   of the kept rows, and `σ_r(C̃) ≥ σ_min(C̃_K)`.
+//! - `C̃ = Q·R` by columns gives r, and random combinations W of the left null space. What ‖C̃ᵀ·W‖
+//!   leaves is σ_{r+1}, from above.
+//! - `C̃ᵀ = Q'·R'` by rows gives as its live columns the kept rows K. `R'₁₁ᵀ·R'₁₁ = C̃_K·C̃_Kᵀ`, so
+//!   that its smallest singular value is that of the kept rows, and `σ_r(C̃) ≥ σ_min(C̃_K)`.
 //!
-//! Not by the live columns of R: where a mechanism has many freedoms, coordinates chosen body by body may depend on each other
-//! exponentially, and rows that are well independent would look as if they were not.
+//! Not by the live columns of R: where a mechanism has many freedoms, coordinates chosen body by
+//! body may depend on each other exponentially, and rows that are well independent would look as if
+//! they were not.
 //!
-//! The ranks are found by Heath's rule, which may be wrong; one that is too large shows in σ_min(C̃_K) or in the other rank, one that is
-//! too small in ‖C̃ᵀ·W‖. Then the rank is undecided, never silently wrong.
+//! The ranks are found by Heath's rule, which may be wrong; one that is too large shows in
+//! σ_min(C̃_K) or in the other rank, one that is too small in ‖C̃ᵀ·W‖. Then the rank is undecided,
+//! never silently wrong.
 //!
-//! Source: L. V. Foster, T. A. Davis, Algorithm 933: Reliable calculation of numerical rank, null space bases, pseudoinverse solutions,
-//! and basic solutions using SuiteSparseQR, ACM Trans. Math. Softw. 40 (2013) 7, for confirming a rank by inverse iteration.
+//! Source: L. V. Foster, T. A. Davis, Algorithm 933: Reliable calculation of numerical rank, null
+//! space bases, pseudoinverse solutions, and basic solutions using SuiteSparseQR, ACM Trans. Math.
+//! Softw. 40 (2013) 7, for confirming a rank by inverse iteration.
 
 use std::ops::Range;
 
@@ -31,11 +36,12 @@ mod reading;
 #[cfg(test)]
 mod tests;
 
-/// How much shall be left of a kept row beside those kept before it, if there are enough of them. Long chains have rows of which 1e-3 is
-/// left.
+/// How much shall be left of a kept row beside those kept before it, if there are enough of them.
+/// Long chains have rows of which 1e-3 is left.
 const LEFT: f64 = 1e-4;
 
-/// Rank of a sparse constraint matrix, with the rows to keep, random combinations of its left null space, and the evidence.
+/// Rank of a sparse constraint matrix, with the rows to keep, random combinations of its left null
+/// space, and the evidence.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SparseRank {
     /// r = rank C. If undecided: a guess.
@@ -48,8 +54,8 @@ pub struct SparseRank {
     pub dropped: Vec<usize>,
     /// The scaling under which the rank was decided.
     pub scaling: Scaling,
-    /// W (m×k): random combinations of an orthonormal basis of the left null space of the equilibrated rows. `D_r` times a column is a
-    /// self-stress of C.
+    /// W (m×k): random combinations of an orthonormal basis of the left null space of the
+    /// equilibrated rows. `D_r` times a column is a self-stress of C.
     pub sketch: Matrix,
     /// The numbers behind the decision.
     pub evidence: SparseEvidence,
@@ -60,11 +66,12 @@ pub struct SparseRank {
 /// The numbers behind a sparse rank decision; all of them belong to the equilibrated matrix.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SparseEvidence {
-    /// A lower bound of the smallest singular value of the kept rows, and so of σ_r; at most about four times too small. Infinite for
-    /// rank 0.
+    /// A lower bound of the smallest singular value of the kept rows, and so of σ_r; at most about
+    /// four times too small. Infinite for rank 0.
     pub sigma_r: f64,
-    /// ‖Cᵀ·W‖ (Frobenius), which estimates ‖Cᵀ·Z‖ ≥ σ_{r+1}. Where all p dependencies hold only to the stated uncertainty it is up to √p
-    /// times larger than σ_{r+1}: undecided then, rather than wrong.
+    /// ‖Cᵀ·W‖ (Frobenius), which estimates ‖Cᵀ·Z‖ ≥ σ_{r+1}. Where all p dependencies hold only to
+    /// the stated uncertainty it is up to √p times larger than σ_{r+1}: undecided then, rather than
+    /// wrong.
     pub sigma_next: f64,
     /// τ: below it a singular value counts as zero.
     pub tolerance: f64,
@@ -95,7 +102,8 @@ pub enum SparseRankError {
         /// Column of the entry.
         column: usize,
     },
-    /// Too many bodies, or too many rows of one body, are joined to each other to be eliminated one by one.
+    /// Too many bodies, or too many rows of one body, are joined to each other to be eliminated one
+    /// by one.
     #[error(
         "elimination needs about {work:.1e} operations, at most {limit:.1e} are made; bodies or rows are joined too closely"
     )]
@@ -119,8 +127,8 @@ pub enum SparseRankError {
     },
 }
 
-/// Decides the rank of a sparse C whose columns come in blocks, the coordinates of a body each. A range beyond the matrix is cut, and a
-/// column in none is a block of its own.
+/// Decides the rank of a sparse C whose columns come in blocks, the coordinates of a body each. A
+/// range beyond the matrix is cut, and a column in none is a block of its own.
 ///
 /// `uncertainty` is what the entries of the equilibrated matrix are known to beyond rounding.
 ///
@@ -136,7 +144,8 @@ pub enum SparseRankError {
 /// ```
 ///
 /// # Errors
-/// - [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN or infinite.
+/// - [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN or
+///   infinite.
 /// - [`SparseRankError::TooDense`]: see there.
 pub fn decide_sparse(
     c: &SparseMatrix,
@@ -147,7 +156,8 @@ pub fn decide_sparse(
     SparsePattern::new(c, blocks)?.decide(c, uncertainty, wanted)
 }
 
-/// Where matrices of one pattern have entries, and in which order they are factored: for many decisions on matrices of other values.
+/// Where matrices of one pattern have entries, and in which order they are factored: for many
+/// decisions on matrices of other values.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SparsePattern {
     by_columns: Symbolic,
@@ -173,15 +183,18 @@ impl SparsePattern {
         let rows = self.by_columns.nrows;
         let q = self.by_columns.bytes(Wanted::Q);
         let vectors = size_of::<f64>() * rows * 2 * wanted.columns.next_multiple_of(WIDTH);
-        // The reflections of Cᵀ, a vector or two of the sketch, and then the triangle of the kept rows.
+        // The reflections of Cᵀ, a vector or two of the sketch, and then the triangle of the kept
+        // rows.
         q + vectors + self.by_rows.bytes(Wanted::R)
     }
 
     /// [`decide_sparse`] of a matrix with this pattern.
     ///
     /// # Errors
-    /// - [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN or infinite.
-    /// - [`SparseRankError::Pattern`], [`SparseRankError::Shape`]: the matrix is not one of the pattern.
+    /// - [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN
+    ///   or infinite.
+    /// - [`SparseRankError::Pattern`], [`SparseRankError::Shape`]: the matrix is not one of the
+    ///   pattern.
     pub fn decide(
         &self,
         c: &SparseMatrix,
@@ -232,7 +245,8 @@ impl SparsePattern {
         Ok(found)
     }
 
-    /// The factorisation of Cᵀ whose live columns are the kept rows: of rows that are enough, those of which as much is left as possible.
+    /// The factorisation of Cᵀ whose live columns are the kept rows: of rows that are enough, those
+    /// of which as much is left as possible.
     fn kept_rows(
         &self,
         transposed: &SparseMatrix,
@@ -246,7 +260,8 @@ impl SparsePattern {
             };
             self.by_rows.factor(transposed, tolerances, Wanted::R)
         };
-        // If less is left than required, the kept rows cannot have the singular value that is required of them.
+        // If less is left than required, the kept rows cannot have the singular value that is
+        // required of them.
         let required = required(tolerance);
         let found = factor(required.max(LEFT))?;
         match found.rank == rank {

@@ -1,7 +1,7 @@
 //! Q as what it was made of: a product of Householder reflections, each of a few rows.
 //!
-//! `Q = H₁·H₂⋯H_s` with `H = I − v·vᵀ`, `‖v‖² = 2`, and v sparse. Several vectors are turned at once, because the rows of v are looked up
-//! only once then.
+//! `Q = H₁·H₂⋯H_s` with `H = I − v·vᵀ`, `‖v‖² = 2`, and v sparse. Several vectors are turned at
+//! once, because the rows of v are looked up only once then.
 
 /// Vectors that are turned at once.
 pub(super) const WIDTH: usize = 8;

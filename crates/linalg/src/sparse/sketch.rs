@@ -1,8 +1,10 @@
 //! Random combinations of the left null space, W = Z·Ω, instead of the p columns of Z.
 //!
-//! The rows of QᵀC that are zero give an orthonormal basis `Z = Q·[0; I]` of the left null space; it is never formed. For k random columns
-//! Ω of mean zero and variance 1/k the rows of `W = Q·[0; Ω]` say the same of any group J of at most k rows, with probability one: `W_J = 0`
-//! iff `Z_J = 0`, `rank W_J = rank Z_J`, and both have the same left null space. The norm of a row of W estimates that of the row of Z.
+//! The rows of QᵀC that are zero give an orthonormal basis `Z = Q·[0; I]` of the left null space;
+//! it is never formed. For k random columns Ω of mean zero and variance 1/k the rows of
+//! `W = Q·[0; Ω]` say the same of any group J of at most k rows, with probability one: `W_J = 0`
+//! iff `Z_J = 0`, `rank W_J = rank Z_J`, and both have the same left null space. The norm of a row
+//! of W estimates that of the row of Z.
 
 use super::factor::SparseQr;
 use super::reflectors::{Lanes, WIDTH};
@@ -12,7 +14,8 @@ use crate::Matrix;
 /// How the random combinations are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Sketch {
-    /// Number of combinations k: not less than the rows of the largest group that is judged, and some more against chance.
+    /// Number of combinations k: not less than the rows of the largest group that is judged, and
+    /// some more against chance.
     pub columns: usize,
     /// The same seed, the same numbers.
     pub seed: u64,

@@ -1,17 +1,19 @@
 //! The smallest singular value of the live columns, from below: what Heath's rule does not see.
 //!
-//! With `A = (R₁₁ᵀ·R₁₁)⁻¹`, whose largest eigenvalue is `1/σ²` with unit eigenvector u, any x has `‖A^q·x‖ ≥ σ^(−2q)·|uᵀx|`, hence
-//! `σ ≥ (|uᵀx| / ‖A^q·x‖)^(1/2q)`. For a random x the product `uᵀx` is below ε with a probability of at most 0.82·ε; that all vectors of a
-//! batch are below it has the probability of the power, which fixes ε.
+//! With `A = (R₁₁ᵀ·R₁₁)⁻¹`, whose largest eigenvalue is `1/σ²` with unit eigenvector u, any x has
+//! `‖A^q·x‖ ≥ σ^(−2q)·|uᵀx|`, hence `σ ≥ (|uᵀx| / ‖A^q·x‖)^(1/2q)`. For a random x the product
+//! `uᵀx` is below ε with a probability of at most 0.82·ε; that all vectors of a batch are below it
+//! has the probability of the power, which fixes ε.
 //!
-//! Source: J. D. Dixon, Estimating extremal eigenvalues and condition numbers of matrices, SIAM J. Numer. Anal. 20 (1983) 812–814, here
-//! with a bound that does not need the norm of x.
+//! Source: J. D. Dixon, Estimating extremal eigenvalues and condition numbers of matrices, SIAM J.
+//! Numer. Anal. 20 (1983) 812–814, here with a bound that does not need the norm of x.
 
 use super::random::{self, DENSITY};
 use super::reflectors::{Lanes, WIDTH};
 use super::trapezoid::Trapezoid;
 
-/// Solves with RᵀR. With q of them the bound is too low by at most `(√(3·r)/ε)^(1/2q)`: 4.3 at r = 10⁵, and 2.4 at r = 100.
+/// Solves with RᵀR. With q of them the bound is too low by at most `(√(3·r)/ε)^(1/2q)`: 4.3 at r =
+/// 10⁵, and 2.4 at r = 100.
 const SOLVES: i32 = 3;
 
 /// Not a stream of the sketch.
@@ -20,8 +22,8 @@ const STREAM: u64 = u64::MAX;
 /// How likely the bound is none.
 const FAILURE: f64 = 1e-9;
 
-/// A lower bound of σ_r of R₁₁, for a random choice of vectors that fails once in 10⁹; infinite for rank 0, 0 where nothing is found.
-/// `n` is the number of columns of the matrix that was factored.
+/// A lower bound of σ_r of R₁₁, for a random choice of vectors that fails once in 10⁹; infinite for
+/// rank 0, 0 where nothing is found. `n` is the number of columns of the matrix that was factored.
 pub(super) fn smallest_singular_value(r: &Trapezoid, n: usize, seed: u64) -> f64 {
     if r.rank() == 0 {
         return f64::INFINITY;

@@ -1,12 +1,14 @@
 //! Which fronts a factorisation goes through: from the pattern alone, before any value.
 //!
-//! A *front* is the small dense matrix of all that touches the bodies eliminated in it: rows of C not met before, and what the fronts
-//! below have left over. Its columns are those of its own bodies, the *pivots*, and then those of the bodies that are joined to them by then.
-//! The first of these is eliminated in the front above, so fronts form a tree. A small front is put into the one above it: a few zeros
-//! cost less than a front.
+//! A *front* is the small dense matrix of all that touches the bodies eliminated in it: rows of C
+//! not met before, and what the fronts below have left over. Its columns are those of its own
+//! bodies, the *pivots*, and then those of the bodies that are joined to them by then. The first of
+//! these is eliminated in the front above, so fronts form a tree. A small front is put into the one
+//! above it: a few zeros cost less than a front.
 //!
-//! Source: J. W. H. Liu, On general row merging schemes for sparse Givens transformations, SIAM J. Sci. Stat. Comput. 7 (1986) 1190–1211,
-//! for the tree; T. A. Davis, Algorithm 915: SuiteSparseQR, ACM Trans. Math. Softw. 38 (2011) 8, for fronts that are factored completely.
+//! Source: J. W. H. Liu, On general row merging schemes for sparse Givens transformations, SIAM J.
+//! Sci. Stat. Comput. 7 (1986) 1190–1211, for the tree; T. A. Davis, Algorithm 915: SuiteSparseQR,
+//! ACM Trans. Math. Softw. 38 (2011) 8, for fronts that are factored completely.
 
 use std::ops::Range;
 
@@ -17,7 +19,8 @@ use crate::structure::partition;
 /// A front of at most this many columns is not worth its own assembly.
 const SMALL: usize = 24;
 
-/// More operations than this take minutes, and their fronts gigabytes: a single dense front of 10⁴ columns.
+/// More operations than this take minutes, and their fronts gigabytes: a single dense front of 10⁴
+/// columns.
 pub(super) const WORK_MAX: f64 = 1e12;
 
 /// Operations, counted or estimated, when the limit was passed.
@@ -53,7 +56,8 @@ pub(super) struct Front {
 }
 
 impl Symbolic {
-    /// The fronts of a matrix whose columns come in blocks. Ranges beyond the matrix are cut; a column in no block is one.
+    /// The fronts of a matrix whose columns come in blocks. Ranges beyond the matrix are cut; a
+    /// column in no block is one.
     pub(super) fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Result<Self, TooDense> {
         let blocks = partition(c.ncols(), blocks.iter());
         let touched = Touched::new(c, &blocks);
@@ -96,8 +100,9 @@ impl Symbolic {
 }
 
 impl Symbolic {
-    /// Bytes that a factorisation holds at most: the factor that is kept, and the front in work with the rests that wait. For fronts of full rank;
-    /// what dependent columns leave besides is little.
+    /// Bytes that a factorisation holds at most: the factor that is kept, and the front in work
+    /// with the rests that wait. For fronts of full rank; what dependent columns leave besides is
+    /// little.
     pub(super) fn bytes(&self, wanted: Wanted) -> usize {
         let (mut factor, mut waiting, mut most) = (0, 0, 0);
         // Rows and columns of the rests that wait.
@@ -238,8 +243,8 @@ impl Tree {
         Ok(Self { led, beyond })
     }
 
-    /// Puts small fronts, and those that fit exactly, into their parents; the fronts in an order in which the children of each come right
-    /// before it, with their descendants.
+    /// Puts small fronts, and those that fit exactly, into their parents; the fronts in an order in
+    /// which the children of each come right before it, with their descendants.
     fn amalgamate(&self, size: impl Fn(usize) -> usize) -> Vec<Supernode> {
         let n = self.beyond.len();
         // Columns that are eliminated in the front of a node, and columns of the front.

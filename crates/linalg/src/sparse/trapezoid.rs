@@ -2,8 +2,8 @@
 
 use super::reflectors::{Lanes, WIDTH};
 
-/// The rows of R in order of elimination. The first entry of each is its pivot; the columns of the pivots are the *live* ones, R₁₁, and
-/// no row has an entry in the pivot column of an earlier one.
+/// The rows of R in order of elimination. The first entry of each is its pivot; the columns of the
+/// pivots are the *live* ones, R₁₁, and no row has an entry in the pivot column of an earlier one.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct Trapezoid {
     /// Ends of the entries of each row.
@@ -32,7 +32,8 @@ impl Trapezoid {
         (0..self.rank()).map(|i| self.row(i).0[0])
     }
 
-    /// Solves `R₁₁ᵀ·R₁₁·y = x` in place. `x` has a row for each column of C; those of dead columns are zero.
+    /// Solves `R₁₁ᵀ·R₁₁·y = x` in place. `x` has a row for each column of C; those of dead columns
+    /// are zero.
     pub(super) fn solve_normal(&self, x: &mut [Lanes]) {
         for i in 0..self.rank() {
             let (columns, values) = self.row(i);

@@ -1,12 +1,15 @@
 //! The blocks of a graph: groups that share a cycle.
 
-/// Sets of groups that lie on common cycles of the graph in which each group joins its vertices; each set ascending, ordered by their first
-/// groups. A group on no cycle is a set of its own, and so is one on a single vertex.
+/// Sets of groups that lie on common cycles of the graph in which each group joins its vertices;
+/// each set ascending, ordered by their first groups. A group on no cycle is a set of its own, and
+/// so is one on a single vertex.
 ///
-/// In mechanics the vertices are bodies and the ground, and the groups joints whose rows vanish on the rigid motions that their bodies have in
-/// common. Where only one body is common to two sides, the side without the ground is in equilibrium by itself, so that its joints transmit nothing to that
-/// body that rigid motions of the body could tell: every `z` with `Cᵀ·z = 0` is the sum of such vectors on single sets. So each set can be judged
-/// alone, and the redundancy is the sum of theirs.
+/// In mechanics the vertices are bodies and the ground, and the groups joints whose rows vanish on
+/// the rigid motions that their bodies have in common. Where only one body is common to two sides,
+/// the side without the ground is in equilibrium by itself, so that its joints transmit nothing to
+/// that body that rigid motions of the body could tell: every `z` with `Cᵀ·z = 0` is the sum of
+/// such vectors on single sets. So each set can be judged alone, and the redundancy is the sum of
+/// theirs.
 ///
 /// ```
 /// use linalg::cycles;
@@ -15,9 +18,11 @@
 /// assert_eq!(cycles(5, &groups), [vec![0, 1, 3], vec![2], vec![4, 5]]);
 /// ```
 ///
-/// Vertices that are not below `vertices` are left out. The work is linear in the number of entries.
+/// Vertices that are not below `vertices` are left out. The work is linear in the number of
+/// entries.
 ///
-/// Source: R. Tarjan, Depth-first search and linear graph algorithms, SIAM J. Comput. 1 (1972) 146–160.
+/// Source: R. Tarjan, Depth-first search and linear graph algorithms, SIAM J. Comput. 1 (1972)
+/// 146–160.
 #[must_use]
 pub fn cycles(vertices: usize, groups: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let graph = Graph::new(vertices, groups);
@@ -43,7 +48,8 @@ pub fn cycles(vertices: usize, groups: &[Vec<usize>]) -> Vec<Vec<usize>> {
     sets
 }
 
-/// Edges in compressed lists of their vertices. A group on k vertices is a cycle through them: it holds them together whichever of them is left out.
+/// Edges in compressed lists of their vertices. A group on k vertices is a cycle through them: it
+/// holds them together whichever of them is left out.
 struct Graph {
     /// Where the edges of each vertex begin, one more than vertices; and what they are.
     first: Vec<usize>,
@@ -134,7 +140,8 @@ impl Search {
             };
             self.reach[parent] = self.reach[parent].min(self.reach[vertex]);
             if self.reach[vertex] >= self.order[parent] {
-                // What is pending since the edge to this vertex reaches nothing earlier than the parent: a block.
+                // What is pending since the edge to this vertex reaches nothing earlier than the
+                // parent: a block.
                 let block = self.pending.split_off(before);
                 for pair in block.windows(2) {
                     let [a, b] = [pair[0], pair[1]].map(|e| find(leader, graph.group[e]));

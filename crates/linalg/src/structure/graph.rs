@@ -2,7 +2,8 @@
 
 use super::{Incidence, Part};
 
-/// Parts of the remaining rows, the ground left out, by their first row. Rows of one group stay together.
+/// Parts of the remaining rows, the ground left out, by their first row. Rows of one group stay
+/// together.
 pub(super) fn parts(incidence: &Incidence) -> Vec<Part> {
     let n_blocks = incidence.blocks.len();
     // Vertices: blocks, then groups.
@@ -56,10 +57,12 @@ struct End {
 
 /// Groups on exactly two vertices (blocks or the ground) that no other path connects.
 ///
-/// Depth first with the earliest vertex that a subtree reaches: an edge is a bridge iff what lies behind it reaches nothing
-/// earlier. Groups on more vertices are stars around a vertex of their own and never bridges themselves.
+/// Depth first with the earliest vertex that a subtree reaches: an edge is a bridge iff what lies
+/// behind it reaches nothing earlier. Groups on more vertices are stars around a vertex of their
+/// own and never bridges themselves.
 ///
-/// Source: R. Tarjan, A note on finding the bridges of a graph, Inform. Process. Lett. 2 (1974) 160–161.
+/// Source: R. Tarjan, A note on finding the bridges of a graph, Inform. Process. Lett. 2 (1974)
+/// 160–161.
 pub(super) fn bridges(incidence: &Incidence) -> Vec<usize> {
     let ground = incidence.blocks.len();
     let mut ends: Vec<Vec<End>> = vec![Vec::new(); ground + 1];

@@ -6,8 +6,8 @@ use super::Incidence;
 use crate::Matrix;
 use crate::rank::independent;
 
-/// Takes rows out of play until no block can leave. Every row leaves at most once, so each block is looked at at most once more
-/// than rows leave it.
+/// Takes rows out of play until no block can leave. Every row leaves at most once, so each block is
+/// looked at at most once more than rows leave it.
 pub(super) fn peel(incidence: &mut Incidence, uncertainty: f64) {
     let mut rows_of: Vec<Vec<usize>> = vec![Vec::new(); incidence.blocks.len()];
     for (row, touched) in incidence.touches.iter().enumerate() {

@@ -1,10 +1,11 @@
-//! What the pattern settles must be true: compared with the null space of random matrices and of chains of bodies.
+//! What the pattern settles must be true: compared with the null space of random matrices and of
+//! chains of bodies.
 
 use super::*;
 use crate::{decide, orthonormal};
 
-/// A body in the plane, three columns. Points and lines are given in global components, so that rigid motions are
-/// (1, 0, −y), (0, 1, x) for every body alike.
+/// A body in the plane, three columns. Points and lines are given in global components, so that
+/// rigid motions are (1, 0, −y), (0, 1, x) for every body alike.
 fn pin(c: &mut Vec<Vec<f64>>, n: usize, pair: [Option<usize>; 2], at: [f64; 2]) -> Range<usize> {
     let first = c.len();
     for k in 0..2 {
@@ -24,8 +25,8 @@ fn matrix(rows: &[Vec<f64>]) -> Matrix {
     Matrix::from_fn(rows.len(), rows[0].len(), |i, j| rows[i][j])
 }
 
-/// Random pins between bodies and ground: every settled row or group against the null space of the whole, and every open part
-/// judged alone against the same rows of the whole.
+/// Random pins between bodies and ground: every settled row or group against the null space of the
+/// whole, and every open part judged alone against the same rows of the whole.
 #[test]
 fn what_is_settled_is_true_and_parts_are_independent() {
     let mut state = 7_u64;
@@ -103,7 +104,8 @@ fn what_is_settled_is_true_and_parts_are_independent() {
     );
 }
 
-/// A closed loop of three bars with a redundant bar hangs on the ground by one pin: no body can be peeled, the pin is a bridge.
+/// A closed loop of three bars with a redundant bar hangs on the ground by one pin: no body can be
+/// peeled, the pin is a bridge.
 #[test]
 fn a_bridge_that_peeling_cannot_find() {
     let mut rows = Vec::new();
@@ -133,7 +135,8 @@ fn a_bridge_that_peeling_cannot_find() {
     assert_eq!(careful.groups[0], Settled::Open(0));
 }
 
-/// Entries that are rounding beside their row do not peel: block 1 sees only 1e-17 of row 1, which repeats row 0 otherwise.
+/// Entries that are rounding beside their row do not peel: block 1 sees only 1e-17 of row 1, which
+/// repeats row 0 otherwise.
 #[test]
 fn rounding_does_not_peel() {
     let c = Matrix::from_rows(&[[1.0, 0.0, 0.0], [1.0, 1e-17, 0.0], [0.0, 1.0, 1.0]]);
@@ -142,7 +145,8 @@ fn rounding_does_not_peel() {
     assert_eq!(found.rows, [Settled::Open(0); 3]);
 }
 
-/// Odd input: a row of zeros is a dependency by itself, ranges are cut, rows and columns of no range stand alone.
+/// Odd input: a row of zeros is a dependency by itself, ranges are cut, rows and columns of no
+/// range stand alone.
 #[test]
 fn odd_input_has_an_answer() {
     let c = Matrix::from_rows(&[[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
@@ -167,8 +171,8 @@ fn odd_input_has_an_answer() {
     assert!(empty.parts.is_empty());
 }
 
-/// Groups are of one set iff, whichever vertex is left out, what is left of both hangs together, or they join the same vertices: from the
-/// definition, for every pair.
+/// Groups are of one set iff, whichever vertex is left out, what is left of both hangs together, or
+/// they join the same vertices: from the definition, for every pair.
 #[test]
 fn cycles_are_what_no_single_vertex_separates() {
     let mut seed = 5_u64;

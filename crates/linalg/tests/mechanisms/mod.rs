@@ -1,4 +1,5 @@
-//! Large mechanisms whose rank and unique rows are known without numerics; for tests and the example `large_rank`.
+//! Large mechanisms whose rank and unique rows are known without numerics; for tests and the
+//! example `large_rank`.
 
 use std::ops::Range;
 
@@ -17,7 +18,8 @@ pub(crate) struct Known {
 
 type Row = Vec<(usize, f64)>;
 
-/// The two rows of a revolute joint: equal velocities of the points at `arm` of each body, ground if there is no body.
+/// The two rows of a revolute joint: equal velocities of the points at `arm` of each body, ground
+/// if there is no body.
 fn revolute(sides: [Option<(usize, [f64; 2])>; 2]) -> [Row; 2] {
     let mut rows = [Vec::new(), Vec::new()];
     for (side, sign) in sides.into_iter().zip([1.0, -1.0]) {
@@ -29,19 +31,21 @@ fn revolute(sides: [Option<(usize, [f64; 2])>; 2]) -> [Row; 2] {
     rows
 }
 
-/// Couplers on top of each other, each on parallel cranks on the one below: three cranks or, in every third cell, two.
+/// Couplers on top of each other, each on parallel cranks on the one below: three cranks or, in
+/// every third cell, two.
 pub(crate) fn chain(cells: usize) -> Known {
     let cranks = (0..cells).map(|cell| if cell % 3 == 2 { 2 } else { 3 });
     parallelograms(format!("chain {cells}"), cranks)
 }
 
-/// One coupler on so many parallel cranks, which are grounded: all joints of the upper side meet at one body.
+/// One coupler on so many parallel cranks, which are grounded: all joints of the upper side meet at
+/// one body.
 pub(crate) fn table(legs: usize) -> Known {
     parallelograms(format!("table {legs}"), [legs])
 }
 
-/// Cells of so many cranks each. Two of them hold the coupler parallel, each other one adds one redundancy in which all multipliers of the cell
-/// take part.
+/// Cells of so many cranks each. Two of them hold the coupler parallel, each other one adds one
+/// redundancy in which all multipliers of the cell take part.
 fn parallelograms(name: String, cranks: impl IntoIterator<Item = usize>) -> Known {
     let (mut rows, mut is_unique) = (Vec::new(), Vec::new());
     let (mut bodies, mut redundancy) = (0, 0);
@@ -71,8 +75,8 @@ fn parallelograms(name: String, cranks: impl IntoIterator<Item = usize>) -> Know
     known(name, rows, bodies, redundancy, is_unique)
 }
 
-/// Free bodies in a square grid, neighbours welded: a circuit for every edge that is not in a spanning tree, three rows each, and every
-/// edge in some circuit.
+/// Free bodies in a square grid, neighbours welded: a circuit for every edge that is not in a
+/// spanning tree, three rows each, and every edge in some circuit.
 pub(crate) fn grid(side: usize) -> Known {
     let at = |x: usize, y: usize| side * y + x;
     let mut rows = Vec::new();

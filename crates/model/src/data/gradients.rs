@@ -1,7 +1,9 @@
-//! Many gradients by the numbers of the constraints at one instant: what is asked of the kernels is asked once.
+//! Many gradients by the numbers of the constraints at one instant: what is asked of the kernels is
+//! asked once.
 //!
-//! `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` is linear in y, y_λ, w_v and w_q. So its gradient by the numbers of one constraint is a small matrix
-//! times the few of their entries that belong to that constraint.
+//! `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` is linear in y, y_λ, w_v and w_q. So its gradient
+//! by the numbers of one constraint is a small matrix times the few of their entries that belong to
+//! that constraint.
 
 use std::ops::Range;
 
@@ -11,7 +13,8 @@ use super::twist_of;
 use crate::mechanism::{Mechanism, N_BODY};
 use crate::system::{Scratch, System};
 
-/// Gradients of `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` by all numbers of the constraints, for any y, y_λ, w_v and w_q.
+/// Gradients of `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` by all numbers of the constraints,
+/// for any y, y_λ, w_v and w_q.
 #[derive(Clone, Debug)]
 pub struct DataGradients {
     each: Vec<OfConstraint>,
@@ -51,7 +54,8 @@ const UNITS: [Twist; N_BODY] = [
 ];
 
 impl Mechanism {
-    /// These gradients at the pose and the twist of the scratch, for multipliers (m + h), accelerations a and velocities v (n_v); allocates.
+    /// These gradients at the pose and the twist of the scratch, for multipliers (m + h),
+    /// accelerations a and velocities v (n_v); allocates.
     #[must_use]
     pub fn data_gradients(
         &self,

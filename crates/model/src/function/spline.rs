@@ -11,8 +11,8 @@ pub(super) struct Spline {
 impl Spline {
     /// The spline through a table of at least two points with growing times.
     ///
-    /// Curvatures κ solve the tridiagonal system `h₋κ₋ + 2(h₋ + h₊)κ + h₊κ₊ = 6(δ₊ − δ₋)` with the steps h and
-    /// the slopes δ of the chords.
+    /// Curvatures κ solve the tridiagonal system `h₋κ₋ + 2(h₋ + h₊)κ + h₊κ₊ = 6(δ₊ − δ₋)` with the
+    /// steps h and the slopes δ of the chords.
     pub(super) fn natural(times: &[f64], values: &[f64]) -> Self {
         let n = times.len();
         let step = |k: usize| times[k + 1] - times[k];

@@ -1,8 +1,9 @@
-//! Derivatives of the equations of motion, assembled from the derivative kernels of joints and forces: what implicit methods and
-//! sensitivities need. Not for explicit motion, which needs none of them.
+//! Derivatives of the equations of motion, assembled from the derivative kernels of joints and
+//! forces: what implicit methods and sensitivities need. Not for explicit motion, which needs none
+//! of them.
 //!
-//! All are taken along velocity directions, so that every block has n_v columns: `∂/∂q` means the change with q as the
-//! mechanism moves with a velocity.
+//! All are taken along velocity directions, so that every block has n_v columns: `∂/∂q` means the
+//! change with q as the mechanism moves with a velocity.
 
 use joints::Twist;
 
@@ -29,7 +30,8 @@ pub struct Derivatives {
     slots: Vec<Twist>,
 }
 
-/// A matrix as a sum of entries, in the order of the elements that they come from. The pattern is fixed.
+/// A matrix as a sum of entries, in the order of the elements that they come from. The pattern is
+/// fixed.
 #[derive(Clone, Debug, Default)]
 pub struct Sparse {
     /// Row, column and place in the values; entries of the ground have none.
@@ -58,7 +60,8 @@ impl Sparse {
         }
     }
 
-    /// Row, column and value of each entry; the same place may come more than once, and counts with the sum.
+    /// Row, column and value of each entry; the same place may come more than once, and counts with
+    /// the sum.
     pub fn iter(&self) -> impl Iterator<Item = (usize, usize, f64)> + '_ {
         self.entries
             .iter()
@@ -126,8 +129,8 @@ impl Mechanism {
         d
     }
 
-    /// Computes the derivatives at the pose and the twist of the scratch, for accelerations `a` (n_v) and multipliers `lambda`
-    /// (m + h); allocates nothing.
+    /// Computes the derivatives at the pose and the twist of the scratch, for accelerations `a`
+    /// (n_v) and multipliers `lambda` (m + h); allocates nothing.
     ///
     /// ```
     /// use joints::Revolute;

@@ -1,5 +1,5 @@
-//! Where joints, drives and forces take hold of bodies, told from their parameters: for pictures. Where a reaction is reported is
-//! another question ([`Mechanism::place`]).
+//! Where joints, drives and forces take hold of bodies, told from their parameters: for pictures.
+//! Where a reaction is reported is another question ([`Mechanism::place`]).
 
 use joints::spec::{ForceSpec, Shape, Spec};
 
@@ -21,7 +21,8 @@ pub struct AppliedForce<'m> {
 }
 
 impl Mechanism {
-    /// The points that a joint or drive takes hold of, each in the frame of its body (m; the ground's frame is the global one).
+    /// The points that a joint or drive takes hold of, each in the frame of its body (m; the
+    /// ground's frame is the global one).
     ///
     /// ```
     /// use joints::Revolute;

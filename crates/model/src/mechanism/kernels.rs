@@ -1,6 +1,7 @@
-//! The kernels of an assembled mechanism: every element in turn, on the caller's storage. What does not change from one call to the
-//! next is not computed again: functions at the time of the last call, sines and cosines of angles that have stayed, entries of C that
-//! are constant, Γ of rows that are linear in q.
+//! The kernels of an assembled mechanism: every element in turn, on the caller's storage. What does
+//! not change from one call to the next is not computed again: functions at the time of the last
+//! call, sines and cosines of angles that have stayed, entries of C that are constant, Γ of rows
+//! that are linear in q.
 
 use std::ops::Range;
 
@@ -177,8 +178,9 @@ impl Mechanism {
         undefined.map(|force| force.name.as_str())
     }
 
-    /// Whether a body has the sine and cosine at an angle that it had at another one. Where rows of angles hold it, rounding may move the
-    /// angle, but does not turn it; elsewhere bits count: the sine of −0 is not that of 0.
+    /// Whether a body has the sine and cosine at an angle that it had at another one. Where rows of
+    /// angles hold it, rounding may move the angle, but does not turn it; elsewhere bits count: the
+    /// sine of −0 is not that of 0.
     fn stays(&self, body: usize, from: f64, to: f64) -> bool {
         match self.held[body] {
             true => (to - from).abs() <= HELD * from.abs().max(1.0),
@@ -186,7 +188,8 @@ impl Mechanism {
         }
     }
 
-    /// Writes velocities or accelerations of the bodies to the slots; those of the ground stay zero.
+    /// Writes velocities or accelerations of the bodies to the slots; those of the ground stay
+    /// zero.
     pub(super) fn spread(&self, v: &[f64], slot_twists: &mut [Twist]) {
         for (slots, bodies) in self.places() {
             for (twist, &body) in slot_twists[slots].iter_mut().zip(bodies) {

@@ -1,5 +1,6 @@
-//! Taking a mechanism apart into mechanisms that do not feel each other: bodies belong together where a joint, a drive or a force
-//! connects them. The ground connects nothing: it takes any force and does not move.
+//! Taking a mechanism apart into mechanisms that do not feel each other: bodies belong together
+//! where a joint, a drive or a force connects them. The ground connects nothing: it takes any force
+//! and does not move.
 
 use joints::spec::Level;
 
@@ -60,8 +61,8 @@ impl Mechanism {
         self.connected(self.places().map(|(_, bodies)| bodies))
     }
 
-    /// Bodies that these joints and drives connect, in the same order; those of none of them alone. Forces connect nothing here: springs between two
-    /// machines make no third one.
+    /// Bodies that these joints and drives connect, in the same order; those of none of them alone.
+    /// Forces connect nothing here: springs between two machines make no third one.
     ///
     /// ```
     /// use joints::{Revolute, TorsionSpringDamper};
@@ -87,7 +88,8 @@ impl Mechanism {
         self.connected(bodies)
     }
 
-    /// Sets of bodies, each ascending, ordered by their first bodies: those of each of these lists belong together.
+    /// Sets of bodies, each ascending, ordered by their first bodies: those of each of these lists
+    /// belong together.
     fn connected<'a>(&self, lists: impl Iterator<Item = &'a [BodyRef]>) -> Vec<Vec<usize>> {
         let mut leader: Vec<usize> = (0..self.bodies.len()).collect();
         for bodies in lists {
@@ -109,11 +111,13 @@ impl Mechanism {
         sets
     }
 
-    /// The mechanism of some bodies with all joints, drives and forces on them, which must not reach other bodies:
-    /// a set of [`Mechanism::components`], or several of them. Initial values are those of the whole.
+    /// The mechanism of some bodies with all joints, drives and forces on them, which must not
+    /// reach other bodies: a set of [`Mechanism::components`], or several of them. Initial values
+    /// are those of the whole.
     ///
     /// # Panics
-    /// If the bodies are not ascending, do not exist, or a joint, drive or force connects them to others.
+    /// If the bodies are not ascending, do not exist, or a joint, drive or force connects them to
+    /// others.
     #[must_use]
     pub fn part(&self, bodies: &[usize]) -> Part {
         assert!(
@@ -134,8 +138,9 @@ impl Mechanism {
         )
     }
 
-    /// The mechanism of some joints and drives, ascending, with the bodies that they join and no forces: for questions about constraints. Initial
-    /// values are those of the whole. The work is that of the part alone.
+    /// The mechanism of some joints and drives, ascending, with the bodies that they join and no
+    /// forces: for questions about constraints. Initial values are those of the whole. The work is
+    /// that of the part alone.
     ///
     /// # Panics
     /// If the groups are not ascending or do not exist.

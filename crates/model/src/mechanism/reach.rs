@@ -1,4 +1,5 @@
-//! How far the joints of a body are from its centre: by this its position is measured where it stands at the origin.
+//! How far the joints of a body are from its centre: by this its position is measured where it
+//! stands at the origin.
 //!
 //! Not here: the size of the whole mechanism (`start::scene_size`).
 
@@ -8,11 +9,13 @@ use crate::reaction::ConstraintId;
 use crate::start::scene_size;
 use crate::system::{Scratch, System};
 
-/// An arm below this many roundings of its body's position is none: it is what is left of a difference of places.
+/// An arm below this many roundings of its body's position is none: it is what is left of a
+/// difference of places.
 const ROUNDINGS: f64 = 4.0;
 
-/// The longest arm of each body at coordinates q (m), never zero: a body held at its centre is where its neighbours' arms put it, and where these
-/// have none either, as on shafts with gears, only the mechanism as a whole has a length.
+/// The longest arm of each body at coordinates q (m), never zero: a body held at its centre is
+/// where its neighbours' arms put it, and where these have none either, as on shafts with gears,
+/// only the mechanism as a whole has a length.
 pub(super) fn longest_arms(mechanism: &Mechanism, q: &[f64]) -> Vec<f64> {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, q, &mut s);

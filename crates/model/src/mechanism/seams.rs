@@ -1,5 +1,5 @@
-//! How the configuration of a mechanism moves along velocities, body by body in its space. Nothing else moves or compares
-//! coordinates.
+//! How the configuration of a mechanism moves along velocities, body by body in its space. Nothing
+//! else moves or compares coordinates.
 
 use std::ops::Range;
 
@@ -16,7 +16,8 @@ impl Mechanism {
         self.space
     }
 
-    /// The same mechanism with planar bodies whose coordinates are (x, y, cos φ, sin φ), not yet started.
+    /// The same mechanism with planar bodies whose coordinates are (x, y, cos φ, sin φ), not yet
+    /// started.
     #[cfg(feature = "unit-circle")]
     #[must_use]
     pub fn on_unit_circle(mut self) -> Self {
@@ -62,7 +63,8 @@ impl Mechanism {
         });
     }
 
-    /// The velocity of a column of C as a sum over q̇ at the configuration q: places in q̇ with their coefficients, into `terms`.
+    /// The velocity of a column of C as a sum over q̇ at the configuration q: places in q̇ with
+    /// their coefficients, into `terms`.
     pub fn read_velocity(&self, q: &[f64], column: usize, terms: &mut Vec<(usize, f64)>) {
         let (body, dof) = (column / N_BODY, column % N_BODY);
         terms.clear();
@@ -74,7 +76,8 @@ impl Mechanism {
         });
     }
 
-    /// Directions of q̇ in which no pose changes at the configuration q, of length one: places in q̇ with their entries.
+    /// Directions of q̇ in which no pose changes at the configuration q, of length one: places in
+    /// q̇ with their entries.
     #[must_use]
     pub fn normals(&self, q: &[f64]) -> Vec<Vec<(usize, f64)>> {
         in_space!(self.space, S => {
@@ -88,7 +91,8 @@ impl Mechanism {
         })
     }
 
-    /// Where a body is at coordinates q, in the direction of a column of C: a place (m) or an angle (rad).
+    /// Where a body is at coordinates q, in the direction of a column of C: a place (m) or an angle
+    /// (rad).
     #[must_use]
     pub fn position(&self, q: &[f64], column: usize) -> f64 {
         let (body, dof) = (column / N_BODY, column % N_BODY);

@@ -1,5 +1,5 @@
-//! What the kernels of a mechanism compute at each evaluation, and what they leave out, told from its structure. The kernels ask the same
-//! questions of the same elements.
+//! What the kernels of a mechanism compute at each evaluation, and what they leave out, told from
+//! its structure. The kernels ask the same questions of the same elements.
 
 use super::{Mechanism, N_BODY, PlacedConstraint};
 use crate::system::System;
@@ -7,7 +7,8 @@ use crate::system::System;
 /// What is computed at each evaluation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Bodies whose angle the constraints hold at its initial value, ascending: their sine and cosine are those of the start.
+    /// Bodies whose angle the constraints hold at its initial value, ascending: their sine and
+    /// cosine are those of the start.
     pub without_turning: Vec<usize>,
     /// Entries of C, columns of the ground left out.
     pub entries: usize,
@@ -64,8 +65,9 @@ impl Mechanism {
         work
     }
 
-    /// For each body, whether its angle keeps its initial value: a holonomic row that does not depend on time holds it against the ground, or against
-    /// bodies of which this is known. Only rows of angles alone, with constant entries, are asked, so that not all such bodies may be
+    /// For each body, whether its angle keeps its initial value: a holonomic row that does not
+    /// depend on time holds it against the ground, or against bodies of which this is known. Only
+    /// rows of angles alone, with constant entries, are asked, so that not all such bodies may be
     /// found.
     pub(super) fn held_bodies(&self) -> Vec<bool> {
         let rows: Vec<Vec<usize>> = self
@@ -99,7 +101,8 @@ impl Mechanism {
         held
     }
 
-    /// Bodies in a row of a constraint whose entries are constant, those with an entry of zero left out.
+    /// Bodies in a row of a constraint whose entries are constant, those with an entry of zero left
+    /// out.
     fn constant_row(&self, c: &PlacedConstraint, i: usize) -> Option<Vec<usize>> {
         let pattern = &self.layout.pattern;
         let places = pattern.start[i]..pattern.start[i + 1];

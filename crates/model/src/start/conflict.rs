@@ -1,4 +1,5 @@
-//! Velocities that are given and that no motion has: which one is at fault, what it contradicts, and what to leave out.
+//! Velocities that are given and that no motion has: which one is at fault, what it contradicts,
+//! and what to leave out.
 
 use linalg::Circuit;
 
@@ -13,7 +14,8 @@ use crate::system::{RowLabel, System};
 #[error("{}; {}", self.what(), self.advice())]
 #[non_exhaustive]
 pub struct VelocityConflict {
-    /// The body of the velocity that is at fault: the one that is farthest from where it would be if it were left out with the others of its kind.
+    /// The body of the velocity that is at fault: the one that is farthest from where it would be
+    /// if it were left out with the others of its kind.
     pub body: String,
     /// `vx`, `vy` or `omega`.
     pub coordinate: &'static str,
@@ -21,7 +23,8 @@ pub struct VelocityConflict {
     pub given: f64,
     /// Whether `keep` holds it.
     pub is_kept: bool,
-    /// What it is in velocities that fit: if it is left out, or else in the nearest ones in the mass metric.
+    /// What it is in velocities that fit: if it is left out, or else in the nearest ones in the
+    /// mass metric.
     pub nearest: f64,
     /// What the difference may be (m/s, rad/s).
     pub limit: f64,
@@ -33,7 +36,8 @@ pub struct VelocityConflict {
     pub drives: Vec<String>,
     /// Without these the others hold.
     pub leave_out: Vec<HeldVelocity>,
-    /// Whether `leave_out` is enough; it is not where more velocities contradict the constraints than are looked for.
+    /// Whether `leave_out` is enough; it is not where more velocities contradict the constraints
+    /// than are looked for.
     pub is_enough: bool,
     /// Whether there are velocities that fit with what `keep` holds.
     pub can_be_corrected: bool,
@@ -78,7 +82,8 @@ const NAMED: usize = 6;
 /// Velocities to leave out that are looked for.
 const LEFT_OUT: usize = 40;
 
-/// A velocity takes no part in a sum of rows below this share of its terms: what is left is rounding, also far from the origin.
+/// A velocity takes no part in a sum of rows below this share of its terms: what is left is
+/// rounding, also far from the origin.
 const CANCELLED: f64 = 1e-10;
 
 impl VelocityConflict {
@@ -247,7 +252,8 @@ impl Start<'_> {
             .solve(rows, &self.hold, CorrectionLimit::Any, &mut v)?
             .is_none();
         let (leave_out, hold, is_enough) = self.leave_out(rows, &columns)?;
-        // Of what is to be left out the one that then is farthest from what is given: the rest is not at fault.
+        // Of what is to be left out the one that then is farthest from what is given: the rest is
+        // not at fault.
         let mut candidates = vec![column];
         if is_enough && self.solve(rows, &hold, self.limit, &mut v)?.is_none() {
             let by = |j: usize| self.equations.arm(j) * (v[j] - self.written[j]).abs();
@@ -282,7 +288,8 @@ impl Start<'_> {
         })
     }
 
-    /// The held velocity that is farthest from the nearest ones that fit, where all may move; `None` if there are none. Writes these.
+    /// The held velocity that is farthest from the nearest ones that fit, where all may move;
+    /// `None` if there are none. Writes these.
     fn culprit(
         &self,
         rows: &[usize],
@@ -371,7 +378,8 @@ impl Start<'_> {
         })
     }
 
-    /// Given velocities without which the others hold, the farthest off first, none of which could stay; what is held then; and whether these are enough.
+    /// Given velocities without which the others hold, the farthest off first, none of which could
+    /// stay; what is held then; and whether these are enough.
     fn leave_out(
         &self,
         rows: &[usize],
@@ -411,7 +419,8 @@ impl Start<'_> {
         Ok((needed, hold, true))
     }
 
-    /// Frees a velocity by what one who writes scenes can take away, and says how the velocities were held that this frees.
+    /// Frees a velocity by what one who writes scenes can take away, and says how the velocities
+    /// were held that this frees.
     fn free(&self, column: usize, hold: &mut [Hold]) -> (HeldVelocity, Vec<(usize, Hold)>) {
         let body = self.equations.mechanism.bodies()[column / N_BODY]
             .name

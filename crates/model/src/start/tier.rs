@@ -1,8 +1,11 @@
-//! Velocities that follow from others: of all that satisfy rows of C the ones with the least kinetic energy, `½·vᵀ·M·v → min` under `C·v = b`.
+//! Velocities that follow from others: of all that satisfy rows of C the ones with the least
+//! kinetic energy, `½·vᵀ·M·v → min` under `C·v = b`.
 //!
-//! Rows that share no velocity that follows are solved apart. Small sets are solved as they are, after the rank of their columns has been
-//! decided; the rows that are left over are circuits, whose sums of right-hand sides say whether there are such velocities. Large sets are
-//! solved by their Schur complement. Not here: which velocities follow, and what happens where the rows leave none.
+//! Rows that share no velocity that follows are solved apart. Small sets are solved as they are,
+//! after the rank of their columns has been decided; the rows that are left over are circuits,
+//! whose sums of right-hand sides say whether there are such velocities. Large sets are solved by
+//! their Schur complement. Not here: which velocities follow, and what happens where the rows leave
+//! none.
 
 use std::collections::HashMap;
 
@@ -16,17 +19,20 @@ use crate::mechanism::{Mechanism, N_BODY};
 use crate::system::{Scratch, System};
 use crate::uncertainty::Known;
 
-/// Sets of more rows than this are solved by their Schur complement: dense factors would take seconds.
+/// Sets of more rows than this are solved by their Schur complement: dense factors would take
+/// seconds.
 pub(super) const DENSE_ROWS: usize = 300;
 
-/// Rows of which less than this share is left beside others count as dependent on them, in large sets: the Schur complement has the square of their
-/// condition.
+/// Rows of which less than this share is left beside others count as dependent on them, in large
+/// sets: the Schur complement has the square of their condition.
 const LEFT: f64 = 1e-7;
 
-/// A large set takes no row whose entries are below this many of their uncertainties: scaled to size one they would be noise.
+/// A large set takes no row whose entries are below this many of their uncertainties: scaled to
+/// size one they would be noise.
 const SIGNIFICANT: f64 = 1e3;
 
-/// Repetitions of a solution; each gains all digits but for rounding, and for damping where a metric hides that rows are independent.
+/// Repetitions of a solution; each gains all digits but for rounding, and for damping where a
+/// metric hides that rows are independent.
 const REPETITIONS: usize = 6;
 
 /// A repetition has to leave less than this share of the residuals.
@@ -39,7 +45,8 @@ pub(super) struct Equations<'m> {
     pub(super) size: f64,
     /// Diagonal of M⁻¹; what has no mass weighs as the smallest that has.
     pub(super) weights: Vec<f64>,
-    /// What is at rest to rounding moves by less than a hundred roundings of its place in this time (1/s).
+    /// What is at rest to rounding moves by less than a hundred roundings of its place in this time
+    /// (1/s).
     rest_rate: f64,
     /// What the entries of C are known to, by its pattern; made when it is needed.
     known: Option<Vec<f64>>,
@@ -61,7 +68,8 @@ impl<'m> Equations<'m> {
             s,
             size,
             weights: weights(mechanism, size),
-            // The second is the unit in which a scene is told; what falls under its weight has a shorter time of its own.
+            // The second is the unit in which a scene is told; what falls under its weight has a
+            // shorter time of its own.
             rest_rate: (gravity / size).sqrt().max(1.0),
             known: None,
         }
@@ -72,7 +80,8 @@ impl<'m> Equations<'m> {
         self.mechanism.layout().velocity_residual(&self.s, i, v)
     }
 
-    /// Up to here a residual of row `i` is rounding: of its terms, and of the places of its bodies, which turn with the fastest of them.
+    /// Up to here a residual of row `i` is rounding: of its terms, and of the places of its bodies,
+    /// which turn with the fastest of them.
     pub(super) fn rounding(&self, i: usize, v: &[f64]) -> f64 {
         let row = self.mechanism.layout().row(&self.s, i);
         let fastest = self.fastest(row.map(|(j, _)| j), v);
@@ -81,7 +90,8 @@ impl<'m> Equations<'m> {
         ROUNDINGS * f64::EPSILON * (terms + fastest * places)
     }
 
-    /// The fastest rate of some velocities (1/s): rotations, and translations divided by the longest arm of their body.
+    /// The fastest rate of some velocities (1/s): rotations, and translations divided by the
+    /// longest arm of their body.
     pub(super) fn fastest(&self, columns: impl Iterator<Item = usize>, v: &[f64]) -> f64 {
         let arm = |j: usize| match j % N_BODY {
             2 => 1.0,
@@ -90,7 +100,8 @@ impl<'m> Equations<'m> {
         columns.map(|j| v[j].abs() / arm(j)).fold(0.0, f64::max)
     }
 
-    /// What row `i` may miss by at velocities that are known to the rounding of this rate (1/s), and at rest.
+    /// What row `i` may miss by at velocities that are known to the rounding of this rate (1/s),
+    /// and at rest.
     pub(super) fn slack(&self, i: usize, rate: f64) -> f64 {
         let places = self.mechanism.position_scale(&self.s, i);
         ROUNDINGS * f64::EPSILON * (ROUNDINGS * self.rest_rate + rate) * places
@@ -104,7 +115,8 @@ impl<'m> Equations<'m> {
         rest / self.arm(j)
     }
 
-    /// What a velocity is multiplied by to be one of a point: the size of the mechanism for rotations.
+    /// What a velocity is multiplied by to be one of a point: the size of the mechanism for
+    /// rotations.
     pub(super) fn arm(&self, j: usize) -> f64 {
         if j % N_BODY == 2 { self.size } else { 1.0 }
     }
@@ -119,7 +131,8 @@ impl<'m> Equations<'m> {
         columns
     }
 
-    /// Sets of rows that share velocities, each ascending, in the order of their first rows. Of the velocities those are meant that `joins` names.
+    /// Sets of rows that share velocities, each ascending, in the order of their first rows. Of the
+    /// velocities those are meant that `joins` names.
     pub(super) fn sets(&self, rows: &[usize], joins: impl Fn(usize) -> bool) -> Vec<Vec<usize>> {
         let layout = self.mechanism.layout();
         let mut leader: Vec<usize> = (0..rows.len()).collect();
@@ -383,8 +396,9 @@ impl Part {
     }
 }
 
-/// The shortest step in the metric of these inverse masses that removes residuals of rows. Exact where the rows are independent to working precision,
-/// however the masses differ; otherwise damped.
+/// The shortest step in the metric of these inverse masses that removes residuals of rows. Exact
+/// where the rows are independent to working precision, however the masses differ; otherwise
+/// damped.
 pub(super) fn shortest(
     c: &Matrix,
     residual: &[f64],

@@ -1,10 +1,13 @@
-//! Velocities of a start. What is given holds, the others follow from it and from what moves by itself, with the least kinetic energy.
+//! Velocities of a start. What is given holds, the others follow from it and from what moves by
+//! itself, with the least kinetic energy.
 //!
-//! Given velocities may be rounded to some digits. Where no motion has them, the nearest ones in the mass metric are taken, and the others follow from
-//! these; if they are farther off than a start may be corrected, the velocities at fault are named. Velocities that `keep` holds do not move at all.
+//! Given velocities may be rounded to some digits. Where no motion has them, the nearest ones in
+//! the mass metric are taken, and the others follow from these; if they are farther off than a
+//! start may be corrected, the velocities at fault are named. Velocities that `keep` holds do not
+//! move at all.
 //!
-//! Residuals are compared with the rounding of their own terms, and what is at rest with the rounding of its place: never with a solution, which may
-//! be zero.
+//! Residuals are compared with the rounding of their own terms, and what is at rest with the
+//! rounding of its place: never with a solution, which may be zero.
 
 use linalg::Matrix;
 
@@ -44,11 +47,13 @@ const CHEAP: f64 = 1e-6;
 /// Entries of a sum of rows below this share of its terms are rounding.
 const CANCELLED: f64 = 1e-12;
 
-/// Velocities that satisfy `C·v = b` in the kept rows at an assembled configuration: given ones hold, and the others follow with the least
-/// kinetic energy, `M·v = Cᵀ·μ` in them. What has no mass or inertia weighs as the smallest that has it.
+/// Velocities that satisfy `C·v = b` in the kept rows at an assembled configuration: given ones
+/// hold, and the others follow with the least kinetic energy, `M·v = Cᵀ·μ` in them. What has no
+/// mass or inertia weighs as the smallest that has it.
 ///
-/// Given velocities that fit to rounding do not change. Those that miss are corrected by the least, in the mass metric; those that `options`
-/// keep, and that need not be given, are held to all digits.
+/// Given velocities that fit to rounding do not change. Those that miss are corrected by the least,
+/// in the mass metric; those that `options` keep, and that need not be given, are held to all
+/// digits.
 ///
 /// ```
 /// use joints::Revolute;
@@ -68,7 +73,8 @@ const CANCELLED: f64 = 1e-12;
 /// ```
 ///
 /// # Errors
-/// - [`StartError::Velocities`]: no motion has the given velocities, or only others by more than `options` allow.
+/// - [`StartError::Velocities`]: no motion has the given velocities, or only others by more than
+///   `options` allow.
 /// - [`StartError::NoVelocity`]: the rows leave none.
 /// - [`StartError::NoCoordinate`]: a velocity that `options` keep does not exist.
 pub fn consistent_velocity(
@@ -156,7 +162,8 @@ impl<'m> Start<'m> {
             .any(|&i| exceeds(of.residual(i, v).abs(), of.rounding(i, v)))
     }
 
-    /// Finds the velocities of some rows, all that share one with them. Returns why there are none to be taken.
+    /// Finds the velocities of some rows, all that share one with them. Returns why there are none
+    /// to be taken.
     ///
     /// # Errors
     /// If a number is not finite.
@@ -194,7 +201,8 @@ impl<'m> Start<'m> {
             }
             tier.follow(of, v)?;
         }
-        // What is given at rest but for rounding rests: that of a locked part runs to zero without end.
+        // What is given at rest but for rounding rests: that of a locked part runs to zero without
+        // end.
         let is_still = |&j: &usize| v[j].abs().max(self.written[j].abs()) <= of.rest_of(j);
         if columns.iter().all(is_still) && rows.iter().all(|&i| of.s.b[i] == 0.0) {
             for &j in columns.iter().filter(|&&j| hold[j] != Hold::Kept) {
@@ -291,8 +299,9 @@ impl<'m> Start<'m> {
             .then_some(Miss::Far)
     }
 
-    /// What a given velocity may be corrected by: a thousandth of the fastest of the velocities that share rows with it, rotations by what they move at
-    /// the size of the mechanism; and what is rest.
+    /// What a given velocity may be corrected by: a thousandth of the fastest of the velocities
+    /// that share rows with it, rotations by what they move at the size of the mechanism; and what
+    /// is rest.
     pub(super) fn allowed(&self, j: usize, columns: &[usize], hold: &[Hold], v: &[f64]) -> f64 {
         let of = &self.equations;
         if hold[j] == Hold::Kept {

@@ -1,8 +1,8 @@
-//! Starts of mechanisms whose data are known to a stated tolerance: rows may miss by what the data make of them, and no body is moved far to mend a miss
-//! that the data explain.
+//! Starts of mechanisms whose data are known to a stated tolerance: rows may miss by what the data
+//! make of them, and no body is moved far to mend a miss that the data explain.
 //!
-//! Two sliders on one line that differ by a rounding meet where one of them is turned by its root, or far away: such a configuration satisfies all rows
-//! and is not the one that is meant.
+//! Two sliders on one line that differ by a rounding meet where one of them is turned by its root,
+//! or far away: such a configuration satisfies all rows and is not the one that is meant.
 
 use linalg::{Matrix, small_svd};
 
@@ -12,7 +12,8 @@ use crate::mechanism::{Mechanism, N_BODY};
 use crate::system::{Scratch, System};
 use crate::uncertainty::ROUNDING;
 
-/// Data that move a body by more than so many tolerances do not say where it is: what misses there is left as it is.
+/// Data that move a body by more than so many tolerances do not say where it is: what misses there
+/// is left as it is.
 const AMPLIFIED: f64 = 10.0;
 
 /// Rows up to which such directions are looked for: the work grows with their cube.
@@ -24,7 +25,8 @@ const ITERATIONS: usize = 20;
 /// A step below this share of the tolerance is none.
 const STILL: f64 = 1e-6;
 
-/// The largest tolerance of lengths and of angles. Whose data are wrong is not known, so the largest counts.
+/// The largest tolerance of lengths and of angles. Whose data are wrong is not known, so the
+/// largest counts.
 fn largest(blocks: &[DataBlock]) -> [f64; 2] {
     [DataUnit::Length, DataUnit::Angle].map(|unit| {
         let of_unit = blocks.iter().filter(|b| b.unit == unit);
@@ -60,7 +62,8 @@ pub(super) fn is_within(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> b
     each.all(|(&row, reach)| s.phi[row].abs() <= SHARED * reach)
 }
 
-/// How far a body moves along each column of C by one tolerance: lengths, and angles that move a point at the size of the mechanism by as much.
+/// How far a body moves along each column of C by one tolerance: lengths, and angles that move a
+/// point at the size of the mechanism by as much.
 fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
     let [length, angle] = largest(&mechanism.data_blocks(s));
     let length = match length {
@@ -84,7 +87,8 @@ fn farthest(mechanism: &Mechanism, a: &[f64], b: &[f64], units: &[f64]) -> f64 {
     shares.fold(0.0, f64::max)
 }
 
-/// Whether a tolerance is stated, and these coordinates are farther apart than data within it say where the bodies are.
+/// Whether a tolerance is stated, and these coordinates are farther apart than data within it say
+/// where the bodies are.
 pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[f64]) -> bool {
     mechanism.has_tolerances()
         && farthest(
@@ -95,8 +99,9 @@ pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[
         ) > AMPLIFIED
 }
 
-/// The configuration that the described one means, where `found` satisfies the rows as well as possible: `found`, unless it is farther away than the
-/// data say, from one whose rows all miss by no more than the data make of them.
+/// The configuration that the described one means, where `found` satisfies the rows as well as
+/// possible: `found`, unless it is farther away than the data say, from one whose rows all miss by
+/// no more than the data make of them.
 pub(super) fn meant(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -123,8 +128,9 @@ pub(super) fn meant(
     }
 }
 
-/// The nearest configuration, in the mass metric, of those that satisfy the rows wherever the data say where the bodies are: singular directions along
-/// which one tolerance moves a body by many are left. `None` if a row misses by more than the data explain.
+/// The nearest configuration, in the mass metric, of those that satisfy the rows wherever the data
+/// say where the bodies are: singular directions along which one tolerance moves a body by many are
+/// left. `None` if a row misses by more than the data explain.
 fn truncated(
     mechanism: &Mechanism,
     s: &mut Scratch,
@@ -191,8 +197,9 @@ mod tests {
     use crate::start::{CorrectionLimit, assemble};
     use crate::{Body, BodyRef, Description, Joint, Mechanism, StartOptions, Tolerance};
 
-    /// A body that slides on the x-axis by its own point and by the origin of the ground in its own slot, 0.1 µm beside that point: `y = 0` and
-    /// `x·sin θ + 1e-7·cos θ = 0`, which hold together only where the body is turned or shifted by the root of 0.1 µm.
+    /// A body that slides on the x-axis by its own point and by the origin of the ground in its own
+    /// slot, 0.1 µm beside that point: `y = 0` and `x·sin θ + 1e-7·cos θ = 0`, which hold together
+    /// only where the body is turned or shifted by the root of 0.1 µm.
     fn assembled(tolerance: f64) -> Vec<f64> {
         let slot = |name: &str, bodies: [BodyRef; 2], x: f64, y: f64| {
             let slot = PinInSlot {

@@ -15,7 +15,8 @@ fn body(name: &str, x: f64) -> Body {
     }
 }
 
-/// A pin with a motor between two bodies, a gear, and on the second body a roller on a line of the ground and an edge.
+/// A pin with a motor between two bodies, a gear, and on the second body a roller on a line of the
+/// ground and an edge.
 fn description() -> Description {
     let mut d = Description::new("stated");
     let i = d.body(body("left", 0.0));
@@ -54,7 +55,8 @@ fn blocks(mechanism: &Mechanism) -> Vec<DataBlock> {
     mechanism.data_blocks(&s)
 }
 
-/// Tolerances of the data of a joint or drive, in their order; of a line its point, then its direction.
+/// Tolerances of the data of a joint or drive, in their order; of a line its point, then its
+/// direction.
 fn stated(mechanism: &Mechanism, joint: &str) -> Vec<Option<f64>> {
     let groups = &mechanism.layout().groups;
     let own = blocks(mechanism).into_iter();

@@ -10,7 +10,8 @@ use crate::output::{Failure, count, wrapped};
 /// Ticks of the progress bar over the whole motion.
 const TICKS: u64 = 1000;
 
-/// Judged states farther apart than this may miss something: a share of the mechanism's size, or radians.
+/// Judged states farther apart than this may miss something: a share of the mechanism's size, or
+/// radians.
 const COARSE: f64 = 0.2;
 
 /// Runs and judges the motion.

@@ -1,4 +1,5 @@
-//! The verdicts of more joints and drives than a table has room for: counted by type, and the first names.
+//! The verdicts of more joints and drives than a table has room for: counted by type, and the first
+//! names.
 
 use std::collections::BTreeMap;
 

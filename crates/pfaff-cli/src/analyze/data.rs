@@ -40,8 +40,8 @@ fn stated(tolerance: Option<f64>, angle: Option<f64>) -> Option<String> {
     }
 }
 
-/// Units of lengths (m), and from which length on they are said: hundredths of a millimetre are usual, hundredths of a metre are not. A little
-/// less, for rounding.
+/// Units of lengths (m), and from which length on they are said: hundredths of a millimetre are
+/// usual, hundredths of a metre are not. A little less, for rounding.
 const UNITS: [(f64, f64, &str); 4] = [
     (1.0, 0.099, "m"),
     (1e-3, 0.99e-5, "mm"),

@@ -1,4 +1,5 @@
-//! The document of an analysis in words and columns: what a designer wants to know first comes first.
+//! The document of an analysis in words and columns: what a designer wants to know first comes
+//! first.
 
 use std::collections::BTreeSet;
 
@@ -147,7 +148,8 @@ fn fragile(d: &AnalysisDocument) -> String {
     out
 }
 
-/// What is left of a margin by rounding is no number for people; the document has it. What is unique within a tolerance only has a margin to look at.
+/// What is left of a margin by rounding is no number for people; the document has it. What is
+/// unique within a tolerance only has a margin to look at.
 fn margin(v: &VerdictDocument) -> String {
     match v.verdict {
         "unique" if !v.within_tolerance => "~0".to_owned(),

@@ -1,4 +1,5 @@
-//! What `pfaff analyze` says beside verdicts: what they hold for, what to ask next, and the numbers of sums.
+//! What `pfaff analyze` says beside verdicts: what they hold for, what to ask next, and the numbers
+//! of sums.
 
 use serde_json::{Value, json};
 
@@ -85,7 +86,8 @@ joint = [
     )
 }
 
-/// Said once for all joints of a type, where the reader may miss a force in another joint, and nowhere else.
+/// Said once for all joints of a type, where the reader may miss a force in another joint, and
+/// nowhere else.
 #[test]
 fn what_a_reaction_leaves_out_is_noted() {
     let held = rack_and_gear(
@@ -115,7 +117,8 @@ fn what_a_reaction_leaves_out_is_noted() {
     assert_eq!(analysis("four-bar", &[])["notes"], json!([]));
 }
 
-/// A number as `motion` is accepted, and said to hold the measure; what is advised instead is accepted without a word.
+/// A number as `motion` is accepted, and said to hold the measure; what is advised instead is
+/// accepted without a word.
 #[test]
 fn a_constant_motion_is_said_to_hold_the_measure() {
     let scene = |motion: &str| {
@@ -175,7 +178,8 @@ type = "angle"
     }
 }
 
-/// A truck going straight is compared with poses in which it is jackknifed: its edges do not hold on the way there.
+/// A truck going straight is compared with poses in which it is jackknifed: its edges do not hold
+/// on the way there.
 #[test]
 fn a_singular_configuration_says_what_it_was_compared_with() {
     let d = analysis("truck", &[]);
@@ -193,7 +197,8 @@ fn a_singular_configuration_says_what_it_was_compared_with() {
     );
 }
 
-/// Two guides of one carriage: deleting single rows does not help, and deleting a whole guide has to be allowed.
+/// Two guides of one carriage: deleting single rows does not help, and deleting a whole guide has
+/// to be allowed.
 #[test]
 fn what_only_whole_joints_make_unique_is_said() {
     let text = words("carriage", &[]);
@@ -271,7 +276,8 @@ fn what_is_zero_is_printed_as_zero() {
     );
 }
 
-/// An edge has no force along itself: that this is unique is no finding, and an instant at which it comes about is none.
+/// An edge has no force along itself: that this is unique is no finding, and an instant at which it
+/// comes about is none.
 #[test]
 fn directions_without_any_force_are_no_findings() {
     let d = analysis("car", &["--along"]);
@@ -343,7 +349,8 @@ fn without(scene: &str, message: &str) -> String {
     text
 }
 
-/// What is printed works: without what is to be left out, and with the correction that is offered, each by itself, every command takes the scene.
+/// What is printed works: without what is to be left out, and with the correction that is offered,
+/// each by itself, every command takes the scene.
 #[test]
 fn the_advice_on_velocities_works() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/wrong");

@@ -1,4 +1,5 @@
-//! What `pfaff analyze` answers, in words and as a document: the published mechanism, and cases that can be checked by hand.
+//! What `pfaff analyze` answers, in words and as a document: the published mechanism, and cases
+//! that can be checked by hand.
 
 use serde_json::{Value, json};
 
@@ -11,7 +12,8 @@ const GOLDEN: &str = concat!(
     "/tests/contract/robot-trolley.txt"
 );
 
-/// A beam of 2 m on hinges, held along itself by both; loaded by its weight and a pull of 6 N along it.
+/// A beam of 2 m on hinges, held along itself by both; loaded by its weight and a pull of 6 N along
+/// it.
 const BEAM: &str = r#"
 scene = { name = "beam", space = "plane", gravity = [0.0, -10.0] }
 body = [{ name = "beam", mass = 1.0, inertia = 1.0 }]
@@ -22,7 +24,8 @@ joint = [
 force = [{ name = "pull", type = "point-force", body = "beam", at = [0.0, 0.0], force = [6.0, 0.0] }]
 "#;
 
-/// Parallel cranks of 0.5 m on a common coupler, the first one driven from −0.5 rad at 1 rad/s: flat at t = 0.5 s.
+/// Parallel cranks of 0.5 m on a common coupler, the first one driven from −0.5 rad at 1 rad/s:
+/// flat at t = 0.5 s.
 fn cranks() -> String {
     let (sin, cos) = (-0.5_f64).sin_cos();
     let mut scene =
@@ -130,7 +133,8 @@ fn nearly_redundant_rows_are_judged_although_they_cannot_move() {
         let sigma = d["evidence"]["nearly_redundant"]["sigma"].as_f64();
         assert_eq!(sigma.is_some(), apart > 1e-14, "{d:#}");
     }
-    // Choices go by the proved rank, the comparison of units by that of double precision: said, not left out.
+    // Choices go by the proved rank, the comparison of units by that of double precision: said, not
+    // left out.
     let output = with_scene(&["analyze", "-", "--choose", "minimum-norm"], &twin(1e-9));
     assert_eq!(output.status.code(), Some(0), "{output:?}");
     contains(

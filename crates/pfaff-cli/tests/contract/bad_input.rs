@@ -1,4 +1,5 @@
-//! Every wrong input gets one clear message that names the thing and the numbers, and the right exit code.
+//! Every wrong input gets one clear message that names the thing and the numbers, and the right
+//! exit code.
 
 use super::{Folder, ROBOT, pfaff, stderr, with_scene};
 
@@ -432,11 +433,13 @@ fn negative_numbers_of_the_command_line_are_values() {
     );
 }
 
-/// The pendulum with velocities that its pivot does not allow: the same rule as for positions. Those that are given hold, the others follow.
+/// The pendulum with velocities that its pivot does not allow: the same rule as for positions.
+/// Those that are given hold, the others follow.
 #[test]
 fn velocities_that_contradict_the_constraints_are_refused_by_name() {
     let given = |velocities: &'static str| replaced("position = [1.0, 0.0]", velocities);
-    // The nearest velocity in the mass metric: 1 rad/s about the centre is I/(I + m·l²) = 1/11 rad/s about the pivot.
+    // The nearest velocity in the mass metric: 1 rad/s about the centre is I/(I + m·l²) = 1/11
+    // rad/s about the pivot.
     check(
         given("position = [1.0, 0.0]\nvelocity = [0.0, 0.0]\nangular_velocity = 1.0"),
         2,

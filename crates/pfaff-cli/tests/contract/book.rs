@@ -1,10 +1,11 @@
-//! The book shows what the command does: every `console` block of `docs/book` is run and compared line by line, every `toml` block is
-//! read. Blocks of Rust are doc tests of the package `tests`.
+//! The book shows what the command does: every `console` block of `docs/book` is run and compared
+//! line by line, every `toml` block is read. Blocks of Rust are doc tests of the package `tests`.
 //!
-//! - A `toml` block that begins with `# NAME.toml` is a scene; `toml,wrong` marks one that `pfaff check` refuses. A block
-//!   `toml,fragment,NAME.toml` is added to that scene.
-//! - A `console` block has lines `$ COMMAND` with the output below. A line `…` stands for any lines. Commands run one after the other, each
-//!   chapter in a folder of its own that has all scenes of the book and the robot. There are `pfaff` (also after `|`), `ls` and `head -n`.
+//! - A `toml` block that begins with `# NAME.toml` is a scene; `toml,wrong` marks one that
+//!   `pfaff check` refuses. A block `toml,fragment,NAME.toml` is added to that scene.
+//! - A `console` block has lines `$ COMMAND` with the output below. A line `…` stands for any
+//!   lines. Commands run one after the other, each chapter in a folder of its own that has all
+//!   scenes of the book and the robot. There are `pfaff` (also after `|`), `ls` and `head -n`.
 
 use std::fs;
 use std::path::Path;
@@ -144,7 +145,8 @@ fn with_all_scenes(blocks: &[Block], chapter: &Block) -> Folder {
     folder
 }
 
-/// What a command of a block writes, errors after the rest. One that is refused says so in its output.
+/// What a command of a block writes, errors after the rest. One that is refused says so in its
+/// output.
 fn run(command: &str, folder: &Path) -> String {
     let words = words(command);
     let words: Vec<&str> = words.iter().map(String::as_str).collect();

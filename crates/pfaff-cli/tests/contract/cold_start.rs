@@ -1,5 +1,5 @@
-//! Commands are quick from a cold start, process included. Bounds are five times what is promised for an idle machine, so that
-//! only growth is noticed; `cargo xtask cold-start` tells the times.
+//! Commands are quick from a cold start, process included. Bounds are five times what is promised
+//! for an idle machine, so that only growth is noticed; `cargo xtask cold-start` tells the times.
 
 use std::time::{Duration, Instant};
 

@@ -1,8 +1,9 @@
 //! Console blocks in pages: what a page shows of the command is what the command prints.
 //!
-//! A block is fenced as `console`. A line that begins with `$ pfaff ` is run, in a folder with the scenes of the pages in the places where they
-//! are in the repository; the lines up to the next `$ ` are what it prints, errors last. A line `…` stands for any number of lines, also
-//! none. Other commands (`$ cargo …`) are not run.
+//! A block is fenced as `console`. A line that begins with `$ pfaff ` is run, in a folder with the
+//! scenes of the pages in the places where they are in the repository; the lines up to the next
+//! `$ ` are what it prints, errors last. A line `…` stands for any number of lines, also none.
+//! Other commands (`$ cargo …`) are not run.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -71,7 +72,8 @@ fn words(command: &str) -> Vec<String> {
     words
 }
 
-/// Whether lines are those of a pattern with omissions; otherwise the first stretch of it that is nowhere.
+/// Whether lines are those of a pattern with omissions; otherwise the first stretch of it that is
+/// nowhere.
 fn matches<'a>(pattern: &[&'a str], lines: &[&str]) -> Result<(), Vec<&'a str>> {
     let stretches: Vec<&[&str]> = pattern.split(|line| *line == OMISSION).collect();
     let mut rest = lines;
@@ -173,7 +175,8 @@ const WARNED: [(&str, &str); 2] = [
     ),
 ];
 
-/// Every example is read without a word on standard error, and analysed without a warning that is not meant.
+/// Every example is read without a word on standard error, and analysed without a warning that is
+/// not meant.
 #[test]
 fn the_gallery_is_read_in_silence() {
     let folder = scenes("the gallery in silence");

@@ -1,4 +1,5 @@
-//! What fails says so in one JSON document where one was asked for, with the same exit code as in words.
+//! What fails says so in one JSON document where one was asked for, with the same exit code as in
+//! words.
 
 use serde_json::{Value, json};
 

@@ -1,5 +1,6 @@
-//! Faults of the surroundings: nobody listens, the disk is full, a directory takes nothing, somebody asks to stop. What was computed is
-//! kept and can be read, what looks whole is whole, and older results stay until newer ones are.
+//! Faults of the surroundings: nobody listens, the disk is full, a directory takes nothing,
+//! somebody asks to stop. What was computed is kept and can be read, what looks whole is whole, and
+//! older results stay until newer ones are.
 
 use std::fs::{self, File};
 use std::io::{BufRead, BufReader};
@@ -95,7 +96,8 @@ fn send(signal: &str, child: &Child) {
     assert!(sent.is_ok_and(|status| status.success()));
 }
 
-/// A table whose rows all have as many numbers as its header has names: how many, and the first number of the last.
+/// A table whose rows all have as many numbers as its header has names: how many, and the first
+/// number of the last.
 fn rows(path: &Path) -> (usize, f64) {
     let text = fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
     assert!(
@@ -222,7 +224,8 @@ fn a_full_disk_leaves_older_results_alone() {
 fn a_disk_that_fills_up_leaves_whole_rows() {
     let (folder, scene) = place("faults-filling", "10.0");
     let out = Folder(folder.0.join("out"));
-    // At most 8 blocks of 512 or 1024 bytes for each file; a signal that nobody waits for would end the program instead.
+    // At most 8 blocks of 512 or 1024 bytes for each file; a signal that nobody waits for would end
+    // the program instead.
     let script = "trap '' XFSZ; ulimit -f 8; exec \"$0\" \"$@\"";
     let output = Command::new("sh")
         .args([
@@ -362,7 +365,8 @@ fn a_second_request_ends_the_program_at_once() {
     let (folder, scene) = place("faults-second", "50000.0");
     let out = Folder(folder.0.join("out"));
     fs::create_dir_all(&out.0).expect("writable");
-    // Nobody reads from this pipe: once it is full, the run waits for ever and cannot see that somebody asked.
+    // Nobody reads from this pipe: once it is full, the run waits for ever and cannot see that
+    // somebody asked.
     let part = out.0.join("trajectory.csv.part");
     assert!(
         Command::new("mkfifo")

@@ -1,4 +1,5 @@
-//! Unique reactions that are made of the last digits of a drawing: every output says so, and none says so of ordinary scenes.
+//! Unique reactions that are made of the last digits of a drawing: every output says so, and none
+//! says so of ordinary scenes.
 
 use std::fs;
 
@@ -8,8 +9,8 @@ use super::{Folder, ROBOT, pfaff, stderr, stdout};
 
 const NAMES: [&str; 6] = ["O1", "P1", "O2", "P2", "O3", "P3"];
 
-/// A coupler on three parallel cranks of half a metre, 6 kg in all; the pin of the third on the ground is off by this much, and the crank has its
-/// hole there.
+/// A coupler on three parallel cranks of half a metre, 6 kg in all; the pin of the third on the
+/// ground is off by this much, and the crank has its hole there.
 fn three_cranks(folder: &Folder, name: &str, off: f64) -> String {
     let (c, s) = (0.5 * 0.7_f64.cos(), 0.5 * 0.7_f64.sin());
     let mut bodies = String::new();
@@ -237,7 +238,8 @@ joint = [
     }
 }
 
-/// Every robot of a fleet says of itself what the one robot says, whether springs couple them or nothing does.
+/// Every robot of a fleet says of itself what the one robot says, whether springs couple them or
+/// nothing does.
 #[test]
 fn robots_of_a_fleet_are_as_fragile_as_one() {
     let folder = Folder::new("fragile-fleet");

@@ -1,4 +1,5 @@
-//! What the library says of a scene is what the command writes: one format, key by key and number by number.
+//! What the library says of a scene is what the command writes: one format, key by key and number
+//! by number.
 
 use std::ops::ControlFlow;
 

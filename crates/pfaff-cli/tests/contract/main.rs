@@ -1,4 +1,5 @@
-//! What users and scripts rely on: exit codes, documents, files, and one clear message for each wrong input.
+//! What users and scripts rely on: exit codes, documents, files, and one clear message for each
+//! wrong input.
 
 mod advice;
 mod analyze;

@@ -1,4 +1,5 @@
-//! The whole command for a joint that is not shipped: a program of a user's own calls `pfaff_cli::run` with its registry.
+//! The whole command for a joint that is not shipped: a program of a user's own calls
+//! `pfaff_cli::run` with its registry.
 
 use std::fs;
 use std::process::ExitCode;
@@ -25,7 +26,8 @@ pfaff::joint! { plane BeadOnWire(i, j) {
     place: point(j, s_j);
 } }
 
-/// At x = 1 the slope is 1, so that half of gravity accelerates along each axis: the wire pushes with m·(a − g) = 2·(−5, 5) N.
+/// At x = 1 the slope is 1, so that half of gravity accelerates along each axis: the wire pushes
+/// with m·(a − g) = 2·(−5, 5) N.
 const BEAD: &str = r#"
 scene = { name = "bead", space = "plane", gravity = [0.0, -10.0] }
 body = [{ name = "bead", mass = 2.0, inertia = 1.0, position = [1.0, 0.5] }]

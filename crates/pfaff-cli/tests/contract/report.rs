@@ -103,14 +103,16 @@ fn reactions_that_are_not_unique_come_with_several_choices() {
     );
     assert!(labels[1].starts_with("least norm"), "{labels:?}");
     assert!(labels[2].starts_with("no reaction in rows"), "{labels:?}");
-    // Fx of B is determined at the start, where it lies along the platform, and no more once the platform has turned.
+    // Fx of B is determined at the start, where it lies along the platform, and no more once the
+    // platform has turned.
     let (place, b) = joint(&data, "B");
     let at = compared.iter().position(|k| *k == place as u64);
     let at = at.expect("B is compared");
     assert_eq!(b["components"][0]["verdict"], "unique");
     let free = &comparison["freedom"][at]["components"];
     assert_eq!(*free, serde_json::json!([true, true, false]));
-    // An edge pushes along its normal only, which goes with its body: the other direction stays determined.
+    // An edge pushes along its normal only, which goes with its body: the other direction stays
+    // determined.
     let edge = joint(&data, "W1").0 as u64;
     let edge = compared.iter().position(|k| *k == edge);
     let edge = edge.expect("W1 is compared");

@@ -1,4 +1,5 @@
-//! Threads and memory: results do not depend on the one, and more of the other than there may be is refused beforehand.
+//! Threads and memory: results do not depend on the one, and more of the other than there may be is
+//! refused beforehand.
 
 use super::{Folder, pfaff, stderr, stdout, with_scene};
 

@@ -1,4 +1,5 @@
-//! `pfaff schema`: one document, that of the reader. What it says is tested with the reader, in `scene`.
+//! `pfaff schema`: one document, that of the reader. What it says is tested with the reader, in
+//! `scene`.
 
 use serde_json::Value;
 

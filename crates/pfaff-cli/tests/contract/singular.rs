@@ -27,7 +27,8 @@ pub(crate) fn flat_cranks(pivots: &[f64]) -> String {
     )
 }
 
-/// Two flat cranks may go on in parallel or against each other; a third one forbids the latter at second order.
+/// Two flat cranks may go on in parallel or against each other; a third one forbids the latter at
+/// second order.
 #[test]
 fn a_singular_start_says_how_the_motion_goes_on() {
     for (pivots, kind, piece) in [
@@ -51,7 +52,8 @@ fn a_singular_start_says_how_the_motion_goes_on() {
     }
 }
 
-/// The catalogue's flat cranks with a turning drive: the verdict of the start does not wait for velocities with which it can be left.
+/// The catalogue's flat cranks with a turning drive: the verdict of the start does not wait for
+/// velocities with which it can be left.
 #[test]
 fn a_start_that_cannot_be_left_is_judged_and_warned_of() {
     let drive = r#"
@@ -85,7 +87,8 @@ fn a_start_that_cannot_be_left_is_judged_and_warned_of() {
     assert_eq!(output.status.code(), Some(2), "{output:?}");
 }
 
-/// Two edges of one cart whose normals or places differ by less than a rounding: one is redundant, and the cart moves as it would with equal ones.
+/// Two edges of one cart whose normals or places differ by less than a rounding: one is redundant,
+/// and the cart moves as it would with equal ones.
 #[test]
 fn edges_that_differ_by_a_rounding_are_judged_and_named() {
     for (motion, point, normal) in [
@@ -117,7 +120,8 @@ fn edges_that_differ_by_a_rounding_are_judged_and_named() {
     }
 }
 
-/// A slider-crank in line: no rate of the slider turns the crank there. One drive cannot contradict another one.
+/// A slider-crank in line: no rate of the slider turns the crank there. One drive cannot contradict
+/// another one.
 #[test]
 fn a_drive_at_a_dead_centre_is_told_that_the_configuration_is_singular() {
     let scene = |motion: &str| {

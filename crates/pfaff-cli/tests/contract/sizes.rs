@@ -1,4 +1,5 @@
-//! Every option of `analyze` answers at every size, by the parts that it touches; a part that is too large for it is named.
+//! Every option of `analyze` answers at every size, by the parts that it touches; a part that is
+//! too large for it is named.
 
 use serde_json::Value;
 
@@ -10,7 +11,8 @@ fn document(arguments: &[&str], scene: &str) -> Value {
     serde_json::from_slice(&output.stdout).expect("a document")
 }
 
-/// Eighty parallelograms in a row, of which two in three have a third crank: each is a part, and the answers are those of one of them alone.
+/// Eighty parallelograms in a row, of which two in three have a third crank: each is a part, and
+/// the answers are those of one of them alone.
 #[test]
 fn options_answer_by_parts() {
     let scene = stdout(&pfaff(&["generate", "parallelograms", "--n", "80"]));
@@ -52,7 +54,8 @@ fn options_answer_by_parts() {
         let row = &way["rows"][0];
         assert!(!own.as_array().expect("a list").contains(row), "{row}");
     }
-    // Twelve of each of more than fifty cells: more sets than can be counted, and the first ones differ in the last cell.
+    // Twelve of each of more than fifty cells: more sets than can be counted, and the first ones
+    // differ in the last cell.
     let eliminations = &asked["eliminations"];
     assert!(
         eliminations["reason"]
@@ -126,7 +129,8 @@ fn a_part_that_is_too_large_is_named() {
     );
 }
 
-/// Rows are counted in the whole, and a part that an answer lacks is named; every unique reaction has a sensitivity.
+/// Rows are counted in the whole, and a part that an answer lacks is named; every unique reaction
+/// has a sensitivity.
 #[test]
 fn what_is_asked_of_all_parts_is_told_of_all() {
     let scene = stdout(&pfaff(&["generate", "parallelograms", "--n", "80"]));

@@ -1,4 +1,5 @@
-//! `sweep`: its tables, its refusals, and that no finished run is lost or made again whatever happens to it.
+//! `sweep`: its tables, its refusals, and that no finished run is lost or made again whatever
+//! happens to it.
 
 use std::fs::{self, File};
 use std::path::Path;

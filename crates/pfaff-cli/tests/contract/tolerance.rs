@@ -1,4 +1,5 @@
-//! What the data are known to: flags that go before the scene, the documents and sentences that tell it, and wrong values.
+//! What the data are known to: flags that go before the scene, the documents and sentences that
+//! tell it, and wrong values.
 
 use serde_json::{Value, json};
 
@@ -124,7 +125,8 @@ fn every_command_that_judges_takes_them() {
     }
 }
 
-/// An arm that two parallel cylinders turn about its hinge, the direction of their axes typed with four digits.
+/// An arm that two parallel cylinders turn about its hinge, the direction of their axes typed with
+/// four digits.
 fn cylinders(axis: &str) -> String {
     let mut text = String::from(
         r#"
@@ -189,7 +191,8 @@ motion = {{ type = "constant-rate", rate = 0.0 }}
     text
 }
 
-/// What the last digits of an axis leave to the slides is nothing within the tolerance, and its margin is told.
+/// What the last digits of an axis leave to the slides is nothing within the tolerance, and its
+/// margin is told.
 #[test]
 fn what_is_unique_within_the_tolerance_says_so() {
     let slides = |axis: &str, flags: &[&str]| -> Vec<Value> {

@@ -50,7 +50,8 @@ fn a_case_of_the_suite_is_compared_with_its_reference() {
 #[test]
 fn runs_that_fail_are_rows_with_their_reason() {
     let folder = Folder::new("work-precision-failing");
-    // A hand-made contradiction: the drive of the pivot is met by a second one, until half a second.
+    // A hand-made contradiction: the drive of the pivot is met by a second one, until half a
+    // second.
     let scene = super::bad_input::contradiction_at_half_a_second();
     let path = folder.0.join("scene.toml");
     std::fs::create_dir_all(&folder.0).expect("writable");

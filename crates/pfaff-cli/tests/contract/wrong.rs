@@ -1,5 +1,6 @@
-//! Wrong scenes with the texts that `pfaff check` answers: `tests/wrong/*.toml`, each with one fault and a remark on it, and beside it the
-//! text in `*.txt`. Every text names the place and what to do. `PFAFF_BLESS=1` writes the texts anew; read them before they are committed.
+//! Wrong scenes with the texts that `pfaff check` answers: `tests/wrong/*.toml`, each with one
+//! fault and a remark on it, and beside it the text in `*.txt`. Every text names the place and what
+//! to do. `PFAFF_BLESS=1` writes the texts anew; read them before they are committed.
 
 use std::fs;
 use std::path::{Path, PathBuf};

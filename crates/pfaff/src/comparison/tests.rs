@@ -90,7 +90,8 @@ fn two_wheels_of_one_axle_share_in_any_way() {
     }
 }
 
-/// Three equal cranks under one coupler: one number is missing, and every choice gives the bodies the same accelerations.
+/// Three equal cranks under one coupler: one number is missing, and every choice gives the bodies
+/// the same accelerations.
 #[test]
 fn choices_differ_by_loads_that_cancel_on_every_body() {
     let text = suite::find("three-cranks").expect("a case").scene;

@@ -8,11 +8,13 @@ use super::Inquiry;
 use crate::error::StudyError;
 
 impl Inquiry<'_> {
-    /// Ranks with their proof, verdicts, groups, reasons and warnings as plain data: the document that `pfaff analyze --json` writes, key by
-    /// key. Groups are those of the scene, then the combinations, as [`Inquiry::groups`] takes them; rows are counted from 1.
+    /// Ranks with their proof, verdicts, groups, reasons and warnings as plain data: the document
+    /// that `pfaff analyze --json` writes, key by key. Groups are those of the scene, then the
+    /// combinations, as [`Inquiry::groups`] takes them; rows are counted from 1.
     ///
-    /// What costs more is left for its own question and may be added to the document: [`Inquiry::make_unique`], [`Inquiry::frames`],
-    /// [`Inquiry::distribution`], [`crate::Journey`].
+    /// What costs more is left for its own question and may be added to the document:
+    /// [`Inquiry::make_unique`], [`Inquiry::frames`], [`Inquiry::distribution`],
+    /// [`crate::Journey`].
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -30,8 +32,8 @@ impl Inquiry<'_> {
     /// ```
     ///
     /// # Errors
-    /// As [`Inquiry::groups`], [`Inquiry::explanation`], [`Inquiry::continuation`] and [`Inquiry::is_locked`]. Groups without numbers are no
-    /// error but a warning of the document.
+    /// As [`Inquiry::groups`], [`Inquiry::explanation`], [`Inquiry::continuation`] and
+    /// [`Inquiry::is_locked`]. Groups without numbers are no error but a warning of the document.
     pub fn document(&self, combine: &[String]) -> Result<AnalysisDocument, StudyError> {
         let groups = self.groups(combine)?;
         let generic = self.generic();
@@ -76,7 +78,8 @@ impl Inquiry<'_> {
     }
 }
 
-/// What the verdicts of a singular configuration were compared with. The motion need not lead there: the steps away follow the joints alone.
+/// What the verdicts of a singular configuration were compared with. The motion need not lead
+/// there: the steps away follow the joints alone.
 fn only_here(d: &AnalysisDocument, inquiry: &Inquiry<'_>) -> Option<String> {
     let generic = d.generic.as_ref()?;
     if generic.redundancy >= d.redundancy || d.evidence.permanent != Some(false) {

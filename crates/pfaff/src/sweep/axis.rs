@@ -6,9 +6,11 @@ use std::str::FromStr;
 /// Runs that a sweep may have: their rows are held in memory when tables are written.
 const RUNS_MAX: usize = 10_000_000;
 
-/// A key of a scene with the values it takes, as `KEY=FROM:TO:N`, `KEY=FROM:TO:N:log` or `KEY=1,2,5`.
+/// A key of a scene with the values it takes, as `KEY=FROM:TO:N`, `KEY=FROM:TO:N:log` or
+/// `KEY=1,2,5`.
 ///
-/// `FROM:TO:N` are N ≥ 2 values with both ends, evenly spaced, or evenly in their logarithms. Both ends are met exactly.
+/// `FROM:TO:N` are N ≥ 2 values with both ends, evenly spaced, or evenly in their logarithms. Both
+/// ends are met exactly.
 ///
 /// ```
 /// use pfaff::sweep::Axis;

@@ -1,4 +1,5 @@
-//! Why a sweep does not begin or go on. What is wrong with one run is not here: it stands in its row.
+//! Why a sweep does not begin or go on. What is wrong with one run is not here: it stands in its
+//! row.
 
 use report::sweep::JournalError;
 use report::{FileError, TableError};

@@ -2,8 +2,8 @@
 
 use std::str::FromStr;
 
-/// Every n-th run of a sweep, beginning with run i: `i/n`, counted from 1. Neighbours in the grid take similar times, so that shards
-/// end at similar times.
+/// Every n-th run of a sweep, beginning with run i: `i/n`, counted from 1. Neighbours in the grid
+/// take similar times, so that shards end at similar times.
 ///
 /// ```
 /// use pfaff::sweep::Shard;

@@ -60,7 +60,8 @@ fn run(sweep: &Sweep<'_>, folder: &Folder, shard: Shard, threads: usize) -> Swee
     done.unwrap_or_else(|e| panic!("{e}"))
 }
 
-/// Small swings: x(t) = v/ω·sin ωt with ω² = g/L, and the largest pull m·(g + v²/L) at the bottom. Of the swing θ² < 10⁻⁸ is left out.
+/// Small swings: x(t) = v/ω·sin ωt with ω² = g/L, and the largest pull m·(g + v²/L) at the bottom.
+/// Of the swing θ² < 10⁻⁸ is left out.
 #[test]
 fn a_pendulum_swings_as_its_length_says() {
     let registry = Registry::planar();

@@ -117,8 +117,8 @@ pub(super) fn look(
     }
 }
 
-/// Runs without output and takes the time: the summary of the fastest run, and how many there were. `None` if one did not
-/// reach its end, or somebody asked to stop.
+/// Runs without output and takes the time: the summary of the fastest run, and how many there were.
+/// `None` if one did not reach its end, or somebody asked to stop.
 pub(super) fn clock(
     study: &Study,
     options: &MotionOptions,

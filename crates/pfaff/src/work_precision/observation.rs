@@ -1,4 +1,5 @@
-//! What is compared of a motion at an instant: positions, velocities, accelerations and reactions, by place.
+//! What is compared of a motion at an instant: positions, velocities, accelerations and reactions,
+//! by place.
 
 use dynamics::{Sample, Trip};
 use model::reaction::COMPONENTS;
@@ -25,7 +26,8 @@ impl Observation {
         Ok(Self::new(sample.t, [q, v, a], &reactions))
     }
 
-    /// The coordinates, velocities and accelerations at a time, with the reactions of all joints and drives.
+    /// The coordinates, velocities and accelerations at a time, with the reactions of all joints
+    /// and drives.
     #[must_use]
     pub fn new(t: f64, [q, v, a]: [Vec<f64>; 3], reactions: &[Reaction]) -> Self {
         let numbers = reactions.iter().flat_map(|r| {
@@ -56,7 +58,8 @@ pub(super) fn reaction_place(group: usize, component: usize) -> usize {
     PER_REACTION * group + component
 }
 
-/// Where the value of a fact stands among those of its kind; `None` if the mechanism has nothing of the name.
+/// Where the value of a fact stands among those of its kind; `None` if the mechanism has nothing of
+/// the name.
 pub(super) fn place(fact: &Fact, mechanism: &Mechanism) -> Option<usize> {
     let coordinate = |name: &str| {
         let mut columns = 0..mechanism.layout().n_v;
@@ -78,8 +81,8 @@ pub(super) fn place(fact: &Fact, mechanism: &Mechanism) -> Option<usize> {
     }
 }
 
-/// What the values of each kind are divided by so that they can be compared with each other: lengths by the size of the
-/// mechanism (m), torques too; angles and forces by 1.
+/// What the values of each kind are divided by so that they can be compared with each other:
+/// lengths by the size of the mechanism (m), torques too; angles and forces by 1.
 pub(super) fn units(mechanism: &Mechanism, size: f64) -> [Vec<f64>; 4] {
     let kinds = mechanism.column_kinds();
     let columns: Vec<f64> = kinds

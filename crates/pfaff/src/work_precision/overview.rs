@@ -5,7 +5,8 @@ use report::{Place, WorkPrecisionRow, WorkPrecisionScene};
 /// Methods this close to the fastest share its place: repeated runs differ by as much.
 const EQUAL: f64 = 1.1;
 
-/// A finished run with an error above this one at a tolerance of at most [`TIGHT`] is wrong, not inaccurate.
+/// A finished run with an error above this one at a tolerance of at most [`TIGHT`] is wrong, not
+/// inaccurate.
 const WRONG: f64 = 1e-2;
 
 /// See [`WRONG`].
@@ -70,7 +71,8 @@ fn methods(
     places.filter(|(_, _, places): &(_, _, Vec<_>)| !places.is_empty())
 }
 
-/// Where the method that is chosen by itself is not the fastest, with the worst factor of each scene.
+/// Where the method that is chosen by itself is not the fastest, with the worst factor of each
+/// scene.
 fn losses(scenes: &[WorkPrecisionScene]) -> Option<String> {
     let mut worst: Vec<(&WorkPrecisionScene, f64, &str, f64)> = Vec::new();
     let mut unreached: Vec<&str> = Vec::new();

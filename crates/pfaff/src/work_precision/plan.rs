@@ -59,12 +59,14 @@ pub struct Plan {
     pub repetitions: u32,
     /// Time that these runs take together, at least (s).
     pub seconds: f64,
-    /// A run that takes longer (s) is given up, and so are runs of its curve with tighter tolerances.
+    /// A run that takes longer (s) is given up, and so are runs of its curve with tighter
+    /// tolerances.
     pub budget: f64,
 }
 
 impl Plan {
-    /// Every method with projection, one explicit method with every stabilisation; tolerances 1e-3, 1e-4, … 1e-13.
+    /// Every method with projection, one explicit method with every stabilisation; tolerances 1e-3,
+    /// 1e-4, … 1e-13.
     #[must_use]
     pub fn standard() -> Self {
         let curves = everything()

@@ -33,8 +33,8 @@ pub fn date() -> String {
     )
 }
 
-/// Year, month and day of a number of days after 1970-01-01, in the Gregorian calendar. Years begin in March here, so that the day
-/// of a leap year is their last; an era has 400 years.
+/// Year, month and day of a number of days after 1970-01-01, in the Gregorian calendar. Years begin
+/// in March here, so that the day of a leap year is their last; an era has 400 years.
 fn civil(days: u64) -> [u64; 3] {
     let days = days + 719_468;
     let (era, day) = (days / 146_097, days % 146_097);
@@ -56,7 +56,8 @@ mod tests {
 
     #[test]
     fn days_have_their_dates() {
-        // By the calendar: the beginning, leap days of 1972 and 2000, the first of March after each.
+        // By the calendar: the beginning, leap days of 1972 and 2000, the first of March after
+        // each.
         assert_eq!(civil(0), [1970, 1, 1]);
         assert_eq!(civil(789), [1972, 2, 29]);
         assert_eq!(civil(790), [1972, 3, 1]);

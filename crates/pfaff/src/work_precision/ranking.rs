@@ -10,8 +10,8 @@ const LEVELS: [f64; 10] = [
     1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12,
 ];
 
-/// A run is trusted to reach an error if no tighter one misses it by more than this factor: near singular configurations a loose
-/// run may be right by luck.
+/// A run is trusted to reach an error if no tighter one misses it by more than this factor: near
+/// singular configurations a loose run may be right by luck.
 const LUCK: f64 = 10.0;
 
 /// An error this much above what the reference is known to is still told.
@@ -54,8 +54,9 @@ pub(super) fn ranking(rows: &[WorkPrecisionRow], limit: f64) -> Vec<RankingLine>
         .collect()
 }
 
-/// Time (s) and evaluations for an error, from the runs of a curve with the loosest tolerance first: between the last run that
-/// misses it and the first that reaches it, straight in logarithms.
+/// Time (s) and evaluations for an error, from the runs of a curve with the loosest tolerance
+/// first: between the last run that misses it and the first that reaches it, straight in
+/// logarithms.
 fn cost(runs: &[&WorkPrecisionRow], level: f64) -> Option<(f64, f64)> {
     let error = |row: &WorkPrecisionRow| row.motion_error().unwrap_or(f64::INFINITY);
     let finished: Vec<(&WorkPrecisionRow, f64)> = runs.iter().map(|r| (*r, error(r))).collect();
@@ -78,7 +79,8 @@ fn cost(runs: &[&WorkPrecisionRow], level: f64) -> Option<(f64, f64)> {
     Some((between(looser.seconds, own.0), evaluations))
 }
 
-/// Who wins where, one sentence for each range of errors; then how treatments of one method compare.
+/// Who wins where, one sentence for each range of errors; then how treatments of one method
+/// compare.
 pub(super) fn words(lines: &[RankingLine], rows: &[WorkPrecisionRow]) -> Vec<String> {
     let Some(usual) = rows.first().map(|row| &row.curve) else {
         return Vec::new();

@@ -1,4 +1,5 @@
-//! What runs are compared with: values by place and instant, how well each kind is known, and where it comes from.
+//! What runs are compared with: values by place and instant, how well each kind is known, and where
+//! it comes from.
 
 use model::{Mechanism, System};
 use solvability::analyse;
@@ -13,9 +14,10 @@ const SAME_TIME: f64 = 1e-9;
 /// Errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Of each kind in the order of [`Kind::ALL`]: the largest over components and instants, lengths and torques divided by the size of the
-    /// mechanism, relative to the largest value of the kind (to 1 for positions that stay smaller, and where all are zero). NaN where nothing is
-    /// known.
+    /// Of each kind in the order of [`Kind::ALL`]: the largest over components and instants,
+    /// lengths and torques divided by the size of the mechanism, relative to the largest value of
+    /// the kind (to 1 for positions that stay smaller, and where all are zero). NaN where nothing
+    /// is known.
     pub scaled: [f64; 4],
     /// The largest difference of a coordinate or velocity, in SI units.
     pub state: f64,
@@ -38,7 +40,8 @@ impl Errors {
 /// Reference values of one mechanism.
 #[derive(Clone, Debug)]
 pub(super) struct Standard {
-    /// How far the values of each kind may be from the truth, scaled as [`Errors::scaled`]; NaN where nothing is known.
+    /// How far the values of each kind may be from the truth, scaled as [`Errors::scaled`]; NaN
+    /// where nothing is known.
     pub(super) limits: [f64; 4],
     instants: Vec<Expected>,
     units: [Vec<f64>; 4],
@@ -70,7 +73,8 @@ impl Standard {
         Self::new(instants.collect(), limits, units(mechanism, size))
     }
 
-    /// The mean of two runs at the times of both, with their difference as its limit. Of the reactions those at the places of `unique`.
+    /// The mean of two runs at the times of both, with their difference as its limit. Of the
+    /// reactions those at the places of `unique`.
     pub(super) fn mean(
         [a, b]: [&[Observation]; 2],
         unique: &[usize],

@@ -1,4 +1,5 @@
-//! The document of `analyze --json`. What was not asked for is absent; keys of the first day keep their meaning.
+//! The document of `analyze --json`. What was not asked for is absent; keys of the first day keep
+//! their meaning.
 
 mod along;
 mod choices;
@@ -100,10 +101,12 @@ pub struct AnalysisDocument {
     /// Verdicts along the motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub along: Option<AlongDocument>,
-    /// How the motion goes on, where this configuration is singular and the velocities say which motion is meant.
+    /// How the motion goes on, where this configuration is singular and the velocities say which
+    /// motion is meant.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continuation: Option<ContinuationDocument>,
-    /// What definitions say of the reactions of their joints; [`AnalysisDocument::add_notes`] fills it.
+    /// What definitions say of the reactions of their joints; [`AnalysisDocument::add_notes`] fills
+    /// it.
     pub notes: Vec<NoteDocument>,
     /// What else the reader should know.
     pub warnings: Vec<String>,
@@ -129,10 +132,12 @@ pub struct DependencyDocument {
     pub joints: Vec<String>,
     /// `Σ coefficient·row = 0`, largest coefficient 1.
     pub coefficients: Vec<f64>,
-    /// Whether other rows take no part within the tolerance that the scene states only; absent if not.
+    /// Whether other rows take no part within the tolerance that the scene states only; absent if
+    /// not.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub within_tolerance: bool,
-    /// The largest coefficient that counts as zero for that, of scaled rows and relative to the largest of all.
+    /// The largest coefficient that counts as zero for that, of scaled rows and relative to the
+    /// largest of all.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub margin: Option<f64>,
     /// In words.
@@ -154,8 +159,8 @@ pub struct MixingDocument {
 }
 
 impl AnalysisDocument {
-    /// The document of an analysis, with ranks at other configurations; `None` if nobody asked, or none could be reached. Evidence is that of the part
-    /// whose rank is least certain.
+    /// The document of an analysis, with ranks at other configurations; `None` if nobody asked, or
+    /// none could be reached. Evidence is that of the part whose rank is least certain.
     #[must_use]
     pub fn new(scene: &str, analysis: &Analysis, generic: Option<&Generic>) -> Self {
         let decision = &analysis.decision;
@@ -213,7 +218,8 @@ impl AnalysisDocument {
         self
     }
 
-    /// Adds how much each unique reaction hangs on the data. The sensitivities must be those of the analysis.
+    /// Adds how much each unique reaction hangs on the data. The sensitivities must be those of the
+    /// analysis.
     pub fn add_sensitivities(&mut self, all: &Sensitivities, layout: &Layout) {
         self.fragile = all.sentences(layout);
         for (k, reaction) in self.reactions.iter_mut().enumerate() {

@@ -1,4 +1,5 @@
-//! A motion with its rows as plain data: what `summary.json`, `trajectory.csv` and `reactions.csv` say together.
+//! A motion with its rows as plain data: what `summary.json`, `trajectory.csv` and `reactions.csv`
+//! say together.
 
 use model::reaction::COMPONENTS;
 use model::{Mechanism, Reaction, System};
@@ -32,8 +33,9 @@ pub struct MomentDocument {
     pub t: f64,
     /// Bodies by name, in the order of the coordinates.
     pub bodies: Named<BodyStateDocument>,
-    /// Of joints and drives by name, in the order of their rows, force and torque on the first body: `Fx`, `Fy` (N), `T` (N·m), and the
-    /// named component of the definition, if it has one. What was not computed is NaN, `null` in JSON.
+    /// Of joints and drives by name, in the order of their rows, force and torque on the first
+    /// body: `Fx`, `Fy` (N), `T` (N·m), and the named component of the definition, if it has one.
+    /// What was not computed is NaN, `null` in JSON.
     pub reactions: Named<Named<f64>>,
 }
 
@@ -56,8 +58,8 @@ pub struct BodyStateDocument {
 }
 
 impl MomentDocument {
-    /// State and reactions of a mechanism: q and v body by body, reactions of all joints and drives in the order of their rows. What is too
-    /// much or too little is left out.
+    /// State and reactions of a mechanism: q and v body by body, reactions of all joints and drives
+    /// in the order of their rows. What is too much or too little is left out.
     #[must_use]
     pub fn new(
         mechanism: &Mechanism,

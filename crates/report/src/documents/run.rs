@@ -76,7 +76,8 @@ pub struct RunDocument {
     pub max_position_residual: f64,
     /// Largest |C·v − b|.
     pub max_velocity_residual: f64,
-    /// Largest |E − E₀ − work| relative to the largest kinetic energy, or a bound of it where there are components.
+    /// Largest |E − E₀ − work| relative to the largest kinetic energy, or a bound of it where there
+    /// are components.
     pub energy_balance: f64,
     /// Largest change of a coordinate by the assembly (m or rad).
     pub start_correction: f64,
@@ -177,13 +178,15 @@ pub enum ChoiceDocument {
 }
 
 impl ChoiceDocument {
-    /// The choice that the reaction of a joint or drive belongs to: that of its component, where there are several.
+    /// The choice that the reaction of a joint or drive belongs to: that of its component, where
+    /// there are several.
     fn of(run: &Run<'_>, parts: Option<&[Vec<usize>]>, group: usize) -> Self {
         let prepared = run.plan.prepared();
         let components = &run.summary.components;
         let own = components.iter().find(|c| c.places.groups.contains(&group));
         let summary = own.map_or(run.summary, |component| &component.summary);
-        // Rows that the user asked for stay those of the reactions, whatever is kept for the motion.
+        // Rows that the user asked for stay those of the reactions, whatever is kept for the
+        // motion.
         let automatic = prepared.choice == RowChoice::Automatic;
         let exchange = |e: &&Event| automatic && e.kind == EventKind::RowsExchanged;
         let belongs = |row: &&usize| own.is_none_or(|c| c.places.rows.contains(row));
@@ -198,7 +201,8 @@ impl ChoiceDocument {
     }
 }
 
-/// For each joint and drive of a large mechanism, the deleted rows on common cycles with it, from 0: no others bear on its reaction.
+/// For each joint and drive of a large mechanism, the deleted rows on common cycles with it, from
+/// 0: no others bear on its reaction.
 fn dropped_by_group(prepared: &Prepared) -> Option<Vec<Vec<usize>>> {
     let (mechanism, layout) = (&prepared.mechanism, prepared.mechanism.layout());
     if layout.rows() <= ONE_PART {

@@ -8,8 +8,9 @@ use solvability::Sensitivities;
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct SensitivityDocument {
-    /// Largest change of the reaction when one point moves by 1e-4 of the size, or by its tolerance, relative to the larger of the reaction and of the
-    /// largest load, to three digits; `null` if the reaction is not unique, or if nobody asked.
+    /// Largest change of the reaction when one point moves by 1e-4 of the size, or by its
+    /// tolerance, relative to the larger of the reaction and of the largest load, to three digits;
+    /// `null` if the reaction is not unique, or if nobody asked.
     pub sensitivity: Option<f64>,
     /// Whether that is above 10 %.
     pub fragile: bool,

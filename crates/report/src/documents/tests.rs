@@ -456,7 +456,8 @@ fn valid_until(choice: Option<&ChoiceDocument>) -> Option<f64> {
     }
 }
 
-/// A crank with its motor: `null` without drives, else ranks and motions of the others; bodies that move, by name.
+/// A crank with its motor: `null` without drives, else ranks and motions of the others; bodies that
+/// move, by name.
 #[test]
 fn freedoms_are_told_with_the_drives_and_without() {
     let mut d = Description::new("crank");

@@ -30,7 +30,8 @@ impl Look {
     /// Outline of its marker around the origin.
     fn marker(self) -> &'static [[f64; 2]] {
         const SHAPES: [&[[f64; 2]]; 7] = [
-            // circle (an octagon), square, triangle, diamond, triangle downwards, cross, star of three
+            // circle (an octagon), square, triangle, diamond, triangle downwards, cross, star of
+            // three
             &[
                 [1.0, 0.41],
                 [0.41, 1.0],

@@ -1,5 +1,5 @@
-//! Error over what is made extreme: one panel for each family and each varied number, doubly logarithmic; each point is the worst of all cases at
-//! this value.
+//! Error over what is made extreme: one panel for each family and each varied number, doubly
+//! logarithmic; each point is the worst of all cases at this value.
 
 use super::curve::{Curve, Look, legend, legend_height};
 use super::decades::{Unit, decades};
@@ -37,7 +37,8 @@ struct Plot<'r> {
     bound: Option<f64>,
 }
 
-/// Errors of all families that vary a number; an empty text where none does. A dashed line is the bound. Refusals have no point.
+/// Errors of all families that vary a number; an empty text where none does. A dashed line is the
+/// bound. Refusals have no point.
 #[must_use]
 pub fn extremes(families: &[StressFamily]) -> String {
     let plots: Vec<Plot<'_>> = families.iter().flat_map(plots).collect();

@@ -1,5 +1,5 @@
-//! Where the joints of a mechanism are and what kind of freedom they leave, found from their rows, wrenches and
-//! places: no joint is known by name.
+//! Where the joints of a mechanism are and what kind of freedom they leave, found from their rows,
+//! wrenches and places: no joint is known by name.
 
 #[cfg(test)]
 mod tests;
@@ -124,8 +124,9 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
 /// Ratios nearer to one have no mesh: rotations that are equal need no wheels.
 const LEAST_SLIP: f64 = 1e-2;
 
-/// Where two wheels touch, if the second body turns `ratio` times as fast as the first one: r_i·ω_i = −r_j·ω_j outside of each other,
-/// r_i·ω_i = r_j·ω_j inside. The ratio is the torque on the first body, as rows of rotations are written with one for the second.
+/// Where two wheels touch, if the second body turns `ratio` times as fast as the first one: r_i·ω_i
+/// = −r_j·ω_j outside of each other, r_i·ω_i = r_j·ω_j inside. The ratio is the torque on the first
+/// body, as rows of rotations are written with one for the second.
 fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 2], [Pitch; 2])> {
     let centre = |body: &BodyRef| match body {
         BodyRef::Body(k) => Some([s.poses[*k].x, s.poses[*k].y]),
@@ -156,7 +157,8 @@ fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 2], [
         .then_some((point, circles))
 }
 
-/// A point of each body: of the first its place, of others where the force acts on them, or their centres if none does.
+/// A point of each body: of the first its place, of others where the force acts on them, or their
+/// centres if none does.
 fn attachments(
     group: &ConstraintGroup,
     place: [f64; 2],

@@ -78,8 +78,8 @@ pub fn history(title: &str, unit: &str, series: &[Series<'_>]) -> String {
     draw(&[panel], 1, FRAME_ALONE)
 }
 
-/// Several quantities over the same time: small multiples in rows of `columns` panels. If all panels have the same
-/// curves, one legend stands for all.
+/// Several quantities over the same time: small multiples in rows of `columns` panels. If all
+/// panels have the same curves, one legend stands for all.
 #[must_use]
 pub fn histories(panels: &[Panel<'_>], columns: usize) -> String {
     draw(panels, columns.clamp(1, panels.len().max(1)), FRAME)

@@ -1,4 +1,5 @@
-//! Places for names so that none hides another: each takes the best of many places around its anchor.
+//! Places for names so that none hides another: each takes the best of many places around its
+//! anchor.
 
 use super::svg::text_width;
 
@@ -64,8 +65,8 @@ pub(super) struct Request<'a> {
 const DISTANCES: [f64; 6] = [3.0, 9.0, 18.0, 30.0, 46.0, 66.0];
 /// Directions, evenly around the anchor.
 const DIRECTIONS: usize = 16;
-/// Costs: of a px² of overlap with names and symbols, of a px of a line behind the text, of a px outside the page, of
-/// a px of distance.
+/// Costs: of a px² of overlap with names and symbols, of a px of a line behind the text, of a px
+/// outside the page, of a px of distance.
 const OVERLAP: f64 = 8.0;
 const LINE: f64 = 1.6;
 const OUTSIDE: f64 = 500.0;
@@ -78,7 +79,8 @@ pub(super) struct Field<'a> {
     pub(super) lines: &'a [[[f64; 2]; 2]],
 }
 
-/// Places names in the order given; `None` where every place would hide another name or leave the page.
+/// Places names in the order given; `None` where every place would hide another name or leave the
+/// page.
 pub(super) fn place(field: &Field<'_>, requests: &[Request<'_>]) -> Vec<Option<Rect>> {
     let mut taken: Vec<Rect> = Vec::new();
     let mut places = Vec::with_capacity(requests.len());

@@ -1,5 +1,5 @@
-//! A mechanism to scale: bodies as rounded outlines through their joints, joints as symbols marked by the verdict of
-//! their reactions.
+//! A mechanism to scale: bodies as rounded outlines through their joints, joints as symbols marked
+//! by the verdict of their reactions.
 
 mod legend;
 mod names;
@@ -53,11 +53,12 @@ const FLESHES: [&str; 6] = [
 
 /// Draws a mechanism at coordinates q and time t.
 ///
-/// Bodies are hulls of the points where joints take hold of them and of their centres of mass: their true shapes are
-/// unknown. Every symbol has its name, type and verdict as tool tip.
+/// Bodies are hulls of the points where joints take hold of them and of their centres of mass:
+/// their true shapes are unknown. Every symbol has its name, type and verdict as tool tip.
 ///
 /// # Errors
-/// - [`FigureError::Coordinates`], [`FigureError::Coordinate`]: q is no configuration of the mechanism.
+/// - [`FigureError::Coordinates`], [`FigureError::Coordinate`]: q is no configuration of the
+///   mechanism.
 /// - [`FigureError::Verdicts`]: the verdicts are those of another mechanism.
 pub fn mechanism(
     mechanism: &Mechanism,
@@ -148,7 +149,8 @@ impl View {
         let (dx, dy) = (x[1] - x[0], y[1] - y[0]);
         let room = [WIDTH - 2.0 * ROOM[0], LARGEST_HEIGHT - 2.0 * ROOM[1]];
         let size = dx.max(dy);
-        // Something without size, or with a size lost in its distance from the origin, gets one metre.
+        // Something without size, or with a size lost in its distance from the origin, gets one
+        // metre.
         let far = x[0].abs().max(y[0].abs());
         let scale = if size > 1e-9 * far && size > 1.0 / DRAWABLE {
             (room[0] / dx).min(room[1] / dy)

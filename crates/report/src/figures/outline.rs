@@ -1,8 +1,10 @@
-//! Outlines of bodies: the convex hull of their points, with a rounded margin around it. Works on the page (px).
+//! Outlines of bodies: the convex hull of their points, with a rounded margin around it. Works on
+//! the page (px).
 
 use super::svg::number;
 
-/// Convex hull, counter-clockwise in the axes given, without points on its sides. One or two points are their own hull.
+/// Convex hull, counter-clockwise in the axes given, without points on its sides. One or two points
+/// are their own hull.
 pub(super) fn hull(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut sorted = points.to_vec();
     sorted.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));

@@ -84,7 +84,8 @@ impl Frame {
             .text(text);
     }
 
-    /// A curve; where a value cannot be drawn it has a gap, and a value alone between gaps is a dot.
+    /// A curve; where a value cannot be drawn it has a gap, and a value alone between gaps is a
+    /// dot.
     pub(super) fn curve(&self, svg: &mut Svg, x: &[f64], y: &[f64], style: Style) {
         let mut points = Vec::new();
         for (&x, &y) in x.iter().zip(y) {
@@ -120,7 +121,8 @@ fn stroke(svg: &mut Svg, points: &[[f64; 2]], style: Style) {
     }
 }
 
-/// Leaves out points that are not told apart (less than a quarter of a pixel from the last one shown).
+/// Leaves out points that are not told apart (less than a quarter of a pixel from the last one
+/// shown).
 fn thinned(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut shown: Vec<[f64; 2]> = Vec::with_capacity(points.len().min(4096));
     for (k, p) in points.iter().enumerate() {

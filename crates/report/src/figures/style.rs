@@ -1,5 +1,5 @@
-//! Colours, strokes and sizes. Colours are those of Okabe and Ito (2008), which remain apart for colour-blind readers;
-//! nothing is told by colour alone.
+//! Colours, strokes and sizes. Colours are those of Okabe and Ito (2008), which remain apart for
+//! colour-blind readers; nothing is told by colour alone.
 
 use solvability::Verdict;
 
@@ -66,8 +66,8 @@ pub struct Style {
 }
 
 impl Style {
-    /// The style of the curve with this place: colours and strokes both change, so that curves that coincide are all
-    /// seen.
+    /// The style of the curve with this place: colours and strokes both change, so that curves that
+    /// coincide are all seen.
     #[must_use]
     pub fn nth(place: usize) -> Self {
         Self {

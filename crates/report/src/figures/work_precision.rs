@@ -1,5 +1,6 @@
-//! Error against time and against evaluations: three panels for each scene, doubly logarithmic. Down and to the left is better.
-//! Curves are told apart by colour and by marker; the page follows the light or dark scheme of the reader.
+//! Error against time and against evaluations: three panels for each scene, doubly logarithmic.
+//! Down and to the left is better. Curves are told apart by colour and by marker; the page follows
+//! the light or dark scheme of the reader.
 
 use super::curve::{Curve, Look, legend, legend_height};
 use super::decades::{Unit, decades};
@@ -34,9 +35,10 @@ const UNRESOLVED: &str = "#f1f3f5";
 /// What is drawn over which work.
 type Work = fn(&WorkPrecisionRow) -> f64;
 
-/// Error of the motion (the larger one of position and velocity) for all methods over seconds and over evaluations, and for all treatments of
-/// redundancy and drift with one method over seconds. A dashed line is how well the reference is known. Runs that did not reach their
-/// end have no point; their number is told.
+/// Error of the motion (the larger one of position and velocity) for all methods over seconds and
+/// over evaluations, and for all treatments of redundancy and drift with one method over seconds. A
+/// dashed line is how well the reference is known. Runs that did not reach their end have no point;
+/// their number is told.
 #[must_use]
 pub fn work_precision(scenes: &[WorkPrecisionScene]) -> String {
     let methods = Family::methods(scenes);

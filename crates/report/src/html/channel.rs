@@ -1,4 +1,5 @@
-//! Curves as short text: each is rounded to a share of its range, and neighbouring values are told by their difference.
+//! Curves as short text: each is rounded to a share of its range, and neighbouring values are told
+//! by their difference.
 
 use serde::Serialize;
 use serde::ser::{SerializeSeq, Serializer};

@@ -1,4 +1,5 @@
-//! The data of a page as one JSON document: what scripts draw, and no more of it than a small page carries.
+//! The data of a page as one JSON document: what scripts draw, and no more of it than a small page
+//! carries.
 
 use model::reaction::COMPONENTS;
 use model::{Mechanism, System};
@@ -134,7 +135,8 @@ pub(super) struct Cast {
 }
 
 impl Cast {
-    /// All of a small mechanism; the first bodies of a large one, with the joints and drives among them.
+    /// All of a small mechanism; the first bodies of a large one, with the joints and drives among
+    /// them.
     pub(super) fn of(mechanism: &Mechanism) -> Self {
         let groups = &mechanism.layout().groups;
         let bodies = mechanism.bodies().len();
@@ -416,7 +418,8 @@ fn unit(component: &str) -> &'static str {
     }
 }
 
-/// Numbers of a row, weighted so that a film of them stays small: those that are kept, and more for each that is shown.
+/// Numbers of a row, weighted so that a film of them stays small: those that are kept, and more for
+/// each that is shown.
 pub(super) fn numbers_per_row(mechanism: &Mechanism) -> usize {
     let layout = mechanism.layout();
     let kept = layout.n_q + layout.n_v + layout.rows() + 4 * layout.groups.len();

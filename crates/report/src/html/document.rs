@@ -1,4 +1,5 @@
-//! The page from its head to its scripts. Names and sentences from outside are escaped where they are put in.
+//! The page from its head to its scripts. Names and sentences from outside are escaped where they
+//! are put in.
 
 use model::System;
 

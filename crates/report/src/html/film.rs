@@ -1,5 +1,5 @@
-//! What of a run is kept for its report: rows of output as they were shown, at most so many that a report stays small. Nothing is
-//! computed here.
+//! What of a run is kept for its report: rows of output as they were shown, at most so many that a
+//! report stays small. Nothing is computed here.
 
 use model::Reaction;
 

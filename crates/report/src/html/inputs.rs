@@ -1,4 +1,5 @@
-//! What somebody needs to get the same run again: scene, options, versions, numbers; and what the page leaves out.
+//! What somebody needs to get the same run again: scene, options, versions, numbers; and what the
+//! page leaves out.
 
 use super::data::Cast;
 use super::{RunPage, document};

@@ -1,5 +1,6 @@
-//! What the moving picture of a page is drawn from: bodies with the points that joints and forces hold, joints as symbols that go with
-//! a body. Places that no body carries are told frame by frame.
+//! What the moving picture of a page is drawn from: bodies with the points that joints and forces
+//! hold, joints as symbols that go with a body. Places that no body carries are told frame by
+//! frame.
 
 use model::{BodyRef, ConstraintId, ConstraintKind, Mechanism, Scratch, System};
 use serde::Serialize;

@@ -1,5 +1,5 @@
-//! Verdicts in words: the table of joints and drives, what mixes, and what would make reactions unique. Static text, so that it is there
-//! without scripts and on paper.
+//! Verdicts in words: the table of joints and drives, what mixes, and what would make reactions
+//! unique. Static text, so that it is there without scripts and on paper.
 
 use super::RunPage;
 use crate::documents::ReactionDocument;

@@ -1,4 +1,5 @@
-//! `report.html` of the stiff and extreme cases: one file that opens offline. What does not pass stands first.
+//! `report.html` of the stiff and extreme cases: one file that opens offline. What does not pass
+//! stands first.
 
 use super::{Judgement, StressDocument, StressFamily, StressRow};
 use crate::page::{add, close, duration, open, safe, short};

@@ -1,5 +1,6 @@
-//! The journal of a sweep: a line for each finished run, written at once and never changed. Every line begins with a digest of the rest, so
-//! that a line that was cut off by a crash is recognised: it is left out, and its run is made again.
+//! The journal of a sweep: a line for each finished run, written at once and never changed. Every
+//! line begins with a digest of the rest, so that a line that was cut off by a crash is recognised:
+//! it is left out, and its run is made again.
 //!
 //! ```text
 //! 4be1d0… {"scene":"pendulum","digest":"…","vary":["body.bob.mass=1:2:11"],…}
@@ -17,8 +18,9 @@ use crate::files::FileError;
 /// Ending of the names of journals.
 const ENDING: &str = ".journal";
 
-/// A line that comes so long after the journal was last forced to the disk forces it again: to wait for the disk takes longer than short runs
-/// do. A power failure costs at most the runs that finished within this time after the last force; a crash of the program costs none.
+/// A line that comes so long after the journal was last forced to the disk forces it again: to wait
+/// for the disk takes longer than short runs do. A power failure costs at most the runs that
+/// finished within this time after the last force; a crash of the program costs none.
 const SYNC: Duration = Duration::from_millis(100);
 
 /// Why a journal cannot be used.
@@ -70,15 +72,18 @@ pub struct Journal {
     path: PathBuf,
     plan: SweepPlan,
     synced: Instant,
-    /// Held as long as the journal is written. A file of its own: some systems let nobody read a locked one.
+    /// Held as long as the journal is written. A file of its own: some systems let nobody read a
+    /// locked one.
     _lock: File,
 }
 
 impl Journal {
-    /// Opens a journal under a name without its ending, or begins it. What a crash left of a last line is removed.
+    /// Opens a journal under a name without its ending, or begins it. What a crash left of a last
+    /// line is removed.
     ///
     /// # Errors
-    /// - [`JournalError::Busy`], [`JournalError::Changed`], [`JournalError::Damaged`]: it cannot be continued.
+    /// - [`JournalError::Busy`], [`JournalError::Changed`], [`JournalError::Damaged`]: it cannot be
+    ///   continued.
     /// - [`JournalError::File`]: the operating system refused.
     pub fn open(directory: &Path, name: &str, plan: &SweepPlan) -> Result<Self, JournalError> {
         let path = directory.join(format!("{name}{ENDING}"));

@@ -1,5 +1,6 @@
-//! A table as Parquet: counts are INT64 with nulls, numbers DOUBLE, texts UTF-8. What the rows belong to stands in the metadata of the
-//! file, under `pfaff.sweep`, as in the first line of a journal.
+//! A table as Parquet: counts are INT64 with nulls, numbers DOUBLE, texts UTF-8. What the rows
+//! belong to stands in the metadata of the file, under `pfaff.sweep`, as in the first line of a
+//! journal.
 
 use std::io::{self, Write};
 use std::sync::Arc;

@@ -25,8 +25,9 @@ impl SweepStatus {
     }
 }
 
-/// Largest |F| and |T| of a joint or drive over the written rows of a run, each with the first time at which it occurs (s). NaN where the
-/// reaction is not unique: there is no such number without a choice.
+/// Largest |F| and |T| of a joint or drive over the written rows of a run, each with the first time
+/// at which it occurs (s). NaN where the reaction is not unique: there is no such number without a
+/// choice.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Extreme {
     /// Largest |F| (N).
@@ -99,7 +100,8 @@ pub struct SweepMotion {
     pub fragile: u64,
     /// Time of the last written state (s); the end of a run that is done.
     pub t_state: f64,
-    /// The last written state, body by body x, y, angle, vx, vy, omega; NaN where no row was written.
+    /// The last written state, body by body x, y, angle, vx, vy, omega; NaN where no row was
+    /// written.
     pub state: Vec<f64>,
     /// Of the joints and drives of [`SweepPlan::reactions`].
     pub extremes: Vec<Extreme>,
@@ -144,8 +146,8 @@ const STATE: [&str; 6] = ["x", "y", "angle", "vx", "vy", "omega"];
 const EXTREME: [&str; 4] = ["F_max", "F_max_t", "T_max", "T_max_t"];
 
 impl SweepPlan {
-    /// `run`, the varied keys, `status`, `error`, `method`, `t`, counts, numbers, then per body its last state and per wanted joint
-    /// and drive its extremes.
+    /// `run`, the varied keys, `status`, `error`, `method`, `t`, counts, numbers, then per body its
+    /// last state and per wanted joint and drive its extremes.
     #[must_use]
     pub fn columns(&self) -> Vec<Column> {
         let column = |kind: Kind| move |name: String| Column { name, kind };

@@ -10,8 +10,9 @@ use crate::tables::{Table, TableError};
 /// Held while tables are written, by one process at a time.
 const LOCK: &str = "tables.lock";
 
-/// Writes `sweep.csv`, `sweep.parquet` where this is compiled, and `summary.json`. `read` reads the journals once nobody else
-/// is writing tables: of several shards that end at the same time, the last one has all rows.
+/// Writes `sweep.csv`, `sweep.parquet` where this is compiled, and `summary.json`. `read` reads the
+/// journals once nobody else is writing tables: of several shards that end at the same time, the
+/// last one has all rows.
 ///
 /// # Errors
 /// Those of `read`, and if something could not be written; whole older tables stay.

@@ -37,8 +37,8 @@ impl Selection {
     }
 }
 
-/// `t`, then per joint and drive `<name>.Fx, .Fy, .T` and the named component of its definition, if it has one:
-/// `.N` of a knife edge, `.drive` of a drive (s, N, N·m).
+/// `t`, then per joint and drive `<name>.Fx, .Fy, .T` and the named component of its definition, if
+/// it has one: `.N` of a knife edge, `.drive` of a drive (s, N, N·m).
 ///
 /// Numbers of non-unique reactions belong to the choice that `summary.json` states.
 pub struct ReactionTable<W: Write> {
@@ -75,8 +75,8 @@ impl<W: Write> ReactionTable<W> {
         })
     }
 
-    /// Writes the reactions at time t: those of **all** joints and drives, in the order of their rows; the table takes
-    /// the selected ones.
+    /// Writes the reactions at time t: those of **all** joints and drives, in the order of their
+    /// rows; the table takes the selected ones.
     ///
     /// # Errors
     /// - [`TableError::Length`]: these are reactions of another mechanism; nothing is written.

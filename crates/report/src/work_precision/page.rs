@@ -1,4 +1,5 @@
-//! `report.html` of a comparison: one file that opens offline, for readers who have not seen the program.
+//! `report.html` of a comparison: one file that opens offline, for readers who have not seen the
+//! program.
 
 use super::{
     Place, ReferenceDocument, WorkPrecisionDocument, WorkPrecisionRow, WorkPrecisionScene,

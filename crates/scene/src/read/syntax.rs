@@ -1,4 +1,5 @@
-//! What is not TOML, in the words of who writes scenes: what people mean by the signs that they write.
+//! What is not TOML, in the words of who writes scenes: what people mean by the signs that they
+//! write.
 
 use std::ops::Range;
 
@@ -179,7 +180,8 @@ fn open_bracket(text: &str, at: usize) -> Option<usize> {
     }
 }
 
-/// Brackets that a line opens and does not close, and how many more it closes, outside of texts and remarks.
+/// Brackets that a line opens and does not close, and how many more it closes, outside of texts and
+/// remarks.
 fn open_brackets(line: &str) -> (Vec<usize>, usize) {
     let mut quote = None;
     let (mut open, mut excess) = (Vec::new(), 0);
@@ -258,7 +260,8 @@ mod tests {
         assert_eq!(fault.span.start, text.find("[0.0").expect("there"));
         assert!(never_closed("[[body]]\n", 0).is_none());
         assert_eq!(open_brackets("keep = [\"a]\", # ]"), (vec![7], 0));
-        // Of two that are open, the inner one; of one that is closed further down, the one above it.
+        // Of two that are open, the inner one; of one that is closed further down, the one above
+        // it.
         assert_eq!(open_bracket("a = [\n [1,\n", 11), Some(7));
         assert_eq!(open_bracket("a = [\n [1,\n 2],\n", 16), Some(4));
     }

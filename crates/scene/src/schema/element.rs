@@ -1,4 +1,5 @@
-//! Joints and forces: one table for each definition of the registry and each way to write its bodies and its place.
+//! Joints and forces: one table for each definition of the registry and each way to write its
+//! bodies and its place.
 
 use joints::spec::{Parameter, Shape, Spec, Unit};
 use model::Registry;

@@ -225,8 +225,8 @@ impl<'k> Walk<'k> {
         }
     }
 
-    /// A place for a last key that the text leaves out: behind the header of its table, or its brace. Whether there is such a key is for
-    /// the reader of scenes to say.
+    /// A place for a last key that the text leaves out: behind the header of its table, or its
+    /// brace. Whether there is such a key is for the reader of scenes to say.
     fn addition(
         &self,
         node: &Spanned<DeValue>,

@@ -53,8 +53,8 @@ t_end = 2.0
 drop = [1]
 "#;
 
-/// A fault: a part of the scene, what stands there instead with «» around the place that must be marked, the message,
-/// and the label.
+/// A fault: a part of the scene, what stands there instead with «» around the place that must be
+/// marked, the message, and the label.
 type Case = (&'static str, &'static str, &'static str, &'static str);
 
 fn check(cases: &[Case]) {
@@ -652,8 +652,9 @@ fn help_lists_what_there_is() {
     }
 }
 
-/// Faults of all kinds in one file: all are reported, none twice, and none that is only a consequence of another. `name` is misspelt, not missing, and
-/// `chasis` may be what the third body should be called.
+/// Faults of all kinds in one file: all are reported, none twice, and none that is only a
+/// consequence of another. `name` is misspelt, not missing, and `chasis` may be what the third body
+/// should be called.
 #[test]
 fn a_file_with_many_faults_reports_all_of_them() {
     let text = r#"
@@ -807,7 +808,8 @@ fn places_too_far_away_are_refused() {
     );
 }
 
-/// Every one of thousands is reported, also the joints that refer to bodies which are not there, and soon.
+/// Every one of thousands is reported, also the joints that refer to bodies which are not there,
+/// and soon.
 #[test]
 fn thousands_of_problems_are_reported() {
     let body = |k| format!("[[body]]\nname = \"b{k}\"\nmass = 1\ninertia = 1\n");

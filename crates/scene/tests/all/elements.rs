@@ -1,8 +1,10 @@
-//! Every joint and force type of the contract, with its parameters checked by what its kernels make of them.
+//! Every joint and force type of the contract, with its parameters checked by what its kernels make
+//! of them.
 //!
-//! The bodies are described at (1, 2) turned by a right angle (a), (3, 2) (b) and (0, 0) (c). The global point (1, 4) is
-//! (2, 0) in the frame of a and (−2, 2) in the frame of b. Initial values are those of the described configuration; the
-//! kernels are then called with all bodies at the origin, where local coordinates show directly.
+//! The bodies are described at (1, 2) turned by a right angle (a), (3, 2) (b) and (0, 0) (c). The
+//! global point (1, 4) is (2, 0) in the frame of a and (−2, 2) in the frame of b. Initial values
+//! are those of the described configuration; the kernels are then called with all bodies at the
+//! origin, where local coordinates show directly.
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, PI, SQRT_2};
 
@@ -70,7 +72,8 @@ fn revolute() {
 
 #[test]
 fn translational_and_pin_in_slot() {
-    // d = (−2, 2) − (2, 0) = (−4, 2); the normal of the axis (0, 1) is (−1, 0); the axis is normalised.
+    // d = (−2, 2) − (2, 0) = (−4, 2); the normal of the axis (0, 1) is (−1, 0); the axis is
+    // normalised.
     let place = format!("{AB}at = [1.0, 4.0]\naxis = [0.0, 3.0]");
     let text = format!("type = \"translational\"\n{place}");
     assert_close(&phi(&text, &[0.0; 2]), &[4.0, FRAC_PI_2]);
@@ -219,7 +222,8 @@ axis = [1.0, 0.0]
             .phi(&[Pose::GROUND; 2], &[[0.125, 0.0, 0.0]], &mut out);
         out[0]
     };
-    // Measures at the origin minus described ones minus 0.125; d = (−4, 2) at the origin and 0 as described.
+    // Measures at the origin minus described ones minus 0.125; d = (−4, 2) at the origin and 0 as
+    // described.
     assert_close(
         &[value(0), value(1), value(2), value(3)],
         &[
@@ -274,7 +278,8 @@ const REST: Twist = Twist {
 
 #[test]
 fn spring_damper() {
-    // From (2, 0) of a to (0, 0) of b: length 2 at the origin, √8 as described. b moves to the left by 1: l̇ = 1.
+    // From (2, 0) of a to (0, 0) of b: length 2 at the origin, √8 as described. b moves to the left
+    // by 1: l̇ = 1.
     let v = [REST, Twist { x: -1.0, ..REST }];
     let text = format!(
         "type = \"spring-damper\"\n{AB}at = [[1, 4], [3, 2]]\nstiffness = 10.0\ndamping = 3.0\n"
@@ -300,7 +305,8 @@ fn torsion_spring_damper() {
 
 #[test]
 fn bushing() {
-    // d = (−2, 2) − (2, 0) = (−4, 2), zero as described; the twist was −π/2. Force on b (4·1, −2·10) at (−2, 2).
+    // d = (−2, 2) − (2, 0) = (−4, 2), zero as described; the twist was −π/2. Force on b (4·1,
+    // −2·10) at (−2, 2).
     let text = format!(
         "type = \"bushing\"\n{AB}at = [1, 4]\nstiffness = [1, 10, 100]\ndamping = [0, 0, 0]"
     );

@@ -1,4 +1,5 @@
-//! Large files, and files that are hostile by their size: read in time that grows as the file does, or refused by a limit with a name.
+//! Large files, and files that are hostile by their size: read in time that grows as the file does,
+//! or refused by a limit with a name.
 
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -13,8 +14,8 @@ use super::read;
 /// Cells of a chain with a hundred thousand revolutes.
 const CELLS: usize = 18_750;
 
-/// What any of these files may take, on a slow machine, without optimisation. Where everything is compared with everything it would be
-/// hours.
+/// What any of these files may take, on a slow machine, without optimisation. Where everything is
+/// compared with everything it would be hours.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Problems that are listed; one more says how many others there are.
@@ -64,7 +65,8 @@ fn a_hundred_thousand_joints_are_read_and_started_without_a_matrix() {
     let found = consistent_velocity(&mechanism, &start, &assembly.q, &given, &all);
     let found = found.expect("it rests");
     assert!(found.v.iter().all(|v| *v == 0.0));
-    // One body that moves by itself: the others follow. In a chain of parallelograms its neighbours do.
+    // One body that moves by itself: the others follow. In a chain of parallelograms its neighbours
+    // do.
     given[0] = Some(1.0);
     let found = consistent_velocity(&mechanism, &start, &assembly.q, &given, &all);
     let found = found.expect("the chain moves so");
@@ -368,7 +370,8 @@ fn a_long_line_within_the_limit_is_read() {
     let scene = read(&text).unwrap_or_else(|problems| panic!("{}", problems[0]));
     assert!(begin.elapsed() < PATIENCE, "{:?}", begin.elapsed());
     assert_eq!(scene.description.forces.len(), 1);
-    // Nothing in it but what is no number: the line is searched for each of those that are listed only.
+    // Nothing in it but what is no number: the line is searched for each of those that are listed
+    // only.
     let wrong = text.replace("0.", "nan+0.");
     assert!(problems(&wrong).len() <= LISTED + 1);
 }

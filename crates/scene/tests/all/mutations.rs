@@ -1,4 +1,5 @@
-//! Broken files: whatever is done to a file, reading it ends with a scene or with diagnostics inside the text.
+//! Broken files: whatever is done to a file, reading it ends with a scene or with diagnostics
+//! inside the text.
 
 use model::{Mechanism, Registry};
 use proptest::prelude::*;
@@ -188,7 +189,8 @@ const LINES: [&str; 24] = [
     "rate = [0, { type = \"steps\", steps = [] }]",
 ];
 
-/// Changes whole lines in ways that mostly leave the text valid TOML, so that the reader itself is reached.
+/// Changes whole lines in ways that mostly leave the text valid TOML, so that the reader itself is
+/// reached.
 fn change_line(text: &str, at: usize, kind: u8, piece: usize) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let at = at % lines.len();

@@ -1,4 +1,5 @@
-//! The schema says what the reader says, as far as form goes: keys, kinds of values, ranges, choices.
+//! The schema says what the reader says, as far as form goes: keys, kinds of values, ranges,
+//! choices.
 
 use std::collections::BTreeSet;
 use std::fs;

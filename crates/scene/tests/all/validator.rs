@@ -1,5 +1,5 @@
-//! The part of JSON schema (draft 2020-12) that the schema of scenes uses. A keyword that it does not know fails the test, so that nothing
-//! passes unseen.
+//! The part of JSON schema (draft 2020-12) that the schema of scenes uses. A keyword that it does
+//! not know fails the test, so that nothing passes unseen.
 
 use std::collections::BTreeSet;
 

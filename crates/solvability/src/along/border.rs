@@ -1,5 +1,6 @@
-//! A signed function of time that vanishes where kept rows lose their rank: the determinant of these rows, bordered by a frozen frame
-//! of the motions that they allow at one instant. Rows and frame are frozen, so it is as smooth as the motion.
+//! A signed function of time that vanishes where kept rows lose their rank: the determinant of
+//! these rows, bordered by a frozen frame of the motions that they allow at one instant. Rows and
+//! frame are frozen, so it is as smooth as the motion.
 
 use linalg::{Matrix, PivotedQr};
 
@@ -51,7 +52,8 @@ fn null_space(c: &Matrix, kept: &[usize]) -> Matrix {
     qr.q_columns(kept.len()..c.ncols()).transpose()
 }
 
-/// Sign and logarithm of the determinant, by elimination with partial pivoting: (0, −∞) for a singular matrix.
+/// Sign and logarithm of the determinant, by elimination with partial pivoting: (0, −∞) for a
+/// singular matrix.
 fn determinant(mut a: Matrix) -> (f64, f64) {
     let n = a.nrows();
     let (mut sign, mut log) = (1.0, 0.0);
@@ -88,7 +90,8 @@ fn determinant(mut a: Matrix) -> (f64, f64) {
 mod tests {
     use super::*;
 
-    /// A row that turns, bordered by what it allowed at angle 0.4: the determinant is the cosine of the angle between them.
+    /// A row that turns, bordered by what it allowed at angle 0.4: the determinant is the cosine of
+    /// the angle between them.
     #[test]
     fn a_turning_row() {
         let c = |angle: f64| Matrix::from_rows(&[[angle.cos(), angle.sin()]]);

@@ -1,5 +1,5 @@
-//! Instants at which a reaction is unique that is not unique almost always, at the same rank: its margin falls to zero and rises
-//! again.
+//! Instants at which a reaction is unique that is not unique almost always, at the same rank: its
+//! margin falls to zero and rises again.
 
 use super::passages::local_minima;
 use super::path::{Path, Sample};
@@ -11,7 +11,8 @@ use crate::verdict::Verdict;
 /// A minimum, with a sample more on each side, is divided once more into so many intervals.
 const FINER: u8 = 16;
 
-/// Isolated instants outside the stretches that have verdicts of their own, and outside nearly singular intervals.
+/// Isolated instants outside the stretches that have verdicts of their own, and outside nearly
+/// singular intervals.
 pub(super) fn instants<F: FnMut(f64) -> State>(
     path: &mut Path<'_, F>,
     generic: &Analysis,
@@ -25,7 +26,8 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
         let contains = |[from, to]: [f64; 2]| from <= t && t <= to;
         stretches.any(contains) || intervals.any(contains)
     };
-    // Margins of what is generically not unique, sample by sample; nothing where another verdict is known to hold.
+    // Margins of what is generically not unique, sample by sample; nothing where another verdict is
+    // known to hold.
     let is_known = |s: &Sample| s.regular && !is_special(s.t);
     let of_all_parts = |s: &Sample| -> Option<Vec<f64>> {
         let margins = || verdicts(&s.analysis).map(|v| v.judgement.margin).collect();
@@ -51,7 +53,8 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             .collect();
         let mut brackets = Vec::new();
         for coarse in local_minima(&times, &margins) {
-            // Two instants may share what looks like one minimum: between neighbouring samples beside each other.
+            // Two instants may share what looks like one minimum: between neighbouring samples
+            // beside each other.
             let neighbour = |t: f64, side: isize| -> Option<f64> {
                 let at = times.binary_search_by(|x| x.total_cmp(&t)).ok()?;
                 let next = at.checked_add_signed(side)?;
@@ -86,7 +89,8 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             if found.iter().any(|(t, a)| inside(*t) && is_unique(a)) {
                 continue;
             }
-            // Near a flat minimum the margin is rounding: a time that somebody gave is better than any in that range.
+            // Near a flat minimum the margin is rounding: a time that somebody gave is better than
+            // any in that range.
             let mut given = path.samples.iter().filter(|s| inside(s.t) && is_known(s));
             let (t, there) = match given.find(|s| is_unique(&s.analysis)) {
                 Some(sample) => (sample.t, sample.analysis.clone()),

@@ -1,4 +1,5 @@
-//! A motion judged part by part: each set of joints on common cycles has a motion of its own, with its own passages.
+//! A motion judged part by part: each set of joints on common cycles has a motion of its own, with
+//! its own passages.
 
 use model::{Mechanism, System};
 
@@ -93,7 +94,8 @@ fn of_whole(analysis: Analysis, whole: &Mechanism, extent: Extent) -> Judged {
     .placed(whole, extent)
 }
 
-/// Velocities of the whole on other branches of a part; those of bodies beyond it are of the motion.
+/// Velocities of the whole on other branches of a part; those of bodies beyond it are of the
+/// motion.
 fn whole_branches(passage: &mut Passage, extent: &Extent, motion: &impl Fn(f64, &Extent) -> State) {
     if let PassageKind::RankDrops {
         continuation: Continuation::Bifurcation { branches },
@@ -107,7 +109,8 @@ fn whole_branches(passage: &mut Passage, extent: &Extent, motion: &impl Fn(f64, 
     }
 }
 
-/// Stretches of all parts, in the order of time; `redundancy` is that of the whole, the numbers beside them are those of their parts.
+/// Stretches of all parts, in the order of time; `redundancy` is that of the whole, the numbers
+/// beside them are those of their parts.
 fn together(mut found: Vec<(usize, Stretch)>, redundancy: usize) -> Vec<Stretch> {
     found.sort_by(|(_, a), (_, b)| a.from.total_cmp(&b.from).then(a.to.total_cmp(&b.to)));
     let mut all: Vec<Stretch> = Vec::new();

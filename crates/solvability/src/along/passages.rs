@@ -11,7 +11,8 @@ use crate::mechanism::velocity_units;
 use crate::second_order::{Continuation, Undetermined, second_order};
 use crate::state::State;
 
-/// A sign change belongs to a singular configuration if σ_r is below this there; otherwise rows or frame have turned.
+/// A sign change belongs to a singular configuration if σ_r is below this there; otherwise rows or
+/// frame have turned.
 const SINGULAR: f64 = 1e-6;
 
 /// A frame has turned too far to compare signs if its overlap is below this.
@@ -23,10 +24,12 @@ const SMALL: f64 = 0.1;
 /// An interval between samples is halved as often at most.
 const HALVINGS: usize = 8;
 
-/// Between two samples C is no farther from the first than this times their distance: a motion is nearly straight there.
+/// Between two samples C is no farther from the first than this times their distance: a motion is
+/// nearly straight there.
 const BENT: f64 = 2.0;
 
-/// Directions of the regular motion are those at this share of the nearly singular interval beside the instant.
+/// Directions of the regular motion are those at this share of the nearly singular interval beside
+/// the instant.
 const BESIDE: f64 = 1e-2;
 
 /// An instant where σ_r is smallest.
@@ -72,8 +75,8 @@ pub(super) fn passages<F: FnMut(f64) -> State>(
         .collect()
 }
 
-/// Brackets of the minima of a sampled function, at its ends too; none where it is constant, and none beside times at which it is not
-/// known, because it may fall on towards these.
+/// Brackets of the minima of a sampled function, at its ends too; none where it is constant, and
+/// none beside times at which it is not known, because it may fall on towards these.
 pub(super) fn local_minima(times: &[f64], values: &[Option<f64>]) -> Vec<[f64; 2]> {
     /// What a minimum must be lower than the larger neighbour by.
     const LOWER: f64 = 0.99;
@@ -238,7 +241,8 @@ fn nearly_singular<F: FnMut(f64) -> State>(
     Ok(found)
 }
 
-/// Velocities of the motion, moved onto `C·v = b` in the kept rows; `None` where these are dependent to the last digit.
+/// Velocities of the motion, moved onto `C·v = b` in the kept rows; `None` where these are
+/// dependent to the last digit.
 fn consistent(mechanism: &Mechanism, p: &Point, kept: &[usize]) -> Option<Vec<f64>> {
     let layout = mechanism.layout();
     let mut s = p.s.clone();

@@ -1,4 +1,5 @@
-//! Where a function of time changes its sign, where it falls below zero, and where a function is smallest. All may fail.
+//! Where a function of time changes its sign, where it falls below zero, and where a function is
+//! smallest. All may fail.
 
 /// Halvings that bring any interval to rounding, and more.
 const ITERATIONS: usize = 120;
@@ -6,8 +7,8 @@ const ITERATIONS: usize = 120;
 /// Intervals are not divided below this share of their times.
 const RESOLUTION: f64 = 2.0 * f64::EPSILON;
 
-/// A root of `f` between a and b, where `f(a) > 0 > f(b)`: secant steps with the Illinois modification, halvings where these gain
-/// too little, until a value is at most `enough`.
+/// A root of `f` between a and b, where `f(a) > 0 > f(b)`: secant steps with the Illinois
+/// modification, halvings where these gain too little, until a value is at most `enough`.
 pub(super) fn root<E>(
     [a, b]: [f64; 2],
     [f_a, f_b]: [f64; 2],
@@ -59,7 +60,8 @@ pub(super) fn root<E>(
 /// Where an edge is found to this share of its interval, one reads no more digits.
 const EDGE: f64 = 1e-10;
 
-/// The time between `outside` and `inside`, in either order, at which `f` falls below zero: not below outside, but inside.
+/// The time between `outside` and `inside`, in either order, at which `f` falls below zero: not
+/// below outside, but inside.
 pub(super) fn edge<E>(
     [outside, inside]: [f64; 2],
     mut f: impl FnMut(f64) -> Result<f64, E>,
@@ -74,19 +76,22 @@ pub(super) fn edge<E>(
     Ok(direction * root(along, values, enough, |x| f(direction * x))?)
 }
 
-/// A convex function with these values around its minimum lies above `least − 1.62·(largest − least)` where it was asked at golden sections; the
-/// rest is room for functions that are not convex.
+/// A convex function with these values around its minimum lies above
+/// `least − 1.62·(largest − least)` where it was asked at golden sections; the rest is room for
+/// functions that are not convex.
 const FALL: f64 = 4.0;
 
-/// Whether a function that was found to be no smaller than `least` around its minimum, and no larger than `largest`, may fall to `limit` between.
+/// Whether a function that was found to be no smaller than `least` around its minimum, and no
+/// larger than `largest`, may fall to `limit` between.
 pub(super) fn may_reach(limit: f64, least: f64, largest: f64) -> bool {
     let lowest = least - FALL * (largest - least);
     // Not a number may be anything.
     lowest.is_nan() || lowest <= limit
 }
 
-/// Where `f` is smallest between a and b, if it has one minimum there, and its value: golden sections, which find the corner of an
-/// absolute value to rounding. `None` as soon as it is clear that it stays above `limit`.
+/// Where `f` is smallest between a and b, if it has one minimum there, and its value: golden
+/// sections, which find the corner of an absolute value to rounding. `None` as soon as it is clear
+/// that it stays above `limit`.
 pub(super) fn minimum<E>(
     [mut a, mut b]: [f64; 2],
     limit: f64,

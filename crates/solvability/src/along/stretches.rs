@@ -1,14 +1,17 @@
-//! The generic verdict of a motion, and the stretches between break times on which another one holds.
+//! The generic verdict of a motion, and the stretches between break times on which another one
+//! holds.
 //!
-//! At constant rank a reaction that is not unique at one instant is not unique at almost all: margins that are not zero stay so
-//! nearby. So of several verdicts the one with the most reactions that are not unique is generic.
+//! At constant rank a reaction that is not unique at one instant is not unique at almost all:
+//! margins that are not zero stay so nearby. So of several verdicts the one with the most reactions
+//! that are not unique is generic.
 
 use super::path::{Path, Sample};
 use super::{Stretch, differences, ends_of_pieces, verdicts, words};
 use crate::analysis::Analysis;
 use crate::verdict::Verdict;
 
-/// The generic verdict, and stretches in the order of time; neighbouring ones with the same verdicts are one.
+/// The generic verdict, and stretches in the order of time; neighbouring ones with the same
+/// verdicts are one.
 pub(super) fn stretches<F>(path: &Path<'_, F>) -> (Analysis, Vec<Stretch>) {
     let (mechanism, samples) = (path.mechanism, &path.samples);
     let (first, last) = (samples[0].t, samples[samples.len() - 1].t);
@@ -57,8 +60,8 @@ pub(super) fn stretches<F>(path: &Path<'_, F>) -> (Analysis, Vec<Stretch>) {
     (generic, found)
 }
 
-/// The sample with the largest rank, of these the one with the most verdicts "not unique" and the fewest "undecided", of these the one
-/// that is farthest from singular.
+/// The sample with the largest rank, of these the one with the most verdicts "not unique" and the
+/// fewest "undecided", of these the one that is farthest from singular.
 fn most_generic<'a>(samples: impl Iterator<Item = &'a Sample>) -> Option<&'a Sample> {
     let standing = |s: &Sample| {
         let (mut not_unique, mut undecided) = (0, 0);

@@ -3,7 +3,8 @@
 use super::{Difference, Part, Passage, PassageKind, Stretch};
 use crate::analysis::Analysis;
 
-/// Digits of a time that was searched for: it is known as well as the motion, which a run knows to little more than its tolerance.
+/// Digits of a time that was searched for: it is known as well as the motion, which a run knows to
+/// little more than its tolerance.
 const SEARCHED: i32 = 7;
 
 /// Digits of a time that a function of the scene gives.

@@ -1,4 +1,5 @@
-//! The equations behind the multipliers, and one solution of them: on the kept rows of the rank decision, the dropped ones zero.
+//! The equations behind the multipliers, and one solution of them: on the kept rows of the rank
+//! decision, the dropped ones zero.
 
 use linalg::{KeptRowSaddle, Matrix, RankStatus, SchurSaddle, SchurStructure};
 use model::{ColumnKind, Mechanism, Scratch, System};
@@ -38,7 +39,8 @@ pub struct Equations {
     pub c: Matrix,
     /// Γ, m + h.
     pub gamma: Vec<f64>,
-    /// Size of the terms that each entry of Γ is made of, m + h: what is small beside it is rounding. Zeros where Γ is exact.
+    /// Size of the terms that each entry of Γ is made of, m + h: what is small beside it is
+    /// rounding. Zeros where Γ is exact.
     pub gamma_terms: Vec<f64>,
 }
 
@@ -51,11 +53,13 @@ pub struct Solution {
     pub multipliers: Vec<f64>,
 }
 
-/// Redundant accelerations agree to this share of their terms: that of rounding in velocities on the constraints, with room.
+/// Redundant accelerations agree to this share of their terms: that of rounding in velocities on
+/// the constraints, with room.
 const AGREEMENT: f64 = 1e-9;
 
 impl Equations {
-    /// Those of a mechanism at time t, coordinates q and velocities v, which must satisfy the constraints.
+    /// Those of a mechanism at time t, coordinates q and velocities v, which must satisfy the
+    /// constraints.
     ///
     /// # Errors
     /// [`RequestError::Length`], [`RequestError::NotFinite`]: t, q or v do not fit the mechanism.
@@ -70,8 +74,9 @@ impl Equations {
         })
     }
 
-    /// Those of a part of a mechanism at a solution of the whole: what other parts do to its bodies is a load. They have the same
-    /// accelerations, and as multipliers those of the whole and what can be added to them.
+    /// Those of a part of a mechanism at a solution of the whole: what other parts do to its bodies
+    /// is a load. They have the same accelerations, and as multipliers those of the whole and what
+    /// can be added to them.
     ///
     /// # Errors
     /// As [`Equations::of`].
@@ -113,7 +118,8 @@ impl Equations {
     /// # Errors
     /// - [`ChoiceError::Undecided`]: which rows to keep is not known.
     /// - [`ChoiceError::Saddle`]: the kept rows and the masses do not determine the accelerations.
-    /// - [`ChoiceError::Contradiction`]: the dropped rows ask for other accelerations, so there is no solution at all.
+    /// - [`ChoiceError::Contradiction`]: the dropped rows ask for other accelerations, so there is
+    ///   no solution at all.
     /// - [`ChoiceError::Request`]: sizes do not fit.
     pub fn multipliers(&self, rows: impl Into<RowDecision>) -> Result<Vec<f64>, ChoiceError> {
         self.solution(rows).map(|solution| solution.multipliers)
@@ -135,7 +141,8 @@ impl Equations {
         let gamma: Vec<f64> = kept.iter().map(|&i| self.gamma[i]).collect();
         let (mut a, mut of_kept) = (vec![0.0; n], vec![0.0; kept.len()]);
         saddle.solve(&self.force, &gamma, &mut a, &mut of_kept)?;
-        // What the error of each acceleration is proportional to is measured by the sizes of the columns of C.
+        // What the error of each acceleration is proportional to is measured by the sizes of the
+        // columns of C.
         let units = linalg::equilibrate(&self.c).cols;
         let units: Vec<f64> = units.into_iter().map(|e| f64::from(e).exp2()).collect();
         let row = |i: usize| self.c.row(i).iter().copied().enumerate();
@@ -182,11 +189,13 @@ impl Terms {
     }
 }
 
-/// One solution of the equations of a mechanism of any size at time t, coordinates q and velocities v, which must satisfy the constraints: on dense
-/// matrices, or, where those would be too large, on sparse ones.
+/// One solution of the equations of a mechanism of any size at time t, coordinates q and velocities
+/// v, which must satisfy the constraints: on dense matrices, or, where those would be too large, on
+/// sparse ones.
 ///
 /// # Errors
-/// As [`Equations::of`] and [`Equations::multipliers`]; on sparse matrices every coordinate needs a mass.
+/// As [`Equations::of`] and [`Equations::multipliers`]; on sparse matrices every coordinate needs a
+/// mass.
 pub fn solution(
     mechanism: &Mechanism,
     (t, q, v): (f64, &[f64], &[f64]),
@@ -253,7 +262,8 @@ fn check_rows(rows: &RowDecision, m: usize) -> Result<(), ChoiceError> {
     }
 }
 
-/// Checks that the dropped rows ask for these accelerations, too. The error of each is taken as that of the largest one, in these units.
+/// Checks that the dropped rows ask for these accelerations, too. The error of each is taken as
+/// that of the largest one, in these units.
 fn agree<R: Iterator<Item = (usize, f64)>>(
     rows: &RowDecision,
     row: impl Fn(usize) -> R,

@@ -1,4 +1,5 @@
-//! The solution with the least sum of weighted squares: minimum norms and elastic supports are both of this kind.
+//! The solution with the least sum of weighted squares: minimum norms and elastic supports are both
+//! of this kind.
 
 use linalg::{Matrix, PivotedQr};
 
@@ -9,8 +10,9 @@ use crate::matrices::Solvability;
 /// The first solve leaves its own rounding; the second removes what of it matters.
 const SOLVES: usize = 2;
 
-/// The λ that minimises `Σ weight·(ℓᵀ·λ)²` over all solutions `λ₀ + Z·y`: with the rows `√weight·ℓᵀ` in L,
-/// `Zᵀ·Lᵀ·L·Z·y = −Zᵀ·Lᵀ·L·λ₀`, solved by QR of L·Z. Directions of y that change none of the numbers ℓᵀ·λ are left alone.
+/// The λ that minimises `Σ weight·(ℓᵀ·λ)²` over all solutions `λ₀ + Z·y`: with the rows
+/// `√weight·ℓᵀ` in L, `Zᵀ·Lᵀ·L·Z·y = −Zᵀ·Lᵀ·L·λ₀`, solved by QR of L·Z. Directions of y that change
+/// none of the numbers ℓᵀ·λ are left alone.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -90,7 +92,8 @@ pub fn minimise(
     Ok(lambda)
 }
 
-/// Columns of a matrix of images (rows of size one or less) that are independent; the others depend on them.
+/// Columns of a matrix of images (rows of size one or less) that are independent; the others depend
+/// on them.
 pub(super) fn independent_columns(rows: &[&[f64]], columns: usize, tolerance: f64) -> Vec<usize> {
     let matrix = Matrix::from_fn(rows.len(), columns, |i, j| rows[i][j]);
     let qr = PivotedQr::of_columns(&matrix);

@@ -6,7 +6,8 @@ use super::component::{BODY, Component, shared_rank};
 use super::{Decided, FreeMotion, FreeMotions, LeftOut, MOTIONS_TOLD, words};
 use crate::certificate::ROWS_MAX;
 
-/// Connected joints of more rows, or bodies of more coordinates, are not taken apart: a dense null space is made of them.
+/// Connected joints of more rows, or bodies of more coordinates, are not taken apart: a dense null
+/// space is made of them.
 const CONNECTED: usize = ROWS_MAX;
 
 /// What has been said.
@@ -40,7 +41,8 @@ impl<'a> Connected<'a> {
         }
     }
 
-    /// A basis of the velocities that the rows allow, where their ranks are known and less than n_v in all.
+    /// A basis of the velocities that the rows allow, where their ranks are known and less than n_v
+    /// in all.
     pub(super) fn motions(&self, t: f64, q: &[f64], decided: &[Decided]) -> FreeMotions {
         let rank: usize = decided.iter().map(|part| part.rank).sum();
         let mut told = Told::default();
@@ -61,7 +63,8 @@ impl<'a> Connected<'a> {
         }
     }
 
-    /// Rank of the rows of each set. `None` if it is too large to be told from those of others, or to be taken apart.
+    /// Rank of the rows of each set. `None` if it is too large to be told from those of others, or
+    /// to be taken apart.
     fn ranks(&self, t: f64, q: &[f64], decided: &[Decided]) -> Vec<Option<usize>> {
         let layout = self.whole.layout();
         let mut set_of = vec![0; self.whole.bodies().len()];
@@ -135,7 +138,8 @@ impl<'a> Connected<'a> {
         places.map(|k| q[k]).collect()
     }
 
-    /// The mechanism of a set that joints connect; its places are those in the mechanism of the chosen joints.
+    /// The mechanism of a set that joints connect; its places are those in the mechanism of the
+    /// chosen joints.
     fn part(&self, set: &[usize]) -> Part {
         let bodies = &self.joined.places.bodies;
         let own = set.iter().filter_map(|b| bodies.binary_search(b).ok());

@@ -1,4 +1,5 @@
-//! A mechanism at a configuration whose rank has been decided: where the numbers of its reactions are made and judged.
+//! A mechanism at a configuration whose rank has been decided: where the numbers of its reactions
+//! are made and judged.
 
 use std::borrow::Cow;
 
@@ -147,7 +148,8 @@ impl<'a> Configuration<'a> {
         Ok(form)
     }
 
-    /// A component of a reaction by its name: `Fx`, `Fy`, `T`, or the named component of the definition.
+    /// A component of a reaction by its name: `Fx`, `Fy`, `T`, or the named component of the
+    /// definition.
     ///
     /// # Errors
     /// [`RequestError::UnknownReaction`], [`RequestError::UnknownComponent`]
@@ -178,7 +180,8 @@ impl<'a> Configuration<'a> {
         Ok(form)
     }
 
-    /// The total of all reactions on a set of bodies, `[Fx, Fy, T]` with the torque about a global point. Each body counts once.
+    /// The total of all reactions on a set of bodies, `[Fx, Fy, T]` with the torque about a global
+    /// point. Each body counts once.
     ///
     /// # Errors
     /// [`RequestError::UnknownBody`], [`RequestError::Empty`], [`RequestError::NotFinite`]
@@ -223,7 +226,8 @@ impl<'a> Configuration<'a> {
         }
     }
 
-    /// Adds `along · (map·λ)` for a map of some rows; forces count by their size in the plane, torques by the arm that forces may have.
+    /// Adds `along · (map·λ)` for a map of some rows; forces count by their size in the plane,
+    /// torques by the arm that forces may have.
     fn add_wrench(&self, form: &mut LinearForm, map: &Matrix, first_row: usize, along: [f64; 3]) {
         for j in 0..map.ncols() {
             let [x, y, t] = [0, 1, 2].map(|k| map[(k, j)]);

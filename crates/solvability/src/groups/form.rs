@@ -1,5 +1,5 @@
-//! A number linear in the multipliers, with the size of the terms it is summed from. Everything an engineer asks for is one: a component, a sum
-//! of components, a moment about a point, a resultant.
+//! A number linear in the multipliers, with the size of the terms it is summed from. Everything an
+//! engineer asks for is one: a component, a sum of components, a moment about a point, a resultant.
 
 use linalg::Matrix;
 
@@ -9,8 +9,9 @@ use crate::verdict::Judgement;
 
 /// `ℓᵀ·λ` over all rows, summed from terms.
 ///
-/// The sizes decide what is rounding: where terms cancel, what they leave behind is compared with the terms and not with itself.
-/// So a total that vanishes identically is unique, whatever its digits.
+/// The sizes decide what is rounding: where terms cancel, what they leave behind is compared with
+/// the terms and not with itself. So a total that vanishes identically is unique, whatever its
+/// digits.
 ///
 /// ```
 /// use linalg::Matrix;
@@ -116,7 +117,8 @@ impl LinearForm {
         sizes.map(|(i, size)| size * of_row(i)).sum()
     }
 
-    /// Unique iff `ℓᵀ·Z = 0`; the margin is relative to the size of the terms, both for equilibrated rows.
+    /// Unique iff `ℓᵀ·Z = 0`; the margin is relative to the size of the terms, both for
+    /// equilibrated rows.
     ///
     /// # Errors
     /// [`RequestError::Length`]: the matrix has another number of rows.
@@ -139,8 +141,9 @@ impl LinearForm {
         Ok(solvability.component(&map, 0, 0..m)?)
     }
 
-    /// `ℓᵀ·Ẑ / ‖sizes‖` for an orthonormal basis Ẑ of the left null space of the equilibrated matrix, and the norm that was divided
-    /// by (1 for a form without terms): the margin as a vector.
+    /// `ℓᵀ·Ẑ / ‖sizes‖` for an orthonormal basis Ẑ of the left null space of the equilibrated
+    /// matrix, and the norm that was divided by (1 for a form without terms): the margin as a
+    /// vector.
     pub(crate) fn image(&self, solvability: &Solvability) -> (Vec<f64>, f64) {
         let (scaling, z) = (&solvability.decision().scaling, solvability.null_space());
         let scaled = |x: &[f64]| -> Vec<f64> {

@@ -1,4 +1,5 @@
-//! Questions about rows of which a left null space is known: all rows of a matrix, or those of one joint in a large one.
+//! Questions about rows of which a left null space is known: all rows of a matrix, or those of one
+//! joint in a large one.
 //!
 //! Not here: where the null space comes from.
 
@@ -9,8 +10,8 @@ use linalg::{CoefficientReading, ExactNullSpace, Matrix, PivotedQr, RankStatus, 
 use super::{Mapped, QueryError};
 use crate::verdict::Judgement;
 
-/// Entries of the map from multipliers to a reaction are products of a few numbers near one; below this share of the
-/// largest row a row is their rounding.
+/// Entries of the map from multipliers to a reaction are products of a few numbers near one; below
+/// this share of the largest row a row is their rounding.
 pub(super) const ROUNDING_OF_MAP: f64 = 1e-14;
 
 /// The same in multiples of what the entries of C are known to.
@@ -21,7 +22,8 @@ const MAP_FACTOR: f64 = 10.0;
 pub(crate) struct Basis {
     /// The equilibrated rows, m × n. Columns in which no row has an entry may be left out.
     pub(crate) c: Matrix,
-    /// Their rows of an orthonormal basis of the left null space, or of random combinations of one, m × p.
+    /// Their rows of an orthonormal basis of the left null space, or of random combinations of one,
+    /// m × p.
     pub(crate) z: Matrix,
     /// How well.
     pub(crate) known: Known,
@@ -38,7 +40,8 @@ pub(crate) struct Known {
     pub(crate) row_factor: Vec<f64>,
     /// How far each row of Z may be off (norm).
     pub(crate) row_noise: Vec<f64>,
-    /// What of that is there without the tolerance that the scene states; empty where it states none.
+    /// What of that is there without the tolerance that the scene states; empty where it states
+    /// none.
     pub(crate) row_rounding: Vec<f64>,
     /// How far any coefficient may be off.
     pub(crate) tolerance: f64,
@@ -46,7 +49,8 @@ pub(crate) struct Known {
     pub(crate) spread: f64,
     /// What an entry of C is known to.
     pub(crate) uncertainty: f64,
-    /// By what angle (rad) the force of each row turns within a stated tolerance, and by what length (m) it shifts; nothing without one.
+    /// By what angle (rad) the force of each row turns within a stated tolerance, and by what
+    /// length (m) it shifts; nothing without one.
     pub(crate) row_turn: Option<Vec<[f64; 2]>>,
     /// How margins are read.
     pub(crate) readings: Readings,
@@ -61,8 +65,8 @@ impl Basis {
         self.multipliers([i])
     }
 
-    /// All multipliers of a group of rows: unique iff `Z_X = 0`. Stronger than [`Basis::group`] where the rows
-    /// depend on each other.
+    /// All multipliers of a group of rows: unique iff `Z_X = 0`. Stronger than [`Basis::group`]
+    /// where the rows depend on each other.
     ///
     /// # Errors
     /// If a row does not exist.
@@ -108,8 +112,8 @@ impl Basis {
         Ok(self.judge(margin, noise, |z| z.wrench_vanishes(&rows)))
     }
 
-    /// A linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin is relative to ‖ℓ‖, both
-    /// for equilibrated rows.
+    /// A linear combination `ℓᵀ·λ` of all multipliers: unique iff `ℓᵀ·Z = 0`; the margin is
+    /// relative to ‖ℓ‖, both for equilibrated rows.
     ///
     /// # Errors
     /// If there are not m coefficients, or one is not finite.
@@ -136,8 +140,9 @@ impl Basis {
         Mapped::new(self, map, self.list(rows)?)
     }
 
-    /// The rank of some of the rows, from the dependencies of all: those that need no other row, `z = 0` there, are as many as `p − rank Z_other`.
-    /// Nothing where the rank of all is undecided, or that of Z_other unclear.
+    /// The rank of some of the rows, from the dependencies of all: those that need no other row,
+    /// `z = 0` there, are as many as `p − rank Z_other`. Nothing where the rank of all is
+    /// undecided, or that of Z_other unclear.
     pub(crate) fn rank_of(&self, rows: Range<usize>) -> Option<usize> {
         let other: Vec<usize> = (0..self.z.nrows()).filter(|i| !rows.contains(i)).collect();
         self.rank_without(&other)
@@ -220,7 +225,8 @@ impl Basis {
         b
     }
 
-    /// Adds `wᵀ·D_r·Z_X / ‖wᵀ·D_r‖` to a row of p numbers; returns the norm that was divided by. Nothing is added for w = 0.
+    /// Adds `wᵀ·D_r·Z_X / ‖wᵀ·D_r‖` to a row of p numbers; returns the norm that was divided by.
+    /// Nothing is added for w = 0.
     pub(super) fn scaled_row(&self, w: &[f64], rows: &[usize], out: &mut [f64]) -> f64 {
         let weights = || {
             rows.iter()
@@ -238,7 +244,8 @@ impl Basis {
         size
     }
 
-    /// Noise of a combination of rows of Z with these weights; Z is `[−T̃, I]` in a basis that makes no row longer.
+    /// Noise of a combination of rows of Z with these weights; Z is `[−T̃, I]` in a basis that
+    /// makes no row longer.
     fn noise(&self, weights: impl Iterator<Item = (usize, f64)>) -> Noise {
         let rounding = &self.known.row_rounding;
         weights.fold(Noise::default(), |noise, (i, weight)| Noise {

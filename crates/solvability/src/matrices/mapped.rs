@@ -1,6 +1,7 @@
 //! A reaction `W·λ_X`: which of its components and directions are the same in all solutions.
 //!
-//! Not here: the rows themselves and their null space (`basis`), and where W comes from (`mechanism`).
+//! Not here: the rows themselves and their null space (`basis`), and where W comes from
+//! (`mechanism`).
 
 use linalg::{CoefficientReading, ExactNullSpace, Matrix, PivotedQr, RankStatus};
 
@@ -11,13 +12,16 @@ use crate::verdict::{Judgement, Verdict};
 /// What the first order says of larger angles (rad) means nothing.
 const LARGEST_TURN: f64 = 0.1;
 
-/// A part of a unit vector above this is told, whatever a stated tolerance makes of it: without it the direction is another one.
+/// A part of a unit vector above this is told, whatever a stated tolerance makes of it: without it
+/// the direction is another one.
 const LARGEST_ROUNDING: f64 = 1e-5;
 
-/// A component below this share of what its direction is known to is none, as data are beyond doubt within a third of their tolerance.
+/// A component below this share of what its direction is known to is none, as data are beyond doubt
+/// within a third of their tolerance.
 const NONE: f64 = 1.0 / 3.0;
 
-/// A component above this share of its force matters, whatever its direction is known to: the limit of coefficients that are told as none.
+/// A component above this share of its force matters, whatever its direction is known to: the limit
+/// of coefficients that are told as none.
 const SMALL: f64 = 1e-3;
 
 /// A component above this multiple of what its direction is known to is one, as for ranks.
@@ -37,7 +41,8 @@ enum Beside {
     Open,
 }
 
-/// A map W (k × |X|) from the multipliers of rows X to components, and what it makes of their null space.
+/// A map W (k × |X|) from the multipliers of rows X to components, and what it makes of their null
+/// space.
 #[derive(Clone, Debug)]
 pub(crate) struct Mapped<'a> {
     basis: &'a Basis,
@@ -88,8 +93,9 @@ impl<'a> Mapped<'a> {
         })
     }
 
-    /// The first components are those of a force, others of torques. Where its direction is known to an angle, and its line to a length, so are the
-    /// components; one of a force that is far smaller beside the others is none.
+    /// The first components are those of a force, others of torques. Where its direction is known
+    /// to an angle, and its line to a length, so are the components; one of a force that is far
+    /// smaller beside the others is none.
     #[must_use]
     pub(crate) fn with_forces(mut self, forces: usize) -> Self {
         let (Some(turns), None) = (&self.basis.known.row_turn, &self.basis.exact) else {
@@ -137,8 +143,9 @@ impl<'a> Mapped<'a> {
         }
     }
 
-    /// Component `k`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest row of W. A row that is rounding beside the
-    /// others is zero, unless the entries are meant exactly; one that counts as zero within a stated tolerance says so, with its margin.
+    /// Component `k`: unique iff row k of `W·Z_X` is zero; the margin is relative to the largest
+    /// row of W. A row that is rounding beside the others is zero, unless the entries are meant
+    /// exactly; one that counts as zero within a stated tolerance says so, with its margin.
     ///
     /// # Errors
     /// If there is no such component.
@@ -177,8 +184,8 @@ impl<'a> Mapped<'a> {
         })
     }
 
-    /// Whether component `k` is zero for all multipliers: row k of W is so small beside the largest one that the component is unique for this
-    /// reason alone.
+    /// Whether component `k` is zero for all multipliers: row k of W is so small beside the largest
+    /// one that the component is unique for this reason alone.
     ///
     /// # Errors
     /// As [`Mapped::component`].
@@ -200,8 +207,8 @@ impl<'a> Mapped<'a> {
         Ok(own == CoefficientReading::NonZero)
     }
 
-    /// Directions in which the reaction is unique: a basis of the left null space of `W·Z_X`. Unit vectors with k entries; the largest entry
-    /// is positive.
+    /// Directions in which the reaction is unique: a basis of the left null space of `W·Z_X`. Unit
+    /// vectors with k entries; the largest entry is positive.
     ///
     /// # Errors
     /// Where the numbers do not decide how many there are.
@@ -231,8 +238,8 @@ impl<'a> Mapped<'a> {
             .collect())
     }
 
-    /// The largest part of the reaction that counts as zero within a stated tolerance only for the unique directions, in the unit of margins; zero
-    /// where none does.
+    /// The largest part of the reaction that counts as zero within a stated tolerance only for the
+    /// unique directions, in the unit of margins; zero where none does.
     ///
     /// # Errors
     /// As [`Mapped::unique_directions`].
@@ -258,7 +265,8 @@ impl<'a> Mapped<'a> {
         Ok(left.fold(0.0, f64::max))
     }
 
-    /// Those of the unique directions that say something: perpendicular to the ones along which the reaction is zero for all multipliers.
+    /// Those of the unique directions that say something: perpendicular to the ones along which the
+    /// reaction is zero for all multipliers.
     pub(crate) fn live_directions(&self, unique: &[Vec<f64>]) -> Vec<Vec<f64>> {
         if unique.is_empty() {
             return Vec::new();
@@ -283,7 +291,8 @@ impl<'a> Mapped<'a> {
         self.basis.known.tolerance.min(LARGEST_ROUNDING)
     }
 
-    /// Orthonormal basis of the left null space of W, one vector in each column. Whether a component is nothing is told from rows of equal size.
+    /// Orthonormal basis of the left null space of W, one vector in each column. Whether a
+    /// component is nothing is told from rows of equal size.
     fn idle_directions(&self) -> Matrix {
         let k = self.sizes.len();
         let equal = Matrix::from_fn(k, self.rows.len(), |i, j| match self.sizes[i] {

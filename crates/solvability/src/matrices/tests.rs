@@ -1,9 +1,11 @@
-//! Verdicts by hand, exact verdicts where numbers cannot tell, and questions that cannot be answered.
+//! Verdicts by hand, exact verdicts where numbers cannot tell, and questions that cannot be
+//! answered.
 
 use super::*;
 use crate::verdict::Verdict;
 
-/// Rows 0 and 1 hold the left end of a bar (x, y, φ), rows 2 and 3 the right end, 2 further on; the last row is `x = y·ε`.
+/// Rows 0 and 1 hold the left end of a bar (x, y, φ), rows 2 and 3 the right end, 2 further on; the
+/// last row is `x = y·ε`.
 fn bar(epsilon: f64) -> Matrix {
     Matrix::from_rows(&[
         [1.0, 0.0, 0.0],
@@ -157,7 +159,8 @@ fn empty_matrices() {
     }
 }
 
-/// An edge in the plane has one multiplier and two components: along itself there is no force, which is no finding.
+/// An edge in the plane has one multiplier and two components: along itself there is no force,
+/// which is no finding.
 #[test]
 fn directions_without_a_reaction_are_left_out() {
     // Rows 0 and 1 are the same, row 2 stands alone.
@@ -179,7 +182,8 @@ fn directions_without_a_reaction_are_left_out() {
                 "{found:?}"
             );
         }
-        // Beside a multiplier that is unique there is a direction that says so; the last component has neither.
+        // Beside a multiplier that is unique there is a direction that says so; the last component
+        // has neither.
         let map = Matrix::from_rows(&[[0.6, 0.0], [0.8, 0.0], [0.0, 1e-6], [0.0, 0.0]]);
         let (number, found) = live(&map, &[0, 2]);
         assert_eq!(number, 3);

@@ -1,11 +1,13 @@
-//! The smallest change of data that satisfies linear equations, where the change of the whole is that of the point, direction or number that changes
-//! most, each as a share of what it is known to.
+//! The smallest change of data that satisfies linear equations, where the change of the whole is
+//! that of the point, direction or number that changes most, each as a share of what it is known
+//! to.
 //!
-//! `s* = min max_P |x_P|` under `target + Σ_P a_P·x_P = 0`, by Lawson's iteration: least squares with weights that grow where the change is largest. Each
-//! iteration gives a bound from below, the weighted mean of the shares, and one from above, the largest share.
+//! `s* = min max_P |x_P|` under `target + Σ_P a_P·x_P = 0`, by Lawson's iteration: least squares
+//! with weights that grow where the change is largest. Each iteration gives a bound from below, the
+//! weighted mean of the shares, and one from above, the largest share.
 //!
-//! Source: C. L. Lawson, Contributions to the theory of linear least maximum approximation, thesis, UCLA (1961); for vectors of several components the
-//! same weights serve all components of one.
+//! Source: C. L. Lawson, Contributions to the theory of linear least maximum approximation, thesis,
+//! UCLA (1961); for vectors of several components the same weights serve all components of one.
 
 use linalg::Lu;
 
@@ -15,8 +17,9 @@ const ITERATIONS: usize = 60;
 /// The bounds are close enough if they differ by this factor.
 const CLOSE: f64 = 1.05;
 
-/// An equation may miss by this share of its coefficients: near the root of eps the normal equations do not tell contradicting equations from
-/// agreeing ones, and no share is wanted to more digits.
+/// An equation may miss by this share of its coefficients: near the root of eps the normal
+/// equations do not tell contradicting equations from agreeing ones, and no share is wanted to more
+/// digits.
 const RESOLVED: f64 = 1e-5;
 
 /// No weight falls below this share of the largest: changes that are not needed stay available.
@@ -27,7 +30,8 @@ const LEAST_WEIGHT: f64 = 1e-9;
 pub(super) struct Equation {
     /// What has to vanish.
     pub(super) target: f64,
-    /// Rounding of the target and of the coefficients: a change that the equation has for itself, as large as a share of one.
+    /// Rounding of the target and of the coefficients: a change that the equation has for itself,
+    /// as large as a share of one.
     pub(super) rounding: f64,
     /// Coefficients of each point, direction or number.
     pub(super) parts: Vec<[f64; 2]>,
@@ -54,7 +58,8 @@ impl Bounds {
     }
 }
 
-/// `s*` from below and above, close together unless the iteration is stuck; equations that no change of data can satisfy give a large one.
+/// `s*` from below and above, close together unless the iteration is stuck; equations that no
+/// change of data can satisfy give a large one.
 pub(super) fn least_change(equations: &[Equation]) -> Bounds {
     let e = equations.len();
     let blocks = equations.first().map_or(0, |first| first.parts.len());

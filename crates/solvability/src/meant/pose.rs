@@ -1,9 +1,11 @@
 //! One pose of a mechanism: how near C is to a lower rank there, and how that hangs on the data.
 //!
-//! With r' kept rows K, the rank is r' iff `S = C_D·V` vanishes, V the null space of C_K; with `U = [−Tᵀ; I]`, `T = C_D·C_K⁺`, it is `Uᵀ·C·V`, and changes
-//! with the data to first order by `Uᵀ·δC·V`. δC has two parts: that of the points and directions at the pose as it is, and that of the pose, which
-//! follows the data so that the kept rows of Φ are satisfied: `δq = −C_K⁺·(Φ_K + ∂Φ_K/∂d·δd)`, nothing along the motions that are left. Φ_K is not zero
-//! where rows contradict each other within a tolerance and the start shares what they miss.
+//! With r' kept rows K, the rank is r' iff `S = C_D·V` vanishes, V the null space of C_K; with
+//! `U = [−Tᵀ; I]`, `T = C_D·C_K⁺`, it is `Uᵀ·C·V`, and changes with the data to first order by
+//! `Uᵀ·δC·V`. δC has two parts: that of the points and directions at the pose as it is, and that of
+//! the pose, which follows the data so that the kept rows of Φ are satisfied:
+//! `δq = −C_K⁺·(Φ_K + ∂Φ_K/∂d·δd)`, nothing along the motions that are left. Φ_K is not zero where
+//! rows contradict each other within a tolerance and the start shares what they miss.
 
 use linalg::{Matrix, PivotedQr, Scaling, small_svd};
 use model::{Mechanism, Scratch, System};
@@ -20,13 +22,15 @@ pub(super) struct Pose<'a> {
     /// Kept holonomic rows, and their scaled form factored.
     holonomic: Vec<usize>,
     phi_q: PivotedQr,
-    /// What has to vanish for the lower rank, as `Uᵀ·C·V = diag(σ)`: left vectors by rows (scaled), right vectors by rows (scaled), and σ.
+    /// What has to vanish for the lower rank, as `Uᵀ·C·V = diag(σ)`: left vectors by rows (scaled),
+    /// right vectors by rows (scaled), and σ.
     pub(super) left: Matrix,
     pub(super) right: Matrix,
     pub(super) sigma: Vec<f64>,
 }
 
-/// A dependency whose nonholonomic rows weigh less than this share of the others is one of positions.
+/// A dependency whose nonholonomic rows weigh less than this share of the others is one of
+/// positions.
 const HOLONOMIC: f64 = 1e-6;
 
 /// Rows and columns of a scaled C that are kept for a rank, with the rest.
@@ -39,7 +43,8 @@ pub(super) struct Candidate {
 }
 
 impl Candidate {
-    /// The motions that the kept rows leave, one in each row, the one that the other rows resist most first.
+    /// The motions that the kept rows leave, one in each row, the one that the other rows resist
+    /// most first.
     pub(super) fn into_free(self) -> Matrix {
         self.right
     }
@@ -90,7 +95,8 @@ impl Candidate {
     }
 }
 
-/// Singular vectors below this share of the largest singular value are rounding and need not be orthogonal to the others.
+/// Singular vectors below this share of the largest singular value are rounding and need not be
+/// orthogonal to the others.
 const RESOLVED: f64 = 1e-13;
 
 /// An orthonormal basis that begins with singular vectors; those that are rounding are replaced.
@@ -128,7 +134,8 @@ pub(super) struct Gradient {
 }
 
 impl<'a> Pose<'a> {
-    /// At the pose of the scratch, where C has been evaluated; `scaled` has the rows `places` of it, scaled by `scaling` after `dimensions`.
+    /// At the pose of the scratch, where C has been evaluated; `scaled` has the rows `places` of
+    /// it, scaled by `scaling` after `dimensions`.
     pub(super) fn new(
         mechanism: &'a Mechanism,
         s: &'a Scratch,
@@ -176,8 +183,8 @@ impl<'a> Pose<'a> {
         (here + gradient.onto_kept, gradient)
     }
 
-    /// `u_aᵀ·Φ` and its gradient by the numbers of the constraints. `None` if nonholonomic rows take part: what they imply of velocities they do not
-    /// imply of positions.
+    /// `u_aᵀ·Φ` and its gradient by the numbers of the constraints. `None` if nonholonomic rows
+    /// take part: what they imply of velocities they do not imply of positions.
     pub(super) fn misfit(&self, a: usize) -> Option<(f64, Vec<f64>)> {
         let u = self.spread(self.left.row(a));
         let (holonomic, others) = u.split_at(self.mechanism.layout().m);

@@ -1,14 +1,16 @@
 //! The rank that is read from C and from what its data are known to.
 //!
-//! Singular values below what the entries are known to are zero; those far above are not. Between them the data decide: by what share of their
-//! uncertainty would they have to be wrong for the lower rank?
+//! Singular values below what the entries are known to are zero; those far above are not. Between
+//! them the data decide: by what share of their uncertainty would they have to be wrong for the
+//! lower rank?
 
 use linalg::{Doubt, Grounds, RankReading, RankStatus, singular_values};
 
 use super::MeantMatrix;
 use super::share::{Nearness, Question, StatedTolerance};
 
-/// A singular value that the uncertainty of a matrix of size one hides must be below this: what is above is not known to be zero.
+/// A singular value that the uncertainty of a matrix of size one hides must be below this: what is
+/// above is not known to be zero.
 const HIDDEN: f64 = 0.01;
 
 /// What is above the root of eps in a matrix of size one is no rounding of its entries.
@@ -17,15 +19,16 @@ const NOT_ROUNDING: f64 = 1.5e-8;
 /// Rounding of a singular value, in units of eps·√(m·n) of a matrix of size one.
 const ROUNDINGS: f64 = 10.0;
 
-/// Data that need less than this share of their uncertainty for the lower rank have it; by a factor of three, because bounds of the share and of the
-/// uncertainty are known to about that.
+/// Data that need less than this share of their uncertainty for the lower rank have it; by a factor
+/// of three, because bounds of the share and of the uncertainty are known to about that.
 const LOWER: f64 = 1.0 / 3.0;
 
 /// Data that need more than this multiple of their uncertainty for the lower rank do not have it.
 const FULL: f64 = 3.0;
 
-/// From this singular value on no rounding explains a lower rank in a matrix of size one: near a singular pose, where a singular value moves with
-/// the root of the data, it would have to be below √(FULL·eps) times a few.
+/// From this singular value on no rounding explains a lower rank in a matrix of size one: near a
+/// singular pose, where a singular value moves with the root of the data, it would have to be below
+/// √(FULL·eps) times a few.
 const CLEAR_OF_ROUNDING: f64 = 1e-6;
 
 /// The same as a multiple of what the entries are known to, where that is larger.
@@ -96,7 +99,8 @@ impl MeantMatrix {
         let tolerance = question.tolerance();
         let metres = tolerance.map_or(0.0, |stated| stated.metres);
         let limit = (TOLD * question.size).max(FULL * metres);
-        // What was left out last, and whether poses enough say so. Its equations are those of all rows that are left out.
+        // What was left out last, and whether poses enough say so. Its equations are those of all
+        // rows that are left out.
         let mut is_short = false;
         while status == RankStatus::Decided
             && let Some(near) = question.nearness(rank, limit)
@@ -122,7 +126,8 @@ impl MeantMatrix {
         if let (RankStatus::Decided, true, Some(tolerance)) = (status, is_short, tolerance) {
             status = open(question, tolerance, rank + 1, None);
         }
-        // What is redundant within a tolerance is so where all lengths have one unit: a short lever must not be scaled up to size one.
+        // What is redundant within a tolerance is so where all lengths have one unit: a short lever
+        // must not be scaled up to size one.
         let (scaling, sigma) = match grounds {
             Grounds::WithinTolerance => {
                 let (scaled, scaling) = question.uniform(question.s);
@@ -137,7 +142,8 @@ impl MeantMatrix {
                 status,
                 scaling,
                 noise,
-                // What is not zero is the same in double-double, but for the digits that f64 has of it.
+                // What is not zero is the same in double-double, but for the digits that f64 has of
+                // it.
                 separation: sigma_r.map_or(0.0, |sigma_r| SAME * sigma_r),
                 grounds,
             },
@@ -147,7 +153,8 @@ impl MeantMatrix {
     }
 }
 
-/// It is open whether the rank is one less: from a change of this length on (m), or because nothing is known of other poses.
+/// It is open whether the rank is one less: from a change of this length on (m), or because nothing
+/// is known of other poses.
 fn open(
     question: &Question<'_>,
     stated: StatedTolerance,

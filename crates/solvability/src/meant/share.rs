@@ -1,4 +1,5 @@
-//! By what share of their uncertainty, or by how many metres, the data would have to be wrong for a lower rank.
+//! By what share of their uncertainty, or by how many metres, the data would have to be wrong for a
+//! lower rank.
 
 use linalg::{Matrix, RankDecision, Scaling, small_svd};
 use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch, System};
@@ -8,15 +9,17 @@ use super::pose::{Candidate, Pose};
 use super::walk::walk;
 use crate::mechanism::dimensionless;
 
-/// Entries of one pose that are asked to vanish: pairs of this many left and right directions, the weakest first. More would be exact zeros beside
-/// the near one; leaving them out can only make the share smaller.
+/// Entries of one pose that are asked to vanish: pairs of this many left and right directions, the
+/// weakest first. More would be exact zeros beside the near one; leaving them out can only make the
+/// share smaller.
 const PAIRS: usize = 4;
 
 /// Rounding of an entry of a scaled C between unit vectors, in units of eps·√(m·n).
 const ROUNDINGS: f64 = 16.0;
 
-/// Equations of the first order are wrong by the square of the change, as a share of the size, times this: the change that serves all poses is up to
-/// ten times that of one entry, and second derivatives are of the order of ten where links are short.
+/// Equations of the first order are wrong by the square of the change, as a share of the size,
+/// times this: the change that serves all poses is up to ten times that of one entry, and second
+/// derivatives are of the order of ten where links are short.
 const CURVED: f64 = 100.0;
 
 /// Columns of a planar body, two translations and its rotation.
@@ -42,10 +45,12 @@ pub(crate) struct Question<'a> {
 pub(crate) struct Nearness {
     /// At this pose alone.
     pub(crate) here: f64,
-    /// By one change of the data that serves all poses of a walk: from there on a row is redundant. Infinite where none does.
+    /// By one change of the data that serves all poses of a walk: from there on a row is redundant.
+    /// Infinite where none does.
     pub(crate) everywhere: f64,
-    /// No change below this does, where nonholonomic rows lead: they hold no position, so that each pose of the walk is known to what data within
-    /// the change make of the way there. [`everywhere`](Self::everywhere) otherwise.
+    /// No change below this does, where nonholonomic rows lead: they hold no position, so that each
+    /// pose of the walk is known to what data within the change make of the way there.
+    /// [`everywhere`](Self::everywhere) otherwise.
     pub(crate) at_least: f64,
     /// Whether the walk found the poses that it takes to tell a redundancy from a singular pose.
     pub(crate) is_walked: bool,
@@ -56,15 +61,16 @@ pub(crate) struct Nearness {
 /// What the scene states of its data.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct StatedTolerance {
-    /// The largest one of a point or a length; where none is stated, the largest one of an angle times the size (m).
+    /// The largest one of a point or a length; where none is stated, the largest one of an angle
+    /// times the size (m).
     pub(super) metres: f64,
     /// Whether it is that of an angle.
     pub(super) by_angles: bool,
 }
 
 impl Question<'_> {
-    /// The share of its rounding by which the datum that changes most would have to change for the rank `lower`, at this pose; scaled is C of
-    /// this question in this scaling after dimensions.
+    /// The share of its rounding by which the datum that changes most would have to change for the
+    /// rank `lower`, at this pose; scaled is C of this question in this scaling after dimensions.
     pub(super) fn share_of_rounding(
         &self,
         scaled: &Matrix,
@@ -101,7 +107,8 @@ impl Question<'_> {
         gradient.chunks_exact(N_BODY).flat_map(of_body).collect()
     }
 
-    /// Changes of where each body stands at the start, and of how it is turned, by what these are rounded to.
+    /// Changes of where each body stands at the start, and of how it is turned, by what these are
+    /// rounded to.
     fn by_start(&self, gradient: &[f64]) -> Vec<[f64; 2]> {
         let bodies = self
             .s
@@ -117,8 +124,8 @@ impl Question<'_> {
         of_body.collect()
     }
 
-    /// The largest tolerance that the scene states for a point or a length; for an angle if it states none for lengths, which are then known to their
-    /// rounding.
+    /// The largest tolerance that the scene states for a point or a length; for an angle if it
+    /// states none for lengths, which are then known to their rounding.
     pub(super) fn tolerance(&self) -> Option<StatedTolerance> {
         let blocks = self.mechanism.data_blocks(self.s);
         let largest = |unit: DataUnit| {
@@ -132,9 +139,10 @@ impl Question<'_> {
         }
     }
 
-    /// By how much some rows of the left null space of the scaled C change with data within what they are known to, with the rank held:
-    /// `δz_i = −(C⁺·e_i)ᵀ·δCᵀ·Z`, for an orthonormal basis Z, and for the dependency of each dropped row relative to its largest coefficient.
-    /// One value for each row, zero where nobody asked.
+    /// By how much some rows of the left null space of the scaled C change with data within what
+    /// they are known to, with the rank held: `δz_i = −(C⁺·e_i)ᵀ·δCᵀ·Z`, for an orthonormal basis
+    /// Z, and for the dependency of each dropped row relative to its largest coefficient. One value
+    /// for each row, zero where nobody asked.
     pub(crate) fn rows_within_data(
         &self,
         scaled: &Matrix,
@@ -176,8 +184,8 @@ impl Question<'_> {
         known
     }
 
-    /// By what angle the force of each row turns with data within what they are known to, with the pose that follows them; and by what length it
-    /// shifts beside its place, which are two points.
+    /// By what angle the force of each row turns with data within what they are known to, with the
+    /// pose that follows them; and by what length it shifts beside its place, which are two points.
     pub(crate) fn turns(&self, scaled: &Matrix, decision: &RankDecision) -> Vec<[f64; 2]> {
         let dimensions = self.mechanism.dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, decision.rank);
@@ -263,7 +271,8 @@ impl Question<'_> {
             let rows = (0..pose.left.nrows().min(PAIRS)).filter_map(of_row);
             pairs(pose).map(of_pair).chain(rows).collect()
         };
-        // The share of `least` by which the data have to change, where the second order of a change by at most `share` of it is left open.
+        // The share of `least` by which the data have to change, where the second order of a change
+        // by at most `share` of it is left open.
         let change = |poses: &[Vec<Asked>], share: f64, are_places_free: bool| {
             let curved = CURVED * (least / self.size).powi(2) * share.min(1.0);
             let equations = poses.iter().enumerate().flat_map(|(k, asked)| {
@@ -330,8 +339,8 @@ impl Question<'_> {
         dimensionless(self.mechanism, s, self.size).select_rows(self.places)
     }
 
-    /// What counts as one metre: of angles what moves a point at the size of the mechanism by that; with a tolerance (m), each block its own beside
-    /// it, and those that have none their rounding.
+    /// What counts as one metre: of angles what moves a point at the size of the mechanism by that;
+    /// with a tolerance (m), each block its own beside it, and those that have none their rounding.
     fn unit(&self, block: &DataBlock, tolerance: Option<f64>) -> f64 {
         match (tolerance, block.unit) {
             (Some(tolerance), _) => block.known_to() / tolerance,
@@ -355,8 +364,9 @@ fn single(decision: &RankDecision) -> Matrix {
     z
 }
 
-/// A weakest entry above this share of the size of C belongs to no change of data below a thousandth of the size: an entry changes by its own size,
-/// times what the pose answers, which is below the inverse of the entry.
+/// A weakest entry above this share of the size of C belongs to no change of data below a
+/// thousandth of the size: an entry changes by its own size, times what the pose answers, which is
+/// below the inverse of the entry.
 const CLEAR: f64 = 0.1;
 
 /// What has to vanish at a pose.
@@ -377,7 +387,8 @@ impl Asked {
         }
     }
 
-    /// The same where the bodies may be elsewhere at each of so many poses, of which this is the k-th.
+    /// The same where the bodies may be elsewhere at each of so many poses, of which this is the
+    /// k-th.
     fn with_place(&self, k: usize, poses: usize, curved: f64) -> Equation {
         let mut equation = self.loose(curved);
         let count = self.by_place.len();

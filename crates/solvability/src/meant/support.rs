@@ -1,8 +1,10 @@
 //! Which rows belong to a dependency beyond doubt, where the data are known to a stated tolerance.
 //!
-//! A dependency `row s = Σ t_k·row k` over independent rows K that contain all of its other rows has one coefficient for each row of K: those of its own
-//! rows are not zero, all others are. With the rank held it changes with the data by `δt_k = zᵀ·δC·C_K⁺·e_k`, z the dependency itself. A coefficient
-//! that this leaves between zero and not zero, or puts on the other side, leaves open which rows depend on each other.
+//! A dependency `row s = Σ t_k·row k` over independent rows K that contain all of its other rows
+//! has one coefficient for each row of K: those of its own rows are not zero, all others are. With
+//! the rank held it changes with the data by `δt_k = zᵀ·δC·C_K⁺·e_k`, z the dependency itself. A
+//! coefficient that this leaves between zero and not zero, or puts on the other side, leaves open
+//! which rows depend on each other.
 
 use linalg::{Circuit, CoefficientReading, Matrix, PivotedQr, RankDecision};
 
@@ -25,7 +27,8 @@ struct Fundamental {
 }
 
 impl Fundamental {
-    /// Of a dependency of the scaled C; `None` where its rows without the largest are not independent in f64.
+    /// Of a dependency of the scaled C; `None` where its rows without the largest are not
+    /// independent in f64.
     fn new(scaled: &Matrix, decision: &RankDecision, circuit: &Circuit) -> Option<Self> {
         let (rank, n) = (decision.rank, scaled.ncols());
         let size = |(&row, z): (&usize, &f64)| (z / decision.scaling.row_factor(row)).abs();

@@ -1,5 +1,6 @@
-//! Mechanisms near a lower rank, with what their data would have to be wrong by. Sources of the numbers: the same program of cones solved by another
-//! method (linear programming over coordinates, poses by finite differences), and by hand where it says so.
+//! Mechanisms near a lower rank, with what their data would have to be wrong by. Sources of the
+//! numbers: the same program of cones solved by another method (linear programming over
+//! coordinates, poses by finite differences), and by hand where it says so.
 
 use joints::{Distance, Revolute};
 use model::{Body, BodyRef, Description, Function, Mechanism};
@@ -16,7 +17,8 @@ fn bar(name: &str, [x, y]: [f64; 2], angle: f64) -> Body {
     }
 }
 
-/// Three parallel cranks of half a metre under one coupler, the ground pin of the third off by this much along the base; the crank has its hole there.
+/// Three parallel cranks of half a metre under one coupler, the ground pin of the third off by this
+/// much along the base; the crank has its hole there.
 fn three_cranks(off: f64) -> Description {
     let angle = 0.7_f64;
     let (c, s) = (0.5 * angle.cos(), 0.5 * angle.sin());
@@ -42,7 +44,8 @@ fn three_cranks(off: f64) -> Description {
     d
 }
 
-/// A four-bar near its dead centre, crank and coupler in line but for `angle`, the rocker held by a bar across it.
+/// A four-bar near its dead centre, crank and coupler in line but for `angle`, the rocker held by a
+/// bar across it.
 fn held_four_bar(angle: f64) -> Description {
     let (a, b, c, g) = (0.2_f64, 0.5, 0.4, 0.6);
     let turn = (((a + b) * (a + b) + g * g - c * c) / (2.0 * (a + b) * g)).acos() + angle;
@@ -96,7 +99,8 @@ fn lower_rank(analysis: &Analysis) -> [Option<f64>; 2] {
     [certificate.lower_rank_here, certificate.lower_rank_from]
 }
 
-/// At all poses the misfit has to go, and the eight points between the first and the third crank share it: an eighth each.
+/// At all poses the misfit has to go, and the eight points between the first and the third crank
+/// share it: an eighth each.
 #[test]
 fn a_pin_that_is_off_is_redundant_from_a_part_of_the_misfit_on() {
     assert_eq!(analysed(&three_cranks(0.0)).decision.rank, 11);
@@ -139,7 +143,8 @@ fn within(mut description: Description, tolerance: f64) -> Description {
     description
 }
 
-/// The third crank is redundant from a twentieth of a millimetre on; a third of that and three times that are beyond doubt.
+/// The third crank is redundant from a twentieth of a millimetre on; a third of that and three
+/// times that are beyond doubt.
 #[test]
 fn a_tolerance_decides_what_is_redundant() {
     for (tolerance, rank) in [(1.2e-5, Some(12)), (5e-5, None), (1e-3, Some(11))] {
@@ -205,8 +210,8 @@ fn a_door_turns_within_its_tolerance() {
     assert_eq!((turns.decision.rank, turns.mobility()), (2, 1));
 }
 
-/// Two parallel hydraulic cylinders that turn an arm about its hinge, their axes in the directions that they have with so many digits: what one pushes
-/// the other may take back.
+/// Two parallel hydraulic cylinders that turn an arm about its hinge, their axes in the directions
+/// that they have with so many digits: what one pushes the other may take back.
 fn cylinders(digits: Option<i32>) -> Description {
     let mut d = Description::new("cylinders");
     let angle = 0.6_f64;
@@ -262,8 +267,8 @@ fn cylinders(digits: Option<i32>) -> Description {
     d
 }
 
-/// One mechanism, whatever digits its axes are typed with: verdicts of all joints are those of the exact one, and where the digits leave a share of the
-/// free force to a slide, its margin is told.
+/// One mechanism, whatever digits its axes are typed with: verdicts of all joints are those of the
+/// exact one, and where the digits leave a share of the free force to a slide, its margin is told.
 #[test]
 fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     let verdicts = |analysis: &Analysis| -> Vec<&'static str> {
@@ -288,7 +293,8 @@ fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     };
     let exact = analysed(&cylinders(None));
     let exact = verdicts(&exact);
-    // Joints in order, then the drives: the force in both cylinders, from which the slides keep out.
+    // Joints in order, then the drives: the force in both cylinders, from which the slides keep
+    // out.
     let [u, n] = ["unique", "not_unique"];
     assert_eq!(exact, [n, n, u, n, n, u, n, n, n]);
     for (digits, least, most) in [
@@ -322,9 +328,10 @@ fn parallel_cylinders_are_one_mechanism_with_any_digits() {
     }
 }
 
-/// Two slides between the ground and one body, whose forces act on lines this far apart, in a scene of two metres: `n_B − n_A` turns the body by that
-/// lever, which the angles carry. A lever that is none within the tolerance is left out with its size; one that may be none leaves open whether the
-/// angles belong to the forces; a large one is told.
+/// Two slides between the ground and one body, whose forces act on lines this far apart, in a scene
+/// of two metres: `n_B − n_A` turns the body by that lever, which the angles carry. A lever that is
+/// none within the tolerance is left out with its size; one that may be none leaves open whether
+/// the angles belong to the forces; a large one is told.
 #[test]
 fn a_dependency_that_hangs_on_a_coefficient_is_marked_or_withheld() {
     let judged = |apart: f64, tolerance: f64| {
@@ -356,8 +363,9 @@ fn a_dependency_that_hangs_on_a_coefficient_is_marked_or_withheld() {
     assert_eq!(judged(0.02, 1e-5), (vec![2, 3], false, 0.0));
 }
 
-/// Two equal bars, one metre long, whose direction is this far from the y-axis: neither force is unique. Along x it is none within the tolerance where
-/// it is far below both that and a thousandth, and some where it is far above.
+/// Two equal bars, one metre long, whose direction is this far from the y-axis: neither force is
+/// unique. Along x it is none within the tolerance where it is far below both that and a
+/// thousandth, and some where it is far above.
 #[test]
 fn a_component_that_is_none_within_the_tolerance_says_so() {
     let judged = |across: f64, tolerance: f64| {
@@ -400,7 +408,8 @@ fn a_component_that_is_none_within_the_tolerance_says_so() {
     }
 }
 
-/// Two edges of one axle that are parallel but for a thousandth: within a centimetre one of them is redundant, and neither force is unique.
+/// Two edges of one axle that are parallel but for a thousandth: within a centimetre one of them is
+/// redundant, and neither force is unique.
 #[test]
 fn edges_of_one_axle_share_their_force_within_a_tolerance() {
     let d = axle(1e-3);
@@ -429,7 +438,8 @@ fn axle(angle: f64) -> Description {
     d
 }
 
-/// Both directions have to be perpendicular to the axle, so one turns by all of the difference. Nothing is stated of lengths, which keep their rounding.
+/// Both directions have to be perpendicular to the axle, so one turns by all of the difference.
+/// Nothing is stated of lengths, which keep their rounding.
 #[test]
 fn an_angle_tolerance_counts_alone() {
     let judged = |tolerance: model::Tolerance| {
@@ -486,7 +496,8 @@ fn an_angle_tolerance_counts_alone() {
     assert_eq!(judged(both).decision.rank, 1);
 }
 
-/// A bar between two pins on the ground, one 0.05 mm too far: nothing satisfies all rows, but data within 0.1 mm would.
+/// A bar between two pins on the ground, one 0.05 mm too far: nothing satisfies all rows, but data
+/// within 0.1 mm would.
 #[test]
 fn data_that_contradict_each_other_within_the_tolerance_are_assembled() {
     let clamped = |tolerance: Option<f64>| {

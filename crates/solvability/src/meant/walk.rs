@@ -1,4 +1,5 @@
-//! Poses that a mechanism reaches on its kept rows: what is redundant is so at all of them, what is singular is so at one.
+//! Poses that a mechanism reaches on its kept rows: what is redundant is so at all of them, what is
+//! singular is so at one.
 
 use linalg::{Matrix, PivotedQr};
 use model::System;
@@ -10,7 +11,8 @@ use crate::mechanism::{dimensionless, velocity_units};
 /// Poses to each side.
 const POSES: usize = 3;
 
-/// From one pose to the next: a share of the size, or radians. Short, so that the walk does not pass a singular pose onto another branch.
+/// From one pose to the next: a share of the size, or radians. Short, so that the walk does not
+/// pass a singular pose onto another branch.
 const REACH: f64 = 0.05;
 
 /// Steps from one pose to the next.
@@ -19,11 +21,13 @@ const STEPS: usize = 5;
 /// The same where such steps do not arrive.
 const SMALL_STEPS: usize = 40;
 
-/// Corrections of a step onto the kept rows at most, and the largest as a share of the step: what is corrected by more may be on another branch.
+/// Corrections of a step onto the kept rows at most, and the largest as a share of the step: what
+/// is corrected by more may be on another branch.
 const CORRECTIONS: usize = 12;
 const CORRECTED: f64 = 0.5;
 
-/// A correction below this share of the size is none; one that no longer falls is rounding if it is below the other.
+/// A correction below this share of the size is none; one that no longer falls is rounding if it is
+/// below the other.
 const MET: f64 = 1e-14;
 const NEARLY_MET: f64 = 1e-10;
 
@@ -38,8 +42,8 @@ pub(super) struct Walk {
     pub(super) is_complete: bool,
 }
 
-/// Up to six poses on both sides of the pose of the question, on the kept rows of Φ, along velocities that all kept rows allow: mainly the one that
-/// the kept rows alone set free.
+/// Up to six poses on both sides of the pose of the question, on the kept rows of Φ, along
+/// velocities that all kept rows allow: mainly the one that the kept rows alone set free.
 pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
     let mut poses = Vec::new();
     let here = dimensionless(question.mechanism, question.s, question.size);
@@ -101,7 +105,8 @@ fn step(
     Some(())
 }
 
-/// The configuration on the kept rows of Φ, by corrections that are shortest without dimensions: masses say nothing of where a mechanism can be.
+/// The configuration on the kept rows of Φ, by corrections that are shortest without dimensions:
+/// masses say nothing of where a mechanism can be.
 fn onto_kept(
     question: &Question<'_>,
     kept: &[usize],
@@ -156,7 +161,8 @@ fn row_size(c: &Matrix, i: usize) -> f64 {
     if size > 0.0 { size } else { 1.0 }
 }
 
-/// Velocities without dimensions that the kept rows allow, one in each row, the one that the other rows resist most first.
+/// Velocities without dimensions that the kept rows allow, one in each row, the one that the other
+/// rows resist most first.
 fn free_directions(c: &Matrix, kept: &[usize]) -> Matrix {
     Candidate::of_rows(c, kept.to_vec()).into_free()
 }

@@ -20,7 +20,8 @@ pub enum EliminationError {
     /// A part is too large.
     #[error(transparent)]
     Request(#[from] RequestError),
-    /// Every part has its number of sets, but their product is larger than any number that is counted with.
+    /// Every part has its number of sets, but their product is larger than any number that is
+    /// counted with.
     #[error(
         "{parts} parts of the mechanism have their own sets, and the product of their numbers is more than 3.4e38"
     )]
@@ -31,10 +32,12 @@ pub enum EliminationError {
 }
 
 impl Questions<'_> {
-    /// The number of sets of rows that can be deleted without a change of motion, as many rows as the degree of redundancy.
+    /// The number of sets of rows that can be deleted without a change of motion, as many rows as
+    /// the degree of redundancy.
     ///
     /// # Errors
-    /// If the rank of a part or one of its sets is undecided, a part is too large, or they are too many.
+    /// If the rank of a part or one of its sets is undecided, a part is too large, or they are too
+    /// many.
     pub fn eliminations(&self) -> Result<u128, EliminationError> {
         let mut product = 1_u128;
         for k in self.redundant() {
@@ -57,7 +60,8 @@ impl Questions<'_> {
             .map(|(k, _)| k)
     }
 
-    /// The first of these sets, rows from 0: those of the parts combine like the digits of a number.
+    /// The first of these sets, rows from 0: those of the parts combine like the digits of a
+    /// number.
     ///
     /// # Errors
     /// If the rank of a part or one of its sets is undecided, or a part is too large.
@@ -81,10 +85,12 @@ impl Questions<'_> {
         Ok(sets)
     }
 
-    /// The smallest deletions that make a reaction unique without a change of motion. They are in its part.
+    /// The smallest deletions that make a reaction unique without a change of motion. They are in
+    /// its part.
     ///
     /// # Errors
-    /// If the rank of the part or an answer is undecided, a row that is allowed does not exist, or the part is too large.
+    /// If the rank of the part or an answer is undecided, a row that is allowed does not exist, or
+    /// the part is too large.
     pub fn make_unique(
         &self,
         id: ConstraintId,

@@ -1,6 +1,6 @@
-//! A proof that no other velocity exists: a combination of the forms that does not contain the motion and is positive definite in the
-//! new motions, `Σ w_s·M_s = [0 0; 0 G]` with `yᵀ·G·y > 0`. Then y = 0. For one new motion the proof exists whenever the
-//! statement is true.
+//! A proof that no other velocity exists: a combination of the forms that does not contain the
+//! motion and is positive definite in the new motions, `Σ w_s·M_s = [0 0; 0 G]` with `yᵀ·G·y > 0`.
+//! Then y = 0. For one new motion the proof exists whenever the statement is true.
 
 use linalg::Matrix;
 
@@ -53,7 +53,8 @@ fn combinations(decision: &linalg::RankDecision) -> Vec<Vec<f64>> {
         .collect()
 }
 
-/// Perceptron: as long as some y has `yᵀ·G·y` too small, G moves towards the matrices that are positive there.
+/// Perceptron: as long as some y has `yᵀ·G·y` too small, G moves towards the matrices that are
+/// positive there.
 fn has_definite_combination(matrices: &[Matrix], n: usize) -> bool {
     let mut w: Vec<f64> = matrices
         .iter()

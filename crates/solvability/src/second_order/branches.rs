@@ -1,4 +1,5 @@
-//! Other solutions of the quadratic equations, by Gauss–Newton iterations on the unit sphere from many starts.
+//! Other solutions of the quadratic equations, by Gauss–Newton iterations on the unit sphere from
+//! many starts.
 
 use linalg::{Matrix, least_squares_step};
 
@@ -10,7 +11,8 @@ const ITERATIONS: usize = 60;
 /// A solution meets the equations to this.
 const RESIDUAL: f64 = 1e-12;
 
-/// A solution belongs to another branch if its new motions (and, driven, its rate of time) exceed this.
+/// A solution belongs to another branch if its new motions (and, driven, its rate of time) exceed
+/// this.
 const APART: f64 = 1e-3;
 
 /// Starts for each expected branch.

@@ -1,8 +1,8 @@
 //! The second-order equations as quadratic forms `aᵀ·M_s·a = 0`, one for each self-stress.
 //!
-//! Γ is quadratic in the velocities and in the rate of time, 1. With `v = x₀·v_in + N·(x₁, y)` it becomes homogeneous: `a = (x₀, x₁, y)`,
-//! x₀ the rate of time (only where something is driven), x₁ the regular motions and y the new ones. Both are orthonormal in
-//! dimensionless velocities.
+//! Γ is quadratic in the velocities and in the rate of time, 1. With `v = x₀·v_in + N·(x₁, y)` it
+//! becomes homogeneous: `a = (x₀, x₁, y)`, x₀ the rate of time (only where something is driven), x₁
+//! the regular motions and y the new ones. Both are orthonormal in dimensionless velocities.
 
 use linalg::{Matrix, PivotedQr, RankDecision, RankStatus};
 use model::start::scene_size;

@@ -1,4 +1,5 @@
-//! The equations of motion of joined bodies at one instant, solved, and the gradients of reactions by all data.
+//! The equations of motion of joined bodies at one instant, solved, and the gradients of reactions
+//! by all data.
 
 use std::borrow::Cow;
 
@@ -11,18 +12,22 @@ use super::{Datum, MOVED, Sensitivity};
 use crate::choices::ChoiceError;
 use crate::mechanism::velocity_units;
 
-/// A load below this share of what would stop the bodies within the size of the mechanism, m·v²/size, is the rounding of a motion without any.
+/// A load below this share of what would stop the bodies within the size of the mechanism,
+/// m·v²/size, is the rounding of a motion without any.
 const LOAD_ROUNDING: f64 = 1e-9;
 
-/// Points move by a share of the size of the mechanism, but at most by that of so many times the reach of the bodies that they join: a chain of a hundred
-/// links is made link by link, and its holes are not a hundred times worse than those of one. In mechanisms of a few bodies it plays no part.
+/// Points move by a share of the size of the mechanism, but at most by that of so many times the
+/// reach of the bodies that they join: a chain of a hundred links is made link by link, and its
+/// holes are not a hundred times worse than those of one. In mechanisms of a few bodies it plays no
+/// part.
 const PIECE: f64 = 20.0;
 
-/// Of points whose effects differ by less than this factor, as those of two points that coincide, the first is told: reactions that hang on the same
-/// misfit are then told in one sentence.
+/// Of points whose effects differ by less than this factor, as those of two points that coincide,
+/// the first is told: reactions that hang on the same misfit are then told in one sentence.
 const SAME: f64 = 1.01;
 
-/// Angle between the directions of successive unit loads (rad): the golden one, which comes near no simple fraction of a turn.
+/// Angle between the directions of successive unit loads (rad): the golden one, which comes near no
+/// simple fraction of a turn.
 const GOLDEN_ANGLE: f64 = 2.399_963_229_728_653;
 
 /// The equations of joined bodies at one instant, solved.
@@ -38,7 +43,8 @@ pub(super) struct Instant<'a> {
     force_dq: &'a [(usize, usize, f64)],
     force_dv: &'a [(usize, usize, f64)],
     by_data: DataGradients,
-    /// Kept rows of C, where anything depends on velocities, and kept rows of Φ, with columns in velocity units, factored.
+    /// Kept rows of C, where anything depends on velocities, and kept rows of Φ, with columns in
+    /// velocity units, factored.
     c: Option<Follow>,
     phi_q: Follow,
     /// Points, directions and numbers, and how far each is moved.
@@ -105,7 +111,8 @@ impl<'a> Instant<'a> {
         let (mut force_dq, mut force_dv) = (&joined.force_dq[..], &joined.force_dv[..]);
         let mut load = largest_load(mechanism, &joined.force, &a, size);
         if load <= LOAD_ROUNDING * largest_stop(mechanism, &v, size) {
-            // At rest, with equal masses: neither speed nor mass has a measure where there is no load.
+            // At rest, with equal masses: neither speed nor mass has a measure where there is no
+            // load.
             v = Cow::Owned(vec![0.0; n]);
             mechanism.twist(&v, &mut s);
             gamma.fill(0.0);
@@ -261,8 +268,8 @@ impl Follow {
         }
     }
 
-    /// `w` with `gᵀ·δx = −wᵀ·δr` for the smallest δx that answers a change δr of the rows; all rows of the mechanism, of which the others are left
-    /// as they are. Overwrites g.
+    /// `w` with `gᵀ·δx = −wᵀ·δr` for the smallest δx that answers a change δr of the rows; all rows
+    /// of the mechanism, of which the others are left as they are. Overwrites g.
     fn multipliers(&self, g: &mut [f64], w: &mut [f64]) {
         g.iter_mut()
             .zip(&self.units)
@@ -303,7 +310,8 @@ fn largest_load(mechanism: &Mechanism, force: &[f64], a: &[f64], size: f64) -> f
     larger.fold(0.0, f64::max)
 }
 
-/// The length to which a workshop works where it makes the bodies of a joint (m): several times their reach; without an end where that is not known.
+/// The length to which a workshop works where it makes the bodies of a joint (m): several times
+/// their reach; without an end where that is not known.
 fn piece(mechanism: &Mechanism, group: usize) -> f64 {
     let bodies = mechanism.layout().groups[group].bodies.iter();
     let reach = bodies

@@ -1,7 +1,7 @@
 //! Bodies that joints connect, asked set by set: a machine answers the same alone and among others.
 //!
-//! Springs connect nothing here. What they carry is a load, and how it changes where the bodies of a set move belongs to the set; the bodies at their
-//! other ends stay where they are.
+//! Springs connect nothing here. What they carry is a load, and how it changes where the bodies of
+//! a set move belongs to the set; the bodies at their other ends stay where they are.
 
 use std::borrow::Cow;
 
@@ -29,7 +29,8 @@ pub(super) struct Joined<'a> {
 }
 
 impl Joined<'_> {
-    /// A part of them with its own joints at a solution of all: what the other joints do to its bodies is a load that stays as it is.
+    /// A part of them with its own joints at a solution of all: what the other joints do to its
+    /// bodies is a load that stays as it is.
     pub(super) fn of_part<'b>(
         &self,
         part: &'b Mechanism,
@@ -129,8 +130,8 @@ impl Sets {
 /// Columns of a planar body.
 const COLUMNS: usize = 3;
 
-/// What `f` makes of each set of bodies that joints and drives connect, at time t, coordinates q and velocities v, on the threads of the pool of `rayon`
-/// from which this is called.
+/// What `f` makes of each set of bodies that joints and drives connect, at time t, coordinates q
+/// and velocities v, on the threads of the pool of `rayon` from which this is called.
 pub(super) fn each_joined<T: Send>(
     mechanism: &Mechanism,
     (t, q, v): (f64, &[f64], &[f64]),

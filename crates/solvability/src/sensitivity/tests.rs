@@ -17,7 +17,8 @@ fn known(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64]) -> Vec<Sensitivity
     each.map(|s| s.expect("unique")).collect()
 }
 
-/// A beam of 2 m and 10 N between a pin and a roller, its mass centre a quarter from the pin: the roller carries W·c/L.
+/// A beam of 2 m and 10 N between a pin and a roller, its mass centre a quarter from the pin: the
+/// roller carries W·c/L.
 fn beam() -> Mechanism {
     let mut d = Description::new("beam");
     d.gravity = [0.0, -10.0];
@@ -39,7 +40,8 @@ fn beam() -> Mechanism {
     Mechanism::build(&d).expect("it builds")
 }
 
-/// dR/dL = −W·c/L², dR/da = −W·(L − c)/L² where the pin moves along the beam: 3/8 of the weight for each metre, and the point moves by 0.2 mm.
+/// dR/dL = −W·c/L², dR/da = −W·(L − c)/L² where the pin moves along the beam: 3/8 of the weight for
+/// each metre, and the point moves by 0.2 mm.
 #[test]
 fn a_beam_by_hand() {
     let mechanism = beam();
@@ -54,7 +56,8 @@ fn a_beam_by_hand() {
     }
 }
 
-/// Numbers of a crank of 0.3 m with a rod of 0.8 m, whose end runs on an oblique line; each pair is a point or a direction.
+/// Numbers of a crank of 0.3 m with a rod of 0.8 m, whose end runs on an oblique line; each pair is
+/// a point or a direction.
 const POINTS: [[f64; 2]; 6] = [
     [0.02, -0.01], // A on the ground
     [-0.15, 0.0],  // A on the crank
@@ -67,7 +70,8 @@ const POINTS: [[f64; 2]; 6] = [
 /// Direction of the line (rad).
 const LINE: f64 = 0.2;
 
-/// The crank is driven, from a start that is turned a little further, so that the pose is determined at each time.
+/// The crank is driven, from a start that is turned a little further, so that the pose is
+/// determined at each time.
 fn slider_crank(points: [[f64; 2]; 6], line: f64, turned: f64) -> Mechanism {
     let mut d = Description::new("slider-crank");
     d.gravity = [0.3, -9.81];
@@ -123,7 +127,8 @@ fn solved(a: &Matrix, b: &[f64], transposed: bool) -> Vec<f64> {
     (0..n).map(|i| m[(i, n)] / m[(i, i)]).collect()
 }
 
-/// State and reactions (force, torque) at a time, by Newton's method from the described pose and two square systems.
+/// State and reactions (force, torque) at a time, by Newton's method from the described pose and
+/// two square systems.
 fn reactions(mechanism: &Mechanism, t: f64) -> (Vec<f64>, Vec<f64>, Vec<[f64; 3]>) {
     let layout = mechanism.layout();
     let mut s = mechanism.scratch();
@@ -162,8 +167,9 @@ fn reactions(mechanism: &Mechanism, t: f64) -> (Vec<f64>, Vec<f64>, Vec<[f64; 3]
     (q, v, each)
 }
 
-/// The largest change of each reaction by one pair of numbers that moves by 1e-4 of the size, or a direction that turns by 1e-4 rad, in the norm of all of
-/// its derivatives: by central differences of mechanisms built with other numbers. At rest, and moving.
+/// The largest change of each reaction by one pair of numbers that moves by 1e-4 of the size, or a
+/// direction that turns by 1e-4 rad, in the norm of all of its derivatives: by central differences
+/// of mechanisms built with other numbers. At rest, and moving.
 #[test]
 fn sensitivities_are_those_of_mechanisms_built_with_other_numbers() {
     const H: f64 = 1e-6;
@@ -233,7 +239,8 @@ fn load(mechanism: &Mechanism, t: f64, q: &[f64], v: &[f64], size: f64) -> f64 {
     load
 }
 
-/// A body between two edges whose normals differ by a small angle: without weight a unit load is asked, and the reactions go with its inverse.
+/// A body between two edges whose normals differ by a small angle: without weight a unit load is
+/// asked, and the reactions go with its inverse.
 #[test]
 fn without_any_load_unit_loads_are_asked() {
     let told = |angle: f64| {
@@ -251,7 +258,8 @@ fn without_any_load_unit_loads_are_asked() {
     };
     for angle in [1e-2, 1e-4] {
         let change = told(angle);
-        // A direction that turns by 1e-4 rad, or a point that moves by 1e-4, changes the angle of 1e-2 or 1e-4 by its share.
+        // A direction that turns by 1e-4 rad, or a point that moves by 1e-4, changes the angle of
+        // 1e-2 or 1e-4 by its share.
         let share = 1e-4 / angle;
         assert!(
             change

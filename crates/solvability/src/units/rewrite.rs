@@ -1,15 +1,16 @@
 //! The equations of a mechanism written anew in other units.
 //!
-//! With `v'_j = s_j·v_j`, time in units of 1/τ s, a row written as `ρ_i` times its former numbers, and power in units of 1/w W:
+//! With `v'_j = s_j·v_j`, time in units of 1/τ s, a row written as `ρ_i` times its former numbers,
+//! and power in units of 1/w W:
 //!
 //! ```text
 //! C'_ij = ρ_i·C_ij/s_j     a'_j = s_j·a_j/τ      Γ'_i = ρ_i·Γ_i/τ
 //! Q'_j  = w·Q_j/s_j        M'_j = w·τ·M_j/s_j²   λ'_i = w·λ_i/ρ_i
 //! ```
 //!
-//! They satisfy `M'·a' + C'ᵀ·λ' = Q'` and `C'·a' = Γ'` iff the unprimed ones satisfy theirs. So scaling rows and columns is the same as
-//! writing the model anew in other units. ρ is free: rows with translations are written in the unit of velocity, the others in that of
-//! angular velocity.
+//! They satisfy `M'·a' + C'ᵀ·λ' = Q'` and `C'·a' = Γ'` iff the unprimed ones satisfy theirs. So
+//! scaling rows and columns is the same as writing the model anew in other units. ρ is free: rows
+//! with translations are written in the unit of velocity, the others in that of angular velocity.
 
 use linalg::Matrix;
 use model::ColumnKind;

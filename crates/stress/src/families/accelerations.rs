@@ -1,5 +1,6 @@
-//! Accelerations and reactions where masses and lengths are far apart, against the exact solution of the same equations: the C, M, Q and Γ that
-//! the solver was given. What rounding does to these numbers themselves is another question and not asked here.
+//! Accelerations and reactions where masses and lengths are far apart, against the exact solution
+//! of the same equations: the C, M, Q and Γ that the solver was given. What rounding does to these
+//! numbers themselves is another question and not asked here.
 
 mod scenes;
 mod score;
@@ -23,7 +24,8 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Accelerations on kept rows, relative to each of them and at least a thousandth of the largest of its body and kind.
+/// Accelerations on kept rows, relative to each of them and at least a thousandth of the largest of
+/// its body and kind.
 const ACCELERATION: f64 = 1e-13;
 
 /// Multipliers on kept rows, relative to the largest of their joint.

@@ -1,5 +1,5 @@
-//! Numbers that are none, in every place of a scene that has a number; and numbers at the edge of the format, which may be refused but must not
-//! become NaN on the way.
+//! Numbers that are none, in every place of a scene that has a number; and numbers at the edge of
+//! the format, which may be refused but must not become NaN on the way.
 
 use std::ops::ControlFlow;
 

@@ -1,4 +1,5 @@
-//! More drives than freedoms. Where they agree there is a motion; where they do not there is none, and both are named.
+//! More drives than freedoms. Where they agree there is a motion; where they do not there is none,
+//! and both are named.
 
 use dynamics::MotionOptions;
 use joints::{Direction, Velocity};
@@ -15,13 +16,15 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// What a run may say where prescribed velocities part: at the end of a step, or where the kept rows pull the others off.
+/// What a run may say where prescribed velocities part: at the end of a step, or where the kept
+/// rows pull the others off.
 const PARTED: &[&str] = &["at t = ", "dropped row"];
 
 /// What it says where laws of drives part.
 const DRIVES_PARTED: &[&str] = &["at t = ", "`one`", "`other`", "contradict each other"];
 
-/// Share of the largest row by which runs let a dropped row miss, as `dynamics` documents it; rows are of size 3 at most here.
+/// Share of the largest row by which runs let a dropped row miss, as `dynamics` documents it; rows
+/// are of size 3 at most here.
 const MONITORED: f64 = 3e-11;
 
 fn cases() -> Vec<Case> {
@@ -81,7 +84,8 @@ fn cases() -> Vec<Case> {
 /// Laws that differ by no more than some hundred roundings of an angle are the same.
 const SAME: f64 = 1e-13;
 
-/// A refusal where positions come to differ by more than is accepted; either where they hardly do; a motion where they are the same.
+/// A refusal where positions come to differ by more than is accepted; either where they hardly do;
+/// a motion where they are the same.
 fn differing(size: f64, parts: &[&str]) -> Expected {
     let parts = parts.iter().map(|&part| part.to_owned()).collect();
     match size {

@@ -1,5 +1,6 @@
-//! Drives and torques that jump: a jump of the position is refused, one of the rate is an impulse, one of the force is a boundary of steps. And
-//! two drives that agree first and contradict each other later.
+//! Drives and torques that jump: a jump of the position is refused, one of the rate is an impulse,
+//! one of the force is a boundary of steps. And two drives that agree first and contradict each
+//! other later.
 
 use dynamics::{MotionOptions, Summary};
 
@@ -166,10 +167,12 @@ fn after_the_swing(row: &Row, _: &Summary) -> f64 {
     worst([row.q[2] - right[0] / INERTIA, row.v[2] - right[1] / INERTIA])
 }
 
-/// Two parallel cranks, each with a motor of 0.4 rad/s; the rate of the second one grows from t = 1 s on.
+/// Two parallel cranks, each with a motor of 0.4 rad/s; the rate of the second one grows from t = 1
+/// s on.
 fn disagreeing(by: f64) -> String {
-    // A spline through (t − 1)²₊ times half of it would only approach it: lines in small pieces jump in their rates instead, so that the
-    // motors disagree by 0.05·by rad/s from the first one on.
+    // A spline through (t − 1)²₊ times half of it would only approach it: lines in small pieces
+    // jump in their rates instead, so that the motors disagree by 0.05·by rad/s from the first one
+    // on.
     let pieces: Vec<f64> = (0..=10).map(|k| 1.0 + 0.1 * f64::from(k)).collect();
     let values: Vec<f64> = pieces
         .iter()

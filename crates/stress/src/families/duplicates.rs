@@ -6,7 +6,8 @@ use crate::case::{Case, Expected, Family, Outcome};
 use crate::mechanisms::sketch::{Sketch, Tie};
 use crate::motion::{analysed, asking, study};
 
-/// Each kind of joint twice; joints of the ground with itself; keys that would make the motion depend on a choice.
+/// Each kind of joint twice; joints of the ground with itself; keys that would make the motion
+/// depend on a choice.
 pub(super) const FAMILY: Family = Family {
     name: "duplicates",
     about: "each kind of joint twice: its rows are redundant, in pairs; joints that constrain nothing and friction are refused by name",

@@ -1,4 +1,5 @@
-//! Motions far from the origin: coordinates are known to their last digit only, and nothing else may be lost.
+//! Motions far from the origin: coordinates are known to their last digit only, and nothing else
+//! may be lost.
 
 use dynamics::{MotionOptions, Summary};
 
@@ -61,7 +62,8 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// A skate at (x, −x) that turns with 0.5 rad/s on a slope of 30° along x: the cycloid of the knife edge in `suite`.
+/// A skate at (x, −x) that turns with 0.5 rad/s on a slope of 30° along x: the cycloid of the knife
+/// edge in `suite`.
 fn skate(x: f64) -> String {
     format!(
         r#"

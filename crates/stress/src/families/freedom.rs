@@ -1,5 +1,5 @@
-//! Mechanisms without freedom, driven by as many drives as they have or by more: nothing is integrated, and reactions are those of inverse
-//! dynamics.
+//! Mechanisms without freedom, driven by as many drives as they have or by more: nothing is
+//! integrated, and reactions are those of inverse dynamics.
 
 use std::ops::ControlFlow;
 

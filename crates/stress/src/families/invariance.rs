@@ -1,5 +1,5 @@
-//! The same mechanism written down otherwise: elsewhere, turned, in other units, in another order. Verdicts are the same, and what moves is the same
-//! when it is taken back.
+//! The same mechanism written down otherwise: elsewhere, turned, in other units, in another order.
+//! Verdicts are the same, and what moves is the same when it is taken back.
 
 use dynamics::MotionOptions;
 use model::{BodyRef, Description};
@@ -22,7 +22,8 @@ const G: f64 = 9.81;
 /// Tolerances of the runs: error control must not hide what is compared.
 const TIGHT: f64 = 1e-12;
 
-/// How a mechanism is written down: lengths times `size`, turned by `angle`, then moved; bodies and joints in reverse order or not.
+/// How a mechanism is written down: lengths times `size`, turned by `angle`, then moved; bodies and
+/// joints in reverse order or not.
 #[derive(Clone, Copy)]
 struct Change {
     name: &'static str,
@@ -101,7 +102,8 @@ impl Change {
         [cos * x - sin * y, sin * x + cos * y]
     }
 
-    /// What accuracy is left: coordinates of 1e6 m are known to 1e-10 m, and rounding grows a hundredfold on the way.
+    /// What accuracy is left: coordinates of 1e6 m are known to 1e-10 m, and rounding grows a
+    /// hundredfold on the way.
     fn bound(&self) -> f64 {
         let far = self.by[0].abs().max(self.by[1].abs());
         1e-10 + 1e2 * f64::EPSILON * far
@@ -205,7 +207,8 @@ fn three_cranks(change: &Change) -> Description {
     }
 }
 
-/// What is said of a mechanism, by name: ranks, then the verdict and the number of unique directions of each reaction.
+/// What is said of a mechanism, by name: ranks, then the verdict and the number of unique
+/// directions of each reaction.
 fn said(a: &Analysis) -> (Vec<usize>, Vec<(String, &'static str, usize)>) {
     let mut reactions: Vec<_> = a
         .reactions

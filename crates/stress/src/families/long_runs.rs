@@ -65,8 +65,9 @@ fn pendulum() -> String {
     suite::find("a01-pendulum").map_or_else(String::new, |case| case.scene.to_owned())
 }
 
-/// Angle and rate of the bob against its start at t: released level to the left of the pivot, it falls with `φ̈ = (g/L)·cos φ`, φ from 0 to π
-/// and back. With `ψ = φ − π/2`: `sin(ψ/2) = −k·cd(ω₀t)`, `k = sin(45°)`.
+/// Angle and rate of the bob against its start at t: released level to the left of the pivot, it
+/// falls with `φ̈ = (g/L)·cos φ`, φ from 0 to π and back. With `ψ = φ − π/2`:
+/// `sin(ψ/2) = −k·cd(ω₀t)`, `k = sin(45°)`.
 fn swing(t: f64) -> [f64; 2] {
     let omega_0 = 9.81_f64.sqrt();
     let m = 0.5_f64;
@@ -117,7 +118,8 @@ mod tests {
     use crate::judge;
     use crate::motion::outcome;
 
-    /// The solution of the differential equation, by what it says of itself and by a quarter of its period: K(1/2) = 1.85407467730137192.
+    /// The solution of the differential equation, by what it says of itself and by a quarter of its
+    /// period: K(1/2) = 1.85407467730137192.
     #[test]
     fn the_closed_form_swings() {
         let quarter = 1.854_074_677_301_371_9 / 9.81_f64.sqrt();

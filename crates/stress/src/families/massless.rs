@@ -1,4 +1,5 @@
-//! Bodies without mass or inertia: accepted exactly where no motion is without both; the massless motion is named where there is one.
+//! Bodies without mass or inertia: accepted exactly where no motion is without both; the massless
+//! motion is named where there is one.
 
 use dynamics::MotionOptions;
 use joints::Fixed;
@@ -83,8 +84,8 @@ fn stone(mass: f64, inertia: f64) -> Description {
     }
 }
 
-/// Two links, horizontal and at rest: the first with its centre 1 m from the ground's pin, the second pinned 2 m from it, with its
-/// centre 1 m further or at the pin.
+/// Two links, horizontal and at rest: the first with its centre 1 m from the ground's pin, the
+/// second pinned 2 m from it, with its centre 1 m further or at the pin.
 #[derive(Clone, Copy)]
 struct Chain {
     /// Mass and inertia of both links, 0 or 1.

@@ -1,4 +1,5 @@
-//! Rows that are parallel but for ε, from 1e-2 to 1e-20: of full rank as they are written, and redundant only within what the data are known to.
+//! Rows that are parallel but for ε, from 1e-2 to 1e-20: of full rank as they are written, and
+//! redundant only within what the data are known to.
 
 use dynamics::MotionOptions;
 use joints::{Direction, KnifeEdge};
@@ -19,7 +20,8 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// Above this a rank in double precision has to be decided: singular values are told apart down to 1e-7.
+/// Above this a rank in double precision has to be decided: singular values are told apart down to
+/// 1e-7.
 const DECIDED: f64 = 1e-6;
 /// Some thousand roundings of numbers of size 1: no larger ε may be taken for rounding.
 const ROUNDING: f64 = 1e-12;
@@ -51,7 +53,8 @@ fn cases() -> Vec<Case> {
         {
             let source = "closed form: turns about the contact of the right wheel; a hundred times the tolerance, and the rounding of the start over ε up to 1e-3";
             let bound = (1e-6 + 10.0 * f64::EPSILON / e).min(1e-3);
-            // Where velocities are not known any more, a refusal must name the edge; where the data may as well mean parallel edges, it must say so.
+            // Where velocities are not known any more, a refusal must name the edge; where the data
+            // may as well mean parallel edges, it must say so.
             let named = match (READ_BOTH_WAYS..ROUNDED_AWAY).contains(&e) {
                 true => "their rounding",
                 false => "`right`",
@@ -91,7 +94,8 @@ pub(super) fn verdict(e: f64) -> Expected {
     }
 }
 
-/// A cart of unit mass and inertia on two knife edges under its centre, the right one turned by ε. It goes round the contact of the right wheel.
+/// A cart of unit mass and inertia on two knife edges under its centre, the right one turned by ε.
+/// It goes round the contact of the right wheel.
 fn axle(e: f64) -> Description {
     let edge = |name: &str, y: f64, normal: [f64; 2]| {
         let normal = Direction::new(normal).unwrap_or(Direction::Y);
@@ -154,7 +158,8 @@ fn right_of(a: &Analysis, exact: usize, e: f64) -> Result<Outcome, Outcome> {
         "{detail}, {:.0e}",
         warned.map_or(f64::NAN, |near| near.sigma)
     );
-    // As written is right with a warning of the size of ε; otherwise the data must be in doubt, and the answer must say so.
+    // As written is right with a warning of the size of ε; otherwise the data must be in doubt, and
+    // the answer must say so.
     let right = match rank == exact {
         true => {
             let told = e >= WARNED || warned.is_some_and(|near| near.sigma <= 2.0 * e);

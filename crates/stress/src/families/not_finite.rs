@@ -1,5 +1,5 @@
-//! Forces of a user that have no value any more: the run stops at the last good state and says when and where; it neither panics nor halves its
-//! steps for ever.
+//! Forces of a user that have no value any more: the run stops at the last good state and says when
+//! and where; it neither panics nor halves its steps for ever.
 
 use dynamics::{MotionOptions, RowChoice, prepare, simulate};
 use joints::spec::Spec;
@@ -16,7 +16,8 @@ pub(super) const FAMILY: Family = Family {
     cases,
 };
 
-/// The body passes x = 1 with `ẋ²/2 = ∫√(1 − x) dx = 2/3` from rest at 0; before, `t = ∫₀¹ dx/√(4/3·(1 − (1 − x)^(3/2)))`.
+/// The body passes x = 1 with `ẋ²/2 = ∫√(1 − x) dx = 2/3` from rest at 0; before,
+/// `t = ∫₀¹ dx/√(4/3·(1 − (1 − x)^(3/2)))`.
 const T_END: f64 = 10.0;
 
 fn cases() -> Vec<Case> {

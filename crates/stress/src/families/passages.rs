@@ -1,5 +1,5 @@
-//! Flat loops passed while a step has to end beside the flat pose: where the rank drops, branches of the motion meet, and accelerations are a
-//! quotient of two numbers that both vanish.
+//! Flat loops passed while a step has to end beside the flat pose: where the rank drops, branches
+//! of the motion meet, and accelerations are a quotient of two numbers that both vanish.
 
 use dynamics::{Method, MotionOptions};
 use joints::RevoluteAngleDrive;
@@ -63,7 +63,8 @@ fn passed(pivots: &'static [f64], offset: f64, options: &MotionOptions) -> Case 
     let is_certain = is_explicit(options.method) && offset.abs() > NEAR;
     let right = match is_certain {
         true => Expected::answer(bound, source),
-        // A step that has to end there, or stages that cannot keep away, may be too near to tell the branches apart.
+        // A step that has to end there, or stages that cannot keep away, may be too near to tell
+        // the branches apart.
         false => Expected::AnswerOrRefusal {
             bound,
             source,
@@ -102,7 +103,8 @@ fn driven(pivots: &[f64], offset: f64) -> Description {
     d
 }
 
-/// How far cranks are from parallel ones at an angle, turning with 1 rad/s, and the coupler from level.
+/// How far cranks are from parallel ones at an angle, turning with 1 rad/s, and the coupler from
+/// level.
 fn off(row: &Row, angle: f64) -> f64 {
     let last = row.q.len() / 3 - 1;
     let of_crank = |k: usize| [row.q[3 * k + 2] - angle, row.v[3 * k + 2] - 1.0];

@@ -37,7 +37,8 @@ fn cases() -> Vec<Case> {
             output_step: t_end,
             ..MotionOptions::to(t_end)
         };
-        // An error of the speed made in step k of N moves the phase by all steps after it: N²/2 tolerances, some tens of steps a turn.
+        // An error of the speed made in step k of N moves the phase by all steps after it: N²/2
+        // tolerances, some tens of steps a turn.
         let drift = 0.05 * (50.0 * turns).powi(2);
         for options in combinations(&base) {
             if options.method != Method::Auto && turns > 100.0 {
@@ -55,7 +56,8 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// Methods of low order need more steps for this tolerance than are allowed, or shorter ones than velocities of this size are known to.
+/// Methods of low order need more steps for this tolerance than are allowed, or shorter ones than
+/// velocities of this size are known to.
 fn limit(bound: f64) -> Expected {
     Expected::AnswerOrRefusal {
         bound,

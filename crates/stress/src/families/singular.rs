@@ -1,4 +1,5 @@
-//! Configurations in which the rank is less than elsewhere: the verdict there, the verdict everywhere else, and both told.
+//! Configurations in which the rank is less than elsewhere: the verdict there, the verdict
+//! everywhere else, and both told.
 
 use joints::KnifeEdge;
 use joints::plane::Direction;
@@ -101,7 +102,8 @@ fn cases() -> Vec<Case> {
         right,
         stopped,
     ));
-    // From the lengths of the linkage: the pin of the link turns by 90° about B, the slider follows at the distance of the link.
+    // From the lengths of the linkage: the pin of the link turns by 90° about B, the slider follows
+    // at the distance of the link.
     for (name, displacement) in [
         ("front edge at +90°", 0.11 - 0.0601_f64.sqrt()),
         ("front edge at −90°", 0.29 - 0.0401_f64.sqrt()),
@@ -248,7 +250,8 @@ fn steered(displacement: f64) -> Result<Outcome, Outcome> {
         let t = f64::from(k) / f64::from(STEPS);
         q = nearest_configuration(&mechanism, t, &rows, &q).map_err(Outcome::refused)?;
     }
-    // The robot touches no ground: with the platform along the x-axis its edges are along the y-axis.
+    // The robot touches no ground: with the platform along the x-axis its edges are along the
+    // y-axis.
     let (sin, cos) = q[2].sin_cos();
     let heading = q[2];
     for body in q.chunks_mut(3) {

@@ -1,4 +1,5 @@
-//! Starts that do not satisfy their constraints: the smallest correction in the mass metric, or a refusal that says how far they are off.
+//! Starts that do not satisfy their constraints: the smallest correction in the mass metric, or a
+//! refusal that says how far they are off.
 
 use model::start::scene_size;
 

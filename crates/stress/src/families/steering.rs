@@ -1,5 +1,5 @@
-//! A steered wheel turned through ±90°, where forward speed is no velocity coordinate any more; and two wheels that are steered alike, which
-//! lock.
+//! A steered wheel turned through ±90°, where forward speed is no velocity coordinate any more; and
+//! two wheels that are steered alike, which lock.
 
 use dynamics::MotionOptions;
 
@@ -108,15 +108,17 @@ normal = [0.0, 1.0]
     text
 }
 
-/// Speeds of the middle of the rear axle along the frame, and of turning, at an angle of steering: with the speed u of the front wheel
-/// `v = u·cos δ`, `ω = u·sin δ/L`, and `u²·(m·cos²δ + J·sin²δ/L²)` keeps its value at δ = 0, v = 1 m/s.
+/// Speeds of the middle of the rear axle along the frame, and of turning, at an angle of steering:
+/// with the speed u of the front wheel `v = u·cos δ`, `ω = u·sin δ/L`, and
+/// `u²·(m·cos²δ + J·sin²δ/L²)` keeps its value at δ = 0, v = 1 m/s.
 fn speeds(delta: f64) -> [f64; 2] {
     let (sin, cos) = delta.sin_cos();
     let u = (MASS / (MASS * cos * cos + INERTIA * (sin / BASE).powi(2))).sqrt();
     [u * cos, u * sin / BASE]
 }
 
-/// Place, heading, forward speed and rate of turning at the end. The integrals by Gauss–Legendre with four nodes on pieces of 1 ms.
+/// Place, heading, forward speed and rate of turning at the end. The integrals by Gauss–Legendre
+/// with four nodes on pieces of 1 ms.
 fn closed_form() -> [f64; 5] {
     const NODES: [f64; 2] = [0.339_981_043_584_856_3, 0.861_136_311_594_052_6];
     const WEIGHTS: [f64; 2] = [0.652_145_154_862_546_1, 0.347_854_845_137_453_9];

@@ -1,5 +1,5 @@
-//! Springs and dampers up to the end of what can be integrated: a rotor behind a spring and a damper on a base that swings, and a block on a
-//! bushing without damping.
+//! Springs and dampers up to the end of what can be integrated: a rotor behind a spring and a
+//! damper on a base that swings, and a block on a bushing without damping.
 
 use dynamics::{Method, MotionOptions};
 
@@ -19,7 +19,8 @@ const INERTIA: f64 = 2.0;
 const SWING: f64 = 0.3;
 const T_END: f64 = 2.0;
 
-/// Steps allowed: methods that cannot do with them say so. The choice of a method allows an explicit one about as many as the second.
+/// Steps allowed: methods that cannot do with them say so. The choice of a method allows an
+/// explicit one about as many as the second.
 const MAX_STEPS: u64 = 5_000;
 const MAX_STEPS_OF_CHOICE: u64 = 40_000;
 
@@ -48,7 +49,8 @@ fn cases() -> Vec<Case> {
                 let oscillator = Oscillator {
                     stiffness,
                     damping,
-                    // With a damper the rotor begins with the foot, without one at rest and off equilibrium.
+                    // With a damper the rotor begins with the foot, without one at rest and off
+                    // equilibrium.
                     start: if damping > 0.0 {
                         [0.0, SWING]
                     } else {
@@ -96,7 +98,8 @@ impl Oscillator {
             false => fastest * T_END,
         };
         let tolerances = LEAST.max(10.0 * steps(options.method, phase, RTOL));
-        // A rotor behind a stiff spring has an angle to 1e-16 and so a force to k·1e-16, which moves it by c/k or 1/ω of that.
+        // A rotor behind a stiff spring has an angle to 1e-16 and so a force to k·1e-16, which
+        // moves it by c/k or 1/ω of that.
         let bound = tolerances * RTOL;
         let right = Expected::AnswerOrRefusal {
             bound,
@@ -206,7 +209,8 @@ free_angle = 0.0
     }
 }
 
-/// `m·ẍ = −k·x`, `m·ÿ = −k·y/4` of a block on a bushing, which is at rest at the start: the block moves off.
+/// `m·ẍ = −k·x`, `m·ÿ = −k·y/4` of a block on a bushing, which is at rest at the start: the block
+/// moves off.
 #[derive(Clone, Copy)]
 struct Block {
     stiffness: f64,

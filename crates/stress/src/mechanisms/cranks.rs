@@ -5,8 +5,9 @@ use model::{Body, BodyRef, Description, Drive, Function, Joint};
 
 use super::{revolute, rod};
 
-/// Cranks of length `length` at angle θ (from the x-axis) on ground pivots `(x, 0)`, under one horizontal coupler.
-/// Body k is crank k, the last one the coupler; joint 2k is the ground pivot of crank k, joint 2k + 1 its tip.
+/// Cranks of length `length` at angle θ (from the x-axis) on ground pivots `(x, 0)`, under one
+/// horizontal coupler. Body k is crank k, the last one the coupler; joint 2k is the ground pivot of
+/// crank k, joint 2k + 1 its tip.
 pub fn cranks(pivots: &[f64], length: f64, theta: f64) -> Description {
     let tip = |x: f64| [x + length * theta.cos(), length * theta.sin()];
     let mut bodies: Vec<Body> = pivots
@@ -70,9 +71,10 @@ pub fn driven_parallelogram(motions: [Function; 2]) -> Description {
     d
 }
 
-/// Three vertical cranks of 1 m under a coupler whose frame is at the tip of the third. That tip misses by ε on both bodies, so all
-/// points coincide but the crank is not parallel to the others. ε stands in place of a zero in frames with the axes of the ground,
-/// so that the constraint matrix holds it whatever its size.
+/// Three vertical cranks of 1 m under a coupler whose frame is at the tip of the third. That tip
+/// misses by ε on both bodies, so all points coincide but the crank is not parallel to the others.
+/// ε stands in place of a zero in frames with the axes of the ground, so that the constraint matrix
+/// holds it whatever its size.
 pub fn misaligned(error: f64) -> Description {
     let body = |name: String, position: [f64; 2]| Body {
         name,

@@ -1,5 +1,5 @@
-//! The robot with its trolley, written out by hand: the same mechanism as `crates/robot-trolley/robot-trolley.toml`, from the
-//! same dimensions, but by another way.
+//! The robot with its trolley, written out by hand: the same mechanism as
+//! `crates/robot-trolley/robot-trolley.toml`, from the same dimensions, but by another way.
 
 use joints::plane::Direction;
 use joints::{KnifeEdge, Pose, Revolute, Translational, TranslationalDisplacementDrive};

@@ -1,6 +1,7 @@
-//! Mechanisms drawn at one configuration: joints are given by global points and directions there, so that the same drawing gives
-//! a mechanism of the `model`, its constraint matrix in exact arithmetic by another way, and the same mechanism in other
-//! units, at another place, turned, or in another order.
+//! Mechanisms drawn at one configuration: joints are given by global points and directions there,
+//! so that the same drawing gives a mechanism of the `model`, its constraint matrix in exact
+//! arithmetic by another way, and the same mechanism in other units, at another place, turned, or
+//! in another order.
 
 mod change;
 mod rows;
@@ -36,7 +37,8 @@ pub struct Link {
     pub tie: Tie,
 }
 
-/// What a joint or drive does, at global points `at` (on the first body `from`), along global directions of any length.
+/// What a joint or drive does, at global points `at` (on the first body `from`), along global
+/// directions of any length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Tie {
     /// Both bodies share a point.

@@ -55,7 +55,8 @@ pub struct FreeReaction {
 pub enum Free {
     /// The force, in every direction.
     Force,
-    /// The force along this direction (global components, length 1); across it the force is determined.
+    /// The force along this direction (global components, length 1); across it the force is
+    /// determined.
     Along([f64; 2]),
     /// The force along this direction, and the torque.
     AlongAndTorque([f64; 2]),

@@ -13,7 +13,8 @@ pub(super) trait Family: Send + Sync {
     /// The reactions that are not unique at the start, in the order of the file.
     fn free_reactions(&self) -> Vec<FreeReaction>;
 
-    /// In words, for the head of the file: what it is, and which reactions are not unique. One line each.
+    /// In words, for the head of the file: what it is, and which reactions are not unique. One line
+    /// each.
     fn words(&self) -> Vec<String>;
 
     /// Writes everything but the head of the file: gravity, bodies, joints, forces, and the run.

@@ -1,7 +1,9 @@
-//! Copies of the robot with its trolley, side by side, neighbours coupled by a spring with a damper between their platforms.
+//! Copies of the robot with its trolley, side by side, neighbours coupled by a spring with a damper
+//! between their platforms.
 //!
-//! Forces change no rank: each copy has 21 coordinates, 22 rows, rank 20 and the verdicts of the one robot. All start alike and steer
-//! alike, so the springs keep their lengths, and every copy moves as the robot alone does.
+//! Forces change no rank: each copy has 21 coordinates, 22 rows, rank 20 and the verdicts of the
+//! one robot. All start alike and steer alike, so the springs keep their lengths, and every copy
+//! moves as the robot alone does.
 
 use std::io;
 
@@ -12,7 +14,8 @@ use super::text::SceneText;
 /// The robot.
 const ROBOT: &str = include_str!("../../../robot-trolley/robot-trolley.toml");
 
-/// Joints of the robot whose reactions are not unique, while it drives straight: across the way only.
+/// Joints of the robot whose reactions are not unique, while it drives straight: across the way
+/// only.
 const NOT_UNIQUE: [&str; 6] = ["B", "C", "W1", "W2", "W3", "W4"];
 
 /// Distance between neighbours (m).
@@ -131,7 +134,8 @@ impl Family for Fleet {
 mod tests {
     use super::*;
 
-    /// Every name is found, and every point: a change of the robot's file that this module does not follow shows here.
+    /// Every name is found, and every point: a change of the robot's file that this module does not
+    /// follow shows here.
     #[test]
     fn the_robot_is_taken_apart() {
         let fleet = Fleet::new(1);

@@ -1,16 +1,19 @@
-//! A square lattice of N × N cells that hangs from a corner: a rod for each side, pinned where rods meet, and braces in pairs of neighbouring
-//! cells along the diagonal.
+//! A square lattice of N × N cells that hangs from a corner: a rod for each side, pinned where rods
+//! meet, and braces in pairs of neighbouring cells along the diagonal.
 //!
-//! Without braces, opposite sides of each cell stay parallel, so that every column of cells has one angle, every row of cells another
-//! one, and these 2·N angles are all that can move. A brace ties the angle of its column to that of its row (Bolker and Crapo,
-//! Bracing rectangular frameworks I, SIAM J. Appl. Math. 36, 1979, doi 10.1137/0136036: braces are edges between rows and columns). Each
-//! braced block of 2 × 2 cells has four braces between two rows and two columns: three of them make four angles one, and the fourth is
-//! redundant. So k braced blocks leave `2·N − 3·k` freedoms and a redundancy of k.
+//! Without braces, opposite sides of each cell stay parallel, so that every column of cells has one
+//! angle, every row of cells another one, and these 2·N angles are all that can move. A brace ties
+//! the angle of its column to that of its row (Bolker and Crapo, Bracing rectangular frameworks I,
+//! SIAM J. Appl. Math. 36, 1979, doi 10.1137/0136036: braces are edges between rows and columns).
+//! Each braced block of 2 × 2 cells has four braces between two rows and two columns: three of them
+//! make four angles one, and the fourth is redundant. So k braced blocks leave `2·N − 3·k` freedoms
+//! and a redundancy of k.
 //!
-//! Without any load, the braces of a block can be stretched by `1, −1, −1, 1` (times √2): on each line of rods, the forces along it then
-//! vanish in sum at both ends, so the sides of the block take them up, and nothing outside the block feels it. A pin that
-//! connects two rods of a node carries what the rods before it in the node's list bring along. That is a whole number along each
-//! direction, found in [`Lattice::free`] without rounding.
+//! Without any load, the braces of a block can be stretched by `1, −1, −1, 1` (times √2): on each
+//! line of rods, the forces along it then vanish in sum at both ends, so the sides of the block
+//! take them up, and nothing outside the block feels it. A pin that connects two rods of a node
+//! carries what the rods before it in the node's list bring along. That is a whole number along
+//! each direction, found in [`Lattice::free`] without rounding.
 
 use std::io;
 
@@ -68,9 +71,11 @@ impl Rod {
         }
     }
 
-    /// Its pull where the braces of a block (number from 0 along the diagonal) are stretched against each other.
+    /// Its pull where the braces of a block (number from 0 along the diagonal) are stretched
+    /// against each other.
     fn pull(self, block: usize) -> i32 {
-        /// By column and line, of rods across; those downwards are the same with column and line exchanged.
+        /// By column and line, of rods across; those downwards are the same with column and line
+        /// exchanged.
         const SIDES: [[i32; 3]; 2] = [[-1, 1, 0], [0, 1, -1]];
         let [c, r] = self.start();
         let (Some(c), Some(r)) = (c.checked_sub(BLOCK * block), r.checked_sub(BLOCK * block))
@@ -130,7 +135,8 @@ impl Lattice {
         [across, down, brace].into_iter().flatten()
     }
 
-    /// Rods that meet at a node, with the sign of their direction away from it: those that end there, then those that start there.
+    /// Rods that meet at a node, with the sign of their direction away from it: those that end
+    /// there, then those that start there.
     fn meeting(&self, node: [usize; 2]) -> Vec<(Rod, i32)> {
         let [c, r] = node;
         let left = c.checked_sub(1).map(|c| Rod::Across([c, r]));
@@ -146,8 +152,8 @@ impl Lattice {
             .collect()
     }
 
-    /// What of the reaction of the pin number `pin` (from 0) of a node is not determined: all that the rods before it, itself included,
-    /// can pull without any load.
+    /// What of the reaction of the pin number `pin` (from 0) of a node is not determined: all that
+    /// the rods before it, itself included, can pull without any load.
     fn free(&self, [c, r]: [usize; 2], meeting: &[(Rod, i32)], pin: usize) -> Option<Free> {
         let near = [c / BLOCK, (c / BLOCK).wrapping_sub(1)];
         let blocks = near.into_iter().filter(|&block| {

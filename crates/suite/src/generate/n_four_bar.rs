@@ -1,8 +1,9 @@
-//! The N-four-bar: N + 1 unit uprights on the ground, N unit rods between their tops, all loops parallelograms. Uprights
-//! stand at the start, and the tops move with 1 m/s.
+//! The N-four-bar: N + 1 unit uprights on the ground, N unit rods between their tops, all loops
+//! parallelograms. Uprights stand at the start, and the tops move with 1 m/s.
 //!
 //! One angle tells everything: with θ from the upward vertical, of every upright,
-//! `[(N + 1)/3 + N]·θ̈ = [(N + 1)/2 + N]·g·sin θ` for rods of 1 kg and 1 m. No row is redundant while the uprights are not horizontal.
+//! `[(N + 1)/3 + N]·θ̈ = [(N + 1)/2 + N]·g·sin θ` for rods of 1 kg and 1 m. No row is redundant
+//! while the uprights are not horizontal.
 //!
 //! Source: the benchmark A02 of the IFToMM/LIM library, for N = 2.
 

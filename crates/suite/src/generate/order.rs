@@ -22,7 +22,8 @@ const NAMES: f64 = 3.0;
 pub enum Kind {
     /// Loops of unit rods in a row, one freedom.
     NFourBar,
-    /// A chain of parallelogram cells, each on the coupler of the one before; three cranks make a cell redundant.
+    /// A chain of parallelogram cells, each on the coupler of the one before; three cranks make a
+    /// cell redundant.
     Parallelograms,
     /// A square grid of rods that hangs from a corner, some of its cells braced.
     Lattice,
@@ -66,7 +67,8 @@ impl Kind {
         }
     }
 
-    /// The share of its cells that are redundant where nobody says otherwise; nothing where there is no choice.
+    /// The share of its cells that are redundant where nobody says otherwise; nothing where there
+    /// is no choice.
     fn share(self) -> Option<f64> {
         match self {
             Self::NFourBar | Self::Fleet => None,
@@ -90,7 +92,8 @@ impl Kind {
         }
     }
 
-    /// The size by which larger ones are measured: some hundreds of bodies, and enough where they differ at random.
+    /// The size by which larger ones are measured: some hundreds of bodies, and enough where they
+    /// differ at random.
     fn sample(self) -> usize {
         match self {
             Self::Lattice => 20,
@@ -264,7 +267,8 @@ impl Order {
     }
 }
 
-/// About how large a scene is (bytes): a small one of its family, grown, and the longer numbers in its names.
+/// About how large a scene is (bytes): a small one of its family, grown, and the longer numbers in
+/// its names.
 fn estimate(kind: Kind, n: usize, seed: u64, share: f64) -> f64 {
     let sample = n.min(kind.sample());
     let small = Generator {

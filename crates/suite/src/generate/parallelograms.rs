@@ -1,10 +1,13 @@
-//! A chain of parallelogram cells: the cranks of each cell stand on the coupler of the one before, the first ones on the ground.
+//! A chain of parallelogram cells: the cranks of each cell stand on the coupler of the one before,
+//! the first ones on the ground.
 //!
-//! A cell with two cranks has 9 coordinates and 8 independent rows: its coupler moves on a circle and does not turn. A third crank adds
-//! three coordinates and four rows, and does not change that motion: 11 of the 12 rows are independent. Without any load its three cranks,
-//! which are parallel, can press with the forces 1 : −2 : 1 along themselves: force and torque on both couplers vanish, so the rest of
-//! the chain does not feel it. So each cell with three cranks has a redundancy of one, in which only its own six revolutes take
-//! part, along the cranks; across the cranks their reactions are determined by the accelerations of the cranks.
+//! A cell with two cranks has 9 coordinates and 8 independent rows: its coupler moves on a circle
+//! and does not turn. A third crank adds three coordinates and four rows, and does not change that
+//! motion: 11 of the 12 rows are independent. Without any load its three cranks, which are
+//! parallel, can press with the forces 1 : −2 : 1 along themselves: force and torque on both
+//! couplers vanish, so the rest of the chain does not feel it. So each cell with three cranks has a
+//! redundancy of one, in which only its own six revolutes take part, along the cranks; across the
+//! cranks their reactions are determined by the accelerations of the cranks.
 
 use std::io;
 
@@ -64,7 +67,8 @@ impl Parallelograms {
         }
     }
 
-    /// The cells in their order. Cranks lean back towards the origin, so that a chain of any length stays in a small place.
+    /// The cells in their order. Cranks lean back towards the origin, so that a chain of any length
+    /// stays in a small place.
     fn cells(&self) -> impl Iterator<Item = Cell> + '_ {
         let mut numbers = Numbers::new(self.seed);
         let (mut base, mut rise) = ([0.0; 2], 0.0);

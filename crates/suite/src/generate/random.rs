@@ -1,8 +1,10 @@
-//! Modules at random, each on a body of an earlier one or on the ground, with redundancy where it is known.
+//! Modules at random, each on a body of an earlier one or on the ground, with redundancy where it
+//! is known.
 //!
-//! A module adds bodies and joints to one body that is there already. Its joints compare its own bodies with that body, so a combination
-//! of its rows that vanishes on its own bodies vanishes on that body, too: such rows do not feel rigid motions of everything. Hence C
-//! is block triangular, its redundancy is the sum of those of the modules, and so are the loads that need none.
+//! A module adds bodies and joints to one body that is there already. Its joints compare its own
+//! bodies with that body, so a combination of its rows that vanishes on its own bodies vanishes on
+//! that body, too: such rows do not feel rigid motions of everything. Hence C is block triangular,
+//! its redundancy is the sum of those of the modules, and so are the loads that need none.
 //!
 //! | module | bodies | rows | redundancy | not unique |
 //! | --- | --- | --- | --- | --- |

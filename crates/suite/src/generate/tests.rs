@@ -1,4 +1,5 @@
-//! What can be seen in the text alone. Ranks and verdicts are compared where scenes can be read: in the package `tests`.
+//! What can be seen in the text alone. Ranks and verdicts are compared where scenes can be read: in
+//! the package `tests`.
 
 use std::collections::BTreeSet;
 use std::io::{self, Write};

@@ -110,7 +110,8 @@ fn has_duplicates(handles: impl Iterator<Item = Expr>) -> bool {
     list.len() < n
 }
 
-/// `x + y`, `x + y + z`, `x·y`, `x·y·z`, `2·x·y`: each the beginning of another, or different by a number.
+/// `x + y`, `x + y + z`, `x·y`, `x·y·z`, `2·x·y`: each the beginning of another, or different by a
+/// number.
 fn similar(g: &mut Graph, k: usize) -> Expr {
     let [x, y, z] = INPUTS.map(|name| g.symbol(name));
     match k {

@@ -1,6 +1,6 @@
-//! Runs printed code from its text, with the precedence that `syn` gives it, and counts what it executes.
-//! Anything that would not compile is an error here too: literals of no definite type as receivers of
-//! methods, bare literals in generic code, names that nobody defined.
+//! Runs printed code from its text, with the precedence that `syn` gives it, and counts what it
+//! executes. Anything that would not compile is an error here too: literals of no definite type as
+//! receivers of methods, bare literals in generic code, names that nobody defined.
 
 use std::collections::HashMap;
 

@@ -1,8 +1,9 @@
-//! The contract of the crate, seen from outside: canonical form, derivatives, programs and printed code.
+//! The contract of the crate, seen from outside: canonical form, derivatives, programs and printed
+//! code.
 //!
-//! The references are independent of the code under test: [`tree`] keeps an expression as it was written,
-//! [`running`] evaluates it on dual numbers with a bound of its rounding error, [`interpreter`] runs printed
-//! code from its text.
+//! The references are independent of the code under test: [`tree`] keeps an expression as it was
+//! written, [`running`] evaluates it on dual numbers with a bound of its rounding error,
+//! [`interpreter`] runs printed code from its text.
 
 mod canonical;
 mod counts;

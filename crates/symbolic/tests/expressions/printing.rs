@@ -1,4 +1,5 @@
-//! Printed code: the same values as direct evaluation, the counted operations and no others, and the text.
+//! Printed code: the same values as direct evaluation, the counted operations and no others, and
+//! the text.
 
 use proptest::prelude::*;
 use symbolic::{Expr, Function, Graph, Printer, Program, Scalar};

@@ -1,6 +1,7 @@
-//! Dual numbers that know how wrong they may be: `num-dual` gives value and derivative, a first-order
-//! running error analysis (Wilkinson; Higham 2002, section 3.3) gives a bound for the rounding of each.
-//! Two evaluations of the same mathematics may differ by the sum of their bounds and by no more.
+//! Dual numbers that know how wrong they may be: `num-dual` gives value and derivative, a
+//! first-order running error analysis (Wilkinson; Higham 2002, section 3.3) gives a bound for the
+//! rounding of each. Two evaluations of the same mathematics may differ by the sum of their bounds
+//! and by no more.
 
 use std::ops::{Add, Div, Mul, Neg};
 
@@ -10,7 +11,8 @@ use symbolic::{Function, Number};
 /// Covers terms of second order, and constants folded by the graph in an order of its own.
 const SAFETY: f64 = 4.0;
 
-/// Beyond this relative error of an argument the first order says nothing about `1/u`, `√u`, `sin u`.
+/// Beyond this relative error of an argument the first order says nothing about `1/u`, `√u`,
+/// `sin u`.
 const FIRST_ORDER: f64 = 1e-6;
 
 /// A value and a derivative with bounds of their errors, in units of the machine epsilon.
@@ -70,7 +72,8 @@ impl Running {
         self.chain(self.dual.recip(), f1, f2, u.abs())
     }
 
-    /// `f(self)`, where `dual` is the result and `f1`, `f2` are first and second derivatives at the argument.
+    /// `f(self)`, where `dual` is the result and `f1`, `f2` are first and second derivatives at the
+    /// argument.
     fn chain(self, dual: Dual64, f1: f64, f2: f64, scale: f64) -> Self {
         let slope = self.dual.eps;
         let trusted = self.value_error * f64::EPSILON <= FIRST_ORDER * scale;

@@ -132,8 +132,8 @@ pub(crate) fn input_of<T: Copy>(inputs: &[T; 3], name: &str) -> T {
     inputs[k.expect("only the inputs of INPUTS are used")]
 }
 
-/// Random trees. Constants are powers of two, so that the graph folds them without rounding as long as no
-/// sum of constants is inverted.
+/// Random trees. Constants are powers of two, so that the graph folds them without rounding as long
+/// as no sum of constants is inverted.
 pub(crate) fn trees() -> impl Strategy<Value = Tree> {
     let leaf = prop_oneof![
         4 => (0..INPUTS.len()).prop_map(Tree::Input),

@@ -57,7 +57,8 @@ enum Kept {
         radius: usize,
         phase: usize,
     },
-    /// Velocity of a point along a direction of its body, less radius times the rotation of another.
+    /// Velocity of a point along a direction of its body, less radius times the rotation of
+    /// another.
     Edge {
         side: Side,
         point: usize,

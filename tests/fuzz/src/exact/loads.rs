@@ -1,5 +1,5 @@
-//! Reactions of a drawing at rest under gravity, by the equations of motion in doubles with the rank
-//! that exact arithmetic tells: bodies of one kilogram and one kg·m².
+//! Reactions of a drawing at rest under gravity, by the equations of motion in doubles with the
+//! rank that exact arithmetic tells: bodies of one kilogram and one kg·m².
 
 use pfaff::linalg::{Matrix, small_svd};
 
@@ -10,8 +10,8 @@ use super::rows;
 /// Reactions, and the largest load.
 #[derive(Clone)]
 pub struct Reactions {
-    /// Fx, Fy and the torque about its place (N·m) on the first body of each joint or drive, for the
-    /// multipliers of the least norm; no torque where the drawing does not tell the place.
+    /// Fx, Fy and the torque about its place (N·m) on the first body of each joint or drive, for
+    /// the multipliers of the least norm; no torque where the drawing does not tell the place.
     pub each: Vec<([f64; 2], Option<f64>)>,
     /// The largest applied or inertial force (N; torques divided by the size).
     pub load: f64,

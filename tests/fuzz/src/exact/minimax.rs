@@ -11,7 +11,8 @@ const CLOSE: f64 = 1.1;
 /// No weight falls below this share of the largest.
 const LEAST_WEIGHT: f64 = 1e-8;
 
-/// Equations whose left sides depend on each other contradict each other by more than this share of the right ones.
+/// Equations whose left sides depend on each other contradict each other by more than this share of
+/// the right ones.
 const CONTRADICTS: f64 = 1e-6;
 
 /// One equation.

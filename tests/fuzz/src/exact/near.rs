@@ -1,10 +1,10 @@
-//! How far the data of a drawing are from a lower rank: τ* of data that are known to a length, which
-//! no smaller change makes redundant and a larger one may. Also, whether a redundancy belongs to the
-//! mechanism or to its pose.
+//! How far the data of a drawing are from a lower rank: τ* of data that are known to a length,
+//! which no smaller change makes redundant and a larger one may. Also, whether a redundancy belongs
+//! to the mechanism or to its pose.
 //!
 //! For one rank less r' rows are kept; with `U = [−C_D·C_K⁺, I]` and V the null space of C_K the
-//! entries of `Uᵀ·C·V` must vanish at all poses of a walk on the kept rows, by one change of the data
-//! that the poses follow, and so must `Uᵀ·Φ`. Gradients are finite differences.
+//! entries of `Uᵀ·C·V` must vanish at all poses of a walk on the kept rows, by one change of the
+//! data that the poses follow, and so must `Uᵀ·Φ`. Gradients are finite differences.
 
 use pfaff::linalg::{Matrix, small_svd};
 use tests::numbers::Numbers;

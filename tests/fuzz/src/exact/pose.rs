@@ -193,8 +193,8 @@ impl Posed {
         side.map(|k| self.frames[k].origin)
     }
 
-    /// The radius of a wheel on which a unit of `along` has this torque: the unit of force is that of
-    /// `along`, so that it is the torque divided by its length.
+    /// The radius of a wheel on which a unit of `along` has this torque: the unit of force is that
+    /// of `along`, so that it is the torque divided by its length.
     #[must_use]
     pub fn lever(&self, along: Vector, radius: Ratio) -> f64 {
         let ([x, y], k) = (along, Ratio::whole(i64::from(self.stretch)));

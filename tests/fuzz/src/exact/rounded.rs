@@ -233,7 +233,8 @@ pub struct Count {
     pub right: usize,
     /// Those of which the rank is another one, rightly, by why.
     pub other: BTreeMap<&'static str, usize>,
-    /// By the worst thing that is not right, and whether they are far: how many, and the first ones.
+    /// By the worst thing that is not right, and whether they are far: how many, and the first
+    /// ones.
     pub not: BTreeMap<(Kind, bool), (usize, Vec<u64>)>,
 }
 

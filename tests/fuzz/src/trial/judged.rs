@@ -83,7 +83,8 @@ fn verdicts(inquiry: &Inquiry<'_>) {
                 r.name
             );
         }
-        // A row in a dependency has a free multiplier; one in none has not. The dependencies are found by another way.
+        // A row in a dependency has a free multiplier; one in none has not. The dependencies are
+        // found by another way.
         for row in &r.rows {
             match &row.judgement.verdict {
                 Verdict::Unique => assert!(

@@ -11,17 +11,19 @@ use pfaff::report::{ReactionTable, Selection, TrajectoryTable};
 
 use super::{ROWS, Reach, STEPS, named};
 
-/// Residuals of projected rows are at most this share of the terms of their row of Φ or C·v − b. Next to a singular configuration
-/// coordinates are known to √ε = 1.5e-8 only, and what the kept rows leave reaches the others through coefficients, which above 10 lead to
-/// an exchange of rows: 1.5e-7. What is above is another motion, not a matter of accuracy. A run itself allows dropped rows 1e-11 of the terms
-/// that they depend on, by coefficients that are not computed here: this check shares nothing with it.
+/// Residuals of projected rows are at most this share of the terms of their row of Φ or C·v − b.
+/// Next to a singular configuration coordinates are known to √ε = 1.5e-8 only, and what the kept
+/// rows leave reaches the others through coefficients, which above 10 lead to an exchange of rows:
+/// 1.5e-7. What is above is another motion, not a matter of accuracy. A run itself allows dropped
+/// rows 1e-11 of the terms that they depend on, by coefficients that are not computed here: this
+/// check shares nothing with it.
 const RESIDUAL: f64 = 1e-6;
 
 /// Rates of what stands still, in sizes of the mechanism each second.
 const REST: f64 = 1e-14;
 
-/// Moves it, as far as a trial goes, and says how far that was and how many rows were shown. Tables are written as `simulate` writes them, and must be
-/// readable.
+/// Moves it, as far as a trial goes, and says how far that was and how many rows were shown. Tables
+/// are written as `simulate` writes them, and must be readable.
 pub(super) fn check(study: &Study) -> (Reach, usize) {
     let plan = match study.plan() {
         Ok(plan) => plan,
@@ -153,7 +155,8 @@ impl Rows<'_> {
                 layout.velocity_residual(s, i, v).abs(),
                 mechanism.velocity_scale(s, i, v),
             );
-            // What stands still is compared with the fastest row, and all of them with what rounding of accelerations leaves within a second.
+            // What stands still is compared with the fastest row, and all of them with what
+            // rounding of accelerations leaves within a second.
             let fastest = (0..layout.rows())
                 .map(|k| mechanism.velocity_scale(s, k, v))
                 .fold(scale, f64::max);

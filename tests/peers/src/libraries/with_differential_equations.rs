@@ -1,4 +1,5 @@
-//! `differential-equations`: states are arrays, and an observer that stores nothing replaces the one that keeps all steps.
+//! `differential-equations`: states are arrays, and an observer that stores nothing replaces the
+//! one that keeps all steps.
 
 use differential_equations::control::ControlFlag;
 use differential_equations::interpolate::Interpolation;
@@ -8,8 +9,8 @@ use differential_equations::prelude::{Matrix, Solout, Solution};
 
 use crate::problem::{Asked, Counted, Differentiated, End, Problem, Solved};
 
-// Radau IIA gets its tolerances per component: one number for all is replaced by 0.1·rtol^⅔ once for each component, which for
-// 42 components makes 10⁻³ of any tolerance.
+// Radau IIA gets its tolerances per component: one number for all is replaced by 0.1·rtol^⅔ once
+// for each component, which for 42 components makes 10⁻³ of any tolerance.
 
 /// The limit on steps is 10 000 by default; here it is that of our own methods.
 const MAX_STEPS: usize = 1_000_000;

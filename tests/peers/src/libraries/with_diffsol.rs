@@ -1,4 +1,5 @@
-//! `diffsol`: closures, dense nalgebra matrices (its faster choice at these sizes), steps without output.
+//! `diffsol`: closures, dense nalgebra matrices (its faster choice at these sizes), steps without
+//! output.
 
 use std::cell::RefCell;
 
@@ -103,8 +104,8 @@ where
     Ok(solver.get_statistics().number_of_steps as u64)
 }
 
-/// Products J·v by forward differences. f at the point is evaluated once for all products there: a dense Jacobian costs N + 1
-/// evaluations, as in the other libraries.
+/// Products J·v by forward differences. f at the point is evaluated once for all products there: a
+/// dense Jacobian costs N + 1 evaluations, as in the other libraries.
 struct Differences<'c, 'p, P, const N: usize> {
     ode: &'c Counted<'p, P>,
     point: RefCell<Point<N>>,
@@ -135,7 +136,8 @@ impl<'c, 'p, P: Problem<N>, const N: usize> Differences<'c, 'p, P, N> {
             (point.t, point.x) = (t, *x);
             self.ode.rhs(t, x, &mut point.f);
         }
-        // The increment of the library `differential-equations`: √eps·max(|x_k|, 1) for a unit vector.
+        // The increment of the library `differential-equations`: √eps·max(|x_k|, 1) for a unit
+        // vector.
         let largest = v.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
         let moved = x.iter().zip(v).filter(|(_, v)| **v != 0.0);
         let size = moved.fold(1.0, |m: f64, (x, _)| m.max(x.abs()));

@@ -1,4 +1,5 @@
-//! Our runs of mechanisms: projection after each step, monitors, energy balance, break times always honoured. Two rows of output.
+//! Our runs of mechanisms: projection after each step, monitors, energy balance, break times always
+//! honoured. Two rows of output.
 
 use std::ops::ControlFlow;
 
@@ -6,7 +7,8 @@ use dynamics::{Method, MotionOptions, Prepared, simulate};
 
 use crate::problem::{Asked, End, Solved, array};
 
-/// A run with a method; Radau IIA on independent coordinates, the others on kept rows with projection.
+/// A run with a method; Radau IIA on independent coordinates, the others on kept rows with
+/// projection.
 pub fn run<const N: usize>(method: Method, prepared: &Prepared, asked: &Asked<'_, N>) -> Solved<N> {
     let options = MotionOptions {
         output_step: asked.t_end,

@@ -1,4 +1,5 @@
-//! Our integrators on the plain right-hand side: no projection, no monitors, what a user of `integrators` alone gets.
+//! Our integrators on the plain right-hand side: no projection, no monitors, what a user of
+//! `integrators` alone gets.
 
 use std::error::Error;
 use std::ops::ControlFlow;

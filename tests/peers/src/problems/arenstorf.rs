@@ -1,4 +1,5 @@
-//! The Arenstorf orbit: restricted three-body problem, Hairer, Nørsett, Wanner, Solving ODEs I, II.0. It returns to its start.
+//! The Arenstorf orbit: restricted three-body problem, Hairer, Nørsett, Wanner, Solving ODEs I,
+//! II.0. It returns to its start.
 
 use crate::problem::Problem;
 

@@ -1,4 +1,5 @@
-//! A case of the suite as y' = [v; a(t, q, v)], a on kept rows: what a user would hand to another library. Planar bodies.
+//! A case of the suite as y' = [v; a(t, q, v)], a on kept rows: what a user would hand to another
+//! library. Planar bodies.
 
 use std::cell::RefCell;
 

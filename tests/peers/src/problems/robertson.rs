@@ -1,4 +1,5 @@
-//! Robertson's reaction up to t = 10¹¹ as an ordinary differential equation: problem ROBER of the Test Set for IVP Solvers.
+//! Robertson's reaction up to t = 10¹¹ as an ordinary differential equation: problem ROBER of the
+//! Test Set for IVP Solvers.
 
 use crate::problem::{Differentiated, Problem};
 

@@ -1,7 +1,8 @@
 //! One of two solvers of kept rows: dense for small mechanisms, sparse for large ones.
 //!
-//! The dense one eliminates C itself, row by row, with a new choice of coordinates each time: it knows the sign of a bordered determinant, takes
-//! independent coordinates, and masses may vanish. The sparse one eliminates the Schur complement of the masses in an order that is chosen once.
+//! The dense one eliminates C itself, row by row, with a new choice of coordinates each time: it
+//! knows the sign of a bordered determinant, takes independent coordinates, and masses may vanish.
+//! The sparse one eliminates the Schur complement of the masses in an order that is chosen once.
 
 use linalg::{GRADED_MASSES, SaddleError};
 use model::{Mechanism, System};
@@ -26,8 +27,9 @@ pub(super) enum Solver {
     Sparse(Box<Sparse>),
 }
 
-/// Whether so many kept rows of a mechanism are solved sparsely: there are many of them, every coordinate has a mass, and masses do not differ so
-/// much that solutions have to be refined, unless there are too many rows for anything else.
+/// Whether so many kept rows of a mechanism are solved sparsely: there are many of them, every
+/// coordinate has a mass, and masses do not differ so much that solutions have to be refined,
+/// unless there are too many rows for anything else.
 pub(in crate::motion) fn is_sparse(mechanism: &Mechanism, units: &[f64], rows: usize) -> bool {
     let is_graded = || linalg::mass_spread(&mass_in_units(mechanism, units)) >= GRADED_MASSES;
     rows >= SPARSE_FROM
@@ -158,7 +160,8 @@ impl Solver {
         }
     }
 
-    /// Takes the coordinates of the last factorisation first in the next ones; the sparse order is always the same.
+    /// Takes the coordinates of the last factorisation first in the next ones; the sparse order is
+    /// always the same.
     pub(super) fn keep_order(&mut self) {
         if let Self::Dense(it) = self {
             it.saddle.keep_order();
@@ -173,7 +176,8 @@ impl Solver {
         }
     }
 
-    /// Writes a frame of the motions that the factored rows allow; nothing where they are solved sparsely.
+    /// Writes a frame of the motions that the factored rows allow; nothing where they are solved
+    /// sparsely.
     pub(super) fn null_frame(&self, frame: &mut Vec<f64>) {
         frame.clear();
         if let Self::Dense(it) = self {
@@ -182,7 +186,8 @@ impl Solver {
         }
     }
 
-    /// Sign of the determinant of the factored rows bordered by a frame, 0 for a frame of another size and where they are solved sparsely.
+    /// Sign of the determinant of the factored rows bordered by a frame, 0 for a frame of another
+    /// size and where they are solved sparsely.
     pub(super) fn orientation(&mut self, frame: &[f64]) -> f64 {
         match self {
             Self::Dense(it) if frame.len() == it.n_free() * it.saddle.n_coordinates() => {

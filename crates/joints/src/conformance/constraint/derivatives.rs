@@ -1,4 +1,5 @@
-//! Kernels against derivatives of the kernels that come before them: C and b of Φ, Γ of both, and so on.
+//! Kernels against derivatives of the kernels that come before them: C and b of Φ, Γ of both, and
+//! so on.
 
 use super::super::Oracle;
 use super::super::block::Block;

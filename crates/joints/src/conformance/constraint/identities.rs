@@ -1,4 +1,5 @@
-//! What holds between kernels without derivatives: wrench, place, balance of forces, rigid motions, the start.
+//! What holds between kernels without derivatives: wrench, place, balance of forces, rigid motions,
+//! the start.
 
 use super::super::block::Block;
 use super::super::case::Case;
@@ -13,8 +14,8 @@ use crate::constraint::Constraint;
 use crate::plane::{N_DOF, Pose};
 use crate::spec::Level;
 
-/// The case with its poses moved until Φ = 0, or nearly so: corrections along one row of C after the other, which need
-/// no rank.
+/// The case with its poses moved until Φ = 0, or nearly so: corrections along one row of C after
+/// the other, which need no rank.
 fn closed<K: Constraint>(k: &K, case: &Case) -> Case {
     const SWEEPS: usize = 100;
     let mut case = case.clone();

@@ -1,17 +1,19 @@
 //! Choice of order and step size: the pair with the least work per unit of time.
 //!
-//! Source: HNW I, II.9, "Order and step size control", with the constants and the rules for first, last and rejected steps of the
-//! program ODEX. Columns are counted from 1.
+//! Source: HNW I, II.9, "Order and step size control", with the constants and the rules for first,
+//! last and rejected steps of the program ODEX. Columns are counted from 1.
 
 use super::{COLUMNS, substeps, work};
 
 /// A step aims at `SAFETY · (SAFETY_ERROR / err)^(1/(2j − 1))`.
 const SAFETY: f64 = 0.94;
 const SAFETY_ERROR: f64 = 0.65;
-/// Factors of h lie between `MIN_FACTOR^(1/(2j−1)) / MAX_DIVISOR` and the inverse of `MIN_FACTOR^(1/(2j−1))`.
+/// Factors of h lie between `MIN_FACTOR^(1/(2j−1)) / MAX_DIVISOR` and the inverse of
+/// `MIN_FACTOR^(1/(2j−1))`.
 const MIN_FACTOR: f64 = 0.02;
 const MAX_DIVISOR: f64 = 4.0;
-/// The order falls if the work per unit of time falls below this part, and rises below that part of what it is.
+/// The order falls if the work per unit of time falls below this part, and rises below that part of
+/// what it is.
 const LOWER_ORDER: f64 = 0.8;
 const HIGHER_ORDER: f64 = 0.9;
 /// Step-size factor where the columns diverge.
@@ -68,8 +70,8 @@ impl OrderControl {
         self.has_diverged = false;
     }
 
-    /// Judges column j ≥ 2 of a trial of size |h| with error norm `error`. `is_fresh`: at the start or end of a leg, where the
-    /// step size is not the choice of this control.
+    /// Judges column j ≥ 2 of a trial of size |h| with error norm `error`. `is_fresh`: at the start
+    /// or end of a leg, where the step size is not the choice of this control.
     pub(super) fn judge(&mut self, j: usize, h: f64, error: f64, is_fresh: bool) -> Verdict {
         self.last = j;
         if !error.is_finite() || (j > 2 && error > (4.0 * self.previous_error).max(1.0)) {

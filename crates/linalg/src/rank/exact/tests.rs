@@ -47,7 +47,8 @@ fn oracle_rank(mut a: Vec<Vec<BigInt>>) -> usize {
     rank
 }
 
-/// Everything a decision says, against the oracle: the rank, the kept rows, the zeros of T, and its values.
+/// Everything a decision says, against the oracle: the rank, the kept rows, the zeros of T, and its
+/// values.
 fn check(c: &Matrix) -> RankDecision {
     let decision = certify_exact(c).unwrap();
     let a = integers(c);
@@ -145,7 +146,8 @@ fn planted_integers_sizes_and_near_redundancy_agree_with_big_integers() {
         let mut small = |m, n| Matrix::from_fn(m, n, |_, _| numbers.below(5) as f64 - 2.0);
         let mut c = small(m, r).product(&small(r, n));
         if case % 3 == 1 {
-            // Sizes over 1e±8: rows by any factor that f64 rounds, so that redundancy may be lost by rounding.
+            // Sizes over 1e±8: rows by any factor that f64 rounds, so that redundancy may be lost
+            // by rounding.
             for i in 0..m {
                 let factor = 10f64.powf(8.0 * numbers.unit());
                 c.row_mut(i).iter_mut().for_each(|x| *x *= factor);
@@ -197,7 +199,8 @@ fn powers_of_two_are_no_trap() {
 fn near_redundancy_beside_exact_redundancy() {
     for k in [8, 10, 12, 14, 16, 18, 20, 27, 29, 31, 40, 100, 300] {
         let e = 10f64.powi(-k);
-        // Row 1 is row 0 but for ε; row 3 = 2·row 1 − row 0 exactly (ε doubles exactly); row 4 stands alone.
+        // Row 1 is row 0 but for ε; row 3 = 2·row 1 − row 0 exactly (ε doubles exactly); row 4
+        // stands alone.
         let c = Matrix::from_rows(&[
             [3.0, 0.0, 1.0, 0.0],
             [3.0, e, 1.0, 0.0],
@@ -228,7 +231,8 @@ fn near_redundancy_beside_exact_redundancy() {
             let bound = decision.evidence.certificate.as_ref().unwrap().sigma_bound;
             assert!(bound > 1e-3 * near.sigma, "ε = 1e-{k}: {bound:e}");
         }
-        // The direction: rows 0, 1 and 3 against each other, no others, and orthogonal to the exact dependency.
+        // The direction: rows 0, 1 and 3 against each other, no others, and orthogonal to the exact
+        // dependency.
         let d = &near.direction;
         assert!(d[2].abs() < 1e-5 && d[4].abs() < 1e-5, "{d:?}");
         let cancelled = decision.scaling.apply(&c).transpose_times(d);
@@ -282,8 +286,8 @@ fn tall_matrices() {
     );
 }
 
-/// Cranks at an angle whose sine and cosine are rounded: the tips of the couplers still agree exactly, so the third one is
-/// redundant to the last bit; with different rounding it would not be.
+/// Cranks at an angle whose sine and cosine are rounded: the tips of the couplers still agree
+/// exactly, so the third one is redundant to the last bit; with different rounding it would not be.
 #[test]
 fn cranks_as_they_stand() {
     let c = parallel_cranks(1.0, 0.7);

@@ -1,4 +1,5 @@
-//! What happens to singular values when the precision is doubled, and the three zones of the uncertainty.
+//! What happens to singular values when the precision is doubled, and the three zones of the
+//! uncertainty.
 
 use super::*;
 use crate::rank::tests::{Numbers, parallel_cranks};
@@ -11,7 +12,8 @@ fn grounds(decision: &RankDecision) -> Grounds {
     decision.evidence.certificate.as_ref().unwrap().grounds
 }
 
-/// Cranks with exact 3–4–5 angles in double-double, the foot of the third one moved across the others by ε.
+/// Cranks with exact 3–4–5 angles in double-double, the foot of the third one moved across the
+/// others by ε.
 fn cranks(epsilon: f64) -> DdMatrix {
     let mut c = DdMatrix::from(&parallel_cranks(1.0, 0.0));
     let (sin, cos) = (Dd::from(3.0) / Dd::from(5.0), Dd::from(4.0) / Dd::from(5.0));
@@ -38,7 +40,8 @@ fn what_the_data_hide_is_undecided() {
     let hidden = reading(3.0);
     assert_eq!(hidden.rank, 0);
     assert!(!hidden.is_decided());
-    // Rows that differ by less than the data are known to: redundant within them only as long as they are known to a hundredth of a row.
+    // Rows that differ by less than the data are known to: redundant within them only as long as
+    // they are known to a hundredth of a row.
     let c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 1.0], [1.0, 1.05]]));
     let decision = certify_within(&c, 0.01).unwrap();
     let RankStatus::Undecided(Doubt::Hidden { sigma, tolerance }) = decision.status else {
@@ -56,7 +59,8 @@ fn what_the_data_hide_is_undecided() {
     assert!(certify_within(&near, 1e-3).unwrap().is_decided());
 }
 
-/// numerics.md, 2.1: exactly redundant 8e-18 / 4e-34; misaligned by 1e-13: the same at every precision; by 1e-20: seen at 32 digits.
+/// numerics.md, 2.1: exactly redundant 8e-18 / 4e-34; misaligned by 1e-13: the same at every
+/// precision; by 1e-20: seen at 32 digits.
 #[test]
 fn exact_redundancy_falls_with_the_precision_and_misalignment_stays() {
     let decision = certify_within(&cranks(0.0), DATA).unwrap();

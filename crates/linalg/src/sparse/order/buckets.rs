@@ -3,7 +3,8 @@
 /// No node.
 const NONE: usize = usize::MAX;
 
-/// The nodes `0..n` that are in, each with a degree below n; of equal degree the latest comes first.
+/// The nodes `0..n` that are in, each with a degree below n; of equal degree the latest comes
+/// first.
 pub(super) struct Buckets {
     first: Vec<usize>,
     next: Vec<usize>,

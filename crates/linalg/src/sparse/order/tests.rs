@@ -2,7 +2,8 @@
 
 use super::*;
 
-/// Entries of the Cholesky factor of a graph in an order: nodes are eliminated one by one, neighbour sets are kept outright.
+/// Entries of the Cholesky factor of a graph in an order: nodes are eliminated one by one,
+/// neighbour sets are kept outright.
 fn fill(n: usize, cliques: &[Vec<usize>], order: &[usize]) -> usize {
     let mut sorted = order.to_vec();
     sorted.sort_unstable();

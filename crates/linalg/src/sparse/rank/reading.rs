@@ -10,8 +10,8 @@ impl SparseRank {
         self.status == RankStatus::Decided
     }
 
-    /// An estimate of the norm of row i of an orthonormal basis Z of the left null space: zero iff the multiplier of the row is unique,
-    /// one iff the row depends on nothing else.
+    /// An estimate of the norm of row i of an orthonormal basis Z of the left null space: zero iff
+    /// the multiplier of the row is unique, one iff the row depends on nothing else.
     ///
     /// # Panics
     /// If `i` is not a row.
@@ -19,8 +19,8 @@ impl SparseRank {
         kernels::norm(self.sketch.row(i))
     }
 
-    /// Reads the margin of row i: whether its multiplier is unique. Margins within the noise are zero if they are smaller than all others by
-    /// a factor of 10⁴, unclear otherwise.
+    /// Reads the margin of row i: whether its multiplier is unique. Margins within the noise are
+    /// zero if they are smaller than all others by a factor of 10⁴, unclear otherwise.
     ///
     /// # Panics
     /// If `i` is not a row.
@@ -37,8 +37,9 @@ impl SparseRank {
         }
     }
 
-    /// How far a row of W may be from its true value (norm). The part of W outside the left null space is at most ‖Cᵀ·W‖/σ_r; that of the
-    /// matrix meant is off by the uncertainty over σ_r besides.
+    /// How far a row of W may be from its true value (norm). The part of W outside the left null
+    /// space is at most ‖Cᵀ·W‖/σ_r; that of the matrix meant is off by the uncertainty over σ_r
+    /// besides.
     pub fn noise(&self) -> f64 {
         let e = &self.evidence;
         let known = e.sigma_next.max(tolerance(1, 1, e.uncertainty));

@@ -3,7 +3,8 @@
 use super::*;
 use crate::{CoefficientReading, Matrix, decide, orthonormal, singular_values};
 
-/// Numbers without a pattern for planted cases (Numerical Recipes, 3rd ed., section 7.1.3: 64-bit xorshift).
+/// Numbers without a pattern for planted cases (Numerical Recipes, 3rd ed., section 7.1.3: 64-bit
+/// xorshift).
 struct Dice(u64);
 
 impl Dice {
@@ -23,7 +24,8 @@ impl Dice {
     }
 }
 
-/// Groups of one to three rows on one to three bodies; then rows that are combinations of others, copies among them.
+/// Groups of one to three rows on one to three bodies; then rows that are combinations of others,
+/// copies among them.
 fn planted(dice: &mut Dice) -> (Matrix, Vec<Range<usize>>, Vec<Range<usize>>) {
     let bodies = 1 + dice.below(7);
     let n = 3 * bodies;
@@ -128,7 +130,8 @@ fn planted_matrices_read_as_by_the_dense_code() {
     assert!(redundant > 100, "{redundant} redundant");
 }
 
-/// A row changed by 1e-17 … 1, and columns in units of 1e±8: undecided is allowed where the dense code decides, a contradiction is not.
+/// A row changed by 1e-17 … 1, and columns in units of 1e±8: undecided is allowed where the dense
+/// code decides, a contradiction is not.
 #[test]
 fn nearly_dependent_rows_are_never_misread() {
     let mut dice = Dice(0x0fed_cba9_8765_4321);
@@ -201,7 +204,8 @@ fn trivial_matrices() {
         &Matrix::from_rows(&[[1.0, 2.0, 3.0], [0.0; 3], [2.0, 4.0, 6.0]]),
         body,
     );
-    // The row of zeros depends on nothing else: margin one, estimated from eight numbers of variance one.
+    // The row of zeros depends on nothing else: margin one, estimated from eight numbers of
+    // variance one.
     assert!((0.3..2.0).contains(&last.margin(1)), "{}", last.margin(1));
     assert!(last.margin(0) > 0.1 && last.margin(2) > 0.1);
 }
@@ -225,7 +229,8 @@ fn columns_and_rows_without_entries_do_not_count() {
     }
 }
 
-/// W. Kahan's triangle: ones on the diagonal, −c above. No column looks small, yet σ_n falls like (1 + c)^−n.
+/// W. Kahan's triangle: ones on the diagonal, −c above. No column looks small, yet σ_n falls like
+/// (1 + c)^−n.
 #[test]
 fn kahan_is_undecided_or_right() {
     let mut undecided = 0;

@@ -1,5 +1,5 @@
-//! The assembled derivatives against central differences of the assembled equations, on a mechanism with constraints and forces
-//! of every kind, away from its constraints.
+//! The assembled derivatives against central differences of the assembled equations, on a mechanism
+//! with constraints and forces of every kind, away from its constraints.
 
 use joints::plane::Direction;
 use joints::{
@@ -182,7 +182,8 @@ fn products_are_differences_of_the_equations() {
             matrix.add_product(&along, &mut found);
             for (i, found) in found.iter().enumerate() {
                 let expected = (plus[k][i] - minus[k][i]) / (2.0 * H);
-                // Truncation H²·third derivative, with stiffnesses of 7 on lengths that may come near 0.1.
+                // Truncation H²·third derivative, with stiffnesses of 7 on lengths that may come
+                // near 0.1.
                 assert!(
                     (found - expected).abs() < 1e-6 * (1.0 + expected.abs()),
                     "{name}, seed {seed}, row {i}: {found}, by differences {expected}"

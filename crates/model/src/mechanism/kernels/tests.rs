@@ -40,7 +40,8 @@ fn guide() -> Translational {
     }
 }
 
-/// A driven slider on the ground, a second body held against its rotation, and a pendulum on the slider.
+/// A driven slider on the ground, a second body held against its rotation, and a pendulum on the
+/// slider.
 fn trolley() -> Mechanism {
     let [slider, held, bob] = [0, 1, 2].map(BodyRef::Body);
     let drive = TranslationalDisplacementDrive {
@@ -144,7 +145,8 @@ fn the_work_is_told_from_the_structure() {
         (work.rows_of_gamma, work.rows_of_time, work.functions),
         (5, 1, 1)
     );
-    // hold and the row `angle` of the guide are constant, and the translations of the pin, two in each of its rows.
+    // hold and the row `angle` of the guide are constant, and the translations of the pin, two in
+    // each of its rows.
     assert_eq!(work.entries - work.varying_entries, 2 + 1 + 4);
 }
 

@@ -16,7 +16,8 @@ fn body(name: &str, x: f64) -> Body {
     }
 }
 
-/// Three mechanisms with their bodies in turn: a driven crank, a sledge on a knife edge, and two bodies on a spring.
+/// Three mechanisms with their bodies in turn: a driven crank, a sledge on a knife edge, and two
+/// bodies on a spring.
 fn scattered() -> Mechanism {
     let [crank, sledge, left, right] = [0, 1, 2, 3].map(BodyRef::Body);
     let pivot = Revolute {

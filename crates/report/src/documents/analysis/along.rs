@@ -13,11 +13,13 @@ pub struct AlongDocument {
     pub to: f64,
     /// Number of judged states.
     pub samples: usize,
-    /// How far a body moves between two of them: a share of the mechanism's size, or as many radians.
+    /// How far a body moves between two of them: a share of the mechanism's size, or as many
+    /// radians.
     pub reach: f64,
     /// Why the motion stopped there, if it did.
     pub stopped: Option<String>,
-    /// Until when (s) the motion was judged beyond the singular configuration at which it stopped, continued as smoothly as it came.
+    /// Until when (s) the motion was judged beyond the singular configuration at which it stopped,
+    /// continued as smoothly as it came.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub continued_to: Option<f64>,
     /// The verdicts that hold almost always.
@@ -125,7 +127,8 @@ pub struct DifferenceDocument {
 }
 
 impl AlongDocument {
-    /// The document of a motion that was judged up to a time, at so many samples so far apart, and stopped there if a reason is given.
+    /// The document of a motion that was judged up to a time, at so many samples so far apart, and
+    /// stopped there if a reason is given.
     #[must_use]
     pub fn new(
         along: &Along,

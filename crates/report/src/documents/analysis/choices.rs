@@ -1,4 +1,5 @@
-//! Reactions by one choice or another: facts plain, all other numbers with the choice they depend on.
+//! Reactions by one choice or another: facts plain, all other numbers with the choice they depend
+//! on.
 
 use model::{ConstraintId, Frame};
 use serde::Serialize;
@@ -41,7 +42,8 @@ pub struct ValueDocument {
     /// What it depends on; absent for what is unique.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub choice: Option<String>,
-    /// What a change of units shows, without any verdict: `fact` or `choice`; absent where that was not asked.
+    /// What a change of units shows, without any verdict: `fact` or `choice`; absent where that was
+    /// not asked.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nature: Option<&'static str>,
 }

@@ -1,4 +1,5 @@
-//! What the numbers of a scene are known to, and by how much they would have to be wrong for another rank.
+//! What the numbers of a scene are known to, and by how much they would have to be wrong for
+//! another rank.
 
 use linalg::Certificate;
 use model::Tolerance;
@@ -9,18 +10,20 @@ use solvability::Analysis;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct DataDocument {
-    /// What the scene states of its points and lengths (m); `None` if that is nothing but their rounding.
+    /// What the scene states of its points and lengths (m); `None` if that is nothing but their
+    /// rounding.
     pub tolerance: Option<f64>,
-    /// The same of directions, angles and ratios (rad): as stated, or `tolerance` divided by the size of the mechanism; of several parts, of
-    /// the smallest.
+    /// The same of directions, angles and ratios (rad): as stated, or `tolerance` divided by the
+    /// size of the mechanism; of several parts, of the smallest.
     pub angle_tolerance: Option<f64>,
-    /// The tolerance from which on a row is redundant (m): some points may be elsewhere by this, and the rank is lower wherever the mechanism
-    /// moves. `None` if no such tolerance is near.
+    /// The tolerance from which on a row is redundant (m): some points may be elsewhere by this,
+    /// and the rank is lower wherever the mechanism moves. `None` if no such tolerance is near.
     pub lower_rank_from: Option<f64>,
-    /// The same of angles (rad) where a tolerance is stated for them alone: some directions may be turned by this. `lower_rank_from` is `None` then.
+    /// The same of angles (rad) where a tolerance is stated for them alone: some directions may be
+    /// turned by this. `lower_rank_from` is `None` then.
     pub lower_rank_from_angle: Option<f64>,
-    /// By how much points would have to be elsewhere for a lower rank at this configuration (m; angles times the size of the mechanism). `None` if that
-    /// is not near.
+    /// By how much points would have to be elsewhere for a lower rank at this configuration (m;
+    /// angles times the size of the mechanism). `None` if that is not near.
     pub lower_rank_here: Option<f64>,
 }
 

@@ -27,7 +27,8 @@ pub struct MakeUniqueDocument {
     pub reaction: String,
     /// What may be deleted: `sensible`, `whole` or `rows`.
     pub allowed: &'static str,
-    /// Each is enough by itself, and no part of it is; one without rows if nothing needs to be deleted.
+    /// Each is enough by itself, and no part of it is; one without rows if nothing needs to be
+    /// deleted.
     pub ways: Vec<WayDocument>,
     /// Whether these are all of that size.
     pub complete: bool,

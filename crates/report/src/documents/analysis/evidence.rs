@@ -25,7 +25,8 @@ pub struct EvidenceDocument {
     pub constraint_residual: f64,
     /// Whether the redundancy is the same at other configurations; `None` if that is not known.
     pub permanent: Option<bool>,
-    /// Whether the rank is decided and a certificate proves that it is not less; `grounds` say why it is not more.
+    /// Whether the rank is decided and a certificate proves that it is not less; `grounds` say why
+    /// it is not more.
     pub certified: bool,
     /// Proved: the rank is at least this.
     pub rank_at_least: Option<usize>,
@@ -33,7 +34,8 @@ pub struct EvidenceDocument {
     pub sigma_bound: Option<f64>,
     /// σ_{r+1} in double-double precision.
     pub sigma_next_extended: Option<f64>,
-    /// Why the rank is not larger: `full_rank`, `exact`, `vanishes`, `within_data` or `within_tolerance`.
+    /// Why the rank is not larger: `full_rank`, `exact`, `vanishes`, `within_data` or
+    /// `within_tolerance`.
     pub grounds: Option<&'static str>,
     /// What the entries of the equilibrated matrix are known to; 0 if they are meant exactly.
     pub uncertainty: Option<f64>,
@@ -47,7 +49,8 @@ pub struct EvidenceDocument {
 pub struct NearlyRedundantDocument {
     /// σ_r
     pub sigma: f64,
-    /// Share by which reactions change if a point is off by 10⁻⁶ m: 1 is their own size. An estimate of the first order.
+    /// Share by which reactions change if a point is off by 10⁻⁶ m: 1 is their own size. An
+    /// estimate of the first order.
     pub change_per_micrometre: f64,
     /// Weights of all rows, equilibrated, with which they sum to a row of norm σ_r.
     pub direction: Vec<f64>,
@@ -81,7 +84,8 @@ pub struct PointDocument {
 }
 
 impl EvidenceDocument {
-    /// That of the part whose rank is least certain; the rank of the whole is proved where those of all parts are.
+    /// That of the part whose rank is least certain; the rank of the whole is proved where those of
+    /// all parts are.
     pub(super) fn new(analysis: &Analysis, generic: Option<&Generic>) -> Self {
         let weakest = analysis.weakest();
         let evidence = weakest.decision.evidence();

@@ -20,8 +20,8 @@ pub struct NoteDocument {
 }
 
 impl NoteDocument {
-    /// The notes of all definitions that have one, in the order of their first joints. Joints are left out if nothing else pushes their
-    /// bodies: no reaction is misread for them.
+    /// The notes of all definitions that have one, in the order of their first joints. Joints are
+    /// left out if nothing else pushes their bodies: no reaction is misread for them.
     #[must_use]
     pub fn all(layout: &Layout) -> Vec<Self> {
         let has_note = |g: &&ConstraintGroup| g.spec.note.is_some();

@@ -34,10 +34,11 @@ pub struct ReactionDocument {
     pub row_verdicts: Vec<RowDocument>,
     /// Verdicts of the components that are not identically zero.
     pub components: Vec<ComponentDocument>,
-    /// Basis of the unique directions in these components, without those along which the reaction is zero under any load; `null` if
-    /// their number is undecided.
+    /// Basis of the unique directions in these components, without those along which the reaction
+    /// is zero under any load; `null` if their number is undecided.
     pub unique_directions: Option<Vec<Vec<f64>>>,
-    /// What these count as zero within the tolerance that the scene states only, in the unit of margins; absent if nothing.
+    /// What these count as zero within the tolerance that the scene states only, in the unit of
+    /// margins; absent if nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unique_directions_within_tolerance: Option<f64>,
     /// Why it is unique without any numbers: `peeled` or `bridge`.
@@ -73,8 +74,8 @@ pub struct ComponentDocument {
     pub verdict: VerdictDocument,
 }
 
-/// What a joint carries in a self-stress, ready to be drawn: the largest force of the self-stress is 1 N, or its largest torque
-/// 1 N·m if there is no force.
+/// What a joint carries in a self-stress, ready to be drawn: the largest force of the self-stress
+/// is 1 N, or its largest torque 1 N·m if there is no force.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct FreeDirectionDocument {
@@ -115,13 +116,15 @@ pub struct GroupDocument {
     /// Where the torque of a sum of wrenches is about (m), global components.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub about: Option<[f64; 2]>,
-    /// Its numbers that every solution shares (N, N·m): the `sum` of components, or those of force and torque.
+    /// Its numbers that every solution shares (N, N·m): the `sum` of components, or those of force
+    /// and torque.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub values: Vec<ValueDocument>,
 }
 
 impl ReactionDocument {
-    /// The verdict as it is said in a line: with what hangs on the last digits, or on the tolerance that the scene states.
+    /// The verdict as it is said in a line: with what hangs on the last digits, or on the tolerance
+    /// that the scene states.
     #[must_use]
     pub fn said(&self) -> String {
         let verdict = self.wrench.verdict.replace('_', " ");

@@ -49,7 +49,8 @@ fn site(element: impl PlaneConstraint + 'static, drives: bool) -> super::Site {
             .push(Joint::new("joint", &bodies, element));
     }
     let mut mechanism = Mechanism::build(&description).expect("builds");
-    // Only to set initial values: the start may be off the constraint, the picture is drawn all the same.
+    // Only to set initial values: the start may be off the constraint, the picture is drawn all the
+    // same.
     let _ = assemble(&mut mechanism, &StartOptions::default());
     let mut s = mechanism.scratch();
     posed(&mechanism, 0.0, &mechanism.described_state().0, &mut s).expect("finite");

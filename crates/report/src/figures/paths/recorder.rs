@@ -8,7 +8,8 @@ use crate::figures::FigureError;
 use crate::figures::geometry::posed;
 use crate::figures::style::Style;
 
-/// Collects the paths of chosen bodies' centres and of all points that have a nonholonomic constraint: the wheels.
+/// Collects the paths of chosen bodies' centres and of all points that have a nonholonomic
+/// constraint: the wheels.
 ///
 /// ```
 /// use model::{Body, BodyRef, Description, Joint, Mechanism};
@@ -84,7 +85,8 @@ impl<'m> PathRecorder<'m> {
     /// Takes the configuration q at time t.
     ///
     /// # Errors
-    /// - [`FigureError::Coordinates`], [`FigureError::Coordinate`]: q is no configuration of the mechanism.
+    /// - [`FigureError::Coordinates`], [`FigureError::Coordinate`]: q is no configuration of the
+    ///   mechanism.
     pub fn record(&mut self, t: f64, q: &[f64]) -> Result<(), FigureError> {
         let s = &mut self.scratch;
         posed(self.mechanism, t, q, s)?;

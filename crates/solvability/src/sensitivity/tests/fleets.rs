@@ -1,11 +1,13 @@
-//! A machine says the same of itself alone, among others, elsewhere, and beside what no joint connects to it.
+//! A machine says the same of itself alone, among others, elsewhere, and beside what no joint
+//! connects to it.
 
 use joints::{PointOnLine, Revolute, RevoluteAngleDrive, SpringDamper};
 use model::{Body, BodyRef, Description, Function, Mechanism};
 
 use super::super::*;
 
-/// A crank with a rod whose end runs on an oblique line, at a place of its own; its crank is driven with this motion. Returns its crank.
+/// A crank with a rod whose end runs on an oblique line, at a place of its own; its crank is driven
+/// with this motion. Returns its crank.
 fn add_machine(d: &mut Description, name: &str, [x, y]: [f64; 2], motion: &[f64]) -> BodyRef {
     let crank = d.body(Body {
         position: [x + 0.12, y + 0.08],

@@ -1,4 +1,5 @@
-//! More joined rows than dense matrices are made of: each part on common cycles is asked by its own data.
+//! More joined rows than dense matrices are made of: each part on common cycles is asked by its own
+//! data.
 
 use joints::PointForce;
 
@@ -7,8 +8,8 @@ use super::*;
 /// Bars of 0.1 m and 0.01 kg that hang in a row from the beam, at rest.
 const LINKS: usize = 320;
 
-/// The beam of 2 m between a pin and a roller with its own 10 N in the middle, and what hangs from a point 1.5 m from the pin: a row of bars, or their
-/// weight as a force.
+/// The beam of 2 m between a pin and a roller with its own 10 N in the middle, and what hangs from
+/// a point 1.5 m from the pin: a row of bars, or their weight as a force.
 fn loaded_beam(links: bool) -> Mechanism {
     let mut d = Description::new("beam");
     d.gravity = [0.0, -10.0];

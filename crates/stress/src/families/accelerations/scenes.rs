@@ -250,7 +250,8 @@ fn robots(power: i32) -> [(&'static str, Description); 3] {
     ]
 }
 
-/// The robot, turned against the axes of the ground, with its trolley at an angle and its steering on the way; masses multiplied.
+/// The robot, turned against the axes of the ground, with its trolley at an angle and its steering
+/// on the way; masses multiplied.
 fn turned_robot(by: impl Fn(&Body) -> f64) -> Description {
     let steering = Function::constant_rate(0.05).expect("a finite rate");
     let mut d = robot(steering);

@@ -1,5 +1,6 @@
-//! The constraint matrix of a sketch in exact arithmetic, from the velocities of points that coincide: no coordinates of bodies,
-//! no rotations, no derivative of Φ. Rows may differ from those of the `model` by factors.
+//! The constraint matrix of a sketch in exact arithmetic, from the velocities of points that
+//! coincide: no coordinates of bodies, no rotations, no derivative of Φ. Rows may differ from those
+//! of the `model` by factors.
 
 use model::BodyRef;
 
