@@ -10,8 +10,6 @@ pub use stress::mechanisms::{cranks, revolute, robot, rod, sketch};
 mod pages {
     #[doc = include_str!("../README.md")]
     mod readme {}
-    #[doc = include_str!("../crates/pfaff-cli/README.md")]
-    mod command {}
     #[doc = include_str!("../crates/robot-trolley/README.md")]
     mod robot_trolley {}
 }

@@ -53,8 +53,8 @@ impl Blueprint {
     /// Takes a scene, or a description alone, that a program has made.
     ///
     /// # Errors
-    /// [`StudyError::Build`]: everything that is wrong with the description. If the scene was read from a text and then changed,
-    /// [`StudyError::Scene`] with places.
+    /// [`StudyError::Build`]: everything that is wrong with the description. If the scene was read
+    /// from a text and then changed, [`StudyError::Scene`] with places.
     pub fn build(scene: impl Into<Scene>) -> Result<Self, StudyError> {
         let scene = scene.into();
         match Mechanism::build(&scene.description) {

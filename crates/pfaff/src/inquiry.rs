@@ -271,7 +271,8 @@ impl<'a> Inquiry<'a> {
     /// the degree of redundancy.
     ///
     /// # Errors
-    /// [`EliminationError`]: the rank or one of the sets is undecided, they are too many, or a part is too large.
+    /// [`EliminationError`]: the rank or one of the sets is undecided, they are too many, or a part
+    /// is too large.
     pub fn eliminations(&self) -> Result<u128, EliminationError> {
         self.questions.eliminations()
     }
@@ -287,7 +288,8 @@ impl<'a> Inquiry<'a> {
     /// The smallest deletions that make a reaction unique without a change of motion.
     ///
     /// # Errors
-    /// [`EliminationError`]: the rank or an answer is undecided, a row that is allowed does not exist, or its part is too large.
+    /// [`EliminationError`]: the rank or an answer is undecided, a row that is allowed does not
+    /// exist, or its part is too large.
     pub fn make_unique(
         &self,
         id: ConstraintId,

@@ -318,7 +318,8 @@ impl<'r> Sweep<'r> {
 /// Writes the tables of journals in several directories, as if they were one.
 ///
 /// # Errors
-/// [`SweepError::Journal`]: they are not of one sweep; [`SweepError::File`], [`SweepError::Table`]: something could not be written.
+/// [`SweepError::Journal`]: they are not of one sweep; [`SweepError::File`], [`SweepError::Table`]:
+/// something could not be written.
 pub fn merge(directories: &[PathBuf], into: &Path) -> Result<SweepDocument, SweepError> {
     let journals = Journals::read(directories)?;
     write_sweep(&OutputDirectory::create(into)?, || Ok(journals))

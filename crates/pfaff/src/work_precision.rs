@@ -171,7 +171,8 @@ impl Subject {
     /// then whether to stop.
     ///
     /// # Errors
-    /// [`StudyError::Analysis`]: it cannot be told which reactions are unique. Whatever `row` returns.
+    /// [`StudyError::Analysis`]: it cannot be told which reactions are unique. Whatever `row`
+    /// returns.
     pub fn compare<E: From<StudyError>>(
         &self,
         plan: &Plan,

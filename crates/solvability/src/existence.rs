@@ -209,11 +209,11 @@ pub struct Ranks<'a> {
 /// `C_K·v = b_K` to rounding.
 ///
 /// The sum over a circuit is compared with the size of the terms that cancel in it, times the noise
-/// of the coefficients,
-/// [`linalg::support_tolerance`]: near a singular configuration kept rows express the dropped ones with coefficients that are wrong
-/// by 1/σ_r roundings, and an agreement cannot be better than that. Rows that mix with those of the
-/// circuit count, others do not, so that nothing elsewhere hides a contradiction; velocities count
-/// as known to the same share of the fastest one.
+/// of the coefficients, [`linalg::support_tolerance`]: near a singular configuration kept rows
+/// express the dropped ones with coefficients that are wrong by 1/σ_r roundings, and an agreement
+/// cannot be better than that. Rows that mix with those of the circuit count, others do not, so
+/// that nothing elsewhere hides a contradiction; velocities count as known to the same share of the
+/// fastest one.
 ///
 /// # Errors
 /// If the state has not as many numbers as the mechanism, or one of them is not finite.

@@ -56,8 +56,6 @@ fn a_fault_is_seen() {
 
 #[test]
 fn what_was_found_is_mended() {
-    // FIXME: a locked body creeps at rounding of its forces.
-    let open = ["locked-body-creeps.toml"];
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("found");
     let limits = Limits {
         deadline: Duration::from_secs(3),
@@ -67,10 +65,6 @@ fn what_was_found_is_mended() {
         let name = entry.file_name().to_string_lossy().into_owned();
         let text = std::fs::read_to_string(entry.path()).expect("readable");
         let answer = one(&limits, &text).expect("processes can be begun");
-        assert_eq!(
-            answer.is_err(),
-            open.contains(&name.as_str()),
-            "{name}: {answer:?}"
-        );
+        assert!(answer.is_ok(), "{name}: {answer:?}");
     }
 }

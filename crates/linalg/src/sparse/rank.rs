@@ -168,7 +168,8 @@ impl SparsePattern {
     /// The pattern of the stored entries of `c`, whose columns come in blocks.
     ///
     /// # Errors
-    /// [`SparseRankError::TooDense`]: it would take longer than the dense code takes for some thousands of rows.
+    /// [`SparseRankError::TooDense`]: it would take longer than the dense code takes for some
+    /// thousands of rows.
     pub fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Result<Self, SparseRankError> {
         let by_columns = Symbolic::new(c, blocks)?;
         let by_rows = Symbolic::new(&c.transpose(), &by_columns.row_blocks)?;
