@@ -51,27 +51,14 @@ fn row(
     way: Way,
     tolerance: f64,
 ) -> WorkPrecisionRow {
+    let curve = CurveName {
+        formulation: way.formulation.name(),
+        method: way.method.name(),
+        stabilisation: way.drift.name(),
+    };
     let empty = WorkPrecisionRow {
-        scene: subject.name().to_owned(),
-        curve: CurveName {
-            formulation: way.formulation.name(),
-            method: way.method.name(),
-            stabilisation: way.drift.name(),
-        },
-        tolerance,
-        errors: [f64::NAN; 4],
-        constraint_residual: f64::NAN,
-        evaluations: 0,
-        projections: 0,
-        factorisations: 0,
-        steps: 0,
-        seconds: f64::NAN,
-        status: "done".to_owned(),
-        rejected: 0,
-        repetitions: 0,
-        energy_error: f64::NAN,
-        error_state: f64::NAN,
         reference_limit: yardstick.limit(),
+        ..WorkPrecisionRow::empty(subject.name(), curve, tolerance)
     };
     let budget = Duration::try_from_secs_f64(plan.budget).unwrap_or(Duration::MAX);
     let mut best: Option<Run> = None;

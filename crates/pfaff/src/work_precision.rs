@@ -287,24 +287,7 @@ impl Subject {
 
     /// A row with nothing in it yet.
     fn empty_row(&self, curve: Curve, tolerance: f64) -> WorkPrecisionRow {
-        WorkPrecisionRow {
-            scene: self.name.clone(),
-            curve: curve.name(),
-            tolerance,
-            errors: Errors::UNKNOWN.scaled,
-            constraint_residual: f64::NAN,
-            evaluations: 0,
-            projections: 0,
-            factorisations: 0,
-            steps: 0,
-            seconds: f64::NAN,
-            status: "done".to_owned(),
-            rejected: 0,
-            repetitions: 0,
-            energy_error: f64::NAN,
-            error_state: f64::NAN,
-            reference_limit: f64::NAN,
-        }
+        WorkPrecisionRow::empty(&self.name, curve.name(), tolerance)
     }
 
     fn known(&self) -> Option<Standard> {

@@ -64,6 +64,29 @@ pub struct WorkPrecisionRow {
 }
 
 impl WorkPrecisionRow {
+    /// A row of which nothing is known yet.
+    #[must_use]
+    pub fn empty(scene: &str, curve: CurveName, tolerance: f64) -> Self {
+        Self {
+            scene: scene.to_owned(),
+            curve,
+            tolerance,
+            errors: [f64::NAN; 4],
+            constraint_residual: f64::NAN,
+            evaluations: 0,
+            projections: 0,
+            factorisations: 0,
+            steps: 0,
+            seconds: f64::NAN,
+            status: "done".to_owned(),
+            rejected: 0,
+            repetitions: 0,
+            energy_error: f64::NAN,
+            error_state: f64::NAN,
+            reference_limit: f64::NAN,
+        }
+    }
+
     /// The larger error of position and velocity, if the run reached its end and something is
     /// known.
     #[must_use]

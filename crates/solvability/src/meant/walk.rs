@@ -124,10 +124,8 @@ fn onto_kept(
     for _ in 0..CORRECTIONS {
         let s = crate::mechanism::evaluated(mechanism, question.s.t, &q);
         let c = dimensionless(mechanism, &s, size).select_rows(&holonomic);
-        let correction = shortest(
-            &c,
-            &holonomic.iter().map(|&i| -s.phi[i]).collect::<Vec<_>>(),
-        );
+        let missing: Vec<f64> = holonomic.iter().map(|&i| -s.phi[i]).collect();
+        let correction = shortest(&c, &missing);
         let largest = correction.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
         if correction.iter().any(|x| x.is_nan()) || largest > CORRECTED * stride {
             return None;
@@ -145,20 +143,22 @@ fn onto_kept(
 
 /// The shortest δ with `C·δ = x`, by rows that are independent.
 fn shortest(c: &Matrix, x: &[f64]) -> Vec<f64> {
-    let equal = Matrix::from_fn(c.nrows(), c.ncols(), |i, j| c[(i, j)] / row_size(c, i));
+    let size_of = |i: usize| c.row(i).iter().fold(0.0_f64, |a, x| a.max(x.abs()));
+    let sizes: Vec<f64> = (0..c.nrows())
+        .map(|i| match size_of(i) {
+            0.0 => 1.0,
+            size => size,
+        })
+        .collect();
+    let equal = Matrix::from_fn(c.nrows(), c.ncols(), |i, j| c[(i, j)] / sizes[i]);
     let order = PivotedQr::of_rows(equal.clone());
     let pivots: Vec<f64> = order.r_diagonal().map(f64::abs).collect();
     let least = INDEPENDENT * pivots.first().copied().unwrap_or(0.0);
     let rank = pivots.iter().take_while(|&&r| r > least).count();
     let rows = &order.permutation()[..rank];
     let inverse = PivotedQr::of_rows(equal.select_rows(rows)).pseudo_inverse();
-    let x: Vec<f64> = rows.iter().map(|&i| x[i] / row_size(c, i)).collect();
+    let x: Vec<f64> = rows.iter().map(|&i| x[i] / sizes[i]).collect();
     inverse.times(&x)
-}
-
-fn row_size(c: &Matrix, i: usize) -> f64 {
-    let size = c.row(i).iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-    if size > 0.0 { size } else { 1.0 }
 }
 
 /// Velocities without dimensions that the kept rows allow, one in each row, the one that the other
