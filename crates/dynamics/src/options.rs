@@ -62,7 +62,7 @@ pub const FORMULATION: &str = "kept-rows";
 ///
 /// ```
 /// let words = dynamics::options::moved("method", "gbs").unwrap();
-/// assert_eq!(words, "method `gbs` is a comparator of the laboratory (`lab work-precision`); a run takes `dop853` at tight tolerances");
+/// assert_eq!(words, "method `gbs` is a comparator of the laboratory (`lab::work_precision`); a run takes `dop853` at tight tolerances");
 /// assert_eq!(dynamics::options::moved("method", "dop853"), None);
 /// ```
 #[must_use]
@@ -86,7 +86,7 @@ pub fn moved(key: &str, value: &str) -> Option<String> {
         _ => return None,
     };
     Some(format!(
-        "{key} `{value}` is a comparator of the laboratory (`lab work-precision`); {instead}"
+        "{key} `{value}` is a comparator of the laboratory (`lab::work_precision`); {instead}"
     ))
 }
 

@@ -301,13 +301,13 @@ fn what_moved_to_the_laboratory_is_told_where() {
         (
             "--formulation",
             "null-space",
-            "formulation `null-space` is a comparator of the laboratory (`lab work-precision`)",
+            "formulation `null-space` is a comparator of the laboratory (`lab::work_precision`)",
         ),
         ("--formulation", "kept-rows", "leave the formulation out"),
         (
             "--method",
             "gbs",
-            "method `gbs` is a comparator of the laboratory (`lab work-precision`)",
+            "method `gbs` is a comparator of the laboratory (`lab::work_precision`)",
         ),
         ("--method", "hem4", "method `hem4` is gone"),
         (
