@@ -4,7 +4,8 @@
 use std::ops::ControlFlow;
 
 use dynamics::{
-    EventKind, Method, MotionError, MotionOptions, Prepared, RowChoice, Trip, prepare, simulate,
+    EventKind, Method, MotionError, MotionFault, MotionOptions, Prepared, RowChoice, prepare,
+    simulate,
 };
 use joints::{
     Direction, Revolute, RevoluteAngleDrive, Translational, TranslationalDisplacementDrive,
@@ -108,7 +109,8 @@ fn a_jump_of_the_position_is_refused_with_the_drive_and_the_time() {
             Ok(ControlFlow::Continue(()))
         })
         .expect_err("nothing can follow");
-        let MotionError::Trip(Trip::PositionJump { time, row, jump }) = &failure.error else {
+        let MotionError::Fault(MotionFault::PositionJump { time, row, jump }) = &failure.error
+        else {
             panic!("{method:?}: {failure}");
         };
         assert!(

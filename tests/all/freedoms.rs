@@ -28,7 +28,7 @@ fn study(name: &str) -> Study {
 }
 
 fn freedoms(study: &Study) -> Freedoms {
-    let start = study.inquire(0.0, None).expect("a start");
+    let start = study.analyse(0.0, None).expect("a start");
     start.freedoms().expect("its configuration")
 }
 

@@ -160,7 +160,7 @@ fn json(value: &impl serde::Serialize) -> String {
 fn verdicts_are_the_same_to_the_last_bit() {
     let sums = ["left.N + right.N".to_owned(), "A1 + A2 + A3".to_owned()];
     let document = |study: &Study| {
-        let start = study.inquire(0.0, None).expect("a start");
+        let start = study.analyse(0.0, None).expect("a start");
         start.document(&sums).expect("verdicts")
     };
     let (text, code) = (document(&from_text()), document(&from_code()));

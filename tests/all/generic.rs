@@ -130,7 +130,7 @@ fn time_moves_where_a_joint_depends_on_it() {
 fn elsewhere(scene: &str) -> Option<Generic> {
     let study = Study::read("scene", scene, &Registry::planar(), &Overrides::default());
     let study = study.unwrap_or_else(|e| panic!("{scene}\n{e}"));
-    let start = study.inquire(0.0, None).expect("a rank");
+    let start = study.analyse(0.0, None).expect("a rank");
     start.generic()
 }
 

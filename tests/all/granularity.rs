@@ -595,8 +595,8 @@ fn groups_of_a_study() {
     let registry = model::Registry::planar();
     let mut study = Study::read("robot", &text, &registry, &Overrides::default()).expect("a scene");
     let combine = ["W3+W4", "W3.N + W4.N", "W3.T", "2*A - steering"].map(str::to_owned);
-    let inquiry = study.inquire(0.0, None).expect("judged");
-    let groups = inquiry.groups(&combine).expect("judged");
+    let configuration = study.analyse(0.0, None).expect("judged");
+    let groups = configuration.groups(&combine).expect("judged");
     let first = groups.len() - 7;
     let found: Vec<_> = groups[first..]
         .iter()
@@ -616,8 +616,8 @@ fn groups_of_a_study() {
     );
     // A name that the mechanism does not have is an error, not left out.
     study.scene.groups[0].content = pfaff::scene::GroupContent::Members(vec!["W9".into()]);
-    let inquiry = study.inquire(0.0, None).expect("judged");
-    let error = inquiry.groups(&[]).expect_err("unknown");
+    let configuration = study.analyse(0.0, None).expect("judged");
+    let error = configuration.groups(&[]).expect_err("unknown");
     assert!(
         matches!(&error, StudyError::UnknownReaction { name, .. } if name == "W9")
             && error.is_input()

@@ -7,7 +7,7 @@ mod scenes;
 use model::start::{HeldVelocity, StartError, scene_size};
 use model::{Registry, System};
 use nalgebra::{DMatrix, DVector};
-use pfaff::{Blueprint, Overrides, Study, StudyError};
+use pfaff::{AssembledScene, Overrides, Study, StudyError};
 use scenes::{NAMES, Sketch};
 use tests::numbers::Numbers;
 
@@ -35,18 +35,18 @@ struct Rows {
     is_joint_alone: Vec<usize>,
 }
 
-fn read(text: &str) -> Blueprint {
-    Blueprint::read("starts.toml", text, &Registry::planar())
+fn read(text: &str) -> AssembledScene {
+    AssembledScene::read("starts.toml", text, &Registry::planar())
         .unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 
 fn rows(text: &str) -> Rows {
-    let mut blueprint = read(text);
-    let q = blueprint
+    let mut assembled = read(text);
+    let q = assembled
         .assemble()
         .unwrap_or_else(|e| panic!("{e}\n{text}"))
         .q;
-    let m = &blueprint.mechanism;
+    let m = &assembled.mechanism;
     let size = scene_size(m, &q);
     let mut s = m.scratch();
     m.pose(0.0, &q, &mut s);
@@ -323,11 +323,11 @@ fn refusal(sketch: &Sketch, error: &StudyError) -> Refusal {
     if error.only_motion().is_some() {
         return Refusal::Later;
     }
-    let mut blueprint = read(&sketch.text());
-    let q = blueprint.assemble().expect("assembled").q;
-    let found = solvability::rows(&blueprint.mechanism, 0.0, &q).expect("finite");
-    let start = &blueprint.scene.start;
-    match dynamics::start_velocity(&blueprint.mechanism, start, &found, &q, &found.all.kept) {
+    let mut assembled = read(&sketch.text());
+    let q = assembled.assemble().expect("assembled").q;
+    let found = solvability::rows(&assembled.mechanism, 0.0, &q).expect("finite");
+    let start = &assembled.scene.start;
+    match dynamics::start_velocity(&assembled.mechanism, start, &found, &q, &found.all.kept) {
         Err(dynamics::MotionError::Contradiction(c)) => {
             assert!(c.is_of_drives(), "{c}");
             Refusal::Drives

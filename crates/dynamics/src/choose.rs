@@ -2,7 +2,7 @@
 
 use linalg::{Matrix, SaddleError};
 
-use crate::error::Trip;
+use crate::error::MotionFault;
 use crate::motion::{KeptRowMotion, Reduced, is_sparse};
 use crate::options::{Method, MotionOptions, Stabilisation};
 use crate::plan::Decided;
@@ -28,7 +28,7 @@ const ITERATIONS: usize = 64;
 pub(crate) fn method(
     prepared: &Prepared,
     options: &MotionOptions,
-) -> Result<Decided<Method>, Trip> {
+) -> Result<Decided<Method>, MotionFault> {
     let explicit = |why: &str| Ok(decided(Method::Dop853, why.to_owned()));
     let may_be_implicit = matches!(options.method, Method::Auto | Method::Radau5);
     if may_be_implicit && prepared.is_function_of_time(options) {
@@ -38,7 +38,7 @@ pub(crate) fn method(
     }
     if options.method.needs_independent_coordinates() && is_sparse(prepared) {
         let rows = prepared.decision.kept.len();
-        return Err(Trip::Saddle {
+        return Err(MotionFault::Saddle {
             time: 0.0,
             source: SaddleError::Large { rows },
         });
@@ -78,7 +78,7 @@ fn decided(value: Method, reason: String) -> Decided<Method> {
 }
 
 /// The largest |λ| (1/s) of the motion on independent coordinates at the start.
-fn fastest_rate(prepared: &Prepared) -> Result<f64, Trip> {
+fn fastest_rate(prepared: &Prepared) -> Result<f64, MotionFault> {
     let mut motion = KeptRowMotion::new(prepared)?;
     let mut reduced = Reduced::new(&motion);
     let y = [prepared.q.as_slice(), &prepared.v].concat();

@@ -12,7 +12,7 @@ pub use rows::DropError;
 /// Why the equations cannot be solved at one instant. A shorter step may avoid it.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum Trip {
+pub enum MotionFault {
     /// The kept rows became dependent.
     #[error(
         "at t = {time} s the kept rows are no longer independent at row {row}: pivot {pivot:.3e} of {scale:.3e}; \
@@ -266,7 +266,7 @@ pub enum MotionError {
     Rows(#[from] DropError),
     /// The equations could not be solved at the start.
     #[error(transparent)]
-    Trip(#[from] Trip),
+    Fault(#[from] MotionFault),
     /// A reaction is wanted of a joint or drive that does not exist.
     #[error("the reaction of `{name}` is wanted, but no joint or drive has this name")]
     NoReaction {
@@ -292,7 +292,7 @@ pub enum MotionError {
     },
     /// The integration stopped.
     #[error("{0}")]
-    Integration(Box<IntegrationError<Trip>>),
+    Integration(Box<IntegrationError<MotionFault>>),
 }
 
 /// Rows with a smaller share than this of the largest weight take no part in a combination.

@@ -25,7 +25,7 @@ pub mod prepare;
 pub mod simulate;
 
 pub use code::{CodeMismatch, Facts, NoCode, SceneCode};
-pub use error::{DropError, MotionError, Trip};
+pub use error::{DropError, MotionError, MotionFault};
 pub use events::{Event, EventKind};
 pub use motion::{Correction, KeptRowMotion, Motion, Reduced};
 pub use options::{FORMULATION, Method, MotionOptions, RowChoice, Stabilisation};

@@ -27,7 +27,7 @@ use std::sync::Arc;
 use model::{Mechanism, Scratch, System};
 
 use crate::counts::{Counted, note};
-use crate::error::Trip;
+use crate::error::MotionFault;
 use crate::events::Event;
 use crate::options::{MotionOptions, RowChoice, Stabilisation};
 use crate::prepare::Prepared;
@@ -46,22 +46,33 @@ pub trait Motion {
     ///
     /// # Errors
     /// If the equations have no (unique) solution here.
-    fn acceleration(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Trip>;
+    fn acceleration(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        a: &mut [f64],
+    ) -> Result<(), MotionFault>;
 
     /// Moves q and v onto the constraints by the smallest correction in the mass metric, and checks
     /// the dropped rows.
     ///
     /// # Errors
     /// If that fails, or a dropped row is violated.
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, Trip>;
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, MotionFault>;
 
     /// Multipliers of all rows: those of dropped rows are zero by decree, and all are NaN where the
     /// kept rows are dependent at just this instant, so that no multipliers belong to them.
     ///
     /// # Errors
     /// As [`Motion::acceleration`].
-    fn multipliers(&mut self, t: f64, q: &[f64], v: &[f64], lambda: &mut [f64])
-    -> Result<(), Trip>;
+    fn multipliers(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<(), MotionFault>;
 }
 
 /// What a projection found and did.
@@ -116,7 +127,7 @@ impl<'a> KeptRowMotion<'a> {
     ///
     /// # Errors
     /// If more rows are kept than there are velocities.
-    pub fn new(prepared: &'a Prepared) -> Result<Self, Trip> {
+    pub fn new(prepared: &'a Prepared) -> Result<Self, MotionFault> {
         Self::kept(prepared, Stabilisation::Projection)
     }
 
@@ -126,7 +137,7 @@ impl<'a> KeptRowMotion<'a> {
     /// # Errors
     /// As [`KeptRowMotion::new`]; also if no independent coordinates can be chosen for an implicit
     /// method.
-    pub fn with(prepared: &'a Prepared, options: &MotionOptions) -> Result<Self, Trip> {
+    pub fn with(prepared: &'a Prepared, options: &MotionOptions) -> Result<Self, MotionFault> {
         let mut motion = Self::kept(prepared, options.stabilisation)?;
         if options.t_end > 0.0 {
             motion.horizon = options.t_end;
@@ -140,7 +151,7 @@ impl<'a> KeptRowMotion<'a> {
         Ok(motion)
     }
 
-    fn kept(prepared: &'a Prepared, stabilisation: Stabilisation) -> Result<Self, Trip> {
+    fn kept(prepared: &'a Prepared, stabilisation: Stabilisation) -> Result<Self, MotionFault> {
         let n = prepared.mechanism.layout().n_v;
         let rows = |d: &solvability::RowDecision| {
             KeptRows::new(
@@ -149,7 +160,7 @@ impl<'a> KeptRowMotion<'a> {
                 &d.kept,
                 &d.dropped,
             )
-            .map_err(|source| Trip::Saddle { time: 0.0, source })
+            .map_err(|source| MotionFault::Saddle { time: 0.0, source })
         };
         Ok(Self {
             mechanism: &prepared.mechanism,
@@ -217,7 +228,7 @@ impl<'a> KeptRowMotion<'a> {
     ///
     /// # Errors
     /// If the equations have no unique solution here.
-    pub(crate) fn is_refined_at(&mut self, t: f64, q: &[f64]) -> Result<bool, Trip> {
+    pub(crate) fn is_refined_at(&mut self, t: f64, q: &[f64]) -> Result<bool, MotionFault> {
         let Self {
             mechanism,
             s,
@@ -238,7 +249,7 @@ impl<'a> KeptRowMotion<'a> {
     }
 
     /// Solves for accelerations.
-    fn solve(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Trip> {
+    fn solve(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
         let Self {
             mechanism,
             s,
@@ -254,7 +265,7 @@ impl<'a> KeptRowMotion<'a> {
     }
 
     /// The same where the pose is taken and the rows are factored.
-    fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), Trip> {
+    fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
         note(Counted::Accelerations);
         self.mechanism.twist(v, &mut self.s);
         self.mechanism.gamma(&mut self.s);
@@ -269,17 +280,17 @@ impl<'a> KeptRowMotion<'a> {
             *rhs = s.gamma[i];
         }
         let solved = velocity.accelerate(mechanism, s, a);
-        solved.map_err(|trip| self.named(trip))
+        solved.map_err(|fault| self.named(fault))
     }
 
     /// An error at the state just evaluated, with the name of the force that has no value, if there
     /// is one.
-    fn named(&mut self, trip: Trip) -> Trip {
-        match trip {
-            Trip::NotFinite { time, what } => {
+    fn named(&mut self, fault: MotionFault) -> MotionFault {
+        match fault {
+            MotionFault::NotFinite { time, what } => {
                 let force = self.mechanism.undefined_force(&mut self.s);
                 let what = force.map_or(what, |name| format!("the force `{name}`"));
-                Trip::NotFinite { time, what }
+                MotionFault::NotFinite { time, what }
             }
             other => other,
         }
@@ -287,7 +298,7 @@ impl<'a> KeptRowMotion<'a> {
 
     /// Multipliers of all rows for accelerations a from the last solve; those of dropped rows are
     /// zero.
-    fn multipliers_for(&mut self, a: &[f64], lambda: &mut [f64]) -> Result<(), Trip> {
+    fn multipliers_for(&mut self, a: &[f64], lambda: &mut [f64]) -> Result<(), MotionFault> {
         let Self {
             mechanism,
             s,
@@ -304,14 +315,20 @@ impl<'a> KeptRowMotion<'a> {
 }
 
 impl Motion for KeptRowMotion<'_> {
-    fn acceleration(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Trip> {
+    fn acceleration(
+        &mut self,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+        a: &mut [f64],
+    ) -> Result<(), MotionFault> {
         match self.coded_acceleration(t, q, v, a) {
             true => Ok(()),
             false => self.solve(t, q, v, a),
         }
     }
 
-    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, Trip> {
+    fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, MotionFault> {
         self.complete_row(t, q, v)?;
         let iterations = self.settle(t, q)?;
         self.finish(v, iterations)
@@ -323,7 +340,7 @@ impl Motion for KeptRowMotion<'_> {
         q: &[f64],
         v: &[f64],
         lambda: &mut [f64],
-    ) -> Result<(), Trip> {
+    ) -> Result<(), MotionFault> {
         note(Counted::Multipliers);
         if self.coded_multipliers(t, q, v, lambda) {
             return Ok(());

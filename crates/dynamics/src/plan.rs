@@ -143,7 +143,7 @@ impl<'a> Plan<'a> {
     /// # Errors
     /// - [`MotionError::Option`], [`MotionError::Combination`]: the options are none.
     /// - [`MotionError::NoReaction`]: a reaction is wanted of a joint that does not exist.
-    /// - [`MotionError::Trip`]: the motion cannot be judged at its start.
+    /// - [`MotionError::Fault`]: the motion cannot be judged at its start.
     pub fn new(
         prepared: &'a Prepared,
         options: &MotionOptions,

@@ -21,7 +21,7 @@ use integrators::{
 use model::System;
 use solvability::{contradicting_drives_along, generic};
 
-use crate::error::{MotionError, Trip};
+use crate::error::{MotionError, MotionFault};
 use crate::motion::KeptRowMotion;
 use crate::options::{Method, MotionOptions};
 use crate::plan::{self, Plan, Wanted};
@@ -40,7 +40,7 @@ pub use summary::{ComponentSummary, Failure, Summary};
 pub fn simulate(
     prepared: &Prepared,
     options: &MotionOptions,
-    row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+    row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
 ) -> Result<Summary, Box<Failure>> {
     Plan::new(prepared, options, &Wanted::default())
         .map_err(not_begun)?
@@ -49,7 +49,7 @@ pub fn simulate(
 
 /// Sees each row. Behind a pointer, so that a run is compiled once, here, and not again for each of
 /// its callers.
-type ShowRow<'r> = dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip> + 'r;
+type ShowRow<'r> = dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault> + 'r;
 
 /// Sees the time (s) of each accepted step of each component, and may end the run there.
 pub type Watch<'w> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'w;
@@ -61,7 +61,7 @@ impl Plan<'_> {
     /// With the summary of what was reached; rows shown before stand.
     pub fn simulate(
         &self,
-        row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+        row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
     ) -> Result<Summary, Box<Failure>> {
         self.simulate_watched(&|_| ControlFlow::Continue(()), row)
     }
@@ -73,7 +73,7 @@ impl Plan<'_> {
     pub fn simulate_watched(
         &self,
         watch: &Watch<'_>,
-        mut row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+        mut row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
     ) -> Result<Summary, Box<Failure>> {
         match self.components.len() {
             1 => run_component(self, 0, watch, &mut row),
@@ -166,7 +166,7 @@ fn run_component(
                 run.equations.motion.no_way_over(f.t).into()
             }
             MotionError::Integration(e) => match run.equations.contradiction(&e, f.t) {
-                Some(trip) => trip.into(),
+                Some(fault) => fault.into(),
                 None => MotionError::Integration(e),
             },
             error => error,
@@ -179,13 +179,13 @@ fn run_component(
 /// Whether a dropped row was violated because drives contradict each other or ask for what joints
 /// forbid: then they are named, whichever row was dropped.
 fn of_drives(prepared: &Prepared, t_end: f64, error: MotionError) -> MotionError {
-    let MotionError::Trip(Trip::DroppedRow { time, .. }) = &error else {
+    let MotionError::Fault(MotionFault::DroppedRow { time, .. }) = &error else {
         return error;
     };
     let mechanism = &prepared.mechanism;
     // What has hardly begun to differ differs clearly later.
     match contradicting_drives_along(mechanism, &prepared.q, t_end).unwrap_or_default() {
-        Some(contradiction) => Trip::Drives {
+        Some(contradiction) => MotionFault::Drives {
             time: *time,
             contradiction: Box::new(contradiction),
         }
@@ -197,7 +197,7 @@ fn of_drives(prepared: &Prepared, t_end: f64, error: MotionError) -> MotionError
 /// Whether a dropped row was violated because it is redundant at the start alone: then nothing
 /// contradicts it.
 fn at_singular_start(prepared: &Prepared, error: MotionError) -> MotionError {
-    let MotionError::Trip(Trip::DroppedRow {
+    let MotionError::Fault(MotionFault::DroppedRow {
         time,
         row,
         residual,
@@ -208,7 +208,7 @@ fn at_singular_start(prepared: &Prepared, error: MotionError) -> MotionError {
     };
     let redundancy = prepared.decision.redundancy;
     match generic(&prepared.mechanism, 0.0, &prepared.q) {
-        Some(found) if found.redundancy < redundancy => Trip::SingularStart {
+        Some(found) if found.redundancy < redundancy => MotionFault::SingularStart {
             redundancy,
             elsewhere: found.redundancy,
             time: *time,
@@ -242,7 +242,7 @@ struct Run<'r, 'm> {
     stopped: Option<MotionError>,
 }
 
-type Integrated = Result<Outcome, Box<integrators::Failure<Trip>>>;
+type Integrated = Result<Outcome, Box<integrators::Failure<MotionFault>>>;
 
 impl<'m> Run<'_, 'm> {
     fn go<M: integrators::Method<Equations<'m>>>(
@@ -261,8 +261,8 @@ impl<'m> Run<'_, 'm> {
         } = self;
         let mut show = |e: &mut Equations<'m>, t: f64, y: &mut [f64]| match e.show(t, y, row) {
             Ok(flow) => flow,
-            Err(trip) => {
-                *stopped = Some(trip.into());
+            Err(fault) => {
+                *stopped = Some(fault.into());
                 ControlFlow::Break(())
             }
         };
@@ -295,16 +295,16 @@ impl<'m> Run<'_, 'm> {
 }
 
 /// The cause behind a collapsed step, if it is ours.
-fn named(error: IntegrationError<Trip>) -> MotionError {
+fn named(error: IntegrationError<MotionFault>) -> MotionError {
     match error {
         IntegrationError::StepSizeCollapsed {
-            cause: Cause::Problem(trip),
+            cause: Cause::Problem(fault),
             ..
         }
         | IntegrationError::StartFailed {
-            cause: Cause::Problem(trip),
+            cause: Cause::Problem(fault),
             ..
-        } => MotionError::Trip(trip),
+        } => MotionError::Fault(fault),
         other => MotionError::Integration(Box::new(other)),
     }
 }

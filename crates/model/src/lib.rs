@@ -56,7 +56,7 @@ pub use extended::Polished;
 pub use function::{Function, FunctionError};
 pub use mechanism::{AppliedForce, BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work};
 pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction};
-pub use record::Recording;
+pub use record::RecordedEquations;
 pub use registry::{ConstraintDefinition, ForceDefinition, PlaneConstraint, PlaneForce, Registry};
 pub use space::{Space, SpaceKind};
 pub use start::{Assembly, Coordinate, StartError, StartOptions};

@@ -32,7 +32,7 @@ pub enum Input {
 
 /// The equations of one mechanism as operations on inputs.
 #[derive(Clone, Debug)]
-pub struct Recording {
+pub struct RecordedEquations {
     /// All operations; results are places in it.
     pub tape: Vec<Operation>,
     /// What each input stands for.
@@ -141,7 +141,7 @@ impl Mechanism {
     /// assert_eq!(recording.tape[recording.force[1].place()], joints::recorded::Operation::Number(-20.0));
     /// ```
     #[must_use]
-    pub fn record(&self) -> Recording {
+    pub fn record(&self) -> RecordedEquations {
         let layout = self.layout();
         let n_functions = self.time_functions().len();
         let (tape, (inputs, results)) = record(|| {
@@ -159,7 +159,7 @@ impl Mechanism {
             };
             range.map(entry).collect()
         };
-        Recording {
+        RecordedEquations {
             tape,
             inputs,
             c: (0..layout.rows()).map(row).collect(),

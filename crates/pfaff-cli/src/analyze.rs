@@ -13,7 +13,7 @@ mod text;
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use pfaff::report::{AnalysisDocument, write_json};
-use pfaff::{Inquiry, Overrides, Study};
+use pfaff::{ConfigurationAnalysis, Overrides, Study};
 
 use crate::args::Analyze;
 use crate::console::Console;
@@ -32,12 +32,12 @@ pub(crate) fn run(arguments: &Analyze, console: &Console<'_>) -> Outcome {
     let drop = rows_from_zero(arguments.drop.as_deref())?;
     let source = Source::read(&arguments.scene, console)?.known(arguments.known);
     arguments.resources.apply()?;
-    let blueprint = arguments.resources.blueprint(&source)?;
+    let assembled = arguments.resources.assembled(&source)?;
     let overrides = Overrides {
         drop: drop.clone(),
         ..Overrides::default()
     };
-    let error = match blueprint.prepare(&overrides) {
+    let error = match assembled.prepare(&overrides) {
         Ok(study) => return of_study(arguments, &source, &study, drop.as_deref(), console),
         Err(e) => e,
     };
@@ -62,12 +62,12 @@ fn of_study(
     let bars = MultiProgress::new();
     let of_configuration = || {
         let bar = Judging::begin(&bars, joints);
-        let inquiry = study
-            .inquire_watched(arguments.at_time, drop, |judged| bar.at(judged))
+        let configuration = study
+            .analyse_watched(arguments.at_time, drop, |judged| bar.at(judged))
             .map_err(|e| source.failure(e))?;
         bar.end();
-        let document = ask::document(arguments, source, &inquiry)?;
-        Ok::<_, Failure>((inquiry, document))
+        let document = ask::document(arguments, source, &configuration)?;
+        Ok::<_, Failure>((configuration, document))
     };
     // A motion is computed step by step, and leaves the verdicts of the start a thread of their
     // own.
@@ -77,7 +77,7 @@ fn of_study(
         }),
         None => (of_configuration(), None),
     };
-    let (inquiry, mut document) = of_configuration?;
+    let (configuration, mut document) = of_configuration?;
     if arguments.at_time == 0.0
         && let Some(later) = study
             .contradicting_drives()
@@ -89,7 +89,7 @@ fn of_study(
         document.warnings.extend(study.cannot_begin());
     }
     document.along = along.transpose()?;
-    answer(arguments, &inquiry, &document, console)?;
+    answer(arguments, &configuration, &document, console)?;
     match document.along.is_some_and(|along| along.stopped.is_some()) {
         // Said above, with what was computed.
         true => Err(Failure::Incomplete),
@@ -105,28 +105,28 @@ fn of_start(
     console: &Console<'_>,
 ) -> Outcome {
     let failure = |e| source.failure(e);
-    let mut blueprint = arguments.resources.blueprint(source)?;
-    let description = &blueprint.scene.description;
+    let mut assembled = arguments.resources.assembled(source)?;
+    let description = &assembled.scene.description;
     let joints = description.joints.len() + description.drives.len();
     let bar = Judging::begin(&MultiProgress::new(), joints);
-    let inquiry = blueprint.inquire_watched(drop, |judged| bar.at(judged));
-    let inquiry = inquiry.map_err(failure)?;
+    let configuration = assembled.analyse_watched(drop, |judged| bar.at(judged));
+    let configuration = configuration.map_err(failure)?;
     bar.end();
-    let mut document = ask::document(arguments, source, &inquiry)?;
+    let mut document = ask::document(arguments, source, &configuration)?;
     document.warnings.insert(0, warning);
-    answer(arguments, &inquiry, &document, console)
+    answer(arguments, &configuration, &document, console)
 }
 
 fn answer(
     arguments: &Analyze,
-    inquiry: &Inquiry<'_>,
+    configuration: &ConfigurationAnalysis<'_>,
     document: &AnalysisDocument,
     console: &Console<'_>,
 ) -> Outcome {
     if arguments.json {
         return json(document, console);
     }
-    let hints = ask::hints(inquiry)?;
+    let hints = ask::hints(configuration)?;
     console.print(&text::describe(document, &hints))
 }
 

@@ -3,7 +3,7 @@
 use pfaff::model::{Layout, Mechanism, System};
 use pfaff::report::documents::FreedomsDocument;
 use pfaff::scene::Scene;
-use pfaff::{Inquiry, Overrides, StudyError};
+use pfaff::{ConfigurationAnalysis, Overrides, StudyError};
 use serde_json::json;
 
 use crate::args::Check;
@@ -53,11 +53,11 @@ struct Freedoms {
 }
 
 impl Freedoms {
-    fn of(inquiry: &Inquiry<'_>) -> Result<Self, StudyError> {
-        let freedoms = inquiry.freedoms()?;
+    fn of(configuration: &ConfigurationAnalysis<'_>) -> Result<Self, StudyError> {
+        let freedoms = configuration.freedoms()?;
         Ok(Self {
             mobility: freedoms.mobility,
-            document: FreedomsDocument::new(&freedoms, inquiry.mechanism),
+            document: FreedomsDocument::new(&freedoms, configuration.mechanism),
         })
     }
 }
@@ -74,12 +74,12 @@ impl Checked {
             warnings: scene.cautions().collect(),
             freedoms: None,
         };
-        let blueprint = resources.blueprint(source)?;
-        match source.prepare(blueprint, &Overrides::default()) {
+        let assembled = resources.assembled(source)?;
+        match source.prepare(assembled, &Overrides::default()) {
             Ok(study) => {
                 study.check_drives().map_err(|e| source.failure(e))?;
                 let failure = |e| source.failure(e);
-                let start = study.inquire(0.0, None).map_err(failure)?;
+                let start = study.analyse(0.0, None).map_err(failure)?;
                 let freedoms = Freedoms::of(&start).map_err(failure)?;
                 let hanging = start.sensitivities().map_err(failure)?;
                 let hanging = hanging.sentences(start.mechanism.layout());
@@ -107,8 +107,8 @@ impl Checked {
                     return Err(source.failure(e));
                 };
                 // What `analyze` judges, and nothing else.
-                let mut blueprint = resources.blueprint(source)?;
-                let start = blueprint.inquire(None).map_err(|e| source.failure(e))?;
+                let mut assembled = resources.assembled(source)?;
+                let start = assembled.analyse(None).map_err(|e| source.failure(e))?;
                 let (described, _) = start.mechanism.described_state();
                 let correction = start.mechanism.difference_of(&start.state.q, &described);
                 let mut checked = new(start.scene, start.mechanism, &correction);

@@ -63,8 +63,8 @@ fn motion(sources: &[Source; 2], starts: &[Start; 2], arguments: &Diff) -> Resul
     }
     let mut studies = Vec::new();
     for source in sources {
-        let blueprint = arguments.resources.blueprint(source)?;
-        match blueprint.prepare(&Overrides::default()) {
+        let assembled = arguments.resources.assembled(source)?;
+        match assembled.prepare(&Overrides::default()) {
             Ok(study) => studies.push(study),
             Err(e) => return Ok(Motion::None(cannot_move(&source.name, &e))),
         }

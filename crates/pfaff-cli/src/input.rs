@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use pfaff::model::{Registry, Tolerance};
 use pfaff::scene::nearest;
-use pfaff::{Blueprint, Overrides, Study, StudyError};
+use pfaff::{AssembledScene, Overrides, Study, StudyError};
 
 use crate::args::Known;
 use crate::console::Console;
@@ -81,19 +81,19 @@ impl<'r> Source<'r> {
         resources: Resources,
     ) -> Result<Study, Failure> {
         resources.apply()?;
-        let blueprint = resources.blueprint(self)?;
-        let study = self.prepare(blueprint, overrides);
+        let assembled = resources.assembled(self)?;
+        let study = self.prepare(assembled, overrides);
         study.map_err(|e| self.failure(e))
     }
 
     /// Assembles what was read from this text.
     pub(crate) fn prepare(
         &self,
-        blueprint: Blueprint,
+        assembled: AssembledScene,
         overrides: &Overrides,
     ) -> Result<Study, StudyError> {
         let _said = Stage::begin(self, "assembling and choosing rows");
-        blueprint.prepare(overrides)
+        assembled.prepare(overrides)
     }
 
     /// An error with the places of this text.

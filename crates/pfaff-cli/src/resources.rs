@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use clap::Args;
 use indicatif::{ProgressBar, ProgressStyle};
-use pfaff::Blueprint;
+use pfaff::AssembledScene;
 use pfaff::memory::of_reading;
 
 use crate::input::Source;
@@ -35,19 +35,19 @@ impl Resources {
     }
 
     /// Reads the scene and builds its mechanism, if there is memory for that and for its verdicts.
-    pub(crate) fn blueprint(self, source: &Source) -> Result<Blueprint, Failure> {
+    pub(crate) fn assembled(self, source: &Source) -> Result<AssembledScene, Failure> {
         let text = source.text.len();
         let reading = of_reading(text);
         self.allow(reading, "reading this scene")?;
         let _said = Stage::begin(source, "reading and building");
-        let read = Blueprint::read(&source.name, &source.text, source.registry)
-            .and_then(|blueprint| blueprint.stating(source.tolerance));
-        let blueprint = read.map_err(|e| source.failure(e))?;
+        let read = AssembledScene::read(&source.name, &source.text, source.registry)
+            .and_then(|assembled| assembled.stating(source.tolerance));
+        let assembled = read.map_err(|e| source.failure(e))?;
         let threads = pfaff::threads();
-        let verdicts = blueprint.memory_of_verdicts(threads);
+        let verdicts = assembled.memory_of_verdicts(threads);
         let verdicts = verdicts.map_err(|e| source.failure(e))?;
         self.allow(reading + verdicts, "deciding the ranks of this scene")?;
-        Ok(blueprint)
+        Ok(assembled)
     }
 
     /// Refuses what takes more memory than there may be.

@@ -5,7 +5,7 @@ use pfaff::model::{Mechanism, System};
 use pfaff::report::AnalysisDocument;
 use pfaff::scene::Scene;
 use pfaff::solvability::ReactionVerdict;
-use pfaff::{Blueprint, StudyError};
+use pfaff::{AssembledScene, StudyError};
 
 use crate::input::Source;
 use crate::output::Failure;
@@ -25,13 +25,13 @@ pub(crate) struct Start {
 impl Start {
     /// Assembles the start of a scene and judges it, also where no motion begins there.
     pub(crate) fn of(source: &Source, resources: Resources) -> Result<Self, Failure> {
-        let mut blueprint = resources.blueprint(source)?;
+        let mut assembled = resources.assembled(source)?;
         let failure = |e: StudyError| source.failure(e);
-        let (reactions, document) = judged(&mut blueprint).map_err(failure)?;
-        let q = blueprint.assemble().map_err(failure)?.q;
-        let Blueprint {
+        let (reactions, document) = judged(&mut assembled).map_err(failure)?;
+        let q = assembled.assemble().map_err(failure)?.q;
+        let AssembledScene {
             scene, mechanism, ..
-        } = blueprint;
+        } = assembled;
         Ok(Self {
             q,
             scene,
@@ -43,14 +43,18 @@ impl Start {
 }
 
 fn judged(
-    blueprint: &mut Blueprint,
+    assembled: &mut AssembledScene,
 ) -> Result<(Vec<ReactionVerdict>, AnalysisDocument), StudyError> {
-    let inquiry = blueprint.inquire(None)?;
-    let mut document = AnalysisDocument::new(inquiry.scene.name(), &inquiry.analysis, None)
-        .with_freedoms(&inquiry.freedoms()?, inquiry.mechanism);
-    if let Some(explanation) = inquiry.explanation()? {
-        document.explain(&explanation, inquiry.mechanism.layout());
+    let configuration = assembled.analyse(None)?;
+    let mut document =
+        AnalysisDocument::new(configuration.scene.name(), &configuration.analysis, None)
+            .with_freedoms(&configuration.freedoms()?, configuration.mechanism);
+    if let Some(explanation) = configuration.explanation()? {
+        document.explain(&explanation, configuration.mechanism.layout());
     }
-    document.add_sensitivities(&inquiry.sensitivities()?, inquiry.mechanism.layout());
-    Ok((inquiry.analysis.reactions.clone(), document))
+    document.add_sensitivities(
+        &configuration.sensitivities()?,
+        configuration.mechanism.layout(),
+    );
+    Ok((configuration.analysis.reactions.clone(), document))
 }

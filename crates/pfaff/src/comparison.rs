@@ -12,7 +12,7 @@ mod tests;
 use linalg::{Matrix, PivotedQr, RankDecision, deletions, dependencies};
 use model::start::scene_size;
 use model::{Mechanism, Part, Scratch, System};
-use report::{ComparedChoice, Comparison, Film, Frame, Freedom};
+use report::{ComparedChoice, Comparison, Frame, Freedom, Recording};
 use solvability::parts::parts;
 use solvability::{Configuration, NormWeights, ReactionVerdict, Verdict, decide};
 
@@ -40,7 +40,7 @@ const PLANE: f64 = 1e-9;
 /// The comparisons, and in words what is not compared.
 pub(crate) fn compare(
     mechanism: &Mechanism,
-    film: &Film,
+    recording: &Recording,
     verdicts: &[ReactionVerdict],
     choice: impl Fn(usize) -> Option<String>,
 ) -> (Vec<Comparison>, Vec<String>) {
@@ -49,7 +49,7 @@ pub(crate) fn compare(
             .get(k)
             .is_some_and(|r| r.wrench.verdict == Verdict::NotUnique)
     };
-    let Some(first) = film.frames.first() else {
+    let Some(first) = recording.frames.first() else {
         return (Vec::new(), Vec::new());
     };
     if first.multipliers.is_empty() || !verdicts.iter().any(|r| open(r.id.0)) {
@@ -79,8 +79,8 @@ pub(crate) fn compare(
             continue;
         }
         let own = choice(reactions[0]).unwrap_or_else(|| "this run".to_owned());
-        match Set::new(&part, film) {
-            Some(set) => compared.push(set.compare(film, &format!("this run: {own}"), open)),
+        match Set::new(&part, recording) {
+            Some(set) => compared.push(set.compare(recording, &format!("this run: {own}"), open)),
             None => left_out.push(names()),
         }
     }
@@ -105,8 +105,8 @@ struct Set<'a> {
 
 impl<'a> Set<'a> {
     /// Nothing where the multipliers of the run are not known, or no rank can be read.
-    fn new(part: &'a Part, film: &Film) -> Option<Self> {
-        let first = film.frames.first()?;
+    fn new(part: &'a Part, recording: &Recording) -> Option<Self> {
+        let first = recording.frames.first()?;
         let known = |&i: &usize| first.multipliers.get(i).is_some_and(|x| x.is_finite());
         if !part.places.rows.iter().all(known) {
             return None;
@@ -136,7 +136,12 @@ impl<'a> Set<'a> {
         decision.is_decided().then_some(decision)
     }
 
-    fn compare(&self, film: &Film, own: &str, open: impl Fn(usize) -> bool) -> Comparison {
+    fn compare(
+        &self,
+        recording: &Recording,
+        own: &str,
+        open: impl Fn(usize) -> bool,
+    ) -> Comparison {
         let labels = &self.part.mechanism.layout().labels;
         let without = |rows: &Vec<usize>| {
             let rows: Vec<String> = rows
@@ -151,12 +156,12 @@ impl<'a> Set<'a> {
         let mut choices: Vec<ComparedChoice> = labels
             .map(|label| ComparedChoice {
                 label,
-                values: Vec::with_capacity(film.frames.len()),
+                values: Vec::with_capacity(recording.frames.len()),
             })
             .collect();
-        let mut freedom = Vec::with_capacity(film.frames.len());
+        let mut freedom = Vec::with_capacity(recording.frames.len());
         let mut s = self.part.mechanism.scratch();
-        for frame in &film.frames {
+        for frame in &recording.frames {
             let instant = self.instant(&mut s, frame);
             for (k, choice) in choices.iter_mut().enumerate() {
                 choice.values.push(

@@ -17,7 +17,7 @@ use crate::study::Study;
 /// ```
 /// use pfaff::model::Registry;
 /// use pfaff::report::AnalysisDocument;
-/// use pfaff::{Blueprint, Comparison};
+/// use pfaff::{AssembledScene, Comparison};
 ///
 /// // A bar on two hinges, and the same with a hinge and a roller.
 /// let scene = |second: &str| format!(
@@ -29,8 +29,8 @@ use crate::study::Study;
 /// ]"
 /// );
 /// let document = |second: &str| -> Result<AnalysisDocument, pfaff::StudyError> {
-///     let mut bar = Blueprint::read("bar.toml", &scene(second), &Registry::planar())?;
-///     let start = bar.inquire(None)?;
+///     let mut bar = AssembledScene::read("bar.toml", &scene(second), &Registry::planar())?;
+///     let start = bar.analyse(None)?;
 ///     Ok(AnalysisDocument::new("bar", &start.analysis, None))
 /// };
 /// let fixed = document("type = \"revolute\"")?;

@@ -21,7 +21,7 @@ pub enum StudyError {
     #[error("{} problem(s) in the description, the first: {}", .0.len(), .0.first().map_or(String::new(), ToString::to_string))]
     Build(Vec<BuildError>),
     /// The start is a singular configuration that cannot be left with its velocities. It can be
-    /// judged all the same, by [`Blueprint::inquire`](crate::Blueprint::inquire).
+    /// judged all the same, by [`AssembledScene::analyse`](crate::AssembledScene::analyse).
     #[error("{contradiction}")]
     SingularStart {
         /// What stands against it.
@@ -100,7 +100,7 @@ fn suggestion(nearest: Option<&str>) -> String {
 
 impl StudyError {
     /// Why a scene cannot be moved although its start can be judged, by
-    /// [`Blueprint::inquire`](crate::Blueprint::inquire); nothing where the start is no start, or
+    /// [`AssembledScene::analyse`](crate::AssembledScene::analyse); nothing where the start is no start, or
     /// nothing keeps the scene from moving.
     #[must_use]
     pub fn only_motion(&self) -> Option<String> {

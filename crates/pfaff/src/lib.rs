@@ -8,26 +8,26 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`prelude`] | the names that a program needs first |
-//! | [`blueprint`] | a scene with its mechanism |
+//! | [`assembled`] | a scene with its mechanism |
 //! | [`study`] | its consistent start, its motion, its files |
-//! | `chronicle`, `comparison` | its report, and several choices for reactions that are not unique |
-//! | [`inquiry`] | one configuration, and everything that can be asked of its reactions |
-//! | [`journey`] | the verdicts along its motion |
+//! | `report_builder`, `comparison` | its report, and several choices for reactions that are not unique |
+//! | [`configuration`] | one configuration, and everything that can be asked of its reactions |
+//! | [`along_motion`] | the verdicts along its motion |
 //! | [`difference`] | two scenes side by side |
 //! | [`mod@sweep`] | many runs with other numbers |
 //! | [`mod@work_precision`] | error against run time |
 //! | [`memory`] | what work on a scene takes |
 //! | [`error`] | why there are no results |
 
-pub mod blueprint;
-mod chronicle;
+pub mod along_motion;
+pub mod assembled;
 mod comparison;
+pub mod configuration;
 pub mod difference;
 pub mod error;
-pub mod inquiry;
-pub mod journey;
 pub mod memory;
 pub mod prelude;
+mod report_builder;
 pub mod study;
 pub mod sweep;
 pub mod work_precision;
@@ -42,11 +42,11 @@ pub use scene;
 pub use solvability;
 pub use suite;
 
-pub use blueprint::Blueprint;
+pub use along_motion::{Progress, VerdictsAlongMotion};
+pub use assembled::AssembledScene;
+pub use configuration::ConfigurationAnalysis;
 pub use difference::{Comparison, MotionDifference};
 pub use error::StudyError;
-pub use inquiry::Inquiry;
-pub use journey::{Journey, Progress};
 pub use solvability::Numbers;
 pub use study::{Overrides, Study};
 

@@ -3,7 +3,7 @@
 
 use solvability::memory_of_verdicts;
 
-use crate::blueprint::Blueprint;
+use crate::assembled::AssembledScene;
 use crate::error::StudyError;
 use crate::study::Study;
 
@@ -25,7 +25,7 @@ pub fn of_reading(text: usize) -> usize {
     FLOOR + OF_TEXT.saturating_mul(text)
 }
 
-impl Blueprint {
+impl AssembledScene {
     /// Bytes that ranks, kept rows and verdicts take at most on so many threads, about, beside what
     /// was read: see [`memory_of_verdicts`].
     ///

@@ -6,6 +6,6 @@ pub use joints::{Direction, KnifeEdge, Revolute, Translational};
 pub use model::{Body, BodyRef, Description, Function, Registry};
 pub use scene::Scene;
 
+pub use crate::configuration::ConfigurationAnalysis;
 pub use crate::error::StudyError;
-pub use crate::inquiry::Inquiry;
 pub use crate::study::{Overrides, Study};

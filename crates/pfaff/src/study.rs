@@ -8,8 +8,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use dynamics::plan::{Reactions, Rows};
 use dynamics::{
-    Failure, Method, MotionOptions, Plan, Prepared, Sample, Stabilisation, Summary, Trip, Wanted,
-    simulate,
+    Failure, Method, MotionFault, MotionOptions, Plan, Prepared, Sample, Stabilisation, Summary,
+    Wanted, simulate,
 };
 use model::{Known, Registry, System};
 use report::documents::{DataDocument, MomentDocument, MotionDocument};
@@ -20,10 +20,10 @@ use report::{
 use scene::{Output, Scene, WantedReactions};
 use solvability::{Contradiction, State, contradicting_drives_along};
 
-use crate::blueprint::{Blueprint, refused};
-use crate::chronicle::Chronicle;
+use crate::assembled::{AssembledScene, refused};
+use crate::configuration::{AskedRows, ConfigurationAnalysis};
 use crate::error::StudyError;
-use crate::inquiry::{AskedRows, Inquiry};
+use crate::report_builder::ReportBuilder;
 
 /// Rows of a mechanism up to which a moving picture has rows of its own between those of the
 /// tables.
@@ -78,7 +78,7 @@ impl Study {
         registry: &Registry,
         overrides: &Overrides,
     ) -> Result<Self, StudyError> {
-        Blueprint::read(name, text, registry)?.prepare(overrides)
+        AssembledScene::read(name, text, registry)?.prepare(overrides)
     }
 
     /// The same of a scene, or of a description alone, that a program has made.
@@ -92,7 +92,7 @@ impl Study {
     ///     door.joint(name, &[BodyRef::Ground, leaf], Revolute { s_i: [0.0, y], s_j: [0.0, y] });
     /// }
     /// let study = Study::build(door)?;
-    /// assert_eq!(study.inquire(0.0, None)?.analysis.decision.redundancy, 1);
+    /// assert_eq!(study.analyse(0.0, None)?.analysis.decision.redundancy, 1);
     ///
     /// let nothing = Study::build(Description::new("nothing")).err().unwrap();
     /// assert!(matches!(nothing, StudyError::Build(_)), "{nothing}");
@@ -104,7 +104,7 @@ impl Study {
     /// - [`StudyError::Motion`]: there is no consistent start, or no rows can be chosen.
     /// - [`StudyError::SingularStart`]: no motion begins with the velocities of the start.
     pub fn build(scene: impl Into<Scene>) -> Result<Self, StudyError> {
-        Blueprint::build(scene)?.prepare(&Overrides::default())
+        AssembledScene::build(scene)?.prepare(&Overrides::default())
     }
 
     /// A configuration at a time of the motion, to be asked about its reactions; at t = 0 nothing
@@ -114,20 +114,24 @@ impl Study {
     /// # Errors
     /// If the motion does not reach that time, C cannot be judged there, redundant rows contradict
     /// each other there, or the rows cannot be dropped.
-    pub fn inquire(&self, t: f64, drop: Option<&[usize]>) -> Result<Inquiry<'_>, StudyError> {
-        self.inquire_watched(t, drop, |_| ())
+    pub fn analyse(
+        &self,
+        t: f64,
+        drop: Option<&[usize]>,
+    ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
+        self.analyse_watched(t, drop, |_| ())
     }
 
     /// The same; `progress` is told how many joints are judged.
     ///
     /// # Errors
-    /// As [`Study::inquire`].
-    pub fn inquire_watched(
+    /// As [`Study::analyse`].
+    pub fn analyse_watched(
         &self,
         t: f64,
         drop: Option<&[usize]>,
         progress: impl Fn(usize) + Sync,
-    ) -> Result<Inquiry<'_>, StudyError> {
+    ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
         let mechanism = &self.prepared.mechanism;
         let state = self.state_at(t)?;
         // Later configurations are known only as well as the motion that has reached them.
@@ -140,15 +144,16 @@ impl Study {
             (None, Some(decided)) if t == 0.0 => AskedRows::Decided(decided),
             (None, _) => AskedRows::Any,
         };
-        let inquiry = Inquiry::new(&self.scene, mechanism, t, state, known, rows, progress)?;
+        let configuration =
+            ConfigurationAnalysis::new(&self.scene, mechanism, t, state, known, rows, progress)?;
         // Those of the start have been looked for when it was prepared.
         let found = match t == 0.0 {
             true => Vec::new(),
-            false => inquiry.contradictions()?,
+            false => configuration.contradictions()?,
         };
         match found.into_iter().next() {
             Some(worst) => Err(worst.into()),
-            None => Ok(inquiry),
+            None => Ok(configuration),
         }
     }
 
@@ -233,7 +238,7 @@ impl Study {
     pub fn run(
         &self,
         options: &MotionOptions,
-        row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, Trip>,
+        row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
     ) -> Result<Summary, Box<Failure>> {
         simulate(&self.prepared, options, row)
     }
@@ -262,7 +267,7 @@ impl Study {
     pub fn motion(&self, options: &MotionOptions) -> Result<MotionDocument, StudyError> {
         let mechanism = &self.prepared.mechanism;
         let plan = Plan::new(&self.prepared, options, &Wanted::default())?;
-        let start = self.inquire(0.0, None)?;
+        let start = self.analyse(0.0, None)?;
         let freedoms = start.freedoms()?;
         let sensitivities = start.sensitivities()?;
         let mut rows = Vec::new();
@@ -370,7 +375,7 @@ impl Study {
         let between = self.rows_between(&wanted(&self.scene.output));
         let mechanism = &self.prepared.mechanism;
         let output = &self.scene.output;
-        let start = self.inquire(0.0, None)?;
+        let start = self.analyse(0.0, None)?;
         let freedoms = start.freedoms()?;
         let sensitivities = start.sensitivities()?;
         let mut trajectory = match output.trajectory {
@@ -388,7 +393,7 @@ impl Study {
             )?),
             None => None,
         };
-        let mut chronicle = output.report.then(|| Chronicle::new(self, &plan));
+        let mut report_builder = output.report.then(|| ReportBuilder::new(self, &plan));
         let interrupted = AtomicBool::new(false);
         let progress = Mutex::new(progress);
         let go_on = |t: f64| {
@@ -411,7 +416,7 @@ impl Study {
                 trajectory.as_mut().filter(|_| in_tables),
                 reactions.as_mut(),
                 in_tables,
-                chronicle.as_mut(),
+                report_builder.as_mut(),
             )?;
             let flow = go_on(sample.t);
             unwritten = written.err();
@@ -459,9 +464,10 @@ impl Study {
             source,
         })?;
         directory.write("summary.json", &text)?;
-        if let Some(chronicle) = chronicle {
+        if let Some(report_builder) = report_builder {
             let figure = comparison_beside(directory);
-            let page = chronicle.page(&start, &sensitivities, &document, origin, figure.as_deref());
+            let page =
+                report_builder.page(&start, &sensitivities, &document, origin, figure.as_deref());
             directory.write("report.html", page.as_bytes())?;
         }
         match (unwritten, error) {
@@ -496,8 +502,8 @@ fn write_row(
     trajectory: Option<&mut TrajectoryTable<report::OutputFile>>,
     reactions: Option<&mut ReactionTable<report::OutputFile>>,
     in_tables: bool,
-    chronicle: Option<&mut Chronicle<'_>>,
-) -> Result<Result<(), TableError>, Trip> {
+    report_builder: Option<&mut ReportBuilder<'_>>,
+) -> Result<Result<(), TableError>, MotionFault> {
     if let Some(table) = trajectory
         && let Err(e) = table.row(sample.t, sample.q, sample.v)
     {
@@ -510,8 +516,8 @@ fn write_row(
             return Ok(Err(e));
         }
     }
-    if let Some(chronicle) = chronicle {
-        chronicle.take(sample, &known)?;
+    if let Some(report_builder) = report_builder {
+        report_builder.take(sample, &known)?;
     }
     Ok(Ok(()))
 }

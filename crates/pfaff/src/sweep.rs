@@ -24,7 +24,7 @@ use report::sweep::{Journal, Journals, SweepPlan, digest, write_sweep};
 use report::{OutputDirectory, SweepDocument, SweepRow, TrajectoryTable};
 use scene::{Template, WantedReactions};
 
-use crate::blueprint::Blueprint;
+use crate::assembled::AssembledScene;
 use crate::error::StudyError;
 use axis::Grid;
 
@@ -111,15 +111,15 @@ impl<'r> Sweep<'r> {
         registry: &'r Registry,
         axes: Vec<Axis>,
     ) -> Result<Self, SweepError> {
-        let blueprint = Blueprint::read(name, text, registry)?;
-        if blueprint.scene.simulate.is_none() {
+        let assembled = AssembledScene::read(name, text, registry)?;
+        if assembled.scene.simulate.is_none() {
             return Err(StudyError::NoEnd.into());
         }
         let grid = Grid::new(axes)?;
         let keys: Vec<&str> = grid.axes.iter().map(Axis::key).collect();
         let template = Template::new(text, &keys)?;
-        let groups = &blueprint.mechanism.layout().groups;
-        let is_wanted = |name: &String| match &blueprint.scene.output.reactions {
+        let groups = &assembled.mechanism.layout().groups;
+        let is_wanted = |name: &String| match &assembled.scene.output.reactions {
             WantedReactions::All => true,
             WantedReactions::Of(names) => names.contains(name),
             WantedReactions::None => false,
@@ -128,14 +128,14 @@ impl<'r> Sweep<'r> {
             .filter(|k| is_wanted(&groups[*k].name))
             .collect();
         let plan = SweepPlan {
-            scene: blueprint.scene.description.name.clone(),
+            scene: assembled.scene.description.name.clone(),
             digest: format!("{:016x}", digest(text.as_bytes())),
             version: env!("CARGO_PKG_VERSION").to_owned(),
             vary: grid.axes.iter().map(Axis::to_string).collect(),
             runs: grid.len as u64,
             keep_rows: false,
             keys: keys.into_iter().map(str::to_owned).collect(),
-            bodies: blueprint
+            bodies: assembled
                 .mechanism
                 .bodies()
                 .iter()

@@ -7,9 +7,9 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | `film` | rows of the run that are kept |
+//! | `recording` | rows of the run that are kept |
 //! | `comparison` | what several choices say of the same reaction |
-//! | `scenery`, `channel`, `data` | bodies, joints and curves as one JSON document, rounded |
+//! | `drawing_model`, `channel`, `data` | bodies, joints and curves as one JSON document, rounded |
 //! | `document`, `verdicts`, `inputs` | the page around them |
 //! | `report.css`, `script/` | its looks, and what moves |
 
@@ -17,9 +17,9 @@ mod channel;
 mod comparison;
 mod data;
 mod document;
-mod film;
+mod drawing_model;
 mod inputs;
-mod scenery;
+mod recording;
 mod verdicts;
 
 use model::Mechanism;
@@ -27,7 +27,7 @@ use model::Mechanism;
 use crate::documents::{AnalysisDocument, MakeUniqueDocument, RunDocument};
 
 pub use comparison::{ComparedChoice, Comparison, Freedom};
-pub use film::{Film, Frame};
+pub use recording::{Frame, Recording};
 
 /// What a page is made of.
 pub struct RunPage<'a> {
@@ -40,7 +40,7 @@ pub struct RunPage<'a> {
     /// Numbers of the run.
     pub run: &'a RunDocument,
     /// Its rows.
-    pub film: &'a Film,
+    pub recording: &'a Recording,
     /// Reactions that are not unique, by several choices.
     pub comparisons: &'a [Comparison],
     /// What drives prescribe, at the frames.
@@ -88,7 +88,7 @@ impl Default for Origin {
     }
 }
 
-/// Numbers of a row of a film: what it holds, and what a page shows of it.
+/// Numbers of a row of a recording: what it holds, and what a page shows of it.
 #[must_use]
 pub fn numbers_per_row(mechanism: &Mechanism) -> usize {
     data::numbers_per_row(mechanism)

@@ -27,8 +27,8 @@ pub use documents::{AnalysisDocument, Ending, PlanDocument, Run, RunDocument, wr
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Series, Style};
 pub use files::{FileError, OutputDirectory, OutputFile};
 pub use html::{
-    ComparedChoice, Comparison, DriveCurve, Film, Frame, Freedom, Origin, RunPage, numbers_per_row,
-    run_page,
+    ComparedChoice, Comparison, DriveCurve, Frame, Freedom, Origin, Recording, RunPage,
+    numbers_per_row, run_page,
 };
 pub use stress::{
     Judgement, StressDocument, StressFamily, StressRow, StressTable, Tally, stress_page,

@@ -3,7 +3,7 @@
 
 use joints::recorded::{Operation, Recorded};
 use model::record::Input;
-use model::{Recording, System};
+use model::{RecordedEquations, System};
 use symbolic::{Function, Graph, Value};
 
 use crate::sampled::Sampled;
@@ -29,7 +29,7 @@ pub(crate) struct Equations {
     pub(crate) names: Graph,
     pub(crate) sources: Vec<Source>,
     inputs: Vec<Value>,
-    pub(crate) recording: Recording,
+    pub(crate) recording: RecordedEquations,
     pub(crate) phi: Vec<Value>,
     /// Rows of C, dense, zeros as the constant 0.
     pub(crate) c: Vec<Vec<Value>>,
@@ -102,7 +102,7 @@ impl Equations {
 /// C by dense rows of a replayed recording, and what looks up its other results.
 pub(crate) fn results<'v>(
     code: &mut Sampled,
-    recording: &Recording,
+    recording: &RecordedEquations,
     values: &'v [Value],
 ) -> (
     Vec<Vec<Value>>,
@@ -122,7 +122,11 @@ pub(crate) fn results<'v>(
 }
 
 /// The operations of a tape in a program, which folds what is known.
-pub(crate) fn replay(code: &mut Sampled, recording: &Recording, inputs: &[Value]) -> Vec<Value> {
+pub(crate) fn replay(
+    code: &mut Sampled,
+    recording: &RecordedEquations,
+    inputs: &[Value],
+) -> Vec<Value> {
     let p = &mut code.program;
     let mut values: Vec<Value> = Vec::with_capacity(recording.tape.len());
     for operation in &recording.tape {

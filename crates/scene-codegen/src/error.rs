@@ -1,6 +1,6 @@
 //! Why there is no code for a mechanism.
 
-use dynamics::{MotionError, Trip};
+use dynamics::{MotionError, MotionFault};
 use pfaff::StudyError;
 
 /// What kept a module from being generated.
@@ -18,7 +18,7 @@ pub enum CodeError {
     Start(#[from] MotionError),
     /// A state of the motion cannot be evaluated.
     #[error(transparent)]
-    Trip(#[from] Trip),
+    MotionFault(#[from] MotionFault),
     /// There is no order of elimination that serves the whole motion.
     #[error(
         "no fixed order of elimination serves the whole motion: with {left} rows left the best pivot falls to {share:.1e} of its row or column \

@@ -21,7 +21,7 @@ pub use tape::Tape;
 
 use std::path::Path;
 
-use pfaff::{Blueprint, Overrides};
+use pfaff::{AssembledScene, Overrides};
 
 /// The module of a scene file: made for the run that the scene asks for, or for its start if it
 /// asks for none. Rows `drop`, from 0, are dropped instead of those that the scene drops.
@@ -51,7 +51,7 @@ pub fn scene_text(
         ..Overrides::default()
     };
     let study =
-        Blueprint::read(name, text, &pfaff::model::Registry::planar())?.prepare(&overrides)?;
+        AssembledScene::read(name, text, &pfaff::model::Registry::planar())?.prepare(&overrides)?;
     let subject = match &study.options {
         Some(options) => Subject::of_run(&study.prepared, options)?,
         None => Subject::at_start(&study.prepared),

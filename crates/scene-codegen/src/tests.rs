@@ -4,7 +4,7 @@
 use dynamics::{KeptRowMotion, Motion};
 use linalg::KeptRowSaddle;
 use model::System;
-use pfaff::{Blueprint, Overrides, Study};
+use pfaff::{AssembledScene, Overrides, Study};
 use solvability::{Solvability, Verdict};
 use symbolic::Symbol;
 
@@ -63,7 +63,7 @@ pub(crate) fn scenes() -> Vec<(String, String)> {
 }
 
 pub(crate) fn study(name: &str, text: &str) -> Study {
-    Blueprint::read(name, text, &model::Registry::planar())
+    AssembledScene::read(name, text, &model::Registry::planar())
         .and_then(|b| b.prepare(&Overrides::default()))
         .unwrap_or_else(|e| panic!("{name}: {e}"))
 }

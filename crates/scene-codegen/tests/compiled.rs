@@ -7,7 +7,7 @@ use std::process::Command;
 
 use dynamics::{KeptRowMotion, Motion};
 use pfaff::model::Registry;
-use pfaff::{Blueprint, Overrides, Study};
+use pfaff::{AssembledScene, Overrides, Study};
 use scene_codegen::{Choices, Subject, generate};
 
 /// States of each scene.
@@ -40,7 +40,7 @@ fn rustc(folder: &Path, arguments: &[&str]) {
 }
 
 fn study(case: &suite::Case) -> Study {
-    Blueprint::read(case.name, case.scene, &Registry::planar())
+    AssembledScene::read(case.name, case.scene, &Registry::planar())
         .and_then(|b| b.prepare(&Overrides::default()))
         .unwrap_or_else(|e| panic!("{}: {e}", case.name))
 }

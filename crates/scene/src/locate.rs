@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::ops::Range;
 
-use dynamics::{MotionError, Trip};
+use dynamics::{MotionError, MotionFault};
 use model::start::VelocityConflict;
 use model::{Body, BodyRef, BuildError, Description, RowLabel, StartError, Stated};
 
@@ -141,7 +141,7 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
         }
         MotionError::Option { name, .. } => (map.section("simulate", name), "not possible"),
         MotionError::Rows(_) => (map.section("simulate", "drop"), "not these rows"),
-        MotionError::Trip(Trip::Drives { contradiction, .. }) => {
+        MotionError::Fault(MotionFault::Drives { contradiction, .. }) => {
             return contradicting(
                 map,
                 contradiction.split_rows(),
@@ -149,14 +149,14 @@ pub(crate) fn motion(map: &SourceMap, error: &MotionError) -> Diagnostic {
                 error,
             );
         }
-        MotionError::Trip(trip) => match trip {
-            Trip::RankLost { row: label, .. } => (row(map, label), "becomes dependent"),
-            Trip::OffConstraints { row: label, .. } => (row(map, label), "misses most"),
-            Trip::SingularStart { row: label, .. } => {
+        MotionError::Fault(fault) => match fault {
+            MotionFault::RankLost { row: label, .. } => (row(map, label), "becomes dependent"),
+            MotionFault::OffConstraints { row: label, .. } => (row(map, label), "misses most"),
+            MotionFault::SingularStart { row: label, .. } => {
                 (row(map, label), "redundant at the start alone")
             }
-            Trip::DroppedRow { row: label, .. } => (row(map, label), "is violated"),
-            Trip::Massless { body, .. } => {
+            MotionFault::DroppedRow { row: label, .. } => (row(map, label), "is violated"),
+            MotionFault::Massless { body, .. } => {
                 let entry = map.body(body);
                 let span = entry.map(|entry| entry.first_of(&["mass"]));
                 (span.unwrap_or(0..0), "can move freely")

@@ -108,7 +108,7 @@ fn every_verdict_is_the_one_worked_out_by_hand() {
     for expected in &ANSWERS {
         let name = expected.name;
         let study = study(name, &read(&scene(name)));
-        let found = study.inquire(0.0, None);
+        let found = study.analyse(0.0, None);
         let a = found.unwrap_or_else(|e| panic!("{name}: {e}")).analysis;
         assert_eq!(
             [a.decision.rank, a.decision.redundancy, a.mobility()],

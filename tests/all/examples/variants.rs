@@ -165,7 +165,7 @@ fn neighbours_are_as_the_pages_say() {
     for neighbour in &NEIGHBOURS {
         let name = neighbour.name;
         let study = study(name, &edited(neighbour));
-        let found = study.inquire(0.0, None);
+        let found = study.analyse(0.0, None);
         let a = found.unwrap_or_else(|e| panic!("{name}: {e}")).analysis;
         let numbers = [a.decision.rank, a.decision.redundancy, a.mobility()];
         assert_eq!(numbers, neighbour.numbers, "{name}: {}", neighbour.said);

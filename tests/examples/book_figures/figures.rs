@@ -105,12 +105,12 @@ fn with_rows(text: &str) -> Fallible<String> {
 /// A mechanism at a time of its motion, marked by verdict.
 fn leaning(text: &str, t: f64) -> Fallible<String> {
     let study = read(text, &Overrides::default())?;
-    let inquiry = study.inquire(t, None)?;
+    let configuration = study.analyse(t, None)?;
     Ok(figures::mechanism(
-        inquiry.mechanism,
+        configuration.mechanism,
         t,
-        &inquiry.state.q,
-        Marking::Verdicts(&inquiry.analysis.reactions),
+        &configuration.state.q,
+        Marking::Verdicts(&configuration.analysis.reactions),
     )?)
 }
 

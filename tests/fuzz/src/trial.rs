@@ -11,7 +11,7 @@ use std::fmt;
 use pfaff::dynamics::MotionOptions;
 use pfaff::model::Registry;
 use pfaff::scene::Diagnostic;
-use pfaff::{Blueprint, Overrides, StudyError};
+use pfaff::{AssembledScene, Overrides, StudyError};
 
 /// Runs go no farther than this (s), nor than so many steps or rows.
 pub(crate) const T_END: f64 = 0.25;
@@ -110,9 +110,9 @@ impl Stage {
 pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
     begin(Stage::Read);
     let registry = Registry::planar();
-    let read = || Blueprint::read("scene.toml", text, &registry);
-    let blueprint = match read() {
-        Ok(blueprint) => blueprint,
+    let read = || AssembledScene::read("scene.toml", text, &registry);
+    let assembled = match read() {
+        Ok(assembled) => assembled,
         Err(StudyError::Scene(problems)) => {
             places(text, &problems);
             return Reach::Refused;
@@ -120,7 +120,7 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
         Err(other) => panic!("a text is refused without a place: {other}"),
     };
     begin(Stage::Prepare);
-    let mut study = match blueprint.prepare(&Overrides::default()) {
+    let mut study = match assembled.prepare(&Overrides::default()) {
         Ok(study) => study,
         Err(e) => {
             named(&e);
@@ -128,13 +128,13 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
                 places(text, problems);
             }
             let can_be_judged = e.only_motion().is_some();
-            let Some(mut blueprint) = read().ok().filter(|_| can_be_judged) else {
+            let Some(mut assembled) = read().ok().filter(|_| can_be_judged) else {
                 return Reach::NoStart;
             };
             begin(Stage::Judge);
-            return match blueprint.inquire(None) {
-                Ok(inquiry) => {
-                    judged::check(&inquiry);
+            return match assembled.analyse(None) {
+                Ok(configuration) => {
+                    judged::check(&configuration);
                     Reach::Judged
                 }
                 Err(e) => {
@@ -148,8 +148,8 @@ pub fn of(text: &str, mut begin: impl FnMut(Stage)) -> Reach {
     };
     begin(Stage::Judge);
     judged::start(&study);
-    match study.inquire(0.0, None) {
-        Ok(inquiry) => judged::check(&inquiry),
+    match study.analyse(0.0, None) {
+        Ok(configuration) => judged::check(&configuration),
         Err(e) => {
             named(&e);
             return Reach::NoStart;

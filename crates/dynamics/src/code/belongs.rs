@@ -8,7 +8,7 @@ use linalg::GRADED_MASSES;
 use model::{Mechanism, System};
 
 use super::{LEAVE, SceneCode};
-use crate::error::Trip;
+use crate::error::MotionFault;
 use crate::motion::{KeptRowMotion, Motion, is_far, mass_spread};
 use crate::options::{Method, MotionOptions, Stabilisation};
 use crate::prepare::Prepared;
@@ -95,7 +95,7 @@ pub enum CodeMismatch {
     },
     /// The mechanism itself has no values there.
     #[error(transparent)]
-    Trip(#[from] Trip),
+    MotionFault(#[from] MotionFault),
 }
 
 fn from_one(rows: &[usize]) -> String {

@@ -12,7 +12,7 @@ use model::{Mechanism, System};
 
 use super::KeptRowMotion;
 use super::project::Correct;
-use crate::error::Trip;
+use crate::error::MotionFault;
 
 /// A partition, and the state completed last.
 pub(super) struct Chart {
@@ -104,7 +104,7 @@ impl KeptRowMotion<'_> {
     ///
     /// # Errors
     /// If the kept rows are dependent there.
-    pub fn use_chart(&mut self, t: f64, q: &[f64]) -> Result<(), Trip> {
+    pub fn use_chart(&mut self, t: f64, q: &[f64]) -> Result<(), MotionFault> {
         self.mechanism.pose(t, q, &mut self.s);
         self.mechanism.c(&mut self.s);
         let (q, v) = (q.to_vec(), vec![0.0; self.mechanism.layout().n_v]);
@@ -121,12 +121,12 @@ impl KeptRowMotion<'_> {
     /// On a chart the dependent entries of y do not matter.
     ///
     /// # Errors
-    /// As [`super::Motion::acceleration`]; [`Trip::OffConstraints`], [`Trip::Chart`] if a state
+    /// As [`super::Motion::acceleration`]; [`MotionFault::OffConstraints`], [`MotionFault::Chart`] if a state
     /// cannot be completed.
     ///
     /// # Panics
     /// If `y` or `dy` are shorter than n_q + n_v.
-    pub fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
+    pub fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
         self.begin_step(|accepted| t > accepted)?;
         let layout = self.mechanism.layout();
         let (q, rest) = y.split_at(layout.n_q);
@@ -160,7 +160,7 @@ impl KeptRowMotion<'_> {
         t: f64,
         y: &[f64],
         dy: &mut [f64],
-    ) -> Result<(), Trip> {
+    ) -> Result<(), MotionFault> {
         if self.chart.is_some() {
             return self.derivative(t, y, dy);
         }
@@ -188,8 +188,8 @@ impl KeptRowMotion<'_> {
     /// lead: on another branch or another turn it is not.
     ///
     /// # Errors
-    /// [`Trip::FarCompletion`]
-    pub(crate) fn check_travel(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), Trip> {
+    /// [`MotionFault::FarCompletion`]
+    pub(crate) fn check_travel(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<(), MotionFault> {
         let Some(chart) = &mut self.chart else {
             return Ok(());
         };
@@ -208,7 +208,7 @@ impl KeptRowMotion<'_> {
             return Ok(());
         }
         let (body, coordinate) = mechanism.coordinate(place);
-        Err(Trip::FarCompletion {
+        Err(MotionFault::FarCompletion {
             time: t,
             body: body.to_owned(),
             coordinate,
@@ -219,7 +219,13 @@ impl KeptRowMotion<'_> {
     /// Completes a state on a chart: from the state completed last or, if that was too far away,
     /// from the one accepted last, or from what the integrator carries. Where nothing is free that
     /// comes first, because nothing else tells how far the motion has gone.
-    fn complete_on(&mut self, chart: &mut Chart, t: f64, q: &[f64], v: &[f64]) -> Result<(), Trip> {
+    fn complete_on(
+        &mut self,
+        chart: &mut Chart,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<(), MotionFault> {
         let far = FAR + WAY * chart.way_to(t, |i| self.mechanism.unit(i, self.size));
         if chart.z.is_empty() {
             chart.q.copy_from_slice(q);
@@ -245,19 +251,25 @@ impl KeptRowMotion<'_> {
     }
 
     /// Solves for accelerations at the state just completed.
-    fn solve_completed(&mut self, chart: &Chart, a: &mut [f64]) -> Result<(), Trip> {
+    fn solve_completed(&mut self, chart: &Chart, a: &mut [f64]) -> Result<(), MotionFault> {
         self.passage.see(&self.velocity);
         self.solve_factored(&chart.v, a)
     }
 
     /// Overwrites dependent coordinates and velocities; factors there.
-    fn complete(&mut self, t: f64, far: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Trip> {
+    fn complete(
+        &mut self,
+        t: f64,
+        far: f64,
+        q: &mut [f64],
+        v: &mut [f64],
+    ) -> Result<(), MotionFault> {
         self.guess.copy_from_slice(q);
         self.project_position(t, q, Correct::DependentCoordinates)?;
         let (place, by) = self.mechanism.largest_difference(q, &self.guess, self.size);
         if by > far {
             let (body, coordinate) = self.mechanism.coordinate(place);
-            return Err(Trip::FarCompletion {
+            return Err(MotionFault::FarCompletion {
                 time: t,
                 body: body.to_owned(),
                 coordinate,
@@ -279,7 +291,7 @@ impl KeptRowMotion<'_> {
         t: f64,
         q: &mut [f64],
         v: &mut [f64],
-    ) -> Result<(), Trip> {
+    ) -> Result<(), MotionFault> {
         let Some(mut chart) = self.chart.take() else {
             return Ok(());
         };
@@ -310,7 +322,10 @@ impl KeptRowMotion<'_> {
 
     /// Chooses the chart that has been asked for, if a step has begun: whether one has is told by
     /// the time of the accepted state.
-    pub(super) fn begin_step(&mut self, has_begun: impl Fn(f64) -> bool) -> Result<(), Trip> {
+    pub(super) fn begin_step(
+        &mut self,
+        has_begun: impl Fn(f64) -> bool,
+    ) -> Result<(), MotionFault> {
         let due = self.chart.as_ref().and_then(|c| c.renewal.as_ref());
         let Some(origin) = due.filter(|origin| has_begun(origin.t)).cloned() else {
             return Ok(());
@@ -330,7 +345,7 @@ impl KeptRowMotion<'_> {
     }
 
     /// Partitions the rows at the pose of the scratch, which is that of the origin.
-    fn choose_chart(&mut self, origin: Origin) -> Result<(), Trip> {
+    fn choose_chart(&mut self, origin: Origin) -> Result<(), MotionFault> {
         let (mechanism, s) = (self.mechanism, &self.s);
         // Far from the origin places are known to fewer digits than angles.
         let place = |j: usize| mechanism.position(&origin.q, j).abs();

@@ -12,7 +12,7 @@ use model::{Mechanism, System};
 
 use super::{Correction, KeptRowMotion};
 use crate::code::{LEAVE, SceneCode};
-use crate::error::Trip;
+use crate::error::MotionFault;
 use crate::events::{Event, EventKind};
 use crate::guards::GUARDED;
 
@@ -339,7 +339,7 @@ impl KeptRowMotion<'_> {
         q: &[f64],
         v: &[f64],
         a: &mut [f64],
-    ) -> Result<bool, Trip> {
+    ) -> Result<bool, MotionFault> {
         let Some(coded) = &mut self.coded else {
             return Ok(false);
         };
@@ -398,7 +398,7 @@ impl KeptRowMotion<'_> {
         t: f64,
         y: &mut [f64],
         dy: &mut [f64],
-    ) -> Result<Option<Correction>, Trip> {
+    ) -> Result<Option<Correction>, MotionFault> {
         let n_q = self.mechanism.layout().n_q;
         let n_v = self.mechanism.layout().n_v;
         let Some(coded) = &mut self.coded else {
@@ -518,7 +518,7 @@ impl KeptRowMotion<'_> {
     }
 
     /// Lets the interpreter see the last accepted states of the code, if it has not yet.
-    fn wake_up(&mut self) -> Result<(), Trip> {
+    fn wake_up(&mut self) -> Result<(), MotionFault> {
         let Some(mut coded) = self.coded.take_if(|c| c.phase == Phase::Waking) else {
             return Ok(());
         };

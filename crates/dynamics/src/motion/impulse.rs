@@ -5,7 +5,7 @@
 use model::System;
 
 use super::KeptRowMotion;
-use crate::error::Trip;
+use crate::error::MotionFault;
 use crate::events::{Event, EventKind};
 
 /// Residuals below this share of the terms of their row, or for rates of the largest row, are no
@@ -28,14 +28,14 @@ impl KeptRowMotion<'_> {
     /// Takes the velocities just behind a break time from those just before, at t just behind it.
     ///
     /// # Errors
-    /// [`Trip::PositionJump`] if a constraint asks for another position; as
+    /// [`MotionFault::PositionJump`] if a constraint asks for another position; as
     /// [`super::Motion::project`].
     pub(crate) fn cross_break(
         &mut self,
         t: f64,
         q: &mut [f64],
         v: &mut [f64],
-    ) -> Result<Option<Impulse>, Trip> {
+    ) -> Result<Option<Impulse>, MotionFault> {
         let mechanism = self.mechanism;
         let layout = mechanism.layout();
         // What a state misses already, where it is not projected, is no jump.
@@ -48,7 +48,7 @@ impl KeptRowMotion<'_> {
             let is_large = jump > NO_JUMP * mechanism.position_scale(&self.s, i)
                 && mechanism.relative_to_reach(&self.s, i, self.size, jump) > NO_JUMP;
             if is_large && jump > REMAINS * phi_wide[i].abs() {
-                return Err(Trip::PositionJump {
+                return Err(MotionFault::PositionJump {
                     time: t,
                     row: layout.labels[i].clone(),
                     jump,

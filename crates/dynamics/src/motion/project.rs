@@ -6,7 +6,7 @@ use model::{Mechanism, Scratch, System};
 use super::rows::KeptRows;
 use super::{Correction, KeptRowMotion};
 use crate::counts::{Counted, note};
-use crate::error::Trip;
+use crate::error::MotionFault;
 use crate::events::Event;
 use crate::guards::GUARDED;
 
@@ -72,7 +72,7 @@ impl KeptRowMotion<'_> {
         q: &mut [f64],
         v: &mut [f64],
         nearest: f64,
-    ) -> Result<Correction, Trip> {
+    ) -> Result<Correction, MotionFault> {
         self.complete_row(t, q, v)?;
         let iterations = self.settle(t, q)?;
         if self.velocity.relative_pivot() < nearest {
@@ -92,7 +92,12 @@ impl KeptRowMotion<'_> {
     }
 
     /// Moves a stage onto the constraints.
-    pub(crate) fn approach(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<(), Trip> {
+    pub(crate) fn approach(
+        &mut self,
+        t: f64,
+        q: &mut [f64],
+        v: &mut [f64],
+    ) -> Result<(), MotionFault> {
         self.settle(t, q)?;
         self.project_velocity(v).map(drop)
     }
@@ -118,8 +123,8 @@ impl KeptRowMotion<'_> {
     }
 
     /// Refuses a step over a singular configuration.
-    pub(crate) fn no_way_over(&self, t: f64) -> Trip {
-        Trip::SingularPassage {
+    pub(crate) fn no_way_over(&self, t: f64) -> MotionFault {
+        MotionFault::SingularPassage {
             from: self.passage.since(),
             to: t,
         }
@@ -134,21 +139,25 @@ impl KeptRowMotion<'_> {
     }
 
     /// Takes the start as the first accepted state.
-    pub(crate) fn begin(&mut self, t: f64, q: &mut [f64]) -> Result<(), Trip> {
+    pub(crate) fn begin(&mut self, t: f64, q: &mut [f64]) -> Result<(), MotionFault> {
         self.settle(t, q)?;
         self.passage.take(&mut self.velocity, t);
         Ok(())
     }
 
     /// Moves q onto the constraints and factors there.
-    pub(super) fn settle(&mut self, t: f64, q: &mut [f64]) -> Result<usize, Trip> {
+    pub(super) fn settle(&mut self, t: f64, q: &mut [f64]) -> Result<usize, MotionFault> {
         let iterations = self.project_position(t, q, Correct::AllCoordinates)?;
         self.velocity.factor(self.mechanism, &self.s)?;
         Ok(iterations)
     }
 
     /// Moves v onto the constraints at a settled position and looks at all residuals.
-    pub(super) fn finish(&mut self, v: &mut [f64], iterations: usize) -> Result<Correction, Trip> {
+    pub(super) fn finish(
+        &mut self,
+        v: &mut [f64],
+        iterations: usize,
+    ) -> Result<Correction, MotionFault> {
         let left = self.project_velocity(v)?;
         self.monitor(v, iterations, left)
     }
@@ -159,7 +168,7 @@ impl KeptRowMotion<'_> {
         t: f64,
         q: &mut [f64],
         correct: Correct,
-    ) -> Result<usize, Trip> {
+    ) -> Result<usize, MotionFault> {
         let Self {
             mechanism,
             s,
@@ -198,7 +207,7 @@ impl KeptRowMotion<'_> {
                 return Ok(iteration);
             }
             if iteration == CORRECTIONS || worst.1.is_nan() {
-                return Err(Trip::OffConstraints {
+                return Err(MotionFault::OffConstraints {
                     time: t,
                     row: mechanism.layout().labels[worst.0].clone(),
                     residual: s.phi[worst.0].abs(),
@@ -228,7 +237,7 @@ impl KeptRowMotion<'_> {
 
     /// Needs the factorisation of the projected position. Returns what the kept rows miss by at
     /// most.
-    fn project_velocity(&mut self, v: &mut [f64]) -> Result<f64, Trip> {
+    fn project_velocity(&mut self, v: &mut [f64]) -> Result<f64, MotionFault> {
         self.evaluate_b();
         let Self {
             mechanism,
@@ -262,7 +271,12 @@ impl KeptRowMotion<'_> {
 
     /// Residuals of all rows at a projected state, the kept ones being off by `left`; dropped rows
     /// refused above the limit.
-    fn monitor(&mut self, v: &[f64], iterations: usize, left: f64) -> Result<Correction, Trip> {
+    fn monitor(
+        &mut self,
+        v: &[f64],
+        iterations: usize,
+        left: f64,
+    ) -> Result<Correction, MotionFault> {
         if !GUARDED {
             return Ok(Correction {
                 iterations,
@@ -311,7 +325,7 @@ impl KeptRowMotion<'_> {
 
     /// Dropped rows of Φ at the pose of the scratch, on the kept ones: on another configuration of
     /// these they do not hold.
-    pub(super) fn check_positions(&mut self) -> Result<(), Trip> {
+    pub(super) fn check_positions(&mut self) -> Result<(), MotionFault> {
         if self.position.dropped.is_empty() {
             return Ok(());
         }
@@ -379,7 +393,12 @@ where
     F: Fn() -> f64,
 {
     /// Refuses the first dropped row that the kept ones do not imply.
-    fn check(&self, rows: &mut KeptRows, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
+    fn check(
+        &self,
+        rows: &mut KeptRows,
+        mechanism: &Mechanism,
+        s: &Scratch,
+    ) -> Result<(), MotionFault> {
         for k in 0..rows.dropped.len() {
             note(Counted::Monitors);
             let i = rows.dropped[k];
@@ -397,7 +416,7 @@ where
                 implied
             };
             if residual > tolerance || residual.is_nan() || tolerance.is_nan() {
-                return Err(Trip::DroppedRow {
+                return Err(MotionFault::DroppedRow {
                     time: s.t,
                     row: mechanism.layout().labels[i].clone(),
                     level: self.name,

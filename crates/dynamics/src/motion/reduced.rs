@@ -24,7 +24,7 @@ use model::{Derivatives, System};
 use super::KeptRowMotion;
 use super::chart::Origin;
 use crate::counts::{Counted, note};
-use crate::error::Trip;
+use crate::error::MotionFault;
 
 /// The Jacobian at one instant, and factors of shifted ones.
 ///
@@ -132,7 +132,7 @@ impl Reduced {
         motion: &mut KeptRowMotion<'_>,
         t: f64,
         y: &[f64],
-    ) -> Result<(), Trip> {
+    ) -> Result<(), MotionFault> {
         let n_q = motion.mechanism.layout().n_q;
         if motion.chart.is_none() {
             motion.use_chart(t, &y[..n_q])?;
@@ -161,7 +161,7 @@ impl Reduced {
     ///
     /// # Errors
     /// As [`Reduced::linearise`] and [`Reduced::factor`].
-    pub(crate) fn follow(&mut self, motion: &mut KeptRowMotion<'_>) -> Result<(), Trip> {
+    pub(crate) fn follow(&mut self, motion: &mut KeptRowMotion<'_>) -> Result<(), MotionFault> {
         let Some(chart) = &motion.chart else {
             return Ok(());
         };
@@ -216,7 +216,11 @@ impl Reduced {
     }
 
     /// Column j of D.
-    fn differentiate(&mut self, motion: &mut KeptRowMotion<'_>, j: usize) -> Result<(), Trip> {
+    fn differentiate(
+        &mut self,
+        motion: &mut KeptRowMotion<'_>,
+        j: usize,
+    ) -> Result<(), MotionFault> {
         let KeptRowMotion {
             mechanism,
             s,
@@ -277,14 +281,14 @@ impl Reduced {
     /// Factors `σ·I − ∂f/∂y` for a real σ and a complex one, `[Re σ, Im σ]`.
     ///
     /// # Errors
-    /// [`Trip::IterationMatrix`] if one is singular.
-    pub fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), Trip> {
+    /// [`MotionFault::IterationMatrix`] if one is singular.
+    pub fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), MotionFault> {
         let (k, time, on_w) = (self.reads.len(), self.time, &self.on_w);
         let shifted = |sigma: f64, i: usize, j: usize| {
             let diagonal = if i == j { sigma } else { 0.0 };
             diagonal - on_w[(i, j)]
         };
-        let singular = |source| Trip::IterationMatrix { time, source };
+        let singular = |source| MotionFault::IterationMatrix { time, source };
         self.real
             .factor(|i, j| shifted(real, i, j))
             .map_err(singular)?;

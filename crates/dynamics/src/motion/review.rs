@@ -4,7 +4,7 @@ use model::System;
 use solvability::{RowDecision, decide_holonomic_rows, decide_rows};
 
 use super::{KeptRowMotion, KeptRows};
-use crate::error::Trip;
+use crate::error::MotionFault;
 use crate::events::{Event, EventKind};
 use crate::guards::GUARDED;
 use crate::options::RowChoice;
@@ -44,7 +44,7 @@ impl KeptRowMotion<'_> {
     }
 
     /// Looks at the pivots of a settled position at coordinates q.
-    pub(super) fn review(&mut self, q: &[f64]) -> Result<Option<Event>, Trip> {
+    pub(super) fn review(&mut self, q: &[f64]) -> Result<Option<Event>, MotionFault> {
         if self.position_wants_exchange() {
             let decision = decide_holonomic_rows(self.mechanism, &self.s, q);
             let mut old = self.position.clone();
@@ -78,7 +78,7 @@ impl KeptRowMotion<'_> {
 
     /// Rows that imply the others better than the kept ones do at a settled row of output: between
     /// two steps that keep rows which suit both, the mechanism may pass where they do not.
-    pub(super) fn better_for_row(&mut self, q: &[f64]) -> Result<Option<KeptRows>, Trip> {
+    pub(super) fn better_for_row(&mut self, q: &[f64]) -> Result<Option<KeptRows>, MotionFault> {
         let is_sound = !GUARDED || self.velocity.relative_pivot() >= SOUND;
         if self.chart.is_some() || is_sound || !self.want_exchange() {
             return Ok(None);
@@ -109,9 +109,9 @@ impl KeptRowMotion<'_> {
         &self,
         decision: Result<RowDecision, solvability::AnalysisError>,
         old: &mut KeptRows,
-    ) -> Result<Option<KeptRows>, Trip> {
+    ) -> Result<Option<KeptRows>, MotionFault> {
         let time = self.s.t;
-        let decision = decision.map_err(|e| Trip::NoRows {
+        let decision = decision.map_err(|e| MotionFault::NoRows {
             time,
             what: e.to_string(),
         })?;
@@ -120,7 +120,7 @@ impl KeptRowMotion<'_> {
         }
         let (kept, dropped) = (&decision.kept, &decision.dropped);
         let mut rows = KeptRows::new(self.mechanism, self.size, kept, dropped)
-            .map_err(|source| Trip::Saddle { time, source })?;
+            .map_err(|source| MotionFault::Saddle { time, source })?;
         rows.factor(self.mechanism, &self.s)?;
         rows.compare_as(old);
         let [new, old] = [&mut rows, old].map(|r| r.largest_coefficient(self.mechanism, &self.s));

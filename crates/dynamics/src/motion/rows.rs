@@ -13,7 +13,7 @@ use linalg::{PivotedQr, SaddleError};
 use model::{Mechanism, Scratch, System};
 
 use crate::counts::{Counted, note};
-use crate::error::Trip;
+use crate::error::MotionFault;
 use crate::prepare::Prepared;
 use solver::Solver;
 
@@ -99,7 +99,7 @@ impl KeptRows {
 
     /// Factors at the entries of C in the scratch. Rows that are dependent for an instant are left
     /// out, but not at the first time.
-    pub(super) fn factor(&mut self, mechanism: &Mechanism, s: &Scratch) -> Result<(), Trip> {
+    pub(super) fn factor(&mut self, mechanism: &Mechanism, s: &Scratch) -> Result<(), MotionFault> {
         let reference = self.reference();
         self.factor_above(PIVOT_SINGULAR, mechanism, s)?;
         match (reference, self.solver.n_left_out()) {
@@ -127,7 +127,7 @@ impl KeptRows {
         mechanism: &Mechanism,
         s: &Scratch,
         known_to: impl Fn(usize) -> f64,
-    ) -> Result<Vec<usize>, Trip> {
+    ) -> Result<Vec<usize>, MotionFault> {
         self.forget_partition();
         self.factor(mechanism, s)?;
         let chosen = self.solver.dense().and_then(|it| {
@@ -146,7 +146,7 @@ impl KeptRows {
             it.saddle.partition(&dependent)?;
             Ok(dependent)
         });
-        let dependent = chosen.map_err(|e| self.trip(mechanism, s, e))?;
+        let dependent = chosen.map_err(|e| self.fault(mechanism, s, e))?;
         let free = (0..self.units.len()).filter(|i| !dependent.contains(i));
         let free = free.collect();
         self.partition = Some(PartitionPivot(None));
@@ -183,9 +183,9 @@ impl KeptRows {
         mechanism: &Mechanism,
         s: &Scratch,
         x: &mut [f64],
-    ) -> Result<(), Trip> {
+    ) -> Result<(), MotionFault> {
         if let Some(row) = (0..self.kept.len()).find(|&k| !self.solver.uses(k)) {
-            return Err(Trip::Chart {
+            return Err(MotionFault::Chart {
                 time: s.t,
                 row: mechanism.layout().labels[self.kept[row]].clone(),
                 pivot: self.relative_pivot(),
@@ -202,7 +202,7 @@ impl KeptRows {
                 self.write_motion(x);
                 Ok(())
             }
-            Err(e) => Err(self.trip(mechanism, s, e)),
+            Err(e) => Err(self.fault(mechanism, s, e)),
         }
     }
 
@@ -212,12 +212,12 @@ impl KeptRows {
         share: f64,
         mechanism: &Mechanism,
         s: &Scratch,
-    ) -> Result<(), Trip> {
+    ) -> Result<(), MotionFault> {
         let reference = self.reference().filter(|r| r.is_finite());
         let floor = share * reference.unwrap_or(0.0);
         match self.solver.factor_above(floor, &s.entries, &self.mass) {
             Ok(()) => Ok(()),
-            Err(e) => Err(self.trip(mechanism, s, e)),
+            Err(e) => Err(self.fault(mechanism, s, e)),
         }
     }
 
@@ -297,9 +297,9 @@ impl KeptRows {
         s: &Scratch,
         i: usize,
         scale: impl Fn(usize) -> f64,
-    ) -> Result<f64, Trip> {
+    ) -> Result<f64, MotionFault> {
         if let Err(e) = self.imply(mechanism, s, i) {
-            return Err(self.trip(mechanism, s, e));
+            return Err(self.fault(mechanism, s, e));
         }
         let terms = self.kept.iter().zip(&self.lambda);
         let terms = terms.map(|(&k, coefficient)| coefficient.abs() * scale(k));
@@ -336,7 +336,7 @@ impl KeptRows {
         s: &Scratch,
         force: &[f64],
         x: &mut [f64],
-    ) -> Result<(), Trip> {
+    ) -> Result<(), MotionFault> {
         self.take_force(force);
         let (force, rhs) = (&self.force, &self.rhs);
         match self
@@ -347,7 +347,7 @@ impl KeptRows {
                 self.write_motion(x);
                 Ok(())
             }
-            Err(e) => Err(self.trip(mechanism, s, e)),
+            Err(e) => Err(self.fault(mechanism, s, e)),
         }
     }
 
@@ -363,7 +363,7 @@ impl KeptRows {
         mechanism: &Mechanism,
         s: &Scratch,
         a: &mut [f64],
-    ) -> Result<(), Trip> {
+    ) -> Result<(), MotionFault> {
         self.take_force(&s.force);
         let is_refined = self.are_refined();
         let (force, rhs) = (&self.force, &self.rhs);
@@ -377,7 +377,7 @@ impl KeptRows {
                 self.write_motion(a);
                 Ok(())
             }
-            Err(e) => Err(self.trip(mechanism, s, e)),
+            Err(e) => Err(self.fault(mechanism, s, e)),
         }
     }
 
@@ -388,7 +388,7 @@ impl KeptRows {
         mechanism: &Mechanism,
         s: &Scratch,
         a: &[f64],
-    ) -> Result<(), Trip> {
+    ) -> Result<(), MotionFault> {
         if self.are_refined() || self.solver.brings_multipliers() {
             return Ok(());
         }
@@ -399,7 +399,7 @@ impl KeptRows {
             .multipliers(&self.force, &self.motion, &mut self.lambda)
         {
             Ok(()) => Ok(()),
-            Err(e) => Err(self.trip(mechanism, s, e)),
+            Err(e) => Err(self.fault(mechanism, s, e)),
         }
     }
 
@@ -452,9 +452,9 @@ impl KeptRows {
         self.relative_pivot() > PIVOT_RECOVERY
     }
 
-    fn rank_lost(&self, mechanism: &Mechanism, s: &Scratch) -> Trip {
+    fn rank_lost(&self, mechanism: &Mechanism, s: &Scratch) -> MotionFault {
         let dependent = (0..self.kept.len()).find(|&k| !self.solver.uses(k));
-        Trip::RankLost {
+        MotionFault::RankLost {
             time: s.t,
             row: mechanism.layout().labels[self.kept[dependent.unwrap_or(0)]].clone(),
             pivot: self.solver.pivot_ratio(),
@@ -462,8 +462,8 @@ impl KeptRows {
         }
     }
 
-    fn trip(&self, mechanism: &Mechanism, s: &Scratch, e: SaddleError) -> Trip {
-        trip(mechanism, s, e, |row| self.kept[row])
+    fn fault(&self, mechanism: &Mechanism, s: &Scratch, e: SaddleError) -> MotionFault {
+        fault(mechanism, s, e, |row| self.kept[row])
     }
 }
 
@@ -529,17 +529,17 @@ pub(crate) fn mass_spread(prepared: &Prepared) -> f64 {
 
 /// Why a solve at the instant of the scratch failed; `row_of` tells which row of C a row of the
 /// solver is.
-pub(super) fn trip(
+pub(super) fn fault(
     mechanism: &Mechanism,
     s: &Scratch,
     e: SaddleError,
     row_of: impl Fn(usize) -> usize,
-) -> Trip {
+) -> MotionFault {
     let time = s.t;
     match e {
         SaddleError::RankLost { row, pivot, scale } => {
             let row = mechanism.layout().labels[row_of(row)].clone();
-            Trip::RankLost {
+            MotionFault::RankLost {
                 time,
                 row,
                 pivot,
@@ -555,7 +555,7 @@ pub(super) fn trip(
                 }
             };
             let (body, coordinate) = mechanism.coordinate((0..motion.len()).fold(0, larger));
-            Trip::Massless {
+            MotionFault::Massless {
                 time,
                 body: body.to_owned(),
                 coordinate,
@@ -565,10 +565,10 @@ pub(super) fn trip(
             argument,
             index,
             value,
-        } => Trip::NotFinite {
+        } => MotionFault::NotFinite {
             time,
             what: format!("{argument}[{index}] = {value}"),
         },
-        source => Trip::Saddle { time, source },
+        source => MotionFault::Saddle { time, source },
     }
 }

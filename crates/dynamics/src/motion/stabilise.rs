@@ -5,7 +5,7 @@
 use model::System;
 
 use super::{Correction, KeptRowMotion, Motion};
-use crate::error::Trip;
+use crate::error::MotionFault;
 use crate::options::Stabilisation;
 
 impl KeptRowMotion<'_> {
@@ -25,7 +25,7 @@ impl KeptRowMotion<'_> {
         q: &mut [f64],
         v: &mut [f64],
         nearest: f64,
-    ) -> Result<Correction, Trip> {
+    ) -> Result<Correction, MotionFault> {
         if self.projects() {
             return self.project_step(t, q, v, nearest);
         }
@@ -53,7 +53,7 @@ impl KeptRowMotion<'_> {
         t: f64,
         q: &mut [f64],
         v: &mut [f64],
-    ) -> Result<Correction, Trip> {
+    ) -> Result<Correction, MotionFault> {
         if let Some(found) = self.coded_row(t, q, v) {
             return Ok(found);
         }
@@ -86,7 +86,7 @@ impl KeptRowMotion<'_> {
         t: f64,
         q: &[f64],
         v: &[f64],
-    ) -> Result<Vec<f64>, Trip> {
+    ) -> Result<Vec<f64>, MotionFault> {
         let (mut polished_q, mut polished_v) = (q.to_vec(), v.to_vec());
         self.project(t, &mut polished_q, &mut polished_v)?;
         self.inspect(t, q, v)?;
@@ -95,7 +95,7 @@ impl KeptRowMotion<'_> {
     }
 
     /// Factors at a state as it is, and finds its residuals.
-    fn inspect(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Correction, Trip> {
+    fn inspect(&mut self, t: f64, q: &[f64], v: &[f64]) -> Result<Correction, MotionFault> {
         let Self {
             mechanism,
             s,

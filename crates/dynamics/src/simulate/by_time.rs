@@ -2,7 +2,7 @@
 //! and in a step none is evaluated twice at a time. For mechanisms with a freedom there is nothing
 //! of this.
 
-use crate::error::Trip;
+use crate::error::MotionFault;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 
@@ -31,8 +31,8 @@ impl ByTime {
         &mut self,
         t: f64,
         dy: &mut [f64],
-        evaluate: impl FnOnce(&mut [f64]) -> Result<(), Trip>,
-    ) -> Result<(), Trip> {
+        evaluate: impl FnOnce(&mut [f64]) -> Result<(), MotionFault>,
+    ) -> Result<(), MotionFault> {
         if self.copy(t, dy) {
             return Ok(());
         }

@@ -10,7 +10,7 @@ use super::by_time::ByTime;
 use super::energy::{self, EnergyBalance};
 use super::sample::{AtRows, OfMotion, Sample, Source};
 use super::span::Span;
-use crate::error::Trip;
+use crate::error::MotionFault;
 use crate::events::Event;
 use crate::guards::GUARDED;
 use crate::motion::{Correction, KeptRowMotion, Reduced};
@@ -81,7 +81,7 @@ pub(super) struct Equations<'m> {
     /// When the motion is expected to pass a singular configuration.
     delicate: Option<f64>,
     /// When a step was refused last because of a dropped row, and which.
-    contradicted: Option<(f64, Trip)>,
+    contradicted: Option<(f64, MotionFault)>,
     /// The last accepted step.
     last: Span,
     /// The state before a projection; a stage on the constraints.
@@ -192,7 +192,7 @@ impl<'m> Equations<'m> {
         t: f64,
         y: &mut [f64],
         row: &mut super::ShowRow<'_>,
-    ) -> Result<ControlFlow<()>, Trip> {
+    ) -> Result<ControlFlow<()>, MotionFault> {
         let t_before = if t > 0.0 && self.is_break(t) {
             t.next_down()
         } else {
@@ -254,17 +254,21 @@ impl<'m> Equations<'m> {
     }
 
     /// Whether steps have collapsed because of a singular configuration nearby.
-    pub(super) fn is_lost(&self, error: &IntegrationError<Trip>) -> bool {
+    pub(super) fn is_lost(&self, error: &IntegrationError<MotionFault>) -> bool {
         let has_collapsed = matches!(error, IntegrationError::StepSizeCollapsed { .. });
         has_collapsed && self.motion.is_delicate()
     }
 
     /// The dropped row because of which steps have collapsed at time t: the ever smaller ones on
     /// this side of a contradiction are good, and say nothing of it.
-    pub(super) fn contradiction(&mut self, error: &IntegrationError<Trip>, t: f64) -> Option<Trip> {
+    pub(super) fn contradiction(
+        &mut self,
+        error: &IntegrationError<MotionFault>,
+        t: f64,
+    ) -> Option<MotionFault> {
         let has_collapsed = matches!(error, IntegrationError::StepSizeCollapsed { .. });
-        let (end, trip) = self.contradicted.take().filter(|_| has_collapsed)?;
-        (end - t <= JUST_AHEAD * self.t_end).then_some(trip)
+        let (end, fault) = self.contradicted.take().filter(|_| has_collapsed)?;
+        (end - t <= JUST_AHEAD * self.t_end).then_some(fault)
     }
 
     /// What is known of passages where so many rows are dependent.
@@ -294,7 +298,7 @@ impl<'m> Equations<'m> {
         step: &StepInfo<'_>,
         y: &mut [f64],
         dy: &mut [f64],
-    ) -> Result<StepEnd, Trip> {
+    ) -> Result<StepEnd, MotionFault> {
         let ended = self.motion.end_coded_step(step.t_rhs, y, dy);
         self.note_departure();
         let Some(found) = ended? else {
@@ -328,7 +332,7 @@ impl<'m> Equations<'m> {
     }
 
     /// f(t, y) by the interpreter.
-    fn evaluate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
+    fn evaluate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
         if !self.is_careful {
             self.motion.derivative(t, y, dy)?;
             return match &mut self.reduced {
@@ -372,7 +376,7 @@ impl<'m> Equations<'m> {
 
 /// A row of output y = [q; v; …] has finite numbers: between the finite ends of a step, sums may
 /// leave their range.
-fn finite(mechanism: &Mechanism, t: f64, y: &[f64]) -> Result<(), Trip> {
+fn finite(mechanism: &Mechanism, t: f64, y: &[f64]) -> Result<(), MotionFault> {
     let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
     let y = &y[..n_q + n_v];
     // x·0 is NaN exactly for NaN and infinities.
@@ -386,20 +390,20 @@ fn finite(mechanism: &Mechanism, t: f64, y: &[f64]) -> Result<(), Trip> {
         true => ("", mechanism.coordinate_name(k)),
         false => ("rate of the ", mechanism.coordinate(k - n_q)),
     };
-    Err(Trip::NotFinite {
+    Err(MotionFault::NotFinite {
         time: t,
         what: format!("the {what}{coordinate} of `{body}`"),
     })
 }
 
 impl Ode for Equations<'_> {
-    type Error = Trip;
+    type Error = MotionFault;
 
     fn dim(&self) -> usize {
         self.n_q + self.n_v + usize::from(self.works)
     }
 
-    fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Trip> {
+    fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
         if self.motion.is_coded() {
             let evaluated = self.motion.derivative(t, y, dy);
             self.note_departure();
@@ -419,7 +423,7 @@ impl Ode for Equations<'_> {
         step: &StepInfo<'_>,
         y: &mut [f64],
         dy: &mut [f64],
-    ) -> Result<StepEnd, Trip> {
+    ) -> Result<StepEnd, MotionFault> {
         self.before.copy_from_slice(y);
         let known = self.by_time.as_mut();
         let is_known = known.is_some_and(|known| known.take(step.t_rhs, dy));
@@ -438,8 +442,8 @@ impl Ode for Equations<'_> {
         let (q, rest) = y.split_at_mut(self.n_q);
         let v = &mut rest[..self.n_v];
         let ended = self.motion.end_step(step.t_rhs, q, v, nearest);
-        if let Err(trip @ Trip::DroppedRow { .. }) = &ended {
-            self.contradicted = Some((step.t, trip.clone()));
+        if let Err(fault @ MotionFault::DroppedRow { .. }) = &ended {
+            self.contradicted = Some((step.t, fault.clone()));
         }
         let found = ended?;
         let pivot_ratio = self.motion.pivot_ratio();
@@ -503,7 +507,7 @@ impl Ode for Equations<'_> {
     }
 
     /// Rates that jump make the velocities jump, by an impulse of the constraints.
-    fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), Trip> {
+    fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), MotionFault> {
         let (q, rest) = y.split_at_mut(self.n_q);
         let (v, work) = rest.split_at_mut(self.n_v);
         self.by_time.iter_mut().for_each(ByTime::forget);
@@ -518,12 +522,12 @@ impl Ode for Equations<'_> {
 }
 
 impl Implicit for Equations<'_> {
-    fn linearise(&mut self, t: f64, y: &[f64]) -> Result<(), Trip> {
+    fn linearise(&mut self, t: f64, y: &[f64]) -> Result<(), MotionFault> {
         let (motion, reduced) = self.implicit();
         reduced.linearise(motion, t, y)
     }
 
-    fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), Trip> {
+    fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), MotionFault> {
         self.implicit().1.factor(real, complex)
     }
 

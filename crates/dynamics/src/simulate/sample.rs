@@ -2,7 +2,7 @@
 
 use model::{Mechanism, Reaction, System};
 
-use crate::error::Trip;
+use crate::error::MotionFault;
 use crate::motion::{KeptRowMotion, Motion};
 
 /// One row of output: a state on the constraints, and what follows from it on demand.
@@ -49,9 +49,9 @@ pub(super) struct AtRows {
 /// Values at a row, of a component or of the whole.
 #[derive(Clone)]
 pub(super) struct Values {
-    pub(super) acceleration: Result<Vec<f64>, Trip>,
-    pub(super) multipliers: Result<Vec<f64>, Trip>,
-    pub(super) reactions: Result<Vec<Reaction>, Trip>,
+    pub(super) acceleration: Result<Vec<f64>, MotionFault>,
+    pub(super) multipliers: Result<Vec<f64>, MotionFault>,
+    pub(super) reactions: Result<Vec<Reaction>, MotionFault>,
 }
 
 impl Sample<'_, '_> {
@@ -67,7 +67,7 @@ impl Sample<'_, '_> {
     ///
     /// # Errors
     /// If the equations have no unique solution here.
-    pub fn acceleration(&mut self) -> Result<Vec<f64>, Trip> {
+    pub fn acceleration(&mut self) -> Result<Vec<f64>, MotionFault> {
         match &mut self.source {
             Source::Motion(source) => source.acceleration(self.q, self.v),
             Source::Several(values) => values.acceleration.clone(),
@@ -79,7 +79,7 @@ impl Sample<'_, '_> {
     ///
     /// # Errors
     /// If the equations have no unique solution here.
-    pub fn multipliers(&mut self) -> Result<Vec<f64>, Trip> {
+    pub fn multipliers(&mut self) -> Result<Vec<f64>, MotionFault> {
         match &mut self.source {
             Source::Motion(source) => source.multipliers(self.q, self.v),
             Source::Several(values) => values.multipliers.clone(),
@@ -92,7 +92,7 @@ impl Sample<'_, '_> {
     ///
     /// # Errors
     /// If the equations have no unique solution here.
-    pub fn reactions(&mut self) -> Result<Vec<Reaction>, Trip> {
+    pub fn reactions(&mut self) -> Result<Vec<Reaction>, MotionFault> {
         match &mut self.source {
             Source::Motion(source) => source.reactions(self.q, self.v),
             Source::Several(values) => values.reactions.clone(),
@@ -101,7 +101,7 @@ impl Sample<'_, '_> {
 }
 
 impl OfMotion<'_, '_> {
-    fn acceleration(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, Trip> {
+    fn acceleration(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
         let mut a = vec![f64::NAN; v.len()];
         if self.wanted.accelerations {
             self.motion.acceleration(self.t_before, q, v, &mut a)?;
@@ -109,7 +109,7 @@ impl OfMotion<'_, '_> {
         Ok(a)
     }
 
-    fn multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, Trip> {
+    fn multipliers(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
         let mechanism = self.motion.mechanism();
         let mut lambda = vec![f64::NAN; mechanism.layout().rows()];
         if self.wanted.reactions.is_empty() {
@@ -127,7 +127,7 @@ impl OfMotion<'_, '_> {
         Ok(lambda)
     }
 
-    fn reactions(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<Reaction>, Trip> {
+    fn reactions(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<Reaction>, MotionFault> {
         let lambda = self.multipliers(q, v)?;
         Ok(self.reactions_of(&lambda))
     }
@@ -149,7 +149,7 @@ impl OfMotion<'_, '_> {
         let multipliers = self.multipliers(q, v);
         let reactions = match &multipliers {
             Ok(lambda) => Ok(self.reactions_of(lambda)),
-            Err(trip) => Err(trip.clone()),
+            Err(fault) => Err(fault.clone()),
         };
         Values {
             acceleration,

@@ -14,7 +14,7 @@ use super::permits::Permits;
 use super::sample::{Sample, Source, Values, left_out};
 use super::summary::{ComponentSummary, Failure, Summary};
 use super::{ShowRow, Watch, run_component};
-use crate::error::{MotionError, Trip};
+use crate::error::{MotionError, MotionFault};
 use crate::plan::Plan;
 
 /// Rows that a component may be ahead.
@@ -101,7 +101,7 @@ fn tell(sample: &mut Sample<'_, '_>, told: &SyncSender<Row>) -> ControlFlow<()> 
 
 /// Shows rows as long as all components reach them and more are wanted. Why it was stopped by a
 /// row, if it was.
-fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Trip> {
+fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<MotionFault> {
     let mechanism = &plan.prepared().mechanism;
     let layout = mechanism.layout();
     let nobody: Vec<Reaction> = (0..layout.groups.len())
@@ -142,16 +142,20 @@ fn show(plan: &Plan<'_>, links: &[Link<'_>], row: &mut ShowRow<'_>) -> Option<Tr
         match shown {
             Ok(ControlFlow::Continue(())) => {}
             Ok(ControlFlow::Break(())) => return None,
-            Err(trip) => return Some(trip),
+            Err(fault) => return Some(fault),
         }
     }
 }
 
 /// Puts values of a part to their places in the whole; the first failure stands for all.
-fn gather<T: Copy>(own: Result<Vec<T>, Trip>, places: &[usize], whole: &mut Result<Vec<T>, Trip>) {
+fn gather<T: Copy>(
+    own: Result<Vec<T>, MotionFault>,
+    places: &[usize],
+    whole: &mut Result<Vec<T>, MotionFault>,
+) {
     match (own, &mut *whole) {
         (Ok(own), Ok(whole)) => spread(&own, places, whole),
-        (Err(trip), Ok(_)) => *whole = Err(trip),
+        (Err(fault), Ok(_)) => *whole = Err(fault),
         (_, Err(_)) => {}
     }
 }

@@ -4,7 +4,7 @@
 
 use model::{Mechanism, System};
 
-use crate::error::Trip;
+use crate::error::MotionFault;
 
 /// A row may lie so far from the cubic through both ends of its step, as share of the way of the
 /// step, and beside.
@@ -49,14 +49,14 @@ impl Span {
     /// Checks a projected row y = [q; v; …] at time t, lengths measured by `size`.
     ///
     /// # Errors
-    /// [`Trip::FarRow`]
+    /// [`MotionFault::FarRow`]
     pub(super) fn check(
         &mut self,
         mechanism: &Mechanism,
         size: f64,
         t: f64,
         y: &[f64],
-    ) -> Result<(), Trip> {
+    ) -> Result<(), MotionFault> {
         let [t0, t1] = self.times;
         if !(t0 < t && t < t1) {
             return Ok(());
@@ -79,7 +79,7 @@ impl Span {
             return Ok(());
         }
         let (body, coordinate) = mechanism.coordinate(column);
-        Err(Trip::FarRow {
+        Err(MotionFault::FarRow {
             time: t,
             body: body.to_owned(),
             coordinate,

@@ -36,7 +36,7 @@ pub(super) fn judge(
         bar.set_style(style);
     }
     let mut doing = "";
-    let journey = study.journey(t_end, |progress| {
+    let along_motion = study.verdicts_along_motion(t_end, |progress| {
         let (what, t) = match progress {
             Progress::Moving(t) => ("moving ", t),
             Progress::Judging(t) => ("judging", t),
@@ -48,8 +48,8 @@ pub(super) fn judge(
         bar.set_position((t / end * TICKS as f64) as u64);
     });
     bar.finish_and_clear();
-    let journey = journey.map_err(|e| source.failure(e))?;
-    Ok(journey.document())
+    let along_motion = along_motion.map_err(|e| source.failure(e))?;
+    Ok(along_motion.document())
 }
 
 /// One verdict, then what differs.

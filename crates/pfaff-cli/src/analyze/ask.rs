@@ -6,7 +6,7 @@ use pfaff::report::documents::{
     DistributionDocument, EliminationsDocument, MakeUniqueDocument, ValuesDocument,
 };
 use pfaff::solvability::{Allowed, EliminationError, UnitError, Verdict};
-use pfaff::{Inquiry, StudyError};
+use pfaff::{ConfigurationAnalysis, StudyError};
 
 use super::choice;
 use super::deletions::HINTS;
@@ -21,41 +21,43 @@ const HINT_TRIALS: usize = 5_000;
 pub(super) fn document(
     arguments: &Analyze,
     source: &Source,
-    inquiry: &Inquiry<'_>,
+    configuration: &ConfigurationAnalysis<'_>,
 ) -> Result<AnalysisDocument, Failure> {
     let failure = |e: StudyError| source.failure(e);
-    let layout = pfaff::model::System::layout(inquiry.mechanism);
+    let layout = pfaff::model::System::layout(configuration.mechanism);
     // Wrong names first: they cost nothing.
     let allowed = choice::allowed(&arguments.allow, layout.rows())?;
     let wanted = arguments.make_unique.iter();
-    let wanted: Result<Vec<_>, _> = wanted.map(|name| inquiry.reaction(name)).collect();
+    let wanted: Result<Vec<_>, _> = wanted.map(|name| configuration.reaction(name)).collect();
     let wanted = wanted.map_err(failure)?;
     let choices = arguments.choose.iter();
     let choices: Result<Vec<_>, _> = choices
-        .map(|text| choice::choice(text, source, inquiry))
+        .map(|text| choice::choice(text, source, configuration))
         .collect();
     let choices = choices?;
-    let mut document = inquiry.document(&arguments.combine).map_err(failure)?;
+    let mut document = configuration
+        .document(&arguments.combine)
+        .map_err(failure)?;
     if let Some(n) = arguments.eliminations {
-        let sets = inquiry.elimination_sets(n);
+        let sets = configuration.elimination_sets(n);
         document.eliminations = Some(EliminationsDocument::new(
-            inquiry.eliminations(),
+            configuration.eliminations(),
             Some(sets),
         ));
     }
     for (name, id) in arguments.make_unique.iter().zip(wanted) {
-        let found = inquiry.make_unique(id, &allowed, Limits::default());
+        let found = configuration.make_unique(id, &allowed, Limits::default());
         document
             .make_unique
             .push(MakeUniqueDocument::new(name, &allowed, found));
     }
     if arguments.frames {
-        let ids = inquiry.mechanism.constraint_ids();
-        let frames: Result<Vec<_>, _> = ids.map(|id| inquiry.frames(id)).collect();
+        let ids = configuration.mechanism.constraint_ids();
+        let frames: Result<Vec<_>, _> = ids.map(|id| configuration.frames(id)).collect();
         document.add_frames(&frames.map_err(failure)?);
     }
     if !choices.is_empty() {
-        let facts = match inquiry.facts() {
+        let facts = match configuration.facts() {
             Ok(facts) => facts,
             // Units are compared in double precision, choices are made by the proved rank.
             Err(StudyError::Units(e @ UnitError::RankChanges { .. })) => {
@@ -67,9 +69,9 @@ pub(super) fn document(
             Err(e) => return Err(failure(e)),
         };
         for choice in &choices {
-            let distribution = inquiry.distribution(choice).map_err(failure)?;
+            let distribution = configuration.distribution(choice).map_err(failure)?;
             let mut made = DistributionDocument::new(&distribution, &facts);
-            let sums = inquiry.chosen(&arguments.combine, &distribution);
+            let sums = configuration.chosen(&arguments.combine, &distribution);
             let sums = document.groups.iter().zip(sums.map_err(failure)?);
             made.groups = sums
                 .filter(|(_, values)| !values.is_empty())
@@ -82,17 +84,19 @@ pub(super) fn document(
 }
 
 /// For each reaction that is not unique, what would make it so.
-pub(super) fn hints(inquiry: &Inquiry<'_>) -> Result<Vec<MakeUniqueDocument>, Failure> {
+pub(super) fn hints(
+    configuration: &ConfigurationAnalysis<'_>,
+) -> Result<Vec<MakeUniqueDocument>, Failure> {
     let limits = Limits {
         trials: HINT_TRIALS,
         ..Limits::default()
     };
-    let reactions = inquiry.analysis.reactions.iter();
+    let reactions = configuration.analysis.reactions.iter();
     let open = reactions.filter(|r| r.wrench.verdict == Verdict::NotUnique);
     // One more than is told, so that it is known that there are more.
     open.take(HINTS + 1)
         .map(
-            |r| match inquiry.make_unique(r.id, &Allowed::Sensible, limits) {
+            |r| match configuration.make_unique(r.id, &Allowed::Sensible, limits) {
                 Err(EliminationError::Deletion(
                     e @ (DeletionError::TargetShape { .. } | DeletionError::NonFinite { .. }),
                 )) => Err(Failure::stopped(e.to_string())),

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use pfaff::Inquiry;
+use pfaff::ConfigurationAnalysis;
 use pfaff::model::System;
 use pfaff::solvability::{Allowed, Choice, Compliance, NormWeights};
 
@@ -26,7 +26,7 @@ pub(super) fn allowed(text: &str, rows: usize) -> Result<Allowed, Failure> {
 pub(super) fn choice(
     text: &str,
     source: &Source,
-    inquiry: &Inquiry<'_>,
+    configuration: &ConfigurationAnalysis<'_>,
 ) -> Result<Choice, Failure> {
     let (kind, rest) = match text.split_once(':') {
         Some((kind, rest)) => (kind, Some(rest)),
@@ -49,11 +49,11 @@ pub(super) fn choice(
         ("compliance", Some(rest)) => {
             let joints = rest
                 .split(',')
-                .map(|term| compliance(text, term, source, inquiry));
+                .map(|term| compliance(text, term, source, configuration));
             Ok(Choice::Compliance(joints.collect::<Result<_, _>>()?))
         }
         ("drop", Some(rest)) => {
-            let rows = inquiry.mechanism.layout().rows();
+            let rows = configuration.mechanism.layout().rows();
             Ok(Choice::Elimination(row_list("--choose drop", rest, rows)?))
         }
         ("compliance", None) => Err(wrong(
@@ -77,12 +77,12 @@ fn compliance(
     text: &str,
     term: &str,
     source: &Source,
-    inquiry: &Inquiry<'_>,
+    configuration: &ConfigurationAnalysis<'_>,
 ) -> Result<Compliance, Failure> {
     let expected =
         "NAME=COMPLIANCE in m/N, or NAME=COMPLIANCE/ROTATION with rad/(N·m), finite numbers ≥ 0";
     let (name, numbers) = term.rsplit_once('=').ok_or_else(|| wrong(text, expected))?;
-    let reaction = inquiry
+    let reaction = configuration
         .reaction(name.trim())
         .map_err(|e| source.failure(e))?;
     let number = |word: &str| {

@@ -31,7 +31,7 @@ fn an_analysis_is_the_one_of_the_command() {
     let sums = ["W3.N + W4.N".to_owned()];
     let output = pfaff(&["analyze", ROBOT, "--json", "--combine", &sums[0]]);
     let study = study(ROBOT, &text);
-    let start = study.inquire(0.0, None).expect("a start");
+    let start = study.analyse(0.0, None).expect("a start");
     let document = start.document(&sums).expect("verdicts");
     assert_eq!(written(&document), stdout(&output));
 }
@@ -40,10 +40,12 @@ fn an_analysis_is_the_one_of_the_command() {
 fn a_journey_is_the_one_of_the_command() {
     let output = pfaff(&["analyze", ROBOT, "--json", "--along", "1"]);
     let study = study(ROBOT, &robot());
-    let start = study.inquire(0.0, None).expect("a start");
+    let start = study.analyse(0.0, None).expect("a start");
     let mut document = start.document(&[]).expect("verdicts");
-    let journey = study.journey(Some(1.0), |_| {}).expect("it moves");
-    document.along = Some(journey.document());
+    let along_motion = study
+        .verdicts_along_motion(Some(1.0), |_| {})
+        .expect("it moves");
+    document.along = Some(along_motion.document());
     assert_eq!(written(&document), stdout(&output));
 }
 
@@ -53,7 +55,7 @@ fn warnings_of_a_singular_configuration_are_those_of_the_command() {
     let flat = flat_cranks(&[0.0, 1.0]);
     let output = with_scene(&["analyze", "-", "--json"], &flat);
     let study = study("-", &flat);
-    let start = study.inquire(0.0, None).expect("a start");
+    let start = study.analyse(0.0, None).expect("a start");
     let document = start.document(&[]).expect("verdicts");
     assert!(document.warnings[0].contains("this singular configuration only"));
     assert_eq!(written(&document), stdout(&output));

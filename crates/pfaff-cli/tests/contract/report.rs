@@ -144,7 +144,7 @@ fn names_are_text_wherever_they_stand() {
         !page.contains("<script>alert") && !page.contains("<img src=x") && !page.contains("<!-- &")
     );
     let data = data(&page);
-    assert_eq!(data["scenery"]["bodies"][0]["name"], name);
+    assert_eq!(data["drawing"]["bodies"][0]["name"], name);
     assert_eq!(data["name"], "]]><!-- & \"'");
     // The text of the scene is there, too.
     assert!(page.contains("name = &quot;&lt;/script&gt;"));

@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use dynamics::MotionOptions;
 use model::{Registry, System};
-use report::{Comparison, Film, Frame};
+use report::{Comparison, Frame, Recording};
 use solvability::analyse;
 
 use super::compare;
@@ -19,14 +19,14 @@ fn compared(scene: &str) -> (Study, Vec<Comparison>) {
         &Overrides::default(),
     );
     let study = study.expect("the scene is right");
-    let mut film = Film::new(1.0, 21.0, 1);
+    let mut recording = Recording::new(1.0, 21.0, 1);
     let options = MotionOptions {
         output_step: 0.05,
         ..MotionOptions::to(1.0)
     };
     let outcome = study.run(&options, |sample| {
-        assert!(film.wants(sample.t));
-        film.frames.push(Frame {
+        assert!(recording.wants(sample.t));
+        recording.frames.push(Frame {
             t: sample.t,
             q: sample.q.to_vec(),
             v: sample.v.to_vec(),
@@ -39,7 +39,7 @@ fn compared(scene: &str) -> (Study, Vec<Comparison>) {
     outcome.expect("it moves");
     let mechanism = &study.prepared.mechanism;
     let analysis = analyse(mechanism, 0.0, &study.prepared.q).expect("decided");
-    let (comparisons, left_out) = compare(mechanism, &film, &analysis.reactions, |_| None);
+    let (comparisons, left_out) = compare(mechanism, &recording, &analysis.reactions, |_| None);
     assert_eq!(left_out, [""; 0]);
     (study, comparisons)
 }

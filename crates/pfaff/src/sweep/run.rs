@@ -2,14 +2,14 @@
 
 use std::ops::ControlFlow;
 
-use dynamics::{Prepared, Sample, Summary, Trip};
+use dynamics::{MotionFault, Prepared, Sample, Summary};
 use model::System;
 use report::sweep::{Extreme, SweepMotion};
 use report::{SweepRow, SweepStatus};
 use solvability::{Analysis, analyse};
 
 use super::Sweep;
-use crate::blueprint::Blueprint;
+use crate::assembled::AssembledScene;
 use crate::error::StudyError;
 use crate::study::{Overrides, Study};
 
@@ -30,8 +30,8 @@ impl Sweep<'_> {
     /// Assembles a run (from 1).
     pub(super) fn begin(&self, run: u64) -> Result<Begun<'_>, StudyError> {
         let text = self.template.with(&self.point(run));
-        let blueprint = Blueprint::read(&self.plan.scene, &text, self.registry)?;
-        let study = blueprint.prepare(&Overrides::default())?;
+        let assembled = AssembledScene::read(&self.plan.scene, &text, self.registry)?;
+        let study = assembled.prepare(&Overrides::default())?;
         let options = study.options.as_ref().ok_or(StudyError::NoEnd)?;
         options.check()?;
         let Prepared {
@@ -136,7 +136,7 @@ impl Watch {
         }
     }
 
-    fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), Trip> {
+    fn see(&mut self, sample: &mut Sample<'_, '_>) -> Result<(), MotionFault> {
         self.t_state = sample.t;
         let bodies = sample
             .q

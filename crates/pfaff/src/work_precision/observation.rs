@@ -1,7 +1,7 @@
 //! What is compared of a motion at an instant: positions, velocities, accelerations and reactions,
 //! by place.
 
-use dynamics::{Sample, Trip};
+use dynamics::{MotionFault, Sample};
 use model::reaction::COMPONENTS;
 use model::{ColumnKind, Mechanism, Reaction, System};
 use suite::{Fact, Kind, Quantity};
@@ -20,7 +20,7 @@ pub struct Observation {
 
 impl Observation {
     /// Looks at a row of output.
-    pub(super) fn of(sample: &mut Sample<'_, '_>) -> Result<Self, Trip> {
+    pub(super) fn of(sample: &mut Sample<'_, '_>) -> Result<Self, MotionFault> {
         let (a, reactions) = (sample.acceleration()?, sample.reactions()?);
         let [q, v] = [sample.q.to_vec(), sample.v.to_vec()];
         Ok(Self::new(sample.t, [q, v, a], &reactions))

@@ -7,8 +7,8 @@ use serde::Serialize;
 
 use super::channel::Channel;
 use super::comparison::{Comparison, Freedom};
-use super::film::Frame;
-use super::scenery::{DrawnForce, Scenery, Stage};
+use super::drawing_model::{DrawingModel, DrawnForce, Stage};
+use super::recording::Frame;
 use super::{DriveCurve, RunPage};
 use crate::documents::{EventDocument, ReactionDocument};
 
@@ -27,7 +27,7 @@ pub(super) struct Data<'a> {
     name: &'a str,
     /// Times of the frames (s).
     t: Vec<Time>,
-    scenery: Scenery,
+    drawing: DrawingModel,
     joints: Vec<Joint<'a>>,
     comparisons: Vec<ComparisonData<'a>>,
     drives: Vec<Drive<'a>>,
@@ -189,14 +189,14 @@ impl Cast {
 
 impl<'a> Data<'a> {
     pub(super) fn new(page: &'a RunPage<'a>, cast: &Cast) -> Self {
-        let frames = &page.film.frames;
+        let frames = &page.recording.frames;
         let stage = cast.stage(page.mechanism, frames);
         let noise = NOISE * largest_force(frames);
         let measured = Measured::of(page.mechanism, frames);
         Self {
             name: page.mechanism.name(),
             t: frames.iter().map(|f| Time(f.t)).collect(),
-            scenery: stage.scenery(DrawnForce::all(page.mechanism, cast.bodies())),
+            drawing: stage.drawing(DrawnForce::all(page.mechanism, cast.bodies())),
             joints: cast
                 .joints()
                 .iter()
@@ -261,7 +261,7 @@ fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
             false => of_analysis.and_then(|r| r.explanation.as_deref()),
         },
         choice,
-        reaction: reaction(&page.film.frames, k, noise),
+        reaction: reaction(&page.recording.frames, k, noise),
     }
 }
 
@@ -418,7 +418,7 @@ fn unit(component: &str) -> &'static str {
     }
 }
 
-/// Numbers of a row, weighted so that a film of them stays small: those that are kept, and more for
+/// Numbers of a row, weighted so that a recording of them stays small: those that are kept, and more for
 /// each that is shown.
 pub(super) fn numbers_per_row(mechanism: &Mechanism) -> usize {
     let layout = mechanism.layout();

@@ -463,12 +463,12 @@ pub(super) fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
             page.mechanism.bodies().len()
         ));
     }
-    if page.film.stride > 1 {
+    if page.recording.stride > 1 {
         told.push(format!(
             "One in {} rows of output is kept: {} of {}. trajectory.csv and reactions.csv have all that was asked for.",
-            page.film.stride,
-            page.film.frames.len(),
-            page.film.rows()
+            page.recording.stride,
+            page.recording.frames.len(),
+            page.recording.rows()
         ));
     }
     if page.drives.len() > data::DRIVES_MAX {

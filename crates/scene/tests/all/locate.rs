@@ -1,6 +1,6 @@
 //! Errors that come after reading, turned into places.
 
-use dynamics::{DropError, MotionError, RowChoice, Trip, prepare};
+use dynamics::{DropError, MotionError, MotionFault, RowChoice, prepare};
 use model::start::Misfit;
 use model::{BuildError, Mechanism, StartError};
 use scene::{Label, Scene};
@@ -64,7 +64,7 @@ fn errors_of_a_run_point_at_rows_bodies_and_options() {
         let d = scene.locate_motion(error).expect("a place");
         text_of(&scene)[d.primary.span].to_owned()
     };
-    let lost = MotionError::Trip(Trip::RankLost {
+    let lost = MotionError::Fault(MotionFault::RankLost {
         time: 0.0,
         row,
         pivot: 0.0,
@@ -72,7 +72,7 @@ fn errors_of_a_run_point_at_rows_bodies_and_options() {
     });
     assert_eq!(marked(&lost), "\"A\"");
     assert_eq!(marked(&MotionError::Rows(DropError::NotRedundant)), "[1]");
-    let massless = MotionError::Trip(Trip::Massless {
+    let massless = MotionError::Fault(MotionFault::Massless {
         time: 0.0,
         body: "b".into(),
         coordinate: "x",

@@ -161,7 +161,7 @@ simulate = {{ t_end = 2.0 }}
         top = 2.0 * y,
     );
     let study = study(&text)?;
-    let there = study.inquire(1.0, None).map_err(|e| refused(&e))?;
+    let there = study.analyse(1.0, None).map_err(|e| refused(&e))?;
     let decision = &there.analysis.decision;
     if let linalg::RankStatus::Undecided(doubt) = &decision.status {
         return Err(Outcome::refused(format!(

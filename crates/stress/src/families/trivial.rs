@@ -39,7 +39,7 @@ fn cases() -> Vec<Case> {
 
 fn nothing_found(text: &str) -> Result<Outcome, Outcome> {
     let study = study(text)?;
-    let found = study.inquire(0.0, None);
+    let found = study.analyse(0.0, None);
     let a = found.map_err(|e| refused(&e))?.analysis;
     let sizes = [a.decision.rank, a.decision.redundancy, a.reactions.len()];
     let detail = format!("rank, redundancy, verdicts {sizes:?}");

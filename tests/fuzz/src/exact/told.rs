@@ -5,7 +5,7 @@ use pfaff::model::Registry;
 use pfaff::report::documents::DistributionDocument;
 use pfaff::report::documents::MakeUniqueDocument;
 use pfaff::solvability::{Allowed, Choice, NormWeights, Verdict};
-use pfaff::{Blueprint, Inquiry, Overrides, StudyError};
+use pfaff::{AssembledScene, ConfigurationAnalysis, Overrides, StudyError};
 use serde_json::Value;
 
 /// Reactions of which it is asked what makes them unique.
@@ -23,32 +23,32 @@ const LIMITS: Limits = Limits {
 /// # Errors
 /// The refusal in words.
 pub fn told(text: &str) -> Result<Value, String> {
-    let read = || Blueprint::read("scene.toml", text, &Registry::planar());
-    match read().and_then(|blueprint| blueprint.prepare(&Overrides::default())) {
-        Ok(study) => document(study.inquire(0.0, None)),
+    let read = || AssembledScene::read("scene.toml", text, &Registry::planar());
+    match read().and_then(|assembled| assembled.prepare(&Overrides::default())) {
+        Ok(study) => document(study.analyse(0.0, None)),
         Err(e) if e.only_motion().is_some() => match read() {
-            Ok(mut blueprint) => document(blueprint.inquire(None)),
+            Ok(mut assembled) => document(assembled.analyse(None)),
             Err(e) => Err(e.to_string()),
         },
         Err(e) => Err(e.to_string()),
     }
 }
 
-fn document(inquiry: Result<Inquiry<'_>, StudyError>) -> Result<Value, String> {
-    let inquiry = inquiry.map_err(|e| e.to_string())?;
-    let mut document = inquiry.document(&[]).map_err(|e| e.to_string())?;
-    let reactions = inquiry.analysis.reactions.iter();
+fn document(configuration: Result<ConfigurationAnalysis<'_>, StudyError>) -> Result<Value, String> {
+    let configuration = configuration.map_err(|e| e.to_string())?;
+    let mut document = configuration.document(&[]).map_err(|e| e.to_string())?;
+    let reactions = configuration.analysis.reactions.iter();
     let open = reactions.filter(|r| r.wrench.verdict == Verdict::NotUnique);
     document.make_unique = open
         .take(ASKED)
         .map(|r| {
-            let found = inquiry.make_unique(r.id, &Allowed::Sensible, LIMITS);
+            let found = configuration.make_unique(r.id, &Allowed::Sensible, LIMITS);
             MakeUniqueDocument::new(&r.name, &Allowed::Sensible, found)
         })
         .collect();
-    if inquiry.analysis.decision.is_decided() {
+    if configuration.analysis.decision.is_decided() {
         let choice = Choice::MinimumNorm(NormWeights::NEWTON_METRE);
-        let chosen = inquiry.distribution(&choice);
+        let chosen = configuration.distribution(&choice);
         let chosen = chosen.iter().map(|d| DistributionDocument::new(d, &[]));
         document.choices = chosen.collect();
     }

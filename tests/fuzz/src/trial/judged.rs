@@ -4,7 +4,7 @@ use pfaff::linalg::RankStatus;
 use pfaff::model::System;
 use pfaff::report::{AnalysisDocument, write_json};
 use pfaff::solvability::Verdict;
-use pfaff::{Inquiry, Study};
+use pfaff::{ConfigurationAnalysis, Study};
 
 use super::named;
 
@@ -22,8 +22,8 @@ pub(super) fn start(study: &Study) {
 }
 
 /// Verdicts fit the rank, the dependencies and each other; the document can be read.
-pub(super) fn check(inquiry: &Inquiry<'_>) {
-    let analysis = &inquiry.analysis;
+pub(super) fn check(configuration: &ConfigurationAnalysis<'_>) {
+    let analysis = &configuration.analysis;
     let decision = &analysis.decision;
     let rows = analysis.holonomic_rows + analysis.nonholonomic_rows;
     assert_eq!(decision.rank + decision.redundancy, rows);
@@ -37,16 +37,16 @@ pub(super) fn check(inquiry: &Inquiry<'_>) {
             );
         }
     } else {
-        verdicts(inquiry);
+        verdicts(configuration);
     }
-    if let Err(e) = inquiry.groups(&[]) {
+    if let Err(e) = configuration.groups(&[]) {
         named(&e);
     }
-    document(inquiry);
+    document(configuration);
 }
 
-fn verdicts(inquiry: &Inquiry<'_>) {
-    let analysis = &inquiry.analysis;
+fn verdicts(configuration: &ConfigurationAnalysis<'_>) {
+    let analysis = &configuration.analysis;
     let decision = &analysis.decision;
     let evidence = analysis.evidence();
     if evidence.certificate.is_none() && decision.rank > 0 {
@@ -132,17 +132,17 @@ fn verdicts(inquiry: &Inquiry<'_>) {
 }
 
 /// The document of `analyze --json` is JSON.
-fn document(inquiry: &Inquiry<'_>) {
-    let generic = inquiry.generic();
-    let (name, analysis) = (inquiry.scene.name(), &inquiry.analysis);
+fn document(configuration: &ConfigurationAnalysis<'_>) {
+    let generic = configuration.generic();
+    let (name, analysis) = (configuration.scene.name(), &configuration.analysis);
     let mut document = AnalysisDocument::new(name, analysis, generic.as_ref());
-    match inquiry.explanation() {
-        Ok(Some(explanation)) => document.explain(&explanation, inquiry.mechanism.layout()),
+    match configuration.explanation() {
+        Ok(Some(explanation)) => document.explain(&explanation, configuration.mechanism.layout()),
         Ok(None) => {}
         Err(e) => named(&e),
     }
     if let Some(generic) = &generic
-        && let Err(e) = inquiry.continuation(generic)
+        && let Err(e) = configuration.continuation(generic)
     {
         named(&e);
     }

@@ -3,7 +3,7 @@
 
 use std::cell::RefCell;
 
-use dynamics::{KeptRowMotion, Motion, MotionError, Prepared, RowChoice, Trip, prepare};
+use dynamics::{KeptRowMotion, Motion, MotionError, Prepared, RowChoice, MotionFault, prepare};
 use model::{Mechanism, Registry, System};
 use suite::{Case, Kind, Quantity};
 
@@ -23,7 +23,7 @@ pub enum CaseError {
     Motion(#[from] MotionError),
     /// The motion on kept rows.
     #[error("{0}")]
-    Trip(#[from] Trip),
+    MotionFault(#[from] MotionFault),
     /// The state has another number of components.
     #[error("q and v have {found} entries, expected {expected}")]
     Size { found: usize, expected: usize },

@@ -64,7 +64,7 @@ function cubic(values, rates, instant) {
 }
 
 /** Bodies with decoded curves. */
-const bodies = data.scenery.bodies.map((body, index) => ({
+const bodies = data.drawing.bodies.map((body, index) => ({
   index,
   name: body.name,
   points: body.points,
@@ -126,7 +126,7 @@ const COMPONENTS = ["Fx", "Fy", "T"];
 const joints = data.joints.map((joint, index) => ({
   ...joint,
   index,
-  site: data.scenery.sites[index],
+  site: data.drawing.sites[index],
   wrench: joint.reaction?.wrench.map(decode) ?? null,
   named: joint.reaction?.named !== undefined ? decode(joint.reaction.named) : null,
   choices: [],

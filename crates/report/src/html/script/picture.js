@@ -21,7 +21,7 @@ class Picture {
       end: joint.site.end ? placeFinder(joint.site.end) : null,
       heading: headingFinder(joint.site.axis),
     }));
-    this.forces = data.scenery.forces.map((force) => ({ force }));
+    this.forces = data.drawing.forces.map((force) => ({ force }));
     this.measure();
     defineHatches(svg);
     this.layers = Object.fromEntries(
@@ -52,7 +52,7 @@ class Picture {
     this.whole = finite ? whole : [[0, 1], [0, 1]];
     const span = this.whole.map(([a, b]) => b - a);
     const far = Math.hypot(...span) > MOVED_FAR * Math.hypot(...this.size);
-    const grounded = data.scenery.sites.some((s) => s.grounded);
+    const grounded = data.drawing.sites.some((s) => s.grounded);
     const visible = Math.hypot(...this.size) > SMALLEST * Math.hypot(...span);
     this.travels = far && visible && !grounded;
     if (Math.max(...span) < 1e-9) this.whole = this.whole.map(([a, b]) => [(a + b) / 2 - 0.5, (a + b) / 2 + 0.5]);
@@ -72,7 +72,7 @@ class Picture {
       body.points.forEach((p) => take(pointOn(pose, p)));
     }
     for (const site of this.sites) take(site.place(poses, instant));
-    for (const { points } of data.scenery.forces) points.forEach(([b, ...p]) => take(pointOn(poses.of(b), p)));
+    for (const { points } of data.drawing.forces) points.forEach(([b, ...p]) => take(pointOn(poses.of(b), p)));
     return box;
   }
 

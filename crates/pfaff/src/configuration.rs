@@ -32,7 +32,7 @@ use crate::error::StudyError;
 ///     cart.joint(name, &[body], KnifeEdge { s: [0.0, y], normal: Direction::Y });
 /// }
 /// let study = Study::build(cart)?;
-/// let start = study.inquire(0.0, None)?;
+/// let start = study.analyse(0.0, None)?;
 /// assert_eq!(start.verdict("left")?.wrench.verdict.word(), "not_unique");
 /// assert_eq!(start.eliminations()?, 2);
 /// let left = start.reaction("left")?;
@@ -42,7 +42,7 @@ use crate::error::StudyError;
 /// assert_eq!(wrong.to_string(), "there is no joint or drive `lift`; did you mean `left`?");
 /// # Ok::<(), StudyError>(())
 /// ```
-pub struct Inquiry<'a> {
+pub struct ConfigurationAnalysis<'a> {
     /// The scene.
     pub scene: &'a Scene,
     /// Its mechanism.
@@ -65,7 +65,7 @@ pub(crate) enum AskedRows<'r> {
     Dropped(&'r [usize]),
 }
 
-impl<'a> Inquiry<'a> {
+impl<'a> ConfigurationAnalysis<'a> {
     /// A state that satisfies the constraints at time t, and how well its configuration is known.
     /// `progress` is told how many joints are judged.
     pub(crate) fn new(
@@ -134,7 +134,7 @@ impl<'a> Inquiry<'a> {
     /// by side have none.
     ///
     /// # Errors
-    /// As [`Inquiry::groups`], and [`StudyError::Choice`]: there are no reactions, or the rank is
+    /// As [`ConfigurationAnalysis::groups`], and [`StudyError::Choice`]: there are no reactions, or the rank is
     /// undecided.
     pub fn determined(&self, combine: &[String]) -> Result<Vec<Numbers>, StudyError> {
         let solution = self.solution()?;
@@ -148,7 +148,7 @@ impl<'a> Inquiry<'a> {
     /// All numbers of the same groups as a choice gives them.
     ///
     /// # Errors
-    /// As [`Inquiry::groups`].
+    /// As [`ConfigurationAnalysis::groups`].
     pub fn chosen(
         &self,
         combine: &[String],
@@ -174,7 +174,7 @@ impl<'a> Inquiry<'a> {
     /// let slope = Direction::new([1.0, 1e-3]).expect("a direction");
     /// bar.joint("slope", &[body], KnifeEdge { s: [-1.0, 0.0], normal: slope });
     /// let study = Study::build(bar)?;
-    /// let hanging = study.inquire(0.0, None)?.sensitivities()?;
+    /// let hanging = study.analyse(0.0, None)?.sensitivities()?;
     /// assert_eq!(hanging.fragile().count(), 2);
     /// # Ok::<(), StudyError>(())
     /// ```
@@ -248,7 +248,7 @@ impl<'a> Inquiry<'a> {
     }
 
     /// Whether no motion is possible: the rows allow no velocity and do not depend on time, or
-    /// second order blocks every velocity that they allow ([`Inquiry::is_locked`]).
+    /// second order blocks every velocity that they allow ([`ConfigurationAnalysis::is_locked`]).
     ///
     /// # Errors
     /// [`StudyError::State`]

@@ -7,14 +7,14 @@ use model::{Assembly, Known, Mechanism, Registry, StartError, Tolerance};
 use scene::Scene;
 use solvability::{ConstraintLevel, State};
 
+use crate::configuration::{AskedRows, ConfigurationAnalysis};
 use crate::error::StudyError;
-use crate::inquiry::{AskedRows, Inquiry};
 use crate::study::{Overrides, Study};
 
 /// A scene whose mechanism could be built.
 ///
 /// ```
-/// use pfaff::Blueprint;
+/// use pfaff::AssembledScene;
 /// use pfaff::model::Registry;
 ///
 /// // Two pivots 10⁻⁹ m apart: such a bar can neither move nor be called redundant in double precision.
@@ -26,21 +26,21 @@ use crate::study::{Overrides, Study};
 ///     { name = "twin", type = "revolute", bodies = ["ground", "bar"], at = [1e-9, 0.0] },
 /// ]
 /// "#;
-/// let mut blueprint = Blueprint::read("bar.toml", scene, &Registry::planar())?;
-/// let start = blueprint.inquire(None)?;
+/// let mut assembled = AssembledScene::read("bar.toml", scene, &Registry::planar())?;
+/// let start = assembled.analyse(None)?;
 /// assert_eq!((start.analysis.decision.rank, start.analysis.decision.redundancy), (3, 1));
 /// assert!(start.analysis.nearly_redundant.is_some());
 /// # Ok::<(), pfaff::StudyError>(())
 /// ```
 #[non_exhaustive]
-pub struct Blueprint {
+pub struct AssembledScene {
     /// What was read, or made by a program.
     pub scene: Scene,
     /// Its mechanism; initial values are those of the described start until it is assembled.
     pub mechanism: Mechanism,
 }
 
-impl Blueprint {
+impl AssembledScene {
     /// Reads a scene. `name` is the file's name in messages.
     ///
     /// # Errors
@@ -70,15 +70,15 @@ impl Blueprint {
     /// is not stated here stays. Tolerances of bodies and joints go before these as before.
     ///
     /// ```
-    /// use pfaff::Blueprint;
+    /// use pfaff::AssembledScene;
     /// use pfaff::model::{Registry, Tolerance};
     ///
     /// let scene = r#"
     /// scene = { name = "stone", space = "plane", tolerance = 1e-3, angle_tolerance = 1e-4 }
     /// body = [{ name = "stone", mass = 1.0, inertia = 1.0 }]
     /// "#;
-    /// let blueprint = Blueprint::read("stone.toml", scene, &Registry::planar())?;
-    /// let finer = blueprint.stating(Tolerance { length: Some(1e-5), angle: None })?;
+    /// let assembled = AssembledScene::read("stone.toml", scene, &Registry::planar())?;
+    /// let finer = assembled.stating(Tolerance { length: Some(1e-5), angle: None })?;
     /// let expected = Tolerance { length: Some(1e-5), angle: Some(1e-4) };
     /// assert_eq!(finer.mechanism.tolerance(), expected);
     /// assert_eq!(finer.scene.description.tolerance, expected);
@@ -154,32 +154,35 @@ impl Blueprint {
         assemble(&mut self.mechanism, &self.scene.start).map_err(|e| refused(&self.scene, e.into()))
     }
 
-    /// The start, to be asked about its reactions, also where [`Blueprint::prepare`] refuses it:
+    /// The start, to be asked about its reactions, also where [`AssembledScene::prepare`] refuses it:
     /// because the rank is undecided in `f64`, or no motion begins there.
     ///
     /// # Errors
-    /// As [`Blueprint::assemble`], also where no motion has the given velocities, and
+    /// As [`AssembledScene::assemble`], also where no motion has the given velocities, and
     /// [`StudyError::Analysis`]: C cannot be judged there.
-    pub fn inquire(&mut self, drop: Option<&[usize]>) -> Result<Inquiry<'_>, StudyError> {
-        self.inquire_watched(drop, |_| ())
+    pub fn analyse(
+        &mut self,
+        drop: Option<&[usize]>,
+    ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
+        self.analyse_watched(drop, |_| ())
     }
 
     /// The same; `progress` is told how many joints are judged.
     ///
     /// # Errors
-    /// As [`Blueprint::inquire`].
-    pub fn inquire_watched(
+    /// As [`AssembledScene::analyse`].
+    pub fn analyse_watched(
         &mut self,
         drop: Option<&[usize]>,
         progress: impl Fn(usize) + Sync,
-    ) -> Result<Inquiry<'_>, StudyError> {
+    ) -> Result<ConfigurationAnalysis<'_>, StudyError> {
         let assembly = self.assemble()?;
         let start = &self.scene.start;
         let state = State {
             q: assembly.q,
             v: Vec::new(),
         };
-        let mut inquiry = Inquiry::new(
+        let mut configuration = ConfigurationAnalysis::new(
             &self.scene,
             &self.mechanism,
             0.0,
@@ -188,11 +191,11 @@ impl Blueprint {
             drop.map_or(AskedRows::Any, AskedRows::Dropped),
             progress,
         )?;
-        let decision = &inquiry.analysis.decision;
+        let decision = &configuration.analysis.decision;
         if decision.is_decided() {
-            let (q, kept) = (&inquiry.state.q, &decision.kept);
+            let (q, kept) = (&configuration.state.q, &decision.kept);
             let rows = solvability::rows(&self.mechanism, 0.0, q)?;
-            inquiry.state.v = match start_velocity(&self.mechanism, start, &rows, q, kept) {
+            configuration.state.v = match start_velocity(&self.mechanism, start, &rows, q, kept) {
                 Ok((found, _)) => found.v,
                 // Rows that are independent by the certificate may be too nearly dependent for
                 // numbers.
@@ -205,7 +208,7 @@ impl Blueprint {
                 Err(e) => return Err(refused(&self.scene, e)),
             };
         }
-        Ok(inquiry)
+        Ok(configuration)
     }
 }
 

@@ -2,18 +2,18 @@
 //! What the scene does not want is not computed for it; the page shows what there is.
 
 use dynamics::plan::Rows;
-use dynamics::{Plan, Sample, Trip};
+use dynamics::{MotionFault, Plan, Sample};
 use linalg::Limits;
 use model::{Mechanism, Reaction, System};
 use report::documents::MakeUniqueDocument;
 use report::{
-    AnalysisDocument, DriveCurve, Film, Frame, Origin, RunDocument, RunPage, numbers_per_row,
+    AnalysisDocument, DriveCurve, Frame, Origin, Recording, RunDocument, RunPage, numbers_per_row,
     run_page,
 };
 use solvability::{Allowed, Sensitivities, Verdict};
 
 use crate::comparison::compare;
-use crate::inquiry::Inquiry;
+use crate::configuration::ConfigurationAnalysis;
 use crate::study::Study;
 
 /// Reactions that are not unique for which the page says what would make them so, and sets tried
@@ -22,14 +22,14 @@ const HINTS: usize = 8;
 const HINT_TRIALS: usize = 2_000;
 
 /// Rows of a run whose page is being made.
-pub(crate) struct Chronicle<'a> {
+pub(crate) struct ReportBuilder<'a> {
     study: &'a Study,
-    film: Film,
+    recording: Recording,
     compares: bool,
     ends_only: bool,
 }
 
-impl<'a> Chronicle<'a> {
+impl<'a> ReportBuilder<'a> {
     pub(crate) fn new(study: &'a Study, plan: &Plan<'_>) -> Self {
         let options = plan.options();
         let mechanism = &study.prepared.mechanism;
@@ -39,7 +39,7 @@ impl<'a> Chronicle<'a> {
         };
         Self {
             study,
-            film: Film::new(options.t_end, rows, numbers_per_row(mechanism)),
+            recording: Recording::new(options.t_end, rows, numbers_per_row(mechanism)),
             ends_only: plan.rows.value == Rows::Ends,
             compares: study.prepared.decision.redundancy > 0,
         }
@@ -50,15 +50,15 @@ impl<'a> Chronicle<'a> {
         &mut self,
         sample: &mut Sample<'_, '_>,
         reactions: &[Reaction],
-    ) -> Result<(), Trip> {
-        if !self.film.wants(sample.t) {
+    ) -> Result<(), MotionFault> {
+        if !self.recording.wants(sample.t) {
             return Ok(());
         }
         let multipliers = match self.compares && !reactions.is_empty() {
             true => sample.multipliers()?,
             false => Vec::new(),
         };
-        self.film.frames.push(Frame {
+        self.recording.frames.push(Frame {
             t: sample.t,
             q: sample.q.to_vec(),
             v: sample.v.to_vec(),
@@ -72,7 +72,7 @@ impl<'a> Chronicle<'a> {
     /// The page.
     pub(crate) fn page(
         &self,
-        start: &Inquiry<'_>,
+        start: &ConfigurationAnalysis<'_>,
         sensitivities: &Sensitivities,
         run: &RunDocument,
         origin: &Origin,
@@ -89,8 +89,12 @@ impl<'a> Chronicle<'a> {
                 .as_ref()
                 .map(ToString::to_string)
         };
-        let (comparisons, mut left_out) =
-            compare(mechanism, &self.film, &start.analysis.reactions, choice);
+        let (comparisons, mut left_out) = compare(
+            mechanism,
+            &self.recording,
+            &start.analysis.reactions,
+            choice,
+        );
         let (mut analysis, hints) = self.analysis(start);
         analysis.warnings.extend(study.scene.cautions());
         analysis.add_sensitivities(sensitivities, mechanism.layout());
@@ -106,7 +110,7 @@ impl<'a> Chronicle<'a> {
             analysis: Some(&analysis),
             hints: &hints,
             run,
-            film: &self.film,
+            recording: &self.recording,
             comparisons: &comparisons,
             drives: &self.drives(),
             origin,
@@ -118,7 +122,10 @@ impl<'a> Chronicle<'a> {
     }
 
     /// The verdicts of the start with their reasons, and hints.
-    fn analysis(&self, start: &Inquiry<'_>) -> (AnalysisDocument, Vec<MakeUniqueDocument>) {
+    fn analysis(
+        &self,
+        start: &ConfigurationAnalysis<'_>,
+    ) -> (AnalysisDocument, Vec<MakeUniqueDocument>) {
         let mut document = AnalysisDocument::new(self.study.scene.name(), &start.analysis, None);
         if let Ok(Some(explanation)) = start.explanation() {
             document.explain(&explanation, start.mechanism.layout());
@@ -157,7 +164,7 @@ impl<'a> Chronicle<'a> {
                     ),
                     unit: if pushes { "m" } else { "rad" },
                     values: self
-                        .film
+                        .recording
                         .frames
                         .iter()
                         .map(|f| drive.motion.jet(f.t)[0] - start)

@@ -42,7 +42,7 @@ const INTERVALS_MAX: usize = 4_000;
 /// Verdicts along a motion.
 #[derive(Debug)]
 #[non_exhaustive]
-pub struct Journey {
+pub struct VerdictsAlongMotion {
     /// One verdict for almost all of it, and where another holds.
     pub along: Along,
     /// Last time that was judged (s).
@@ -60,7 +60,7 @@ pub struct Journey {
     pub continued_to: Option<f64>,
 }
 
-impl Journey {
+impl VerdictsAlongMotion {
     /// The same as plain data: `along` of what `pfaff analyze --along --json` writes.
     #[must_use]
     pub fn document(&self) -> AlongDocument {
@@ -72,7 +72,7 @@ impl Journey {
     }
 }
 
-/// How far a journey is.
+/// How far the verdicts along a motion are.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Progress {
     /// The motion has reached this time (s).
@@ -96,10 +96,10 @@ impl Study {
     /// joint = [{ name = "pivot", type = "revolute", bodies = ["ground", "bob"], at = [0.0, 0.0] }]
     /// "#;
     /// let study = Study::read("pendulum.toml", scene, &Registry::planar(), &Overrides::default())?;
-    /// let journey = study.journey(Some(1.0), |_| {})?;
-    /// assert_eq!((journey.to, journey.stopped.is_none()), (1.0, true));
-    /// assert_eq!(journey.along.generic.decision.redundancy, 0);
-    /// assert!(journey.along.stretches.is_empty() && journey.along.passages.is_empty());
+    /// let along_motion = study.verdicts_along_motion(Some(1.0), |_| {})?;
+    /// assert_eq!((along_motion.to, along_motion.stopped.is_none()), (1.0, true));
+    /// assert_eq!(along_motion.along.generic.decision.redundancy, 0);
+    /// assert!(along_motion.along.stretches.is_empty() && along_motion.along.passages.is_empty());
     /// # Ok::<(), pfaff::StudyError>(())
     /// ```
     ///
@@ -107,11 +107,11 @@ impl Study {
     /// - [`StudyError::NoEnd`]: nobody says how long the run takes.
     /// - [`StudyError::Motion`]: it cannot begin, or stops before anything can be judged.
     /// - [`StudyError::Along`]: the motion cannot be judged.
-    pub fn journey(
+    pub fn verdicts_along_motion(
         &self,
         t_end: Option<f64>,
         mut progress: impl FnMut(Progress) + Send,
-    ) -> Result<Journey, StudyError> {
+    ) -> Result<VerdictsAlongMotion, StudyError> {
         let own = self.options.as_ref().map(|options| options.t_end);
         let t_end = t_end.or(own).ok_or(StudyError::NoEnd)?;
         if !(t_end.is_finite() && t_end > 0.0) {
@@ -125,11 +125,11 @@ impl Study {
         let least = (INTERVALS_OF_ROWS / rows).clamp(INTERVALS_LEAST, INTERVALS);
         let run = self.record(t_end, least, &mut progress)?;
         if run.stopped.is_some()
-            && let Some(journey) = self.judge_beyond(&run, least, &mut progress)
+            && let Some(along_motion) = self.judge_beyond(&run, least, &mut progress)
         {
-            return Ok(Journey {
+            return Ok(VerdictsAlongMotion {
                 stopped: run.stopped,
-                ..journey
+                ..along_motion
             });
         }
         let needed = least as f64 * run.reach(&self.prepared.mechanism) / REACH;
@@ -148,9 +148,9 @@ impl Study {
             {
                 self.judge(run, least, &mut progress)
             }
-            Ok(journey) => Ok(Journey {
-                stopped: journey.stopped.or(run.stopped),
-                ..journey
+            Ok(along_motion) => Ok(VerdictsAlongMotion {
+                stopped: along_motion.stopped.or(run.stopped),
+                ..along_motion
             }),
             failed => failed,
         }
@@ -162,7 +162,7 @@ impl Study {
         run: &Record,
         intervals: usize,
         progress: &mut (impl FnMut(Progress) + Send),
-    ) -> Option<Journey> {
+    ) -> Option<VerdictsAlongMotion> {
         let last = run.rows.last().filter(|_| run.rows.len() > 1)?.t;
         let to = run.reached
             + BEYOND * (run.reached - last).max(last / (run.between * intervals) as f64);
@@ -170,7 +170,7 @@ impl Study {
         let passed = along.passages.iter().any(|p| {
             p.time > last && p.time < to && matches!(p.kind, PassageKind::RankDrops { .. })
         });
-        passed.then(|| Journey {
+        passed.then(|| VerdictsAlongMotion {
             along,
             to: last,
             samples: intervals + 1,
@@ -208,14 +208,14 @@ impl Study {
         run: Record,
         intervals: usize,
         progress: &mut (impl FnMut(Progress) + Send),
-    ) -> Result<Journey, StudyError> {
+    ) -> Result<VerdictsAlongMotion, StudyError> {
         let Some(to) = run.rows.last().map(|row| row.t).filter(|t| *t > 0.0) else {
             return Err(match run.stopped {
                 Some(error) => error.into(),
                 None => StudyError::NoEnd,
             });
         };
-        Ok(Journey {
+        Ok(VerdictsAlongMotion {
             along: self.along(&run, to, intervals, progress)?,
             to,
             samples: intervals + 1,

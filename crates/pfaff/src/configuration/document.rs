@@ -4,17 +4,17 @@ use model::System;
 use report::AnalysisDocument;
 use report::documents::{EliminationsDocument, GroupDocument};
 
-use super::Inquiry;
+use super::ConfigurationAnalysis;
 use crate::error::StudyError;
 
-impl Inquiry<'_> {
+impl ConfigurationAnalysis<'_> {
     /// Ranks with their proof, verdicts, groups, reasons and warnings as plain data: the document
     /// that `pfaff analyze --json` writes, key by key. Groups are those of the scene, then the
-    /// combinations, as [`Inquiry::groups`] takes them; rows are counted from 1.
+    /// combinations, as [`ConfigurationAnalysis::groups`] takes them; rows are counted from 1.
     ///
     /// What costs more is left for its own question and may be added to the document:
-    /// [`Inquiry::make_unique`], [`Inquiry::frames`], [`Inquiry::distribution`],
-    /// [`crate::Journey`].
+    /// [`ConfigurationAnalysis::make_unique`], [`ConfigurationAnalysis::frames`], [`ConfigurationAnalysis::distribution`],
+    /// [`crate::VerdictsAlongMotion`].
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -23,7 +23,7 @@ impl Inquiry<'_> {
     /// let body = sleigh.body(Body::new("sleigh", 10.0, 1.0));
     /// sleigh.joint("blade", &[body], KnifeEdge { s: [0.0, 0.0], normal: Direction::Y });
     /// let study = Study::build(sleigh)?;
-    /// let document = study.inquire(0.0, None)?.document(&[])?;
+    /// let document = study.analyse(0.0, None)?.document(&[])?;
     /// assert_eq!((document.rank, document.mobility), (1, 2));
     /// let json = serde_json::to_value(&document).unwrap();
     /// assert_eq!(json["reactions"][0]["name"], "blade");
@@ -32,8 +32,8 @@ impl Inquiry<'_> {
     /// ```
     ///
     /// # Errors
-    /// As [`Inquiry::groups`], [`Inquiry::explanation`], [`Inquiry::continuation`] and
-    /// [`Inquiry::is_locked`]. Groups without numbers are no error but a warning of the document.
+    /// As [`ConfigurationAnalysis::groups`], [`ConfigurationAnalysis::explanation`], [`ConfigurationAnalysis::continuation`] and
+    /// [`ConfigurationAnalysis::is_locked`]. Groups without numbers are no error but a warning of the document.
     pub fn document(&self, combine: &[String]) -> Result<AnalysisDocument, StudyError> {
         let groups = self.groups(combine)?;
         let generic = self.generic();
@@ -80,12 +80,12 @@ impl Inquiry<'_> {
 
 /// What the verdicts of a singular configuration were compared with. The motion need not lead
 /// there: the steps away follow the joints alone.
-fn only_here(d: &AnalysisDocument, inquiry: &Inquiry<'_>) -> Option<String> {
+fn only_here(d: &AnalysisDocument, configuration: &ConfigurationAnalysis<'_>) -> Option<String> {
     let generic = d.generic.as_ref()?;
     if generic.redundancy >= d.redundancy || d.evidence.permanent != Some(false) {
         return None;
     }
-    let layout = inquiry.mechanism.layout();
+    let layout = configuration.mechanism.layout();
     let drives = layout.groups.iter().any(|g| g.is_drive());
     let free = match (drives, d.nonholonomic_rows > 0) {
         (false, false) => "",

@@ -31,7 +31,7 @@ pub struct Frame {
 
 /// Rows of a run.
 #[derive(Clone, Debug)]
-pub struct Film {
+pub struct Recording {
     /// Rows that are kept, in the order of time.
     pub frames: Vec<Frame>,
     /// One in so many rows is kept, and the one at the end.
@@ -40,7 +40,7 @@ pub struct Film {
     t_end: f64,
 }
 
-impl Film {
+impl Recording {
     /// For a run of about so many rows up to `t_end`, each of about so many numbers.
     #[must_use]
     pub fn new(t_end: f64, rows: f64, numbers: usize) -> Self {
@@ -74,19 +74,19 @@ impl Film {
 mod tests {
     use super::*;
 
-    fn kept(film: &mut Film, rows: usize) -> usize {
-        (0..rows).filter(|k| film.wants(*k as f64)).count()
+    fn kept(recording: &mut Recording, rows: usize) -> usize {
+        (0..rows).filter(|k| recording.wants(*k as f64)).count()
     }
 
     #[test]
     fn short_runs_are_kept_whole_and_long_ones_thinned() {
-        assert_eq!(kept(&mut Film::new(200.0, 201.0, 60), 201), 201);
+        assert_eq!(kept(&mut Recording::new(200.0, 201.0, 60), 201), 201);
         // 100 001 rows at a stride of 101, and the last one.
-        let mut long = Film::new(1e5, 100_001.0, 60);
+        let mut long = Recording::new(1e5, 100_001.0, 60);
         assert_eq!((long.stride, kept(&mut long, 100_001)), (101, 992));
         // 1e5 numbers a row: 40 rows.
-        let mut large = Film::new(200.0, 201.0, 100_000);
+        let mut large = Recording::new(200.0, 201.0, 100_000);
         assert_eq!((large.stride, kept(&mut large, 201)), (6, 35));
-        assert_eq!(Film::new(1.0, f64::INFINITY, 1).stride, usize::MAX);
+        assert_eq!(Recording::new(1.0, f64::INFINITY, 1).stride, usize::MAX);
     }
 }

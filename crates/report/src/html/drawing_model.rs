@@ -6,7 +6,7 @@ use model::{BodyRef, ConstraintId, ConstraintKind, Mechanism, Scratch, System};
 use serde::Serialize;
 
 use super::channel::{Channel, Rounded};
-use super::film::Frame;
+use super::recording::Frame;
 use crate::figures::geometry::{Site, site, sites};
 use crate::figures::symbol::Symbol;
 
@@ -83,7 +83,7 @@ pub(super) struct DrawnForce {
 
 /// Everything that is drawn.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct Scenery {
+pub(super) struct DrawingModel {
     pub(super) bodies: Vec<DrawnBody>,
     pub(super) sites: Vec<DrawnSite>,
     pub(super) forces: Vec<DrawnForce>,
@@ -99,7 +99,7 @@ pub(super) struct Stage<'a> {
 }
 
 impl Stage<'_> {
-    pub(super) fn scenery(&self, forces: Vec<DrawnForce>) -> Scenery {
+    pub(super) fn drawing(&self, forces: Vec<DrawnForce>) -> DrawingModel {
         let probes = self.probes();
         let size = self.size();
         let mut points = vec![Vec::new(); self.bodies.len()];
@@ -116,7 +116,7 @@ impl Stage<'_> {
             }
         }
         let sites = self.mechanism.constraint_ids();
-        Scenery {
+        DrawingModel {
             sites: sites.map(|id| self.site(id, &probes, size)).collect(),
             bodies: points
                 .into_iter()
