@@ -2,8 +2,9 @@
 //! come out, and how many are known.
 
 use dynamics::{Method, Stabilisation};
+use lab::work_precision::of_case;
 use pfaff::StudyError;
-use pfaff::work_precision::{Curve, Errors, Subject};
+use pfaff::work_precision::{Curve, Errors};
 
 /// Tolerance of the runs; past singular configurations no tighter one has a meaning.
 const TIGHT: f64 = 1e-14;
@@ -56,7 +57,7 @@ fn run(name: &str, tolerance: f64) -> Result<Errors, StudyError> {
         method: Method::Auto,
         stabilisation: Stabilisation::Projection,
     };
-    let errors = Subject::of_case(case)?.errors(curve, tolerance)?;
+    let errors = of_case(case)?.errors(curve, tolerance)?;
     Ok(errors.expect("the motion is known"))
 }
 
@@ -88,7 +89,7 @@ fn every_case_is_reproduced_to_the_digits_of_double_precision() {
 /// whatever tolerance.
 #[test]
 fn the_four_bars_keep_their_branch_at_sixty_four_tolerances() {
-    let subject = Subject::of_case(suite::find("n-four-bar").expect("exists")).expect("builds");
+    let subject = of_case(suite::find("n-four-bar").expect("exists")).expect("builds");
     let curve = Curve {
         method: Method::Auto,
         stabilisation: Stabilisation::Projection,

@@ -5,11 +5,17 @@
 //! | module | content |
 //! | --- | --- |
 //! | [`comparators`] | other formulations of redundancy and other methods, to compare the product's with |
-//! | [`mod@work_precision`] | error against run time: the product's methods and the comparators |
+//! | [`mod@work_precision`] | the comparators in the table of the product's methods, and the cases of the suite |
+//! | [`stress`] | stiff and extreme cases, each with its right answer |
+//! | [`generate`] | scenes of any size, with their answers |
+//! | [`mechanisms`] | mechanisms that cases and tests use |
+//! | [`command`] | the command `lab` |
 
 #![forbid(unsafe_code)]
 
+pub mod command;
 pub mod comparators;
+pub mod generate;
+pub mod mechanisms;
+pub mod stress;
 pub mod work_precision;
-
-pub use work_precision::work_precision;

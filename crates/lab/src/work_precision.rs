@@ -1,13 +1,18 @@
-//! Error against run time: the methods of the product and the comparators, on a case of the suite
-//! or on a scene, in the rows of one table.
+//! Error against run time: the comparators as rivals of the product's methods, and cases of the
+//! suite as scenes whose motion is known.
 
 use std::time::Duration;
 
-use pfaff::StudyError;
-use pfaff::report::{CurveName, WorkPrecisionRow};
-use pfaff::work_precision::{Observation, Plan, Subject, Yardstick};
+use dynamics::Prepared;
+use pfaff::model::Registry;
+use pfaff::report::CurveName;
+use pfaff::work_precision::{
+    Expected, Kind, Observation, Reference, Rival, RivalFault, RivalRun, Subject,
+};
+use pfaff::{Overrides, Study, StudyError};
+use suite::{Case, Quantity};
 
-use crate::comparators::{Drift, Formulation, Method, Run, Way, run_within};
+use crate::comparators::{Drift, Fault, Formulation, Method, Way, run_within};
 
 /// The ways that are compared beside those of the product: every method on kept rows with
 /// projection, and by one of them every formulation and every treatment of drift.
@@ -27,81 +32,84 @@ pub fn ways() -> Vec<Way> {
     own.into_iter().chain(others).chain([pulled]).collect()
 }
 
-/// All runs of a plan by the product, then the comparators at the same tolerances. A comparator
-/// that does not reach its end has a row that says why.
+/// A case of the suite, with what is known of its motion.
 ///
 /// # Errors
-/// As [`Subject::compare`].
-pub fn work_precision(subject: &Subject, plan: &Plan) -> Result<Vec<WorkPrecisionRow>, StudyError> {
-    let product = subject.compare::<StudyError>(plan, &|| false, |_| Ok(()))?;
-    let yardstick = subject.yardstick(plan)?;
-    let mut rows = product.scene.rows;
-    for way in ways() {
-        for &tolerance in &plan.tolerances {
-            rows.push(row(subject, plan, &yardstick, way, tolerance));
+/// As [`Study::read`].
+pub fn of_case(case: &Case) -> Result<Subject, StudyError> {
+    let registry = Registry::planar();
+    let study = Study::read(case.name, case.scene, &registry, &Overrides::default())?;
+    let known = case.reference();
+    let instants = known.instants.iter().map(|instant| {
+        let mut values: [Vec<(usize, f64)>; Kind::COUNT] = Default::default();
+        for fact in &instant.facts {
+            let (kind, name) = named(fact.quantity);
+            let place = kind.place(&fact.of, name, &study.prepared.mechanism);
+            values[kind as usize].extend(place.map(|place| (place, fact.value)));
         }
-    }
-    Ok(rows)
+        Expected {
+            t: instant.t,
+            values,
+        }
+    });
+    let reference = Reference {
+        instants: instants.collect(),
+        limits: suite::Kind::ALL.map(|kind| known.trust.of(kind)),
+        source: known.source,
+    };
+    Subject::known(study, case.title, reference)
 }
 
-fn row(
-    subject: &Subject,
-    plan: &Plan,
-    yardstick: &Yardstick,
-    way: Way,
-    tolerance: f64,
-) -> WorkPrecisionRow {
-    let curve = CurveName {
-        formulation: way.formulation.name(),
-        method: way.method.name(),
-        stabilisation: way.drift.name(),
-    };
-    let empty = WorkPrecisionRow {
-        reference_limit: yardstick.limit(),
-        ..WorkPrecisionRow::empty(subject.name(), curve, tolerance)
-    };
-    let budget = Duration::try_from_secs_f64(plan.budget).unwrap_or(Duration::MAX);
-    let mut best: Option<Run> = None;
-    let (mut repetitions, mut total) = (0, 0.0);
-    while repetitions < plan.repetitions.max(1) || total < plan.seconds {
-        let made = run_within(
-            subject.prepared(),
-            way,
-            tolerance,
-            subject.instants(),
-            budget,
-        );
-        match made {
-            Ok(made) => {
-                (repetitions, total) = (repetitions + 1, total + made.seconds);
-                if best.as_ref().is_none_or(|best| made.seconds < best.seconds) {
-                    best = Some(made);
-                }
-            }
-            Err(fault) => {
-                return WorkPrecisionRow {
-                    status: format!("stopped: {fault}"),
-                    ..empty
-                };
-            }
+/// What a quantity of the suite is called in a mechanism.
+fn named(quantity: Quantity) -> (Kind, &'static str) {
+    match quantity {
+        Quantity::X => (Kind::Position, "x"),
+        Quantity::Y => (Kind::Position, "y"),
+        Quantity::Angle => (Kind::Position, "angle"),
+        Quantity::Vx => (Kind::Velocity, "x"),
+        Quantity::Vy => (Kind::Velocity, "y"),
+        Quantity::Omega => (Kind::Velocity, "angle"),
+        Quantity::Ax => (Kind::Acceleration, "x"),
+        Quantity::Ay => (Kind::Acceleration, "y"),
+        Quantity::Alpha => (Kind::Acceleration, "angle"),
+        Quantity::Fx => (Kind::Reaction, "Fx"),
+        Quantity::Fy => (Kind::Reaction, "Fy"),
+        Quantity::Torque => (Kind::Reaction, "T"),
+        Quantity::Normal => (Kind::Reaction, "N"),
+    }
+}
+
+impl Rival for Way {
+    fn name(&self) -> CurveName {
+        CurveName {
+            formulation: self.formulation.name(),
+            method: self.method.name(),
+            stabilisation: self.drift.name(),
         }
     }
-    let Some(best) = best else { return empty };
-    let motion: Vec<Observation> = best
-        .rows
-        .iter()
-        .map(|r| Observation::new(r.t, [r.q.clone(), r.v.clone(), r.a.clone()], &r.reactions))
-        .collect();
-    let errors = yardstick.errors(&motion);
-    WorkPrecisionRow {
-        errors: errors.map_or([f64::NAN; 4], |e| e.scaled),
-        error_state: errors.map_or(f64::NAN, |e| e.state),
-        evaluations: best.evaluations,
-        projections: best.projections,
-        steps: best.steps - best.rejected,
-        rejected: best.rejected,
-        seconds: best.seconds,
-        repetitions,
-        ..empty
+
+    fn run(
+        &self,
+        start: &Prepared,
+        tolerance: f64,
+        instants: &[f64],
+        budget: Duration,
+    ) -> Result<RivalRun, RivalFault> {
+        let made = run_within(start, *self, tolerance, instants, budget);
+        let made = made.map_err(|fault| match fault {
+            Fault::TooLong { .. } => RivalFault::GivenUp(fault.to_string()),
+            _ => RivalFault::Stopped(fault.to_string()),
+        })?;
+        let rows = made.rows.into_iter();
+        Ok(RivalRun {
+            observations: rows
+                .map(|r| Observation::new(r.t, [r.q, r.v, r.a], &r.reactions))
+                .collect(),
+            evaluations: made.evaluations,
+            projections: made.projections,
+            steps: made.steps - made.rejected,
+            rejected: made.rejected,
+            seconds: made.seconds,
+        })
     }
 }

@@ -13,11 +13,11 @@ use clap::{Args, Parser, Subcommand};
 use clap_complete::Shell;
 use pfaff::dynamics::options::moved;
 use pfaff::dynamics::{Method, Stabilisation};
-use pfaff::suite::generate::Kind;
 use pfaff::sweep::{Axis, Shard};
 
 pub(crate) use known::Known;
 
+use crate::output::Answer;
 use crate::resources::Resources;
 use crate::template::Template;
 
@@ -51,12 +51,6 @@ pub(crate) enum Command {
     /// Error against run time, for every method and tolerance
     #[command(after_help = examples::WORK_PRECISION)]
     WorkPrecision(WorkPrecision),
-    /// The stiff and extreme cases, each with its right answer and what came out
-    #[command(after_help = examples::STRESS)]
-    Stress(Stress),
-    /// Write a large scene whose answer is known
-    #[command(after_help = examples::GENERATE)]
-    Generate(Generate),
     /// Read and assemble only: every problem of the file, with its place
     #[command(after_help = examples::CHECK)]
     Check(Check),
@@ -78,6 +72,12 @@ pub(crate) enum Command {
     /// The manual page, on standard output
     #[command(after_help = examples::MAN)]
     Man(Man),
+    /// Stands in the laboratory
+    #[command(hide = true)]
+    Stress(Elsewhere),
+    /// Stands in the laboratory
+    #[command(hide = true)]
+    Generate(Elsewhere),
 }
 
 impl Command {
@@ -89,28 +89,21 @@ impl Command {
             | Self::Plan(Plan { json, .. })
             | Self::Sweep(Sweep { json, .. })
             | Self::WorkPrecision(WorkPrecision { json, .. })
-            | Self::Stress(Stress { json, .. })
-            | Self::Generate(Generate { json, .. })
             | Self::Check(Check { json, .. })
             | Self::New(New { json, .. })
             | Self::View(View { json, .. })
             | Self::Diff(Diff { json, .. }) => *json,
-            Self::Schema | Self::Completions(_) | Self::Man(_) => false,
+            Self::Schema
+            | Self::Completions(_)
+            | Self::Man(_)
+            | Self::Stress(_)
+            | Self::Generate(_) => false,
         };
         match json {
             true => Answer::Json,
             false => Answer::Words,
         }
     }
-}
-
-/// For whom a command answers.
-#[derive(Clone, Copy)]
-pub(crate) enum Answer {
-    /// For people
-    Words,
-    /// For programs: one document, and nothing else
-    Json,
 }
 
 #[derive(Args)]
@@ -262,7 +255,8 @@ pub(crate) struct Sweep {
 
 #[derive(Args)]
 pub(crate) struct WorkPrecision {
-    /// Scene files, - for standard input, or names of cases of the suite; none: the suite
+    /// Scene files, or - for standard input
+    #[arg(required = true, value_name = "SCENE")]
     pub(crate) scenes: Vec<PathBuf>,
     /// Directory for the results
     #[arg(long, value_name = "DIR")]
@@ -278,42 +272,11 @@ pub(crate) struct WorkPrecision {
     pub(crate) json: bool,
 }
 
+/// A command of the laboratory, with arguments that only it reads.
 #[derive(Args)]
-pub(crate) struct Stress {
-    /// Directory for the results
-    #[arg(long, value_name = "DIR", required_unless_present = "list")]
-    pub(crate) out: Option<PathBuf>,
-    /// Cases of this family only; may be given several times
-    #[arg(long, value_name = "NAME")]
-    pub(crate) family: Vec<String>,
-    /// Name the families
-    #[arg(long, conflicts_with = "json")]
-    pub(crate) list: bool,
-    /// All results as one JSON document on standard output
-    #[arg(long)]
-    pub(crate) json: bool,
-}
-
-#[derive(Args)]
-pub(crate) struct Generate {
-    /// Family of mechanisms
-    #[arg(value_parser = named(Kind::ALL, Kind::name))]
-    pub(crate) kind: Kind,
-    /// How large: loops, cells, cells along each side, robots, modules
-    #[arg(long, value_name = "N")]
-    pub(crate) n: usize,
-    /// Seed of what is drawn at random (parallelograms, random); 1 where it is not given
-    #[arg(long, value_name = "SEED")]
-    pub(crate) seed: Option<u64>,
-    /// Share of the cells, blocks or modules that are redundant, 0 to 1
-    #[arg(long, value_name = "SHARE", allow_hyphen_values = true)]
-    pub(crate) redundant: Option<f64>,
-    /// File for the scene; standard output where it is not given
-    #[arg(long, value_name = "FILE")]
-    pub(crate) out: Option<PathBuf>,
-    /// What is known of the scene as one JSON document on standard output
-    #[arg(long, requires = "out")]
-    pub(crate) json: bool,
+pub(crate) struct Elsewhere {
+    #[arg(num_args = 0.., allow_hyphen_values = true, trailing_var_arg = true)]
+    pub(crate) arguments: Vec<String>,
 }
 
 #[derive(Args)]
@@ -395,8 +358,8 @@ pub(crate) struct Man {
     pub(crate) command: Option<String>,
 }
 
-/// Reads one of the names of an enum, and says what the names are where it is none.
-fn named<T: Copy + Send + Sync + 'static>(
+/// Reads one of the names of an enum, and says what the names are if it is none.
+pub fn named<T: Copy + Send + Sync + 'static>(
     all: &'static [T],
     name: fn(T) -> &'static str,
 ) -> impl TypedValueParser<Value = T> {

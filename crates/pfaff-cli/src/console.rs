@@ -7,8 +7,7 @@ use std::process::ExitCode;
 
 use pfaff::model::Registry;
 
-use crate::args::Answer;
-use crate::output::{Failure, Outcome};
+use crate::output::{Answer, Failure, Outcome};
 
 /// A place that is written to, and what it can show.
 pub struct Stream<'w> {
@@ -40,15 +39,16 @@ impl<'w> Stream<'w> {
 }
 
 /// What a command is given beside its arguments.
-pub(crate) struct Console<'c> {
+pub struct Console<'c> {
     /// The joints and forces of scenes.
-    pub(crate) registry: &'c Registry,
+    pub registry: &'c Registry,
     out: RefCell<Stream<'c>>,
     err: RefCell<Stream<'c>>,
 }
 
 impl<'c> Console<'c> {
-    pub(crate) fn new(registry: &'c Registry, out: Stream<'c>, err: Stream<'c>) -> Self {
+    /// A console with these streams.
+    pub fn new(registry: &'c Registry, out: Stream<'c>, err: Stream<'c>) -> Self {
         Self {
             registry,
             out: RefCell::new(out),
@@ -57,12 +57,18 @@ impl<'c> Console<'c> {
     }
 
     /// Writes an answer.
-    pub(crate) fn print(&self, text: &str) -> Outcome {
+    ///
+    /// # Errors
+    /// [`Failure::Closed`]: nobody reads it any more. [`Failure::Stopped`]: it cannot be written.
+    pub fn print(&self, text: &str) -> Outcome {
         self.write(|out| out.write_all(text.as_bytes()))
     }
 
     /// Writes an answer piece by piece.
-    pub(crate) fn write(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Outcome {
+    ///
+    /// # Errors
+    /// As [`Console::print`].
+    pub fn write(&self, write: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> Outcome {
         let out = &mut self.out.borrow_mut();
         let written = write(&mut *out.writer).and_then(|()| out.writer.flush());
         written.map_err(|e| match e.kind() {
@@ -73,7 +79,7 @@ impl<'c> Console<'c> {
 
     /// Writes what was reached of something that was not done to its end. That it was not is the
     /// answer, whoever listens.
-    pub(crate) fn incomplete(&self, text: &str) -> Failure {
+    pub fn incomplete(&self, text: &str) -> Failure {
         match self.print(text) {
             Ok(()) | Err(Failure::Closed) => Failure::Incomplete,
             Err(unsaid) => unsaid,
@@ -81,18 +87,18 @@ impl<'c> Console<'c> {
     }
 
     /// Whether answers are shown on a terminal.
-    pub(crate) fn is_terminal(&self) -> bool {
+    pub fn is_terminal(&self) -> bool {
         self.out.borrow().is_terminal
     }
 
     /// Whether answers are shown in colours.
-    pub(crate) fn is_coloured(&self) -> bool {
+    pub fn is_coloured(&self) -> bool {
         is_coloured(&self.out.borrow())
     }
 
     /// Says why a command did not do all it was asked, and gives the exit code: in words, or as a
     /// document among the answers.
-    pub(crate) fn report(&self, failure: Failure, answer: Answer) -> ExitCode {
+    pub fn report(&self, failure: Failure, answer: Answer) -> ExitCode {
         let code = match failure {
             Failure::Closed => return ExitCode::SUCCESS,
             Failure::Incomplete => return ExitCode::from(1),
@@ -113,7 +119,7 @@ impl<'c> Console<'c> {
     }
 
     /// Help that was asked for, or what is wrong with the words of the command line.
-    pub(crate) fn usage(&self, message: &clap::Error) -> ExitCode {
+    pub fn usage(&self, message: &clap::Error) -> ExitCode {
         let is_fault = message.use_stderr();
         let stream = match is_fault {
             true => &self.err,

@@ -15,7 +15,7 @@ use crate::resources::{Resources, Stage};
 
 /// Largest scene that is read (bytes): ten times what a hundred thousand bodies take. A device that
 /// never ends must not fill the memory.
-pub(crate) const LARGEST: u64 = 1 << 28;
+pub const LARGEST: u64 = 1 << 28;
 
 /// Entries of a directory among which a name is looked for.
 const LOOKED_AT: usize = 10_000;
@@ -152,7 +152,7 @@ fn scene_beside(path: &Path) -> Option<PathBuf> {
 }
 
 /// What does not exist, with the name that was probably meant and those there are.
-pub(crate) fn unknown(what: &str, name: &str, known: &[&str]) -> Failure {
+pub fn unknown(what: &str, name: &str, known: &[&str]) -> Failure {
     let near = nearest(name, known.iter().copied());
     let advice = near.map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
     Failure::input(format!(

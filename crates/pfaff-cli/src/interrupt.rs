@@ -13,11 +13,14 @@ const INTERRUPTED: i32 = 1;
 /// Whether somebody asked to stop. The first request is for the computation, which keeps what it
 /// has; a second one ends the program at once, wherever it is.
 #[derive(Clone)]
-pub(crate) struct Interrupt(Arc<AtomicBool>);
+pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
     /// Listens from now on.
-    pub(crate) fn listen() -> Result<Self, Failure> {
+    ///
+    /// # Errors
+    /// The system does not let it.
+    pub fn listen() -> Result<Self, Failure> {
         let asked = Arc::new(AtomicBool::new(false));
         let flag = Arc::clone(&asked);
         on_request(move || {
@@ -29,18 +32,24 @@ impl Interrupt {
     }
 
     /// Listens for a command that has nothing to keep: the first request ends it.
-    pub(crate) fn ends_at_once() -> Result<(), Failure> {
+    ///
+    /// # Errors
+    /// As [`Interrupt::listen`].
+    pub fn ends_at_once() -> Result<(), Failure> {
         on_request(|| process::exit(INTERRUPTED))
     }
 
     /// Listens for a command that goes on until it is told to stop: that is its end, not its
     /// failure.
-    pub(crate) fn ends_well() -> Result<(), Failure> {
+    ///
+    /// # Errors
+    /// As [`Interrupt::listen`].
+    pub fn ends_well() -> Result<(), Failure> {
         on_request(|| process::exit(0))
     }
 
     /// Whether somebody asked.
-    pub(crate) fn is_asked(&self) -> bool {
+    pub fn is_asked(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 }

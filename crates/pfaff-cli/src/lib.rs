@@ -3,24 +3,22 @@
 mod analyze;
 mod args;
 mod check;
-mod console;
+pub mod console;
 mod diff;
-mod generate;
-mod input;
-mod interrupt;
+pub mod input;
+pub mod interrupt;
 mod manual;
 mod new;
-mod output;
+pub mod output;
 mod plan;
 mod resources;
 mod simulate;
 mod start;
-mod stress;
 mod sweep;
 mod template;
 mod view;
 mod watch;
-mod work_precision;
+pub mod work_precision;
 
 use std::ffi::OsString;
 use std::process::ExitCode;
@@ -28,9 +26,11 @@ use std::process::ExitCode;
 use clap::Parser;
 use pfaff::model::Registry;
 
-use args::{Arguments, Command};
+pub use args::named;
+use args::{Arguments, Command, Elsewhere};
 use console::Console;
 pub use console::Stream;
+use output::{Answer, Failure, Outcome};
 
 /// Runs one command: `arguments` begin with the name of the program, `registry` knows the joints
 /// and forces of scenes.
@@ -57,29 +57,73 @@ pub fn run<'a, I>(
 where
     I: IntoIterator<Item: Into<OsString> + Clone>,
 {
+    serve::<Arguments, _>(registry, arguments, out, err)
+}
+
+/// A command line: what it asks for, and how that is done.
+pub trait CommandLine: Parser {
+    /// How it answers.
+    fn answer(&self) -> Answer;
+
+    /// Does what it asks for.
+    ///
+    /// # Errors
+    /// Why it was not done to its end.
+    fn run(&self, console: &Console<'_>) -> Outcome;
+}
+
+/// Runs one command line, as [`run`] does, of a program with commands of its own.
+pub fn serve<'a, C, I>(
+    registry: &'a Registry,
+    arguments: I,
+    out: Stream<'a>,
+    err: Stream<'a>,
+) -> ExitCode
+where
+    C: CommandLine,
+    I: IntoIterator<Item: Into<OsString> + Clone>,
+{
     let console = Console::new(registry, out, err);
-    let arguments = match Arguments::try_parse_from(arguments) {
+    let arguments = match C::try_parse_from(arguments) {
         Ok(arguments) => arguments,
         Err(e) => return console.usage(&e),
     };
-    let outcome = match &arguments.command {
-        Command::Analyze(a) => analyze::run(a, &console),
-        Command::Simulate(a) => simulate::run(a, &console),
-        Command::Plan(a) => plan::run(a, &console),
-        Command::Sweep(a) => sweep::run(a, &console),
-        Command::Stress(a) => stress::run(a, &console),
-        Command::WorkPrecision(a) => work_precision::run(a, &console),
-        Command::Generate(a) => generate::run(a, &console),
-        Command::Check(a) => check::run(a, &console),
-        Command::New(a) => new::run(a, &console),
-        Command::View(a) => view::run(a, &console),
-        Command::Diff(a) => diff::run(a, &console),
-        Command::Schema => manual::schema(&console),
-        Command::Completions(a) => manual::completions(a, &console),
-        Command::Man(a) => manual::page(a, &console),
-    };
-    match outcome {
+    match arguments.run(&console) {
         Ok(()) => ExitCode::SUCCESS,
-        Err(failure) => console.report(failure, arguments.command.answer()),
+        Err(failure) => console.report(failure, arguments.answer()),
     }
+}
+
+impl CommandLine for Arguments {
+    fn answer(&self) -> Answer {
+        self.command.answer()
+    }
+
+    fn run(&self, console: &Console<'_>) -> Outcome {
+        match &self.command {
+            Command::Analyze(a) => analyze::run(a, console),
+            Command::Simulate(a) => simulate::run(a, console),
+            Command::Plan(a) => plan::run(a, console),
+            Command::Sweep(a) => sweep::run(a, console),
+            Command::WorkPrecision(a) => work_precision::run(a, console),
+            Command::Check(a) => check::run(a, console),
+            Command::New(a) => new::run(a, console),
+            Command::View(a) => view::run(a, console),
+            Command::Diff(a) => diff::run(a, console),
+            Command::Schema => manual::schema(console),
+            Command::Completions(a) => manual::completions(a, console),
+            Command::Man(a) => manual::page(a, console),
+            Command::Stress(a) => elsewhere("stress", a),
+            Command::Generate(a) => elsewhere("generate", a),
+        }
+    }
+}
+
+/// Says where a command of the laboratory is.
+fn elsewhere(name: &str, Elsewhere { arguments }: &Elsewhere) -> Outcome {
+    let arguments = arguments.join(" ");
+    Err(Failure::input(format!(
+        "`{name}` is a command of the laboratory; in the repository of pfaff: \
+         cargo run --release -p lab -- {name} {arguments}"
+    )))
 }

@@ -4,15 +4,27 @@ use ariadne::{Color, Config, IndexType, Label, Report, ReportKind, Source};
 use pfaff::scene::{Diagnostic, Severity};
 use serde_json::{Value, json};
 
+/// For whom a command answers.
+#[derive(Clone, Copy)]
+pub enum Answer {
+    /// For people.
+    Words,
+    /// For programs: one document, and nothing else.
+    Json,
+}
+
 /// What every command ends with.
-pub(crate) type Outcome = Result<(), Failure>;
+pub type Outcome = Result<(), Failure>;
 
 /// Why a command did not do all it was asked.
-pub(crate) enum Failure {
+pub enum Failure {
     /// The scene is wrong.
     Scene {
+        /// What messages call it.
         name: String,
+        /// Its text.
         text: String,
+        /// What is wrong, with places in the text.
         diagnostics: Vec<Diagnostic>,
     },
     /// Another input is wrong.
@@ -26,16 +38,18 @@ pub(crate) enum Failure {
 }
 
 impl Failure {
-    pub(crate) fn input(message: String) -> Self {
+    /// An input that is wrong, with what to do.
+    pub fn input(message: String) -> Self {
         Self::Input(message)
     }
 
-    pub(crate) fn stopped(message: String) -> Self {
+    /// A computation that stopped, with the reason.
+    pub fn stopped(message: String) -> Self {
         Self::Stopped(message)
     }
 
     /// For people.
-    pub(crate) fn words(&self, color: bool) -> String {
+    pub fn words(&self, color: bool) -> String {
         match self {
             Self::Scene {
                 name,
@@ -49,7 +63,7 @@ impl Failure {
 
     /// For programs: `error` is one line, `problems` are the places of a scene that are at fault,
     /// if any are.
-    pub(crate) fn document(&self) -> Value {
+    pub fn document(&self) -> Value {
         let (error, problems) = match self {
             Self::Scene { diagnostics, .. } => (in_one_line(diagnostics), diagnostics.as_slice()),
             Self::Input(message) | Self::Stopped(message) => (message.clone(), [].as_slice()),
@@ -69,7 +83,7 @@ fn in_one_line(diagnostics: &[Diagnostic]) -> String {
 }
 
 /// A number of things, as `1 body` or `7 bodies`.
-pub(crate) fn count(n: usize, one: &str, many: &str) -> String {
+pub fn count(n: usize, one: &str, many: &str) -> String {
     format!("{n} {}", if n == 1 { one } else { many })
 }
 
@@ -164,7 +178,7 @@ const WIDTH: usize = 100;
 
 /// A text in lines of at most 100 letters where words allow it; the first begins with `lead`, the
 /// others are indented as far.
-pub(crate) fn wrapped(lead: &str, text: &str) -> String {
+pub fn wrapped(lead: &str, text: &str) -> String {
     let indent = " ".repeat(lead.chars().count());
     let (mut out, mut line) = (String::new(), lead.to_owned());
     let mut is_empty = true;
@@ -188,7 +202,7 @@ pub(crate) fn wrapped(lead: &str, text: &str) -> String {
 }
 
 /// Lines of cells in columns, the first line a header.
-pub(crate) fn columns(rows: &[Vec<String>]) -> String {
+pub fn columns(rows: &[Vec<String>]) -> String {
     let n = rows.iter().map(Vec::len).max().unwrap_or(0);
     let width = |k: usize| {
         rows.iter()

@@ -1,6 +1,7 @@
 //! `pfaff work-precision`: error against run time, as a table, a figure and a page.
 
-use std::path::Path;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff::StudyError;
@@ -8,89 +9,151 @@ use pfaff::report::{
     OutputDirectory, OutputFile, Provenance, TableError, WorkPrecisionDocument, WorkPrecisionRow,
     WorkPrecisionScene, WorkPrecisionTable, figures, work_precision_page, write_json,
 };
-use pfaff::suite;
-use pfaff::work_precision::{Plan, Subject, overview, provenance};
+use pfaff::work_precision::{Plan, Rival, Subject, overview, provenance};
 
 use crate::args::WorkPrecision;
 use crate::console::Console;
-use crate::input::{Source, unknown};
+use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, wrapped};
 use crate::resources::Resources;
 
 pub(crate) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
-    let plan = match (arguments.quick, arguments.all) {
+    // All scenes are read before the first is run.
+    let scenes = arguments.scenes.iter();
+    let subjects: Result<Vec<Subject>, Failure> = scenes.map(|s| subject(s, console)).collect();
+    Request {
+        subjects: &subjects?,
+        rivals: &[],
+        plan: plan(arguments.quick, arguments.all),
+        out: &arguments.out,
+        json: arguments.json,
+    }
+    .run(console)
+}
+
+/// The runs that are asked for: three tolerances, every method with every stabilisation, or what is
+/// usual.
+#[must_use]
+pub fn plan(quick: bool, all: bool) -> Plan {
+    match (quick, all) {
         (true, _) => Plan::quick(),
         (false, true) => Plan::everything(),
         (false, false) => Plan::standard(),
-    };
-    // All scenes are read before the first is run.
-    let subjects = subjects(arguments, console)?;
-    let stopped = |e: &dyn std::error::Error| Failure::stopped(e.to_string());
-    let directory = OutputDirectory::create(&arguments.out).map_err(|e| stopped(&e))?;
-    let file = directory
-        .file("work_precision.csv")
-        .map_err(|e| stopped(&e))?;
-    let table = WorkPrecisionTable::new(file).map_err(|e| stopped(&e))?;
-    let (document, table) = compare(&subjects, &plan, table)?;
-    let file = table.finish().map_err(|e| stopped(&e))?;
-    let finished = match document.partial {
-        false => file.finish(),
-        true => file.finish_partial(),
-    };
-    finished.map_err(|e| stopped(&e))?;
-    let figure = figures::work_precision(&document.scenes);
-    let page = work_precision_page(&document, &figure);
-    for (name, text) in [("work_precision.svg", figure), ("report.html", page)] {
-        directory
-            .write(name, text.as_bytes())
+    }
+}
+
+/// The scene of a file, or of standard input for `-`.
+///
+/// # Errors
+/// What is wrong with the file, or with the scene.
+pub fn subject(path: &Path, console: &Console<'_>) -> Result<Subject, Failure> {
+    let source = Source::read(path, console)?;
+    let study = source.study(&pfaff::Overrides::default(), Resources::default())?;
+    Subject::of_study(study).map_err(|e| source.failure(e))
+}
+
+/// Scenes whose runs are compared, and where what was found is written.
+pub struct Request<'a> {
+    /// The scenes.
+    pub subjects: &'a [Subject],
+    /// Ways to move them that are none of the product's.
+    pub rivals: &'a [&'a dyn Rival],
+    /// Runs of each scene.
+    pub plan: Plan,
+    /// Directory for table, figure and page.
+    pub out: &'a Path,
+    /// Answer with all results as one JSON document.
+    pub json: bool,
+}
+
+impl Request<'_> {
+    /// Makes all runs, with progress; what there is of them if somebody asks to stop.
+    ///
+    /// # Errors
+    /// What cannot be run or written.
+    pub fn run(&self, console: &Console<'_>) -> Outcome {
+        let stopped = |e: &dyn std::error::Error| Failure::stopped(e.to_string());
+        let directory = OutputDirectory::create(self.out).map_err(|e| stopped(&e))?;
+        let file = directory
+            .file("work_precision.csv")
             .map_err(|e| stopped(&e))?;
-    }
-    let text = match arguments.json {
-        true => {
-            let mut out = Vec::new();
-            write_json(&mut out, &document).map_err(|e| stopped(&e))?;
-            String::from_utf8_lossy(&out).into_owned()
+        let table = WorkPrecisionTable::new(file).map_err(|e| stopped(&e))?;
+        let (document, table) = self.compare(table)?;
+        let file = table.finish().map_err(|e| stopped(&e))?;
+        let finished = match document.partial {
+            false => file.finish(),
+            true => file.finish_partial(),
+        };
+        finished.map_err(|e| stopped(&e))?;
+        let figure = figures::work_precision(&document.scenes);
+        let page = work_precision_page(&document, &figure);
+        for (name, text) in [("work_precision.svg", figure), ("report.html", page)] {
+            directory
+                .write(name, text.as_bytes())
+                .map_err(|e| stopped(&e))?;
         }
-        false => describe(&document, &arguments.out.display().to_string()),
-    };
-    match document.partial {
-        true => Err(console.incomplete(&text)),
-        false => console.print(&text),
+        let text = match self.json {
+            true => {
+                let mut out = Vec::new();
+                write_json(&mut out, &document).map_err(|e| stopped(&e))?;
+                String::from_utf8_lossy(&out).into_owned()
+            }
+            false => describe(&document, &self.out.display().to_string()),
+        };
+        match document.partial {
+            true => Err(console.incomplete(&text)),
+            false => console.print(&text),
+        }
     }
-}
 
-/// The scenes that are asked for, or those of the suite.
-fn subjects(arguments: &WorkPrecision, console: &Console<'_>) -> Result<Vec<Subject>, Failure> {
-    let unreadable = |e: StudyError| Failure::stopped(e.to_string());
-    if arguments.scenes.is_empty() {
-        let cases = suite::COMPARED.iter().map(Subject::of_case);
-        return cases.collect::<Result<_, _>>().map_err(unreadable);
+    /// Runs everything; what there is of it if somebody asks to stop.
+    fn compare(
+        &self,
+        mut table: WorkPrecisionTable<OutputFile>,
+    ) -> Result<(WorkPrecisionDocument, WorkPrecisionTable<OutputFile>), Failure> {
+        let interrupt = Interrupt::listen()?;
+        let interrupted = || interrupt.is_asked();
+        let curves = self.plan.curves.len() + self.rivals.len();
+        let runs = curves * self.plan.tolerances.len() * self.subjects.len();
+        // Hidden by itself if standard error is no terminal.
+        let bar = ProgressBar::new(runs as u64);
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left") {
+            bar.set_style(style);
+        }
+        let mut scenes: Vec<WorkPrecisionScene> = Vec::with_capacity(self.subjects.len());
+        let mut partial = false;
+        for subject in self.subjects {
+            bar.set_message(subject.name().to_owned());
+            let row = |row: &WorkPrecisionRow| {
+                bar.inc(1);
+                bar.set_message(format!(
+                    "{}: {} at {:.0e}",
+                    row.scene, row.curve.method, row.tolerance
+                ));
+                table.row(row).map_err(Interruption::Table)
+            };
+            let comparison = subject
+                .compare(&self.plan, self.rivals, &interrupted, row)
+                .map_err(|e| match e {
+                    Interruption::Study(e) => Failure::stopped(e.to_string()),
+                    Interruption::Table(e) => Failure::stopped(e.to_string()),
+                })?;
+            scenes.push(comparison.scene);
+            partial = comparison.interrupted;
+            if partial {
+                break;
+            }
+        }
+        bar.finish_and_clear();
+        let document = WorkPrecisionDocument {
+            provenance: provenance(),
+            partial,
+            summary: overview(&scenes),
+            scenes,
+        };
+        Ok((document, table))
     }
-    let scenes = arguments.scenes.iter().map(|path| {
-        // A file is nearer to the user than a case of the same name.
-        let case = path
-            .to_str()
-            .filter(|_| !path.exists())
-            .and_then(suite::find);
-        if let Some(case) = case {
-            return Subject::of_case(case).map_err(unreadable);
-        }
-        // A name without a place and an ending is that of a case.
-        if let Some(name) = path.to_str().filter(|_| !path.exists() && is_bare(path)) {
-            let names: Vec<&str> = suite::all().map(|case| case.name).collect();
-            return Err(unknown("file or case", name, &names));
-        }
-        let source = Source::read(path, console)?;
-        let study = source.study(&pfaff::Overrides::default(), Resources::default())?;
-        Subject::of_study(study).map_err(|e| source.failure(e))
-    });
-    scenes.collect()
-}
-
-/// Whether this is a name alone: no directory, no ending, not standard input.
-fn is_bare(path: &Path) -> bool {
-    path.components().count() == 1 && path.extension().is_none() && path.as_os_str() != "-"
 }
 
 /// Why rows end early.
@@ -105,55 +168,9 @@ impl From<StudyError> for Interruption {
     }
 }
 
-/// Runs everything; what there is of it when somebody asks to stop.
-fn compare(
-    subjects: &[Subject],
-    plan: &Plan,
-    mut table: WorkPrecisionTable<OutputFile>,
-) -> Result<(WorkPrecisionDocument, WorkPrecisionTable<OutputFile>), Failure> {
-    let interrupt = Interrupt::listen()?;
-    let interrupted = || interrupt.is_asked();
-    // Hidden by itself where standard error is no terminal.
-    let bar = ProgressBar::new((plan.runs() * subjects.len()) as u64);
-    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} {msg}, {eta} left") {
-        bar.set_style(style);
-    }
-    let mut scenes: Vec<WorkPrecisionScene> = Vec::with_capacity(subjects.len());
-    let mut partial = false;
-    for subject in subjects {
-        bar.set_message(subject.name().to_owned());
-        let row = |row: &WorkPrecisionRow| {
-            bar.inc(1);
-            bar.set_message(format!(
-                "{}: {} at {:.0e}",
-                row.scene, row.curve.method, row.tolerance
-            ));
-            table.row(row).map_err(Interruption::Table)
-        };
-        let comparison = subject
-            .compare(plan, &interrupted, row)
-            .map_err(|e| match e {
-                Interruption::Study(e) => Failure::stopped(e.to_string()),
-                Interruption::Table(e) => Failure::stopped(e.to_string()),
-            })?;
-        scenes.push(comparison.scene);
-        partial = comparison.interrupted;
-        if partial {
-            break;
-        }
-    }
-    bar.finish_and_clear();
-    let document = WorkPrecisionDocument {
-        provenance: provenance(),
-        partial,
-        summary: overview(&scenes),
-        scenes,
-    };
-    Ok((document, table))
-}
-
 /// Where, when and by which command results are made.
-pub(crate) fn provenance() -> Provenance {
+#[must_use]
+pub fn provenance() -> Provenance {
     Provenance {
         machine: provenance::machine(),
         versions: format!(
@@ -166,12 +183,14 @@ pub(crate) fn provenance() -> Provenance {
     }
 }
 
-/// What was typed.
+/// What was typed, without the folder of the program.
 fn command() -> String {
-    let arguments = std::env::args_os().skip(1);
-    let words = arguments.map(|a| a.to_string_lossy().into_owned());
-    let all: Vec<String> = std::iter::once("pfaff".to_owned()).chain(words).collect();
-    all.join(" ")
+    let mut arguments = std::env::args_os();
+    let program = arguments.next().map(PathBuf::from).unwrap_or_default();
+    let program = program.file_stem().map(OsStr::to_os_string);
+    let words = program.into_iter().chain(arguments);
+    let words: Vec<String> = words.map(|a| a.to_string_lossy().into_owned()).collect();
+    words.join(" ")
 }
 
 /// The summary in words.

@@ -40,7 +40,6 @@ pub use model;
 pub use report;
 pub use scene;
 pub use solvability;
-pub use suite;
 
 pub use along_motion::{Progress, VerdictsAlongMotion};
 pub use assembled::AssembledScene;

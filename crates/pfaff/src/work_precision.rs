@@ -6,6 +6,7 @@
 //! | `plan` | which runs are made |
 //! | `observation`, `standard` | what is compared, with what, and how well that is known |
 //! | `measure` | runs that are looked at, runs whose time is taken |
+//! | `rival` | runs of other programs and other ways, in the same table |
 //! | `ranking`, `overview` | who is the fastest to which error |
 //! | [`provenance`] | where and when runs were made |
 
@@ -15,24 +16,24 @@ mod overview;
 mod plan;
 pub mod provenance;
 mod ranking;
+mod rival;
 mod standard;
 
 use dynamics::{Method, MotionOptions, Prepared};
-use model::Registry;
 use model::start::scene_size;
-use report::{ReferenceDocument, WorkPrecisionRow, WorkPrecisionScene};
-use suite::{Case, Reference};
+use report::{CurveName, ReferenceDocument, WorkPrecisionRow, WorkPrecisionScene};
 
 use crate::error::StudyError;
-use crate::study::{Overrides, Study};
+use crate::study::Study;
 use measure::{Ending, Look, Times, clock, look, options};
 use plan::ACCURATE;
 use standard::{Standard, unique_reactions};
 
-pub use observation::Observation;
+pub use observation::{Kind, Observation};
 pub use overview::overview;
 pub use plan::{Curve, Plan};
-pub use standard::Errors;
+pub use rival::{Rival, RivalFault, RivalRun};
+pub use standard::{Errors, Expected, Reference};
 
 /// Instants at which a motion is compared of which nothing is known beforehand.
 const INSTANTS: u32 = 5;
@@ -52,26 +53,6 @@ pub struct Subject {
     size: f64,
 }
 
-/// What motions are compared with.
-pub struct Yardstick(Option<Standard>);
-
-impl Yardstick {
-    /// Errors of a motion that was looked at at all instants; `None` if one is missing or nothing
-    /// is known.
-    #[must_use]
-    pub fn errors(&self, motion: &[Observation]) -> Option<Errors> {
-        self.0.as_ref()?.errors(motion)
-    }
-
-    /// How far the reference may be from the truth: the larger one of position and velocity; NaN
-    /// where nothing is known.
-    #[must_use]
-    pub fn limit(&self) -> f64 {
-        let limits = self.0.as_ref().map(|s| s.limits);
-        limits.map_or(f64::NAN, |limits| limits[0].max(limits[1]))
-    }
-}
-
 /// A finished comparison, or what there is of it.
 #[derive(Clone, Debug)]
 pub struct Comparison {
@@ -82,14 +63,12 @@ pub struct Comparison {
 }
 
 impl Subject {
-    /// A case of the suite.
+    /// A scene whose motion is known.
     ///
     /// # Errors
-    /// As [`Study::read`].
-    pub fn of_case(case: &Case) -> Result<Self, StudyError> {
-        let registry = Registry::planar();
-        let study = Study::read(case.name, case.scene, &registry, &Overrides::default())?;
-        Self::new(study, case.title, Some(case.reference()))
+    /// As [`Subject::of_study`].
+    pub fn known(study: Study, title: &str, reference: Reference) -> Result<Self, StudyError> {
+        Self::new(study, title, Some(reference))
     }
 
     /// A scene of which nothing is known: its reference are two methods that agree.
@@ -143,16 +122,7 @@ impl Subject {
         &self.times.wanted
     }
 
-    /// What motions by other programs are compared with: the same as the runs of a plan.
-    ///
-    /// # Errors
-    /// [`StudyError::Analysis`]: it cannot be told which reactions are unique.
-    pub fn yardstick(&self, plan: &Plan) -> Result<Yardstick, StudyError> {
-        let (standard, _) = self.standard(plan, &|| false)?;
-        Ok(Yardstick(standard))
-    }
-
-    /// One run, compared with the reference of the suite: how far it is off, and how far the
+    /// One run, compared with what is known of the motion: how far it is off, and how far the
     /// reference may be. `None` if nothing is known.
     ///
     /// # Errors
@@ -163,12 +133,12 @@ impl Subject {
         if let Ending::Failed(error) = run.ending {
             return Err(error.into());
         }
-        let known = self.known();
+        let known = self.reference();
         Ok(known.and_then(|known| known.errors(&run.observations)))
     }
 
-    /// Makes all runs of a plan and shows each row when it is there. `interrupted` is asked now and
-    /// then whether to stop.
+    /// Makes all runs of a plan, then those of the rivals at the same tolerances, and shows each row
+    /// when it is there. `interrupted` is asked now and then whether to stop.
     ///
     /// # Errors
     /// [`StudyError::Analysis`]: it cannot be told which reactions are unique. Whatever `row`
@@ -176,17 +146,27 @@ impl Subject {
     pub fn compare<E: From<StudyError>>(
         &self,
         plan: &Plan,
+        rivals: &[&dyn Rival],
         interrupted: &impl Fn() -> bool,
         mut row: impl FnMut(&WorkPrecisionRow) -> Result<(), E>,
     ) -> Result<Comparison, E> {
         let (standard, document) = self.standard(plan, interrupted)?;
-        let mut rows: Vec<WorkPrecisionRow> = Vec::with_capacity(plan.runs());
-        'all: for &curve in &plan.curves {
+        let own = plan.curves.iter().map(|&curve| Way::Own(curve));
+        let ways: Vec<Way<'_>> = own.chain(rivals.iter().map(|r| Way::Rival(*r))).collect();
+        let runs = ways.len() * plan.tolerances.len();
+        let mut rows: Vec<WorkPrecisionRow> = Vec::with_capacity(runs);
+        'all: for way in &ways {
             let mut given_up = None;
             for &tolerance in &plan.tolerances {
-                let new = match given_up {
-                    Some(looser) => Some(given_up_before(self.empty_row(curve, tolerance), looser)),
-                    None => self.run(curve, tolerance, plan, standard.as_ref(), interrupted),
+                let empty = WorkPrecisionRow::empty(&self.name, way.name(), tolerance);
+                let new = match (given_up, way) {
+                    (Some(looser), _) => Some(given_up_before(empty, looser)),
+                    (None, Way::Own(curve)) => {
+                        self.run(*curve, empty, plan, standard.as_ref(), interrupted)
+                    }
+                    (None, Way::Rival(rival)) => {
+                        rival::row(self, *rival, empty, plan, standard.as_ref(), interrupted)
+                    }
                 };
                 let Some(new) = new else { break 'all };
                 if new.status.starts_with(GIVEN_UP) {
@@ -198,7 +178,7 @@ impl Subject {
         }
         let ranking = ranking::ranking(&rows, document.motion_limit());
         Ok(Comparison {
-            interrupted: rows.len() < plan.runs(),
+            interrupted: rows.len() < runs,
             scene: WorkPrecisionScene {
                 name: self.name.clone(),
                 title: self.title.clone(),
@@ -224,21 +204,20 @@ impl Subject {
     fn run(
         &self,
         curve: Curve,
-        tolerance: f64,
+        empty: WorkPrecisionRow,
         plan: &Plan,
         standard: Option<&Standard>,
         interrupted: &impl Fn() -> bool,
     ) -> Option<WorkPrecisionRow> {
-        let options = options(&self.base, curve, tolerance);
+        let options = options(&self.base, curve, empty.tolerance);
         let Look {
             observations,
             summary,
             ending,
         } = look(&self.study, &options, &self.times, plan.budget, interrupted);
-        let limit = standard.map_or(f64::NAN, |s| s.limits[0].max(s.limits[1]));
         let mut row = WorkPrecisionRow {
-            reference_limit: limit,
-            ..self.empty_row(curve, tolerance)
+            reference_limit: standard.map_or(f64::NAN, Standard::motion_limit),
+            ..empty
         };
         let timed = match ending {
             Ending::Interrupted => return None,
@@ -285,12 +264,7 @@ impl Subject {
         Some(row)
     }
 
-    /// A row with nothing in it yet.
-    fn empty_row(&self, curve: Curve, tolerance: f64) -> WorkPrecisionRow {
-        WorkPrecisionRow::empty(&self.name, curve.name(), tolerance)
-    }
-
-    fn known(&self) -> Option<Standard> {
+    fn reference(&self) -> Option<Standard> {
         let mechanism = &self.study.prepared.mechanism;
         let reference = self.reference.as_ref()?;
         Some(Standard::known(reference, mechanism, self.size))
@@ -303,7 +277,7 @@ impl Subject {
         plan: &Plan,
         interrupted: &impl Fn() -> bool,
     ) -> Result<(Option<Standard>, ReferenceDocument), StudyError> {
-        let known = self.known();
+        let known = self.reference();
         let pair = self.best_pair(plan, interrupted)?;
         let agreement = match (&pair, &known) {
             (None, _) => {
@@ -358,10 +332,9 @@ impl Subject {
         for (k, a) in runs.iter().enumerate() {
             for b in &runs[..k] {
                 let mean = Standard::mean([&a.2, &b.2], &unique, mechanism, self.size);
-                let motion = |s: &Standard| s.limits[0].max(s.limits[1]);
                 if best
                     .as_ref()
-                    .is_none_or(|best| motion(&mean) < motion(&best.mean))
+                    .is_none_or(|best| mean.motion_limit() < best.mean.motion_limit())
                 {
                     best = Some(Pair {
                         methods: [b.0, a.0].map(Method::name),
@@ -373,6 +346,21 @@ impl Subject {
             }
         }
         Ok(best)
+    }
+}
+
+/// A way to move the mechanism, of the product or of another.
+enum Way<'a> {
+    Own(Curve),
+    Rival(&'a dyn Rival),
+}
+
+impl Way<'_> {
+    fn name(&self) -> CurveName {
+        match self {
+            Self::Own(curve) => curve.name(),
+            Self::Rival(rival) => rival.name(),
+        }
     }
 }
 
@@ -398,7 +386,7 @@ struct Pair {
 impl Pair {
     fn words(&self, known: Option<&Standard>) -> String {
         let [a, b] = self.methods;
-        let apart = self.mean.limits[0].max(self.mean.limits[1]);
+        let apart = self.mean.motion_limit();
         let mut words = format!("{a} and {b} at {:.0e} agree to {apart:.1e}", self.tolerance);
         if let Some(errors) = known.and_then(|known| known.errors(&self.first)) {
             words.push_str(&format!(

@@ -90,7 +90,7 @@ pub struct StressFamily {
     pub rows: Vec<StressRow>,
 }
 
-/// Everything that `pfaff stress` has found.
+/// Everything that `lab stress` has found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StressDocument {
     /// How it was made.

@@ -1,7 +1,7 @@
 //! How long a scene file takes to read and to build, and how much memory it needs:
 //!
 //! ```text
-//! pfaff generate parallelograms --n 9000 --out chain.toml
+//! cargo run --release -p lab -- generate parallelograms --n 9000 --out chain.toml
 //! cargo run --release -p scene --example reading -- chain.toml
 //! ```
 

@@ -8,11 +8,9 @@
 //! | [`reference`](mod@reference) | named values at instants, and how far to trust them |
 //! | `table` | reference values as text |
 //! | [`closed_forms`] | motions that elementary functions describe |
-//! | [`generate`] | scenes of any size, with their answers |
 
 pub mod cases;
 pub mod closed_forms;
-pub mod generate;
 pub mod reference;
 mod table;
 

@@ -1,6 +1,5 @@
 //! The text of an input, from the seed of a campaign and a number.
 
-use pfaff::suite;
 use tests::numbers::Numbers;
 
 use crate::{damage, scenes};

@@ -11,7 +11,7 @@ use syn::visit::{self, Visit};
 use crate::tree::{cargo, said_by};
 
 /// Crates of the laboratory, whatever depends on them.
-const LABORATORY: [&str; 4] = ["exact", "lab", "stress", "suite"];
+const LABORATORY: [&str; 3] = ["exact", "lab", "suite"];
 /// The manifest of the command; what it depends on is the product.
 const COMMAND: &str = "crates/pfaff-cli/Cargo.toml";
 

@@ -44,10 +44,10 @@ fn files_are_told_by_their_paths() {
 
 #[test]
 fn the_product_is_what_the_command_depends_on_without_the_laboratory() {
-    let said = "pfaff-cli v0.1.0 (/r/crates/pfaff-cli)\nserde v1.0.0\nstress v0.1.0 (/r/crates/stress) (*)\n";
+    let said = "pfaff-cli v0.1.0 (/r/crates/pfaff-cli)\nserde v1.0.0\nsuite v0.1.0 (/r/crates/suite) (*)\n";
     let product = folders_in(said, "/r/");
     assert_eq!(product.len(), 2);
-    let groups = ["pfaff-cli", "stress", "symbolic", "bench"]
+    let groups = ["pfaff-cli", "suite", "symbolic", "bench"]
         .map(|n| group(&format!("crates/{n}"), &product));
     assert_eq!(
         groups,

@@ -1,9 +1,9 @@
 //! What formulations do besides the motion: reactions, drift, refusals.
 
 use lab::comparators::{Drift, Formulation, Method, Way, run};
+use lab::mechanisms::cranks::cranks;
+use lab::mechanisms::robot::{robot, steering};
 use model::System;
-use stress::mechanisms::cranks::cranks;
-use stress::mechanisms::robot::{robot, steering};
 
 use crate::known::{gap, product, started};
 

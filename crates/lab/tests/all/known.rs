@@ -3,10 +3,10 @@
 
 use dynamics::{MotionOptions, Prepared, RowChoice, prepare, simulate};
 use lab::comparators::{Drift, Formulation, Method, Way, run};
+use lab::mechanisms::cranks::cranks;
+use lab::mechanisms::robot::{robot, steering};
 use model::{Description, Mechanism, StartOptions, System};
 use std::ops::ControlFlow;
-use stress::mechanisms::cranks::cranks;
-use stress::mechanisms::robot::{robot, steering};
 use suite::{Instant, Quantity};
 
 pub(crate) fn started(d: &Description) -> Prepared {

@@ -3,8 +3,8 @@
 use dynamics::Prepared;
 use joints::SpringDamper;
 use lab::comparators::{Drift, Formulation, Method, Run, Way, run};
+use lab::mechanisms::cranks::cranks;
 use model::{BodyRef, Description, Force};
-use stress::mechanisms::cranks::cranks;
 
 use crate::known::{gap, started};
 

@@ -3,8 +3,11 @@
 use std::time::Duration;
 
 use lab::comparators::{Fault, run_within};
-use lab::work_precision::ways;
-use pfaff::work_precision::{Plan, Subject};
+use lab::work_precision::{of_case, ways};
+use pfaff::StudyError;
+use pfaff::work_precision::{Plan, Rival};
+
+use super::{Folder, lab, stderr, stdout};
 
 /// Cases of the suite by every way: all reach the end, and their errors are those of their
 /// tolerances.
@@ -16,7 +19,7 @@ fn cases_are_compared_by_every_way() {
 }
 
 fn compare(name: &str) {
-    let subject = Subject::of_case(suite::find(name).expect("a case")).expect("builds");
+    let subject = of_case(suite::find(name).expect("a case")).expect("builds");
     let plan = Plan {
         tolerances: vec![1e-5, 1e-8],
         repetitions: 1,
@@ -24,8 +27,11 @@ fn compare(name: &str) {
         budget: 10.0,
         ..Plan::standard()
     };
-    let rows = lab::work_precision(&subject, &plan).expect("compared");
-    assert_eq!(rows.len(), plan.runs() + 2 * ways().len());
+    let ways = ways();
+    let rivals: Vec<&dyn Rival> = ways.iter().map(|way| way as &dyn Rival).collect();
+    let compared = subject.compare::<StudyError>(&plan, &rivals, &|| false, |_| Ok(()));
+    let rows = compared.expect("compared").scene.rows;
+    assert_eq!(rows.len(), 2 * (plan.curves.len() + ways.len()));
     for row in &rows {
         assert_eq!(row.status, "done", "{row:?}");
         if row.curve.stabilisation == "none" {
@@ -46,8 +52,61 @@ fn compare(name: &str) {
 /// A budget of no time is over at once.
 #[test]
 fn what_takes_too_long_is_given_up() {
-    let subject = Subject::of_case(suite::find("sleigh").expect("a case")).expect("builds");
+    let subject = of_case(suite::find("sleigh").expect("a case")).expect("builds");
     let way = ways()[0];
     let made = run_within(subject.prepared(), way, 1e-8, &[1.0], Duration::ZERO);
     assert!(matches!(made, Err(Fault::TooLong { .. })), "{made:?}");
+}
+
+#[test]
+fn a_case_of_the_suite_is_compared_with_its_reference() {
+    let folder = Folder::new("work-precision-case");
+    let arguments = [
+        "work-precision",
+        "sleigh",
+        "--quick",
+        "--out",
+        folder.text(),
+    ];
+    let output = lab(&arguments);
+    let table = folder.read("work_precision.csv");
+    let rows = table.lines().skip(1);
+    let rows: Vec<Vec<&str>> = rows.map(|line| line.split(',').collect()).collect();
+    assert_eq!(output.status.code(), Some(0), "{output:?}");
+    assert!(
+        stdout(&output).contains("reference known to 3e-16"),
+        "{}",
+        stdout(&output)
+    );
+    // Columns 2 and 4 are method and tolerance, 5 and 6 errors, 15 the status.
+    let row = |method: &str, tolerance: &str| {
+        let found = rows.iter().find(|r| r[2] == method && r[4] == tolerance);
+        found.unwrap_or_else(|| panic!("{method} at {tolerance}: {rows:?}"))
+    };
+    for (tolerance, bound) in [("0.0001", 1e-3), ("1e-10", 1e-8)] {
+        let dop853 = row("dop853", tolerance);
+        assert_eq!(dop853[15], "done");
+        let error: f64 = dop853[6].parse().expect("a number");
+        assert!(error > 1e-16 && error < bound, "{tolerance}: {error:e}");
+    }
+    // A comparator, in the same table.
+    let gbs = row("gbs", "1e-10");
+    let error: f64 = gbs[6].parse().expect("a number");
+    assert!(error > 1e-16 && error < 1e-8, "{error:e}");
+    for name in ["work_precision.svg", "report.html"] {
+        assert!(folder.read(name).contains("Chaplygin sleigh"), "{name}");
+    }
+    assert!(!folder.0.join("work_precision.csv.part").exists());
+}
+
+#[test]
+fn a_case_that_there_is_not_is_refused_with_those_there_are() {
+    let folder = Folder::new("work-precision-unknown");
+    let output = lab(&["work-precision", "sleih", "--out", folder.text()]);
+    assert_eq!(output.status.code(), Some(2), "{output:?}");
+    let said = stderr(&output);
+    assert!(said.contains("no file or case `sleih`"), "{said}");
+    assert!(said.contains("robot-trolley, three-cranks"), "{said}");
+    assert!(said.contains("did you mean `sleigh`?"), "{said}");
+    assert!(!folder.0.exists());
 }

@@ -510,13 +510,14 @@ fn names_that_do_not_exist_are_answered_with_those_that_do() {
         (&["check", &bare], &near),
         (&["check", &dor, "--watch"], &near),
         (&["simulate", &dor, "--out", &out], &near),
+        (&["work-precision", &dor, "--out", &out], &near),
         (
-            &["work-precision", "sleih", "--out", &out],
-            "cash-pendulum; did you mean `sleigh`?",
+            &["stress", "--family", "trivial", "--out", "st"],
+            "cargo run --release -p lab -- stress --family trivial --out st",
         ),
         (
-            &["stress", "--family", "contradiction", "--out", &out],
-            "; did you mean `contradictions`?",
+            &["generate", "fleet", "--n", "3"],
+            "cargo run --release -p lab -- generate fleet --n 3",
         ),
     ] {
         let output = pfaff(arguments);

@@ -5,10 +5,14 @@
 //!   `pfaff check` refuses. A block `toml,fragment,NAME.toml` is added to that scene.
 //! - A `console` block has lines `$ COMMAND` with the output below. A line `…` stands for any
 //!   lines. Commands run one after the other, each chapter in a folder of its own that has all
-//!   scenes of the book and the robot. There are `pfaff` (also after `|`), `ls` and `head -n`.
+//!   scenes of the book and the robot. There are `pfaff` (also after `|`), the laboratory
+//!   (`cargo run -q --release -p lab --`), `ls` and `head -n`.
 
 use std::fs;
 use std::path::Path;
+
+use pfaff::model::Registry;
+use pfaff_cli::Stream;
 
 use super::{Folder, ROBOT, stderr, stdout, with_scene};
 
@@ -166,22 +170,47 @@ fn run(command: &str, folder: &Path) -> String {
             text.lines().take(count).collect::<Vec<_>>().join("\n")
         }
         ["pfaff", arguments @ ..] => {
-            let (arguments, next) = match arguments.iter().position(|w| *w == "|") {
-                Some(k) => (&arguments[..k], Some(&arguments[k + 2..])),
-                None => (arguments, None),
-            };
             let output = command_in(folder, arguments);
-            let Some(next) = next else {
-                let text = stdout(&output) + &stderr(&output);
-                let refused = text.lines().any(|l| l.to_lowercase().starts_with("error:"));
-                assert_eq!(output.status.success(), !refused, "{command}: {output:?}");
-                return text;
+            let text = stdout(&output) + &stderr(&output);
+            let refused = text.lines().any(|l| l.to_lowercase().starts_with("error:"));
+            assert_eq!(output.status.success(), !refused, "{command}: {output:?}");
+            text
+        }
+        [
+            "cargo",
+            "run",
+            "-q",
+            "--release",
+            "-p",
+            "lab",
+            "--",
+            arguments @ ..,
+        ] => {
+            let Some(k) = arguments.iter().position(|w| *w == "|") else {
+                return lab_in(folder, arguments);
             };
-            let output = with_scene(next, &stdout(&output));
+            let (scene, next) = (lab_in(folder, &arguments[..k]), &arguments[k + 2..]);
+            let output = with_scene(next, &scene);
             stdout(&output) + &stderr(&output)
         }
         other => panic!("no example can run {other:?}"),
     }
+}
+
+/// What a command of the laboratory answers whose `--out` lies in a folder.
+fn lab_in(folder: &Path, arguments: &[&str]) -> String {
+    let mut words = vec!["lab".to_owned()];
+    for (k, word) in arguments.iter().enumerate() {
+        words.push(match k > 0 && arguments[k - 1] == "--out" {
+            true => folder.join(word).display().to_string(),
+            false => (*word).to_owned(),
+        });
+    }
+    let (mut out, mut err) = (Vec::new(), Vec::new());
+    let streams = (Stream::plain(&mut out), Stream::plain(&mut err));
+    lab::command::run(&Registry::planar(), words, streams.0, streams.1);
+    let text = String::from_utf8([out, err].concat()).expect("UTF-8");
+    text.replace(&format!("{}/", folder.display()), "")
 }
 
 fn command_in(folder: &Path, arguments: &[&str]) -> std::process::Output {

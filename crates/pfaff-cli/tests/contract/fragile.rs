@@ -1,6 +1,7 @@
 //! Unique reactions that are made of the last digits of a drawing: every output says so, and none
 //! says so of ordinary scenes.
 
+use lab::generate::Kind;
 use std::fs;
 
 use serde_json::Value;
@@ -221,7 +222,7 @@ joint = [
     .expect("writable");
     let chain = folder.0.join("chain.toml");
     let chain = chain.to_str().expect("UTF-8");
-    said(&["generate", "n-four-bar", "--n", "40", "--out", chain]);
+    fs::write(chain, super::generated(Kind::NFourBar, 40)).expect("writable");
     let examples = fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples"));
     let examples = examples.expect("readable").flatten().map(|e| e.path());
     let mut scenes: Vec<_> = examples
@@ -259,7 +260,7 @@ fn robots_of_a_fleet_are_as_fragile_as_one() {
     for n in [1, 2, 3, 10] {
         let path = folder.0.join(format!("fleet-{n}.toml"));
         let path = path.to_str().expect("UTF-8");
-        said(&["generate", "fleet", "--n", &n.to_string(), "--out", path]);
+        fs::write(path, super::generated(Kind::Fleet, n)).expect("writable");
         let found = sensitivities(path);
         assert_eq!(found.len(), n * alone.len());
         for (name, sensitivity) in &found {

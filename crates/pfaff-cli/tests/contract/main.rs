@@ -14,7 +14,6 @@ mod failures;
 mod faults;
 mod fragile;
 mod freedoms;
-mod generate;
 mod library;
 mod man;
 mod new;
@@ -25,7 +24,6 @@ mod resources;
 mod schema;
 mod singular;
 mod sizes;
-mod stress;
 mod sweep;
 mod tolerance;
 mod view;
@@ -36,6 +34,8 @@ mod wrong;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+
+use lab::generate::{Kind, Order};
 
 /// The published mechanism.
 const ROBOT: &str = concat!(
@@ -65,6 +65,16 @@ fn with_scene(arguments: &[&str], scene: &str) -> Output {
         .expect("the command reads");
     drop(input);
     child.wait_with_output().expect("the command ends")
+}
+
+/// A scene of the laboratory.
+fn generated(kind: Kind, n: usize) -> String {
+    let mut scene = Vec::new();
+    let generator = Order::of(kind, n).generate().expect("a possible size");
+    generator
+        .write(&mut scene)
+        .expect("memory takes everything");
+    String::from_utf8(scene).expect("UTF-8")
 }
 
 fn stdout(output: &Output) -> String {

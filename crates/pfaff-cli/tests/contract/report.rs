@@ -1,5 +1,6 @@
 //! `report.html` of a run: one file, whole, harmless, small, and the same for the same input.
 
+use lab::generate::Kind;
 use serde_json::Value;
 
 use super::bad_input::{PENDULUM, contradiction_at_half_a_second};
@@ -202,7 +203,7 @@ fn a_run_that_stops_has_a_page_that_says_so() {
 #[test]
 fn a_large_mechanism_is_drawn_in_part_and_says_so() {
     let folder = Folder::new("report-large");
-    let scene = stdout(&pfaff(&["generate", "n-four-bar", "--n", "400"]));
+    let scene = super::generated(Kind::NFourBar, 400);
     let output = with_scene(
         &["simulate", "-", "--t-end", "0.01", "--out", folder.text()],
         &scene,

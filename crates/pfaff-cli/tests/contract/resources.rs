@@ -2,6 +2,7 @@
 //! refused beforehand.
 
 use super::{Folder, pfaff, stderr, stdout, with_scene};
+use lab::generate::Kind;
 
 /// Three pendulums that do not feel each other.
 const APART: &str = r#"
@@ -43,7 +44,7 @@ fn components_give_the_same_rows_on_any_number_of_threads() {
 
 #[test]
 fn verdicts_are_the_same_on_any_number_of_threads() {
-    let scene = stdout(&pfaff(&["generate", "random", "--n", "300"]));
+    let scene = super::generated(Kind::Random, 300);
     let documents = ["1", "2"].map(|threads| {
         let output = with_scene(&["analyze", "-", "--json", "--threads", threads], &scene);
         assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
@@ -54,7 +55,7 @@ fn verdicts_are_the_same_on_any_number_of_threads() {
 
 #[test]
 fn more_memory_than_allowed_is_refused_before_anything_is_written() {
-    let scene = stdout(&pfaff(&["generate", "parallelograms", "--n", "300"]));
+    let scene = super::generated(Kind::Parallelograms, 300);
     let folder = Folder::new("memory");
     let limited = |arguments: &[&str], limit: &str| {
         with_scene(&[arguments, &["--max-memory", limit]].concat(), &scene)

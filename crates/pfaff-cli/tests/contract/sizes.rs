@@ -1,9 +1,10 @@
 //! Every option of `analyze` answers at every size, by the parts that it touches; a part that is
 //! too large for it is named.
 
+use lab::generate::Kind;
 use serde_json::Value;
 
-use super::{pfaff, stderr, stdout, with_scene};
+use super::{stderr, stdout, with_scene};
 
 fn document(arguments: &[&str], scene: &str) -> Value {
     let output = with_scene(&[&["analyze", "-", "--json"], arguments].concat(), scene);
@@ -15,7 +16,7 @@ fn document(arguments: &[&str], scene: &str) -> Value {
 /// the answers are those of one of them alone.
 #[test]
 fn options_answer_by_parts() {
-    let scene = stdout(&pfaff(&["generate", "parallelograms", "--n", "80"]));
+    let scene = super::generated(Kind::Parallelograms, 80);
     let asked = document(
         &[
             "--combine",
@@ -94,7 +95,7 @@ fn options_answer_by_parts() {
 
 #[test]
 fn large_motions_are_judged_by_parts() {
-    let scene = stdout(&pfaff(&["generate", "parallelograms", "--n", "30"]));
+    let scene = super::generated(Kind::Parallelograms, 30);
     let moved = document(&["--along", "0.05"], &scene);
     assert!(moved["rows"].as_u64() > Some(250) && moved["parts"]["number"] == 30);
     let generic = &moved["along"]["generic"];
@@ -111,7 +112,7 @@ fn large_motions_are_judged_by_parts() {
 
 #[test]
 fn a_part_that_is_too_large_is_named() {
-    let scene = stdout(&pfaff(&["generate", "lattice", "--n", "12"]));
+    let scene = super::generated(Kind::Lattice, 12);
     let names = document(&[], &scene);
     let reactions = names["reactions"].as_array().expect("a list");
     let name = reactions[reactions.len() / 2]["name"]
@@ -133,7 +134,7 @@ fn a_part_that_is_too_large_is_named() {
 /// has a sensitivity.
 #[test]
 fn what_is_asked_of_all_parts_is_told_of_all() {
-    let scene = stdout(&pfaff(&["generate", "parallelograms", "--n", "80"]));
+    let scene = super::generated(Kind::Parallelograms, 80);
     let known = document(&[], &scene);
     let reactions = known["reactions"].as_array().expect("a list");
     for r in reactions {

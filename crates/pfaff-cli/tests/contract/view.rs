@@ -1,5 +1,6 @@
 //! `pfaff view`: a picture of every example, with names, rows and verdicts.
 
+use lab::generate::Kind;
 use std::fs;
 use std::process::Command;
 
@@ -69,7 +70,7 @@ joint = [
     { name = "twin", type = "revolute", bodies = ["ground", "bar"], at = [1e-9, 0.0] },
 ]
 "#;
-    let large = stdout(&pfaff(&["generate", "parallelograms", "--n", "120"]));
+    let large = super::generated(Kind::Parallelograms, 120);
     for scene in [twins, &large] {
         let output = with_scene(&["view", "-", "--out", &path, "--json"], scene);
         let document: Value = serde_json::from_slice(&output.stdout).expect("one JSON document");

@@ -4,18 +4,50 @@
 use dynamics::{MotionFault, Sample};
 use model::reaction::COMPONENTS;
 use model::{ColumnKind, Mechanism, Reaction, System};
-use suite::{Fact, Kind, Quantity};
+
+/// What is compared with its like: coordinates, their rates, the rates of the rates, reactions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Coordinates.
+    Position,
+    /// Their rates.
+    Velocity,
+    /// Rates of the rates.
+    Acceleration,
+    /// Forces and torques of joints and drives.
+    Reaction,
+}
+
+impl Kind {
+    /// Number of kinds.
+    pub const COUNT: usize = 4;
+
+    /// Where the kind `name` of `of` stands in an [`Observation`]: of a body `x`, `y` or `angle`,
+    /// of a joint or drive `Fx`, `Fy`, `T`, or the name of its one component. `None` if the
+    /// mechanism has nothing of the name.
+    #[must_use]
+    pub fn place(self, of: &str, name: &str, mechanism: &Mechanism) -> Option<usize> {
+        if self != Self::Reaction {
+            let mut columns = 0..mechanism.layout().n_v;
+            return columns.find(|&k| mechanism.coordinate(k) == (of, name));
+        }
+        let mut groups = mechanism.layout().groups.iter();
+        let group = groups.position(|g| g.name == of)?;
+        let component = COMPONENTS.iter().position(|c| *c == name);
+        Some(reaction_place(group, component.unwrap_or(COMPONENTS.len())))
+    }
+}
 
 /// Numbers per joint or drive: force, torque, and the named component, if it has one.
 const PER_REACTION: usize = COMPONENTS.len() + 1;
 
-/// All that is compared at one instant, kind by kind in the order of [`Kind::ALL`].
+/// All that is compared at one instant, kind by kind in the order of [`Kind`].
 #[derive(Clone, Debug)]
 pub struct Observation {
     /// Time (s).
     pub(super) t: f64,
     pub(super) q: Vec<f64>,
-    pub(super) values: [Vec<f64>; 4],
+    pub(super) values: [Vec<f64>; Kind::COUNT],
 }
 
 impl Observation {
@@ -43,42 +75,9 @@ impl Observation {
     }
 }
 
-/// Place of a kind in [`Observation::values`].
-pub(super) fn index(kind: Kind) -> usize {
-    match kind {
-        Kind::Position => 0,
-        Kind::Velocity => 1,
-        Kind::Acceleration => 2,
-        Kind::Reaction => 3,
-    }
-}
-
 /// Place of a reaction's component.
 pub(super) fn reaction_place(group: usize, component: usize) -> usize {
     PER_REACTION * group + component
-}
-
-/// Where the value of a fact stands among those of its kind; `None` if the mechanism has nothing of
-/// the name.
-pub(super) fn place(fact: &Fact, mechanism: &Mechanism) -> Option<usize> {
-    let coordinate = |name: &str| {
-        let mut columns = 0..mechanism.layout().n_v;
-        columns.find(|&k| mechanism.coordinate(k) == (fact.of.as_str(), name))
-    };
-    let reaction = |component: usize| {
-        let mut groups = mechanism.layout().groups.iter();
-        let group = groups.position(|g| g.name == fact.of)?;
-        Some(reaction_place(group, component))
-    };
-    match fact.quantity {
-        Quantity::X | Quantity::Vx | Quantity::Ax => coordinate("x"),
-        Quantity::Y | Quantity::Vy | Quantity::Ay => coordinate("y"),
-        Quantity::Angle | Quantity::Omega | Quantity::Alpha => coordinate("angle"),
-        Quantity::Fx => reaction(0),
-        Quantity::Fy => reaction(1),
-        Quantity::Torque => reaction(2),
-        Quantity::Normal => reaction(3),
-    }
 }
 
 /// What the values of each kind are divided by so that they can be compared with each other:

@@ -3,9 +3,8 @@
 
 use model::{Mechanism, System};
 use solvability::analyse;
-use suite::{Kind, Reference};
 
-use super::observation::{Observation, index, place, reaction_place, units};
+use super::observation::{Observation, reaction_place, units};
 use crate::error::StudyError;
 
 /// Rows and instants of a reference are the same time if they differ by less than this part of it.
@@ -14,7 +13,7 @@ const SAME_TIME: f64 = 1e-9;
 /// Errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Of each kind in the order of [`Kind::ALL`]: the largest over components and instants,
+    /// Of each kind in the order of [`Kind`](super::Kind): the largest over components and instants,
     /// lengths and torques divided by the size of the mechanism, relative to the largest value of
     /// the kind (to 1 for positions that stay smaller, and where all are zero). NaN where nothing
     /// is known.
@@ -37,6 +36,17 @@ impl Errors {
     }
 }
 
+/// What is known of a motion without a run, by place ([`Kind::place`](super::Kind::place)).
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// Where the values come from.
+    pub source: String,
+    /// How far values of each kind may be from the truth, scaled as [`Errors::scaled`].
+    pub limits: [f64; 4],
+    /// Values in the order of time.
+    pub instants: Vec<Expected>,
+}
+
 /// Reference values of one mechanism.
 #[derive(Clone, Debug)]
 pub(super) struct Standard {
@@ -50,27 +60,23 @@ pub(super) struct Standard {
 
 /// Values at one time, by place.
 #[derive(Clone, Debug)]
-struct Expected {
-    t: f64,
-    values: [Vec<(usize, f64)>; 4],
+pub struct Expected {
+    /// Time (s).
+    pub t: f64,
+    /// Places and values of each kind.
+    pub values: [Vec<(usize, f64)>; 4],
 }
 
 impl Standard {
-    /// The values of a reference. Names that the mechanism does not have are left out.
+    /// How far the motion may be from the truth: the larger limit of position and velocity.
+    pub(super) fn motion_limit(&self) -> f64 {
+        self.limits[0].max(self.limits[1])
+    }
+
+    /// The values of a reference.
     pub(super) fn known(reference: &Reference, mechanism: &Mechanism, size: f64) -> Self {
-        let instants = reference.instants.iter().map(|instant| {
-            let mut values: [Vec<(usize, f64)>; 4] = Default::default();
-            for fact in &instant.facts {
-                let at = place(fact, mechanism).map(|place| (place, fact.value));
-                values[index(fact.quantity.kind())].extend(at);
-            }
-            Expected {
-                t: instant.t,
-                values,
-            }
-        });
-        let limits = Kind::ALL.map(|kind| reference.trust.of(kind));
-        Self::new(instants.collect(), limits, units(mechanism, size))
+        let units = units(mechanism, size);
+        Self::new(reference.instants.clone(), reference.limits, units)
     }
 
     /// The mean of two runs at the times of both, with their difference as its limit. Of the

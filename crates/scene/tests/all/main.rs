@@ -2,7 +2,6 @@
 
 mod diagnostics;
 mod elements;
-mod large;
 mod locate;
 mod mutations;
 mod own_joint;

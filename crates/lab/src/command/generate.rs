@@ -1,0 +1,201 @@
+//! `lab generate`: a large scene whose answer is known, into a file or to standard output.
+
+use std::ffi::OsStr;
+use std::fs::{self, File};
+use std::io::{self, Write};
+use std::path::Path;
+
+use crate::generate::{Answer, Generator, Order};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use pfaff::report::OutputDirectory;
+use serde_json::json;
+
+use super::Generate;
+use pfaff_cli::console::Console;
+use pfaff_cli::input::LARGEST;
+use pfaff_cli::interrupt::Interrupt;
+use pfaff_cli::output::{Failure, Outcome, count};
+
+pub(super) fn run(arguments: &Generate, console: &Console<'_>) -> Outcome {
+    let order = Order {
+        kind: arguments.kind,
+        n: arguments.n,
+        seed: arguments.seed,
+        redundant: arguments.redundant,
+    };
+    let generator = order
+        .generate()
+        .map_err(|e| Failure::input(e.to_string()))?;
+    let Some(path) = &arguments.out else {
+        Interrupt::ends_at_once()?;
+        return to_standard_output(&generator, console);
+    };
+    let bytes = to_file(&generator, path)?;
+    match arguments.json {
+        true => console.print(&format!("{:#}\n", facts(&generator, path, bytes))),
+        false => console.print(&describe(&generator, path, bytes)),
+    }
+}
+
+fn to_standard_output(generator: &Generator, console: &Console<'_>) -> Outcome {
+    // Two things on one terminal would overwrite each other.
+    let target = match console.is_terminal() {
+        true => ProgressDrawTarget::hidden(),
+        false => ProgressDrawTarget::stderr(),
+    };
+    let bar = bar(generator, target);
+    let written = console.write(|out| generator.write(bar.wrap_write(out)));
+    bar.finish_and_clear();
+    written
+}
+
+/// Writes beside the file and renames, so that what has its name is whole; pipes and devices are
+/// written as they are. Tells how many bytes were written.
+fn to_file(generator: &Generator, path: &Path) -> Result<u64, Failure> {
+    let refused =
+        |e: io::Error| Failure::stopped(format!("cannot write `{}`: {e}", path.display()));
+    let bar = bar(generator, ProgressDrawTarget::stderr());
+    let interrupt = Interrupt::listen()?;
+    let known = fs::metadata(path).ok();
+    if known.as_ref().is_some_and(fs::Metadata::is_dir) {
+        let message = format!("`{}` is a directory, need a file", path.display());
+        return Err(Failure::input(message));
+    }
+    if known.is_some_and(|known| !known.is_file()) {
+        let file = File::options().write(true).open(path).map_err(refused)?;
+        let mut watched = Watched::new(file, &bar, &interrupt);
+        let written = generator.write(&mut watched);
+        bar.finish_and_clear();
+        return written.map(|()| watched.bytes).map_err(refused);
+    }
+    // A link stays, and the file behind it is the one that is renamed.
+    let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+    let name = path
+        .file_name()
+        .and_then(OsStr::to_str)
+        .ok_or_else(|| Failure::input(format!("`{}` is not the name of a file", path.display())))?;
+    let folder = match path.parent() {
+        Some(folder) if folder != Path::new("") => folder,
+        _ => Path::new("."),
+    };
+    let stopped = |e: pfaff::report::FileError| Failure::stopped(e.to_string());
+    let mut file = OutputDirectory::create(folder)
+        .and_then(|folder| folder.file(name))
+        .map_err(stopped)?;
+    let mut watched = Watched::new(&mut file, &bar, &interrupt);
+    let written = generator.write(&mut watched);
+    let bytes = watched.bytes;
+    bar.finish_and_clear();
+    if let Err(e) = written {
+        // Half a scene is of no use; where even this is refused, its name says enough.
+        drop(file);
+        let _ = fs::remove_file(folder.join(format!("{name}.part")));
+        return Err(Failure::stopped(e.to_string()));
+    }
+    file.finish().map_err(stopped)?;
+    Ok(bytes)
+}
+
+fn bar(generator: &Generator, target: ProgressDrawTarget) -> ProgressBar {
+    #[expect(
+        clippy::cast_sign_loss,
+        clippy::cast_possible_truncation,
+        reason = "a size below 10 GB"
+    )]
+    let bytes = generator.bytes() as u64;
+    // Hidden by itself where standard error is no terminal.
+    let bar = ProgressBar::with_draw_target(Some(bytes), target);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {bytes}, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// A writer that shows how far it is, and stops where somebody asks.
+struct Watched<'a, W> {
+    out: W,
+    bytes: u64,
+    bar: &'a ProgressBar,
+    interrupt: &'a Interrupt,
+}
+
+impl<'a, W: Write> Watched<'a, W> {
+    fn new(out: W, bar: &'a ProgressBar, interrupt: &'a Interrupt) -> Self {
+        Self {
+            out,
+            bytes: 0,
+            bar,
+            interrupt,
+        }
+    }
+}
+
+impl<W: Write> Write for Watched<'_, W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.interrupt.is_asked() {
+            return Err(io::Error::other("interrupted; nothing is kept"));
+        }
+        let written = self.out.write(bytes)?;
+        self.bytes += written as u64;
+        self.bar.set_position(self.bytes);
+        Ok(written)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.out.flush()
+    }
+}
+
+fn facts(generator: &Generator, path: &Path, bytes: u64) -> serde_json::Value {
+    let Answer {
+        bodies,
+        joints,
+        drives,
+        rows,
+        rank,
+        redundancy,
+        mobility,
+    } = generator.answer();
+    json!({
+        "ok": true,
+        "scene": generator.name(),
+        "file": path.display().to_string(),
+        "bytes": bytes,
+        "bodies": bodies,
+        "joints": joints,
+        "drives": drives,
+        "rows": rows,
+        "rank": rank,
+        "redundancy": redundancy,
+        "mobility": mobility,
+        "not_unique": generator.free_reactions().len(),
+    })
+}
+
+fn describe(generator: &Generator, path: &Path, bytes: u64) -> String {
+    let answer = generator.answer();
+    let mut text = format!(
+        "{}: {}, {}, {}\nknown: rank {}, redundancy {}, mobility {}, {} not unique\nwritten to {}, {:.1} MB\n",
+        generator.name(),
+        count(answer.bodies, "body", "bodies"),
+        count(
+            answer.joints + answer.drives,
+            "joint or drive",
+            "joints and drives"
+        ),
+        count(answer.rows, "row", "rows"),
+        answer.rank,
+        answer.redundancy,
+        answer.mobility,
+        count(generator.free_reactions().len(), "reaction", "reactions"),
+        path.display(),
+        bytes as f64 / 1e6,
+    );
+    if bytes > LARGEST {
+        text.push_str(&format!(
+            "note: larger than the {} MiB that `pfaff` reads\n",
+            LARGEST >> 20
+        ));
+    }
+    text
+}

@@ -1,0 +1,170 @@
+//! `lab stress`: the stiff and extreme cases, each with its right answer and what came out.
+
+use std::num::NonZeroUsize;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+
+use crate::stress::{self, Family};
+use indicatif::{ProgressBar, ProgressStyle};
+use pfaff::report::{
+    OutputDirectory, OutputFile, StressDocument, StressFamily, StressRow, StressTable, TableError,
+    Tally, figures, stress_page, write_json,
+};
+
+use super::Stress;
+use pfaff_cli::console::Console;
+use pfaff_cli::input::unknown;
+use pfaff_cli::interrupt::Interrupt;
+use pfaff_cli::output::{Failure, Outcome, columns, count, wrapped};
+use pfaff_cli::work_precision::provenance;
+
+pub(super) fn run(arguments: &Stress, console: &Console<'_>) -> Outcome {
+    let families = families(arguments)?;
+    if arguments.list {
+        return console.print(&list(&families));
+    }
+    let stopped = |e: &dyn std::error::Error| Failure::stopped(e.to_string());
+    let Some(out) = &arguments.out else {
+        return Err(Failure::input("--out DIR is needed, or --list".to_owned()));
+    };
+    let directory = OutputDirectory::create(out).map_err(|e| stopped(&e))?;
+    let file = directory.file("stress.csv").map_err(|e| stopped(&e))?;
+    let table = StressTable::new(file).map_err(|e| stopped(&e))?;
+    let (document, table) = make(&families, table)?;
+    let file = table.finish().map_err(|e| stopped(&e))?;
+    let finished = match document.partial {
+        false => file.finish(),
+        true => file.finish_partial(),
+    };
+    finished.map_err(|e| stopped(&e))?;
+    let mut json = Vec::new();
+    write_json(&mut json, &document).map_err(|e| stopped(&e))?;
+    let figure = figures::extremes(&document.families);
+    let page = stress_page(&document, &figure);
+    for (name, text) in [
+        ("stress.json", json.as_slice()),
+        ("stress.svg", figure.as_bytes()),
+        ("report.html", page.as_bytes()),
+    ] {
+        directory.write(name, text).map_err(|e| stopped(&e))?;
+    }
+    match arguments.json {
+        true => console.print(&String::from_utf8_lossy(&json))?,
+        false => console.print(&describe(&document, &out.display().to_string()))?,
+    }
+    match document.partial || document.tally.failing > 0 {
+        true => Err(Failure::Incomplete),
+        false => Ok(()),
+    }
+}
+
+/// The families that are asked for, or all.
+fn families(arguments: &Stress) -> Result<Vec<Family>, Failure> {
+    if arguments.family.is_empty() {
+        return Ok(stress::families());
+    }
+    let known = |name: &String| {
+        stress::find(name).ok_or_else(|| {
+            let names: Vec<&str> = stress::families().iter().map(|f| f.name).collect();
+            unknown("family", name, &names)
+        })
+    };
+    arguments.family.iter().map(known).collect()
+}
+
+fn list(families: &[Family]) -> String {
+    let line = |f: &Family| vec![f.name.to_owned(), f.about.to_owned()];
+    columns(&families.iter().map(line).collect::<Vec<_>>())
+}
+
+/// Makes all cases; what there is of them when somebody asks to stop.
+fn make(
+    families: &[Family],
+    mut table: StressTable<OutputFile>,
+) -> Result<(StressDocument, StressTable<OutputFile>), Failure> {
+    let interrupt = Interrupt::listen()?;
+    let cases: usize = families.iter().map(|f| (f.cases)().len()).sum();
+    // Hidden by itself where standard error is no terminal.
+    let bar = ProgressBar::new(cases as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} cases{msg}, {eta} left") {
+        bar.set_style(style);
+    }
+    let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
+    let full = AtomicBool::new(false);
+    let interrupted = || interrupt.is_asked() || full.load(Ordering::Relaxed);
+    let (mut failing, mut unwritten) = (0, None::<TableError>);
+    let rows = stress::run(families, threads, &interrupted, |row| {
+        bar.inc(1);
+        if !row.judgement.passes() {
+            failing += 1;
+            bar.set_message(format!(", {failing} not passed"));
+        }
+        if let Err(e) = table.row(row) {
+            unwritten = Some(e);
+            full.store(true, Ordering::Relaxed);
+        }
+    });
+    bar.finish_and_clear();
+    if let Some(e) = unwritten {
+        return Err(Failure::stopped(e.to_string()));
+    }
+    let document = StressDocument {
+        provenance: provenance(),
+        partial: rows.len() < cases,
+        tally: tally(&rows),
+        families: families.iter().map(|f| family(f, &rows)).collect(),
+    };
+    Ok((document, table))
+}
+
+fn tally(rows: &[StressRow]) -> Tally {
+    Tally::of(rows.iter().map(|row| row.judgement))
+}
+
+fn family(family: &Family, rows: &[StressRow]) -> StressFamily {
+    let own = rows.iter().filter(|row| row.family == family.name);
+    let rows: Vec<StressRow> = own.cloned().collect();
+    StressFamily {
+        name: family.name,
+        about: family.about,
+        tally: tally(&rows),
+        rows,
+    }
+}
+
+/// The summary in words: what does not pass, and how many there are of each kind.
+fn describe(document: &StressDocument, out: &str) -> String {
+    let mut text = String::new();
+    for row in document.families.iter().flat_map(|f| &f.rows) {
+        if row.judgement.passes() {
+            continue;
+        }
+        let lead = format!(
+            "{}: {}, {} {}: {}\n",
+            row.family,
+            row.case,
+            row.method,
+            row.formulation,
+            row.judgement.words()
+        );
+        text.push_str(&lead);
+        text.push_str(&wrapped("  right is ", &row.expected));
+        let found = match row.error.is_nan() {
+            true => row.outcome.clone(),
+            false => format!("off by {:.1e}; {}", row.error, row.outcome),
+        };
+        text.push_str(&wrapped("  it came out ", &found));
+    }
+    if document.partial {
+        text.push_str("interrupted, partial\n");
+    }
+    if document.tally.failing > 0 {
+        let cases = count(document.tally.failing, "case does", "cases do");
+        text.push_str(&format!("{cases} not pass\n"));
+    }
+    text.push_str(&format!(
+        "written to {out}\n{}\n",
+        document.tally.last_line()
+    ));
+    text
+}

@@ -1,0 +1,56 @@
+//! `lab work-precision`: error against run time, by the product's methods and by others.
+
+use std::path::Path;
+
+use pfaff::work_precision::{Rival, Subject};
+use pfaff_cli::console::Console;
+use pfaff_cli::input::unknown;
+use pfaff_cli::output::{Failure, Outcome};
+use pfaff_cli::work_precision::{Request, plan, subject};
+
+use super::WorkPrecision;
+use crate::comparators::Way;
+use crate::work_precision::{of_case, ways};
+
+pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
+    let subjects = subjects(arguments, console)?;
+    let ways: Vec<Way> = match arguments.own {
+        true => Vec::new(),
+        false => ways(),
+    };
+    let rivals: Vec<&dyn Rival> = ways.iter().map(|way| way as &dyn Rival).collect();
+    Request {
+        subjects: &subjects,
+        rivals: &rivals,
+        plan: plan(arguments.quick, arguments.all),
+        out: &arguments.out,
+        json: arguments.json,
+    }
+    .run(console)
+}
+
+/// The scenes that are asked for, or those of the suite. All are read before the first is run.
+fn subjects(arguments: &WorkPrecision, console: &Console<'_>) -> Result<Vec<Subject>, Failure> {
+    let case = |case| of_case(case).map_err(|e| Failure::stopped(e.to_string()));
+    if arguments.scenes.is_empty() {
+        return suite::COMPARED.iter().map(case).collect();
+    }
+    let scenes = arguments.scenes.iter().map(|path| {
+        // A file is nearer to the user than a case of the same name.
+        let name = path.to_str().filter(|_| !path.exists());
+        match name.and_then(suite::find) {
+            Some(found) => case(found),
+            None if name.is_some() && is_bare(path) => {
+                let names: Vec<&str> = suite::all().map(|case| case.name).collect();
+                Err(unknown("file or case", &path.display().to_string(), &names))
+            }
+            None => subject(path, console),
+        }
+    });
+    scenes.collect()
+}
+
+/// Whether this is a name alone: no directory, no ending, not standard input.
+fn is_bare(path: &Path) -> bool {
+    path.components().count() == 1 && path.extension().is_none() && path.as_os_str() != "-"
+}

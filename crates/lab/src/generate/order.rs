@@ -1,0 +1,374 @@
+//! What may be asked for, and how large it would be.
+
+use std::io::{self, BufWriter, Write};
+
+use super::answer::{Answer, FreeReaction};
+use super::family::Family;
+use super::fleet::Fleet;
+use super::lattice::Lattice;
+use super::n_four_bar::NFourBar;
+use super::parallelograms::Parallelograms;
+use super::random::Random;
+use super::text::SceneText;
+
+/// Largest scene that is written (bytes).
+pub const LARGEST: f64 = 1e10;
+
+/// Names of a thing in its table, and of others that it refers to.
+const NAMES: f64 = 3.0;
+
+/// A family of mechanisms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Loops of unit rods in a row, one freedom.
+    NFourBar,
+    /// A chain of parallelogram cells, each on the coupler of the one before; three cranks make a
+    /// cell redundant.
+    Parallelograms,
+    /// A square grid of rods that hangs from a corner, some of its cells braced.
+    Lattice,
+    /// Copies of the robot with its trolley, side by side.
+    Fleet,
+    /// Rods, slides and loops at random, some of them doubled.
+    Random,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: &'static [Self] = &[
+        Self::NFourBar,
+        Self::Parallelograms,
+        Self::Lattice,
+        Self::Fleet,
+        Self::Random,
+    ];
+
+    /// Its name.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::NFourBar => "n-four-bar",
+            Self::Parallelograms => "parallelograms",
+            Self::Lattice => "lattice",
+            Self::Fleet => "fleet",
+            Self::Random => "random",
+        }
+    }
+
+    /// What its n counts.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            Self::NFourBar => "loops",
+            Self::Parallelograms => "cells",
+            Self::Lattice => "cells along each side",
+            Self::Fleet => "robots",
+            Self::Random => "modules",
+        }
+    }
+
+    /// The share of its cells that are redundant where nobody says otherwise; nothing where there
+    /// is no choice.
+    fn share(self) -> Option<f64> {
+        match self {
+            Self::NFourBar | Self::Fleet => None,
+            Self::Parallelograms => Some(2.0 / 3.0),
+            Self::Lattice => Some(1.0),
+            Self::Random => Some(1.0 / 3.0),
+        }
+    }
+
+    fn has_seed(self) -> bool {
+        matches!(self, Self::Parallelograms | Self::Random)
+    }
+
+    fn family(self, n: usize, seed: u64, share: f64) -> Box<dyn Family> {
+        match self {
+            Self::NFourBar => Box::new(NFourBar::new(n)),
+            Self::Parallelograms => Box::new(Parallelograms::new(n, seed, share)),
+            Self::Lattice => Box::new(Lattice::new(n, share)),
+            Self::Fleet => Box::new(Fleet::new(n)),
+            Self::Random => Box::new(Random::new(n, seed, share)),
+        }
+    }
+
+    /// The size by which larger ones are measured: some hundreds of bodies, and enough where they
+    /// differ at random.
+    fn sample(self) -> usize {
+        match self {
+            Self::Lattice => 20,
+            Self::NFourBar | Self::Parallelograms | Self::Fleet => 200,
+            Self::Random => 2000,
+        }
+    }
+
+    /// How the number of bodies and joints grows from size `a` to size `b`.
+    fn growth(self, a: usize, b: usize) -> f64 {
+        let ratio = b as f64 / a as f64;
+        match self {
+            Self::Lattice => ratio * (b as f64 + 1.0) / (a as f64 + 1.0),
+            _ => ratio,
+        }
+    }
+}
+
+/// What is wanted.
+///
+/// ```
+/// use lab::generate::{Kind, Order};
+/// // Three loops: 4 uprights and 3 rods, 4 feet and 6 tops, two rows each.
+/// let generator = Order::of(Kind::NFourBar, 3).generate()?;
+/// let answer = generator.answer();
+/// assert_eq!((answer.bodies, answer.joints, answer.rows), (7, 10, 20));
+/// assert_eq!((answer.redundancy, answer.mobility), (0, 1));
+/// let mut scene = Vec::new();
+/// generator.write(&mut scene).unwrap();
+/// assert!(scene.starts_with(b"# n-four-bar-3: "));
+/// # Ok::<(), lab::generate::GenerateError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Order {
+    /// The family.
+    pub kind: Kind,
+    /// How large: loops, cells, cells along each side, robots, modules.
+    pub n: usize,
+    /// Seed of what is drawn at random, 1 where none is given.
+    pub seed: Option<u64>,
+    /// Share of the cells that are redundant, 0 to 1.
+    pub redundant: Option<f64>,
+}
+
+/// Why a scene is not generated.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum GenerateError {
+    /// Nothing would be in it.
+    Empty {
+        /// The family.
+        kind: Kind,
+    },
+    /// The file would be too large.
+    TooLarge {
+        /// The family.
+        kind: Kind,
+        /// The size asked for.
+        n: usize,
+        /// About how large the file would be (bytes).
+        bytes: f64,
+    },
+    /// A share that is none.
+    Share {
+        /// What was given.
+        value: f64,
+    },
+    /// An option that the family does not have.
+    Unused {
+        /// The family.
+        kind: Kind,
+        /// The option.
+        option: &'static str,
+        /// Why it means nothing there.
+        reason: &'static str,
+    },
+}
+
+impl std::fmt::Display for GenerateError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Empty { kind } => write!(
+                f,
+                "{} of n = 0 is empty: n counts {}, need at least 1",
+                kind.name(),
+                kind.unit()
+            ),
+            Self::TooLarge { kind, n, bytes } => write!(
+                f,
+                "{} of n = {n} would be a file of about {:.0} GB, more than {:.0} GB: choose a smaller n ({})",
+                kind.name(),
+                bytes / 1e9,
+                LARGEST / 1e9,
+                kind.unit()
+            ),
+            Self::Share { value } => {
+                write!(
+                    f,
+                    "the redundant share is {value}, need a number from 0 to 1"
+                )
+            }
+            Self::Unused {
+                kind,
+                option,
+                reason,
+            } => write!(f, "{} takes no {option}: {reason}", kind.name()),
+        }
+    }
+}
+
+impl std::error::Error for GenerateError {}
+
+impl Order {
+    /// A size of a family, and nothing else said.
+    #[must_use]
+    pub fn of(kind: Kind, n: usize) -> Self {
+        Self {
+            kind,
+            n,
+            seed: None,
+            redundant: None,
+        }
+    }
+
+    /// Checks the order.
+    ///
+    /// # Errors
+    /// - [`GenerateError::Empty`]: n is 0.
+    /// - [`GenerateError::TooLarge`]: the file would be larger than [`LARGEST`].
+    /// - [`GenerateError::Share`]: the share is not from 0 to 1.
+    /// - [`GenerateError::Unused`]: the family has no such choice.
+    pub fn generate(&self) -> Result<Generator, GenerateError> {
+        let Self {
+            kind,
+            n,
+            seed,
+            redundant,
+        } = *self;
+        if n == 0 {
+            return Err(GenerateError::Empty { kind });
+        }
+        if seed.is_some() && !kind.has_seed() {
+            return Err(GenerateError::Unused {
+                kind,
+                option: "seed",
+                reason: "nothing in it is drawn at random",
+            });
+        }
+        let default = kind.share();
+        if redundant.is_some() && default.is_none() {
+            return Err(GenerateError::Unused {
+                kind,
+                option: "redundant share",
+                reason: "its redundancy has no choice",
+            });
+        }
+        if let Some(value) = redundant.filter(|share| !(0.0..=1.0).contains(share)) {
+            return Err(GenerateError::Share { value });
+        }
+        let (seed, share) = (seed.unwrap_or(1), redundant.or(default).unwrap_or(0.0));
+        let bytes = estimate(kind, n, seed, share);
+        if bytes > LARGEST {
+            return Err(GenerateError::TooLarge { kind, n, bytes });
+        }
+        Ok(Generator {
+            kind,
+            n,
+            bytes,
+            family: kind.family(n, seed, share),
+        })
+    }
+}
+
+/// About how large a scene is (bytes): a small one of its family, grown, and the longer numbers in
+/// its names.
+fn estimate(kind: Kind, n: usize, seed: u64, share: f64) -> f64 {
+    let sample = n.min(kind.sample());
+    let small = Generator {
+        kind,
+        n: sample,
+        bytes: 0.0,
+        family: kind.family(sample, seed, share),
+    };
+    let mut count = Count(0);
+    // A count refuses nothing.
+    let _ = small.write(&mut count);
+    let growth = kind.growth(sample, n);
+    let answer = small.answer();
+    let things = (answer.bodies + answer.joints) as f64;
+    let digits = (n as f64).log10().floor() - (sample as f64).log10().floor();
+    growth * (count.0 as f64 + NAMES * things * digits)
+}
+
+/// Counts bytes.
+struct Count(u64);
+
+impl Write for Count {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0 += bytes.len() as u64;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+/// A scene that can be written, and what is known of it.
+pub struct Generator {
+    kind: Kind,
+    n: usize,
+    bytes: f64,
+    family: Box<dyn Family>,
+}
+
+impl Generator {
+    /// Name of the scene.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("{}-{}", self.kind.name(), self.n)
+    }
+
+    /// Sizes and ranks.
+    #[must_use]
+    pub fn answer(&self) -> Answer {
+        self.family.answer()
+    }
+
+    /// The reactions that are not unique at the start, in the order of the file; all others are.
+    #[must_use]
+    pub fn free_reactions(&self) -> Vec<FreeReaction> {
+        self.family.free_reactions()
+    }
+
+    /// About how large the text is (bytes).
+    #[must_use]
+    pub fn bytes(&self) -> f64 {
+        self.bytes
+    }
+
+    /// Writes the scene, buffered.
+    ///
+    /// # Errors
+    /// What the writer refuses.
+    pub fn write(&self, out: impl Write) -> io::Result<()> {
+        let mut out = BufWriter::with_capacity(1 << 16, out);
+        let mut scene = SceneText::new(&mut out);
+        let name = self.name();
+        let Answer {
+            bodies,
+            joints,
+            drives,
+            rows,
+            rank,
+            redundancy,
+            mobility,
+        } = self.answer();
+        let mut words = self.family.words().into_iter();
+        scene.comment(&format!("{name}: {}", words.next().unwrap_or_default()))?;
+        scene.comment(&format!(
+            "Known: {bodies} bodies, {joints} joints, {drives} drives, {rows} rows, rank {rank}, redundancy {redundancy}, mobility {mobility}."
+        ))?;
+        for line in words {
+            scene.comment(&line)?;
+        }
+        self.family.write(&name, &mut scene)?;
+        out.flush()
+    }
+}
+
+impl std::fmt::Debug for Generator {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Generator")
+            .field("name", &self.name())
+            .field("answer", &self.answer())
+            .finish_non_exhaustive()
+    }
+}

@@ -1,0 +1,97 @@
+//! How far a solution is from the exact one.
+
+use dynamics::{KeptRowMotion, Prepared};
+use model::System;
+
+use crate::stress::motion::worst;
+use exact::Solution;
+
+/// Relative to the largest of its body and kind, smaller accelerations count as this share of it.
+const LEAST: f64 = 1e-3;
+
+/// Errors of one solution.
+pub(super) struct Errors {
+    /// Accelerations, each relative to itself, or to a share of the largest of its body and kind.
+    pub(super) acceleration: f64,
+    /// Multipliers of kept rows, relative to the largest of their joint.
+    pub(super) multipliers: f64,
+    /// The heaviest mass or moment of inertia divided by the lightest.
+    pub(super) spread: f64,
+}
+
+/// All of them.
+pub(super) fn errors(
+    prepared: &Prepared,
+    motion: &KeptRowMotion<'_>,
+    (a, lambda): (&[f64], &[f64]),
+    exact: &Solution,
+) -> Errors {
+    Errors {
+        acceleration: of_accelerations(prepared, a, &exact.a),
+        multipliers: of_multipliers(prepared, motion, lambda, &exact.lambda),
+        spread: linalg::mass_spread(prepared.mechanism.mass()),
+    }
+}
+
+/// `x − y` relative to a size; where the size is zero, nothing may be missed.
+fn relative(x: f64, y: f64, size: f64) -> f64 {
+    match x - y {
+        0.0 => 0.0,
+        missed => missed / size,
+    }
+}
+
+/// What accelerations are made of, in units of the mechanism: Q/m, v²/L, or what they are.
+fn rate(prepared: &Prepared, exact: &[f64]) -> f64 {
+    let mechanism = &prepared.mechanism;
+    let unit = |j: usize| mechanism.unit(j, prepared.assembly.size);
+    let terms = (0..exact.len()).map(|j| {
+        let speed = prepared.v[j] / unit(j);
+        let weight = match mechanism.mass()[j] {
+            m if m > 0.0 => mechanism.weight()[j] / (m * unit(j)),
+            _ => 0.0,
+        };
+        worst([exact[j] / unit(j), speed * speed, weight])
+    });
+    worst(terms)
+}
+
+/// The measure of the issue.
+pub(super) fn of_accelerations(prepared: &Prepared, a: &[f64], exact: &[f64]) -> f64 {
+    let mechanism = &prepared.mechanism;
+    let kind = |j: usize| {
+        let (body, coordinate) = mechanism.coordinate(j);
+        (body, coordinate == "angle")
+    };
+    let rate = rate(prepared, exact);
+    worst((0..a.len()).map(|j| {
+        let alike = (0..a.len()).filter(|&l| kind(l) == kind(j));
+        let size = match worst(alike.map(|l| exact[l])) {
+            0.0 => rate * mechanism.unit(j, prepared.assembly.size),
+            largest => exact[j].abs().max(LEAST * largest),
+        };
+        relative(a[j], exact[j], size)
+    }))
+}
+
+fn of_multipliers(
+    prepared: &Prepared,
+    motion: &KeptRowMotion<'_>,
+    lambda: &[f64],
+    exact: &[f64],
+) -> f64 {
+    let kept = &prepared.decision.kept;
+    let force = worst(motion.scratch().force.iter().copied());
+    worst(prepared.mechanism.layout().groups.iter().map(|group| {
+        let of_group = || {
+            kept.iter()
+                .zip(exact)
+                .filter(|(i, _)| group.rows.contains(i))
+        };
+        let size = match worst(of_group().map(|(_, l)| *l)) {
+            0.0 => force,
+            largest => largest,
+        };
+        worst(of_group().map(|(&i, &l)| relative(lambda[i], l, size)))
+    }))
+}

@@ -1,0 +1,260 @@
+//! Bodies without mass or inertia: accepted exactly where no motion is without both; the massless
+//! motion is named where there is one.
+
+use dynamics::MotionOptions;
+use joints::Fixed;
+use model::{Body, BodyRef, Description, Joint};
+
+use crate::mechanisms::cranks::cranks;
+use crate::mechanisms::revolute;
+use crate::stress::case::{Case, Expected, Family, Outcome};
+use crate::stress::motion::{acceleration, moving, prepared, worst};
+
+/// All combinations of mass and inertia that vanish.
+pub(super) const FAMILY: Family = Family {
+    name: "massless",
+    about: "m = 0 and J = 0 in every combination: accelerations where M is definite on the motions of C, else the massless motion by name",
+    cases,
+};
+
+/// Acceleration of free fall (m/s²).
+const G: f64 = 9.81;
+
+/// Relative error of accelerations that all extreme masses have to reach.
+const BOUND: f64 = 1e-13;
+
+fn cases() -> Vec<Case> {
+    let mut cases = Vec::new();
+    {
+        let options = MotionOptions::to(1.0);
+        for k in 0..32_u8 {
+            let chain = Chain::nth(k);
+            let run =
+                move |o: &MotionOptions| falling(&chain.description(), &chain.accelerations(), o);
+            cases.push(moving(chain.name(), options.clone(), chain.expected(), run));
+        }
+        for (name, pivots) in [
+            ("parallelogram", &[0.0, 1.0][..]),
+            ("three cranks", &[0.0, 1.0, 1.7]),
+        ] {
+            for k in 0..1_u8 << (pivots.len() + 1) {
+                let case = massless_cranks(name, pivots, k, &options);
+                cases.push(case);
+            }
+        }
+        for [mass, inertia] in [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]] {
+            let right = Expected::refusal(&["without mass or inertia", "`stone`"]);
+            let d = stone(mass, inertia);
+            let name = format!("free body, m = {mass}, J = {inertia}");
+            cases.push(moving(name, options.clone(), right, move |o| {
+                falling(&d, &[f64::NAN; 3], o)
+            }));
+        }
+        let right = Expected::answer(0.0, "it cannot move");
+        let mut d = stone(0.0, 0.0);
+        let weld = Fixed {
+            s_i: [0.0; 2],
+            s_j: [0.0; 2],
+            offset: [0.0; 2],
+            angle_0: 0.0,
+        };
+        d.joints = vec![Joint::new(
+            "weld",
+            &[BodyRef::Ground, BodyRef::Body(0)],
+            weld,
+        )];
+        cases.push(moving("massless body, welded", options, right, move |o| {
+            falling(&d, &[0.0; 3], o)
+        }));
+    }
+    cases
+}
+
+fn stone(mass: f64, inertia: f64) -> Description {
+    Description {
+        name: "stone".into(),
+        gravity: [0.0, -G],
+        bodies: vec![Body {
+            name: "stone".into(),
+            mass,
+            inertia,
+            ..Body::default()
+        }],
+        ..Description::default()
+    }
+}
+
+/// Two links, horizontal and at rest: the first with its centre 1 m from the ground's pin, the
+/// second pinned 2 m from it, with its centre 1 m further or at the pin.
+#[derive(Clone, Copy)]
+struct Chain {
+    /// Mass and inertia of both links, 0 or 1.
+    links: [[f64; 2]; 2],
+    /// Distance of the second centre from its pin (m).
+    arm: f64,
+}
+
+impl Chain {
+    fn nth(k: u8) -> Self {
+        let bit = |place: u8| f64::from((k >> place) & 1);
+        Self {
+            links: [[bit(0), bit(1)], [bit(2), bit(3)]],
+            arm: bit(4),
+        }
+    }
+
+    fn name(&self) -> String {
+        let [[m1, j1], [m2, j2]] = self.links;
+        format!(
+            "chain, m = {m1}, {m2}, J = {j1}, {j2}, second arm {} m",
+            self.arm
+        )
+    }
+
+    /// Kinetic energy `½·αᵀ·A·α` in the rates of the two angles, and the moment of the weights.
+    fn reduced(&self) -> ([[f64; 2]; 2], [f64; 2]) {
+        let ([[m1, j1], [m2, j2]], c) = (self.links, self.arm);
+        let a = [
+            [m1 + j1 + 4.0 * m2, 2.0 * c * m2],
+            [2.0 * c * m2, c * c * m2 + j2],
+        ];
+        (a, [-G * (m1 + 2.0 * m2), -G * c * m2])
+    }
+
+    /// The determinant of whole numbers is exact.
+    fn determinant(&self) -> f64 {
+        let ([[a, b], [_, d]], _) = self.reduced();
+        a * d - b * b
+    }
+
+    fn expected(&self) -> Expected {
+        let ([[a, _], [_, d]], _) = self.reduced();
+        match (self.determinant() == 0.0, a, d) {
+            (false, ..) => Expected::answer(BOUND, "closed form: two equations in the angles"),
+            // The second link alone turns for nothing.
+            (true, 1.0.., 0.0) => Expected::refusal(&["without mass or inertia", "`second`"]),
+            (true, ..) => Expected::refusal(&["without mass or inertia"]),
+        }
+    }
+
+    fn accelerations(&self) -> Vec<f64> {
+        let ([[a, b], [_, d]], [f, g]) = self.reduced();
+        let det = self.determinant();
+        let [first, second] = [(f * d - b * g) / det, (a * g - b * f) / det];
+        vec![
+            0.0,
+            first,
+            first,
+            0.0,
+            2.0 * first + self.arm * second,
+            second,
+        ]
+    }
+
+    fn description(&self) -> Description {
+        let body = |name: &str, [mass, inertia]: [f64; 2], x: f64| Body {
+            name: name.into(),
+            mass,
+            inertia,
+            position: [x, 0.0],
+            ..Body::default()
+        };
+        let bodies = vec![
+            body("first", self.links[0], 1.0),
+            body("second", self.links[1], 2.0 + self.arm),
+        ];
+        let [first, second] = [BodyRef::Body(0), BodyRef::Body(1)];
+        let joints = vec![
+            revolute("pivot", &bodies, [BodyRef::Ground, first], [0.0, 0.0]),
+            revolute("hinge", &bodies, [first, second], [2.0, 0.0]),
+        ];
+        Description {
+            name: "chain".into(),
+            gravity: [0.0, -G],
+            bodies,
+            joints,
+            ..Description::default()
+        }
+    }
+}
+
+/// Cranks under a coupler, some of them massless: all turn by one angle.
+fn massless_cranks(name: &str, pivots: &[f64], massless: u8, options: &MotionOptions) -> Case {
+    let (length, theta) = (0.5, 1.0_f64);
+    let mut d = cranks(pivots, length, theta);
+    d.gravity = [0.0, -G];
+    let mut names = Vec::new();
+    for (k, body) in d.bodies.iter_mut().enumerate() {
+        if (massless >> k) & 1 == 1 {
+            (body.mass, body.inertia) = (0.0, 0.0);
+            names.push(body.name.clone());
+        }
+    }
+    let (coupler, links) = match d.bodies.split_last() {
+        Some((coupler, links)) => (coupler.mass, links.iter().map(|b| b.mass).sum::<f64>()),
+        None => (0.0, 0.0),
+    };
+    let moment = -G * theta.cos() * length * (0.5 * links + coupler);
+    let alpha = moment / (length * length * (links / 3.0 + coupler));
+    let right = match names.len() > pivots.len() {
+        true => Expected::refusal(&["without mass or inertia"]),
+        false => Expected::answer(BOUND, "closed form: one equation in the common angle"),
+    };
+    let at = |r: f64| [-r * theta.sin() * alpha, r * theta.cos() * alpha];
+    let mut a: Vec<f64> = Vec::new();
+    for _ in pivots {
+        a.extend(at(0.5 * length));
+        a.push(alpha);
+    }
+    a.extend(at(length));
+    a.push(0.0);
+    let what = match names.is_empty() {
+        true => "nothing massless".to_owned(),
+        false => format!("massless: {}", names.join(", ")),
+    };
+    moving(
+        format!("{name}, {what}"),
+        options.clone(),
+        right,
+        move |o| falling(&d, &a, o),
+    )
+}
+
+/// Error of the accelerations at the start, relative to the largest of the right ones.
+fn falling(d: &Description, right: &[f64], options: &MotionOptions) -> Result<Outcome, Outcome> {
+    let found = acceleration(&prepared(d)?, options)?;
+    let scale = worst(right.iter().copied());
+    let off = worst(found.iter().zip(right).map(|(a, b)| a - b));
+    let whole = found.len() == right.len();
+    let error = match (whole, scale > 0.0) {
+        (false, _) => f64::NAN,
+        (true, true) => off / scale,
+        (true, false) => off,
+    };
+    Ok(Outcome::answer(
+        error,
+        format!("largest acceleration {scale:.3}"),
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use report::stress::Judgement;
+
+    use super::*;
+    use crate::stress::judge;
+
+    #[test]
+    fn accepted_exactly_where_every_motion_has_mass() {
+        super::super::assert_passes(FAMILY);
+    }
+
+    #[test]
+    fn another_inertia_is_silently_wrong() {
+        let chain = Chain::nth(0b11111);
+        let mut d = chain.description();
+        d.bodies[0].inertia = 1.0 + 1e-11;
+        let found = falling(&d, &chain.accelerations(), &MotionOptions::to(1.0)).expect("it falls");
+        assert_eq!(judge(&chain.expected(), &found), Judgement::SilentlyWrong);
+    }
+}

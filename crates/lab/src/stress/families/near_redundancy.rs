@@ -1,0 +1,211 @@
+//! Rows that are parallel but for ε, from 1e-2 to 1e-20: of full rank as they are written, and
+//! redundant only within what the data are known to.
+
+use dynamics::MotionOptions;
+use joints::{Direction, KnifeEdge};
+use linalg::Grounds;
+use model::{Body, BodyRef, Description, Joint, System};
+use solvability::Analysis;
+
+use crate::mechanisms::cranks::misaligned;
+use crate::stress::case::{Case, Expected, Family, Outcome};
+use crate::stress::motion::{analysed, asking, built, last_row, moving, prepared, worst};
+use exact::Exact;
+
+/// Nearly parallel knife edges and cranks.
+pub(super) const FAMILY: Family = Family {
+    name: "near-redundancy",
+    about: "edges and cranks that are parallel but for ε: of full rank, undecided, or redundant within what the data are known to, and said so; the motion is \
+            the same in all three",
+    cases,
+};
+
+/// Above this a rank in double precision has to be decided: singular values are told apart down to
+/// 1e-7.
+const DECIDED: f64 = 1e-6;
+/// Some thousand roundings of numbers of size 1: no larger ε may be taken for rounding.
+const ROUNDING: f64 = 1e-12;
+/// Data of size 1 are known to some 1e-15: an angle between this and the next may be one or none.
+const READ_BOTH_WAYS: f64 = 5e-15;
+/// See [`READ_BOTH_WAYS`].
+const ROUNDED_AWAY: f64 = 5e-14;
+/// Below this reactions are a thousand times the loads, and that is said.
+const WARNED: f64 = 1e-3;
+/// Half the distance of the wheels (m).
+const HALF: f64 = 0.5;
+
+fn cases() -> Vec<Case> {
+    let mut cases = Vec::new();
+    for k in 2..=20 {
+        let e = 10_f64.powi(-k);
+        for (name, describe) in [
+            ("cranks", misaligned as fn(f64) -> Description),
+            ("edges of one axle", axle),
+        ] {
+            let case = asking(
+                format!("{name}, ε = {e:.0e}"),
+                "analyze",
+                verdict(e),
+                move || said(&describe(e), e),
+            );
+            cases.push(case);
+        }
+        {
+            let source = "closed form: turns about the contact of the right wheel; a hundred times the tolerance, and the rounding of the start over ε up to 1e-3";
+            let bound = (1e-6 + 10.0 * f64::EPSILON / e).min(1e-3);
+            // Where velocities are not known any more, a refusal must name the edge; where the data
+            // may as well mean parallel edges, it must say so.
+            let named = match (READ_BOTH_WAYS..ROUNDED_AWAY).contains(&e) {
+                true => "their rounding",
+                false => "`right`",
+            };
+            let right = match e < DECIDED {
+                false => Expected::answer(bound, source),
+                true => Expected::AnswerOrRefusal {
+                    bound,
+                    source,
+                    parts: vec![named.into()],
+                },
+            };
+            let options = MotionOptions::to(0.5);
+            let run = move |o: &MotionOptions| about_the_wheel(&axle(e), o);
+            let case = moving(
+                format!("edges of one axle, ε = {e:.0e}"),
+                options,
+                right,
+                run,
+            );
+            cases.push(case.at("ε", e));
+        }
+    }
+    cases
+}
+
+/// What may be said of the rank.
+pub(super) fn verdict(e: f64) -> Expected {
+    let source = "rank in exact arithmetic; the grounds of a certificate";
+    match e < DECIDED {
+        false => Expected::answer(0.0, source),
+        true => Expected::AnswerOrRefusal {
+            bound: 0.0,
+            source,
+            parts: vec!["singular value".into()],
+        },
+    }
+}
+
+/// A cart of unit mass and inertia on two knife edges under its centre, the right one turned by ε.
+/// It goes round the contact of the right wheel.
+fn axle(e: f64) -> Description {
+    let edge = |name: &str, y: f64, normal: [f64; 2]| {
+        let normal = Direction::new(normal).unwrap_or(Direction::Y);
+        Joint::new(
+            name,
+            &[BodyRef::Body(0)],
+            KnifeEdge {
+                s: [0.0, y],
+                normal,
+            },
+        )
+    };
+    Description {
+        name: "axle".into(),
+        bodies: vec![Body {
+            name: "cart".into(),
+            mass: 1.0,
+            inertia: 1.0,
+            velocity: Some([1.0, 0.0]),
+            angular_velocity: Some(-1.0 / HALF),
+            ..Body::default()
+        }],
+        joints: vec![
+            edge("left", HALF, [0.0, 1.0]),
+            edge("right", -HALF, [e, 1.0]),
+        ],
+        ..Description::default()
+    }
+}
+
+/// Compares what is said of the rank with the rank of C as it is stored.
+pub(super) fn said(d: &Description, e: f64) -> Result<Outcome, Outcome> {
+    let mechanism = built(d)?;
+    let (q, _) = mechanism.described_state();
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, &q, &mut s);
+    mechanism.c(&mut s);
+    let c = mechanism.layout().dense(&s);
+    let rows: Vec<&[f64]> = (0..c.nrows()).map(|i| c.row(i)).collect();
+    right_of(&analysed(d)?, Exact::of(&rows).rank(), e)
+}
+
+fn right_of(a: &Analysis, exact: usize, e: f64) -> Result<Outcome, Outcome> {
+    if let linalg::RankStatus::Undecided(doubt) = &a.decision.status {
+        return Err(Outcome::refused(doubt));
+    }
+    let rank = a.decision.rank;
+    let unique = a
+        .reactions
+        .iter()
+        .filter(|r| r.wrench.verdict.is_unique())
+        .count();
+    let grounds = a.evidence().certificate.as_ref().map(|c| c.grounds);
+    let detail = format!(
+        "rank {rank}, exactly {exact}; {unique} of {} reactions unique; {grounds:?}",
+        a.reactions.len()
+    );
+    let warned = a.nearly_redundant.as_ref();
+    let detail = format!(
+        "{detail}, {:.0e}",
+        warned.map_or(f64::NAN, |near| near.sigma)
+    );
+    // As written is right with a warning of the size of ε; otherwise the data must be in doubt, and
+    // the answer must say so.
+    let right = match rank == exact {
+        true => {
+            let told = e >= WARNED || warned.is_some_and(|near| near.sigma <= 2.0 * e);
+            told && unique == a.reactions.len()
+        }
+        false => {
+            let within = e < ROUNDING && grounds == Some(Grounds::WithinData);
+            within && rank + 1 == exact && unique == 0
+        }
+    };
+    Ok(Outcome::fact(right, detail))
+}
+
+/// Without applied forces the speed stays, and so does the centre of the turn.
+fn about_the_wheel(d: &Description, options: &MotionOptions) -> Result<Outcome, Outcome> {
+    let (row, summary) = last_row(&prepared(d)?, options)?;
+    let angle = -row.t / HALF;
+    let right = [-HALF * angle.sin(), -HALF + HALF * angle.cos(), angle];
+    let error = worst(row.q.iter().zip(right).map(|(a, b)| a - b));
+    Ok(Outcome::answer(error, format!("{} steps", summary.steps)))
+}
+
+#[cfg(test)]
+mod tests {
+    use report::stress::Judgement;
+
+    use super::*;
+    use crate::stress::judge;
+
+    #[test]
+    fn no_rank_and_no_motion_is_wrong() {
+        super::super::assert_passes(FAMILY);
+    }
+
+    #[test]
+    fn another_rank_and_another_axle_are_silently_wrong() {
+        let a = analysed(&misaligned(1e-3)).expect("finite");
+        let found = right_of(&a, 11, 1e-3).expect("decided");
+        assert_eq!(judge(&verdict(1e-3), &found), Judgement::SilentlyWrong);
+        let mut d = axle(1e-3);
+        d.joints.remove(1);
+        d.bodies[0].angular_velocity = d.bodies[0].angular_velocity.map(|rate| 1.001 * rate);
+        let found = about_the_wheel(&d, &MotionOptions::to(1.0)).expect("it turns");
+        assert_eq!(
+            judge(&Expected::answer(1e-6, "closed form"), &found),
+            Judgement::SilentlyWrong
+        );
+    }
+}

@@ -1,0 +1,142 @@
+//! Forces of a user that have no value any more: the run stops at the last good state and says when
+//! and where; it neither panics nor halves its steps for ever.
+
+use dynamics::{MotionOptions, RowChoice, prepare, simulate};
+use joints::spec::Spec;
+use joints::{Argument, ArgumentError, Force as Law, ForceSpec, Pose, Real, Twist};
+use model::{Body, BodyRef, Description, Force, Mechanism, StartOptions};
+
+use crate::stress::case::{Case, Expected, Family, Outcome};
+use crate::stress::motion::{combinations, moving};
+
+/// A body that a force pulls to where it is not defined.
+pub(super) const FAMILY: Family = Family {
+    name: "not-finite",
+    about: "a body pulled by √(1 − x) N, which is NaN beyond x = 1 m: stopped there, with all rows before kept and the quantity named",
+    cases,
+};
+
+/// The body passes x = 1 with `ẋ²/2 = ∫√(1 − x) dx = 2/3` from rest at 0; before,
+/// `t = ∫₀¹ dx/√(4/3·(1 − (1 − x)^(3/2)))`.
+const T_END: f64 = 10.0;
+
+fn cases() -> Vec<Case> {
+    let base = MotionOptions {
+        output_step: 0.01,
+        ..MotionOptions::to(T_END)
+    };
+    let made = combinations(&base).into_iter().map(|options| {
+        let right = Expected::refusal(&["at t = ", "the force `root` is not finite"]);
+        moving("√ of a negative number", options, right, |options| {
+            Ok(pulled(options))
+        })
+    });
+    made.collect()
+}
+
+/// A force √(1 − x) along x on a body.
+#[derive(Clone)]
+struct Root;
+
+impl Law for Root {
+    const SPEC: ForceSpec = ForceSpec {
+        common: Spec {
+            name: "Root",
+            scene_type: "root",
+            variant: None,
+            doc: "√(1 − x) along x.",
+            text: "",
+            slots: &["i"],
+            parameters: &[],
+            points_apart: false,
+            requirements: &[],
+        },
+        q: &[0],
+        dq_dx: &[[0, 0]],
+        dq_dv: &[],
+        dissipative: true,
+        rheonomic: false,
+    };
+
+    fn from_arguments(_: &[Argument]) -> Result<Self, ArgumentError> {
+        Ok(Self)
+    }
+
+    fn initialise(&mut self, _: &[Pose]) {}
+
+    fn requirement(&self, _: usize, _: &[Pose]) -> bool {
+        true
+    }
+
+    fn q<T: Real>(&self, x: &[Pose<T>], _: &[Twist<T>], _: &[[T; 3]], out: &mut [T]) {
+        out[0] = (T::from(1.0) - x[0].x).sqrt();
+    }
+
+    fn dq_dx<T: Real>(&self, x: &[Pose<T>], _: &[Twist<T>], _: &[[T; 3]], out: &mut [T]) {
+        out[0] = T::from(-0.5) * (T::from(1.0) - x[0].x).sqrt().recip_or_zero();
+    }
+
+    fn dq_dv<T: Real>(&self, _: &[Pose<T>], _: &[Twist<T>], _: &[[T; 3]], _: &mut [T]) {}
+}
+
+/// A run that cannot get beyond x = 1: what it says, if its rows are finite and end there.
+fn pulled(options: &MotionOptions) -> Outcome {
+    let description = Description {
+        name: "pulled".into(),
+        bodies: vec![Body {
+            name: "stone".into(),
+            mass: 1.0,
+            inertia: 1.0,
+            ..Body::default()
+        }],
+        forces: vec![Force {
+            name: "root".into(),
+            bodies: vec![BodyRef::Body(0)],
+            element: Box::new(Root),
+            functions: Vec::new(),
+        }],
+        ..Description::default()
+    };
+    let Ok(mechanism) = Mechanism::build(&description) else {
+        return Outcome::fact(false, "not built");
+    };
+    let start = StartOptions::default();
+    let prepared = match prepare(mechanism, &start, &RowChoice::Automatic) {
+        Ok(prepared) => prepared,
+        Err(e) => return Outcome::refused(e),
+    };
+    let (mut last, mut is_finite) = (0.0, true);
+    let run = simulate(&prepared, options, |row| {
+        is_finite &= row.q.iter().chain(row.v).all(|x| x.is_finite());
+        last = row.q[0];
+        Ok(std::ops::ControlFlow::Continue(()))
+    });
+    let detail = format!("rows to x = {last}");
+    match run {
+        // What was shown before has to be there, and sound.
+        Err(failure) if is_finite && (0.97..=1.0).contains(&last) => {
+            Outcome::refused(&failure.error)
+        }
+        _ => Outcome::fact(false, detail),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use report::stress::Judgement;
+
+    use super::*;
+    use crate::stress::judge;
+
+    #[test]
+    fn runs_stop_where_the_force_ends() {
+        super::super::assert_passes(FAMILY);
+    }
+
+    #[test]
+    fn a_run_that_ends_before_is_no_refusal() {
+        let found = pulled(&MotionOptions::to(1.0));
+        let right = Expected::refusal(&["not finite"]);
+        assert_eq!(judge(&right, &found), Judgement::SilentlyWrong);
+    }
+}

@@ -1,0 +1,149 @@
+//! Flat loops passed while a step has to end beside the flat pose: where the rank drops, branches
+//! of the motion meet, and accelerations are a quotient of two numbers that both vanish.
+
+use dynamics::{Method, MotionOptions};
+use joints::RevoluteAngleDrive;
+use model::{BodyRef, Description, Drive, Function};
+
+use crate::mechanisms::cranks::cranks;
+use crate::stress::case::{Case, Expected, Family};
+use crate::stress::motion::{Row, combinations, moving, outcome_of, prepared, worst};
+
+/// Two and three cranks driven through the flat pose.
+pub(super) const FAMILY: Family = Family {
+    name: "passages",
+    about: "two and three cranks driven through the flat pose, with a break time of the drive beside it at which a step has to end",
+    cases,
+};
+
+/// The first crank turns from here with 1 rad/s.
+const START: f64 = -0.5;
+const END: f64 = 0.5;
+
+/// Offsets of the break time on each side (s, which is rad here).
+const OFFSETS: u32 = 32;
+
+/// Nearer to the flat pose a run may refuse to go on.
+const NEAR: f64 = 1e-2;
+
+/// Tolerance of the runs.
+const RTOL: f64 = 1e-9;
+
+fn cases() -> Vec<Case> {
+    let beside = (0..OFFSETS).flat_map(|k| {
+        let offset = 10.0_f64.powf(-16.0 + 15.0 * f64::from(k) / f64::from(OFFSETS - 1));
+        [-offset, offset]
+    });
+    let offsets: Vec<f64> = beside.chain([0.0]).collect();
+    let base = MotionOptions {
+        rtol: RTOL,
+        atol: RTOL,
+        output_step: END - START,
+        ..MotionOptions::to(END - START)
+    };
+    let mut cases = Vec::new();
+    for options in combinations(&base) {
+        if options.method == Method::Auto {
+            continue;
+        }
+        for pivots in [&[0.0, 1.0][..], &[0.0, 1.0, 1.7]] {
+            for &offset in &offsets {
+                cases.push(passed(pivots, offset, &options));
+            }
+        }
+    }
+    cases
+}
+
+fn passed(pivots: &'static [f64], offset: f64, options: &MotionOptions) -> Case {
+    let (bound, source) = (
+        1e-7,
+        "all cranks have the angle of the drive, which is a straight line; a hundred tolerances",
+    );
+    let is_certain = is_explicit(options.method) && offset.abs() > NEAR;
+    let right = match is_certain {
+        true => Expected::answer(bound, source),
+        // A step that has to end there, or stages that cannot keep away, may be too near to tell
+        // the branches apart.
+        false => Expected::AnswerOrRefusal {
+            bound,
+            source,
+            parts: vec!["do not determine".into()],
+        },
+    };
+    let name = format!("{} cranks, offset {offset:.1e}", pivots.len());
+    let case = moving(name, options.clone(), right, move |options| {
+        let p = prepared(&driven(pivots, offset))?;
+        Ok(outcome_of(&p, options, |row, _| off(row, END)))
+    });
+    case.at("offset of the break time", offset.abs().max(1e-17))
+}
+
+/// Methods whose few stages can keep away from an instant.
+fn is_explicit(method: Method) -> bool {
+    matches!(method, Method::Dop853 | Method::Dopri5 | Method::Tsit5)
+}
+
+/// Cranks with a drive in two pieces of one slope that meet beside the flat pose.
+fn driven(pivots: &[f64], offset: f64) -> Description {
+    let mut d = cranks(pivots, 0.5, START);
+    let times = [0.0, offset - START, END - START];
+    let motion = Function::lines(&times, &times);
+    d.drives.extend(motion.ok().map(|motion| Drive {
+        name: "motor".into(),
+        bodies: vec![BodyRef::Ground, BodyRef::Body(0)],
+        element: Box::new(RevoluteAngleDrive {
+            s_i: [0.0; 2],
+            s_j: [0.0; 2],
+            measure_0: 0.0,
+        }),
+        motion,
+        tolerance: None,
+    }));
+    d
+}
+
+/// How far cranks are from parallel ones at an angle, turning with 1 rad/s, and the coupler from
+/// level.
+fn off(row: &Row, angle: f64) -> f64 {
+    let last = row.q.len() / 3 - 1;
+    let of_crank = |k: usize| [row.q[3 * k + 2] - angle, row.v[3 * k + 2] - 1.0];
+    let level = [row.q[3 * last + 2], row.v[3 * last + 2]];
+    worst((0..last).flat_map(of_crank).chain(level))
+}
+
+#[cfg(test)]
+mod tests {
+    use report::stress::Judgement;
+
+    use super::*;
+    use crate::stress::judge;
+
+    #[test]
+    fn the_other_branch_is_silently_wrong() {
+        let p = prepared(&driven(&[0.0, 1.0], 0.1)).expect("starts");
+        let options = MotionOptions::to(END - START);
+        let found = outcome_of(&p, &options, |row, _| {
+            // On the other branch the second crank turns back.
+            let mut row = row.clone();
+            row.q[5] = -row.q[5];
+            off(&row, END)
+        });
+        let right = Expected::answer(1e-7, "parallel cranks");
+        assert_eq!(judge(&right, &found), Judgement::SilentlyWrong);
+    }
+
+    #[test]
+    fn a_step_may_end_at_any_place_beside_the_flat_pose() {
+        let options = MotionOptions {
+            rtol: RTOL,
+            atol: RTOL,
+            ..MotionOptions::to(END - START)
+        };
+        for offset in [0.0, 1e-16, -1e-12, 1e-8, -1e-4, 1e-2] {
+            let case = passed(&[0.0, 1.0, 1.7], offset, &options);
+            let found = judge(&case.expected, &(case.run)());
+            assert!(found.passes(), "{}: {:?}", case.name, (case.run)());
+        }
+    }
+}

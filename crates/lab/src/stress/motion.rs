@@ -1,0 +1,210 @@
+//! A scene from its text, or from what the library describes, to the last row of its motion, by
+//! every method.
+
+use std::ops::ControlFlow;
+
+use dynamics::{
+    FORMULATION, Method, MotionOptions, Prepared, RowChoice, Summary, prepare, simulate,
+};
+use model::start::CorrectionLimit;
+use model::{Description, Mechanism, Registry, StartOptions};
+use pfaff::{Overrides, Study, StudyError};
+use solvability::{Analysis, analyse};
+
+use crate::stress::case::{Case, Expected, Outcome};
+
+/// A row of a motion.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Row {
+    /// Time (s).
+    pub t: f64,
+    /// Coordinates.
+    pub q: Vec<f64>,
+    /// Velocities.
+    pub v: Vec<f64>,
+}
+
+/// The options of every method, otherwise those of `base`.
+#[must_use]
+pub fn combinations(base: &MotionOptions) -> Vec<MotionOptions> {
+    let of = |&method: &Method| MotionOptions {
+        method,
+        ..base.clone()
+    };
+    let all = Method::ALL.iter().map(of);
+    all.filter(|options| options.check().is_ok()).collect()
+}
+
+/// How many steps a method of its order takes for a motion by this phase (rad) at a relative
+/// tolerance, up to a factor: the local error of a step h is h to the power of the order and one
+/// more. What the errors of all steps add up to is judged by it.
+#[must_use]
+pub fn steps(method: Method, phase: f64, rtol: f64) -> f64 {
+    let order = match method {
+        Method::Dopri5 | Method::Tsit5 | Method::Radau5 => 5.0,
+        _ => 8.0,
+    };
+    phase.max(1.0) * rtol.powf(-1.0 / (order + 1.0))
+}
+
+/// A case of a motion with these options.
+pub fn moving(
+    name: impl Into<String>,
+    options: MotionOptions,
+    expected: Expected,
+    run: impl Fn(&MotionOptions) -> Result<Outcome, Outcome> + Send + Sync + 'static,
+) -> Case {
+    let method = options.method.name();
+    let made = move || run(&options).unwrap_or_else(|refusal| refusal);
+    Case::new(name, method, FORMULATION, expected, made)
+}
+
+/// A case in which something is asked and nothing moves.
+pub fn asking(
+    name: impl Into<String>,
+    question: &str,
+    expected: Expected,
+    run: impl Fn() -> Result<Outcome, Outcome> + Send + Sync + 'static,
+) -> Case {
+    let made = move || run().unwrap_or_else(|refusal| refusal);
+    Case::new(name, question, "-", expected, made)
+}
+
+/// What the commands make of a text, up to its start.
+///
+/// # Errors
+/// The refusal, with all its problems.
+pub fn study(text: &str) -> Result<Study, Outcome> {
+    Study::read("scene", text, &Registry::planar(), &Overrides::default()).map_err(|e| refused(&e))
+}
+
+/// A described mechanism.
+///
+/// # Errors
+/// All faults of the description.
+pub fn built(description: &Description) -> Result<Mechanism, Outcome> {
+    Mechanism::build(description).map_err(|errors| {
+        let texts: Vec<String> = errors.iter().map(ToString::to_string).collect();
+        Outcome::refused(texts.join("; "))
+    })
+}
+
+/// A described mechanism with its start, without a scene. One body is described as moving; how fast
+/// the others go is left to the constraints, whose masses may stop it: cases about starts are
+/// texts.
+///
+/// # Errors
+/// The faults of the description, or why it cannot move.
+pub fn prepared(description: &Description) -> Result<Prepared, Outcome> {
+    let start = StartOptions {
+        correction: CorrectionLimit::Any,
+        ..StartOptions::default()
+    };
+    prepare(built(description)?, &start, &RowChoice::Automatic).map_err(Outcome::refused)
+}
+
+/// The verdicts of a described mechanism at its described configuration.
+///
+/// # Errors
+/// The faults of the description, or why it cannot be judged.
+pub fn analysed(description: &Description) -> Result<Analysis, Outcome> {
+    let mechanism = built(description)?;
+    let (q, _) = mechanism.described_state();
+    analyse(&mechanism, 0.0, &q).map_err(Outcome::refused)
+}
+
+/// Accelerations at the start, as a run with these options has them.
+///
+/// # Errors
+/// Why there are none.
+pub fn acceleration(prepared: &Prepared, options: &MotionOptions) -> Result<Vec<f64>, Outcome> {
+    let mut found = Vec::new();
+    let run = simulate(prepared, options, |sample| {
+        found = sample.acceleration()?;
+        Ok(ControlFlow::Break(()))
+    });
+    match run {
+        Ok(_) => Ok(found),
+        Err(failure) => Err(Outcome::refused(&failure.error)),
+    }
+}
+
+/// The last row of a motion, with the numbers of the run.
+///
+/// # Errors
+/// Why it stopped.
+pub fn last_row(prepared: &Prepared, options: &MotionOptions) -> Result<(Row, Summary), Outcome> {
+    let mut last = Row::default();
+    let summary = simulate(prepared, options, |sample| {
+        last = Row {
+            t: sample.t,
+            q: sample.q.to_vec(),
+            v: sample.v.to_vec(),
+        };
+        Ok(ControlFlow::Continue(()))
+    });
+    match summary {
+        Ok(summary) => Ok((last, summary)),
+        Err(failure) => Err(Outcome::refused(&failure.error)),
+    }
+}
+
+/// A case of a scene that moves: `error` says how far the last row is from right.
+pub fn case(
+    name: impl Into<String>,
+    text: impl Into<String>,
+    options: MotionOptions,
+    expected: Expected,
+    error: impl Fn(&Row, &Summary) -> f64 + Send + Sync + 'static,
+) -> Case {
+    let text = text.into();
+    moving(name, options, expected, move |options| {
+        Ok(outcome(&text, options, &error))
+    })
+}
+
+/// What comes out of a scene that moves.
+pub fn outcome(
+    text: &str,
+    options: &MotionOptions,
+    error: impl Fn(&Row, &Summary) -> f64,
+) -> Outcome {
+    match study(text) {
+        Ok(study) => outcome_of(&study.prepared, options, error),
+        Err(refusal) => refusal,
+    }
+}
+
+/// The same for a prepared mechanism.
+pub fn outcome_of(
+    prepared: &dynamics::Prepared,
+    options: &MotionOptions,
+    error: impl Fn(&Row, &Summary) -> f64,
+) -> Outcome {
+    match last_row(prepared, options) {
+        Err(refusal) => refusal,
+        Ok((row, summary)) => {
+            let detail = format!("{} steps", summary.steps);
+            Outcome::answer(error(&row, &summary), detail)
+        }
+    }
+}
+
+/// A refusal with all its problems, not the first alone.
+#[must_use]
+pub fn refused(error: &StudyError) -> Outcome {
+    match error {
+        StudyError::Scene(problems) => {
+            let texts: Vec<String> = problems.iter().map(ToString::to_string).collect();
+            Outcome::refused(texts.join("; "))
+        }
+        other => Outcome::refused(other),
+    }
+}
+
+/// The larger one of both, NaN where one is.
+#[must_use]
+pub fn worst(errors: impl IntoIterator<Item = f64>) -> f64 {
+    let larger = |a: f64, b: f64| if a.is_nan() || a > b { a } else { b };
+    errors.into_iter().map(f64::abs).fold(0.0, larger)
+}

@@ -1,0 +1,108 @@
+//! Ways to move a mechanism that are none of the product's, in the rows of the same table.
+
+use std::time::Duration;
+
+use dynamics::Prepared;
+use report::{CurveName, WorkPrecisionRow};
+
+use super::observation::Observation;
+use super::plan::Plan;
+use super::standard::{Errors, Standard};
+use super::{GIVEN_UP, Subject};
+
+/// A way to move a mechanism that the product does not have.
+pub trait Rival {
+    /// What it is called in tables.
+    fn name(&self) -> CurveName;
+
+    /// One run from the start through all instants (s, ascending), with relative and absolute
+    /// tolerance alike. It gives up when it has computed as long as the budget.
+    ///
+    /// # Errors
+    /// Why it did not reach the last instant, in words: given up or stopped.
+    fn run(
+        &self,
+        start: &Prepared,
+        tolerance: f64,
+        instants: &[f64],
+        budget: Duration,
+    ) -> Result<RivalRun, RivalFault>;
+}
+
+/// Why a rival did not reach its last instant, in words.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RivalFault {
+    /// It computed as long as its budget.
+    GivenUp(String),
+    /// Anything else.
+    Stopped(String),
+}
+
+/// What a rival did.
+#[derive(Clone, Debug)]
+pub struct RivalRun {
+    /// Rows at the instants.
+    pub observations: Vec<Observation>,
+    /// Evaluations of accelerations.
+    pub evaluations: u64,
+    /// Projections of steps.
+    pub projections: u64,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Rejected steps.
+    pub rejected: u64,
+    /// Time of computing (s).
+    pub seconds: f64,
+}
+
+/// Runs of a rival at one tolerance: a row, or `None` if somebody asked to stop.
+pub(super) fn row(
+    subject: &Subject,
+    rival: &dyn Rival,
+    empty: WorkPrecisionRow,
+    plan: &Plan,
+    standard: Option<&Standard>,
+    interrupted: &impl Fn() -> bool,
+) -> Option<WorkPrecisionRow> {
+    let empty = WorkPrecisionRow {
+        reference_limit: standard.map_or(f64::NAN, Standard::motion_limit),
+        ..empty
+    };
+    let budget = Duration::try_from_secs_f64(plan.budget).unwrap_or(Duration::MAX);
+    let (instants, tolerance) = (subject.instants(), empty.tolerance);
+    let mut best: Option<RivalRun> = None;
+    let (mut repetitions, mut total) = (0, 0.0);
+    while repetitions < plan.repetitions.max(1) || total < plan.seconds {
+        if interrupted() {
+            return None;
+        }
+        let made = match rival.run(subject.prepared(), tolerance, instants, budget) {
+            Ok(made) => made,
+            Err(fault) => {
+                let status = match fault {
+                    RivalFault::GivenUp(words) => format!("{GIVEN_UP}: {words}"),
+                    RivalFault::Stopped(words) => format!("stopped: {words}"),
+                };
+                return Some(WorkPrecisionRow { status, ..empty });
+            }
+        };
+        (repetitions, total) = (repetitions + 1, total + made.seconds);
+        if best.as_ref().is_none_or(|b| made.seconds < b.seconds) {
+            best = Some(made);
+        }
+    }
+    let Some(best) = best else { return Some(empty) };
+    let errors = standard.and_then(|s| s.errors(&best.observations));
+    let errors = errors.unwrap_or(Errors::UNKNOWN);
+    Some(WorkPrecisionRow {
+        errors: errors.scaled,
+        error_state: errors.state,
+        evaluations: best.evaluations,
+        projections: best.projections,
+        steps: best.steps,
+        rejected: best.rejected,
+        seconds: best.seconds,
+        repetitions,
+        ..empty
+    })
+}
