@@ -1,7 +1,8 @@
 //! Input that a user can give by mistake: named errors or right answers, never a panic.
 
 use exact::Exact;
-use linalg::{Matrix, RankError};
+use linalg::Matrix;
+use rank::RankError;
 use solvability::{QueryError, Solvability, Verdict};
 use tests::numbers::Numbers;
 

@@ -1,8 +1,8 @@
 //! Deletions, structure and explanation of the robot and of small mechanisms, against facts that
 //! were worked out by hand.
 
-use linalg::{Limits, Settled};
 use model::{Description, Function, Mechanism, Scratch, StartOptions, System};
+use rank::{Limits, Settled};
 use solvability::{
     Allowed, Solvability, analyse_by_cycles, decide, explain, make_unique, structure,
 };
@@ -107,13 +107,9 @@ fn the_robot_straight_turned_and_at_right_angles() {
     ] {
         let robot = steered(displacement);
         let decision = robot.solvability.decision();
+        assert_eq!(rank::count_deletions(decision), Ok(pairs), "{displacement}");
         assert_eq!(
-            linalg::count_deletions(decision),
-            Ok(pairs),
-            "{displacement}"
-        );
-        assert_eq!(
-            linalg::deletions(decision, 99).expect("decided").len() as u128,
+            rank::deletions(decision, 99).expect("decided").len() as u128,
             pairs
         );
         assert_eq!(

@@ -3,8 +3,9 @@
 //! to. No answer in between may be wrong.
 
 use exact::Exact;
-use linalg::{Grounds, Matrix};
+use linalg::Matrix;
 use model::{Mechanism, System};
+use rank::Grounds;
 use solvability::{Analysis, Verdict, analyse};
 use tests::cranks;
 

@@ -4,8 +4,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use exact::{Dyadic, Exact};
-use linalg::Limits;
 use model::{ConstraintId, Mechanism, System};
+use rank::Limits;
 use solvability::{
     Allowed, Analysis, Choice, Distribution, Group, GroupVerdict, NormWeights, Questions, Solution,
     Value, Verdict, analyse, analyse_by_cycles,

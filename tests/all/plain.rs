@@ -1,7 +1,8 @@
 //! Verdicts of plain matrices as the suites ask for them: the entries are meant exactly as they
 //! stand, and the questions are about rows that exist.
 
-use linalg::{Matrix, RankDecision};
+use linalg::Matrix;
+use rank::RankDecision;
 use solvability::{Judgement, Solvability};
 
 /// [`Solvability::of_exact`] of a finite matrix.

@@ -222,7 +222,7 @@ fn admissible_pairs(p: &Prepared, t: f64, q: &[f64]) -> Vec<[usize; 2]> {
     let mut pairs = Vec::new();
     for a in 0..22 {
         for b in a + 1..22 {
-            if linalg::decide_dropping(&c, 0.0, &[a, b]).is_ok() {
+            if rank::decide_dropping(&c, 0.0, &[a, b]).is_ok() {
                 pairs.push([a + 1, b + 1]);
             }
         }
@@ -314,7 +314,7 @@ fn steered_edges_at_a_right_angle_split_the_circuits() {
         let analysis = analyse_known(&p.mechanism, 1.0, &q, Known::To(1e-12)).expect("C is finite");
         assert_eq!(non_unique_rows(&analysis), [3, 5, 18, 19, 20, 21]);
         assert_eq!(analysis.decision.rank, 20);
-        let components = linalg::components(&analysis.whole().expect("one part"));
+        let components = rank::components(&analysis.whole().expect("one part"));
         assert_eq!(components.coupled, [vec![2, 4, 17, 18], vec![19, 20]]);
         let (c, _) = solvability_at(&p, 1.0, &q);
         let (w3, w4) = (19, 20);

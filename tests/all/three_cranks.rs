@@ -66,7 +66,7 @@ fn every_number_of_the_case() {
         .whole()
         .expect("one part")
         .into_owned();
-    let z = linalg::dependencies(&decision);
+    let z = rank::dependencies(&decision);
     let z: Vec<f64> = (0..12).map(|i| z[(i, 0)]).collect();
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let share = dot(&z, &lambda) / dot(&z, &z);

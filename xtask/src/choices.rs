@@ -40,11 +40,8 @@ const CHOICES: [Choice; 9] = [
         "choice-integrators",
         "`integrators`: a differential equation",
     ),
-    small(
-        "choice-linalg",
-        "`linalg`: rank and dependent rows of a matrix",
-    ),
-    small("choice-linalg-faer", "the same with feature `faer`"),
+    small("choice-rank", "`rank`: rank and dependent rows of a matrix"),
+    small("choice-rank-faer", "the same with feature `faer`"),
     small(
         "choice-solvability",
         "`solvability`: unique multipliers of a matrix",

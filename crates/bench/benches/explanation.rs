@@ -4,8 +4,8 @@
 use std::hint::black_box;
 
 use divan::Bencher;
-use linalg::Limits;
 use model::{ConstraintId, Function, Mechanism, Scratch, System};
+use rank::Limits;
 use solvability::{Allowed, Solvability, certify, explain, make_unique};
 use tests::robot::robot;
 
@@ -68,11 +68,11 @@ fn making_w3_unique(bencher: Bencher<'_, '_>) {
 fn admissible_deletions(bencher: Bencher<'_, '_>) {
     let (_, _, _, solvability) = judged();
     let decision = solvability.decision();
-    assert_eq!(linalg::count_deletions(decision), Ok(9));
+    assert_eq!(rank::count_deletions(decision), Ok(9));
     bencher.bench_local(|| {
         (
-            linalg::count_deletions(decision),
-            linalg::deletions(decision, 100),
+            rank::count_deletions(decision),
+            rank::deletions(decision, 100),
         )
     });
 }

@@ -75,8 +75,8 @@ fn rank_decision(bencher: Bencher<'_, '_>) {
     p.mechanism.pose(0.0, &p.q, &mut s);
     p.mechanism.c(&mut s);
     let c = p.mechanism.layout().dense(&s);
-    assert_eq!(linalg::decide(&c, 0.0).expect("finite").rank, 20);
-    bencher.bench_local(|| linalg::decide(black_box(&c), 0.0));
+    assert_eq!(rank::decide(&c, 0.0).expect("finite").rank, 20);
+    bencher.bench_local(|| rank::decide(black_box(&c), 0.0));
 }
 
 /// The whole analysis: ranks, fourteen verdicts, directions, dependencies.

@@ -52,16 +52,16 @@ fn unique(s: &Solvability, groups: &[Range<usize>]) -> usize {
 #[divan::bench]
 fn certify_exact(bencher: Bencher<'_, '_>) {
     let (c, _) = matrix();
-    assert!(linalg::certify_exact(&c).is_ok_and(|d| d.rank >= 20));
-    bencher.bench_local(|| linalg::certify_exact(black_box(&c)));
+    assert!(rank::certify_exact(&c).is_ok_and(|d| d.rank >= 20));
+    bencher.bench_local(|| rank::certify_exact(black_box(&c)));
 }
 
 /// Rank, dependencies and bounds within what the data are known to.
 #[divan::bench]
 fn certify_within(bencher: Bencher<'_, '_>) {
     let c = DdMatrix::from(&matrix().0);
-    assert!(linalg::certify_within(&c, 1e-15).is_ok_and(|d| d.rank == 20 && d.is_decided()));
-    bencher.bench_local(|| linalg::certify_within(black_box(&c), 1e-15));
+    assert!(rank::certify_within(&c, 1e-15).is_ok_and(|d| d.rank == 20 && d.is_decided()));
+    bencher.bench_local(|| rank::certify_within(black_box(&c), 1e-15));
 }
 
 /// Verdicts of all rows and groups from nothing but the matrix.

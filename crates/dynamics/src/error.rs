@@ -3,8 +3,9 @@
 mod rows;
 
 use integrators::IntegrationError;
-use linalg::{Doubt, NearlyRedundant, SaddleError, SingularPivot};
+use linalg::{SaddleError, SingularPivot};
 use model::{RowLabel, StartError};
+use rank::{Doubt, NearlyRedundant};
 use solvability::{AnalysisError, Contradiction, StateError};
 
 pub use rows::DropError;
@@ -307,7 +308,7 @@ impl MotionError {
         Self::Inseparable {
             rows: rows.map(|(_, label)| label.to_string()).collect(),
             sigma: found.sigma,
-            required: linalg::NEARLY_SINGULAR,
+            required: rank::NEARLY_SINGULAR,
         }
     }
 }
@@ -322,7 +323,7 @@ fn undecided(doubt: &Doubt) -> String {
             tolerance,
             required,
         } => {
-            let advice = match required > linalg::NEARLY_SINGULAR {
+            let advice = match required > rank::NEARLY_SINGULAR {
                 true => {
                     "Places are known too badly for this: lengths differ too much, or lie too far from the origin"
                 }

@@ -3,9 +3,9 @@
 
 use std::sync::Arc;
 
-use linalg::RankStatus;
 use model::start::{StartVelocity, assemble, consistent_velocity};
 use model::{Assembly, Mechanism, StartError, StartOptions, System};
+use rank::RankStatus;
 use solvability::{
     ConstraintLevel, Contradiction, RowDecision, Rows, decide_rows_dropping, rows as rows_of,
 };

@@ -17,7 +17,7 @@
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
 
-use crate::equilibrate::scale;
+use crate::powers::scale;
 
 /// A double-double number.
 ///

@@ -5,7 +5,8 @@
 //! bits on every platform. For that reason there is no `mul_add` here.
 
 /// `xᵀ·y` over the shorter length, summed in four interleaved partial sums.
-pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
+#[must_use]
+pub fn dot(x: &[f64], y: &[f64]) -> f64 {
     let n = x.len().min(y.len());
     let (x4, x_rest) = x[..n].as_chunks::<4>();
     let (y4, y_rest) = y[..n].as_chunks::<4>();
@@ -23,14 +24,15 @@ pub(crate) fn dot(x: &[f64], y: &[f64]) -> f64 {
 }
 
 /// `y ← y + s·x` over the shorter length.
-pub(crate) fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
+pub fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
     for (a, b) in x.iter().zip(y) {
         *b += s * a;
     }
 }
 
 /// Euclidean norm, safe for entries whose squares leave the range of `f64`.
-pub(crate) fn norm(x: &[f64]) -> f64 {
+#[must_use]
+pub fn norm(x: &[f64]) -> f64 {
     // Squares of entries between these bounds neither overflow in sums nor lose digits.
     const SMALL: f64 = 1e-140;
     const LARGE: f64 = 1e140;
@@ -47,7 +49,8 @@ pub(crate) fn norm(x: &[f64]) -> f64 {
 }
 
 /// Largest absolute entry, 0 for an empty slice; NaN entries are skipped.
-pub(crate) fn max_abs(x: &[f64]) -> f64 {
+#[must_use]
+pub fn max_abs(x: &[f64]) -> f64 {
     let larger = |largest: f64, a: f64| if a.abs() > largest { a.abs() } else { largest };
     let (x4, rest) = x.as_chunks::<4>();
     let mut m = [0.0_f64; 4];
@@ -63,7 +66,8 @@ pub(crate) fn max_abs(x: &[f64]) -> f64 {
 
 /// Smallest and largest entry, without branches: `[∞, −∞]` for an empty slice; NaN entries are
 /// skipped.
-pub(crate) fn extremes(x: &[f64]) -> [f64; 2] {
+#[must_use]
+pub fn extremes(x: &[f64]) -> [f64; 2] {
     let smaller = |a: f64, b: f64| if b < a { b } else { a };
     let larger = |a: f64, b: f64| if b > a { b } else { a };
     let (x4, rest) = x.as_chunks::<4>();
@@ -86,7 +90,8 @@ pub(crate) fn extremes(x: &[f64]) -> [f64; 2] {
 }
 
 /// Whether all entries are finite, without branches: x·0 is NaN exactly for NaN and infinities.
-pub(crate) fn all_finite(x: &[f64]) -> bool {
+#[must_use]
+pub fn all_finite(x: &[f64]) -> bool {
     let (x4, rest) = x.as_chunks::<4>();
     let mut s = [0.0_f64; 4];
     for a in x4 {

@@ -4,7 +4,7 @@
 //! Only for assembling a start far from the constraint manifold, where nothing is known about rank.
 //! On the manifold use the kept rows and `KeptRowSaddle`, which keeps the order of the integrator.
 
-use crate::{Matrix, PivotedQr, equilibrate};
+use crate::{Matrix, PivotedQr, powers};
 
 /// Why a correction step could not be computed.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -106,12 +106,12 @@ pub fn least_squares_step(
         for l in 0..n {
             row[l] = j[(i, l)] * root[l];
         }
-        let e = equilibrate::unit_exponent(row);
+        let e = powers::unit_exponent(row);
         for x in &mut row[..n] {
-            *x = equilibrate::scale(*x, e);
+            *x = powers::scale(*x, e);
         }
         row[n + i] = mu.sqrt();
-        rhs[i] = -equilibrate::scale(residual[i], e);
+        rhs[i] = -powers::scale(residual[i], e);
     }
 
     // The minimum-norm solution of [S·J·√W, √μ·I]·x = −S·res is x = Q·R⁻ᵀ·Pᵀ·(−S·res).

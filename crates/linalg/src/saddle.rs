@@ -12,7 +12,7 @@
 //!
 //! This runs for every evaluation of a right-hand side: all storage is allocated in
 //! [`KeptRowSaddle::new`], `factor` and `solve` allocate nothing. Not for redundant rows: choose
-//! the kept ones with [`decide`](crate::decide) first; no rank is decided here.
+//! the kept ones with `decide` first (crate `rank`); no rank is decided here.
 //!
 //! Masses that differ by many powers of ten are graded: then, of the entries that are not much
 //! smaller than the largest, the pivot is that of the lightest coordinate. So the heavy coordinates

@@ -10,7 +10,7 @@
 //! Drmač, K. Veselić, New fast and accurate Jacobi SVD algorithm I, SIAM J. Matrix Anal. Appl. 29
 //! (2008) 1322–1342.
 
-use crate::{Matrix, PivotedQr, equilibrate, kernels, qr};
+use crate::{Matrix, PivotedQr, kernels, powers, qr};
 
 mod diagonal;
 
@@ -44,13 +44,13 @@ pub fn singular_values(a: &Matrix) -> Vec<f64> {
 
 /// [`singular_values`] by our own kernels at every size.
 pub(crate) fn own(a: &Matrix) -> Vec<f64> {
-    let e = equilibrate::unit_exponent(a.as_slice());
+    let e = powers::unit_exponent(a.as_slice());
     let mut scaled = match a.nrows() < a.ncols() {
         true => a.transpose(),
         false => a.clone(),
     };
     for x in scaled.as_mut_slice() {
-        *x = equilibrate::scale(*x, e);
+        *x = powers::scale(*x, e);
     }
     let (mut d, mut f) = bidiagonal(scaled);
     let mut sigma = match diagonal::iterate(&mut d, &mut f) {
@@ -59,7 +59,7 @@ pub(crate) fn own(a: &Matrix) -> Vec<f64> {
         false => by_jacobi(upper(&d, &f)),
     };
     for x in &mut sigma {
-        *x = equilibrate::scale(x.abs(), -e);
+        *x = powers::scale(x.abs(), -e);
     }
     sigma.sort_by(|x, y| y.total_cmp(x));
     sigma

@@ -9,9 +9,10 @@
 #[cfg(test)]
 mod tests;
 
-use linalg::{Matrix, PivotedQr, RankDecision, deletions, dependencies};
+use linalg::{Matrix, PivotedQr};
 use model::start::scene_size;
 use model::{Mechanism, Part, Scratch, System};
+use rank::{RankDecision, deletions, dependencies};
 use report::{ComparedChoice, Comparison, Frame, Freedom, Recording};
 use solvability::parts::parts;
 use solvability::{Configuration, NormWeights, ReactionVerdict, Verdict, decide};

@@ -6,8 +6,9 @@ mod requests;
 
 use std::sync::Arc;
 
-use linalg::{Limits, Matrix};
+use linalg::Matrix;
 use model::{ConstraintId, Known, Mechanism, System};
+use rank::Limits;
 use scene::Scene;
 use solvability::{
     Allowed, Analysis, Choice, ChoiceError, Continuation, Contradiction, Distribution,
@@ -21,7 +22,7 @@ use crate::error::StudyError;
 /// A configuration whose rank has been decided, with its verdicts.
 ///
 /// ```
-/// use pfaff::linalg::Limits;
+/// use pfaff::rank::Limits;
 /// use pfaff::prelude::*;
 /// use pfaff::solvability::Allowed;
 ///
@@ -359,7 +360,7 @@ impl<'a> ConfigurationAnalysis<'a> {
     /// One solution of the equations of motion.
     fn solution(&self) -> Result<Solution, StudyError> {
         let decision = &self.analysis.decision;
-        if let linalg::RankStatus::Undecided(doubt) = decision.status {
+        if let rank::RankStatus::Undecided(doubt) = decision.status {
             return Err(ChoiceError::Undecided(doubt).into());
         }
         let state = (self.analysis.time, &self.state.q[..], &self.state.v[..]);

@@ -1,8 +1,8 @@
 //! Why there are no results, or only a part of them.
 
 use dynamics::MotionError;
-use linalg::DeletionError;
 use model::BuildError;
+use rank::DeletionError;
 use report::{FileError, TableError};
 use scene::{CombinationError, Diagnostic};
 use solvability::{

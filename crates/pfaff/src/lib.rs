@@ -37,6 +37,7 @@ pub use integrators;
 pub use joints;
 pub use linalg;
 pub use model;
+pub use rank;
 pub use report;
 pub use scene;
 pub use solvability;

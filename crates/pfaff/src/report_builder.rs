@@ -3,8 +3,8 @@
 
 use dynamics::plan::Rows;
 use dynamics::{MotionFault, Plan, Sample};
-use linalg::Limits;
 use model::{Mechanism, Reaction, System};
+use rank::Limits;
 use report::documents::MakeUniqueDocument;
 use report::{
     AnalysisDocument, DriveCurve, Frame, Origin, Recording, RunDocument, RunPage, numbers_per_row,

@@ -1,15 +1,15 @@
 //! Why there is no code for a mechanism.
 
 use dynamics::{MotionError, MotionFault};
-use pfaff::StudyError;
+use scene::Diagnostic;
 
 /// What kept a module from being generated.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CodeError {
-    /// The scene has no study.
-    #[error(transparent)]
-    Study(#[from] StudyError),
+    /// The scene is wrong, with the places of its text.
+    #[error("{}", lines(.0))]
+    Scene(Vec<Diagnostic>),
     /// The motion cannot be sampled.
     #[error("the motion that the code is made for stops: {0}")]
     Motion(#[from] Box<dynamics::Failure>),
@@ -88,4 +88,10 @@ pub enum CodeError {
     /// What was generated is no Rust: an error of this crate.
     #[error("the generated text is no Rust: {0}")]
     Text(String),
+}
+
+/// One line for each place.
+fn lines(places: &[Diagnostic]) -> String {
+    let lines: Vec<String> = places.iter().map(Diagnostic::to_string).collect();
+    lines.join("\n")
 }

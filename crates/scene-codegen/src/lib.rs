@@ -21,40 +21,63 @@ pub use tape::Tape;
 
 use std::path::Path;
 
-use pfaff::{AssembledScene, Overrides};
+use dynamics::{MotionError, RowChoice, prepare};
+use model::{Mechanism, Registry};
 
 /// The module of a scene file: made for the run that the scene asks for, or for its start if it
 /// asks for none. Rows `drop`, from 0, are dropped instead of those that the scene drops.
 ///
 /// # Errors
 /// If the file cannot be read, the scene is wrong or its run stops, or there is no code for it.
-pub fn scene(path: &Path, drop: Option<&[usize]>, choices: &Choices) -> Result<Module, CodeError> {
+pub fn scene(
+    path: &Path,
+    registry: &Registry,
+    drop: Option<&[usize]>,
+    choices: &Choices,
+) -> Result<Module, CodeError> {
+    let name = path.display().to_string();
     let text = std::fs::read_to_string(path).map_err(|source| CodeError::File {
-        path: path.display().to_string(),
+        path: name.clone(),
         source,
     })?;
-    scene_text(&path.display().to_string(), &text, drop, choices)
+    scene_text(&name, &text, registry, drop, choices)
 }
 
-/// The same from the text of a scene; `name` is the file's name in messages.
+/// The same from the text of a scene; `name` is the file's name in messages, `registry` knows the
+/// joints and forces that it may use.
 ///
 /// # Errors
 /// As [`scene`].
 pub fn scene_text(
     name: &str,
     text: &str,
+    registry: &Registry,
     drop: Option<&[usize]>,
     choices: &Choices,
 ) -> Result<Module, CodeError> {
-    let overrides = Overrides {
-        drop: drop.map(<[usize]>::to_vec),
-        ..Overrides::default()
+    let scene = ::scene::read(name, text, registry).map_err(CodeError::Scene)?;
+    let located = |e: MotionError| match scene.locate_motion(&e) {
+        Some(place) => CodeError::Scene(vec![place]),
+        None => e.into(),
     };
-    let study =
-        AssembledScene::read(name, text, &pfaff::model::Registry::planar())?.prepare(&overrides)?;
-    let subject = match &study.options {
-        Some(options) => Subject::of_run(&study.prepared, options)?,
-        None => Subject::at_start(&study.prepared),
+    let mechanism = Mechanism::build(&scene.description).map_err(|faults| {
+        let places = faults.iter().filter_map(|e| scene.locate_build(e));
+        CodeError::Scene(places.collect())
+    })?;
+    let mut options = scene.simulate.clone();
+    let rows = match (drop, &options) {
+        (Some(drop), _) => RowChoice::Drop(drop.to_vec()),
+        (None, Some(options)) => options.rows.clone(),
+        (None, None) => RowChoice::Automatic,
+    };
+    if let Some(options) = &mut options {
+        options.rows.clone_from(&rows);
+        options.check().map_err(located)?;
+    }
+    let prepared = prepare(mechanism, &scene.start, &rows).map_err(located)?;
+    let subject = match &options {
+        Some(options) => Subject::of_run(&prepared, options)?,
+        None => Subject::at_start(&prepared),
     };
     generate(&subject, choices)
 }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::Parser;
+use model::Registry;
 use scene_codegen::{Choices, CodeError, scene};
 
 /// Writes one scene as one Rust module: its numbers folded in, its kept rows eliminated in an order
@@ -60,7 +61,12 @@ fn run(arguments: &Arguments) -> Result<String, CodeError> {
             .as_ref()
             .map(|rows| rows.iter().map(|row| row - 1).collect::<Vec<_>>()),
     };
-    let module = scene(&arguments.scene, drop.as_deref(), &choices)?;
+    let module = scene(
+        &arguments.scene,
+        &Registry::planar(),
+        drop.as_deref(),
+        &choices,
+    )?;
     let file = |path: &Path, source| CodeError::File {
         path: path.display().to_string(),
         source,

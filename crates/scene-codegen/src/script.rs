@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use model::Registry;
+
 use crate::error::CodeError;
 use crate::module::Choices;
 
@@ -11,15 +13,22 @@ use crate::module::Choices;
 /// ```no_run
 /// // build.rs
 /// let choices = scene_codegen::Choices { dynamics: Some("pfaff::dynamics".into()), libm: false };
-/// println!("{}", scene_codegen::to_out_dir("scenes/robot.toml".as_ref(), "robot", &choices).unwrap());
+/// let joints = model::Registry::planar();
+/// let said = scene_codegen::to_out_dir("scenes/robot.toml".as_ref(), "robot", &joints, &choices);
+/// println!("{}", said.unwrap());
 /// // src/main.rs: include!(concat!(env!("OUT_DIR"), "/robot.rs")); with `pub mod robot { … }` in it
 /// ```
 ///
 /// # Errors
 /// As [`crate::scene`]; also if the file cannot be written.
-pub fn to_out_dir(scene: &Path, name: &str, choices: &Choices) -> Result<String, CodeError> {
+pub fn to_out_dir(
+    scene: &Path,
+    name: &str,
+    registry: &Registry,
+    choices: &Choices,
+) -> Result<String, CodeError> {
     let folder = std::env::var_os("OUT_DIR").map_or_else(PathBuf::new, PathBuf::from);
-    let module = crate::scene(scene, None, choices)?.named(name);
+    let module = crate::scene(scene, registry, None, choices)?.named(name);
     let path = folder.join(format!("{name}.rs"));
     std::fs::write(&path, module.as_item()).map_err(|source| CodeError::File {
         path: path.display().to_string(),

@@ -179,7 +179,8 @@ fn checked_in_modules_agree_with_their_scene() {
     for (name, drop) in modules {
         let rows = drop.map(|rows: [usize; 2]| rows.map(|row| row - 1));
         let rows = rows.as_ref().map(<[usize; 2]>::as_slice);
-        let module = scene_codegen::scene_text(scene, &text, rows, &choices).expect("code");
+        let module = scene_codegen::scene_text(scene, &text, &Registry::planar(), rows, &choices)
+            .expect("code");
         let out = format!("crates/robot-trolley/src/generated/{name}.rs");
         let drop = drop.map_or(String::new(), |[a, b]| format!(" --drop {a},{b}"));
         let command = format!(

@@ -21,8 +21,8 @@ mod words;
 
 use std::sync::Mutex;
 
-use linalg::Doubt;
 use model::{Mechanism, RowLabel, StartError, System};
+use rank::Doubt;
 
 use crate::analysis::Analysis;
 use crate::mechanism::{AnalysisError, ReactionVerdict};

@@ -4,9 +4,10 @@
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use linalg::{Evidence, KeptRowsError, Matrix, NearlyRedundant, RankDecision, Scaling};
+use linalg::{Matrix, Scaling};
 use model::start::scene_size;
 use model::{ConstraintId, Known, Mechanism, System, Tolerance};
+use rank::{Evidence, KeptRowsError, NearlyRedundant, RankDecision};
 use rayon::prelude::*;
 
 use crate::certificate::{ROWS_MAX, Rows};

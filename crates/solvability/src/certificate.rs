@@ -7,12 +7,13 @@
 
 use std::borrow::Cow;
 
-use linalg::{
-    DdMatrix, Grounds, Matrix, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision,
-    RankError, RankReading, certify_rank,
-};
+use linalg::{DdMatrix, Matrix};
 use model::start::scene_size;
 use model::{Known, Mechanism, Scratch, System};
+use rank::{
+    Grounds, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankError,
+    RankReading, certify_rank,
+};
 
 use crate::meant::{MeantMatrix, Nearness, Question, Reading};
 use crate::mechanism::{AnalysisError, dimensionless, evaluated, promising_holonomic};
@@ -132,7 +133,7 @@ impl<'a> Rows<'a> {
             source,
         };
         if self.meant.c.first_non_finite().is_some() {
-            return linalg::decide(&self.meant.c, 0.0).map_err(failed);
+            return rank::decide(&self.meant.c, 0.0).map_err(failed);
         }
         let question = Question {
             mechanism: self.mechanism,
@@ -206,7 +207,7 @@ impl<'a> Rows<'a> {
         let c = DdMatrix::from(&self.meant.c);
         match certify_rank(&c, &self.meant.uncertainty, reading)? {
             Some(decision) => Ok(decision),
-            None => linalg::decide(&self.meant.c, &self.meant.uncertainty),
+            None => rank::decide(&self.meant.c, &self.meant.uncertainty),
         }
     }
 
@@ -272,7 +273,7 @@ fn weakest_as_felt(
             kept.row_mut(i).iter_mut().for_each(|c| *c /= largest);
         }
     }
-    let weakest = linalg::weakest_combination(&kept)?;
+    let weakest = rank::weakest_combination(&kept)?;
     let mut direction = vec![0.0; decision.rank + decision.redundancy];
     for (&row, weight) in decision.kept.iter().zip(weakest.weights) {
         direction[row] = weight;

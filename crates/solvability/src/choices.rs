@@ -7,9 +7,9 @@ mod error;
 mod minimise;
 mod value;
 
-use linalg::{KeptRowsError, RankStatus};
 use model::reaction::COMPONENTS;
 use model::{ConstraintId, System};
+use rank::{KeptRowsError, RankStatus};
 
 pub(crate) use equations::solution_under;
 pub use equations::{Equations, Solution, solution};
@@ -318,7 +318,7 @@ impl Configuration<'_> {
     /// Checks that whatever is free to change can be seen in the wrenches.
     fn check_visible(&self, terms: &[(LinearForm, f64)]) -> Result<(), ChoiceError> {
         let p = self.solvability.null_space().ncols();
-        let tolerance = linalg::support_tolerance(self.solvability.decision());
+        let tolerance = rank::support_tolerance(self.solvability.decision());
         let images: Vec<Vec<f64>> = terms
             .iter()
             .map(|(form, _)| form.image(&self.solvability).0)
@@ -348,9 +348,9 @@ impl Configuration<'_> {
     /// = I: exactly zero on D.
     fn without(&self, lambda_0: &[f64], rows: &[usize]) -> Result<Vec<f64>, ChoiceError> {
         let c = dimensionless(&self.mechanism, &self.s, self.size);
-        let decision = linalg::decide_dropping(&c, &self.uncertainty, rows)
+        let decision = rank::decide_dropping(&c, &self.uncertainty, rows)
             .map_err(|source| self.refused(rows, source))?;
-        let z = linalg::dependencies(&decision);
+        let z = rank::dependencies(&decision);
         let mut lambda = lambda_0.to_vec();
         for (j, &row) in decision.dropped.iter().enumerate() {
             for (i, l) in lambda.iter_mut().enumerate() {

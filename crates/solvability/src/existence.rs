@@ -11,9 +11,9 @@ mod drives;
 
 use std::collections::BTreeSet;
 
-use linalg::{Circuit, RankDecision};
 use model::start::scene_size;
 use model::{ConstraintId, DataBlock, Mechanism, RowLabel, SHARED, Scratch, System};
+use rank::{Circuit, RankDecision};
 
 use crate::mechanism::velocity_units;
 use crate::state::{self, StateError};
@@ -209,7 +209,7 @@ pub struct Ranks<'a> {
 /// `C_K·v = b_K` to rounding.
 ///
 /// The sum over a circuit is compared with the size of the terms that cancel in it, times the noise
-/// of the coefficients, [`linalg::support_tolerance`]: near a singular configuration kept rows
+/// of the coefficients, [`rank::support_tolerance`]: near a singular configuration kept rows
 /// express the dropped ones with coefficients that are wrong by 1/σ_r roundings, and an agreement
 /// cannot be better than that. Rows that mix with those of the circuit count, others do not, so
 /// that nothing elsewhere hides a contradiction; velocities count as known to the same share of the
@@ -235,7 +235,7 @@ pub fn contradictions(
     let size = scene_size(mechanism, q);
     let prescribed = |i: usize| mechanism.prescribed_scale(&s, i);
     // Velocities are known to rounding of the fastest, also those of slow bodies.
-    let noise = linalg::support_tolerance(ranks.all).max(f64::EPSILON);
+    let noise = rank::support_tolerance(ranks.all).max(f64::EPSILON);
     let units = velocity_units(mechanism, size);
     let fastest = v.iter().zip(&units).map(|(v, unit)| (v / unit).abs());
     let blur = noise * fastest.fold(0.0, f64::max);
@@ -298,7 +298,7 @@ impl Comparison<'_> {
     fn contradictions(&self, mechanism: &Mechanism, time: f64) -> Vec<Contradiction> {
         match self.decision.redundancy {
             0 => Vec::new(),
-            _ => self.among(linalg::short_circuits(self.decision), mechanism, time),
+            _ => self.among(rank::short_circuits(self.decision), mechanism, time),
         }
     }
 
@@ -309,8 +309,8 @@ impl Comparison<'_> {
         mechanism: &Mechanism,
         time: f64,
     ) -> Vec<Contradiction> {
-        let rows = linalg::components(self.decision);
-        let noise = linalg::support_tolerance(self.decision);
+        let rows = rank::components(self.decision);
+        let noise = rank::support_tolerance(self.decision);
         let term = |&i: &usize| self.decision.scaling.row_factor(i) * (self.scale)(i);
         // Rows in no dependency: what is left of their coefficients is rounding.
         let left = self.decision.equilibrated_dependence();

@@ -4,10 +4,10 @@
 //!
 //! Nothing is claimed of a sum or a component that has not been tested against all dependencies.
 
-use linalg::{Circuit, Settled};
 use model::reaction::COMPONENTS;
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
+use rank::{Circuit, Settled};
 
 use crate::matrices::{QueryError, Solvability};
 use crate::mechanism::TRANSLATIONS;
@@ -96,10 +96,10 @@ pub struct ReactionExplanation {
 pub enum ExplanationError {
     /// The constraint matrix cannot be judged.
     #[error(transparent)]
-    Rank(#[from] linalg::RankError),
+    Rank(#[from] rank::RankError),
     /// The rank is undecided, and every sentence would build on one of two readings.
     #[error("nothing can be explained while the rank is undecided: {0}")]
-    Undecided(linalg::Doubt),
+    Undecided(rank::Doubt),
     /// The solvability is of another constraint matrix.
     #[error(transparent)]
     Query(#[from] QueryError),
@@ -155,20 +155,20 @@ pub fn explain(
     q: &[f64],
     solvability: &Solvability,
 ) -> Result<Explanation, ExplanationError> {
-    if let linalg::RankStatus::Undecided(doubt) = solvability.decision().status {
+    if let rank::RankStatus::Undecided(doubt) = solvability.decision().status {
         return Err(ExplanationError::Undecided(doubt));
     }
     let structure = crate::structure::structure(mechanism, s, q)?;
     let mut mixing = mixing(mechanism, solvability);
     // What the tolerance leaves open is not told as if it were known.
-    let open = linalg::open_rows(solvability.decision());
+    let open = rank::open_rows(solvability.decision());
     let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
     mixing.retain(|m| is_known(&m.rows));
     let ids = mechanism.constraint_ids();
     let reactions = ids
         .filter_map(|id| reaction(mechanism, s, solvability, (&mixing, &open), id).transpose())
         .collect::<Result<_, _>>()?;
-    let stresses = linalg::short_circuits(solvability.decision())
+    let stresses = rank::short_circuits(solvability.decision())
         .into_iter()
         .filter(|circuit| is_known(&circuit.rows))
         .map(|circuit| stress(mechanism, s, q, solvability, circuit))
@@ -195,7 +195,7 @@ pub fn explain(
 fn mixing(mechanism: &Mechanism, solvability: &Solvability) -> Vec<Mixing> {
     let layout = mechanism.layout();
     let decision = solvability.decision();
-    let coupled = linalg::components(decision).coupled;
+    let coupled = rank::components(decision).coupled;
     let of = |rows: Vec<usize>| {
         let touched = |id: &ConstraintId| {
             rows.iter()

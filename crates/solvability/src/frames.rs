@@ -2,8 +2,8 @@
 //! and across an edge. What is mixed in one frame may be separate in another: of a crank's bearing
 //! force the part across the crank is unique, whatever the global components say.
 
-use linalg::RankDecision;
 use model::{ConstraintId, Frame, Mechanism};
+use rank::RankDecision;
 
 use crate::groups::{Configuration, LinearForm, RequestError};
 use crate::verdict::Judgement;

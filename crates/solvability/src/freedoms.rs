@@ -116,7 +116,7 @@ impl WithoutDrives {
             (_, Some(rank)) => rank,
             _ => {
                 let decision = rows.select(&others).decide()?;
-                if let linalg::RankStatus::Undecided(doubt) = &decision.status {
+                if let rank::RankStatus::Undecided(doubt) = &decision.status {
                     warnings.push(format!("the rank without drives is undecided: {doubt}"));
                 }
                 decision.rank

@@ -6,9 +6,10 @@
 //! left free: what they prescribe changes with time. Where other constraints depend on time, time
 //! moves too.
 
-use linalg::{Matrix, PivotedQr, RankDecision};
+use linalg::{Matrix, PivotedQr};
 use model::start::{nearest_configuration, scene_size};
 use model::{Mechanism, System};
+use rank::RankDecision;
 
 use crate::certificate::Rows;
 use crate::mechanism::velocity_units;
@@ -211,7 +212,7 @@ fn free_directions(
         row.zip(units).for_each(|(entry, unit)| *entry *= unit);
     }
     let n = phi_q.ncols();
-    let decision = linalg::decide(&phi_q, 0.0).ok()?;
+    let decision = rank::decide(&phi_q, 0.0).ok()?;
     let kept = phi_q.select_rows(&decision.kept);
     Some(
         PivotedQr::of_rows(kept)

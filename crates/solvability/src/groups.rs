@@ -6,9 +6,9 @@ mod configuration;
 mod error;
 mod form;
 
-use linalg::RankDecision;
 use model::reaction::COMPONENTS;
 use model::{ConstraintId, Mechanism, System};
+use rank::RankDecision;
 
 pub use configuration::Configuration;
 pub use error::RequestError;

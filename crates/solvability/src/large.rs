@@ -7,12 +7,10 @@
 
 use std::ops::Range;
 
-use linalg::{
-    Evidence, Matrix, RankStatus, Sketch, SparseMatrix, SparseRank, SparseRankError, decide_sparse,
-    equilibrate_sparse,
-};
+use linalg::{Matrix, SparseMatrix, equilibrate_sparse};
 use model::start::scene_size;
 use model::{ConstraintId, Known, Mechanism, Scratch, System};
+use rank::{Evidence, RankStatus, Sketch, SparseRank, SparseRankError, decide_sparse};
 
 use crate::analysis::{Judged, analyse};
 use crate::certificate::ROWS_MAX;

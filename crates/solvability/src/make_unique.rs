@@ -7,8 +7,9 @@
 
 use std::ops::Range;
 
-use linalg::{DeletionError, Limits, Matrix};
+use linalg::Matrix;
 use model::{ConstraintId, ConstraintKind, Layout, Mechanism, System};
+use rank::{DeletionError, Limits};
 
 use crate::matrices::Solvability;
 
@@ -75,7 +76,7 @@ pub fn make_unique(
     };
     let target = solvability.wrench_combinations(layout.groups[id.0].rows.clone());
     let decision = solvability.decision();
-    let found = linalg::making_unique(decision, &target, &candidates, admits, limits)?;
+    let found = rank::making_unique(decision, &target, &candidates, admits, limits)?;
     let proposal = |set: &Vec<usize>| {
         let mut rows: Vec<usize> = set.iter().flat_map(|&k| candidates[k].clone()).collect();
         rows.sort_unstable();

@@ -10,7 +10,8 @@
 //! Here Z is an orthonormal basis of the left null space of the equilibrated C; it spans the same
 //! space, up to the scaling of rows.
 
-use linalg::{ExactNullSpace, Matrix, RankDecision, RankError, Uncertainty};
+use linalg::Matrix;
+use rank::{ExactNullSpace, RankDecision, RankError, Uncertainty};
 
 use crate::verdict::Judgement;
 
@@ -82,7 +83,7 @@ pub enum QueryError {
     },
     /// The rank of the matrix is undecided.
     #[error("rank undecided: {0}")]
-    Rank(linalg::Doubt),
+    Rank(rank::Doubt),
     /// The number of unique directions is.
     #[error(
         "unique directions: a margin of {margin:.3e} lies between {tolerance:.3e} (rounding) and {required:.3e} (certainly not zero)"
@@ -104,7 +105,7 @@ impl Solvability {
     /// # Errors
     /// If an entry or the uncertainty is not finite.
     pub fn of<'a>(c: &Matrix, uncertainty: impl Into<Uncertainty<'a>>) -> Result<Self, RankError> {
-        Ok(Self::from_decision(c, linalg::decide(c, uncertainty)?))
+        Ok(Self::from_decision(c, rank::decide(c, uncertainty)?))
     }
 
     /// The same for a matrix whose entries are meant exactly as they stand: every verdict is exact,
@@ -116,7 +117,7 @@ impl Solvability {
     /// # Errors
     /// If an entry is not finite.
     pub fn of_exact(c: &Matrix) -> Result<Self, RankError> {
-        Ok(Self::from_decision(c, linalg::certify_exact(c)?))
+        Ok(Self::from_decision(c, rank::certify_exact(c)?))
     }
 
     /// The same for a rank that has been decided already for this matrix, or for the double-double
@@ -133,7 +134,7 @@ impl Solvability {
         let rows = 0..c.nrows();
         let basis = Basis {
             c: decision.scaling.apply(c),
-            z: linalg::orthonormal(&decision),
+            z: rank::orthonormal(&decision),
             known: Known {
                 status: decision.status,
                 row_factor: rows

@@ -3,10 +3,11 @@
 
 use std::ops::Range;
 
-use linalg::{KeptRowsError, Matrix, RankDecision, RankError};
+use linalg::Matrix;
 use model::reaction::COMPONENTS;
 use model::start::scene_size;
 use model::{ConstraintId, Known, Mechanism, Scratch, System};
+use rank::{KeptRowsError, RankDecision, RankError};
 
 use crate::analysis::Judged;
 use crate::certificate::{ROWS_MAX, Rows};
@@ -107,7 +108,7 @@ pub enum AnalysisError {
         /// Their rows.
         rows: usize,
         /// Why.
-        source: linalg::SparseRankError,
+        source: rank::SparseRankError,
     },
     /// Rows to drop can be chosen in a part of fewer rows only.
     #[error(
@@ -171,7 +172,7 @@ pub fn decide(
     q: &[f64],
 ) -> Result<RankDecision, AnalysisError> {
     let size = scene_size(mechanism, q);
-    linalg::decide(
+    rank::decide(
         &dimensionless(mechanism, s, size),
         &uncertainty(mechanism, s, size),
     )
@@ -188,7 +189,7 @@ pub fn decide_holonomic(
     q: &[f64],
 ) -> Result<RankDecision, AnalysisError> {
     let (phi_q, known) = holonomic(mechanism, s, q);
-    linalg::decide(&phi_q, &known).map_err(|source| AnalysisError::Rank { time: s.t, source })
+    rank::decide(&phi_q, &known).map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
 /// Holonomic rows on which a configuration may be polished.
@@ -198,8 +199,7 @@ pub(crate) fn promising_holonomic(
     q: &[f64],
 ) -> Result<Vec<usize>, AnalysisError> {
     let (phi_q, known) = holonomic(mechanism, s, q);
-    linalg::promising_rows(&phi_q, &known)
-        .map_err(|source| AnalysisError::Rank { time: s.t, source })
+    rank::promising_rows(&phi_q, &known).map_err(|source| AnalysisError::Rank { time: s.t, source })
 }
 
 /// Φq without dimensions, and what its entries are known to.
@@ -225,7 +225,7 @@ pub fn decide_dropping(
     let size = scene_size(mechanism, q);
     let c = dimensionless(mechanism, s, size);
     let known = uncertainty(mechanism, s, size);
-    linalg::decide_dropping(&c, &known, dropped)
+    rank::decide_dropping(&c, &known, dropped)
 }
 
 /// Φ and C at a configuration.
@@ -247,12 +247,12 @@ pub(crate) fn judge(
 ) -> Result<Judged, AnalysisError> {
     let mut found = judge_reactions(mechanism, s, rows, decision, Told::Directions)?;
     if let Some(decision) = found.part.decision.dense() {
-        let open = linalg::open_rows(decision);
+        let open = rank::open_rows(decision);
         if !open.is_empty() {
             found.warnings.push(words::open(mechanism, &open));
         }
         let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
-        let circuits = linalg::short_circuits(decision).into_iter();
+        let circuits = rank::short_circuits(decision).into_iter();
         let dependencies = circuits
             .filter(|circuit| is_known(&circuit.rows))
             .map(|circuit| Dependency {
@@ -300,7 +300,7 @@ pub(crate) fn judge_reactions(
             return Ok(rank);
         }
         let decision = rows.select(&part.collect::<Vec<_>>()).decide()?;
-        if let linalg::RankStatus::Undecided(doubt) = &decision.status {
+        if let rank::RankStatus::Undecided(doubt) = &decision.status {
             warnings.push(format!("the rank of {what} alone is undecided: {doubt}"));
         }
         Ok::<_, AnalysisError>(decision.rank)
@@ -317,7 +317,7 @@ pub(crate) fn judge_reactions(
         .collect::<Result<_, _>>()
         .map_err(|source| AnalysisError::Query { time: t, source })?;
     let decision = solvability.decision().clone();
-    if let linalg::RankStatus::Undecided(doubt) = &decision.status {
+    if let rank::RankStatus::Undecided(doubt) = &decision.status {
         warnings.push(format!(
             "the rank is undecided, and with it every verdict: {doubt}"
         ));

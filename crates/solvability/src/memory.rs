@@ -1,7 +1,7 @@
 //! How much memory ranks and verdicts take, before it is taken.
 
-use linalg::SparsePattern;
 use model::{Mechanism, System};
+use rank::SparsePattern;
 
 use crate::certificate::ROWS_MAX;
 use crate::large::{SPARSE_FROM, blocks, rows_of, sketch_of};

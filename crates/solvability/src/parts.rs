@@ -1,7 +1,7 @@
 //! Parts of a mechanism that are judged alone.
 //!
 //! Self-stresses live on cycles of the graph of bodies, ground and joints: every `z` with
-//! `Cᵀ·z = 0` is a sum of such vectors on single sets of [`linalg::cycles`]. So each set is a
+//! `Cᵀ·z = 0` is a sum of such vectors on single sets of [`rank::cycles`]. So each set is a
 //! mechanism of its own with all the evidence that it has; the redundancy of the whole is the sum
 //! of theirs, and no verdict depends on any other set. The work is linear in their number.
 //!
@@ -10,8 +10,8 @@
 
 use std::borrow::Cow;
 
-use linalg::{Certificate, Evidence, NearlyRedundant, RankDecision, RankStatus, cycles};
 use model::{BodyRef, Mechanism, Part, Places, Scratch, System};
+use rank::{Certificate, Evidence, NearlyRedundant, RankDecision, RankStatus, cycles};
 use rayon::prelude::*;
 
 use crate::freedoms::WithoutDrives;

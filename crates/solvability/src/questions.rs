@@ -378,7 +378,7 @@ impl<'a> Questions<'a> {
     fn check_counts(&self, rows: &ListedRows<'_>) -> Result<(), ChoiceError> {
         for part in self.parts() {
             let (own, listed) = (part.decision.redundancy(), part.extent.own_rows(rows).len());
-            let is_decided = part.decision.status() == linalg::RankStatus::Decided;
+            let is_decided = part.decision.status() == rank::RankStatus::Decided;
             if is_decided && own != listed {
                 return Err(ChoiceError::Count {
                     redundancy: self.analysis.decision.redundancy,

@@ -2,12 +2,12 @@
 //! others agree with them. At the start they are those of the certificate; on the way other rows
 //! are chosen in `f64`, at the same rank.
 
-use linalg::{
+use model::start::scene_size;
+use model::{Known, Mechanism, Scratch, System};
+use rank::{
     Doubt, Evidence, KeptRowsError, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankStatus,
     SparseRank,
 };
-use model::start::scene_size;
-use model::{Known, Mechanism, Scratch, System};
 
 use crate::certificate::{self, ROWS_MAX, inseparable};
 use crate::existence::{Contradiction, Ranks, contradictions};
@@ -106,7 +106,7 @@ impl From<&RankDecision> for RowDecision {
             kept: decision.kept.clone(),
             dropped: decision.dropped.clone(),
             status: decision.status,
-            support_tolerance: linalg::support_tolerance(decision),
+            support_tolerance: rank::support_tolerance(decision),
         }
     }
 }
@@ -181,7 +181,7 @@ impl DecidedPart {
     }
 }
 
-/// The factor between noise and tolerance of numbers in `f64`: that of [`linalg::decide`].
+/// The factor between noise and tolerance of numbers in `f64`: that of [`rank::decide`].
 const NOISE_FACTOR: f64 = 10.0;
 /// By how much singular values must clear the tolerance: runs of the stress matrix keep their
 /// digits from a factor of thirty on.

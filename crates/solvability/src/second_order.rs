@@ -14,8 +14,9 @@ mod blocked;
 mod branches;
 mod forms;
 
-use linalg::{Doubt, Matrix, RankDecision, RankError};
+use linalg::Matrix;
 use model::{Mechanism, System};
+use rank::{Doubt, RankDecision, RankError};
 
 use crate::state::{self, StateError};
 use forms::Forms;

@@ -1,9 +1,9 @@
 //! What the shape of a mechanism settles before any rank: reactions that are unique because of
 //! where they act. No verdict needs this; it says why some are no surprise.
 
-use linalg::{RankError, RowGroup, Structure};
 use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
+use rank::{RankError, RowGroup, Structure};
 
 use crate::mechanism::{dimensionless, uncertainty};
 
@@ -22,7 +22,7 @@ pub fn structure(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Struct
     let groups: Vec<RowGroup> = mechanism.constraint_ids().map(group).collect();
     let bodies = 0..mechanism.bodies().len();
     let blocks: Vec<_> = bodies.map(|b| layout.columns(b)).collect();
-    linalg::structure(
+    rank::structure(
         &dimensionless(mechanism, s, size),
         &uncertainty(mechanism, s, size),
         &groups,

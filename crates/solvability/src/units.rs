@@ -10,9 +10,9 @@
 
 mod rewrite;
 
-use linalg::{RankDecision, RankError};
 use model::reaction::COMPONENTS;
 use model::{ColumnKind, ConstraintId, Frame, Mechanism, System};
+use rank::{RankDecision, RankError};
 
 pub use rewrite::{Dimension, Units};
 
@@ -221,7 +221,7 @@ impl<'a> Numbers<'a> {
         let kinds = self.configuration.mechanism.column_kinds();
         let rewriting = Rewriting::new(equations, units, &kinds);
         let equations = rewriting.equations(equations);
-        let decision = linalg::decide(&equations.c, decided.evidence.constraint_residual)?;
+        let decision = rank::decide(&equations.c, decided.evidence.constraint_residual)?;
         if decision.rank != decided.rank {
             return Err(UnitError::RankChanges {
                 rank: decided.rank,

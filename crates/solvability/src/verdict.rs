@@ -1,6 +1,6 @@
 //! Verdicts and the numbers behind them.
 
-use linalg::CoefficientReading;
+use rank::CoefficientReading;
 
 /// Whether a reaction is determined by the model.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,7 +58,7 @@ impl Judgement {
         }
     }
 
-    /// Judges a margin as [`linalg::RankDecision::read_coefficient`] reads it; what reads as zero
+    /// Judges a margin as [`rank::RankDecision::read_coefficient`] reads it; what reads as zero
     /// does so within the tolerance of the scene only if it is above the rounding.
     pub(crate) fn of(margin: f64, reading: CoefficientReading, is_above_rounding: bool) -> Self {
         let within_tolerance = is_above_rounding && reading == CoefficientReading::Zero;
@@ -91,7 +91,7 @@ impl Judgement {
     }
 
     /// The judgement where the rank itself is undecided.
-    pub(crate) fn without_rank(margin: f64, doubt: &linalg::Doubt) -> Self {
+    pub(crate) fn without_rank(margin: f64, doubt: &rank::Doubt) -> Self {
         let reason = format!("rank undecided: {doubt}");
         Self::new(Verdict::Undecided { reason }, margin)
     }

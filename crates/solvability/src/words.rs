@@ -1,7 +1,7 @@
 //! Dependencies as sentences.
 
-use linalg::Circuit;
 use model::{BodyRef, ConstraintId, Layout, Mechanism, System};
+use rank::Circuit;
 
 use crate::explain::FreeDirection;
 use crate::matrices::Solvability;

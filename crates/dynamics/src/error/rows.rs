@@ -1,7 +1,7 @@
 //! Why rows cannot be dropped as asked, in the numbers of users: rows count from 1.
 
-use linalg::KeptRowsError;
 use model::RowLabel;
+use rank::KeptRowsError;
 
 /// Why rows cannot be dropped as asked.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

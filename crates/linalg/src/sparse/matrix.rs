@@ -141,7 +141,7 @@ impl SparseMatrix {
     }
 
     /// Entries (column, value) of row `i`.
-    pub(crate) fn entries(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
+    pub fn entries(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let (columns, values) = self.row(i);
         columns.iter().copied().zip(values.iter().copied())
     }
@@ -236,12 +236,14 @@ impl SparseMatrix {
     }
 
     /// Frobenius norm, without overflow.
-    pub(crate) fn norm(&self) -> f64 {
+    #[must_use]
+    pub fn norm(&self) -> f64 {
         kernels::norm(&self.value)
     }
 
     /// Each entry a at (i, j) becomes `f(i, j, a)`.
-    pub(crate) fn map(&self, f: impl Fn(usize, usize, f64) -> f64) -> Self {
+    #[must_use]
+    pub fn map(&self, f: impl Fn(usize, usize, f64) -> f64) -> Self {
         let mut mapped = self.clone();
         for i in 0..self.nrows {
             for at in self.start[i]..self.start[i + 1] {

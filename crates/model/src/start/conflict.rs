@@ -1,7 +1,7 @@
 //! Velocities that are given and that no motion has: which one is at fault, what it contradicts,
 //! and what to leave out.
 
-use linalg::Circuit;
+use rank::Circuit;
 
 use super::tier::Tier;
 use super::velocity::{Hold, Miss, Start};

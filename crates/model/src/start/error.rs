@@ -1,6 +1,7 @@
 //! Why no consistent start was found.
 
-use linalg::{RankError, SaddleError, SparseError, StepError};
+use linalg::{SaddleError, SparseError, StepError};
+use rank::RankError;
 
 use super::conflict::VelocityConflict;
 use crate::system::RowLabel;

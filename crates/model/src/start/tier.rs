@@ -10,9 +10,9 @@
 use std::collections::HashMap;
 
 use linalg::{
-    Circuit, KeptRowSaddle, Matrix, SchurSaddle, SchurStructure, SparseMatrix, circuits, decide,
-    least_squares_step,
+    KeptRowSaddle, Matrix, SchurSaddle, SchurStructure, SparseMatrix, least_squares_step,
 };
+use rank::{Circuit, circuits, decide};
 
 use super::{DAMPING, ROUNDINGS, StartError, weights};
 use crate::mechanism::{Mechanism, N_BODY};

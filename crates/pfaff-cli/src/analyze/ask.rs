@@ -1,6 +1,6 @@
 //! The questions of the command line, put to one configuration.
 
-use pfaff::linalg::{DeletionError, Limits};
+use pfaff::rank::{DeletionError, Limits};
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
     DistributionDocument, EliminationsDocument, MakeUniqueDocument, ValuesDocument,

@@ -5,13 +5,12 @@ use dynamics::{
     Summary, Wanted, prepare,
 };
 use joints::{Revolute, RevoluteAngleDrive};
-use linalg::{
-    Certificate, Doubt, Evidence, Grounds, Matrix, NearlyRedundant, RankDecision, RankStatus,
-};
+use linalg::Matrix;
 use model::{
     Body, BodyRef, ConstraintId, DataUnit, Description, Function, Joint, Mechanism, StartOptions,
     Tolerance,
 };
+use rank::{Certificate, Doubt, Evidence, Grounds, NearlyRedundant, RankDecision, RankStatus};
 use serde_json::Value;
 use solvability::{
     Analysis, ComponentVerdict, Datum, Dependency, Extent, Freedoms, Generic, Judgement,
@@ -54,7 +53,7 @@ fn certified(certificate: Option<Certificate>) -> Analysis {
             dependence_residual: 0.0,
             certificate: None,
         },
-        ..linalg::decide(&c, 0.0).expect("finite")
+        ..rank::decide(&c, 0.0).expect("finite")
     };
     Analysis {
         time: 0.5,

@@ -1,7 +1,8 @@
 //! Instants at which the rank drops, or nearly does.
 
-use linalg::{Matrix, PivotedQr, RankStatus, least_squares_step};
+use linalg::{Matrix, PivotedQr, least_squares_step};
 use model::{Mechanism, System};
+use rank::RankStatus;
 
 use super::border::Border;
 use super::path::{NEARLY_SINGULAR, Path, Point, Sample, singular_value};

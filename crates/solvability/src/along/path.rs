@@ -1,8 +1,9 @@
 //! States of a motion on the constraints, and the samples that were taken of it.
 
-use linalg::{Matrix, RankDecision, Scaling};
+use linalg::{Matrix, Scaling};
 use model::start::{nearest_configuration, scene_size};
 use model::{Mechanism, Scratch, System};
+use rank::RankDecision;
 
 use super::AlongError;
 use crate::analysis::Analysis;
@@ -158,12 +159,12 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
     /// The rank at a point; `distance` is how far its C may be from the matrix that is asked for.
     pub(super) fn decide(&self, p: &Point, distance: f64) -> Result<RankDecision, AlongError> {
         let decision = match distance {
-            0.0 => linalg::decide(&p.c, &p.known),
+            0.0 => rank::decide(&p.c, &p.known),
             _ => {
                 let mut known = p.known.clone();
                 let entries = known.as_mut_slice().iter_mut();
                 entries.for_each(|known| *known += distance);
-                linalg::decide(&p.c, &known)
+                rank::decide(&p.c, &known)
             }
         };
         decision.map_err(|source| AnalysisError::Rank { time: p.t, source }.into())

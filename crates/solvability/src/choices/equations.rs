@@ -1,8 +1,9 @@
 //! The equations behind the multipliers, and one solution of them: on the kept rows of the rank
 //! decision, the dropped ones zero.
 
-use linalg::{KeptRowSaddle, Matrix, RankStatus, SchurSaddle, SchurStructure};
+use linalg::{KeptRowSaddle, Matrix, SchurSaddle, SchurStructure};
 use model::{ColumnKind, Mechanism, Scratch, System};
+use rank::RankStatus;
 
 use super::ChoiceError;
 use crate::certificate::ROWS_MAX;
@@ -15,7 +16,8 @@ use crate::rows::RowDecision;
 /// `M·a + Cᵀ·λ = Q`, `C·a = Γ` at one instant.
 ///
 /// ```
-/// use linalg::{Matrix, decide};
+/// use linalg::{Matrix};
+/// use rank::{decide};
 /// use solvability::Equations;
 /// // Two equal rows hold a unit mass against a force of 3.
 /// let equations = Equations {

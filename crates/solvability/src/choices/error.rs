@@ -1,7 +1,8 @@
 //! Why a choice cannot be made.
 
-use linalg::{Doubt, KeptRowsError, SaddleError};
+use linalg::SaddleError;
 use model::RowLabel;
+use rank::{Doubt, KeptRowsError};
 
 use crate::groups::RequestError;
 

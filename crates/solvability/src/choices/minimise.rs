@@ -57,7 +57,7 @@ pub fn minimise(
         .map(|(form, _)| form.image(solvability))
         .collect();
     let rows: Vec<&[f64]> = images.iter().map(|(image, _)| &image[..]).collect();
-    let tolerance = linalg::support_tolerance(solvability.decision());
+    let tolerance = rank::support_tolerance(solvability.decision());
     let visible = independent_columns(&rows, z.ncols(), tolerance);
 
     let roots: Vec<f64> = terms.iter().map(|(_, weight)| weight.sqrt()).collect();

@@ -2,9 +2,10 @@
 //! come first: a redundant row is that of a drive where it can be, so that what misses is what a
 //! drive asks for, and no joint is blamed, however much drives differ.
 
-use linalg::{Matrix, RankDecision, circuits, components, decide_keeping};
+use linalg::Matrix;
 use model::start::{nearest_configuration, scene_size};
 use model::{ConstraintId, Mechanism, RowLabel, Scratch, System};
+use rank::{RankDecision, circuits, components, decide_keeping};
 
 use super::{Comparison, ConstraintLevel, Contradiction};
 use crate::generic::{Elsewhere, GENERIC_ROWS, generic};
@@ -303,7 +304,7 @@ impl JointsFirst {
         let known = uncertainty(mechanism, &of_joints, size).select_rows(&all);
         let decided = |rows: &[usize]| -> Result<Option<RankDecision>, AnalysisError> {
             let [c, known]: [Matrix; 2] = [&c, &known].map(|m| m.select_rows(rows));
-            let decision = linalg::decide(&c, &known)
+            let decision = rank::decide(&c, &known)
                 .map_err(|source| AnalysisError::Rank { time: t, source })?;
             Ok(Some(decision).filter(RankDecision::is_decided))
         };

@@ -3,9 +3,10 @@
 
 use std::borrow::Cow;
 
-use linalg::{Matrix, RankDecision};
+use linalg::Matrix;
 use model::start::scene_size;
 use model::{ConstraintId, Mechanism, Scratch, System};
+use rank::RankDecision;
 
 use super::error::{RequestError, check};
 use super::form::LinearForm;

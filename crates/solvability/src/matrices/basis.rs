@@ -5,7 +5,8 @@
 
 use std::ops::Range;
 
-use linalg::{CoefficientReading, ExactNullSpace, Matrix, PivotedQr, RankStatus, Readings};
+use linalg::{Matrix, PivotedQr};
+use rank::{CoefficientReading, ExactNullSpace, RankStatus, Readings};
 
 use super::{Mapped, QueryError};
 use crate::verdict::Judgement;

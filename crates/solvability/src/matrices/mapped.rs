@@ -3,7 +3,8 @@
 //! Not here: the rows themselves and their null space (`basis`), and where W comes from
 //! (`mechanism`).
 
-use linalg::{CoefficientReading, ExactNullSpace, Matrix, PivotedQr, RankStatus};
+use linalg::{Matrix, PivotedQr};
+use rank::{CoefficientReading, ExactNullSpace, RankStatus};
 
 use super::QueryError;
 use super::basis::{Basis, Noise, ROUNDING_OF_MAP, check_coefficients, combination, norm};

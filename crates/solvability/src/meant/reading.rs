@@ -4,7 +4,8 @@
 //! them the data decide: by what share of their uncertainty would they have to be wrong for the
 //! lower rank?
 
-use linalg::{Doubt, Grounds, RankReading, RankStatus, singular_values};
+use linalg::singular_values;
+use rank::{Doubt, Grounds, RankReading, RankStatus};
 
 use super::MeantMatrix;
 use super::share::{Nearness, Question, StatedTolerance};

@@ -1,8 +1,9 @@
 //! By what share of their uncertainty, or by how many metres, the data would have to be wrong for a
 //! lower rank.
 
-use linalg::{Matrix, RankDecision, Scaling, small_svd};
+use linalg::{Matrix, Scaling, small_svd};
 use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch, System};
+use rank::RankDecision;
 
 use super::cone::{Bounds, Equation, least_change};
 use super::pose::{Candidate, Pose};
@@ -156,7 +157,7 @@ impl Question<'_> {
         let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
         let blocks = self.mechanism.data_blocks(self.s);
         let svd = small_svd(scaled);
-        let bases = [linalg::orthonormal(decision), single(decision)].map(|z| z.transpose());
+        let bases = [rank::orthonormal(decision), single(decision)].map(|z| z.transpose());
         let mut known = vec![0.0; scaled.nrows()];
         for &i in asked {
             // C⁺·e_i

@@ -6,7 +6,8 @@
 //! coefficient that this leaves between zero and not zero, or puts on the other side, leaves open
 //! which rows depend on each other.
 
-use linalg::{Circuit, CoefficientReading, Matrix, PivotedQr, RankDecision};
+use linalg::{Matrix, PivotedQr};
+use rank::{Circuit, CoefficientReading, RankDecision};
 
 use super::pose::{Candidate, Pose};
 use super::share::Question;
@@ -111,7 +112,7 @@ impl Question<'_> {
                 reading != right
             })
         };
-        let open = linalg::short_circuits(decision).into_iter().filter(is_open);
+        let open = rank::short_circuits(decision).into_iter().filter(is_open);
         let mut rows: Vec<usize> = open.flat_map(|circuit| circuit.rows).collect();
         rows.sort_unstable();
         rows.dedup();

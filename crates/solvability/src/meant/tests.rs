@@ -5,7 +5,7 @@
 use joints::{Distance, Revolute};
 use model::{Body, BodyRef, Description, Function, Mechanism};
 
-use linalg::RankStatus;
+use rank::RankStatus;
 
 use crate::{Analysis, analyse};
 
@@ -160,7 +160,7 @@ fn a_tolerance_decides_what_is_redundant() {
     assert_eq!((analysis.decision.redundancy, analysis.mobility()), (1, 1));
     let certificate = analysis.evidence().certificate.clone();
     let certificate = certificate.expect("certified");
-    assert_eq!(certificate.grounds, linalg::Grounds::WithinTolerance);
+    assert_eq!(certificate.grounds, rank::Grounds::WithinTolerance);
     // Without a misfit all bearings share their load, and so they do here.
     for reaction in &analysis.reactions {
         assert_eq!(
@@ -455,7 +455,7 @@ fn an_angle_tolerance_counts_alone() {
     let certificate = redundant.evidence().certificate.clone();
     let certificate = certificate.expect("certified");
     assert_eq!((redundant.decision.rank, redundant.mobility()), (1, 2));
-    assert_eq!(certificate.grounds, linalg::Grounds::WithinTolerance);
+    assert_eq!(certificate.grounds, rank::Grounds::WithinTolerance);
     assert!(
         redundant
             .reactions

@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-use linalg::{DeletionError, Limits, count_deletions, deletions};
 use model::{ConstraintId, System};
+use rank::{DeletionError, Limits, count_deletions, deletions};
 
 use super::Questions;
 use crate::groups::RequestError;
@@ -54,7 +54,7 @@ impl Questions<'_> {
         let parts = self.parts().iter().enumerate();
         parts
             .filter(|(_, part)| {
-                let is_decided = part.decision.status() == linalg::RankStatus::Decided;
+                let is_decided = part.decision.status() == rank::RankStatus::Decided;
                 part.decision.redundancy() > 0 || !is_decided
             })
             .map(|(k, _)| k)

@@ -21,7 +21,7 @@ pub(super) fn is_blocked(forms: &Forms) -> bool {
     let mixed = Matrix::from_fn(forms.matrices.len(), x * y, |s, e| {
         forms.matrices[s][(e / y, x + e % y)]
     });
-    let Ok(decision) = linalg::decide(&mixed, NOISE) else {
+    let Ok(decision) = rank::decide(&mixed, NOISE) else {
         return false;
     };
     if !decision.is_decided() && mixed.max_abs() > NOISE {
@@ -41,8 +41,8 @@ pub(super) fn is_blocked(forms: &Forms) -> bool {
 }
 
 /// Orthonormal vectors w with `wᵀ·mixed = 0`.
-fn combinations(decision: &linalg::RankDecision) -> Vec<Vec<f64>> {
-    let mut z = linalg::orthonormal(decision);
+fn combinations(decision: &rank::RankDecision) -> Vec<Vec<f64>> {
+    let mut z = rank::orthonormal(decision);
     for i in 0..z.nrows() {
         let factor = decision.scaling.row_factor(i);
         z.row_mut(i).iter_mut().for_each(|z| *z *= factor);

@@ -4,9 +4,10 @@
 //! becomes homogeneous: `a = (x₀, x₁, y)`, x₀ the rate of time (only where something is driven), x₁
 //! the regular motions and y the new ones. Both are orthonormal in dimensionless velocities.
 
-use linalg::{Matrix, PivotedQr, RankDecision, RankStatus};
+use linalg::{Matrix, PivotedQr};
 use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
+use rank::{RankDecision, RankStatus};
 
 use super::{KERNEL_MAX, REGULAR, Undetermined};
 use crate::mechanism::{dimensionless, evaluated, velocity_units};
@@ -212,7 +213,7 @@ impl Forms {
 
 /// Orthonormal coordinates of which the first ones span the columns, and how many these are.
 fn split(columns: &Matrix) -> Result<(Matrix, usize), Undetermined> {
-    let decision = linalg::decide(columns, REGULAR).map_err(Undetermined::Regular)?;
+    let decision = rank::decide(columns, REGULAR).map_err(Undetermined::Regular)?;
     match decision.status {
         RankStatus::Undecided(doubt) => Err(Undetermined::RegularCount(doubt)),
         _ => {
@@ -224,7 +225,7 @@ fn split(columns: &Matrix) -> Result<(Matrix, usize), Undetermined> {
 
 /// Basis of the left null space, for the rows of C as they stand.
 fn self_stresses(decision: &RankDecision) -> Vec<Vec<f64>> {
-    let z = linalg::orthonormal(decision);
+    let z = rank::orthonormal(decision);
     let of = |j: usize| (0..z.nrows()).map(move |i| (i, j));
     (0..z.ncols())
         .map(|j| {

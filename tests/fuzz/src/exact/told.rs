@@ -1,7 +1,7 @@
 //! What `pfaff analyze` says of a text, as its document.
 
-use pfaff::linalg::Limits;
 use pfaff::model::Registry;
+use pfaff::rank::Limits;
 use pfaff::report::documents::DistributionDocument;
 use pfaff::report::documents::MakeUniqueDocument;
 use pfaff::solvability::{Allowed, Choice, NormWeights, Verdict};

@@ -1,7 +1,7 @@
 //! What must hold of a start and of the verdicts there.
 
-use pfaff::linalg::RankStatus;
 use pfaff::model::System;
+use pfaff::rank::RankStatus;
 use pfaff::report::{AnalysisDocument, write_json};
 use pfaff::solvability::Verdict;
 use pfaff::{ConfigurationAnalysis, Study};

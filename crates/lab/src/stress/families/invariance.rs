@@ -239,7 +239,7 @@ fn said(a: &Analysis) -> (Vec<usize>, Vec<(String, &'static str, usize)>) {
 fn verdicts(written: Written, change: &Change) -> Result<Outcome, Outcome> {
     let expected = said(&analysed(&written(&Change::NONE))?);
     let a = analysed(&written(change))?;
-    if let linalg::RankStatus::Undecided(doubt) = &a.decision.status {
+    if let rank::RankStatus::Undecided(doubt) = &a.decision.status {
         return Err(Outcome::refused(doubt));
     }
     let found = said(&a);

@@ -3,8 +3,8 @@
 
 use dynamics::MotionOptions;
 use joints::{Direction, KnifeEdge};
-use linalg::Grounds;
 use model::{Body, BodyRef, Description, Joint, System};
+use rank::Grounds;
 use solvability::Analysis;
 
 use crate::mechanisms::cranks::misaligned;
@@ -139,7 +139,7 @@ pub(super) fn said(d: &Description, e: f64) -> Result<Outcome, Outcome> {
 }
 
 fn right_of(a: &Analysis, exact: usize, e: f64) -> Result<Outcome, Outcome> {
-    if let linalg::RankStatus::Undecided(doubt) = &a.decision.status {
+    if let rank::RankStatus::Undecided(doubt) = &a.decision.status {
         return Err(Outcome::refused(doubt));
     }
     let rank = a.decision.rank;

@@ -3,9 +3,9 @@
 
 use joints::KnifeEdge;
 use joints::plane::Direction;
-use linalg::count_deletions;
 use model::start::{assemble, nearest_configuration};
 use model::{Body, BodyRef, Description, Function, Joint, Known, StartOptions, System};
+use rank::count_deletions;
 use solvability::{analyse_known, generic};
 
 use super::near_redundancy;
@@ -163,7 +163,7 @@ simulate = {{ t_end = 2.0 }}
     let study = study(&text)?;
     let there = study.analyse(1.0, None).map_err(|e| refused(&e))?;
     let decision = &there.analysis.decision;
-    if let linalg::RankStatus::Undecided(doubt) = &decision.status {
+    if let rank::RankStatus::Undecided(doubt) = &decision.status {
         return Err(Outcome::refused(format!(
             "near a singular configuration: {doubt}"
         )));
@@ -261,7 +261,7 @@ fn steered(displacement: f64) -> Result<Outcome, Outcome> {
     }
     // Some thousand roundings on the way.
     let a = analyse_known(&mechanism, 1.0, &q, Known::To(1e-12)).map_err(Outcome::refused)?;
-    if let linalg::RankStatus::Undecided(doubt) = &a.decision.status {
+    if let rank::RankStatus::Undecided(doubt) = &a.decision.status {
         return Err(Outcome::refused(doubt));
     }
     let rows = a.reactions.iter().flat_map(|r| &r.rows).enumerate();

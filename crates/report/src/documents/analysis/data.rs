@@ -1,8 +1,8 @@
 //! What the numbers of a scene are known to, and by how much they would have to be wrong for
 //! another rank.
 
-use linalg::Certificate;
 use model::Tolerance;
+use rank::Certificate;
 use serde::Serialize;
 use solvability::Analysis;
 
@@ -64,7 +64,7 @@ impl DataDocument {
 
 #[cfg(test)]
 mod tests {
-    use linalg::Grounds;
+    use rank::Grounds;
 
     use super::*;
 

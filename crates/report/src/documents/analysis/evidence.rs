@@ -1,6 +1,6 @@
 //! The numbers behind a rank: what was read, what was proved, what was compared.
 
-use linalg::{Grounds, RankStatus};
+use rank::{Grounds, RankStatus};
 use serde::Serialize;
 use solvability::{Analysis, Generic, PartAnalysis};
 

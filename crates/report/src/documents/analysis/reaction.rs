@@ -1,7 +1,7 @@
 //! The verdict of a joint or drive, with all that was asked of it.
 
-use linalg::Settled;
 use model::{ConstraintId, Frame};
+use rank::Settled;
 use serde::Serialize;
 use solvability::{
     ComponentVerdict, Explanation, FrameVerdict, FreeDirection, GroupVerdict, ReactionVerdict,

@@ -1,0 +1,225 @@
+//! Circuits: minimal sets of rows that depend on each other, the explanation of a redundancy in its
+//! smallest pieces.
+//!
+//! Redundancy belongs to circuits, never to a row. The p fundamental circuits (one for each dropped
+//! row) depend on which rows were dropped and may be long. Every circuit is the support of a vector
+//! `Z·y` that vanishes on a hyperplane of the dual, so the hyperplanes list all circuits, and the
+//! short ones among them say the same in fewer rows.
+
+use std::cmp::Ordering;
+
+use crate::decision::{Size, size};
+use crate::dual::{Dual, binomial, eliminate, rank, subsets};
+use crate::null_space::Support;
+use crate::{RankDecision, components};
+use linalg::{kernels, powers::scale};
+
+/// One minimal dependent set of rows: `Σ coefficients[l] · row rows[l] = 0`.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Circuit {
+    /// Rows with a non-zero coefficient, ascending.
+    pub rows: Vec<usize>,
+    /// Coefficients for the rows of C as given, the first largest of them normalised to +1.
+    pub coefficients: Vec<f64>,
+    /// The largest coefficient of the equilibrated rows, relative to the largest of all, that
+    /// counts as zero within a stated tolerance only; zero where none does.
+    pub left_out: f64,
+}
+
+/// The fundamental circuit of each dropped row, in the order of `dropped`.
+///
+/// The support is decided on equilibrated coefficients relative to the largest of the circuit,
+/// against the noise of their rows ([`RankDecision::row_noise`]); a row whose margin is zero is in
+/// none. A row of zeros is a circuit by itself.
+#[must_use]
+pub fn circuits(decision: &RankDecision) -> Vec<Circuit> {
+    fundamental(decision)
+        .iter()
+        .map(|z| circuit(decision, z))
+        .collect()
+}
+
+/// p independent circuits, as short as possible: of all circuits the shortest, then the shortest
+/// independent of it, and so on, which makes the total length smallest. Shortest first, equal
+/// lengths by rows; they do not depend on the rows that were dropped.
+///
+/// A component (rows that mix) of redundancy p_c has at most as many circuits as subsets of p_c − 1
+/// of its rows. Where that is more than 20 000, or where rounding hides which rows belong to one or
+/// that a row belongs to any, the fundamental circuits of the component stand in: minimal and
+/// independent too, but perhaps longer.
+///
+/// ```
+/// use linalg::Matrix;
+/// use rank::{decide_dropping, short_circuits};
+/// // Rows 2 and 3 are equal; each is the sum of rows 0 and 1.
+/// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, 1.0]]);
+/// let decision = decide_dropping(&c, 0.0, &[2, 3]).unwrap();
+/// let rows: Vec<_> = short_circuits(&decision).into_iter().map(|c| c.rows).collect();
+/// assert_eq!(rows, [vec![2, 3], vec![0, 1, 2]]);
+/// ```
+#[must_use]
+pub fn short_circuits(decision: &RankDecision) -> Vec<Circuit> {
+    let support = Support::new(decision);
+    let fundamental = fundamental(decision);
+    let mut found: Vec<Sparse> = Vec::with_capacity(decision.redundancy);
+    for rows in components(decision).coupled {
+        let dual = Dual::new(decision, &support, &rows);
+        // One dropped row has one circuit, and the support has decided on it.
+        let shortest = (dual.dimension() > 1).then(|| shortest(&dual)).flatten();
+        // Each row of a component is in one of its circuits; else the noise of all has hidden it.
+        let shortest = shortest.filter(|circuits| covers(circuits, &rows));
+        match shortest {
+            Some(circuits) => found.extend(circuits),
+            None => found.extend(
+                fundamental
+                    .iter()
+                    .filter(|z| rows.binary_search(&z[0].0).is_ok())
+                    .cloned(),
+            ),
+        }
+    }
+    found.sort_by(by_length);
+    found.iter().map(|z| circuit(decision, z)).collect()
+}
+
+/// Hyperplanes of one component that are tried at most.
+const HYPERPLANES_MAX: usize = 20_000;
+
+/// Vectors that span a hyperplane by less than this do not say where it lies: small coefficients
+/// would drown in the noise.
+const PIVOT_MIN: f64 = 1e-4;
+
+/// Equilibrated coefficients by row, zeros left out.
+type Sparse = Vec<(usize, f64)>;
+
+fn by_length(a: &Sparse, b: &Sparse) -> Ordering {
+    let rows = |z: &Sparse| z.iter().map(|t| t.0).collect::<Vec<_>>();
+    a.len().cmp(&b.len()).then_with(|| rows(a).cmp(&rows(b)))
+}
+
+/// Whether each of these rows has a coefficient.
+fn covers(circuits: &[Sparse], rows: &[usize]) -> bool {
+    let is_in = |row: usize| circuits.iter().flatten().any(|&(other, _)| other == row);
+    rows.iter().all(|&row| is_in(row))
+}
+
+/// The shortest independent circuits of one component, greedily, which is optimal in a matroid.
+/// `None` if they are too many or too noisy.
+fn shortest(dual: &Dual) -> Option<Vec<Sparse>> {
+    let p = dual.dimension();
+    let classes = dual.parallel_classes().ok()?;
+    if binomial(classes.len(), p - 1)? > HYPERPLANES_MAX {
+        return None;
+    }
+    let mut all: Vec<(Sparse, Vec<f64>)> = subsets(classes.len(), p - 1)
+        .filter_map(|chosen| {
+            let vectors = chosen.iter().map(|&k| &dual.vectors[classes[k][0]]);
+            vanishing_on(vectors.cloned().collect(), p, dual)
+        })
+        .collect();
+    all.sort_by(|a, b| by_length(&a.0, &b.0));
+    let mut basis: Vec<Vec<f64>> = Vec::new();
+    let mut circuits = Vec::new();
+    for (circuit, y) in all {
+        let mut larger = basis.clone();
+        larger.push(y);
+        if rank(larger.clone(), dual.noise) == Ok(larger.len()) {
+            basis = larger;
+            circuits.push(circuit);
+        }
+        if circuits.len() == p {
+            return Some(circuits);
+        }
+    }
+    None
+}
+
+/// The circuit `Z̃·y` that vanishes on p − 1 independent vectors, with y. `None` if they are
+/// dependent or too noisy to say which other rows it contains.
+fn vanishing_on(vectors: Vec<Vec<f64>>, p: usize, dual: &Dual) -> Option<(Sparse, Vec<f64>)> {
+    let hyperplane = eliminate(vectors, dual.noise).ok()?;
+    if hyperplane.pivots.len() != p - 1 || hyperplane.smallest < PIVOT_MIN {
+        return None;
+    }
+    let free = (0..p).find(|c| !hyperplane.pivots.contains(c))?;
+    let mut y = vec![0.0; p];
+    y[free] = 1.0;
+    for (vector, &pivot) in hyperplane.vectors.iter().zip(&hyperplane.pivots).rev() {
+        let sum: f64 = vector.iter().zip(&y).map(|(v, y)| v * y).sum();
+        y[pivot] = -sum / vector[pivot];
+    }
+    let largest = kernels::max_abs(&y);
+    y.iter_mut().for_each(|y| *y /= largest);
+    // An error of the vectors moves y by the inverse of the smallest pivot as much.
+    let noise = dual.noise * p as f64 * (1.0 + hyperplane.smallest.recip());
+    let mut circuit = Sparse::new();
+    for (&row, vector) in dual.rows.iter().zip(&dual.vectors) {
+        let z = kernels::dot(vector, &y);
+        match size(z, noise) {
+            Size::Zero => {}
+            Size::Unclear => return None,
+            Size::NonZero => circuit.push((row, z)),
+        }
+    }
+    Some((circuit, y))
+}
+
+fn fundamental(decision: &RankDecision) -> Vec<Sparse> {
+    let support = Support::new(decision);
+    (0..decision.redundancy)
+        .map(|j| {
+            let mut z: Sparse = (0..decision.rank)
+                .filter(|&i| support.contains(j, i))
+                .map(|i| (decision.kept[i], -support.t[(j, i)]))
+                .chain([(decision.dropped[j], 1.0)])
+                .collect();
+            z.sort_unstable_by_key(|&(row, _)| row);
+            z
+        })
+        .collect()
+}
+
+/// The largest coefficient that the dependency has by its dropped rows, that is none of these and
+/// no rounding, relative to the largest.
+fn left_out(decision: &RankDecision, z: &Sparse) -> f64 {
+    if !decision.has_tolerance() {
+        return 0.0;
+    }
+    let of = |row: usize| {
+        let at = z.binary_search_by_key(&row, |&(row, _)| row);
+        at.map_or(0.0, |k| z[k].1)
+    };
+    let mut left = vec![0.0; decision.rank];
+    for (j, &row) in decision.dropped.iter().enumerate() {
+        kernels::axpy(of(row), decision.coefficients.row(j), &mut left);
+    }
+    let largest = z.iter().fold(0.0_f64, |a, (_, z)| a.max(z.abs()));
+    let kept = decision.kept.iter().zip(&left);
+    let left = kept.filter(|(row, _)| of(**row) == 0.0);
+    let left = left.map(|(row, x)| (row, x.abs() / largest));
+    let left = left.filter(|(row, x)| *x > decision.row_rounding(**row));
+    left.fold(0.0, |most, (_, x)| f64::max(most, x))
+}
+
+/// Equilibrated coefficients in the scaling of C, normalised.
+fn circuit(decision: &RankDecision, z: &Sparse) -> Circuit {
+    let exponents = &decision.scaling.rows;
+    // z̃ᵀ·D_r·C·D_c = 0: the coefficient of row i of C is z̃_i·2^rows[i]. Exponents relative to one
+    // of the rows keep the numbers in range.
+    let reference = z.last().map_or(0, |&(row, _)| exponents[row]);
+    let scaled: Vec<f64> = z
+        .iter()
+        .map(|&(row, z)| scale(z, exponents[row] - reference))
+        .collect();
+    let largest = scaled
+        .iter()
+        .fold(0.0_f64, |a, &b| if b.abs() > a.abs() { b } else { a });
+    Circuit {
+        left_out: left_out(decision, z),
+        rows: z.iter().map(|&(row, _)| row).collect(),
+        coefficients: scaled.iter().map(|z| z / largest).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests;

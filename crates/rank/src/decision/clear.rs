@@ -1,0 +1,38 @@
+//! Zero or not, with a clear gap between: the rule of rank decisions for single numbers, and for a
+//! few rows of a matrix that is equilibrated already.
+
+use super::{CLEARANCE, required, tolerance};
+use linalg::{Matrix, singular_values};
+
+/// Noise that reaches further hides numbers that matter: nothing is zero beside it.
+const NOISE_MAX: f64 = 1e-4;
+
+/// How a number reads against its noise.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Size {
+    /// At most the noise, and the noise at most 1e-4.
+    Zero,
+    /// Between: neither may be built on.
+    Unclear,
+    /// Above the noise by the clearance of rank decisions, 10³.
+    NonZero,
+}
+
+pub(crate) fn size(x: f64, noise: f64) -> Size {
+    match x.abs() {
+        x if x > CLEARANCE * noise => Size::NonZero,
+        x if x <= noise && noise <= NOISE_MAX => Size::Zero,
+        _ => Size::Unclear,
+    }
+}
+
+/// Whether rows of an equilibrated matrix are certainly independent, as they stand:
+/// `σ_min ≥ max(10³·τ, 10⁻⁷)`. They are not equilibrated again, because that would blow up entries
+/// that are rounding beside the rest of their row or column.
+pub(crate) fn independent(rows: &Matrix, uncertainty: f64) -> bool {
+    let tolerance = tolerance(rows.nrows(), rows.ncols(), uncertainty);
+    rows.nrows() <= rows.ncols()
+        && singular_values(rows)
+            .last()
+            .is_none_or(|&smallest| smallest >= required(tolerance))
+}

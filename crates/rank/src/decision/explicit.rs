@@ -1,0 +1,140 @@
+//! Rows dropped or kept on request: is the choice admissible?
+//!
+//! A list D of dropped rows is admissible iff `|D| = p` and the other rows have full rank r;
+//! equivalently the rows D of a left null space basis Z form a nonsingular block.
+
+use super::{RankDecision, RankError, Uncertainty, read, required};
+use crate::strong_basis::{self, complement};
+use linalg::{Matrix, singular_values};
+
+/// Why a choice of rows is not admissible.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum KeptRowsError {
+    /// The matrix itself is at fault.
+    #[error(transparent)]
+    Rank(#[from] RankError),
+    /// Too many or too few rows.
+    #[error(
+        "{dropped} rows dropped and {kept} kept, but the rank is {rank} of {rows} rows: drop exactly {}",
+        rows - rank
+    )]
+    WrongCount {
+        /// Rows dropped by the request.
+        dropped: usize,
+        /// Rows kept by the request.
+        kept: usize,
+        /// The rank that was read.
+        rank: usize,
+        /// Rows of the matrix.
+        rows: usize,
+    },
+    /// A row that does not exist.
+    #[error("row {row} does not exist, rows are 0..{rows}")]
+    RowOutOfRange {
+        /// The row asked for.
+        row: usize,
+        /// Rows of the matrix.
+        rows: usize,
+    },
+    /// A row named twice.
+    #[error("row {row} is listed twice")]
+    Duplicate {
+        /// The row.
+        row: usize,
+    },
+    /// The kept rows depend on each other: at least one dropped row carries what they lack.
+    #[error(
+        "the kept rows are dependent: smallest singular value {smallest_singular_value:.3e}, need \
+         {required:.3e}; a row in no dependency must not be dropped"
+    )]
+    Dependent {
+        /// Smallest singular value of the equilibrated kept rows.
+        smallest_singular_value: f64,
+        /// What a decided rank needs, 10³·τ.
+        required: f64,
+    },
+}
+
+/// [`decide`](super::decide) with the dropped rows given; `|T̃_ji| ≤ 2` is then not promised.
+///
+/// ```
+/// use linalg::Matrix;
+/// use rank::{KeptRowsError, decide_dropping};
+/// let c = Matrix::from_rows(&[[1.0, 0.0], [0.0, 1.0], [0.0, 3.0]]);
+/// let decision = decide_dropping(&c, 0.0, &[1])?;
+/// assert_eq!(decision.kept, [0, 2]);
+/// // Row 0 is in no dependency.
+/// let refused = decide_dropping(&c, 0.0, &[0]).unwrap_err();
+/// assert!(matches!(refused, KeptRowsError::Dependent { .. }));
+/// # Ok::<(), KeptRowsError>(())
+/// ```
+///
+/// # Errors
+/// - [`KeptRowsError::Rank`]: the matrix or the residual is not finite.
+/// - [`KeptRowsError::RowOutOfRange`], [`KeptRowsError::Duplicate`]: the list is malformed.
+/// - [`KeptRowsError::WrongCount`]: the list does not have m − r rows.
+/// - [`KeptRowsError::Dependent`]: the remaining rows do not have full rank.
+pub fn decide_dropping<'a>(
+    c: &Matrix,
+    uncertainty: impl Into<Uncertainty<'a>>,
+    dropped: &[usize],
+) -> Result<RankDecision, KeptRowsError> {
+    let dropped = ascending(dropped, c.nrows())?;
+    decide_partition(c, uncertainty.into(), complement(c.nrows(), &dropped))
+}
+
+/// [`decide`](super::decide) with the kept rows given; `|T̃_ji| ≤ 2` is then not promised.
+///
+/// # Errors
+/// As [`decide_dropping`].
+pub fn decide_keeping<'a>(
+    c: &Matrix,
+    uncertainty: impl Into<Uncertainty<'a>>,
+    kept: &[usize],
+) -> Result<RankDecision, KeptRowsError> {
+    let kept = ascending(kept, c.nrows())?;
+    decide_partition(c, uncertainty.into(), kept)
+}
+
+fn decide_partition(
+    c: &Matrix,
+    uncertainty: Uncertainty<'_>,
+    kept: Vec<usize>,
+) -> Result<RankDecision, KeptRowsError> {
+    let (scaling, scaled, reading) = read(c, uncertainty)?;
+    if kept.len() != reading.rank {
+        return Err(KeptRowsError::WrongCount {
+            dropped: c.nrows() - kept.len(),
+            kept: kept.len(),
+            rank: reading.rank,
+            rows: c.nrows(),
+        });
+    }
+    let required = required(reading.evidence.tolerance);
+    if let Some(&smallest) = singular_values(&scaled.select_rows(&kept)).last()
+        && smallest < required
+    {
+        return Err(KeptRowsError::Dependent {
+            smallest_singular_value: smallest,
+            required,
+        });
+    }
+    let basis = strong_basis::express(&scaled, kept);
+    Ok(reading.with_basis(scaling, basis))
+}
+
+/// The list in ascending order, each row once and in range.
+fn ascending(rows: &[usize], m: usize) -> Result<Vec<usize>, KeptRowsError> {
+    let mut sorted = rows.to_vec();
+    sorted.sort_unstable();
+    if let Some(&row) = sorted.last()
+        && row >= m
+    {
+        return Err(KeptRowsError::RowOutOfRange { row, rows: m });
+    }
+    match sorted.windows(2).find(|w| w[0] == w[1]) {
+        Some(w) => Err(KeptRowsError::Duplicate { row: w[0] }),
+        None => Ok(sorted),
+    }
+}

@@ -1,0 +1,309 @@
+//! Rows chosen level by level, from large singular values to small ones, with double-double
+//! residuals.
+//!
+//! On each level the rows with singular values within 1e-6 of the largest are expressed as usual;
+//! what the other rows have outside their span, `S_D = C_D − T·C_K` in double-double, is the matrix
+//! of the next level. Singular values from 1 down to 1e-28 are read this way, each from a
+//! well-conditioned problem in `f64`. The levels end where S falls below a floor. Not here: what
+//! the floor means.
+
+use super::bound;
+use crate::strong_basis;
+use linalg::{Dd, DdMatrix, Matrix, PivotedQr, kernels, powers, singular_values};
+
+/// Singular values of one level, relative to its largest: above √eps, so that `f64` solves it with
+/// half of its digits to spare.
+const SPREAD: f64 = 1e-6;
+
+/// Corrections of T by double-double residuals; each gains at least eight digits.
+const CORRECTIONS_MAX: usize = 5;
+
+/// The rows of one level.
+struct Level {
+    /// Independent rows, of the whole matrix.
+    kept: Vec<usize>,
+    /// S of these rows times 2^exponent, of size one.
+    rows: Matrix,
+    exponent: i32,
+    /// Coefficients in S of all rows that were left when the level began, and which rows these
+    /// were: row `left[j]` of C is `coefficients_j·C_before` + `S_j`.
+    coefficients: DdMatrix,
+    before: Vec<usize>,
+    /// Singular values of the equilibrated C that the level stands for.
+    sigma: Vec<f64>,
+    /// `‖C_K → S_K‖` at most, for all kept rows up to this level.
+    growth: f64,
+    /// Rounding error of S at most (Frobenius norm).
+    error: f64,
+}
+
+/// Rows by levels, and what is left below the floor.
+pub(super) struct Graded {
+    levels: Vec<Level>,
+    /// Rows of no level, ascending.
+    pub(super) left: Vec<usize>,
+    /// Kept rows in the order of the levels.
+    pub(super) kept: Vec<usize>,
+    /// T (double-double) of the rows left in the kept ones.
+    coefficients: DdMatrix,
+    /// What the rows left have outside the span of the kept ones: `C_left − T·C_K`.
+    outside: DdMatrix,
+    /// Singular values that stand for the rows left.
+    left_sigma: Vec<f64>,
+}
+
+impl Graded {
+    /// Takes levels off the equilibrated matrix `c` while a singular value is above `floor`.
+    pub(super) fn new(c: &DdMatrix, floor: f64) -> Self {
+        Self::up_to(c, floor, c.ncols())
+    }
+
+    /// Takes levels off until `rank` rows are kept, however small they are; fewer where nothing is
+    /// left.
+    pub(super) fn of_rank(c: &DdMatrix, rank: usize) -> Self {
+        Self::up_to(c, 0.0, rank.min(c.ncols()))
+    }
+
+    fn up_to(c: &DdMatrix, floor: f64, most: usize) -> Self {
+        let m = c.nrows();
+        let mut g = Self {
+            levels: Vec::new(),
+            left: (0..m).collect(),
+            kept: Vec::new(),
+            coefficients: DdMatrix::zeros(m, 0),
+            outside: c.clone(),
+            left_sigma: Vec::new(),
+        };
+        let (mut growth, mut error) = (1.0, 0.0);
+        loop {
+            let exponent = powers::unit_exponent(g.outside.hi().as_slice());
+            let normal = power(&g.outside, exponent);
+            let sigma = g.readings(exponent);
+            let significant = sigma
+                .iter()
+                .filter(|&&s| s > floor && s >= SPREAD * sigma[0])
+                .count()
+                .min(most - g.kept.len());
+            if significant == 0 {
+                g.left_sigma = sigma;
+                return g;
+            }
+            let step = Step::new(&normal, significant);
+            let rows_of = |local: &[usize]| local.iter().map(|&i| g.left[i]).collect::<Vec<_>>();
+            let (kept, left) = (rows_of(&step.kept), rows_of(&step.dropped));
+            g.levels.push(Level {
+                rows: normal.select_rows(&step.kept).hi(),
+                exponent,
+                coefficients: g.coefficients.select_rows(&step.kept),
+                before: g.kept.clone(),
+                sigma: sigma[..significant].to_vec(),
+                growth,
+                error,
+                kept: kept.clone(),
+            });
+            growth *= 1.0 + step.t.hi().frobenius_norm();
+            error = error * (1.0 + step.t.hi().frobenius_norm())
+                + step.error * powers::scale(1.0, -exponent);
+            g.coefficients = step.coefficients(&g.coefficients);
+            g.outside = power(&step.outside, -exponent);
+            g.left = left;
+            g.kept.extend(kept);
+        }
+    }
+
+    /// Singular values of C belonging to what is left: those of S in an orthonormal basis of the
+    /// combinations `[−T, I]` that made it.
+    fn readings(&self, exponent: i32) -> Vec<f64> {
+        let mut s = power(&self.outside, exponent).hi();
+        let count = s.nrows().min(s.ncols().saturating_sub(self.kept.len()));
+        if !self.kept.is_empty() && !self.left.is_empty() {
+            let w = Matrix::from_fn(
+                self.left.len(),
+                self.kept.len() + self.left.len(),
+                |j, i| match i.checked_sub(self.kept.len()) {
+                    None => -self.coefficients[(j, i)].to_f64(),
+                    Some(l) => f64::from(u8::from(l == j)),
+                },
+            );
+            // Wᵀ·P = Q·R, so R⁻ᵀ·Pᵀ·W is orthonormal.
+            let qr = PivotedQr::of_rows(w);
+            let mut columns = s.select_rows(qr.permutation()).transpose();
+            for k in 0..columns.nrows() {
+                qr.solve_r_transpose(columns.row_mut(k));
+            }
+            s = columns.transpose();
+        }
+        singular_values(&s)
+            .into_iter()
+            .take(count.max(1))
+            .map(|sigma| powers::scale(sigma, -exponent))
+            .collect()
+    }
+
+    /// Readings of all singular values, `count` of them, largest first.
+    pub(super) fn singular_values(&self, count: usize) -> Vec<f64> {
+        let levels = self.levels.iter().flat_map(|l| &l.sigma);
+        let mut sigma: Vec<f64> = levels.chain(&self.left_sigma).copied().collect();
+        sigma.resize(count, 0.0);
+        sigma.sort_by(|a, b| b.total_cmp(a));
+        sigma
+    }
+
+    /// T of the rows left in the kept rows, in the order of the levels.
+    pub(super) fn dependence(&self) -> Matrix {
+        self.coefficients.hi()
+    }
+
+    /// Largest norm of a row of `C_left − T·C_K`.
+    pub(super) fn residual(&self) -> f64 {
+        let outside = self.outside.hi();
+        (0..outside.nrows())
+            .map(|i| kernels::norm(outside.row(i)))
+            .fold(0.0, f64::max)
+    }
+
+    /// Proved lower bounds, one for each level: that of σ_r of C for the number r of rows kept up
+    /// to this level.
+    pub(super) fn bounds(&self) -> Vec<(usize, f64)> {
+        let n = self.outside.ncols();
+        let mut rows: Vec<f64> = Vec::new();
+        let (mut count, mut perturbation, mut smallest) = (0, 0.0_f64, f64::INFINITY);
+        let mut found = Vec::new();
+        for level in &self.levels {
+            let size = powers::scale(1.0, -level.exponent);
+            rows.extend_from_slice(level.rows.as_slice());
+            count += level.kept.len();
+            smallest = smallest.min(size);
+            // Rounding of S to f64, and of S itself.
+            perturbation += f64::EPSILON * level.rows.frobenius_norm() + level.error / size;
+            let stacked = Matrix::from_fn(count, n, |i, j| rows[i * n + j]);
+            let sigma = bound::smallest_singular_value(&stacked, perturbation);
+            found.push((count, sigma * smallest / level.growth));
+        }
+        found
+    }
+
+    /// Unit weights of the rows of C (length m) with which they sum to about σ of the smallest
+    /// level: a left singular vector, but for the left null space, which the caller takes out.
+    pub(super) fn smallest_direction(&self) -> Option<Vec<f64>> {
+        let level = self.levels.last()?;
+        // Two inverse iterations with S·Sᵀ = P·Rᵀ·R·Pᵀ; any start has a part along the smallest
+        // direction.
+        let qr = PivotedQr::of_rows(level.rows.clone());
+        let mut y: Vec<f64> = (0..level.kept.len())
+            .map(|i| 1.0 + i as f64 / 7.0)
+            .collect();
+        for _ in 0..2 {
+            qr.solve_r_transpose(&mut y);
+            qr.solve_r(&mut y);
+            let size = kernels::norm(&y);
+            y.iter_mut().for_each(|y| *y /= size);
+        }
+        let mut direction = vec![0.0; self.kept.len() + self.left.len()];
+        for (y, &k) in y.iter().zip(qr.permutation()) {
+            direction[level.kept[k]] += y;
+            for (t, &i) in level.coefficients.row(k).iter().zip(&level.before) {
+                direction[i] -= y * t.to_f64();
+            }
+        }
+        Some(direction)
+    }
+
+    /// Weights of the rows of C that sum to what row `left[j]` has outside the span of the kept
+    /// rows.
+    pub(super) fn left_direction(&self, j: usize) -> Vec<f64> {
+        let mut direction = vec![0.0; self.kept.len() + self.left.len()];
+        direction[self.left[j]] = 1.0;
+        for (t, &i) in self.coefficients.row(j).iter().zip(&self.kept) {
+            direction[i] = -t.to_f64();
+        }
+        direction
+    }
+}
+
+fn power(a: &DdMatrix, exponent: i32) -> DdMatrix {
+    DdMatrix::from_fn(a.nrows(), a.ncols(), |i, j| a[(i, j)].scaled(exponent))
+}
+
+/// One level: rows of a matrix of size one expressed by its independent ones.
+struct Step {
+    kept: Vec<usize>,
+    dropped: Vec<usize>,
+    t: DdMatrix,
+    /// `S_D − T·S_K`.
+    outside: DdMatrix,
+    /// Rounding error of `outside` at most (Frobenius norm), for this T.
+    error: f64,
+}
+
+impl Step {
+    fn new(s: &DdMatrix, rank: usize) -> Self {
+        let leading = s.hi();
+        let qr = PivotedQr::of_rows(leading.clone());
+        let basis = strong_basis::bounded(&leading, qr.permutation()[..rank].to_vec());
+        let qr = PivotedQr::of_rows(leading.select_rows(&basis.kept));
+        let mut t = DdMatrix::from(&basis.t);
+        let (s_kept, s_dropped) = (s.select_rows(&basis.kept), s.select_rows(&basis.dropped));
+        let mut outside = residual(&s_dropped, &t, &s_kept);
+        let mut correction = vec![0.0; rank];
+        for _ in 0..CORRECTIONS_MAX {
+            let mut largest = 0.0_f64;
+            for j in 0..basis.dropped.len() {
+                let mut y: Vec<f64> = outside.row(j).iter().map(|x| x.to_f64()).collect();
+                strong_basis::coefficients(&qr, &mut y, &mut correction);
+                for (t, &x) in t.row_mut(j).iter_mut().zip(&correction) {
+                    *t += Dd::from(x);
+                    largest = largest.max(x.abs());
+                }
+            }
+            outside = residual(&s_dropped, &t, &s_kept);
+            if largest <= Dd::EPSILON {
+                break;
+            }
+        }
+        let terms = (rank + 2) as f64 * Dd::EPSILON;
+        let (t_norm, k_norm) = (t.hi().frobenius_norm(), s_kept.hi().frobenius_norm());
+        Self {
+            error: 2.0 * terms * (s_dropped.hi().frobenius_norm() + t_norm * k_norm)
+                + f64::MIN_POSITIVE,
+            kept: basis.kept,
+            dropped: basis.dropped,
+            t,
+            outside,
+        }
+    }
+
+    /// T of the dropped rows in the kept rows before this level and those of this level.
+    fn coefficients(&self, before: &DdMatrix) -> DdMatrix {
+        let r = before.ncols();
+        let (kept, dropped) = (
+            before.select_rows(&self.kept),
+            before.select_rows(&self.dropped),
+        );
+        let reduced = residual(&dropped, &self.t, &kept);
+        DdMatrix::from_fn(self.dropped.len(), r + self.kept.len(), |j, i| {
+            match i.checked_sub(r) {
+                None => reduced[(j, i)],
+                Some(k) => self.t[(j, k)],
+            }
+        })
+    }
+}
+
+/// A − T·B.
+fn residual(a: &DdMatrix, t: &DdMatrix, b: &DdMatrix) -> DdMatrix {
+    let mut out = a.clone();
+    for j in 0..a.nrows() {
+        for (k, &t_jk) in t.row(j).iter().enumerate() {
+            if t_jk == Dd::ZERO {
+                continue;
+            }
+            for (x, &b) in out.row_mut(j).iter_mut().zip(b.row(k)) {
+                if b != Dd::ZERO {
+                    *x -= t_jk * b;
+                }
+            }
+        }
+    }
+    out
+}

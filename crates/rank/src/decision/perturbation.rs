@@ -1,0 +1,33 @@
+//! How far the dependencies of a matrix move with its entries, row by row: in a model of mixed
+//! sizes the large part is known to less than the small part weighs, and one tolerance for all
+//! would call small coefficients zero.
+
+use super::{RankDecision, Uncertainty};
+use linalg::{Matrix, PivotedQr, kernels};
+
+/// Norms of the rows of `δ[−T̃, I]` at most, m values, to first order in the uncertainty of the
+/// entries: `|δT| ≤ (U_D + |T|·U_K)·|C_K⁺|`, all equilibrated.
+pub(super) fn row_noise(decision: &RankDecision, c: &Matrix, known: Uncertainty<'_>) -> Vec<f64> {
+    let mut noise = vec![0.0; c.nrows()];
+    if decision.redundancy == 0 {
+        return noise;
+    }
+    let u = known.of_entries(&decision.scaling);
+    let kept = decision.scaling.apply(c).select_rows(&decision.kept);
+    let inverse = PivotedQr::of_rows(kept).pseudo_inverse().transpose();
+    for (j, &dropped) in decision.dropped.iter().enumerate() {
+        let mut moved = u.row(dropped).to_vec();
+        for (i, &kept) in decision.kept.iter().enumerate() {
+            kernels::axpy(decision.coefficients[(j, i)].abs(), u.row(kept), &mut moved);
+        }
+        for (i, &kept) in decision.kept.iter().enumerate() {
+            let shift: f64 = moved
+                .iter()
+                .zip(inverse.row(i))
+                .map(|(u, x)| u * x.abs())
+                .sum();
+            noise[kept] = noise[kept].hypot(shift);
+        }
+    }
+    noise
+}

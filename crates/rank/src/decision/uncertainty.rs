@@ -1,0 +1,127 @@
+//! What the entries of a matrix are known to, and the equilibration that goes with it.
+
+use super::RankError;
+use linalg::{Matrix, Scaling, equilibrate};
+
+/// What the entries of a matrix are known to.
+///
+/// ```
+/// use linalg::Matrix;
+/// use rank::decide;
+/// // Two directions that are parallel but for the rounding of their cosine.
+/// let c = Matrix::from_rows(&[[6e-17, 1.0], [-1e-17, 1.0]]);
+/// assert_eq!(decide(&c, 0.0)?.rank, 2); // every entry means what it says
+/// assert_eq!(decide(&c, &Matrix::from_rows(&[[2e-16; 2]; 2]))?.rank, 1);
+/// # Ok::<(), rank::RankError>(())
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub enum Uncertainty<'a> {
+    /// Absolute, the same for all entries of the equilibrated matrix: each entry of the matrix
+    /// means what it says, however small.
+    Equilibrated(f64),
+    /// Absolute, entry by entry, in the units of the matrix. Entries below theirs do not raise the
+    /// scale of a row or column.
+    Entries(&'a Matrix),
+}
+
+impl From<f64> for Uncertainty<'_> {
+    fn from(uncertainty: f64) -> Self {
+        Self::Equilibrated(uncertainty)
+    }
+}
+
+impl<'a> From<&'a Matrix> for Uncertainty<'a> {
+    fn from(uncertainty: &'a Matrix) -> Self {
+        Self::Entries(uncertainty)
+    }
+}
+
+/// How far an equilibrated matrix may be from the one that is meant.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Spread {
+    /// Of one entry, at most.
+    pub(crate) largest: f64,
+    /// Of all together (Frobenius norm), at most: no singular value is further off.
+    pub(crate) norm: f64,
+}
+
+/// An entry sets the scale of its row and column only above this multiple of its uncertainty. Not
+/// less: an entry that is what several roundings left of larger terms must never be scaled up to
+/// size one; and nothing is lost, since the rank does not depend on scales.
+const SIGNIFICANT: f64 = 1e5;
+
+impl Uncertainty<'_> {
+    /// The equilibration of the significant entries of `c`, and the uncertainty of the equilibrated
+    /// matrix.
+    pub(crate) fn equilibrate(self, c: &Matrix) -> Result<(Scaling, Spread), RankError> {
+        let scaling = match self {
+            Self::Equilibrated(_) => equilibrate(c),
+            Self::Entries(u) => {
+                self.check(c)?;
+                let mut significant = c.clone();
+                let entries = significant.as_mut_slice().iter_mut();
+                for (c, u) in entries.zip(u.as_slice()) {
+                    *c = match c.abs() > SIGNIFICANT * u {
+                        true => *c,
+                        false => 0.0,
+                    };
+                }
+                equilibrate(&significant)
+            }
+        };
+        let spread = self.equilibrated(c, &scaling)?;
+        Ok((scaling, spread))
+    }
+
+    /// The uncertainty of `c` in a given equilibration.
+    pub(crate) fn equilibrated(self, c: &Matrix, scaling: &Scaling) -> Result<Spread, RankError> {
+        let spread = match self {
+            Self::Equilibrated(largest) => Spread {
+                largest,
+                norm: largest * (c.nrows() as f64 * c.ncols() as f64).sqrt(),
+            },
+            Self::Entries(u) => {
+                self.check(c)?;
+                let u = scaling.apply(u);
+                Spread {
+                    largest: u.max_abs(),
+                    norm: u.frobenius_norm(),
+                }
+            }
+        };
+        match spread.norm.is_finite() && spread.largest >= 0.0 {
+            true => Ok(spread),
+            false => Err(RankError::Uncertainty {
+                value: spread.largest,
+            }),
+        }
+    }
+
+    /// The uncertainty of each entry in an equilibration, which this one has made.
+    pub(crate) fn of_entries(self, scaling: &Scaling) -> Matrix {
+        match self {
+            Self::Equilibrated(value) => {
+                Matrix::from_fn(scaling.rows.len(), scaling.cols.len(), |_, _| value)
+            }
+            Self::Entries(u) => scaling.apply(u),
+        }
+    }
+
+    fn check(self, c: &Matrix) -> Result<(), RankError> {
+        let Self::Entries(u) = self else {
+            return Ok(());
+        };
+        if (u.nrows(), u.ncols()) != (c.nrows(), c.ncols()) {
+            return Err(RankError::UncertaintyShape {
+                rows: u.nrows(),
+                cols: u.ncols(),
+                expected_rows: c.nrows(),
+                expected_cols: c.ncols(),
+            });
+        }
+        match u.as_slice().iter().find(|u| !(u.is_finite() && **u >= 0.0)) {
+            Some(&value) => Err(RankError::Uncertainty { value }),
+            None => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! The rank of a matrix that comes from a model: entries in double-double, data known to an
+//! uncertainty.
+//!
+//! A singular value that is exactly zero falls from 1e-16 to 1e-32 when the precision is doubled;
+//! one that is merely small stays. If it stays, it is compared with what the data are known to,
+//! never with the rounding of `f64`.
+
+use super::certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant};
+use super::graded::Graded;
+use super::perturbation;
+use super::{
+    Doubt, Evidence, HIDDEN, NOISE_FACTOR, RankDecision, RankError, RankStatus, Reading,
+    Uncertainty, check_finite, gap, projected,
+};
+use crate::strong_basis::{self, Basis};
+use linalg::{Dd, DdMatrix, Scaling};
+
+/// σ_{r+1} vanishes if it falls by ten digits below the 1e-16 of `f64`; what remains is the
+/// polishing of the point in double-double.
+const VANISHES: f64 = 1e-26;
+
+/// Above this multiple of the tolerance a singular value is larger than the data can explain.
+const CLEAR_OF_DATA: f64 = 4.0;
+
+/// Decides the rank of C (m×n), evaluated in double-double at a polished point, of a model whose
+/// data are known to `uncertainty`.
+///
+/// | argument | meaning |
+/// | --- | --- |
+/// | `c` | constraint matrix; its entries carry errors of double-double only |
+/// | `uncertainty` | how far the entries may be from those of the model meant; see [`Uncertainty`]. Near a singular configuration they move with the root of the data |
+///
+/// With u, the largest uncertainty of an equilibrated entry, s, the Frobenius norm of all, and
+/// `τ = max(10·u, s)`: a singular value below τ is zero for some matrix within the uncertainty, one
+/// above 4·τ is not zero for any. Then: redundant exactly (σ_{r+1} ≤ 1e-26, [`Grounds::Vanishes`]);
+/// redundant within the data ([`Grounds::WithinData`]); of full rank although
+/// [nearly redundant](RankDecision::nearly_redundant); or undecided between τ and 4·τ, and where τ
+/// is above 0.01: entries of size one would be hidden.
+///
+/// ```
+/// use linalg::{Dd, DdMatrix, Matrix};
+/// use rank::{Grounds, certify_within};
+/// let grounds = |misalignment: f64| {
+///     let mut c = DdMatrix::from(&Matrix::from_rows(&[[1.0, 1.0, 0.0], [1.0, 1.0, 0.0]]));
+///     c[(1, 0)] += Dd::from(misalignment);
+///     let decision = certify_within(&c, 2e-16).unwrap();
+///     (decision.rank, decision.evidence.certificate.unwrap().grounds)
+/// };
+/// assert_eq!(grounds(0.0), (1, Grounds::Vanishes));
+/// assert_eq!(grounds(1e-20), (1, Grounds::WithinData)); // f64 would not see it at all
+/// assert_eq!(grounds(1e-13), (2, Grounds::FullRank)); // nearly redundant, not redundant
+/// ```
+///
+/// # Errors
+/// - [`RankError::NonFinite`]: an entry is NaN or infinite.
+/// - [`RankError::Uncertainty`], [`RankError::UncertaintyShape`]: the uncertainty is negative, NaN,
+///   infinite or of another matrix.
+pub fn certify_within<'a>(
+    c: &DdMatrix,
+    uncertainty: impl Into<Uncertainty<'a>>,
+) -> Result<RankDecision, RankError> {
+    let leading = c.hi();
+    check_finite(&leading)?;
+    let (m, n) = (c.nrows(), c.ncols());
+    let known = uncertainty.into();
+    let (scaling, spread) = known.equilibrate(&leading)?;
+    let root = (m as f64 * n as f64).sqrt();
+    // Entries in double-double are no better than this, whatever the caller knows.
+    let rounding = 4.0 * root.max(1.0) * Dd::EPSILON;
+    let (uncertainty, spread) = (
+        spread.largest.max(rounding),
+        spread.norm.max(rounding * root),
+    );
+    let tolerance = spread.max(NOISE_FACTOR * uncertainty);
+    let required = CLEAR_OF_DATA * tolerance;
+    let graded = Graded::new(&c.scaled(&scaling), tolerance);
+
+    let sigma = graded.singular_values(m.min(n));
+    let rank = graded.kept.len();
+    let sigma_r = rank.checked_sub(1).map_or(f64::INFINITY, |r| sigma[r]);
+    let sigma_next = sigma.get(rank).copied().unwrap_or(0.0);
+    let lower = sigma[..rank].partition_point(|&s| s > required);
+    let sigma_max = sigma.first().copied().unwrap_or(0.0);
+    let status = if rank == 0 && sigma_max > VANISHES {
+        RankStatus::Undecided(Doubt::NotPolished {
+            sigma_max,
+            tolerance,
+        })
+    } else if lower < rank {
+        RankStatus::Undecided(Doubt::NearUncertainty {
+            lower,
+            upper: rank,
+            sigma: sigma_r,
+            tolerance,
+            required,
+        })
+    } else if sigma_next > VANISHES && tolerance > HIDDEN {
+        RankStatus::Undecided(Doubt::Hidden {
+            sigma: sigma_next,
+            tolerance,
+        })
+    } else {
+        RankStatus::Decided
+    };
+
+    let rule = Found {
+        scaling,
+        status,
+        tolerance,
+        uncertainty,
+        spread,
+        grounds: match sigma_next {
+            _ if rank == m.min(n) => Grounds::FullRank,
+            sigma if sigma <= VANISHES => Grounds::Vanishes,
+            _ => Grounds::WithinData,
+        },
+    };
+    Ok(rule.decision(&graded, &leading, known))
+}
+
+/// A rank that has been read from f64, with what it was read by; see [`certify_rank`].
+#[derive(Debug, Clone)]
+pub struct RankReading {
+    /// r
+    pub rank: usize,
+    /// Decided, or why not.
+    pub status: RankStatus,
+    /// The scaling under which it was read.
+    pub scaling: Scaling,
+    /// What the entries are known to, all together: below it a singular value counts as zero.
+    pub noise: f64,
+    /// Singular values of the rank are above this; a matrix that has one below it is another one.
+    pub separation: f64,
+    /// On what the other rows are called redundant if they do not vanish when the precision is
+    /// doubled.
+    pub grounds: Grounds,
+}
+
+/// Kept rows, dependencies and the evidence of double-double for a rank that has been read from
+/// data known to `uncertainty` (m×n, in the units of C). If the rank that separates there is
+/// another one, `None`: the reading does not belong to this matrix.
+///
+/// # Errors
+/// As [`certify_within`].
+pub fn certify_rank(
+    c: &DdMatrix,
+    uncertainty: &linalg::Matrix,
+    reading: RankReading,
+) -> Result<Option<RankDecision>, RankError> {
+    let leading = c.hi();
+    check_finite(&leading)?;
+    let known = Uncertainty::Entries(uncertainty);
+    let spread = known.equilibrated(&leading, &reading.scaling)?;
+    let graded = Graded::of_rank(&c.scaled(&reading.scaling), reading.rank);
+    let (m, n) = (c.nrows(), c.ncols());
+    let sigma = graded.singular_values(m.min(n));
+    let least = reading.rank.checked_sub(1).map(|r| sigma[r]);
+    if graded.kept.len() != reading.rank || least.is_some_and(|least| least <= reading.separation) {
+        return Ok(None);
+    }
+    let sigma_next = sigma.get(reading.rank).copied().unwrap_or(0.0);
+    let found = Found {
+        scaling: reading.scaling,
+        status: reading.status,
+        tolerance: reading.noise,
+        uncertainty: spread.largest,
+        spread: spread.norm,
+        grounds: match sigma_next {
+            _ if reading.rank == m.min(n) => Grounds::FullRank,
+            sigma if sigma <= VANISHES => Grounds::Vanishes,
+            _ => reading.grounds,
+        },
+    };
+    Ok(Some(found.decision(&graded, &leading, known)))
+}
+
+/// A rank and what it was decided by.
+struct Found {
+    scaling: Scaling,
+    status: RankStatus,
+    tolerance: f64,
+    uncertainty: f64,
+    spread: f64,
+    grounds: Grounds,
+}
+
+impl Found {
+    /// The decision with its certificate, for rows chosen level by level.
+    fn decision(
+        self,
+        graded: &Graded,
+        leading: &linalg::Matrix,
+        known: Uncertainty<'_>,
+    ) -> RankDecision {
+        let sigma = graded.singular_values(leading.nrows().min(leading.ncols()));
+        let rank = graded.kept.len();
+        let sigma_r = rank.checked_sub(1).map_or(f64::INFINITY, |r| sigma[r]);
+        let sigma_next = sigma.get(rank).copied().unwrap_or(0.0);
+        let bounds = graded.bounds();
+        let rank_at_least = bounds
+            .iter()
+            .rev()
+            .find(|b| b.1 > self.spread)
+            .map_or(0, |b| b.0);
+        let sigma_bound = bounds.last().map_or(0.0, |b| b.1);
+        let (mut t, mut kept, mut dropped) = (
+            graded.dependence(),
+            graded.kept.clone(),
+            graded.left.clone(),
+        );
+        strong_basis::exchange_all(&mut t, &mut kept, &mut dropped);
+        let basis = Basis::sorted(&kept, &dropped, &t, graded.residual());
+        let reading = Reading {
+            rank,
+            status: self.status,
+            evidence: Evidence {
+                sigma_r,
+                sigma_next,
+                gap: gap(sigma_r, sigma_next),
+                tolerance: self.tolerance,
+                constraint_residual: self.uncertainty,
+                dependence_residual: 0.0,
+                singular_values: sigma,
+                certificate: None,
+            },
+        };
+        let mut decision = reading.with_basis(self.scaling, basis);
+        let nearly_redundant = (sigma_r < NEARLY_REDUNDANT).then(|| NearlyRedundant {
+            sigma: sigma_r,
+            direction: projected(&decision, graded.smallest_direction().unwrap_or_default()),
+        });
+        let row_noise = perturbation::row_noise(&decision, leading, known);
+        decision.evidence.certificate = Some(Certificate {
+            rank_at_least,
+            sigma_bound,
+            sigma_next,
+            grounds: self.grounds,
+            uncertainty: self.uncertainty,
+            spread: self.spread,
+            row_noise,
+            nearly_redundant,
+            lower_rank_here: None,
+            lower_rank_from: None,
+            lower_rank_by_angles: false,
+            row_data: None,
+            row_turn: None,
+            open_rows: Vec::new(),
+            has_tolerance: false,
+        });
+        decision
+    }
+}
+
+#[cfg(test)]
+mod tests;

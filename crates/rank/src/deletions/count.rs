@@ -1,0 +1,142 @@
+//! The number of admissible deletions: deletion and contraction on classes of rows that replace
+//! each other, component by component.
+
+use super::{DeletionError, duals};
+use crate::RankDecision;
+use crate::dual::{Dual, Unclear, rank};
+
+/// Steps of deletion and contraction that one component may take; each costs about m·p²
+/// multiplications.
+const STEPS_MAX: usize = 20_000;
+
+/// The number of admissible sets of p rows, the product over all components (rows that mix).
+///
+/// Within a component it is exact: `b = w·b(contracted) + b(deleted)` for a class of w parallel
+/// vectors, with closed forms for redundancy 1 (the number of rows) and 2 (pairs of rows of
+/// different classes).
+///
+/// # Errors
+/// - [`DeletionError::Rank`]: the rank is undecided.
+/// - [`DeletionError::Unclear`]: a set lies in the gap between admissible and not.
+/// - [`DeletionError::TooMany`]: a component is too large, or the number exceeds 128 bits.
+pub fn count_deletions(decision: &RankDecision) -> Result<u128, DeletionError> {
+    let mut product = 1_u128;
+    for dual in duals(decision)? {
+        let redundancy = dual.dimension();
+        let mut steps = STEPS_MAX;
+        product = count(weighted(&dual), dual.noise, redundancy, &mut steps)?
+            .and_then(|n| product.checked_mul(n))
+            .ok_or(DeletionError::TooMany { redundancy })?;
+    }
+    Ok(product)
+}
+
+/// A class of rows with parallel vectors.
+#[derive(Clone)]
+struct Class {
+    vector: Vec<f64>,
+    weight: u128,
+}
+
+fn weighted(dual: &Dual) -> Vec<Class> {
+    let class = |vector: &Vec<f64>| Class {
+        vector: vector.clone(),
+        weight: 1,
+    };
+    dual.vectors.iter().map(class).collect()
+}
+
+/// Σ over all bases of the product of weights; `None` if the steps are used up or 128 bits are too
+/// few.
+fn count(
+    classes: Vec<Class>,
+    noise: f64,
+    p: usize,
+    steps: &mut usize,
+) -> Result<Option<u128>, Unclear> {
+    if p == 0 {
+        return Ok(Some(1));
+    }
+    if *steps == 0 {
+        return Ok(None);
+    }
+    *steps -= 1;
+    let mut classes = merged(classes, noise)?;
+    if p <= 2 {
+        return Ok(pairs_or_singles(&classes, p));
+    }
+    let vectors = |classes: &[Class]| classes.iter().map(|c| c.vector.clone()).collect();
+    if rank(vectors(&classes), noise)? < p {
+        return Ok(Some(0));
+    }
+    // The largest vector keeps the multipliers of the contraction at one, and with them the noise.
+    let size = |c: &Class| linalg::kernels::max_abs(&c.vector);
+    let Some(at) =
+        (0..classes.len()).max_by(|&a, &b| size(&classes[a]).total_cmp(&size(&classes[b])))
+    else {
+        return Ok(Some(0));
+    };
+    let taken = classes.swap_remove(at);
+    let with = count(
+        contracted(&classes, &taken.vector),
+        2.0 * noise,
+        p - 1,
+        steps,
+    )?;
+    let without = count(classes, noise, p, steps)?;
+    Ok(with
+        .and_then(|n| n.checked_mul(taken.weight))
+        .zip(without)
+        .and_then(|(a, b)| a.checked_add(b)))
+}
+
+/// Classes with parallel vectors made one, zero vectors left out.
+fn merged(classes: Vec<Class>, noise: f64) -> Result<Vec<Class>, Unclear> {
+    let mut distinct: Vec<Class> = Vec::new();
+    'classes: for class in classes {
+        if rank(vec![class.vector.clone()], noise)? == 0 {
+            continue;
+        }
+        for other in &mut distinct {
+            if rank(vec![other.vector.clone(), class.vector.clone()], noise)? == 1 {
+                other.weight += class.weight;
+                continue 'classes;
+            }
+        }
+        distinct.push(class);
+    }
+    Ok(distinct)
+}
+
+/// Σ w for p = 1, Σ w_a·w_b over pairs for p = 2: different classes are independent there.
+fn pairs_or_singles(classes: &[Class], p: usize) -> Option<u128> {
+    let (mut singles, mut pairs) = (0_u128, 0_u128);
+    for class in classes {
+        pairs = pairs.checked_add(singles.checked_mul(class.weight)?)?;
+        singles = singles.checked_add(class.weight)?;
+    }
+    Some(if p == 1 { singles } else { pairs })
+}
+
+/// The vectors modulo `taken`: its largest coordinate is eliminated and left out.
+fn contracted(classes: &[Class], taken: &[f64]) -> Vec<Class> {
+    let largest = |a: usize, b: usize| {
+        if taken[b].abs() > taken[a].abs() {
+            b
+        } else {
+            a
+        }
+    };
+    let pivot = (0..taken.len()).fold(0, largest);
+    let project = |class: &Class| {
+        let factor = class.vector[pivot] / taken[pivot];
+        let coordinates = (0..taken.len()).filter(|&c| c != pivot);
+        Class {
+            vector: coordinates
+                .map(|c| class.vector[c] - factor * taken[c])
+                .collect(),
+            weight: class.weight,
+        }
+    };
+    classes.iter().map(project).collect()
+}

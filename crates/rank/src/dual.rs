@@ -1,0 +1,194 @@
+//! The rows of a left null space basis as vectors: the dual of the row matroid.
+//!
+//! Row i of Z̃ (m×p, of the equilibrated rows) is the vector of constraint i. A set D of
+//! constraints may be deleted without a change of motion iff its vectors are independent; rows with
+//! parallel vectors replace each other; the rows where `Z̃·y` vanishes and those where it does not
+//! are a hyperplane of the dual and a circuit of the rows.
+//!
+//! Every question is a rank of a few vectors, answered by elimination with complete pivoting:
+//! multipliers are at most one, so the noise of all entries stays that of the decision, and an
+//! entry between "zero" and "certainly not" is an error, not a guess.
+
+use crate::decision::{Size, size};
+use crate::null_space::Support;
+use crate::{RankDecision, support_tolerance};
+
+/// A rank that hangs on a number between "zero" and "certainly not".
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Unclear {
+    pub(crate) value: f64,
+    pub(crate) noise: f64,
+}
+
+/// Rows of Z̃, restricted to the rows and coordinates of a set of components.
+#[derive(Debug, Clone)]
+pub(crate) struct Dual {
+    /// The constraints, ascending.
+    pub(crate) rows: Vec<usize>,
+    /// Their vectors, in the same order.
+    pub(crate) vectors: Vec<Vec<f64>>,
+    /// Noise of the entries, the largest of which is about one.
+    pub(crate) noise: f64,
+}
+
+impl Dual {
+    /// The vectors of `rows` (ascending); their coordinates belong to the dropped rows among them,
+    /// so `rows` must be a union of components.
+    pub(crate) fn new(decision: &RankDecision, support: &Support, rows: &[usize]) -> Self {
+        let inside = |row: &usize| rows.binary_search(row).is_ok();
+        let coordinates: Vec<usize> = (0..decision.redundancy)
+            .filter(|&j| inside(&decision.dropped[j]))
+            .collect();
+        // Coordinates in units of their largest coefficient: a change of basis that makes their
+        // noise equal.
+        let unit = |j: usize| support.t.row(j).iter().fold(1.0_f64, |a, b| a.max(b.abs()));
+        let vector = |row: usize| -> Vec<f64> {
+            let of = |j: usize| match decision.kept.binary_search(&row) {
+                Ok(i) if support.contains(j, i) => -support.t[(j, i)] / unit(j),
+                Err(_) if decision.dropped[j] == row => unit(j).recip(),
+                _ => 0.0,
+            };
+            coordinates.iter().map(|&j| of(j)).collect()
+        };
+        Self {
+            rows: rows.to_vec(),
+            vectors: rows.iter().map(|&row| vector(row)).collect(),
+            noise: support_tolerance(decision),
+        }
+    }
+
+    /// Number of coordinates, the rank of all vectors together.
+    pub(crate) fn dimension(&self) -> usize {
+        self.vectors.first().map_or(0, Vec::len)
+    }
+
+    /// Rank of the vectors at these places.
+    pub(crate) fn rank(&self, places: &[usize]) -> Result<usize, Unclear> {
+        let vectors = places.iter().map(|&k| self.vectors[k].clone()).collect();
+        rank(vectors, self.noise)
+    }
+
+    /// Places grouped by direction; zero vectors are left out.
+    pub(crate) fn parallel_classes(&self) -> Result<Vec<Vec<usize>>, Unclear> {
+        let mut classes: Vec<Vec<usize>> = Vec::new();
+        'places: for k in 0..self.rows.len() {
+            if self.rank(&[k])? == 0 {
+                continue;
+            }
+            for class in &mut classes {
+                if self.rank(&[class[0], k])? == 1 {
+                    class.push(k);
+                    continue 'places;
+                }
+            }
+            classes.push(vec![k]);
+        }
+        Ok(classes)
+    }
+}
+
+/// Rank of vectors whose entries have the given noise.
+pub(crate) fn rank(vectors: Vec<Vec<f64>>, noise: f64) -> Result<usize, Unclear> {
+    Ok(eliminate(vectors, noise)?.pivots.len())
+}
+
+/// Vectors after elimination: the pivot rows first, upper trapezoidal in the order of the pivots.
+pub(crate) struct Eliminated {
+    pub(crate) vectors: Vec<Vec<f64>>,
+    /// Coordinate of each pivot.
+    pub(crate) pivots: Vec<usize>,
+    /// The last pivot's absolute value, infinite if there is none.
+    pub(crate) smallest: f64,
+}
+
+/// Gaussian elimination with complete pivoting.
+pub(crate) fn eliminate(mut vectors: Vec<Vec<f64>>, noise: f64) -> Result<Eliminated, Unclear> {
+    let mut pivots = Vec::new();
+    let mut smallest = f64::INFINITY;
+    let dimension = vectors.first().map_or(0, Vec::len);
+    for step in 0..vectors.len().min(dimension) {
+        let (mut at, mut value) = ((step, 0), 0.0_f64);
+        for (k, vector) in vectors.iter().enumerate().skip(step) {
+            for (c, z) in vector.iter().enumerate() {
+                if z.abs() > value {
+                    (at, value) = ((k, c), z.abs());
+                }
+            }
+        }
+        let noise = noise * (step + 1) as f64;
+        match size(value, noise) {
+            Size::Zero => break,
+            Size::Unclear => return Err(Unclear { value, noise }),
+            Size::NonZero => {}
+        }
+        vectors.swap(step, at.0);
+        let (done, rest) = vectors.split_at_mut(step + 1);
+        let pivot = &done[step];
+        for vector in rest {
+            let factor = vector[at.1] / pivot[at.1];
+            for (v, p) in vector.iter_mut().zip(pivot) {
+                *v -= factor * p;
+            }
+            vector[at.1] = 0.0;
+        }
+        pivots.push(at.1);
+        smallest = value;
+    }
+    Ok(Eliminated {
+        vectors,
+        pivots,
+        smallest,
+    })
+}
+
+/// All subsets of `0..n` with k elements, in lexicographic order.
+pub(crate) fn subsets(n: usize, k: usize) -> impl Iterator<Item = Vec<usize>> {
+    let mut next = (k <= n).then(|| (0..k).collect::<Vec<_>>());
+    std::iter::from_fn(move || {
+        let current = next.take()?;
+        if let Some(at) = (0..k).rfind(|&at| current[at] < n - k + at) {
+            let mut following = current.clone();
+            following[at] += 1;
+            for later in at + 1..k {
+                following[later] = following[later - 1] + 1;
+            }
+            next = Some(following);
+        }
+        Some(current)
+    })
+}
+
+/// Number of subsets of `0..n` with k elements, `None` above the largest `usize`.
+pub(crate) fn binomial(n: usize, k: usize) -> Option<usize> {
+    if k > n {
+        return Some(0);
+    }
+    (0..k.min(n - k)).try_fold(1_usize, |b, i| Some(b.checked_mul(n - i)? / (i + 1)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn subsets_are_as_many_as_binomials() {
+        for n in 0..7 {
+            for k in 0..8 {
+                assert_eq!(Some(subsets(n, k).count()), binomial(n, k), "{n} over {k}");
+            }
+        }
+        assert_eq!(
+            subsets(3, 2).collect::<Vec<_>>(),
+            [vec![0, 1], vec![0, 2], vec![1, 2]]
+        );
+        assert_eq!(binomial(400, 200), None);
+    }
+
+    #[test]
+    fn a_pivot_in_the_noise_is_an_error_only_where_it_decides() {
+        let vectors = |x: f64| vec![vec![1.0, 1.0], vec![1.0, 1.0 + x]];
+        assert_eq!(rank(vectors(1e-13), 1e-12).ok(), Some(1));
+        assert_eq!(rank(vectors(1e-6), 1e-12).ok(), Some(2));
+        assert!(rank(vectors(1e-10), 1e-12).is_err());
+    }
+}

@@ -1,0 +1,32 @@
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
+
+mod circuits;
+mod decision;
+mod deletions;
+mod dual;
+mod null_space;
+mod prime_field;
+mod sparse;
+mod strong_basis;
+mod structure;
+mod weakest;
+
+pub use circuits::{Circuit, circuits, short_circuits};
+pub use decision::{
+    Certificate, CoefficientReading, Doubt, Evidence, ExactNullSpace, Grounds, KeptRowsError,
+    NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankError, RankReading,
+    RankStatus, Readings, Uncertainty, certify_exact, certify_rank, certify_within, decide,
+    decide_dropping, decide_keeping, promising_rows,
+};
+pub use deletions::{
+    DeletionError, Limits, Substitutes, count_deletions, deletions, making_unique,
+};
+pub use null_space::{
+    Components, components, dependencies, open_rows, orthonormal, support_tolerance,
+};
+pub use sparse::{
+    Sketch, SparseEvidence, SparsePattern, SparseRank, SparseRankError, decide_sparse,
+};
+pub use structure::{Part, RowGroup, Settled, Structure, cycles, structure};
+pub use weakest::{WeakestCombination, weakest_combination};

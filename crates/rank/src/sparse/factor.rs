@@ -1,0 +1,231 @@
+//! The factorisation: C = Q·R, body by body, with the rank found on the way.
+//!
+//! Each front is triangularised by Householder reflections. A pivot column of which less than the
+//! tolerance is left is *dead* and stepped over (Heath's rule); there is no exchange of columns but
+//! among those of one body. What is left of the front below its pivots is triangularised too, so
+//! that it has no more rows than columns when it goes up; rows that have nothing left are the left
+//! null space. All that is set to zero on the way is E: `C + E = Q·R` up to rounding, hence
+//! `σ_{r+1}(C) ≤ ‖E‖`. The live columns lose nothing with the dead ones.
+//!
+//! Not here: whether to believe that rank. The live columns may be nearly dependent without one of
+//! them showing it.
+//!
+//! Source: M. T. Heath, Some extensions of an algorithm for sparse linear least squares problems,
+//! SIAM J. Sci. Stat. Comput. 3 (1982) 223–237; T. A. Davis, Algorithm 915: SuiteSparseQR, ACM
+//! Trans. Math. Softw. 38 (2011) 8.
+
+use std::ops::Range;
+
+use super::front::{Assembly, OutsidePattern};
+use super::reflectors::Reflectors;
+use super::symbolic::{Front, Symbolic};
+use super::trapezoid::Trapezoid;
+use linalg::SparseMatrix;
+use linalg::kernels;
+
+#[cfg(test)]
+mod tests;
+
+/// Which factor is kept; the other one is not stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    Q,
+    R,
+}
+
+/// What counts as zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Tolerances {
+    /// What is left of a column when its body is eliminated.
+    pub(super) dead: f64,
+    /// What is left of a column in the rest of a front.
+    pub(super) rest: f64,
+}
+
+/// C = Q·R with r rows in R; one of the factors is empty.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct SparseQr {
+    pub(super) q: Reflectors,
+    pub(super) r: Trapezoid,
+    pub(super) rank: usize,
+    /// Which rows of QᵀC are rows of R; the others are zero.
+    pub(super) is_live: Vec<bool>,
+    /// ‖E‖, the Frobenius norm of what was set to zero.
+    pub(super) dropped: f64,
+    /// That of its part in columns that were not dead then.
+    pub(super) dropped_from_rest: f64,
+}
+
+impl SparseQr {
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        self.q.bytes() + self.r.bytes()
+    }
+}
+
+impl Symbolic {
+    /// Factors a matrix whose entries all lie in the pattern.
+    pub(super) fn factor(
+        &self,
+        c: &SparseMatrix,
+        tolerances: Tolerances,
+        wanted: Wanted,
+    ) -> Result<SparseQr, OutsidePattern> {
+        for &row in &self.empty_rows {
+            if let Some(&column) = c.row(row).0.first() {
+                return Err(OutsidePattern { row, column });
+            }
+        }
+        let mut work = Householder {
+            front: Assembly::new(self),
+            tolerances,
+            wanted,
+            v: Vec::new(),
+            product: Vec::new(),
+            found: SparseQr {
+                q: Reflectors::default(),
+                r: Trapezoid::default(),
+                rank: 0,
+                is_live: vec![false; self.nrows],
+                dropped: 0.0,
+                dropped_from_rest: 0.0,
+            },
+        };
+        for front in &self.fronts {
+            work.front.assemble(front, c)?;
+            work.eliminate(front);
+        }
+        let mut found = work.found;
+        let dead = found.dropped.sqrt();
+        found.dropped_from_rest = found.dropped_from_rest.sqrt();
+        found.dropped = dead.hypot(found.dropped_from_rest);
+        Ok(found)
+    }
+}
+
+struct Householder {
+    front: Assembly,
+    tolerances: Tolerances,
+    wanted: Wanted,
+    /// The vector v of the reflection in work: (row of the front, value).
+    v: Vec<(usize, f64)>,
+    product: Vec<f64>,
+    /// What is finished; until the end squares are in place of what was dropped, and `dropped` is
+    /// without the rest.
+    found: SparseQr,
+}
+
+impl Householder {
+    /// Triangularises the front: rows of R for its pivots, and a rest without rows of zeros.
+    fn eliminate(&mut self, front: &Front) {
+        let (mut top, mut start) = (0, 0);
+        for &end in &front.ends {
+            for at in start..end {
+                let (norm, total) = self.largest_first(top, at, end);
+                if norm <= self.tolerances.dead {
+                    self.found.dropped += total;
+                    self.clear(top, at..end);
+                    break;
+                }
+                self.reflect(top, at, norm);
+                self.finish_row(top, at);
+                top += 1;
+            }
+            start = end;
+        }
+        let (pivots, first) = (start, top);
+        for at in pivots..self.front.width() {
+            let (norm, total) = self.largest_first(top, at, at + 1);
+            if norm <= self.tolerances.rest {
+                self.found.dropped_from_rest += total;
+                self.clear(top, at..at + 1);
+            } else {
+                self.reflect(top, at, norm);
+                top += 1;
+            }
+        }
+        self.front.leave(pivots, first..top);
+    }
+
+    /// Brings that of the columns `at..end` to `at` of which most is left from row `top` on; its
+    /// norm, and the square of that of all of them.
+    fn largest_first(&mut self, top: usize, at: usize, end: usize) -> (f64, f64) {
+        let width = self.front.width();
+        let (mut square, mut largest, mut total) = (0.0, at, 0.0);
+        for j in at..end {
+            let column = self.front.values[top * width..]
+                .iter()
+                .skip(j)
+                .step_by(width);
+            let of_j: f64 = column.map(|a| a * a).sum();
+            total += of_j;
+            if of_j > square {
+                (square, largest) = (of_j, j);
+            }
+        }
+        self.front.swap_columns(top, at, largest);
+        (square.sqrt(), total)
+    }
+
+    /// Zeros in these columns from row `top` on.
+    fn clear(&mut self, top: usize, columns: Range<usize>) {
+        let width = self.front.width();
+        for row in self.front.values[top * width..].chunks_exact_mut(width) {
+            row[columns.clone()].fill(0.0);
+        }
+    }
+
+    /// Turns column `at`, of which `norm` is left from row `top` on, into that row; the rows in
+    /// which it is zero stay as they are.
+    fn reflect(&mut self, top: usize, at: usize, norm: f64) {
+        let width = self.front.width();
+        let entry = |i: usize| (i, self.front.values[i * width + at]);
+        let rows = top..self.front.rows.len();
+        self.v.clear();
+        self.v
+            .extend(rows.map(entry).filter(|(_, value)| *value != 0.0));
+        let (first, head) = self.v[0];
+        self.front.swap_rows(top, first);
+        self.v[0].0 = top;
+        if self.v.len() == 1 {
+            return;
+        }
+        // v = (a − r·e₁)·√β with r = −sign(a₁)·‖a‖ and β = 1/(‖a‖·(‖a‖ + |a₁|)), so that ‖v‖² = 2.
+        let diagonal = -norm.copysign(head);
+        let scale = (norm * (norm + head.abs())).sqrt().recip();
+        self.v[0].1 = head - diagonal;
+        self.v.iter_mut().for_each(|(_, value)| *value *= scale);
+        if self.wanted == Wanted::Q {
+            let rows = &self.front.rows;
+            let entries = self.v.iter().map(|&(i, v_i)| (rows[i], v_i));
+            self.found.q.push(entries);
+        }
+        self.product.clear();
+        self.product.resize(width - at - 1, 0.0);
+        for &(i, v_i) in &self.v {
+            let row = &self.front.values[i * width..][at + 1..width];
+            kernels::axpy(v_i, row, &mut self.product);
+        }
+        for &(i, v_i) in &self.v {
+            let row = &mut self.front.values[i * width..][at..width];
+            row[0] = 0.0;
+            kernels::axpy(-v_i, &self.product, &mut row[1..]);
+        }
+        self.front.values[top * width + at] = diagonal;
+    }
+
+    /// Row `top` is the row of R with its pivot in column `at`.
+    fn finish_row(&mut self, top: usize, at: usize) {
+        self.found.rank += 1;
+        self.found.is_live[self.front.rows[top]] = true;
+        if self.wanted == Wanted::R {
+            let width = self.front.width();
+            let values = &self.front.values[top * width..][at..width];
+            let columns = &self.front.columns[at..];
+            let entries = columns.iter().copied().zip(values.iter().copied());
+            self.found
+                .r
+                .push(entries.filter(|(_, value)| *value != 0.0));
+        }
+    }
+}

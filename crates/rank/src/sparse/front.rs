@@ -1,0 +1,158 @@
+//! One front at a time: put together from rows of C and the rests of the fronts below, and its own
+//! rest left for the front above.
+//!
+//! Not here: what is done to a front, which is in `factor`.
+
+use super::symbolic::{Front, Symbolic};
+use linalg::SparseMatrix;
+
+/// Not a column of the front.
+const OUTSIDE: usize = usize::MAX;
+
+/// The front in work, and the rests that wait.
+pub(super) struct Assembly {
+    /// Columns of C of the front, in the order of its columns.
+    pub(super) columns: Vec<usize>,
+    /// Which row of C each row has taken the place of.
+    pub(super) rows: Vec<usize>,
+    /// Values, row by row.
+    pub(super) values: Vec<f64>,
+    /// Where a column of C stands in the front.
+    position: Vec<usize>,
+    /// Rests of fronts that are not taken over yet, the latest last.
+    waiting: Vec<Rest>,
+    waiting_rows: Vec<usize>,
+    waiting_columns: Vec<usize>,
+    waiting_values: Vec<f64>,
+}
+
+/// What is left of a front: so many rows and columns of those that wait.
+struct Rest {
+    rows: usize,
+    columns: usize,
+}
+
+/// An entry where the pattern has none.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct OutsidePattern {
+    pub(super) row: usize,
+    pub(super) column: usize,
+}
+
+impl Assembly {
+    pub(super) fn new(symbolic: &Symbolic) -> Self {
+        Self {
+            columns: Vec::new(),
+            rows: Vec::new(),
+            values: Vec::new(),
+            position: vec![OUTSIDE; symbolic.ncols],
+            waiting: Vec::new(),
+            waiting_rows: Vec::new(),
+            waiting_columns: Vec::new(),
+            waiting_values: Vec::new(),
+        }
+    }
+
+    pub(super) fn width(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// The rows of C that are met here first, and the rests of the children.
+    pub(super) fn assemble(
+        &mut self,
+        front: &Front,
+        c: &SparseMatrix,
+    ) -> Result<(), OutsidePattern> {
+        self.columns.clone_from(&front.columns);
+        for (at, &column) in self.columns.iter().enumerate() {
+            self.position[column] = at;
+        }
+        let width = self.width();
+        self.rows.clear();
+        self.values.clear();
+        for &row in &front.rows {
+            let base = self.values.len();
+            self.values.resize(base + width, 0.0);
+            self.rows.push(row);
+            for (column, value) in c.entries(row) {
+                match self.position[column] {
+                    OUTSIDE => return Err(OutsidePattern { row, column }),
+                    at => self.values[base + at] = value,
+                }
+            }
+        }
+        for _ in 0..front.children {
+            if let Some(rest) = self.waiting.pop() {
+                self.take_over(&rest);
+            }
+        }
+        for &column in &self.columns {
+            self.position[column] = OUTSIDE;
+        }
+        Ok(())
+    }
+
+    /// The rows of the rest that was left last.
+    fn take_over(&mut self, rest: &Rest) {
+        let width = self.width();
+        let columns = self.waiting_columns.len() - rest.columns;
+        let rows = self.waiting_rows.len() - rest.rows;
+        let values = self.waiting_values.len() - rest.rows * rest.columns;
+        let places = &mut self.waiting_columns[columns..];
+        places.iter_mut().for_each(|j| *j = self.position[*j]);
+        for k in 0..rest.rows {
+            let base = self.values.len();
+            self.values.resize(base + width, 0.0);
+            let from = &self.waiting_values[values + k * rest.columns..][..rest.columns];
+            for (&at, &value) in places.iter().zip(from) {
+                self.values[base + at] = value;
+            }
+        }
+        self.rows.extend_from_slice(&self.waiting_rows[rows..]);
+        self.waiting_columns.truncate(columns);
+        self.waiting_rows.truncate(rows);
+        self.waiting_values.truncate(values);
+    }
+
+    /// Leaves these rows, without the pivots, for the front above; if there is one, it expects even
+    /// none.
+    pub(super) fn leave(&mut self, pivots: usize, rows: impl Iterator<Item = usize>) {
+        let width = self.width();
+        if pivots == width {
+            return;
+        }
+        let before = self.waiting_rows.len();
+        for i in rows {
+            self.waiting_rows.push(self.rows[i]);
+            let row = &self.values[i * width..][pivots..width];
+            self.waiting_values.extend_from_slice(row);
+        }
+        self.waiting_columns
+            .extend_from_slice(&self.columns[pivots..]);
+        self.waiting.push(Rest {
+            rows: self.waiting_rows.len() - before,
+            columns: width - pivots,
+        });
+    }
+
+    /// Exchanges rows `top` and `i`, `top ≤ i`.
+    pub(super) fn swap_rows(&mut self, top: usize, i: usize) {
+        if i != top {
+            let width = self.width();
+            let (upper, lower) = self.values.split_at_mut(i * width);
+            upper[top * width..][..width].swap_with_slice(&mut lower[..width]);
+            self.rows.swap(top, i);
+        }
+    }
+
+    /// Exchanges columns from row `top` on.
+    pub(super) fn swap_columns(&mut self, top: usize, at: usize, j: usize) {
+        if j != at {
+            let width = self.width();
+            self.columns.swap(at, j);
+            for row in self.values[top * width..].chunks_exact_mut(width) {
+                row.swap(at, j);
+            }
+        }
+    }
+}

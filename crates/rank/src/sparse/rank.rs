@@ -1,0 +1,309 @@
+//! The rank of a sparse matrix, by the rule of dense rank decisions, with evidence that can be had
+//! for the price of a few factorisations.
+//!
+//! `C̃ = D_r·C·D_c` is equilibrated and factored twice:
+//!
+//! - `C̃ = Q·R` by columns gives r, and random combinations W of the left null space. What ‖C̃ᵀ·W‖
+//!   leaves is σ_{r+1}, from above.
+//! - `C̃ᵀ = Q'·R'` by rows gives as its live columns the kept rows K. `R'₁₁ᵀ·R'₁₁ = C̃_K·C̃_Kᵀ`, so
+//!   that its smallest singular value is that of the kept rows, and `σ_r(C̃) ≥ σ_min(C̃_K)`.
+//!
+//! Not by the live columns of R: where a mechanism has many freedoms, coordinates chosen body by
+//! body may depend on each other exponentially, and rows that are well independent would look as if
+//! they were not.
+//!
+//! The ranks are found by Heath's rule, which may be wrong; one that is too large shows in
+//! σ_min(C̃_K) or in the other rank, one that is too small in ‖C̃ᵀ·W‖. Then the rank is undecided,
+//! never silently wrong.
+//!
+//! Source: L. V. Foster, T. A. Davis, Algorithm 933: Reliable calculation of numerical rank, null
+//! space bases, pseudoinverse solutions, and basic solutions using SuiteSparseQR, ACM Trans. Math.
+//! Softw. 40 (2013) 7, for confirming a rank by inverse iteration.
+
+use std::ops::Range;
+
+use super::factor::{SparseQr, Tolerances, Wanted};
+use super::front::OutsidePattern;
+use super::reflectors::WIDTH;
+use super::sketch::{Sketch, sketch};
+use super::smallest::smallest_singular_value;
+use super::symbolic::{Symbolic, TooDense, WORK_MAX};
+use crate::decision::{required, tolerance};
+use crate::{RankError, RankStatus};
+use linalg::SparseMatrix;
+use linalg::{Matrix, Scaling, equilibrate_sparse};
+
+mod reading;
+#[cfg(test)]
+mod tests;
+
+/// How much shall be left of a kept row beside those kept before it, if there are enough of them.
+/// Long chains have rows of which 1e-3 is left.
+const LEFT: f64 = 1e-4;
+
+/// Rank of a sparse constraint matrix, with the rows to keep, random combinations of its left null
+/// space, and the evidence.
+#[derive(Debug, Clone, PartialEq)]
+pub struct SparseRank {
+    /// r = rank C. If undecided: a guess.
+    pub rank: usize,
+    /// Degree of redundancy p = m − r.
+    pub redundancy: usize,
+    /// Independent rows K, ascending; r of them, unless the rank is undecided.
+    pub kept: Vec<usize>,
+    /// The other rows, ascending.
+    pub dropped: Vec<usize>,
+    /// The scaling under which the rank was decided.
+    pub scaling: Scaling,
+    /// W (m×k): random combinations of an orthonormal basis of the left null space of the
+    /// equilibrated rows. `D_r` times a column is a self-stress of C.
+    pub sketch: Matrix,
+    /// The numbers behind the decision.
+    pub evidence: SparseEvidence,
+    /// Decided, or why not.
+    pub status: RankStatus,
+}
+
+/// The numbers behind a sparse rank decision; all of them belong to the equilibrated matrix.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SparseEvidence {
+    /// A lower bound of the smallest singular value of the kept rows, and so of σ_r; at most about
+    /// four times too small. Infinite for rank 0.
+    pub sigma_r: f64,
+    /// ‖Cᵀ·W‖ (Frobenius), which estimates ‖Cᵀ·Z‖ ≥ σ_{r+1}. Where all p dependencies hold only to
+    /// the stated uncertainty it is up to √p times larger than σ_{r+1}: undecided then, rather than
+    /// wrong.
+    pub sigma_next: f64,
+    /// τ: below it a singular value counts as zero.
+    pub tolerance: f64,
+    /// What the equilibrated entries are known to, as it was stated.
+    pub uncertainty: f64,
+    /// ‖E‖ (Frobenius): what the factorisation by columns set to zero.
+    pub backward_error: f64,
+    /// Largest norm of a row of W within its noise, 0 if there is none.
+    pub largest_zero: f64,
+    /// Smallest norm of a row of W beyond its noise, infinite if there is none.
+    pub smallest_margin: f64,
+    /// Bytes that the factors took.
+    pub bytes: usize,
+}
+
+/// Input that no sparse rank can be decided for.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SparseRankError {
+    /// The matrix has a bad entry, or the uncertainty is none.
+    #[error(transparent)]
+    Rank(#[from] RankError),
+    /// The matrix is not one of the pattern.
+    #[error("entry in row {row}, column {column}, where the pattern has none")]
+    Pattern {
+        /// Row of the entry.
+        row: usize,
+        /// Column of the entry.
+        column: usize,
+    },
+    /// Too many bodies, or too many rows of one body, are joined to each other to be eliminated one
+    /// by one.
+    #[error(
+        "elimination needs about {work:.1e} operations, at most {limit:.1e} are made; bodies or rows are joined too closely"
+    )]
+    TooDense {
+        /// Estimated operations, or those counted when the limit was passed.
+        work: f64,
+        /// The limit.
+        limit: f64,
+    },
+    /// The matrix has another shape than the pattern.
+    #[error("matrix of {rows}×{columns} for a pattern of {expected_rows}×{expected_columns}")]
+    Shape {
+        /// Rows given.
+        rows: usize,
+        /// Columns given.
+        columns: usize,
+        /// Rows of the pattern.
+        expected_rows: usize,
+        /// Columns of the pattern.
+        expected_columns: usize,
+    },
+}
+
+/// Decides the rank of a sparse C whose columns come in blocks, the coordinates of a body each. A
+/// range beyond the matrix is cut, and a column in none is a block of its own.
+///
+/// `uncertainty` is what the entries of the equilibrated matrix are known to beyond rounding.
+///
+/// ```
+/// use linalg::SparseMatrix;
+/// use rank::{Sketch, decide_sparse};
+/// // Rows 0 and 2 say the same of the first body.
+/// let c = SparseMatrix::from_rows(2, [vec![(0, 1.0)], vec![(0, 1.0), (1, 1.0)], vec![(0, 3.0)]])?;
+/// let found = decide_sparse(&c, 0.0, &[0..1, 1..2], Sketch::default())?;
+/// assert!(found.is_decided());
+/// assert_eq!((found.rank, found.redundancy), (2, 1));
+/// assert!(found.margin(0) > 0.1 && found.margin(1) < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// - [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN or
+///   infinite.
+/// - [`SparseRankError::TooDense`]: see there.
+pub fn decide_sparse(
+    c: &SparseMatrix,
+    uncertainty: f64,
+    blocks: &[Range<usize>],
+    wanted: Sketch,
+) -> Result<SparseRank, SparseRankError> {
+    SparsePattern::new(c, blocks)?.decide(c, uncertainty, wanted)
+}
+
+/// Where matrices of one pattern have entries, and in which order they are factored: for many
+/// decisions on matrices of other values.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SparsePattern {
+    by_columns: Symbolic,
+    by_rows: Symbolic,
+}
+
+impl SparsePattern {
+    /// The pattern of the stored entries of `c`, whose columns come in blocks.
+    ///
+    /// # Errors
+    /// [`SparseRankError::TooDense`]: it would take longer than the dense code takes for some
+    /// thousands of rows.
+    pub fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Result<Self, SparseRankError> {
+        let by_columns = Symbolic::new(c, blocks)?;
+        let by_rows = Symbolic::new(&c.transpose(), &by_columns.row_blocks)?;
+        Ok(Self {
+            by_columns,
+            by_rows,
+        })
+    }
+
+    /// Memory of a decision with so many random combinations, about, in bytes: before it is taken.
+    pub fn bytes(&self, wanted: Sketch) -> usize {
+        let rows = self.by_columns.nrows;
+        let q = self.by_columns.bytes(Wanted::Q);
+        let vectors = size_of::<f64>() * rows * 2 * wanted.columns.next_multiple_of(WIDTH);
+        // The reflections of Cᵀ, a vector or two of the sketch, and then the triangle of the kept
+        // rows.
+        q + vectors + self.by_rows.bytes(Wanted::R)
+    }
+
+    /// [`decide_sparse`] of a matrix with this pattern.
+    ///
+    /// # Errors
+    /// - [`SparseRankError::Rank`]: an entry is NaN or infinite; the uncertainty is negative, NaN
+    ///   or infinite.
+    /// - [`SparseRankError::Pattern`], [`SparseRankError::Shape`]: the matrix is not one of the
+    ///   pattern.
+    pub fn decide(
+        &self,
+        c: &SparseMatrix,
+        uncertainty: f64,
+        wanted: Sketch,
+    ) -> Result<SparseRank, SparseRankError> {
+        self.check(c, uncertainty)?;
+        let (m, n) = (c.nrows(), c.ncols());
+        let tolerance = tolerance(m, n, uncertainty);
+        let scaling = equilibrate_sparse(c);
+        let scaled = scaling.apply_sparse(c);
+
+        let exact = Tolerances {
+            dead: tolerance,
+            rest: tolerance,
+        };
+        let by_columns = self.by_columns.factor(&scaled, exact, Wanted::Q)?;
+        let rank = by_columns.rank;
+        let (sketch, sigma_next) = sketch(&by_columns, &scaled, wanted);
+        let by_rows = self.kept_rows(&scaled.transpose(), rank, tolerance)?;
+        let sigma_r = smallest_singular_value(&by_rows.r, m, wanted.seed);
+        let sigma_r = (sigma_r - by_rows.dropped_from_rest).max(0.0);
+        let mut is_kept = vec![false; m];
+        by_rows.r.live().for_each(|i| is_kept[i] = true);
+        let (kept, dropped): (Vec<usize>, Vec<usize>) = (0..m).partition(|&i| is_kept[i]);
+
+        let mut found = SparseRank {
+            rank,
+            redundancy: m - rank,
+            kept,
+            dropped,
+            scaling,
+            sketch,
+            evidence: SparseEvidence {
+                sigma_r,
+                sigma_next,
+                tolerance,
+                uncertainty,
+                backward_error: by_columns.dropped,
+                largest_zero: 0.0,
+                smallest_margin: f64::INFINITY,
+                bytes: by_columns.bytes() + by_rows.bytes(),
+            },
+            status: RankStatus::Decided,
+        };
+        (found.evidence.largest_zero, found.evidence.smallest_margin) = found.margins();
+        found.status = found.read(scaled.norm());
+        Ok(found)
+    }
+
+    /// The factorisation of Cᵀ whose live columns are the kept rows: of rows that are enough, those
+    /// of which as much is left as possible.
+    fn kept_rows(
+        &self,
+        transposed: &SparseMatrix,
+        rank: usize,
+        tolerance: f64,
+    ) -> Result<SparseQr, OutsidePattern> {
+        let factor = |dead: f64| {
+            let tolerances = Tolerances {
+                dead,
+                rest: tolerance,
+            };
+            self.by_rows.factor(transposed, tolerances, Wanted::R)
+        };
+        // If less is left than required, the kept rows cannot have the singular value that is
+        // required of them.
+        let required = required(tolerance);
+        let found = factor(required.max(LEFT))?;
+        match found.rank == rank {
+            true => Ok(found),
+            false => factor(required),
+        }
+    }
+
+    fn check(&self, c: &SparseMatrix, uncertainty: f64) -> Result<(), SparseRankError> {
+        let (expected_rows, expected_columns) = (self.by_columns.nrows, self.by_columns.ncols);
+        if (c.nrows(), c.ncols()) != (expected_rows, expected_columns) {
+            return Err(SparseRankError::Shape {
+                rows: c.nrows(),
+                columns: c.ncols(),
+                expected_rows,
+                expected_columns,
+            });
+        }
+        if let Some((row, col, value)) = c.first_non_finite() {
+            return Err(RankError::NonFinite { row, col, value }.into());
+        }
+        match uncertainty.is_finite() && uncertainty >= 0.0 {
+            true => Ok(()),
+            false => Err(RankError::Uncertainty { value: uncertainty }.into()),
+        }
+    }
+}
+
+impl From<TooDense> for SparseRankError {
+    fn from(TooDense { work }: TooDense) -> Self {
+        Self::TooDense {
+            work,
+            limit: WORK_MAX,
+        }
+    }
+}
+
+impl From<OutsidePattern> for SparseRankError {
+    fn from(OutsidePattern { row, column }: OutsidePattern) -> Self {
+        Self::Pattern { row, column }
+    }
+}

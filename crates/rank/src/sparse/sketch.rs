@@ -1,0 +1,69 @@
+//! Random combinations of the left null space, W = Z·Ω, instead of the p columns of Z.
+//!
+//! The rows of QᵀC that are zero give an orthonormal basis `Z = Q·[0; I]` of the left null space;
+//! it is never formed. For k random columns Ω of mean zero and variance 1/k the rows of
+//! `W = Q·[0; Ω]` say the same of any group J of at most k rows, with probability one: `W_J = 0`
+//! iff `Z_J = 0`, `rank W_J = rank Z_J`, and both have the same left null space. The norm of a row
+//! of W estimates that of the row of Z.
+
+use super::factor::SparseQr;
+use super::random;
+use super::reflectors::{Lanes, WIDTH};
+use linalg::Matrix;
+use linalg::SparseMatrix;
+
+/// How the random combinations are drawn.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Sketch {
+    /// Number of combinations k: not less than the rows of the largest group that is judged, and
+    /// some more against chance.
+    pub columns: usize,
+    /// The same seed, the same numbers.
+    pub seed: u64,
+}
+
+impl Default for Sketch {
+    /// Eight combinations: joints of up to four rows.
+    fn default() -> Self {
+        Self {
+            columns: WIDTH,
+            seed: 1,
+        }
+    }
+}
+
+/// W and ‖Cᵀ·W‖ in the Frobenius norm, which estimates ‖Cᵀ·Z‖.
+pub(super) fn sketch(qr: &SparseQr, c: &SparseMatrix, wanted: Sketch) -> (Matrix, f64) {
+    let (m, k) = (c.nrows(), wanted.columns.max(1));
+    let mut w = Matrix::zeros(m, k);
+    let mut residual = 0.0;
+    let scale = (k as f64).sqrt().recip();
+    for first in (0..k).step_by(WIDTH) {
+        let width = WIDTH.min(k - first);
+        let mut x = random::uniform(m, wanted.seed, first as u64);
+        for (x, is_live) in x.iter_mut().zip(&qr.is_live) {
+            for (l, x) in x.iter_mut().enumerate() {
+                *x *= if *is_live || l >= width { 0.0 } else { scale };
+            }
+        }
+        qr.q.apply(&mut x);
+        for (i, x) in x.iter().enumerate() {
+            w.row_mut(i)[first..first + width].copy_from_slice(&x[..width]);
+        }
+        residual += square_of_product(c, &x);
+    }
+    (w, residual.sqrt())
+}
+
+/// ‖Cᵀ·X‖².
+fn square_of_product(c: &SparseMatrix, x: &[Lanes]) -> f64 {
+    let mut product = vec![[0.0; WIDTH]; c.ncols()];
+    for (i, x) in x.iter().enumerate() {
+        for (j, c_ij) in c.entries(i) {
+            for (p, x) in product[j].iter_mut().zip(x) {
+                *p += c_ij * x;
+            }
+        }
+    }
+    product.as_flattened().iter().map(|p| p * p).sum()
+}

@@ -1,0 +1,162 @@
+//! The blocks of a graph: groups that share a cycle.
+
+/// Sets of groups that lie on common cycles of the graph in which each group joins its vertices;
+/// each set ascending, ordered by their first groups. A group on no cycle is a set of its own, and
+/// so is one on a single vertex.
+///
+/// In mechanics the vertices are bodies and the ground, and the groups joints whose rows vanish on
+/// the rigid motions that their bodies have in common. Where only one body is common to two sides,
+/// the side without the ground is in equilibrium by itself, so that its joints transmit nothing to
+/// that body that rigid motions of the body could tell: every `z` with `Cᵀ·z = 0` is the sum of
+/// such vectors on single sets. So each set can be judged alone, and the redundancy is the sum of
+/// theirs.
+///
+/// ```
+/// use rank::cycles;
+/// // Vertices 0, 1, 2 in a triangle; 3 hangs on 2, and is joined to 4 twice.
+/// let groups = [vec![0, 1], vec![1, 2], vec![2, 3], vec![2, 0], vec![3, 4], vec![4, 3]];
+/// assert_eq!(cycles(5, &groups), [vec![0, 1, 3], vec![2], vec![4, 5]]);
+/// ```
+///
+/// Vertices that are not below `vertices` are left out. The work is linear in the number of
+/// entries.
+///
+/// Source: R. Tarjan, Depth-first search and linear graph algorithms, SIAM J. Comput. 1 (1972)
+/// 146–160.
+#[must_use]
+pub fn cycles(vertices: usize, groups: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let graph = Graph::new(vertices, groups);
+    let mut leader: Vec<usize> = (0..groups.len()).collect();
+    let mut search = Search {
+        order: vec![0; vertices],
+        reach: vec![0; vertices],
+        next: graph.first.clone(),
+        visited: 0,
+        pending: Vec::new(),
+        is_taken: vec![false; graph.group.len()],
+    };
+    for root in 0..vertices {
+        if search.order[root] == 0 {
+            search.from(root, &graph, &mut leader);
+        }
+    }
+    let mut sets: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
+    for group in 0..groups.len() {
+        sets[find(&mut leader, group)].push(group);
+    }
+    sets.retain(|set| !set.is_empty());
+    sets
+}
+
+/// Edges in compressed lists of their vertices. A group on k vertices is a cycle through them: it
+/// holds them together whichever of them is left out.
+struct Graph {
+    /// Where the edges of each vertex begin, one more than vertices; and what they are.
+    first: Vec<usize>,
+    ends: Vec<(usize, usize)>,
+    /// The group of each edge.
+    group: Vec<usize>,
+}
+
+impl Graph {
+    fn new(vertices: usize, groups: &[Vec<usize>]) -> Self {
+        let mut edges: Vec<[usize; 2]> = Vec::new();
+        let mut group = Vec::new();
+        for (g, of_group) in groups.iter().enumerate() {
+            let mut own: Vec<usize> = of_group.iter().copied().filter(|&v| v < vertices).collect();
+            own.sort_unstable();
+            own.dedup();
+            let around = if own.len() > 2 {
+                own.len()
+            } else {
+                own.len().saturating_sub(1)
+            };
+            for k in 0..around {
+                edges.push([own[k], own[(k + 1) % own.len()]]);
+                group.push(g);
+            }
+        }
+        let mut first = vec![0; vertices + 1];
+        edges.as_flattened().iter().for_each(|&v| first[v + 1] += 1);
+        for v in 0..vertices {
+            first[v + 1] += first[v];
+        }
+        let mut next = first.clone();
+        let mut ends = vec![(0, 0); 2 * edges.len()];
+        for (e, &[a, b]) in edges.iter().enumerate() {
+            for (from, to) in [(a, b), (b, a)] {
+                ends[next[from]] = (to, e);
+                next[from] += 1;
+            }
+        }
+        Self { first, ends, group }
+    }
+}
+
+/// Depth first, without recursion.
+struct Search {
+    /// When each vertex was reached, from 1, and the earliest that its subtree reaches.
+    order: Vec<usize>,
+    reach: Vec<usize>,
+    /// The next edge to look at.
+    next: Vec<usize>,
+    visited: usize,
+    /// Edges since the last block was closed.
+    pending: Vec<usize>,
+    is_taken: Vec<bool>,
+}
+
+impl Search {
+    fn enter(&mut self, vertex: usize) {
+        self.visited += 1;
+        self.order[vertex] = self.visited;
+        self.reach[vertex] = self.visited;
+    }
+
+    fn from(&mut self, root: usize, graph: &Graph, leader: &mut [usize]) {
+        self.enter(root);
+        // The way here, with the number of edges that were pending before each vertex.
+        let mut way = vec![(root, 0)];
+        while let Some(&(vertex, before)) = way.last() {
+            if self.next[vertex] < graph.first[vertex + 1] {
+                let (to, edge) = graph.ends[self.next[vertex]];
+                self.next[vertex] += 1;
+                if std::mem::replace(&mut self.is_taken[edge], true) {
+                    continue;
+                }
+                let before = self.pending.len();
+                self.pending.push(edge);
+                if self.order[to] == 0 {
+                    self.enter(to);
+                    way.push((to, before));
+                } else {
+                    self.reach[vertex] = self.reach[vertex].min(self.order[to]);
+                }
+                continue;
+            }
+            way.pop();
+            let Some(&(parent, _)) = way.last() else {
+                return;
+            };
+            self.reach[parent] = self.reach[parent].min(self.reach[vertex]);
+            if self.reach[vertex] >= self.order[parent] {
+                // What is pending since the edge to this vertex reaches nothing earlier than the
+                // parent: a block.
+                let block = self.pending.split_off(before);
+                for pair in block.windows(2) {
+                    let [a, b] = [pair[0], pair[1]].map(|e| find(leader, graph.group[e]));
+                    leader[a.max(b)] = a.min(b);
+                }
+            }
+        }
+    }
+}
+
+/// The first group of a set, with shorter ways to it from now on.
+fn find(leader: &mut [usize], mut group: usize) -> usize {
+    while leader[group] != group {
+        leader[group] = leader[leader[group]];
+        group = leader[group];
+    }
+    group
+}
