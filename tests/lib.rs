@@ -1,9 +1,8 @@
 //! What several tests use: numbers, and the mechanisms of `lab`. Test data live beside this
 //! crate; the tests are in `all/`.
 
-pub mod numbers;
-
 pub use lab::mechanisms::{cranks, revolute, robot, rod, sketch};
+pub use lab::numbers;
 
 /// Examples of pages that belong to no library, compiled as doc tests.
 #[cfg(doctest)]

@@ -1,6 +1,7 @@
 //! The command `lab`: what judges the product, from a terminal.
 
 mod examples;
+mod fuzz;
 mod generate;
 mod stress;
 mod work_precision;
@@ -37,6 +38,9 @@ enum Command {
     /// Write a large scene whose answer is known
     #[command(after_help = examples::GENERATE)]
     Generate(Generate),
+    /// Random, damaged and degenerate scenes through check, analyze and simulate
+    #[command(subcommand, after_help = examples::FUZZ)]
+    Fuzz(fuzz::Fuzz),
     /// Error against run time: the product's methods, and others, at many tolerances
     #[command(after_help = examples::WORK_PRECISION)]
     WorkPrecision(WorkPrecision),
@@ -107,6 +111,7 @@ impl CommandLine for Arguments {
             Command::Stress(a) => a.json,
             Command::Generate(a) => a.json,
             Command::WorkPrecision(a) => a.json,
+            Command::Fuzz(_) => false,
         };
         match json {
             true => Answer::Json,
@@ -119,6 +124,7 @@ impl CommandLine for Arguments {
             Command::Stress(a) => stress::run(a, console),
             Command::Generate(a) => generate::run(a, console),
             Command::WorkPrecision(a) => work_precision::run(a, console),
+            Command::Fuzz(a) => fuzz::run(a, console),
         }
     }
 }

@@ -10,16 +10,16 @@
 //! | `answer` | counts, ranks, and which reactions are not determined |
 //! | `family` | what the families have in common |
 //! | [`n_four_bar`], `parallelograms`, `lattice`, `fleet`, `random` | the families, each with the reasoning behind its answer |
-//! | `text`, `numbers`, `share` | a scene as text; seeded numbers; cells spread evenly |
+//! | `text`, `points`, `share` | a scene as text; points and directions; cells spread evenly |
 
 mod answer;
 mod family;
 mod fleet;
 mod lattice;
 pub mod n_four_bar;
-mod numbers;
 mod order;
 mod parallelograms;
+mod points;
 mod random;
 mod share;
 #[cfg(test)]

@@ -6,16 +6,20 @@
 //! | --- | --- |
 //! | [`comparators`] | other formulations of redundancy and other methods, to compare the product's with |
 //! | [`mod@work_precision`] | the comparators in the table of the product's methods, and the cases of the suite |
+//! | [`fuzz`] | random, damaged and degenerate scenes, judged by what must hold and by exact arithmetic |
 //! | [`stress`] | stiff and extreme cases, each with its right answer |
 //! | [`generate`] | scenes of any size, with their answers |
 //! | [`mechanisms`] | mechanisms that cases and tests use |
+//! | [`numbers`] | seeded numbers, the same on every machine |
 //! | [`command`] | the command `lab` |
 
 #![forbid(unsafe_code)]
 
 pub mod command;
 pub mod comparators;
+pub mod fuzz;
 pub mod generate;
 pub mod mechanisms;
+pub mod numbers;
 pub mod stress;
 pub mod work_precision;

@@ -27,3 +27,11 @@ pub(super) const WORK_PRECISION: &str = "Examples:
   lab work-precision mine.toml --out wp --quick    a scene of your own; two methods that agree are its reference
 
 Build with --release, and keep the machine idle: seconds are compared.";
+
+pub(super) const FUZZ: &str = "Examples:
+  lab fuzz run --inputs 100000 --seed 1              what fails is made short and kept in found/
+  lab fuzz exact                                     20 000 degenerate scenes, judged by exact arithmetic
+  lab fuzz rounded --drawings 1000                   data with 3 to 16 digits
+  lab fuzz full-rank --drawings 2000                 full rank near a lower one
+
+Exit code 1 if one of them fails.";

@@ -13,9 +13,10 @@ use std::io;
 
 use super::answer::{Answer, Free, FreeReaction};
 use super::family::Family;
-use super::numbers::{Numbers, direction, step};
+use super::points::{direction, step};
 use super::share::Share;
 use super::text::{BodyText, SceneText};
+use crate::numbers::Numbers;
 
 /// Distance between the cranks of a cell (m).
 const DISTANCE: f64 = 1.0;

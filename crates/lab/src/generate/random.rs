@@ -21,8 +21,9 @@ use std::io;
 
 use super::answer::{Answer, Free, FreeReaction};
 use super::family::Family;
-use super::numbers::{Numbers, direction, middle, step};
+use super::points::{direction, middle, step};
 use super::text::{BodyText, SceneText};
+use crate::numbers::Numbers;
 
 pub(super) struct Random {
     n: usize,

@@ -26,7 +26,7 @@ impl BodyText {
         Self {
             mass,
             inertia: mass * (x * x + y * y) / 12.0,
-            position: super::numbers::middle(from, to),
+            position: super::points::middle(from, to),
             angle: y.atan2(x),
             ..Self::default()
         }

@@ -1,6 +1,8 @@
 //! The laboratory: comparators against known motions and against the product, scenes of any size,
 //! and the command `lab`.
 
+mod campaign;
+mod exact;
 mod formulations;
 mod generate;
 mod known;

@@ -1,11 +1,11 @@
 //! The text of an input, from the seed of a campaign and a number.
 
-use tests::numbers::Numbers;
+use crate::numbers::Numbers;
 
-use crate::{damage, scenes};
+use crate::fuzz::{damage, scenes};
 
 /// The published mechanism.
-const ROBOT: &str = include_str!("../../../crates/robot-trolley/robot-trolley.toml");
+const ROBOT: &str = include_str!("../../../robot-trolley/robot-trolley.toml");
 
 /// Most damages of one text.
 const DAMAGES: usize = 4;

@@ -1,7 +1,7 @@
 //! What is done to a text: mostly such that it stays TOML, so that the reader of scenes and what
 //! follows are reached.
 
-use tests::numbers::Numbers;
+use crate::numbers::Numbers;
 
 /// Numbers that are hard to hold, right in some places and wrong in most.
 pub(crate) const EXTREMES: [&str; 30] = [

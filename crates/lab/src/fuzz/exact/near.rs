@@ -6,8 +6,8 @@
 //! entries of `Uᵀ·C·V` must vanish at all poses of a walk on the kept rows, by one change of the
 //! data that the poses follow, and so must `Uᵀ·Φ`. Gradients are finite differences.
 
+use crate::numbers::Numbers;
 use pfaff::linalg::{Matrix, small_svd};
-use tests::numbers::Numbers;
 
 use super::doubles::Doubles;
 use super::minimax::{Bounds, Equation, least_change};

@@ -2,7 +2,7 @@
 //! bodies and joints in another order, first and second body exchanged, places in the world or in
 //! the frames of bodies. None of this changes what is true.
 
-use tests::numbers::Numbers;
+use crate::numbers::Numbers;
 
 use super::drawing::{Drawing, Link, Side, Tie, Vector};
 use super::ratio::{Ratio, Surd};

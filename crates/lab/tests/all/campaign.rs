@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use fuzz::campaign::Campaign;
-use fuzz::trial::Reach;
-use fuzz::watch::{Limits, one};
+use lab::fuzz::campaign::Campaign;
+use lab::fuzz::trial::Reach;
+use lab::fuzz::watch::{Limits, one};
 
 fn limits() -> Limits {
     Limits {
-        program: PathBuf::from(env!("CARGO_BIN_EXE_fuzz")),
+        program: PathBuf::from(env!("CARGO_BIN_EXE_lab")),
         deadline: Duration::from_secs(10),
         memory: 2048,
     }

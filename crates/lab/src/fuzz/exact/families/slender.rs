@@ -2,7 +2,7 @@
 //! small angles, thin loops. Their data may be known to a third of what they are off by and less,
 //! and nothing of them is redundant.
 
-use tests::numbers::Numbers;
+use crate::numbers::Numbers;
 
 use super::super::drawing::{Drawing, GROUND, Side, Tie, Vector, along};
 use super::super::ratio::Ratio;

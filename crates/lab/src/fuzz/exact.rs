@@ -47,7 +47,7 @@ pub mod truth;
 pub mod within;
 pub mod words;
 
-use tests::numbers::Numbers;
+use crate::numbers::Numbers;
 
 use drawing::Drawing;
 use families::Family;

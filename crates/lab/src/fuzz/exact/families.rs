@@ -11,7 +11,7 @@ pub mod slender;
 mod trusses;
 mod wheels;
 
-use tests::numbers::Numbers;
+use crate::numbers::Numbers;
 
 use super::drawing::{Drawing, GROUND, Side, Tie, Vector, along};
 use super::ratio::Ratio;

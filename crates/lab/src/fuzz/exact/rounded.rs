@@ -4,8 +4,8 @@
 use std::collections::BTreeMap;
 use std::panic::{self, AssertUnwindSafe};
 
+use crate::numbers::Numbers;
 use rayon::prelude::*;
-use tests::numbers::Numbers;
 
 use super::doubles::{Doubles, extent};
 use super::examine::{Kind, examine};

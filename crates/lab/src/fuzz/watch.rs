@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::trial::{Reach, Stage};
+use crate::fuzz::trial::{Reach, Stage};
 
 /// How a process is begun, and what it may use.
 #[derive(Clone, Debug)]
@@ -83,6 +83,7 @@ impl Worker {
             false => Command::new(&limits.program),
         };
         let mut child = command
+            .arg("fuzz")
             .args(arguments)
             .env("RUST_BACKTRACE", "0")
             .stdin(Stdio::piped())

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use tests::numbers::Numbers;
+use crate::numbers::Numbers;
 
 use super::drawing::{Side, Tie, Vector};
 use super::pose::{Placed, Posed};

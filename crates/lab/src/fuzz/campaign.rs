@@ -10,9 +10,9 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use crate::trial::Reach;
-use crate::watch::{Fault, Limits, Worker, one};
-use crate::{input, minimise};
+use crate::fuzz::trial::Reach;
+use crate::fuzz::watch::{Fault, Limits, Worker, one};
+use crate::fuzz::{input, minimise};
 
 /// Inputs that one process tries.
 const CHUNK: u64 = 2000;

@@ -1,8 +1,8 @@
 //! Numbers and names of random scenes.
 
-use tests::numbers::Numbers;
+use crate::numbers::Numbers;
 
-use crate::damage::EXTREMES;
+use crate::fuzz::damage::EXTREMES;
 
 /// Names that some writer could take for something else.
 const NAMES: [&str; 12] = [

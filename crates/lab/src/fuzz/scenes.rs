@@ -5,7 +5,7 @@ mod functions;
 mod things;
 mod values;
 
-use tests::numbers::Numbers;
+use crate::numbers::Numbers;
 
 pub(crate) use values::Values;
 

@@ -1,21 +1,21 @@
 //! Degenerate scenes: what is told of them is what exact arithmetic says. `cargo run --release -p
 //! fuzz -- exact` makes 20 000 of them.
 
-use fuzz::exact::doubles::Doubles;
-use fuzz::exact::drawing::{Drawing, GROUND, Tie, Vector};
-use fuzz::exact::examine::{Kind, examine, list};
-use fuzz::exact::families::Family;
-use fuzz::exact::pose::{Posed, Writing};
-use fuzz::exact::ratio::Ratio;
-use fuzz::exact::rounded::{self, Suite};
-use fuzz::exact::tally::Tally;
-use fuzz::exact::text::Precision;
-use fuzz::exact::told::told;
-use fuzz::exact::truth::Truth;
-use fuzz::exact::within::Meant;
-use fuzz::exact::{scene, text};
+use lab::fuzz::exact::doubles::Doubles;
+use lab::fuzz::exact::drawing::{Drawing, GROUND, Tie, Vector};
+use lab::fuzz::exact::examine::{Kind, examine, list};
+use lab::fuzz::exact::families::Family;
+use lab::fuzz::exact::pose::{Posed, Writing};
+use lab::fuzz::exact::ratio::Ratio;
+use lab::fuzz::exact::rounded::{self, Suite};
+use lab::fuzz::exact::tally::Tally;
+use lab::fuzz::exact::text::Precision;
+use lab::fuzz::exact::told::told;
+use lab::fuzz::exact::truth::Truth;
+use lab::fuzz::exact::within::Meant;
+use lab::fuzz::exact::{scene, text};
+use lab::numbers::Numbers;
 use serde_json::{Value, json};
-use tests::numbers::Numbers;
 
 const SEED: u64 = 1;
 

@@ -1,29 +1,23 @@
-//! `cargo run --release -p fuzz -- run --inputs 1000000 --seed 1`: random and damaged scenes
-//! through check, analyze and simulate. `cargo run --release -p fuzz -- exact`: 20 000 degenerate
-//! scenes, judged by exact arithmetic.
+//! `lab fuzz`: random, damaged and degenerate scenes through check, analyze and simulate.
 
 use std::fs;
 use std::io::{self, Read, Write};
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
-use clap::{Parser, Subcommand};
-use fuzz::campaign::{Campaign, Tally};
-use fuzz::exact;
-use fuzz::exact::rounded::{self, Suite};
-use fuzz::watch::Limits;
-use fuzz::{input, trial};
+use clap::{Args, Subcommand};
+use indicatif::{ProgressBar, ProgressStyle};
+use pfaff_cli::console::Console;
+use pfaff_cli::output::{Failure, Outcome};
 
-/// Random and damaged scenes through check, analyze and simulate
-#[derive(Parser)]
-struct Arguments {
-    #[command(subcommand)]
-    command: Command,
-}
+use crate::fuzz::campaign::{Campaign, Tally};
+use crate::fuzz::exact;
+use crate::fuzz::exact::rounded::{self, Suite};
+use crate::fuzz::watch::Limits;
+use crate::fuzz::{input, trial};
 
 #[derive(Subcommand)]
-enum Command {
+pub(super) enum Fuzz {
     /// Tries many inputs; exit code 1 if one of them fails
     Run {
         /// How many
@@ -96,8 +90,8 @@ enum Command {
 }
 
 /// Which drawings, each of which is written down in several ways.
-#[derive(clap::Args)]
-struct Drawings {
+#[derive(Args)]
+pub(super) struct Drawings {
     /// How many
     #[arg(long, default_value_t = 1_000)]
     drawings: u64,
@@ -113,41 +107,37 @@ struct Drawings {
 }
 
 impl Drawings {
-    fn examine(&self, suite: Suite, out: &mut impl Write) -> io::Result<ExitCode> {
+    fn examine(&self, suite: Suite, console: &Console<'_>) -> Outcome {
         if let Some(number) = self.show {
             let (drawn, way) = (number / suite.ways(), number % suite.ways());
             let outcomes = rounded::outcomes(suite, self.seed, drawn);
-            if let Some(outcome) = outcomes.get(way as usize) {
-                out.write_all(outcome.page().as_bytes())?;
-            }
-            return Ok(ExitCode::SUCCESS);
+            let outcome = outcomes.get(way as usize);
+            return console.print(&outcome.map_or_else(String::new, |o| o.page()));
         }
         let clock = Instant::now();
         let tally = rounded::Tally::of(suite, self.seed, self.from, self.drawings);
         let (seconds, scenes) = (clock.elapsed().as_secs_f64(), self.drawings * suite.ways());
         let head = format!("seed {}: {scenes} scenes in {seconds:.1} s\n", self.seed);
-        out.write_all((head + &tally.describe()).as_bytes())?;
-        Ok(match tally.passes() {
-            true => ExitCode::SUCCESS,
-            false => ExitCode::from(1),
-        })
+        console.print(&(head + &tally.describe()))?;
+        passed(tally.passes())
     }
 }
 
-fn main() -> ExitCode {
-    match go() {
-        Ok(code) => code,
-        Err(e) => {
-            let _ = writeln!(io::stderr(), "error: {e}");
-            ExitCode::from(2)
-        }
+/// Exit code 1 if something failed; what failed has been said.
+fn passed(all: bool) -> Outcome {
+    match all {
+        true => Ok(()),
+        false => Err(Failure::Incomplete),
     }
 }
 
-fn go() -> io::Result<ExitCode> {
-    let mut out = io::stdout().lock();
-    match Arguments::parse().command {
-        Command::Run {
+fn stopped(e: io::Error) -> Failure {
+    Failure::stopped(e.to_string())
+}
+
+pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
+    match arguments {
+        Fuzz::Run {
             inputs,
             seed,
             from,
@@ -156,53 +146,50 @@ fn go() -> io::Result<ExitCode> {
             memory,
             found,
         } => {
-            drop(out);
             let limits = Limits {
-                program: std::env::current_exe()?,
-                deadline: Duration::from_secs(deadline),
-                memory,
+                program: std::env::current_exe().map_err(stopped)?,
+                deadline: Duration::from_secs(*deadline),
+                memory: *memory,
             };
             let campaign = Campaign {
-                seed,
-                from,
-                inputs,
-                threads,
+                seed: *seed,
+                from: *from,
+                inputs: *inputs,
+                threads: *threads,
                 limits,
-                found,
+                found: found.clone(),
             };
             let clock = Instant::now();
-            let progress = |done: u64| {
-                let _ = write!(
-                    io::stderr(),
-                    "\r{done} of {inputs}, {:.0} inputs/s",
-                    done as f64 / clock.elapsed().as_secs_f64()
-                );
-            };
-            let tally = campaign.run(progress)?;
+            let bar = ProgressBar::new(*inputs);
+            if let Ok(style) =
+                ProgressStyle::with_template("{bar:40} {pos}/{len}, {per_sec}, {eta} left")
+            {
+                bar.set_style(style);
+            }
+            let tally = campaign
+                .run(|done| bar.set_position(done))
+                .map_err(stopped)?;
+            bar.finish_and_clear();
             let seconds = clock.elapsed().as_secs_f64();
-            io::stdout().write_all(describe(&tally, seed, inputs, seconds).as_bytes())?;
-            return Ok(match tally.faults.is_empty() {
-                true => ExitCode::SUCCESS,
-                false => ExitCode::from(1),
-            });
+            console.print(&describe(&tally, *seed, *inputs, seconds))?;
+            passed(tally.faults.is_empty())
         }
-        Command::Try { file } => {
+        Fuzz::Try { file } => {
             let mut bytes = Vec::new();
             match file.as_os_str() == "-" {
-                true => io::stdin().read_to_end(&mut bytes)?,
-                false => {
-                    bytes = fs::read(file)?;
-                    bytes.len()
-                }
-            };
-            answer(&mut out, &String::from_utf8_lossy(&bytes))?;
+                true => io::stdin().read_to_end(&mut bytes).map(drop),
+                false => fs::read(file).map(|read| bytes = read),
+            }
+            .map_err(stopped)?;
+            let text = String::from_utf8_lossy(&bytes);
+            console.write(|mut out| answer(&mut out, &text))
         }
-        Command::Exact {
+        Fuzz::Exact {
             seed,
             show: Some(number),
             ..
-        } => out.write_all(exact::tally::outcome(seed, number).page().as_bytes())?,
-        Command::Exact {
+        } => console.print(&exact::tally::outcome(*seed, *number).page()),
+        Fuzz::Exact {
             scenes,
             seed,
             from,
@@ -210,27 +197,22 @@ fn go() -> io::Result<ExitCode> {
             keep,
         } => {
             let clock = Instant::now();
-            let tally = exact::tally::Tally::of(seed, from, scenes);
+            let tally = exact::tally::Tally::of(*seed, *from, *scenes);
             let seconds = clock.elapsed().as_secs_f64();
             let head = format!("seed {seed}: {scenes} scenes in {seconds:.1} s\n");
-            out.write_all((head + &tally.describe()).as_bytes())?;
+            console.print(&(head + &tally.describe()))?;
             if let Some(folder) = keep {
-                tally.keep(seed, &folder)?;
+                tally.keep(*seed, folder).map_err(stopped)?;
             }
-            if !tally.passes() {
-                return Ok(ExitCode::from(1));
-            }
+            passed(tally.passes())
         }
-        Command::Rounded(drawings) => return drawings.examine(Suite::Rounded, &mut out),
-        Command::FullRank(drawings) => return drawings.examine(Suite::FullRank, &mut out),
-        Command::Show { seed, number } => out.write_all(input::text(seed, number).as_bytes())?,
-        Command::Work { seed, from, to } => {
-            for number in from..to {
-                answer(&mut out, &input::text(seed, number))?;
-            }
-        }
+        Fuzz::Rounded(drawings) => drawings.examine(Suite::Rounded, console),
+        Fuzz::FullRank(drawings) => drawings.examine(Suite::FullRank, console),
+        Fuzz::Show { seed, number } => console.print(&input::text(*seed, *number)),
+        Fuzz::Work { seed, from, to } => console.write(|mut out| {
+            (*from..*to).try_for_each(|number| answer(&mut out, &input::text(*seed, number)))
+        }),
     }
-    Ok(ExitCode::SUCCESS)
 }
 
 /// Tries a text: a letter for each stage that begins, and one for how far it came.

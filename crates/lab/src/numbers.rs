@@ -19,6 +19,12 @@ impl Numbers {
         z ^ (z >> 31)
     }
 
+    /// Between two numbers, the upper one excluded but for rounding.
+    pub fn within(&mut self, low: f64, high: f64) -> f64 {
+        let unit = (self.bits() >> 11) as f64 / (1_u64 << 53) as f64;
+        low + unit * (high - low)
+    }
+
     /// In [−1, 1).
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
