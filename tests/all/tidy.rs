@@ -101,6 +101,20 @@ fn nothing_at_run_time_depends_on_the_generator() {
     }
 }
 
+/// What judges the product is no part of it.
+#[test]
+fn the_product_depends_on_no_crate_of_the_laboratory() {
+    const LABORATORY: [&str; 3] = ["exact", "lab", "suite"];
+    for name in crates() {
+        if LABORATORY.contains(&name.as_str()) {
+            continue;
+        }
+        let uses = dependencies(&name);
+        let judges = LABORATORY.iter().find(|judge| uses.contains(**judge));
+        assert_eq!(judges, None, "{name} depends on it");
+    }
+}
+
 #[test]
 fn every_crate_has_a_readme_and_a_licence() {
     for name in crates() {

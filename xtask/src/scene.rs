@@ -7,7 +7,14 @@ use std::process::Command;
 pub(crate) fn generate(scene: &str, rest: &[&str]) -> Result<String, String> {
     let cargo = std::env::var("CARGO").unwrap_or_else(|_| "cargo".to_owned());
     let status = Command::new(&cargo)
-        .args(["run", "--quiet", "--release", "-p", "scene-codegen", "--"])
+        .args([
+            "run",
+            "--quiet",
+            "--release",
+            "-p",
+            "pfaff-scene-codegen",
+            "--",
+        ])
         .arg(scene)
         .args(rest)
         .status()

@@ -1,5 +1,6 @@
 //! Definitions with one wrong thing each: the compiler names it and points at it. After a change of
-//! a message, run `TRYBUILD=overwrite cargo test -p joint-macro --test ui` and read the difference.
+//! a message, run `TRYBUILD=overwrite cargo test -p pfaff-joint-macro --test ui` and read the
+//! difference.
 
 #[test]
 fn a_wrong_definition_is_a_compile_error_at_the_wrong_token() {

@@ -1,7 +1,7 @@
 //! One right-hand side of a long chain of parallelograms: factorisation and solution through the
 //! Schur complement, from 3e2 to 1e5 rows.
 //!
-//! `cargo run --release -p linalg --example large_saddle`
+//! `cargo run --release -p pfaff-linalg --example large_saddle`
 #![allow(clippy::print_stdout)]
 
 use std::time::Instant;

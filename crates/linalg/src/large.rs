@@ -12,8 +12,8 @@ use crate::Matrix;
 
 /// Smaller dimension from which faer is used: up to about 200 our own kernel is faster, at 400 it
 /// takes 1.4 times as long, at 600 1.5 times (measured by
-/// `cargo run --release -p linalg --features faer --example timings`). Our own gives the same bits
-/// on every processor, which faer's run-time choice of instructions does not.
+/// `cargo run --release -p pfaff-linalg --features faer --example timings`). Our own gives the same
+/// bits on every processor, which faer's run-time choice of instructions does not.
 pub(crate) const CROSS_OVER: usize = 256;
 
 /// Singular values, largest first; `None` if faer's iteration did not converge.

@@ -154,8 +154,8 @@ impl AssembledScene {
         assemble(&mut self.mechanism, &self.scene.start).map_err(|e| refused(&self.scene, e.into()))
     }
 
-    /// The start, to be asked about its reactions, also where [`AssembledScene::prepare`] refuses it:
-    /// because the rank is undecided in `f64`, or no motion begins there.
+    /// The start, to be asked about its reactions, also where [`AssembledScene::prepare`] refuses
+    /// it: because the rank is undecided in `f64`, or no motion begins there.
     ///
     /// # Errors
     /// As [`AssembledScene::assemble`], also where no motion has the given velocities, and

@@ -135,8 +135,8 @@ impl<'a> ConfigurationAnalysis<'a> {
     /// by side have none.
     ///
     /// # Errors
-    /// As [`ConfigurationAnalysis::groups`], and [`StudyError::Choice`]: there are no reactions, or the rank is
-    /// undecided.
+    /// As [`ConfigurationAnalysis::groups`], and [`StudyError::Choice`]: there are no reactions, or
+    /// the rank is undecided.
     pub fn determined(&self, combine: &[String]) -> Result<Vec<Numbers>, StudyError> {
         let solution = self.solution()?;
         let groups = requests::groups(self.scene, self.mechanism, combine)?;

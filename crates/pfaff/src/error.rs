@@ -100,8 +100,8 @@ fn suggestion(nearest: Option<&str>) -> String {
 
 impl StudyError {
     /// Why a scene cannot be moved although its start can be judged, by
-    /// [`AssembledScene::analyse`](crate::AssembledScene::analyse); nothing where the start is no start, or
-    /// nothing keeps the scene from moving.
+    /// [`AssembledScene::analyse`](crate::AssembledScene::analyse); nothing where the start is no
+    /// start, or nothing keeps the scene from moving.
     #[must_use]
     pub fn only_motion(&self) -> Option<String> {
         match self {

@@ -137,8 +137,8 @@ impl Subject {
         Ok(known.and_then(|known| known.errors(&run.observations)))
     }
 
-    /// Makes all runs of a plan, then those of the rivals at the same tolerances, and shows each row
-    /// when it is there. `interrupted` is asked now and then whether to stop.
+    /// Makes all runs of a plan, then those of the rivals at the same tolerances, and shows each
+    /// row when it is there. `interrupted` is asked now and then whether to stop.
     ///
     /// # Errors
     /// [`StudyError::Analysis`]: it cannot be told which reactions are unique. Whatever `row`

@@ -1,7 +1,7 @@
 //! One acceleration by the dense and by the sparse solver, on kept rows of growing mechanisms: from
 //! how many rows on is sparse faster?
 //!
-//! `cargo run --release -p rank --example cross_over`
+//! `cargo run --release -p pfaff-rank --example cross_over`
 #![allow(
     clippy::print_stdout,
     reason = "the output is what this example is for"

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! cargo run --release -p lab -- generate parallelograms --n 9000 --out chain.toml
-//! cargo run --release -p scene --example reading -- chain.toml
+//! cargo run --release -p pfaff-scene --example reading -- chain.toml
 //! ```
 
 #![allow(

@@ -58,7 +58,7 @@ fn the_product_is_what_the_command_depends_on_without_the_laboratory() {
             Group::Developers
         ]
     );
-    assert_eq!(group("tests/fuzz", &product), Group::Tests);
+    assert_eq!(group("tests/peers", &product), Group::Tests);
 }
 
 #[test]

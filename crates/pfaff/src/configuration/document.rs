@@ -13,8 +13,8 @@ impl ConfigurationAnalysis<'_> {
     /// combinations, as [`ConfigurationAnalysis::groups`] takes them; rows are counted from 1.
     ///
     /// What costs more is left for its own question and may be added to the document:
-    /// [`ConfigurationAnalysis::make_unique`], [`ConfigurationAnalysis::frames`], [`ConfigurationAnalysis::distribution`],
-    /// [`crate::VerdictsAlongMotion`].
+    /// [`ConfigurationAnalysis::make_unique`], [`ConfigurationAnalysis::frames`],
+    /// [`ConfigurationAnalysis::distribution`], [`crate::VerdictsAlongMotion`].
     ///
     /// ```
     /// use pfaff::prelude::*;
@@ -32,8 +32,9 @@ impl ConfigurationAnalysis<'_> {
     /// ```
     ///
     /// # Errors
-    /// As [`ConfigurationAnalysis::groups`], [`ConfigurationAnalysis::explanation`], [`ConfigurationAnalysis::continuation`] and
-    /// [`ConfigurationAnalysis::is_locked`]. Groups without numbers are no error but a warning of the document.
+    /// As [`ConfigurationAnalysis::groups`], [`ConfigurationAnalysis::explanation`],
+    /// [`ConfigurationAnalysis::continuation`] and [`ConfigurationAnalysis::is_locked`]. Groups
+    /// without numbers are no error but a warning of the document.
     pub fn document(&self, combine: &[String]) -> Result<AnalysisDocument, StudyError> {
         let groups = self.groups(combine)?;
         let generic = self.generic();

@@ -13,10 +13,10 @@ const SAME_TIME: f64 = 1e-9;
 /// Errors of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Errors {
-    /// Of each kind in the order of [`Kind`](super::Kind): the largest over components and instants,
-    /// lengths and torques divided by the size of the mechanism, relative to the largest value of
-    /// the kind (to 1 for positions that stay smaller, and where all are zero). NaN where nothing
-    /// is known.
+    /// Of each kind in the order of [`Kind`](super::Kind): the largest over components and
+    /// instants, lengths and torques divided by the size of the mechanism, relative to the largest
+    /// value of the kind (to 1 for positions that stay smaller, and where all are zero). NaN where
+    /// nothing is known.
     pub scaled: [f64; 4],
     /// The largest difference of a coordinate or velocity, in SI units.
     pub state: f64,

@@ -418,8 +418,8 @@ fn unit(component: &str) -> &'static str {
     }
 }
 
-/// Numbers of a row, weighted so that a recording of them stays small: those that are kept, and more for
-/// each that is shown.
+/// Numbers of a row, weighted so that a recording of them stays small: those that are kept, and
+/// more for each that is shown.
 pub(super) fn numbers_per_row(mechanism: &Mechanism) -> usize {
     let layout = mechanism.layout();
     let kept = layout.n_q + layout.n_v + layout.rows() + 4 * layout.groups.len();
