@@ -41,13 +41,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         let text = String::from_utf8(text)?;
         let registry = model::Registry::planar();
         let study = Study::read(&generator.name(), &text, &registry, &Overrides::default())?;
-        compare(&generator.name(), &System_::of(&study.prepared)?)?;
+        compare(&generator.name(), &SaddleSystem::of(&study.prepared)?)?;
     }
     Ok(())
 }
 
 /// The system at the start.
-struct System_ {
+struct SaddleSystem {
     c: SparseMatrix,
     blocks: Vec<std::ops::Range<usize>>,
     mass: Vec<f64>,
@@ -55,7 +55,7 @@ struct System_ {
     gamma: Vec<f64>,
 }
 
-impl System_ {
+impl SaddleSystem {
     fn of(prepared: &Prepared) -> Result<Self, Box<dyn Error>> {
         let mechanism = &prepared.mechanism;
         let layout = mechanism.layout();
@@ -108,7 +108,7 @@ fn timed<T>(mut f: impl FnMut() -> T) -> (f64, T) {
         least = least.min(clock.elapsed().as_secs_f64());
         last = Some(made);
     }
-    (least, last.unwrap_or_else(|| f()))
+    (least, last.unwrap_or_else(f))
 }
 
 fn line(name: &str, rows: usize, solver: &str, ms: [f64; 4], entries: usize, misfit: f64) {
@@ -119,13 +119,13 @@ fn line(name: &str, rows: usize, solver: &str, ms: [f64; 4], entries: usize, mis
     );
 }
 
-fn compare(name: &str, system: &System_) -> Result<(), Box<dyn Error>> {
+fn compare(name: &str, system: &SaddleSystem) -> Result<(), Box<dyn Error>> {
     ours(name, system)?;
     cholesky(name, system)?;
     lu(name, system)
 }
 
-fn ours(name: &str, system: &System_) -> Result<(), Box<dyn Error>> {
+fn ours(name: &str, system: &SaddleSystem) -> Result<(), Box<dyn Error>> {
     let (r, n) = (system.gamma.len(), system.mass.len());
     let clock = Instant::now();
     let structure = SchurStructure::new(&system.c, &system.blocks);
@@ -217,9 +217,9 @@ impl Schur {
     }
 }
 
-fn cholesky(name: &str, system: &System_) -> Result<(), Box<dyn Error>> {
+fn cholesky(name: &str, system: &SaddleSystem) -> Result<(), Box<dyn Error>> {
     let r = system.gamma.len();
-    if system.mass.iter().any(|m| *m == 0.0) {
+    if system.mass.contains(&0.0) {
         println!("{name:20} {r:6}  faer Llt: bodies without mass have no S");
         return Ok(());
     }
@@ -292,7 +292,7 @@ fn cholesky(name: &str, system: &System_) -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-fn lu(name: &str, system: &System_) -> Result<(), Box<dyn Error>> {
+fn lu(name: &str, system: &SaddleSystem) -> Result<(), Box<dyn Error>> {
     let (r, n) = (system.gamma.len(), system.mass.len());
     let clock = Instant::now();
     let mut triplets: Vec<Triplet<usize, usize, f64>> =
