@@ -7,6 +7,8 @@ use linalg::{Doubt, NearlyRedundant, SaddleError, SingularPivot};
 use model::{RowLabel, StartError};
 use solvability::{AnalysisError, Contradiction, StateError};
 
+use crate::limits::TAKES_PART;
+
 pub use rows::DropError;
 
 /// Why the equations cannot be solved at one instant. A shorter step may avoid it.
@@ -33,7 +35,7 @@ pub enum MotionFault {
         "at t = {time} s the independent coordinates do not determine the others: row {row} has a pivot of {pivot:.3e} times the \
          one at their choice"
     )]
-    Chart {
+    IndependentCoordinates {
         /// When.
         time: f64,
         /// The row that cannot be solved.
@@ -294,9 +296,6 @@ pub enum MotionError {
     #[error("{0}")]
     Integration(Box<IntegrationError<MotionFault>>),
 }
-
-/// Rows with a smaller share than this of the largest weight take no part in a combination.
-const TAKES_PART: f64 = 0.1;
 
 impl MotionError {
     /// Rows that are too nearly redundant.

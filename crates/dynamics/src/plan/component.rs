@@ -4,11 +4,9 @@ use model::{Mechanism, Places, System};
 
 use super::decisions::Decisions;
 use crate::error::MotionError;
+use crate::limits::NAMED;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
-
-/// Bodies that are named; more are counted.
-const NAMED: usize = 3;
 
 /// What is done for a component, and what is not.
 pub struct ComponentPlan<'a> {

@@ -10,7 +10,7 @@ use super::split::elimination;
 use super::{Decided, Line, line};
 use crate::choose;
 use crate::error::MotionError;
-use crate::motion::{KeptRowMotion, is_far, is_sparse, mass_spread};
+use crate::motion::KeptRowMotion;
 use crate::options::{FORMULATION, Method, MotionOptions};
 use crate::prepare::Prepared;
 
@@ -113,7 +113,7 @@ fn linear_systems(method: Method, sizes: &Sizes) -> Decided<bool> {
 
 fn dense(prepared: &Prepared, sizes: &Sizes, work: &Work) -> Decided<[usize; 2]> {
     let (rows, n) = (sizes.rank, sizes.velocities);
-    if is_sparse(prepared) {
+    if prepared.is_sparse() {
         return Decided {
             value: [rows, n],
             taken: format!("sparse, {rows} × {n}"),
@@ -146,25 +146,27 @@ fn refinement(prepared: &Prepared) -> Result<Decided<bool>, MotionError> {
         reason,
         saves: None,
     };
-    if is_sparse(prepared) {
+    if prepared.is_sparse() {
         let why = "solved sparsely: each solution is compared with its rows, and corrected";
         return Ok(decided(false, why.to_owned()));
     }
-    let spread = mass_spread(prepared);
+    let spread = prepared.mass_spread();
     let factor = format!("masses and inertias differ by a factor of {spread:.1e}");
     if spread >= GRADED_MASSES {
         let why = format!("{factor}, from {GRADED_MASSES:.0e} on plain solutions miss digits");
         return Ok(decided(true, why));
     }
     let size = prepared.assembly.size;
-    if is_far(size) {
+    if prepared.is_far() {
         let why = "far from a metre: weights and centrifugal terms differ by many powers of ten";
         return Ok(decided(
             true,
             format!("the mechanism measures {size:.1e} m, {why}"),
         ));
     }
-    let value = KeptRowMotion::new(prepared)?.is_refined_at(0.0, &prepared.q)?;
+    let mut equations = KeptRowMotion::new(prepared)?.equations;
+    equations.factor_at(0.0, &prepared.q)?;
+    let value = equations.velocity.are_refined();
     let why = match value {
         true => "but at the start digits cancel in the reduced mass",
         false => "and no digits cancel in the reduced mass at the start; watched at every solution",

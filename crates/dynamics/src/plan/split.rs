@@ -7,11 +7,9 @@ use model::{Assembly, Mechanism, Part, Places, System};
 use super::saving::{Cost, Saving};
 use super::{Decided, PreparedPart, pick};
 use crate::error::MotionError;
+use crate::limits::MOST_COMPONENTS;
 use crate::options::RowChoice;
 use crate::prepare::Prepared;
-
-/// Components that are run at the same time at most, each on its own thread.
-const MOST: usize = 256;
 
 /// Whether the mechanism is taken apart, and its components; none where it stays whole.
 pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart>), MotionError> {
@@ -23,9 +21,9 @@ pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart
             _ => "all bodies are connected".to_owned(),
         }));
     }
-    if n > MOST {
+    if n > MOST_COMPONENTS {
         return Ok(stays(format!(
-            "{n} do not feel each other, more than {MOST}: a thread for each would cost more"
+            "{n} do not feel each other, more than {MOST_COMPONENTS}: a thread for each would cost more"
         )));
     }
     let mut parts = Vec::with_capacity(n);

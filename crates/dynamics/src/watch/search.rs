@@ -1,22 +1,13 @@
 //! When does a step pass a singular configuration, and how many rows are dependent there? Looked
 //! for in the dense output of an accepted step that was suspect.
 
-use model::{Mechanism, Scratch, System};
+use model::System;
 use solvability::decide_rows;
 
-use super::KeptRowMotion;
-use super::rows::KeptRows;
+use super::passage::Now;
 use crate::events::{Event, EventKind};
-
-/// Places at which a step is first looked at.
-const PLACES: usize = 16;
-
-/// Intervals are divided so often: the place is then found to 1e-10 of the step by halves, and to
-/// 1e-7 by golden sections, where a pivot is as small.
-const DIVISIONS: usize = 34;
-
-/// Share by which a golden section shortens an interval.
-const GOLDEN: f64 = 0.618_033_988_749_894_8;
+use crate::limits::{BEYOND, DIVISIONS, GLANCES, GOLDEN, PLACES, STAYS, STEEPER, VANISHES};
+use crate::solve::{Evaluation, KeptEquations, KeptRows};
 
 /// A singular configuration within a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,75 +18,48 @@ pub(crate) struct Singular {
     pub(crate) dependent: usize,
 }
 
-/// A singular configuration is looked for up to so many times the distance at which a straight line
-/// meets it.
-const BEYOND: f64 = 1.5;
-
-/// Where a pivot falls to this share of the present one and rises again, it vanishes: what is left
-/// is the error of a parabola.
-const VANISHES: f64 = 0.2;
-
-/// A search is worth its price where a pivot falls below this share of the present one at one of so
-/// many places: between two of them a pivot that vanishes on the way shows itself, unless that is
-/// much earlier than expected.
-const STAYS: f64 = 0.75;
-const GLANCES: usize = 6;
-
-/// Between two places a pivot falls at most by so many times what it changes by between any two
-/// neighbouring ones.
-const STEEPER: f64 = 2.0;
-
 /// The largest change between neighbours.
 fn steepest(pivots: &[f64]) -> f64 {
     let changes = pivots.windows(2).map(|w| (w[1] - w[0]).abs());
     changes.fold(0.0, f64::max)
 }
 
-impl<'m> KeptRowMotion<'m> {
-    /// When the motion that was at q with velocities v and accelerations a at time t, the last
-    /// accepted one, will be singular, if that is to be expected before `t_last`.
-    pub(crate) fn foresee(
-        &self,
-        (t, q, v, a): (f64, &[f64], &[f64], &[f64]),
-        t_last: f64,
-    ) -> Option<f64> {
-        let expected = self.passage.expected().filter(|&e| e <= t_last)?;
-        let noise = VANISHES * self.velocity.relative_pivot();
-        let mut way = vec![0.0; v.len()];
-        let mut state = |time: f64, out: &mut [f64]| {
-            let dt = time - t;
-            for ((way, v), a) in way.iter_mut().zip(v).zip(a) {
-                *way = dt * (v + 0.5 * dt * a);
-            }
-            out.copy_from_slice(q);
-            self.mechanism.displace(out, &way);
-        };
-        let end = t + BEYOND * (expected - t);
-        let mut search = self.search();
-        match search.is_promising([t, end], &mut state) {
-            true => search.find([t, end], noise, state).map(|found| found.t),
-            false => None,
+/// When a motion that is at `now`, the last accepted state, will be singular, if its pivots vanish
+/// about when that is expected.
+pub(super) fn foresee(equations: &KeptEquations<'_>, now: Now<'_>, expected: f64) -> Option<f64> {
+    let noise = VANISHES * equations.velocity.relative_pivot();
+    let mut way = vec![0.0; now.v.len()];
+    let mut state = |time: f64, out: &mut [f64]| {
+        let dt = time - now.t;
+        for ((way, v), a) in way.iter_mut().zip(now.v).zip(now.a) {
+            *way = dt * (v + 0.5 * dt * a);
         }
-    }
-
-    /// A search on the present rows with storage of its own.
-    pub(crate) fn search(&self) -> Search<'m> {
-        Search {
-            mechanism: self.mechanism,
-            s: self.s.clone(),
-            rows: self.velocity.clone(),
-        }
+        out.copy_from_slice(now.q);
+        equations.at.mechanism.displace(out, &way);
+    };
+    let interval = [now.t, now.t + BEYOND * (expected - now.t)];
+    let mut search = Search::new(equations);
+    match search.is_promising(interval, &mut state) {
+        true => search.find(interval, noise, state).map(|found| found.t),
+        false => None,
     }
 }
 
 /// Looks for singular configurations on kept rows.
 pub(crate) struct Search<'m> {
-    mechanism: &'m Mechanism,
-    s: Scratch,
+    at: Evaluation<'m>,
     rows: KeptRows,
 }
 
-impl Search<'_> {
+impl<'m> Search<'m> {
+    /// On the present rows, with storage of its own.
+    pub(crate) fn new(equations: &KeptEquations<'m>) -> Self {
+        Self {
+            at: equations.at.clone(),
+            rows: equations.velocity.clone(),
+        }
+    }
+
     /// Whether the pivots fall or the bordered determinant has changed its sign at one of a few
     /// places, at a price of a factorisation for each until they do; in doubt they do.
     fn is_promising(
@@ -103,7 +67,7 @@ impl Search<'_> {
         [now, end]: [f64; 2],
         mut state: impl FnMut(f64, &mut [f64]),
     ) -> bool {
-        let mut q = vec![0.0; self.mechanism.layout().n_q];
+        let mut q = vec![0.0; self.at.mechanism.layout().n_q];
         let Some(first) = self.pivot_at(now, &mut q, &mut state) else {
             return true;
         };
@@ -126,9 +90,8 @@ impl Search<'_> {
         state: &mut impl FnMut(f64, &mut [f64]),
     ) -> Option<f64> {
         state(t, q);
-        self.mechanism.pose(t, q, &mut self.s);
-        self.mechanism.c(&mut self.s);
-        let factored = self.rows.factor_above(0.0, self.mechanism, &self.s);
+        self.at.pose(t, q);
+        let factored = self.rows.factor_above(0.0, &self.at);
         factored.ok().map(|()| self.rows.relative_pivot())
     }
 
@@ -141,7 +104,7 @@ impl Search<'_> {
         noise: f64,
         mut state: impl FnMut(f64, &mut [f64]),
     ) -> Option<Singular> {
-        let mut q = vec![0.0; self.mechanism.layout().n_q];
+        let mut q = vec![0.0; self.at.mechanism.layout().n_q];
         let mut at = |t: f64, search: &mut Self| search.pivot_at(t, &mut q, &mut state);
         let time = |k: usize| t0 + (t1 - t0) * (k as f64 / PLACES as f64);
         let mut frame = Vec::new();
@@ -224,9 +187,7 @@ impl Search<'_> {
             return None;
         }
         let share = noise.max(2.0 * pivot);
-        self.rows
-            .factor_above(share, self.mechanism, &self.s)
-            .ok()?;
+        self.rows.factor_above(share, &self.at).ok()?;
         Some(Singular {
             t,
             dependent: self.rows.n_left_out().max(1),
@@ -243,12 +204,10 @@ impl Search<'_> {
         if self.rows.dropped.is_empty() {
             return dependent;
         }
-        let mut q = vec![0.0; self.mechanism.layout().n_q];
+        let mut q = vec![0.0; self.at.mechanism.layout().n_q];
         state(t, &mut q);
-        self.mechanism.pose(t, &q, &mut self.s);
-        self.mechanism.phi(&mut self.s);
-        self.mechanism.c(&mut self.s);
-        match decide_rows(self.mechanism, &self.s, &q) {
+        self.at.pose_and_phi(t, &q);
+        match decide_rows(self.at.mechanism, &self.at.s, &q) {
             Ok(decision) if decision.is_decided() => {
                 self.rows.kept.len().saturating_sub(decision.rank)
             }

@@ -21,10 +21,11 @@
 use linalg::{Lu, Matrix};
 use model::{Derivatives, System};
 
-use super::KeptRowMotion;
-use super::chart::Origin;
 use crate::counts::{Counted, note};
 use crate::error::MotionFault;
+use crate::manifold::Origin;
+use crate::motion::KeptRowMotion;
+use crate::solve::KeptEquations;
 
 /// The Jacobian at one instant, and factors of shifted ones.
 ///
@@ -69,7 +70,7 @@ pub struct Reduced {
     /// Time of the Jacobian.
     time: f64,
     real: Lu,
-    /// The chart of the Jacobian.
+    /// The partition of the Jacobian.
     generation: u64,
     /// Of the real form [αI − S·D, −βI; βI, αI − S·D].
     complex: Lu,
@@ -120,7 +121,8 @@ impl Reduced {
         }
     }
 
-    /// Takes the Jacobian at t and y, which is completed first. A motion on no chart gets one here.
+    /// Takes the Jacobian at t and y, which is completed first. A motion on all coordinates gets
+    /// independent ones here.
     ///
     /// # Errors
     /// As [`KeptRowMotion::derivative`].
@@ -133,20 +135,23 @@ impl Reduced {
         t: f64,
         y: &[f64],
     ) -> Result<(), MotionFault> {
-        let n_q = motion.mechanism.layout().n_q;
-        if motion.chart.is_none() {
-            motion.use_chart(t, &y[..n_q])?;
+        let mechanism = motion.mechanism();
+        let n_q = mechanism.layout().n_q;
+        if motion.independent().is_none() {
+            motion.use_independent_coordinates(t, &y[..n_q])?;
         }
         motion.begin_step(|_| true)?;
         self.dy.resize(y.len(), 0.0);
         motion.derivative(t, y, &mut self.dy)?;
         self.take_partition(motion, y);
-        self.generation = motion.chart.as_ref().map_or(0, |c| c.generation);
-        let mechanism = motion.mechanism;
+        let coordinates = motion.manifold.coordinates.as_ref();
+        self.generation = coordinates.map_or(0, |c| c.generation);
+        let equations = &mut motion.equations;
         let a = &self.dy[n_q..n_q + mechanism.layout().n_v];
-        motion.multipliers_for(a, &mut self.lambda)?;
-        mechanism.differentiate(a, &self.lambda, &motion.s, &mut self.derivatives);
-        motion.position.factor(mechanism, &motion.s)?;
+        equations.multipliers_for(a, &mut self.lambda)?;
+        let s = &equations.at.s;
+        mechanism.differentiate(a, &self.lambda, s, &mut self.derivatives);
+        equations.position.factor(&equations.at)?;
         self.time = t;
         for j in 0..self.reads.len() {
             self.differentiate(motion, j)?;
@@ -156,19 +161,19 @@ impl Reduced {
         Ok(())
     }
 
-    /// Linearises and factors again where the chart has changed as the step began: f is another
+    /// Linearises and factors again where the partition has changed as the step began: f is another
     /// function of y then, although the motion is the same.
     ///
     /// # Errors
     /// As [`Reduced::linearise`] and [`Reduced::factor`].
     pub(crate) fn follow(&mut self, motion: &mut KeptRowMotion<'_>) -> Result<(), MotionFault> {
-        let Some(chart) = &motion.chart else {
+        let Some(coordinates) = &motion.manifold.coordinates else {
             return Ok(());
         };
-        if self.reads.is_empty() || chart.generation == self.generation {
+        if self.reads.is_empty() || coordinates.generation == self.generation {
             return Ok(());
         }
-        let Origin { t, q, v } = chart.origin.clone();
+        let Origin { t, q, v } = coordinates.origin.clone();
         let mut y = [q, v].concat();
         y.resize(self.columns.ncols(), 0.0);
         self.linearise(motion, t, &y)?;
@@ -189,8 +194,8 @@ impl Reduced {
 
     /// Takes the partition of the motion, and how w is read from y.
     fn take_partition(&mut self, motion: &KeptRowMotion<'_>, y: &[f64]) {
-        let (z, u) = motion.independent().expect("linearise has chosen a chart");
-        let (mechanism, n) = (motion.mechanism, y.len());
+        let (z, u) = motion.independent().expect("linearise has chosen them");
+        let (mechanism, n) = (motion.mechanism(), y.len());
         let n_q = mechanism.layout().n_q;
         self.reads.resize_with(z.len() + u.len(), Vec::new);
         for (terms, &z) in self.reads.iter_mut().zip(z) {
@@ -221,15 +226,15 @@ impl Reduced {
         motion: &mut KeptRowMotion<'_>,
         j: usize,
     ) -> Result<(), MotionFault> {
-        let KeptRowMotion {
-            mechanism,
-            s,
-            position,
+        let KeptEquations {
+            at,
             velocity,
-            chart,
+            position,
             ..
-        } = motion;
-        let chart = chart.as_ref().expect("linearise has chosen a chart");
+        } = &mut motion.equations;
+        let coordinates = motion.manifold.coordinates.as_ref();
+        let coordinates = coordinates.expect("linearise has chosen them");
+        let mechanism = at.mechanism;
         let layout = mechanism.layout();
         let d = &self.derivatives;
         let (dq, dv) = (&mut self.dq, &mut self.dv);
@@ -239,19 +244,17 @@ impl Reduced {
             Some(&z) => {
                 dq[z] = 1.0;
                 position.rhs.fill(0.0);
-                position.complete(mechanism, s, dq)?;
+                position.complete(at, dq)?;
             }
             None => dv[self.u[j - self.z.len()]] = 1.0,
         }
         self.rows_of_velocity.fill(0.0);
         d.velocity_dq
             .subtract_product(dq, &mut self.rows_of_velocity);
-        for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
-            *rhs = self.rows_of_velocity[i];
-        }
-        velocity.complete(mechanism, s, dv)?;
+        velocity.take_rhs(|i| self.rows_of_velocity[i]);
+        velocity.complete(at, dv)?;
         let tangent = self.tangents.row_mut(j);
-        mechanism.rate(&chart.q, dq, &mut tangent[..layout.n_q]);
+        mechanism.rate(&coordinates.q, dq, &mut tangent[..layout.n_q]);
         tangent[layout.n_q..layout.n_q + layout.n_v].copy_from_slice(dv);
 
         self.force.fill(0.0);
@@ -261,17 +264,15 @@ impl Reduced {
         self.rows.fill(0.0);
         d.residual_dq.subtract_product(dq, &mut self.rows);
         d.gamma_dv.add_product(dv, &mut self.rows);
-        for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
-            *rhs = self.rows[i];
-        }
+        velocity.take_rhs(|i| self.rows[i]);
         let (d_rate, rest) = self.columns.row_mut(j).split_at_mut(layout.n_q);
         let (da, d_work) = rest.split_at_mut(layout.n_v);
-        velocity.solve(mechanism, s, &self.force, da)?;
-        mechanism.rate(&chart.q, dv, d_rate);
+        velocity.solve(at, Some(&self.force), da)?;
+        mechanism.rate(&coordinates.q, dv, d_rate);
         if let Some(d_work) = d_work.first_mut() {
             // The power (M·a − weight)·v, changed with v, and with a.
             let a = &self.dy[layout.n_q..layout.n_q + layout.n_v];
-            let inertia = mechanism.mass().iter().zip(&*da).zip(&chart.v);
+            let inertia = mechanism.mass().iter().zip(&*da).zip(&coordinates.v);
             *d_work =
                 mechanism.energy_rate(dv, a) + inertia.map(|((m, da), v)| m * da * v).sum::<f64>();
         }

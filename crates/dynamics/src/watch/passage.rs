@@ -11,16 +11,18 @@
 //! stands only if its correction is small beside the distance of the branches: the motion goes on
 //! as smoothly as it came.
 
-use super::rows::KeptRows;
 use crate::guards::GUARDED;
+use crate::limits::{KINK, SUSPECT};
+use crate::solve::KeptRows;
 
-/// Velocities behind a singular configuration may miss those that the accelerations on both sides
-/// explain by this share: a step over it is short beside the curvature of the motion, and another
-/// branch leads elsewhere.
-const KINK: f64 = 0.25;
-
-/// Stages below this share of the reference pivots make a step suspect.
-const SUSPECT: f64 = 0.1;
+/// An evaluated state.
+#[derive(Clone, Copy)]
+pub(crate) struct Now<'a> {
+    pub(crate) t: f64,
+    pub(crate) q: &'a [f64],
+    pub(crate) v: &'a [f64],
+    pub(crate) a: &'a [f64],
+}
 
 /// A frame of the motions that were possible at the last accepted step, and the sign of the
 /// determinant of the kept rows bordered by it; and how near to a singular configuration the stages
@@ -74,7 +76,7 @@ impl Passage {
     /// Whether velocities v at time t, with accelerations a and the weights `mass`, follow from
     /// those with which the motion came near a singular configuration. On another branch they have
     /// another direction. Asked where the rows are sound again.
-    pub(super) fn is_continued_by(&self, (t, v, a): (f64, &[f64], &[f64]), mass: &[f64]) -> bool {
+    pub(super) fn is_continued_by(&self, Now { t, v, a, .. }: Now<'_>, mass: &[f64]) -> bool {
         let Some(entry) = &self.entry else {
             return true;
         };
@@ -90,7 +92,7 @@ impl Passage {
     }
 
     /// Takes an accepted state as the last one before rows become delicate.
-    pub(super) fn enter(&mut self, (t, v, a): (f64, &[f64], &[f64])) {
+    pub(super) fn enter(&mut self, Now { t, v, a, .. }: Now<'_>) {
         let entry = self.entry.get_or_insert_with(|| Entry {
             t,
             v: v.to_vec(),

@@ -30,8 +30,6 @@ pub(super) enum Source<'s, 'm> {
 pub(super) struct OfMotion<'s, 'm> {
     /// The time of the row, or the last number before a break time.
     pub(super) t_before: f64,
-    /// Share of the reference pivots below which reactions are not told.
-    pub(super) blind: f64,
     pub(super) wanted: &'s AtRows,
     pub(super) motion: &'s mut KeptRowMotion<'m>,
 }
@@ -116,7 +114,7 @@ impl OfMotion<'_, '_> {
             return Ok(lambda);
         }
         self.motion.multipliers(self.t_before, q, v, &mut lambda)?;
-        if self.motion.relative_pivot() < self.blind {
+        if self.motion.equations.velocity.relative_pivot() < self.motion.watch.blind() {
             lambda.fill(f64::NAN);
         }
         for (k, group) in mechanism.layout().groups.iter().enumerate() {
