@@ -126,7 +126,9 @@ fn dependent_entries_are_a_guess_only() {
         let mut motion = KeptRowMotion::new(&p).expect("rows");
         let mut expected = vec![0.0; y.len()];
         motion.derivative(t, &y, &mut expected).expect("a state");
-        motion.use_independent_coordinates(t, &y[..y.len() / 2]).expect("independent coordinates");
+        motion
+            .use_independent_coordinates(t, &y[..y.len() / 2])
+            .expect("independent coordinates");
         let (z, u) = motion.independent().expect("independent coordinates");
         let n = p.q.len();
         let is_free = |i: usize| z.contains(&i) || i >= n && u.contains(&(i - n));

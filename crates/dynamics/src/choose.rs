@@ -60,12 +60,7 @@ pub(crate) fn method(
 }
 
 fn decided(value: Method, reason: String) -> Decided<Method> {
-    Decided {
-        value,
-        taken: value.name().to_owned(),
-        reason,
-        saves: None,
-    }
+    Decided::new(value, value.name(), reason)
 }
 
 /// The largest |λ| (1/s) of the motion on independent coordinates at the start.

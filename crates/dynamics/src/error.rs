@@ -3,11 +3,9 @@
 mod rows;
 
 use integrators::IntegrationError;
-use linalg::{Doubt, NearlyRedundant, SaddleError, SingularPivot};
+use linalg::{Doubt, SaddleError, SingularPivot};
 use model::{RowLabel, StartError};
 use solvability::{AnalysisError, Contradiction, StateError};
-
-use crate::limits::TAKES_PART;
 
 pub use rows::DropError;
 
@@ -295,20 +293,6 @@ pub enum MotionError {
     /// The integration stopped.
     #[error("{0}")]
     Integration(Box<IntegrationError<MotionFault>>),
-}
-
-impl MotionError {
-    /// Rows that are too nearly redundant.
-    pub(crate) fn inseparable(found: &NearlyRedundant, labels: &[RowLabel]) -> Self {
-        let largest = found.direction.iter().fold(0.0, |a: f64, w| a.max(w.abs()));
-        let weights = found.direction.iter().zip(labels);
-        let rows = weights.filter(|(w, _)| w.abs() > TAKES_PART * largest);
-        Self::Inseparable {
-            rows: rows.map(|(_, label)| label.to_string()).collect(),
-            sigma: found.sigma,
-            required: linalg::NEARLY_SINGULAR,
-        }
-    }
 }
 
 /// A doubt in the words of one who writes scenes: what can be changed there.

@@ -10,6 +10,6 @@ mod newton;
 mod project;
 
 pub(crate) use coordinates::Origin;
+pub use dropped::Correction;
 pub(crate) use generated::CodeProjection;
-pub use project::Correction;
 pub(crate) use project::{Manifold, inspect};

@@ -12,6 +12,7 @@ use solvability::{
 
 use crate::code::SceneCode;
 use crate::error::{DropError, MotionError};
+use crate::limits::TAKES_PART;
 use crate::options::{MotionOptions, RowChoice, Stabilisation};
 use crate::solve;
 
@@ -136,10 +137,17 @@ pub fn prepare(
 /// Why no rows can be kept, if none can.
 fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionError> {
     if let Some(nearly) = found.inseparable(mechanism, 0.0, q) {
-        return Some(MotionError::inseparable(
-            &nearly,
-            &mechanism.layout().labels,
-        ));
+        let largest = nearly
+            .direction
+            .iter()
+            .fold(0.0, |a: f64, w| a.max(w.abs()));
+        let weights = nearly.direction.iter().zip(&mechanism.layout().labels);
+        let rows = weights.filter(|(w, _)| w.abs() > TAKES_PART * largest);
+        return Some(MotionError::Inseparable {
+            rows: rows.map(|(_, label)| label.to_string()).collect(),
+            sigma: nearly.sigma,
+            required: linalg::NEARLY_SINGULAR,
+        });
     }
     let decisions = [&found.all, &found.holonomic];
     decisions

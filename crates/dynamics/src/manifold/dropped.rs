@@ -4,12 +4,22 @@
 use model::System;
 
 use super::levels::largest;
-use super::project::Correction;
 use crate::counts::{Counted, note};
 use crate::error::MotionFault;
 use crate::guards::GUARDED;
 use crate::limits::{AT_REST, DROPPED_MISFIT, NEAREST_PIVOT, POSITION_MISFIT, STALLED_ROUNDINGS};
 use crate::solve::{Evaluation, KeptEquations, KeptRows};
+
+/// What a projection found and did.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Correction {
+    /// Corrections of the position made.
+    pub iterations: usize,
+    /// Largest |Φ| afterwards, all rows.
+    pub position_residual: f64,
+    /// Largest |C·v − b| afterwards, all rows.
+    pub velocity_residual: f64,
+}
 
 /// Residuals of all rows at a projected state, the kept ones being off by `left`; dropped rows
 /// refused above the limit. `horizon`: how long the run lasts (s).

@@ -2,9 +2,9 @@
 
 use model::{Mechanism, System};
 
+use super::dropped::Correction;
 use super::levels::largest;
 use super::newton::{Level, Limits, correct};
-use super::project::Correction;
 use crate::code::SceneCode;
 use crate::guards::GUARDED;
 use crate::limits::{

@@ -4,22 +4,11 @@
 use model::System;
 
 use super::coordinates::{IndependentCoordinates, Origin};
-use super::dropped::monitor;
+use super::dropped::{Correction, monitor};
 use super::levels::{Moves, correct_position, correct_velocity, largest};
 use crate::error::MotionFault;
 use crate::options::Stabilisation;
 use crate::solve::{Evaluation, KeptEquations};
-
-/// What a projection found and did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Correction {
-    /// Corrections of the position made.
-    pub iterations: usize,
-    /// Largest |Φ| afterwards, all rows.
-    pub position_residual: f64,
-    /// Largest |C·v − b| afterwards, all rows.
-    pub velocity_residual: f64,
-}
 
 /// The way of a motion along its constraints.
 pub(crate) struct Manifold {

@@ -213,7 +213,7 @@ impl<'m> RunEquations<'m> {
         if !self.is_careful {
             self.motion.derivative(t, y, dy)?;
             return match &mut self.reduced {
-                Some(reduced) => reduced.follow(&mut self.motion),
+                Some(reduced) => reduced.follow_partition(&mut self.motion),
                 None => Ok(()),
             };
         }
