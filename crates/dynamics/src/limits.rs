@@ -250,14 +250,10 @@ pub(crate) const BLIND_MAX: f64 = 1e-2;
 /// Unit: intervals. Less: two passages within a step are one. More: time. Test: none.
 pub(crate) const PLACES: usize = 16;
 
-/// Intervals are divided so often: the place is then found to 1e-10 of the step by halves, and to
-/// 1e-7 by golden sections, where a pivot is as small.
-/// Unit: divisions. Less: instants lose digits. More: time. Test: `passages_are_told_at_the_same_time`.
-pub(crate) const DIVISIONS: usize = 34;
-
-/// Share by which a golden section shortens an interval.
-/// Unit: 1. Less, more: two evaluations for each division instead of one. Test: none.
-pub(crate) const GOLDEN: f64 = 0.618_033_988_749_894_8;
+/// An instant at which a pivot is smallest is found to this: there the pivot is as small.
+/// Unit: share of the interval. Less: time. More: passages are missed.
+/// Test: `forty_four_bars_are_where_one_angle_says`.
+pub(crate) const SHARP: f64 = 1e-7;
 
 /// A singular configuration is looked for up to so many times the distance at which a straight line
 /// meets it.

@@ -2,11 +2,12 @@
 //! for in the dense output of an accepted step that was suspect.
 
 use model::System;
+use solvability::along::search::{minimum, root};
 use solvability::decide_rows;
 
 use super::passage::Now;
 use crate::events::{Event, EventKind};
-use crate::limits::{BEYOND, DIVISIONS, GLANCES, GOLDEN, PLACES, STAYS, STEEPER, VANISHES};
+use crate::limits::{BEYOND, GLANCES, PLACES, SHARP, STAYS, STEEPER, VANISHES};
 use crate::solve::{Evaluation, KeptEquations, KeptRows};
 
 /// A singular configuration within a step.
@@ -118,68 +119,24 @@ impl<'m> Search<'m> {
         }
         let flip = signs.windows(2).position(|w| w[0] * w[1] < 0.0);
         let t = match flip {
+            // The pivot with the sign of the determinant crosses zero nearly as a straight line.
             Some(k) => {
-                // The pivot with the sign of the determinant crosses zero nearly as a straight
-                // line: secants, halved where an end stays (Illinois), and every third time the
-                // middle.
-                let (mut low, mut high) = (time(k), time(k + 1));
-                let (mut above, mut below) = (pivots[k], pivots[k + 1]);
-                let enough = (high - low) * 0.5_f64.powi(DIVISIONS as i32);
-                let mut was_low = None;
-                for turn in 1..=DIVISIONS {
-                    if high - low <= enough {
-                        break;
-                    }
-                    let secant = low + (high - low) * above / (above + below);
-                    let is_inside = secant > low && secant < high && turn % 3 != 0;
-                    let t = if is_inside {
-                        secant
-                    } else {
-                        0.5 * (low + high)
-                    };
-                    let pivot = at(t, self)?;
-                    let is_low = self.rows.orientation(&frame) * signs[k] > 0.0;
-                    let stays = was_low.replace(is_low) == Some(is_low);
-                    match is_low {
-                        true => (low, above) = (t, pivot),
-                        false => (high, below) = (t, pivot),
-                    }
-                    match is_low {
-                        true if stays => below *= 0.5,
-                        false if stays => above *= 0.5,
-                        _ => {}
-                    }
-                }
-                high
+                let ends = [pivots[k], -pivots[k + 1]];
+                let signed = |t: f64| {
+                    let pivot = at(t, self).ok_or(())?;
+                    Ok::<f64, ()>(pivot * self.rows.orientation(&frame) * signs[k])
+                };
+                root([time(k), time(k + 1)], ends, 0.0, signed).ok()?
             }
             None => {
                 let k = (1..PLACES).min_by(|&a, &b| pivots[a].total_cmp(&pivots[b]))?;
                 if pivots[k] - STEEPER * steepest(&pivots) > noise {
                     return None;
                 }
-                let slope = STEEPER * steepest(&pivots) / (time(1) - t0);
-                let (mut low, mut high) = (time(k - 1), time(k + 1));
-                let inner = |low: f64, high: f64| {
-                    [high - GOLDEN * (high - low), low + GOLDEN * (high - low)]
-                };
-                let [mut left, mut right] = inner(low, high);
-                let [mut on_left, mut on_right] = [at(left, self)?, at(right, self)?];
-                for _ in 0..DIVISIONS {
-                    if on_left < on_right {
-                        (high, right, on_right) = (right, left, on_left);
-                        left = inner(low, high)[0];
-                        on_left = at(left, self)?;
-                    } else {
-                        (low, left, on_left) = (left, right, on_right);
-                        right = inner(low, high)[1];
-                        on_right = at(right, self)?;
-                    }
-                    // No steeper than anywhere it cannot vanish in between.
-                    if on_left.min(on_right) - slope * (high - low) > noise {
-                        return None;
-                    }
-                }
-                0.5 * (low + high)
+                let interval = [time(k - 1), time(k + 1)];
+                let enough = SHARP * (interval[1] - interval[0]);
+                let least = minimum(interval, noise, enough, |t| at(t, self).ok_or(()));
+                least.ok()??.0
             }
         };
         let pivot = at(t, self)?;
