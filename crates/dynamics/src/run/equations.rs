@@ -87,14 +87,9 @@ impl<'m> RunEquations<'m> {
     /// and where they become functions of time by that. On independent coordinates all of them lie
     /// there; without projection none shall.
     fn wants_care(&self) -> bool {
-        let KeptRowMotion {
-            equations,
-            manifold,
-            watch,
-            ..
-        } = &self.motion;
-        let off = manifold.projects() && manifold.coordinates.is_none();
-        off && (self.is_by_time() || watch.is_delicate(equations))
+        let motion = &self.motion;
+        let off = motion.manifold.projects() && motion.independent().is_none();
+        off && (self.is_by_time() || motion.watch.is_delicate(&motion.equations))
     }
 
     /// The work is measured, not controlled: its error has no weight. It still counts as a
@@ -174,16 +169,16 @@ impl<'m> RunEquations<'m> {
         error: &IntegrationError<MotionFault>,
         t: f64,
     ) -> Option<MotionFault> {
-        let KeptRowMotion {
-            equations, watch, ..
-        } = &mut self.motion;
+        let motion = &mut self.motion;
         match error {
             // Error control fails beside a singular configuration because accelerations are
             // rounding there.
-            IntegrationError::StepSizeCollapsed { .. } if watch.is_delicate(equations) => {
-                Some(watch.no_way_over(t))
+            IntegrationError::StepSizeCollapsed { .. }
+                if motion.watch.is_delicate(&motion.equations) =>
+            {
+                Some(motion.watch.no_way_over(t))
             }
-            IntegrationError::StepSizeCollapsed { .. } => watch.contradiction(t),
+            IntegrationError::StepSizeCollapsed { .. } => motion.watch.contradiction(t),
             _ => None,
         }
     }
@@ -191,17 +186,11 @@ impl<'m> RunEquations<'m> {
     /// If code was left: the interpreter goes on from the last accepted state as if it had led
     /// there.
     fn note_departure(&mut self) {
-        let KeptRowMotion {
-            equations,
-            watch,
-            code: Some(code),
-            ..
-        } = &mut self.motion
-        else {
-            return;
-        };
-        if let Some(departure) = code.take_departure() {
-            code.look_ahead(equations, watch);
+        let motion = &mut self.motion;
+        if let Some(code) = &mut motion.code
+            && let Some(departure) = code.take_departure()
+        {
+            code.look_ahead(&motion.equations, &mut motion.watch);
             self.record.events.push(departure.event);
             self.is_void = departure.is_within_step;
             self.is_careful = self.wants_care();
@@ -237,72 +226,56 @@ impl<'m> RunEquations<'m> {
         if std::mem::take(&mut self.is_void) {
             return Err(Next::Reject);
         }
-        let on_code = self.motion.is_on_code();
         let has_to_end = step.t == self.t_end || self.is_break(step.t);
-        let (q, v, _) = self.motion.parts_mut(y);
-        let found = self.motion.end_step(step.t_rhs, (q, v), has_to_end)?;
+        let motion = &mut self.motion;
+        let on_code = motion.is_on_code();
+        let (q, v, _) = motion.parts_mut(y);
+        let found = motion.end_step(step.t_rhs, (q, v), has_to_end)?;
         if on_code {
-            self.motion.derivative(step.t_rhs, y, dy)?;
-            if !self.motion.is_on_code() {
+            motion.derivative(step.t_rhs, y, dy)?;
+            if !motion.is_on_code() {
                 return Err(Next::Reject);
             }
         }
-        let pivot_ratio = self.motion.pivot_ratio();
+        let pivot_ratio = motion.pivot_ratio();
         for (before, y) in self.before.iter_mut().zip(&*y) {
             *before -= y;
         }
-        let (q, v) = self.motion.parts(y);
-        let projects = self.motion.manifold.projects();
-        let may_have_passed = !on_code && {
-            let KeptRowMotion {
-                equations,
-                manifold,
-                watch,
-                ..
-            } = &mut self.motion;
-            let may_have_passed = watch.may_have_passed(equations, [step.t0, step.t]);
-            if may_have_passed && !projects {
-                let missed = manifold.missed_correction(equations, step.t_rhs, (q, v))?;
-                self.before[..missed.len()].copy_from_slice(&missed);
-            }
-            may_have_passed
-        };
+        let (q, v) = motion.parts(y);
+        let (equations, watch) = (&mut motion.equations, &mut motion.watch);
+        let projects = motion.manifold.projects();
+        let may_have_passed = !on_code && watch.may_have_passed(equations, [step.t0, step.t]);
+        if may_have_passed && !projects {
+            let missed = motion
+                .manifold
+                .missed_correction(equations, step.t_rhs, (q, v))?;
+            self.before[..missed.len()].copy_from_slice(&missed);
+        }
         let correction = step.norm(&self.before);
         if may_have_passed {
-            let KeptRowMotion {
-                equations, watch, ..
-            } = &self.motion;
             let next = watch.judge_correction(equations, step.t, correction);
             next.stands()?;
         }
+        let mechanism = motion.mechanism();
         if projects && !on_code {
             if may_have_passed || !is_known {
-                self.motion.derivative_of_projected(step.t_rhs, y, dy)?;
+                motion.derivative_of_projected(step.t_rhs, y, dy)?;
             }
-            let KeptRowMotion {
-                equations,
-                manifold,
-                watch,
-                ..
-            } = &mut self.motion;
-            let now = now(equations.at.mechanism, step.t, y, dy);
-            let next = watch.judge_motion(equations, now, may_have_passed);
+            let (equations, now) = (&motion.equations, now(mechanism, step.t, y, dy));
+            let next = motion.watch.judge_motion(equations, now, may_have_passed);
             next.stands()?;
-            if let Some(coordinates) = &mut manifold.coordinates {
+            if let Some(coordinates) = &mut motion.manifold.coordinates {
                 coordinates.check_travel(&equations.at, (step.t_rhs, q, v))?;
             }
         }
         // From here on the step stands.
-        let mechanism = self.motion.mechanism();
         self.record.note(mechanism, (q, v, work(q, v, y)), found);
         let now = now(mechanism, step.t, y, dy);
-        if on_code {
-            self.motion.watch.accept_unseen();
-            if let Some(code) = &mut self.motion.code {
-                code.accept(now);
-            }
+        if let Some(code) = motion.code.as_mut().filter(|_| on_code) {
+            motion.watch.accept_unseen();
+            code.accept(now);
         } else {
-            let event = self.motion.accept(step.t, may_have_passed);
+            let event = motion.accept(step.t, may_have_passed);
             self.record.events.extend(event);
             self.record.min_pivot_ratio = self.record.min_pivot_ratio.min(pivot_ratio);
         }
@@ -320,15 +293,11 @@ impl<'m> RunEquations<'m> {
 
     /// Looks ahead from an accepted, interpreted state, and back to code.
     fn look_ahead(&mut self, now: Now<'_>, step: f64, may_have_passed: bool) {
-        let KeptRowMotion {
-            equations,
-            watch,
-            code,
-            ..
-        } = &mut self.motion;
+        let motion = &mut self.motion;
+        let (equations, watch) = (&motion.equations, &mut motion.watch);
         watch.look_ahead(equations, now, step);
         let is_open = !may_have_passed && watch.delicate().is_none();
-        if let Some(code) = code.as_mut().filter(|_| is_open) {
+        if let Some(code) = motion.code.as_mut().filter(|_| is_open) {
             let event = code.come_back(equations, watch, now);
             self.record.events.extend(event);
         }
