@@ -16,7 +16,7 @@ use crate::manifold::{Correction, Manifold, Origin, inspect};
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 use crate::solve::{Accelerations, Evaluation, KeptEquations, KeptRows, State};
-use crate::watch::{Handover, Next, Watch};
+use crate::watch::{Handover, Next, Watch, are_worn};
 
 /// Equations solved for what moves.
 pub trait Motion {
@@ -178,7 +178,7 @@ impl<'m> KeptRowMotion<'m> {
     /// Takes the start as the first accepted state.
     pub(crate) fn begin(&mut self, t: f64, q: &mut [f64]) -> Result<(), MotionFault> {
         self.manifold.settle(&mut self.equations, t, q)?;
-        self.watch.begin(&mut self.equations, t);
+        self.watch.passage.take(&mut self.equations.velocity, t);
         Ok(())
     }
 
@@ -222,7 +222,7 @@ impl<'m> KeptRowMotion<'m> {
         let (qd, a, power) = self.parts_mut(dy);
         if let Some(coordinates) = &mut self.manifold.coordinates {
             coordinates.complete(&mut self.equations, t, q, v)?;
-            self.watch.see(&self.equations);
+            self.watch.passage.see(&self.equations.velocity);
             self.equations.solve_factored(&coordinates.v, a)?;
             rates(mechanism, (&coordinates.q, &coordinates.v, a), (qd, power));
             return Ok(());
@@ -261,8 +261,7 @@ impl<'m> KeptRowMotion<'m> {
         }
         let (q, v) = self.parts(y);
         let (qd, a, power) = self.parts_mut(dy);
-        self.watch.see(&self.equations);
-        self.equations.solve_factored(v, a)?;
+        self.solve_factored(v, a)?;
         rates(self.mechanism(), (q, v, a), (qd, power));
         Ok(())
     }
@@ -270,8 +269,23 @@ impl<'m> KeptRowMotion<'m> {
     /// Accelerations of a stage by the interpreter.
     fn interpret(&mut self, state: State<'_>, a: &mut [f64]) -> Result<(), MotionFault> {
         self.equations.factor_at(state.t, state.q)?;
-        self.watch.see(&self.equations);
-        self.equations.solve_factored(state.v, a)
+        self.solve_factored(state.v, a)
+    }
+
+    /// The same where the pose is taken and the rows are factored.
+    pub(crate) fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
+        self.watch.passage.see(&self.equations.velocity);
+        self.equations.solve_factored(v, a)
+    }
+
+    /// Multipliers of all rows for accelerations a, found by the last evaluation.
+    pub(crate) fn multipliers_for(
+        &mut self,
+        a: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<(), MotionFault> {
+        note(Counted::Multipliers);
+        self.equations.multipliers_for(a, lambda)
     }
 
     /// q and v of y.
@@ -361,7 +375,7 @@ impl<'m> KeptRowMotion<'m> {
 
     /// Takes the state just evaluated as that of an accepted step to t.
     pub(crate) fn accept(&mut self, t: f64, may_have_passed: bool) -> Option<Event> {
-        let is_worn = self.watch.is_worn(&self.equations);
+        let is_worn = are_worn(&self.equations);
         if let Some(coordinates) = &mut self.manifold.coordinates {
             coordinates.accept(t, is_worn);
         }
@@ -464,7 +478,7 @@ impl Motion for KeptRowMotion<'_> {
             return Ok(());
         }
         let found = self.equations.multipliers(state, lambda);
-        self.watch.see(&self.equations);
+        self.watch.passage.see(&self.equations.velocity);
         found
     }
 }

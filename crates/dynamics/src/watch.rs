@@ -12,4 +12,5 @@ mod search;
 pub(crate) use handover::Handover;
 pub(crate) use judge::{Next, Watch};
 pub(crate) use passage::Now;
+pub(crate) use pivots::{are_delicate, are_worn};
 pub(crate) use search::{Search, Singular};

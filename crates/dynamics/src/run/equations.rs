@@ -10,14 +10,14 @@ use super::by_time::ByTime;
 use super::impulse::cross_break;
 use super::record::Record;
 use super::reduced::Reduced;
-use super::sample::{AtRows, OfMotion, Sample, Source};
+use super::sample::{AtRows, Known, OfMotion, Sample, Source};
 use super::span::Span;
 use crate::error::MotionFault;
 use crate::guards::GUARDED;
 use crate::motion::KeptRowMotion;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
-use crate::watch::{Next, Now};
+use crate::watch::{Next, Now, are_delicate};
 
 /// The equations of a run with what is noted on the way.
 pub(super) struct RunEquations<'m> {
@@ -89,7 +89,7 @@ impl<'m> RunEquations<'m> {
     fn wants_care(&self) -> bool {
         let motion = &self.motion;
         let off = motion.manifold.projects() && motion.independent().is_none();
-        off && (self.is_by_time() || motion.watch.is_delicate(&motion.equations))
+        off && (self.is_by_time() || are_delicate(&motion.equations.velocity))
     }
 
     /// The work is measured, not controlled: its error has no weight. It still counts as a
@@ -136,7 +136,12 @@ impl<'m> RunEquations<'m> {
         if let Some(found) = found {
             self.record.note(at.mechanism, (q, v, work), found);
         }
+        let is_settled = self.motion.manifold.projects() && !self.motion.is_on_code();
         let source = OfMotion {
+            known: match found.is_some() && is_settled {
+                true => Known::Factored,
+                false => Known::Nothing,
+            },
             t_before,
             wanted: &self.wanted,
             motion: &mut self.motion,
@@ -174,7 +179,7 @@ impl<'m> RunEquations<'m> {
             // Error control fails beside a singular configuration because accelerations are
             // rounding there.
             IntegrationError::StepSizeCollapsed { .. }
-                if motion.watch.is_delicate(&motion.equations) =>
+                if are_delicate(&motion.equations.velocity) =>
             {
                 Some(motion.watch.no_way_over(t))
             }
@@ -272,7 +277,7 @@ impl<'m> RunEquations<'m> {
         self.record.note(mechanism, (q, v, work(q, v, y)), found);
         let now = now(mechanism, step.t, y, dy);
         if let Some(code) = motion.code.as_mut().filter(|_| on_code) {
-            motion.watch.accept_unseen();
+            motion.watch.is_suspect = false;
             code.accept(now);
         } else {
             let event = motion.accept(step.t, may_have_passed);
@@ -298,7 +303,7 @@ impl<'m> RunEquations<'m> {
         watch.look_ahead(equations, now, step);
         let is_open = !may_have_passed && watch.delicate().is_none();
         if let Some(code) = motion.code.as_mut().filter(|_| is_open) {
-            let event = code.come_back(equations, watch, now);
+            let event = code.come_back(equations, now);
             self.record.events.extend(event);
         }
         self.is_careful = self.wants_care();

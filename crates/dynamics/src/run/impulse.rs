@@ -61,7 +61,7 @@ pub(super) fn cross_break(
     } = motion;
     let corrections = manifold.settle(equations, t, q)?;
     manifold.finish(equations, v, corrections)?;
-    watch.forget_entry();
+    watch.passage.forget_entry();
     if let Some(code) = code {
         code.restart(equations, watch, t);
     }

@@ -11,7 +11,7 @@ use crate::watch::{Search, Singular};
 
 /// Looks for singular configurations in an accepted step, if it is suspect.
 pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
-    if !step.ode().motion.watch.is_suspect() {
+    if !step.ode().motion.watch.is_suspect {
         return;
     }
     for singular in found(step) {

@@ -54,13 +54,18 @@ impl<'m> KeptEquations<'m> {
     }
 
     /// Multipliers of all rows for accelerations a from the last solve; those of dropped rows are
-    /// zero.
+    /// zero. NaN where kept ones are dependent at just this instant, so that no multipliers belong
+    /// to them.
     pub(crate) fn multipliers_for(
         &mut self,
         a: &[f64],
         lambda: &mut [f64],
     ) -> Result<(), MotionFault> {
         self.velocity.find_multipliers(&self.at, a)?;
+        if self.velocity.n_left_out() > 0 {
+            lambda.fill(f64::NAN);
+            return Ok(());
+        }
         lambda.fill(0.0);
         for (&i, &l) in self.velocity.kept.iter().zip(&self.velocity.lambda) {
             lambda[i] = l;
@@ -84,8 +89,7 @@ impl Accelerations for KeptEquations<'_> {
         self.solve_factored(state.v, a)
     }
 
-    /// On the rows asked for; NaN where they are dependent at just this instant, so that no
-    /// multipliers belong to them.
+    /// On the rows asked for.
     fn multipliers(&mut self, state: State<'_>, lambda: &mut [f64]) -> Result<(), MotionFault> {
         self.swap_requested_rows();
         let mut a = std::mem::take(&mut self.a);
@@ -93,12 +97,7 @@ impl Accelerations for KeptEquations<'_> {
             .accelerations(state, &mut a)
             .and_then(|()| self.multipliers_for(&a, lambda));
         self.a = a;
-        let left_out = self.velocity.n_left_out();
         self.swap_requested_rows();
-        solved?;
-        if left_out > 0 {
-            lambda.fill(f64::NAN);
-        }
-        Ok(())
+        solved
     }
 }

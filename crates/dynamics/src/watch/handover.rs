@@ -12,6 +12,7 @@ use model::System;
 
 use super::judge::Watch;
 use super::passage::Now;
+use super::pivots::are_delicate;
 use crate::code::SceneCode;
 use crate::error::MotionFault;
 use crate::events::{Event, EventKind};
@@ -159,7 +160,7 @@ impl Handover {
     pub(crate) fn restart(&mut self, equations: &mut KeptEquations<'_>, watch: &mut Watch, t: f64) {
         if self.is_in_use() {
             self.n_accepted = 0;
-            watch.begin(equations, t);
+            watch.passage.take(&mut equations.velocity, t);
         }
     }
 
@@ -174,7 +175,7 @@ impl Handover {
         let [Accepted { t, q, v, a }, before] = &self.accepted;
         match self.n_accepted {
             2 => watch.look_ahead(equations, Now { t: *t, q, v, a }, t - before.t),
-            _ => watch.look_nowhere(),
+            _ => watch.delicate = None,
         }
     }
 
@@ -183,7 +184,6 @@ impl Handover {
     pub(crate) fn come_back(
         &mut self,
         equations: &KeptEquations<'_>,
-        watch: &Watch,
         Now { t, q, v, a }: Now<'_>,
     ) -> Option<Event> {
         let Phase::Interpreter(steps) = &mut self.phase else {
@@ -195,7 +195,7 @@ impl Handover {
         let has_its_rows = equations.requested_rows.is_none()
             && *equations.velocity.kept == *facts.kept
             && *equations.position.kept == *facts.position_kept;
-        if is_early || !has_its_rows || watch.is_delicate(equations) {
+        if is_early || !has_its_rows || are_delicate(&equations.velocity) {
             return None;
         }
         let found = &mut self.found;
@@ -234,7 +234,7 @@ impl Handover {
     ) {
         self.phase = Phase::Waking;
         let since = match self.n_accepted {
-            0 => watch.since(),
+            0 => watch.passage.since(),
             _ => self.accepted[0].t,
         };
         let text = format!(
@@ -260,7 +260,7 @@ impl Handover {
         }
         for Accepted { t, q, v, a } in self.accepted[..self.n_accepted].iter_mut().rev() {
             manifold.settle(equations, *t, q)?;
-            watch.begin(equations, *t);
+            watch.passage.take(&mut equations.velocity, *t);
             watch.enter(equations, Now { t: *t, q, v, a });
         }
         self.phase = Phase::Interpreter(0);

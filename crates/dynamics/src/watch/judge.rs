@@ -9,7 +9,7 @@ use model::System;
 
 use super::exchange::{self, Exchange};
 use super::passage::{Now, Passage};
-use super::pivots::{are_delicate, are_worn};
+use super::pivots::are_delicate;
 use super::search;
 use crate::error::MotionFault;
 use crate::events::Event;
@@ -53,15 +53,15 @@ impl From<MotionFault> for Next {
 /// What a motion is watched for.
 pub(crate) struct Watch {
     choice: RowChoice,
-    passage: Passage,
+    pub(crate) passage: Passage,
     /// What happened at the last accepted steps and has not been told.
     pending: Option<Event>,
     rtol: f64,
     t_end: f64,
     /// Whether the last accepted step may have passed a singular configuration.
-    is_suspect: bool,
+    pub(crate) is_suspect: bool,
     /// When the motion is expected to pass one.
-    delicate: Option<f64>,
+    pub(super) delicate: Option<f64>,
     /// When a step was refused last because of a dropped row, and which.
     contradicted: Option<(f64, MotionFault)>,
 }
@@ -80,26 +80,6 @@ impl Watch {
         }
     }
 
-    /// Notes the pivots of a stage.
-    pub(crate) fn see(&mut self, equations: &KeptEquations<'_>) {
-        self.passage.see(&equations.velocity);
-    }
-
-    /// Takes freshly factored rows as those of the last accepted state.
-    pub(crate) fn begin(&mut self, equations: &mut KeptEquations<'_>, t: f64) {
-        self.passage.take(&mut equations.velocity, t);
-    }
-
-    /// Velocities jump for another reason than a passage.
-    pub(crate) fn forget_entry(&mut self) {
-        self.passage.forget_entry();
-    }
-
-    /// Time of the last accepted step.
-    pub(crate) fn since(&self) -> f64 {
-        self.passage.since()
-    }
-
     /// Share of the reference to which a pivot falls that vanishes, as well as this run knows;
     /// steps must not end nearer to a singular configuration, but where they have to.
     pub(crate) fn nearest(&self) -> f64 {
@@ -111,20 +91,10 @@ impl Watch {
         (BLIND_TOLERANCES * self.rtol).clamp(BLIND, BLIND_MAX)
     }
 
-    /// Whether the motion is near a singular configuration, at freshly factored rows.
-    pub(crate) fn is_delicate(&self, equations: &KeptEquations<'_>) -> bool {
-        are_delicate(&equations.velocity)
-    }
-
     /// When the motion is expected to pass a singular configuration, and by which factor steps over
     /// it may miss their tolerance.
     pub(crate) fn delicate(&self) -> Option<(f64, f64)> {
         self.delicate.map(|t| (t, (PASSED / self.rtol).max(1.0)))
-    }
-
-    /// Whether the last accepted step may have passed a singular configuration.
-    pub(crate) fn is_suspect(&self) -> bool {
-        self.is_suspect
     }
 
     /// Whether the end of a step at t is a place where it must not end, at freshly factored rows.
@@ -243,18 +213,8 @@ impl Watch {
         may_have_passed: bool,
     ) -> Option<Event> {
         self.is_suspect = may_have_passed;
-        self.begin(equations, t);
+        self.passage.take(&mut equations.velocity, t);
         self.pending.take()
-    }
-
-    /// Takes an accepted step of which nothing is suspected.
-    pub(crate) fn accept_unseen(&mut self) {
-        self.is_suspect = false;
-    }
-
-    /// Whether another partition is due at the state just evaluated.
-    pub(crate) fn is_worn(&self, equations: &KeptEquations<'_>) -> bool {
-        are_worn(equations)
     }
 
     /// Looks ahead from an accepted state for so many steps like the last one.
@@ -262,11 +222,6 @@ impl Watch {
         let t_last = now.t + FORESIGHT * step;
         let expected = self.passage.expected().filter(|&e| e <= t_last);
         self.delicate = expected.and_then(|expected| search::foresee(equations, now, expected));
-    }
-
-    /// Looks ahead no further: nothing is known of the states before.
-    pub(crate) fn look_nowhere(&mut self) {
-        self.delicate = None;
     }
 
     /// Refuses a step over a singular configuration to t.

@@ -28,7 +28,7 @@ pub(crate) struct Now<'a> {
 /// determinant of the kept rows bordered by it; and how near to a singular configuration the stages
 /// since then came.
 #[derive(Default)]
-pub(super) struct Passage {
+pub(crate) struct Passage {
     frame: Vec<f64>,
     sign: f64,
     t: f64,
@@ -49,7 +49,7 @@ struct Entry {
 
 impl Passage {
     /// Time of the last accepted step.
-    pub(super) fn since(&self) -> f64 {
+    pub(crate) fn since(&self) -> f64 {
         self.t
     }
 
@@ -59,7 +59,7 @@ impl Passage {
     }
 
     /// Notes the pivots of a stage.
-    pub(super) fn see(&mut self, rows: &KeptRows) {
+    pub(crate) fn see(&mut self, rows: &KeptRows) {
         if !GUARDED {
             return;
         }
@@ -104,7 +104,7 @@ impl Passage {
     }
 
     /// Forgets it, where velocities jump for another reason.
-    pub(super) fn forget_entry(&mut self) {
+    pub(crate) fn forget_entry(&mut self) {
         self.entry = None;
     }
 
@@ -114,7 +114,7 @@ impl Passage {
     }
 
     /// Takes the freshly factored rows of an accepted step at time t.
-    pub(super) fn take(&mut self, rows: &mut KeptRows, t: f64) {
+    pub(crate) fn take(&mut self, rows: &mut KeptRows, t: f64) {
         if !GUARDED {
             self.t = t;
             return;

@@ -9,12 +9,12 @@ use crate::solve::{Evaluation, KeptEquations, KeptRows};
 /// Whether the motion is so near to a singular configuration that stages have to lie on the
 /// constraints: off them by δ, accelerations are wrong by δ divided by the share of the reference
 /// pivots that is left.
-pub(super) fn are_delicate(rows: &KeptRows) -> bool {
+pub(crate) fn are_delicate(rows: &KeptRows) -> bool {
     rows.relative_pivot() < DELICATE
 }
 
 /// Whether another partition is due.
-pub(super) fn are_worn(equations: &KeptEquations<'_>) -> bool {
+pub(crate) fn are_worn(equations: &KeptEquations<'_>) -> bool {
     let worn = |rows: &KeptRows| {
         let chosen = rows.partition_pivot();
         chosen.is_some_and(|chosen| rows.pivot_ratio() < PARTITION_WORN * chosen)
