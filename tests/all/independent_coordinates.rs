@@ -83,7 +83,7 @@ fn cases() -> [(&'static str, Prepared, f64); 2] {
 
 /// Places of the independent coordinates and velocities in y.
 fn places_of_w(motion: &KeptRowMotion<'_>, n_q: usize) -> Vec<usize> {
-    let (z, u) = motion.independent().expect("a chart");
+    let (z, u) = motion.independent().expect("independent coordinates");
     z.iter().copied().chain(u.iter().map(|u| n_q + u)).collect()
 }
 
@@ -126,8 +126,10 @@ fn dependent_entries_are_a_guess_only() {
         let mut motion = KeptRowMotion::new(&p).expect("rows");
         let mut expected = vec![0.0; y.len()];
         motion.derivative(t, &y, &mut expected).expect("a state");
-        motion.use_chart(t, &y[..y.len() / 2]).expect("a chart");
-        let (z, u) = motion.independent().expect("a chart");
+        motion
+            .use_independent_coordinates(t, &y[..y.len() / 2])
+            .expect("independent coordinates");
+        let (z, u) = motion.independent().expect("independent coordinates");
         let n = p.q.len();
         let is_free = |i: usize| z.contains(&i) || i >= n && u.contains(&(i - n));
         let moved: Vec<f64> = (0..y.len())
@@ -309,7 +311,7 @@ fn a_grip_of_1e12_takes_few_steps() {
 /// A blade through the centre of mass runs in circles: `x = v/ω·sin ωt`. The velocity that depends
 /// on the others is that across the blade, which is another one every quarter of a turn.
 #[test]
-fn charts_are_renewed_as_a_blade_turns() {
+fn partitions_are_renewed_as_a_blade_turns() {
     let (speed, omega) = (1.2, 1.5);
     let edge = KnifeEdge {
         s: [0.0, 0.0],

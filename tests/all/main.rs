@@ -22,6 +22,7 @@ mod granularity;
 mod independent_coordinates;
 mod invariance;
 mod large;
+mod limits;
 mod long_runs;
 mod nearly_redundant;
 mod oldest_compiler;

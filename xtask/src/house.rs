@@ -217,7 +217,13 @@ fn constants_table(crates: &[Crate]) -> Table {
     let rows = homes.flat_map(|home| {
         constants::constants(home).into_iter().map(|c| {
             let place = format!("{}/{}", home.folder, c.place);
-            vec![json!(c.name), json!(c.value), json!(place)]
+            vec![
+                json!(c.name),
+                json!(c.value),
+                json!(c.unit),
+                json!(c.test),
+                json!(place),
+            ]
         })
     });
     Table {
@@ -226,7 +232,7 @@ fn constants_table(crates: &[Crate]) -> Table {
             "numbers and ranges of numbers in {}",
             constants::CRATES.join(", ")
         ),
-        columns: &["constant", "value", "file"],
+        columns: &["constant", "value", "unit", "test", "file"],
         rows: rows.collect(),
     }
 }

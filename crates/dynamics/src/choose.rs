@@ -3,21 +3,12 @@
 use linalg::{Matrix, SaddleError};
 
 use crate::error::MotionFault;
-use crate::motion::{KeptRowMotion, Reduced, is_sparse};
+use crate::limits::{POWER_ITERATIONS, STABLE, STIFF};
+use crate::motion::KeptRowMotion;
 use crate::options::{Method, MotionOptions, Stabilisation};
 use crate::plan::Decided;
 use crate::prepare::Prepared;
-
-/// A motion for which an explicit method would need more steps than this, only to stay stable, is
-/// stiff.
-const STIFF: f64 = 2e4;
-
-/// Explicit steps are stable up to about this many times 1/|λ|: Dormand–Prince 8(5,3), along the
-/// negative real axis.
-const STABLE: f64 = 6.0;
-
-/// Iterations for the largest |λ|; the second half counts.
-const ITERATIONS: usize = 64;
+use crate::run::Reduced;
 
 /// The method of a run: the one asked for, or Dormand–Prince 8(5,3), or Radau IIA where forces make
 /// the motion stiff at its start. Where nothing is free there is no equation for an implicit method
@@ -36,7 +27,7 @@ pub(crate) fn method(
             "the state is a function of time: nothing is free, so that nothing can be stiff",
         );
     }
-    if options.method.needs_independent_coordinates() && is_sparse(prepared) {
+    if options.method.needs_independent_coordinates() && prepared.is_sparse() {
         let rows = prepared.decision.kept.len();
         return Err(MotionFault::Saddle {
             time: 0.0,
@@ -49,7 +40,7 @@ pub(crate) fn method(
     if !prepared.mechanism.has_applied_forces() {
         return explicit("no applied forces, so that nothing can be stiff");
     }
-    if is_sparse(prepared) {
+    if prepared.is_sparse() {
         return explicit(
             "its rows are solved sparsely, for explicit methods alone; whether it is stiff was not measured",
         );
@@ -69,12 +60,7 @@ pub(crate) fn method(
 }
 
 fn decided(value: Method, reason: String) -> Decided<Method> {
-    Decided {
-        value,
-        taken: value.name().to_owned(),
-        reason,
-        saves: None,
-    }
+    Decided::new(value, value.name(), reason)
 }
 
 /// The largest |λ| (1/s) of the motion on independent coordinates at the start.
@@ -92,18 +78,18 @@ fn spectral_radius(a: &Matrix) -> f64 {
     // No eigenvector is orthogonal to this but by chance.
     let mut x: Vec<f64> = (0..k).map(|i| 1.0 + 0.1 * (i as f64).sin()).collect();
     let mut logs = 0.0;
-    for iteration in 0..ITERATIONS {
+    for iteration in 0..POWER_ITERATIONS {
         let next = a.times(&x);
         let norm = next.iter().map(|x| x * x).sum::<f64>().sqrt();
         if norm == 0.0 || !norm.is_finite() {
             return if norm == 0.0 { 0.0 } else { f64::INFINITY };
         }
         x = next.iter().map(|x| x / norm).collect();
-        if 2 * iteration >= ITERATIONS {
+        if 2 * iteration >= POWER_ITERATIONS {
             logs += norm.ln();
         }
     }
-    (2.0 * logs / ITERATIONS as f64).exp()
+    (2.0 * logs / POWER_ITERATIONS as f64).exp()
 }
 
 #[cfg(test)]

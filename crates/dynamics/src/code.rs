@@ -11,11 +11,8 @@ mod belongs;
 
 use std::borrow::Cow;
 
+pub use crate::limits::LEAVE;
 pub use belongs::{CodeMismatch, NoCode};
-
-/// Runs leave code below this health: the interpreter has to see a singular configuration from
-/// afar. They do not begin on it either.
-pub const LEAVE: f64 = 0.1;
 
 /// What code was generated for.
 #[derive(Clone, Debug, PartialEq)]

@@ -5,7 +5,7 @@ mod rows;
 use integrators::IntegrationError;
 use linalg::{SaddleError, SingularPivot};
 use model::{RowLabel, StartError};
-use rank::{Doubt, NearlyRedundant};
+use rank::Doubt;
 use solvability::{AnalysisError, Contradiction, StateError};
 
 pub use rows::DropError;
@@ -34,7 +34,7 @@ pub enum MotionFault {
         "at t = {time} s the independent coordinates do not determine the others: row {row} has a pivot of {pivot:.3e} times the \
          one at their choice"
     )]
-    Chart {
+    IndependentCoordinates {
         /// When.
         time: f64,
         /// The row that cannot be solved.
@@ -294,23 +294,6 @@ pub enum MotionError {
     /// The integration stopped.
     #[error("{0}")]
     Integration(Box<IntegrationError<MotionFault>>),
-}
-
-/// Rows with a smaller share than this of the largest weight take no part in a combination.
-const TAKES_PART: f64 = 0.1;
-
-impl MotionError {
-    /// Rows that are too nearly redundant.
-    pub(crate) fn inseparable(found: &NearlyRedundant, labels: &[RowLabel]) -> Self {
-        let largest = found.direction.iter().fold(0.0, |a: f64, w| a.max(w.abs()));
-        let weights = found.direction.iter().zip(labels);
-        let rows = weights.filter(|(w, _)| w.abs() > TAKES_PART * largest);
-        Self::Inseparable {
-            rows: rows.map(|(_, label)| label.to_string()).collect(),
-            sigma: found.sigma,
-            required: rank::NEARLY_SINGULAR,
-        }
-    }
 }
 
 /// A doubt in the words of one who writes scenes: what can be changed there.

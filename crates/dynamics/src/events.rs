@@ -17,6 +17,20 @@ pub struct Event {
     pub text: String,
 }
 
+impl Event {
+    /// An event at which the degree of redundancy stays, with the rows dropped from then on.
+    pub(crate) fn at(time: f64, kind: EventKind, dropped: &[usize], text: String) -> Self {
+        Self {
+            time,
+            kind,
+            redundancy_before: dropped.len(),
+            redundancy_after: dropped.len(),
+            dropped: dropped.to_vec(),
+            text,
+        }
+    }
+}
+
 /// Kinds of events.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]

@@ -8,9 +8,13 @@
 //! | [`mod@prepare`] | consistent start, decided rank, kept rows |
 //! | [`code`] | what a run asks of code generated for one mechanism |
 //! | [`plan`] | what a run does and leaves out, with reasons |
-//! | [`motion`] | the solved equations on kept rows: acceleration, projection, reactions, monitors |
+//! | `solve` | accelerations and multipliers at a state: dense, sparse, refined, generated |
+//! | `manifold` | moves states onto the constraints and along them; the only writer of q and v |
+//! | `watch` | judges the ends of steps: pivots, exchange of rows, singular passages, code |
+//! | [`motion`] | the three of them for one mechanism |
+//! | [`run`] | a run: integration, projected output, energy balance |
 //! | [`events`] | what happened on the way |
-//! | [`mod@simulate`] | a run: integration, projected output, energy balance |
+//! | `limits` | every threshold, with its reason |
 
 mod choose;
 pub mod code;
@@ -18,17 +22,22 @@ mod counts;
 mod error;
 pub mod events;
 mod guards;
+mod limits;
+mod manifold;
 pub mod motion;
 pub mod options;
 pub mod plan;
 pub mod prepare;
-pub mod simulate;
+pub mod run;
+mod solve;
+mod watch;
 
 pub use code::{CodeMismatch, Facts, NoCode, SceneCode};
 pub use error::{DropError, MotionError, MotionFault};
 pub use events::{Event, EventKind};
-pub use motion::{Correction, KeptRowMotion, Motion, Reduced};
+pub use manifold::Correction;
+pub use motion::{KeptRowMotion, Motion};
 pub use options::{FORMULATION, Method, MotionOptions, RowChoice, Stabilisation};
 pub use plan::{Plan, Wanted};
 pub use prepare::{Prepared, prepare, start_velocity};
-pub use simulate::{ComponentSummary, Failure, Sample, Summary, simulate};
+pub use run::{ComponentSummary, Failure, Reduced, Sample, Summary, simulate};

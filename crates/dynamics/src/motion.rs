@@ -1,26 +1,8 @@
-//! The solved equations of motion on kept rows.
-//!
-//! The rank is never re-decided at a stage, where the state is off the constraints by δ and a
-//! singular value that is exactly zero reads as about δ. The dropped rows are only monitored, at
-//! accepted steps: their residual after projection is a free certificate of redundancy. Kept rows
-//! may become nearly dependent although the rank stays (an edge turns until it no longer carries
-//! what a dropped row carried): then, at an accepted and polished point, other rows are kept, which
-//! changes no motion.
-//!
-//! Positions and velocities have rows of their own. A holonomic row may be dropped because knife
-//! edges imply its velocity; nothing implies its position, and without it the configuration would
-//! drift.
-
-mod chart;
-mod coded;
-mod impulse;
-mod locate;
-mod passage;
-mod project;
-mod reduced;
-mod review;
-mod rows;
-mod stabilise;
+//! The motion of a mechanism on kept rows: its equations ([`crate::solve`]), its constraints
+//! ([`crate::manifold`]) and what is watched ([`crate::watch`]), put together for whoever evaluates
+//! states. Kept rows may become nearly dependent although the rank stays (an edge turns until it no
+//! longer carries what a dropped row carried): then, at an accepted and polished point, other rows
+//! are kept, which changes no motion.
 
 use std::sync::Arc;
 
@@ -29,16 +11,12 @@ use model::{Mechanism, Scratch, System};
 use crate::counts::{Counted, note};
 use crate::error::MotionFault;
 use crate::events::Event;
-use crate::options::{MotionOptions, RowChoice, Stabilisation};
+use crate::guards::GUARDED;
+use crate::manifold::{Correction, Manifold, Origin, inspect};
+use crate::options::MotionOptions;
 use crate::prepare::Prepared;
-use chart::Chart;
-use coded::Coded;
-pub(crate) use locate::Singular;
-use passage::Passage;
-use rows::KeptRows;
-pub(crate) use rows::{is_far, is_sparse, mass_spread, memory};
-
-pub use reduced::Reduced;
+use crate::solve::{Accelerations, Evaluation, KeptEquations, KeptRows, State};
+use crate::watch::{Handover, Next, Watch, are_worn};
 
 /// Equations solved for what moves.
 pub trait Motion {
@@ -75,60 +53,23 @@ pub trait Motion {
     ) -> Result<(), MotionFault>;
 }
 
-/// What a projection found and did.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Correction {
-    /// Corrections of the position made.
-    pub iterations: usize,
-    /// Largest |Φ| afterwards, all rows.
-    pub position_residual: f64,
-    /// Largest |C·v − b| afterwards, all rows.
-    pub velocity_residual: f64,
-}
-
 /// A mechanism on kept rows. All storage is made here; accelerations and projections allocate
 /// nothing.
-pub struct KeptRowMotion<'a> {
-    mechanism: &'a Mechanism,
-    s: Scratch,
-    /// Length by which positions are measured (m).
-    size: f64,
-    /// How long the run lasts (s); infinite where nobody has said, and where it takes no time:
-    /// nothing may part then.
-    horizon: f64,
-    choice: RowChoice,
-    /// Independent rows of C.
-    velocity: KeptRows,
-    /// Rows that the user chose, while they are nearly dependent and others are kept.
-    aside: Option<KeptRows>,
-    /// Independent rows of Φq.
-    position: KeptRows,
-    /// Independent coordinates, where the motion is one of these alone.
-    chart: Option<Chart>,
-    stabilisation: Stabilisation,
-    /// Generated code, where there is some that may be used.
-    coded: Option<Coded>,
-    /// Whether a singular configuration is passed.
-    passage: Passage,
-    /// Whether other rows hold the position since it was settled.
-    is_unsettled: bool,
-    /// What happened at the last accepted steps and has not been told.
-    pending: Option<Event>,
-    /// A configuration before it was completed, n_q.
-    guess: Vec<f64>,
-    /// A correction, n_v.
-    delta: Vec<f64>,
-    /// No force, n_v.
-    zero: Vec<f64>,
+pub struct KeptRowMotion<'m> {
+    pub(crate) equations: KeptEquations<'m>,
+    pub(crate) manifold: Manifold,
+    pub(crate) watch: Watch,
+    /// Generated code, if there is some that may be used.
+    pub(crate) code: Option<Handover>,
 }
 
-impl<'a> KeptRowMotion<'a> {
+impl<'m> KeptRowMotion<'m> {
     /// The motion of a prepared mechanism on kept rows, with projection and by the interpreter.
     ///
     /// # Errors
     /// If more rows are kept than there are velocities.
-    pub fn new(prepared: &'a Prepared) -> Result<Self, MotionFault> {
-        Self::kept(prepared, Stabilisation::Projection)
+    pub fn new(prepared: &'m Prepared) -> Result<Self, MotionFault> {
+        Self::interpreted(prepared, &MotionOptions::to(0.0))
     }
 
     /// The motion of a prepared mechanism with the method and stabilisation of a run; on generated
@@ -137,180 +78,367 @@ impl<'a> KeptRowMotion<'a> {
     /// # Errors
     /// As [`KeptRowMotion::new`]; also if no independent coordinates can be chosen for an implicit
     /// method.
-    pub fn with(prepared: &'a Prepared, options: &MotionOptions) -> Result<Self, MotionFault> {
-        let mut motion = Self::kept(prepared, options.stabilisation)?;
-        if options.t_end > 0.0 {
-            motion.horizon = options.t_end;
-        }
+    pub fn with(prepared: &'m Prepared, options: &MotionOptions) -> Result<Self, MotionFault> {
+        let mut motion = Self::interpreted(prepared, options)?;
         if options.method.needs_independent_coordinates() {
-            motion.use_chart(0.0, &prepared.q)?;
+            motion.use_independent_coordinates(0.0, &prepared.q)?;
         }
         if let Ok(code) = prepared.code_for(options) {
-            motion.use_code(Arc::clone(code), 0.0, &prepared.q);
+            let code = Arc::clone(code);
+            motion.code = Some(Handover::new(
+                code,
+                &mut motion.equations,
+                (0.0, &prepared.q),
+            ));
         }
         Ok(motion)
     }
 
-    fn kept(prepared: &'a Prepared, stabilisation: Stabilisation) -> Result<Self, MotionFault> {
-        let n = prepared.mechanism.layout().n_v;
-        let rows = |d: &solvability::RowDecision| {
-            KeptRows::new(
-                &prepared.mechanism,
-                prepared.assembly.size,
-                &d.kept,
-                &d.dropped,
-            )
-            .map_err(|source| MotionFault::Saddle { time: 0.0, source })
+    fn interpreted(prepared: &'m Prepared, options: &MotionOptions) -> Result<Self, MotionFault> {
+        let at = Evaluation::new(&prepared.mechanism, prepared.assembly.size);
+        let velocity = KeptRows::new(&at, &prepared.decision)?;
+        let position = KeptRows::new(&at, &prepared.position_decision)?;
+        let horizon = match options.t_end > 0.0 {
+            true => options.t_end,
+            false => f64::INFINITY,
         };
         Ok(Self {
-            mechanism: &prepared.mechanism,
-            s: prepared.mechanism.scratch(),
-            size: prepared.assembly.size,
-            horizon: f64::INFINITY,
-            choice: prepared.choice.clone(),
-            velocity: rows(&prepared.decision)?,
-            aside: None,
-            position: rows(&prepared.position_decision)?,
-            chart: None,
-            stabilisation,
-            coded: None,
-            passage: Passage::default(),
-            is_unsettled: false,
-            pending: None,
-            guess: vec![0.0; prepared.mechanism.layout().n_q],
-            delta: vec![0.0; n],
-            zero: vec![0.0; n],
+            manifold: Manifold::new(&at, options.stabilisation, horizon),
+            watch: Watch::new(&prepared.choice, options),
+            equations: KeptEquations::new(at, velocity, position),
+            code: None,
         })
     }
 
     /// The mechanism.
     #[must_use]
-    pub fn mechanism(&self) -> &'a Mechanism {
-        self.mechanism
-    }
-
-    /// Length by which positions are measured (m).
-    pub(crate) fn size(&self) -> f64 {
-        self.size
+    pub fn mechanism(&self) -> &'m Mechanism {
+        self.equations.at.mechanism
     }
 
     /// Results of the last evaluation: poses, forces, …
     #[must_use]
     pub fn scratch(&self) -> &Scratch {
-        &self.s
+        &self.equations.at.s
     }
 
     /// Smallest pivot of the last factorisation relative to its row: small near singular
     /// configurations.
     #[must_use]
     pub fn pivot_ratio(&self) -> f64 {
-        self.velocity.pivot_ratio()
+        self.equations.velocity.pivot_ratio()
     }
 
-    /// Whether the motion is so near to a singular configuration that stages have to lie on the
-    /// constraints: off them by δ, accelerations are wrong by δ divided by the share of the
-    /// reference pivots that is left.
-    pub(crate) fn is_delicate(&self) -> bool {
-        self.velocity.are_delicate()
-    }
-
-    /// The same relative to that when the rows were chosen.
-    pub(crate) fn relative_pivot(&self) -> f64 {
-        self.velocity.relative_pivot()
-    }
-
-    /// Degrees of freedom.
-    pub(crate) fn mobility(&self) -> usize {
-        self.mechanism.layout().n_v - self.velocity.kept.len()
-    }
-
-    /// Whether accelerations at coordinates q are refined.
+    /// From now on the motion is one of independent coordinates, chosen at q, which must lie on the
+    /// constraints at t.
+    ///
+    /// ```
+    /// use dynamics::{KeptRowMotion, RowChoice, prepare};
+    /// use joints::Angle;
+    /// use model::{Body, BodyRef, Description, Joint, Mechanism, StartOptions};
+    /// // A body that does not turn: x and y are independent, its angle is not.
+    /// let level = Description {
+    ///     bodies: vec![Body { name: "crate".into(), mass: 1.0, inertia: 1.0, ..Body::default() }],
+    ///     joints: vec![Joint::new("level", &[BodyRef::Ground, BodyRef::Body(0)], Angle { angle_0: 0.0 })],
+    ///     ..Description::default()
+    /// };
+    /// let mechanism = Mechanism::build(&level).unwrap();
+    /// let prepared = prepare(mechanism, &StartOptions::default(), &RowChoice::Automatic)?;
+    /// let mut motion = KeptRowMotion::new(&prepared)?;
+    /// motion.use_independent_coordinates(0.0, &prepared.q)?;
+    /// assert_eq!(motion.independent(), Some((&[0, 1][..], &[0, 1][..])));
+    /// // A wrong angle in y is a guess only: ẏ = [q̇; v̇] is that of the completed state.
+    /// let mut dy = [0.0; 6];
+    /// motion.derivative(0.0, &[5.0, 6.0, 0.3, 7.0, 8.0, 0.2], &mut dy)?;
+    /// assert_eq!(dy, [7.0, 8.0, 0.0, 0.0, 0.0, 0.0]);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
-    /// If the equations have no unique solution here.
-    pub(crate) fn is_refined_at(&mut self, t: f64, q: &[f64]) -> Result<bool, MotionFault> {
-        let Self {
-            mechanism,
-            s,
-            velocity,
-            ..
-        } = self;
-        mechanism.pose(t, q, s);
-        mechanism.c(s);
-        velocity.factor(mechanism, s)?;
-        Ok(velocity.are_refined())
+    /// If the kept rows are dependent there.
+    pub fn use_independent_coordinates(&mut self, t: f64, q: &[f64]) -> Result<(), MotionFault> {
+        self.equations.at.pose(t, q);
+        let (q, v) = (q.to_vec(), vec![0.0; self.mechanism().layout().n_v]);
+        self.manifold
+            .choose_coordinates(&mut self.equations, Origin { t, q, v })
     }
 
-    /// b at the pose of the scratch.
-    fn evaluate_b(&mut self) {
-        if self.mechanism.layout().rheonomic {
-            self.mechanism.b(&mut self.s);
+    /// Independent coordinates and velocities, ascending, where the motion is one of these alone.
+    #[must_use]
+    pub fn independent(&self) -> Option<(&[usize], &[usize])> {
+        let coordinates = self.manifold.coordinates.as_ref();
+        coordinates.map(|c| (&c.z[..], &c.u[..]))
+    }
+
+    /// Whether generated code evaluates at present.
+    pub(crate) fn is_on_code(&self) -> bool {
+        self.code.as_ref().is_some_and(Handover::is_in_use)
+    }
+
+    /// Takes the start as the first accepted state.
+    pub(crate) fn begin(&mut self, t: f64, q: &mut [f64]) -> Result<(), MotionFault> {
+        self.manifold.settle(&mut self.equations, t, q)?;
+        self.watch.passage.take(&mut self.equations.velocity, t);
+        Ok(())
+    }
+
+    /// Chooses other independent coordinates where they are due, if a step has begun.
+    pub(crate) fn begin_step(
+        &mut self,
+        has_begun: impl Fn(f64) -> bool,
+    ) -> Result<(), MotionFault> {
+        let coordinates = self.manifold.coordinates.as_ref();
+        let Some(origin) = coordinates.and_then(|c| c.due(has_begun)) else {
+            return Ok(());
+        };
+        let equations = &mut self.equations;
+        equations.at.pose_and_phi(origin.t, &origin.q);
+        // Whether other rows are due is judged without a partition.
+        for rows in [&mut equations.velocity, &mut equations.position] {
+            rows.forget_partition();
+            rows.factor(&equations.at)?;
         }
+        match self.watch.judge_rows(equations, &origin.q) {
+            Next::Stop(fault) => return Err(fault),
+            Next::Keep(rows) => self.watch.tell_later(rows.keep(equations)?.1),
+            Next::Accept | Next::Reject => {}
+        }
+        self.manifold.choose_coordinates(equations, origin)
     }
 
-    /// Solves for accelerations.
-    fn solve(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
-        let Self {
-            mechanism,
-            s,
-            velocity,
-            passage,
-            ..
-        } = self;
-        mechanism.pose(t, q, s);
-        mechanism.c(s);
-        velocity.factor(mechanism, s)?;
-        passage.see(velocity);
-        self.solve_factored(v, a)
+    /// `ẏ = f(t, y)` of `y = [q; v]`, or `[q; v; W]` with the work W of drives and applied forces.
+    /// On independent coordinates the dependent entries of y do not matter.
+    ///
+    /// # Errors
+    /// As [`Motion::acceleration`]; [`MotionFault::OffConstraints`],
+    /// [`MotionFault::IndependentCoordinates`] if a state cannot be completed.
+    ///
+    /// # Panics
+    /// If `y` or `dy` are shorter than n_q + n_v.
+    pub fn derivative(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
+        self.begin_step(|accepted| t > accepted)?;
+        let mechanism = self.mechanism();
+        let (q, v) = self.parts(y);
+        let (qd, a, power) = self.parts_mut(dy);
+        if let Some(coordinates) = &mut self.manifold.coordinates {
+            coordinates.complete(&mut self.equations, t, q, v)?;
+            self.watch.passage.see(&self.equations.velocity);
+            self.equations.solve_factored(&coordinates.v, a)?;
+            rates(mechanism, (&coordinates.q, &coordinates.v, a), (qd, power));
+            return Ok(());
+        }
+        let state = State { t, q, v };
+        let is_evaluated = match &mut self.code {
+            Some(code) => {
+                let answered = code.evaluate(state, a, (&self.equations, &self.watch));
+                if !answered {
+                    code.wake_up(&mut self.equations, &mut self.manifold, &mut self.watch)?;
+                }
+                answered
+            }
+            None => false,
+        };
+        if !is_evaluated {
+            self.interpret(state, a)?;
+        }
+        rates(self.mechanism(), (q, v, a), (qd, power));
+        Ok(())
+    }
+
+    /// The same at a state that a projection has just moved onto the constraints, where the rows
+    /// are factored.
+    ///
+    /// # Errors
+    /// As [`KeptRowMotion::derivative`].
+    pub(crate) fn derivative_of_projected(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        dy: &mut [f64],
+    ) -> Result<(), MotionFault> {
+        if self.manifold.coordinates.is_some() {
+            return self.derivative(t, y, dy);
+        }
+        let (q, v) = self.parts(y);
+        let (qd, a, power) = self.parts_mut(dy);
+        self.solve_factored(v, a)?;
+        rates(self.mechanism(), (q, v, a), (qd, power));
+        Ok(())
+    }
+
+    /// Accelerations of a stage by the interpreter.
+    fn interpret(&mut self, state: State<'_>, a: &mut [f64]) -> Result<(), MotionFault> {
+        self.equations.factor_at(state.t, state.q)?;
+        self.solve_factored(state.v, a)
     }
 
     /// The same where the pose is taken and the rows are factored.
-    fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
-        note(Counted::Accelerations);
-        self.mechanism.twist(v, &mut self.s);
-        self.mechanism.gamma(&mut self.s);
-        self.mechanism.force(&mut self.s);
-        let Self {
-            mechanism,
-            s,
-            velocity,
-            ..
-        } = self;
-        for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
-            *rhs = s.gamma[i];
-        }
-        let solved = velocity.accelerate(mechanism, s, a);
-        solved.map_err(|fault| self.named(fault))
+    pub(crate) fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
+        self.watch.passage.see(&self.equations.velocity);
+        self.equations.solve_factored(v, a)
     }
 
-    /// An error at the state just evaluated, with the name of the force that has no value, if there
-    /// is one.
-    fn named(&mut self, fault: MotionFault) -> MotionFault {
-        match fault {
-            MotionFault::NotFinite { time, what } => {
-                let force = self.mechanism.undefined_force(&mut self.s);
-                let what = force.map_or(what, |name| format!("the force `{name}`"));
-                MotionFault::NotFinite { time, what }
+    /// Multipliers of all rows for accelerations a, found by the last evaluation.
+    pub(crate) fn multipliers_for(
+        &mut self,
+        a: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<(), MotionFault> {
+        note(Counted::Multipliers);
+        self.equations.multipliers_for(a, lambda)
+    }
+
+    /// q and v of y.
+    pub(crate) fn parts<'y>(&self, y: &'y [f64]) -> (&'y [f64], &'y [f64]) {
+        let layout = self.mechanism().layout();
+        let (q, rest) = y.split_at(layout.n_q);
+        (q, &rest[..layout.n_v])
+    }
+
+    /// q, v and the work, where y has it; or their rates.
+    pub(crate) fn parts_mut<'y>(
+        &self,
+        y: &'y mut [f64],
+    ) -> (&'y mut [f64], &'y mut [f64], Option<&'y mut f64>) {
+        let layout = self.mechanism().layout();
+        let (q, rest) = y.split_at_mut(layout.n_q);
+        let (v, work) = rest.split_at_mut(layout.n_v);
+        (q, v, work.first_mut())
+    }
+
+    /// Moves the end of a step to t that passed its error test onto the constraints, or says what it
+    /// misses, and keeps other rows if the present ones have become nearly dependent there.
+    /// `has_to_end`: the step ends at t wherever that is. What happened is told once the step
+    /// stands.
+    pub(crate) fn end_step(
+        &mut self,
+        t: f64,
+        (q, v): (&mut [f64], &mut [f64]),
+        has_to_end: bool,
+    ) -> Result<Correction, Next> {
+        let Self {
+            equations,
+            manifold,
+            watch,
+            code,
+        } = self;
+        if let Some(code) = code.as_mut().filter(|code| code.is_in_use()) {
+            return match code.project(equations, t, (q, v)) {
+                Ok(found) => Ok(found),
+                Err(doubt) => {
+                    code.leave(t, doubt, (equations, watch));
+                    code.wake_up(equations, manifold, watch)?;
+                    Err(Next::Reject)
+                }
+            };
+        }
+        if !manifold.projects() {
+            return self.end_unprojected_step(t, (q, v), has_to_end);
+        }
+        let corrections = manifold.settle_completed(equations, t, (&mut *q, &mut *v))?;
+        watch.judge_place(equations, t, has_to_end).stands()?;
+        // On independent coordinates rows are exchanged when the next step begins.
+        if GUARDED
+            && manifold.coordinates.is_none()
+            && let Some(rows) = watch.judge_rows(equations, q).stands()?
+        {
+            let (moves, event) = rows.keep(equations)?;
+            watch.tell_later(event);
+            if moves {
+                manifold.settle(equations, t, q)?;
             }
-            other => other,
         }
+        Ok(manifold.finish(equations, v, corrections)?)
     }
 
-    /// Multipliers of all rows for accelerations a from the last solve; those of dropped rows are
-    /// zero.
-    fn multipliers_for(&mut self, a: &[f64], lambda: &mut [f64]) -> Result<(), MotionFault> {
-        let Self {
-            mechanism,
-            s,
-            velocity,
-            ..
-        } = self;
-        velocity.find_multipliers(mechanism, s, a)?;
-        lambda.fill(0.0);
-        for (&i, &l) in velocity.kept.iter().zip(&velocity.lambda) {
-            lambda[i] = l;
+    /// The same where states are left as they are: kept rows are still watched.
+    fn end_unprojected_step(
+        &mut self,
+        t: f64,
+        (q, v): (&[f64], &[f64]),
+        has_to_end: bool,
+    ) -> Result<Correction, Next> {
+        let (equations, watch) = (&mut self.equations, &mut self.watch);
+        let found = inspect(equations, t, q, v)?;
+        watch.judge_place(equations, t, has_to_end).stands()?;
+        if !watch.may_exchange(equations) {
+            return Ok(found);
         }
-        Ok(())
+        // Ranks are decided on the constraints only.
+        let mut polished = q.to_vec();
+        self.manifold.settle(equations, t, &mut polished)?;
+        if let Some(rows) = watch.judge_rows(equations, &polished).stands()? {
+            watch.tell_later(rows.keep(equations)?.1);
+        }
+        Ok(inspect(equations, t, q, v)?)
+    }
+
+    /// Takes the state just evaluated as that of an accepted step to t.
+    pub(crate) fn accept(&mut self, t: f64, may_have_passed: bool) -> Option<Event> {
+        let is_worn = are_worn(&self.equations);
+        if let Some(coordinates) = &mut self.manifold.coordinates {
+            coordinates.accept(t, is_worn);
+        }
+        self.watch.accept(&mut self.equations, t, may_have_passed)
+    }
+
+    /// Ends a row of output: projects it, or says what it misses. Dropped rows are checked either
+    /// way.
+    ///
+    /// # Errors
+    /// As [`Motion::project`].
+    pub(crate) fn end_row(
+        &mut self,
+        t: f64,
+        (q, v): (&mut [f64], &mut [f64]),
+    ) -> Result<Correction, MotionFault> {
+        let Self {
+            equations,
+            manifold,
+            watch,
+            code,
+        } = self;
+        if let Some(code) = code.as_mut().filter(|code| code.is_in_use())
+            && let Ok(found) = code.project(equations, t, (&mut *q, &mut *v))
+        {
+            return Ok(found);
+        }
+        if !manifold.projects() {
+            let mut polished = (q.to_vec(), v.to_vec());
+            manifold.project(equations, t, (&mut polished.0, &mut polished.1))?;
+            let state = State {
+                t,
+                q: &polished.0,
+                v: &polished.1,
+            };
+            self.interpret(state, &mut vec![0.0; v.len()])?;
+            return inspect(&mut self.equations, t, q, v);
+        }
+        let corrections = manifold.settle_completed(equations, t, (&mut *q, &mut *v))?;
+        let rows = match manifold.coordinates {
+            Some(_) => None,
+            None => watch.rows_for_output(equations, q)?,
+        };
+        let Some(rows) = rows else {
+            return manifold.finish(equations, v, corrections);
+        };
+        let kept = std::mem::replace(&mut equations.velocity, rows);
+        let found = manifold.finish(equations, v, corrections);
+        equations.velocity = kept;
+        found
+    }
+}
+
+/// q̇ and, where there is room for it, the power of drives and applied forces at a state with
+/// acceleration a.
+fn rates(
+    mechanism: &Mechanism,
+    (q, v, a): (&[f64], &[f64], &[f64]),
+    (qd, power): (&mut [f64], Option<&mut f64>),
+) {
+    mechanism.rate(q, v, qd);
+    if let Some(power) = power {
+        *power = mechanism.energy_rate(v, a);
     }
 }
 
@@ -322,16 +450,16 @@ impl Motion for KeptRowMotion<'_> {
         v: &[f64],
         a: &mut [f64],
     ) -> Result<(), MotionFault> {
-        match self.coded_acceleration(t, q, v, a) {
+        let state = State { t, q, v };
+        let code = self.code.as_mut().and_then(Handover::in_use);
+        match code.is_some_and(|code| code.accelerations(state, a).is_ok()) {
             true => Ok(()),
-            false => self.solve(t, q, v, a),
+            false => self.interpret(state, a),
         }
     }
 
     fn project(&mut self, t: f64, q: &mut [f64], v: &mut [f64]) -> Result<Correction, MotionFault> {
-        self.complete_row(t, q, v)?;
-        let iterations = self.settle(t, q)?;
-        self.finish(v, iterations)
+        self.manifold.project(&mut self.equations, t, (q, v))
     }
 
     fn multipliers(
@@ -342,21 +470,15 @@ impl Motion for KeptRowMotion<'_> {
         lambda: &mut [f64],
     ) -> Result<(), MotionFault> {
         note(Counted::Multipliers);
-        if self.coded_multipliers(t, q, v, lambda) {
+        let state = State { t, q, v };
+        let code = self.code.as_mut().and_then(Handover::in_use);
+        if code.is_some_and(|code| code.multipliers(state, lambda).is_ok()) {
+            // Reactions are read from the pose.
+            self.equations.at.pose(t, q);
             return Ok(());
         }
-        self.swap_aside();
-        let mut a = std::mem::take(&mut self.delta);
-        let solved = self
-            .solve(t, q, v, &mut a)
-            .and_then(|()| self.multipliers_for(&a, lambda));
-        self.delta = a;
-        let left_out = self.velocity.n_left_out();
-        self.swap_aside();
-        solved?;
-        if left_out > 0 {
-            lambda.fill(f64::NAN);
-        }
-        Ok(())
+        let found = self.equations.multipliers(state, lambda);
+        self.watch.passage.see(&self.equations.velocity);
+        found
     }
 }

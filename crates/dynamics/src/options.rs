@@ -4,7 +4,6 @@
 mod tests;
 
 use std::num::NonZeroUsize;
-use std::ops::RangeInclusive;
 
 use crate::error::MotionError;
 
@@ -153,22 +152,6 @@ pub struct MotionOptions {
 }
 
 impl MotionOptions {
-    /// Output steps of a run where none is given.
-    pub const OUTPUT_STEPS: f64 = 200.0;
-    /// Relative tolerance where none is given.
-    pub const RTOL: f64 = 1e-8;
-    /// Absolute tolerance where none is given.
-    pub const ATOL: f64 = 1e-10;
-    /// Relative tolerances that can be asked for: below, rounding of a step is larger; above, its
-    /// error is no longer small.
-    pub const RTOL_RANGE: RangeInclusive<f64> = 1e-15..=0.1;
-    /// That in words.
-    pub const RTOL_EXPECTED: &str = "a number from 1e-15 (rounding) to 0.1";
-    /// Most rows of output: a hundred bodies of six numbers then take some 100 GB.
-    pub const MOST_ROWS: f64 = 1e7;
-    /// Accepted and rejected steps at most, where no other limit is given.
-    pub const MAX_STEPS: u64 = 1_000_000;
-
     /// The defaults for a run to `t_end`.
     #[must_use]
     pub fn to(t_end: f64) -> Self {

@@ -3,13 +3,15 @@
 //! plan says ([`mod@crate::simulate`]). Not here: how anything is computed.
 
 mod component;
+mod decided;
 mod decisions;
 mod saving;
+mod sizes;
 mod split;
 #[cfg(test)]
 mod tests;
 
-use model::{Places, System};
+use model::System;
 
 use crate::choose;
 use crate::code::NoCode;
@@ -17,9 +19,11 @@ use crate::error::MotionError;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
 
-pub use component::{ComponentPlan, Sizes};
+pub use component::ComponentPlan;
+pub use decided::{Decided, Line};
 pub use decisions::Decisions;
 pub use saving::{Cost, Saving};
+pub use sizes::Sizes;
 
 /// What of a motion is wanted. What is not is not computed.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -66,34 +70,6 @@ pub enum Reactions {
     Of(Vec<String>),
     /// Nobody's.
     None,
-}
-
-/// A decision.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Decided<T> {
-    /// What was decided.
-    pub value: T,
-    /// The same in a few words.
-    pub taken: String,
-    /// Why.
-    pub reason: String,
-    /// What it saves, where that can be counted.
-    pub saves: Option<Saving>,
-}
-
-/// A decision as a line of a table.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Line<'p> {
-    /// The component that it is of; nothing if it is of the whole.
-    pub component: Option<&'p str>,
-    /// What was to be decided.
-    pub decision: &'static str,
-    /// What was decided.
-    pub taken: &'p str,
-    /// Why.
-    pub reason: &'p str,
-    /// What it saves.
-    pub saves: Option<Saving>,
 }
 
 /// The plan of a run.
@@ -190,10 +166,10 @@ impl<'a> Plan<'a> {
     #[must_use]
     pub fn lines(&self) -> Vec<Line<'_>> {
         let of_whole = [
-            line("components", &self.apart),
-            line("generated code", &self.code),
-            line("rows of output", &self.rows),
-            line("accelerations", &self.accelerations),
+            self.apart.line("components"),
+            self.code.line("generated code"),
+            self.rows.line("rows of output"),
+            self.accelerations.line("accelerations"),
         ];
         let several = self.components.len() > 1;
         let of_components = self.components.iter().flat_map(|component| {
@@ -205,17 +181,6 @@ impl<'a> Plan<'a> {
             })
         });
         of_whole.into_iter().chain(of_components).collect()
-    }
-}
-
-/// A line of the whole.
-fn line<'p, T>(decision: &'static str, decided: &'p Decided<T>) -> Line<'p> {
-    Line {
-        component: None,
-        decision,
-        taken: &decided.taken,
-        reason: &decided.reason,
-        saves: decided.saves,
     }
 }
 
@@ -235,76 +200,44 @@ fn wanted_groups(prepared: &Prepared, reactions: &Reactions) -> Result<Vec<bool>
 
 /// Whether a run of the whole is one on generated code.
 fn code(prepared: &Prepared, options: &MotionOptions) -> Result<Decided<bool>, MotionError> {
-    let interpreted = |why: NoCode| Decided {
-        value: false,
-        taken: "interpreted".to_owned(),
-        reason: why.to_string(),
-        saves: None,
-    };
+    let interpreted = |why: NoCode| Ok(Decided::new(false, "interpreted", why.to_string()));
     // What has no code need not choose a method for the whole.
     if let Err(why @ NoCode::None) = prepared.code_for(options) {
-        return Ok(interpreted(why));
+        return interpreted(why);
     }
     let options = MotionOptions {
         method: choose::method(prepared, options)?.value,
         ..options.clone()
     };
-    Ok(match prepared.code_for(&options) {
-        Err(why) => interpreted(why),
-        Ok(code) => Decided {
-            value: true,
-            taken: format!("`{}`", code.facts().name),
-            reason: format!(
-                "its values are those of this mechanism ({}); kernels and elimination below are what it falls back to",
-                code.facts().operations
-            ),
-            saves: None,
-        },
-    })
+    let code = match prepared.code_for(&options) {
+        Err(why) => return interpreted(why),
+        Ok(code) => code.facts(),
+    };
+    let reason = format!(
+        "its values are those of this mechanism ({}); kernels and elimination below are what it falls back to",
+        code.operations
+    );
+    Ok(Decided::new(true, format!("`{}`", code.name), reason))
 }
 
 fn rows(options: &MotionOptions, rows: Rows) -> Decided<Rows> {
     let every = (options.t_end / options.output_step).ceil().max(0.0) as u64 + 1;
     let wanted = format!("wanted every {} s", options.output_step);
     match rows {
-        Rows::Every => Decided {
-            value: rows,
-            taken: format!("{every}"),
-            reason: wanted,
-            saves: None,
-        },
-        Rows::Interpolated => Decided {
-            value: rows,
-            taken: format!("{every}, as interpolated within steps"),
-            reason: format!("{wanted}, and moved onto the constraints elsewhere"),
-            saves: None,
-        },
-        Rows::Ends => Decided {
-            value: rows,
-            taken: "the ends only".to_owned(),
-            reason: "nothing is written of the others".to_owned(),
-            saves: Saving::of(every.saturating_sub(2), every, Cost::Rows),
-        },
+        Rows::Every => Decided::new(rows, format!("{every}"), wanted),
+        Rows::Interpolated => Decided::new(
+            rows,
+            format!("{every}, as interpolated within steps"),
+            format!("{wanted}, and moved onto the constraints elsewhere"),
+        ),
+        Rows::Ends => Decided::new(rows, "the ends only", "nothing is written of the others")
+            .saving(every.saturating_sub(2), every, Cost::Rows),
     }
 }
 
 fn accelerations(wanted: bool) -> Decided<bool> {
-    let (taken, reason) = match wanted {
-        true => ("at rows of output", "wanted"),
-        false => ("within steps only", "not wanted at rows of output"),
-    };
-    Decided {
-        value: wanted,
-        taken: taken.to_owned(),
-        reason: reason.to_owned(),
-        saves: None,
+    match wanted {
+        true => Decided::new(true, "at rows of output", "wanted"),
+        false => Decided::new(false, "within steps only", "not wanted at rows of output"),
     }
 }
-
-/// What of a list of the whole belongs to a part.
-fn pick<T: Copy>(x: &[T], places: &[usize]) -> Vec<T> {
-    places.iter().map(|&k| x[k]).collect()
-}
-
-/// A prepared part and where it is in the whole.
-type PreparedPart = (Prepared, Places);

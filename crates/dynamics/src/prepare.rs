@@ -12,7 +12,9 @@ use solvability::{
 
 use crate::code::SceneCode;
 use crate::error::{DropError, MotionError};
+use crate::limits::TAKES_PART;
 use crate::options::{MotionOptions, RowChoice, Stabilisation};
+use crate::solve;
 
 /// A mechanism with a consistent start and kept rows.
 #[derive(Clone)]
@@ -47,7 +49,24 @@ impl Prepared {
     /// output. An estimate from patterns alone.
     #[must_use]
     pub fn memory(&self) -> usize {
-        crate::motion::memory(self)
+        let levels = [&self.decision, &self.position_decision].map(|d| d.kept.as_slice());
+        solve::memory(&self.mechanism, self.assembly.size, levels)
+    }
+
+    /// Whether the kept rows are solved sparsely.
+    pub(crate) fn is_sparse(&self) -> bool {
+        let rows = self.decision.kept.len();
+        solve::is_sparse(&self.mechanism, self.assembly.size, rows)
+    }
+
+    /// See [`solve::is_far`].
+    pub(crate) fn is_far(&self) -> bool {
+        solve::is_far(self.assembly.size)
+    }
+
+    /// See [`solve::mass_spread`].
+    pub(crate) fn mass_spread(&self) -> f64 {
+        solve::mass_spread(&self.mechanism, self.assembly.size)
     }
 
     /// Whether a run evaluates the state as a function of time: no coordinate and no velocity is
@@ -118,10 +137,17 @@ pub fn prepare(
 /// Why no rows can be kept, if none can.
 fn unmovable(mechanism: &Mechanism, found: &Rows, q: &[f64]) -> Option<MotionError> {
     if let Some(nearly) = found.inseparable(mechanism, 0.0, q) {
-        return Some(MotionError::inseparable(
-            &nearly,
-            &mechanism.layout().labels,
-        ));
+        let largest = nearly
+            .direction
+            .iter()
+            .fold(0.0, |a: f64, w| a.max(w.abs()));
+        let weights = nearly.direction.iter().zip(&mechanism.layout().labels);
+        let rows = weights.filter(|(w, _)| w.abs() > TAKES_PART * largest);
+        return Some(MotionError::Inseparable {
+            rows: rows.map(|(_, label)| label.to_string()).collect(),
+            sigma: nearly.sigma,
+            required: rank::NEARLY_SINGULAR,
+        });
     }
     let decisions = [&found.all, &found.holonomic];
     decisions

@@ -15,7 +15,7 @@ mod instants;
 mod parts;
 mod passages;
 mod path;
-mod search;
+pub mod search;
 mod stretches;
 mod words;
 

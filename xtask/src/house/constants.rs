@@ -3,6 +3,7 @@
 use proc_macro2::Span;
 use syn::spanned::Spanned;
 use syn::visit::{self, Visit};
+use syn::{Attribute, Meta};
 
 use super::source::{Crate, Kind, Source};
 
@@ -21,6 +22,9 @@ pub(super) struct Constant {
     pub(super) place: String,
     pub(super) name: String,
     pub(super) value: String,
+    /// What its comment says behind `Unit:` and `Test:`.
+    pub(super) unit: String,
+    pub(super) test: String,
 }
 
 /// All numeric constants of a crate outside of tests, in modules, types and functions.
@@ -45,7 +49,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn add(&mut self, name: &syn::Ident, ty: &syn::Type, value: Span) {
+    fn add(&mut self, attrs: &[Attribute], name: &syn::Ident, ty: &syn::Type, value: Span) {
         let ty = ty.span().source_text().unwrap_or_default();
         let bare = ty.rsplit_once("Range").map_or(ty.as_str(), |(_, rest)| {
             rest.split_once('<')
@@ -57,19 +61,35 @@ impl Search<'_> {
                 place: format!("{}:{}", self.source.path, name.span().start().line),
                 name: name.to_string(),
                 value: value.split_whitespace().collect::<Vec<_>>().join(" "),
+                unit: said(attrs, "Unit: "),
+                test: said(attrs, "Test: ").replace('`', ""),
             });
         }
     }
 }
 
+/// The rest of the sentence that begins with a word in a comment, without its full stop.
+fn said(attrs: &[Attribute], word: &str) -> String {
+    let lines = attrs.iter().filter_map(|a| match &a.meta {
+        Meta::NameValue(doc) if doc.path.is_ident("doc") => doc.value.span().source_text(),
+        _ => None,
+    });
+    let text: String = lines
+        .map(|l| format!("{} ", l.trim_matches(['/', '"']).trim()))
+        .collect();
+    let rest = text.split_once(word).map_or("", |(_, rest)| rest);
+    let end = rest.find(". ").unwrap_or(rest.len());
+    rest[..end].trim().to_owned()
+}
+
 impl<'a> Visit<'a> for Search<'_> {
     fn visit_item_const(&mut self, item: &'a syn::ItemConst) {
-        self.add(&item.ident, &item.ty, item.expr.span());
+        self.add(&item.attrs, &item.ident, &item.ty, item.expr.span());
         visit::visit_item_const(self, item);
     }
 
     fn visit_impl_item_const(&mut self, item: &'a syn::ImplItemConst) {
-        self.add(&item.ident, &item.ty, item.expr.span());
+        self.add(&item.attrs, &item.ident, &item.ty, item.expr.span());
         visit::visit_impl_item_const(self, item);
     }
 }

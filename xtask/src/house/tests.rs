@@ -262,16 +262,18 @@ fn methods_are_counted_over_all_files() {
 
 #[test]
 fn numeric_constants_are_listed_with_value_and_line() {
-    let text = "const A: f64 = 4.0 * f64::EPSILON;\nimpl S { const B: RangeInclusive<f64> = 0.0..=1.0; }\nconst C: &str = \"1\";\nfn f() { const D: usize =\n 3; }\n#[cfg(test)] const E: f64 = 1.0;\n";
+    let text = "/// A. Unit: m.\n/// Test: `a_test`.\nconst A: f64 = 4.0 * f64::EPSILON;\nimpl S { const B: RangeInclusive<f64> = 0.0..=1.0; }\nconst C: &str = \"1\";\nfn f() { const D: usize =\n 3; }\n#[cfg(test)] const E: f64 = 1.0;\n";
     let expected = [
-        ("A", "4.0 * f64::EPSILON", 1),
-        ("B", "0.0..=1.0", 2),
-        ("D", "3", 4),
+        ("A", "4.0 * f64::EPSILON", 3, ["m", "a_test"]),
+        ("B", "0.0..=1.0", 4, ["", ""]),
+        ("D", "3", 6, ["", ""]),
     ];
-    let expected = expected.map(|(name, value, line)| Constant {
+    let expected = expected.map(|(name, value, line, [unit, test])| Constant {
         place: format!("src/lib.rs:{line}"),
         name: name.into(),
         value: value.into(),
+        unit: unit.into(),
+        test: test.into(),
     });
     assert_eq!(constants(&house(&[("src/lib.rs", text)])), expected);
 }

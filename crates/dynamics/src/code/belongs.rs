@@ -7,21 +7,12 @@ use std::sync::Arc;
 use linalg::GRADED_MASSES;
 use model::{Mechanism, System};
 
-use super::{LEAVE, SceneCode};
+use super::SceneCode;
 use crate::error::MotionFault;
-use crate::motion::{KeptRowMotion, Motion, is_far, mass_spread};
+use crate::limits::{CODE_STATES, DISTANCE, LEAVE, SAME_VALUES, SPEED};
+use crate::motion::{KeptRowMotion, Motion};
 use crate::options::{Method, MotionOptions, Stabilisation};
 use crate::prepare::Prepared;
-
-/// Values of code and interpreter may differ by this share of the terms that they are made of.
-const SAME: f64 = 1e-9;
-
-/// States around the start at which values are compared, and how far they are from it in units of
-/// the mechanism (its size, or a radian), and in such units per second: terms in squares of
-/// velocities have to count.
-const STATES: usize = 6;
-const DISTANCE: f64 = 0.01;
-const SPEED: f64 = 1.0;
 
 /// Why code does not belong to a mechanism.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -160,8 +151,8 @@ impl Prepared {
             Stabilisation::Projection => {}
             other => return Err(NoCode::Stabilisation(other.name())),
         }
-        let (spread, size) = (mass_spread(self), self.assembly.size);
-        match (spread >= GRADED_MASSES, is_far(size)) {
+        let (spread, size) = (self.mass_spread(), self.assembly.size);
+        match (spread >= GRADED_MASSES, self.is_far()) {
             (true, _) => Err(NoCode::Refinement { spread }),
             (false, true) => Err(NoCode::Size { size }),
             (false, false) => Ok(code),
@@ -226,11 +217,11 @@ struct Comparison<'a> {
 }
 
 impl Comparison<'_> {
-    /// Whether component i may differ by `SAME·size(i)`.
+    /// Whether component i may differ by `SAME_VALUES·size(i)`.
     fn check(&self, size: impl Fn(usize) -> f64) -> Result<(), CodeMismatch> {
         let differs = |i: &usize| {
             let by = (self.found[*i] - self.expected[*i]).abs();
-            by.is_nan() || by > SAME * size(*i)
+            by.is_nan() || by > SAME_VALUES * size(*i)
         };
         match (0..self.expected.len()).find(differs) {
             None => Ok(()),
@@ -267,7 +258,7 @@ fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMis
     }
     compare(&mut motion, code, (0.0, &prepared.q, &prepared.v))?;
     let times = times(&prepared.mechanism);
-    for k in 0..STATES.max(times.len()) {
+    for k in 0..CODE_STATES.max(times.len()) {
         // No symmetry of a mechanism is one of these numbers.
         let shift = |i: usize| (1.7 * (i + 1) as f64 + 2.9 * (k + 1) as f64).sin();
         let away = |by: f64| -> Vec<f64> {
@@ -327,7 +318,7 @@ fn compare(
     if health.is_nan() || health < LEAVE || solved.is_err() {
         return Ok(());
     }
-    let scene_size = motion.size();
+    let scene_size = motion.equations.at.size;
     let unit = |j: usize| mechanism.unit(j, scene_size);
     let largest = |x: &[f64]| {
         let shares = x.iter().enumerate().map(|(j, x)| x.abs() / unit(j));

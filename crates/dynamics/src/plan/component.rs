@@ -1,14 +1,13 @@
 //! The plan of one component: bodies that feel each other.
 
-use model::{Mechanism, Places, System};
+use model::{Mechanism, Places};
 
 use super::decisions::Decisions;
+use super::sizes::Sizes;
 use crate::error::MotionError;
+use crate::limits::NAMED;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
-
-/// Bodies that are named; more are counted.
-const NAMED: usize = 3;
 
 /// What is done for a component, and what is not.
 pub struct ComponentPlan<'a> {
@@ -29,52 +28,6 @@ enum Whose<'a> {
     Part(Box<(Prepared, Places)>),
 }
 
-/// How large a component is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Sizes {
-    /// Bodies.
-    pub bodies: usize,
-    /// Velocities n_v.
-    pub velocities: usize,
-    /// Holonomic rows m.
-    pub holonomic: usize,
-    /// Nonholonomic rows h.
-    pub nonholonomic: usize,
-    /// Rank r of C.
-    pub rank: usize,
-}
-
-impl Sizes {
-    pub(super) fn of(prepared: &Prepared) -> Self {
-        let layout = prepared.mechanism.layout();
-        Self {
-            bodies: prepared.mechanism.bodies().len(),
-            velocities: layout.n_v,
-            holonomic: layout.m,
-            nonholonomic: layout.h,
-            rank: prepared.decision.rank,
-        }
-    }
-
-    /// All rows.
-    #[must_use]
-    pub fn rows(&self) -> usize {
-        self.holonomic + self.nonholonomic
-    }
-
-    /// Degrees of freedom n_v − r.
-    #[must_use]
-    pub fn mobility(&self) -> usize {
-        self.velocities - self.rank
-    }
-
-    /// Degree of redundancy m + h − r.
-    #[must_use]
-    pub fn redundancy(&self) -> usize {
-        self.rows() - self.rank
-    }
-}
-
 impl<'a> ComponentPlan<'a> {
     /// The whole as one component, with reactions of the wanted groups.
     pub(super) fn whole(
@@ -83,12 +36,7 @@ impl<'a> ComponentPlan<'a> {
         wanted: &[bool],
     ) -> Result<Self, MotionError> {
         let reactions = (0..wanted.len()).filter(|&k| wanted[k]).collect();
-        Ok(Self {
-            name: name(&prepared.mechanism),
-            sizes: Sizes::of(prepared),
-            decisions: Decisions::new(prepared, options, reactions)?,
-            whose: Whose::Whole(prepared),
-        })
+        Self::of(Whose::Whole(prepared), options, reactions)
     }
 
     /// A part; `wanted` are the groups of the whole.
@@ -97,23 +45,33 @@ impl<'a> ComponentPlan<'a> {
         options: &MotionOptions,
         wanted: &[bool],
     ) -> Result<Self, MotionError> {
-        let groups = places.groups.iter().enumerate();
-        let reactions = groups.filter(|(_, k)| wanted[**k]).map(|(own, _)| own);
+        let groups = 0..places.groups.len();
+        let reactions = groups.filter(|&own| wanted[places.groups[own]]).collect();
+        Self::of(
+            Whose::Part(Box::new((prepared, places))),
+            options,
+            reactions,
+        )
+    }
+
+    fn of(
+        whose: Whose<'a>,
+        options: &MotionOptions,
+        reactions: Vec<usize>,
+    ) -> Result<Self, MotionError> {
+        let prepared = whose.prepared();
         Ok(Self {
             name: name(&prepared.mechanism),
-            sizes: Sizes::of(&prepared),
-            decisions: Decisions::new(&prepared, options, reactions.collect())?,
-            whose: Whose::Part(Box::new((prepared, places))),
+            sizes: Sizes::of(prepared),
+            decisions: Decisions::new(prepared, options, reactions)?,
+            whose,
         })
     }
 
     /// The mechanism with its start.
     #[must_use]
     pub fn prepared(&self) -> &Prepared {
-        match &self.whose {
-            Whose::Whole(prepared) => prepared,
-            Whose::Part(part) => &part.0,
-        }
+        self.whose.prepared()
     }
 
     /// Where it is in the whole; nothing if it is the whole.
@@ -122,6 +80,15 @@ impl<'a> ComponentPlan<'a> {
         match &self.whose {
             Whose::Whole(_) => None,
             Whose::Part(part) => Some(&part.1),
+        }
+    }
+}
+
+impl Whose<'_> {
+    fn prepared(&self) -> &Prepared {
+        match self {
+            Whose::Whole(prepared) => prepared,
+            Whose::Part(part) => &part.0,
         }
     }
 }

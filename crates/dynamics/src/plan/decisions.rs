@@ -4,13 +4,13 @@
 use linalg::GRADED_MASSES;
 use model::{System, Work};
 
-use super::component::Sizes;
-use super::saving::{Cost, Saving};
+use super::decided::{Decided, Line};
+use super::saving::Cost;
+use super::sizes::Sizes;
 use super::split::elimination;
-use super::{Decided, Line, line};
 use crate::choose;
 use crate::error::MotionError;
-use crate::motion::{KeptRowMotion, is_far, is_sparse, mass_spread};
+use crate::motion::KeptRowMotion;
 use crate::options::{FORMULATION, Method, MotionOptions};
 use crate::prepare::Prepared;
 
@@ -58,7 +58,7 @@ impl Decisions {
         let method = choose::method(prepared, options)?;
         Ok(Self {
             linear_systems: linear_systems(method.value, &sizes),
-            elimination: dense(prepared, &sizes, &work),
+            elimination: elimination_of(prepared, &sizes, &work),
             refinement: refinement(prepared)?,
             mobility: mobility(prepared, options, &sizes, &work),
             nonholonomic: nonholonomic(&sizes),
@@ -77,19 +77,19 @@ impl Decisions {
     #[must_use]
     pub fn lines(&self) -> Vec<Line<'_>> {
         vec![
-            line("method", &self.method),
-            line("linear systems", &self.linear_systems),
-            line("elimination", &self.elimination),
-            line("refinement", &self.refinement),
-            line("freedom", &self.mobility),
-            line("nonholonomic rows", &self.nonholonomic),
-            line("dropped rows", &self.dropped),
-            line("rows of time", &self.of_time),
-            line("varying entries", &self.entries),
-            line("rows of gamma", &self.gamma),
-            line("turning bodies", &self.turning),
-            line("forces", &self.forces),
-            line("reactions", &self.reactions),
+            self.method.line("method"),
+            self.linear_systems.line("linear systems"),
+            self.elimination.line("elimination"),
+            self.refinement.line("refinement"),
+            self.mobility.line("freedom"),
+            self.nonholonomic.line("nonholonomic rows"),
+            self.dropped.line("dropped rows"),
+            self.of_time.line("rows of time"),
+            self.entries.line("varying entries"),
+            self.gamma.line("rows of gamma"),
+            self.turning.line("turning bodies"),
+            self.forces.line("forces"),
+            self.reactions.line("reactions"),
         ]
     }
 }
@@ -98,78 +98,65 @@ fn linear_systems(method: Method, sizes: &Sizes) -> Decided<bool> {
     let (n, w) = (sizes.velocities, 2 * sizes.mobility());
     // Derivatives along each independent entry, of [q; v]; the real system, and the complex one as
     // a real one of twice the order.
-    let reduced = 2 * w * 2 * n + w * w + 4 * w * w;
+    let reduced = (2 * w * 2 * n + w * w + 4 * w * w) as u64;
     let (value, taken, why, left_out) = match method {
         Method::Radau5 => (true, "on independent coordinates", "is implicit", 0),
         _ => (false, "none", "is explicit", reduced),
     };
-    Decided {
-        value,
-        taken: taken.to_owned(),
-        reason: format!("{} {why}", method.name()),
-        saves: Saving::of_sizes(left_out, reduced, Cost::Storage),
-    }
+    let reason = format!("{} {why}", method.name());
+    Decided::new(value, taken, reason).saving(left_out, reduced, Cost::Storage)
 }
 
-fn dense(prepared: &Prepared, sizes: &Sizes, work: &Work) -> Decided<[usize; 2]> {
-    let (rows, n) = (sizes.rank, sizes.velocities);
-    if is_sparse(prepared) {
-        return Decided {
-            value: [rows, n],
-            taken: format!("sparse, {rows} × {n}"),
-            reason: format!(
-                "{FORMULATION}, {} entries of C; Schur complement of the masses, in an order chosen once",
-                work.entries
-            ),
-            saves: None,
-        };
+fn elimination_of(prepared: &Prepared, sizes: &Sizes, work: &Work) -> Decided<[usize; 2]> {
+    let (rows, n, entries) = (sizes.rank, sizes.velocities, work.entries);
+    if prepared.is_sparse() {
+        let reason = format!(
+            "{FORMULATION}, {entries} entries of C; Schur complement of the masses, in an order chosen once"
+        );
+        return Decided::new([rows, n], format!("sparse, {rows} × {n}"), reason);
     }
     let all = elimination(&prepared.mechanism, rows);
     // Of the whole saddle matrix, by LU.
     let order = (n + rows) as u64;
     let whole = order * order * order / 3;
-    Decided {
-        value: [rows, n],
-        taken: format!("dense, {rows} × {n}"),
-        reason: format!(
-            "{FORMULATION}, {} entries of C; saved against LU of the whole saddle matrix",
-            work.entries
-        ),
-        saves: Saving::of(whole.saturating_sub(all), whole, Cost::Elimination),
-    }
+    let reason = format!(
+        "{FORMULATION}, {entries} entries of C; saved against LU of the whole saddle matrix"
+    );
+    Decided::new([rows, n], format!("dense, {rows} × {n}"), reason).saving(
+        whole.saturating_sub(all),
+        whole,
+        Cost::Elimination,
+    )
 }
 
 fn refinement(prepared: &Prepared) -> Result<Decided<bool>, MotionError> {
-    let decided = |value: bool, reason: String| Decided {
-        value,
-        taken: if value { "in double-double" } else { "none" }.to_owned(),
-        reason,
-        saves: None,
+    let decided = |value: bool, reason: String| {
+        let taken = if value { "in double-double" } else { "none" };
+        Ok(Decided::new(value, taken, reason))
     };
-    if is_sparse(prepared) {
+    if prepared.is_sparse() {
         let why = "solved sparsely: each solution is compared with its rows, and corrected";
-        return Ok(decided(false, why.to_owned()));
+        return decided(false, why.to_owned());
     }
-    let spread = mass_spread(prepared);
+    let spread = prepared.mass_spread();
     let factor = format!("masses and inertias differ by a factor of {spread:.1e}");
     if spread >= GRADED_MASSES {
         let why = format!("{factor}, from {GRADED_MASSES:.0e} on plain solutions miss digits");
-        return Ok(decided(true, why));
+        return decided(true, why);
     }
     let size = prepared.assembly.size;
-    if is_far(size) {
+    if prepared.is_far() {
         let why = "far from a metre: weights and centrifugal terms differ by many powers of ten";
-        return Ok(decided(
-            true,
-            format!("the mechanism measures {size:.1e} m, {why}"),
-        ));
+        return decided(true, format!("the mechanism measures {size:.1e} m, {why}"));
     }
-    let value = KeptRowMotion::new(prepared)?.is_refined_at(0.0, &prepared.q)?;
+    let mut equations = KeptRowMotion::new(prepared)?.equations;
+    equations.factor_at(0.0, &prepared.q)?;
+    let value = equations.velocity.are_refined();
     let why = match value {
         true => "but at the start digits cancel in the reduced mass",
         false => "and no digits cancel in the reduced mass at the start; watched at every solution",
     };
-    Ok(decided(value, format!("{factor}, {why}")))
+    decided(value, format!("{factor}, {why}"))
 }
 
 fn mobility(
@@ -180,75 +167,58 @@ fn mobility(
 ) -> Decided<usize> {
     let value = sizes.mobility();
     let by_time = prepared.code_for(options).is_err() && prepared.is_function_of_time(options);
+    let function = || "a function of time".to_owned();
     let (taken, reason) = match (value, work.rows_of_time) {
         (0, 0) => ("none".to_owned(), "the constraints hold it where it is"),
         (0, _) if by_time => (
-            "a function of time".to_owned(),
+            function(),
             "driven, and nothing is free: stages lie on the constraints, and each time of a step is evaluated once",
         ),
         (0, _) => (
-            "a function of time".to_owned(),
+            function(),
             "driven, and nothing is free; functions are evaluated once at each time",
         ),
         (n, _) => (format!("{n}"), "velocities less independent rows"),
     };
-    Decided {
-        value,
-        taken,
-        reason: reason.to_owned(),
-        saves: None,
+    Decided::new(value, taken, reason)
+}
+
+/// A number in words, or none; each with its reason.
+fn counted(value: usize, [none, some]: [&str; 2], what: &str) -> Decided<usize> {
+    match value {
+        0 => Decided::new(0, "none", none),
+        n => Decided::new(n, format!("{n}{what}"), some),
     }
 }
 
 fn nonholonomic(sizes: &Sizes) -> Decided<usize> {
-    let value = sizes.nonholonomic;
-    let (taken, reason) = match value {
-        0 => (
-            "none".to_owned(),
-            "every row has a position level: no projection of velocities alone",
-        ),
-        n => (
-            format!("{n}"),
-            "rows without position level: projected on velocity level",
-        ),
-    };
-    Decided {
-        value,
-        taken,
-        reason: reason.to_owned(),
-        saves: None,
-    }
+    let reasons = [
+        "every row has a position level: no projection of velocities alone",
+        "rows without position level: projected on velocity level",
+    ];
+    counted(sizes.nonholonomic, reasons, "")
 }
 
 fn dropped(sizes: &Sizes) -> Decided<usize> {
-    let value = sizes.redundancy();
-    let (taken, reason) = match value {
-        0 => (
-            "none".to_owned(),
-            "all rows are independent: no row is monitored or exchanged",
-        ),
-        p => (
-            format!("{p} monitored"),
-            "implied by the kept ones; not solved for",
-        ),
-    };
-    Decided {
-        value,
-        taken,
-        reason: reason.to_owned(),
-        saves: match value {
-            0 => Saving::of_sizes(sizes.rows(), sizes.rows(), Cost::Monitors),
-            _ => None,
-        },
+    let reasons = [
+        "all rows are independent: no row is monitored or exchanged",
+        "implied by the kept ones; not solved for",
+    ];
+    let decided = counted(sizes.redundancy(), reasons, " monitored");
+    let rows = sizes.rows() as u64;
+    match decided.value {
+        0 => decided.saving(rows, rows, Cost::Monitors),
+        _ => decided,
     }
 }
 
 fn of_time(sizes: &Sizes, work: &Work) -> Decided<usize> {
-    let (value, all) = (work.rows_of_time, sizes.rows());
+    let (value, all) = (work.rows_of_time, sizes.rows() as u64);
+    let none = || "b = 0".to_owned();
     let (taken, reason) = match (value, work.functions) {
-        (0, 0) => ("b = 0".to_owned(), "nothing depends on time".to_owned()),
+        (0, 0) => (none(), "nothing depends on time".to_owned()),
         (0, n) => (
-            "b = 0".to_owned(),
+            none(),
             format!("no constraint depends on time; functions of forces: {n}"),
         ),
         (rows, n) => (
@@ -256,53 +226,47 @@ fn of_time(sizes: &Sizes, work: &Work) -> Decided<usize> {
             format!("driven; functions, evaluated once at each time: {n}"),
         ),
     };
-    Decided {
-        value,
-        taken,
-        reason,
-        saves: Saving::of_sizes(all - value, all, Cost::TimeRows),
-    }
+    Decided::new(value, taken, reason).saving(all - value as u64, all, Cost::TimeRows)
+}
+
+/// So many of all are evaluated; why all, or why not the others.
+fn evaluated(
+    (value, all): (usize, usize),
+    why_all: &str,
+    others: &str,
+    cost: Cost,
+) -> Decided<usize> {
+    let (left_out, all) = ((all - value) as u64, all as u64);
+    let reason = match left_out {
+        0 => why_all.to_owned(),
+        n => format!("{n} {others}"),
+    };
+    Decided::new(value, format!("{value} evaluated"), reason).saving(left_out, all, cost)
 }
 
 fn entries(work: &Work) -> Decided<usize> {
-    let (value, all) = (work.varying_entries, work.entries);
-    Decided {
-        value,
-        taken: format!("{value} evaluated"),
-        reason: match all - value {
-            0 => "all depend on the configuration".to_owned(),
-            n => format!("{n} are constant"),
-        },
-        saves: Saving::of_sizes(all - value, all, Cost::Entries),
-    }
+    let counts = (work.varying_entries, work.entries);
+    let all = "all depend on the configuration";
+    evaluated(counts, all, "are constant", Cost::Entries)
 }
 
 fn gamma(sizes: &Sizes, work: &Work) -> Decided<usize> {
-    let (value, all) = (work.rows_of_gamma, sizes.rows());
-    Decided {
-        value,
-        taken: format!("{value} evaluated"),
-        reason: match all - value {
-            0 => "no joint has constant C".to_owned(),
-            n => format!("{n} belong to joints with constant C: Γ = 0"),
-        },
-        saves: Saving::of_sizes(all - value, all, Cost::Gamma),
-    }
+    let counts = (work.rows_of_gamma, sizes.rows());
+    let others = "belong to joints with constant C: Γ = 0";
+    evaluated(counts, "no joint has constant C", others, Cost::Gamma)
 }
 
 fn turning(prepared: &Prepared, work: &Work) -> Decided<usize> {
     let bodies = prepared.mechanism.bodies();
     let held = &work.without_turning;
     let names: Vec<&str> = held.iter().map(|&k| bodies[k].name.as_str()).collect();
-    Decided {
-        value: bodies.len() - held.len(),
-        taken: format!("{} of {}", bodies.len() - held.len(), bodies.len()),
-        reason: match names.is_empty() {
-            true => "no row of angles holds one at its start; sine and cosine are computed again where an angle has changed".to_owned(),
-            false => format!("rows of angles hold {}", names.join(", ")),
-        },
-        saves: Saving::of_sizes(held.len(), bodies.len(), Cost::Trigonometry),
-    }
+    let (n, all) = (held.len(), bodies.len());
+    let reason = match n {
+        0 => "no row of angles holds one at its start; sine and cosine are computed again where an angle has changed".to_owned(),
+        _ => format!("rows of angles hold {}", names.join(", ")),
+    };
+    let taken = format!("{} of {all}", all - n);
+    Decided::new(all - n, taken, reason).saving(n as u64, all as u64, Cost::Trigonometry)
 }
 
 fn forces(prepared: &Prepared, work: &Work) -> Decided<usize> {
@@ -316,12 +280,7 @@ fn forces(prepared: &Prepared, work: &Work) -> Decided<usize> {
         (n, false) => (format!("{n}"), "no gravity"),
         (n, true) => (format!("{n} and the weight"), "applied forces"),
     };
-    Decided {
-        value: work.forces,
-        taken,
-        reason: reason.to_owned(),
-        saves: None,
-    }
+    Decided::new(work.forces, taken, reason)
 }
 
 fn wanted(prepared: &Prepared, value: Vec<usize>) -> Decided<Vec<usize>> {
@@ -339,10 +298,5 @@ fn wanted(prepared: &Prepared, value: Vec<usize>) -> Decided<Vec<usize>> {
             format!("wanted at rows of output: {}", names.join(", ")),
         ),
     };
-    Decided {
-        value,
-        taken,
-        reason,
-        saves: Saving::of_sizes(all - n, all, Cost::Reactions),
-    }
+    Decided::new(value, taken, reason).saving((all - n) as u64, all as u64, Cost::Reactions)
 }

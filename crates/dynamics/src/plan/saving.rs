@@ -36,18 +36,6 @@ pub enum Cost {
     Reactions,
 }
 
-impl Saving {
-    /// Nothing where nothing is left out.
-    pub(super) fn of(left_out: u64, of: u64, what: Cost) -> Option<Self> {
-        (left_out > 0).then_some(Self { left_out, of, what })
-    }
-
-    /// The same for sizes.
-    pub(super) fn of_sizes(left_out: usize, of: usize, what: Cost) -> Option<Self> {
-        Self::of(left_out as u64, of as u64, what)
-    }
-}
-
 impl Cost {
     /// What it is, and how often.
     #[must_use]

@@ -4,14 +4,15 @@
 use model::start::scene_size;
 use model::{Assembly, Mechanism, Part, Places, System};
 
-use super::saving::{Cost, Saving};
-use super::{Decided, PreparedPart, pick};
+use super::decided::Decided;
+use super::saving::Cost;
 use crate::error::MotionError;
+use crate::limits::MOST_COMPONENTS;
 use crate::options::RowChoice;
 use crate::prepare::Prepared;
 
-/// Components that are run at the same time at most, each on its own thread.
-const MOST: usize = 256;
+/// A prepared part and where it is in the whole.
+type PreparedPart = (Prepared, Places);
 
 /// Whether the mechanism is taken apart, and its components; none where it stays whole.
 pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart>), MotionError> {
@@ -23,9 +24,9 @@ pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart
             _ => "all bodies are connected".to_owned(),
         }));
     }
-    if n > MOST {
+    if n > MOST_COMPONENTS {
         return Ok(stays(format!(
-            "{n} do not feel each other, more than {MOST}: a thread for each would cost more"
+            "{n} do not feel each other, more than {MOST_COMPONENTS}: a thread for each would cost more"
         )));
     }
     let mut parts = Vec::with_capacity(n);
@@ -35,23 +36,15 @@ pub(super) fn split(whole: &Prepared) -> Result<(Decided<bool>, Vec<PreparedPart
     let of = elimination(&whole.mechanism, whole.decision.rank);
     let own = |(p, _): &PreparedPart| elimination(&p.mechanism, p.decision.rank);
     let apart: u64 = parts.iter().map(own).sum();
-    let decided = Decided {
-        value: true,
-        taken: format!("{n}, each with its own method and steps"),
-        reason: "no joint, drive or force connects them".to_owned(),
-        saves: Saving::of(of.saturating_sub(apart), of, Cost::Elimination),
-    };
+    let taken = format!("{n}, each with its own method and steps");
+    let decided = Decided::new(true, taken, "no joint, drive or force connects them");
+    let decided = decided.saving(of.saturating_sub(apart), of, Cost::Elimination);
     Ok((decided, parts))
 }
 
 /// The mechanism stays whole.
 pub(super) fn stays(reason: String) -> (Decided<bool>, Vec<PreparedPart>) {
-    let decided = Decided {
-        value: false,
-        taken: "solved as one".to_owned(),
-        reason,
-        saves: None,
-    };
+    let decided = Decided::new(false, "solved as one", reason);
     (decided, Vec::new())
 }
 
@@ -105,4 +98,9 @@ fn prepared(whole: &Prepared, part: Part) -> PreparedPart {
 fn own_rows(rows: &[usize], places: &Places) -> Vec<usize> {
     let own = |row: &usize| places.rows.binary_search(row).ok();
     rows.iter().filter_map(own).collect()
+}
+
+/// What of a list of the whole belongs to a part.
+fn pick<T: Copy>(x: &[T], places: &[usize]) -> Vec<T> {
+    places.iter().map(|&k| x[k]).collect()
 }

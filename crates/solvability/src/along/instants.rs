@@ -95,7 +95,7 @@ pub(super) fn instants<F: FnMut(f64) -> State>(
             let (t, there) = match given.find(|s| is_unique(&s.analysis)) {
                 Some(sample) => (sample.t, sample.analysis.clone()),
                 None => {
-                    let least = search::minimum(bracket, 0.0, |t| {
+                    let least = search::minimum(bracket, 0.0, 0.0, |t| {
                         Ok::<_, AlongError>(margin(&path.analysis(t)?, part))
                     })?;
                     let Some((t, _)) = least else {

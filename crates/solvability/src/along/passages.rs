@@ -56,7 +56,7 @@ pub(super) fn passages<F: FnMut(f64) -> State>(
         if found.iter().any(|c| a <= c.t && c.t <= b) {
             continue;
         }
-        let least = search::minimum(bracket, NEARLY_SINGULAR, |t| path.sigma(t))?;
+        let least = search::minimum(bracket, NEARLY_SINGULAR, 0.0, |t| path.sigma(t))?;
         if let Some((t, sigma)) = least
             && sigma < NEARLY_SINGULAR
         {

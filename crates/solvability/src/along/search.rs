@@ -1,5 +1,6 @@
 //! Where a function of time changes its sign, where it falls below zero, and where a function is
-//! smallest. All may fail.
+//! smallest. All may fail. Singular instants are found by these, along a motion that is known and
+//! within a step of one that is not.
 
 /// Halvings that bring any interval to rounding, and more.
 const ITERATIONS: usize = 120;
@@ -9,7 +10,10 @@ const RESOLUTION: f64 = 2.0 * f64::EPSILON;
 
 /// A root of `f` between a and b, where `f(a) > 0 > f(b)`: secant steps with the Illinois
 /// modification, halvings where these gain too little, until a value is at most `enough`.
-pub(super) fn root<E>(
+///
+/// # Errors
+/// Those of `f`.
+pub fn root<E>(
     [a, b]: [f64; 2],
     [f_a, f_b]: [f64; 2],
     enough: f64,
@@ -90,11 +94,15 @@ pub(super) fn may_reach(limit: f64, least: f64, largest: f64) -> bool {
 }
 
 /// Where `f` is smallest between a and b, if it has one minimum there, and its value: golden
-/// sections, which find the corner of an absolute value to rounding. `None` as soon as it is clear
-/// that it stays above `limit`.
-pub(super) fn minimum<E>(
+/// sections, which find the corner of an absolute value to rounding, or until the interval is as
+/// narrow as `enough`. `None` as soon as it is clear that it stays above `limit`.
+///
+/// # Errors
+/// Those of `f`.
+pub fn minimum<E>(
     [mut a, mut b]: [f64; 2],
     limit: f64,
+    enough: f64,
     mut f: impl FnMut(f64) -> Result<f64, E>,
 ) -> Result<Option<(f64, f64)>, E> {
     let golden = 0.5 * (5.0_f64.sqrt() - 1.0);
@@ -104,7 +112,8 @@ pub(super) fn minimum<E>(
     let (mut f_x, mut f_y) = (f(x)?, f(y)?);
     for _ in 0..ITERATIONS {
         best = lower(lower(best, (x, f_x)), (y, f_y));
-        if b - a <= RESOLUTION * a.abs().max(b.abs()) || best.1 == 0.0 {
+        let narrow = enough.max(RESOLUTION * a.abs().max(b.abs()));
+        if b - a <= narrow || best.1 == 0.0 {
             break;
         }
         if !may_reach(limit, best.1, f_a.max(f_b)) {
@@ -166,7 +175,7 @@ mod tests {
     fn minima_of_corners_and_parabolas() {
         let found = |limit: f64, f: &dyn Fn(f64) -> f64| {
             let mut asked = 0;
-            let found = minimum([-1.0, 2.0], limit, |t| {
+            let found = minimum([-1.0, 2.0], limit, 0.0, |t| {
                 asked += 1;
                 Ok::<_, Infallible>(f(t))
             });

@@ -21,10 +21,11 @@
 use linalg::{Lu, Matrix};
 use model::{Derivatives, System};
 
-use super::KeptRowMotion;
-use super::chart::Origin;
 use crate::counts::{Counted, note};
 use crate::error::MotionFault;
+use crate::manifold::Origin;
+use crate::motion::KeptRowMotion;
+use crate::solve::KeptEquations;
 
 /// The Jacobian at one instant, and factors of shifted ones.
 ///
@@ -51,6 +52,23 @@ use crate::error::MotionFault;
 /// ```
 pub struct Reduced {
     derivatives: Derivatives,
+    partition: Partition,
+    /// Row j: column j of D.
+    columns: Matrix,
+    /// S·D
+    on_w: Matrix,
+    /// Row j: change of y with w_j along the constraints, without the work.
+    tangents: Matrix,
+    /// Time of the Jacobian.
+    time: f64,
+    shifted: Shifted,
+    storage: Storage,
+}
+
+/// How w is read from y, for one choice of independent coordinates.
+#[derive(Default)]
+struct Partition {
+    generation: u64,
     /// Columns of C along which coordinates are independent, and those whose velocities are.
     z: Vec<usize>,
     u: Vec<usize>,
@@ -60,30 +78,40 @@ pub struct Reduced {
     normals: Vec<Vec<(usize, f64)>>,
     /// Place of the work in y.
     work: Option<usize>,
-    /// Row j: column j of D.
-    columns: Matrix,
-    /// S·D
-    on_w: Matrix,
-    /// Row j: change of y with w_j along the constraints, without the work.
-    tangents: Matrix,
-    /// Time of the Jacobian.
-    time: f64,
+}
+
+/// `σ·I − S·D` for a real σ and a complex one.
+struct Shifted {
     real: Lu,
-    /// The chart of the Jacobian.
-    generation: u64,
     /// Of the real form [αI − S·D, −βI; βI, αI − S·D].
     complex: Lu,
     shift: f64,
     complex_shift: [f64; 2],
     /// Solutions on w, real and imaginary parts.
     w: Vec<f64>,
+}
+
+/// Vectors of one evaluation.
+struct Storage {
     dq: Vec<f64>,
     dv: Vec<f64>,
     force: Vec<f64>,
     rows: Vec<f64>,
-    rows_of_velocity: Vec<f64>,
     lambda: Vec<f64>,
     dy: Vec<f64>,
+}
+
+impl Shifted {
+    /// For so many entries of w.
+    fn new(k: usize) -> Self {
+        Self {
+            real: Lu::new(k),
+            complex: Lu::new(2 * k),
+            shift: 1.0,
+            complex_shift: [1.0, 0.0],
+            w: vec![0.0; 2 * k],
+        }
+    }
 }
 
 impl Reduced {
@@ -95,32 +123,25 @@ impl Reduced {
         let layout = mechanism.layout();
         Self {
             derivatives: mechanism.derivatives(),
-            z: Vec::new(),
-            u: Vec::new(),
-            reads: Vec::new(),
-            normals: Vec::new(),
-            work: None,
+            partition: Partition::default(),
             columns: Matrix::default(),
             on_w: Matrix::default(),
             tangents: Matrix::default(),
             time: 0.0,
-            generation: 0,
-            real: Lu::new(0),
-            complex: Lu::new(0),
-            shift: 1.0,
-            complex_shift: [1.0, 0.0],
-            w: Vec::new(),
-            dq: vec![0.0; layout.n_v],
-            dv: vec![0.0; layout.n_v],
-            force: vec![0.0; layout.n_v],
-            rows: vec![0.0; layout.rows()],
-            rows_of_velocity: vec![0.0; layout.rows()],
-            lambda: vec![0.0; layout.rows()],
-            dy: vec![0.0; layout.n_q + layout.n_v],
+            shifted: Shifted::new(0),
+            storage: Storage {
+                dq: vec![0.0; layout.n_v],
+                dv: vec![0.0; layout.n_v],
+                force: vec![0.0; layout.n_v],
+                rows: vec![0.0; layout.rows()],
+                lambda: vec![0.0; layout.rows()],
+                dy: vec![0.0; layout.n_q + layout.n_v],
+            },
         }
     }
 
-    /// Takes the Jacobian at t and y, which is completed first. A motion on no chart gets one here.
+    /// Takes the Jacobian at t and y, which is completed first. A motion on all coordinates gets
+    /// independent ones here.
     ///
     /// # Errors
     /// As [`KeptRowMotion::derivative`].
@@ -133,46 +154,54 @@ impl Reduced {
         t: f64,
         y: &[f64],
     ) -> Result<(), MotionFault> {
-        let n_q = motion.mechanism.layout().n_q;
-        if motion.chart.is_none() {
-            motion.use_chart(t, &y[..n_q])?;
+        let mechanism = motion.mechanism();
+        let n_q = mechanism.layout().n_q;
+        if motion.independent().is_none() {
+            motion.use_independent_coordinates(t, &y[..n_q])?;
         }
         motion.begin_step(|_| true)?;
-        self.dy.resize(y.len(), 0.0);
-        motion.derivative(t, y, &mut self.dy)?;
+        self.storage.dy.resize(y.len(), 0.0);
+        motion.derivative(t, y, &mut self.storage.dy)?;
         self.take_partition(motion, y);
-        self.generation = motion.chart.as_ref().map_or(0, |c| c.generation);
-        let mechanism = motion.mechanism;
-        let a = &self.dy[n_q..n_q + mechanism.layout().n_v];
-        motion.multipliers_for(a, &mut self.lambda)?;
-        mechanism.differentiate(a, &self.lambda, &motion.s, &mut self.derivatives);
-        motion.position.factor(mechanism, &motion.s)?;
+        let Storage { dy, lambda, .. } = &mut self.storage;
+        let equations = &mut motion.equations;
+        let a = &dy[n_q..n_q + mechanism.layout().n_v];
+        equations.multipliers_for(a, lambda)?;
+        mechanism.differentiate(a, lambda, &equations.at.s, &mut self.derivatives);
+        equations.position.factor(&equations.at)?;
         self.time = t;
-        for j in 0..self.reads.len() {
+        let reads = self.partition.reads.len();
+        for j in 0..reads {
             self.differentiate(motion, j)?;
         }
-        let k = self.reads.len();
-        self.on_w = Matrix::from_fn(k, k, |i, j| read(&self.reads[i], self.columns.row(j)));
+        let entry = |i: usize, j| read(&self.partition.reads[i], self.columns.row(j));
+        self.on_w = Matrix::from_fn(reads, reads, entry);
         Ok(())
     }
 
-    /// Linearises and factors again where the chart has changed as the step began: f is another
+    /// Linearises and factors again where the partition has changed as the step began: f is another
     /// function of y then, although the motion is the same.
     ///
     /// # Errors
     /// As [`Reduced::linearise`] and [`Reduced::factor`].
-    pub(crate) fn follow(&mut self, motion: &mut KeptRowMotion<'_>) -> Result<(), MotionFault> {
-        let Some(chart) = &motion.chart else {
+    pub(crate) fn follow_partition(
+        &mut self,
+        motion: &mut KeptRowMotion<'_>,
+    ) -> Result<(), MotionFault> {
+        let Some(coordinates) = &motion.manifold.coordinates else {
             return Ok(());
         };
-        if self.reads.is_empty() || chart.generation == self.generation {
+        let Partition {
+            reads, generation, ..
+        } = &self.partition;
+        if reads.is_empty() || coordinates.generation == *generation {
             return Ok(());
         }
-        let Origin { t, q, v } = chart.origin.clone();
+        let Origin { t, q, v } = coordinates.origin.clone();
         let mut y = [q, v].concat();
         y.resize(self.columns.ncols(), 0.0);
         self.linearise(motion, t, &y)?;
-        self.factor(self.shift, self.complex_shift)
+        self.factor(self.shifted.shift, self.shifted.complex_shift)
     }
 
     /// `∂ẇ/∂w`, dense.
@@ -189,30 +218,36 @@ impl Reduced {
 
     /// Takes the partition of the motion, and how w is read from y.
     fn take_partition(&mut self, motion: &KeptRowMotion<'_>, y: &[f64]) {
-        let (z, u) = motion.independent().expect("linearise has chosen a chart");
-        let (mechanism, n) = (motion.mechanism, y.len());
+        let coordinates = motion.manifold.coordinates.as_ref();
+        let coordinates = coordinates.expect("linearise has chosen them");
+        let (z, u) = (&coordinates.z, &coordinates.u);
+        let (mechanism, n) = (motion.mechanism(), y.len());
         let n_q = mechanism.layout().n_q;
-        self.reads.resize_with(z.len() + u.len(), Vec::new);
-        for (terms, &z) in self.reads.iter_mut().zip(z) {
+        let own = &mut self.partition;
+        own.generation = coordinates.generation;
+        own.reads.resize_with(z.len() + u.len(), Vec::new);
+        for (terms, &z) in own.reads.iter_mut().zip(z) {
             mechanism.read_velocity(&y[..n_q], z, terms);
         }
-        self.normals = mechanism.normals(&y[..n_q]);
-        for (terms, u) in self.reads[z.len()..].iter_mut().zip(u) {
+        own.normals = mechanism.normals(&y[..n_q]);
+        for (terms, u) in own.reads[z.len()..].iter_mut().zip(u) {
             terms.clear();
             terms.push((n_q + u, 1.0));
         }
-        if self.columns.ncols() == n && z == self.z && u == self.u {
+        if self.columns.ncols() == n && *z == own.z && *u == own.u {
             return;
         }
-        (self.z, self.u) = (z.to_vec(), u.to_vec());
+        (own.z, own.u) = (z.clone(), u.clone());
         let moving = n_q + mechanism.layout().n_v;
-        self.work = (n > moving).then_some(moving);
-        let k = self.reads.len();
+        own.work = (n > moving).then_some(moving);
+        let (k, shifted) = (own.reads.len(), &self.shifted);
         self.columns = Matrix::zeros(k, n);
         self.tangents = Matrix::zeros(k, n);
-        self.real = Lu::new(k);
-        self.complex = Lu::new(2 * k);
-        self.w = vec![0.0; 2 * k];
+        self.shifted = Shifted {
+            shift: shifted.shift,
+            complex_shift: shifted.complex_shift,
+            ..Shifted::new(k)
+        };
     }
 
     /// Column j of D.
@@ -221,57 +256,59 @@ impl Reduced {
         motion: &mut KeptRowMotion<'_>,
         j: usize,
     ) -> Result<(), MotionFault> {
-        let KeptRowMotion {
-            mechanism,
-            s,
-            position,
+        let KeptEquations {
+            at,
             velocity,
-            chart,
+            position,
             ..
-        } = motion;
-        let chart = chart.as_ref().expect("linearise has chosen a chart");
+        } = &mut motion.equations;
+        let coordinates = motion.manifold.coordinates.as_ref();
+        let coordinates = coordinates.expect("linearise has chosen them");
+        let mechanism = at.mechanism;
         let layout = mechanism.layout();
-        let d = &self.derivatives;
-        let (dq, dv) = (&mut self.dq, &mut self.dv);
+        let (d, partition) = (&self.derivatives, &self.partition);
+        let Storage {
+            dq,
+            dv,
+            force,
+            rows,
+            dy,
+            ..
+        } = &mut self.storage;
         dq.fill(0.0);
         dv.fill(0.0);
-        match self.z.get(j) {
+        match partition.z.get(j) {
             Some(&z) => {
                 dq[z] = 1.0;
                 position.rhs.fill(0.0);
-                position.complete(mechanism, s, dq)?;
+                position.complete(at, dq)?;
             }
-            None => dv[self.u[j - self.z.len()]] = 1.0,
+            None => dv[partition.u[j - partition.z.len()]] = 1.0,
         }
-        self.rows_of_velocity.fill(0.0);
-        d.velocity_dq
-            .subtract_product(dq, &mut self.rows_of_velocity);
-        for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
-            *rhs = self.rows_of_velocity[i];
-        }
-        velocity.complete(mechanism, s, dv)?;
+        rows.fill(0.0);
+        d.velocity_dq.subtract_product(dq, rows);
+        velocity.take_rhs(|i| rows[i]);
+        velocity.complete(at, dv)?;
         let tangent = self.tangents.row_mut(j);
-        mechanism.rate(&chart.q, dq, &mut tangent[..layout.n_q]);
+        mechanism.rate(&coordinates.q, dq, &mut tangent[..layout.n_q]);
         tangent[layout.n_q..layout.n_q + layout.n_v].copy_from_slice(dv);
 
-        self.force.fill(0.0);
-        d.force_dq.add_product(dq, &mut self.force);
-        d.reaction_dq.subtract_product(dq, &mut self.force);
-        d.force_dv.add_product(dv, &mut self.force);
-        self.rows.fill(0.0);
-        d.residual_dq.subtract_product(dq, &mut self.rows);
-        d.gamma_dv.add_product(dv, &mut self.rows);
-        for (rhs, &i) in velocity.rhs.iter_mut().zip(&velocity.kept) {
-            *rhs = self.rows[i];
-        }
+        force.fill(0.0);
+        d.force_dq.add_product(dq, force);
+        d.reaction_dq.subtract_product(dq, force);
+        d.force_dv.add_product(dv, force);
+        rows.fill(0.0);
+        d.residual_dq.subtract_product(dq, rows);
+        d.gamma_dv.add_product(dv, rows);
+        velocity.take_rhs(|i| rows[i]);
         let (d_rate, rest) = self.columns.row_mut(j).split_at_mut(layout.n_q);
         let (da, d_work) = rest.split_at_mut(layout.n_v);
-        velocity.solve(mechanism, s, &self.force, da)?;
-        mechanism.rate(&chart.q, dv, d_rate);
+        velocity.solve(at, Some(force), da)?;
+        mechanism.rate(&coordinates.q, dv, d_rate);
         if let Some(d_work) = d_work.first_mut() {
             // The power (M·a − weight)·v, changed with v, and with a.
-            let a = &self.dy[layout.n_q..layout.n_q + layout.n_v];
-            let inertia = mechanism.mass().iter().zip(&*da).zip(&chart.v);
+            let a = &dy[layout.n_q..layout.n_q + layout.n_v];
+            let inertia = mechanism.mass().iter().zip(&*da).zip(&coordinates.v);
             *d_work =
                 mechanism.energy_rate(dv, a) + inertia.map(|((m, da), v)| m * da * v).sum::<f64>();
         }
@@ -283,76 +320,80 @@ impl Reduced {
     /// # Errors
     /// [`MotionFault::IterationMatrix`] if one is singular.
     pub fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), MotionFault> {
-        let (k, time, on_w) = (self.reads.len(), self.time, &self.on_w);
+        let (k, time, on_w) = (self.partition.reads.len(), self.time, &self.on_w);
+        let own = &mut self.shifted;
         let shifted = |sigma: f64, i: usize, j: usize| {
             let diagonal = if i == j { sigma } else { 0.0 };
             diagonal - on_w[(i, j)]
         };
         let singular = |source| MotionFault::IterationMatrix { time, source };
-        self.real
-            .factor(|i, j| shifted(real, i, j))
-            .map_err(singular)?;
+        let factored = own.real.factor(|i, j| shifted(real, i, j));
+        factored.map_err(singular)?;
         let [alpha, beta] = complex;
         let coupled = |i: usize, j: usize| if i == j { beta } else { 0.0 };
-        self.complex
-            .factor(|i, j| match (i < k, j < k) {
-                (true, true) => shifted(alpha, i, j),
-                (true, false) => -coupled(i, j - k),
-                (false, true) => coupled(i - k, j),
-                (false, false) => shifted(alpha, i - k, j - k),
-            })
-            .map_err(singular)?;
-        (self.shift, self.complex_shift) = (real, complex);
+        let factored = own.complex.factor(|i, j| match (i < k, j < k) {
+            (true, true) => shifted(alpha, i, j),
+            (true, false) => -coupled(i, j - k),
+            (false, true) => coupled(i - k, j),
+            (false, false) => shifted(alpha, i - k, j - k),
+        });
+        factored.map_err(singular)?;
+        (own.shift, own.complex_shift) = (real, complex);
         Ok(())
     }
 
     /// Solves `(σ·I − ∂f/∂y)·x = r` for the real σ, r in `x` on entry; dependent entries follow the
     /// independent ones.
     pub fn solve(&mut self, x: &mut [f64]) {
-        let k = self.reads.len();
-        let w = &mut self.w[..k];
-        for (w, terms) in w.iter_mut().zip(&self.reads) {
+        let Self {
+            partition, shifted, ..
+        } = self;
+        let w = &mut shifted.w[..partition.reads.len()];
+        for (w, terms) in w.iter_mut().zip(&partition.reads) {
             *w = read(terms, x);
         }
-        self.real.solve(w);
+        shifted.real.solve(w);
+        let w = &self.shifted.w[..self.partition.reads.len()];
+        let shift = self.shifted.shift;
         let work = self
+            .partition
             .work
-            .map(|at| (x[at] + self.work_along(&self.w[..k], at)) / self.shift);
-        let normals = self.normals.iter();
-        let along_normals: Vec<f64> = normals.map(|n| read(n, x) / self.shift).collect();
-        self.follow_w(&self.w[..k], x);
-        self.add_normals(&along_normals, x);
-        if let (Some(at), Some(work)) = (self.work, work) {
+            .map(|at| (x[at] + self.work_along(w, at)) / shift);
+        let normals = self.partition.normals.iter();
+        let along_normals: Vec<f64> = normals.map(|n| read(n, x) / shift).collect();
+        self.follow(w, &along_normals, x);
+        if let (Some(at), Some(work)) = (self.partition.work, work) {
             x[at] = work;
         }
     }
 
     /// The same for the complex σ.
     pub fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
-        let k = self.reads.len();
-        for (j, terms) in self.reads.iter().enumerate() {
-            self.w[j] = read(terms, re);
-            self.w[k + j] = read(terms, im);
+        let Self {
+            partition, shifted, ..
+        } = self;
+        let k = partition.reads.len();
+        for (j, terms) in partition.reads.iter().enumerate() {
+            shifted.w[j] = read(terms, re);
+            shifted.w[k + j] = read(terms, im);
         }
-        self.complex.solve(&mut self.w);
-        let (w_re, w_im) = self.w.split_at(k);
-        let [alpha, beta] = self.complex_shift;
+        shifted.complex.solve(&mut shifted.w);
+        let (w_re, w_im) = self.shifted.w.split_at(k);
+        let [alpha, beta] = self.shifted.complex_shift;
         let norm = alpha * alpha + beta * beta;
         let quotient =
             |a: f64, b: f64| ((alpha * a + beta * b) / norm, (alpha * b - beta * a) / norm);
-        let work = self.work.map(|at| {
+        let work = self.partition.work.map(|at| {
             let a = re[at] + self.work_along(w_re, at);
             let b = im[at] + self.work_along(w_im, at);
             quotient(a, b)
         });
-        let normals = self.normals.iter();
+        let normals = self.partition.normals.iter();
         let (n_re, n_im): (Vec<f64>, Vec<f64>) =
             normals.map(|n| quotient(read(n, re), read(n, im))).unzip();
-        self.follow_w(w_re, re);
-        self.follow_w(w_im, im);
-        self.add_normals(&n_re, re);
-        self.add_normals(&n_im, im);
-        if let (Some(at), Some(work)) = (self.work, work) {
+        self.follow(w_re, &n_re, re);
+        self.follow(w_im, &n_im, im);
+        if let (Some(at), Some(work)) = (self.partition.work, work) {
             (re[at], im[at]) = work;
         }
     }
@@ -365,21 +406,17 @@ impl Reduced {
             .sum()
     }
 
-    /// `x ← x + Σ factor_k·(normal k)`
-    fn add_normals(&self, factors: &[f64], x: &mut [f64]) {
-        for (normal, factor) in self.normals.iter().zip(factors) {
-            for &(place, entry) in normal {
-                x[place] += factor * entry;
-            }
-        }
-    }
-
-    /// `x ← Σ w_j·(tangent j)`
-    fn follow_w(&self, w: &[f64], x: &mut [f64]) {
+    /// `x ← Σ w_j·(tangent j) + Σ factor_k·(normal k)`
+    fn follow(&self, w: &[f64], factors: &[f64], x: &mut [f64]) {
         x.fill(0.0);
         for (j, &w) in w.iter().enumerate() {
             for (x, d) in x.iter_mut().zip(self.tangents.row(j)) {
                 *x += d * w;
+            }
+        }
+        for (normal, factor) in self.partition.normals.iter().zip(factors) {
+            for &(place, entry) in normal {
+                x[place] += factor * entry;
             }
         }
     }

@@ -1,18 +1,7 @@
-//! A run as planned: integration of q̇ = T·v and the solved accelerations, projection after each
-//! step, projected rows of output, and the balance of energy.
+//! The run of one component of a plan: its integration, its rows, and why it stopped.
 
 use std::ops::ControlFlow;
 use std::time::Instant;
-
-mod by_time;
-mod energy;
-mod equations;
-mod passages;
-mod permits;
-mod sample;
-mod several;
-mod span;
-mod summary;
 
 use integrators::{
     Cause, Dop853, Dopri5, IntegrationError, Interval, Options, Outcome, OutputTimes, Radau5, Rows,
@@ -21,75 +10,32 @@ use integrators::{
 use model::System;
 use solvability::{contradicting_drives_along, generic};
 
+use super::equations::RunEquations;
+use super::passages;
+use super::sample::{AtRows, Sample};
+use super::summary::{Failure, Summary};
 use crate::error::{MotionError, MotionFault};
 use crate::motion::KeptRowMotion;
 use crate::options::{Method, MotionOptions};
-use crate::plan::{self, Plan, Wanted};
+use crate::plan::{self, Plan};
 use crate::prepare::Prepared;
-use equations::Equations;
-use sample::AtRows;
-
-pub use sample::Sample;
-pub use summary::{ComponentSummary, Failure, Summary};
-
-/// Runs a prepared mechanism from t = 0 and shows rows at 0, every output step and the end: its
-/// plan with everything wanted.
-///
-/// # Errors
-/// With the summary of what was reached; rows shown before stand.
-pub fn simulate(
-    prepared: &Prepared,
-    options: &MotionOptions,
-    row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
-) -> Result<Summary, Box<Failure>> {
-    Plan::new(prepared, options, &Wanted::default())
-        .map_err(not_begun)?
-        .simulate(row)
-}
 
 /// Sees each row. Behind a pointer, so that a run is compiled once, here, and not again for each of
 /// its callers.
-type ShowRow<'r> = dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault> + 'r;
+pub(super) type ShowRow<'r> =
+    dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault> + 'r;
 
 /// Sees the time (s) of each accepted step of each component, and may end the run there.
 pub type Watch<'w> = dyn Fn(f64) -> ControlFlow<()> + Sync + 'w;
 
-impl Plan<'_> {
-    /// Runs it from t = 0 and shows its rows.
-    ///
-    /// # Errors
-    /// With the summary of what was reached; rows shown before stand.
-    pub fn simulate(
-        &self,
-        row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
-    ) -> Result<Summary, Box<Failure>> {
-        self.simulate_watched(&|_| ControlFlow::Continue(()), row)
-    }
-
-    /// The same, watched between rows, too.
-    ///
-    /// # Errors
-    /// As [`Plan::simulate`].
-    pub fn simulate_watched(
-        &self,
-        watch: &Watch<'_>,
-        mut row: impl FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault>,
-    ) -> Result<Summary, Box<Failure>> {
-        match self.components.len() {
-            1 => run_component(self, 0, watch, &mut row),
-            _ => several::run(self, watch, &mut row),
-        }
-    }
-}
-
 /// A run that has not begun.
-fn not_begun(error: MotionError) -> Box<Failure> {
+pub(super) fn not_begun(error: MotionError) -> Box<Failure> {
     let summary = Summary::default();
     Box::new(Failure { error, summary })
 }
 
 /// Runs one component of a plan.
-fn run_component(
+pub(super) fn run_component(
     plan: &Plan<'_>,
     component: usize,
     watch: &Watch<'_>,
@@ -102,18 +48,18 @@ fn run_component(
         method,
         ..plan.options().clone()
     };
-    let motion = KeptRowMotion::with(prepared, options).map_err(|e| not_begun(e.into()))?;
+    let begun = KeptRowMotion::with(prepared, options).and_then(|mut motion| {
+        motion.begin(0.0, &mut prepared.q.clone())?;
+        Ok(motion)
+    });
+    let motion = begun.map_err(|e| not_begun(e.into()))?;
     let wanted = AtRows {
         on_constraints: plan.rows.value != plan::Rows::Interpolated,
         accelerations: plan.accelerations.value,
         reactions: component.decisions.reactions.value.clone(),
     };
-    let mut equations = Equations::new(motion, prepared, options, wanted);
-    equations
-        .motion
-        .begin(0.0, &mut prepared.q.clone())
-        .map_err(|e| not_begun(e.into()))?;
-    let y0 = equations.initial_state(&prepared.q, &prepared.v);
+    let equations = RunEquations::new(motion, prepared, options, wanted);
+    let y0 = equations.y0();
     let interval = Interval {
         t0: 0.0,
         t_end: options.t_end,
@@ -154,18 +100,13 @@ fn run_component(
         projections: statistics.projections,
         factorisations: statistics.factorisations,
         wall_seconds,
-        ..run.equations.summary()
+        ..run.equations.record.summary()
     };
     let error = match (outcome, run.stopped) {
         (_, Some(error)) => error,
         (Ok(_), None) => return Ok(summary),
         (Err(f), None) => match named(f.error) {
-            // Error control fails beside a singular configuration because accelerations are
-            // rounding there.
-            MotionError::Integration(e) if run.equations.is_lost(&e) => {
-                run.equations.motion.no_way_over(f.t).into()
-            }
-            MotionError::Integration(e) => match run.equations.contradiction(&e, f.t) {
+            MotionError::Integration(e) => match run.equations.cause(&e, f.t) {
                 Some(fault) => fault.into(),
                 None => MotionError::Integration(e),
             },
@@ -235,7 +176,7 @@ fn output_times(plan: &Plan<'_>) -> OutputTimes {
 
 /// A run on its way: the equations, the rows that are still to be shown, and why it was stopped.
 struct Run<'r, 'm> {
-    equations: Equations<'m>,
+    equations: RunEquations<'m>,
     rows: Rows,
     row: &'r mut ShowRow<'r>,
     watch: &'r Watch<'r>,
@@ -245,7 +186,7 @@ struct Run<'r, 'm> {
 type Integrated = Result<Outcome, Box<integrators::Failure<MotionFault>>>;
 
 impl<'m> Run<'_, 'm> {
-    fn go<M: integrators::Method<Equations<'m>>>(
+    fn go<M: integrators::Method<RunEquations<'m>>>(
         &mut self,
         method: &M,
         interval: &Interval<'_>,
@@ -259,7 +200,7 @@ impl<'m> Run<'_, 'm> {
             watch,
             stopped,
         } = self;
-        let mut show = |e: &mut Equations<'m>, t: f64, y: &mut [f64]| match e.show(t, y, row) {
+        let mut show = |e: &mut RunEquations<'m>, t: f64, y: &mut [f64]| match e.show(t, y, row) {
             Ok(flow) => flow,
             Err(fault) => {
                 *stopped = Some(fault.into());

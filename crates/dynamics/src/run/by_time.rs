@@ -3,11 +3,9 @@
 //! of this.
 
 use crate::error::MotionFault;
+use crate::limits::REMEMBERED;
 use crate::options::MotionOptions;
 use crate::prepare::Prepared;
-
-/// A step that is tried again and again forgets what it has seen after so many times.
-const REMEMBERED: usize = 256;
 
 /// Derivatives at the times of a step.
 #[derive(Default)]

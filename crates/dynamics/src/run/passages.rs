@@ -5,52 +5,55 @@ use integrators::Step;
 use model::System;
 use solvability::{KERNEL_MAX, PassageKind, State, singular_passages};
 
-use super::equations::Equations;
-use crate::motion::Singular;
-
-/// States of a step by which the passage is judged.
-const STATES: usize = 8;
-
-/// Rows up to which the motion is judged: determinants at many instants grow with their cube.
-const JUDGED_MOST: usize = 64;
-
-/// Passages of one step that are told at most, and what they are apart at least, as share of the
-/// step.
-const MOST: usize = 8;
-const BESIDE: f64 = 0.02;
+use super::equations::RunEquations;
+use crate::limits::{BESIDE, JUDGED_MOST, MOST_PASSAGES, PASSAGE_STATES};
+use crate::watch::{Search, Singular};
 
 /// Looks for singular configurations in an accepted step, if it is suspect.
-pub(super) fn note(step: &mut Step<'_, Equations<'_>>) {
-    if !step.ode().is_suspect() {
+pub(super) fn note(step: &mut Step<'_, RunEquations<'_>>) {
+    if !step.ode().motion.watch.is_suspect {
         return;
     }
     for singular in found(step) {
         // Passages of one kind are of one kind also later.
-        if step.ode().uniqueness_of(singular.dependent).is_none() {
+        if step
+            .ode()
+            .record
+            .uniqueness_of(singular.dependent)
+            .is_none()
+        {
             // Second order is not asked where it has no answer, or where that takes longer than the
             // run.
             let motion = &step.ode().motion;
-            let kernel = motion.mobility() + singular.dependent;
-            let rows = motion.mechanism().layout().rows();
+            let layout = motion.mechanism().layout();
+            let mobility = layout.n_v - motion.equations.velocity.kept.len();
+            let (kernel, rows) = (mobility + singular.dependent, layout.rows());
             let words = match kernel <= KERNEL_MAX && rows <= JUDGED_MOST {
                 true => judge(step),
                 false => None,
             };
             let words = words.unwrap_or_else(|| "whether it is unique there is not decided".into());
-            step.ode().remember_uniqueness(singular.dependent, words);
+            step.ode()
+                .record
+                .uniqueness
+                .push((singular.dependent, words));
         }
-        let search = step.ode().motion.search();
-        let words = step.ode().uniqueness_of(singular.dependent).unwrap_or("");
+        let search = Search::new(&step.ode().motion.equations);
+        let words = step
+            .ode()
+            .record
+            .uniqueness_of(singular.dependent)
+            .unwrap_or("");
         let event = search.event(singular, words);
-        step.ode().record(event);
+        step.ode().record.events.push(event);
     }
 }
 
 /// The singular configurations within a step, in order: where one is found, both sides of it are
 /// looked at, too.
-fn found(step: &mut Step<'_, Equations<'_>>) -> Vec<Singular> {
-    let noise = step.ode().passage_noise();
-    let mut search = step.ode().motion.search();
+fn found(step: &mut Step<'_, RunEquations<'_>>) -> Vec<Singular> {
+    let noise = step.ode().motion.watch.nearest();
+    let mut search = Search::new(&step.ode().motion.equations);
     let mut y = step.y0().to_vec();
     let whole = [step.t0(), step.t1()];
     let mut state = |t: f64, q: &mut [f64]| {
@@ -63,7 +66,7 @@ fn found(step: &mut Step<'_, Equations<'_>>) -> Vec<Singular> {
     let mut intervals = vec![whole];
     let mut found: Vec<Singular> = Vec::new();
     while let Some([from, to]) = intervals.pop() {
-        if to - from < beside || found.len() == MOST {
+        if to - from < beside || found.len() == MOST_PASSAGES {
             continue;
         }
         if let Some(singular) = search.find([from, to], noise, &mut state) {
@@ -82,12 +85,12 @@ fn found(step: &mut Step<'_, Equations<'_>>) -> Vec<Singular> {
 }
 
 /// What second order says of the passage within a step.
-fn judge(step: &mut Step<'_, Equations<'_>>) -> Option<String> {
+fn judge(step: &mut Step<'_, RunEquations<'_>>) -> Option<String> {
     let mechanism = step.ode().motion.mechanism();
-    let (n_q, n_v) = step.ode().sizes();
+    let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
     let (t0, t1) = (step.t0(), step.t1());
-    let times: Vec<f64> = (0..=STATES)
-        .map(|k| t0 + (t1 - t0) * (k as f64 / STATES as f64))
+    let times: Vec<f64> = (0..=PASSAGE_STATES)
+        .map(|k| t0 + (t1 - t0) * (k as f64 / PASSAGE_STATES as f64))
         .collect();
     let mut y = step.y0().to_vec();
     let passages = singular_passages(

@@ -30,10 +30,18 @@ pub(super) enum Source<'s, 'm> {
 pub(super) struct OfMotion<'s, 'm> {
     /// The time of the row, or the last number before a break time.
     pub(super) t_before: f64,
-    /// Share of the reference pivots below which reactions are not told.
-    pub(super) blind: f64,
     pub(super) wanted: &'s AtRows,
     pub(super) motion: &'s mut KeptRowMotion<'m>,
+    pub(super) known: Known,
+}
+
+/// How far the equations of a row have been solved: once, whatever is asked of it.
+pub(super) enum Known {
+    Nothing,
+    /// Rows are factored at the pose of the scratch, which is that of the row.
+    Factored,
+    /// Accelerations, from the last evaluation of the motion.
+    Solved(Vec<f64>),
 }
 
 /// What is wanted at rows of output of a component.
@@ -102,10 +110,20 @@ impl Sample<'_, '_> {
 
 impl OfMotion<'_, '_> {
     fn acceleration(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
-        let mut a = vec![f64::NAN; v.len()];
-        if self.wanted.accelerations {
-            self.motion.acceleration(self.t_before, q, v, &mut a)?;
+        match self.wanted.accelerations {
+            true => self.solve(q, v),
+            false => Ok(vec![f64::NAN; v.len()]),
         }
+    }
+
+    fn solve(&mut self, q: &[f64], v: &[f64]) -> Result<Vec<f64>, MotionFault> {
+        let mut a = vec![0.0; v.len()];
+        match &self.known {
+            Known::Nothing => self.motion.acceleration(self.t_before, q, v, &mut a)?,
+            Known::Factored => self.motion.solve_factored(v, &mut a)?,
+            Known::Solved(a) => return Ok(a.clone()),
+        }
+        self.known = Known::Solved(a.clone());
         Ok(a)
     }
 
@@ -115,8 +133,13 @@ impl OfMotion<'_, '_> {
         if self.wanted.reactions.is_empty() {
             return Ok(lambda);
         }
-        self.motion.multipliers(self.t_before, q, v, &mut lambda)?;
-        if self.motion.relative_pivot() < self.blind {
+        if self.motion.is_on_code() || self.motion.equations.requested_rows.is_some() {
+            self.motion.multipliers(self.t_before, q, v, &mut lambda)?;
+        } else {
+            let a = self.solve(q, v)?;
+            self.motion.multipliers_for(&a, &mut lambda)?;
+        }
+        if self.motion.equations.velocity.relative_pivot() < self.motion.watch.blind() {
             lambda.fill(f64::NAN);
         }
         for (k, group) in mechanism.layout().groups.iter().enumerate() {

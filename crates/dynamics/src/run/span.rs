@@ -5,14 +5,7 @@
 use model::{Mechanism, System};
 
 use crate::error::MotionFault;
-
-/// A row may lie so far from the cubic through both ends of its step, as share of the way of the
-/// step, and beside.
-const LED: f64 = 0.25;
-const LED_AT_REST: f64 = 1e-3;
-
-/// Velocities on a way may be so many times those of going it evenly.
-const PEAK: f64 = 3.0;
+use crate::limits::{LED, LED_AT_REST, PEAK};
 
 /// An accepted step: times, and y0, f0, y1, f1.
 #[derive(Default)]

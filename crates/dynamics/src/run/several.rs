@@ -10,15 +10,13 @@ use std::time::Instant;
 
 use model::{Places, Reaction, System};
 
+use super::component::{ShowRow, Watch, run_component};
 use super::permits::Permits;
 use super::sample::{Sample, Source, Values, left_out};
 use super::summary::{ComponentSummary, Failure, Summary};
-use super::{ShowRow, Watch, run_component};
 use crate::error::{MotionError, MotionFault};
+use crate::limits::AHEAD;
 use crate::plan::Plan;
-
-/// Rows that a component may be ahead.
-const AHEAD: usize = 64;
 
 /// A row of a component with all that is wanted of it.
 struct Row {

@@ -8,17 +8,9 @@ use linalg::{GRADED_MASSES, SaddleError};
 use model::{Mechanism, System};
 
 use super::dense::Dense;
-use super::mass_in_units;
 use super::sparse::{self, Sparse};
-
-/// From so many kept rows on they are solved sparsely.
-const SPARSE_FROM: usize = 64;
-
-/// Kept rows up to which solutions with graded masses are refined: the work grows with their cube.
-const REFINED_MOST: usize = 600;
-
-/// More rows are not solved densely: their matrices would take a gigabyte.
-const DENSE_MOST: usize = 5000;
+use super::units::{mass_in_units, units};
+use crate::limits::{DENSE_MATRICES, DENSE_MOST, REFINED_MOST, SPARSE_FROM, VECTORS};
 
 /// Kept rows and their factors.
 #[derive(Clone)]
@@ -27,27 +19,41 @@ pub(super) enum Solver {
     Sparse(Box<Sparse>),
 }
 
-/// Whether so many kept rows of a mechanism are solved sparsely: there are many of them, every
-/// coordinate has a mass, and masses do not differ so much that solutions have to be refined,
-/// unless there are too many rows for anything else.
-pub(in crate::motion) fn is_sparse(mechanism: &Mechanism, units: &[f64], rows: usize) -> bool {
+/// What both kinds have.
+macro_rules! each {
+    ($solver:expr, $it:ident => $value:expr) => {
+        match $solver {
+            Solver::Dense($it) => $value,
+            Solver::Sparse($it) => $value,
+        }
+    };
+}
+
+/// Whether so many kept rows of a mechanism of this size (m) are solved sparsely: there are many of
+/// them, every coordinate has a mass, and masses do not differ so much that solutions have to be
+/// refined, unless there are too many rows for anything else.
+pub(crate) fn is_sparse(mechanism: &Mechanism, size: f64, rows: usize) -> bool {
+    is_sparse_in(mechanism, &units(mechanism, size), rows)
+}
+
+fn is_sparse_in(mechanism: &Mechanism, units: &[f64], rows: usize) -> bool {
     let is_graded = || linalg::mass_spread(&mass_in_units(mechanism, units)) >= GRADED_MASSES;
     rows >= SPARSE_FROM
         && mechanism.mass().iter().all(|&m| m > 0.0)
         && (rows > REFINED_MOST || !is_graded())
 }
 
-/// Bytes of the solver of so many kept rows.
-pub(super) fn memory(mechanism: &Mechanism, kept: &[usize], units: &[f64]) -> usize {
-    if is_sparse(mechanism, units, kept.len()) {
-        return sparse::memory(mechanism, kept);
-    }
-    let order = mechanism.layout().n_v + kept.len();
-    DENSE_MATRICES * size_of::<f64>() * order * order
+/// Bytes that a motion takes at most, about: solvers of these levels of kept rows, stages, and rows
+/// of output.
+pub(crate) fn memory(mechanism: &Mechanism, size: f64, levels: [&[usize]; 2]) -> usize {
+    let layout = mechanism.layout();
+    let of_level = |kept: &[usize]| match is_sparse(mechanism, size, kept.len()) {
+        true => sparse::memory(mechanism, kept),
+        false => DENSE_MATRICES * size_of::<f64>() * (layout.n_v + kept.len()).pow(2),
+    };
+    let vectors = VECTORS * size_of::<f64>() * (layout.n_q + layout.n_v + layout.rows());
+    levels.into_iter().map(of_level).sum::<usize>() + vectors
 }
-
-/// Matrices of its order that a dense solver holds.
-const DENSE_MATRICES: usize = 3;
 
 impl Solver {
     pub(super) fn new(
@@ -55,7 +61,7 @@ impl Solver {
         kept: &[usize],
         units: &[f64],
     ) -> Result<Self, SaddleError> {
-        if is_sparse(mechanism, units, kept.len()) {
+        if is_sparse_in(mechanism, units, kept.len()) {
             return Ok(Self::Sparse(Box::new(Sparse::new(mechanism, kept, units))));
         }
         let massless = mechanism.mass().iter().position(|&m| m <= 0.0);
@@ -72,10 +78,7 @@ impl Solver {
         entries: &[f64],
         mass: &[f64],
     ) -> Result<(), SaddleError> {
-        match self {
-            Self::Dense(it) => it.factor_above(floor, entries, mass),
-            Self::Sparse(it) => it.factor_above(floor, entries, mass),
-        }
+        each!(self, it => it.factor_above(floor, entries, mass))
     }
 
     /// Solves `M·x + Cᵀ·λ = force`, `C·x = rhs` for x.
@@ -133,31 +136,19 @@ impl Solver {
     }
 
     pub(super) fn wants_refinement(&self) -> bool {
-        match self {
-            Self::Dense(it) => it.saddle.wants_refinement(),
-            Self::Sparse(_) => false,
-        }
+        matches!(self, Self::Dense(it) if it.saddle.wants_refinement())
     }
 
     pub(super) fn pivot_ratio(&self) -> f64 {
-        match self {
-            Self::Dense(it) => it.saddle.pivot_ratio(),
-            Self::Sparse(it) => it.saddle.pivot_ratio(),
-        }
+        each!(self, it => it.saddle.pivot_ratio())
     }
 
     pub(super) fn n_left_out(&self) -> usize {
-        match self {
-            Self::Dense(it) => it.saddle.n_left_out(),
-            Self::Sparse(it) => it.saddle.n_left_out(),
-        }
+        each!(self, it => it.saddle.n_left_out())
     }
 
     pub(super) fn uses(&self, k: usize) -> bool {
-        match self {
-            Self::Dense(it) => it.saddle.uses(k),
-            Self::Sparse(it) => it.saddle.uses(k),
-        }
+        each!(self, it => it.saddle.uses(k))
     }
 
     /// Takes the coordinates of the last factorisation first in the next ones; the sparse order is

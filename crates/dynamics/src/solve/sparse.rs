@@ -68,9 +68,6 @@ fn structure(mechanism: &Mechanism, c: &SparseMatrix) -> SchurStructure {
 /// Bytes of the solver of these rows.
 pub(super) fn memory(mechanism: &Mechanism, kept: &[usize]) -> usize {
     let c = rows_of(mechanism, kept);
-    let entries = c.nnz() * (ENTRY + size_of::<(u32, u32, f64)>());
+    let entries = c.nnz() * (size_of::<(usize, f64)>() + size_of::<(u32, u32, f64)>());
     structure(mechanism, &c).bytes() + entries
 }
-
-/// Bytes of a number with its column.
-const ENTRY: usize = size_of::<(usize, f64)>();

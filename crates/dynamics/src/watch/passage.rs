@@ -11,22 +11,24 @@
 //! stands only if its correction is small beside the distance of the branches: the motion goes on
 //! as smoothly as it came.
 
-use super::rows::KeptRows;
 use crate::guards::GUARDED;
+use crate::limits::{KINK, SUSPECT};
+use crate::solve::KeptRows;
 
-/// Velocities behind a singular configuration may miss those that the accelerations on both sides
-/// explain by this share: a step over it is short beside the curvature of the motion, and another
-/// branch leads elsewhere.
-const KINK: f64 = 0.25;
-
-/// Stages below this share of the reference pivots make a step suspect.
-const SUSPECT: f64 = 0.1;
+/// An evaluated state.
+#[derive(Clone, Copy)]
+pub(crate) struct Now<'a> {
+    pub(crate) t: f64,
+    pub(crate) q: &'a [f64],
+    pub(crate) v: &'a [f64],
+    pub(crate) a: &'a [f64],
+}
 
 /// A frame of the motions that were possible at the last accepted step, and the sign of the
 /// determinant of the kept rows bordered by it; and how near to a singular configuration the stages
 /// since then came.
 #[derive(Default)]
-pub(super) struct Passage {
+pub(crate) struct Passage {
     frame: Vec<f64>,
     sign: f64,
     t: f64,
@@ -47,7 +49,7 @@ struct Entry {
 
 impl Passage {
     /// Time of the last accepted step.
-    pub(super) fn since(&self) -> f64 {
+    pub(crate) fn since(&self) -> f64 {
         self.t
     }
 
@@ -57,7 +59,7 @@ impl Passage {
     }
 
     /// Notes the pivots of a stage.
-    pub(super) fn see(&mut self, rows: &KeptRows) {
+    pub(crate) fn see(&mut self, rows: &KeptRows) {
         if !GUARDED {
             return;
         }
@@ -74,7 +76,7 @@ impl Passage {
     /// Whether velocities v at time t, with accelerations a and the weights `mass`, follow from
     /// those with which the motion came near a singular configuration. On another branch they have
     /// another direction. Asked where the rows are sound again.
-    pub(super) fn is_continued_by(&self, (t, v, a): (f64, &[f64], &[f64]), mass: &[f64]) -> bool {
+    pub(super) fn is_continued_by(&self, Now { t, v, a, .. }: Now<'_>, mass: &[f64]) -> bool {
         let Some(entry) = &self.entry else {
             return true;
         };
@@ -90,7 +92,7 @@ impl Passage {
     }
 
     /// Takes an accepted state as the last one before rows become delicate.
-    pub(super) fn enter(&mut self, (t, v, a): (f64, &[f64], &[f64])) {
+    pub(super) fn enter(&mut self, Now { t, v, a, .. }: Now<'_>) {
         let entry = self.entry.get_or_insert_with(|| Entry {
             t,
             v: v.to_vec(),
@@ -102,7 +104,7 @@ impl Passage {
     }
 
     /// Forgets it, where velocities jump for another reason.
-    pub(super) fn forget_entry(&mut self) {
+    pub(crate) fn forget_entry(&mut self) {
         self.entry = None;
     }
 
@@ -112,7 +114,7 @@ impl Passage {
     }
 
     /// Takes the freshly factored rows of an accepted step at time t.
-    pub(super) fn take(&mut self, rows: &mut KeptRows, t: f64) {
+    pub(crate) fn take(&mut self, rows: &mut KeptRows, t: f64) {
         if !GUARDED {
             self.t = t;
             return;

@@ -1,0 +1,453 @@
+//! The table of limits: every number of this crate that somebody chose. Each says what it is, in
+//! which unit, what breaks where it is wrong (`less`: if it were smaller, `more`: if it were larger),
+//! and which test fails then; `none` where no test is known to. `tests/all/limits.rs` reads it.
+//!
+//! Shares of pivots are shares of the *reference pivots*, those at which the rows were chosen.
+
+use std::ops::RangeInclusive;
+
+use crate::options::MotionOptions;
+
+// Solvers.
+
+/// From so many kept rows on they are solved sparsely.
+/// Unit: rows. Less: small mechanisms lose independent coordinates and refinement. More: an
+/// evaluation of a chain grows with the cube of its rows. Test: `sparse_rows_accelerate_as_dense_ones_do`.
+pub(crate) const SPARSE_FROM: usize = 64;
+
+/// Kept rows up to which solutions with graded masses are refined.
+/// Unit: rows. Less: light bodies of large mechanisms lose digits. More: work grows with the cube.
+/// Test: none.
+pub(crate) const REFINED_MOST: usize = 600;
+
+/// More rows are not solved densely.
+/// Unit: rows. Less: refuses what could be solved. More: matrices of more than a gigabyte.
+/// Test: none.
+pub(crate) const DENSE_MOST: usize = 5000;
+
+/// Matrices of its order that a dense solver holds.
+/// Unit: matrices. Less: the estimate of memory is too small. More: runs are refused that fit.
+/// Test: none.
+pub(crate) const DENSE_MATRICES: usize = 3;
+
+/// Vectors of all coordinates, velocities and rows that a run holds.
+/// Unit: vectors. Less: the estimate of memory is too small. More: runs are refused that fit.
+/// Test: none.
+pub(crate) const VECTORS: usize = 60;
+
+/// Solutions of mechanisms larger than this, or smaller than its inverse, are refined.
+/// Unit: m. Less: ordinary machines pay for refinement. More: weights and centrifugal terms that
+/// differ by many powers of ten lose digits. Test: `solutions_are_refined_where_digits_would_be_lost`.
+pub(crate) const FAR_FROM_A_METRE: f64 = 1e5;
+
+/// Rows below this share of the reference pivots are dependent for an instant and left out of a
+/// solve.
+/// Unit: share of pivots. Less: accelerations at a flat pose are rounding. More: rows are left out
+/// that still carry. Test: `sixty_four_step_sizes_over_the_flat_pose`.
+pub(crate) const PIVOT_SINGULAR: f64 = 1e-6;
+
+// Projection.
+
+/// Corrections of the position per projection; one or two are the rule, more where a tolerance is
+/// very loose.
+/// Unit: corrections. Less: loose steps are refused. More: a projection that diverges takes longer
+/// to say so. Test: none.
+pub(crate) const CORRECTIONS: usize = 20;
+
+/// The same by generated code, which is left for the interpreter after them.
+/// Unit: corrections. Less: code is left at loose steps. More: time. Test: none.
+pub(crate) const CODE_CORRECTIONS: usize = 6;
+
+/// Corrections of the velocity per projection.
+/// Unit: corrections. Less: what rounding leaves of the first stays. More: time.
+/// Test: none.
+pub(crate) const VELOCITY_CORRECTIONS: usize = 3;
+
+/// Kept rows count as satisfied below this many roundings of their terms.
+/// Unit: roundings. Less: a correction more for each step. More: drift.
+/// Test: none.
+pub(crate) const ROUNDINGS: f64 = 10.0;
+
+/// The same where pivots have fallen below [`WEAK`], and for dependent coordinates.
+/// Unit: roundings. Less: cannot be reached. More: what kept rows miss by is multiplied in the
+/// dropped ones. Test: none.
+pub(crate) const FEW_ROUNDINGS: f64 = 1.0;
+
+/// Pivots below this share are weak.
+/// Unit: share of pivots. Less: dropped rows miss near singular configurations. More: a correction
+/// more for each step. Test: none.
+pub(crate) const WEAK: f64 = 0.5;
+
+/// Kept rows count as satisfied below this many roundings where a further correction does not help;
+/// and by generated code, which has no better look.
+/// Unit: roundings. Less: projections fail at rounding. More: drift. Test: `rows_are_corrected_until_they_are_satisfied_or_stall_close_to_it`.
+pub(crate) const STALLED_ROUNDINGS: f64 = 50.0;
+
+/// Factors of an earlier configuration serve as long as a correction leaves this share: a
+/// factorisation costs about ten corrections.
+/// Unit: share. Less: more factorisations. More: more corrections. Test: none.
+pub(crate) const CONVERGENCE: f64 = 0.1;
+
+/// Dropped rows count as implied by the kept ones below this share of their own terms and of those
+/// of the kept rows, as much as these enter: a row with an arm of 1e30 m says nothing of what an
+/// angle may miss by.
+/// Unit: share of terms. Less: rounding of the kept rows, 1e-15, refuses good steps. More: rows that
+/// part are seen late. Test: `drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows`.
+pub(crate) const DROPPED_MISFIT: f64 = 1e-11;
+
+/// The share of the size of the mechanism by which velocities may part in the time of a run,
+/// however slow it is: some hundred roundings.
+/// Unit: share of size. Less: mechanisms at rest are refused. More: slow contradictions are not
+/// seen. Test: none.
+pub(crate) const AT_REST: f64 = 1e-13;
+
+/// A dropped row of Φ never misses by more than this share of its own terms, however far away the
+/// places are from which the kept rows imply it.
+/// Unit: share of terms. Less: far places refuse good steps. More: another configuration of the
+/// kept rows passes as this one. Test: none.
+pub(crate) const POSITION_MISFIT: f64 = 1e-5;
+
+/// Smallest share of the reference pivots that allows dropped rows to miss by more: nearer, rows
+/// are left out.
+/// Unit: share of pivots. Less: dropped rows may miss by anything. More: good steps near a flat pose
+/// are refused. Test: none.
+pub(crate) const NEAREST_PIVOT: f64 = 1e-6;
+
+/// Rows of bodies at rest feel the rounding of others: by generated code their terms count as this
+/// share of the largest.
+/// Unit: share of terms. Less: code is left where bodies rest. More: drift of slow bodies.
+/// Test: none.
+pub(crate) const CODE_AT_REST: f64 = 1e-4;
+
+// Independent coordinates.
+
+/// A partition is renewed once its pivots have fallen below this share of those at its choice:
+/// steps should not reach those of lost rows.
+/// Unit: share of pivots. Less: completions fail within a step. More: linear systems are set up
+/// again and again. Test: `partitions_are_renewed_as_a_blade_turns`.
+pub(crate) const PARTITION_WORN: f64 = 0.5;
+
+/// Dependent coordinates that move by more than this when a state is completed may have gone to
+/// another branch or another turn.
+/// Unit: share of the mechanism's size, or rad. Less: long steps are refused. More: another branch
+/// is taken. Test: none.
+pub(crate) const FAR_COMPLETION: f64 = 0.6;
+
+/// Beside this they may move by so many times the way that the mechanism would go from the last
+/// accepted state with its rates.
+/// Unit: ways. Less: long steps are refused. More: another branch is taken. Test: none.
+pub(crate) const FAR_WAY: f64 = 2.0;
+
+/// The end of a step may lie so far from where the rates at both ends lead.
+/// Unit: share of the largest way on it. Less: steps of curved motions are refused. More: another
+/// branch is taken. Test: none.
+pub(crate) const FAR_IN_A_STEP: f64 = 0.5;
+
+/// The same beside, where nothing moves.
+/// Unit: share of the mechanism's size, or rad. Less: starts from rest are refused. More: another
+/// branch is taken. Test: none.
+pub(crate) const FAR_AT_REST: f64 = 1e-2;
+
+// Exchange of rows.
+
+/// Other rows are kept once the pivots have fallen below this share: rounding of the kept rows
+/// reaches the dropped ones through the inverse of the pivots.
+/// Unit: share of pivots. Less: dropped rows miss. More: rows are decided again at every step.
+/// Test: `rows_that_lose_their_independence_are_exchanged_and_come_back`.
+pub(crate) const PIVOT_LOSS: f64 = 0.1;
+
+/// Rows that were asked for come back above this share.
+/// Unit: share of pivots. Less: they come and go at every step. More: they stay away.
+/// Test: `rows_that_lose_their_independence_are_exchanged_and_come_back`.
+pub(crate) const PIVOT_RECOVERY: f64 = 0.2;
+
+/// Rows chosen by themselves are exchanged above this coefficient in a dropped row.
+/// Unit: 1. Less: rows are decided again at every step. More: dropped rows miss.
+/// Test: none.
+pub(crate) const LARGE_COEFFICIENT: f64 = 10.0;
+
+/// Other rows are worth an exchange if their coefficients are so many times smaller.
+/// Unit: 1. Less: rows change at every step. More: poor rows stay. Test: none.
+pub(crate) const WORTH_EXCHANGE: f64 = 3.0;
+
+/// Rows of output are looked at below this share only: what kept rows multiply rounding by is small
+/// above it.
+/// Unit: share of pivots. Less: written rows miss between two steps. More: time.
+/// Test: none.
+pub(crate) const SOUND: f64 = 0.5;
+
+// Singular configurations.
+
+/// Below this share rows are delicate: stages have to lie on the constraints.
+/// Unit: share of pivots. Less: stages off the constraints by δ are wrong by δ over the share.
+/// More: ordinary steps pay for projected stages. Test: `three_cranks_swing_for_300_seconds`.
+pub(crate) const DELICATE: f64 = 0.1;
+
+/// Stages below this share make a step suspect.
+/// Unit: share of pivots. Less: passages are not told, and branches not compared. More: ordinary
+/// steps are searched. Test: `flat_poses_of_many_four_bars_are_passed_on_the_branch`.
+pub(crate) const SUSPECT: f64 = 0.1;
+
+/// Nearest approach of the end of a step to a singular configuration.
+/// Unit: share of pivots. Less: a projection cannot tell the branches apart. More: no step ends
+/// where the motion is slow. Test: `sixty_four_step_sizes_over_the_flat_pose`.
+pub(crate) const NEAREST: f64 = 1e-3;
+
+/// The same in units of the relative tolerance.
+/// Unit: tolerances. Less: loose steps take another branch. More: as above. Test: none.
+pub(crate) const NEAREST_TOLERANCES: f64 = 100.0;
+
+/// Loose tolerances must not keep a motion farther away than this.
+/// Unit: share of pivots. Less: loose steps take another branch. More: loose runs stop.
+/// Test: none.
+pub(crate) const NEAREST_MAX: f64 = 0.1;
+
+/// Singular configurations are foreseen for so many steps like the last one: no method lets steps
+/// grow by more.
+/// Unit: steps. Less: a step meets one unforeseen. More: searches in vain. Test: none.
+pub(crate) const FORESIGHT: f64 = 12.0;
+
+/// Relative error of a step over a singular configuration that rounding may cause where steps are
+/// short; 1e-10 was not enough at 1e-10 where generated code is left on the way to one.
+/// Unit: 1. Less: steps collapse before it. More: the passage costs digits.
+/// Test: `singular_configurations_are_passed_by_the_interpreter`.
+pub(crate) const PASSED: f64 = 1e-9;
+
+/// Largest relative correction of a step over a singular configuration.
+/// Unit: share of the distance at which it ends: other branches are as far away as that. Less: runs
+/// stop before it. More: another branch is taken. Test: `a_run_may_end_in_the_flat_pose_or_beside_it`.
+pub(crate) const SMOOTH: f64 = 0.01;
+
+/// Velocities behind a singular configuration may miss those that the accelerations on both sides
+/// explain by this share: a step over it is short beside the curvature of the motion, and another
+/// branch leads elsewhere.
+/// Unit: share of momentum. Less: runs stop behind it. More: another branch is taken.
+/// Test: `flat_poses_of_many_four_bars_are_passed_on_the_branch`.
+pub(crate) const KINK: f64 = 0.25;
+
+/// Steps that end at a contradiction collapse within this share of the run before it.
+/// Unit: share of the run. Less: the contradiction is not named. More: another one is.
+/// Test: `drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows`.
+pub(crate) const JUST_AHEAD: f64 = 1e-9;
+
+/// Reactions are not told nearer to a singular configuration than this share.
+/// Unit: share of pivots. Less: reactions are rounding. More: they are left out where they are
+/// known. Test: none.
+pub(crate) const BLIND: f64 = 1e-6;
+
+/// The same in units of the relative tolerance: a row off its motion by δ has reactions that are
+/// wrong by δ divided by that share.
+/// Unit: tolerances. Less: reactions are wrong. More: they are left out. Test: none.
+pub(crate) const BLIND_TOLERANCES: f64 = 1e3;
+
+/// Loose tolerances must not hide reactions farther away than this.
+/// Unit: share of pivots. Less: reactions are wrong. More: they are left out. Test: none.
+pub(crate) const BLIND_MAX: f64 = 1e-2;
+
+// The search for singular instants.
+
+/// Places at which a step is first looked at.
+/// Unit: intervals. Less: two passages within a step are one. More: time. Test: none.
+pub(crate) const PLACES: usize = 16;
+
+/// An instant at which a pivot is smallest is found to this: there the pivot is as small.
+/// Unit: share of the interval. Less: time. More: passages are missed.
+/// Test: `forty_four_bars_are_where_one_angle_says`.
+pub(crate) const SHARP: f64 = 1e-7;
+
+/// A singular configuration is looked for up to so many times the distance at which a straight line
+/// meets it.
+/// Unit: distances. Less: curved pivots vanish unforeseen. More: time. Test: none.
+pub(crate) const BEYOND: f64 = 1.5;
+
+/// Where a pivot falls to this share of the present one and rises again, it vanishes: what is left
+/// is the error of a parabola.
+/// Unit: share of the present pivot. Less: passages are not foreseen. More: steps avoid what is no
+/// passage. Test: none.
+pub(crate) const VANISHES: f64 = 0.2;
+
+/// A search is worth its price where a pivot falls below this share of the present one at one of
+/// [`GLANCES`] places: between two of them a pivot that vanishes on the way shows itself, unless
+/// that is much earlier than expected.
+/// Unit: share of the present pivot. Less: passages are not foreseen. More: time. Test: none.
+pub(crate) const STAYS: f64 = 0.75;
+
+/// Those places.
+/// Unit: places. Less: passages are not foreseen. More: time. Test: none.
+pub(crate) const GLANCES: usize = 6;
+
+/// Between two places a pivot falls at most by so many times what it changes by between any two
+/// neighbouring ones.
+/// Unit: 1. Less: passages are not found. More: time. Test: none.
+pub(crate) const STEEPER: f64 = 2.0;
+
+/// States of a step by which a passage is judged.
+/// Unit: intervals. Less: the judge does not find it. More: time. Test: none.
+pub(crate) const PASSAGE_STATES: usize = 8;
+
+/// Rows up to which the motion at a passage is judged: determinants at many instants grow with
+/// their cube.
+/// Unit: rows. Less: uniqueness is not decided. More: time. Test: none.
+pub(crate) const JUDGED_MOST: usize = 64;
+
+/// Passages of one step that are told at most.
+/// Unit: passages. Less: some are not told. More: time. Test: none.
+pub(crate) const MOST_PASSAGES: usize = 8;
+
+/// What they are apart at least.
+/// Unit: share of the step. Less: one is told twice. More: two are told as one. Test: none.
+pub(crate) const BESIDE: f64 = 0.02;
+
+// Jumps.
+
+/// Residuals below this share of the terms of their row, or for rates of the largest row, are no
+/// jumps.
+/// Unit: share of terms. Less: rounding is an impulse. More: small jumps are not told.
+/// Test: `smooth_steps_are_no_jumps`.
+pub(crate) const NO_JUMP: f64 = 1e-9;
+
+/// Between times that are so many roundings apart a continuous function changes much more than
+/// between neighbouring ones.
+/// Unit: roundings. Less: rounding hides the change. More: other changes take part.
+/// Test: none.
+pub(crate) const WIDE: f64 = 1e6;
+
+/// What remains of the wider change, if it is more than this share, is a jump.
+/// Unit: share. Less: steep functions jump. More: jumps are steep. Test: none.
+pub(crate) const REMAINS: f64 = 0.5;
+
+// Rows of output.
+
+/// A row may lie so far from the cubic through both ends of its step.
+/// Unit: share of the way of the step. Less: good rows are refused. More: rows on another branch are
+/// shown. Test: none.
+pub(crate) const LED: f64 = 0.25;
+
+/// The same beside, where nothing moves.
+/// Unit: share of the mechanism's size, or rad. Less: good rows are refused. More: rows on another
+/// branch are shown. Test: none.
+pub(crate) const LED_AT_REST: f64 = 1e-3;
+
+/// Velocities on a way may be so many times those of going it evenly.
+/// Unit: 1. Less: rows of drives that rest at both ends of a step are refused. More: rows on another
+/// branch are shown. Test: none.
+pub(crate) const PEAK: f64 = 3.0;
+
+/// A step that is tried again and again forgets what it has seen after so many times.
+/// Unit: times. Less: stages are evaluated twice. More: memory.
+/// Test: `it_is_evaluated_once_at_each_time_of_a_step`.
+pub(crate) const REMEMBERED: usize = 256;
+
+/// Rows that a component may be ahead of the others.
+/// Unit: rows. Less: threads wait. More: memory. Test: none.
+pub(crate) const AHEAD: usize = 64;
+
+// Generated code.
+
+/// Runs leave code below this health: the interpreter has to see a singular configuration from
+/// afar. They do not begin on it either.
+/// Unit: share of the generator's pivots. Less: singular configurations are met on code. More: code
+/// is left where it is good. Test: `code_that_is_not_sure_is_left_and_comes_back`.
+pub const LEAVE: f64 = 0.1;
+
+/// Code comes back above this health.
+/// Unit: share of the generator's pivots. Less: it comes and goes. More: it stays away.
+/// Test: `code_that_is_not_sure_is_left_and_comes_back`.
+pub(crate) const RETURN: f64 = 0.3;
+
+/// Accepted steps before code comes back at first; twice as many after every further time it was
+/// left.
+/// Unit: steps. Less: it comes and goes. More: time.
+/// Test: `code_that_is_not_sure_is_left_and_comes_back`.
+pub(crate) const PATIENCE: u64 = 8;
+
+/// Accelerations of code that comes back differ from interpreted ones by at most this share.
+/// Unit: share of the largest. Less: rounding keeps it away. More: wrong code comes back.
+/// Test: none.
+pub(crate) const SAME_ACCELERATIONS: f64 = 1e-9;
+
+/// Values of code and interpreter may differ by this share of the terms that they are made of.
+/// Unit: share of terms. Less: rounding refuses code. More: code of a similar mechanism is taken.
+/// Test: `code_of_another_mechanism_is_refused`.
+pub(crate) const SAME_VALUES: f64 = 1e-9;
+
+/// States around the start at which values are compared.
+/// Unit: states. Less: code of another mechanism agrees by chance. More: time. Test: none.
+pub(crate) const CODE_STATES: usize = 6;
+
+/// How far these are from it.
+/// Unit: size of the mechanism, or rad. Less: geometry does not count. More: code is not healthy
+/// there. Test: none.
+pub(crate) const DISTANCE: f64 = 0.01;
+
+/// The same for velocities: terms in their squares have to count.
+/// Unit: size of the mechanism, or rad, per second. Less: they do not. More: they alone do.
+/// Test: none.
+pub(crate) const SPEED: f64 = 1.0;
+
+// Choices.
+
+/// A motion for which an explicit method would need more steps than this, only to stay stable, is
+/// stiff.
+/// Unit: steps. Less: implicit methods where explicit ones are faster. More: runs that take hours.
+/// Test: `components_move_as_they_do_alone_and_each_at_its_own_pace`.
+pub(crate) const STIFF: f64 = 2e4;
+
+/// Explicit steps are stable up to about this many times 1/|λ|: Dormand–Prince 8(5,3), along the
+/// negative real axis.
+/// Unit: 1. Less, more: as for [`STIFF`]. Test: none.
+pub(crate) const STABLE: f64 = 6.0;
+
+/// Iterations for the largest |λ|; the second half counts.
+/// Unit: iterations. Less: oscillations are misjudged. More: time.
+/// Test: `the_fastest_rate_is_found_also_of_oscillations`.
+pub(crate) const POWER_ITERATIONS: usize = 64;
+
+/// Components that are run at the same time at most, each on its own thread.
+/// Unit: threads. Less: many mechanisms share their steps. More: threads cost more than they save.
+/// Test: `too_many_components_stay_one`.
+pub(crate) const MOST_COMPONENTS: usize = 256;
+
+/// Bodies of a component that are named; more are counted.
+/// Unit: bodies. Less, more: names of components are too short or too long. Test: none.
+pub(crate) const NAMED: usize = 3;
+
+/// Rows with a smaller share than this of the largest weight take no part in a combination that is
+/// told.
+/// Unit: share. Less: rows are named that do not matter. More: some that do are not.
+/// Test: none.
+pub(crate) const TAKES_PART: f64 = 0.1;
+
+// What a run does where nobody says otherwise.
+
+impl MotionOptions {
+    /// Output steps of a run where none is given.
+    /// Unit: steps. Less: pictures have corners. More: files are large. Test: none.
+    pub const OUTPUT_STEPS: f64 = 200.0;
+
+    /// Relative tolerance where none is given.
+    /// Unit: 1. Less: time. More: motions are wrong in the digits that are read. Test: none.
+    pub const RTOL: f64 = 1e-8;
+
+    /// Absolute tolerance where none is given.
+    /// Unit: m, rad, and these per second. Less, more: as the relative one. Test: none.
+    pub const ATOL: f64 = 1e-10;
+
+    /// Relative tolerances that can be asked for.
+    /// Unit: 1. Less: rounding of a step is larger. More: its error is no longer small.
+    /// Test: `the_ends_of_the_ranges_are_right`.
+    pub const RTOL_RANGE: RangeInclusive<f64> = 1e-15..=0.1;
+
+    /// That in words.
+    pub const RTOL_EXPECTED: &str = "a number from 1e-15 (rounding) to 0.1";
+
+    /// Most rows of output: a hundred bodies of six numbers then take some 100 GB.
+    /// Unit: rows. Less: long runs are refused. More: disks are filled.
+    /// Test: `runs_that_would_never_end_are_refused_by_name`.
+    pub const MOST_ROWS: f64 = 1e7;
+
+    /// Accepted and rejected steps at most, where no other limit is given.
+    /// Unit: steps. Less: long runs are refused. More: runs that do not end are not stopped.
+    /// Test: `runs_that_would_never_end_are_refused_by_name`.
+    pub const MAX_STEPS: u64 = 1_000_000;
+}

@@ -1,0 +1,202 @@
+//! Independent coordinates z and velocities u: the rows determine the others, and the motion is an
+//! ordinary differential equation of z and u alone. y keeps all coordinates: `f(y) = F(P·y)`, where
+//! P completes a state from its independent entries, so that results, projections and output do not
+//! know of the partition. Steps of explicit methods need no projection; implicit methods have a
+//! Jacobian without constraints ([`crate::run`]).
+//!
+//! The partition stays for a step and its dense output, because f must not change within them.
+//! Where its pivots have fallen it is chosen again at the accepted state, when the next step
+//! begins. Near a singular configuration there is none, and a step that needs one is refused.
+
+use model::{Mechanism, System};
+
+use super::dropped::check_positions;
+use super::levels::{Moves, correct_position};
+use crate::error::MotionFault;
+use crate::limits::{FAR_AT_REST, FAR_COMPLETION, FAR_IN_A_STEP, FAR_WAY};
+use crate::solve::{Evaluation, KeptEquations};
+
+/// A partition, and the state completed last.
+pub(crate) struct IndependentCoordinates {
+    /// Columns of Φq along which coordinates are independent.
+    pub(crate) z: Vec<usize>,
+    /// Independent velocities.
+    pub(crate) u: Vec<usize>,
+    pub(crate) q: Vec<f64>,
+    pub(crate) v: Vec<f64>,
+    /// The last accepted state.
+    accepted: Origin,
+    /// How many partitions there were before.
+    pub(crate) generation: u64,
+    /// Where this one was chosen.
+    pub(crate) origin: Origin,
+    /// Where another one is due.
+    renewal: Option<Origin>,
+    /// A configuration before it was completed, n_q, and a correction, n_v.
+    guess: Vec<f64>,
+    delta: Vec<f64>,
+}
+
+/// An accepted state.
+#[derive(Clone)]
+pub(crate) struct Origin {
+    pub(crate) t: f64,
+    pub(crate) q: Vec<f64>,
+    pub(crate) v: Vec<f64>,
+}
+
+impl IndependentCoordinates {
+    /// Partitions the rows at the pose of the scratch, which is that of the origin.
+    pub(super) fn new(
+        equations: &mut KeptEquations<'_>,
+        origin: Origin,
+        before: Option<&Self>,
+    ) -> Result<Self, MotionFault> {
+        let at = &equations.at;
+        // Far from the origin places are known to fewer digits than angles.
+        let place = |j: usize| at.mechanism.position(&origin.q, j).abs();
+        let far = |j: usize| (place(j) / at.mechanism.unit(j, at.size)).max(1.0);
+        let z = equations.position.partition(at, far)?;
+        let u = equations.velocity.partition(at, |_| 1.0)?;
+        // Rows that were asked for are only solved on, at single instants.
+        if let Some(requested) = &mut equations.requested_rows {
+            requested.forget_partition();
+        }
+        Ok(Self {
+            z,
+            u,
+            q: origin.q.clone(),
+            v: origin.v.clone(),
+            accepted: origin.clone(),
+            generation: before.map_or(0, |c| c.generation + 1),
+            guess: origin.q.clone(),
+            delta: origin.v.clone(),
+            origin,
+            renewal: None,
+        })
+    }
+
+    /// Completes a state: from the state completed last or, if that was too far away, from the one
+    /// accepted last, or from what the integrator carries. Where nothing is free that comes first,
+    /// because nothing else tells how far the motion has gone.
+    pub(crate) fn complete(
+        &mut self,
+        equations: &mut KeptEquations<'_>,
+        t: f64,
+        q: &[f64],
+        v: &[f64],
+    ) -> Result<(), MotionFault> {
+        let mechanism = equations.at.mechanism;
+        let far = FAR_COMPLETION + FAR_WAY * self.way_to(t, &equations.at);
+        if self.z.is_empty() {
+            self.q.copy_from_slice(q);
+        }
+        self.take_independent(mechanism, q, v);
+        let near = self.complete_from_here(equations, t, far);
+        if near.is_ok() {
+            return near;
+        }
+        self.q.copy_from_slice(&self.accepted.q);
+        self.take_independent(mechanism, q, v);
+        if self.complete_from_here(equations, t, far).is_ok() {
+            return Ok(());
+        }
+        self.q.copy_from_slice(q);
+        if self
+            .complete_from_here(equations, t, FAR_COMPLETION)
+            .is_ok()
+        {
+            return Ok(());
+        }
+        // Where it failed is no place to begin from.
+        self.q.copy_from_slice(&self.accepted.q);
+        near
+    }
+
+    /// Overwrites dependent coordinates and velocities; factors there.
+    fn complete_from_here(
+        &mut self,
+        equations: &mut KeptEquations<'_>,
+        t: f64,
+        far: f64,
+    ) -> Result<(), MotionFault> {
+        self.guess.copy_from_slice(&self.q);
+        let moves = Moves::DependentCoordinates;
+        correct_position(equations, (t, &mut self.q), &mut self.delta, moves)?;
+        let at = &equations.at;
+        let moved = at
+            .mechanism
+            .largest_difference(&self.q, &self.guess, at.size);
+        if moved.1 > far {
+            return Err(at.far_completion(t, moved));
+        }
+        check_positions(equations)?;
+        let KeptEquations { at, velocity, .. } = equations;
+        velocity.factor(at)?;
+        at.b();
+        velocity.take_rhs(|i| at.s.b[i]);
+        velocity.complete(at, &mut self.v)
+    }
+
+    /// The longest way along a column of C from the last accepted state to time t at the velocities
+    /// there, in its unit.
+    fn way_to(&self, t: f64, at: &Evaluation<'_>) -> f64 {
+        let velocities = self.accepted.v.iter().enumerate();
+        let rates = velocities.map(|(j, v)| v.abs() / at.mechanism.unit(j, at.size));
+        rates.fold(0.0, f64::max) * (t - self.accepted.t).abs()
+    }
+
+    /// Takes the independent entries of a state. The others stay those of the state completed last:
+    /// what an integrator carries for them may be off by as much as a step, and Newton's method
+    /// would go from there to another branch or another turn.
+    fn take_independent(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64]) {
+        mechanism.take(&mut self.q, q, &self.z);
+        for &i in &self.u {
+            self.v[i] = v[i];
+        }
+    }
+
+    /// Whether an evaluated state (q, v) at the end of a step is where the velocities at both ends
+    /// lead: on another branch or another turn it is not.
+    ///
+    /// # Errors
+    /// [`MotionFault::FarCompletion`]
+    pub(crate) fn check_travel(
+        &mut self,
+        at: &Evaluation<'_>,
+        (t, q, v): (f64, &[f64], &[f64]),
+    ) -> Result<(), MotionFault> {
+        let dt = t - self.accepted.t;
+        let mut farthest = 0.0_f64;
+        for (j, way) in self.delta.iter_mut().enumerate() {
+            let (from, to) = (self.accepted.v[j], v[j]);
+            *way = 0.5 * dt * (from + to);
+            farthest = farthest.max(dt * from.abs().max(to.abs()) / at.mechanism.unit(j, at.size));
+        }
+        self.guess.copy_from_slice(&self.accepted.q);
+        at.mechanism.displace(&mut self.guess, &self.delta);
+        let off = at.mechanism.largest_difference(q, &self.guess, at.size);
+        match off.1 <= FAR_IN_A_STEP * farthest + FAR_AT_REST {
+            true => Ok(()),
+            false => Err(at.far_completion(t, off)),
+        }
+    }
+
+    /// Takes the state just evaluated, which has been accepted at t; a worn partition is renewed
+    /// from there when the next step begins.
+    pub(crate) fn accept(&mut self, t: f64, is_worn: bool) {
+        self.accepted.t = t;
+        self.accepted.q.copy_from_slice(&self.q);
+        self.accepted.v.copy_from_slice(&self.v);
+        if is_worn {
+            self.renewal = Some(self.accepted.clone());
+        }
+    }
+
+    /// Where another partition is due, if a step has begun: whether one has is seen from the time of
+    /// the accepted state.
+    pub(crate) fn due(&self, has_begun: impl Fn(f64) -> bool) -> Option<Origin> {
+        let due = self.renewal.as_ref();
+        due.filter(|origin| has_begun(origin.t)).cloned()
+    }
+}

@@ -1,0 +1,230 @@
+//! Projection by generated code: its own residuals and corrections, on the same Newton iteration.
+
+use model::{Mechanism, System};
+
+use super::dropped::Correction;
+use super::levels::largest;
+use super::newton::{Level, Limits, correct};
+use crate::code::SceneCode;
+use crate::guards::GUARDED;
+use crate::limits::{
+    CODE_AT_REST, CODE_CORRECTIONS, DROPPED_MISFIT, STALLED_ROUNDINGS, VELOCITY_CORRECTIONS,
+};
+use crate::solve::{Doubt, GeneratedCode, KeptEquations};
+
+/// What a projection by code needs beside the code.
+pub(crate) struct CodeProjection {
+    /// Rows of Φ and of C that the code keeps.
+    keeps_position: Vec<bool>,
+    keeps: Vec<bool>,
+    /// For each row columns of C and what its entries there are at most.
+    bounds: Vec<Vec<(usize, f64)>>,
+    /// Sizes of the terms of each row, and what they miss by.
+    sizes: Vec<f64>,
+    phi: Vec<f64>,
+    residual: Vec<f64>,
+    dq: Vec<f64>,
+    dv: Vec<f64>,
+    /// A state before it was projected.
+    before: (Vec<f64>, Vec<f64>),
+}
+
+impl CodeProjection {
+    /// For code on the rows of these equations, with C at the pose of the scratch.
+    pub(crate) fn new(equations: &KeptEquations<'_>, q: &[f64]) -> Self {
+        let at = &equations.at;
+        let layout = at.mechanism.layout();
+        let keeps = |kept: &[usize], rows: usize| (0..rows).map(|i| kept.contains(&i)).collect();
+        let bounds = (0..layout.rows()).map(|i| at.mechanism.entry_bounds(&at.s, i));
+        Self {
+            keeps_position: keeps(&equations.position.kept, layout.m),
+            keeps: keeps(&equations.velocity.kept, layout.rows()),
+            bounds: bounds.collect(),
+            sizes: vec![0.0; layout.rows()],
+            phi: vec![0.0; layout.m],
+            residual: vec![0.0; layout.rows()],
+            dq: vec![0.0; layout.n_v],
+            dv: vec![0.0; layout.n_v],
+            before: (q.to_vec(), vec![0.0; layout.n_v]),
+        }
+    }
+
+    /// Moves q and v onto the constraints and checks all rows; in doubt they are as before.
+    pub(crate) fn project(
+        &mut self,
+        GeneratedCode(code): &GeneratedCode,
+        mechanism: &Mechanism,
+        t: f64,
+        (q, v): (&mut [f64], &mut [f64]),
+    ) -> Result<Correction, Doubt> {
+        self.before.0.copy_from_slice(q);
+        self.before.1.copy_from_slice(v);
+        let code = &**code;
+        let projected = self.project_both(code, mechanism, t, (&mut *q, &mut *v));
+        if projected.is_err() {
+            q.copy_from_slice(&self.before.0);
+            v.copy_from_slice(&self.before.1);
+        }
+        projected
+    }
+
+    fn project_both(
+        &mut self,
+        code: &dyn SceneCode,
+        mechanism: &Mechanism,
+        t: f64,
+        (q, v): (&mut [f64], &mut [f64]),
+    ) -> Result<Correction, Doubt> {
+        for (size, bounds) in self.sizes.iter_mut().zip(&self.bounds) {
+            *size = mechanism.bounded_position_scale(bounds, q);
+        }
+        let mut positions = Positions {
+            all: self,
+            code,
+            mechanism,
+            t,
+            q,
+        };
+        let end = correct(&mut positions, &limits(CODE_CORRECTIONS))?;
+        let (m, q) = (self.phi.len(), &*q);
+        reached(end.is_reached, end.worst, &self.phi)?;
+        check_dropped(&self.phi, &self.keeps_position, &self.sizes[..m])?;
+        let mut velocities = Velocities {
+            all: self,
+            code,
+            t,
+            q,
+            v,
+        };
+        let reach = correct(&mut velocities, &limits(VELOCITY_CORRECTIONS))?;
+        reached(reach.is_reached, reach.worst, &self.residual)?;
+        check_dropped(&self.residual, &self.keeps, &self.sizes)?;
+        Ok(Correction {
+            iterations: end.corrections,
+            position_residual: largest(&self.phi),
+            velocity_residual: largest(&self.residual),
+        })
+    }
+}
+
+/// Code corrects each level once at least: it has no first look at what its rows miss.
+fn limits(most: usize) -> Limits {
+    Limits {
+        corrections: [1, most],
+        enough: STALLED_ROUNDINGS,
+        stalled: 0.0,
+    }
+}
+
+fn reached(is_reached: bool, row: usize, misses: &[f64]) -> Result<(), Doubt> {
+    match is_reached {
+        true => Ok(()),
+        false if misses[row].is_finite() => Err(Doubt::OffConstraints {
+            row,
+            by: misses[row].abs(),
+        }),
+        false => Err(Doubt::OffConstraints {
+            row,
+            by: f64::INFINITY,
+        }),
+    }
+}
+
+struct Positions<'a> {
+    all: &'a mut CodeProjection,
+    code: &'a dyn SceneCode,
+    mechanism: &'a Mechanism,
+    t: f64,
+    q: &'a mut [f64],
+}
+
+impl Level for Positions<'_> {
+    type Fault = Doubt;
+
+    fn misses(&mut self, corrections: usize) -> (usize, f64) {
+        let all = &mut *self.all;
+        self.code.phi(self.t, self.q, &mut all.phi);
+        worst_kept(corrections, &all.phi, &all.keeps_position, &all.sizes)
+    }
+
+    fn correct(&mut self, _: bool) -> Result<(), Doubt> {
+        let CodeProjection { phi, dq, .. } = &mut *self.all;
+        let health = self.code.position_correction(self.t, self.q, phi, dq);
+        Doubt::of(health, dq)?;
+        self.mechanism.displace(self.q, dq);
+        Ok(())
+    }
+}
+
+struct Velocities<'a> {
+    all: &'a mut CodeProjection,
+    code: &'a dyn SceneCode,
+    t: f64,
+    q: &'a [f64],
+    v: &'a mut [f64],
+}
+
+impl Level for Velocities<'_> {
+    type Fault = Doubt;
+
+    fn misses(&mut self, corrections: usize) -> (usize, f64) {
+        let all = &mut *self.all;
+        let residual = &mut all.residual;
+        self.code
+            .velocity_residual(self.t, self.q, self.v, residual);
+        if corrections > 0 {
+            for (size, bounds) in all.sizes.iter_mut().zip(&all.bounds) {
+                *size = bounds.iter().map(|&(j, c)| c * self.v[j].abs()).sum();
+            }
+            // Rows of bodies at rest feel the rounding of others.
+            let least = CODE_AT_REST * largest(&all.sizes);
+            for size in &mut all.sizes {
+                *size = size.max(least);
+            }
+        }
+        worst_kept(corrections, residual, &all.keeps, &all.sizes)
+    }
+
+    fn correct(&mut self, _: bool) -> Result<(), Doubt> {
+        let CodeProjection { residual, dv, .. } = &mut *self.all;
+        let health = self.code.velocity_correction(self.t, self.q, residual, dv);
+        Doubt::of(health, dv)?;
+        for (v, d) in self.v.iter_mut().zip(&*dv) {
+            *v += d;
+        }
+        Ok(())
+    }
+}
+
+/// The row that misses most of those that are kept, in roundings of its terms; infinitely many
+/// where that is not a number. Before a correction nobody asks.
+fn worst_kept(corrections: usize, x: &[f64], keeps: &[bool], sizes: &[f64]) -> (usize, f64) {
+    if corrections == 0 {
+        return (0, f64::INFINITY);
+    }
+    let rows = x.iter().zip(keeps).zip(sizes).enumerate();
+    let rows = rows.filter(|(_, ((x, keeps), _))| **keeps && **x != 0.0);
+    let (row, share) = rows.fold((0, 0.0), |worst, (i, ((x, _), size))| {
+        match x.abs() / size {
+            share if share > worst.1 => (i, share),
+            share if share.is_nan() => (i, f64::INFINITY),
+            _ => worst,
+        }
+    });
+    (row, share / f64::EPSILON)
+}
+
+/// Dropped rows that miss what the kept ones imply: beside the largest row, because rounding of all
+/// of them reaches these.
+fn check_dropped(x: &[f64], keeps: &[bool], sizes: &[f64]) -> Result<(), Doubt> {
+    if !GUARDED {
+        return Ok(());
+    }
+    let most = DROPPED_MISFIT * largest(sizes);
+    let misses = |x: &f64| x.is_nan() || x.abs() > most;
+    let mut dropped = x.iter().zip(keeps).enumerate();
+    match dropped.find(|(_, (x, keeps))| !**keeps && misses(x)) {
+        Some((row, (x, _))) => Err(Doubt::DroppedRow { row, by: x.abs() }),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,182 @@
+//! Positions and velocities of kept rows as levels of Newton's method: positions by several
+//! corrections, velocities by one linear solve and what rounding left of it.
+
+use model::System;
+
+use super::newton::{Level, Limits, correct};
+use crate::error::MotionFault;
+use crate::limits::{
+    CORRECTIONS, FEW_ROUNDINGS, ROUNDINGS, STALLED_ROUNDINGS, VELOCITY_CORRECTIONS, WEAK,
+};
+use crate::solve::{KeptEquations, KeptRows};
+
+/// Which coordinates a correction moves.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Moves {
+    /// All, by the smallest correction in the mass metric.
+    AllCoordinates,
+    /// Those that the rows have been partitioned to determine.
+    DependentCoordinates,
+}
+
+struct Positions<'a, 'm> {
+    equations: &'a mut KeptEquations<'m>,
+    t: f64,
+    q: &'a mut [f64],
+    delta: &'a mut [f64],
+    moves: Moves,
+}
+
+impl Level for Positions<'_, '_> {
+    type Fault = MotionFault;
+
+    fn misses(&mut self, corrections: usize) -> (usize, f64) {
+        let KeptEquations { at, position, .. } = &mut *self.equations;
+        at.pose_and_phi(self.t, self.q);
+        let phi = &at.s.phi;
+        position.take_rhs(|i| -phi[i]);
+        let mut worst = (0, 0.0_f64);
+        for (k, &i) in position.kept.iter().enumerate() {
+            // A row left out is as good as its dependence allows.
+            if phi[i] == 0.0 || corrections > 0 && !position.uses(k) {
+                continue;
+            }
+            let roundings = phi[i].abs() / (f64::EPSILON * at.position_scale(i));
+            if roundings > worst.1 || roundings.is_nan() {
+                worst = (i, roundings);
+            }
+        }
+        worst
+    }
+
+    fn correct(&mut self, converges: bool) -> Result<(), MotionFault> {
+        let KeptEquations { at, position, .. } = &mut *self.equations;
+        match self.moves {
+            Moves::AllCoordinates => {
+                position.factor(at)?;
+                position.solve(at, None, self.delta)?;
+            }
+            Moves::DependentCoordinates => {
+                if !converges {
+                    position.factor(at)?;
+                }
+                self.delta.fill(0.0);
+                position.complete(at, self.delta)?;
+            }
+        }
+        at.mechanism.displace(self.q, self.delta);
+        Ok(())
+    }
+}
+
+/// Moves q onto the kept rows of Φ; how many corrections that took.
+pub(super) fn correct_position(
+    equations: &mut KeptEquations<'_>,
+    (t, q): (f64, &mut [f64]),
+    delta: &mut [f64],
+    moves: Moves,
+) -> Result<usize, MotionFault> {
+    let enough = match moves {
+        Moves::AllCoordinates => enough(&equations.position),
+        Moves::DependentCoordinates => FEW_ROUNDINGS,
+    };
+    let limits = Limits {
+        corrections: [0, CORRECTIONS],
+        enough,
+        stalled: STALLED_ROUNDINGS,
+    };
+    let mut level = Positions {
+        equations,
+        t,
+        q,
+        delta,
+        moves,
+    };
+    let end = correct(&mut level, &limits)?;
+    let (at, row) = (&equations.at, end.worst);
+    match end.is_reached {
+        true => Ok(end.corrections),
+        false => Err(MotionFault::OffConstraints {
+            time: t,
+            row: at.label(row),
+            residual: at.s.phi[row].abs(),
+            tolerance: ROUNDINGS * f64::EPSILON * at.position_scale(row),
+            iterations: end.corrections,
+        }),
+    }
+}
+
+struct Velocities<'a, 'm> {
+    equations: &'a mut KeptEquations<'m>,
+    v: &'a mut [f64],
+    delta: &'a mut [f64],
+    /// What the rows miss by at most.
+    left: f64,
+}
+
+impl Level for Velocities<'_, '_> {
+    type Fault = MotionFault;
+
+    fn misses(&mut self, _: usize) -> (usize, f64) {
+        let KeptEquations { at, velocity, .. } = &mut *self.equations;
+        let v = &*self.v;
+        velocity.take_rhs(|i| -at.velocity_residual(i, v));
+        let scale = velocity.kept.iter().map(|&i| at.velocity_scale(i, v));
+        let scale = scale.fold(0.0, f64::max);
+        self.left = largest(&velocity.rhs);
+        let is_zero = self.left == 0.0;
+        (
+            0,
+            if is_zero {
+                0.0
+            } else {
+                self.left / (f64::EPSILON * scale)
+            },
+        )
+    }
+
+    fn correct(&mut self, _: bool) -> Result<(), MotionFault> {
+        let KeptEquations { at, velocity, .. } = &mut *self.equations;
+        velocity.solve(at, None, self.delta)?;
+        for (v, d) in self.v.iter_mut().zip(&*self.delta) {
+            *v += d;
+        }
+        Ok(())
+    }
+}
+
+/// Moves v onto the kept rows of C where they are factored at a settled position; what they miss by
+/// at most afterwards.
+pub(super) fn correct_velocity(
+    equations: &mut KeptEquations<'_>,
+    v: &mut [f64],
+    delta: &mut [f64],
+) -> Result<f64, MotionFault> {
+    equations.at.b();
+    let limits = Limits {
+        corrections: [0, VELOCITY_CORRECTIONS],
+        enough: enough(&equations.velocity),
+        stalled: 0.0,
+    };
+    let mut level = Velocities {
+        equations,
+        v,
+        delta,
+        left: 0.0,
+    };
+    correct(&mut level, &limits)?;
+    Ok(level.left)
+}
+
+/// The largest |x_i|.
+pub(super) fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |a: f64, x| a.max(x.abs()))
+}
+
+/// Roundings below which rows count as satisfied.
+fn enough(rows: &KeptRows) -> f64 {
+    match rows.relative_pivot() < WEAK {
+        true => FEW_ROUNDINGS,
+        false => ROUNDINGS,
+    }
+}

@@ -1,0 +1,113 @@
+//! Newton's method on one level of rows, positions or velocities, by whatever corrects them.
+
+use crate::limits::CONVERGENCE;
+
+/// One level of a state that is moved onto the constraints.
+pub(super) trait Level {
+    /// Why it cannot be corrected.
+    type Fault;
+
+    /// What the kept rows miss by after so many corrections: the row that misses most, in roundings
+    /// of its terms.
+    fn misses(&mut self, corrections: usize) -> (usize, f64);
+
+    /// Makes one correction; whether the last one has gained a digit.
+    fn correct(&mut self, converges: bool) -> Result<(), Self::Fault>;
+}
+
+/// When to stop.
+pub(super) struct Limits {
+    /// Corrections at least and at most.
+    pub(super) corrections: [usize; 2],
+    /// Rows count as satisfied below so many roundings of their terms.
+    pub(super) enough: f64,
+    /// The same where a further correction does not help.
+    pub(super) stalled: f64,
+}
+
+/// Where it stopped.
+pub(super) struct End {
+    pub(super) corrections: usize,
+    /// The row that misses most.
+    pub(super) worst: usize,
+    /// Whether it counts as satisfied.
+    pub(super) is_reached: bool,
+}
+
+/// Corrects a level until its rows count as satisfied.
+pub(super) fn correct<L: Level>(level: &mut L, limits: &Limits) -> Result<End, L::Fault> {
+    let [least, most] = limits.corrections;
+    let mut best = f64::INFINITY;
+    let mut corrections = 0;
+    loop {
+        let (worst, roundings) = level.misses(corrections);
+        // Rounding may leave a little more: a stalled iteration close to it is done too.
+        let is_stalled = roundings >= 0.5 * best && roundings <= limits.stalled;
+        let is_reached = corrections >= least && (roundings <= limits.enough || is_stalled);
+        if is_reached || corrections == most || roundings.is_nan() {
+            return Ok(End {
+                corrections,
+                worst,
+                is_reached,
+            });
+        }
+        let converges = roundings <= CONVERGENCE * best;
+        best = best.min(roundings);
+        corrections += 1;
+        level.correct(converges)?;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::convert::Infallible;
+
+    use super::*;
+
+    /// A row whose misfit each correction multiplies by a factor, down to a floor.
+    struct Shrinking {
+        misfit: f64,
+        factor: f64,
+        floor: f64,
+    }
+
+    impl Level for Shrinking {
+        type Fault = Infallible;
+
+        fn misses(&mut self, _: usize) -> (usize, f64) {
+            (3, self.misfit)
+        }
+
+        fn correct(&mut self, _: bool) -> Result<(), Infallible> {
+            self.misfit = (self.misfit * self.factor).max(self.floor);
+            Ok(())
+        }
+    }
+
+    fn run(misfit: f64, factor: f64, floor: f64, corrections: [usize; 2]) -> (usize, bool) {
+        let mut level = Shrinking {
+            misfit,
+            factor,
+            floor,
+        };
+        let limits = Limits {
+            corrections,
+            enough: 10.0,
+            stalled: 50.0,
+        };
+        let Ok(end) = correct(&mut level, &limits);
+        assert_eq!(end.worst, 3);
+        (end.corrections, end.is_reached)
+    }
+
+    #[test]
+    fn rows_are_corrected_until_they_are_satisfied_or_stall_close_to_it() {
+        assert_eq!(run(5.0, 0.1, 0.0, [0, 20]), (0, true));
+        assert_eq!(run(5.0, 0.1, 0.0, [1, 20]), (1, true));
+        assert_eq!(run(1e4, 0.1, 0.0, [0, 20]), (3, true));
+        // A floor of 30 roundings is as good as rows get, one of 100 is not.
+        assert_eq!(run(1e4, 0.1, 30.0, [0, 20]), (4, true));
+        assert_eq!(run(1e4, 0.1, 100.0, [0, 20]), (20, false));
+        assert_eq!(run(f64::NAN, 0.1, 0.0, [0, 20]), (0, false));
+    }
+}

@@ -1,0 +1,51 @@
+//! How large a component is.
+
+use model::System;
+
+use crate::prepare::Prepared;
+
+/// How large a component is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sizes {
+    /// Bodies.
+    pub bodies: usize,
+    /// Velocities n_v.
+    pub velocities: usize,
+    /// Holonomic rows m.
+    pub holonomic: usize,
+    /// Nonholonomic rows h.
+    pub nonholonomic: usize,
+    /// Rank r of C.
+    pub rank: usize,
+}
+
+impl Sizes {
+    pub(super) fn of(prepared: &Prepared) -> Self {
+        let layout = prepared.mechanism.layout();
+        Self {
+            bodies: prepared.mechanism.bodies().len(),
+            velocities: layout.n_v,
+            holonomic: layout.m,
+            nonholonomic: layout.h,
+            rank: prepared.decision.rank,
+        }
+    }
+
+    /// All rows.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.holonomic + self.nonholonomic
+    }
+
+    /// Degrees of freedom n_v − r.
+    #[must_use]
+    pub fn mobility(&self) -> usize {
+        self.velocities - self.rank
+    }
+
+    /// Degree of redundancy m + h − r.
+    #[must_use]
+    pub fn redundancy(&self) -> usize {
+        self.rows() - self.rank
+    }
+}

@@ -1,0 +1,429 @@
+//! The differential equation of a run: y = [q; v], and the work of drives and applied forces where
+//! there are any. Steps are projected; where a rate jumps, so do the velocities.
+
+use std::ops::ControlFlow;
+
+use integrators::{Delicate, Implicit, IntegrationError, Ode, StepEnd, StepInfo, Tolerance};
+use model::{Mechanism, System};
+
+use super::by_time::ByTime;
+use super::impulse::cross_break;
+use super::record::Record;
+use super::reduced::Reduced;
+use super::sample::{AtRows, Known, OfMotion, Sample, Source};
+use super::span::Span;
+use crate::error::MotionFault;
+use crate::guards::GUARDED;
+use crate::motion::KeptRowMotion;
+use crate::options::MotionOptions;
+use crate::prepare::Prepared;
+use crate::watch::{Next, Now, are_delicate};
+
+/// The equations of a run with what is noted on the way.
+pub(super) struct RunEquations<'m> {
+    pub(super) motion: KeptRowMotion<'m>,
+    pub(super) record: Record,
+    /// What is wanted at rows of output.
+    wanted: AtRows,
+    /// Of implicit methods, from their first step on.
+    reduced: Option<Reduced>,
+    t_end: f64,
+    /// Whether the stages of the present step are moved onto the constraints.
+    is_careful: bool,
+    /// Whether stages of the present step were evaluated by code that has been left since: it
+    /// begins again.
+    is_void: bool,
+    /// Derivatives by time, where nothing is free.
+    by_time: Option<ByTime>,
+    /// The last accepted step.
+    last: Span,
+    /// The state before a projection; a stage on the constraints.
+    before: Vec<f64>,
+    stage: Vec<f64>,
+}
+
+impl<'m> RunEquations<'m> {
+    /// The equations of a motion that has begun at its start, where the rows are factored.
+    pub(super) fn new(
+        motion: KeptRowMotion<'m>,
+        prepared: &Prepared,
+        options: &MotionOptions,
+        wanted: AtRows,
+    ) -> Self {
+        let (q, v, mechanism) = (&prepared.q, &prepared.v, motion.mechanism());
+        let works = mechanism.layout().rheonomic || mechanism.has_applied_forces();
+        let mut y0 = [q.as_slice(), v].concat();
+        y0.extend(works.then_some(0.0));
+        let mut equations = Self {
+            record: Record::new(mechanism, q, v),
+            wanted,
+            reduced: None,
+            t_end: options.t_end,
+            is_careful: false,
+            is_void: false,
+            by_time: ByTime::for_run(prepared, options),
+            last: Span::default(),
+            before: y0.clone(),
+            stage: y0,
+            motion,
+        };
+        equations.is_careful = equations.wants_care();
+        equations.record.min_pivot_ratio = equations.motion.pivot_ratio();
+        equations
+    }
+
+    /// y at the start, before anything is evaluated.
+    pub(super) fn y0(&self) -> Vec<f64> {
+        self.stage.clone()
+    }
+
+    /// Whether stages are functions of time. On the way to a singular configuration, where branches
+    /// meet, the integrator leads them.
+    fn is_by_time(&self) -> bool {
+        self.by_time.is_some() && self.motion.watch.delicate().is_none()
+    }
+
+    /// Whether the next stages have to be moved onto the constraints: near singular configurations,
+    /// and where they become functions of time by that. On independent coordinates all of them lie
+    /// there; without projection none shall.
+    fn wants_care(&self) -> bool {
+        let motion = &self.motion;
+        let off = motion.manifold.projects() && motion.independent().is_none();
+        off && (self.is_by_time() || are_delicate(&motion.equations.velocity))
+    }
+
+    /// The work is measured, not controlled: its error has no weight. It still counts as a
+    /// component of the mean, which makes the control looser by the factor √((n + 1)/n).
+    pub(super) fn tolerance(&self, options: &MotionOptions) -> Tolerance {
+        let (rtol, atol) = (options.rtol, options.atol);
+        let moving = self.motion.parts(&self.stage);
+        let moving = moving.0.len() + moving.1.len();
+        if moving == self.stage.len() {
+            return Tolerance::Uniform { rtol, atol };
+        }
+        let [mut rtol, mut atol] = [rtol, atol].map(|tolerance| vec![tolerance; moving]);
+        rtol.push(0.0);
+        atol.push(f64::MAX);
+        Tolerance::PerComponent { rtol, atol }
+    }
+
+    /// Projects a row of output, where states are projected, and shows it. At a break time it is
+    /// the state just before.
+    pub(super) fn show(
+        &mut self,
+        t: f64,
+        y: &mut [f64],
+        row: &mut (dyn FnMut(&mut Sample<'_, '_>) -> Result<ControlFlow<()>, MotionFault> + '_),
+    ) -> Result<ControlFlow<()>, MotionFault> {
+        let t_before = match t > 0.0 && self.is_break(t) {
+            true => t.next_down(),
+            false => t,
+        };
+        let (q, v, _) = self.motion.parts_mut(y);
+        // On independent coordinates only these are interpolated, and code knows its own.
+        let is_whole = self.motion.independent().is_none() && !self.motion.is_on_code();
+        let found = match self.wanted.on_constraints || !is_whole {
+            true => Some(self.motion.end_row(t_before, (q, v))?),
+            false => None,
+        };
+        let at = &self.motion.equations.at;
+        if GUARDED {
+            finite(at.mechanism, t, y)?;
+            self.last.check(at.mechanism, at.size, t, y)?;
+        }
+        let (q, v) = self.motion.parts(y);
+        let work = work(q, v, y);
+        if let Some(found) = found {
+            self.record.note(at.mechanism, (q, v, work), found);
+        }
+        let is_settled = self.motion.manifold.projects() && !self.motion.is_on_code();
+        let source = OfMotion {
+            known: match found.is_some() && is_settled {
+                true => Known::Factored,
+                false => Known::Nothing,
+            },
+            t_before,
+            wanted: &self.wanted,
+            motion: &mut self.motion,
+        };
+        row(&mut Sample {
+            t,
+            q,
+            v,
+            work,
+            source: Source::Motion(source),
+        })
+    }
+
+    /// The motion with its linear systems.
+    fn implicit(&mut self) -> (&mut KeptRowMotion<'m>, &mut Reduced) {
+        let new = || Reduced::new(&self.motion);
+        let reduced = self.reduced.get_or_insert_with(new);
+        (&mut self.motion, reduced)
+    }
+
+    /// Takes an accepted step, for the rows in it.
+    pub(super) fn take_step(&mut self, times: [f64; 2], ends: [&[f64]; 4]) {
+        self.last.take(times, ends);
+    }
+
+    /// Why steps have collapsed at time t, if it is known: a singular configuration nearby, or a
+    /// dropped row.
+    pub(super) fn cause(
+        &mut self,
+        error: &IntegrationError<MotionFault>,
+        t: f64,
+    ) -> Option<MotionFault> {
+        let motion = &mut self.motion;
+        match error {
+            // Error control fails beside a singular configuration because accelerations are
+            // rounding there.
+            IntegrationError::StepSizeCollapsed { .. }
+                if are_delicate(&motion.equations.velocity) =>
+            {
+                Some(motion.watch.no_way_over(t))
+            }
+            IntegrationError::StepSizeCollapsed { .. } => motion.watch.contradiction(t),
+            _ => None,
+        }
+    }
+
+    /// If code was left: the interpreter goes on from the last accepted state as if it had led
+    /// there.
+    fn note_departure(&mut self) {
+        let motion = &mut self.motion;
+        if let Some(code) = &mut motion.code
+            && let Some(departure) = code.take_departure()
+        {
+            code.look_ahead(&motion.equations, &mut motion.watch);
+            self.record.events.push(departure.event);
+            self.is_void = departure.is_within_step;
+            self.is_careful = self.wants_care();
+        }
+    }
+
+    /// f(t, y) by the interpreter.
+    fn evaluate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
+        if !self.is_careful {
+            self.motion.derivative(t, y, dy)?;
+            return match &mut self.reduced {
+                Some(reduced) => reduced.follow_partition(&mut self.motion),
+                None => Ok(()),
+            };
+        }
+        self.stage.copy_from_slice(y);
+        let (q, v, _) = self.motion.parts_mut(&mut self.stage);
+        let equations = &mut self.motion.equations;
+        self.motion.manifold.approach(equations, t, (q, v))?;
+        self.motion.derivative(t, &self.stage, dy)
+    }
+
+    fn is_break(&self, t: f64) -> bool {
+        let times = &self.motion.mechanism().layout().break_times;
+        times.binary_search_by(|b| b.total_cmp(&t)).is_ok()
+    }
+
+    /// Ends a step that passed its error test, if it may stand.
+    fn end(&mut self, step: &StepInfo<'_>, y: &mut [f64], dy: &mut [f64]) -> Result<StepEnd, Next> {
+        self.before.copy_from_slice(y);
+        let known = self.by_time.as_mut();
+        let is_known = known.is_some_and(|known| known.take(step.t_rhs, dy));
+        if std::mem::take(&mut self.is_void) {
+            return Err(Next::Reject);
+        }
+        let has_to_end = step.t == self.t_end || self.is_break(step.t);
+        let motion = &mut self.motion;
+        let on_code = motion.is_on_code();
+        let (q, v, _) = motion.parts_mut(y);
+        let found = motion.end_step(step.t_rhs, (q, v), has_to_end)?;
+        if on_code {
+            motion.derivative(step.t_rhs, y, dy)?;
+            if !motion.is_on_code() {
+                return Err(Next::Reject);
+            }
+        }
+        let pivot_ratio = motion.pivot_ratio();
+        for (before, y) in self.before.iter_mut().zip(&*y) {
+            *before -= y;
+        }
+        let (q, v) = motion.parts(y);
+        let (equations, watch) = (&mut motion.equations, &mut motion.watch);
+        let projects = motion.manifold.projects();
+        let may_have_passed = !on_code && watch.may_have_passed(equations, [step.t0, step.t]);
+        if may_have_passed && !projects {
+            let missed = motion
+                .manifold
+                .missed_correction(equations, step.t_rhs, (q, v))?;
+            self.before[..missed.len()].copy_from_slice(&missed);
+        }
+        let correction = step.norm(&self.before);
+        if may_have_passed {
+            let next = watch.judge_correction(equations, step.t, correction);
+            next.stands()?;
+        }
+        let mechanism = motion.mechanism();
+        if projects && !on_code {
+            if may_have_passed || !is_known {
+                motion.derivative_of_projected(step.t_rhs, y, dy)?;
+            }
+            let (equations, now) = (&motion.equations, now(mechanism, step.t, y, dy));
+            let next = motion.watch.judge_motion(equations, now, may_have_passed);
+            next.stands()?;
+            if let Some(coordinates) = &mut motion.manifold.coordinates {
+                coordinates.check_travel(&equations.at, (step.t_rhs, q, v))?;
+            }
+        }
+        // From here on the step stands.
+        self.record.note(mechanism, (q, v, work(q, v, y)), found);
+        let now = now(mechanism, step.t, y, dy);
+        if let Some(code) = motion.code.as_mut().filter(|_| on_code) {
+            motion.watch.is_suspect = false;
+            code.accept(now);
+        } else {
+            let event = motion.accept(step.t, may_have_passed);
+            self.record.events.extend(event);
+            self.record.min_pivot_ratio = self.record.min_pivot_ratio.min(pivot_ratio);
+        }
+        if !projects {
+            return Ok(StepEnd::Unchanged);
+        }
+        if !on_code {
+            self.look_ahead(now, step.t - step.t0, may_have_passed);
+        }
+        Ok(StepEnd::Projected {
+            correction,
+            evaluations: 1,
+        })
+    }
+
+    /// Looks ahead from an accepted, interpreted state, and back to code.
+    fn look_ahead(&mut self, now: Now<'_>, step: f64, may_have_passed: bool) {
+        let motion = &mut self.motion;
+        let (equations, watch) = (&motion.equations, &mut motion.watch);
+        watch.look_ahead(equations, now, step);
+        let is_open = !may_have_passed && watch.delicate().is_none();
+        if let Some(code) = motion.code.as_mut().filter(|_| is_open) {
+            let event = code.come_back(equations, now);
+            self.record.events.extend(event);
+        }
+        self.is_careful = self.wants_care();
+    }
+}
+
+/// The state y with the accelerations of dy.
+fn now<'a>(mechanism: &Mechanism, t: f64, y: &'a [f64], dy: &'a [f64]) -> Now<'a> {
+    let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
+    let (q, v, a) = (&y[..n_q], &y[n_q..n_q + n_v], &dy[n_q..n_q + n_v]);
+    Now { t, q, v, a }
+}
+
+/// Work of drives and applied forces (J), where y carries it.
+fn work(q: &[f64], v: &[f64], y: &[f64]) -> f64 {
+    y.get(q.len() + v.len()).copied().unwrap_or(0.0)
+}
+
+/// A row of output y = [q; v; …] has finite numbers: between the finite ends of a step, sums may
+/// leave their range.
+fn finite(mechanism: &Mechanism, t: f64, y: &[f64]) -> Result<(), MotionFault> {
+    let (n_q, n_v) = (mechanism.layout().n_q, mechanism.layout().n_v);
+    let y = &y[..n_q + n_v];
+    // x·0 is NaN exactly for NaN and infinities.
+    if y.iter().map(|x| x * 0.0).sum::<f64>() == 0.0 {
+        return Ok(());
+    }
+    let Some(k) = y.iter().position(|x| !x.is_finite()) else {
+        return Ok(());
+    };
+    let (what, (body, coordinate)) = match k < n_q {
+        true => ("", mechanism.coordinate_name(k)),
+        false => ("rate of the ", mechanism.coordinate(k - n_q)),
+    };
+    Err(MotionFault::NotFinite {
+        time: t,
+        what: format!("the {what}{coordinate} of `{body}`"),
+    })
+}
+
+impl Ode for RunEquations<'_> {
+    type Error = MotionFault;
+
+    fn dim(&self) -> usize {
+        self.stage.len()
+    }
+
+    fn rhs(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), MotionFault> {
+        if self.motion.is_on_code() {
+            let evaluated = self.motion.derivative(t, y, dy);
+            self.note_departure();
+            return evaluated;
+        }
+        let by_time = self.is_by_time();
+        let Some(mut known) = self.by_time.take_if(|_| by_time) else {
+            return self.evaluate(t, y, dy);
+        };
+        let evaluated = known.recall(t, dy, |dy| self.evaluate(t, y, dy));
+        self.by_time = Some(known);
+        evaluated
+    }
+
+    fn end_of_step(
+        &mut self,
+        step: &StepInfo<'_>,
+        y: &mut [f64],
+        dy: &mut [f64],
+    ) -> Result<StepEnd, MotionFault> {
+        let on_code = self.motion.is_on_code();
+        let ended = self.end(step, y, dy);
+        if on_code {
+            self.note_departure();
+        }
+        match ended {
+            Ok(end) => Ok(end),
+            Err(Next::Stop(fault)) => {
+                self.motion.watch.note_refused(step.t, &fault);
+                Err(fault)
+            }
+            Err(Next::Accept | Next::Keep(_) | Next::Reject) => {
+                self.is_void = false;
+                Ok(StepEnd::Reject)
+            }
+        }
+    }
+
+    fn delicate_time(&self) -> Option<Delicate> {
+        let delicate = self.motion.watch.delicate();
+        delicate.map(|(t, slack)| Delicate { t, slack })
+    }
+
+    /// Rates that jump make the velocities jump, by an impulse of the constraints.
+    fn at_break(&mut self, t: f64, y: &mut [f64]) -> Result<(), MotionFault> {
+        self.by_time.iter_mut().for_each(ByTime::forget);
+        let (q, v, work) = self.motion.parts_mut(y);
+        if let Some(impulse) = cross_break(&mut self.motion, t, (q, v))? {
+            if let Some(work) = work {
+                *work += impulse.energy;
+            }
+            self.record.events.push(impulse.event);
+        }
+        Ok(())
+    }
+}
+
+impl Implicit for RunEquations<'_> {
+    fn linearise(&mut self, t: f64, y: &[f64]) -> Result<(), MotionFault> {
+        let (motion, reduced) = self.implicit();
+        reduced.linearise(motion, t, y)
+    }
+
+    fn factor(&mut self, real: f64, complex: [f64; 2]) -> Result<(), MotionFault> {
+        self.implicit().1.factor(real, complex)
+    }
+
+    fn solve(&mut self, x: &mut [f64]) {
+        self.implicit().1.solve(x);
+    }
+
+    fn solve_complex(&mut self, re: &mut [f64], im: &mut [f64]) {
+        self.implicit().1.solve_complex(re, im);
+    }
+}

@@ -1,0 +1,69 @@
+//! What is noted of a run on the way: residuals, energy, pivots and events.
+
+use model::Mechanism;
+
+use super::energy::{self, EnergyBalance};
+use super::summary::Summary;
+use crate::events::Event;
+use crate::guards::GUARDED;
+use crate::manifold::Correction;
+
+/// Numbers and events of a run so far.
+pub(super) struct Record {
+    energy: EnergyBalance,
+    max_position_residual: f64,
+    max_velocity_residual: f64,
+    pub(super) min_pivot_ratio: f64,
+    pub(super) events: Vec<Event>,
+    /// By the number of dependent rows, whether the motion is unique in a passage.
+    pub(super) uniqueness: Vec<(usize, String)>,
+}
+
+impl Record {
+    /// At the start of a run.
+    pub(super) fn new(mechanism: &Mechanism, q: &[f64], v: &[f64]) -> Self {
+        Self {
+            energy: EnergyBalance::new(mechanism, q, v),
+            max_position_residual: 0.0,
+            max_velocity_residual: 0.0,
+            min_pivot_ratio: f64::INFINITY,
+            events: Vec::new(),
+            uniqueness: Vec::new(),
+        }
+    }
+
+    /// Notes residuals and energy of a state, and the work until then (J).
+    pub(super) fn note(
+        &mut self,
+        mechanism: &Mechanism,
+        (q, v, work): (&[f64], &[f64], f64),
+        found: Correction,
+    ) {
+        if GUARDED {
+            self.max_position_residual = self.max_position_residual.max(found.position_residual);
+            self.max_velocity_residual = self.max_velocity_residual.max(found.velocity_residual);
+            self.energy.note(mechanism, q, v, work);
+        }
+    }
+
+    /// What is known of passages where so many rows are dependent.
+    pub(super) fn uniqueness_of(&self, dependent: usize) -> Option<&str> {
+        let known = self.uniqueness.iter().find(|(d, _)| *d == dependent);
+        known.map(|(_, words)| words.as_str())
+    }
+
+    /// The summary without what the integrator counts.
+    pub(super) fn summary(&self) -> Summary {
+        let (gap, kinetic) = (self.energy.largest_gap(), self.energy.largest_kinetic());
+        Summary {
+            max_position_residual: self.max_position_residual,
+            max_velocity_residual: self.max_velocity_residual,
+            energy_balance: energy::relative(gap, kinetic),
+            energy_gap: gap,
+            largest_kinetic_energy: kinetic,
+            min_pivot_ratio: self.min_pivot_ratio,
+            events: self.events.clone(),
+            ..Summary::default()
+        }
+    }
+}

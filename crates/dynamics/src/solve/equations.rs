@@ -1,0 +1,103 @@
+//! The equations of motion on kept rows.
+//!
+//! The rank is never re-decided at a stage, where the state is off the constraints by δ and a
+//! singular value that is exactly zero reads as about δ. Positions and velocities have rows of
+//! their own: a holonomic row may be dropped because knife edges imply its velocity; nothing
+//! implies its position, and without it the configuration would drift.
+
+use model::System;
+
+use super::evaluation::Evaluation;
+use super::rows::KeptRows;
+use super::{Accelerations, State};
+use crate::counts::{Counted, note};
+use crate::error::MotionFault;
+
+/// A mechanism with its kept rows. All storage is made here.
+pub(crate) struct KeptEquations<'m> {
+    pub(crate) at: Evaluation<'m>,
+    /// Independent rows of C.
+    pub(crate) velocity: KeptRows,
+    /// Independent rows of Φq.
+    pub(crate) position: KeptRows,
+    /// Rows that the user asked for, while they are nearly dependent and others are kept.
+    pub(crate) requested_rows: Option<KeptRows>,
+    /// An acceleration, n_v.
+    a: Vec<f64>,
+}
+
+impl<'m> KeptEquations<'m> {
+    pub(crate) fn new(at: Evaluation<'m>, velocity: KeptRows, position: KeptRows) -> Self {
+        let a = vec![0.0; at.mechanism.mass().len()];
+        Self {
+            at,
+            velocity,
+            position,
+            requested_rows: None,
+            a,
+        }
+    }
+
+    /// Takes a configuration and factors the rows of C there.
+    pub(crate) fn factor_at(&mut self, t: f64, q: &[f64]) -> Result<(), MotionFault> {
+        self.at.pose(t, q);
+        self.velocity.factor(&self.at)
+    }
+
+    /// Accelerations where the pose is taken and the rows are factored.
+    pub(crate) fn solve_factored(&mut self, v: &[f64], a: &mut [f64]) -> Result<(), MotionFault> {
+        note(Counted::Accelerations);
+        self.at.gamma_and_force(v);
+        self.velocity.take_rhs(|i| self.at.s.gamma[i]);
+        let solved = self.velocity.accelerate(&self.at, a);
+        solved.map_err(|fault| self.at.named(fault))
+    }
+
+    /// Multipliers of all rows for accelerations a from the last solve; those of dropped rows are
+    /// zero. NaN where kept ones are dependent at just this instant, so that no multipliers belong
+    /// to them.
+    pub(crate) fn multipliers_for(
+        &mut self,
+        a: &[f64],
+        lambda: &mut [f64],
+    ) -> Result<(), MotionFault> {
+        self.velocity.find_multipliers(&self.at, a)?;
+        if self.velocity.n_left_out() > 0 {
+            lambda.fill(f64::NAN);
+            return Ok(());
+        }
+        lambda.fill(0.0);
+        for (&i, &l) in self.velocity.kept.iter().zip(&self.velocity.lambda) {
+            lambda[i] = l;
+        }
+        Ok(())
+    }
+
+    /// Exchanges the kept rows and the ones asked for, if others are kept.
+    pub(crate) fn swap_requested_rows(&mut self) {
+        if let Some(requested) = &mut self.requested_rows {
+            std::mem::swap(requested, &mut self.velocity);
+        }
+    }
+}
+
+impl Accelerations for KeptEquations<'_> {
+    type Fault = MotionFault;
+
+    fn accelerations(&mut self, state: State<'_>, a: &mut [f64]) -> Result<(), MotionFault> {
+        self.factor_at(state.t, state.q)?;
+        self.solve_factored(state.v, a)
+    }
+
+    /// On the rows asked for.
+    fn multipliers(&mut self, state: State<'_>, lambda: &mut [f64]) -> Result<(), MotionFault> {
+        self.swap_requested_rows();
+        let mut a = std::mem::take(&mut self.a);
+        let solved = self
+            .accelerations(state, &mut a)
+            .and_then(|()| self.multipliers_for(&a, lambda));
+        self.a = a;
+        self.swap_requested_rows();
+        solved
+    }
+}

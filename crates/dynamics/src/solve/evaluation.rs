@@ -1,0 +1,91 @@
+//! A mechanism with what its kernels found at one state.
+
+use model::{Mechanism, RowLabel, Scratch, System};
+
+use crate::error::MotionFault;
+
+/// A mechanism, and the results of its kernels at the state evaluated last.
+#[derive(Clone)]
+pub(crate) struct Evaluation<'m> {
+    pub(crate) mechanism: &'m Mechanism,
+    pub(crate) s: Scratch,
+    /// Length by which positions are measured (m).
+    pub(crate) size: f64,
+}
+
+impl<'m> Evaluation<'m> {
+    pub(crate) fn new(mechanism: &'m Mechanism, size: f64) -> Self {
+        let s = mechanism.scratch();
+        Self { mechanism, s, size }
+    }
+
+    /// Takes a configuration, and C there.
+    pub(crate) fn pose(&mut self, t: f64, q: &[f64]) {
+        self.mechanism.pose(t, q, &mut self.s);
+        self.mechanism.c(&mut self.s);
+    }
+
+    /// The same with Φ.
+    pub(crate) fn pose_and_phi(&mut self, t: f64, q: &[f64]) {
+        self.mechanism.pose(t, q, &mut self.s);
+        self.mechanism.phi(&mut self.s);
+        self.mechanism.c(&mut self.s);
+    }
+
+    /// b at the configuration taken.
+    pub(crate) fn b(&mut self) {
+        if self.mechanism.layout().rheonomic {
+            self.mechanism.b(&mut self.s);
+        }
+    }
+
+    /// Γ and Q at the configuration taken.
+    pub(crate) fn gamma_and_force(&mut self, v: &[f64]) {
+        self.mechanism.twist(v, &mut self.s);
+        self.mechanism.gamma(&mut self.s);
+        self.mechanism.force(&mut self.s);
+    }
+
+    /// C·v − b of row i.
+    pub(crate) fn velocity_residual(&self, i: usize, v: &[f64]) -> f64 {
+        self.mechanism.layout().velocity_residual(&self.s, i, v)
+    }
+
+    /// Size of the terms of row i of Φ.
+    pub(crate) fn position_scale(&self, i: usize) -> f64 {
+        self.mechanism.position_scale(&self.s, i)
+    }
+
+    /// Size of the terms of row i of C·v − b.
+    pub(crate) fn velocity_scale(&self, i: usize, v: &[f64]) -> f64 {
+        self.mechanism.velocity_scale(&self.s, i, v)
+    }
+
+    pub(crate) fn label(&self, i: usize) -> RowLabel {
+        self.mechanism.layout().labels[i].clone()
+    }
+
+    /// The fault with the name of the force that has no value, if there is one.
+    pub(super) fn named(&mut self, fault: MotionFault) -> MotionFault {
+        match fault {
+            MotionFault::NotFinite { time, what } => {
+                let force = self.mechanism.undefined_force(&mut self.s);
+                let what = force.map_or(what, |name| format!("the force `{name}`"));
+                MotionFault::NotFinite { time, what }
+            }
+            other => other,
+        }
+    }
+
+    /// Completed coordinates lie so far from where they are expected, most at a column of C.
+    pub(crate) fn far_completion(&self, time: f64, (column, by): (usize, f64)) -> MotionFault {
+        let (body, coordinate) = self.mechanism.coordinate(column);
+        let body = body.to_owned();
+        MotionFault::FarCompletion {
+            time,
+            body,
+            coordinate,
+            by,
+        }
+    }
+}

@@ -1,0 +1,70 @@
+//! Accelerations and multipliers by generated code, which says how sure it is of them.
+
+use std::sync::Arc;
+
+use super::{Accelerations, State};
+use crate::code::SceneCode;
+use crate::guards::GUARDED;
+use crate::limits::LEAVE;
+
+/// Code that was generated for a mechanism.
+pub(crate) struct GeneratedCode(pub(crate) Arc<dyn SceneCode>);
+
+/// Why code is not sure.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Doubt {
+    /// A pivot is small, or has changed its sign.
+    Health { health: f64 },
+    /// A result is NaN or infinite.
+    NotFinite,
+    /// A kept row misses after all corrections.
+    OffConstraints { row: usize, by: f64 },
+    /// A dropped row is not implied.
+    DroppedRow { row: usize, by: f64 },
+}
+
+impl std::fmt::Display for Doubt {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match *self {
+            Self::Health { health } => write!(
+                f,
+                "its pivots have fallen to {health:.2} of those that it was generated for (limit {LEAVE})"
+            ),
+            Self::NotFinite => write!(f, "a result of it is not finite"),
+            Self::OffConstraints { row, by } => {
+                write!(f, "its corrections leave row {} off by {by:.3e}", row + 1)
+            }
+            Self::DroppedRow { row, by } => {
+                write!(f, "the dropped row {} misses by {by:.3e}", row + 1)
+            }
+        }
+    }
+}
+
+impl Doubt {
+    /// What the health of a result and its numbers say of it; NaN is never healthy.
+    pub(crate) fn of(health: f64, results: &[f64]) -> Result<(), Self> {
+        if !GUARDED {
+            return Ok(());
+        }
+        if health.is_nan() || health < LEAVE {
+            return Err(Self::Health { health });
+        }
+        match results.iter().all(|x| x.is_finite()) {
+            true => Ok(()),
+            false => Err(Self::NotFinite),
+        }
+    }
+}
+
+impl Accelerations for GeneratedCode {
+    type Fault = Doubt;
+
+    fn accelerations(&mut self, State { t, q, v }: State<'_>, a: &mut [f64]) -> Result<(), Doubt> {
+        Doubt::of(self.0.acceleration(t, q, v, a), a)
+    }
+
+    fn multipliers(&mut self, State { t, q, v }: State<'_>, l: &mut [f64]) -> Result<(), Doubt> {
+        Doubt::of(self.0.multipliers(t, q, v, l), l)
+    }
+}

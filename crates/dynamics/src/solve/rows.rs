@@ -1,0 +1,434 @@
+//! Independent rows of C with everything that solving on them needs.
+//!
+//! They are factored in units of the mechanism ([`super::units`]). Otherwise a pivot of a rotation,
+//! a length, would be compared with one of a translation, which has no unit: pivots would fall and
+//! determinants change their signs where nothing happens but that metres are large or small.
+//! Callers see their own units only.
+
+use linalg::{PivotedQr, SaddleError};
+use model::System;
+use solvability::RowDecision;
+
+use super::evaluation::Evaluation;
+use super::solver::Solver;
+use super::units::{is_far, mass_in_units, units};
+use crate::counts::{Counted, note};
+use crate::error::MotionFault;
+use crate::limits::PIVOT_SINGULAR;
+
+/// Kept rows and the factored saddle matrix.
+#[derive(Clone)]
+pub(crate) struct KeptRows {
+    /// Rows of C, ascending.
+    pub(crate) kept: Vec<usize>,
+    /// The others of the same level.
+    pub(crate) dropped: Vec<usize>,
+    /// Right-hand side, one value for each kept row.
+    pub(crate) rhs: Vec<f64>,
+    /// Multipliers, as they were found last.
+    pub(crate) lambda: Vec<f64>,
+    /// What coordinates count in those units, and the masses there, n_v each.
+    units: Vec<f64>,
+    mass: Vec<f64>,
+    /// A force and a motion in those units, n_v each.
+    force: Vec<f64>,
+    motion: Vec<f64>,
+    /// The rows in those units, and their factors.
+    solver: Solver,
+    /// Whether the mechanism is so large or small that solutions are refined.
+    is_far: bool,
+    /// Pivot ratio when these rows were chosen: what later ones are compared with.
+    reference_pivot: Option<f64>,
+    /// The same for the present partition, if there is one.
+    partition: Option<PartitionPivot>,
+}
+
+/// Pivot ratio of a partition at its first factorisation.
+#[derive(Clone, Copy)]
+struct PartitionPivot(Option<f64>);
+
+impl KeptRows {
+    /// Storage for the rows of a decision.
+    pub(crate) fn new(at: &Evaluation<'_>, rows: &RowDecision) -> Result<Self, MotionFault> {
+        let units = units(at.mechanism, at.size);
+        let (n, r) = (units.len(), rows.kept.len());
+        let solver = Solver::new(at.mechanism, &rows.kept, &units);
+        Ok(Self {
+            kept: rows.kept.clone(),
+            dropped: rows.dropped.clone(),
+            rhs: vec![0.0; r],
+            lambda: vec![0.0; r],
+            solver: solver.map_err(|source| MotionFault::Saddle {
+                time: at.s.t,
+                source,
+            })?,
+            mass: mass_in_units(at.mechanism, &units),
+            units,
+            force: vec![0.0; n],
+            motion: vec![0.0; n],
+            is_far: is_far(at.size),
+            reference_pivot: None,
+            partition: None,
+        })
+    }
+
+    /// Factors at the entries of C in the scratch. Rows that are dependent for an instant are left
+    /// out, but not at the first time.
+    pub(crate) fn factor(&mut self, at: &Evaluation<'_>) -> Result<(), MotionFault> {
+        let reference = self.reference();
+        self.factor_above(PIVOT_SINGULAR, at)?;
+        if reference.is_some() {
+            return Ok(());
+        }
+        if let Some(k) = (0..self.kept.len()).find(|&k| !self.uses(k)) {
+            return Err(MotionFault::RankLost {
+                time: at.s.t,
+                row: at.label(self.kept[k]),
+                pivot: self.pivot_ratio(),
+                scale: 1.0,
+            });
+        }
+        let pivot = Some(self.pivot_ratio());
+        match &mut self.partition {
+            Some(partition) => partition.0 = pivot,
+            None => {
+                self.reference_pivot = pivot;
+                self.solver.keep_order();
+            }
+        }
+        Ok(())
+    }
+
+    /// As [`KeptRows::factor`], leaving out rows whose pivot is below this share of the reference.
+    pub(crate) fn factor_above(
+        &mut self,
+        share: f64,
+        at: &Evaluation<'_>,
+    ) -> Result<(), MotionFault> {
+        let reference = self.reference().filter(|r| r.is_finite());
+        let floor = share * reference.unwrap_or(0.0);
+        let factored = self.solver.factor_above(floor, &at.s.entries, &self.mass);
+        factored.map_err(|e| self.fault(at, e))
+    }
+
+    /// Solves from now on for the coordinates that these rows determine best at the entries of C in
+    /// the scratch, as multiples of what each is known to; factors there, and returns the others,
+    /// ascending.
+    pub(crate) fn partition(
+        &mut self,
+        at: &Evaluation<'_>,
+        known_to: impl Fn(usize) -> f64,
+    ) -> Result<Vec<usize>, MotionFault> {
+        self.forget_partition();
+        self.factor(at)?;
+        let chosen = self.solver.dense().and_then(|it| {
+            let dependent = match it.saddle.is_graded() {
+                // Heavy coordinates are independent, whatever the rows would determine best.
+                true => it.saddle.solved_for().to_vec(),
+                false => {
+                    let mut c = it.c.clone();
+                    for k in 0..c.nrows() {
+                        let row = c.row_mut(k).iter_mut().enumerate();
+                        row.for_each(|(j, c)| *c *= known_to(j));
+                    }
+                    PivotedQr::of_columns(&c).permutation()[..c.nrows()].to_vec()
+                }
+            };
+            it.saddle.partition(&dependent)?;
+            Ok(dependent)
+        });
+        let dependent = chosen.map_err(|e| self.fault(at, e))?;
+        let free = (0..self.units.len()).filter(|i| !dependent.contains(i));
+        let free = free.collect();
+        self.partition = Some(PartitionPivot(None));
+        self.factor(at)?;
+        Ok(free)
+    }
+
+    /// Every factorisation chooses again what it solves for.
+    pub(crate) fn forget_partition(&mut self) {
+        if let Ok(it) = self.solver.dense() {
+            it.saddle.forget_partition();
+        }
+        self.partition = None;
+    }
+
+    /// Pivot ratio of the partition at its choice, if there is one.
+    pub(crate) fn partition_pivot(&self) -> Option<f64> {
+        self.partition.and_then(|p| p.0)
+    }
+
+    /// Pivot ratio that the present ones are compared with.
+    fn reference(&self) -> Option<f64> {
+        match self.partition {
+            Some(partition) => partition.0,
+            None => self.reference_pivot,
+        }
+    }
+
+    /// Takes a right-hand side: `of` row i of C for each kept row.
+    pub(crate) fn take_rhs(&mut self, of: impl Fn(usize) -> f64) {
+        for (rhs, &i) in self.rhs.iter_mut().zip(&self.kept) {
+            *rhs = of(i);
+        }
+    }
+
+    /// Overwrites the dependent entries of x so that `C·x = rhs`; of a row left out there would be
+    /// none.
+    pub(crate) fn complete(
+        &mut self,
+        at: &Evaluation<'_>,
+        x: &mut [f64],
+    ) -> Result<(), MotionFault> {
+        if let Some(row) = (0..self.kept.len()).find(|&k| !self.uses(k)) {
+            return Err(MotionFault::IndependentCoordinates {
+                time: at.s.t,
+                row: at.label(self.kept[row]),
+                pivot: self.relative_pivot(),
+            });
+        }
+        self.take_motion(x);
+        let (rhs, motion) = (&self.rhs, &mut self.motion);
+        let dense = self.solver.dense();
+        let completed = dense.and_then(|it| it.saddle.complete(rhs, motion));
+        self.written(at, completed, x)
+    }
+
+    /// Solves `M·x + Cᵀ·λ = force`, `C·x = rhs` for x with the factored matrix. Without a force x is
+    /// the smallest motion in the mass metric.
+    pub(crate) fn solve(
+        &mut self,
+        at: &Evaluation<'_>,
+        force: Option<&[f64]>,
+        x: &mut [f64],
+    ) -> Result<(), MotionFault> {
+        match force {
+            Some(force) => self.take_force(force),
+            None => self.force.fill(0.0),
+        }
+        let (force, rhs) = (&self.force, &self.rhs);
+        let (motion, lambda) = (&mut self.motion, &mut self.lambda);
+        let solved = self.solver.motion(force, rhs, motion, lambda);
+        self.written(at, solved, x)
+    }
+
+    /// Accelerations from `M·a + Cᵀ·λ = Q`, `C·a = rhs` with Q of the scratch, refined where plain
+    /// ones may miss digits.
+    pub(super) fn accelerate(
+        &mut self,
+        at: &Evaluation<'_>,
+        a: &mut [f64],
+    ) -> Result<(), MotionFault> {
+        if !self.are_refined() {
+            return self.solve(at, Some(&at.s.force), a);
+        }
+        self.take_force(&at.s.force);
+        let (x, lambda) = (&mut self.motion, &mut self.lambda);
+        let solved = self.solver.refined(&self.force, &self.rhs, x, lambda);
+        self.written(at, solved, a)
+    }
+
+    /// Whether accelerations and their multipliers are refined at the last factorisation.
+    pub(crate) fn are_refined(&self) -> bool {
+        self.is_far || self.solver.wants_refinement()
+    }
+
+    /// The λ that belongs to the accelerations a just found; refined, they have come with them.
+    pub(super) fn find_multipliers(
+        &mut self,
+        at: &Evaluation<'_>,
+        a: &[f64],
+    ) -> Result<(), MotionFault> {
+        if self.are_refined() || self.solver.brings_multipliers() {
+            return Ok(());
+        }
+        self.take_force(&at.s.force);
+        self.take_motion(a);
+        self.solve_for_multipliers().map_err(|e| self.fault(at, e))
+    }
+
+    fn solve_for_multipliers(&mut self) -> Result<(), SaddleError> {
+        self.solver
+            .multipliers(&self.force, &self.motion, &mut self.lambda)
+    }
+
+    /// The largest coefficient by which a kept row enters a dropped one, at the entries of C in the
+    /// scratch where the rows are freshly factored: rounding of the kept rows reaches the dropped
+    /// ones multiplied by it.
+    pub(crate) fn largest_coefficient(&mut self, at: &Evaluation<'_>) -> f64 {
+        note(Counted::Coefficients);
+        // Large mechanisms have thousands of dropped rows, each implied by a few rows of its own:
+        // two sums of all of them with random signs stand for them.
+        let samples = match self.solver.brings_multipliers() {
+            true => 2,
+            false => self.dropped.len(),
+        };
+        let mut largest = 0.0_f64;
+        for k in 0..samples {
+            let implied = match self.solver.brings_multipliers() {
+                true => self.imply_sum(at, 1 + k as u64),
+                false => self.imply(at, self.dropped[k]),
+            };
+            largest = match implied {
+                Ok(()) => self.lambda.iter().fold(largest, |a, l| a.max(l.abs())),
+                Err(_) => f64::INFINITY,
+            };
+        }
+        largest
+    }
+
+    /// Size of row i, a dropped one, and of what the kept rows contribute to it: with
+    /// `c_i = Σ T_ik·c_k` the sum of `scale(i)` and `|T_ik|·scale(k)`. Rounding of these terms is
+    /// what such a row may miss by. Needs the factorisation at the entries of C in the scratch.
+    pub(crate) fn implied_scale(
+        &mut self,
+        at: &Evaluation<'_>,
+        i: usize,
+        scale: impl Fn(usize) -> f64,
+    ) -> Result<f64, MotionFault> {
+        self.imply(at, i).map_err(|e| self.fault(at, e))?;
+        let terms = self.kept.iter().zip(&self.lambda);
+        let terms = terms.map(|(&k, coefficient)| coefficient.abs() * scale(k));
+        Ok(scale(i) + terms.sum::<f64>())
+    }
+
+    /// Leaves the coefficients of the kept rows in a dropped one as multipliers: a row that the
+    /// kept ones imply, as a force, moves nothing, `M·0 + C_Kᵀ·λ = c_Dᵀ`.
+    fn imply(&mut self, at: &Evaluation<'_>, dropped: usize) -> Result<(), SaddleError> {
+        self.motion.fill(0.0);
+        at.mechanism
+            .layout()
+            .scatter_row(&at.s, dropped, &mut self.force);
+        for (entry, unit) in self.force.iter_mut().zip(&self.units) {
+            *entry *= unit;
+        }
+        self.solve_for_multipliers()
+    }
+
+    /// The same for the sum of all dropped rows with random signs.
+    fn imply_sum(&mut self, at: &Evaluation<'_>, seed: u64) -> Result<(), SaddleError> {
+        self.motion.fill(0.0);
+        self.force.fill(0.0);
+        for (k, &i) in self.dropped.iter().enumerate() {
+            let sign = sign_of(k, seed);
+            for (j, c) in at.mechanism.layout().row(&at.s, i) {
+                self.force[j] += sign * c * self.units[j];
+            }
+        }
+        self.solve_for_multipliers()
+    }
+
+    /// Compares pivots from now on with what those of other rows were compared with: this place may
+    /// be a singular one.
+    pub(crate) fn compare_as(&mut self, others: &Self) {
+        self.reference_pivot = others.reference_pivot;
+    }
+
+    /// Rows of the last factorisation that are dependent for an instant and were left out: their
+    /// number.
+    pub(crate) fn n_left_out(&self) -> usize {
+        self.solver.n_left_out()
+    }
+
+    /// Whether the last factorisation uses the k-th kept row.
+    pub(crate) fn uses(&self, k: usize) -> bool {
+        self.solver.uses(k)
+    }
+
+    /// Smallest pivot of the last factorisation relative to its row.
+    pub(crate) fn pivot_ratio(&self) -> f64 {
+        self.solver.pivot_ratio()
+    }
+
+    /// Smallest pivot relative to that when the rows were chosen, whatever they are solved for;
+    /// infinite without rows.
+    pub(crate) fn relative_pivot(&self) -> f64 {
+        match self.reference_pivot {
+            Some(reference) if reference.is_finite() => self.pivot_ratio() / reference,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// Writes a frame of the motions that the factored rows allow, in units of the mechanism.
+    pub(crate) fn null_frame(&self, frame: &mut Vec<f64>) {
+        self.solver.null_frame(frame);
+    }
+
+    /// Sign of the determinant of the factored rows bordered by a frame, 0 where that is not known.
+    pub(crate) fn orientation(&mut self, frame: &[f64]) -> f64 {
+        self.solver.orientation(frame)
+    }
+
+    fn take_force(&mut self, force: &[f64]) {
+        for ((scaled, f), unit) in self.force.iter_mut().zip(force).zip(&self.units) {
+            *scaled = f * unit;
+        }
+    }
+
+    fn take_motion(&mut self, x: &[f64]) {
+        for ((scaled, x), unit) in self.motion.iter_mut().zip(x).zip(&self.units) {
+            *scaled = x / unit;
+        }
+    }
+
+    /// Writes the motion just solved for.
+    fn written(
+        &self,
+        at: &Evaluation<'_>,
+        solved: Result<(), SaddleError>,
+        x: &mut [f64],
+    ) -> Result<(), MotionFault> {
+        solved.map_err(|e| self.fault(at, e))?;
+        for ((x, scaled), unit) in x.iter_mut().zip(&self.motion).zip(&self.units) {
+            *x = scaled * unit;
+        }
+        Ok(())
+    }
+
+    /// Why a solve at the instant of the scratch failed.
+    fn fault(&self, at: &Evaluation<'_>, e: SaddleError) -> MotionFault {
+        let time = at.s.t;
+        match e {
+            SaddleError::RankLost { row, pivot, scale } => MotionFault::RankLost {
+                time,
+                row: at.label(self.kept[row]),
+                pivot,
+                scale,
+            },
+            SaddleError::MasslessMotion { motion, .. } => {
+                let further = |a: usize, b: usize| match motion[b].abs() > motion[a].abs() {
+                    true => b,
+                    false => a,
+                };
+                let (body, coordinate) =
+                    at.mechanism.coordinate((0..motion.len()).fold(0, further));
+                let body = body.to_owned();
+                MotionFault::Massless {
+                    time,
+                    body,
+                    coordinate,
+                }
+            }
+            SaddleError::NonFinite {
+                argument,
+                index,
+                value,
+            } => MotionFault::NotFinite {
+                time,
+                what: format!("{argument}[{index}] = {value}"),
+            },
+            source => MotionFault::Saddle { time, source },
+        }
+    }
+}
+
+/// A sign, as good as random.
+fn sign_of(k: usize, seed: u64) -> f64 {
+    let mixed = (k as u64)
+        .wrapping_add(seed << 40)
+        .wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    match mixed.rotate_left(31).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 63 {
+        0 => 1.0,
+        _ => -1.0,
+    }
+}

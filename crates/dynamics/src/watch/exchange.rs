@@ -1,0 +1,142 @@
+//! Exchange of kept rows that have become nearly dependent although the rank stays, at accepted and
+//! polished points only. The motion is the same.
+
+use model::System;
+use solvability::{AnalysisError, RowDecision, decide_holonomic_rows, decide_rows};
+
+use super::pivots::{are_recovered, are_sound, position_wants_exchange, want_exchange};
+use crate::error::MotionFault;
+use crate::events::{Event, EventKind};
+use crate::guards::GUARDED;
+use crate::limits::WORTH_EXCHANGE;
+use crate::options::RowChoice;
+use crate::solve::{Evaluation, KeptEquations, KeptRows};
+
+/// Rows that are to be kept from an accepted point on.
+pub(crate) struct Exchange {
+    position: Option<KeptRows>,
+    velocity: Option<Velocity>,
+}
+
+enum Velocity {
+    /// The ones asked for, which are independent again.
+    Requested,
+    /// Others than now; whether those of now were asked for.
+    Others(Box<KeptRows>, bool),
+}
+
+impl Exchange {
+    /// Looks at the pivots of a settled position at coordinates q, where the rows are factored.
+    pub(super) fn due(
+        equations: &mut KeptEquations<'_>,
+        choice: &RowChoice,
+        q: &[f64],
+    ) -> Result<Option<Self>, MotionFault> {
+        let mut position = None;
+        if position_wants_exchange(equations) {
+            let (at, old) = (&equations.at, &mut equations.position);
+            position = better(at, decide_holonomic_rows(at.mechanism, &at.s, q), old)?;
+        }
+        let velocity = if requested_rows_recovered(equations) {
+            Some(Velocity::Requested)
+        } else if want_exchange(equations, choice) {
+            let (at, old) = (&equations.at, &mut equations.velocity);
+            let rows = better(at, decide_rows(at.mechanism, &at.s, q), old)?;
+            let were_asked_for = matches!(choice, RowChoice::Drop(_));
+            rows.map(|rows| Velocity::Others(Box::new(rows), were_asked_for))
+        } else {
+            None
+        };
+        let is_due = position.is_some() || velocity.is_some();
+        Ok(is_due.then_some(Self { position, velocity }))
+    }
+
+    /// Keeps the rows; whether other rows hold the position, which is to be settled again, and what
+    /// is told.
+    pub(crate) fn keep(
+        self,
+        equations: &mut KeptEquations<'_>,
+    ) -> Result<(bool, Option<Event>), MotionFault> {
+        let moves = self.position.is_some();
+        if let Some(rows) = self.position {
+            equations.position = rows;
+        }
+        let why = match self.velocity {
+            None => return Ok((moves, None)),
+            Some(Velocity::Requested) => {
+                equations.swap_requested_rows();
+                equations.requested_rows = None;
+                equations.velocity.factor(&equations.at)?;
+                "the rows asked for are independent again and kept again"
+            }
+            Some(Velocity::Others(rows, were_asked_for)) => {
+                let lost = std::mem::replace(&mut equations.velocity, *rows);
+                if were_asked_for && equations.requested_rows.is_none() {
+                    equations.requested_rows = Some(lost);
+                }
+                "the kept rows became nearly dependent"
+            }
+        };
+        let dropped = &equations.velocity.dropped;
+        let labels = &equations.at.mechanism.layout().labels;
+        let numbers: Vec<_> = dropped
+            .iter()
+            .map(|&i| labels[i].number.to_string())
+            .collect();
+        let text = format!(
+            "{why}; now dropped: {}. The motion is the same.",
+            numbers.join(", ")
+        );
+        let time = equations.at.s.t;
+        let event = Event::at(time, EventKind::RowsExchanged, dropped, text);
+        Ok((moves, Some(event)))
+    }
+}
+
+/// Whether [`Exchange::due`] has something to decide at freshly factored rows.
+pub(super) fn may_be_due(equations: &mut KeptEquations<'_>, choice: &RowChoice) -> bool {
+    equations.requested_rows.is_some()
+        || position_wants_exchange(equations)
+        || want_exchange(equations, choice)
+}
+
+/// Rows that imply the others better than the kept ones do at a settled row of output: between two
+/// steps that keep rows which suit both, the mechanism may pass where they do not.
+pub(super) fn better_for_row(
+    equations: &mut KeptEquations<'_>,
+    choice: &RowChoice,
+    q: &[f64],
+) -> Result<Option<KeptRows>, MotionFault> {
+    if !GUARDED || are_sound(&equations.velocity) || !want_exchange(equations, choice) {
+        return Ok(None);
+    }
+    let (at, old) = (&equations.at, &mut equations.velocity);
+    better(at, decide_rows(at.mechanism, &at.s, q), old)
+}
+
+fn requested_rows_recovered(equations: &mut KeptEquations<'_>) -> bool {
+    let requested = equations.requested_rows.as_mut();
+    requested.is_some_and(|rows| rows.factor(&equations.at).is_ok() && are_recovered(rows))
+}
+
+/// Freshly factored kept rows of a new decision, if they have the rank of the old ones and imply the
+/// dropped ones by smaller coefficients. Another rank is that of a singular configuration nearby,
+/// not of the motion.
+fn better(
+    at: &Evaluation<'_>,
+    decision: Result<RowDecision, AnalysisError>,
+    old: &mut KeptRows,
+) -> Result<Option<KeptRows>, MotionFault> {
+    let decision = decision.map_err(|e| MotionFault::NoRows {
+        time: at.s.t,
+        what: e.to_string(),
+    })?;
+    if !decision.is_decided() || decision.rank != old.kept.len() || decision.kept == old.kept {
+        return Ok(None);
+    }
+    let mut rows = KeptRows::new(at, &decision)?;
+    rows.factor(at)?;
+    rows.compare_as(old);
+    let [new, old] = [&mut rows, old].map(|r| r.largest_coefficient(at));
+    Ok((WORTH_EXCHANGE * new < old).then_some(rows))
+}

@@ -1,0 +1,269 @@
+//! The handover between generated code and the interpreter. Code is used as long as it is sure of
+//! itself at every stage and step; whatever it is not sure of is left to the interpreter, which
+//! begins again at the last accepted state. Nothing here ends a run. Not here: whether code belongs
+//! to a mechanism ([`crate::code`]).
+//!
+//! The interpreter sleeps while code is used. It wakes up at the last two accepted states, because
+//! it foresees singular configurations from the pivots of two.
+
+use std::sync::Arc;
+
+use model::System;
+
+use super::judge::Watch;
+use super::passage::Now;
+use super::pivots::are_delicate;
+use crate::code::SceneCode;
+use crate::error::MotionFault;
+use crate::events::{Event, EventKind};
+use crate::guards::GUARDED;
+use crate::limits::{PATIENCE, RETURN, SAME_ACCELERATIONS};
+use crate::manifold::{CodeProjection, Correction, Manifold};
+use crate::solve::{Accelerations, Doubt, GeneratedCode, KeptEquations, State};
+
+/// What evaluates at present.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Phase {
+    /// The code.
+    Code,
+    /// The interpreter, which has not woken up yet.
+    Waking,
+    /// The interpreter, for so many accepted steps.
+    Interpreter(u64),
+}
+
+/// A state of an accepted step.
+#[derive(Clone, Debug, Default)]
+struct Accepted {
+    t: f64,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    a: Vec<f64>,
+}
+
+impl Accepted {
+    fn take(&mut self, now: Now<'_>) {
+        self.t = now.t;
+        for (kept, x) in [
+            (&mut self.q, now.q),
+            (&mut self.v, now.v),
+            (&mut self.a, now.a),
+        ] {
+            kept.clear();
+            kept.extend_from_slice(x);
+        }
+    }
+}
+
+/// Generated code of a motion, and whether it is in use.
+pub(crate) struct Handover {
+    code: GeneratedCode,
+    projection: CodeProjection,
+    phase: Phase,
+    /// Evaluations of the code since the last accepted step.
+    evaluations: u64,
+    /// Accepted steps before it may come back.
+    patience: u64,
+    /// The last two accepted states of the code, the last one first, and how many there are.
+    accepted: [Accepted; 2],
+    n_accepted: usize,
+    departure: Option<Departure>,
+    /// Accelerations of code that may come back, n_v.
+    found: Vec<f64>,
+}
+
+/// Code was left.
+pub(crate) struct Departure {
+    /// Where the interpreter goes on.
+    pub(crate) event: Event,
+    /// Whether stages of the present step are the code's, so that the step has to begin again.
+    pub(crate) is_within_step: bool,
+}
+
+impl Handover {
+    /// Uses code from the state q at time t on.
+    pub(crate) fn new(
+        code: Arc<dyn SceneCode>,
+        equations: &mut KeptEquations<'_>,
+        (t, q): (f64, &[f64]),
+    ) -> Self {
+        equations.at.pose(t, q);
+        let projection = CodeProjection::new(equations, q);
+        Self {
+            code: GeneratedCode(code),
+            projection,
+            phase: Phase::Code,
+            evaluations: 0,
+            patience: PATIENCE,
+            accepted: Default::default(),
+            n_accepted: 0,
+            departure: None,
+            found: vec![0.0; equations.at.mechanism.mass().len()],
+        }
+    }
+
+    /// The code, if it evaluates at present.
+    pub(crate) fn in_use(&mut self) -> Option<&mut GeneratedCode> {
+        (self.phase == Phase::Code).then_some(&mut self.code)
+    }
+
+    /// Whether it does.
+    pub(crate) fn is_in_use(&self) -> bool {
+        self.phase == Phase::Code
+    }
+
+    /// Accelerations for an evaluation of a run; `false` if the interpreter has to answer. Code that
+    /// is not sure is left.
+    pub(crate) fn evaluate(
+        &mut self,
+        state: State<'_>,
+        a: &mut [f64],
+        (equations, watch): (&KeptEquations<'_>, &Watch),
+    ) -> bool {
+        if !self.is_in_use() {
+            return false;
+        }
+        match self.code.accelerations(state, a) {
+            Ok(()) => {
+                self.evaluations += 1;
+                true
+            }
+            Err(doubt) => {
+                self.leave(state.t, doubt, (equations, watch));
+                false
+            }
+        }
+    }
+
+    /// Moves a state onto the constraints by the code in use; in doubt it is as before.
+    pub(crate) fn project(
+        &mut self,
+        equations: &KeptEquations<'_>,
+        t: f64,
+        state: (&mut [f64], &mut [f64]),
+    ) -> Result<Correction, Doubt> {
+        let mechanism = equations.at.mechanism;
+        self.projection.project(&self.code, mechanism, t, state)
+    }
+
+    /// Takes an accepted state of the code.
+    pub(crate) fn accept(&mut self, now: Now<'_>) {
+        if GUARDED {
+            self.accepted.swap(0, 1);
+            self.accepted[0].take(now);
+            self.n_accepted = (self.n_accepted + 1).min(2);
+            self.evaluations = 0;
+        }
+    }
+
+    /// Velocities have jumped at t: states before tell nothing of what follows.
+    pub(crate) fn restart(&mut self, equations: &mut KeptEquations<'_>, watch: &mut Watch, t: f64) {
+        if self.is_in_use() {
+            self.n_accepted = 0;
+            watch.passage.take(&mut equations.velocity, t);
+        }
+    }
+
+    /// Told once when code was left.
+    pub(crate) fn take_departure(&mut self) -> Option<Departure> {
+        self.departure.take()
+    }
+
+    /// Looks ahead from the last two states that the code has accepted, for steps like that between
+    /// them.
+    pub(crate) fn look_ahead(&self, equations: &KeptEquations<'_>, watch: &mut Watch) {
+        let [Accepted { t, q, v, a }, before] = &self.accepted;
+        match self.n_accepted {
+            2 => watch.look_ahead(equations, Now { t: *t, q, v, a }, t - before.t),
+            _ => watch.delicate = None,
+        }
+    }
+
+    /// Goes back to code at an accepted, interpreted state far from singular configurations, if it
+    /// is as good as before there and has been left long enough ago.
+    pub(crate) fn come_back(
+        &mut self,
+        equations: &KeptEquations<'_>,
+        Now { t, q, v, a }: Now<'_>,
+    ) -> Option<Event> {
+        let Phase::Interpreter(steps) = &mut self.phase else {
+            return None;
+        };
+        *steps += 1;
+        let is_early = *steps < self.patience;
+        let facts = self.code.0.facts();
+        let has_its_rows = equations.requested_rows.is_none()
+            && *equations.velocity.kept == *facts.kept
+            && *equations.position.kept == *facts.position_kept;
+        if is_early || !has_its_rows || are_delicate(&equations.velocity) {
+            return None;
+        }
+        let found = &mut self.found;
+        let health = self.code.0.acceleration(t, q, v, found);
+        for (found, a) in found.iter_mut().zip(a) {
+            *found -= a;
+        }
+        let at = &equations.at;
+        let largest = |x: &[f64]| {
+            let shares = x.iter().enumerate();
+            let shares = shares.map(|(j, x)| x.abs() / at.mechanism.unit(j, at.size));
+            shares.fold(0.0, f64::max)
+        };
+        let is_same = largest(found) <= SAME_ACCELERATIONS * largest(a).max(largest(v).powi(2));
+        if !(health >= RETURN && is_same && found.iter().all(|x| x.is_finite())) {
+            return None;
+        }
+        self.phase = Phase::Code;
+        self.patience = self.patience.saturating_mul(2);
+        self.n_accepted = 0;
+        self.evaluations = 0;
+        let text = format!(
+            "the generated code `{}` is used again: its pivots are at {health:.2} of those that it was generated for. The motion is the same.",
+            facts.name
+        );
+        let dropped = &equations.velocity.dropped;
+        Some(Event::at(t, EventKind::CodeUsed, dropped, text))
+    }
+
+    /// Leaves the code at an evaluation or a projection at time t.
+    pub(crate) fn leave(
+        &mut self,
+        t: f64,
+        doubt: Doubt,
+        (equations, watch): (&KeptEquations<'_>, &Watch),
+    ) {
+        self.phase = Phase::Waking;
+        let since = match self.n_accepted {
+            0 => watch.passage.since(),
+            _ => self.accepted[0].t,
+        };
+        let text = format!(
+            "the generated code `{}` is left, because at t = {t} s {doubt}; from here on the equations are interpreted. The motion is the same.",
+            self.code.0.facts().name
+        );
+        let dropped = &equations.velocity.dropped;
+        self.departure = Some(Departure {
+            event: Event::at(since, EventKind::CodeLeft, dropped, text),
+            is_within_step: self.evaluations > 0,
+        });
+    }
+
+    /// Lets the interpreter see the last accepted states of the code, if it has not yet.
+    pub(crate) fn wake_up(
+        &mut self,
+        equations: &mut KeptEquations<'_>,
+        manifold: &mut Manifold,
+        watch: &mut Watch,
+    ) -> Result<(), MotionFault> {
+        if self.phase != Phase::Waking {
+            return Ok(());
+        }
+        for Accepted { t, q, v, a } in self.accepted[..self.n_accepted].iter_mut().rev() {
+            manifold.settle(equations, *t, q)?;
+            watch.passage.take(&mut equations.velocity, *t);
+            watch.enter(equations, Now { t: *t, q, v, a });
+        }
+        self.phase = Phase::Interpreter(0);
+        Ok(())
+    }
+}

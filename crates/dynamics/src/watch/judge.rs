@@ -1,0 +1,234 @@
+//! What the end of a step is judged by, and what is known of singular configurations on the way.
+//!
+//! Near one, stages are moved onto the constraints before they are evaluated, and steps are chosen
+//! such that it falls between two stages. A step must not end where a projection could not tell
+//! the branches apart, and one that goes over it stands only if its correction is small beside
+//! the distance of the branches and its velocities go on from those before.
+
+use model::System;
+
+use super::exchange::{self, Exchange};
+use super::passage::{Now, Passage};
+use super::pivots::are_delicate;
+use super::search;
+use crate::error::MotionFault;
+use crate::events::Event;
+use crate::guards::GUARDED;
+use crate::limits::{
+    BLIND, BLIND_MAX, BLIND_TOLERANCES, FORESIGHT, JUST_AHEAD, NEAREST, NEAREST_MAX,
+    NEAREST_TOLERANCES, PASSED, SMOOTH,
+};
+use crate::options::{MotionOptions, RowChoice};
+use crate::solve::{KeptEquations, KeptRows};
+
+/// What comes after a look at the end of a step.
+pub(crate) enum Next {
+    /// It may stand.
+    Accept,
+    /// It begins again, shorter.
+    Reject,
+    /// It may stand on other rows.
+    Keep(Box<Exchange>),
+    /// It is refused; where no shorter one stands the run stops there.
+    Stop(MotionFault),
+}
+
+impl Next {
+    /// What is to be kept from here on, if the step may stand.
+    pub(crate) fn stands(self) -> Result<Option<Box<Exchange>>, Self> {
+        match self {
+            Self::Accept => Ok(None),
+            Self::Keep(rows) => Ok(Some(rows)),
+            Self::Reject | Self::Stop(_) => Err(self),
+        }
+    }
+}
+
+impl From<MotionFault> for Next {
+    fn from(fault: MotionFault) -> Self {
+        Self::Stop(fault)
+    }
+}
+
+/// What a motion is watched for.
+pub(crate) struct Watch {
+    choice: RowChoice,
+    pub(crate) passage: Passage,
+    /// What happened at the last accepted steps and has not been told.
+    pending: Option<Event>,
+    rtol: f64,
+    t_end: f64,
+    /// Whether the last accepted step may have passed a singular configuration.
+    pub(crate) is_suspect: bool,
+    /// When the motion is expected to pass one.
+    pub(super) delicate: Option<f64>,
+    /// When a step was refused last because of a dropped row, and which.
+    contradicted: Option<(f64, MotionFault)>,
+}
+
+impl Watch {
+    pub(crate) fn new(choice: &RowChoice, options: &MotionOptions) -> Self {
+        Self {
+            choice: choice.clone(),
+            passage: Passage::default(),
+            pending: None,
+            rtol: options.rtol,
+            t_end: options.t_end,
+            is_suspect: false,
+            delicate: None,
+            contradicted: None,
+        }
+    }
+
+    /// Share of the reference to which a pivot falls that vanishes, as well as this run knows;
+    /// steps must not end nearer to a singular configuration, but where they have to.
+    pub(crate) fn nearest(&self) -> f64 {
+        (NEAREST_TOLERANCES * self.rtol).clamp(NEAREST, NEAREST_MAX)
+    }
+
+    /// Share of the reference pivots below which reactions are not told.
+    pub(crate) fn blind(&self) -> f64 {
+        (BLIND_TOLERANCES * self.rtol).clamp(BLIND, BLIND_MAX)
+    }
+
+    /// When the motion is expected to pass a singular configuration, and by which factor steps over
+    /// it may miss their tolerance.
+    pub(crate) fn delicate(&self) -> Option<(f64, f64)> {
+        self.delicate.map(|t| (t, (PASSED / self.rtol).max(1.0)))
+    }
+
+    /// Whether the end of a step at t is a place where it must not end, at freshly factored rows.
+    /// Steps have to end at break times and at the end of the run, wherever that is.
+    pub(crate) fn judge_place(
+        &self,
+        equations: &KeptEquations<'_>,
+        t: f64,
+        has_to_end: bool,
+    ) -> Next {
+        let is_near = equations.velocity.relative_pivot() < self.nearest();
+        match is_near && !has_to_end {
+            true => Next::Stop(self.no_way_over(t)),
+            false => Next::Accept,
+        }
+    }
+
+    /// Which rows to keep at a settled position, where the rows are factored.
+    pub(crate) fn judge_rows(&self, equations: &mut KeptEquations<'_>, q: &[f64]) -> Next {
+        match Exchange::due(equations, &self.choice, q) {
+            Ok(Some(exchange)) => Next::Keep(Box::new(exchange)),
+            Ok(None) => Next::Accept,
+            Err(fault) => Next::Stop(fault),
+        }
+    }
+
+    /// Whether [`Watch::judge_rows`] has something to decide at freshly factored rows.
+    pub(crate) fn may_exchange(&self, equations: &mut KeptEquations<'_>) -> bool {
+        exchange::may_be_due(equations, &self.choice)
+    }
+
+    /// Rows that suit a row of output better than those of the steps around it.
+    pub(crate) fn rows_for_output(
+        &self,
+        equations: &mut KeptEquations<'_>,
+        q: &[f64],
+    ) -> Result<Option<KeptRows>, MotionFault> {
+        exchange::better_for_row(equations, &self.choice, q)
+    }
+
+    /// What is told once the step stands.
+    pub(crate) fn tell_later(&mut self, event: Option<Event>) {
+        self.pending = event.or(self.pending.take());
+    }
+
+    /// Notes a step to t that was refused because of a dropped row.
+    pub(crate) fn note_refused(&mut self, t: f64, fault: &MotionFault) {
+        if matches!(fault, MotionFault::DroppedRow { .. }) {
+            self.contradicted = Some((t, fault.clone()));
+        }
+    }
+
+    /// The dropped row because of which steps have collapsed at time t: the ever smaller ones on
+    /// this side of a contradiction are good, and say nothing of it.
+    pub(crate) fn contradiction(&mut self, t: f64) -> Option<MotionFault> {
+        let (end, fault) = self.contradicted.take()?;
+        (end - t <= JUST_AHEAD * self.t_end).then_some(fault)
+    }
+
+    /// Whether a step to freshly factored rows may have passed a singular configuration.
+    pub(crate) fn may_have_passed(
+        &self,
+        equations: &mut KeptEquations<'_>,
+        [t0, t1]: [f64; 2],
+    ) -> bool {
+        let is_foreseen = self.delicate.is_some_and(|t| t0 < t && t <= t1);
+        is_foreseen || GUARDED && self.passage.is_suspect(&mut equations.velocity)
+    }
+
+    /// Judges a step to t that may have passed a singular configuration by its correction, in the
+    /// norm of the step: other branches are as far away as the place where it ends.
+    pub(crate) fn judge_correction(
+        &self,
+        equations: &KeptEquations<'_>,
+        t: f64,
+        correction: f64,
+    ) -> Next {
+        let distance = equations.velocity.relative_pivot().max(NEAREST);
+        match correction * self.rtol > SMOOTH * distance {
+            true => Next::Stop(self.no_way_over(t)),
+            false => Next::Accept,
+        }
+    }
+
+    /// Judges the velocities and accelerations at the end of a step: behind a singular
+    /// configuration they go on from where the motion came near it; as long as it is near, that
+    /// remains to be seen.
+    pub(crate) fn judge_motion(
+        &mut self,
+        equations: &KeptEquations<'_>,
+        now: Now<'_>,
+        may_have_passed: bool,
+    ) -> Next {
+        let mass = equations.at.mechanism.mass();
+        let remains_to_be_seen = !GUARDED || are_delicate(&equations.velocity);
+        if may_have_passed && !remains_to_be_seen && !self.passage.is_continued_by(now, mass) {
+            return Next::Stop(self.no_way_over(now.t));
+        }
+        self.enter(equations, now);
+        Next::Accept
+    }
+
+    /// Notes an accepted state far from singular configurations.
+    pub(crate) fn enter(&mut self, equations: &KeptEquations<'_>, now: Now<'_>) {
+        if GUARDED && !are_delicate(&equations.velocity) {
+            self.passage.enter(now);
+        }
+    }
+
+    /// Takes the state just evaluated as that of an accepted step; what happened since the last
+    /// one.
+    pub(crate) fn accept(
+        &mut self,
+        equations: &mut KeptEquations<'_>,
+        t: f64,
+        may_have_passed: bool,
+    ) -> Option<Event> {
+        self.is_suspect = may_have_passed;
+        self.passage.take(&mut equations.velocity, t);
+        self.pending.take()
+    }
+
+    /// Looks ahead from an accepted state for so many steps like the last one.
+    pub(crate) fn look_ahead(&mut self, equations: &KeptEquations<'_>, now: Now<'_>, step: f64) {
+        let t_last = now.t + FORESIGHT * step;
+        let expected = self.passage.expected().filter(|&e| e <= t_last);
+        self.delicate = expected.and_then(|expected| search::foresee(equations, now, expected));
+    }
+
+    /// Refuses a step over a singular configuration to t.
+    pub(crate) fn no_way_over(&self, t: f64) -> MotionFault {
+        MotionFault::SingularPassage {
+            from: self.passage.since(),
+            to: t,
+        }
+    }
+}

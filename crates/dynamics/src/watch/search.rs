@@ -1,0 +1,195 @@
+//! When does a step pass a singular configuration, and how many rows are dependent there? Looked
+//! for in the dense output of an accepted step that was suspect.
+
+use model::System;
+use solvability::along::search::{minimum, root};
+use solvability::decide_rows;
+
+use super::passage::Now;
+use crate::events::{Event, EventKind};
+use crate::limits::{BEYOND, GLANCES, PLACES, SHARP, STAYS, STEEPER, VANISHES};
+use crate::solve::{Evaluation, KeptEquations, KeptRows};
+
+/// A singular configuration within a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Singular {
+    /// When (s).
+    pub(crate) t: f64,
+    /// Kept rows that are dependent there, and in what is told of it the rank that is lost.
+    pub(crate) dependent: usize,
+}
+
+/// The largest change between neighbours.
+fn steepest(pivots: &[f64]) -> f64 {
+    let changes = pivots.windows(2).map(|w| (w[1] - w[0]).abs());
+    changes.fold(0.0, f64::max)
+}
+
+/// When a motion that is at `now`, the last accepted state, will be singular, if its pivots vanish
+/// about when that is expected.
+pub(super) fn foresee(equations: &KeptEquations<'_>, now: Now<'_>, expected: f64) -> Option<f64> {
+    let noise = VANISHES * equations.velocity.relative_pivot();
+    let mut way = vec![0.0; now.v.len()];
+    let mut state = |time: f64, out: &mut [f64]| {
+        let dt = time - now.t;
+        for ((way, v), a) in way.iter_mut().zip(now.v).zip(now.a) {
+            *way = dt * (v + 0.5 * dt * a);
+        }
+        out.copy_from_slice(now.q);
+        equations.at.mechanism.displace(out, &way);
+    };
+    let interval = [now.t, now.t + BEYOND * (expected - now.t)];
+    let mut search = Search::new(equations);
+    match search.is_promising(interval, &mut state) {
+        true => search.find(interval, noise, state).map(|found| found.t),
+        false => None,
+    }
+}
+
+/// Looks for singular configurations on kept rows.
+pub(crate) struct Search<'m> {
+    at: Evaluation<'m>,
+    rows: KeptRows,
+}
+
+impl<'m> Search<'m> {
+    /// On the present rows, with storage of its own.
+    pub(crate) fn new(equations: &KeptEquations<'m>) -> Self {
+        Self {
+            at: equations.at.clone(),
+            rows: equations.velocity.clone(),
+        }
+    }
+
+    /// Whether the pivots fall or the bordered determinant has changed its sign at one of a few
+    /// places, at a price of a factorisation for each until they do; in doubt they do.
+    fn is_promising(
+        &mut self,
+        [now, end]: [f64; 2],
+        mut state: impl FnMut(f64, &mut [f64]),
+    ) -> bool {
+        let mut q = vec![0.0; self.at.mechanism.layout().n_q];
+        let Some(first) = self.pivot_at(now, &mut q, &mut state) else {
+            return true;
+        };
+        let mut frame = Vec::new();
+        self.rows.null_frame(&mut frame);
+        let sign = self.rows.orientation(&frame);
+        (1..=GLANCES).any(|k| {
+            let t = now + (end - now) * (k as f64 / GLANCES as f64);
+            let pivot = self.pivot_at(t, &mut q, &mut state);
+            pivot.is_none_or(|pivot| pivot < STAYS * first)
+                || self.rows.orientation(&frame) * sign < 0.0
+        })
+    }
+
+    /// Smallest pivot at a time, relative to the reference.
+    fn pivot_at(
+        &mut self,
+        t: f64,
+        q: &mut [f64],
+        state: &mut impl FnMut(f64, &mut [f64]),
+    ) -> Option<f64> {
+        state(t, q);
+        self.at.pose(t, q);
+        let factored = self.rows.factor_above(0.0, &self.at);
+        factored.ok().map(|()| self.rows.relative_pivot())
+    }
+
+    /// The singular configuration between t0 and t1, if there is one: where the sign of the
+    /// bordered determinant changes, or where the smallest pivot falls below `noise` of its
+    /// reference and rises again. `state` gives the coordinates on the way.
+    pub(crate) fn find(
+        &mut self,
+        [t0, t1]: [f64; 2],
+        noise: f64,
+        mut state: impl FnMut(f64, &mut [f64]),
+    ) -> Option<Singular> {
+        let mut q = vec![0.0; self.at.mechanism.layout().n_q];
+        let mut at = |t: f64, search: &mut Self| search.pivot_at(t, &mut q, &mut state);
+        let time = |k: usize| t0 + (t1 - t0) * (k as f64 / PLACES as f64);
+        let mut frame = Vec::new();
+        let (mut pivots, mut signs) = ([0.0; PLACES + 1], [0.0; PLACES + 1]);
+        for k in 0..=PLACES {
+            pivots[k] = at(time(k), self)?;
+            if k == 0 {
+                self.rows.null_frame(&mut frame);
+            }
+            signs[k] = self.rows.orientation(&frame);
+        }
+        let flip = signs.windows(2).position(|w| w[0] * w[1] < 0.0);
+        let t = match flip {
+            // The pivot with the sign of the determinant crosses zero nearly as a straight line.
+            Some(k) => {
+                let ends = [pivots[k], -pivots[k + 1]];
+                let signed = |t: f64| {
+                    let pivot = at(t, self).ok_or(())?;
+                    Ok::<f64, ()>(pivot * self.rows.orientation(&frame) * signs[k])
+                };
+                root([time(k), time(k + 1)], ends, 0.0, signed).ok()?
+            }
+            None => {
+                let k = (1..PLACES).min_by(|&a, &b| pivots[a].total_cmp(&pivots[b]))?;
+                if pivots[k] - STEEPER * steepest(&pivots) > noise {
+                    return None;
+                }
+                let interval = [time(k - 1), time(k + 1)];
+                let enough = SHARP * (interval[1] - interval[0]);
+                let least = minimum(interval, noise, enough, |t| at(t, self).ok_or(()));
+                least.ok()??.0
+            }
+        };
+        let pivot = at(t, self)?;
+        if flip.is_none() && pivot > noise {
+            return None;
+        }
+        let share = noise.max(2.0 * pivot);
+        self.rows.factor_above(share, &self.at).ok()?;
+        Some(Singular {
+            t,
+            dependent: self.rows.n_left_out().max(1),
+        })
+    }
+
+    /// By how much the rank of all rows falls where that of the kept ones does: rows that are kept
+    /// may become dependent where others take their place. In doubt by as much.
+    pub(crate) fn rank_lost(
+        &mut self,
+        Singular { t, dependent }: Singular,
+        mut state: impl FnMut(f64, &mut [f64]),
+    ) -> usize {
+        if self.rows.dropped.is_empty() {
+            return dependent;
+        }
+        let mut q = vec![0.0; self.at.mechanism.layout().n_q];
+        state(t, &mut q);
+        self.at.pose_and_phi(t, &q);
+        match decide_rows(self.at.mechanism, &self.at.s, &q) {
+            Ok(decision) if decision.is_decided() => {
+                self.rows.kept.len().saturating_sub(decision.rank)
+            }
+            _ => dependent,
+        }
+    }
+
+    /// What is told of it; `uniqueness` says in words whether the motion is unique there.
+    pub(crate) fn event(&self, singular: Singular, uniqueness: &str) -> Event {
+        let redundancy = self.rows.dropped.len();
+        let Singular { t, dependent } = singular;
+        let (rows, verb) = match dependent {
+            1 => ("row", "depends"),
+            _ => ("rows", "depend"),
+        };
+        Event {
+            time: t,
+            kind: EventKind::SingularPassage,
+            redundancy_before: redundancy,
+            redundancy_after: redundancy + dependent,
+            dropped: self.rows.dropped.clone(),
+            text: format!(
+                "passed a singular configuration, where {dependent} more {rows} {verb} on the others for an instant: {uniqueness}. \
+                 The run went on as smoothly as it came."
+            ),
+        }
+    }
+}

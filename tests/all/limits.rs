@@ -1,0 +1,160 @@
+//! Numbers that somebody chose stand in one table for each crate, with their units, what breaks
+//! where they are wrong, and the tests that fail then.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Crates whose constants stand in a table: the files that may hold them, and what the table says.
+const TABLES: [(&str, &[&str], &str); 1] = [(
+    "dynamics",
+    &["limits.rs"],
+    include_str!("../reference/limits-dynamics.txt"),
+)];
+
+const NUMBERS: [&str; 9] = [
+    "f64",
+    "f32",
+    "usize",
+    "u64",
+    "u32",
+    "u8",
+    "i64",
+    "i32",
+    "RangeInclusive<f64>",
+];
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .parent()
+        .expect("tests/ lies in the root")
+}
+
+/// Rust files below a folder.
+fn sources(folder: &Path, out: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("readable").flatten() {
+        let path = entry.path();
+        match path.is_dir() {
+            true if !path.ends_with("target") => sources(&path, out),
+            false if path.extension().is_some_and(|e| e == "rs") => out.push(path),
+            _ => {}
+        }
+    }
+}
+
+/// A constant with the comment above it.
+struct Limit {
+    name: String,
+    value: String,
+    comment: String,
+}
+
+/// The numeric constants of a text, up to its tests.
+fn limits(text: &str) -> Vec<Limit> {
+    let mut found = Vec::new();
+    let mut comment = String::new();
+    for line in text.lines().take_while(|l| *l != "mod tests {") {
+        let line = line.trim();
+        if let Some(words) = line.strip_prefix("///") {
+            comment.push_str(words);
+            continue;
+        }
+        let said = std::mem::take(&mut comment);
+        let visible = line
+            .strip_prefix("pub(crate) ")
+            .or(line.strip_prefix("pub "));
+        let item = visible.unwrap_or(line).strip_prefix("const ");
+        let Some((name, rest)) = item.and_then(|item| item.split_once(": ")) else {
+            continue;
+        };
+        let (ty, value) = rest.split_once(" = ").expect("a value on the same line");
+        if NUMBERS.contains(&ty) {
+            found.push(Limit {
+                name: name.to_owned(),
+                value: value.trim_end_matches(';').to_owned(),
+                comment: said,
+            });
+        }
+    }
+    found
+}
+
+/// What a comment says behind a word, up to the end of the sentence.
+fn said<'c>(limit: &'c Limit, word: &str) -> Option<&'c str> {
+    let rest = limit.comment.split_once(word)?.1;
+    Some(
+        rest.split_once(". ")
+            .map_or(rest, |(said, _)| said)
+            .trim_end_matches('.'),
+    )
+}
+
+#[test]
+fn numbers_stand_in_the_table_of_their_crate() {
+    for (name, files, _) in TABLES {
+        let folder = root().join("crates").join(name).join("src");
+        let mut all = Vec::new();
+        sources(&folder, &mut all);
+        for path in all {
+            let file = path
+                .strip_prefix(&folder)
+                .expect("below")
+                .display()
+                .to_string();
+            let is_test = file.contains("tests");
+            if files.contains(&file.as_str()) || is_test {
+                continue;
+            }
+            let text = fs::read_to_string(&path).expect("readable");
+            let names: Vec<String> = limits(&text).into_iter().map(|l| l.name).collect();
+            assert!(
+                names.is_empty(),
+                "{name}/{file} holds {names:?}: move them to {files:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn every_limit_has_its_unit_its_reason_and_a_test_that_exists() {
+    let mut all = Vec::new();
+    sources(root(), &mut all);
+    let mut tests = BTreeSet::new();
+    for path in all {
+        let text = fs::read_to_string(path).expect("readable");
+        let mut lines = text.lines();
+        while let Some(line) = lines.next() {
+            if line.trim() == "#[test]"
+                && let Some(function) = lines.next().and_then(|l| l.trim().strip_prefix("fn "))
+            {
+                tests.insert(function.split('(').next().unwrap_or_default().to_owned());
+            }
+        }
+    }
+    for (name, files, expected) in TABLES {
+        let mut table = String::new();
+        for file in files {
+            let path = root().join(format!("crates/{name}/src/{file}"));
+            for limit in limits(&fs::read_to_string(path).expect("readable")) {
+                let constant = &limit.name;
+                let unit = said(&limit, "Unit: ").unwrap_or_else(|| panic!("{constant}: no unit"));
+                assert!(
+                    limit.comment.contains("Less") && limit.comment.contains("ore"),
+                    "{constant}: what breaks if it is less, and if it is more?"
+                );
+                let test = said(&limit, "Test: ").unwrap_or_else(|| panic!("{constant}: no test"));
+                let test = test.trim_matches('`');
+                assert!(
+                    test == "none" || tests.contains(test),
+                    "{constant}: there is no test `{test}`"
+                );
+                let value = &limit.value;
+                table.push_str(&format!("{constant} = {value} ({unit}), {test}\n"));
+            }
+        }
+        assert!(
+            table == expected,
+            "the limits of `{name}` have changed; if they should, this is tests/reference/limits-{name}.txt:\n{table}"
+        );
+    }
+}
