@@ -296,19 +296,6 @@ impl SceneCode for Falling {
         dv.fill(0.0);
         1.0
     }
-
-    fn jacobian_action(
-        &self,
-        _t: f64,
-        _q: &[f64],
-        _v: &[f64],
-        _dq: &[f64],
-        _dv: &[f64],
-        da: &mut [f64],
-    ) -> f64 {
-        da.fill(0.0);
-        1.0
-    }
 }
 
 #[test]

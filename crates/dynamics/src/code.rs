@@ -59,7 +59,6 @@ pub struct Facts {
 ///     fn velocity_residual(&self, _: f64, _: &[f64], _: &[f64], _: &mut [f64]) {}
 ///     fn position_correction(&self, _: f64, _: &[f64], _: &[f64], dq: &mut [f64]) -> f64 { dq.fill(0.0); 1.0 }
 ///     fn velocity_correction(&self, _: f64, _: &[f64], _: &[f64], dv: &mut [f64]) -> f64 { dv.fill(0.0); 1.0 }
-///     fn jacobian_action(&self, _: f64, _: &[f64], _: &[f64], _: &[f64], _: &[f64], da: &mut [f64]) -> f64 { da.fill(0.0); 1.0 }
 /// }
 ///
 /// let stone = Body { name: "stone".into(), mass: 2.0, inertia: 0.1, ..Body::default() };
@@ -86,7 +85,7 @@ pub struct Facts {
 /// | --- | --- | --- |
 /// | `q` | n_q | coordinates |
 /// | `dq` | n_v | a displacement of them, see [`model::System::displace`] |
-/// | `v`, `dv`, `a`, `da` | n_v | velocities, accelerations, and their changes |
+/// | `v`, `dv`, `a` | n_v | velocities, their changes, and accelerations |
 /// | `phi` | m | Φ(q, t) of all holonomic rows |
 /// | `residual`, `lambda` | m + h | C·v − b, and multipliers, of all rows |
 pub trait SceneCode: Send + Sync {
@@ -112,15 +111,4 @@ pub trait SceneCode: Send + Sync {
     /// The smallest `dv` in the mass metric with `C·dv = −residual` on the kept rows of C; the
     /// health.
     fn velocity_correction(&self, t: f64, q: &[f64], residual: &[f64], dv: &mut [f64]) -> f64;
-
-    /// `da = (∂a/∂q)·dq + (∂a/∂v)·dv`, for implicit methods; the health.
-    fn jacobian_action(
-        &self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        dq: &[f64],
-        dv: &[f64],
-        da: &mut [f64],
-    ) -> f64;
 }

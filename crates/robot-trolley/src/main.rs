@@ -26,9 +26,6 @@ struct Arguments {
     /// Directory for the figures
     #[arg(long, value_name = "DIR", default_value = "figures")]
     out: PathBuf,
-    /// Evaluate the equations of the scene by the interpreter instead of the code generated for it
-    #[arg(long)]
-    interpreted: bool,
 }
 
 fn main() -> ExitCode {
@@ -47,7 +44,7 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     let start = analyse(mechanism, 0.0, &study.prepared.q)?;
     println!("{}", text::structure(&start));
 
-    let variants = variants::run(arguments.interpreted)?;
+    let variants = variants::run()?;
     let mut agreeing = 0;
     for instant in &variants[0].rows {
         let analysis = analyse(mechanism, instant.t, &instant.q)?;
@@ -55,10 +52,8 @@ fn run(arguments: &Arguments) -> Result<(), Box<dyn std::error::Error>> {
     }
     let instants = variants[0].rows.len();
     println!("{}", text::verdicts(&start, agreeing, instants));
-    println!(
-        "{}",
-        text::variants(mechanism, &variants, arguments.interpreted)
-    );
+    println!("{}", text::variants(mechanism, &variants));
+    println!("{}", text::generated(&variants[0], &variants::generated()?));
 
     let directory = OutputDirectory::create(&arguments.out)?;
     for path in figures::write(mechanism, &start, &variants, &directory)? {

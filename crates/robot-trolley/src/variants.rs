@@ -1,24 +1,16 @@
-//! Three ways to eliminate the two redundant rows, run one after the other.
+//! Three ways to eliminate the two redundant rows, run one after the other, and the rows that are
+//! chosen where nobody asks, on code generated for them.
 
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-use pfaff::Overrides;
 use pfaff::dynamics::{MotionOptions, RowChoice, SceneCode, Summary};
 use pfaff::model::Reaction;
-use robot_trolley::generated::{drop_6_21, drop_18_21, drop_19_21};
+use pfaff::{Overrides, Study};
+use robot_trolley::generated::automatic;
 
 /// The published variants: rows to delete, counted from 1.
 pub(crate) const DELETED: [[usize; 2]; 3] = [[6, 21], [18, 21], [19, 21]];
-
-/// The code generated for them.
-fn code() -> [Arc<dyn SceneCode>; 3] {
-    [
-        Arc::new(drop_6_21::Code),
-        Arc::new(drop_18_21::Code),
-        Arc::new(drop_19_21::Code),
-    ]
-}
 
 /// Tolerance of the runs; differences between them are compared with it.
 pub(crate) const TOLERANCE: f64 = 1e-11;
@@ -43,31 +35,43 @@ pub(crate) struct Instant {
     pub(crate) reactions: Vec<Reaction>,
 }
 
-/// Runs all variants on generated code, or `interpreted`.
-pub(crate) fn run(interpreted: bool) -> Result<Vec<Variant>, Box<dyn std::error::Error>> {
-    let runs = DELETED.iter().zip(code());
-    runs.map(|(&deleted, code)| run_one(deleted, (!interpreted).then_some(code)))
-        .collect()
+/// Runs all variants.
+pub(crate) fn run() -> Result<Vec<Variant>, Box<dyn std::error::Error>> {
+    DELETED.iter().map(|&deleted| run_one(deleted)).collect()
 }
 
-fn run_one(
-    deleted: [usize; 2],
-    code: Option<Arc<dyn SceneCode>>,
-) -> Result<Variant, Box<dyn std::error::Error>> {
+fn run_one(deleted: [usize; 2]) -> Result<Variant, Box<dyn std::error::Error>> {
     let drop = deleted.map(|row| row - 1).to_vec();
-    let mut study = crate::read(&Overrides {
+    let study = crate::read(&Overrides {
         drop: Some(drop.clone()),
         ..Overrides::default()
     })?;
-    if let Some(code) = code {
-        study.prepared = study.prepared.with_code(code)?;
-    }
+    run_study(&study, deleted, RowChoice::Drop(drop))
+}
+
+/// The motion on generated code, with the rows (from 1) that it drops.
+pub(crate) fn generated() -> Result<Variant, Box<dyn std::error::Error>> {
+    let mut study = crate::read(&Overrides::default())?;
+    let code: Arc<dyn SceneCode> = Arc::new(automatic::Code);
+    study.prepared = study.prepared.with_code(code)?;
+    let deleted = match study.prepared.decision.dropped[..] {
+        [a, b] => [a + 1, b + 1],
+        ref other => return Err(format!("two rows are redundant, not {other:?}").into()),
+    };
+    run_study(&study, deleted, RowChoice::Automatic)
+}
+
+fn run_study(
+    study: &Study,
+    deleted: [usize; 2],
+    rows_choice: RowChoice,
+) -> Result<Variant, Box<dyn std::error::Error>> {
     let base = study.options.clone().ok_or(pfaff::StudyError::NoEnd)?;
     let options = MotionOptions {
         rtol: TOLERANCE,
         atol: TOLERANCE,
         output_step: OUTPUT_STEP,
-        rows: RowChoice::Drop(drop),
+        rows: rows_choice,
         ..base
     };
     let mut rows = Vec::new();

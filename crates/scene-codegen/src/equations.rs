@@ -16,10 +16,6 @@ pub(crate) enum Source {
     Mechanism(Input),
     /// A right-hand side, by row.
     Rhs(usize),
-    /// A direction of coordinates.
-    AlongQ(usize),
-    /// A direction of velocities.
-    AlongV(usize),
 }
 
 /// The equations as values of a program.
@@ -48,12 +44,10 @@ impl Equations {
             .iter()
             .map(|&i| Source::Mechanism(i))
             .chain((0..layout.rows()).map(Source::Rhs))
-            .chain((0..layout.n_q).map(Source::AlongQ))
-            .chain((0..layout.n_v).map(Source::AlongV))
             .collect();
         let value = |source: &Source, state| match *source {
             Source::Mechanism(input) => subject.input(input, state),
-            Source::Rhs(_) | Source::AlongQ(_) | Source::AlongV(_) => 0.0,
+            Source::Rhs(_) => 0.0,
         };
         let states = subject.states.iter();
         let samples = states.map(|state| sources.iter().map(|s| value(s, state)).collect());
@@ -158,7 +152,5 @@ fn name(source: Source) -> String {
             derivative,
         }) => format!("{}{function}", ["f", "df", "ddf"][derivative.min(2)]),
         Source::Rhs(k) => format!("r{k}"),
-        Source::AlongQ(k) => format!("dq{k}"),
-        Source::AlongV(k) => format!("dv{k}"),
     }
 }

@@ -40,8 +40,6 @@ pub(crate) struct Signature {
     pub(crate) out: (&'static str, &'static str),
     /// Whether it returns a health.
     pub(crate) divides: bool,
-    /// Whether runs ask for it.
-    pub(crate) is_of_runs: bool,
 }
 
 const ACCELERATION: Signature = Signature {
@@ -50,7 +48,6 @@ const ACCELERATION: Signature = Signature {
     arguments: &[("q", "N_Q"), ("v", "N_V")],
     out: ("a", "N_V"),
     divides: true,
-    is_of_runs: true,
 };
 
 const MULTIPLIERS: Signature = Signature {
@@ -59,7 +56,6 @@ const MULTIPLIERS: Signature = Signature {
     arguments: &[("q", "N_Q"), ("v", "N_V")],
     out: ("lambda", "ROWS"),
     divides: true,
-    is_of_runs: true,
 };
 
 const PHI: Signature = Signature {
@@ -68,7 +64,6 @@ const PHI: Signature = Signature {
     arguments: &[("q", "N_Q")],
     out: ("values", "M"),
     divides: false,
-    is_of_runs: true,
 };
 
 const VELOCITY_RESIDUAL: Signature = Signature {
@@ -77,7 +72,6 @@ const VELOCITY_RESIDUAL: Signature = Signature {
     arguments: &[("q", "N_Q"), ("v", "N_V")],
     out: ("values", "ROWS"),
     divides: false,
-    is_of_runs: true,
 };
 
 const POSITION_CORRECTION: Signature = Signature {
@@ -86,7 +80,6 @@ const POSITION_CORRECTION: Signature = Signature {
     arguments: &[("q", "N_Q"), ("r", "M")],
     out: ("dq", "N_Q"),
     divides: true,
-    is_of_runs: true,
 };
 
 const VELOCITY_CORRECTION: Signature = Signature {
@@ -95,25 +88,6 @@ const VELOCITY_CORRECTION: Signature = Signature {
     arguments: &[("q", "N_Q"), ("r", "ROWS")],
     out: ("dv", "N_V"),
     divides: true,
-    is_of_runs: true,
-};
-
-const JACOBIAN_ACTION: Signature = Signature {
-    name: "jacobian_action",
-    doc: "The derivative of accelerations along (dq, dv).",
-    arguments: &[("q", "N_Q"), ("v", "N_V"), ("dq", "N_Q"), ("dv", "N_V")],
-    out: ("da", "N_V"),
-    divides: true,
-    is_of_runs: true,
-};
-
-const CONSTRAINT_MATRIX: Signature = Signature {
-    name: "constraint_matrix",
-    doc: "Entries of C that are not always zero, in the order of `PATTERN`: what verdicts are found from.",
-    arguments: &[("q", "N_Q")],
-    out: ("entries", "ENTRIES"),
-    divides: false,
-    is_of_runs: false,
 };
 
 /// All functions of a module.
@@ -124,8 +98,6 @@ pub(crate) struct Functions {
     pub(crate) seen_from: Option<String>,
     /// At how many of the sampled states the health of accelerations is below what runs ask for.
     pub(crate) unhealthy: usize,
-    /// Row and column of the entries of C that are not always zero.
-    pub(crate) pattern: Vec<[usize; 2]>,
 }
 
 impl Functions {
@@ -227,9 +199,7 @@ impl Functions {
         };
         let dq = correct(&position, position_kept);
         let dv = correct(&velocity, kept);
-        let da = tangent(&mut e, &a);
 
-        let (pattern, entries) = sparse(&e);
         let shares = velocity_shares;
         let health = |e: &mut Equations, state: usize| {
             let shares = shares.iter().map(|share| e.code.at(*share)[state]);
@@ -243,9 +213,7 @@ impl Functions {
             (PHI, e.phi.clone(), Vec::new()),
             (VELOCITY_RESIDUAL, residual, Vec::new()),
             (POSITION_CORRECTION, dq, position_shares),
-            (VELOCITY_CORRECTION, dv, shares.clone()),
-            (JACOBIAN_ACTION, da, shares),
-            (CONSTRAINT_MATRIX, entries, Vec::new()),
+            (VELOCITY_CORRECTION, dv, shares),
         ];
         let program = &e.code.program;
         let list = plan.map(|(signature, outputs, shares)| Function {
@@ -258,16 +226,8 @@ impl Functions {
             list: list.into(),
             unhealthy,
             seen_from: angle.map(|k| mechanism.coordinate(k).0.to_owned()),
-            pattern,
         })
     }
-}
-
-/// Entries of C that are not always zero, with row and column.
-fn sparse(e: &Equations) -> (Vec<[usize; 2]>, Vec<Value>) {
-    let rows = e.c.iter().enumerate();
-    let entries = rows.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, v)| ([i, j], *v)));
-    entries.filter(|(_, v)| !e.code.program.is_zero(*v)).unzip()
 }
 
 /// Each divisor as a signed share of its smallest size over the sampled states, or of a part of its
@@ -286,45 +246,4 @@ fn shares(e: &mut Equations, factored: &Factored) -> Vec<Value> {
         e.code.program.mul(divisor, unit)
     };
     factored.divisors.iter().map(share).collect()
-}
-
-/// The derivative of accelerations along a direction of coordinates and velocities.
-fn tangent(e: &mut Equations, a: &[Value]) -> Vec<Value> {
-    let along = |k| Source::AlongQ(k);
-    let places: Vec<Option<Value>> = e
-        .sources
-        .iter()
-        .map(|source| match *source {
-            Source::Mechanism(Input::Coordinate(k) | Input::Cos(k) | Input::Sin(k)) => {
-                e.input(along(k))
-            }
-            Source::Mechanism(Input::Velocity(k)) => e.input(Source::AlongV(k)),
-            _ => None,
-        })
-        .collect();
-    // Partners: d cos = −sin·dφ, d sin = cos·dφ.
-    let partner: Vec<Option<Value>> = e
-        .sources
-        .iter()
-        .map(|source| match *source {
-            Source::Mechanism(Input::Cos(k)) => e.input(Source::Mechanism(Input::Sin(k))),
-            Source::Mechanism(Input::Sin(k)) => e.input(Source::Mechanism(Input::Cos(k))),
-            _ => None,
-        })
-        .collect();
-    let sources = e.sources.clone();
-    e.code.program.tangent(a, |p, symbol, _| {
-        let k = symbol.index();
-        let (Some(direction), partner) = (places[k], partner[k]) else {
-            return p.number(0.0);
-        };
-        match (sources[k], partner) {
-            (Source::Mechanism(Input::Cos(_)), Some(sin)) => {
-                let product = p.mul(sin, direction);
-                p.neg(product)
-            }
-            (Source::Mechanism(Input::Sin(_)), Some(cos)) => p.mul(cos, direction),
-            _ => direction,
-        }
-    })
 }

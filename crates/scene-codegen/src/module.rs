@@ -214,8 +214,6 @@ fn constants(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
     let break_times = &layout.break_times;
     let (n_kept, n_position, n_breaks) = (kept.len(), position_kept.len(), break_times.len());
     let operations = operations(functions).join("; ");
-    let n_entries = functions.pattern.len();
-    let pattern = functions.pattern.iter().map(|[i, j]| quote!([#i, #j]));
     quote! {
         /// Name of the scene.
         pub const NAME: &str = #name;
@@ -233,10 +231,6 @@ fn constants(subject: &Subject<'_>, functions: &Functions) -> TokenStream {
         pub const KEPT: [usize; #n_kept] = [#(#kept),*];
         /// Rows that hold the position, from 0.
         pub const POSITION_KEPT: [usize; #n_position] = [#(#position_kept),*];
-        /// Number of entries of C that are not always zero.
-        pub const ENTRIES: usize = #n_entries;
-        /// Row and column of each of them, from 0.
-        pub const PATTERN: [[usize; 2]; ENTRIES] = [#(#pattern),*];
         /// Times at which a derivative of a function of time jumps (s).
         pub const BREAK_TIMES: [f64; #n_breaks] = [#(#break_times),*];
         /// Operations of each function; sines and functions of time are not counted.
@@ -464,15 +458,12 @@ fn array(source: Source, shape: &Shape) -> (&'static str, usize) {
             derivative,
         }) => ("f", 3 * function + derivative),
         Source::Rhs(k) => ("r", k),
-        Source::AlongQ(k) => ("dq", k),
-        Source::AlongV(k) => ("dv", k),
     }
 }
 
 /// `Code`, which implements `dynamics::SceneCode`.
 fn face(functions: &Functions, path: &syn::Path) -> TokenStream {
-    let of_runs = functions.list.iter().filter(|f| f.signature.is_of_runs);
-    let methods = of_runs.map(|f| {
+    let methods = functions.list.iter().map(|f| {
         let signature = &f.signature;
         let name = format_ident!("{}", signature.name);
         let (out, out_length) = signature.out;

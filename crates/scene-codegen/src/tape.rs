@@ -52,8 +52,6 @@ struct Arguments<'a> {
     q: &'a [f64],
     v: &'a [f64],
     rhs: &'a [f64],
-    dq: &'a [f64],
-    dv: &'a [f64],
 }
 
 thread_local! {
@@ -163,8 +161,6 @@ fn read(source: Source, a: Arguments<'_>, jets: &[[f64; 3]]) -> f64 {
             derivative,
         }) => jets.get(function).map_or(f64::NAN, |jet| jet[derivative]),
         Source::Rhs(k) => of(a.rhs, k),
-        Source::AlongQ(k) => of(a.dq, k),
-        Source::AlongV(k) => of(a.dv, k),
     }
 }
 
@@ -230,25 +226,5 @@ impl SceneCode for Tape {
             ..Arguments::default()
         };
         self.run("velocity_correction", arguments, dv)
-    }
-
-    fn jacobian_action(
-        &self,
-        t: f64,
-        q: &[f64],
-        v: &[f64],
-        dq: &[f64],
-        dv: &[f64],
-        da: &mut [f64],
-    ) -> f64 {
-        let arguments = Arguments {
-            t,
-            q,
-            v,
-            dq,
-            dv,
-            ..Arguments::default()
-        };
-        self.run("jacobian_action", arguments, da)
     }
 }

@@ -159,10 +159,10 @@ fn modules_compile_without_the_standard_library() {
     rustc(&folder, &emit);
 }
 
-/// The modules of the robot are those of its scene: a change of the generator or of the scene has
-/// to write them again.
+/// The module of the robot is that of its scene: a change of the generator or of the scene has to
+/// write it again.
 #[test]
-fn checked_in_modules_agree_with_their_scene() {
+fn the_checked_in_module_agrees_with_its_scene() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     let scene = "crates/robot-trolley/robot-trolley.toml";
     let text = std::fs::read_to_string(root.join(scene)).expect("the scene");
@@ -170,26 +170,14 @@ fn checked_in_modules_agree_with_their_scene() {
         dynamics: Some("pfaff::dynamics".into()),
         libm: false,
     };
-    let modules = [
-        ("automatic", None),
-        ("drop_6_21", Some([6, 21])),
-        ("drop_18_21", Some([18, 21])),
-        ("drop_19_21", Some([19, 21])),
-    ];
-    for (name, drop) in modules {
-        let rows = drop.map(|rows: [usize; 2]| rows.map(|row| row - 1));
-        let rows = rows.as_ref().map(<[usize; 2]>::as_slice);
-        let module = scene_codegen::scene_text(scene, &text, &Registry::planar(), rows, &choices)
-            .expect("code");
-        let out = format!("crates/robot-trolley/src/generated/{name}.rs");
-        let drop = drop.map_or(String::new(), |[a, b]| format!(" --drop {a},{b}"));
-        let command = format!(
-            "`cargo xtask codegen --scene {scene} --out {out}{drop} --dynamics pfaff::dynamics`"
-        );
-        let found = std::fs::read_to_string(root.join(&out)).unwrap_or_default();
-        assert!(
-            found == module.as_file(&command),
-            "{out} is stale: run {command}"
-        );
-    }
+    let registry = Registry::planar();
+    let module = scene_codegen::scene_text(scene, &text, &registry, None, &choices).expect("code");
+    let out = "crates/robot-trolley/src/generated/automatic.rs";
+    let command =
+        format!("`cargo xtask codegen --scene {scene} --out {out} --dynamics pfaff::dynamics`");
+    let found = std::fs::read_to_string(root.join(out)).unwrap_or_default();
+    assert!(
+        found == module.as_file(&command),
+        "{out} is stale: run {command}"
+    );
 }

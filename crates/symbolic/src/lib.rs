@@ -10,7 +10,6 @@
 //! | [`evaluate`] | direct evaluation, for tests and constants |
 //! | [`program`] | straight-line code: common subexpressions and operation counts |
 //! | `build` | the same built by operations, known parts folded |
-//! | `tangent` | derivatives of straight-line code along its inputs |
 //! | `lower` | from expressions to straight-line code |
 //! | [`mod@print`] | Rust tokens |
 //!
@@ -25,7 +24,6 @@ mod order;
 pub mod print;
 pub mod program;
 mod substitute;
-mod tangent;
 
 pub use differentiate::Derivation;
 pub use evaluate::Number;

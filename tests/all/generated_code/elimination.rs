@@ -223,17 +223,4 @@ impl SceneCode for Elimination {
         dv.copy_from_slice(&found);
         health
     }
-
-    fn jacobian_action(
-        &self,
-        _t: f64,
-        _q: &[f64],
-        _v: &[f64],
-        _dq: &[f64],
-        _dv: &[f64],
-        da: &mut [f64],
-    ) -> f64 {
-        da.fill(f64::NAN);
-        f64::NAN
-    }
 }

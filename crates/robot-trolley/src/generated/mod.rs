@@ -1,12 +1,5 @@
-//! The equations of the robot as straight-line code, one module for each way to eliminate its redundant rows: that which is chosen without a
-//! wish, and the published ones. Written by
-//! `cargo xtask codegen --scene`; a test compares them with their scene.
+//! The equations of the robot as straight-line code, on the rows that are kept where nobody asks for
+//! others. Written by `cargo xtask codegen --scene`; a test compares it with its scene.
 
 #[rustfmt::skip]
 pub mod automatic;
-#[rustfmt::skip]
-pub mod drop_18_21;
-#[rustfmt::skip]
-pub mod drop_19_21;
-#[rustfmt::skip]
-pub mod drop_6_21;
