@@ -4,7 +4,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use dynamics::{MotionError, RowChoice, prepare};
-use model::start::nearest_configuration;
+use model::start::{Metric, nearest_configuration};
 use model::{BodyRef, Function, Mechanism, StartOptions, System};
 use solvability::{
     ConstraintLevel, Contradiction, Ranks, StateError, contradictions, decide, decide_holonomic,
@@ -114,7 +114,8 @@ fn positions_contradict_later() {
     let m = &p.mechanism;
     let holds = &p.position_decision.kept;
     let found = |t: f64| {
-        let q = nearest_configuration(m, t, holds, &p.q).expect("kept rows can be met");
+        let q =
+            nearest_configuration(m, t, holds, &p.q, Metric::Mass).expect("kept rows can be met");
         let mut s = m.scratch();
         m.pose(t, &q, &mut s);
         m.phi(&mut s);

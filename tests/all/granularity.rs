@@ -6,7 +6,9 @@ use joints::{
     Angle, Distance, Fixed, Gear, KnifeEdge, PinInSlot, PointOnLine, RackAndPinion, Revolute,
     RevoluteAngleDrive, Rolling, Translational, Velocity,
 };
-use model::start::{Coordinate, KeepLevel, assemble, consistent_velocity, nearest_configuration};
+use model::start::{
+    Coordinate, KeepLevel, Metric, assemble, consistent_velocity, nearest_configuration,
+};
 use model::{
     Body, BodyRef, ConstraintId, Description, Drive, Frame, Function, Joint, Known, Mechanism,
     StartError, StartOptions, System,
@@ -74,7 +76,7 @@ fn robot_steered(displacement: f64) -> (Mechanism, Vec<f64>) {
         .q;
     let rows: Vec<usize> = (0..m.layout().m).collect();
     for k in 1..=10 {
-        q = nearest_configuration(&m, 0.1 * f64::from(k), &rows, &q).expect("near");
+        q = nearest_configuration(&m, 0.1 * f64::from(k), &rows, &q, Metric::Mass).expect("near");
     }
     (m, q)
 }

@@ -227,7 +227,18 @@ fn diagonal(points: &[[f64; 2]]) -> Option<f64> {
     (size > COINCIDE * ROUNDING * farthest).then_some(size)
 }
 
-/// The configuration nearest to q, in the mass metric, on the given rows of Φ at time t; allocates.
+/// How it is measured which configuration is nearest.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Metric {
+    /// By masses and inertias, as a start is assembled.
+    Mass,
+    /// By lengths, angles times the size of the mechanism: masses say nothing of where a mechanism
+    /// can be, and on the long arm of a light body the mass metric would rather turn it far than
+    /// move its heavy neighbour a little.
+    Length,
+}
+
+/// The configuration nearest to q on the given rows of Φ at time t; allocates.
 ///
 /// # Errors
 /// - [`StartError::NoAssembly`]: there is none near q.
@@ -236,12 +247,21 @@ pub fn nearest_configuration(
     t: f64,
     rows: &[usize],
     q: &[f64],
+    metric: Metric,
 ) -> Result<Vec<f64>, StartError> {
-    let weights = position_weights(
-        mechanism,
-        &StartOptions::default(),
-        scene_size(mechanism, q),
-    )?;
+    let size = scene_size(mechanism, q);
+    let weights = match metric {
+        Metric::Mass => position_weights(mechanism, &StartOptions::default(), size)?,
+        Metric::Length => (0..mechanism.layout().n_v)
+            .map(|k| {
+                if k % N_BODY == 2 {
+                    1.0 / (size * size)
+                } else {
+                    1.0
+                }
+            })
+            .collect(),
+    };
     let mut s = mechanism.scratch();
     nearest(mechanism, &mut s, (t, false), rows, &weights, q)
 }

@@ -7,7 +7,7 @@
 //! moves too.
 
 use linalg::{Matrix, PivotedQr};
-use model::start::{nearest_configuration, scene_size};
+use model::start::{Metric, nearest_configuration, scene_size};
 use model::{Mechanism, System};
 use rank::RankDecision;
 
@@ -162,7 +162,8 @@ fn walk_from(
             };
             let moved = mechanism.displaced(&q, factor, &step);
             let later = t + time * share;
-            let there = nearest_configuration(mechanism, later, rows, &moved).ok()?;
+            let there =
+                nearest_configuration(mechanism, later, rows, &moved, Metric::Length).ok()?;
             Some((later, there))
         });
         let Some(next) = next else {

@@ -1,7 +1,7 @@
 //! States of a motion on the constraints, and the samples that were taken of it.
 
 use linalg::{Matrix, Scaling};
-use model::start::{nearest_configuration, scene_size};
+use model::start::{Metric, nearest_configuration, scene_size};
 use model::{Mechanism, Scratch, System};
 use rank::RankDecision;
 
@@ -136,7 +136,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
     pub(super) fn at(&mut self, t: f64) -> Result<Point, AlongError> {
         let State { q, v } = (self.motion)(t);
         state::check(self.mechanism, t, &q, &v)?;
-        let q = nearest_configuration(self.mechanism, t, &self.holonomic, &q)
+        let q = nearest_configuration(self.mechanism, t, &self.holonomic, &q, Metric::Mass)
             .map_err(|source| AlongError::OffConstraints { time: t, source })?;
         let s = evaluated(self.mechanism, t, &q);
         let c = dimensionless(self.mechanism, &s, self.size);

@@ -3,7 +3,7 @@
 //! drive asks for, and no joint is blamed, however much drives differ.
 
 use linalg::Matrix;
-use model::start::{nearest_configuration, scene_size};
+use model::start::{Metric, nearest_configuration, scene_size};
 use model::{ConstraintId, Mechanism, RowLabel, Scratch, System};
 use rank::{RankDecision, circuits, components, decide_keeping};
 
@@ -162,7 +162,7 @@ impl Way<'_> {
                 next = self.t + 0.5 * (next - self.t);
             }
             let reached = loop {
-                match nearest_configuration(self.mechanism, next, kept, &self.q) {
+                match nearest_configuration(self.mechanism, next, kept, &self.q, Metric::Mass) {
                     Ok(there) => break Some(there),
                     Err(_) if halvings < HALVINGS => next = self.t + 0.5 * (next - self.t),
                     Err(_) => break None,

@@ -10,6 +10,8 @@
 use linalg::{Matrix, PivotedQr, Scaling, small_svd};
 use model::{Mechanism, Scratch, System};
 
+use super::follow::Followed;
+
 /// A pose and its candidate for a lower rank.
 pub(super) struct Pose<'a> {
     mechanism: &'a Mechanism,
@@ -19,9 +21,8 @@ pub(super) struct Pose<'a> {
     /// Factor of each column and of each row from C to its scaled form.
     columns: Vec<f64>,
     rows: Vec<f64>,
-    /// Kept holonomic rows, and their scaled form factored.
-    holonomic: Vec<usize>,
-    phi_q: PivotedQr,
+    /// The kept holonomic rows.
+    positions: Followed,
     /// What has to vanish for the lower rank, as `Uᵀ·C·V = diag(σ)`: left vectors by rows (scaled),
     /// right vectors by rows (scaled), and σ.
     pub(super) left: Matrix,
@@ -95,6 +96,23 @@ impl Candidate {
     }
 }
 
+/// The other rows of a scaled C, those first that are most independent of the kept ones.
+pub(super) fn most_independent_of(scaled: &Matrix, kept: &[usize]) -> Vec<usize> {
+    let own = PivotedQr::of_rows(scaled.select_rows(kept));
+    let others: Vec<usize> = (0..scaled.nrows())
+        .filter(|row| !kept.contains(row))
+        .collect();
+    let mut rest = Matrix::zeros(others.len(), scaled.ncols() - kept.len());
+    let mut y = vec![0.0; scaled.ncols()];
+    for (j, &row) in others.iter().enumerate() {
+        y.copy_from_slice(scaled.row(row));
+        own.q_transpose_mul(&mut y);
+        rest.row_mut(j).copy_from_slice(&y[kept.len()..]);
+    }
+    let rest = PivotedQr::of_rows(rest);
+    rest.permutation().iter().map(|&j| others[j]).collect()
+}
+
 /// Singular vectors below this share of the largest singular value are rounding and need not be
 /// orthogonal to the others.
 const RESOLVED: f64 = 1e-13;
@@ -135,13 +153,26 @@ pub(super) struct Gradient {
 
 impl<'a> Pose<'a> {
     /// At the pose of the scratch, where C has been evaluated; `scaled` has the rows `places` of
-    /// it, scaled by `scaling` after `dimensions`.
+    /// it, scaled by `scaling` after `dimensions`. Positions follow the data on the kept rows.
     pub(super) fn new(
+        mechanism: &'a Mechanism,
+        s: &'a Scratch,
+        places: &'a [usize],
+        matrices: (&Matrix, &Scaling, &Scaling),
+        candidate: Candidate,
+    ) -> Self {
+        let held = candidate.kept.clone();
+        Self::held(mechanism, s, places, matrices, candidate, &held)
+    }
+
+    /// The same where positions follow the data on other rows, which are independent.
+    pub(super) fn held(
         mechanism: &'a Mechanism,
         s: &'a Scratch,
         places: &'a [usize],
         (scaled, dimensions, scaling): (&Matrix, &Scaling, &Scaling),
         candidate: Candidate,
+        held: &[usize],
     ) -> Self {
         let factor = |e: i32| f64::from(e).exp2();
         let columns: Vec<f64> = dimensions
@@ -150,23 +181,22 @@ impl<'a> Pose<'a> {
             .zip(&scaling.cols)
             .map(|(a, b)| factor(a + b))
             .collect();
-        let rows = (0..scaled.nrows()).map(|i| scaling.row_factor(i)).collect();
-        let m = mechanism.layout().m;
-        let holonomic: Vec<usize> = candidate
-            .kept
-            .iter()
-            .copied()
-            .filter(|&i| places[i] < m)
-            .collect();
-        let phi_q = PivotedQr::of_rows(scaled.select_rows(&holonomic));
+        let rows: Vec<f64> = (0..scaled.nrows()).map(|i| scaling.row_factor(i)).collect();
+        let is_holonomic = |&i: &usize| places[i] < mechanism.layout().m;
+        let holonomic: Vec<usize> = held.iter().copied().filter(is_holonomic).collect();
+        let of_mechanism = holonomic.iter().map(|&i| (places[i], rows[i])).collect();
+        let positions = Followed::new(
+            &scaled.select_rows(&holonomic),
+            of_mechanism,
+            columns.clone(),
+        );
         Self {
             mechanism,
             s,
             places,
             columns,
             rows,
-            holonomic,
-            phi_q,
+            positions,
             left: candidate.left,
             right: candidate.right,
             sigma: candidate.sigma,
@@ -224,16 +254,7 @@ impl<'a> Pose<'a> {
         let mut turned = vec![0.0; v.len()];
         self.mechanism
             .add_power_by_pose(self.s, &u, &v, &mut turned);
-        let mut answer = scaled(&turned, &self.columns);
-        let r = self.holonomic.len();
-        self.phi_q.q_transpose_mul(&mut answer);
-        let mut w = answer[..r].to_vec();
-        self.phi_q.solve_r(&mut w);
-        let mut lambda = vec![0.0; u.len()];
-        for (w, &k) in w.iter().zip(self.phi_q.permutation()) {
-            let row = self.holonomic[k];
-            lambda[self.places[row]] = w * self.rows[row];
-        }
+        let (lambda, pose) = self.positions.split(&turned, u.len());
         self.mechanism
             .add_phi_by_data(self.s, &lambda, -1.0, &mut data);
         let onto_kept = -lambda
@@ -241,13 +262,6 @@ impl<'a> Pose<'a> {
             .zip(&self.s.phi)
             .map(|(l, phi)| l * phi)
             .sum::<f64>();
-        answer[..r].fill(0.0);
-        self.phi_q.q_mul(&mut answer);
-        let pose = answer
-            .iter()
-            .zip(&self.columns)
-            .map(|(x, f)| x / f)
-            .collect();
         Gradient {
             data,
             pose,

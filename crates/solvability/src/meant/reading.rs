@@ -8,7 +8,8 @@ use linalg::singular_values;
 use rank::{Doubt, Grounds, RankReading, RankStatus};
 
 use super::MeantMatrix;
-use super::share::{Nearness, Question, StatedTolerance};
+use super::near::{Certainty, Nearness};
+use super::share::{Question, StatedTolerance};
 
 /// A singular value that the uncertainty of a matrix of size one hides must be below this: what is
 /// above is not known to be zero.
@@ -22,10 +23,10 @@ const ROUNDINGS: f64 = 10.0;
 
 /// Data that need less than this share of their uncertainty for the lower rank have it; by a factor
 /// of three, because bounds of the share and of the uncertainty are known to about that.
-const LOWER: f64 = 1.0 / 3.0;
+pub(super) const LOWER: f64 = 1.0 / 3.0;
 
 /// Data that need more than this multiple of their uncertainty for the lower rank do not have it.
-const FULL: f64 = 3.0;
+pub(super) const FULL: f64 = 3.0;
 
 /// From this singular value on no rounding explains a lower rank in a matrix of size one: near a
 /// singular pose, where a singular value moves with the root of the data, it would have to be below
@@ -100,32 +101,24 @@ impl MeantMatrix {
         let tolerance = question.tolerance();
         let metres = tolerance.map_or(0.0, |stated| stated.metres);
         let limit = (TOLD * question.size).max(FULL * metres);
-        // What was left out last, and whether poses enough say so. Its equations are those of all
-        // rows that are left out.
-        let mut is_short = false;
-        while status == RankStatus::Decided
-            && let Some(near) = question.nearness(rank, limit)
-        {
-            nearness.get_or_insert(near);
-            let Some(tolerance) = tolerance else {
-                break;
-            };
-            let share = |length: f64| length / tolerance.metres;
-            if share(near.everywhere) < LOWER {
-                rank -= 1;
-                grounds = Grounds::WithinTolerance;
-                is_short = !near.is_walked;
-                continue;
+        match (status, tolerance) {
+            (RankStatus::Decided, None) => nearness = question.nearness(rank, limit),
+            (RankStatus::Decided, Some(tolerance)) => {
+                let least = question.least_rank(rank, tolerance, limit);
+                nearness = least.nearness;
+                if least.rank < rank {
+                    grounds = Grounds::WithinTolerance;
+                }
+                rank = least.rank;
+                let from = match least.certainty {
+                    Certainty::From(length) => Some(length),
+                    _ => None,
+                };
+                if least.certainty != Certainty::Decided {
+                    status = open(question, tolerance, rank, from);
+                }
             }
-            if share(near.everywhere) <= FULL {
-                status = open(question, tolerance, rank, Some(near.everywhere));
-            } else if share(near.at_least) <= FULL {
-                status = open(question, tolerance, rank, None);
-            }
-            break;
-        }
-        if let (RankStatus::Decided, true, Some(tolerance)) = (status, is_short, tolerance) {
-            status = open(question, tolerance, rank + 1, None);
+            _ => {}
         }
         // What is redundant within a tolerance is so where all lengths have one unit: a short lever
         // must not be scaled up to size one.

@@ -1,33 +1,24 @@
-//! By what share of their uncertainty, or by how many metres, the data would have to be wrong for a
-//! lower rank.
+//! By what share of their uncertainty the data would have to be wrong for a lower rank, and what they
+//! make of dependencies.
 
 use linalg::{Matrix, Scaling, small_svd};
-use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch, System};
+use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch};
 use rank::RankDecision;
 
 use super::cone::{Bounds, Equation, least_change};
 use super::pose::{Candidate, Pose};
-use super::walk::walk;
 use crate::mechanism::dimensionless;
 
 /// Entries of one pose that are asked to vanish: pairs of this many left and right directions, the
 /// weakest first. More would be exact zeros beside the near one; leaving them out can only make the
 /// share smaller.
-const PAIRS: usize = 4;
+pub(super) const PAIRS: usize = 4;
 
 /// Rounding of an entry of a scaled C between unit vectors, in units of eps·√(m·n).
 const ROUNDINGS: f64 = 16.0;
 
-/// Equations of the first order are wrong by the square of the change, as a share of the size,
-/// times this: the change that serves all poses is up to ten times that of one entry, and second
-/// derivatives are of the order of ten where links are short.
-const CURVED: f64 = 100.0;
-
 /// Columns of a planar body, two translations and its rotation.
 const N_BODY: usize = 3;
-
-/// Positions on a walk are met to this share of the size.
-const WALKED: f64 = 1e-12;
 
 /// A mechanism at a pose, some of whose rows are judged.
 pub(crate) struct Question<'a> {
@@ -39,24 +30,6 @@ pub(crate) struct Question<'a> {
     pub(crate) places: &'a [usize],
     /// Size of the mechanism (m).
     pub(crate) size: f64,
-}
-
-/// What the data would have to be wrong by (m; angles times the size) for one rank less.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Nearness {
-    /// At this pose alone.
-    pub(crate) here: f64,
-    /// By one change of the data that serves all poses of a walk: from there on a row is redundant.
-    /// Infinite where none does.
-    pub(crate) everywhere: f64,
-    /// No change below this does, where nonholonomic rows lead: they hold no position, so that each
-    /// pose of the walk is known to what data within the change make of the way there.
-    /// [`everywhere`](Self::everywhere) otherwise.
-    pub(crate) at_least: f64,
-    /// Whether the walk found the poses that it takes to tell a redundancy from a singular pose.
-    pub(crate) is_walked: bool,
-    /// Whether only angles change, because a tolerance is stated for them alone.
-    pub(crate) by_angles: bool,
 }
 
 /// What the scene states of its data.
@@ -101,7 +74,7 @@ impl Question<'_> {
     }
 
     /// Changes of an entry by where each body stands and by how it is turned, of a length (m) each.
-    fn by_place(&self, gradient: &[f64], length: f64, by_angles: bool) -> Vec<[f64; 2]> {
+    pub(super) fn by_place(&self, gradient: &[f64], length: f64, by_angles: bool) -> Vec<[f64; 2]> {
         let place = if by_angles { 0.0 } else { length };
         let turn = length / self.size;
         let of_body = |by: &[f64]| [[by[0] * place, by[1] * place], [by[2] * turn, 0.0]];
@@ -216,112 +189,6 @@ impl Question<'_> {
         (0..scaled.nrows()).map(|i| [of_row(i), shift]).collect()
     }
 
-    /// How near the data are to one rank less than `rank`, if that is nearer than `limit` (m).
-    pub(super) fn nearness(&self, rank: usize, limit: f64) -> Option<Nearness> {
-        let stated = self.tolerance();
-        let lower = rank.checked_sub(1)?;
-        let dimensions = self.mechanism.dimension_scaling(self.size);
-        let (scaled, scaling) = self.uniform(self.s);
-        let candidate = Candidate::of_rank(&scaled, lower);
-        if candidate.weakest() > CLEAR {
-            return None;
-        }
-        let kept = candidate.kept.clone();
-        let here = Pose::new(
-            self.mechanism,
-            self.s,
-            self.places,
-            (&scaled, &dimensions, &scaling),
-            candidate,
-        );
-        let blocks = self.mechanism.data_blocks(self.s);
-        let tolerance = stated.map(|stated| stated.metres);
-        let unit: Vec<f64> = blocks.iter().map(|b| self.unit(b, tolerance)).collect();
-        let (weakest, gradient) = here.entry(0, 0);
-        let parts = blocks.iter().zip(&unit);
-        let parts = parts.map(|(block, unit)| block.change(&gradient.data, *unit));
-        let least = weakest.abs() / parts.sum::<f64>();
-        // Without a datum that changes it, it stays.
-        if least.is_nan() || least > limit {
-            return None;
-        }
-        // Shares of what one entry alone would need, so that rounding is no obstacle.
-        let least = least.max(self.size * f64::EPSILON);
-        let known: Vec<f64> = unit.iter().map(|unit| unit * least).collect();
-        // Equations of lengths are those of entries, times the size.
-        let by_angles = stated.is_some_and(|stated| stated.by_angles);
-        let of_pose = |pose: &Pose<'_>, noise: f64| -> Vec<Asked> {
-            let of_pair = |at: (usize, usize)| {
-                let (target, gradient) = pose.entry(at.0, at.1);
-                Asked {
-                    equation: equation(target, &gradient.data, (&blocks, &known), noise),
-                    unit: 1.0,
-                    by_place: self.by_place(&gradient.pose, least, by_angles),
-                }
-            };
-            // What depends on each other must hold together, too.
-            let of_row = |a: usize| {
-                let (target, gradient) = pose.misfit(a)?;
-                let noise = noise * self.size;
-                Some(Asked {
-                    equation: equation(target, &gradient, (&blocks, &known), noise),
-                    unit: self.size,
-                    by_place: vec![[0.0; 2]; 2 * self.s.poses.len()],
-                })
-            };
-            let rows = (0..pose.left.nrows().min(PAIRS)).filter_map(of_row);
-            pairs(pose).map(of_pair).chain(rows).collect()
-        };
-        // The share of `least` by which the data have to change, where the second order of a change
-        // by at most `share` of it is left open.
-        let change = |poses: &[Vec<Asked>], share: f64, are_places_free: bool| {
-            let curved = CURVED * (least / self.size).powi(2) * share.min(1.0);
-            let equations = poses.iter().enumerate().flat_map(|(k, asked)| {
-                let of = move |asked: &Asked| match are_places_free {
-                    true => asked.with_place(k, poses.len(), curved),
-                    false => asked.loose(curved),
-                };
-                asked.iter().map(of)
-            });
-            least_change(&equations.collect::<Vec<_>>()).middle()
-        };
-        let mut poses = vec![of_pose(&here, rounding(&scaled))];
-        let at_this_pose = least * change(&poses, 1.0, false);
-        if at_this_pose > limit {
-            return None;
-        }
-        let kept_rows: Vec<usize> = kept.iter().map(|&k| self.places[k]).collect();
-        let walked = walk(self, &kept_rows);
-        for q in &walked.poses {
-            let s = crate::mechanism::evaluated(self.mechanism, self.s.t, q);
-            // The scaling is that of the first pose: the equations have one unit.
-            let scaled = scaling.apply(&self.dimensionless(&s));
-            let candidate = Candidate::of_rows(&scaled, kept.clone());
-            let there = Pose::new(
-                self.mechanism,
-                &s,
-                self.places,
-                (&scaled, &dimensions, &scaling),
-                candidate,
-            );
-            poses.push(of_pose(&there, WALKED));
-        }
-        let everywhere = least * change(&poses, change(&poses, 1.0, false), false);
-        let is_led = kept_rows.iter().any(|&i| i >= self.mechanism.layout().m);
-        let is_asked = tolerance.is_some() && is_led && everywhere > at_this_pose;
-        let at_least = match is_asked {
-            true => everywhere.min(least * change(&poses, 1.0, true)),
-            false => everywhere,
-        };
-        Some(Nearness {
-            here: at_this_pose,
-            everywhere,
-            at_least,
-            is_walked: walked.is_complete,
-            by_angles,
-        })
-    }
-
     /// C with one unit for all lengths; rows have their largest entry near one.
     pub(super) fn uniform(&self, s: &Scratch) -> (Matrix, Scaling) {
         let c = self.dimensionless(s);
@@ -336,13 +203,13 @@ impl Question<'_> {
         (scaling.apply(&c), scaling)
     }
 
-    fn dimensionless(&self, s: &Scratch) -> Matrix {
+    pub(super) fn dimensionless(&self, s: &Scratch) -> Matrix {
         dimensionless(self.mechanism, s, self.size).select_rows(self.places)
     }
 
     /// What counts as one metre: of angles what moves a point at the size of the mechanism by that;
     /// with a tolerance (m), each block its own beside it, and those that have none their rounding.
-    fn unit(&self, block: &DataBlock, tolerance: Option<f64>) -> f64 {
+    pub(super) fn unit(&self, block: &DataBlock, tolerance: Option<f64>) -> f64 {
         match (tolerance, block.unit) {
             (Some(tolerance), _) => block.known_to() / tolerance,
             (None, DataUnit::Length) => 1.0,
@@ -365,55 +232,18 @@ fn single(decision: &RankDecision) -> Matrix {
     z
 }
 
-/// A weakest entry above this share of the size of C belongs to no change of data below a
-/// thousandth of the size: an entry changes by its own size, times what the pose answers, which is
-/// below the inverse of the entry.
-const CLEAR: f64 = 0.1;
-
-/// What has to vanish at a pose.
-struct Asked {
-    equation: Equation,
-    /// Unit of the equation (m, or one for an entry).
-    unit: f64,
-    /// Changes by where the bodies are at this pose.
-    by_place: Vec<[f64; 2]>,
-}
-
-impl Asked {
-    /// The equation with the second order of a change left open.
-    fn loose(&self, curved: f64) -> Equation {
-        Equation {
-            rounding: self.equation.rounding.max(curved * self.unit),
-            ..self.equation.clone()
-        }
-    }
-
-    /// The same where the bodies may be elsewhere at each of so many poses, of which this is the
-    /// k-th.
-    fn with_place(&self, k: usize, poses: usize, curved: f64) -> Equation {
-        let mut equation = self.loose(curved);
-        let count = self.by_place.len();
-        let first = equation.parts.len() + k * count;
-        equation
-            .parts
-            .resize(equation.parts.len() + poses * count, [0.0; 2]);
-        equation.parts[first..first + count].copy_from_slice(&self.by_place);
-        equation
-    }
-}
-
 /// The pairs of directions that are asked to vanish.
-fn pairs(pose: &Pose<'_>) -> impl Iterator<Item = (usize, usize)> {
+pub(super) fn pairs(pose: &Pose<'_>) -> impl Iterator<Item = (usize, usize)> {
     let (left, right) = (pose.left.nrows().min(PAIRS), pose.right.nrows().min(PAIRS));
     (0..left).flat_map(move |a| (0..right).map(move |b| (a, b)))
 }
 
-fn rounding(scaled: &Matrix) -> f64 {
+pub(super) fn rounding(scaled: &Matrix) -> f64 {
     ROUNDINGS * f64::EPSILON * (scaled.nrows() as f64 * scaled.ncols() as f64).sqrt()
 }
 
 /// What has to vanish, with the changes of blocks by what they are known to.
-fn equation(
+pub(super) fn equation(
     target: f64,
     gradient: &[f64],
     (blocks, known): (&[DataBlock], &[f64]),

@@ -9,7 +9,7 @@
 use linalg::{Matrix, PivotedQr};
 use rank::{Circuit, CoefficientReading, RankDecision};
 
-use super::pose::{Candidate, Pose};
+use super::pose::{Candidate, Pose, most_independent_of};
 use super::share::Question;
 
 /// Coefficients of the scaled rows below this are rounding, whatever is stated.
@@ -31,7 +31,7 @@ impl Fundamental {
     /// Of a dependency of the scaled C; `None` where its rows without the largest are not
     /// independent in f64.
     fn new(scaled: &Matrix, decision: &RankDecision, circuit: &Circuit) -> Option<Self> {
-        let (rank, n) = (decision.rank, scaled.ncols());
+        let rank = decision.rank;
         let size = |(&row, z): (&usize, &f64)| (z / decision.scaling.row_factor(row)).abs();
         let sizes: Vec<f64> = circuit
             .rows
@@ -45,23 +45,12 @@ impl Fundamental {
         if kept.len() > rank {
             return None;
         }
-        // The others that are most independent of these.
-        let own = PivotedQr::of_rows(scaled.select_rows(&kept));
-        let is_other = |row: &usize| !circuit.rows.contains(row);
-        let others: Vec<usize> = (0..scaled.nrows()).filter(is_other).collect();
-        let mut rest = Matrix::zeros(others.len(), n - kept.len());
-        let mut y = vec![0.0; n];
-        for (j, &row) in others.iter().enumerate() {
-            y.copy_from_slice(scaled.row(row));
-            own.q_transpose_mul(&mut y);
-            rest.row_mut(j).copy_from_slice(&y[kept.len()..]);
-        }
         let more = rank - kept.len();
-        if more > others.len() {
+        let others = most_independent_of(scaled, &kept).into_iter();
+        kept.extend(others.filter(|&row| row != largest).take(more));
+        if kept.len() < rank {
             return None;
         }
-        let rest = PivotedQr::of_rows(rest);
-        kept.extend(rest.permutation()[..more].iter().map(|&j| others[j]));
         kept.sort_unstable();
         let qr = PivotedQr::of_rows(scaled.select_rows(&kept));
         if qr.r_diagonal().any(|r| r == 0.0) {

@@ -1,9 +1,10 @@
 //! Poses that a mechanism reaches on its kept rows: what is redundant is so at all of them, what is
 //! singular is so at one.
 
-use linalg::{Matrix, PivotedQr};
-use model::System;
+use linalg::Matrix;
+use model::start::{Metric, nearest_configuration};
 
+use super::follow::{Ground, Step};
 use super::pose::Candidate;
 use super::share::Question;
 use crate::mechanism::{dimensionless, velocity_units};
@@ -21,69 +22,87 @@ const STEPS: usize = 5;
 /// The same where such steps do not arrive.
 const SMALL_STEPS: usize = 40;
 
-/// Corrections of a step onto the kept rows at most, and the largest as a share of the step: what
-/// is corrected by more may be on another branch.
-const CORRECTIONS: usize = 12;
+/// The largest correction of a step onto the kept rows, as a share of the step: what is corrected by
+/// more may be on another branch.
 const CORRECTED: f64 = 0.5;
-
-/// A correction below this share of the size is none; one that no longer falls is rounding if it is
-/// below the other.
-const MET: f64 = 1e-14;
-const NEARLY_MET: f64 = 1e-10;
-
-/// Rows whose pivot is below this share of the largest follow from the others.
-const INDEPENDENT: f64 = 1e-8;
 
 /// Poses of a mechanism.
 pub(super) struct Walk {
-    /// Coordinates of each.
-    pub(super) poses: Vec<Vec<f64>>,
+    /// Steps to each side of the first pose, where nonholonomic rows lead.
+    sides: [Vec<Step>; 2],
+    /// Coordinates of each pose, its side, and the number of steps that lead there.
+    stops: Vec<(Vec<f64>, usize, usize)>,
     /// Whether these are all that were wanted, or there is nothing that moves.
     pub(super) is_complete: bool,
+}
+
+impl Walk {
+    /// Coordinates of each pose, and the steps that lead there, the last one first; none where
+    /// holonomic rows lead, which hold all poses as they are.
+    pub(super) fn poses(&self) -> impl Iterator<Item = (&[f64], impl Iterator<Item = &Step>)> {
+        let stops = self.stops.iter();
+        stops.map(|(q, side, steps)| (&**q, self.sides[*side][..*steps].iter().rev()))
+    }
+
+    /// The last pose.
+    pub(super) fn farthest(&self) -> Option<&[f64]> {
+        self.stops.last().map(|(q, ..)| &**q)
+    }
 }
 
 /// Up to six poses on both sides of the pose of the question, on the kept rows of Φ, along
 /// velocities that all kept rows allow: mainly the one that the kept rows alone set free.
 pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
-    let mut poses = Vec::new();
-    let here = dimensionless(question.mechanism, question.s, question.size);
-    if free_directions(&here, kept).nrows() == 0 {
-        let is_complete = true;
-        return Walk { poses, is_complete };
-    }
-    for side in [1.0, -1.0] {
+    let (mechanism, size) = (question.mechanism, question.size);
+    let ground = Ground {
+        mechanism,
+        kept,
+        units: &velocity_units(mechanism, size),
+        size,
+        t: question.s.t,
+    };
+    let (mut sides, mut stops) = ([Vec::new(), Vec::new()], Vec::new());
+    let is_still = free_directions(&dimensionless(mechanism, question.s, size), kept).nrows() == 0;
+    let signs = if is_still { &[][..] } else { &[1.0, -1.0] };
+    for (side, sign) in signs.iter().enumerate() {
+        let way: &mut Vec<Step> = &mut sides[side];
         let mut q = question.q.to_vec();
         let mut heading: Option<Vec<f64>> = None;
         for _ in 0..POSES {
             let next = [STEPS, SMALL_STEPS].into_iter().find_map(|steps| {
-                let (mut q, mut heading) = (q.clone(), heading.clone());
-                let stride = REACH / steps as f64 * question.size;
-                (0..steps)
-                    .try_for_each(|_| step(question, kept, (side, stride), &mut q, &mut heading))?;
-                Some((q, heading))
+                let (mut q, mut heading, mut taken) = (q.clone(), heading.clone(), Vec::new());
+                let stride = REACH / steps as f64 * size;
+                for _ in 0..steps {
+                    taken.extend(step(&ground, (*sign, stride), &mut q, &mut heading)?);
+                }
+                Some((q, heading, taken))
             });
-            let Some(next) = next else {
+            let Some((there, on, taken)) = next else {
                 break;
             };
-            (q, heading) = next;
-            poses.push(q.clone());
+            (q, heading) = (there, on);
+            way.extend(taken);
+            stops.push((q.clone(), side, way.len()));
         }
     }
-    let is_complete = poses.len() == 2 * POSES;
-    Walk { poses, is_complete }
+    let is_complete = is_still || stops.len() == 2 * POSES;
+    Walk {
+        sides,
+        stops,
+        is_complete,
+    }
 }
 
-/// One step; `None` where it leads nowhere.
+/// One step, to be followed where nonholonomic rows lead; `None` where it leads nowhere.
 fn step(
-    question: &Question<'_>,
-    kept: &[usize],
+    ground: &Ground<'_>,
     (side, stride): (f64, f64),
     q: &mut Vec<f64>,
     heading: &mut Option<Vec<f64>>,
-) -> Option<()> {
-    let mechanism = question.mechanism;
-    let s = crate::mechanism::evaluated(mechanism, question.s.t, q);
-    let free = free_directions(&dimensionless(mechanism, &s, question.size), kept);
+) -> Option<Option<Step>> {
+    let (mechanism, units) = (ground.mechanism, ground.units);
+    let s = crate::mechanism::evaluated(mechanism, ground.t, q);
+    let free = free_directions(&dimensionless(mechanism, &s, ground.size), ground.kept);
     let direction = match heading.take() {
         // What is free of the last step.
         Some(last) => free.transpose_times(&free.times(&last)),
@@ -93,72 +112,28 @@ fn step(
     if largest.is_nan() || largest == 0.0 {
         return None;
     }
-    let units = velocity_units(mechanism, question.size);
-    let velocity: Vec<f64> = direction
+    let along = direction.iter().zip(units);
+    let moved: Vec<f64> = along.map(|(d, unit)| stride / largest * d * unit).collect();
+    let (ahead, taken) = match ground.is_led() {
+        true => {
+            let (ahead, taken) = ground.flow(q, moved)?;
+            (ahead, Some(taken))
+        }
+        false => (mechanism.displaced(q, 1.0, &moved), None),
+    };
+    let rows = ground.holonomic();
+    let there = nearest_configuration(mechanism, ground.t, &rows, &ahead, Metric::Length).ok()?;
+    let correction = mechanism.difference_of(&there, &ahead);
+    let mut lengths = correction
         .iter()
-        .zip(&units)
-        .map(|(d, unit)| d * unit)
-        .collect();
-    let moved = mechanism.displaced(q, stride / largest, &velocity);
-    *q = onto_kept(question, kept, stride, moved)?;
+        .zip(units)
+        .map(|(x, unit)| (x / unit).abs());
+    if lengths.any(|x| x.is_nan() || x > CORRECTED * stride) {
+        return None;
+    }
+    *q = there;
     *heading = Some(direction);
-    Some(())
-}
-
-/// The configuration on the kept rows of Φ, by corrections that are shortest without dimensions:
-/// masses say nothing of where a mechanism can be.
-fn onto_kept(
-    question: &Question<'_>,
-    kept: &[usize],
-    stride: f64,
-    mut q: Vec<f64>,
-) -> Option<Vec<f64>> {
-    let (mechanism, size) = (question.mechanism, question.size);
-    let m = mechanism.layout().m;
-    let holonomic: Vec<usize> = kept.iter().copied().filter(|&i| i < m).collect();
-    if holonomic.is_empty() {
-        return Some(q);
-    }
-    let units = velocity_units(mechanism, size);
-    let mut last = f64::INFINITY;
-    for _ in 0..CORRECTIONS {
-        let s = crate::mechanism::evaluated(mechanism, question.s.t, &q);
-        let c = dimensionless(mechanism, &s, size).select_rows(&holonomic);
-        let missing: Vec<f64> = holonomic.iter().map(|&i| -s.phi[i]).collect();
-        let correction = shortest(&c, &missing);
-        let largest = correction.iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-        if correction.iter().any(|x| x.is_nan()) || largest > CORRECTED * stride {
-            return None;
-        }
-        let is_rounding = largest >= 0.5 * last && largest <= NEARLY_MET * size;
-        if largest <= MET * size || is_rounding {
-            return Some(q);
-        }
-        last = largest;
-        let velocity: Vec<f64> = correction.iter().zip(&units).map(|(x, u)| x * u).collect();
-        q = mechanism.displaced(&q, 1.0, &velocity);
-    }
-    None
-}
-
-/// The shortest δ with `C·δ = x`, by rows that are independent.
-fn shortest(c: &Matrix, x: &[f64]) -> Vec<f64> {
-    let size_of = |i: usize| c.row(i).iter().fold(0.0_f64, |a, x| a.max(x.abs()));
-    let sizes: Vec<f64> = (0..c.nrows())
-        .map(|i| match size_of(i) {
-            0.0 => 1.0,
-            size => size,
-        })
-        .collect();
-    let equal = Matrix::from_fn(c.nrows(), c.ncols(), |i, j| c[(i, j)] / sizes[i]);
-    let order = PivotedQr::of_rows(equal.clone());
-    let pivots: Vec<f64> = order.r_diagonal().map(f64::abs).collect();
-    let least = INDEPENDENT * pivots.first().copied().unwrap_or(0.0);
-    let rank = pivots.iter().take_while(|&&r| r > least).count();
-    let rows = &order.permutation()[..rank];
-    let inverse = PivotedQr::of_rows(equal.select_rows(rows)).pseudo_inverse();
-    let x: Vec<f64> = rows.iter().map(|&i| x[i] / sizes[i]).collect();
-    inverse.times(&x)
+    Some(taken)
 }
 
 /// Velocities without dimensions that the kept rows allow, one in each row, the one that the other
@@ -178,3 +153,6 @@ fn mixed(free: &Matrix, side: f64) -> Vec<f64> {
     let shares: Vec<f64> = (0..free.nrows()).map(share).collect();
     free.transpose_times(&shares)
 }
+
+#[cfg(test)]
+mod tests;

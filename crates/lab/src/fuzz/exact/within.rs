@@ -44,6 +44,8 @@ pub struct Meant<'a> {
     pub is_permanent: bool,
     /// τ* (m) for a rank one lower still.
     pub from: Bounds,
+    /// τ* (m) for this rank wherever it moves; zero if it is so already.
+    pub everywhere_from: Bounds,
     /// Reactions under gravity.
     pub reactions: Reactions,
     /// The drawing in doubles.
@@ -65,11 +67,20 @@ impl<'a> Meant<'a> {
     pub fn of(truth: &'a Truth<'a>, seed: u64, gravity: [f64; 2]) -> Self {
         let doubles = Doubles::of(truth.posed);
         let rank = truth.rank();
+        let is_permanent = truth.redundancy() == 0 || doubles.is_permanent(rank, seed);
+        let everywhere_from = match is_permanent {
+            true => Bounds {
+                low: 0.0,
+                high: 0.0,
+            },
+            false => doubles.lower_rank_from(rank + 1),
+        };
         Self {
             truth,
             size: doubles.size,
             blocks: doubles.blocks.len(),
-            is_permanent: truth.redundancy() == 0 || doubles.is_permanent(rank, seed),
+            is_permanent,
+            everywhere_from,
             from: doubles.lower_rank_from(rank),
             reactions: doubles.reactions(truth.posed, rank, gravity),
             doubles: Rc::new(doubles),
@@ -126,9 +137,12 @@ impl<'a> Meant<'a> {
             judged.other_rank = Some("singular pose");
             return judged;
         }
-        if !self.is_permanent && grounds == "within_tolerance" {
-            let text =
-                format!("rank: told {told_rank} within the tolerance, is so at one pose only");
+        let is_wrong = BEYOND_DOUBT * tolerance < self.everywhere_from.low;
+        if is_wrong && grounds == "within_tolerance" {
+            let text = format!(
+                "rank: told {told_rank} within the tolerance, is so at one pose only up to {:.2e} m",
+                self.everywhere_from.low
+            );
             findings.note(Kind::Rank, text);
         }
         if BEYOND_DOUBT * tolerance >= self.from.low {

@@ -3,7 +3,7 @@
 
 use joints::KnifeEdge;
 use joints::plane::Direction;
-use model::start::{assemble, nearest_configuration};
+use model::start::{Metric, assemble, nearest_configuration};
 use model::{Body, BodyRef, Description, Function, Joint, Known, StartOptions, System};
 use rank::count_deletions;
 use solvability::{analyse_known, generic};
@@ -248,7 +248,8 @@ fn steered(displacement: f64) -> Result<Outcome, Outcome> {
     let mut q = assembly.q;
     for k in 1..=STEPS {
         let t = f64::from(k) / f64::from(STEPS);
-        q = nearest_configuration(&mechanism, t, &rows, &q).map_err(Outcome::refused)?;
+        q = nearest_configuration(&mechanism, t, &rows, &q, Metric::Mass)
+            .map_err(Outcome::refused)?;
     }
     // The robot touches no ground: with the platform along the x-axis its edges are along the
     // y-axis.
