@@ -1,6 +1,7 @@
 //! The table of limits: every number of this crate that somebody chose. Each says what it is, in
-//! which unit, what breaks where it is wrong (`less`: if it were smaller, `more`: if it were larger),
-//! and which test fails then; `none` where no test is known to. `tests/all/limits.rs` reads it.
+//! which unit, what breaks where it is wrong (`Less`: if it were smaller, `More`: if it were
+//! larger), and which test decides on its subject; `none` where there is none yet.
+//! `tests/all/limits.rs` reads it.
 //!
 //! Shares of pivots are shares of the *reference pivots*, those at which the rows were chosen.
 
@@ -12,17 +13,18 @@ use crate::options::MotionOptions;
 
 /// From so many kept rows on they are solved sparsely.
 /// Unit: rows. Less: small mechanisms lose independent coordinates and refinement. More: an
-/// evaluation of a chain grows with the cube of its rows. Test: `sparse_rows_accelerate_as_dense_ones_do`.
+/// evaluation of a chain grows with the cube of its rows. Test:
+/// `sparse_rows_accelerate_as_dense_ones_do`.
 pub(crate) const SPARSE_FROM: usize = 64;
 
 /// Kept rows up to which solutions with graded masses are refined.
-/// Unit: rows. Less: light bodies of large mechanisms lose digits. More: work grows with the cube.
-/// Test: none.
+/// Unit: rows. Less: light bodies of large mechanisms lose digits. More: work grows with the
+/// cube. Test: none.
 pub(crate) const REFINED_MOST: usize = 600;
 
 /// More rows are not solved densely.
-/// Unit: rows. Less: refuses what could be solved. More: matrices of more than a gigabyte.
-/// Test: none.
+/// Unit: rows. Less: refuses what could be solved. More: matrices of more than a gigabyte. Test:
+/// none.
 pub(crate) const DENSE_MOST: usize = 5000;
 
 /// Matrices of its order that a dense solver holds.
@@ -37,50 +39,54 @@ pub(crate) const VECTORS: usize = 60;
 
 /// Solutions of mechanisms larger than this, or smaller than its inverse, are refined.
 /// Unit: m. Less: ordinary machines pay for refinement. More: weights and centrifugal terms that
-/// differ by many powers of ten lose digits. Test: `solutions_are_refined_where_digits_would_be_lost`.
+/// differ by many powers of ten lose digits. Test:
+/// `solutions_are_refined_where_digits_would_be_lost`.
 pub(crate) const FAR_FROM_A_METRE: f64 = 1e5;
 
 /// Rows below this share of the reference pivots are dependent for an instant and left out of a
 /// solve.
-/// Unit: share of pivots. Less: accelerations at a flat pose are rounding. More: rows are left out
-/// that still carry. Test: `sixty_four_step_sizes_over_the_flat_pose`.
+/// Unit: share of pivots. Less: accelerations at a flat pose are rounding. More: rows are left
+/// out that still carry. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const PIVOT_SINGULAR: f64 = 1e-6;
 
 // Projection.
 
 /// Corrections of the position per projection; one or two are the rule, more where a tolerance is
 /// very loose.
-/// Unit: corrections. Less: loose steps are refused. More: a projection that diverges takes longer
-/// to say so. Test: none.
+/// Unit: corrections. Less: loose steps are refused. More: a projection that diverges takes
+/// longer to say so. Test: none.
 pub(crate) const CORRECTIONS: usize = 20;
 
 /// The same by generated code, which is left for the interpreter after them.
-/// Unit: corrections. Less: code is left at loose steps. More: time. Test: none.
+/// Unit: corrections. Less: code is left at loose steps. More: time. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const CODE_CORRECTIONS: usize = 6;
 
 /// Corrections of the velocity per projection.
-/// Unit: corrections. Less: what rounding leaves of the first stays. More: time.
-/// Test: none.
+/// Unit: corrections. Less: what rounding leaves of the first stays. More: time. Test: none.
 pub(crate) const VELOCITY_CORRECTIONS: usize = 3;
 
 /// Kept rows count as satisfied below this many roundings of their terms.
-/// Unit: roundings. Less: a correction more for each step. More: drift.
-/// Test: none.
+/// Unit: roundings. Less: a correction more for each step. More: drift. Test:
+/// `rows_are_corrected_until_they_are_satisfied_or_stall_close_to_it`.
 pub(crate) const ROUNDINGS: f64 = 10.0;
 
 /// The same where pivots have fallen below [`WEAK`], and for dependent coordinates.
 /// Unit: roundings. Less: cannot be reached. More: what kept rows miss by is multiplied in the
-/// dropped ones. Test: none.
+/// dropped ones. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const FEW_ROUNDINGS: f64 = 1.0;
 
 /// Pivots below this share are weak.
-/// Unit: share of pivots. Less: dropped rows miss near singular configurations. More: a correction
-/// more for each step. Test: none.
+/// Unit: share of pivots. Less: dropped rows miss near singular configurations. More: a
+/// correction more for each step. Test: none.
 pub(crate) const WEAK: f64 = 0.5;
 
-/// Kept rows count as satisfied below this many roundings where a further correction does not help;
-/// and by generated code, which has no better look.
-/// Unit: roundings. Less: projections fail at rounding. More: drift. Test: `rows_are_corrected_until_they_are_satisfied_or_stall_close_to_it`.
+/// Kept rows count as satisfied below this many roundings where a further correction does not
+/// help; and by generated code, which has no better look.
+/// Unit: roundings. Less: projections fail at rounding. More: drift. Test:
+/// `rows_are_corrected_until_they_are_satisfied_or_stall_close_to_it`.
 pub(crate) const STALLED_ROUNDINGS: f64 = 50.0;
 
 /// Factors of an earlier configuration serve as long as a correction leaves this share: a
@@ -88,35 +94,39 @@ pub(crate) const STALLED_ROUNDINGS: f64 = 50.0;
 /// Unit: share. Less: more factorisations. More: more corrections. Test: none.
 pub(crate) const CONVERGENCE: f64 = 0.1;
 
-/// Dropped rows count as implied by the kept ones below this share of their own terms and of those
-/// of the kept rows, as much as these enter: a row with an arm of 1e30 m says nothing of what an
-/// angle may miss by.
-/// Unit: share of terms. Less: rounding of the kept rows, 1e-15, refuses good steps. More: rows that
-/// part are seen late. Test: `drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows`.
+/// Dropped rows count as implied by the kept ones below this share of their own terms and of
+/// those of the kept rows, as much as these enter: a row with an arm of 1e30 m says nothing of
+/// what an angle may miss by.
+/// Unit: share of terms. Less: rounding of the kept rows, 1e-15, refuses good steps. More: rows
+/// that part are seen late. Test:
+/// `drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows`.
 pub(crate) const DROPPED_MISFIT: f64 = 1e-11;
 
 /// The share of the size of the mechanism by which velocities may part in the time of a run,
 /// however slow it is: some hundred roundings.
 /// Unit: share of size. Less: mechanisms at rest are refused. More: slow contradictions are not
-/// seen. Test: none.
+/// seen. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const AT_REST: f64 = 1e-13;
 
 /// A dropped row of Φ never misses by more than this share of its own terms, however far away the
 /// places are from which the kept rows imply it.
 /// Unit: share of terms. Less: far places refuse good steps. More: another configuration of the
-/// kept rows passes as this one. Test: none.
+/// kept rows passes as this one. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const POSITION_MISFIT: f64 = 1e-5;
 
 /// Smallest share of the reference pivots that allows dropped rows to miss by more: nearer, rows
 /// are left out.
-/// Unit: share of pivots. Less: dropped rows may miss by anything. More: good steps near a flat pose
-/// are refused. Test: none.
+/// Unit: share of pivots. Less: dropped rows may miss by anything. More: good steps near a flat
+/// pose are refused. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const NEAREST_PIVOT: f64 = 1e-6;
 
-/// Rows of bodies at rest feel the rounding of others: by generated code their terms count as this
-/// share of the largest.
-/// Unit: share of terms. Less: code is left where bodies rest. More: drift of slow bodies.
-/// Test: none.
+/// Rows of bodies at rest feel the rounding of others: by generated code their terms count as
+/// this share of the largest.
+/// Unit: share of terms. Less: code is left where bodies rest. More: drift of slow bodies. Test:
+/// none.
 pub(crate) const CODE_AT_REST: f64 = 1e-4;
 
 // Independent coordinates.
@@ -129,8 +139,8 @@ pub(crate) const PARTITION_WORN: f64 = 0.5;
 
 /// Dependent coordinates that move by more than this when a state is completed may have gone to
 /// another branch or another turn.
-/// Unit: share of the mechanism's size, or rad. Less: long steps are refused. More: another branch
-/// is taken. Test: none.
+/// Unit: share of the mechanism's size, or rad. Less: long steps are refused. More: another
+/// branch is taken. Test: none.
 pub(crate) const FAR_COMPLETION: f64 = 0.6;
 
 /// Beside this they may move by so many times the way that the mechanism would go from the last
@@ -153,34 +163,35 @@ pub(crate) const FAR_AT_REST: f64 = 1e-2;
 /// Other rows are kept once the pivots have fallen below this share: rounding of the kept rows
 /// reaches the dropped ones through the inverse of the pivots.
 /// Unit: share of pivots. Less: dropped rows miss. More: rows are decided again at every step.
-/// Test: `rows_that_lose_their_independence_are_exchanged_and_come_back`.
+/// Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const PIVOT_LOSS: f64 = 0.1;
 
 /// Rows that were asked for come back above this share.
-/// Unit: share of pivots. Less: they come and go at every step. More: they stay away.
-/// Test: `rows_that_lose_their_independence_are_exchanged_and_come_back`.
+/// Unit: share of pivots. Less: they come and go at every step. More: they stay away. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const PIVOT_RECOVERY: f64 = 0.2;
 
 /// Rows chosen by themselves are exchanged above this coefficient in a dropped row.
-/// Unit: 1. Less: rows are decided again at every step. More: dropped rows miss.
-/// Test: none.
+/// Unit: 1. Less: rows are decided again at every step. More: dropped rows miss. Test: none.
 pub(crate) const LARGE_COEFFICIENT: f64 = 10.0;
 
 /// Other rows are worth an exchange if their coefficients are so many times smaller.
 /// Unit: 1. Less: rows change at every step. More: poor rows stay. Test: none.
 pub(crate) const WORTH_EXCHANGE: f64 = 3.0;
 
-/// Rows of output are looked at below this share only: what kept rows multiply rounding by is small
-/// above it.
-/// Unit: share of pivots. Less: written rows miss between two steps. More: time.
-/// Test: none.
+/// Rows of output are looked at below this share only: what kept rows multiply rounding by is
+/// small above it.
+/// Unit: share of pivots. Less: written rows miss between two steps. More: time. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const SOUND: f64 = 0.5;
 
 // Singular configurations.
 
 /// Below this share rows are delicate: stages have to lie on the constraints.
 /// Unit: share of pivots. Less: stages off the constraints by δ are wrong by δ over the share.
-/// More: ordinary steps pay for projected stages. Test: `three_cranks_swing_for_300_seconds`.
+/// More: ordinary steps pay for projected stages. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const DELICATE: f64 = 0.1;
 
 /// Stages below this share make a step suspect.
@@ -190,7 +201,8 @@ pub(crate) const SUSPECT: f64 = 0.1;
 
 /// Nearest approach of the end of a step to a singular configuration.
 /// Unit: share of pivots. Less: a projection cannot tell the branches apart. More: no step ends
-/// where the motion is slow. Test: `sixty_four_step_sizes_over_the_flat_pose`.
+/// where the motion is slow. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const NEAREST: f64 = 1e-3;
 
 /// The same in units of the relative tolerance.
@@ -198,8 +210,8 @@ pub(crate) const NEAREST: f64 = 1e-3;
 pub(crate) const NEAREST_TOLERANCES: f64 = 100.0;
 
 /// Loose tolerances must not keep a motion farther away than this.
-/// Unit: share of pivots. Less: loose steps take another branch. More: loose runs stop.
-/// Test: none.
+/// Unit: share of pivots. Less: loose steps take another branch. More: loose runs stop. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const NEAREST_MAX: f64 = 0.1;
 
 /// Singular configurations are foreseen for so many steps like the last one: no method lets steps
@@ -209,30 +221,32 @@ pub(crate) const FORESIGHT: f64 = 12.0;
 
 /// Relative error of a step over a singular configuration that rounding may cause where steps are
 /// short; 1e-10 was not enough at 1e-10 where generated code is left on the way to one.
-/// Unit: 1. Less: steps collapse before it. More: the passage costs digits.
-/// Test: `singular_configurations_are_passed_by_the_interpreter`.
+/// Unit: 1. Less: steps collapse before it. More: the passage costs digits. Test:
+/// `singular_configurations_are_passed_by_the_interpreter`.
 pub(crate) const PASSED: f64 = 1e-9;
 
 /// Largest relative correction of a step over a singular configuration.
-/// Unit: share of the distance at which it ends: other branches are as far away as that. Less: runs
-/// stop before it. More: another branch is taken. Test: `a_run_may_end_in_the_flat_pose_or_beside_it`.
+/// Unit: share of the distance at which it ends: other branches are as far away as that. Less:
+/// runs stop before it. More: another branch is taken. Test:
+/// `a_run_may_end_in_the_flat_pose_or_beside_it`.
 pub(crate) const SMOOTH: f64 = 0.01;
 
 /// Velocities behind a singular configuration may miss those that the accelerations on both sides
 /// explain by this share: a step over it is short beside the curvature of the motion, and another
 /// branch leads elsewhere.
-/// Unit: share of momentum. Less: runs stop behind it. More: another branch is taken.
-/// Test: `flat_poses_of_many_four_bars_are_passed_on_the_branch`.
+/// Unit: share of momentum. Less: runs stop behind it. More: another branch is taken. Test:
+/// `flat_poses_of_many_four_bars_are_passed_on_the_branch`.
 pub(crate) const KINK: f64 = 0.25;
 
 /// Steps that end at a contradiction collapse within this share of the run before it.
-/// Unit: share of the run. Less: the contradiction is not named. More: another one is.
-/// Test: `drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows`.
+/// Unit: share of the run. Less: the contradiction is not named. More: another one is. Test:
+/// `drives_that_contradict_each_other_later_stop_the_run_and_keep_its_rows`.
 pub(crate) const JUST_AHEAD: f64 = 1e-9;
 
 /// Reactions are not told nearer to a singular configuration than this share.
 /// Unit: share of pivots. Less: reactions are rounding. More: they are left out where they are
-/// known. Test: none.
+/// known. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const BLIND: f64 = 1e-6;
 
 /// The same in units of the relative tolerance: a row off its motion by δ has reactions that are
@@ -241,7 +255,8 @@ pub(crate) const BLIND: f64 = 1e-6;
 pub(crate) const BLIND_TOLERANCES: f64 = 1e3;
 
 /// Loose tolerances must not hide reactions farther away than this.
-/// Unit: share of pivots. Less: reactions are wrong. More: they are left out. Test: none.
+/// Unit: share of pivots. Less: reactions are wrong. More: they are left out. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const BLIND_MAX: f64 = 1e-2;
 
 // The search for singular instants.
@@ -251,25 +266,27 @@ pub(crate) const BLIND_MAX: f64 = 1e-2;
 pub(crate) const PLACES: usize = 16;
 
 /// An instant at which a pivot is smallest is found to this: there the pivot is as small.
-/// Unit: share of the interval. Less: time. More: passages are missed.
-/// Test: `forty_four_bars_are_where_one_angle_says`.
+/// Unit: share of the interval. Less: time. More: passages are missed. Test:
+/// `forty_four_bars_are_where_one_angle_says`.
 pub(crate) const SHARP: f64 = 1e-7;
 
-/// A singular configuration is looked for up to so many times the distance at which a straight line
-/// meets it.
+/// A singular configuration is looked for up to so many times the distance at which a straight
+/// line meets it.
 /// Unit: distances. Less: curved pivots vanish unforeseen. More: time. Test: none.
 pub(crate) const BEYOND: f64 = 1.5;
 
-/// Where a pivot falls to this share of the present one and rises again, it vanishes: what is left
-/// is the error of a parabola.
-/// Unit: share of the present pivot. Less: passages are not foreseen. More: steps avoid what is no
-/// passage. Test: none.
+/// Where a pivot falls to this share of the present one and rises again, it vanishes: what is
+/// left is the error of a parabola.
+/// Unit: share of the present pivot. Less: passages are not foreseen. More: steps avoid what is
+/// no passage. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const VANISHES: f64 = 0.2;
 
 /// A search is worth its price where a pivot falls below this share of the present one at one of
 /// [`GLANCES`] places: between two of them a pivot that vanishes on the way shows itself, unless
 /// that is much earlier than expected.
-/// Unit: share of the present pivot. Less: passages are not foreseen. More: time. Test: none.
+/// Unit: share of the present pivot. Less: passages are not foreseen. More: time. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const STAYS: f64 = 0.75;
 
 /// Those places.
@@ -302,14 +319,13 @@ pub(crate) const BESIDE: f64 = 0.02;
 
 /// Residuals below this share of the terms of their row, or for rates of the largest row, are no
 /// jumps.
-/// Unit: share of terms. Less: rounding is an impulse. More: small jumps are not told.
-/// Test: `smooth_steps_are_no_jumps`.
+/// Unit: share of terms. Less: rounding is an impulse. More: small jumps are not told. Test:
+/// `smooth_steps_are_no_jumps`.
 pub(crate) const NO_JUMP: f64 = 1e-9;
 
 /// Between times that are so many roundings apart a continuous function changes much more than
 /// between neighbouring ones.
-/// Unit: roundings. Less: rounding hides the change. More: other changes take part.
-/// Test: none.
+/// Unit: roundings. Less: rounding hides the change. More: other changes take part. Test: none.
 pub(crate) const WIDE: f64 = 1e6;
 
 /// What remains of the wider change, if it is more than this share, is a jump.
@@ -319,23 +335,23 @@ pub(crate) const REMAINS: f64 = 0.5;
 // Rows of output.
 
 /// A row may lie so far from the cubic through both ends of its step.
-/// Unit: share of the way of the step. Less: good rows are refused. More: rows on another branch are
-/// shown. Test: none.
+/// Unit: share of the way of the step. Less: good rows are refused. More: rows on another branch
+/// are shown. Test: none.
 pub(crate) const LED: f64 = 0.25;
 
 /// The same beside, where nothing moves.
-/// Unit: share of the mechanism's size, or rad. Less: good rows are refused. More: rows on another
-/// branch are shown. Test: none.
+/// Unit: share of the mechanism's size, or rad. Less: good rows are refused. More: rows on
+/// another branch are shown. Test: none.
 pub(crate) const LED_AT_REST: f64 = 1e-3;
 
 /// Velocities on a way may be so many times those of going it evenly.
-/// Unit: 1. Less: rows of drives that rest at both ends of a step are refused. More: rows on another
-/// branch are shown. Test: none.
+/// Unit: 1. Less: rows of drives that rest at both ends of a step are refused. More: rows on
+/// another branch are shown. Test: none.
 pub(crate) const PEAK: f64 = 3.0;
 
 /// A step that is tried again and again forgets what it has seen after so many times.
-/// Unit: times. Less: stages are evaluated twice. More: memory.
-/// Test: `it_is_evaluated_once_at_each_time_of_a_step`.
+/// Unit: times. Less: stages are evaluated twice. More: memory. Test:
+/// `it_is_evaluated_once_at_each_time_of_a_step`.
 pub(crate) const REMEMBERED: usize = 256;
 
 /// Rows that a component may be ahead of the others.
@@ -346,24 +362,25 @@ pub(crate) const AHEAD: usize = 64;
 
 /// Runs leave code below this health: the interpreter has to see a singular configuration from
 /// afar. They do not begin on it either.
-/// Unit: share of the generator's pivots. Less: singular configurations are met on code. More: code
-/// is left where it is good. Test: `code_that_is_not_sure_is_left_and_comes_back`.
+/// Unit: share of the generator's pivots. Less: singular configurations are met on code. More:
+/// code is left where it is good. Test:
+/// `limits_stand_in_their_order`.
 pub const LEAVE: f64 = 0.1;
 
 /// Code comes back above this health.
-/// Unit: share of the generator's pivots. Less: it comes and goes. More: it stays away.
-/// Test: `code_that_is_not_sure_is_left_and_comes_back`.
+/// Unit: share of the generator's pivots. Less: it comes and goes. More: it stays away. Test:
+/// `limits_stand_in_their_order`.
 pub(crate) const RETURN: f64 = 0.3;
 
 /// Accepted steps before code comes back at first; twice as many after every further time it was
 /// left.
-/// Unit: steps. Less: it comes and goes. More: time.
-/// Test: `code_that_is_not_sure_is_left_and_comes_back`.
+/// Unit: steps. Less: it comes and goes. More: time. Test:
+/// `code_that_is_not_sure_is_left_and_comes_back`.
 pub(crate) const PATIENCE: u64 = 8;
 
 /// Accelerations of code that comes back differ from interpreted ones by at most this share.
-/// Unit: share of the largest. Less: rounding keeps it away. More: wrong code comes back.
-/// Test: none.
+/// Unit: share of the largest. Less: rounding keeps it away. More: wrong code comes back. Test:
+/// none.
 pub(crate) const SAME_ACCELERATIONS: f64 = 1e-9;
 
 /// Values of code and interpreter may differ by this share of the terms that they are made of.
@@ -381,16 +398,16 @@ pub(crate) const CODE_STATES: usize = 6;
 pub(crate) const DISTANCE: f64 = 0.01;
 
 /// The same for velocities: terms in their squares have to count.
-/// Unit: size of the mechanism, or rad, per second. Less: they do not. More: they alone do.
-/// Test: none.
+/// Unit: size of the mechanism, or rad, per second. Less: they do not. More: they alone do. Test:
+/// none.
 pub(crate) const SPEED: f64 = 1.0;
 
 // Choices.
 
 /// A motion for which an explicit method would need more steps than this, only to stay stable, is
 /// stiff.
-/// Unit: steps. Less: implicit methods where explicit ones are faster. More: runs that take hours.
-/// Test: `components_move_as_they_do_alone_and_each_at_its_own_pace`.
+/// Unit: steps. Less: implicit methods where explicit ones are faster. More: runs that take
+/// hours. Test: `components_move_as_they_do_alone_and_each_at_its_own_pace`.
 pub(crate) const STIFF: f64 = 2e4;
 
 /// Explicit steps are stable up to about this many times 1/|λ|: Dormand–Prince 8(5,3), along the
@@ -399,23 +416,22 @@ pub(crate) const STIFF: f64 = 2e4;
 pub(crate) const STABLE: f64 = 6.0;
 
 /// Iterations for the largest |λ|; the second half counts.
-/// Unit: iterations. Less: oscillations are misjudged. More: time.
-/// Test: `the_fastest_rate_is_found_also_of_oscillations`.
+/// Unit: iterations. Less: oscillations are misjudged. More: time. Test:
+/// `the_fastest_rate_is_found_also_of_oscillations`.
 pub(crate) const POWER_ITERATIONS: usize = 64;
 
 /// Components that are run at the same time at most, each on its own thread.
-/// Unit: threads. Less: many mechanisms share their steps. More: threads cost more than they save.
-/// Test: `too_many_components_stay_one`.
+/// Unit: threads. Less: many mechanisms share their steps. More: threads cost more than they
+/// save. Test: `too_many_components_stay_one`.
 pub(crate) const MOST_COMPONENTS: usize = 256;
 
 /// Bodies of a component that are named; more are counted.
 /// Unit: bodies. Less, more: names of components are too short or too long. Test: none.
 pub(crate) const NAMED: usize = 3;
 
-/// Rows with a smaller share than this of the largest weight take no part in a combination that is
-/// told.
-/// Unit: share. Less: rows are named that do not matter. More: some that do are not.
-/// Test: none.
+/// Rows with a smaller share than this of the largest weight take no part in a combination that
+/// is told.
+/// Unit: share. Less: rows are named that do not matter. More: some that do are not. Test: none.
 pub(crate) const TAKES_PART: f64 = 0.1;
 
 // What a run does where nobody says otherwise.
@@ -434,20 +450,66 @@ impl MotionOptions {
     pub const ATOL: f64 = 1e-10;
 
     /// Relative tolerances that can be asked for.
-    /// Unit: 1. Less: rounding of a step is larger. More: its error is no longer small.
-    /// Test: `the_ends_of_the_ranges_are_right`.
+    /// Unit: 1. Less: rounding of a step is larger. More: its error is no longer small. Test:
+    /// `the_ends_of_the_ranges_are_right`.
     pub const RTOL_RANGE: RangeInclusive<f64> = 1e-15..=0.1;
 
     /// That in words.
     pub const RTOL_EXPECTED: &str = "a number from 1e-15 (rounding) to 0.1";
 
     /// Most rows of output: a hundred bodies of six numbers then take some 100 GB.
-    /// Unit: rows. Less: long runs are refused. More: disks are filled.
-    /// Test: `runs_that_would_never_end_are_refused_by_name`.
+    /// Unit: rows. Less: long runs are refused. More: disks are filled. Test:
+    /// `runs_that_would_never_end_are_refused_by_name`.
     pub const MOST_ROWS: f64 = 1e7;
 
     /// Accepted and rejected steps at most, where no other limit is given.
     /// Unit: steps. Less: long runs are refused. More: runs that do not end are not stopped.
     /// Test: `runs_that_would_never_end_are_refused_by_name`.
     pub const MAX_STEPS: u64 = 1_000_000;
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Each number of a row is less than the next, or a state would be two things at once.
+    #[test]
+    fn limits_stand_in_their_order() {
+        let rows: [(&str, &[f64]); 10] = [
+            ("roundings", &[FEW_ROUNDINGS, ROUNDINGS, STALLED_ROUNDINGS]),
+            (
+                "rows come back where others are not lost",
+                &[PIVOT_LOSS, PIVOT_RECOVERY],
+            ),
+            ("code comes back where it is not left", &[LEAVE, RETURN]),
+            (
+                "rows are left out where no step ends",
+                &[PIVOT_SINGULAR, NEAREST],
+            ),
+            (
+                "no step ends nearer",
+                &[NEAREST, NEAREST_MAX, 2.0 * DELICATE],
+            ),
+            ("delicate rows are not sound", &[DELICATE, SOUND, 1.0]),
+            (
+                "reactions are told where steps end",
+                &[BLIND, NEAREST, BLIND_MAX],
+            ),
+            (
+                "dropped rows",
+                &[f64::EPSILON, AT_REST, DROPPED_MISFIT, POSITION_MISFIT],
+            ),
+            ("what vanishes does not stay", &[VANISHES, STAYS, 1.0]),
+            (
+                "code gives up first",
+                &[CODE_CORRECTIONS as f64, CORRECTIONS as f64],
+            ),
+        ];
+        for (what, values) in rows {
+            let is_ordered = values.windows(2).all(|w| w[0] < w[1]);
+            assert!(is_ordered, "{what}: {values:?}");
+        }
+        // Rows that are left out allow dropped ones no more than this.
+        assert_eq!([NEAREST_PIVOT], [PIVOT_SINGULAR]);
+    }
 }

@@ -306,8 +306,8 @@ impl<'m> KeptRowMotion<'m> {
         (q, v, work.first_mut())
     }
 
-    /// Moves the end of a step to t that passed its error test onto the constraints, or says what it
-    /// misses, and keeps other rows if the present ones have become nearly dependent there.
+    /// Moves the end of a step to t that passed its error test onto the constraints, or says what
+    /// it misses, and keeps other rows if the present ones have become nearly dependent there.
     /// `has_to_end`: the step ends at t wherever that is. What happened is told once the step
     /// stands.
     pub(crate) fn end_step(

@@ -193,8 +193,8 @@ impl IndependentCoordinates {
         }
     }
 
-    /// Where another partition is due, if a step has begun: whether one has is seen from the time of
-    /// the accepted state.
+    /// Where another partition is due, if a step has begun: whether one has is seen from the time
+    /// of the accepted state.
     pub(crate) fn due(&self, has_begun: impl Fn(f64) -> bool) -> Option<Origin> {
         let due = self.renewal.as_ref();
         due.filter(|origin| has_begun(origin.t)).cloned()

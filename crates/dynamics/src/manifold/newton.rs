@@ -63,6 +63,7 @@ mod tests {
     use std::convert::Infallible;
 
     use super::*;
+    use crate::limits::{ROUNDINGS, STALLED_ROUNDINGS};
 
     /// A row whose misfit each correction multiplies by a factor, down to a floor.
     struct Shrinking {
@@ -92,8 +93,8 @@ mod tests {
         };
         let limits = Limits {
             corrections,
-            enough: 10.0,
-            stalled: 50.0,
+            enough: ROUNDINGS,
+            stalled: STALLED_ROUNDINGS,
         };
         let Ok(end) = correct(&mut level, &limits);
         assert_eq!(end.worst, 3);

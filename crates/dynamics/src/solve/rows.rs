@@ -194,8 +194,8 @@ impl KeptRows {
         self.written(at, completed, x)
     }
 
-    /// Solves `M·x + Cᵀ·λ = force`, `C·x = rhs` for x with the factored matrix. Without a force x is
-    /// the smallest motion in the mass metric.
+    /// Solves `M·x + Cᵀ·λ = force`, `C·x = rhs` for x with the factored matrix. Without a force x
+    /// is the smallest motion in the mass metric.
     pub(crate) fn solve(
         &mut self,
         at: &Evaluation<'_>,

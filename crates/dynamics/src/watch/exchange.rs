@@ -119,9 +119,9 @@ fn requested_rows_recovered(equations: &mut KeptEquations<'_>) -> bool {
     requested.is_some_and(|rows| rows.factor(&equations.at).is_ok() && are_recovered(rows))
 }
 
-/// Freshly factored kept rows of a new decision, if they have the rank of the old ones and imply the
-/// dropped ones by smaller coefficients. Another rank is that of a singular configuration nearby,
-/// not of the motion.
+/// Freshly factored kept rows of a new decision, if they have the rank of the old ones and imply
+/// the dropped ones by smaller coefficients. Another rank is that of a singular configuration
+/// nearby, not of the motion.
 fn better(
     at: &Evaluation<'_>,
     decision: Result<RowDecision, AnalysisError>,

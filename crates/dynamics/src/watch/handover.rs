@@ -112,8 +112,8 @@ impl Handover {
         self.phase == Phase::Code
     }
 
-    /// Accelerations for an evaluation of a run; `false` if the interpreter has to answer. Code that
-    /// is not sure is left.
+    /// Accelerations for an evaluation of a run; `false` if the interpreter has to answer. Code
+    /// that is not sure is left.
     pub(crate) fn evaluate(
         &mut self,
         state: State<'_>,
