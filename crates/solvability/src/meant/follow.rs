@@ -1,14 +1,14 @@
-//! How positions and velocities follow the data where some rows hold, and what that makes of the way
-//! along a walk.
+//! How positions and velocities follow the data where some rows hold, and what that makes of the
+//! way along a walk.
 //!
 //! Where rows `C_K·x = y` hold, x follows y by `C_K⁺·y`, and a gradient g by x becomes one by y,
 //! `λ = C_K⁺ᵀ·g`, and one along the motions that the rows leave, `g − C_Kᵀ·λ`.
 //!
-//! A pose at the end of a walk follows the data along the whole way: each step goes along a velocity
-//! v that the kept rows allow, `C_K·v = 0`, which changes by `δv = −C_K⁺·δ(C_K·v)`, so that
-//! `δq⁺ = δq + δv`, with `Φ_K(q⁺) = 0`. Nonholonomic rows lead by velocities alone: of the change
-//! that adds up they take nothing back. A gradient by the last pose is carried backwards to the
-//! data and to the pose where the walk began.
+//! A pose at the end of a walk follows the data along the whole way: each step goes along a
+//! velocity v that the kept rows allow, `C_K·v = 0`, which changes by `δv = −C_K⁺·δ(C_K·v)`, so
+//! that `δq⁺ = δq + δv`, with `Φ_K(q⁺) = 0`. Nonholonomic rows lead by velocities alone: of the
+//! change that adds up they take nothing back. A gradient by the last pose is carried backwards to
+//! the data and to the pose where the walk began.
 
 use linalg::{Matrix, PivotedQr};
 use model::{Mechanism, Scratch, System};
@@ -123,8 +123,8 @@ impl Ground<'_> {
         self.kept.iter().any(|&i| i >= self.mechanism.layout().m)
     }
 
-    /// Where velocities that all kept rows allow lead, those nearest to `moved` at each place. `None`
-    /// if they change too fast to be followed.
+    /// Where velocities that all kept rows allow lead, those nearest to `moved` at each place.
+    /// `None` if they change too fast to be followed.
     ///
     /// Source: the modified midpoint rule, extrapolated; E. Hairer, S. P. Nørsett, G. Wanner,
     /// Solving Ordinary Differential Equations I, section II.9 (1993).

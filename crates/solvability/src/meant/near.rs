@@ -1,9 +1,9 @@
-//! By how many metres the data would have to be wrong for a lower rank, at one pose and at all poses
-//! of a walk, and the least rank that data within a stated tolerance have.
+//! By how many metres the data would have to be wrong for a lower rank, at one pose and at all
+//! poses of a walk, and the least rank that data within a stated tolerance have.
 //!
 //! Rows that nearly depend on others at a pose are left out together, so that the mechanism walks
-//! away from the pose on rows that are independent beyond doubt. Where it comes to it shows which of
-//! them are independent in general: those are kept again, one rank after the other.
+//! away from the pose on rows that are independent beyond doubt. Where it comes to it shows which
+//! of them are independent in general: those are kept again, one rank after the other.
 
 use linalg::{Matrix, PivotedQr, Scaling};
 use model::{DataBlock, Scratch, System};

@@ -1,5 +1,5 @@
-//! By what share of their uncertainty the data would have to be wrong for a lower rank, and what they
-//! make of dependencies.
+//! By what share of their uncertainty the data would have to be wrong for a lower rank, and what
+//! they make of dependencies.
 
 use linalg::{Matrix, Scaling, small_svd};
 use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch};

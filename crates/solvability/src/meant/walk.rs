@@ -22,8 +22,8 @@ const STEPS: usize = 5;
 /// The same where such steps do not arrive.
 const SMALL_STEPS: usize = 40;
 
-/// The largest correction of a step onto the kept rows, as a share of the step: what is corrected by
-/// more may be on another branch.
+/// The largest correction of a step onto the kept rows, as a share of the step: what is corrected
+/// by more may be on another branch.
 const CORRECTED: f64 = 0.5;
 
 /// Poses of a mechanism.

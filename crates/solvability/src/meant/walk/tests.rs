@@ -1,3 +1,5 @@
+//! Walks away from a pose: what they hold, and how they follow the data.
+
 use joints::{Direction, KnifeEdge, Revolute, Translational};
 use model::start::{assemble, scene_size};
 use model::{Body, BodyRef, DataUnit, Description, Mechanism, StartOptions, System};

@@ -2,7 +2,7 @@
 //! complement of `linalg` and by sparse Cholesky and LU of faer: time, memory, accuracy, refusals,
 //! and whether two runs give the same bits.
 //!
-//! `cargo run --release -p bench --example sparse_saddle`
+//! `cargo run --release --manifest-path tests/peers/Cargo.toml --example sparse_saddle`
 #![allow(clippy::print_stdout)]
 
 use std::error::Error;
