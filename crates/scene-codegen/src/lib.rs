@@ -47,7 +47,7 @@ pub fn scene(
 /// joints and forces that it may use.
 ///
 /// # Errors
-/// As [`scene`].
+/// As [`scene()`].
 pub fn scene_text(
     name: &str,
     text: &str,

@@ -20,7 +20,7 @@ use crate::module::Choices;
 /// ```
 ///
 /// # Errors
-/// As [`crate::scene`]; also if the file cannot be written.
+/// As [`crate::scene()`]; also if the file cannot be written.
 pub fn to_out_dir(
     scene: &Path,
     name: &str,
