@@ -1,5 +1,5 @@
-//! The motion of a mechanism on kept rows: its equations ([`crate::solve`]), its constraints
-//! ([`crate::manifold`]) and what is watched ([`crate::watch`]), put together for whoever evaluates
+//! The motion of a mechanism on kept rows: its equations (`solve`), its constraints
+//! (`manifold`) and what is watched (`watch`), put together for whoever evaluates
 //! states. Kept rows may become nearly dependent although the rank stays (an edge turns until it no
 //! longer carries what a dropped row carried): then, at an accepted and polished point, other rows
 //! are kept, which changes no motion.

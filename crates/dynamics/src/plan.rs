@@ -1,6 +1,6 @@
 //! What a run does and what it leaves out, decided once from a prepared mechanism, its options and
 //! the output that is wanted. Each decision has its reason and what it saves; a run does what its
-//! plan says ([`mod@crate::simulate`]). Not here: how anything is computed.
+//! plan says ([`crate::simulate`]). Not here: how anything is computed.
 
 mod component;
 mod decided;
