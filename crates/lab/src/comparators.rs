@@ -20,6 +20,8 @@ mod null_space;
 mod proximal;
 mod run;
 mod stepping;
+#[cfg(test)]
+mod tests;
 
 use linalg::{Matrix, SaddleError};
 

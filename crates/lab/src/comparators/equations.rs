@@ -27,21 +27,46 @@ pub struct Equations<'a> {
     positions: KeptRows,
     velocities: KeptRows,
     drift: Drift,
-    /// What coordinates count in units of the mechanism, and the masses there, n_v each.
-    units: Vec<f64>,
-    mass: Vec<f64>,
-    /// C in those units; its holonomic rows are those of Φq.
-    c: Matrix,
-    /// Q and a in those units, n_v; λ and right-hand sides of all rows.
-    force: Vec<f64>,
-    motion: Vec<f64>,
-    lambda: Vec<f64>,
-    gamma: Vec<f64>,
+    at: Scaled,
     /// Right-hand sides evaluated, states projected.
     pub(super) evaluations: u64,
     pub(super) projections: u64,
     /// After it nothing is evaluated any more.
     pub(super) deadline: Option<Instant>,
+}
+
+/// The saddle equations of an instant in units of the mechanism: lengths in its size.
+struct Scaled {
+    /// What coordinates count in those units, and the masses there, n_v each.
+    units: Vec<f64>,
+    mass: Vec<f64>,
+    /// All rows; holonomic ones are those of Φq.
+    c: Matrix,
+    /// Q and its answer, the accelerations or a correction, n_v.
+    force: Vec<f64>,
+    motion: Vec<f64>,
+    /// Multipliers and right-hand sides of all rows.
+    lambda: Vec<f64>,
+    gamma: Vec<f64>,
+}
+
+impl Scaled {
+    /// Solves for motion and multipliers.
+    fn solve(&mut self, solver: &mut dyn Solver) -> Result<(), Fault> {
+        let at = Saddle {
+            c: &self.c,
+            mass: &self.mass,
+            force: &self.force,
+            gamma: &self.gamma,
+        };
+        solver.solve(&at, &mut self.motion, &mut self.lambda)
+    }
+
+    /// The motion in SI.
+    fn motion(&self) -> impl Iterator<Item = f64> + '_ {
+        let of = |(x, unit): (&f64, &f64)| x * unit;
+        self.motion.iter().zip(&self.units).map(of)
+    }
 }
 
 /// C at a configuration in units of the mechanism: lengths in its size.
@@ -83,13 +108,15 @@ impl<'a> Equations<'a> {
             mechanism,
             s,
             drift,
-            units,
-            mass,
-            c,
-            force: vec![0.0; n],
-            motion: vec![0.0; n],
-            lambda: vec![0.0; m],
-            gamma: vec![0.0; m],
+            at: Scaled {
+                units,
+                mass,
+                c,
+                force: vec![0.0; n],
+                motion: vec![0.0; n],
+                lambda: vec![0.0; m],
+                gamma: vec![0.0; m],
+            },
             evaluations: 0,
             projections: 0,
             deadline: None,
@@ -111,7 +138,7 @@ impl<'a> Equations<'a> {
     /// # Errors
     /// Those of the solver; [`Fault::TooLong`].
     pub fn accelerate(&mut self, t: f64, q: &[f64], v: &[f64], a: &mut [f64]) -> Result<(), Fault> {
-        let (mechanism, s) = (self.mechanism, &mut self.s);
+        let (mechanism, s, at) = (self.mechanism, &mut self.s, &mut self.at);
         self.evaluations += 1;
         if self
             .deadline
@@ -124,11 +151,11 @@ impl<'a> Equations<'a> {
         mechanism.twist(v, s);
         mechanism.gamma(s);
         mechanism.force(s);
-        self.gamma.copy_from_slice(&s.gamma);
+        at.gamma.copy_from_slice(&s.gamma);
         if let Drift::Baumgarte { alpha, beta } = self.drift {
             mechanism.b(s);
             mechanism.phi(s);
-            for (i, gamma) in self.gamma.iter_mut().enumerate() {
+            for (i, gamma) in at.gamma.iter_mut().enumerate() {
                 let rate = mechanism.layout().velocity_residual(s, i, v);
                 *gamma -= match s.phi.get(i) {
                     Some(phi) => 2.0 * alpha * rate + beta * beta * phi,
@@ -136,23 +163,18 @@ impl<'a> Equations<'a> {
                 };
             }
         }
-        in_units(mechanism, s, &self.units, &mut self.c);
-        for ((scaled, f), unit) in self.force.iter_mut().zip(&s.force).zip(&self.units) {
+        in_units(mechanism, s, &at.units, &mut at.c);
+        for ((scaled, f), unit) in at.force.iter_mut().zip(&s.force).zip(&at.units) {
             *scaled = f * unit;
         }
-        let at = Saddle {
-            c: &self.c,
-            mass: &self.mass,
-            force: &self.force,
-            gamma: &self.gamma,
-        };
-        self.solver.solve(&at, &mut self.motion, &mut self.lambda)?;
-        for ((a, scaled), unit) in a.iter_mut().zip(&self.motion).zip(&self.units) {
-            *a = scaled * unit;
+        at.solve(&mut *self.solver)?;
+        for (a, found) in a.iter_mut().zip(at.motion()) {
+            *a = found;
         }
-        match a.iter().all(|a| a.is_finite()) {
-            true => Ok(()),
-            false => Err(Fault::NotFinite { time: t }),
+        if a.iter().all(|a| a.is_finite()) {
+            Ok(())
+        } else {
+            Err(Fault::NotFinite { time: t })
         }
     }
 
@@ -168,7 +190,7 @@ impl<'a> Equations<'a> {
     ) -> Result<(Vec<f64>, Vec<Reaction>), Fault> {
         let mut a = vec![0.0; v.len()];
         self.accelerate(t, q, v, &mut a)?;
-        let of = |id| self.mechanism.reaction(id, &self.s, &self.lambda);
+        let of = |id| self.mechanism.reaction(id, &self.s, &self.at.lambda);
         Ok((a, self.mechanism.constraint_ids().map(of).collect()))
     }
 
@@ -184,17 +206,12 @@ impl<'a> Equations<'a> {
             mechanism.pose(t, q, s);
             mechanism.phi(s);
             mechanism.c(s);
-            self.gamma.fill(0.0);
-            for (gamma, phi) in self.gamma.iter_mut().zip(&s.phi) {
+            self.at.gamma.fill(0.0);
+            for (gamma, phi) in self.at.gamma.iter_mut().zip(&s.phi) {
                 *gamma = -phi;
             }
             let size = self.correct(true)?;
-            let d: Vec<f64> = self
-                .motion
-                .iter()
-                .zip(&self.units)
-                .map(|(d, u)| d * u)
-                .collect();
+            let d: Vec<f64> = self.at.motion().collect();
             mechanism.displace(q, &d);
             let is_rounding = size >= before && size < SETTLED.sqrt();
             if size <= SETTLED || is_rounding {
@@ -214,12 +231,12 @@ impl<'a> Equations<'a> {
         mechanism.pose(t, q, s);
         mechanism.c(s);
         mechanism.b(s);
-        for (i, gamma) in self.gamma.iter_mut().enumerate() {
+        for (i, gamma) in self.at.gamma.iter_mut().enumerate() {
             *gamma = -mechanism.layout().velocity_residual(s, i, v);
         }
         self.correct(false)?;
-        for ((v, d), unit) in v.iter_mut().zip(&self.motion).zip(&self.units) {
-            *v += d * unit;
+        for (v, d) in v.iter_mut().zip(self.at.motion()) {
+            *v += d;
         }
         Ok(())
     }
@@ -227,20 +244,15 @@ impl<'a> Equations<'a> {
     /// The smallest correction that changes rows by γ; returns its largest component, in units of
     /// the mechanism.
     fn correct(&mut self, of_positions: bool) -> Result<f64, Fault> {
-        in_units(self.mechanism, &self.s, &self.units, &mut self.c);
-        self.force.fill(0.0);
-        let at = Saddle {
-            c: &self.c,
-            mass: &self.mass,
-            force: &self.force,
-            gamma: &self.gamma,
-        };
-        let rows = match of_positions {
-            true => &mut self.positions,
-            false => &mut self.velocities,
-        };
-        rows.solve(&at, &mut self.motion, &mut self.lambda)?;
-        Ok(self.motion.iter().fold(0.0, |a: f64, d| a.max(d.abs())))
+        let at = &mut self.at;
+        in_units(self.mechanism, &self.s, &at.units, &mut at.c);
+        at.force.fill(0.0);
+        at.solve(if of_positions {
+            &mut self.positions
+        } else {
+            &mut self.velocities
+        })?;
+        Ok(at.motion.iter().fold(0.0, |a: f64, d| a.max(d.abs())))
     }
 
     /// Ends a step: projects, where states are projected. Returns whether it did.

@@ -105,13 +105,13 @@ impl<'a> Pen<'a> {
 
     fn draw(&mut self, family: Family) {
         match family {
-            Family::Trusses => self.truss(),
-            Family::Bars => self.bars(),
-            Family::Edges => self.edges(),
-            Family::Wheels => self.wheels(),
-            Family::Gears => self.gears(),
-            Family::Linkages => self.linkage(),
-            Family::Doubled => self.doubled(),
+            Family::Trusses => trusses::truss(self),
+            Family::Bars => bars::bars(self),
+            Family::Edges => edges::edges(self),
+            Family::Wheels => wheels::wheels(self),
+            Family::Gears => gears::gears(self),
+            Family::Linkages => linkages::linkage(self),
+            Family::Doubled => doubled::doubled(self),
             Family::Several => self.several(),
         }
     }

@@ -71,16 +71,16 @@ impl Slender {
         let mut pen = Pen::new(numbers);
         pen.drawing.stretch = 1;
         match self {
-            Self::OffsetCrank => pen.offset_crank(),
-            Self::OffsetPin => pen.offset_pin(),
-            Self::DeadCentre => pen.dead_centre(),
-            Self::SliderCrank => pen.held_slider_crank(),
-            Self::ThinTriangle => pen.thin_triangle(),
-            Self::ThinLoop => pen.thin_loop(),
-            Self::SteepEdges => pen.steep_edges(),
-            Self::SteepSlot => pen.steep_slot(),
-            Self::Steering => pen.steering(),
-            Self::Train => pen.train(),
+            Self::OffsetCrank => offset_crank(&mut pen),
+            Self::OffsetPin => offset_pin(&mut pen),
+            Self::DeadCentre => dead_centre(&mut pen),
+            Self::SliderCrank => held_slider_crank(&mut pen),
+            Self::ThinTriangle => thin_triangle(&mut pen),
+            Self::ThinLoop => thin_loop(&mut pen),
+            Self::SteepEdges => steep_edges(&mut pen),
+            Self::SteepSlot => steep_slot(&mut pen),
+            Self::Steering => steering(&mut pen),
+            Self::Train => train(&mut pen),
         }
         pen.drawing
     }
@@ -90,248 +90,246 @@ fn quarter([x, y]: Vector) -> Vector {
     [-y, x]
 }
 
-impl Pen<'_> {
-    /// 1e-4 to 5e-2, of either sign.
-    fn little(&mut self) -> Ratio {
-        let [n, d] = [
-            [1, 2, 5][self.numbers.below(3)],
-            [100, 1_000, 10_000][self.numbers.below(3)],
-        ];
-        let sign = 1 - 2 * self.numbers.below(2) as i128;
-        Ratio::new(sign * n, d)
-    }
+/// 1e-4 to 5e-2, of either sign.
+fn little(pen: &mut Pen<'_>) -> Ratio {
+    let [n, d] = [
+        [1, 2, 5][pen.numbers.below(3)],
+        [100, 1_000, 10_000][pen.numbers.below(3)],
+    ];
+    let sign = 1 - 2 * pen.numbers.below(2) as i128;
+    Ratio::new(sign * n, d)
+}
 
-    /// A vector of the grid, turned by a small angle.
-    fn turned(&mut self, v: Vector) -> Vector {
-        let little = self.little();
-        along(v, little, quarter(v))
-    }
+/// A vector of the grid, turned by a small angle.
+fn turned(pen: &mut Pen<'_>, v: Vector) -> Vector {
+    let little = little(pen);
+    along(v, little, quarter(v))
+}
 
-    fn offset_crank(&mut self) {
-        let (arm, coupler) = (self.vector(6), self.body());
-        let pivots: Vec<Vector> = match self.once_in(2) {
-            true => {
-                let (origin, line) = (self.point(), self.direction());
-                self.places(origin, line, 3)
+fn offset_crank(pen: &mut Pen<'_>) {
+    let (arm, coupler) = (pen.vector(6), pen.body());
+    let pivots: Vec<Vector> = match pen.once_in(2) {
+        true => {
+            let (origin, line) = (pen.point(), pen.direction());
+            pen.places(origin, line, 3)
+        }
+        false => (0..3).map(|_| pen.point()).collect(),
+    };
+    for (k, pivot) in pivots.into_iter().enumerate() {
+        let crank = pen.body();
+        let pin = match k {
+            2 => {
+                let (little, off) = (little(pen), pen.vector(3));
+                along(pivot, little, off)
             }
-            false => (0..3).map(|_| self.point()).collect(),
+            _ => pivot,
         };
-        for (k, pivot) in pivots.into_iter().enumerate() {
-            let crank = self.body();
-            let pin = match k {
-                2 => {
-                    let (little, off) = (self.little(), self.vector(3));
-                    along(pivot, little, off)
-                }
-                _ => pivot,
-            };
-            self.hinge([GROUND, crank], pin);
-            self.hinge([crank, coupler], along(pivot, Ratio::ONE, arm));
+        pen.hinge([GROUND, crank], pin);
+        pen.hinge([crank, coupler], along(pivot, Ratio::ONE, arm));
+    }
+}
+
+fn offset_pin(pen: &mut Pen<'_>) {
+    let door = pen.body();
+    let base = match pen.once_in(2) {
+        true => pen.body(),
+        false => GROUND,
+    };
+    let (at, off, little) = (pen.point(), pen.vector(5), little(pen));
+    pen.hinge([base, door], at);
+    let beside = along(at, little, off);
+    match pen.once_in(3) {
+        // One row of a second pin.
+        true => {
+            let u = pen.direction();
+            let axis = pen.drawing.across(u);
+            let from = pen.on_line(beside, axis, 2);
+            pen.link(
+                &[base, door],
+                Tie::PinInSlot {
+                    from,
+                    at: beside,
+                    along: u,
+                },
+            );
         }
-    }
-
-    fn offset_pin(&mut self) {
-        let door = self.body();
-        let base = match self.once_in(2) {
-            true => self.body(),
-            false => GROUND,
-        };
-        let (at, off, little) = (self.point(), self.vector(5), self.little());
-        self.hinge([base, door], at);
-        let beside = along(at, little, off);
-        match self.once_in(3) {
-            // One row of a second pin.
-            true => {
-                let u = self.direction();
-                let axis = self.drawing.across(u);
-                let from = self.on_line(beside, axis, 2);
-                self.link(
-                    &[base, door],
-                    Tie::PinInSlot {
-                        from,
-                        at: beside,
-                        along: u,
-                    },
-                );
-            }
-            false => {
-                // Without the row along the line of the pins, which is there already.
-                let u = quarter(off);
-                let from = beside;
-                self.link(
-                    &[base, door],
-                    Tie::PinInSlot {
-                        from,
-                        at: beside,
-                        along: u,
-                    },
-                );
-            }
-        }
-        if self.once_in(2) {
-            // Something beside it that is well held, and makes the whole larger.
-            let (far, end) = (self.point(), self.point());
-            let other = self.body();
-            self.hinge([door, other], far);
-            self.bar([GROUND, other], end, along(far, Ratio::ONE, quarter(off)));
-        }
-    }
-
-    fn dead_centre(&mut self) {
-        let (a, arm) = (self.point(), self.vector(4));
-        let b = along(a, Ratio::ONE, arm);
-        let bent = self.turned(arm);
-        let share = self.not_zero(3);
-        let c = along(b, share, bent);
-        let d = along(self.point(), self.step, quarter(arm));
-        let bars = [0; 3].map(|_| self.body());
-        self.hinge([GROUND, bars[0]], a);
-        self.hinge([bars[0], bars[1]], b);
-        self.hinge([bars[1], bars[2]], c);
-        let bearing = self.hinge([bars[2], GROUND], d);
-        match self.once_in(2) {
-            true => self.drawing.drive(bearing),
-            false => {
-                let across = quarter([c[0] - d[0], c[1] - d[1]]);
-                self.bar([bars[2], GROUND], c, along(c, Ratio::whole(2), across));
-            }
-        }
-    }
-
-    fn held_slider_crank(&mut self) {
-        let (pivot, way) = (self.point(), self.vector(3));
-        let bent = self.turned(way);
-        let (first, second) = (self.not_zero(3), self.not_zero(5));
-        let tip = along(pivot, first, bent);
-        let end = along(pivot, first + second, way);
-        let [crank, rod, slider] = [0; 3].map(|_| self.body());
-        self.hinge([GROUND, crank], pivot);
-        self.hinge([crank, rod], tip);
-        self.hinge([rod, slider], end);
-        self.slider([GROUND, slider], end, quarter(way));
-        let anchor = along(end, Ratio::whole(2), way);
-        self.bar([GROUND, slider], anchor, end);
-    }
-
-    fn thin_triangle(&mut self) {
-        let (node, line) = (self.point(), self.vector(4));
-        let body = self.drawing.body_at(node);
-        let bent = self.turned(line);
-        let (first, second) = (self.not_zero(4), self.not_zero(4));
-        self.bar([GROUND, body], along(node, first, line), node);
-        self.bar([GROUND, body], along(node, second, bent), node);
-    }
-
-    fn thin_loop(&mut self) {
-        let (a, long) = (self.point(), self.vector(6));
-        let (little, side) = (self.little(), self.vector(5));
-        let [b, c, d] = [
-            along(a, Ratio::ONE, long),
-            along(along(a, Ratio::ONE, long), little, side),
-            along(a, little, side),
-        ];
-        let bars = [0; 3].map(|_| self.body());
-        self.hinge([GROUND, bars[0]], a);
-        self.hinge([bars[0], bars[1]], b);
-        self.hinge([bars[1], bars[2]], c);
-        self.hinge([bars[2], GROUND], d);
-    }
-
-    fn steep_edges(&mut self) {
-        let (body, at, normal) = (self.body(), self.point(), self.vector(4));
-        let other = match self.once_in(2) {
-            true => self.on_line(at, normal, 5),
-            false => at,
-        };
-        let bent = self.turned(normal);
-        self.link(&[body], Tie::KnifeEdge { at, along: normal });
-        self.link(
-            &[body],
-            Tie::KnifeEdge {
-                at: other,
-                along: bent,
-            },
-        );
-        if self.once_in(2) {
-            let far = self.point();
-            self.link(
-                &[body],
-                Tie::KnifeEdge {
-                    at: along(far, self.step, normal),
-                    along: quarter(normal),
+        false => {
+            // Without the row along the line of the pins, which is there already.
+            let u = quarter(off);
+            let from = beside;
+            pen.link(
+                &[base, door],
+                Tie::PinInSlot {
+                    from,
+                    at: beside,
+                    along: u,
                 },
             );
         }
     }
-
-    fn steep_slot(&mut self) {
-        let (body, at, u) = (self.body(), self.point(), self.vector(4));
-        let base = match self.once_in(2) {
-            true => self.body(),
-            false => GROUND,
-        };
-        self.slider([base, body], at, u);
-        let bent = self.turned(u);
-        let (pin, axis) = (self.point(), self.drawing.across(bent));
-        let from = self.on_line(pin, axis, 3);
-        self.link(
-            &[base, body],
-            Tie::PinInSlot {
-                from,
-                at: pin,
-                along: bent,
-            },
-        );
+    if pen.once_in(2) {
+        // Something beside it that is well held, and makes the whole larger.
+        let (far, end) = (pen.point(), pen.point());
+        let other = pen.body();
+        pen.hinge([door, other], far);
+        pen.bar([GROUND, other], end, along(far, Ratio::ONE, quarter(off)));
     }
+}
 
-    /// A rear wheel, and two front wheels that are steered alike: no common centre.
-    fn steering(&mut self) {
-        let (rear, ahead) = (self.point(), self.vector(5));
-        let side = quarter(ahead);
-        let chassis = self.drawing.body_at(rear);
-        self.link(
-            &[chassis],
+fn dead_centre(pen: &mut Pen<'_>) {
+    let (a, arm) = (pen.point(), pen.vector(4));
+    let b = along(a, Ratio::ONE, arm);
+    let bent = turned(pen, arm);
+    let share = pen.not_zero(3);
+    let c = along(b, share, bent);
+    let d = along(pen.point(), pen.step, quarter(arm));
+    let bars = [0; 3].map(|_| pen.body());
+    pen.hinge([GROUND, bars[0]], a);
+    pen.hinge([bars[0], bars[1]], b);
+    pen.hinge([bars[1], bars[2]], c);
+    let bearing = pen.hinge([bars[2], GROUND], d);
+    match pen.once_in(2) {
+        true => pen.drawing.drive(bearing),
+        false => {
+            let across = quarter([c[0] - d[0], c[1] - d[1]]);
+            pen.bar([bars[2], GROUND], c, along(c, Ratio::whole(2), across));
+        }
+    }
+}
+
+fn held_slider_crank(pen: &mut Pen<'_>) {
+    let (pivot, way) = (pen.point(), pen.vector(3));
+    let bent = turned(pen, way);
+    let (first, second) = (pen.not_zero(3), pen.not_zero(5));
+    let tip = along(pivot, first, bent);
+    let end = along(pivot, first + second, way);
+    let [crank, rod, slider] = [0; 3].map(|_| pen.body());
+    pen.hinge([GROUND, crank], pivot);
+    pen.hinge([crank, rod], tip);
+    pen.hinge([rod, slider], end);
+    pen.slider([GROUND, slider], end, quarter(way));
+    let anchor = along(end, Ratio::whole(2), way);
+    pen.bar([GROUND, slider], anchor, end);
+}
+
+fn thin_triangle(pen: &mut Pen<'_>) {
+    let (node, line) = (pen.point(), pen.vector(4));
+    let body = pen.drawing.body_at(node);
+    let bent = turned(pen, line);
+    let (first, second) = (pen.not_zero(4), pen.not_zero(4));
+    pen.bar([GROUND, body], along(node, first, line), node);
+    pen.bar([GROUND, body], along(node, second, bent), node);
+}
+
+fn thin_loop(pen: &mut Pen<'_>) {
+    let (a, long) = (pen.point(), pen.vector(6));
+    let (little, side) = (little(pen), pen.vector(5));
+    let [b, c, d] = [
+        along(a, Ratio::ONE, long),
+        along(along(a, Ratio::ONE, long), little, side),
+        along(a, little, side),
+    ];
+    let bars = [0; 3].map(|_| pen.body());
+    pen.hinge([GROUND, bars[0]], a);
+    pen.hinge([bars[0], bars[1]], b);
+    pen.hinge([bars[1], bars[2]], c);
+    pen.hinge([bars[2], GROUND], d);
+}
+
+fn steep_edges(pen: &mut Pen<'_>) {
+    let (body, at, normal) = (pen.body(), pen.point(), pen.vector(4));
+    let other = match pen.once_in(2) {
+        true => pen.on_line(at, normal, 5),
+        false => at,
+    };
+    let bent = turned(pen, normal);
+    pen.link(&[body], Tie::KnifeEdge { at, along: normal });
+    pen.link(
+        &[body],
+        Tie::KnifeEdge {
+            at: other,
+            along: bent,
+        },
+    );
+    if pen.once_in(2) {
+        let far = pen.point();
+        pen.link(
+            &[body],
             Tie::KnifeEdge {
-                at: rear,
-                along: side,
+                at: along(far, pen.step, normal),
+                along: quarter(normal),
             },
         );
-        let bent = self.turned(side);
-        let is_forked = self.once_in(2);
-        for share in [Ratio::new(1, 3), Ratio::new(-1, 3)] {
-            let at = along(along(rear, Ratio::ONE, ahead), share, side);
-            let steered: Side = match is_forked {
-                false => chassis,
-                true => {
-                    let fork = self.body();
-                    let pivot = self.hinge([chassis, fork], at);
-                    self.drawing.drive(pivot);
-                    fork
-                }
-            };
-            self.link(&[steered], Tie::KnifeEdge { at, along: bent });
-        }
     }
+}
 
-    fn train(&mut self) {
-        let wheels: Vec<Side> = (0..2 + self.numbers.below(2))
-            .map(|_| {
-                let at = self.point();
-                let wheel = self.drawing.body_at(at);
-                self.hinge([GROUND, wheel], at);
-                wheel
-            })
-            .collect();
-        let mut product = Ratio::ONE;
-        for pair in wheels.windows(2) {
-            let ratio = Ratio::new([-1, -2, 3][self.numbers.below(3)], 2);
-            self.link(&[pair[0], pair[1], GROUND], Tie::Gear { ratio });
-            product = product * ratio;
-        }
-        let ratio = product * (Ratio::ONE + self.little());
-        self.link(
-            &[wheels[0], wheels[wheels.len() - 1], GROUND],
-            Tie::Gear { ratio },
-        );
+fn steep_slot(pen: &mut Pen<'_>) {
+    let (body, at, u) = (pen.body(), pen.point(), pen.vector(4));
+    let base = match pen.once_in(2) {
+        true => pen.body(),
+        false => GROUND,
+    };
+    pen.slider([base, body], at, u);
+    let bent = turned(pen, u);
+    let (pin, axis) = (pen.point(), pen.drawing.across(bent));
+    let from = pen.on_line(pin, axis, 3);
+    pen.link(
+        &[base, body],
+        Tie::PinInSlot {
+            from,
+            at: pin,
+            along: bent,
+        },
+    );
+}
+
+/// A rear wheel, and two front wheels that are steered alike: no common centre.
+fn steering(pen: &mut Pen<'_>) {
+    let (rear, ahead) = (pen.point(), pen.vector(5));
+    let side = quarter(ahead);
+    let chassis = pen.drawing.body_at(rear);
+    pen.link(
+        &[chassis],
+        Tie::KnifeEdge {
+            at: rear,
+            along: side,
+        },
+    );
+    let bent = turned(pen, side);
+    let is_forked = pen.once_in(2);
+    for share in [Ratio::new(1, 3), Ratio::new(-1, 3)] {
+        let at = along(along(rear, Ratio::ONE, ahead), share, side);
+        let steered: Side = match is_forked {
+            false => chassis,
+            true => {
+                let fork = pen.body();
+                let pivot = pen.hinge([chassis, fork], at);
+                pen.drawing.drive(pivot);
+                fork
+            }
+        };
+        pen.link(&[steered], Tie::KnifeEdge { at, along: bent });
     }
+}
+
+fn train(pen: &mut Pen<'_>) {
+    let wheels: Vec<Side> = (0..2 + pen.numbers.below(2))
+        .map(|_| {
+            let at = pen.point();
+            let wheel = pen.drawing.body_at(at);
+            pen.hinge([GROUND, wheel], at);
+            wheel
+        })
+        .collect();
+    let mut product = Ratio::ONE;
+    for pair in wheels.windows(2) {
+        let ratio = Ratio::new([-1, -2, 3][pen.numbers.below(3)], 2);
+        pen.link(&[pair[0], pair[1], GROUND], Tie::Gear { ratio });
+        product = product * ratio;
+    }
+    let ratio = product * (Ratio::ONE + little(pen));
+    pen.link(
+        &[wheels[0], wheels[wheels.len() - 1], GROUND],
+        Tie::Gear { ratio },
+    );
 }
