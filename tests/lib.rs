@@ -1,4 +1,4 @@
-//! What several tests use: numbers, and the mechanisms of `lab`. Test data live beside this
+//! What several tests use: numbers, and the mechanisms of `lab`. Test data live next to this
 //! crate; the tests are in `all/`.
 
 pub use lab::mechanisms::{cranks, revolute, robot, rod, sketch};

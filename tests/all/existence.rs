@@ -83,7 +83,7 @@ fn nearly_singular_rows_give_no_false_alarm() {
     }
 }
 
-/// A check that measured rates by the largest function of the model would be blind beside it.
+/// A check that measured rates by the largest function of the model would be blind next to it.
 #[test]
 fn a_large_function_of_another_drive_hides_nothing() {
     let mut d = driven_parallelogram([polynomial(&[0.0, 1.0]), polynomial(&[0.0, 1.0, 1e-3])]);

@@ -11,7 +11,7 @@ use pfaff::prelude::*;
 /// Numbers below are of size 1 to 30 and pass through one factorisation of a few rows.
 const ROUNDING: f64 = 1e-11;
 
-/// Moved states are known to the tolerance of the run, accelerations at them to all digits: both
+/// Moved states are accurate to the tolerance of the run, accelerations at them to all digits: both
 /// sides take the same state.
 const T_END: f64 = 0.3;
 
@@ -306,7 +306,7 @@ fn free_bodies() -> (Description, [BodyRef; 3]) {
 /// Torques on the free bodies (N·m).
 const LOADS: [f64; 3] = [5.0, -2.0, 3.5];
 
-/// What acts on a body beside its weight and its torque, `[Fx, Fy, T]` about a point: M·a − Q,
+/// What acts on a body apart from its weight and its torque, `[Fx, Fy, T]` about a point: M·a − Q,
 /// moved there.
 fn missing(d: &Description, row: &Row, body: usize, about: [f64; 2]) -> [f64; 3] {
     let b = &d.bodies[body];

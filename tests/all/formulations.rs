@@ -1,4 +1,4 @@
-//! One motion by every elimination of redundant rows, and what is seen of drift where nothing is
+//! One motion by every elimination of redundant rows, and what is seen of drift if nothing is
 //! projected. Other formulations are compared in `crates/lab`.
 
 use std::ops::ControlFlow;

@@ -179,7 +179,7 @@ fn redundancy_of_drives_goes_with_them() {
     assert_eq!((without.ranks.redundancy, without.mobility), (0, 2));
 }
 
-/// What cannot move is told so, and what moves by its drive alone is not.
+/// What cannot move is called so, and what moves by its drive alone is not.
 #[test]
 fn a_truss_and_a_door_cannot_move() {
     for (name, cannot) in [("truss", true), ("door", true), ("four-bar", false)] {

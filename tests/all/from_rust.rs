@@ -10,7 +10,7 @@ use pfaff::report::documents::MotionDocument;
 use serde_json::Value;
 
 /// A coupler on three parallel cranks, one of them too many, pulled by a spring and pushed by a
-/// torque that changes. On the coupler a slide with a drive, and beside it a cart on two wheels of
+/// torque that changes. On the coupler a slide with a drive, and next to it a cart on two wheels of
 /// one axle whose speed is prescribed.
 const SCENE: &str = r#"
 scene = { name = "three cranks and a cart", space = "plane", gravity = [0.0, -9.81] }
@@ -190,7 +190,7 @@ fn motions_are_the_same_to_the_last_bit() {
     assert_eq!(timeless(text), timeless(code));
 }
 
-/// What a scene asks for beside its mechanism is asked for in the same words.
+/// What a scene asks for apart from its mechanism is asked for in the same words.
 #[test]
 fn files_are_the_same() {
     let wants = Some(MotionOptions::to(0.5));

@@ -1,5 +1,5 @@
-//! Change points of linkages: passed on the smooth branch, and told. And rows that become nearly
-//! dependent although the rank stays: exchanged, and told.
+//! Change points of linkages: passed on the smooth branch, and reported. And rows that become nearly
+//! dependent although the rank stays: exchanged, and reported.
 
 use std::ops::ControlFlow;
 
@@ -76,7 +76,7 @@ fn a_driven_parallelogram_goes_on_smoothly_and_says_so() {
     }
 }
 
-/// Runs that have to end, or to write a row, in the flat pose or beside it.
+/// Runs that have to end, or to write a row, in the flat pose or near it.
 #[test]
 fn a_run_may_end_in_the_flat_pose_or_beside_it() {
     for pivots in [&[0.0, 1.0][..], &[0.0, 1.0, 1.7]] {

@@ -168,7 +168,7 @@ fn passages_are_told_at_the_same_time() {
     }
 }
 
-/// What is assembled from a start beside the constraints is the same pose, also where bodies turn
+/// What is assembled from a start off the constraints is the same pose, also where bodies turn
 /// by radians on the way.
 #[test]
 fn a_start_far_beside_the_constraints_is_corrected_alike() {

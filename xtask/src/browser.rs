@@ -30,7 +30,7 @@ pub(crate) enum Program {
     OfTests,
 }
 
-/// What this machine lacks; nothing if the test can run.
+/// Returns what this machine lacks, or `None` if the test can run.
 pub(crate) fn missing() -> Result<String, String> {
     Ok(tools().err().unwrap_or_default().to_owned())
 }

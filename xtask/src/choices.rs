@@ -167,7 +167,7 @@ fn measure(choice: &Choice, target: &Path) -> Result<Cost, String> {
     })
 }
 
-/// Crates that are compiled besides the program: ours, and others.
+/// Crates that are compiled with the program: ours, and others.
 fn dependencies(choice: &Choice, folder: &Path) -> Result<(usize, usize), String> {
     let tree = [
         "tree",

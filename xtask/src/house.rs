@@ -25,7 +25,7 @@ use self::table::Table;
 use self::types::Type;
 use crate::tree::root;
 
-/// Lines of code of product, laboratory and what is beside them.
+/// Lines of code of all groups but tests and developers' tools.
 const TOTAL_MOST: usize = 58_000;
 /// Lines of code of the product.
 const PRODUCT_MOST: usize = 50_000;

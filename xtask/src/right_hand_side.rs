@@ -11,7 +11,7 @@ pub(crate) fn report() -> Result<String, String> {
     Ok(format!("written to {REPORT}"))
 }
 
-/// Times and instructions, told only.
+/// Times and instructions, reported only.
 pub(crate) fn instructions() -> Result<String, String> {
     bench(&["--instructions"])?;
     Ok("instructions by callgrind".to_owned())

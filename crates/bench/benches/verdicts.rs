@@ -56,7 +56,7 @@ fn certify_exact(bencher: Bencher<'_, '_>) {
     bencher.bench_local(|| rank::certify_exact(black_box(&c)));
 }
 
-/// Rank, dependencies and bounds within what the data are known to.
+/// Rank, dependencies and bounds within the uncertainty of the data.
 #[divan::bench]
 fn certify_within(bencher: Bencher<'_, '_>) {
     let c = DdMatrix::from(&matrix().0);

@@ -15,7 +15,7 @@
 //! | [`watch`] | processes that try texts, with limits of time and memory |
 //! | [`campaign`] | many inputs, several at the same time; what was found |
 //! | [`minimise`] | the shortest text that still fails alike |
-//! | [`mod@exact`] | degenerate scenes of which exact arithmetic knows the answer: is it told? |
+//! | [`mod@exact`] | degenerate scenes whose answer exact arithmetic knows: does the program give it? |
 
 pub mod campaign;
 pub mod damage;

@@ -14,7 +14,7 @@ use suite::{Case, Quantity};
 
 use crate::comparators::{Drift, Fault, Formulation, Method, Way, run_within};
 
-/// The ways that are compared beside those of the product: every method on kept rows with
+/// The ways that are compared with those of the product: every method on kept rows with
 /// projection, and by one of them every formulation and every treatment of drift.
 #[must_use]
 pub fn ways() -> Vec<Way> {

@@ -6,7 +6,7 @@ use crate::reference::{Fact, Instant, Quantity, Reference, Trust};
 /// Rounding of some products and of the sine of an angle of some tens of radians.
 const ROUNDING: f64 = 4e-15;
 
-/// Times at which the closed forms are told (s).
+/// Times at which the closed forms are evaluated (s).
 const TIMES: [f64; 4] = [1.0, 2.0, 5.0, 10.0];
 
 /// A knife edge at its centre of mass on a plane with slope `σ`, x downhill, turning at `ω`:

@@ -118,7 +118,7 @@ pub struct Instant {
 }
 
 /// How far values of each kind are from the truth at most, relative to the largest value of the
-/// kind; infinite where nothing of the kind is known.
+/// kind; infinite if nothing of the kind is known.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Trust {
     /// Coordinates.

@@ -72,7 +72,7 @@ pub struct Row {
     pub atol: f64,
     /// What came out, or what the library said.
     pub result: Result<Outcome, String>,
-    /// Time (s), NaN where nothing came out.
+    /// Time (s), NaN if there is no result.
     pub seconds: f64,
 }
 

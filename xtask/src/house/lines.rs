@@ -2,7 +2,7 @@
 //!
 //! A line counts if a token stands on it, as the tokenizer of `proc_macro2` cuts the file: blank
 //! lines and comments have none, a doc comment is a comment, and a string over several lines counts
-//! all of them. The number of tokens stands beside the lines, because long lines do not lower it.
+//! all of them. The number of tokens stands next to the lines, because long lines do not lower it.
 
 use std::collections::BTreeSet;
 use std::ops::AddAssign;

@@ -6,7 +6,7 @@
 //! | arguments | do |
 //! | --- | --- |
 //! | none | times |
-//! | `--instructions` | instructions per call by callgrind, beside the times |
+//! | `--instructions` | instructions per call by callgrind, with the times |
 //! | `--out DIR` | the same, and `table.md`, `table.csv` and `table.svg` in a directory |
 //! | `--repeat KEY LAPS` | nothing but calls of one candidate: what callgrind runs |
 #![allow(clippy::print_stdout, clippy::print_stderr)]

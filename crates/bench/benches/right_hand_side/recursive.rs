@@ -57,7 +57,7 @@ impl Carried {
     }
 }
 
-/// Directions of the velocity and what the acceleration has besides: `a = J·u̇ + Γ`, two components
+/// Directions of the velocity and the rest of the acceleration: `a = J·u̇ + Γ`, two components
 /// and the angle.
 type Share = ([f64; 3], [f64; 3]);
 

@@ -54,7 +54,7 @@ pub(super) enum Fuzz {
         /// Number
         number: u64,
     },
-    /// Examines degenerate scenes by exact arithmetic; exit code 1 if one is told wrong
+    /// Examines degenerate scenes by exact arithmetic; exit code 1 if an answer is wrong
     Exact {
         /// How many
         #[arg(long, default_value_t = 20_000)]
@@ -65,17 +65,17 @@ pub(super) enum Fuzz {
         /// The first scene
         #[arg(long, default_value_t = 0)]
         from: u64,
-        /// Writes one scene with what is so and what was told, and ends
+        /// Writes one scene with what is so and what the program says, and ends
         #[arg(long, value_name = "NUMBER")]
         show: Option<u64>,
-        /// Where scenes that are told wrong are kept, the shortest of each kind
+        /// Folder for scenes with a wrong answer, the shortest of each kind
         #[arg(long, value_name = "DIR")]
         keep: Option<PathBuf>,
     },
-    /// Examines scenes with 3 … 16 significant digits; exit code 1 if one is told wrong
+    /// Examines scenes with 3 … 16 significant digits; exit code 1 if an answer is wrong
     Rounded(Drawings),
     /// Examines scenes of full rank near a lower one, with tolerances below a third of what they
-    /// are off by; exit code 1 if one is told redundant
+    /// are off by; exit code 1 if one is called redundant
     FullRank(Drawings),
     /// Tries inputs one after the other and answers each with a letter: what `run` begins
     #[command(hide = true)]
@@ -101,7 +101,7 @@ pub(super) struct Drawings {
     /// The first drawing
     #[arg(long, default_value_t = 0)]
     from: u64,
-    /// Writes one scene with what is so and what was told, and ends
+    /// Writes one scene with what is so and what the program says, and ends
     #[arg(long, value_name = "NUMBER")]
     show: Option<u64>,
 }

@@ -49,7 +49,7 @@ fn to_standard_output(generator: &Generator, console: &Console<'_>) -> Outcome {
     written
 }
 
-/// Writes beside the file and renames, so that what has its name is whole; pipes and devices are
+/// Writes a temporary file and renames it, so that what has the name is whole; pipes and devices are
 /// written as they are. Tells how many bytes were written.
 fn to_file(generator: &Generator, path: &Path) -> Result<u64, Failure> {
     let refused =

@@ -16,7 +16,7 @@
 //! | [`text`] | the scene as text |
 //! | [`rows`] | its constraint rows as lines of force |
 //! | [`truth`] | what exact arithmetic says |
-//! | [`told`] | what the program says |
+//! | [`answer`] | what the program says |
 //! | [`examine`] | the two compared |
 //! | [`words`] | the same for sentences |
 //! | [`deletions`] | the same for what may be deleted |
@@ -25,9 +25,10 @@
 //! | [`minimax`] | the smallest change of data that satisfies equations, between proved bounds |
 //! | [`near`] | how far the data are from a lower rank, by these two |
 //! | [`loads`] | reactions under gravity, by doubles |
-//! | [`within`] | what is told within a tolerance, compared with these |
+//! | [`within`] | what the program says within a tolerance, compared with these |
 //! | [`rounded`] | many scenes with few digits, and of full rank near a lower one |
 
+pub mod answer;
 pub mod deletions;
 pub mod doubles;
 pub mod drawing;
@@ -42,7 +43,6 @@ pub mod rounded;
 pub mod rows;
 pub mod tally;
 pub mod text;
-pub mod told;
 pub mod truth;
 pub mod within;
 pub mod words;

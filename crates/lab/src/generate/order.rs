@@ -67,7 +67,7 @@ impl Kind {
         }
     }
 
-    /// The share of its cells that are redundant where nobody says otherwise; nothing where there
+    /// The share of its cells that are redundant by default; `None` if there
     /// is no choice.
     fn share(self) -> Option<f64> {
         match self {

@@ -122,7 +122,7 @@ pub type Run = Box<dyn Fn() -> Outcome + Send + Sync>;
 pub struct Case {
     /// Its name in its family.
     pub name: String,
-    /// Integrator, or what is asked where nothing moves.
+    /// The integrator, or the question if nothing moves.
     pub method: String,
     /// Treatment of redundancy; `-` where none is involved.
     pub formulation: String,

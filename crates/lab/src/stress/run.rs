@@ -1,4 +1,4 @@
-//! Runs cases on some threads. Each case has a thread of its own besides, so that a panic or a hang
+//! Runs cases on some threads. Each case runs on a thread of its own, so that a panic or a hang
 //! is an outcome of that case and of no other; for the same reason no pool of threads is shared
 //! with what the cases run.
 //!
@@ -70,7 +70,7 @@ pub fn run(
     rows.into_iter().flatten().collect()
 }
 
-/// One case; nothing if somebody asked to stop. A case that hangs keeps its thread until the
+/// Runs one case; `None` if a stop was requested. A case that hangs keeps its thread until the
 /// program ends.
 fn make(
     family: &'static str,

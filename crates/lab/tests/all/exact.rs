@@ -1,6 +1,7 @@
-//! Degenerate scenes: what is told of them is what exact arithmetic says. `cargo run --release -p
+//! Degenerate scenes: the program says what exact arithmetic says. `cargo run --release -p
 //! fuzz -- exact` makes 20 000 of them.
 
+use lab::fuzz::exact::answer::answer;
 use lab::fuzz::exact::doubles::Doubles;
 use lab::fuzz::exact::drawing::{Drawing, GROUND, Tie, Vector};
 use lab::fuzz::exact::examine::{Kind, examine, list};
@@ -10,7 +11,6 @@ use lab::fuzz::exact::ratio::Ratio;
 use lab::fuzz::exact::rounded::{self, Suite};
 use lab::fuzz::exact::tally::Tally;
 use lab::fuzz::exact::text::Precision;
-use lab::fuzz::exact::told::told;
 use lab::fuzz::exact::truth::Truth;
 use lab::fuzz::exact::within::Meant;
 use lab::fuzz::exact::{scene, text};
@@ -23,7 +23,7 @@ const SEED: u64 = 1;
 const SCENES: u64 = 384;
 
 #[test]
-fn nothing_is_told_that_exact_arithmetic_contradicts() {
+fn no_answer_contradicts_exact_arithmetic() {
     let tally = Tally::of(SEED, 0, SCENES);
     assert!(tally.passes(), "\n{}", tally.describe());
     assert_eq!(tally.contradicting, [0; 0], "\n{}", tally.describe());
@@ -50,20 +50,20 @@ fn at(x: i128, y: i128) -> Vector {
 /// The oracle against closed forms: trains of gears, planets and parallel cranks.
 #[test]
 fn exact_arithmetic_finds_what_theory_tells() {
-    let mut told = 0;
+    let mut answer = 0;
     for number in 0..1000 {
         let scene = scene(SEED, number);
         if let Some(redundancy) = scene.posed.redundancy {
             assert_eq!(Truth::of(&scene.posed).redundancy(), redundancy, "{number}");
-            told += 1;
+            answer += 1;
         }
     }
-    assert!(told > 80, "{told}");
+    assert!(answer > 80, "{answer}");
 }
 
 /// In all ways of writing: what exact arithmetic says is what was found by hand, and it is what is
-/// told.
-fn assert_told(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
+/// answer.
+fn assert_answer(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
     for seed in 0..8 * Writing::ALL.len() as u64 {
         let writing = Writing::ALL[seed as usize % Writing::ALL.len()];
         let posed = Posed::new(drawing, writing, &mut Numbers::new(seed));
@@ -81,7 +81,7 @@ fn assert_told(drawing: &Drawing, rank: usize, not_unique: &[&str]) {
             );
         }
         let text = text::text(&posed);
-        let document = told(&text).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let document = answer(&text).unwrap_or_else(|e| panic!("{e}\n{text}"));
         let mut findings = examine(&truth, &document).0;
         // Far away doubles may know too little.
         findings.retain(|f| writing != Writing::Far || f.kind.is_wrong());
@@ -102,7 +102,7 @@ fn three_bars_on_a_line_and_an_oblique_one() {
     }
     let (from, at) = (nodes[0], at(-40, 40));
     drawing.link(&[a, GROUND], Tie::Distance { from, at });
-    assert_told(&drawing, 3, &["j0", "j1", "j2"]);
+    assert_answer(&drawing, 3, &["j0", "j1", "j2"]);
 }
 
 /// The normals meet in the body's origin: it turns there.
@@ -119,7 +119,7 @@ fn three_edges_whose_normals_meet() {
             let at = [centre[0] + p[0], centre[1] + p[1]];
             drawing.link(&[body], Tie::KnifeEdge { at, along });
         }
-        assert_told(&drawing, 2, &["j0", "j1", "j2"]);
+        assert_answer(&drawing, 2, &["j0", "j1", "j2"]);
     }
 }
 
@@ -139,12 +139,12 @@ fn three_wheels_at_120_degrees() {
             let (along, radius) = (drawing.across(spoke), Ratio::new(1, 10));
             drawing.link(&[body, wheel], Tie::Rolling { at, along, radius });
         }
-        assert_told(&drawing, 5, &["j0", "j2", "j4"]);
+        assert_answer(&drawing, 5, &["j0", "j2", "j4"]);
     }
 }
 
 /// A wheel in a bearing at its centre, which a script has written one unit in the last place away:
-/// it turns freely beside whatever else is held.
+/// it turns freely whatever else is held.
 #[test]
 fn a_wheel_pinned_at_its_centre() {
     let mut drawing = Drawing::new();
@@ -156,7 +156,7 @@ fn a_wheel_pinned_at_its_centre() {
     }
     for is_careless in [false, true] {
         drawing.is_careless = is_careless;
-        assert_told(&drawing, 3, &["j1", "j2"]);
+        assert_answer(&drawing, 3, &["j1", "j2"]);
     }
 }
 
@@ -171,7 +171,7 @@ fn two_meshes_of_the_same_wheels() {
         let ratio = closing;
         drawing.link(&[wheels[1], wheels[0], GROUND], Tie::Gear { ratio });
         let not_unique: &[&str] = if rank == 1 { &["j0", "j1"] } else { &[] };
-        assert_told(&drawing, rank, not_unique);
+        assert_answer(&drawing, rank, not_unique);
     }
 }
 
@@ -194,7 +194,7 @@ fn a_changed_document_is_found_out() {
     drawing.link(&[a, GROUND], Tie::Distance { from, at });
     let posed = Posed::new(&drawing, Writing::AsDrawn, &mut Numbers::new(SEED));
     let truth = Truth::of(&posed);
-    let document = told(&text::text(&posed)).expect("it is a scene");
+    let document = answer(&text::text(&posed)).expect("it is a scene");
     let kinds = |document: &Value| {
         let findings = examine(&truth, document).0;
         findings.into_iter().map(|f| f.kind).collect::<Vec<_>>()
@@ -286,10 +286,10 @@ fn a_changed_document_is_found_out() {
 /// Drawings for each of the suites with a tolerance.
 const DRAWINGS: u64 = 40;
 
-/// Degenerate drawings with 3 … 16 digits: nothing is told that exact arithmetic contradicts, and
+/// Degenerate drawings with 3 … 16 digits: no answer contradicts exact arithmetic, and
 /// with the last ones, without a tolerance, nothing is undecided.
 #[test]
-fn with_few_digits_nothing_wrong_is_told() {
+fn with_few_digits_no_answer_is_wrong() {
     let tally = rounded::Tally::of(Suite::Rounded, SEED, 0, DRAWINGS);
     assert_eq!(tally.wrong(), 0, "\n{}", tally.describe());
     let all = tally.by_way[&(rounded::DIGITS.len() - 1)].clone();
@@ -301,11 +301,11 @@ fn with_few_digits_nothing_wrong_is_told() {
     );
 }
 
-/// Drawings of which a scene was told wrong once: contradicting rows that share what they miss,
+/// Drawings of which a scene got a wrong answer once: contradicting rows that share what they miss,
 /// starts and polished poses that left the configuration that is meant, singular vectors of
 /// rounding, coefficients of a tenth that were read as zero.
 #[test]
-fn what_was_told_wrong_once_is_right() {
+fn answers_that_were_wrong_once_are_right() {
     for drawn in [7, 62, 71, 127, 182, 231, 237, 278, 317] {
         let tally = rounded::Tally::of(Suite::Rounded, SEED, drawn, 1);
         assert_eq!(tally.wrong(), 0, "{drawn}\n{}", tally.describe());
@@ -385,7 +385,7 @@ fn a_changed_document_is_found_out_within_a_tolerance() {
         tolerance: Some(tolerance),
         gravity,
     };
-    let document = told(&text::text_within(&posed, &precision)).expect("it is a scene");
+    let document = answer(&text::text_within(&posed, &precision)).expect("it is a scene");
     let kinds = |document: &Value| {
         let findings = meant.judge(document, tolerance).findings.0;
         findings.into_iter().map(|f| f.kind).collect::<Vec<_>>()

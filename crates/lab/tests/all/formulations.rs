@@ -1,4 +1,4 @@
-//! What formulations do besides the motion: reactions, drift, refusals.
+//! What formulations do apart from the motion: reactions, drift, refusals.
 
 use lab::comparators::{Drift, Formulation, Method, Way, run};
 use lab::mechanisms::cranks::cranks;

@@ -28,7 +28,7 @@ fn nothing_is_silently_wrong() {
 }
 
 #[test]
-fn names_of_families_are_told_apart() {
+fn names_of_families_differ() {
     let mut names: Vec<&str> = lab::stress::families().iter().map(|f| f.name).collect();
     names.sort_unstable();
     let all = names.len();

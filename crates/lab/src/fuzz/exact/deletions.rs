@@ -10,22 +10,25 @@ use super::truth::Truth;
 const COUNTED: usize = 400;
 
 /// Examines both.
-pub fn examine(truth: &Truth, told: &Value, findings: &mut Findings) {
+pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let (all, redundancy) = (truth.rows.len(), truth.redundancy());
     if binomial(all, redundancy).is_some_and(|sets| sets <= COUNTED) {
         let right = count(truth, redundancy, 0, &mut Vec::new());
-        let told = &told["eliminations"];
-        match told["count"].is_null() {
-            true => findings.note(Kind::Undecided, format!("eliminations: {}", told["reason"])),
-            false => findings.number(Kind::Sentence, "eliminations", &told["count"], right),
+        let answer = &answer["eliminations"];
+        match answer["count"].is_null() {
+            true => findings.note(
+                Kind::Undecided,
+                format!("eliminations: {}", answer["reason"]),
+            ),
+            false => findings.number(Kind::Sentence, "eliminations", &answer["count"], right),
         }
     }
-    for proposals in list(&told["make_unique"]) {
+    for proposals in list(&answer["make_unique"]) {
         make_unique(truth, proposals, findings);
     }
 }
 
-/// Sets of rows in ascending order that can be deleted besides those of `deleted`.
+/// Sets of rows in ascending order that can be deleted together with those of `deleted`.
 fn count(truth: &Truth, missing: usize, from: usize, deleted: &mut Vec<usize>) -> usize {
     if missing == 0 {
         return usize::from(truth.keeps_motion(deleted));
@@ -48,22 +51,22 @@ fn binomial(n: usize, k: usize) -> Option<usize> {
     })
 }
 
-fn make_unique(truth: &Truth, told: &Value, findings: &mut Findings) {
-    let name = told["reaction"].as_str().unwrap_or_default();
+fn make_unique(truth: &Truth, answer: &Value, findings: &mut Findings) {
+    let name = answer["reaction"].as_str().unwrap_or_default();
     let mut links = truth.posed.links.iter();
     let Some(link) = links.position(|p| p.link.name == name) else {
         findings.note(Kind::Sentence, format!("nobody asked for `{name}`"));
         return;
     };
-    if told["reason"].is_string() {
-        let text = format!("what makes `{name}` unique: {}", told["reason"]);
+    if answer["reason"].is_string() {
+        let text = format!("what makes `{name}` unique: {}", answer["reason"]);
         findings.note(Kind::Undecided, text);
         return;
     }
     let own = truth.rows_of(link);
     let works =
         |deleted: &[usize]| truth.keeps_motion(deleted) && truth.is_unique_without(&own, deleted);
-    let ways: Vec<Vec<usize>> = list(&told["ways"])
+    let ways: Vec<Vec<usize>> = list(&answer["ways"])
         .iter()
         .map(|w| rows(&w["rows"]))
         .collect();
@@ -73,13 +76,13 @@ fn make_unique(truth: &Truth, told: &Value, findings: &mut Findings) {
             findings.note(Kind::Sentence, text);
         }
     }
-    // All of the smallest size are told; the reaction itself stays.
+    // All of the smallest size are answer; the reaction itself stays.
     let others = (0..truth.rows.len()).filter(|row| !own.contains(row));
     let alone: Vec<usize> = others.filter(|&row| works(&[row])).collect();
     let is_left_out = alone.iter().any(|row| !ways.contains(&vec![*row]));
-    if told["complete"] == true && is_left_out {
+    if answer["complete"] == true && is_left_out {
         let text = format!(
-            "`{name}` is unique without each of rows (from 0) {alone:?}, told are {ways:?}"
+            "`{name}` is unique without each of rows (from 0) {alone:?}, answer are {ways:?}"
         );
         findings.note(Kind::Sentence, text);
     }

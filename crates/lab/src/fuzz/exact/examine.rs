@@ -26,7 +26,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// Whether somebody was told something that is not so.
+    /// Whether an answer is wrong.
     #[must_use]
     pub fn is_wrong(self) -> bool {
         !matches!(self, Self::Refused | Self::Undecided)
@@ -67,19 +67,22 @@ impl Findings {
     }
 
     /// Compares a number.
-    pub(super) fn number(&mut self, kind: Kind, what: &str, told: &Value, right: usize) {
-        if told.as_u64() != Some(right as u64) {
-            self.note(kind, format!("{what}: told {told}, is {right}"));
+    pub(super) fn number(&mut self, kind: Kind, what: &str, answer: &Value, right: usize) {
+        if answer.as_u64() != Some(right as u64) {
+            self.note(kind, format!("{what}: answer {answer}, right {right}"));
         }
     }
 
     /// Compares a verdict.
-    fn verdict(&mut self, what: &str, told: &Value, is_unique: bool) {
+    fn verdict(&mut self, what: &str, answer: &Value, is_unique: bool) {
         let right = if is_unique { "unique" } else { "not_unique" };
-        match told.as_str() {
+        match answer.as_str() {
             Some("undecided") => self.note(Kind::Undecided, format!("{what}: undecided")),
-            Some(told) if told == right => {}
-            _ => self.note(Kind::Verdict, format!("{what}: told {told}, is {right}")),
+            Some(answer) if answer == right => {}
+            _ => self.note(
+                Kind::Verdict,
+                format!("{what}: answer {answer}, right {right}"),
+            ),
         }
     }
 }
@@ -87,7 +90,7 @@ impl Findings {
 /// Numbers of dependencies are right to this share of the largest: they were computed in doubles.
 const ROUNDING: f64 = 1e-9;
 
-/// The same for each metre that a scene was moved: coordinates are known to 1e-16 of that, and
+/// The same for each metre that a scene was moved: coordinates are accurate to 1e-16 of that, and
 /// rounding grows ten thousandfold on the way through small angles.
 const ROUNDING_PER_METRE: f64 = 1e-12;
 
@@ -117,28 +120,31 @@ pub(super) fn rows(value: &Value) -> Vec<usize> {
 
 /// Compares a document with the truth.
 #[must_use]
-pub fn examine(truth: &Truth, told: &Value) -> Findings {
+pub fn examine(truth: &Truth, answer: &Value) -> Findings {
     let mut findings = Findings::default();
-    let is_decided = told["evidence"]["status"] == "decided";
+    let is_decided = answer["evidence"]["status"] == "decided";
     if is_decided {
-        ranks(truth, told, &mut findings);
+        ranks(truth, answer, &mut findings);
     } else {
-        let reason = &told["evidence"]["reason"];
-        findings.note(Kind::Undecided, format!("rank {}: {reason}", told["rank"]));
+        let reason = &answer["evidence"]["reason"];
+        findings.note(
+            Kind::Undecided,
+            format!("rank {}: {reason}", answer["rank"]),
+        );
     }
-    reactions(truth, told, &mut findings);
+    reactions(truth, answer, &mut findings);
     if is_decided {
-        words::examine(truth, told, &mut findings);
-        deletions::examine(truth, told, &mut findings);
+        words::examine(truth, answer, &mut findings);
+        deletions::examine(truth, answer, &mut findings);
     }
     findings
 }
 
 /// Compares the verdicts of all joints and drives.
-pub(super) fn reactions(truth: &Truth, told: &Value, findings: &mut Findings) {
+pub(super) fn reactions(truth: &Truth, answer: &Value, findings: &mut Findings) {
     for (link, placed) in truth.posed.links.iter().enumerate() {
         let name = &placed.link.name;
-        let mut reactions = list(&told["reactions"]).iter();
+        let mut reactions = list(&answer["reactions"]).iter();
         match reactions.find(|r| r["name"] == name.as_str()) {
             Some(reaction) => of_reaction(truth, link, reaction, findings),
             None => findings.note(Kind::Verdict, format!("{name} has no verdict")),
@@ -146,77 +152,85 @@ pub(super) fn reactions(truth: &Truth, told: &Value, findings: &mut Findings) {
     }
 }
 
-fn ranks(truth: &Truth, told: &Value, findings: &mut Findings) {
+fn ranks(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let (rows_in_all, rank) = (truth.rows.len(), truth.rank());
     let freedom = 3 * truth.posed.frames.len() - rank;
-    findings.number(Kind::Rank, "rows", &told["rows"], rows_in_all);
-    findings.number(Kind::Rank, "rank", &told["rank"], rank);
+    findings.number(Kind::Rank, "rows", &answer["rows"], rows_in_all);
+    findings.number(Kind::Rank, "rank", &answer["rank"], rank);
     findings.number(
         Kind::Rank,
         "redundancy",
-        &told["redundancy"],
+        &answer["redundancy"],
         rows_in_all - rank,
     );
-    findings.number(Kind::Rank, "mobility", &told["mobility"], freedom);
+    findings.number(Kind::Rank, "mobility", &answer["mobility"], freedom);
     for (key, what, nonholonomic) in [
         ("rank_holonomic", "Φq", false),
         ("rank_nonholonomic", "Ψ", true),
     ] {
         let doubt = format!("the rank of {what} alone is undecided");
-        let mut warnings = list(&told["warnings"]).iter();
+        let mut warnings = list(&answer["warnings"]).iter();
         match warnings.any(|w| w.as_str().is_some_and(|w| w.contains(&doubt))) {
             true => findings.note(Kind::Undecided, doubt),
-            false => findings.number(Kind::Rank, key, &told[key], truth.rank_where(nonholonomic)),
+            false => findings.number(
+                Kind::Rank,
+                key,
+                &answer[key],
+                truth.rank_where(nonholonomic),
+            ),
         }
     }
     if truth.posed.has_constant_rank {
-        let elsewhere = &told["generic"]["redundancy"];
+        let elsewhere = &answer["generic"]["redundancy"];
         if !elsewhere.is_null() {
             let what = "redundancy elsewhere";
             findings.number(Kind::Sentence, what, elsewhere, truth.redundancy());
         }
-        if told["evidence"]["permanent"] == false {
+        if answer["evidence"]["permanent"] == false {
             findings.note(Kind::Sentence, "the rank is the same everywhere".to_owned());
         }
     }
-    kept_rows(truth, told, findings);
+    kept_rows(truth, answer, findings);
 }
 
 /// The kept rows are independent and as many as the rank.
-pub(super) fn kept_rows(truth: &Truth, told: &Value, findings: &mut Findings) {
-    let (kept, rank) = (rows(&told["kept_rows"]), truth.rank());
+pub(super) fn kept_rows(truth: &Truth, answer: &Value, findings: &mut Findings) {
+    let (kept, rank) = (rows(&answer["kept_rows"]), truth.rank());
     if kept.len() != rank || truth.rank_of(&kept) != rank {
         let text = format!(
             "the kept rows {} have rank {}",
-            told["kept_rows"],
+            answer["kept_rows"],
             truth.rank_of(&kept)
         );
         findings.note(Kind::Rank, text);
     }
 }
 
-fn of_reaction(truth: &Truth, link: usize, told: &Value, findings: &mut Findings) {
+fn of_reaction(truth: &Truth, link: usize, answer: &Value, findings: &mut Findings) {
     let name = &truth.posed.links[link].link.name;
     let own = truth.rows_of(link);
-    if rows(&told["rows"]) != own {
-        findings.note(Kind::Rank, format!("{name}: told rows {}", told["rows"]));
+    if rows(&answer["rows"]) != own {
+        findings.note(
+            Kind::Rank,
+            format!("{name}: answer rows {}", answer["rows"]),
+        );
         return;
     }
     let is_unique = truth.is_unique(&own);
-    findings.verdict(name, &told["verdict"], is_unique);
-    if told["settled"].is_string() && !is_unique {
+    findings.verdict(name, &answer["verdict"], is_unique);
+    if answer["settled"].is_string() && !is_unique {
         findings.note(
             Kind::Sentence,
-            format!("{name}: settled as {}, is not unique", told["settled"]),
+            format!("{name}: settled as {}, is not unique", answer["settled"]),
         );
     }
     let all_rows = own.iter().all(|&i| truth.row_is_unique(i));
     findings.verdict(
         &format!("{name}, multipliers"),
-        &told["multipliers"],
+        &answer["multipliers"],
         all_rows,
     );
-    for row in list(&told["row_verdicts"]) {
+    for row in list(&answer["row_verdicts"]) {
         let what = format!("{name}, row {}", row["row"]);
         match rows(&json!([row["row"]])).first().copied() {
             Some(i) if own.contains(&i) => {
@@ -228,41 +242,43 @@ fn of_reaction(truth: &Truth, link: usize, told: &Value, findings: &mut Findings
     let Some(free) = truth.free_wrenches(link) else {
         return;
     };
-    for component in list(&told["components"]) {
+    for component in list(&answer["components"]) {
         let axis = component["name"].as_str().unwrap_or_default();
         let is_unique = free.iter().all(|w| w.is_zero(axis, truth.posed));
         findings.verdict(&format!("{name}.{axis}"), &component["verdict"], is_unique);
     }
-    directions(truth, link, told, findings);
+    directions(truth, link, answer, findings);
 }
 
 /// The unique directions are as many as there are, and no solution without loads has a component
 /// along them.
-fn directions(truth: &Truth, link: usize, told: &Value, findings: &mut Findings) {
+fn directions(truth: &Truth, link: usize, answer: &Value, findings: &mut Findings) {
     let name = &truth.posed.links[link].link.name;
-    let directions = list(&told["unique_directions"]);
-    let verdicts = list(&told["components"]).iter().map(|c| &c["verdict"]);
-    if verdicts.chain([&told["verdict"]]).any(|v| v == "undecided")
-        || told["unique_directions"].is_null()
+    let directions = list(&answer["unique_directions"]);
+    let verdicts = list(&answer["components"]).iter().map(|c| &c["verdict"]);
+    if verdicts
+        .chain([&answer["verdict"]])
+        .any(|v| v == "undecided")
+        || answer["unique_directions"].is_null()
     {
         return;
     }
     let right = truth.live_directions(link);
     if directions.len() != right {
-        // None at all are told where their number is in doubt.
+        // None at all are given where their number is in doubt.
         let kind = if directions.is_empty() {
             Kind::Undecided
         } else {
             Kind::Verdict
         };
         let text = format!(
-            "{name}: told {} unique directions, has {right}",
+            "{name}: answer {} unique directions, right {right}",
             directions.len()
         );
         findings.note(kind, text);
         return;
     }
-    let axes = list(&told["components"]).iter().map(|c| &c["name"]);
+    let axes = list(&answer["components"]).iter().map(|c| &c["name"]);
     let axes: Vec<usize> = axes
         .filter_map(|name| ["Fx", "Fy", "T"].iter().position(|axis| name == axis))
         .collect();

@@ -180,7 +180,7 @@ impl<'a> Pen<'a> {
         }
     }
 
-    /// One step beside a point, across a direction.
+    /// One step off a point, across a direction.
     fn beside(&mut self, p: Vector, [x, y]: Vector) -> Vector {
         let sign = self.not_zero(1);
         along(p, sign * self.step, [-y, x])

@@ -33,7 +33,7 @@ pub struct Bounds {
     pub high: f64,
 }
 
-/// The smallest largest change. Each equation has besides the data a change of its own with the
+/// The smallest largest change. Apart from the data each equation has a change of its own with the
 /// coefficient `slack`.
 #[must_use]
 pub fn least_change(equations: &[Equation], slack: f64) -> Bounds {
@@ -109,7 +109,7 @@ struct Solved {
     left: f64,
 }
 
-/// Gauss with complete pivoting of a symmetric matrix; what is rounding beside the first pivot is
+/// Gauss with complete pivoting of a symmetric matrix; what is rounding relative to the first pivot is
 /// left out. `None` if there is nothing else.
 fn solve(mut a: Vec<Vec<f64>>, mut b: Vec<f64>) -> Option<Solved> {
     const ROUNDING: f64 = 1e-13;
@@ -170,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn bounds_enclose_what_can_be_told_by_hand() {
+    fn bounds_enclose_what_is_known_by_hand() {
         // 6 = 1·x + 2·y + |(0, 3)·z|: all change by 1.
         let one = [equation(6.0, &[[1.0, 0.0], [2.0, 0.0], [0.0, 3.0]])];
         // x = 3, y = 4 of one point: 5; of two numbers: 4.

@@ -7,6 +7,7 @@ use std::panic::{self, AssertUnwindSafe};
 use crate::numbers::Numbers;
 use rayon::prelude::*;
 
+use super::answer;
 use super::doubles::{Doubles, extent};
 use super::examine::{Kind, examine};
 use super::families::Family;
@@ -14,7 +15,6 @@ use super::families::slender::Slender;
 use super::pose::{Posed, Writing};
 use super::ratio::Ratio;
 use super::text::{Precision, text_within};
-use super::told;
 use super::truth::Truth;
 use super::within::{BEYOND_DOUBT, Judged, Meant};
 
@@ -103,7 +103,7 @@ impl Outcome {
         self.judged.findings.0.iter().map(|f| f.kind).max()
     }
 
-    /// The scene with what is so and what was told at its head, as comments.
+    /// The scene with what is so and what the program said at its head, as comments.
     #[must_use]
     pub fn page(&self) -> String {
         let mut page = format!("# {}, {}\n", self.family, self.way);
@@ -123,7 +123,7 @@ impl Outcome {
     }
 }
 
-/// All scenes of one drawing; nothing where a near drawing happens to be redundant.
+/// Returns all scenes of one drawing, or `None` if a near drawing happens to be redundant.
 #[must_use]
 pub fn outcomes(suite: Suite, seed: u64, drawn: u64) -> Vec<Outcome> {
     let (family, posed) = suite.posed(seed, drawn);
@@ -167,7 +167,7 @@ fn outcome(
 ) -> Outcome {
     let text = text_within(meant.truth.posed, precision);
     let mut judged = Judged::default();
-    match panic::catch_unwind(AssertUnwindSafe(|| told::told(&text))) {
+    match panic::catch_unwind(AssertUnwindSafe(|| answer::answer(&text))) {
         Ok(Ok(document)) => match precision.tolerance {
             Some(tolerance) => {
                 let mut posed = meant.truth.posed.clone();
@@ -333,7 +333,7 @@ impl Tally {
         self
     }
 
-    /// How many scenes were told something that is not so.
+    /// How many scenes got a wrong answer.
     #[must_use]
     pub fn wrong(&self) -> usize {
         let counts = self.by_way.values();

@@ -52,7 +52,7 @@ fn minus(w: Wrench) -> Wrench {
     w.map(|x| -x)
 }
 
-/// Where the wrench of a joint on its first body is told, in the drawing. `None` where that does
+/// The place at which the wrench of a joint on its first body is given. `None` if that does
 /// not matter or is not in the drawing: there is nothing but a couple, or the force lies elsewhere.
 #[must_use]
 pub fn place(tie: &Tie) -> Option<Vector> {

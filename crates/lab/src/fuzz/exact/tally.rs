@@ -12,7 +12,7 @@ use super::examine::{Findings, Kind, examine};
 use super::families::Family;
 use super::pose::Writing;
 use super::truth::Truth;
-use super::{Scene, scene, text, told};
+use super::{Scene, answer, scene, text};
 
 /// Numbers of scenes that are listed for each kind of finding.
 const LISTED: usize = 6;
@@ -31,7 +31,7 @@ pub struct Outcome {
     pub text: String,
     /// What is not right.
     pub findings: Findings,
-    /// The rank that was told, if any was.
+    /// The rank that the program gave, if any.
     pub rank: Option<u64>,
     /// What exact arithmetic says, in words.
     pub truth: String,
@@ -46,7 +46,7 @@ impl Outcome {
         self.findings.0.iter().map(|f| f.kind).max()
     }
 
-    /// The scene with what is so and what was told at its head, as comments.
+    /// The scene with what is so and what the program said at its head, as comments.
     #[must_use]
     pub fn page(&self) -> String {
         let (family, writing) = (self.scene.family.name(), self.scene.writing.name());
@@ -55,7 +55,7 @@ impl Outcome {
             page.push_str(&format!("#   {line}\n"));
         }
         match self.findings.0.as_slice() {
-            [] => page.push_str("# Everything that is told is right.\n"),
+            [] => page.push_str("# Every answer is right.\n"),
             _ => page.push_str("# Told:\n"),
         }
         for finding in &self.findings.0 {
@@ -73,7 +73,7 @@ pub fn outcome(seed: u64, number: u64) -> Outcome {
     let truth = Truth::of(&scene.posed);
     let text = text::text(&scene.posed);
     let (mut findings, mut rank) = (Findings::default(), None);
-    match panic::catch_unwind(AssertUnwindSafe(|| told::told(&text))) {
+    match panic::catch_unwind(AssertUnwindSafe(|| answer::answer(&text))) {
         Ok(Ok(document)) => {
             if document["evidence"]["status"] == "decided" {
                 rank = document["rank"].as_u64();
@@ -131,7 +131,7 @@ impl Count {
 pub struct Tally {
     /// By family and way of writing.
     pub counts: BTreeMap<(Family, Writing), Count>,
-    /// Drawings of which two ways of writing were told different ranks.
+    /// Drawings that got different ranks when written in two ways.
     pub contradicting: Vec<u64>,
 }
 
@@ -200,7 +200,7 @@ impl Tally {
         sum
     }
 
-    /// How many scenes were told something that is not so.
+    /// How many scenes got a wrong answer.
     #[must_use]
     pub fn wrong(&self) -> usize {
         [true, false]

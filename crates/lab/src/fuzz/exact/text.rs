@@ -11,7 +11,7 @@ use super::ratio::{Ratio, Surd};
 /// How numbers are written, and what is said of them.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Precision {
-    /// Significant digits. All that a double has where nothing is said.
+    /// Significant digits. `None`: all that a double has.
     pub digits: Option<usize>,
     /// The tolerance that the scene states (m).
     pub tolerance: Option<f64>,

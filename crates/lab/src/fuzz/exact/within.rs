@@ -1,4 +1,4 @@
-//! What is told of a drawing whose numbers are known to a tolerance, compared with what exact
+//! What the program says of a drawing whose numbers are known to a tolerance, compared with what exact
 //! arithmetic says of the drawing, and with how far its data are from a lower rank.
 
 use std::rc::Rc;
@@ -57,7 +57,7 @@ pub struct Meant<'a> {
 pub struct Judged {
     /// What is not right.
     pub findings: Findings,
-    /// Why verdicts were not compared: the rank that is told is another one, rightly.
+    /// Why verdicts were not compared: the rank given is another one, rightly.
     pub other_rank: Option<&'static str>,
 }
 
@@ -104,34 +104,34 @@ impl<'a> Meant<'a> {
 
     /// Compares a document.
     #[must_use]
-    pub fn judge(&self, told: &Value, tolerance: f64) -> Judged {
+    pub fn judge(&self, answer: &Value, tolerance: f64) -> Judged {
         let mut judged = Judged::default();
         let findings = &mut judged.findings;
-        if told["evidence"]["status"] != "decided" {
-            let text = format!("rank {}: {}", told["rank"], told["evidence"]["reason"]);
+        if answer["evidence"]["status"] != "decided" {
+            let text = format!("rank {}: {}", answer["rank"], answer["evidence"]["reason"]);
             findings.note(Kind::Undecided, text);
             return judged;
         }
-        let (told_rank, rank) = (
-            told["rank"].as_u64().unwrap_or(0) as usize,
+        let (found_rank, rank) = (
+            answer["rank"].as_u64().unwrap_or(0) as usize,
             self.truth.rank(),
         );
         let from = format!(
             "tolerance {tolerance:.2e} m, τ* {:.2e} m to {:.2e} m",
             self.from.low, self.from.high
         );
-        let grounds = told["evidence"]["grounds"].as_str().unwrap_or_default();
-        if told_rank < rank {
+        let grounds = answer["evidence"]["grounds"].as_str().unwrap_or_default();
+        if found_rank < rank {
             if BEYOND_DOUBT * tolerance < self.from.low {
-                let text = format!("rank: told {told_rank}, is {rank}; {from}; {grounds}");
+                let text = format!("rank: answer {found_rank}, is {rank}; {from}; {grounds}");
                 findings.note(Kind::Rank, text);
             }
             judged.other_rank = Some("lower within the tolerance");
             return judged;
         }
-        if told_rank > rank {
+        if found_rank > rank {
             if self.is_permanent {
-                let text = format!("rank: told {told_rank}, is {rank} at all poses; {from}");
+                let text = format!("rank: answer {found_rank}, is {rank} at all poses; {from}");
                 findings.note(Kind::Rank, text);
             }
             judged.other_rank = Some("singular pose");
@@ -140,7 +140,7 @@ impl<'a> Meant<'a> {
         let is_wrong = BEYOND_DOUBT * tolerance < self.everywhere_from.low;
         if is_wrong && grounds == "within_tolerance" {
             let text = format!(
-                "rank: told {told_rank} within the tolerance, is so at one pose only up to {:.2e} m",
+                "rank: answer {found_rank} within the tolerance, is so at one pose only up to {:.2e} m",
                 self.everywhere_from.low
             );
             findings.note(Kind::Rank, text);
@@ -150,22 +150,22 @@ impl<'a> Meant<'a> {
             judged.other_rank = Some("verdicts near a lower rank");
             return judged;
         }
-        self.verdicts(told, tolerance, findings);
-        kept_rows(self.truth, told, findings);
-        let warnings = list(&told["warnings"]).iter().filter_map(Value::as_str);
+        self.verdicts(answer, tolerance, findings);
+        kept_rows(self.truth, answer, findings);
+        let warnings = list(&answer["warnings"]).iter().filter_map(Value::as_str);
         for warning in warnings.filter(|w| w.contains(OPEN)) {
             findings.note(Kind::Undecided, warning.to_owned());
         }
-        words::circuits(self.truth, told, findings);
-        self.loads(told, tolerance, findings);
+        words::circuits(self.truth, answer, findings);
+        self.loads(answer, tolerance, findings);
         judged
     }
 
-    /// Verdicts are those of the drawing; what is not unique there may be told unique where data
+    /// Verdicts are those of the drawing; what is not unique there may be called unique if data
     /// within the tolerance make it so.
-    fn verdicts(&self, told: &Value, tolerance: f64, findings: &mut Findings) {
+    fn verdicts(&self, answer: &Value, tolerance: f64, findings: &mut Findings) {
         let mut all = Findings::default();
-        reactions(self.truth, told, &mut all);
+        reactions(self.truth, answer, &mut all);
         let rank = self.truth.rank();
         let links = self.truth.posed.links.iter().enumerate();
         let hidden: Vec<&str> = links
@@ -187,14 +187,14 @@ impl<'a> Meant<'a> {
     }
 
     /// Unique reactions are those of the drawing, to what their sensitivity says.
-    fn loads(&self, told: &Value, tolerance: f64, findings: &mut Findings) {
-        let Some(chosen) = list(&told["choices"]).first() else {
+    fn loads(&self, answer: &Value, tolerance: f64, findings: &mut Findings) {
+        let Some(chosen) = list(&answer["choices"]).first() else {
             return;
         };
         for (link, placed) in self.truth.posed.links.iter().enumerate() {
             let name = placed.link.name.as_str();
             let named = |of: &&Value| of["name"] == name;
-            let Some(reaction) = list(&told["reactions"]).iter().find(named) else {
+            let Some(reaction) = list(&answer["reactions"]).iter().find(named) else {
                 continue;
             };
             let Some(change) = reaction["sensitivity"].as_f64() else {
@@ -229,10 +229,10 @@ impl<'a> Meant<'a> {
                     },
                     _ => continue,
                 };
-                let told = component["value"].as_f64().unwrap_or(f64::NAN);
-                if (told - right).abs() > allowed * unit || told.is_nan() {
+                let answer = component["value"].as_f64().unwrap_or(f64::NAN);
+                if (answer - right).abs() > allowed * unit || answer.is_nan() {
                     let text = format!(
-                        "{name}.{}: told {told:.6e}, is {right:.6e}, allowed {:.1e}; sensitivity {change:.2e}, \
+                        "{name}.{}: answer {answer:.6e}, is {right:.6e}, allowed {:.1e}; sensitivity {change:.2e}, \
                          tolerance {tolerance:.1e}",
                         component["name"],
                         allowed * unit

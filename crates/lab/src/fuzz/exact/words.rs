@@ -13,9 +13,9 @@ use super::truth::Truth;
 const FOUR_DIGITS: f64 = 6e-4;
 
 /// Examines all dependencies and sentences of a decided document.
-pub fn examine(truth: &Truth, told: &Value, findings: &mut Findings) {
+pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let redundancy = truth.redundancy();
-    let dependencies = list(&told["dependencies"]);
+    let dependencies = list(&answer["dependencies"]);
     if dependencies.len() != redundancy {
         let text = format!(
             "{} dependencies, redundancy {redundancy}",
@@ -32,10 +32,10 @@ pub fn examine(truth: &Truth, told: &Value, findings: &mut Findings) {
                     place,
                     rows: &own,
                     circuit: &circuit,
-                    told: dependency,
+                    answer: dependency,
                 };
                 dependency.coefficients(findings);
-                dependency.forces(told, findings);
+                dependency.forces(answer, findings);
                 dependency.sentence(findings);
             }
             None => {
@@ -44,10 +44,10 @@ pub fn examine(truth: &Truth, told: &Value, findings: &mut Findings) {
             }
         }
     }
-    mixing(truth, told, findings);
+    mixing(truth, answer, findings);
     for (link, placed) in truth.posed.links.iter().enumerate() {
         let name = placed.link.name.as_str();
-        let mut reactions = list(&told["reactions"]).iter();
+        let mut reactions = list(&answer["reactions"]).iter();
         if let Some(reaction) = reactions.find(|r| r["name"] == name)
             && let Some(text) = reaction["explanation"].as_str()
         {
@@ -58,9 +58,9 @@ pub fn examine(truth: &Truth, told: &Value, findings: &mut Findings) {
 
 /// The same for sets of rows alone: that they are minimal and dependent, and as many as the
 /// redundancy.
-pub fn circuits(truth: &Truth, told: &Value, findings: &mut Findings) {
-    let dependencies = list(&told["dependencies"]);
-    // What the tolerance leaves open is not told.
+pub fn circuits(truth: &Truth, answer: &Value, findings: &mut Findings) {
+    let dependencies = list(&answer["dependencies"]);
+    // What the tolerance leaves open is not answer.
     let open = findings.0.iter().any(|f| f.kind == Kind::Undecided);
     if dependencies.len() != truth.redundancy() && !open {
         let text = format!(
@@ -77,7 +77,7 @@ pub fn circuits(truth: &Truth, told: &Value, findings: &mut Findings) {
         }
     }
     if !open {
-        mixing(truth, told, findings);
+        mixing(truth, answer, findings);
     }
 }
 
@@ -87,17 +87,17 @@ struct Dependency<'a> {
     place: usize,
     rows: &'a [usize],
     circuit: &'a [BigInt],
-    told: &'a Value,
+    answer: &'a Value,
 }
 
 impl Dependency<'_> {
     fn note(&self, findings: &mut Findings, text: String) {
-        let of = format!("dependency of rows {}: {text}", self.told["rows"]);
+        let of = format!("dependency of rows {}: {text}", self.answer["rows"]);
         findings.note(Kind::Sentence, of);
     }
 
     fn load(&self, findings: &mut Findings, text: String) {
-        let of = format!("dependency of rows {}: {text}", self.told["rows"]);
+        let of = format!("dependency of rows {}: {text}", self.answer["rows"]);
         findings.note(Kind::Load, of);
     }
 
@@ -106,10 +106,10 @@ impl Dependency<'_> {
     }
 
     fn coefficients(&self, findings: &mut Findings) {
-        let told = list(&self.told["coefficients"]).iter();
-        let told: Vec<f64> = told.map(|x| x.as_f64().unwrap_or(f64::NAN)).collect();
-        if !are_proportional(&told, &self.right(), rounding(self.truth.posed)) {
-            let text = format!("coefficients {told:?} are {:?}", self.right());
+        let answer = list(&self.answer["coefficients"]).iter();
+        let answer: Vec<f64> = answer.map(|x| x.as_f64().unwrap_or(f64::NAN)).collect();
+        if !are_proportional(&answer, &self.right(), rounding(self.truth.posed)) {
+            let text = format!("coefficients {answer:?} are {:?}", self.right());
             self.note(findings, text);
         }
     }
@@ -124,7 +124,7 @@ impl Dependency<'_> {
 
     /// What its joints carry, which may be drawn.
     fn forces(&self, document: &Value, findings: &mut Findings) {
-        let (mut told, mut right) = (Vec::new(), Vec::new());
+        let (mut answer, mut right) = (Vec::new(), Vec::new());
         for link in self.links() {
             let placed = &self.truth.posed.links[link];
             let mut reactions = list(&document["reactions"]).iter();
@@ -132,7 +132,7 @@ impl Dependency<'_> {
             let directions = reaction.map_or(&[][..], |r| list(&r["free_directions"]));
             let mut own = directions.iter();
             let Some(found) = own.find(|d| d["dependency"] == self.place) else {
-                let text = format!("`{}` is not told what it carries", placed.link.name);
+                let text = format!("`{}` is not answer what it carries", placed.link.name);
                 self.load(findings, text);
                 return;
             };
@@ -141,35 +141,39 @@ impl Dependency<'_> {
                 continue;
             };
             let numbers = [&found["force"][0], &found["force"][1], &found["torque"]].map(number);
-            for (axis, told) in ["Fx", "Fy", "T"].iter().zip(numbers) {
-                if told != 0.0 && carried.is_zero(axis, self.truth.posed) {
-                    let text =
-                        format!("`{}`.{axis} is told as {told:e}, is zero", placed.link.name);
+            for (axis, answer) in ["Fx", "Fy", "T"].iter().zip(numbers) {
+                if answer != 0.0 && carried.is_zero(axis, self.truth.posed) {
+                    let text = format!(
+                        "`{}`.{axis} is answer as {answer:e}, is zero",
+                        placed.link.name
+                    );
                     self.load(findings, text);
                 }
             }
-            told.extend(numbers);
+            answer.extend(numbers);
             right.extend(carried.rounded(self.truth.posed));
         }
         // Moments are rounded relative to the forces at the arms of the scene.
-        if !are_proportional(&told, &right, 1e2 * rounding(self.truth.posed)) {
+        if !are_proportional(&answer, &right, 1e2 * rounding(self.truth.posed)) {
             self.load(
                 findings,
-                format!("forces {told:?} are {right:?} but for a factor"),
+                format!("forces {answer:?} are {right:?} but for a factor"),
             );
         }
     }
 
     fn sentence(&self, findings: &mut Findings) {
-        let text = self.told["text"].as_str().unwrap_or_default();
+        let text = self.answer["text"].as_str().unwrap_or_default();
         let links = self.links();
         let name = |link: &usize| self.truth.posed.links[*link].link.name.clone();
         let joints: Vec<String> = links.iter().map(name).collect();
-        let mut named = list(&self.told["joints"]).iter().filter_map(Value::as_str);
+        let mut named = list(&self.answer["joints"])
+            .iter()
+            .filter_map(Value::as_str);
         if joints.len() != named.clone().count() || !named.all(|n| joints.iter().any(|j| j == n)) {
             self.note(
                 findings,
-                format!("joints {} are {joints:?}", self.told["joints"]),
+                format!("joints {} are {joints:?}", self.answer["joints"]),
             );
         }
         let sides = links
@@ -234,17 +238,20 @@ impl Dependency<'_> {
 }
 
 /// Whether one list is the other times some factor, zeros where the other has zeros.
-fn are_proportional(told: &[f64], right: &[f64], rounding: f64) -> bool {
+fn are_proportional(answer: &[f64], right: &[f64], rounding: f64) -> bool {
     let Some(at) = (0..right.len()).max_by(|&a, &b| right[a].abs().total_cmp(&right[b].abs()))
     else {
-        return told.is_empty();
+        return answer.is_empty();
     };
-    if told.len() != right.len() || right[at] == 0.0 {
-        return told.len() == right.len() && told.iter().all(|x| *x == 0.0);
+    if answer.len() != right.len() || right[at] == 0.0 {
+        return answer.len() == right.len() && answer.iter().all(|x| *x == 0.0);
     }
-    let factor = told[at] / right[at];
-    let off = told.iter().zip(right).map(|(a, b)| (a - factor * b).abs());
-    factor != 0.0 && off.fold(0.0, f64::max) <= rounding * told[at].abs()
+    let factor = answer[at] / right[at];
+    let off = answer
+        .iter()
+        .zip(right)
+        .map(|(a, b)| (a - factor * b).abs());
+    factor != 0.0 && off.fold(0.0, f64::max) <= rounding * answer[at].abs()
 }
 
 /// The numbers of "1 : −0.5 : 0.25 cancel out", with or without units.
@@ -260,9 +267,9 @@ fn ratio(text: &str) -> Vec<f64> {
 
 /// Groups of joints that share loads: unions of components, all of them once, with their
 /// redundancy.
-fn mixing(truth: &Truth, told: &Value, findings: &mut Findings) {
+fn mixing(truth: &Truth, answer: &Value, findings: &mut Findings) {
     let mut open = truth.components();
-    for mixing in list(&told["mixing"]) {
+    for mixing in list(&answer["mixing"]) {
         let own = rows(&mixing["rows"]);
         let mut covered = 0;
         open.retain(|component| {
@@ -281,14 +288,14 @@ fn mixing(truth: &Truth, told: &Value, findings: &mut Findings) {
         let mut names: Vec<&str> = names.collect();
         names.sort_unstable();
         names.dedup();
-        let mut told: Vec<&str> = list(&mixing["reactions"])
+        let mut answer: Vec<&str> = list(&mixing["reactions"])
             .iter()
             .filter_map(Value::as_str)
             .collect();
-        told.sort_unstable();
+        answer.sort_unstable();
         let text = mixing["text"].as_str().unwrap_or_default();
         let quoted: Vec<&str> = text.split('`').skip(1).step_by(2).collect();
-        if names != told
+        if names != answer
             || !names.iter().all(|name| quoted.contains(name))
             || quoted.len() != names.len()
         {
@@ -305,7 +312,7 @@ fn mixing(truth: &Truth, told: &Value, findings: &mut Findings) {
 
 /// "the reaction of `a` is not determined: it shares loads with `b` and `c`; determined is Fx and
 /// 0.6·Fx + 0.8·Fy"
-fn explanation(truth: &Truth, link: usize, told: &Value, text: &str, findings: &mut Findings) {
+fn explanation(truth: &Truth, link: usize, answer: &Value, text: &str, findings: &mut Findings) {
     let mut wrong = |why: &str| findings.note(Kind::Sentence, format!("{why}: {text}"));
     let own = truth.rows_of(link);
     if truth.is_unique(&own) {
@@ -336,7 +343,7 @@ fn explanation(truth: &Truth, link: usize, told: &Value, text: &str, findings: &
     let Some((_, determined)) = text.split_once("determined is ") else {
         return;
     };
-    let components = list(&told["components"])
+    let components = list(&answer["components"])
         .iter()
         .filter_map(|c| c["name"].as_str());
     let components: Vec<&str> = components.collect();

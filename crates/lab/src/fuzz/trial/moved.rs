@@ -12,7 +12,7 @@ use pfaff::report::{ReactionTable, Selection, TrajectoryTable};
 use super::{ROWS, Reach, STEPS, named};
 
 /// Residuals of projected rows are at most this share of the terms of their row of Φ or C·v − b.
-/// Next to a singular configuration coordinates are known to √ε = 1.5e-8 only, and what the kept
+/// Next to a singular configuration coordinates are accurate to √ε = 1.5e-8 only, and what the kept
 /// rows leave reaches the others through coefficients, which above 10 lead to an exchange of rows:
 /// 1.5e-7. What is above is another motion, not a matter of accuracy. A run itself allows dropped
 /// rows 1e-11 of the terms that they depend on, by coefficients that are not computed here: this

@@ -44,7 +44,7 @@ fn cases() -> Vec<Case> {
         let kink = "{ type = \"linear-table\", times = [0.0, 1.0, 3.0], values = [0.0, 2.0, 0.0] }";
         let right = Expected::answer(
             1e-9,
-            "straight lines; the energy of the impulse, J/2·(1 − 4) J, is told",
+            "straight lines; the energy of the impulse, J/2·(1 − 4) J, is answer",
         );
         let driven = self::driven(kink, 2.0);
         cases.push(case(
@@ -111,8 +111,8 @@ drive = [{{ name = "motor", joint = "pin", type = "angle", motion = {motion} }}]
 /// The angle is 2·t until t = 1 and 3 − t then.
 fn after_the_kink(row: &Row, summary: &Summary) -> f64 {
     let lost = format!("{:.6e} J", 0.5 * INERTIA * (1.0 - 4.0));
-    let is_told = summary.events.iter().any(|e| e.text.contains(&lost));
-    if !is_told {
+    let is_reported = summary.events.iter().any(|e| e.text.contains(&lost));
+    if !is_reported {
         return f64::INFINITY;
     }
     worst([row.q[2] - (3.0 - row.t), row.v[2] + 1.0])

@@ -101,7 +101,7 @@ scene = { name = "nothing", space = "plane" }
 body = [{ name = "stone", mass = 1.0, inertia = 1.0 }]
 "#;
 
-/// What a scene has besides the body, and what has to be said of it.
+/// What a scene has apart from the body, and the right answer.
 const REFUSED: [(&str, &str, &[&str]); 8] = [
     (
         "ground to ground",

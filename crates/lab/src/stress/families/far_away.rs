@@ -1,4 +1,4 @@
-//! Motions far from the origin: coordinates are known to their last digit only, and nothing else
+//! Motions far from the origin: coordinates are accurate to their last digit only, and nothing else
 //! may be lost.
 
 use dynamics::{MotionOptions, Summary};

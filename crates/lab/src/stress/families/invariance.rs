@@ -104,7 +104,7 @@ impl Change {
         [cos * x - sin * y, sin * x + cos * y]
     }
 
-    /// What accuracy is left: coordinates of 1e6 m are known to 1e-10 m, and rounding grows a
+    /// What accuracy is left: coordinates of 1e6 m are accurate to 1e-10 m, and rounding grows a
     /// hundredfold on the way.
     fn bound(&self) -> f64 {
         let far = self.by[0].abs().max(self.by[1].abs());

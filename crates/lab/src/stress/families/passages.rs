@@ -1,4 +1,4 @@
-//! Flat loops passed while a step has to end beside the flat pose: where the rank drops, branches
+//! Flat loops passed while a step has to end near the flat pose: where the rank drops, branches
 //! of the motion meet, and accelerations are a quotient of two numbers that both vanish.
 
 use dynamics::{Method, MotionOptions};
@@ -84,7 +84,7 @@ fn is_explicit(method: Method) -> bool {
     matches!(method, Method::Dop853 | Method::Dopri5 | Method::Tsit5)
 }
 
-/// Cranks with a drive in two pieces of one slope that meet beside the flat pose.
+/// Cranks with a drive in two pieces of one slope that meet near the flat pose.
 fn driven(pivots: &[f64], offset: f64) -> Description {
     let mut d = cranks(pivots, 0.5, START);
     let times = [0.0, offset - START, END - START];

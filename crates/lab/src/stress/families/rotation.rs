@@ -7,7 +7,7 @@ use dynamics::{Method, MotionOptions};
 use crate::stress::case::{Case, Expected, Family};
 use crate::stress::motion::{Row, case, combinations, steps, worst};
 
-/// A rotor whose centre of mass is beside its pin.
+/// A rotor whose centre of mass is off its pin.
 pub(super) const FAMILY: Family = Family {
     name: "rotation",
     about: "a rotor on a pin beside its centre of mass, at up to 1e6 rad/s for 1000 turns: every turn has to be resolved",
@@ -57,7 +57,7 @@ fn cases() -> Vec<Case> {
 }
 
 /// Methods of low order need more steps for this tolerance than are allowed, or shorter ones than
-/// velocities of this size are known to.
+/// velocities of this size are accurate to.
 fn limit(bound: f64) -> Expected {
     Expected::AnswerOrRefusal {
         bound,

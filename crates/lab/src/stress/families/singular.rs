@@ -1,5 +1,5 @@
 //! Configurations in which the rank is less than elsewhere: the verdict there, the verdict
-//! everywhere else, and both told.
+//! everywhere else, and both reported.
 
 use joints::KnifeEdge;
 use joints::plane::Direction;
@@ -94,7 +94,7 @@ fn cases() -> Vec<Case> {
     ));
     let right = Expected::answer(
         1e-15,
-        "locked: no velocity but zero, and the whole of the described one is told as corrected",
+        "locked: no velocity but zero, and the whole of the described one is answer as corrected",
     );
     cases.push(asking(
         "locked edges with a described velocity",
@@ -229,11 +229,11 @@ start = { keep = ["cart.vx"] }
 
 fn stopped() -> Result<Outcome, Outcome> {
     let found = study(&LOCKED.replace("keep = [\"cart.vx\"]", "allow_correction = true"))?.prepared;
-    let told = found
+    let answer = found
         .velocity_correction
         .first()
         .map_or(f64::NAN, |c| c + 1.0);
-    let error = crate::stress::motion::worst(found.v.iter().copied().chain([told]));
+    let error = crate::stress::motion::worst(found.v.iter().copied().chain([answer]));
     Ok(Outcome::answer(error, format!("v = {:?}", found.v)))
 }
 

@@ -9,7 +9,7 @@ use crate::stress::motion::{asking, study, worst};
 /// One body on a pivot, described off its place or with velocities that it cannot have.
 pub(super) const FAMILY: Family = Family {
     name: "starts",
-    about: "a start off its constraints is moved by the least in the mass metric, and the correction is told; far from them it is refused",
+    about: "a start off its constraints is moved by the least in the mass metric, and the correction is answer; far from them it is refused",
     cases,
 };
 
@@ -114,16 +114,16 @@ fn corrected(text: &str, off: f64) -> Result<Outcome, Outcome> {
         return Ok(Outcome::fact(false, "not three coordinates"));
     };
     // A described number of size 1 is off by its rounding.
-    let told = found
+    let answer = found
         .assembly
         .correction
         .iter()
         .fold(0.0_f64, |a, c| a.max(c.abs()));
     let size = scene_size(&found.mechanism, &found.q);
-    let error = worst([x - 1.0, y, angle, told - off]);
+    let error = worst([x - 1.0, y, angle, answer - off]);
     Ok(Outcome::answer(
         error,
-        format!("corrected by {told:e} m in a scene of {size} m"),
+        format!("corrected by {answer:e} m in a scene of {size} m"),
     ))
 }
 

@@ -51,7 +51,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// A tricycle with one front wheel in the middle, or two beside it, each on a fork without mass.
+/// A tricycle with one front wheel in the middle, or two on its sides, each on a fork without mass.
 fn tricycle(wheels: usize) -> String {
     let sides: &[f64] = if wheels == 1 { &[0.0] } else { &[-0.2, 0.2] };
     let mut text = format!(

@@ -101,7 +101,7 @@ fn four_bar(pen: &mut Pen<'_>) {
     }
 }
 
-/// A slider-crank at a dead centre, or one step beside it.
+/// A slider-crank at a dead centre, or one step off it.
 fn slider_crank(pen: &mut Pen<'_>) {
     let (pivot, way) = (pen.point(), pen.direction());
     let tip = along(pivot, pen.not_zero(3) * pen.step, way);

@@ -1,4 +1,4 @@
-//! Drawings of full rank that are near a lower one: pins beside their place, dead centres, lines at
+//! Drawings of full rank that are near a lower one: pins off their place, dead centres, lines at
 //! small angles, thin loops. Their data may be known to a third of what they are off by and less,
 //! and nothing of them is redundant.
 
@@ -11,7 +11,7 @@ use super::Pen;
 /// A kind of such drawings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Slender {
-    /// Parallel cranks, one pin beside its place.
+    /// Parallel cranks, one pin off its place.
     OffsetCrank,
     /// Two pins of one door.
     OffsetPin,

@@ -1,5 +1,5 @@
 //! Nodes on a line joined by distances: bars along one line have one load too many for each loop,
-//! and a bar beside them changes nothing of that.
+//! and a bar off their line changes nothing of that.
 
 use super::super::drawing::{GROUND, Side, Vector};
 use super::Pen;

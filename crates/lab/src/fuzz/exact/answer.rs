@@ -22,7 +22,7 @@ const LIMITS: Limits = Limits {
 ///
 /// # Errors
 /// The refusal in words.
-pub fn told(text: &str) -> Result<Value, String> {
+pub fn answer(text: &str) -> Result<Value, String> {
     let read = || AssembledScene::read("scene.toml", text, &Registry::planar());
     match read().and_then(|assembled| assembled.prepare(&Overrides::default())) {
         Ok(study) => document(study.analyse(0.0, None)),
