@@ -113,10 +113,7 @@ impl CommandLine for Arguments {
             Command::WorkPrecision(a) => a.json,
             Command::Fuzz(_) => false,
         };
-        match json {
-            true => Answer::Json,
-            false => Answer::Words,
-        }
+        if json { Answer::Json } else { Answer::Words }
     }
 
     fn run(&self, console: &Console<'_>) -> Outcome {

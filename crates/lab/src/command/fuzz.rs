@@ -125,9 +125,10 @@ impl Drawings {
 
 /// Exit code 1 if something failed; what failed has been said.
 fn passed(all: bool) -> Outcome {
-    match all {
-        true => Ok(()),
-        false => Err(Failure::Incomplete),
+    if all {
+        Ok(())
+    } else {
+        Err(Failure::Incomplete)
     }
 }
 
@@ -176,9 +177,10 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
         }
         Fuzz::Try { file } => {
             let mut bytes = Vec::new();
-            match file.as_os_str() == "-" {
-                true => io::stdin().read_to_end(&mut bytes).map(drop),
-                false => fs::read(file).map(|read| bytes = read),
+            if file.as_os_str() == "-" {
+                io::stdin().read_to_end(&mut bytes).map(drop)
+            } else {
+                fs::read(file).map(|read| bytes = read)
             }
             .map_err(stopped)?;
             let text = String::from_utf8_lossy(&bytes);

@@ -31,17 +31,19 @@ pub(super) fn run(arguments: &Generate, console: &Console<'_>) -> Outcome {
         return to_standard_output(&generator, console);
     };
     let bytes = to_file(&generator, path)?;
-    match arguments.json {
-        true => console.print(&format!("{:#}\n", facts(&generator, path, bytes))),
-        false => console.print(&describe(&generator, path, bytes)),
+    if arguments.json {
+        console.print(&format!("{:#}\n", facts(&generator, path, bytes)))
+    } else {
+        console.print(&describe(&generator, path, bytes))
     }
 }
 
 fn to_standard_output(generator: &Generator, console: &Console<'_>) -> Outcome {
     // Two things on one terminal would overwrite each other.
-    let target = match console.is_terminal() {
-        true => ProgressDrawTarget::hidden(),
-        false => ProgressDrawTarget::stderr(),
+    let target = if console.is_terminal() {
+        ProgressDrawTarget::hidden()
+    } else {
+        ProgressDrawTarget::stderr()
     };
     let bar = bar(generator, target);
     let written = console.write(|out| generator.write(bar.wrap_write(out)));

@@ -32,9 +32,10 @@ pub(super) fn run(arguments: &Stress, console: &Console<'_>) -> Outcome {
     let table = StressTable::new(file).map_err(|e| stopped(&e))?;
     let (document, table) = make(&families, table)?;
     let file = table.finish().map_err(|e| stopped(&e))?;
-    let finished = match document.partial {
-        false => file.finish(),
-        true => file.finish_partial(),
+    let finished = if document.partial {
+        file.finish_partial()
+    } else {
+        file.finish()
     };
     finished.map_err(|e| stopped(&e))?;
     let mut json = Vec::new();
@@ -48,13 +49,15 @@ pub(super) fn run(arguments: &Stress, console: &Console<'_>) -> Outcome {
     ] {
         directory.write(name, text).map_err(|e| stopped(&e))?;
     }
-    match arguments.json {
-        true => console.print(&String::from_utf8_lossy(&json))?,
-        false => console.print(&describe(&document, &out.display().to_string()))?,
+    if arguments.json {
+        console.print(&String::from_utf8_lossy(&json))?
+    } else {
+        console.print(&describe(&document, &out.display().to_string()))?
     }
-    match document.partial || document.tally.failing > 0 {
-        true => Err(Failure::Incomplete),
-        false => Ok(()),
+    if document.partial || document.tally.failing > 0 {
+        Err(Failure::Incomplete)
+    } else {
+        Ok(())
     }
 }
 
@@ -149,9 +152,10 @@ fn describe(document: &StressDocument, out: &str) -> String {
         );
         text.push_str(&lead);
         text.push_str(&wrapped("  right is ", &row.expected));
-        let found = match row.error.is_nan() {
-            true => row.outcome.clone(),
-            false => format!("off by {:.1e}; {}", row.error, row.outcome),
+        let found = if row.error.is_nan() {
+            row.outcome.clone()
+        } else {
+            format!("off by {:.1e}; {}", row.error, row.outcome)
         };
         text.push_str(&wrapped("  it came out ", &found));
     }

@@ -14,10 +14,7 @@ use crate::work_precision::{of_case, ways};
 
 pub(super) fn run(arguments: &WorkPrecision, console: &Console<'_>) -> Outcome {
     let subjects = subjects(arguments, console)?;
-    let ways: Vec<Way> = match arguments.own {
-        true => Vec::new(),
-        false => ways(),
-    };
+    let ways: Vec<Way> = if arguments.own { Vec::new() } else { ways() };
     let rivals: Vec<&dyn Rival> = ways.iter().map(|way| way as &dyn Rival).collect();
     Request {
         subjects: &subjects,

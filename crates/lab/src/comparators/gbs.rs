@@ -135,9 +135,10 @@ impl Stepper for Gbs {
     }
 
     fn next_size(&mut self, h: f64, _error: f64, is_accepted: bool) -> f64 {
-        match is_accepted {
-            true => self.control.accept(h),
-            false => self.control.reject(h),
+        if is_accepted {
+            self.control.accept(h)
+        } else {
+            self.control.reject(h)
         }
     }
 }

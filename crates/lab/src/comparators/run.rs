@@ -179,9 +179,10 @@ pub(super) struct Limits {
 impl Limits {
     pub(super) fn check(&self, time: f64, steps: Steps) -> Result<(), Fault> {
         let made = steps.accepted + steps.rejected;
-        match made >= self.steps {
-            true => Err(Fault::TooManySteps { time, steps: made }),
-            false => Ok(()),
+        if made >= self.steps {
+            Err(Fault::TooManySteps { time, steps: made })
+        } else {
+            Ok(())
         }
     }
 }

@@ -147,9 +147,10 @@ impl Campaign {
                 && one(&self.limits, text)
                     .is_ok_and(|answer| answer.is_err_and(|f| f.place() == place))
         };
-        let (text, note) = match fails(&text) {
-            true => (minimise::shortest(&text, fails), ""),
-            false => (text, "# Does not fail again by itself.\n"),
+        let (text, note) = if fails(&text) {
+            (minimise::shortest(&text, fails), "")
+        } else {
+            (text, "# Does not fail again by itself.\n")
         };
         let words = match &fault {
             Fault::Died { words, .. } => words.replace('\n', "\n# "),

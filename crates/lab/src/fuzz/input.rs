@@ -16,9 +16,10 @@ pub fn text(seed: u64, number: u64) -> String {
     // A seed of its own for each input, by one draw: neighbours have nothing in common.
     let mut numbers = Numbers::new(seed ^ Numbers::new(number).bits());
     let from_suite = numbers.once_in(4);
-    let mut text = match from_suite {
-        true => known(&mut numbers),
-        false => scenes::random(&mut numbers),
+    let mut text = if from_suite {
+        known(&mut numbers)
+    } else {
+        scenes::random(&mut numbers)
     };
     // Scenes of the suite as they are have tests of their own.
     if from_suite || numbers.once_in(2) {

@@ -31,9 +31,10 @@ fn shorten(pieces: &mut Vec<String>, mut fails: impl FnMut(&[String]) -> bool) {
         while at < pieces.len() {
             let end = (at + length).min(pieces.len());
             let rest = [&pieces[..at], &pieces[end..]].concat();
-            match fails(&rest) {
-                true => *pieces = rest,
-                false => at = end,
+            if fails(&rest) {
+                *pieces = rest
+            } else {
+                at = end
             }
         }
         length = match length {

@@ -28,9 +28,10 @@ impl Draft {
 
     /// A body or, once in `ground` times, the ground.
     fn body(&self, numbers: &mut Numbers, ground: usize) -> String {
-        match self.bodies.is_empty() || numbers.once_in(ground) {
-            true => "\"ground\"".to_owned(),
-            false => self.bodies[numbers.below(self.bodies.len())].clone(),
+        if self.bodies.is_empty() || numbers.once_in(ground) {
+            "\"ground\"".to_owned()
+        } else {
+            self.bodies[numbers.below(self.bodies.len())].clone()
         }
     }
 
@@ -62,9 +63,10 @@ pub fn random(numbers: &mut Numbers) -> String {
     // A tree first, then loops over it.
     for k in 0..bodies {
         if !values.numbers.once_in(5) {
-            let parent = match k == 0 || values.numbers.once_in(3) {
-                true => "\"ground\"".to_owned(),
-                false => draft.bodies[values.numbers.below(k)].clone(),
+            let parent = if k == 0 || values.numbers.once_in(3) {
+                "\"ground\"".to_owned()
+            } else {
+                draft.bodies[values.numbers.below(k)].clone()
             };
             let child = draft.bodies[k].clone();
             things::joint(&mut draft, &mut values, [parent, child]);

@@ -73,14 +73,13 @@ impl Worker {
     /// # Errors
     /// If there is no such program, or no process left.
     pub fn begin(limits: &Limits, arguments: &[&str], input: Option<&str>) -> io::Result<Self> {
-        let mut command = match cfg!(unix) {
-            true => {
-                let mut shell = Command::new("sh");
-                let script = format!("ulimit -v {}; exec \"$0\" \"$@\"", 1024 * limits.memory);
-                shell.args(["-c", &script]).arg(&limits.program);
-                shell
-            }
-            false => Command::new(&limits.program),
+        let mut command = if cfg!(unix) {
+            let mut shell = Command::new("sh");
+            let script = format!("ulimit -v {}; exec \"$0\" \"$@\"", 1024 * limits.memory);
+            shell.args(["-c", &script]).arg(&limits.program);
+            shell
+        } else {
+            Command::new(&limits.program)
         };
         let mut child = command
             .arg("fuzz")

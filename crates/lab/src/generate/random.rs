@@ -133,9 +133,10 @@ impl Random {
         let mut places = vec![GROUND];
         for number in 0..self.n {
             let below = places[numbers.below(places.len())];
-            let of = match numbers.within(0.0, 1.0) < self.share {
-                true => &REDUNDANT[..],
-                false => &PLAIN[..],
+            let of = if numbers.within(0.0, 1.0) < self.share {
+                &REDUNDANT[..]
+            } else {
+                &PLAIN[..]
             };
             let build = of[numbers.below(of.len())];
             let module = Module::new(number, build, below, &mut numbers);

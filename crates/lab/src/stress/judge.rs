@@ -21,19 +21,25 @@ pub fn judge(expected: &Expected, outcome: &Outcome) -> Judgement {
         (
             Expected::Answer { bound, .. } | Expected::AnswerOrRefusal { bound, .. },
             Outcome::Answer { error, .. },
-        ) => match error.abs() <= *bound {
-            true => Judgement::Right,
-            false => Judgement::SilentlyWrong,
-        },
+        ) => {
+            if error.abs() <= *bound {
+                Judgement::Right
+            } else {
+                Judgement::SilentlyWrong
+            }
+        }
         (Expected::Answer { .. }, Outcome::Refused { .. }) => Judgement::Limit,
         (Expected::Refusal { .. }, Outcome::Answer { .. }) => Judgement::SilentlyWrong,
         (
             Expected::Refusal { parts } | Expected::AnswerOrRefusal { parts, .. },
             Outcome::Refused { text },
-        ) => match parts.iter().all(|part| text.contains(part.as_str())) {
-            true => Judgement::Refused,
-            false => Judgement::Misnamed,
-        },
+        ) => {
+            if parts.iter().all(|part| text.contains(part.as_str())) {
+                Judgement::Refused
+            } else {
+                Judgement::Misnamed
+            }
+        }
     }
 }
 

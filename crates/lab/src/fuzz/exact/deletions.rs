@@ -15,12 +15,13 @@ pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
     if binomial(all, redundancy).is_some_and(|sets| sets <= COUNTED) {
         let right = count(truth, redundancy, 0, &mut Vec::new());
         let answer = &answer["eliminations"];
-        match answer["count"].is_null() {
-            true => findings.note(
+        if answer["count"].is_null() {
+            findings.note(
                 Kind::Undecided,
                 format!("eliminations: {}", answer["reason"]),
-            ),
-            false => findings.number(Kind::Sentence, "eliminations", &answer["count"], right),
+            )
+        } else {
+            findings.number(Kind::Sentence, "eliminations", &answer["count"], right)
         }
     }
     for proposals in list(&answer["make_unique"]) {

@@ -556,10 +556,7 @@ impl Doubles {
     /// By how much a number changes for a change of one metre.
     #[must_use]
     pub fn unit(&self, block: &Block) -> f64 {
-        match block.is_angle {
-            true => 1.0 / self.size,
-            false => 1.0,
-        }
+        if block.is_angle { 1.0 / self.size } else { 1.0 }
     }
 }
 

@@ -170,14 +170,15 @@ fn ranks(truth: &Truth, answer: &Value, findings: &mut Findings) {
     ] {
         let doubt = format!("the rank of {what} alone is undecided");
         let mut warnings = list(&answer["warnings"]).iter();
-        match warnings.any(|w| w.as_str().is_some_and(|w| w.contains(&doubt))) {
-            true => findings.note(Kind::Undecided, doubt),
-            false => findings.number(
+        if warnings.any(|w| w.as_str().is_some_and(|w| w.contains(&doubt))) {
+            findings.note(Kind::Undecided, doubt)
+        } else {
+            findings.number(
                 Kind::Rank,
                 key,
                 &answer[key],
                 truth.rank_where(nonholonomic),
-            ),
+            )
         }
     }
     if truth.posed.has_constant_rank {
@@ -316,9 +317,10 @@ pub(super) fn along_free(
     });
     // Directions are printed with all digits, sentences have four.
     shares.fold(None, |worst: Option<f64>, share| {
-        match share <= rounding(truth.posed) {
-            true => worst,
-            false => Some(worst.map_or(share, |worst| worst.max(share))),
+        if share <= rounding(truth.posed) {
+            worst
+        } else {
+            Some(worst.map_or(share, |worst| worst.max(share)))
         }
     })
 }

@@ -211,9 +211,10 @@ impl<'a> Pen<'a> {
 
     /// Where lines meet.
     fn centre(&mut self) -> Vector {
-        match self.once_in(2) {
-            true => [Ratio::ZERO; 2],
-            false => self.point(),
+        if self.once_in(2) {
+            [Ratio::ZERO; 2]
+        } else {
+            self.point()
         }
     }
 
@@ -242,9 +243,10 @@ impl<'a> Pen<'a> {
     /// A slider that a force along `u` holds on its line.
     fn slider(&mut self, pair: [Side; 2], at: Vector, u: Vector) -> usize {
         let axis = self.drawing.across(u);
-        let from = match self.once_in(2) {
-            true => at,
-            false => self.on_line(at, axis, 3),
+        let from = if self.once_in(2) {
+            at
+        } else {
+            self.on_line(at, axis, 3)
         };
         self.link(&pair, Tie::Translational { from, at, along: u })
     }

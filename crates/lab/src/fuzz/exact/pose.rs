@@ -129,9 +129,10 @@ impl Posed {
             },
         };
         let frames = drawing.origins.iter().enumerate().map(frame).collect();
-        let (order, links) = match is_as_drawn {
-            true => ((0..n).collect(), (0..drawing.links.len()).collect()),
-            false => (numbers.order(n), numbers.order(drawing.links.len())),
+        let (order, links) = if is_as_drawn {
+            ((0..n).collect(), (0..drawing.links.len()).collect())
+        } else {
+            (numbers.order(n), numbers.order(drawing.links.len()))
         };
         Self {
             stretch: drawing.stretch,
@@ -273,9 +274,10 @@ fn tenths(numbers: &mut Numbers, most: i32) -> Ratio {
 
 fn quarter(numbers: &mut Numbers) -> Turn {
     let one = Ratio::whole(1 - 2 * numbers.below(2) as i64);
-    match numbers.once_in(2) {
-        true => [one, Ratio::ZERO],
-        false => [Ratio::ZERO, one],
+    if numbers.once_in(2) {
+        [one, Ratio::ZERO]
+    } else {
+        [Ratio::ZERO, one]
     }
 }
 

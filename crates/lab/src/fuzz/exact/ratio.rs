@@ -88,9 +88,10 @@ impl Ratio {
     /// What rounding leaves, rounded: `self − rounded`.
     fn rest(self) -> f64 {
         let (n, d) = (self.numerator as f64, self.denominator as f64);
-        match n as i128 == self.numerator && d as i128 == self.denominator {
-            true => -self.rounded().mul_add(d, -n) / d,
-            false => 0.0,
+        if n as i128 == self.numerator && d as i128 == self.denominator {
+            -self.rounded().mul_add(d, -n) / d
+        } else {
+            0.0
         }
     }
 }

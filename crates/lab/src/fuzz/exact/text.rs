@@ -106,9 +106,10 @@ impl Pen<'_> {
         let mut position = self.posed.point(frame.origin).map(|x| self.number(x));
         if let Some(errors) = &mut self.errors {
             for x in position.iter_mut().filter(|x| **x != 0.0) {
-                *x = match errors.once_in(2) {
-                    true => x.next_down(),
-                    false => x.next_up(),
+                *x = if errors.once_in(2) {
+                    x.next_down()
+                } else {
+                    x.next_up()
                 };
             }
         }
@@ -207,9 +208,10 @@ impl Pen<'_> {
         let is_one = points.windows(2).all(|w| w[0].1 == w[1].1);
         if !(placed.is_local || !is_apart && !is_one) {
             let world = |p: Vector| self.pair(self.posed.point(p));
-            let at = match is_apart {
-                true => format!("[{}, {}]", world(points[0].1), world(points[1].1)),
-                false => world(points[0].1),
+            let at = if is_apart {
+                format!("[{}, {}]", world(points[0].1), world(points[1].1))
+            } else {
+                world(points[0].1)
             };
             return self.line("at", &at);
         }

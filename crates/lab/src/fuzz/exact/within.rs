@@ -68,12 +68,13 @@ impl<'a> Meant<'a> {
         let doubles = Doubles::of(truth.posed);
         let rank = truth.rank();
         let is_permanent = truth.redundancy() == 0 || doubles.is_permanent(rank, seed);
-        let everywhere_from = match is_permanent {
-            true => Bounds {
+        let everywhere_from = if is_permanent {
+            Bounds {
                 low: 0.0,
                 high: 0.0,
-            },
-            false => doubles.lower_rank_from(rank + 1),
+            }
+        } else {
+            doubles.lower_rank_from(rank + 1)
         };
         Self {
             truth,

@@ -4,9 +4,10 @@ use super::Values;
 
 /// A number or a function.
 pub(super) fn number_or_function(values: &mut Values<'_>) -> String {
-    match values.numbers.once_in(2) {
-        true => values.number(),
-        false => function(values),
+    if values.numbers.once_in(2) {
+        values.number()
+    } else {
+        function(values)
     }
 }
 

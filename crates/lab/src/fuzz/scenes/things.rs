@@ -47,15 +47,16 @@ fn begin(draft: &mut Draft, values: &mut Values<'_>, kind: &'static str) {
 
 /// A place between two bodies: mostly a global point, which fits any start.
 fn place(draft: &mut Draft, values: &mut Values<'_>, pair: &[String; 2]) {
-    let line = match values.numbers.once_in(8) {
-        true => format!(
+    let line = if values.numbers.once_in(8) {
+        format!(
             "points = {{ {} = {}, {} = {} }}",
             pair[0],
             values.point(),
             pair[1],
             values.point()
-        ),
-        false => format!("at = {}", values.point()),
+        )
+    } else {
+        format!("at = {}", values.point())
     };
     draft.line(&line);
 }
@@ -195,9 +196,12 @@ pub(super) fn force(draft: &mut Draft, values: &mut Values<'_>) {
     } else {
         draft.line(&format!("bodies = [{}, {}]", pair[0], pair[1]));
     }
-    let stiff = |values: &mut Values<'_>| match values.numbers.once_in(6) {
-        true => format!("1e{}", values.numbers.between(3, 12)),
-        false => values.positive(),
+    let stiff = |values: &mut Values<'_>| {
+        if values.numbers.once_in(6) {
+            format!("1e{}", values.numbers.between(3, 12))
+        } else {
+            values.positive()
+        }
     };
     match kind {
         "spring-damper" => {

@@ -50,9 +50,10 @@ impl<'n> Values<'n> {
     }
 
     fn or_extreme(&mut self, value: f64) -> String {
-        match self.wild > 0 && self.numbers.once_in(self.wild) {
-            true => EXTREMES[self.numbers.below(EXTREMES.len())].to_owned(),
-            false => format!("{value:?}"),
+        if self.wild > 0 && self.numbers.once_in(self.wild) {
+            EXTREMES[self.numbers.below(EXTREMES.len())].to_owned()
+        } else {
+            format!("{value:?}")
         }
     }
 
@@ -104,9 +105,10 @@ impl<'n> Values<'n> {
 
     /// A name in quotes.
     pub(crate) fn name(&mut self, kind: &str, k: usize) -> String {
-        match self.has_names && self.numbers.once_in(3) {
-            true => format!("\"{}{k}\"", NAMES[self.numbers.below(NAMES.len())]),
-            false => format!("\"{kind}{k}\""),
+        if self.has_names && self.numbers.once_in(3) {
+            format!("\"{}{k}\"", NAMES[self.numbers.below(NAMES.len())])
+        } else {
+            format!("\"{kind}{k}\"")
         }
     }
 

@@ -45,9 +45,12 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
         last: f64::NEG_INFINITY,
     };
     let (steps, mut rows, mut with_reactions) = (AtomicUsize::new(0), 0, 0);
-    let watch = |_: f64| match steps.fetch_add(1, Ordering::Relaxed) < STEPS {
-        true => ControlFlow::Continue(()),
-        false => ControlFlow::Break(()),
+    let watch = |_: f64| {
+        if steps.fetch_add(1, Ordering::Relaxed) < STEPS {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        }
     };
     let outcome = plan.simulate_watched(&watch, |sample| {
         rows += 1;
@@ -60,9 +63,10 @@ pub(super) fn check(study: &Study) -> (Reach, usize) {
             .row(sample.t, &forces)
             .expect("a vector takes everything");
         with_reactions += 1;
-        Ok(match rows < ROWS {
-            true => ControlFlow::Continue(()),
-            false => ControlFlow::Break(()),
+        Ok(if rows < ROWS {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
         })
     });
     readable(
@@ -134,9 +138,10 @@ impl Rows<'_> {
         } = self;
         let layout = mechanism.layout();
         // At a break time rows show the values just before.
-        let t_before = match t > 0.0 && layout.break_times.contains(&t) {
-            true => t.next_down(),
-            false => t,
+        let t_before = if t > 0.0 && layout.break_times.contains(&t) {
+            t.next_down()
+        } else {
+            t
         };
         mechanism.pose(t_before, q, s);
         mechanism.phi(s);

@@ -42,9 +42,10 @@ fn cases() -> Vec<Case> {
         for k in 0..=15 {
             let size = 10_f64.powi(-k);
             // A law that differs at the start differs by twice as much in position after 2 s.
-            let right = match size >= 1e-9 {
-                true => Expected::refusal(&["`one`", "`other`", "delete or correct one"]),
-                false => differing(2.0 * size, &["at t = ", "row"]),
+            let right = if size >= 1e-9 {
+                Expected::refusal(&["`one`", "`other`", "delete or correct one"])
+            } else {
+                differing(2.0 * size, &["at t = ", "row"])
             };
             let name = format!("{level} differ by {size:.0e}");
             let options = MotionOptions::to(2.0);

@@ -196,9 +196,10 @@ fn massless_cranks(name: &str, pivots: &[f64], massless: u8, options: &MotionOpt
     };
     let moment = -G * theta.cos() * length * (0.5 * links + coupler);
     let alpha = moment / (length * length * (links / 3.0 + coupler));
-    let right = match names.len() > pivots.len() {
-        true => Expected::refusal(&["without mass or inertia"]),
-        false => Expected::answer(BOUND, "closed form: one equation in the common angle"),
+    let right = if names.len() > pivots.len() {
+        Expected::refusal(&["without mass or inertia"])
+    } else {
+        Expected::answer(BOUND, "closed form: one equation in the common angle")
     };
     let at = |r: f64| [-r * theta.sin() * alpha, r * theta.cos() * alpha];
     let mut a: Vec<f64> = Vec::new();
@@ -208,9 +209,10 @@ fn massless_cranks(name: &str, pivots: &[f64], massless: u8, options: &MotionOpt
     }
     a.extend(at(length));
     a.push(0.0);
-    let what = match names.is_empty() {
-        true => "nothing massless".to_owned(),
-        false => format!("massless: {}", names.join(", ")),
+    let what = if names.is_empty() {
+        "nothing massless".to_owned()
+    } else {
+        format!("massless: {}", names.join(", "))
     };
     moving(
         format!("{name}, {what}"),

@@ -55,17 +55,19 @@ fn cases() -> Vec<Case> {
             let bound = (1e-6 + 10.0 * f64::EPSILON / e).min(1e-3);
             // Where velocities are not known any more, a refusal must name the edge; where the data
             // may as well mean parallel edges, it must say so.
-            let named = match (READ_BOTH_WAYS..ROUNDED_AWAY).contains(&e) {
-                true => "their rounding",
-                false => "`right`",
+            let named = if (READ_BOTH_WAYS..ROUNDED_AWAY).contains(&e) {
+                "their rounding"
+            } else {
+                "`right`"
             };
-            let right = match e < DECIDED {
-                false => Expected::answer(bound, source),
-                true => Expected::AnswerOrRefusal {
+            let right = if e < DECIDED {
+                Expected::AnswerOrRefusal {
                     bound,
                     source,
                     parts: vec![named.into()],
-                },
+                }
+            } else {
+                Expected::answer(bound, source)
             };
             let options = MotionOptions::to(0.5);
             let run = move |o: &MotionOptions| about_the_wheel(&axle(e), o);
@@ -84,13 +86,14 @@ fn cases() -> Vec<Case> {
 /// What may be said of the rank.
 pub(super) fn verdict(e: f64) -> Expected {
     let source = "rank in exact arithmetic; the grounds of a certificate";
-    match e < DECIDED {
-        false => Expected::answer(0.0, source),
-        true => Expected::AnswerOrRefusal {
+    if e < DECIDED {
+        Expected::AnswerOrRefusal {
             bound: 0.0,
             source,
             parts: vec!["singular value".into()],
-        },
+        }
+    } else {
+        Expected::answer(0.0, source)
     }
 }
 
@@ -160,15 +163,12 @@ fn right_of(a: &Analysis, exact: usize, e: f64) -> Result<Outcome, Outcome> {
     );
     // As written is right with a warning of the size of ε; otherwise the data must be in doubt, and
     // the answer must say so.
-    let right = match rank == exact {
-        true => {
-            let answer = e >= WARNED || warned.is_some_and(|near| near.sigma <= 2.0 * e);
-            answer && unique == a.reactions.len()
-        }
-        false => {
-            let within = e < ROUNDING && grounds == Some(Grounds::WithinData);
-            within && rank + 1 == exact && unique == 0
-        }
+    let right = if rank == exact {
+        let answer = e >= WARNED || warned.is_some_and(|near| near.sigma <= 2.0 * e);
+        answer && unique == a.reactions.len()
+    } else {
+        let within = e < ROUNDING && grounds == Some(Grounds::WithinData);
+        within && rank + 1 == exact && unique == 0
     };
     Ok(Outcome::fact(right, detail))
 }

@@ -93,9 +93,10 @@ struct Oscillator {
 impl Oscillator {
     fn case(self, name: String, options: &MotionOptions) -> Case {
         let fastest = (self.stiffness / INERTIA).sqrt();
-        let phase = match self.damping > 0.0 {
-            true => T_END,
-            false => fastest * T_END,
+        let phase = if self.damping > 0.0 {
+            T_END
+        } else {
+            fastest * T_END
         };
         let tolerances = LEAST.max(10.0 * steps(options.method, phase, RTOL));
         // A rotor behind a stiff spring has an angle to 1e-16 and so a force to k·1e-16, which
@@ -109,12 +110,13 @@ impl Oscillator {
         };
         // What suits the scene has to do it.
         let is_implicit = matches!(options.method, Method::Auto | Method::Radau5);
-        let right = match is_implicit && self.damping > 0.0 {
-            true => match right {
+        let right = if is_implicit && self.damping > 0.0 {
+            match right {
                 Expected::AnswerOrRefusal { bound, source, .. } => Expected::answer(bound, source),
                 other => other,
-            },
-            false => right,
+            }
+        } else {
+            right
         };
         case(name, self.scene(), options.clone(), right, move |row, _| {
             self.off(row)

@@ -11,17 +11,19 @@ pub(super) fn bars(pen: &mut Pen<'_>) {
     for k in 0..n {
         let body = pen.body();
         // To the ground, or to the body before.
-        let base = match k > 0 && pen.once_in(2) {
-            true => held[k - 1],
-            false => GROUND,
+        let base = if k > 0 && pen.once_in(2) {
+            held[k - 1]
+        } else {
+            GROUND
         };
         let count = match pen.numbers.below(4) {
             0 => 4 + pen.numbers.below(2),
             _ => 3,
         };
-        match pen.once_in(3) {
-            true => parallel(pen, [base, body], count),
-            false => concurrent(pen, [base, body], count),
+        if pen.once_in(3) {
+            parallel(pen, [base, body], count)
+        } else {
+            concurrent(pen, [base, body], count)
         }
         if k > 0 && pen.once_in(3) {
             let at = pen.point();

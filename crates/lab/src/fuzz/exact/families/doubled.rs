@@ -15,18 +15,13 @@ pub(super) fn doubled(pen: &mut Pen<'_>) {
         one_of(pen, first, [base, body], at, u);
         for _ in 0..pen.numbers.below(3) {
             // Mostly the same again, at the same place or elsewhere, rarely along another line.
-            let kind = match pen.once_in(4) {
-                true => pen.numbers.below(7),
-                false => first,
+            let kind = if pen.once_in(4) {
+                pen.numbers.below(7)
+            } else {
+                first
             };
-            let at = match pen.once_in(2) {
-                true => at,
-                false => pen.point(),
-            };
-            let u = match pen.once_in(5) {
-                true => pen.direction(),
-                false => u,
-            };
+            let at = if pen.once_in(2) { at } else { pen.point() };
+            let u = if pen.once_in(5) { pen.direction() } else { u };
             one_of(pen, kind, [base, body], at, u);
         }
     }

@@ -6,10 +6,7 @@ use super::super::ratio::Ratio;
 use super::Pen;
 
 pub(super) fn edges(pen: &mut Pen<'_>) {
-    let n = match pen.once_in(3) {
-        true => 2,
-        false => 1,
-    };
+    let n = if pen.once_in(3) { 2 } else { 1 };
     // Edges that turn with one body stay as they are to each other.
     pen.drawing.has_constant_rank = n == 1;
     let mut before = GROUND;
@@ -55,10 +52,7 @@ fn at_angles_of_the_hexagon(pen: &mut Pen<'_>, body: Side) {
         [-Ratio::ONE, Ratio::ZERO],
     ];
     let radius = pen.whole(1, 9) * pen.step;
-    let count = match pen.once_in(3) {
-        true => 6,
-        false => 3,
-    };
+    let count = if pen.once_in(3) { 6 } else { 3 };
     let is_spoilt = pen.once_in(4);
     for (k, spoke) in spokes.into_iter().take(count).enumerate() {
         let mut at = along(centre, radius, spoke);
@@ -94,9 +88,10 @@ fn parallel_edges(pen: &mut Pen<'_>, body: Side) {
     let is_spoilt = pen.once_in(3);
     for k in 0..2 + pen.numbers.below(3) {
         let at = pen.point();
-        let u = match is_spoilt && k == 0 {
-            true => along(u, Ratio::new(1, 5), [-u[1], u[0]]),
-            false => u,
+        let u = if is_spoilt && k == 0 {
+            along(u, Ratio::new(1, 5), [-u[1], u[0]])
+        } else {
+            u
         };
         edge(pen, body, at, u);
     }
@@ -105,10 +100,7 @@ fn parallel_edges(pen: &mut Pen<'_>, body: Side) {
         let way = pen.drawing.across(u);
         let (first, second) = (pen.point(), pen.point());
         let axle = spinner(pen, body, first, way);
-        let other = match pen.once_in(2) {
-            true => axle,
-            false => pen.body(),
-        };
+        let other = if pen.once_in(2) { axle } else { pen.body() };
         let radius = pen.not_zero(4) * pen.step;
         pen.link(
             &[body, other],

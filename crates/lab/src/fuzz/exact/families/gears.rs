@@ -39,9 +39,10 @@ fn ratio(pen: &mut Pen<'_>) -> Ratio {
 /// A wheel in a bearing of the carrier, mostly at its centre.
 fn geared(pen: &mut Pen<'_>, carrier: Side) -> Side {
     let centre = pen.point();
-    let wheel = match pen.once_in(4) {
-        true => pen.body(),
-        false => pen.drawing.body_at(centre),
+    let wheel = if pen.once_in(4) {
+        pen.body()
+    } else {
+        pen.drawing.body_at(centre)
     };
     if !pen.once_in(8) {
         pen.hinge([carrier, wheel], centre);
@@ -58,9 +59,10 @@ fn held(pen: &mut Pen<'_>) {
     let wheel = geared(pen, GROUND);
     for _ in 0..2 {
         let ratio = ratio(pen);
-        match pen.once_in(2) {
-            true => mesh(pen, GROUND, wheel, GROUND, ratio),
-            false => mesh(pen, wheel, GROUND, GROUND, ratio),
+        if pen.once_in(2) {
+            mesh(pen, GROUND, wheel, GROUND, ratio)
+        } else {
+            mesh(pen, wheel, GROUND, GROUND, ratio)
         }
     }
     pen.drawing.redundancy = Some(1);
@@ -68,15 +70,14 @@ fn held(pen: &mut Pen<'_>) {
 
 /// Wheels in a ring.
 fn closed_train(pen: &mut Pen<'_>) {
-    let carrier = match pen.once_in(2) {
-        true => GROUND,
-        false => {
-            let (carrier, at) = (pen.body(), pen.point());
-            if pen.once_in(2) {
-                pen.hinge([GROUND, carrier], at);
-            }
-            carrier
+    let carrier = if pen.once_in(2) {
+        GROUND
+    } else {
+        let (carrier, at) = (pen.body(), pen.point());
+        if pen.once_in(2) {
+            pen.hinge([GROUND, carrier], at);
         }
+        carrier
     };
     let n = 2 + pen.numbers.below(3);
     let wheels: Vec<Side> = (0..n).map(|_| geared(pen, carrier)).collect();
@@ -93,9 +94,10 @@ fn closed_train(pen: &mut Pen<'_>) {
         true => product * Ratio::new(51, 50),
         false => product,
     };
-    match pen.once_in(2) {
-        true => mesh(pen, wheels[0], wheels[n - 1], carrier, closing),
-        false => mesh(pen, wheels[n - 1], wheels[0], carrier, closing.inverse()),
+    if pen.once_in(2) {
+        mesh(pen, wheels[0], wheels[n - 1], carrier, closing)
+    } else {
+        mesh(pen, wheels[n - 1], wheels[0], carrier, closing.inverse())
     }
 }
 
@@ -105,13 +107,12 @@ fn planets(pen: &mut Pen<'_>) {
     let (sun, carrier) = (pen.drawing.body_at(centre), pen.drawing.body_at(centre));
     pen.hinge([GROUND, sun], centre);
     pen.hinge([GROUND, carrier], centre);
-    let ring = match pen.once_in(3) {
-        true => {
-            let ring = pen.drawing.body_at(centre);
-            pen.hinge([GROUND, ring], centre);
-            ring
-        }
-        false => GROUND,
+    let ring = if pen.once_in(3) {
+        let ring = pen.drawing.body_at(centre);
+        pen.hinge([GROUND, ring], centre);
+        ring
+    } else {
+        GROUND
     };
     let (inner, outer) = (Ratio::new(-2, 1), Ratio::new(1, 4));
     let shrink = ratio(pen);
@@ -122,9 +123,10 @@ fn planets(pen: &mut Pen<'_>) {
         pen.hinge([carrier, planet], at);
         let is_spoilt = k > 0 && pen.once_in(4);
         is_locked |= is_spoilt;
-        let spoil = match is_spoilt {
-            true => Ratio::new(9, 10),
-            false => Ratio::ONE,
+        let spoil = if is_spoilt {
+            Ratio::new(9, 10)
+        } else {
+            Ratio::ONE
         };
         // Planets of different sizes: the product of both meshes is that of sun and ring.
         let shrink = if k == 0 { Ratio::ONE } else { shrink };
@@ -158,9 +160,10 @@ fn racks(pen: &mut Pen<'_>) {
     for pair in pinions.windows(2) {
         let ([first, second], [r, s]) = ([pair[0].0, pair[1].0], [pair[0].1, pair[1].1]);
         // −v = r·ω_1 = s·ω_2
-        let ratio = match pen.once_in(3) {
-            true => r * s.inverse() * Ratio::new(5, 4),
-            false => r * s.inverse(),
+        let ratio = if pen.once_in(3) {
+            r * s.inverse() * Ratio::new(5, 4)
+        } else {
+            r * s.inverse()
         };
         if pen.once_in(2) {
             mesh(pen, first, second, GROUND, ratio);

@@ -21,13 +21,15 @@ fn cranks(pen: &mut Pen<'_>) {
     let (coupler, is_spoilt) = (pen.body(), pen.once_in(3));
     let is_on_line = pen.once_in(4);
     let (origin, line) = (pen.point(), pen.direction());
-    let pivots: Vec<Vector> = match is_on_line {
-        true => pen.places(origin, line, count),
-        false => (0..count).map(|_| pen.point()).collect(),
+    let pivots: Vec<Vector> = if is_on_line {
+        pen.places(origin, line, count)
+    } else {
+        (0..count).map(|_| pen.point()).collect()
     };
-    let drives = match pen.once_in(2) {
-        true => 0,
-        false => pen.numbers.below(count + 1),
+    let drives = if pen.once_in(2) {
+        0
+    } else {
+        pen.numbers.below(count + 1)
     };
     let [x, y] = [0, 1].map(|axis| pivots[1][axis] - pivots[0][axis]);
     if !is_spoilt && !(x * arm[1] - y * arm[0]).is_zero() {

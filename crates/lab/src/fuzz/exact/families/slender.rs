@@ -108,12 +108,11 @@ fn turned(pen: &mut Pen<'_>, v: Vector) -> Vector {
 
 fn offset_crank(pen: &mut Pen<'_>) {
     let (arm, coupler) = (pen.vector(6), pen.body());
-    let pivots: Vec<Vector> = match pen.once_in(2) {
-        true => {
-            let (origin, line) = (pen.point(), pen.direction());
-            pen.places(origin, line, 3)
-        }
-        false => (0..3).map(|_| pen.point()).collect(),
+    let pivots: Vec<Vector> = if pen.once_in(2) {
+        let (origin, line) = (pen.point(), pen.direction());
+        pen.places(origin, line, 3)
+    } else {
+        (0..3).map(|_| pen.point()).collect()
     };
     for (k, pivot) in pivots.into_iter().enumerate() {
         let crank = pen.body();
@@ -131,10 +130,7 @@ fn offset_crank(pen: &mut Pen<'_>) {
 
 fn offset_pin(pen: &mut Pen<'_>) {
     let door = pen.body();
-    let base = match pen.once_in(2) {
-        true => pen.body(),
-        false => GROUND,
-    };
+    let base = if pen.once_in(2) { pen.body() } else { GROUND };
     let (at, off, little) = (pen.point(), pen.vector(5), little(pen));
     pen.hinge([base, door], at);
     let beside = along(at, little, off);
@@ -188,12 +184,11 @@ fn dead_centre(pen: &mut Pen<'_>) {
     pen.hinge([bars[0], bars[1]], b);
     pen.hinge([bars[1], bars[2]], c);
     let bearing = pen.hinge([bars[2], GROUND], d);
-    match pen.once_in(2) {
-        true => pen.drawing.drive(bearing),
-        false => {
-            let across = quarter([c[0] - d[0], c[1] - d[1]]);
-            pen.bar([bars[2], GROUND], c, along(c, Ratio::whole(2), across));
-        }
+    if pen.once_in(2) {
+        pen.drawing.drive(bearing)
+    } else {
+        let across = quarter([c[0] - d[0], c[1] - d[1]]);
+        pen.bar([bars[2], GROUND], c, along(c, Ratio::whole(2), across));
     }
 }
 
@@ -238,9 +233,10 @@ fn thin_loop(pen: &mut Pen<'_>) {
 
 fn steep_edges(pen: &mut Pen<'_>) {
     let (body, at, normal) = (pen.body(), pen.point(), pen.vector(4));
-    let other = match pen.once_in(2) {
-        true => pen.on_line(at, normal, 5),
-        false => at,
+    let other = if pen.once_in(2) {
+        pen.on_line(at, normal, 5)
+    } else {
+        at
     };
     let bent = turned(pen, normal);
     pen.link(&[body], Tie::KnifeEdge { at, along: normal });
@@ -265,10 +261,7 @@ fn steep_edges(pen: &mut Pen<'_>) {
 
 fn steep_slot(pen: &mut Pen<'_>) {
     let (body, at, u) = (pen.body(), pen.point(), pen.vector(4));
-    let base = match pen.once_in(2) {
-        true => pen.body(),
-        false => GROUND,
-    };
+    let base = if pen.once_in(2) { pen.body() } else { GROUND };
     pen.slider([base, body], at, u);
     let bent = turned(pen, u);
     let (pin, axis) = (pen.point(), pen.drawing.across(bent));
@@ -299,14 +292,13 @@ fn steering(pen: &mut Pen<'_>) {
     let is_forked = pen.once_in(2);
     for share in [Ratio::new(1, 3), Ratio::new(-1, 3)] {
         let at = along(along(rear, Ratio::ONE, ahead), share, side);
-        let steered: Side = match is_forked {
-            false => chassis,
-            true => {
-                let fork = pen.body();
-                let pivot = pen.hinge([chassis, fork], at);
-                pen.drawing.drive(pivot);
-                fork
-            }
+        let steered: Side = if is_forked {
+            let fork = pen.body();
+            let pivot = pen.hinge([chassis, fork], at);
+            pen.drawing.drive(pivot);
+            fork
+        } else {
+            chassis
         };
         pen.link(&[steered], Tie::KnifeEdge { at, along: bent });
     }

@@ -43,19 +43,17 @@ pub(super) fn truss(pen: &mut Pen<'_>) {
 
 /// A point mass, or a small body.
 fn node(pen: &mut Pen<'_>, place: Vector) -> Side {
-    match pen.once_in(3) {
-        true => pen.body(),
-        false => pen.drawing.body_at(place),
+    if pen.once_in(3) {
+        pen.body()
+    } else {
+        pen.drawing.body_at(place)
     }
 }
 
 /// A bar from a node to the ground, or to a body that nothing else holds.
 fn oblique(pen: &mut Pen<'_>, nodes: &[Side], places: &[Vector]) {
     let (k, end) = (pen.numbers.below(nodes.len()), pen.point());
-    let other = match pen.once_in(4) {
-        true => pen.body(),
-        false => GROUND,
-    };
+    let other = if pen.once_in(4) { pen.body() } else { GROUND };
     if nodes[k] != other {
         pen.bar([nodes[k], other], places[k], end);
     }
