@@ -50,9 +50,9 @@ pub(super) fn run(arguments: &Stress, console: &Console<'_>) -> Outcome {
         directory.write(name, text).map_err(|e| stopped(&e))?;
     }
     if arguments.json {
-        console.print(&String::from_utf8_lossy(&json))?
+        console.print(&String::from_utf8_lossy(&json))?;
     } else {
-        console.print(&describe(&document, &out.display().to_string()))?
+        console.print(&describe(&document, &out.display().to_string()))?;
     }
     if document.partial || document.tally.failing > 0 {
         Err(Failure::Incomplete)

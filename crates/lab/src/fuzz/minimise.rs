@@ -32,9 +32,9 @@ fn shorten(pieces: &mut Vec<String>, mut fails: impl FnMut(&[String]) -> bool) {
             let end = (at + length).min(pieces.len());
             let rest = [&pieces[..at], &pieces[end..]].concat();
             if fails(&rest) {
-                *pieces = rest
+                *pieces = rest;
             } else {
-                at = end
+                at = end;
             }
         }
         length = match length {

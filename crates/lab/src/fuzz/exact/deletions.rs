@@ -19,9 +19,9 @@ pub fn examine(truth: &Truth, answer: &Value, findings: &mut Findings) {
             findings.note(
                 Kind::Undecided,
                 format!("eliminations: {}", answer["reason"]),
-            )
+            );
         } else {
-            findings.number(Kind::Sentence, "eliminations", &answer["count"], right)
+            findings.number(Kind::Sentence, "eliminations", &answer["count"], right);
         }
     }
     for proposals in list(&answer["make_unique"]) {

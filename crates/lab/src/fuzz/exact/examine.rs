@@ -171,14 +171,14 @@ fn ranks(truth: &Truth, answer: &Value, findings: &mut Findings) {
         let doubt = format!("the rank of {what} alone is undecided");
         let mut warnings = list(&answer["warnings"]).iter();
         if warnings.any(|w| w.as_str().is_some_and(|w| w.contains(&doubt))) {
-            findings.note(Kind::Undecided, doubt)
+            findings.note(Kind::Undecided, doubt);
         } else {
             findings.number(
                 Kind::Rank,
                 key,
                 &answer[key],
                 truth.rank_where(nonholonomic),
-            )
+            );
         }
     }
     if truth.posed.has_constant_rank {

@@ -21,9 +21,9 @@ pub(super) fn bars(pen: &mut Pen<'_>) {
             _ => 3,
         };
         if pen.once_in(3) {
-            parallel(pen, [base, body], count)
+            parallel(pen, [base, body], count);
         } else {
-            concurrent(pen, [base, body], count)
+            concurrent(pen, [base, body], count);
         }
         if k > 0 && pen.once_in(3) {
             let at = pen.point();

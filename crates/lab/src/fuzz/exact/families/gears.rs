@@ -60,9 +60,9 @@ fn held(pen: &mut Pen<'_>) {
     for _ in 0..2 {
         let ratio = ratio(pen);
         if pen.once_in(2) {
-            mesh(pen, GROUND, wheel, GROUND, ratio)
+            mesh(pen, GROUND, wheel, GROUND, ratio);
         } else {
-            mesh(pen, wheel, GROUND, GROUND, ratio)
+            mesh(pen, wheel, GROUND, GROUND, ratio);
         }
     }
     pen.drawing.redundancy = Some(1);
@@ -95,9 +95,9 @@ fn closed_train(pen: &mut Pen<'_>) {
         false => product,
     };
     if pen.once_in(2) {
-        mesh(pen, wheels[0], wheels[n - 1], carrier, closing)
+        mesh(pen, wheels[0], wheels[n - 1], carrier, closing);
     } else {
-        mesh(pen, wheels[n - 1], wheels[0], carrier, closing.inverse())
+        mesh(pen, wheels[n - 1], wheels[0], carrier, closing.inverse());
     }
 }
 

@@ -185,7 +185,7 @@ fn dead_centre(pen: &mut Pen<'_>) {
     pen.hinge([bars[1], bars[2]], c);
     let bearing = pen.hinge([bars[2], GROUND], d);
     if pen.once_in(2) {
-        pen.drawing.drive(bearing)
+        pen.drawing.drive(bearing);
     } else {
         let across = quarter([c[0] - d[0], c[1] - d[1]]);
         pen.bar([bars[2], GROUND], c, along(c, Ratio::whole(2), across));
