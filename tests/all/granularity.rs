@@ -369,7 +369,7 @@ fn edge_frames_come_from_the_definitions() {
         );
         let mut s = m.scratch();
         m.pose(0.0, &m.described_state().0, &mut s);
-        let found = m.axes(ConstraintId(0), Frame::Edge, &s);
+        let found = m.reactions(&s).axes(ConstraintId(0), Frame::Edge);
         match (found, expected) {
             (None, None) => {}
             // Up to the sign: that of the multiplier.

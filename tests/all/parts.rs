@@ -100,7 +100,7 @@ fn questions_are_answered_by_parts_as_by_the_whole() {
         apart += 1;
         let redundancy = judged[0].decision.redundancy;
         let [whole, parts] = judged.map(|a| Questions::new(&mechanism, &q, a.into()));
-        let ids: Vec<ConstraintId> = mechanism.constraint_ids().collect();
+        let ids: Vec<ConstraintId> = mechanism.layout().constraint_ids().collect();
         let some = |numbers: &mut Numbers| ids[numbers.below(ids.len())];
         let (a, b, c) = (some(&mut numbers), some(&mut numbers), some(&mut numbers));
         let groups = [

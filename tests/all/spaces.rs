@@ -57,7 +57,7 @@ type Rows = Vec<(f64, Vec<Pose>, Vec<f64>)>;
 fn run(p: &Prepared, options: &MotionOptions) -> (Rows, Vec<(f64, EventKind)>) {
     let mut rows = Rows::new();
     let done = simulate(p, options, |row| {
-        rows.push((row.t, p.mechanism.poses(row.q), row.v.to_vec()));
+        rows.push((row.t, p.mechanism.space().poses(row.q), row.v.to_vec()));
         Ok(ControlFlow::Continue(()))
     });
     let (name, space) = (p.mechanism.name(), p.mechanism.space());
@@ -91,7 +91,7 @@ fn starts_and_verdicts_are_the_same() {
         let scene = scene(name);
         let two = both(&scene.description, &scene.start);
         let size = two[0].assembly.size;
-        let [a, b] = [&two[0], &two[1]].map(|p| p.mechanism.poses(&p.q));
+        let [a, b] = [&two[0], &two[1]].map(|p| p.mechanism.space().poses(&p.q));
         assert!(
             apart(&a, &b, size) < 1e-14,
             "{name}: {:e}",
@@ -187,6 +187,6 @@ fn a_start_far_beside_the_constraints_is_corrected_alike() {
         ..StartOptions::default()
     };
     let two = both(&d, &start);
-    let [a, b] = [&two[0], &two[1]].map(|p| p.mechanism.poses(&p.q));
+    let [a, b] = [&two[0], &two[1]].map(|p| p.mechanism.space().poses(&p.q));
     assert!(apart(&a, &b, 1.0) < 1e-13, "{:e}", apart(&a, &b, 1.0));
 }

@@ -58,7 +58,7 @@ fn rows(text: &str) -> Rows {
         .map(|j| if j % 3 == 2 { 1.0 / size } else { 1.0 })
         .collect();
     // Rows of angles are as long as those of lengths.
-    let scale = |i: usize| if m.is_angular(i) { size } else { 1.0 };
+    let scale = |i: usize| if m.layout().is_angular(i) { size } else { 1.0 };
     let drives = layout.drive_rows();
     Rows {
         c: DMatrix::from_fn(layout.rows(), layout.n_v, |i, j| {

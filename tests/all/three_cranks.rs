@@ -75,7 +75,11 @@ fn every_number_of_the_case() {
     let (radial, tangential) = ([theta.sin(), -theta.cos()], [theta.cos(), theta.sin()]);
     let on_second = |joint: usize, lambda: &[f64], along: [f64; 2]| {
         let id = model::ConstraintId(joint);
-        let [fx, fy] = p.mechanism.reaction(id, motion.scratch(), lambda).force;
+        let [fx, fy] = p
+            .mechanism
+            .reactions(motion.scratch())
+            .reaction(id, lambda)
+            .force;
         -(fx * along[0] + fy * along[1])
     };
     let (pivots, tips) = ([0, 2, 4], [1, 3, 5]);

@@ -8,14 +8,14 @@ mod gradients;
 
 use std::ops::Range;
 
-use joints::Twist;
 use joints::spec::{DatumShape, Unit};
+use joints::{Pose, Twist};
 
-use crate::description::BodyRef;
-use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint, column_of};
-use crate::start::size_of;
+use crate::mechanism::{Mechanism, PlacedConstraint, twist_of};
+use crate::size::size_of;
 use crate::system::{Scratch, System};
-use crate::uncertainty::ROUNDING;
+use crate::tolerance::Tolerance;
+use crate::uncertainty::{ROUNDING, has_tolerances};
 
 pub use gradients::DataGradients;
 
@@ -80,10 +80,26 @@ impl DataBlock {
 /// what their own data make of them: they share what others are wrong by.
 pub const SHARED: f64 = 3.0;
 
+/// The numbers that the constraints of a mechanism store.
+#[derive(Clone, Copy)]
+pub struct Data<'m>(&'m Mechanism);
+
 impl Mechanism {
+    /// The numbers that its constraints store.
+    #[must_use]
+    pub fn data(&self) -> Data<'_> {
+        Data(self)
+    }
+}
+
+impl<'m> Data<'m> {
+    fn constraints(self) -> &'m [PlacedConstraint] {
+        &self.0.elements.constraints
+    }
+
     /// How many numbers all constraints store.
     #[must_use]
-    pub fn data_count(&self) -> usize {
+    pub fn count(self) -> usize {
         let counts = self
             .constraints()
             .iter()
@@ -94,18 +110,18 @@ impl Mechanism {
     /// All points, directions and numbers of the constraints, at the poses of the scratch;
     /// allocates.
     #[must_use]
-    pub fn data_blocks(&self, s: &Scratch) -> Vec<DataBlock> {
+    pub fn blocks(self, s: &Scratch) -> Vec<DataBlock> {
         let mut blocks = Vec::new();
         let mut first = 0;
         let mut numbers = Vec::new();
-        let stated = self.has_tolerances().then(|| size_of(self, s));
+        let stated = has_tolerances(self.0).then(|| size_of(self.0, s));
         for (group, c) in self.constraints().iter().enumerate() {
             let element = c.element.element();
             numbers.clear();
             numbers.resize(element.spec().n_data(), 0.0);
             element.data(&mut numbers);
             let length = self.length_scale(c, s, &numbers);
-            let turned = self.moving_poses(c, s).map(|(_, pose)| pose.angle.abs());
+            let turned = moving_poses(c, s).map(|(_, pose)| pose.angle.abs());
             let angle = turned.fold(1.0, f64::max);
             for datum in element.spec().data {
                 let at = first + datum.first;
@@ -124,7 +140,7 @@ impl Mechanism {
                             (_, false) => largest.max(angle),
                         },
                         tolerance: stated
-                            .and_then(|size| self.tolerance_of(c, datum.shape, unit, size)),
+                            .and_then(|size| tolerance_of(self.0, c, datum.shape, unit, size)),
                     }
                 };
                 match datum.shape {
@@ -153,14 +169,7 @@ impl Mechanism {
 
     /// Adds the gradient of `λᵀ·C·v` by all numbers of the constraints, times `factor`, to `out`;
     /// `lambda` has m + h values, `v` n_v. Needs the poses of the scratch.
-    pub fn add_power_by_data(
-        &self,
-        s: &Scratch,
-        lambda: &[f64],
-        v: &[f64],
-        factor: f64,
-        out: &mut [f64],
-    ) {
+    pub fn add_power(self, s: &Scratch, lambda: &[f64], v: &[f64], factor: f64, out: &mut [f64]) {
         let mut first = 0;
         let (mut still, mut slots, mut f) = (Vec::new(), Vec::new(), Vec::new());
         let mut own = Vec::new();
@@ -171,12 +180,12 @@ impl Mechanism {
             if count > 0 && lambda.iter().any(|l| *l != 0.0) {
                 own.clear();
                 own.resize(count, 0.0);
-                let x = &s.slot_poses[c.slots.clone()];
+                let x = c.site.x(&s.slots);
                 slots.clear();
-                slots.extend(c.bodies.iter().map(|&body| twist_of(body, v)));
+                slots.extend(c.site.bodies.iter().map(|&body| twist_of(body, v)));
                 // Without velocities and functions of time Γ vanishes.
                 still.resize(slots.len(), Twist::zero());
-                f.resize(c.functions.len(), [0.0; 3]);
+                f.resize(c.site.functions.len(), [0.0; 3]);
                 element.d_residual_dp(x, &still, &slots, &f, lambda, &mut own);
                 for (out, own) in out[first..first + count].iter_mut().zip(&own) {
                     *out += factor * own;
@@ -188,8 +197,8 @@ impl Mechanism {
 
     /// Adds the gradient of `λᵀ·Φ` by all numbers of the constraints, times `factor`, to `out`;
     /// `lambda` has at least m values.
-    pub fn add_phi_by_data(&self, s: &Scratch, lambda: &[f64], factor: f64, out: &mut [f64]) {
-        let m = self.layout().m;
+    pub fn add_phi(self, s: &Scratch, lambda: &[f64], factor: f64, out: &mut [f64]) {
+        let m = self.0.layout().m;
         let mut first = 0;
         let mut own = Vec::new();
         for c in self.constraints() {
@@ -200,8 +209,8 @@ impl Mechanism {
                 if lambda.iter().any(|l| *l != 0.0) {
                     own.clear();
                     own.resize(count, 0.0);
-                    let x = &s.slot_poses[c.slots.clone()];
-                    element.d_phi_dp(x, &s.jets[c.functions.clone()], lambda, &mut own);
+                    let x = c.site.x(&s.slots);
+                    element.d_phi_dp(x, c.site.f(&s.slots), lambda, &mut own);
                     for (out, own) in out[first..first + count].iter_mut().zip(&own) {
                         *out += factor * own;
                     }
@@ -215,20 +224,20 @@ impl Mechanism {
     /// least m values.
     #[must_use]
     pub fn phi_change(
-        &self,
+        self,
         s: &Scratch,
         lambda: &[f64],
         blocks: &[DataBlock],
         moved: impl Fn(&DataBlock) -> f64,
     ) -> f64 {
-        let mut gradient = vec![0.0; self.data_count()];
-        self.add_phi_by_data(s, lambda, 1.0, &mut gradient);
+        let mut gradient = vec![0.0; self.count()];
+        self.add_phi(s, lambda, 1.0, &mut gradient);
         let changes = blocks.iter().map(|b| b.change(&gradient, moved(b)));
         changes.sum()
     }
 
     /// Adds the gradient of `λᵀ·C·v` by the pose, n_v values along velocity directions, to `out`.
-    pub fn add_power_by_pose(&self, s: &Scratch, lambda: &[f64], v: &[f64], out: &mut [f64]) {
+    pub fn add_power_by_pose(self, s: &Scratch, lambda: &[f64], v: &[f64], out: &mut [f64]) {
         let mut own = Vec::new();
         for c in self.constraints() {
             let element = c.element.element();
@@ -239,11 +248,10 @@ impl Mechanism {
             }
             own.clear();
             own.resize(pattern.len(), 0.0);
-            let x = &s.slot_poses[c.slots.clone()];
-            element.d_force_dx(x, &s.jets[c.functions.clone()], lambda, &mut own);
-            let column = column_of(&c.bodies);
+            let x = c.site.x(&s.slots);
+            element.d_force_dx(x, c.site.f(&s.slots), lambda, &mut own);
             for (&[force, turned], d) in pattern.iter().zip(&own) {
-                if let (Some(i), Some(j)) = (column(force), column(turned)) {
+                if let (Some(i), Some(j)) = (c.site.column(force), c.site.column(turned)) {
                     out[j] += d * v[i];
                 }
             }
@@ -252,7 +260,7 @@ impl Mechanism {
 
     /// The largest length that the points of a constraint are combined with (m): their own, the
     /// arms of its bodies, and where these stand.
-    fn length_scale(&self, c: &PlacedConstraint, s: &Scratch, numbers: &[f64]) -> f64 {
+    fn length_scale(self, c: &PlacedConstraint, s: &Scratch, numbers: &[f64]) -> f64 {
         let points = c.element.element().spec().data.iter().filter_map(|datum| {
             let at = &numbers[datum.numbers()];
             match datum.shape {
@@ -265,32 +273,45 @@ impl Mechanism {
                 _ => None,
             }
         });
-        let bodies = self
-            .moving_poses(c, s)
-            .map(|(body, pose)| self.reach(body).max(pose.x.hypot(pose.y)));
+        let bodies =
+            moving_poses(c, s).map(|(body, pose)| self.0.reach(body).max(pose.x.hypot(pose.y)));
         points.chain(bodies).fold(0.0, f64::max)
-    }
-
-    /// The bodies of a constraint but the ground, with their poses.
-    fn moving_poses<'a>(
-        &self,
-        c: &'a PlacedConstraint,
-        s: &'a Scratch,
-    ) -> impl Iterator<Item = (usize, &'a joints::Pose)> {
-        c.bodies.iter().filter_map(move |body| match *body {
-            BodyRef::Ground => None,
-            BodyRef::Body(k) => Some((k, &s.poses[k])),
-        })
     }
 }
 
-/// The velocity of a body.
-fn twist_of(body: BodyRef, v: &[f64]) -> Twist {
-    match body {
-        BodyRef::Ground => Twist::zero(),
-        BodyRef::Body(k) => {
-            let [x, y, omega] = [0, 1, 2].map(|dof| v[N_BODY * k + dof]);
-            Twist { x, y, omega }
-        }
+/// The bodies of a constraint but the ground, with their poses.
+fn moving_poses<'a>(
+    c: &'a PlacedConstraint,
+    s: &'a Scratch,
+) -> impl Iterator<Item = (usize, &'a Pose)> {
+    c.site.moving().map(|k| (k, &s.poses[k]))
+}
+
+/// Returns what data of this shape in a constraint are known to, in their unit, in a mechanism of
+/// this size (m). Lengths: as is stated of the constraint, else of the body whose frame they are
+/// in, else of the scene. Angles: as the scene states, else that length divided by the size.
+fn tolerance_of(
+    mechanism: &Mechanism,
+    c: &PlacedConstraint,
+    shape: DatumShape,
+    unit: DataUnit,
+    size: f64,
+) -> Option<f64> {
+    let slot = match shape {
+        DatumShape::Point { slot }
+        | DatumShape::Direction { slot }
+        | DatumShape::KeptVector { slot } => Some(slot),
+        DatumShape::Line | DatumShape::Number(_) | DatumShape::Kept(_) => None,
+    };
+    let body = slot.and_then(|slot| c.site.bodies.get(slot)?.moving());
+    let nearest = c.tolerance.or_else(|| mechanism.bodies()[body?].tolerance);
+    let of_scene = mechanism.tolerance();
+    let stated = Tolerance {
+        length: nearest.or(of_scene.length),
+        ..of_scene
+    };
+    match unit {
+        DataUnit::Length => stated.length,
+        DataUnit::Angle => stated.angle_at(size),
     }
 }

@@ -9,9 +9,8 @@
 use joints::Pose;
 use linalg::{Dd, DdMatrix, StepError, least_squares_step};
 
-use crate::description::BodyRef;
-use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint};
-use crate::start::scene_size;
+use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint, TimeFunction, pose_of};
+use crate::size::scene_size;
 use crate::start::within::is_beyond;
 use crate::system::System;
 
@@ -36,7 +35,7 @@ const CORRECTIONS: usize = 6;
 /// Below this many roundings of double-double there is nothing left to correct.
 const ROUNDINGS: f64 = 16.0;
 
-impl Mechanism {
+impl Polished {
     /// Polishes the coordinates q, which satisfy Φ = 0 to `f64`, in the rows `kept` of Φ, which are
     /// independent. The correction is the smallest one; it ends when it no longer shrinks, or would
     /// move a body farther than a stated tolerance says where it is.
@@ -48,18 +47,21 @@ impl Mechanism {
     ///
     /// # Errors
     /// If the kept rows are dependent or an entry is not finite.
-    pub fn polish(&self, t: f64, q: &[f64], kept: &[usize]) -> Result<Polished, StepError> {
-        let m = self.layout().m;
+    pub fn at(mechanism: &Mechanism, t: f64, q: &[f64], kept: &[usize]) -> Result<Self, StepError> {
+        let m = mechanism.layout().m;
         let kept: Vec<usize> = kept.iter().copied().filter(|&i| i < m).collect();
-        let mut s = self.scratch();
-        self.pose(t, q, &mut s);
-        self.c(&mut s);
-        let c = self.layout().dense(&s).select_rows(&kept);
-        let scale: Vec<f64> = kept.iter().map(|&i| self.position_scale(&s, i)).collect();
+        let mut s = mechanism.scratch();
+        mechanism.pose(t, q, &mut s);
+        mechanism.c(&mut s);
+        let c = mechanism.layout().dense(&s).select_rows(&kept);
+        let scale: Vec<f64> = kept
+            .iter()
+            .map(|&i| mechanism.scales(&s).position(i))
+            .collect();
         // A correction is small beside the mechanism; counted in radians alone it would turn large
         // bodies first.
-        let rotation = scene_size(self, q).powi(-2);
-        let weights: Vec<f64> = (0..self.layout().n_v)
+        let rotation = scene_size(mechanism, q).powi(-2);
+        let weights: Vec<f64> = (0..mechanism.layout().n_v)
             .map(|k| if k % N_BODY == 2 { rotation } else { 1.0 })
             .collect();
         let described = q;
@@ -71,7 +73,7 @@ impl Mechanism {
             };
             kept.iter().zip(&scale).map(miss).fold(0.0, f64::max)
         };
-        let mut phi = self.extended_phi(t, &q);
+        let mut phi = extended_phi(mechanism, t, &q);
         for _ in 0..CORRECTIONS {
             let least = residual(&phi);
             if least <= ROUNDINGS * Dd::EPSILON {
@@ -81,68 +83,70 @@ impl Mechanism {
             let step = least_squares_step(&c, &missing, &weights, 0.0)?;
             let step: Vec<Dd> = step.into_iter().map(Dd::from).collect();
             let mut moved = q.clone();
-            self.displace_number(&mut moved, &step);
-            let phi_moved = self.extended_phi(t, &moved);
+            mechanism.space().displace(&mut moved, &step);
+            let phi_moved = extended_phi(mechanism, t, &moved);
             let there: Vec<f64> = moved.iter().map(|q| q.to_f64()).collect();
-            if residual(&phi_moved) >= least || is_beyond(self, &s, described, &there) {
+            if residual(&phi_moved) >= least || is_beyond(mechanism, &s, described, &there) {
                 break;
             }
             (q, phi) = (moved, phi_moved);
         }
-        let c = self.extended_c(t, &q);
-        Ok(Polished { t, q, phi, c })
-    }
-
-    /// Φ in double-double, m values.
-    fn extended_phi(&self, t: f64, q: &[Dd]) -> Vec<Dd> {
-        let mut phi = vec![Dd::ZERO; self.layout().m];
-        let poses = self.poses_of(q);
-        for c in self.constraints() {
-            if c.rows.start < phi.len() {
-                let (x, f) = (slots(c, &poses), self.extended_jets(c, t));
-                c.element.extended().phi(&x, &f, &mut phi[c.rows.clone()]);
-            }
-        }
-        phi
-    }
-
-    /// C in double-double.
-    fn extended_c(&self, t: f64, q: &[Dd]) -> DdMatrix {
-        let layout = self.layout();
-        let poses = self.poses_of(q);
-        let mut entries: Vec<Dd> = self
-            .constant_entries()
-            .iter()
-            .map(|&e| Dd::from(e))
-            .collect();
-        for c in self.constraints().iter().filter(|c| !c.varying.is_empty()) {
-            let (x, f) = (slots(c, &poses), self.extended_jets(c, t));
-            c.element
-                .extended()
-                .c(&x, &f, &mut entries[c.entries.clone()]);
-        }
-        let mut dense = DdMatrix::zeros(layout.rows(), layout.n_v);
-        for i in 0..layout.rows() {
-            for k in layout.pattern.start[i]..layout.pattern.start[i + 1] {
-                dense[(i, layout.pattern.column[k])] += entries[layout.pattern.entry[k]];
-            }
-        }
-        dense
-    }
-
-    fn extended_jets(&self, c: &PlacedConstraint, t: f64) -> Vec<[Dd; 3]> {
-        let jets = self.functions_of(c).iter().map(|f| f.jet(t));
-        jets.map(|jet| jet.map(Dd::from)).collect()
+        let c = extended_c(mechanism, t, &q);
+        Ok(Self { t, q, phi, c })
     }
 }
 
-/// Poses of the bodies of one constraint.
-fn slots(c: &PlacedConstraint, poses: &[Pose<Dd>]) -> Vec<Pose<Dd>> {
-    let pose = |body: &BodyRef| match *body {
-        BodyRef::Ground => Pose::GROUND.cast(),
-        BodyRef::Body(k) => poses[k],
-    };
-    c.bodies.iter().map(pose).collect()
+/// Φ in double-double, m values.
+fn extended_phi(mechanism: &Mechanism, t: f64, q: &[Dd]) -> Vec<Dd> {
+    let mut phi = vec![Dd::ZERO; mechanism.layout().m];
+    let poses = mechanism.space().poses(q);
+    for c in &mechanism.elements.constraints {
+        if c.rows.start < phi.len() {
+            let (x, f) = arguments(mechanism, c, t, &poses);
+            c.element.extended().phi(&x, &f, &mut phi[c.rows.clone()]);
+        }
+    }
+    phi
+}
+
+/// C in double-double.
+fn extended_c(mechanism: &Mechanism, t: f64, q: &[Dd]) -> DdMatrix {
+    let (layout, elements) = (mechanism.layout(), &mechanism.elements);
+    let poses = mechanism.space().poses(q);
+    let mut entries: Vec<Dd> = elements.entries.iter().map(|&e| Dd::from(e)).collect();
+    for c in elements
+        .constraints
+        .iter()
+        .filter(|c| c.has_varying_entries())
+    {
+        let (x, f) = arguments(mechanism, c, t, &poses);
+        c.element
+            .extended()
+            .c(&x, &f, &mut entries[c.entries.clone()]);
+    }
+    let mut dense = DdMatrix::zeros(layout.rows(), layout.n_v);
+    for i in 0..layout.rows() {
+        for k in layout.pattern.row(i) {
+            dense[(i, layout.pattern.column[k])] += entries[layout.pattern.entry[k]];
+        }
+    }
+    dense
+}
+
+/// Poses of the bodies of one constraint, and values of its functions of time.
+fn arguments(
+    mechanism: &Mechanism,
+    c: &PlacedConstraint,
+    t: f64,
+    poses: &[Pose<Dd>],
+) -> (Vec<Pose<Dd>>, Vec<[Dd; 3]>) {
+    let bodies = c.site.bodies.iter();
+    let functions = mechanism.elements.functions[c.site.functions.clone()].iter();
+    let jet = |f: &TimeFunction| f.jet(t).map(Dd::from);
+    (
+        bodies.map(|&body| pose_of(poses, body)).collect(),
+        functions.map(jet).collect(),
+    )
 }
 
 #[cfg(test)]
@@ -150,7 +154,7 @@ mod tests {
     use joints::Revolute;
 
     use super::*;
-    use crate::{Body, Description, Joint};
+    use crate::{Body, BodyRef, Description, Joint};
 
     /// Two bars in a row on one pivot, at angles that are no numbers of the format.
     fn chain() -> Mechanism {
@@ -197,9 +201,8 @@ mod tests {
             tip[1] - 0.3 * b.cos(),
             b,
         ];
-        let polished = mechanism
-            .polish(0.0, &q, &[0, 1, 2, 3, 99])
-            .expect("independent rows");
+        let polished =
+            Polished::at(&mechanism, 0.0, &q, &[0, 1, 2, 3, 99]).expect("independent rows");
         for phi in &polished.phi {
             assert!(phi.abs() < Dd::from(1e-30), "{phi:?}");
         }

@@ -26,38 +26,41 @@
 //! | [`system`] | what a solver sees of them |
 //! | [`extended`] | constraints in double-double, for certificates |
 //! | [`record`] | the equations as operations, for generators of code |
+//! | `group` | joints and drives with their rows |
+//! | `size` | the length by which a mechanism is measured |
 //! | `scale` | what residuals are compared with |
 //! | `tolerance` | what the data are known to, where that is stated |
 //! | `uncertainty` | what the entries of C are known to |
 //! | [`space`] | coordinates of bodies, and how a configuration moves along velocities |
 //! | [`start`] | a consistent start |
 //! | [`reaction`] | multipliers to forces and torques |
-//! | `rigid` | which constraints act against the ground |
 
 mod data;
 pub mod description;
 pub mod extended;
 pub mod function;
+mod group;
 pub mod mechanism;
 pub mod reaction;
 pub mod record;
 pub mod registry;
-mod rigid;
 mod scale;
+mod size;
 pub mod space;
 pub mod start;
 pub mod system;
 mod tolerance;
 mod uncertainty;
 
-pub use data::{DataBlock, DataGradients, DataUnit, SHARED};
+pub use data::{Data, DataBlock, DataGradients, DataUnit, SHARED};
 pub use description::{Body, BodyRef, Description, Drive, Force, Joint};
 pub use extended::Polished;
 pub use function::{Function, FunctionError};
 pub use mechanism::{AppliedForce, BuildError, Derivatives, Mechanism, Part, Places, Sparse, Work};
-pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction};
+pub use reaction::{ColumnKind, ConstraintId, ConstraintKind, Frame, Reaction, Reactions};
 pub use record::RecordedEquations;
 pub use registry::{ConstraintDefinition, ForceDefinition, PlaneConstraint, PlaneForce, Registry};
+pub use scale::Scales;
 pub use space::{Space, SpaceKind};
 pub use start::{Assembly, Coordinate, StartError, StartOptions};
 pub use system::{Layout, RowLabel, Scratch, System};

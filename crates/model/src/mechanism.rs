@@ -3,30 +3,28 @@
 
 mod build;
 mod derivatives;
-mod driven;
 mod holds;
+mod initial;
 mod kernels;
 mod part;
-mod reach;
-mod seams;
 mod work;
 
 use std::ops::Range;
 
-use joints::Pose;
+use joints::{Pose, Ring, Twist};
 
 use crate::description::{Body, BodyRef};
 use crate::function::Function;
 use crate::registry::{PlaneConstraint, PlaneForce};
 pub(crate) use crate::space::N_BODY;
 use crate::space::{Space, SpaceKind, in_space};
-use crate::system::Layout;
+use crate::system::{Layout, Site};
 use crate::tolerance::Tolerance;
 
 pub use build::BuildError;
-pub(crate) use derivatives::column_of;
 pub use derivatives::{Derivatives, Sparse};
 pub use holds::AppliedForce;
+pub(crate) use initial::{initialise, unmet_requirement};
 pub use part::{Part, Places};
 pub use work::Work;
 
@@ -67,37 +65,60 @@ pub struct Mechanism {
     name: String,
     space: SpaceKind,
     bodies: Vec<Body>,
-    constraints: Vec<PlacedConstraint>,
-    forces: Vec<PlacedForce>,
-    functions: Vec<TimeFunction>,
+    pub(crate) elements: Elements,
     mass: Vec<f64>,
     weight: Vec<f64>,
-    pub(crate) tolerance: Tolerance,
-    /// Constant entries of C, zero elsewhere.
-    entries: Vec<f64>,
+    tolerance: Tolerance,
     /// Longest arm of each body in the initial configuration (m).
     reach: Vec<f64>,
     /// Bodies whose angle rows of angles hold.
     held: Vec<bool>,
-    n_slots: usize,
-    /// Largest number of values of one kernel.
-    block: usize,
     layout: Layout,
+}
+
+/// The elements of a mechanism in their places, and what their kernels take.
+#[derive(Clone, Default)]
+pub(crate) struct Elements {
+    pub(crate) constraints: Vec<PlacedConstraint>,
+    pub(crate) forces: Vec<PlacedForce>,
+    pub(crate) functions: Vec<TimeFunction>,
+    /// Constant entries of C, zero elsewhere.
+    pub(crate) entries: Vec<f64>,
+    pub(crate) n_slots: usize,
+    /// Largest number of values of the kernel of a force.
+    pub(crate) block: usize,
+}
+
+impl Elements {
+    /// The places of all constraints and forces.
+    pub(crate) fn sites(&self) -> impl Iterator<Item = &Site> {
+        let constraints = self.constraints.iter().map(|c| &c.site);
+        constraints.chain(self.forces.iter().map(|f| &f.site))
+    }
+
+    /// Writes velocities or accelerations of the bodies to the slots; those of the ground stay
+    /// zero.
+    pub(crate) fn spread(&self, v: &[f64], twists: &mut [Twist]) {
+        for site in self.sites() {
+            for (twist, &body) in twists[site.slots.clone()].iter_mut().zip(&site.bodies) {
+                if body != BodyRef::Ground {
+                    *twist = twist_of(body, v);
+                }
+            }
+        }
+    }
 }
 
 /// A constraint in its place.
 #[derive(Clone)]
 pub(crate) struct PlacedConstraint {
     pub(crate) element: Box<dyn PlaneConstraint>,
-    pub(crate) bodies: Vec<BodyRef>,
-    /// Its poses in the scratch.
-    pub(crate) slots: Range<usize>,
+    pub(crate) site: Site,
     /// Its entries of C in the scratch.
     pub(crate) entries: Range<usize>,
     /// Places of the varying entries, relative to `entries`.
     pub(crate) varying: Vec<usize>,
     pub(crate) rows: Range<usize>,
-    pub(crate) functions: Range<usize>,
     /// What its data are known to (m), where that is stated.
     pub(crate) tolerance: Option<f64>,
 }
@@ -124,9 +145,7 @@ impl PlacedConstraint {
 pub(crate) struct PlacedForce {
     pub(crate) name: String,
     pub(crate) element: Box<dyn PlaneForce>,
-    pub(crate) bodies: Vec<BodyRef>,
-    pub(crate) slots: Range<usize>,
-    pub(crate) functions: Range<usize>,
+    pub(crate) site: Site,
     /// Column of Q for each value of the kernel; nothing for the ground.
     pub(crate) columns: Vec<Option<usize>>,
 }
@@ -156,6 +175,28 @@ impl Mechanism {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// The space that its bodies move in.
+    #[must_use]
+    pub fn space(&self) -> SpaceKind {
+        self.space
+    }
+
+    /// The same mechanism with planar bodies whose coordinates are (x, y, cos φ, sin φ), not yet
+    /// started.
+    #[cfg(feature = "unit-circle")]
+    #[must_use]
+    pub fn on_unit_circle(mut self) -> Self {
+        self.space = SpaceKind::UnitCircle;
+        self.layout.n_q = self.space.n_q() * self.bodies.len();
+        self
+    }
+
+    /// What its numbers are known to if nothing is said of their joint or body.
+    #[must_use]
+    pub fn tolerance(&self) -> Tolerance {
+        self.tolerance
     }
 
     /// Its bodies, as described.
@@ -192,7 +233,7 @@ impl Mechanism {
     /// fed or lost.
     #[must_use]
     pub fn has_applied_forces(&self) -> bool {
-        !self.forces.is_empty()
+        !self.elements.forces.is_empty()
     }
 
     /// Kinetic energy at velocities v (J).
@@ -219,6 +260,13 @@ impl Mechanism {
         )
     }
 
+    /// Name of the body and of one of the coordinates q.
+    #[must_use]
+    pub fn coordinate_name(&self, k: usize) -> (&str, &'static str) {
+        let n = self.space.n_q();
+        in_space!(self.space, S => (self.bodies[k / n].name.as_str(), S::COORDINATES[k % n]))
+    }
+
     /// Generalised forces of gravity, n_v.
     #[must_use]
     pub fn weight(&self) -> &[f64] {
@@ -237,79 +285,29 @@ impl Mechanism {
             .sum()
     }
 
-    /// Takes initial values of joints, drives and forces from a configuration.
-    pub(crate) fn initialise(&mut self, q: &[f64]) {
-        let poses = self.poses(q);
-        let of = |bodies: &[BodyRef]| -> Vec<Pose> {
-            bodies.iter().map(|&b| pose_of(&poses, b)).collect()
-        };
-        for c in &mut self.constraints {
-            c.element.element_mut().initialise(&of(&c.bodies));
-        }
-        for f in &mut self.forces {
-            f.element.element_mut().initialise(&of(&f.bodies));
-        }
-        self.reach = reach::longest_arms(self, q);
-    }
-
     /// Longest arm of a body in the initial configuration (m): its position matters to about the
     /// rounding of this, wherever it is.
     #[must_use]
     pub fn reach(&self, body: usize) -> f64 {
         self.reach[body]
     }
+}
 
-    /// The first requirement of a definition that does not hold at a configuration: who, and what.
-    pub(crate) fn unmet_requirement(&self, q: &[f64]) -> Option<(String, &'static str)> {
-        let poses = self.poses(q);
-        let of = |bodies: &[BodyRef]| -> Vec<Pose> {
-            bodies.iter().map(|&b| pose_of(&poses, b)).collect()
-        };
-        for (c, group) in self.constraints.iter().zip(&self.layout.groups) {
-            let element = c.element.element();
-            let words = element.spec().common.requirements;
-            let x = of(&c.bodies);
-            if let Some(k) = (0..words.len()).find(|&k| !element.requirement(k, &x)) {
-                return Some((group.name.clone(), words[k]));
-            }
-        }
-        for f in &self.forces {
-            let element = f.element.element();
-            let words = element.spec().common.requirements;
-            let x = of(&f.bodies);
-            if let Some(k) = (0..words.len()).find(|&k| !element.requirement(k, &x)) {
-                return Some((f.name.clone(), words[k]));
-            }
-        }
-        None
-    }
-
-    pub(crate) fn constraints(&self) -> &[PlacedConstraint] {
-        &self.constraints
-    }
-
-    pub(crate) fn forces(&self) -> &[PlacedForce] {
-        &self.forces
-    }
-
-    pub(crate) fn time_functions(&self) -> &[TimeFunction] {
-        &self.functions
-    }
-
-    /// Functions of time that a constraint takes.
-    pub(crate) fn functions_of(&self, c: &PlacedConstraint) -> &[TimeFunction] {
-        &self.functions[c.functions.clone()]
-    }
-
-    /// Entries of C: the constant ones, zero elsewhere.
-    pub(crate) fn constant_entries(&self) -> &[f64] {
-        &self.entries
+/// The pose of a body, among those of all.
+pub(crate) fn pose_of<T: Ring>(poses: &[Pose<T>], body: BodyRef) -> Pose<T> {
+    match body {
+        BodyRef::Ground => Pose::GROUND.cast(),
+        BodyRef::Body(k) => poses[k],
     }
 }
 
-pub(crate) fn pose_of(poses: &[Pose], body: BodyRef) -> Pose {
+/// The velocity of a body, among those of all.
+pub(crate) fn twist_of(body: BodyRef, v: &[f64]) -> Twist {
     match body {
-        BodyRef::Ground => Pose::GROUND,
-        BodyRef::Body(k) => poses[k],
+        BodyRef::Ground => Twist::zero(),
+        BodyRef::Body(k) => {
+            let [x, y, omega] = [0, 1, 2].map(|dof| v[N_BODY * k + dof]);
+            Twist { x, y, omega }
+        }
     }
 }

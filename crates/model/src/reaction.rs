@@ -5,103 +5,20 @@
 //! reactions on it. Where the first body takes several slots, as the ground may that is also the
 //! carrier of a gear, their parts add up.
 
-use std::ops::Range;
-
 use joints::Direction;
-use joints::spec::{ConstraintSpec, Entry};
 use linalg::Matrix;
 
 use crate::description::BodyRef;
-use crate::mechanism::{Mechanism, N_BODY};
-use crate::system::{Scratch, System};
+use crate::group::TORQUE;
+use crate::mechanism::{Mechanism, N_BODY, PlacedConstraint};
+use crate::system::{Layout, Scratch, System};
 
-/// Place of a joint or drive in [`crate::Layout::groups`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct ConstraintId(pub usize);
+pub use crate::group::{COMPONENTS, ColumnKind, ConstraintGroup, ConstraintId, ConstraintKind};
 
-/// A joint or a drive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ConstraintKind {
-    /// Connects bodies.
-    Joint,
-    /// Prescribes a relative motion.
-    Drive,
-}
-
-/// A joint or drive with its rows.
-#[derive(Clone, Debug)]
-pub struct ConstraintGroup {
-    /// Its name.
-    pub name: String,
-    /// Joint or drive.
-    pub kind: ConstraintKind,
-    /// Facts of its definition.
-    pub spec: &'static ConstraintSpec,
-    /// Its bodies.
-    pub bodies: Vec<BodyRef>,
-    /// Its rows of C.
-    pub rows: Range<usize>,
-}
-
-/// Names of the three components of a planar wrench.
-pub const COMPONENTS: [&str; 3] = ["Fx", "Fy", "T"];
-
-/// Place of the torque in [`COMPONENTS`], and of the rotation among the degrees of freedom of a
-/// body.
-const TORQUE: usize = 2;
-
-impl ConstraintGroup {
-    /// Whether it only prescribes a motion: a drive, listed apart from the joints.
-    #[must_use]
-    pub fn is_drive(&self) -> bool {
-        self.kind == ConstraintKind::Drive
-    }
-
-    /// Components of the reaction that are not identically zero, as places in [`COMPONENTS`].
-    #[must_use]
-    pub fn components(&self) -> Vec<usize> {
-        let entries = self.wrench_entries();
-        (0..COMPONENTS.len())
-            .filter(|c| entries.iter().any(|[component, _]| component == c))
-            .collect()
-    }
-
-    /// Entries (component, row) of the map from multipliers to the reaction that are not
-    /// identically zero, sorted.
-    #[must_use]
-    pub fn wrench_entries(&self) -> Vec<[usize; 2]> {
-        let mut entries = self.spec.wrench.to_vec();
-        for (_, e) in self.repeated() {
-            entries.push([TORQUE, e.row]);
-            if e.dof < TORQUE {
-                entries.push([e.dof, e.row]);
-            }
-        }
-        entries.sort_unstable();
-        entries.dedup();
-        entries
-    }
-
-    /// Whether a row of this joint or drive has a force in its reaction.
-    #[must_use]
-    pub fn pushes(&self, row: usize) -> bool {
-        let entries = self.wrench_entries();
-        entries
-            .iter()
-            .any(|[component, at]| *at == row && *component < TORQUE)
-    }
-
-    /// Entries of the block of C, with their places in it, of other slots that the first body
-    /// takes, too.
-    fn repeated(&self) -> impl Iterator<Item = (usize, &'static Entry)> + '_ {
-        let is_repeated = |e: &Entry| e.slot > 0 && self.bodies.get(e.slot) == self.bodies.first();
-        self.spec
-            .c
-            .iter()
-            .enumerate()
-            .filter(move |(_, e)| is_repeated(e))
-    }
-}
+/// A row counts as vanishing on rigid motions below this share of its terms: rounding of points
+/// that a joint makes one, far from the origin. Rows above it are taken to act against the ground,
+/// which is the careful reading.
+const ROUNDING: f64 = 1e-10;
 
 /// Axes along which the force of a reaction is taken apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -131,15 +48,6 @@ impl Frame {
     }
 }
 
-/// What a column of C belongs to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ColumnKind {
-    /// A velocity in m/s; the generalised force is a force.
-    Translation,
-    /// An angular velocity in rad/s; the generalised force is a torque.
-    Rotation,
-}
-
 /// A reaction: force (global components, N) and torque about the place (N·m), on the first body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Reaction {
@@ -151,35 +59,72 @@ pub struct Reaction {
     pub component: Option<f64>,
 }
 
+/// The reactions of a mechanism at the poses of a scratch.
+///
+/// Methods panic if the mechanism has no such joint or drive.
+#[derive(Clone, Copy)]
+pub struct Reactions<'a> {
+    mechanism: &'a Mechanism,
+    s: &'a Scratch,
+}
+
 impl Mechanism {
-    /// The map `W` (3 × rows) with `[Fx, Fy, T] = W·λ` at the poses of the scratch; allocates.
-    ///
-    /// # Panics
-    /// If the mechanism has no such joint or drive.
+    /// Its reactions at the poses of the scratch.
     #[must_use]
-    pub fn wrench_map(&self, id: ConstraintId, s: &Scratch) -> Matrix {
-        let c = &self.constraints()[id.0];
-        let spec = c.element.element().spec();
-        let mut values = vec![0.0; spec.wrench.len()];
-        let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
-        c.element.element().wrench(x, f, &mut values);
+    pub fn reactions<'a>(&'a self, s: &'a Scratch) -> Reactions<'a> {
+        Reactions { mechanism: self, s }
+    }
+}
+
+impl<'a> Reactions<'a> {
+    fn layout(self) -> &'a Layout {
+        self.mechanism.layout()
+    }
+
+    fn group(self, id: ConstraintId) -> &'a ConstraintGroup {
+        &self.layout().groups[id.0]
+    }
+
+    fn constraint(self, id: ConstraintId) -> &'a PlacedConstraint {
+        &self.mechanism.elements.constraints[id.0]
+    }
+
+    /// The point where the reaction of a joint or drive is reported, global components.
+    #[must_use]
+    pub fn place(self, id: ConstraintId) -> [f64; 2] {
+        let c = self.constraint(id);
+        c.element.element().place(c.site.x(&self.s.slots))
+    }
+
+    /// The map `W` (3 × rows) with `[Fx, Fy, T] = W·λ`; allocates.
+    #[must_use]
+    pub fn wrench_map(self, id: ConstraintId) -> Matrix {
+        let c = self.constraint(id);
+        let element = c.element.element();
+        let pattern = element.spec().wrench;
+        let mut values = vec![0.0; pattern.len()];
+        element.wrench(
+            c.site.x(&self.s.slots),
+            c.site.f(&self.s.slots),
+            &mut values,
+        );
         let mut map = Matrix::zeros(COMPONENTS.len(), c.rows.len());
-        for (&[component, row], value) in spec.wrench.iter().zip(values) {
+        for (&[component, row], value) in pattern.iter().zip(values) {
             map[(component, row)] = value;
         }
-        self.add_repeated(id, s, &mut map);
+        self.add_repeated(id, &mut map);
         map
     }
 
     /// Adds −Cᵀ of the other slots that the first body takes, moved from its origin to the place.
-    fn add_repeated(&self, id: ConstraintId, s: &Scratch, map: &mut Matrix) {
-        let group = &self.layout().groups[id.0];
+    fn add_repeated(self, id: ConstraintId, map: &mut Matrix) {
+        let group = self.group(id);
         if group.repeated().next().is_none() {
             return;
         }
-        let c = &self.constraints()[id.0];
+        let c = self.constraint(id);
         let element = c.element.element();
-        let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
+        let (x, f) = (c.site.x(&self.s.slots), c.site.f(&self.s.slots));
         let mut block = vec![0.0; group.spec.c.len()];
         element.c_constant(&mut block);
         element.c(x, f, &mut block);
@@ -197,13 +142,10 @@ impl Mechanism {
     }
 
     /// The same map with the torque about a global point: `T + (place − about) × F`.
-    ///
-    /// # Panics
-    /// If the mechanism has no such joint or drive.
     #[must_use]
-    pub fn wrench_map_about(&self, id: ConstraintId, about: [f64; 2], s: &Scratch) -> Matrix {
-        let mut map = self.wrench_map(id, s);
-        let [x, y] = self.place(id, s);
+    pub fn wrench_map_about(self, id: ConstraintId, about: [f64; 2]) -> Matrix {
+        let mut map = self.wrench_map(id);
+        let [x, y] = self.place(id);
         let arm = [x - about[0], y - about[1]];
         for j in 0..map.ncols() {
             map[(2, j)] += arm[0] * map[(1, j)] - arm[1] * map[(0, j)];
@@ -215,13 +157,13 @@ impl Mechanism {
     /// force, and torque about a global point. `None` if there is no such body. Needs C at the pose
     /// of the scratch; allocates.
     #[must_use]
-    pub fn body_wrench_map(&self, body: usize, about: [f64; 2], s: &Scratch) -> Option<Matrix> {
-        let pose = s.poses.get(body)?;
+    pub fn body_wrench_map(self, body: usize, about: [f64; 2]) -> Option<Matrix> {
+        let pose = self.s.poses.get(body)?;
         let arm = [pose.x - about[0], pose.y - about[1]];
         let layout = self.layout();
         let mut map = Matrix::zeros(COMPONENTS.len(), layout.rows());
         for i in 0..layout.rows() {
-            for (column, c) in layout.row(s, i).filter(|(k, _)| k / N_BODY == body) {
+            for (column, c) in layout.row(self.s, i).filter(|(k, _)| k / N_BODY == body) {
                 map[(column % N_BODY, i)] -= c;
             }
             map[(2, i)] += arm[0] * map[(1, i)] - arm[1] * map[(0, i)];
@@ -232,87 +174,61 @@ impl Mechanism {
     /// Unit vectors (global components) of the axes in which the force of a reaction is taken
     /// apart. The first axis of [`Frame::Edge`] has the sign for which the named component of the
     /// definition, or else the multiplier, is positive. `None` if the reaction has no such frame.
-    ///
-    /// # Panics
-    /// If the mechanism has no such joint or drive.
     #[must_use]
-    pub fn axes(&self, id: ConstraintId, frame: Frame, s: &Scratch) -> Option<[[f64; 2]; 2]> {
-        let group = &self.layout().groups[id.0];
-        let first = match frame {
-            Frame::Global => [1.0, 0.0],
-            Frame::FirstBody => match group.bodies.first() {
-                Some(BodyRef::Body(k)) => [s.poses[*k].cos, s.poses[*k].sin],
-                Some(BodyRef::Ground) | None => [1.0, 0.0],
-            },
-            Frame::Edge => self.push(id, s)?,
+    pub fn axes(self, id: ConstraintId, frame: Frame) -> Option<[[f64; 2]; 2]> {
+        let first = match (frame, self.group(id).bodies.first()) {
+            (Frame::Edge, _) => self.push(id)?,
+            (Frame::FirstBody, Some(BodyRef::Body(k))) => {
+                [self.s.poses[*k].cos, self.s.poses[*k].sin]
+            }
+            _ => [1.0, 0.0],
         };
         Some([first, [-first[1], first[0]]])
     }
 
     /// The direction of the only row of a joint or drive that has a force.
-    fn push(&self, id: ConstraintId, s: &Scratch) -> Option<[f64; 2]> {
-        let group = &self.layout().groups[id.0];
+    fn push(self, id: ConstraintId) -> Option<[f64; 2]> {
+        let group = self.group(id);
         let spec = group.spec;
         let rows: Vec<usize> = (0..spec.rows.len()).filter(|&r| group.pushes(r)).collect();
         let [row] = rows[..] else { return None };
-        let map = self.wrench_map(id, s);
+        let map = self.wrench_map(id);
         let named = spec
             .component
-            .and_then(|name| self.component_coefficients(id, name, s));
+            .and_then(|name| self.component_coefficients(id, name));
         let sign = named.map_or(1.0, |coefficients| coefficients[row].signum());
         let push = Direction::new([map[(0, row)], map[(1, row)]])?.xy();
         Some(push.map(|x| sign * x))
     }
 
-    /// What each column of C belongs to, n_v entries.
-    #[must_use]
-    pub fn column_kinds(&self) -> Vec<ColumnKind> {
-        let kind = |k| match k % N_BODY {
-            2 => ColumnKind::Rotation,
-            _ => ColumnKind::Translation,
-        };
-        (0..self.layout().n_v).map(kind).collect()
-    }
-
     /// Coefficients of a component of a reaction, `Σ coefficient·λ` over the rows of the joint or
     /// drive: `Fx`, `Fy`, `T`, or the named component of its definition. `None` if it has no such
     /// component; allocates.
-    ///
-    /// # Panics
-    /// If the mechanism has no such joint or drive.
     #[must_use]
-    pub fn component_coefficients(
-        &self,
-        id: ConstraintId,
-        name: &str,
-        s: &Scratch,
-    ) -> Option<Vec<f64>> {
+    pub fn component_coefficients(self, id: ConstraintId, name: &str) -> Option<Vec<f64>> {
         if let Some(k) = COMPONENTS.iter().position(|c| *c == name) {
-            return Some(self.wrench_map(id, s).row(k).to_vec());
+            return Some(self.wrench_map(id).row(k).to_vec());
         }
-        let c = &self.constraints()[id.0];
+        let c = self.constraint(id);
         let element = c.element.element();
         (element.spec().component == Some(name)).then(|| {
             let mut coefficients = vec![0.0; c.rows.len()];
-            let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
-            element.component(x, f, &mut coefficients);
+            let slots = &self.s.slots;
+            element.component(c.site.x(slots), c.site.f(slots), &mut coefficients);
             coefficients
         })
     }
 
-    /// The reaction of a joint or drive for multipliers λ (all rows) at the poses of the scratch;
-    /// allocates.
-    ///
-    /// # Panics
-    /// If the mechanism has no such joint or drive, or λ is too short.
+    /// The reaction of a joint or drive for multipliers λ (all rows); allocates. Panics if λ is too
+    /// short.
     #[must_use]
-    pub fn reaction(&self, id: ConstraintId, s: &Scratch, lambda: &[f64]) -> Reaction {
-        let c = &self.constraints()[id.0];
-        let lambda = &lambda[c.rows.clone()];
-        let wrench = self.wrench_map(id, s).times(lambda);
-        let named = c.element.element().spec().component;
+    pub fn reaction(self, id: ConstraintId, lambda: &[f64]) -> Reaction {
+        let group = self.group(id);
+        let lambda = &lambda[group.rows.clone()];
+        let wrench = self.wrench_map(id).times(lambda);
+        let named = group.spec.component;
         let component = named
-            .and_then(|name| self.component_coefficients(id, name, s))
+            .and_then(|name| self.component_coefficients(id, name))
             .map(|coefficients| coefficients.iter().zip(lambda).map(|(k, l)| k * l).sum());
         Reaction {
             force: [wrench[0], wrench[1]],
@@ -321,18 +237,31 @@ impl Mechanism {
         }
     }
 
-    /// The point where the reaction of a joint or drive is reported, global components.
-    ///
-    /// # Panics
-    /// If the mechanism has no such joint or drive.
+    /// Whether a joint or drive acts against the ground: one of its rows does not vanish when all
+    /// bodies move as one rigid body. The list of its bodies does not tell: an absolute velocity
+    /// refers to the ground without naming it. Needs C at the pose of the scratch.
     #[must_use]
-    pub fn place(&self, id: ConstraintId, s: &Scratch) -> [f64; 2] {
-        let c = &self.constraints()[id.0];
-        c.element.element().place(&s.slot_poses[c.slots.clone()])
-    }
-
-    /// Ids of all joints and drives, in the order of their rows.
-    pub fn constraint_ids(&self) -> impl Iterator<Item = ConstraintId> + use<> {
-        (0..self.layout().groups.len()).map(ConstraintId)
+    pub fn acts_on_ground(self, id: ConstraintId) -> bool {
+        let [x, y] = self.place(id);
+        // Two translations and the rotation about the place of the joint.
+        let motions = |column: usize| {
+            let pose = &self.s.poses[column / N_BODY];
+            [
+                [1.0, 0.0, y - pose.y],
+                [0.0, 1.0, pose.x - x],
+                [0.0, 0.0, 1.0],
+            ][column % N_BODY]
+        };
+        self.group(id).rows.clone().any(|row| {
+            let mut sums = [0.0; N_BODY];
+            let mut sizes = [0.0_f64; N_BODY];
+            for (column, c) in self.layout().row(self.s, row) {
+                for (k, motion) in motions(column).into_iter().enumerate() {
+                    sums[k] += c * motion;
+                    sizes[k] += (c * motion).abs();
+                }
+            }
+            (0..N_BODY).any(|k| sums[k].abs() > ROUNDING * sizes[k])
+        })
     }
 }

@@ -124,42 +124,43 @@ impl Mechanism {
     /// The functions of time of its joints, drives and forces, each with the value that is
     /// subtracted from it: f(0) for drives.
     pub fn functions(&self) -> impl Iterator<Item = (&Function, f64)> {
-        self.time_functions().iter().map(|f| f.parts())
+        self.elements.functions.iter().map(|f| f.parts())
     }
+}
 
-    /// Records Φ, C, b, Γ and Q of this mechanism.
+impl RecordedEquations {
+    /// Records Φ, C, b, Γ and Q of a mechanism.
     ///
     /// ```
-    /// use model::{Body, Description, Mechanism, record::Input};
+    /// use model::{Body, Description, Mechanism, RecordedEquations, record::Input};
     /// let stone = Description {
     ///     gravity: [0.0, -10.0],
     ///     bodies: vec![Body { name: "stone".into(), mass: 2.0, inertia: 1.0, ..Body::default() }],
     ///     ..Description::default()
     /// };
-    /// let recording = Mechanism::build(&stone).unwrap().record();
+    /// let recording = RecordedEquations::of(&Mechanism::build(&stone).unwrap());
     /// assert_eq!(recording.inputs[3], Input::Cos(2));
     /// assert_eq!(recording.tape[recording.force[1].place()], joints::recorded::Operation::Number(-20.0));
     /// ```
     #[must_use]
-    pub fn record(&self) -> RecordedEquations {
-        let layout = self.layout();
-        let n_functions = self.time_functions().len();
+    pub fn of(mechanism: &Mechanism) -> Self {
+        let layout = mechanism.layout();
+        let n_functions = mechanism.elements.functions.len();
         let (tape, (inputs, results)) = record(|| {
-            let inputs = Inputs::new(self.bodies().len(), n_functions);
-            let results = self.run_on(&inputs);
+            let inputs = Inputs::new(mechanism.bodies().len(), n_functions);
+            let results = run_on(mechanism, &inputs);
             (inputs.list, results)
         });
         let row = |i: usize| {
-            let range = layout.pattern.start[i]..layout.pattern.start[i + 1];
             let entry = |k: usize| {
                 (
                     layout.pattern.column[k],
                     results.entries[layout.pattern.entry[k]],
                 )
             };
-            range.map(entry).collect()
+            layout.pattern.row(i).map(entry).collect()
         };
-        RecordedEquations {
+        Self {
             tape,
             inputs,
             c: (0..layout.rows()).map(row).collect(),
@@ -169,44 +170,40 @@ impl Mechanism {
             force: results.force,
         }
     }
+}
 
-    fn run_on(&self, inputs: &Inputs) -> Results {
-        let layout = self.layout();
-        let zero = Recorded::from(0.0);
-        let mut r = Results {
-            phi: vec![zero; layout.m],
-            entries: self
-                .constant_entries()
-                .iter()
-                .map(|&e| Recorded::from(e))
-                .collect(),
-            b: vec![zero; layout.rows()],
-            gamma: vec![zero; layout.rows()],
-            force: self.weight().iter().map(|&w| Recorded::from(w)).collect(),
-        };
-        for c in self.constraints() {
-            record_constraint(c, inputs, layout.m, &mut r);
-        }
-        for f in self.forces() {
-            let (x, v) = inputs.slots(&f.bodies);
-            let mut block = vec![zero; f.columns.len()];
-            f.element
-                .recorded()
-                .q(&x, &v, &inputs.jets[f.functions.clone()], &mut block);
-            for (column, value) in f.columns.iter().zip(block) {
-                if let Some(column) = *column {
-                    r.force[column] = r.force[column] + value;
-                }
+fn run_on(mechanism: &Mechanism, inputs: &Inputs) -> Results {
+    let (layout, elements) = (mechanism.layout(), &mechanism.elements);
+    let numbers = |x: &[f64]| -> Vec<Recorded> { x.iter().map(|&x| x.into()).collect() };
+    let zero = Recorded::from(0.0);
+    let mut r = Results {
+        phi: vec![zero; layout.m],
+        entries: numbers(&elements.entries),
+        b: vec![zero; layout.rows()],
+        gamma: vec![zero; layout.rows()],
+        force: numbers(mechanism.weight()),
+    };
+    for c in &elements.constraints {
+        record_constraint(c, inputs, layout.m, &mut r);
+    }
+    for f in &elements.forces {
+        let (x, v) = inputs.slots(&f.site.bodies);
+        let mut block = vec![zero; f.columns.len()];
+        let jets = &inputs.jets[f.site.functions.clone()];
+        f.element.recorded().q(&x, &v, jets, &mut block);
+        for (column, value) in f.columns.iter().zip(block) {
+            if let Some(column) = *column {
+                r.force[column] = r.force[column] + value;
             }
         }
-        r
     }
+    r
 }
 
 fn record_constraint(c: &PlacedConstraint, inputs: &Inputs, m: usize, r: &mut Results) {
     let element = c.element.recorded();
-    let (x, v) = inputs.slots(&c.bodies);
-    let f = &inputs.jets[c.functions.clone()];
+    let (x, v) = inputs.slots(&c.site.bodies);
+    let f = &inputs.jets[c.site.functions.clone()];
     let rows = c.rows.clone();
     if rows.start < m {
         element.phi(&x, f, &mut r.phi[rows.clone()]);

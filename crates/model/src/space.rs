@@ -8,6 +8,8 @@
 //!
 //! Not here: constraints and their kernels, which see poses and twists only.
 
+use std::ops::Range;
+
 use joints::{Pose, Ring};
 use linalg::Dd;
 
@@ -276,4 +278,128 @@ impl SpaceKind {
     pub(crate) fn n_q(self) -> usize {
         in_space!(self, S => S::N_Q)
     }
+
+    /// Places of the coordinates of a body in q.
+    #[must_use]
+    pub fn coordinates(self, body: usize) -> Range<usize> {
+        let n = self.n_q();
+        n * body..n * (body + 1)
+    }
+
+    /// Poses of all bodies at coordinates q; allocates.
+    #[must_use]
+    pub fn poses<T: Number>(self, q: &[T]) -> Vec<Pose<T>> {
+        in_space!(self, S => q.chunks_exact(S::N_Q).map(S::pose).collect())
+    }
+
+    /// Moves the configuration q by d (n_v).
+    pub(crate) fn displace<T: Number>(self, q: &mut [T], d: &[T]) {
+        in_space!(self, S => {
+            for (q, d) in q.chunks_exact_mut(S::N_Q).zip(d.chunks_exact(N_BODY)) {
+                S::displace(q, d);
+            }
+        });
+    }
+
+    /// A copy of q, moved by `factor` times d; allocates.
+    #[must_use]
+    pub fn displaced(self, q: &[f64], factor: f64, d: &[f64]) -> Vec<f64> {
+        let mut moved = q.to_vec();
+        let d: Vec<f64> = d.iter().map(|d| factor * d).collect();
+        self.displace(&mut moved, &d);
+        moved
+    }
+
+    /// The displacement (n_v) that moves the configuration `from` to q.
+    pub(crate) fn difference(self, q: &[f64], from: &[f64], d: &mut [f64]) {
+        in_space!(self, S => {
+            let bodies = q.chunks_exact(S::N_Q).zip(from.chunks_exact(S::N_Q));
+            for ((q, from), d) in bodies.zip(d.chunks_exact_mut(N_BODY)) {
+                S::difference(q, from, d);
+            }
+        });
+    }
+
+    /// The same as a vector; allocates.
+    #[must_use]
+    pub fn difference_of(self, q: &[f64], from: &[f64]) -> Vec<f64> {
+        let mut d = vec![0.0; N_BODY * (q.len() / self.n_q())];
+        self.difference(q, from, &mut d);
+        d
+    }
+
+    /// The column of C along which two configurations differ most, and by how much: lengths as
+    /// share of `size`, angles in radians.
+    #[must_use]
+    pub fn largest_difference(self, a: &[f64], b: &[f64], size: f64) -> (usize, f64) {
+        let mut largest = (0, 0.0);
+        let mut d = [0.0; N_BODY];
+        let n = self.n_q();
+        for (body, (a, b)) in a.chunks_exact(n).zip(b.chunks_exact(n)).enumerate() {
+            self.difference(a, b, &mut d);
+            for (dof, d) in d.iter().enumerate() {
+                let j = N_BODY * body + dof;
+                let difference = d.abs() / unit(j, size);
+                if difference > largest.1 {
+                    largest = (j, difference);
+                }
+            }
+        }
+        largest
+    }
+
+    /// Takes the freedoms of these columns of C over from another configuration, exactly.
+    pub fn take(self, q: &mut [f64], from: &[f64], columns: &[usize]) {
+        in_space!(self, S => {
+            for column in columns {
+                let body = self.coordinates(column / N_BODY);
+                S::take(&mut q[body.clone()], &from[body], column % N_BODY);
+            }
+        });
+    }
+
+    /// The velocity of a column of C as a sum over q̇ at the configuration q: places in q̇ with
+    /// their coefficients, into `terms`.
+    pub fn read_velocity(self, q: &[f64], column: usize, terms: &mut Vec<(usize, f64)>) {
+        let body = self.coordinates(column / N_BODY);
+        let first = body.start;
+        terms.clear();
+        in_space!(self, S => {
+            let factors = S::velocity_from_rate(&q[body], column % N_BODY);
+            terms.extend(factors.into_iter().enumerate().filter(|(_, factor)| *factor != 0.0));
+            terms.iter_mut().for_each(|(place, _)| *place += first);
+        });
+    }
+
+    /// Directions of q̇ in which no pose changes at the configuration q, of length one: places in
+    /// q̇ with their entries.
+    #[must_use]
+    pub fn normals(self, q: &[f64]) -> Vec<Vec<(usize, f64)>> {
+        in_space!(self, S => {
+            let bodies = q.chunks_exact(S::N_Q).enumerate();
+            let of_body = |(body, q): (usize, &[f64])| {
+                let entries = S::normal(q)?.into_iter().enumerate();
+                let places = entries.filter(|(_, entry)| *entry != 0.0);
+                Some(places.map(|(k, entry)| (S::N_Q * body + k, entry)).collect())
+            };
+            bodies.filter_map(of_body).collect()
+        })
+    }
+
+    /// Where a body is at coordinates q, in the direction of a column of C: a place (m) or an angle
+    /// (rad).
+    #[must_use]
+    pub fn position(self, q: &[f64], column: usize) -> f64 {
+        let q = &q[self.coordinates(column / N_BODY)];
+        match column % N_BODY {
+            2 => in_space!(self, S => S::angle(q)),
+            dof => q[dof],
+        }
+    }
+}
+
+/// What motions along column `j` of C are measured by: lengths by `size`, angles by one radian.
+#[must_use]
+pub fn unit(j: usize, size: f64) -> f64 {
+    if j % N_BODY == 2 { 1.0 } else { size }
 }

@@ -1,10 +1,14 @@
 //! What a solver sees of a mechanism: sizes, patterns and kernels on the caller's storage. No
 //! kernel allocates; each computes one thing, so that nobody pays for what he does not ask.
 
-use joints::{Pose, Twist};
-use linalg::Matrix;
+use std::ops::Range;
 
-use crate::reaction::ConstraintGroup;
+use joints::{Pose, Twist};
+use linalg::{Matrix, Scaling};
+
+use crate::description::BodyRef;
+use crate::group::{ColumnKind, ConstraintGroup, ConstraintId};
+use crate::space::N_BODY;
 
 /// The equations of a mechanism.
 ///
@@ -104,8 +108,52 @@ impl Layout {
 
     /// Row `i` of C as (column, value).
     pub fn row<'a>(&'a self, s: &'a Scratch, i: usize) -> impl Iterator<Item = (usize, f64)> + 'a {
-        let range = self.pattern.start[i]..self.pattern.start[i + 1];
-        range.map(move |k| (self.pattern.column[k], s.entries[self.pattern.entry[k]]))
+        self.pattern
+            .row(i)
+            .map(move |k| (self.pattern.column[k], s.entries[self.pattern.entry[k]]))
+    }
+
+    /// Ids of all joints and drives, in the order of their rows.
+    pub fn constraint_ids(&self) -> impl Iterator<Item = ConstraintId> + use<> {
+        (0..self.groups.len()).map(ConstraintId)
+    }
+
+    /// Columns of C of a body.
+    #[must_use]
+    pub fn columns(&self, body: usize) -> Range<usize> {
+        N_BODY * body..N_BODY * (body + 1)
+    }
+
+    /// What each column of C belongs to, n_v entries.
+    #[must_use]
+    pub fn column_kinds(&self) -> Vec<ColumnKind> {
+        let kind = |k| match k % N_BODY {
+            2 => ColumnKind::Rotation,
+            _ => ColumnKind::Translation,
+        };
+        (0..self.n_v).map(kind).collect()
+    }
+
+    /// Whether row `i` compares angles: no translation takes part in it.
+    #[must_use]
+    pub fn is_angular(&self, i: usize) -> bool {
+        let columns = &self.pattern.column[self.pattern.row(i)];
+        columns.iter().all(|j| j % N_BODY == 2)
+    }
+
+    /// The scaling that makes C dimensionless for a mechanism of this size: columns of rotations
+    /// divided by the size, rounded to a power of two. Ranks, dependencies and verdicts of the
+    /// scaled C are those of C; margins do not depend on units.
+    #[must_use]
+    pub fn dimension_scaling(&self, size: f64) -> Scaling {
+        let exponent = size.log2().round();
+        let mut scaling = Scaling::identity(self.rows(), self.n_v);
+        if exponent.is_finite() {
+            for e in scaling.cols.iter_mut().skip(2).step_by(N_BODY) {
+                *e = -(exponent as i32);
+            }
+        }
+        scaling
     }
 
     /// Writes row `i` of C into a dense row of n_v values.
@@ -142,6 +190,13 @@ pub struct Pattern {
     pub column: Vec<usize>,
     /// Place of each entry in [`Scratch::entries`].
     pub entry: Vec<usize>,
+}
+
+impl Pattern {
+    /// Places of the entries of row `i`.
+    pub(crate) fn row(&self, i: usize) -> Range<usize> {
+        self.start[i]..self.start[i + 1]
+    }
 }
 
 /// Name of a row: joint and row of the joint.
@@ -181,14 +236,62 @@ pub struct Scratch {
     pub gamma: Vec<f64>,
     /// Q, n_v values.
     pub force: Vec<f64>,
-    /// Poses of the slots of all constraints, then of all forces.
-    pub(crate) slot_poses: Vec<Pose>,
-    /// Twists of the same slots.
-    pub(crate) slot_twists: Vec<Twist>,
-    /// Values of the functions of time.
-    pub(crate) jets: Vec<[f64; 3]>,
-    /// Their time; NaN at the beginning.
+    /// What the kernels of all elements take.
+    pub(crate) slots: Slots,
+    /// Time of the functions of time in it; NaN at the beginning.
     pub(crate) jets_at: f64,
     /// Results of one kernel.
     pub(crate) block: Vec<f64>,
+}
+
+/// What the kernels of all elements take, one after the other: constraints, then forces.
+#[derive(Clone, Debug)]
+pub(crate) struct Slots {
+    /// Poses of the bodies in their slots.
+    pub(crate) poses: Vec<Pose>,
+    /// Twists of the same slots.
+    pub(crate) twists: Vec<Twist>,
+    /// Values of the functions of time.
+    pub(crate) jets: Vec<[f64; 3]>,
+}
+
+/// Where an element is: its bodies, and its places in [`Slots`].
+#[derive(Clone)]
+pub(crate) struct Site {
+    pub(crate) bodies: Vec<BodyRef>,
+    pub(crate) slots: Range<usize>,
+    pub(crate) functions: Range<usize>,
+}
+
+impl Site {
+    /// Poses of its bodies.
+    pub(crate) fn x<'s>(&self, all: &'s Slots) -> &'s [Pose] {
+        &all.poses[self.slots.clone()]
+    }
+
+    /// Twists of its bodies.
+    pub(crate) fn v<'s>(&self, all: &'s Slots) -> &'s [Twist] {
+        &all.twists[self.slots.clone()]
+    }
+
+    /// Values of its functions of time.
+    pub(crate) fn f<'s>(&self, all: &'s Slots) -> &'s [[f64; 3]] {
+        &all.jets[self.functions.clone()]
+    }
+
+    /// Poses, twists and values of functions.
+    pub(crate) fn xvf<'s>(&self, all: &'s Slots) -> (&'s [Pose], &'s [Twist], &'s [[f64; 3]]) {
+        (self.x(all), self.v(all), self.f(all))
+    }
+
+    /// Its bodies but the ground.
+    pub(crate) fn moving(&self) -> impl Iterator<Item = usize> + '_ {
+        self.bodies.iter().filter_map(|b| b.moving())
+    }
+
+    /// Column of C for a column of its block; `None` for the ground.
+    pub(crate) fn column(&self, k: usize) -> Option<usize> {
+        let body = self.bodies[k / N_BODY].moving()?;
+        Some(N_BODY * body + k % N_BODY)
+    }
 }

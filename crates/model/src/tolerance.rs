@@ -5,12 +5,6 @@
 
 use std::fmt;
 
-use joints::spec::DatumShape;
-
-use crate::data::DataUnit;
-use crate::description::Description;
-use crate::mechanism::{BuildError, Mechanism, PlacedConstraint};
-
 /// What the numbers of a scene are known to, where nothing is said of their joint or body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tolerance {
@@ -51,22 +45,6 @@ impl Tolerance {
     pub fn is_stated(self) -> bool {
         self != Self::default()
     }
-
-    /// Checks that what is stated is finite and positive.
-    pub(crate) fn check(self) -> Result<(), BuildError> {
-        let fields = [("tolerance", self.length), ("angle tolerance", self.angle)];
-        let wrong = fields
-            .into_iter()
-            .find_map(|(field, value)| Some((field, value.filter(is_wrong)?)));
-        match wrong {
-            Some((field, value)) => Err(BuildError::Tolerance {
-                of: Stated::Scene,
-                field,
-                value,
-            }),
-            None => Ok(()),
-        }
-    }
 }
 
 /// Where a tolerance is stated.
@@ -89,81 +67,6 @@ impl fmt::Display for Stated {
             Self::Body(name) => write!(f, "body `{name}`"),
             Self::Joint(name) => write!(f, "joint `{name}`"),
             Self::Drive(name) => write!(f, "drive `{name}`"),
-        }
-    }
-}
-
-/// Whether a number is no tolerance.
-fn is_wrong(value: &f64) -> bool {
-    !(value.is_finite() && *value > 0.0)
-}
-
-/// Every tolerance of a description that is no finite number > 0.
-pub(crate) fn check(d: &Description, errors: &mut Vec<BuildError>) {
-    errors.extend(d.tolerance.check().err());
-    let bodies = d.bodies.iter();
-    let bodies = bodies.map(|b| (b.tolerance, Stated::Body(b.name.clone())));
-    let joints = d.joints.iter();
-    let joints = joints.map(|j| (j.tolerance, Stated::Joint(j.name.clone())));
-    let drives = d.drives.iter();
-    let drives = drives.map(|x| (x.tolerance, Stated::Drive(x.name.clone())));
-    for (value, of) in bodies.chain(joints).chain(drives) {
-        if let Some(value) = value.filter(is_wrong) {
-            let field = "tolerance";
-            errors.push(BuildError::Tolerance { of, field, value });
-        }
-    }
-}
-
-impl Mechanism {
-    /// What its numbers are known to where nothing is said of their joint or body.
-    #[must_use]
-    pub fn tolerance(&self) -> Tolerance {
-        self.tolerance
-    }
-
-    /// States what its numbers are known to where nothing is said of their joint or body.
-    ///
-    /// # Errors
-    /// [`BuildError::Tolerance`]: it is no finite number > 0; nothing has changed.
-    pub fn set_tolerance(&mut self, tolerance: Tolerance) -> Result<(), BuildError> {
-        tolerance.check()?;
-        self.tolerance = tolerance;
-        Ok(())
-    }
-
-    /// Whether anything is stated of any of its numbers.
-    pub(crate) fn has_tolerances(&self) -> bool {
-        self.tolerance.is_stated()
-            || self.bodies().iter().any(|body| body.tolerance.is_some())
-            || self.constraints().iter().any(|c| c.tolerance.is_some())
-    }
-
-    /// What data of this shape in a constraint are known to, in their unit, in a mechanism of this
-    /// size (m). Lengths: as is stated of the constraint, else of the body whose frame they are in,
-    /// else of the scene. Angles: as the scene states, else that length divided by the size.
-    pub(crate) fn tolerance_of(
-        &self,
-        c: &PlacedConstraint,
-        shape: DatumShape,
-        unit: DataUnit,
-        size: f64,
-    ) -> Option<f64> {
-        let slot = match shape {
-            DatumShape::Point { slot }
-            | DatumShape::Direction { slot }
-            | DatumShape::KeptVector { slot } => Some(slot),
-            DatumShape::Line | DatumShape::Number(_) | DatumShape::Kept(_) => None,
-        };
-        let body = slot.and_then(|slot| c.bodies.get(slot)?.moving());
-        let nearest = c.tolerance.or_else(|| self.bodies()[body?].tolerance);
-        let stated = Tolerance {
-            length: nearest.or(self.tolerance.length),
-            ..self.tolerance
-        };
-        match unit {
-            DataUnit::Length => stated.length,
-            DataUnit::Angle => stated.angle_at(size),
         }
     }
 }

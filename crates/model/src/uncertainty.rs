@@ -8,7 +8,8 @@ use joints::{Magnitude, Pose};
 use linalg::Matrix;
 
 use crate::mechanism::{Mechanism, N_BODY, pose_of};
-use crate::system::{Scratch, System};
+use crate::scale::Scales;
+use crate::system::System;
 
 /// Relative error of the numbers of a scene, and of what is made of them: half a unit in the last
 /// place for each of eight roundings, which are reading of the number, the place of its body (two),
@@ -38,7 +39,21 @@ impl Known {
     }
 }
 
-impl Mechanism {
+/// Whether anything is stated of any number of a mechanism.
+pub(crate) fn has_tolerances(mechanism: &Mechanism) -> bool {
+    mechanism.tolerance().is_stated()
+        || mechanism
+            .bodies()
+            .iter()
+            .any(|body| body.tolerance.is_some())
+        || mechanism
+            .elements
+            .constraints
+            .iter()
+            .any(|c| c.tolerance.is_some())
+}
+
+impl Scales<'_> {
     /// How far each entry of C may be from that of the mechanism meant, (m+h) × n_v, in the units
     /// of C; allocates.
     ///
@@ -50,12 +65,12 @@ impl Mechanism {
     /// more than rounding, for what contradicting rows miss within it is no fault of the entries.
     /// `size` is that of the mechanism. Needs Φ and C at the pose of the scratch.
     #[must_use]
-    pub fn uncertainty(&self, s: &Scratch, size: f64, known: Known) -> Matrix {
-        let layout = self.layout();
-        let of_entries = self.uncertainty_of_entries(s, size, known);
+    pub fn uncertainty(self, size: f64, known: Known) -> Matrix {
+        let layout = self.mechanism.layout();
+        let of_entries = self.uncertainty_of_entries(size, known);
         let mut u = Matrix::zeros(layout.rows(), layout.n_v);
         for i in 0..layout.rows() {
-            for k in layout.pattern.start[i]..layout.pattern.start[i + 1] {
+            for k in layout.pattern.row(i) {
                 u[(i, layout.pattern.column[k])] += of_entries[k];
             }
         }
@@ -64,28 +79,28 @@ impl Mechanism {
 
     /// The same for each entry of the pattern of C, in its order.
     #[must_use]
-    pub fn uncertainty_of_entries(&self, s: &Scratch, size: f64, known: Known) -> Vec<f64> {
-        let layout = self.layout();
+    pub fn uncertainty_of_entries(self, size: f64, known: Known) -> Vec<f64> {
+        let layout = self.mechanism.layout();
         let pattern = &layout.pattern;
-        let magnitudes = self.magnitudes(s);
+        let magnitudes = self.magnitudes();
         // How far bodies may be turned; a mechanism that stands far away is turned about itself.
-        let has_tolerances = self.has_tolerances();
+        let has_tolerances = has_tolerances(self.mechanism);
         let opening = |i: usize| {
-            let missed = s.phi.get(i).map_or(0.0, |phi| phi.abs());
+            let missed = self.s.phi.get(i).map_or(0.0, |phi| phi.abs());
             match has_tolerances {
-                true => missed.min(CLOSED * ROUNDING * self.position_scale(s, i)),
+                true => missed.min(CLOSED * ROUNDING * self.position(i)),
                 false => missed,
             }
         };
-        let of_row = |i: usize| self.relative_to_reach(s, i, size, opening(i));
+        let of_row = |i: usize| self.relative_to_reach(i, size, opening(i));
         let turned = known.turned() + (0..layout.m).map(of_row).fold(0.0, f64::max);
         let mut u = Vec::with_capacity(pattern.column.len());
         for i in 0..layout.rows() {
-            let row = pattern.start[i]..pattern.start[i + 1];
+            let row = pattern.row(i);
             // Forces on the bodies of the row, and how far they stand from the origin.
-            let forces: Vec<(usize, f64, f64)> = self.forces_of_row(s, &magnitudes, row.clone());
+            let forces: Vec<(usize, f64, f64)> = self.forces_of_row(&magnitudes, row.clone());
             let places = |&(body, force, _): &(usize, f64, f64)| {
-                force * s.poses[body].x.hypot(s.poses[body].y)
+                force * self.s.poses[body].x.hypot(self.s.poses[body].y)
             };
             let shift = ROUNDING * forces.iter().map(places).sum::<f64>() + opening(i);
             for k in row {
@@ -94,7 +109,7 @@ impl Mechanism {
                 let (_, force, magnitude) = of_body.copied().unwrap_or_default();
                 u.push(match dof {
                     2 => {
-                        let lever = force * self.reach(body);
+                        let lever = force * self.mechanism.reach(body);
                         // A rotation that comes without a force, as that of a rolling wheel, has no
                         // lever.
                         let moved = if force > 0.0 || forces.is_empty() {
@@ -102,7 +117,7 @@ impl Mechanism {
                         } else {
                             0.0
                         };
-                        let entry = s.entries[pattern.entry[k]].abs();
+                        let entry = self.s.entries[pattern.entry[k]].abs();
                         let terms = magnitudes[pattern.entry[k]].value();
                         ROUNDING * (terms + lever) + turned * (entry + lever) + moved
                     }
@@ -115,13 +130,8 @@ impl Mechanism {
 
     /// Of each body that this row of the pattern pushes: the body, the size of the force, and the
     /// size of the terms that it is made of.
-    fn forces_of_row(
-        &self,
-        s: &Scratch,
-        magnitudes: &[Magnitude],
-        row: Range<usize>,
-    ) -> Vec<(usize, f64, f64)> {
-        let pattern = &self.layout().pattern;
+    fn forces_of_row(self, magnitudes: &[Magnitude], row: Range<usize>) -> Vec<(usize, f64, f64)> {
+        let pattern = &self.mechanism.layout().pattern;
         let mut forces: Vec<(usize, [f64; 2], [f64; 2])> = Vec::new();
         for k in row.filter(|&k| pattern.column[k] % N_BODY != 2) {
             let (body, dof) = (pattern.column[k] / N_BODY, pattern.column[k] % N_BODY);
@@ -133,7 +143,7 @@ impl Mechanism {
                 }
             };
             let entry = pattern.entry[k];
-            forces[at].1[dof] += s.entries[entry];
+            forces[at].1[dof] += self.s.entries[entry];
             forces[at].2[dof] += magnitudes[entry].value();
         }
         let sizes = forces
@@ -143,16 +153,23 @@ impl Mechanism {
     }
 
     /// Sizes of the terms of all entries of C.
-    fn magnitudes(&self, s: &Scratch) -> Vec<Magnitude> {
-        let constant = self.constant_entries().iter();
+    fn magnitudes(self) -> Vec<Magnitude> {
+        let constant = self.mechanism.elements.entries.iter();
         let mut entries: Vec<Magnitude> = constant.map(|&e| Magnitude::from(e)).collect();
-        for c in self.constraints().iter().filter(|c| !c.varying.is_empty()) {
+        for c in self
+            .mechanism
+            .elements
+            .constraints
+            .iter()
+            .filter(|c| c.has_varying_entries())
+        {
             let poses = c
+                .site
                 .bodies
                 .iter()
-                .map(|&body| magnitude(&pose_of(&s.poses, body)));
+                .map(|&body| magnitude(&pose_of(&self.s.poses, body)));
             let x: Vec<Pose<Magnitude>> = poses.collect();
-            let jets = s.jets[c.functions.clone()].iter();
+            let jets = c.site.f(&self.s.slots).iter();
             let f: Vec<[Magnitude; 3]> = jets.map(|jet| jet.map(Magnitude::from)).collect();
             c.element
                 .magnitude()

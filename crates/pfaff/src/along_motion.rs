@@ -340,7 +340,7 @@ impl Record {
             ColumnKind::Translation => size,
             ColumnKind::Rotation => 1.0,
         };
-        let units: Vec<f64> = mechanism.column_kinds().iter().map(unit).collect();
+        let units: Vec<f64> = mechanism.layout().column_kinds().iter().map(unit).collect();
         // By velocities, because coordinates need not be as many.
         let fastest = |row: &Row| {
             let rates = row.v.iter().zip(&units).map(|(v, unit)| (v / unit).abs());

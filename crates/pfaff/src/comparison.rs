@@ -215,8 +215,9 @@ impl<'a> Set<'a> {
         let decision = self.decide(s, frame);
         let mechanism = &self.part.mechanism;
         let maps: Vec<Matrix> = mechanism
+            .layout()
             .constraint_ids()
-            .map(|id| mechanism.wrench_map(id, s))
+            .map(|id| mechanism.reactions(s).wrench_map(id))
             .collect();
         let own = self.wrenches(&maps, &lambda);
         let n = maps.len();

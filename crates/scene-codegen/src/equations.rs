@@ -38,7 +38,7 @@ impl Equations {
     pub(crate) fn new(subject: &Subject<'_>) -> Self {
         let mechanism = &subject.prepared.mechanism;
         let layout = mechanism.layout();
-        let recording = mechanism.record();
+        let recording = RecordedEquations::of(mechanism);
         let sources: Vec<Source> = recording
             .inputs
             .iter()

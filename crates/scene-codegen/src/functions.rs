@@ -148,7 +148,7 @@ impl Functions {
                 .ok_or(CodeError::NoView)?,
         };
         let frame = &seen.frame;
-        let scaling = mechanism.dimension_scaling(prepared.assembly.size);
+        let scaling = mechanism.layout().dimension_scaling(prepared.assembly.size);
         let scale: Vec<f64> = scaling.cols.iter().map(|&x| f64::from(x).exp2()).collect();
         let rows = |kept: &[usize]| kept.iter().map(|&i| seen.c[i].clone()).collect();
         let velocity = Factored::new(&mut e.code, rows(kept), mass, &scale)?;

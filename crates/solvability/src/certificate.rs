@@ -9,7 +9,7 @@ use std::borrow::Cow;
 
 use linalg::{DdMatrix, Matrix};
 use model::start::scene_size;
-use model::{Known, Mechanism, Scratch, System};
+use model::{Known, Mechanism, Polished, Scratch, System};
 use rank::{
     Grounds, NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankError,
     RankReading, certify_rank,
@@ -105,8 +105,10 @@ impl<'a> Rows<'a> {
         let mut rows = Self::at(mechanism, scratch, q, known);
         if mechanism.layout().rows() <= ROWS_MAX && rows.meant.c.first_non_finite().is_none() {
             let kept = promising_holonomic(mechanism, &rows.scratch, q)?;
-            if let Ok(polished) = mechanism.polish(t, q, &kept) {
-                let c = polished.c.scaled(&mechanism.dimension_scaling(rows.size));
+            if let Ok(polished) = Polished::at(mechanism, t, q, &kept) {
+                let c = polished
+                    .c
+                    .scaled(&mechanism.layout().dimension_scaling(rows.size));
                 rows.extended = Some(rows.meant.extended(c));
             }
         }
@@ -265,7 +267,7 @@ fn weakest_as_felt(
     (size, c): (f64, &Matrix),
     decision: &RankDecision,
 ) -> Option<NearlyRedundant> {
-    let felt = mechanism.felt_scaling(s, size).apply(c);
+    let felt = mechanism.scales(s).felt_scaling(size).apply(c);
     let mut kept = felt.select_rows(&decision.kept);
     for i in 0..kept.nrows() {
         let largest = kept.row(i).iter().fold(0.0_f64, |a, c| a.max(c.abs()));

@@ -383,7 +383,7 @@ impl Configuration<'_> {
             let judged = self.solvability.group(groups[id.0].rows.clone());
             matches!(judged, Ok(judged) if judged.verdict == Verdict::NotUnique)
         };
-        let ids = self.mechanism.constraint_ids();
+        let ids = self.mechanism.layout().constraint_ids();
         ids.filter(|id| listed.iter().all(|j| j.reaction != *id) && shares(id))
             .collect()
     }

@@ -233,7 +233,7 @@ pub fn contradictions(
     mechanism.twist(v, &mut s);
     mechanism.gamma(&mut s);
     let size = scene_size(mechanism, q);
-    let prescribed = |i: usize| mechanism.prescribed_scale(&s, i);
+    let prescribed = |i: usize| mechanism.scales(&s).prescribed(i);
     // Velocities are known to rounding of the fastest, also those of slow bodies.
     let noise = rank::support_tolerance(ranks.all).max(f64::EPSILON);
     let units = velocity_units(mechanism, size);
@@ -247,7 +247,7 @@ pub fn contradictions(
             prescribed: &s,
             decision: ranks.holonomic,
             values: &s.phi,
-            scale: &|i| mechanism.position_scale(&s, i),
+            scale: &|i| mechanism.scales(&s).position(i),
             share: 0.0,
         },
         Comparison {
@@ -255,7 +255,7 @@ pub fn contradictions(
             prescribed: &s,
             decision: ranks.all,
             values: &s.b,
-            scale: &|i| mechanism.velocity_scale(&s, i, v) + prescribed(i),
+            scale: &|i| mechanism.scales(&s).velocity(i, v) + prescribed(i),
             share: 0.0,
         },
         Comparison {
@@ -265,8 +265,8 @@ pub fn contradictions(
             values: &s.gamma,
             scale: &|i| {
                 let [terms, blurred] =
-                    [v, &blurred].map(|v| mechanism.acceleration_scale(&s, i, v, size));
-                let rest = REST.powi(2) * mechanism.position_scale(&s, i);
+                    [v, &blurred].map(|v| mechanism.scales(&s).acceleration(i, v, size));
+                let rest = REST.powi(2) * mechanism.scales(&s).position(i);
                 terms + (blurred - terms + rest) / noise + prescribed(i)
             },
             share: 0.0,
@@ -380,7 +380,7 @@ impl Comparison<'_> {
             rows: terms().map(|(i, _)| layout.labels[i].clone()).collect(),
             level: self.level,
             size,
-            unit: self.level.unit(mechanism.is_angular(row)),
+            unit: self.level.unit(mechanism.layout().is_angular(row)),
             tolerance,
             demands: demands.collect(),
             drives: drives.len(),
@@ -391,7 +391,7 @@ impl Comparison<'_> {
     /// What data within a stated tolerance make of the sum over a circuit of positions; zero where
     /// none is stated.
     fn within_data(&self, mechanism: &Mechanism, circuit: &Circuit) -> f64 {
-        let blocks = mechanism.data_blocks(self.prescribed);
+        let blocks = mechanism.data().blocks(self.prescribed);
         if self.level != ConstraintLevel::Position || blocks.iter().all(|b| b.tolerance.is_none()) {
             return 0.0;
         }
@@ -400,7 +400,10 @@ impl Comparison<'_> {
             weights[row] = *z;
         }
         let moved = |block: &DataBlock| block.tolerance.unwrap_or(0.0);
-        SHARED * mechanism.phi_change(self.prescribed, &weights, &blocks, moved)
+        SHARED
+            * mechanism
+                .data()
+                .phi_change(self.prescribed, &weights, &blocks, moved)
     }
 
     /// Drives that move the bodies of these rows and with the joints leave them no other

@@ -164,7 +164,7 @@ pub fn explain(
     let open = rank::open_rows(solvability.decision());
     let is_known = |rows: &[usize]| !rows.iter().any(|row| open.binary_search(row).is_ok());
     mixing.retain(|m| is_known(&m.rows));
-    let ids = mechanism.constraint_ids();
+    let ids = mechanism.layout().constraint_ids();
     let reactions = ids
         .filter_map(|id| reaction(mechanism, s, solvability, (&mixing, &open), id).transpose())
         .collect::<Result<_, _>>()?;
@@ -180,6 +180,7 @@ pub fn explain(
         judged.is_ok_and(|j| j.verdict.is_unique())
     };
     let settled = mechanism
+        .layout()
         .constraint_ids()
         .zip(structure.groups)
         .filter(|(id, why)| !matches!(why, Settled::Open(_)) && is_unique(id));
@@ -201,7 +202,11 @@ fn mixing(mechanism: &Mechanism, solvability: &Solvability) -> Vec<Mixing> {
             rows.iter()
                 .any(|row| layout.groups[id.0].rows.contains(row))
         };
-        let reactions: Vec<ConstraintId> = mechanism.constraint_ids().filter(touched).collect();
+        let reactions: Vec<ConstraintId> = mechanism
+            .layout()
+            .constraint_ids()
+            .filter(touched)
+            .collect();
         let redundancy = decision
             .dropped
             .iter()
@@ -250,7 +255,7 @@ fn reaction(
     others.sort_unstable();
     others.dedup();
     let components = group.components();
-    let full = mechanism.wrench_map(id, s);
+    let full = mechanism.reactions(s).wrench_map(id);
     let map = linalg::Matrix::from_fn(components.len(), group.rows.len(), |i, j| {
         full[(components[i], j)]
     });
@@ -316,17 +321,20 @@ fn stress(
         if !group.rows.clone().any(|row| lambda[row] != 0.0) {
             return None;
         }
-        let reaction = mechanism.reaction(id, s, &lambda);
+        let reaction = mechanism.reactions(s).reaction(id, &lambda);
         Some(FreeDirection {
             joint: id,
             bodies: group.bodies.clone(),
-            place: mechanism.place(id, s),
+            place: mechanism.reactions(s).place(id),
             force: reaction.force,
             torque: reaction.torque,
         })
     };
-    let mut directions: Vec<FreeDirection> =
-        mechanism.constraint_ids().filter_map(carries).collect();
+    let mut directions: Vec<FreeDirection> = mechanism
+        .layout()
+        .constraint_ids()
+        .filter_map(carries)
+        .collect();
     normalise(&mut directions, scene_size(mechanism, q));
     SelfStress {
         text: words::of_stress(mechanism, solvability, &circuit, &directions),

@@ -100,7 +100,7 @@ impl Configuration<'_> {
         frame: Frame,
     ) -> Result<Option<FrameForms>, RequestError> {
         let place = self.place(id)?;
-        let Some(axes) = self.mechanism.axes(id, frame, &self.s) else {
+        let Some(axes) = self.mechanism.reactions(&self.s).axes(id, frame) else {
             return Ok(None);
         };
         let [along, across] = axes;

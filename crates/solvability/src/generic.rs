@@ -80,7 +80,7 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
             continue;
         };
         let is_new = |(t, q): &(f64, Vec<f64>)| {
-            let moved = mechanism.difference_of(&there.1, q).into_iter();
+            let moved = mechanism.space().difference_of(&there.1, q).into_iter();
             there.0 != *t || length(moved, &units, size) >= APART
         };
         if visited.iter().all(is_new) {
@@ -160,7 +160,7 @@ fn walk_from(
             } else {
                 0.0
             };
-            let moved = mechanism.displaced(&q, factor, &step);
+            let moved = mechanism.space().displaced(&q, factor, &step);
             let later = t + time * share;
             let there =
                 nearest_configuration(mechanism, later, rows, &moved, Metric::Length).ok()?;

@@ -56,11 +56,13 @@ impl Decided {
         rows: Range<usize>,
     ) -> Result<Self, AnalysisError> {
         let (layout, size) = (mechanism.layout(), scene_size(mechanism, q));
-        let dimensions = mechanism.dimension_scaling(size);
+        let dimensions = mechanism.layout().dimension_scaling(size);
         let unit = |j: usize| f64::from(dimensions.cols[j]).exp2();
         let c = rows_of(mechanism, s, rows.clone(), unit);
         let scaling = equilibrate_sparse(&c);
-        let known = mechanism.uncertainty_of_entries(s, size, Known::AsStored);
+        let known = mechanism
+            .scales(s)
+            .uncertainty_of_entries(size, Known::AsStored);
         let pattern = &layout.pattern;
         let mut largest = 0.0_f64;
         for i in rows.clone() {
@@ -193,6 +195,7 @@ pub(crate) fn judge_sparse(
         reaction(mechanism, id, s, &all.basis(rows), own, Told::Directions)
     };
     let reactions: Vec<ReactionVerdict> = mechanism
+        .layout()
         .constraint_ids()
         .map(verdict)
         .collect::<Result<_, _>>()

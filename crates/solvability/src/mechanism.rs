@@ -143,6 +143,7 @@ pub enum AnalysisError {
 /// C without dimensions, for a mechanism of this size.
 pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
     mechanism
+        .layout()
         .dimension_scaling(size)
         .apply(&mechanism.layout().dense(s))
 }
@@ -150,14 +151,15 @@ pub(crate) fn dimensionless(mechanism: &Mechanism, s: &Scratch, size: f64) -> Ma
 /// What the entries of [`dimensionless`] C are known to in `f64`.
 pub(crate) fn uncertainty(mechanism: &Mechanism, s: &Scratch, size: f64) -> Matrix {
     mechanism
+        .layout()
         .dimension_scaling(size)
-        .apply(&mechanism.uncertainty(s, size, Known::AsStored))
+        .apply(&mechanism.scales(s).uncertainty(size, Known::AsStored))
 }
 
 /// The velocities that are one without dimensions: 1 m/s for translations, and for rotations what
 /// moves a point at the size of the mechanism by about as much, a power of two.
 pub(crate) fn velocity_units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
-    let scaling = mechanism.dimension_scaling(size);
+    let scaling = mechanism.layout().dimension_scaling(size);
     scaling.cols.iter().map(|&e| f64::from(e).exp2()).collect()
 }
 
@@ -309,6 +311,7 @@ pub(crate) fn judge_reactions(
     let rank_nonholonomic = rank_of("Ψ", layout.m..layout.rows())?;
     let without_drives = WithoutDrives::of(layout, rows, &solvability, &mut warnings)?;
     let reactions = mechanism
+        .layout()
         .constraint_ids()
         .map(|id| {
             let rows = layout.groups[id.0].rows.clone();
@@ -350,7 +353,7 @@ pub(crate) fn reaction(
 ) -> Result<ReactionVerdict, QueryError> {
     let group = &mechanism.layout().groups[id.0];
     let components = group.components();
-    let full = mechanism.wrench_map(id, s);
+    let full = mechanism.reactions(s).wrench_map(id);
     let map = Matrix::from_fn(components.len(), rows.len(), |i, j| {
         full[(components[i], j)]
     });

@@ -330,13 +330,13 @@ impl PartAnalysis {
 pub fn parts(mechanism: &Mechanism, s: &Scratch) -> Vec<Vec<usize>> {
     let ground = mechanism.bodies().len();
     let layout = mechanism.layout();
-    let touched = mechanism.constraint_ids().map(|id| {
+    let touched = mechanism.layout().constraint_ids().map(|id| {
         let bodies = layout.groups[id.0].bodies.iter().filter_map(|b| match *b {
             BodyRef::Body(k) => Some(k),
             BodyRef::Ground => None,
         });
         bodies
-            .chain(mechanism.acts_on_ground(id, s).then_some(ground))
+            .chain(mechanism.reactions(s).acts_on_ground(id).then_some(ground))
             .collect()
     });
     let touched: Vec<Vec<usize>> = touched.collect();

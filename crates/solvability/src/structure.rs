@@ -17,9 +17,9 @@ pub fn structure(mechanism: &Mechanism, s: &Scratch, q: &[f64]) -> Result<Struct
     let size = scene_size(mechanism, q);
     let group = |id: model::ConstraintId| RowGroup {
         rows: layout.groups[id.0].rows.clone(),
-        ground: mechanism.acts_on_ground(id, s),
+        ground: mechanism.reactions(s).acts_on_ground(id),
     };
-    let groups: Vec<RowGroup> = mechanism.constraint_ids().map(group).collect();
+    let groups: Vec<RowGroup> = mechanism.layout().constraint_ids().map(group).collect();
     let bodies = 0..mechanism.bodies().len();
     let blocks: Vec<_> = bodies.map(|b| layout.columns(b)).collect();
     rank::structure(

@@ -135,7 +135,7 @@ pub(crate) fn check_equations(
         for other in &others {
             compare(&numbers.least(other, &other.multipliers(equations)?, None)?);
         }
-        for id in mechanism.constraint_ids() {
+        for id in mechanism.layout().constraint_ids() {
             compare(&numbers.least(&in_si, &lambda_0, Some(id))?);
         }
         if is_real {
@@ -218,7 +218,7 @@ impl<'a> Numbers<'a> {
     /// What is free in other units.
     fn rewritten(&self, equations: &Equations, units: Units) -> Result<Rewritten, UnitError> {
         let decided = self.configuration.solvability.decision();
-        let kinds = self.configuration.mechanism.column_kinds();
+        let kinds = self.configuration.mechanism.layout().column_kinds();
         let rewriting = Rewriting::new(equations, units, &kinds);
         let equations = rewriting.equations(equations);
         let decision = rank::decide(&equations.c, decided.evidence.constraint_residual)?;
@@ -273,7 +273,7 @@ impl<'a> Numbers<'a> {
     /// fractions of 1 N, of 1 N at the arm of the mechanism's size for rotations.
     fn probing_load(&self, equations: &Equations) -> Equations {
         let golden = 0.618_033_988_749_894_9;
-        let kinds = self.configuration.mechanism.column_kinds();
+        let kinds = self.configuration.mechanism.layout().column_kinds();
         let load = |(k, kind): (usize, &ColumnKind)| {
             let arm = match kind {
                 ColumnKind::Translation => 1.0,
@@ -300,7 +300,7 @@ impl<'a> Numbers<'a> {
             .iter()
             .zip(numbers)
             .map(|(check, x)| x.abs() / self.unit(check, 1.0));
-        let kinds = self.configuration.mechanism.column_kinds();
+        let kinds = self.configuration.mechanism.layout().column_kinds();
         let loads = kinds
             .iter()
             .zip(&equations.force)

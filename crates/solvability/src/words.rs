@@ -32,7 +32,11 @@ pub(crate) fn open(mechanism: &Mechanism, rows: &[usize]) -> String {
         let own = layout.groups[id.0].rows.clone();
         rows.iter().any(|row| own.contains(row))
     };
-    let ids: Vec<ConstraintId> = mechanism.constraint_ids().filter(touched).collect();
+    let ids: Vec<ConstraintId> = mechanism
+        .layout()
+        .constraint_ids()
+        .filter(touched)
+        .collect();
     format!(
         "within the tolerance it is open which rows of {} depend on each other; what is open is not told",
         list(&names(layout, &ids))
@@ -194,7 +198,10 @@ enum Loads {
 
 impl Loads {
     fn of(mechanism: &Mechanism, circuit: &Circuit) -> Self {
-        let angular = circuit.rows.iter().filter(|&&i| mechanism.is_angular(i));
+        let angular = circuit
+            .rows
+            .iter()
+            .filter(|&&i| mechanism.layout().is_angular(i));
         match angular.count() {
             0 => Self::Forces,
             n if n == circuit.rows.len() => Self::Torques,
@@ -235,7 +242,7 @@ fn ratio(mechanism: &Mechanism, circuit: &Circuit) -> String {
         1.0
     };
     let is_mixed = Loads::of(mechanism, circuit) == Loads::Both;
-    let unit = |row: usize| match (is_mixed, mechanism.is_angular(row)) {
+    let unit = |row: usize| match (is_mixed, mechanism.layout().is_angular(row)) {
         (false, _) => "",
         (true, false) => " N",
         (true, true) => " N·m",

@@ -262,12 +262,13 @@ fn check_values(prepared: &Prepared, code: &dyn SceneCode) -> Result<(), CodeMis
         // No symmetry of a mechanism is one of these numbers.
         let shift = |i: usize| (1.7 * (i + 1) as f64 + 2.9 * (k + 1) as f64).sin();
         let away = |by: f64| -> Vec<f64> {
-            let unit = |j: usize| prepared.mechanism.unit(j, prepared.assembly.size);
+            let unit = |j: usize| model::space::unit(j, prepared.assembly.size);
             let columns = 0..prepared.v.len();
             columns.map(|j| by * shift(j) * unit(j)).collect()
         };
         let q = prepared
             .mechanism
+            .space()
             .displaced(&prepared.q, 1.0, &away(DISTANCE));
         let faster = prepared.v.iter().zip(away(SPEED)).map(|(v, by)| v + by);
         let v: Vec<f64> = faster.collect();
@@ -302,14 +303,14 @@ fn compare(
     };
     let mut phi = vec![f64::NAN; layout.m];
     code.phi(t, q, &mut phi);
-    comparison("Φ", &phi, &s.phi, &|i| mechanism.position_scale(&s, i))?;
+    comparison("Φ", &phi, &s.phi, &|i| mechanism.scales(&s).position(i))?;
 
     let mut residual = vec![f64::NAN; layout.rows()];
     code.velocity_residual(t, q, v, &mut residual);
     let expected: Vec<f64> = (0..layout.rows())
         .map(|i| layout.velocity_residual(&s, i, v))
         .collect();
-    let size = |i: usize| mechanism.velocity_scale(&s, i, v);
+    let size = |i: usize| mechanism.scales(&s).velocity(i, v);
     comparison("C·v − b", &residual, &expected, &size)?;
 
     let (mut a, mut expected) = (vec![f64::NAN; v.len()], vec![0.0; v.len()]);
@@ -319,7 +320,7 @@ fn compare(
         return Ok(());
     }
     let scene_size = motion.equations.at.size;
-    let unit = |j: usize| mechanism.unit(j, scene_size);
+    let unit = |j: usize| model::space::unit(j, scene_size);
     let largest = |x: &[f64]| {
         let shares = x.iter().enumerate().map(|(j, x)| x.abs() / unit(j));
         shares.fold(0.0, f64::max)

@@ -54,8 +54,8 @@ impl IndependentCoordinates {
     ) -> Result<Self, MotionFault> {
         let at = &equations.at;
         // Far from the origin places are known to fewer digits than angles.
-        let place = |j: usize| at.mechanism.position(&origin.q, j).abs();
-        let far = |j: usize| (place(j) / at.mechanism.unit(j, at.size)).max(1.0);
+        let place = |j: usize| at.mechanism.space().position(&origin.q, j).abs();
+        let far = |j: usize| (place(j) / model::space::unit(j, at.size)).max(1.0);
         let z = equations.position.partition(at, far)?;
         let u = equations.velocity.partition(at, |_| 1.0)?;
         // Rows that were asked for are only solved on, at single instants.
@@ -126,6 +126,7 @@ impl IndependentCoordinates {
         let at = &equations.at;
         let moved = at
             .mechanism
+            .space()
             .largest_difference(&self.q, &self.guess, at.size);
         if moved.1 > far {
             return Err(at.far_completion(t, moved));
@@ -142,7 +143,7 @@ impl IndependentCoordinates {
     /// there, in its unit.
     fn way_to(&self, t: f64, at: &Evaluation<'_>) -> f64 {
         let velocities = self.accepted.v.iter().enumerate();
-        let rates = velocities.map(|(j, v)| v.abs() / at.mechanism.unit(j, at.size));
+        let rates = velocities.map(|(j, v)| v.abs() / model::space::unit(j, at.size));
         rates.fold(0.0, f64::max) * (t - self.accepted.t).abs()
     }
 
@@ -150,7 +151,7 @@ impl IndependentCoordinates {
     /// what an integrator carries for them may be off by as much as a step, and Newton's method
     /// would go from there to another branch or another turn.
     fn take_independent(&mut self, mechanism: &Mechanism, q: &[f64], v: &[f64]) {
-        mechanism.take(&mut self.q, q, &self.z);
+        mechanism.space().take(&mut self.q, q, &self.z);
         for &i in &self.u {
             self.v[i] = v[i];
         }
@@ -171,11 +172,14 @@ impl IndependentCoordinates {
         for (j, way) in self.delta.iter_mut().enumerate() {
             let (from, to) = (self.accepted.v[j], v[j]);
             *way = 0.5 * dt * (from + to);
-            farthest = farthest.max(dt * from.abs().max(to.abs()) / at.mechanism.unit(j, at.size));
+            farthest = farthest.max(dt * from.abs().max(to.abs()) / model::space::unit(j, at.size));
         }
         self.guess.copy_from_slice(&self.accepted.q);
         at.mechanism.displace(&mut self.guess, &self.delta);
-        let off = at.mechanism.largest_difference(q, &self.guess, at.size);
+        let off = at
+            .mechanism
+            .space()
+            .largest_difference(q, &self.guess, at.size);
         match off.1 <= FAR_IN_A_STEP * farthest + FAR_AT_REST {
             true => Ok(()),
             false => Err(at.far_completion(t, off)),

@@ -57,7 +57,7 @@ pub(super) fn monitor(
     }
     // Off the constraints by rounding of its coordinates, the rows agree to the same share. Kept
     // rows are solved to rounding of the fastest of them, so that the others are no better.
-    let rounding = at.mechanism.relative_residual(&at.s, at.size);
+    let rounding = at.mechanism.scales(&at.s).relative_residual(at.size);
     let all = 0..at.mechanism.layout().rows();
     let fastest = all.map(scale).fold(0.0, f64::max);
     let level = Level {
@@ -99,7 +99,7 @@ fn size_of_rows(at: &Evaluation<'_>) -> f64 {
     let layout = at.mechanism.layout();
     let of_row = |i: usize| {
         let row = layout.row(&at.s, i);
-        row.map(|(j, c)| c.abs() * at.mechanism.unit(j, at.size))
+        row.map(|(j, c)| c.abs() * model::space::unit(j, at.size))
             .sum()
     };
     (0..layout.rows()).map(of_row).fold(0.0, f64::max)

@@ -35,7 +35,7 @@ impl CodeProjection {
         let at = &equations.at;
         let layout = at.mechanism.layout();
         let keeps = |kept: &[usize], rows: usize| (0..rows).map(|i| kept.contains(&i)).collect();
-        let bounds = (0..layout.rows()).map(|i| at.mechanism.entry_bounds(&at.s, i));
+        let bounds = (0..layout.rows()).map(|i| at.mechanism.scales(&at.s).entry_bounds(i));
         Self {
             keeps_position: keeps(&equations.position.kept, layout.m),
             keeps: keeps(&equations.velocity.kept, layout.rows()),
@@ -76,7 +76,7 @@ impl CodeProjection {
         (q, v): (&mut [f64], &mut [f64]),
     ) -> Result<Correction, Doubt> {
         for (size, bounds) in self.sizes.iter_mut().zip(&self.bounds) {
-            *size = mechanism.bounded_position_scale(bounds, q);
+            *size = model::Scales::bounded_position(mechanism, bounds, q);
         }
         let mut positions = Positions {
             all: self,

@@ -54,7 +54,7 @@ impl Decisions {
         reactions: Vec<usize>,
     ) -> Result<Self, MotionError> {
         let sizes = Sizes::of(prepared);
-        let work = prepared.mechanism.work();
+        let work = Work::of(&prepared.mechanism);
         let method = choose::method(prepared, options)?;
         Ok(Self {
             linear_systems: linear_systems(method.value, &sizes),

@@ -37,7 +37,7 @@ pub(super) fn cross_break(
     for i in 0..layout.m {
         let jump = phi[i].abs();
         let is_large = jump > NO_JUMP * at.position_scale(i)
-            && mechanism.relative_to_reach(&at.s, i, at.size, jump) > NO_JUMP;
+            && mechanism.scales(&at.s).relative_to_reach(i, at.size, jump) > NO_JUMP;
         if is_large && jump > REMAINS * phi_wide[i].abs() {
             let (time, row) = (t, at.label(i));
             return Err(MotionFault::PositionJump { time, row, jump });

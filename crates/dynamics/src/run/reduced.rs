@@ -122,7 +122,7 @@ impl Reduced {
         let mechanism = motion.mechanism();
         let layout = mechanism.layout();
         Self {
-            derivatives: mechanism.derivatives(),
+            derivatives: Derivatives::of(mechanism),
             partition: Partition::default(),
             columns: Matrix::default(),
             on_w: Matrix::default(),
@@ -167,7 +167,8 @@ impl Reduced {
         let equations = &mut motion.equations;
         let a = &dy[n_q..n_q + mechanism.layout().n_v];
         equations.multipliers_for(a, lambda)?;
-        mechanism.differentiate(a, lambda, &equations.at.s, &mut self.derivatives);
+        self.derivatives
+            .differentiate(mechanism, a, lambda, &equations.at.s);
         equations.position.factor(&equations.at)?;
         self.time = t;
         let reads = self.partition.reads.len();
@@ -227,9 +228,9 @@ impl Reduced {
         own.generation = coordinates.generation;
         own.reads.resize_with(z.len() + u.len(), Vec::new);
         for (terms, &z) in own.reads.iter_mut().zip(z) {
-            mechanism.read_velocity(&y[..n_q], z, terms);
+            mechanism.space().read_velocity(&y[..n_q], z, terms);
         }
-        own.normals = mechanism.normals(&y[..n_q]);
+        own.normals = mechanism.space().normals(&y[..n_q]);
         for (terms, u) in own.reads[z.len()..].iter_mut().zip(u) {
             terms.clear();
             terms.push((n_q + u, 1.0));

@@ -160,10 +160,10 @@ impl OfMotion<'_, '_> {
         let mechanism = self.motion.mechanism();
         let s = self.motion.scratch();
         let reaction = |(k, id)| match self.wants(k) {
-            true => mechanism.reaction(id, s, lambda),
+            true => mechanism.reactions(s).reaction(id, lambda),
             false => left_out(mechanism, k),
         };
-        let ids = mechanism.constraint_ids().enumerate();
+        let ids = mechanism.layout().constraint_ids().enumerate();
         ids.map(reaction).collect()
     }
 

@@ -53,12 +53,12 @@ impl<'m> Evaluation<'m> {
 
     /// Size of the terms of row i of Φ.
     pub(crate) fn position_scale(&self, i: usize) -> f64 {
-        self.mechanism.position_scale(&self.s, i)
+        self.mechanism.scales(&self.s).position(i)
     }
 
     /// Size of the terms of row i of C·v − b.
     pub(crate) fn velocity_scale(&self, i: usize, v: &[f64]) -> f64 {
-        self.mechanism.velocity_scale(&self.s, i, v)
+        self.mechanism.scales(&self.s).velocity(i, v)
     }
 
     pub(crate) fn label(&self, i: usize) -> RowLabel {

@@ -7,7 +7,7 @@ use crate::limits::FAR_FROM_A_METRE;
 
 /// What each column of C counts in units of a mechanism of this size (m).
 pub(super) fn units(mechanism: &Mechanism, size: f64) -> Vec<f64> {
-    let exponents = mechanism.dimension_scaling(size).cols;
+    let exponents = mechanism.layout().dimension_scaling(size).cols;
     exponents.iter().map(|&e| f64::from(e).exp2()).collect()
 }
 

@@ -206,7 +206,7 @@ impl Handover {
         let at = &equations.at;
         let largest = |x: &[f64]| {
             let shares = x.iter().enumerate();
-            let shares = shares.map(|(j, x)| x.abs() / at.mechanism.unit(j, at.size));
+            let shares = shares.map(|(j, x)| x.abs() / model::space::unit(j, at.size));
             shares.fold(0.0, f64::max)
         };
         let is_same = largest(found) <= SAME_ACCELERATIONS * largest(a).max(largest(v).powi(2));

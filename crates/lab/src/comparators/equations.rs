@@ -92,7 +92,10 @@ impl<'a> Equations<'a> {
     ) -> Result<Self, Fault> {
         let mechanism = &prepared.mechanism;
         let layout = mechanism.layout();
-        let exponents = mechanism.dimension_scaling(prepared.assembly.size).cols;
+        let exponents = mechanism
+            .layout()
+            .dimension_scaling(prepared.assembly.size)
+            .cols;
         let units: Vec<f64> = exponents.iter().map(|&e| f64::from(e).exp2()).collect();
         let mass = mechanism.mass().iter().zip(&units);
         let mass: Vec<f64> = mass.map(|(m, unit)| unit * m * unit).collect();
@@ -190,8 +193,10 @@ impl<'a> Equations<'a> {
     ) -> Result<(Vec<f64>, Vec<Reaction>), Fault> {
         let mut a = vec![0.0; v.len()];
         self.accelerate(t, q, v, &mut a)?;
-        let of = |id| self.mechanism.reaction(id, &self.s, &self.at.lambda);
-        Ok((a, self.mechanism.constraint_ids().map(of).collect()))
+        let reactions = self.mechanism.reactions(&self.s);
+        let of = |id| reactions.reaction(id, &self.at.lambda);
+        let ids = self.mechanism.layout().constraint_ids();
+        Ok((a, ids.map(of).collect()))
     }
 
     /// Moves q and v onto the constraints by the smallest corrections in the metric of the masses.

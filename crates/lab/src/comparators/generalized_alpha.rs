@@ -80,7 +80,7 @@ impl<'a> GeneralizedAlpha<'a> {
         Self {
             mechanism,
             s: mechanism.scratch(),
-            derivatives: mechanism.derivatives(),
+            derivatives: Derivatives::of(mechanism),
             kept: kept.to_vec(),
             matrix: Matrix::zeros(n, n),
             lu: Lu::new(n),
@@ -121,7 +121,8 @@ impl<'a> GeneralizedAlpha<'a> {
         for (&i, l) in self.kept.iter().zip(&self.to.lambda) {
             lambda[i] = *l;
         }
-        mechanism.differentiate(&self.to.vd, &lambda, &self.s, &mut self.derivatives);
+        self.derivatives
+            .differentiate(mechanism, &self.to.vd, &lambda, &self.s);
         self.matrix.as_mut_slice().fill(0.0);
         for (i, m) in mechanism.mass().iter().enumerate() {
             self.matrix[(i, i)] = *m;

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use lab::generate::{Kind, Order};
 use model::start::{assemble, consistent_velocity};
-use model::{Mechanism, Registry, StartOptions, System};
+use model::{Mechanism, Registry, StartOptions, System, Work};
 use pfaff::scene::{Diagnostic, Scene, Severity};
 
 /// Cells of a chain with a hundred thousand revolutes.
@@ -264,7 +264,7 @@ fn a_thing_of_every_kind_for_each_body() {
     assert_eq!(scene.groups.len(), N + 1);
     assert_eq!(scene.start.keep.len(), N);
     let mechanism = Mechanism::build(&scene.description).expect("what is read can be built");
-    assert_eq!(mechanism.work().without_turning.len(), N);
+    assert_eq!(Work::of(&mechanism).without_turning.len(), N);
 }
 
 /// Levels of a hostile nest: one byte each would overflow any stack.

@@ -9,8 +9,8 @@ use std::ops::Range;
 
 use joints::Twist;
 
-use super::twist_of;
-use crate::mechanism::{Mechanism, N_BODY};
+use super::Data;
+use crate::mechanism::{N_BODY, twist_of};
 use crate::system::{Scratch, System};
 
 /// Gradients of `λᵀ·C·y + y_λᵀ·(C·a − Γ) + w_vᵀ·C·v + w_qᵀ·Φ` by all numbers of the constraints,
@@ -53,21 +53,15 @@ const UNITS: [Twist; N_BODY] = [
     },
 ];
 
-impl Mechanism {
+impl Data<'_> {
     /// These gradients at the pose and the twist of the scratch, for multipliers (m + h),
     /// accelerations a and velocities v (n_v); allocates.
     #[must_use]
-    pub fn data_gradients(
-        &self,
-        s: &Scratch,
-        lambda: &[f64],
-        a: &[f64],
-        v: &[f64],
-    ) -> DataGradients {
+    pub fn gradients(self, s: &Scratch, lambda: &[f64], a: &[f64], v: &[f64]) -> DataGradients {
         let moves = v.iter().any(|v| *v != 0.0);
         let (mut each, mut values) = (Vec::new(), Vec::new());
         let mut first = 0;
-        for c in self.constraints() {
+        for c in &self.0.elements.constraints {
             let element = c.element.element();
             let numbers = first..first + element.spec().n_data();
             first = numbers.end;
@@ -79,19 +73,15 @@ impl Mechanism {
                 values.resize(place + numbers.len(), 0.0);
                 fill(&mut values[place..]);
             };
-            let x = &s.slot_poses[c.slots.clone()];
-            let (twists, f) = (
-                &s.slot_twists[c.slots.clone()],
-                &s.jets[c.functions.clone()],
-            );
+            let (x, twists, f) = c.site.xvf(&s.slots);
             // Without velocities and functions of time Γ vanishes.
             let (still, no_f) = (
-                vec![Twist::zero(); c.bodies.len()],
-                vec![[0.0; 3]; c.functions.len()],
+                vec![Twist::zero(); c.site.bodies.len()],
+                vec![[0.0; 3]; c.site.functions.len()],
             );
             let own = &lambda[c.rows.clone()];
             let (mut slots, mut bodies) = (still.clone(), Vec::new());
-            for (k, body) in c.bodies.iter().enumerate() {
+            for (k, body) in c.site.bodies.iter().enumerate() {
                 let Some(body) = body.moving() else {
                     continue;
                 };
@@ -103,10 +93,14 @@ impl Mechanism {
                 slots[k] = Twist::zero();
             }
             let of = |x: &[f64]| -> Vec<Twist> {
-                c.bodies.iter().map(|&body| twist_of(body, x)).collect()
+                c.site
+                    .bodies
+                    .iter()
+                    .map(|&body| twist_of(body, x))
+                    .collect()
             };
             let (a, v) = (of(a), of(v));
-            let is_holonomic = c.rows.start < self.layout().m;
+            let is_holonomic = c.rows.start < self.0.layout().m;
             let mut unit = vec![0.0; c.rows.len()];
             for i in 0..unit.len() {
                 unit[i] = 1.0;

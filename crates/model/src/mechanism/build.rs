@@ -1,18 +1,18 @@
 //! From a description to a mechanism. All faults of a description are found in one go.
 
 use std::collections::HashSet;
-use std::ops::Range;
 
 use joints::spec::{Level, Role, Spec};
 
-use super::{Mechanism, N_BODY, PlacedConstraint, PlacedForce, TimeFunction};
+use super::work::held_bodies;
+use super::{Elements, Mechanism, N_BODY, PlacedConstraint, PlacedForce, TimeFunction, initialise};
 use crate::description::{Body, BodyRef, Description};
 use crate::function::Function;
-use crate::reaction::{ConstraintGroup, ConstraintKind};
+use crate::group::{ConstraintGroup, ConstraintKind};
 use crate::registry::{PlaneConstraint, PlaneForce};
 use crate::space::SpaceKind;
-use crate::system::{Layout, RowLabel};
-use crate::tolerance::{self, Stated, Tolerance};
+use crate::system::{Layout, RowLabel, Site};
+use crate::tolerance::{Stated, Tolerance};
 
 /// One fault of a description.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -149,7 +149,7 @@ impl Mechanism {
         check_bodies(d, &mut errors);
         check_names(d, &mut errors);
         check_places(d, &mut errors);
-        tolerance::check(d, &mut errors);
+        check_tolerances(d, &mut errors);
         if !errors.is_empty() {
             return Err(errors);
         }
@@ -203,8 +203,58 @@ impl Mechanism {
         let mut mechanism = b.finish(&d.name, SpaceKind::Plane, d.bodies.clone(), weight);
         mechanism.tolerance = d.tolerance;
         let (q, _) = mechanism.described_state();
-        mechanism.initialise(&q);
+        initialise(&mut mechanism, &q);
         Ok(mechanism)
+    }
+
+    /// States what its numbers are known to if nothing is said of their joint or body.
+    ///
+    /// # Errors
+    /// [`BuildError::Tolerance`]: it is no finite number > 0; nothing has changed.
+    pub fn set_tolerance(&mut self, tolerance: Tolerance) -> Result<(), BuildError> {
+        check_tolerance(tolerance)?;
+        self.tolerance = tolerance;
+        Ok(())
+    }
+}
+
+/// Whether a number is no tolerance.
+fn is_wrong(value: &f64) -> bool {
+    !(value.is_finite() && *value > 0.0)
+}
+
+/// Checks that what is stated of the scene is finite and positive.
+fn check_tolerance(tolerance: Tolerance) -> Result<(), BuildError> {
+    let fields = [
+        ("tolerance", tolerance.length),
+        ("angle tolerance", tolerance.angle),
+    ];
+    let mut wrong = fields
+        .into_iter()
+        .filter_map(|(field, value)| Some((field, value.filter(is_wrong)?)));
+    wrong.next().map_or(Ok(()), |(field, value)| {
+        Err(BuildError::Tolerance {
+            of: Stated::Scene,
+            field,
+            value,
+        })
+    })
+}
+
+/// Every tolerance of a description that is no finite number > 0.
+fn check_tolerances(d: &Description, errors: &mut Vec<BuildError>) {
+    errors.extend(check_tolerance(d.tolerance).err());
+    let bodies = d.bodies.iter();
+    let bodies = bodies.map(|b| (b.tolerance, Stated::Body(b.name.clone())));
+    let joints = d.joints.iter();
+    let joints = joints.map(|j| (j.tolerance, Stated::Joint(j.name.clone())));
+    let drives = d.drives.iter();
+    let drives = drives.map(|x| (x.tolerance, Stated::Drive(x.name.clone())));
+    for (value, of) in bodies.chain(joints).chain(drives) {
+        if let Some(value) = value.filter(is_wrong) {
+            let field = "tolerance";
+            errors.push(BuildError::Tolerance { of, field, value });
+        }
     }
 }
 
@@ -377,12 +427,7 @@ fn check_place(
 /// Grows the lists of a mechanism, element by element.
 #[derive(Default)]
 pub(super) struct Builder {
-    constraints: Vec<PlacedConstraint>,
-    forces: Vec<PlacedForce>,
-    functions: Vec<TimeFunction>,
-    entries: Vec<f64>,
-    n_slots: usize,
-    block: usize,
+    elements: Elements,
     pub(super) layout: Layout,
 }
 
@@ -399,12 +444,12 @@ impl Builder {
         let spec = element.element().spec();
         let first_row = self.layout.labels.len();
         let rows = first_row..first_row + spec.rows.len();
-        let first_entry = self.entries.len();
+        let first_entry = self.elements.entries.len();
         let entries = first_entry..first_entry + spec.c.len();
-        self.entries.resize(entries.end, 0.0);
+        self.elements.entries.resize(entries.end, 0.0);
         element
             .element()
-            .c_constant(&mut self.entries[entries.clone()]);
+            .c_constant(&mut self.elements.entries[entries.clone()]);
         for (k, row) in spec.rows.iter().enumerate() {
             self.layout.labels.push(RowLabel {
                 number: first_row + k + 1,
@@ -432,12 +477,10 @@ impl Builder {
         };
         let placed = PlacedConstraint {
             element: element.boxed(),
-            bodies: bodies.to_vec(),
-            slots: self.take_slots(bodies.len()),
+            site: self.site(bodies, functions, offset),
             entries,
             varying: varying.collect(),
             rows: rows.clone(),
-            functions: self.take_functions(functions, offset),
             tolerance,
         };
         self.layout.rheonomic |= spec.rheonomic;
@@ -448,7 +491,7 @@ impl Builder {
             bodies: bodies.to_vec(),
             rows,
         });
-        self.constraints.push(placed);
+        self.elements.constraints.push(placed);
     }
 
     pub(super) fn force(
@@ -459,20 +502,15 @@ impl Builder {
         functions: &[Function],
     ) {
         let spec = element.element().spec();
-        let column = |k: &usize| match bodies[k / N_BODY] {
-            BodyRef::Ground => None,
-            BodyRef::Body(body) => Some(N_BODY * body + k % N_BODY),
-        };
+        let site = self.site(bodies, functions, |_| 0.0);
         let placed = PlacedForce {
             name: name.to_owned(),
             element: element.boxed(),
-            bodies: bodies.to_vec(),
-            slots: self.take_slots(bodies.len()),
-            functions: self.take_functions(functions, |_| 0.0),
-            columns: spec.q.iter().map(column).collect(),
+            columns: spec.q.iter().map(|&k| site.column(k)).collect(),
+            site,
         };
-        self.block = self.block.max(spec.q.len());
-        self.forces.push(placed);
+        self.elements.block = self.elements.block.max(spec.q.len());
+        self.elements.forces.push(placed);
     }
 
     /// One row of the pattern of C from (slot, degree of freedom, place in the entries).
@@ -494,26 +532,27 @@ impl Builder {
         pattern.start.push(pattern.column.len());
     }
 
-    fn take_slots(&mut self, n: usize) -> Range<usize> {
-        self.n_slots += n;
-        self.n_slots - n..self.n_slots
-    }
-
-    fn take_functions(
+    /// The next slots, for these bodies and functions of time, from which `offset` is subtracted.
+    fn site(
         &mut self,
+        bodies: &[BodyRef],
         functions: &[Function],
         offset: impl Fn(&Function) -> f64,
-    ) -> Range<usize> {
-        let first = self.functions.len();
+    ) -> Site {
+        let (first_slot, first) = (self.elements.n_slots, self.elements.functions.len());
+        self.elements.n_slots += bodies.len();
         for function in functions {
-            let offset = offset(function);
             self.layout.break_times.extend(function.break_times());
-            self.functions.push(TimeFunction {
+            self.elements.functions.push(TimeFunction {
                 function: function.clone(),
-                offset,
+                offset: offset(function),
             });
         }
-        first..self.functions.len()
+        Site {
+            bodies: bodies.to_vec(),
+            slots: first_slot..self.elements.n_slots,
+            functions: first..self.elements.functions.len(),
+        }
     }
 
     /// The mechanism of these bodies; no initial values are taken and no arms are measured.
@@ -532,25 +571,18 @@ impl Builder {
         self.layout.break_times.sort_by(f64::total_cmp);
         self.layout.break_times.dedup();
         let mass = bodies.iter();
-        let mut mechanism = Mechanism {
+        Mechanism {
             name: name.to_owned(),
             space,
-            constraints: self.constraints,
-            forces: self.forces,
-            functions: self.functions,
             mass: mass.flat_map(|b| [b.mass, b.mass, b.inertia]).collect(),
             weight,
             tolerance: Tolerance::default(),
-            entries: self.entries,
             reach: vec![0.0; bodies.len()],
-            held: Vec::new(),
-            n_slots: self.n_slots,
-            block: self.block,
+            held: held_bodies(&self.elements, &self.layout, bodies.len()),
+            elements: self.elements,
             layout: self.layout,
             bodies,
-        };
-        mechanism.held = mechanism.held_bodies();
-        mechanism
+        }
     }
 }
 

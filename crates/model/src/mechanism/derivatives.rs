@@ -7,8 +7,7 @@
 
 use joints::Twist;
 
-use super::{Mechanism, N_BODY};
-use crate::description::BodyRef;
+use super::Mechanism;
 use crate::system::Scratch;
 
 /// Derivatives at one instant, and the storage for them.
@@ -95,36 +94,28 @@ impl Sparse {
     }
 }
 
-/// Column of C for a column of a block; none for the ground.
-pub(crate) fn column_of(bodies: &[BodyRef]) -> impl Fn(usize) -> Option<usize> + '_ {
-    |k| match bodies[k / N_BODY] {
-        BodyRef::Ground => None,
-        BodyRef::Body(body) => Some(N_BODY * body + k % N_BODY),
-    }
-}
-
-impl Mechanism {
-    /// Storage for [`Mechanism::differentiate`]; the values are zero.
+impl Derivatives {
+    /// Storage for those of a mechanism; the values are zero.
     #[must_use]
-    pub fn derivatives(&self) -> Derivatives {
-        let [force_dq, force_dv] = self.force_patterns();
-        let mut d = Derivatives {
+    pub fn of(mechanism: &Mechanism) -> Self {
+        let [force_dq, force_dv] = force_patterns(mechanism);
+        let mut d = Self {
             force_dq,
             force_dv,
             reaction_dq: Sparse::default(),
             residual_dq: Sparse::default(),
             gamma_dv: Sparse::default(),
             velocity_dq: Sparse::default(),
-            slots: vec![Twist::zero(); self.n_slots],
+            slots: vec![Twist::zero(); mechanism.elements.n_slots],
         };
-        for c in &self.constraints {
+        for c in &mechanism.elements.constraints {
             let spec = c.element.element().spec();
-            let column = column_of(&c.bodies);
+            let column = |k: usize| c.site.column(k);
             let row = |i: usize| Some(c.rows.start + i);
-            d.reaction_dq.push_block(spec.d_force_dx, &column, &column);
-            d.residual_dq.push_block(spec.d_residual_dx, row, &column);
-            d.gamma_dv.push_block(spec.d_gamma_dv, row, &column);
-            d.velocity_dq.push_block(spec.d_velocity_dx, row, &column);
+            d.reaction_dq.push_block(spec.d_force_dx, column, column);
+            d.residual_dq.push_block(spec.d_residual_dx, row, column);
+            d.gamma_dv.push_block(spec.d_gamma_dv, row, column);
+            d.velocity_dq.push_block(spec.d_velocity_dx, row, column);
         }
         d
     }
@@ -134,7 +125,7 @@ impl Mechanism {
     ///
     /// ```
     /// use joints::Revolute;
-    /// use model::{Body, BodyRef, Description, Joint, Mechanism, System};
+    /// use model::{Body, BodyRef, Derivatives, Description, Joint, Mechanism, System};
     /// // A pendulum of length 2: Γ_y = −R_j·s_j·φ̇² = −2·φ̇², so ∂Γ_y/∂φ̇ = −4·φ̇.
     /// let bob = Body { name: "bob".into(), mass: 1.0, inertia: 0.1, ..Body::default() };
     /// let pivot = Revolute { s_i: [0.0, 0.0], s_j: [0.0, 2.0] };
@@ -144,10 +135,10 @@ impl Mechanism {
     ///     ..Description::default()
     /// };
     /// let mechanism = Mechanism::build(&pendulum).unwrap();
-    /// let (mut s, mut d) = (mechanism.scratch(), mechanism.derivatives());
+    /// let (mut s, mut d) = (mechanism.scratch(), Derivatives::of(&mechanism));
     /// mechanism.pose(0.0, &[0.0, -2.0, 0.0], &mut s);
     /// mechanism.twist(&[6.0, 0.0, 3.0], &mut s);
-    /// mechanism.differentiate(&[0.0; 3], &[0.0; 2], &s, &mut d);
+    /// d.differentiate(&mechanism, &[0.0; 3], &[0.0; 2], &s);
     /// let mut gamma = [0.0; 2];
     /// d.gamma_dv.add_product(&[0.0, 0.0, 1.0], &mut gamma);
     /// assert_eq!(gamma, [0.0, -12.0]);
@@ -155,63 +146,54 @@ impl Mechanism {
     ///
     /// # Panics
     /// If a slice is too short, or the storage is that of another mechanism.
-    pub fn differentiate(&self, a: &[f64], lambda: &[f64], s: &Scratch, d: &mut Derivatives) {
-        self.spread(a, &mut d.slots);
-        let mut reaction_dq = d.reaction_dq.blocks();
-        let mut residual_dq = d.residual_dq.blocks();
-        let mut gamma_dv = d.gamma_dv.blocks();
-        let mut velocity_dq = d.velocity_dq.blocks();
-        for c in &self.constraints {
+    pub fn differentiate(&mut self, mechanism: &Mechanism, a: &[f64], lambda: &[f64], s: &Scratch) {
+        mechanism.elements.spread(a, &mut self.slots);
+        let mut reaction_dq = self.reaction_dq.blocks();
+        let mut residual_dq = self.residual_dq.blocks();
+        let mut gamma_dv = self.gamma_dv.blocks();
+        let mut velocity_dq = self.velocity_dq.blocks();
+        for c in &mechanism.elements.constraints {
             let element = c.element.element();
             let spec = element.spec();
-            let (x, v) = (
-                &s.slot_poses[c.slots.clone()],
-                &s.slot_twists[c.slots.clone()],
-            );
-            let (a, f) = (&d.slots[c.slots.clone()], &s.jets[c.functions.clone()]);
-            let lambda = &lambda[c.rows.clone()];
+            let (x, v, f) = c.site.xvf(&s.slots);
+            let (a, lambda) = (&self.slots[c.site.slots.clone()], &lambda[c.rows.clone()]);
             element.d_force_dx(x, f, lambda, reaction_dq(spec.d_force_dx.len()));
             element.d_residual_dx(x, v, a, f, residual_dq(spec.d_residual_dx.len()));
             element.d_gamma_dv(x, v, f, gamma_dv(spec.d_gamma_dv.len()));
             element.d_velocity_dx(x, v, f, velocity_dq(spec.d_velocity_dx.len()));
         }
-        self.differentiate_forces(s, [&mut d.force_dq, &mut d.force_dv]);
+        differentiate_forces(mechanism, s, [&mut self.force_dq, &mut self.force_dv]);
     }
 
     /// `∂Q/∂q` and `∂Q/∂v` alone, at the pose and the twist of the scratch; allocates.
     #[must_use]
-    pub fn force_derivatives(&self, s: &Scratch) -> [Sparse; 2] {
-        let [mut by_q, mut by_v] = self.force_patterns();
-        self.differentiate_forces(s, [&mut by_q, &mut by_v]);
+    pub fn of_forces(mechanism: &Mechanism, s: &Scratch) -> [Sparse; 2] {
+        let [mut by_q, mut by_v] = force_patterns(mechanism);
+        differentiate_forces(mechanism, s, [&mut by_q, &mut by_v]);
         [by_q, by_v]
     }
+}
 
-    /// Room for both.
-    fn force_patterns(&self) -> [Sparse; 2] {
-        let mut patterns = [Sparse::default(), Sparse::default()];
-        for f in &self.forces {
-            let spec = f.element.element().spec();
-            let column = column_of(&f.bodies);
-            patterns[0].push_block(spec.dq_dx, &column, &column);
-            patterns[1].push_block(spec.dq_dv, &column, &column);
-        }
-        patterns
+/// Room for `∂Q/∂q` and `∂Q/∂v`.
+fn force_patterns(mechanism: &Mechanism) -> [Sparse; 2] {
+    let mut patterns = [Sparse::default(), Sparse::default()];
+    for f in &mechanism.elements.forces {
+        let spec = f.element.element().spec();
+        let column = |k: usize| f.site.column(k);
+        patterns[0].push_block(spec.dq_dx, column, column);
+        patterns[1].push_block(spec.dq_dv, column, column);
     }
+    patterns
+}
 
-    fn differentiate_forces(&self, s: &Scratch, [by_q, by_v]: [&mut Sparse; 2]) {
-        let mut force_dq = by_q.blocks();
-        let mut force_dv = by_v.blocks();
-        for force in &self.forces {
-            let element = force.element.element();
-            let spec = element.spec();
-            let (x, v) = (
-                &s.slot_poses[force.slots.clone()],
-                &s.slot_twists[force.slots.clone()],
-            );
-            let f = &s.jets[force.functions.clone()];
-            element.dq_dx(x, v, f, force_dq(spec.dq_dx.len()));
-            element.dq_dv(x, v, f, force_dv(spec.dq_dv.len()));
-        }
+fn differentiate_forces(mechanism: &Mechanism, s: &Scratch, [by_q, by_v]: [&mut Sparse; 2]) {
+    let (mut force_dq, mut force_dv) = (by_q.blocks(), by_v.blocks());
+    for force in &mechanism.elements.forces {
+        let element = force.element.element();
+        let spec = element.spec();
+        let (x, v, f) = force.site.xvf(&s.slots);
+        element.dq_dx(x, v, f, force_dq(spec.dq_dx.len()));
+        element.dq_dv(x, v, f, force_dv(spec.dq_dv.len()));
     }
 }
 

@@ -1,11 +1,14 @@
-//! Where joints, drives and forces take hold of bodies, told from their parameters: for pictures.
-//! Where a reaction is reported is another question ([`Mechanism::place`]).
+//! Where joints, drives and forces take hold of bodies, from their parameters: for pictures; and
+//! what drives prescribe: which measure of which joint, and by how much.
+//!
+//! Where a reaction is reported is another question ([`crate::Reactions::place`]).
 
 use joints::spec::{ForceSpec, Shape, Spec};
 
 use super::Mechanism;
 use crate::description::BodyRef;
-use crate::reaction::ConstraintId;
+use crate::group::ConstraintId;
+use crate::system::Scratch;
 
 /// An applied force as a picture needs it.
 #[derive(Clone, Debug)]
@@ -41,21 +44,69 @@ impl Mechanism {
     /// If the mechanism has no such joint or drive.
     #[must_use]
     pub fn points(&self, id: ConstraintId) -> Vec<(BodyRef, [f64; 2])> {
-        let c = &self.constraints[id.0];
+        let c = &self.elements.constraints[id.0];
         let element = c.element.element();
-        placed(&element.spec().common, &c.bodies, element.points())
+        placed(&element.spec().common, &c.site.bodies, element.points())
+    }
+
+    /// The joint whose measure a drive prescribes, and the name of the measure: a joint of the same
+    /// bodies and points whose definition has this drive. `None` if there is none, or this is no
+    /// drive.
+    ///
+    /// ```
+    /// use joints::{Revolute, RevoluteAngleDrive};
+    /// use model::{Body, BodyRef, ConstraintId, Description, Function, Mechanism};
+    /// let mut d = Description::new("crank");
+    /// let crank = d.body(Body::new("crank", 1.0, 1.0));
+    /// let (bodies, s) = ([BodyRef::Ground, crank], [0.0, 0.0]);
+    /// d.joint("pin", &bodies, Revolute { s_i: s, s_j: s });
+    /// let motor = RevoluteAngleDrive { s_i: s, s_j: s, measure_0: 0.0 };
+    /// d.drive("motor", &bodies, motor, Function::constant_rate(1.0).unwrap());
+    /// let mechanism = Mechanism::build(&d).unwrap();
+    /// assert_eq!(mechanism.driven(ConstraintId(1)), Some((ConstraintId(0), "angle")));
+    /// assert_eq!(mechanism.driven(ConstraintId(0)), None);
+    /// ```
+    ///
+    /// # Panics
+    /// If the mechanism has no such joint or drive.
+    #[must_use]
+    pub fn driven(&self, drive: ConstraintId) -> Option<(ConstraintId, &'static str)> {
+        let groups = &self.layout.groups;
+        let own = &groups[drive.0];
+        if !own.is_drive() {
+            return None;
+        }
+        let points = self.points(drive);
+        let definition = own.spec.common.name;
+        self.layout.constraint_ids().find_map(|id| {
+            let group = &groups[id.0];
+            let mut measures = group.spec.measures.iter();
+            let measure = measures.find(|measure| measure.drive == definition)?;
+            let is_same = group.bodies == own.bodies && self.points(id) == points;
+            is_same.then_some((id, measure.name))
+        })
+    }
+
+    /// Value, rate and second derivative of each function of time that a joint or drive takes, at
+    /// the time of the scratch. Those of a drive are the change of its measure since the start.
+    ///
+    /// # Panics
+    /// If the mechanism has no such joint or drive.
+    #[must_use]
+    pub fn prescribed<'s>(&self, id: ConstraintId, s: &'s Scratch) -> &'s [[f64; 3]] {
+        self.elements.constraints[id.0].site.f(&s.slots)
     }
 
     /// Its applied forces; the weight is none.
     pub fn applied_forces(&self) -> impl Iterator<Item = AppliedForce<'_>> {
-        self.forces.iter().map(|f| {
+        self.elements.forces.iter().map(|f| {
             let element = f.element.element();
             let spec = element.spec();
             AppliedForce {
                 name: &f.name,
                 spec,
-                bodies: &f.bodies,
-                points: placed(&spec.common, &f.bodies, element.points()),
+                bodies: &f.site.bodies,
+                points: placed(&spec.common, &f.site.bodies, element.points()),
             }
         })
     }

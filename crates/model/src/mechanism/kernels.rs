@@ -3,14 +3,11 @@
 //! call, sines and cosines of angles that have stayed, entries of C that are constant, Γ of rows
 //! that are linear in q.
 
-use std::ops::Range;
-
 use joints::{Pose, Twist};
 
 use super::{Mechanism, N_BODY, pose_of};
-use crate::description::BodyRef;
 use crate::space::{Space, in_space};
-use crate::system::{Layout, Scratch, System};
+use crate::system::{Layout, Scratch, Slots, System};
 
 /// What rounding moves an angle by that is held.
 const HELD: f64 = 4.0 * f64::EPSILON;
@@ -31,15 +28,17 @@ impl System for Mechanism {
             poses: vec![Pose::GROUND; self.bodies.len()],
             turned_to: vec![f64::NAN; self.bodies.len()],
             phi: vec![0.0; layout.m],
-            entries: self.entries.clone(),
+            entries: self.elements.entries.clone(),
             b: vec![0.0; layout.rows()],
             gamma: vec![0.0; layout.rows()],
             force: vec![0.0; layout.n_v],
-            slot_poses: vec![Pose::GROUND; self.n_slots],
-            slot_twists: vec![Twist::zero(); self.n_slots],
-            jets: vec![[0.0; 3]; self.functions.len()],
+            slots: Slots {
+                poses: vec![Pose::GROUND; self.elements.n_slots],
+                twists: vec![Twist::zero(); self.elements.n_slots],
+                jets: vec![[0.0; 3]; self.elements.functions.len()],
+            },
             jets_at: f64::NAN,
-            block: vec![0.0; self.block],
+            block: vec![0.0; self.elements.block],
         }
     }
 
@@ -55,15 +54,15 @@ impl System for Mechanism {
                 }
             }
         });
-        let (poses, slot_poses) = (&s.poses, &mut s.slot_poses);
-        for (slots, bodies) in self.places() {
-            for (pose, &body) in slot_poses[slots].iter_mut().zip(bodies) {
-                *pose = pose_of(poses, body);
+        for site in self.elements.sites() {
+            let slots = &mut s.slots.poses[site.slots.clone()];
+            for (pose, &body) in slots.iter_mut().zip(&site.bodies) {
+                *pose = pose_of(&s.poses, body);
             }
         }
         if s.jets_at != t {
             s.jets_at = t;
-            for (jet, f) in s.jets.iter_mut().zip(&self.functions) {
+            for (jet, f) in s.slots.jets.iter_mut().zip(&self.elements.functions) {
                 *jet = f.jet(t);
                 note(Counted::Function);
             }
@@ -71,18 +70,18 @@ impl System for Mechanism {
     }
 
     fn phi(&self, s: &mut Scratch) {
-        for c in &self.constraints {
+        for c in &self.elements.constraints {
             if c.rows.start < self.layout.m {
-                let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
+                let (x, f) = (c.site.x(&s.slots), c.site.f(&s.slots));
                 c.element.element().phi(x, f, &mut s.phi[c.rows.clone()]);
             }
         }
     }
 
     fn c(&self, s: &mut Scratch) {
-        for c in &self.constraints {
+        for c in &self.elements.constraints {
             if c.has_varying_entries() {
-                let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
+                let (x, f) = (c.site.x(&s.slots), c.site.f(&s.slots));
                 c.element
                     .element()
                     .c(x, f, &mut s.entries[c.entries.clone()]);
@@ -91,30 +90,26 @@ impl System for Mechanism {
     }
 
     fn b(&self, s: &mut Scratch) {
-        for c in &self.constraints {
+        for c in &self.elements.constraints {
             let element = c.element.element();
             if c.depends_on_time() {
-                let (x, f) = (&s.slot_poses[c.slots.clone()], &s.jets[c.functions.clone()]);
+                let (x, f) = (c.site.x(&s.slots), c.site.f(&s.slots));
                 element.b(x, f, &mut s.b[c.rows.clone()]);
             }
         }
     }
 
     fn twist(&self, v: &[f64], s: &mut Scratch) {
-        self.spread(v, &mut s.slot_twists);
+        self.elements.spread(v, &mut s.slots.twists);
     }
 
     fn gamma(&self, s: &mut Scratch) {
-        for c in &self.constraints {
+        for c in &self.elements.constraints {
             if !c.has_gamma() {
                 s.gamma[c.rows.clone()].fill(0.0);
                 continue;
             }
-            let (x, v) = (
-                &s.slot_poses[c.slots.clone()],
-                &s.slot_twists[c.slots.clone()],
-            );
-            let f = &s.jets[c.functions.clone()];
+            let (x, v, f) = c.site.xvf(&s.slots);
             c.element
                 .element()
                 .gamma(x, v, f, &mut s.gamma[c.rows.clone()]);
@@ -123,12 +118,8 @@ impl System for Mechanism {
 
     fn force(&self, s: &mut Scratch) {
         s.force.copy_from_slice(&self.weight);
-        for force in &self.forces {
-            let (x, v) = (
-                &s.slot_poses[force.slots.clone()],
-                &s.slot_twists[force.slots.clone()],
-            );
-            let f = &s.jets[force.functions.clone()];
+        for force in &self.elements.forces {
+            let (x, v, f) = force.site.xvf(&s.slots);
             force.element.element().q(x, v, f, &mut s.block);
             for (column, value) in force.columns.iter().zip(&s.block) {
                 if let Some(column) = column {
@@ -148,16 +139,11 @@ impl System for Mechanism {
     }
 
     fn displace(&self, q: &mut [f64], d: &[f64]) {
-        self.displace_number(q, d);
+        self.space.displace(q, d);
     }
 
     fn difference(&self, q: &[f64], from: &[f64], d: &mut [f64]) {
-        in_space!(self.space, S => {
-            let bodies = q.chunks_exact(S::N_Q).zip(from.chunks_exact(S::N_Q));
-            for ((q, from), d) in bodies.zip(d.chunks_exact_mut(N_BODY)) {
-                S::difference(q, from, d);
-            }
-        });
+        self.space.difference(q, from, d);
     }
 }
 
@@ -165,12 +151,8 @@ impl Mechanism {
     /// The first force whose law has no finite value at the pose and the twist of the scratch.
     #[must_use]
     pub fn undefined_force(&self, s: &mut Scratch) -> Option<&str> {
-        let undefined = self.forces.iter().find(|force| {
-            let (x, v) = (
-                &s.slot_poses[force.slots.clone()],
-                &s.slot_twists[force.slots.clone()],
-            );
-            let f = &s.jets[force.functions.clone()];
+        let undefined = self.elements.forces.iter().find(|force| {
+            let (x, v, f) = force.site.xvf(&s.slots);
             force.element.element().q(x, v, f, &mut s.block);
             let mut values = s.block[..force.columns.len()].iter();
             values.any(|value| !value.is_finite())
@@ -186,36 +168,6 @@ impl Mechanism {
             true => (to - from).abs() <= HELD * from.abs().max(1.0),
             false => to.to_bits() == from.to_bits(),
         }
-    }
-
-    /// Writes velocities or accelerations of the bodies to the slots; those of the ground stay
-    /// zero.
-    pub(super) fn spread(&self, v: &[f64], slot_twists: &mut [Twist]) {
-        for (slots, bodies) in self.places() {
-            for (twist, &body) in slot_twists[slots].iter_mut().zip(bodies) {
-                if let BodyRef::Body(k) = body {
-                    let v = &v[N_BODY * k..];
-                    *twist = Twist {
-                        x: v[0],
-                        y: v[1],
-                        omega: v[2],
-                    };
-                }
-            }
-        }
-    }
-
-    /// Slots and bodies of all constraints and forces.
-    pub(super) fn places(&self) -> impl Iterator<Item = (Range<usize>, &[BodyRef])> {
-        let constraints = self
-            .constraints
-            .iter()
-            .map(|c| (c.slots.clone(), c.bodies.as_slice()));
-        let forces = self
-            .forces
-            .iter()
-            .map(|f| (f.slots.clone(), f.bodies.as_slice()));
-        constraints.chain(forces)
     }
 }
 

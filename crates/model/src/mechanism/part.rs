@@ -5,9 +5,10 @@
 use joints::spec::Level;
 
 use super::build::Builder;
-use super::{Mechanism, N_BODY, PlacedForce, TimeFunction};
+use super::{Mechanism, N_BODY, PlacedForce};
 use crate::description::BodyRef;
 use crate::function::Function;
+use crate::system::Site;
 
 /// A mechanism that is a part of another one.
 #[derive(Clone)]
@@ -58,7 +59,7 @@ impl Mechanism {
     /// ```
     #[must_use]
     pub fn components(&self) -> Vec<Vec<usize>> {
-        self.connected(self.places().map(|(_, bodies)| bodies))
+        connected(self.bodies.len(), self.elements.sites())
     }
 
     /// Bodies that these joints and drives connect, in the same order; those of none of them alone.
@@ -84,31 +85,8 @@ impl Mechanism {
     /// If a group does not exist.
     #[must_use]
     pub fn joined(&self, groups: &[usize]) -> Vec<Vec<usize>> {
-        let bodies = groups.iter().map(|&k| &self.constraints[k].bodies[..]);
-        self.connected(bodies)
-    }
-
-    /// Sets of bodies, each ascending, ordered by their first bodies: those of each of these lists
-    /// belong together.
-    fn connected<'a>(&self, lists: impl Iterator<Item = &'a [BodyRef]>) -> Vec<Vec<usize>> {
-        let mut leader: Vec<usize> = (0..self.bodies.len()).collect();
-        for bodies in lists {
-            let mut members = bodies.iter().filter_map(|b| b.moving());
-            let Some(first) = members.next() else {
-                continue;
-            };
-            for member in members {
-                let [a, b] = [first, member].map(|k| find(&mut leader, k));
-                leader[a.max(b)] = a.min(b);
-            }
-        }
-        let mut sets: Vec<Vec<usize>> = vec![Vec::new(); self.bodies.len()];
-        for k in 0..self.bodies.len() {
-            let first = find(&mut leader, k);
-            sets[first].push(k);
-        }
-        sets.retain(|set| !set.is_empty());
-        sets
+        let constraints = groups.iter().map(|&k| &self.elements.constraints[k]);
+        connected(self.bodies.len(), constraints.map(|c| &c.site))
     }
 
     /// The mechanism of some bodies with all joints, drives and forces on them, which must not
@@ -125,16 +103,16 @@ impl Mechanism {
             "bodies {bodies:?} are not in order"
         );
         let is_here = |b: &BodyRef| b.moving().is_some_and(|k| bodies.binary_search(&k).is_ok());
-        let constraints = self.constraints.iter().enumerate();
+        let constraints = self.elements.constraints.iter().enumerate();
         let groups: Vec<usize> = constraints
-            .filter(|(_, c)| c.bodies.iter().any(is_here))
+            .filter(|(_, c)| c.site.bodies.iter().any(is_here))
             .map(|(k, _)| k)
             .collect();
-        let forces = self.forces.iter();
+        let forces = self.elements.forces.iter();
         self.assembled(
             bodies,
             &groups,
-            forces.filter(|f| f.bodies.iter().any(is_here)),
+            forces.filter(|f| f.site.bodies.iter().any(is_here)),
         )
     }
 
@@ -150,8 +128,10 @@ impl Mechanism {
             groups.is_sorted_by(|a, b| a < b),
             "groups {groups:?} are not in order"
         );
-        let joined = groups.iter().flat_map(|&k| &self.constraints[k].bodies);
-        let mut bodies: Vec<usize> = joined.filter_map(|b| b.moving()).collect();
+        let joined = groups
+            .iter()
+            .flat_map(|&k| self.elements.constraints[k].site.moving());
+        let mut bodies: Vec<usize> = joined.collect();
         bodies.sort_unstable();
         bodies.dedup();
         self.assembled(&bodies, groups, std::iter::empty())
@@ -175,13 +155,13 @@ impl Mechanism {
         let mut b = Builder::default();
         let mut rows = Vec::new();
         for &k in groups {
-            let (c, group) = (&self.constraints[k], &self.layout.groups[k]);
+            let (c, group) = (&self.elements.constraints[k], &self.layout.groups[k]);
             b.constraint(
                 &group.name,
                 group.kind,
-                &translated(&group.name, &c.bodies),
+                &translated(&group.name, &c.site.bodies),
                 c.element.as_ref(),
-                &laws(&self.functions[c.functions.clone()]),
+                &self.laws(&c.site),
                 c.tolerance,
             );
             rows.extend(c.rows.clone());
@@ -194,8 +174,8 @@ impl Mechanism {
             label.clone_from(&self.layout.labels[row]);
         }
         for f in forces {
-            let functions = laws(&self.functions[f.functions.clone()]);
-            let to = translated(&f.name, &f.bodies);
+            let functions = self.laws(&f.site);
+            let to = translated(&f.name, &f.site.bodies);
             b.force(&f.name, &to, f.element.as_ref(), &functions);
         }
         let places = |n: usize| -> Vec<usize> {
@@ -217,6 +197,34 @@ impl Mechanism {
         };
         Part { mechanism, places }
     }
+
+    fn laws(&self, site: &Site) -> Vec<Function> {
+        let functions = self.elements.functions[site.functions.clone()].iter();
+        functions.map(|f| f.function.clone()).collect()
+    }
+}
+
+/// Sets of bodies, each ascending, ordered by their first bodies: those of each site belong
+/// together.
+fn connected<'a>(bodies: usize, sites: impl Iterator<Item = &'a Site>) -> Vec<Vec<usize>> {
+    let mut leader: Vec<usize> = (0..bodies).collect();
+    for site in sites {
+        let mut members = site.moving();
+        let Some(first) = members.next() else {
+            continue;
+        };
+        for member in members {
+            let [a, b] = [first, member].map(|k| find(&mut leader, k));
+            leader[a.max(b)] = a.min(b);
+        }
+    }
+    let mut sets: Vec<Vec<usize>> = vec![Vec::new(); bodies];
+    for k in 0..bodies {
+        let first = find(&mut leader, k);
+        sets[first].push(k);
+    }
+    sets.retain(|set| !set.is_empty());
+    sets
 }
 
 /// The first body of a set, with shorter ways to it from now on.
@@ -226,10 +234,6 @@ fn find(leader: &mut [usize], mut k: usize) -> usize {
         k = leader[k];
     }
     k
-}
-
-fn laws(functions: &[TimeFunction]) -> Vec<Function> {
-    functions.iter().map(|f| f.function.clone()).collect()
 }
 
 #[cfg(test)]

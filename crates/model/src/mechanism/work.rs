@@ -1,8 +1,8 @@
 //! What the kernels of a mechanism compute at each evaluation, and what they leave out, told from
 //! its structure. The kernels ask the same questions of the same elements.
 
-use super::{Mechanism, N_BODY, PlacedConstraint};
-use crate::system::System;
+use super::{Elements, Mechanism, N_BODY, PlacedConstraint};
+use crate::system::Layout;
 
 /// What is computed at each evaluation.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -24,12 +24,12 @@ pub struct Work {
     pub forces: usize,
 }
 
-impl Mechanism {
-    /// What the kernels compute at each evaluation; allocates.
+impl Work {
+    /// What the kernels of a mechanism compute at each evaluation; allocates.
     ///
     /// ```
     /// use joints::{Direction, Translational};
-    /// use model::{Body, BodyRef, Description, Joint, Mechanism};
+    /// use model::{Body, BodyRef, Description, Joint, Mechanism, Work};
     /// // A slider on the ground along x does not turn: its row `angle` says so.
     /// let guide = Translational { s_i: [0.0; 2], s_j: [0.0; 2], axis: Direction::X, angle_0: 0.0 };
     /// let d = Description {
@@ -37,86 +37,87 @@ impl Mechanism {
     ///     joints: vec![Joint::new("guide", &[BodyRef::Ground, BodyRef::Body(0)], guide)],
     ///     ..Description::default()
     /// };
-    /// let work = Mechanism::build(&d).unwrap().work();
+    /// let work = Work::of(&Mechanism::build(&d).unwrap());
     /// assert_eq!((work.without_turning, work.rows_of_time, work.forces), (vec![0], 0, 0));
     /// ```
     #[must_use]
-    pub fn work(&self) -> Work {
-        let mut work = Work {
-            without_turning: (0..self.held.len()).filter(|&k| self.held[k]).collect(),
-            functions: self.functions.len(),
-            forces: self.forces.len(),
-            ..Work::default()
+    pub fn of(mechanism: &Mechanism) -> Self {
+        let (held, elements) = (&mechanism.held, &mechanism.elements);
+        let mut work = Self {
+            without_turning: (0..held.len()).filter(|&k| held[k]).collect(),
+            functions: elements.functions.len(),
+            forces: elements.forces.len(),
+            ..Self::default()
         };
-        for c in &self.constraints {
+        for c in &elements.constraints {
             let n = c.rows.len();
             work.rows_of_time += if c.depends_on_time() { n } else { 0 };
             work.rows_of_gamma += if c.has_gamma() { n } else { 0 };
         }
-        let varying: Vec<usize> = self
-            .constraints
-            .iter()
+        let constraints = elements.constraints.iter();
+        let varying: Vec<usize> = constraints
             .flat_map(|c| c.varying.iter().map(|k| c.entries.start + k))
             .collect();
-        let entries = &self.layout().pattern.entry;
+        let entries = &mechanism.layout.pattern.entry;
         work.entries = entries.len();
         let varies = |entry: &&usize| varying.binary_search(entry).is_ok();
         work.varying_entries = entries.iter().filter(varies).count();
         work
     }
+}
 
-    /// For each body, whether its angle keeps its initial value: a holonomic row that does not
-    /// depend on time holds it against the ground, or against bodies of which this is known. Only
-    /// rows of angles alone, with constant entries, are asked, so that not all such bodies may be
-    /// found.
-    pub(super) fn held_bodies(&self) -> Vec<bool> {
-        let rows: Vec<Vec<usize>> = self
-            .constraints
-            .iter()
-            .filter(|c| !c.depends_on_time())
-            .flat_map(|c| c.rows.clone().map(move |i| (c, i)))
-            .filter(|&(_, i)| i < self.layout.m && self.is_angular(i))
-            .filter_map(|(c, i)| self.constant_row(c, i))
-            .collect();
-        let mut of_body = vec![Vec::new(); self.bodies.len()];
-        for (k, row) in rows.iter().enumerate() {
-            row.iter().for_each(|&body| of_body[body].push(k));
-        }
-        let mut held = vec![false; self.bodies.len()];
-        let mut free: Vec<usize> = rows.iter().map(Vec::len).collect();
-        // Rows with one free body, which they hold.
-        let mut holding: Vec<usize> = (0..rows.len()).filter(|&k| free[k] == 1).collect();
-        while let Some(k) = holding.pop() {
-            let Some(&body) = rows[k].iter().find(|&&body| !held[body]) else {
-                continue;
-            };
-            held[body] = true;
-            for &row in &of_body[body] {
-                free[row] -= 1;
-                if free[row] == 1 {
-                    holding.push(row);
-                }
+/// For each body, whether its angle keeps its initial value: a holonomic row that does not depend
+/// on time holds it against the ground, or against bodies of which this is known. Only rows of
+/// angles alone, with constant entries, are asked, so that not all such bodies may be found.
+pub(super) fn held_bodies(elements: &Elements, layout: &Layout, bodies: usize) -> Vec<bool> {
+    let constraints = elements.constraints.iter();
+    let rows: Vec<Vec<usize>> = constraints
+        .filter(|c| !c.depends_on_time())
+        .flat_map(|c| c.rows.clone().map(move |i| (c, i)))
+        .filter(|&(_, i)| i < layout.m && layout.is_angular(i))
+        .filter_map(|(c, i)| constant_row(elements, layout, c, i))
+        .collect();
+    let mut of_body = vec![Vec::new(); bodies];
+    for (k, row) in rows.iter().enumerate() {
+        row.iter().for_each(|&body| of_body[body].push(k));
+    }
+    let mut held = vec![false; bodies];
+    let mut free: Vec<usize> = rows.iter().map(Vec::len).collect();
+    // Rows with one free body, which they hold.
+    let mut holding: Vec<usize> = (0..rows.len()).filter(|&k| free[k] == 1).collect();
+    while let Some(k) = holding.pop() {
+        let Some(&body) = rows[k].iter().find(|&&body| !held[body]) else {
+            continue;
+        };
+        held[body] = true;
+        for &row in &of_body[body] {
+            free[row] -= 1;
+            if free[row] == 1 {
+                holding.push(row);
             }
         }
-        held
     }
+    held
+}
 
-    /// Bodies in a row of a constraint whose entries are constant, those with an entry of zero left
-    /// out.
-    fn constant_row(&self, c: &PlacedConstraint, i: usize) -> Option<Vec<usize>> {
-        let pattern = &self.layout.pattern;
-        let places = pattern.start[i]..pattern.start[i + 1];
-        let varying = |entry: usize| c.varying.contains(&(entry - c.entries.start));
-        let mut bodies = Vec::new();
-        for k in places {
-            let entry = pattern.entry[k];
-            if varying(entry) {
-                return None;
-            }
-            if self.entries[entry] != 0.0 {
-                bodies.push(pattern.column[k] / N_BODY);
-            }
+/// Bodies in a row of a constraint whose entries are constant, those with an entry of zero left
+/// out.
+fn constant_row(
+    elements: &Elements,
+    layout: &Layout,
+    c: &PlacedConstraint,
+    i: usize,
+) -> Option<Vec<usize>> {
+    let pattern = &layout.pattern;
+    let mut bodies = Vec::new();
+    for k in pattern.row(i) {
+        let entry = pattern.entry[k];
+        if c.varying.contains(&(entry - c.entries.start)) {
+            return None;
         }
-        Some(bodies)
+        if elements.entries[entry] != 0.0 {
+            bodies.push(pattern.column[k] / N_BODY);
+        }
     }
+    Some(bodies)
 }

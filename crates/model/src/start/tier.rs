@@ -14,8 +14,10 @@ use linalg::{
 };
 use rank::{Circuit, circuits, decide};
 
-use super::{DAMPING, ROUNDINGS, StartError, weights};
+use super::error::StartError;
+use super::metric::{DAMPING, ROUNDINGS, weights};
 use crate::mechanism::{Mechanism, N_BODY};
+use crate::size::size_of;
 use crate::system::{Scratch, System};
 use crate::uncertainty::Known;
 
@@ -59,7 +61,7 @@ impl<'m> Equations<'m> {
         mechanism.phi(&mut s);
         mechanism.c(&mut s);
         mechanism.b(&mut s);
-        let size = super::size_of(mechanism, &s);
+        let size = size_of(mechanism, &s);
         let weight = mechanism.weight().iter().zip(mechanism.mass());
         let gravity = weight.filter(|(_, m)| **m > 0.0).map(|(w, m)| w.abs() / m);
         let gravity = gravity.fold(0.0, f64::max);
@@ -85,8 +87,8 @@ impl<'m> Equations<'m> {
     pub(super) fn rounding(&self, i: usize, v: &[f64]) -> f64 {
         let row = self.mechanism.layout().row(&self.s, i);
         let fastest = self.fastest(row.map(|(j, _)| j), v);
-        let places = self.mechanism.position_scale(&self.s, i);
-        let terms = self.mechanism.bounded_velocity_scale(&self.s, i, v);
+        let places = self.mechanism.scales(&self.s).position(i);
+        let terms = self.mechanism.scales(&self.s).bounded_velocity(i, v);
         ROUNDINGS * f64::EPSILON * (terms + fastest * places)
     }
 
@@ -103,7 +105,7 @@ impl<'m> Equations<'m> {
     /// What row `i` may miss by at velocities that are known to the rounding of this rate (1/s),
     /// and at rest.
     pub(super) fn slack(&self, i: usize, rate: f64) -> f64 {
-        let places = self.mechanism.position_scale(&self.s, i);
+        let places = self.mechanism.scales(&self.s).position(i);
         ROUNDINGS * f64::EPSILON * (ROUNDINGS * self.rest_rate + rate) * places
     }
 
@@ -175,14 +177,19 @@ impl<'m> Equations<'m> {
             known,
             ..
         } = self;
-        known.get_or_insert_with(|| mechanism.uncertainty_of_entries(s, *size, Known::AsStored));
+        known.get_or_insert_with(|| {
+            mechanism
+                .scales(s)
+                .uncertainty_of_entries(*size, Known::AsStored)
+        });
     }
 
     fn known(&self, i: usize) -> impl Iterator<Item = (usize, f64)> + '_ {
         let pattern = &self.mechanism.layout().pattern;
         let known = self.known.as_deref().unwrap_or_default();
-        let range = pattern.start[i]..pattern.start[i + 1];
-        range.map(move |k| (pattern.column[k], known.get(k).copied().unwrap_or_default()))
+        pattern
+            .row(i)
+            .map(move |k| (pattern.column[k], known.get(k).copied().unwrap_or_default()))
     }
 }
 
@@ -242,7 +249,7 @@ impl Tier {
                 tier.parts.extend(Part::schur(of, &set, columns, &masses)?);
                 continue;
             }
-            let exponents = of.mechanism.dimension_scaling(of.size).cols;
+            let exponents = of.mechanism.layout().dimension_scaling(of.size).cols;
             let scaled =
                 |k: usize, l: usize, x: f64| (k, l, x * f64::from(exponents[columns[l]]).exp2());
             let mut c = Matrix::zeros(set.len(), columns.len());

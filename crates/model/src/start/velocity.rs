@@ -12,10 +12,10 @@
 use linalg::Matrix;
 
 use super::conflict::VelocityConflict;
+use super::error::StartError;
+use super::metric::{ROUNDINGS, SMALL_CORRECTION, largest};
+use super::options::{CorrectionLimit, KeepLevel, StartOptions, kept_columns};
 use super::tier::{DENSE_ROWS, Equations, Part, Tier, exceeds, shortest};
-use super::{
-    CorrectionLimit, KeepLevel, ROUNDINGS, SMALL_CORRECTION, StartError, StartOptions, kept_columns,
-};
 use crate::mechanism::Mechanism;
 
 /// Velocities that satisfy the constraints.
@@ -278,7 +278,7 @@ impl<'m> Start<'m> {
             .iter()
             .map(|&i| (i, excess(i)))
             .filter(|(i, _)| of.residual(*i, v) != 0.0);
-        let (row, worst) = super::largest(excesses);
+        let (row, worst) = largest(excesses);
         exceeds(worst, 1.0).then_some(Miss::Open(row))
     }
 

@@ -6,11 +6,13 @@
 
 use linalg::{Matrix, small_svd};
 
-use super::{Restricting, StartError, dense_rows, size_of};
+use super::error::StartError;
+use super::metric::{Restricting, dense_rows};
 use crate::data::{DataBlock, DataUnit, SHARED};
 use crate::mechanism::{Mechanism, N_BODY};
+use crate::size::size_of;
 use crate::system::{Scratch, System};
-use crate::uncertainty::ROUNDING;
+use crate::uncertainty::{ROUNDING, has_tolerances};
 
 /// Data that move a body by more than so many tolerances do not say where it is: what misses there
 /// is left as it is. Levers are known to two points, which this must not exceed by much: at ten,
@@ -37,7 +39,7 @@ fn largest(blocks: &[DataBlock]) -> [f64; 2] {
 
 /// What data within the tolerance make of each of these rows.
 fn reach(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<f64> {
-    let blocks = mechanism.data_blocks(s);
+    let blocks = mechanism.data().blocks(s);
     let [length, angle] = largest(&blocks);
     let mut lambda = vec![0.0; mechanism.layout().rows()];
     let moved = |block: &DataBlock| {
@@ -49,7 +51,7 @@ fn reach(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> Vec<f64> {
     };
     let of_row = |&row: &usize| {
         lambda[row] = 1.0;
-        let change = mechanism.phi_change(s, &lambda, &blocks, moved);
+        let change = mechanism.data().phi_change(s, &lambda, &blocks, moved);
         lambda[row] = 0.0;
         change
     };
@@ -66,7 +68,7 @@ pub(super) fn is_within(mechanism: &Mechanism, s: &Scratch, rows: &[usize]) -> b
 /// How far a body moves along each column of C by one tolerance: lengths, and angles that move a
 /// point at the size of the mechanism by as much.
 fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
-    let [length, angle] = largest(&mechanism.data_blocks(s));
+    let [length, angle] = largest(&mechanism.data().blocks(s));
     let length = match length {
         0.0 => angle * size,
         length => length,
@@ -83,7 +85,7 @@ fn units(mechanism: &Mechanism, s: &Scratch, size: f64) -> Vec<f64> {
 
 /// How far configurations are apart in these units.
 fn farthest(mechanism: &Mechanism, a: &[f64], b: &[f64], units: &[f64]) -> f64 {
-    let apart = mechanism.difference_of(a, b);
+    let apart = mechanism.space().difference_of(a, b);
     let shares = apart.iter().zip(units).map(|(d, unit)| d.abs() / unit);
     shares.fold(0.0, f64::max)
 }
@@ -91,7 +93,7 @@ fn farthest(mechanism: &Mechanism, a: &[f64], b: &[f64], units: &[f64]) -> f64 {
 /// Whether a tolerance is stated, and these coordinates are farther apart than data within it say
 /// where the bodies are.
 pub(crate) fn is_beyond(mechanism: &Mechanism, s: &Scratch, from: &[f64], to: &[f64]) -> bool {
-    mechanism.has_tolerances()
+    has_tolerances(mechanism)
         && farthest(
             mechanism,
             from,
@@ -159,7 +161,7 @@ fn truncated(
             return Ok(None);
         }
         // C·(q₀ + δ − q) + Φ = 0
-        let shift = mechanism.difference_of(described, &q);
+        let shift = mechanism.space().difference_of(described, &q);
         let moved = c.times(&shift);
         let misfit: Vec<f64> = (0..rows.len())
             .map(|i| (s.phi[rows[i]] + moved[i]) / scale(i))
@@ -183,7 +185,7 @@ fn truncated(
                 *step -= along(j) * share;
             }
         }
-        let next = mechanism.displaced(described, 1.0, &step);
+        let next = mechanism.space().displaced(described, 1.0, &step);
         is_still = farthest(mechanism, &q, &next, units) <= STILL;
         q = next;
     }

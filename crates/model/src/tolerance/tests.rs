@@ -3,7 +3,8 @@
 use joints::{Direction, Gear, KnifeEdge, Line, PointOnLine, Revolute, RevoluteAngleDrive};
 
 use super::*;
-use crate::{Body, BodyRef, DataBlock, Function, System};
+use crate::description::Description;
+use crate::{Body, BodyRef, DataBlock, Function, Mechanism, System};
 
 /// The distance between the bodies, with all joints between them: the size of the mechanism (m).
 const SIZE: f64 = 4.0;
@@ -52,7 +53,7 @@ fn built(d: &Description) -> Mechanism {
 fn blocks(mechanism: &Mechanism) -> Vec<DataBlock> {
     let mut s = mechanism.scratch();
     mechanism.pose(0.0, &mechanism.described_state().0, &mut s);
-    mechanism.data_blocks(&s)
+    mechanism.data().blocks(&s)
 }
 
 /// Tolerances of the data of a joint or drive, in their order; of a line its point, then its

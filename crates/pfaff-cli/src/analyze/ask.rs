@@ -1,5 +1,6 @@
 //! The questions of the command line, put to one configuration.
 
+use pfaff::model::System;
 use pfaff::rank::{DeletionError, Limits};
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::{
@@ -52,7 +53,7 @@ pub(super) fn document(
             .push(MakeUniqueDocument::new(name, &allowed, found));
     }
     if arguments.frames {
-        let ids = configuration.mechanism.constraint_ids();
+        let ids = configuration.mechanism.layout().constraint_ids();
         let frames: Result<Vec<_>, _> = ids.map(|id| configuration.frames(id)).collect();
         document.add_frames(&frames.map_err(failure)?);
     }

@@ -83,7 +83,7 @@ pub(super) fn reaction_place(group: usize, component: usize) -> usize {
 /// What the values of each kind are divided by so that they can be compared with each other:
 /// lengths by the size of the mechanism (m), torques too; angles and forces by 1.
 pub(super) fn units(mechanism: &Mechanism, size: f64) -> [Vec<f64>; 4] {
-    let kinds = mechanism.column_kinds();
+    let kinds = mechanism.layout().column_kinds();
     let columns: Vec<f64> = kinds
         .iter()
         .map(|kind| match kind {

@@ -67,6 +67,7 @@ pub(crate) struct Pitch {
 /// All joints and drives, in the order of their rows, at the poses of the scratch.
 pub(crate) fn sites(mechanism: &Mechanism, s: &Scratch) -> Vec<Site> {
     mechanism
+        .layout()
         .constraint_ids()
         .map(|id| site(mechanism, id, s))
         .collect()
@@ -76,8 +77,8 @@ pub(crate) fn sites(mechanism: &Mechanism, s: &Scratch) -> Vec<Site> {
 pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site {
     let group = &mechanism.layout().groups[id.0];
     let spec = group.spec;
-    let place = finite_or(mechanism.place(id, s), [0.0, 0.0]);
-    let map = mechanism.wrench_map(id, s);
+    let place = finite_or(mechanism.reactions(s).place(id), [0.0, 0.0]);
+    let map = mechanism.reactions(s).wrench_map(id);
     let rows = Rows::of(group);
     // The line along which the only force acts.
     let force = rows.only_force().map(|row| Force::of(&map, row));

@@ -103,7 +103,7 @@ impl Stage<'_> {
         let probes = self.probes();
         let size = self.size();
         let mut points = vec![Vec::new(); self.bodies.len()];
-        for id in self.mechanism.constraint_ids() {
+        for id in self.mechanism.layout().constraint_ids() {
             for (body, point) in self.mechanism.points(id) {
                 if let BodyRef::Body(k) = body {
                     points[k].push(point.map(Rounded));
@@ -115,7 +115,7 @@ impl Stage<'_> {
                 points[k].push([x, y]);
             }
         }
-        let sites = self.mechanism.constraint_ids();
+        let sites = self.mechanism.layout().constraint_ids();
         DrawingModel {
             sites: sites.map(|id| self.site(id, &probes, size)).collect(),
             bodies: points

@@ -179,7 +179,12 @@ impl Terms {
             ColumnKind::Translation => size,
             ColumnKind::Rotation => 1.0,
         };
-        let lengths: Vec<f64> = mechanism.column_kinds().iter().map(length).collect();
+        let lengths: Vec<f64> = mechanism
+            .layout()
+            .column_kinds()
+            .iter()
+            .map(length)
+            .collect();
         // The fastest thing in the mechanism, in rad/s; Γ is quadratic in it.
         let rates = v.iter().zip(&lengths).map(|(v, length)| (v / length).abs());
         let rate = rates.fold(0.0, f64::max);

@@ -32,7 +32,7 @@ impl Demand {
             joint: mechanism
                 .driven(id)
                 .map(|(joint, measure)| (groups[joint.0].name.clone(), measure)),
-            angular: mechanism.is_angular(group.rows.start),
+            angular: mechanism.layout().is_angular(group.rows.start),
             prescribed,
         })
     }

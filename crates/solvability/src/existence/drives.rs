@@ -183,7 +183,7 @@ impl Way<'_> {
         let mut then = self.mechanism.scratch();
         self.mechanism.pose(next, &self.q, &mut then);
         let groups = &self.mechanism.layout().groups;
-        let ids = self.mechanism.constraint_ids();
+        let ids = self.mechanism.layout().constraint_ids();
         let kept = &rows.decision.kept;
         let is_followed = |id: &ConstraintId| {
             let group = &groups[id.0];
@@ -198,7 +198,7 @@ impl Way<'_> {
                     .sum::<f64>()
             };
             let change = (value(&then) - value(now)).abs();
-            match self.mechanism.is_angular(groups[id.0].rows.start) {
+            match self.mechanism.layout().is_angular(groups[id.0].rows.start) {
                 true => change,
                 false => change / self.size,
             }
@@ -239,14 +239,14 @@ fn compared(
     };
     // What cannot hold at all comes before what cannot go on.
     if let Some(positions) = JointsFirst::of_positions(mechanism, t, q)? {
-        let terms = |i| mechanism.position_scale(&positions.s, i);
+        let terms = |i| mechanism.scales(&positions.s).position(i);
         let level = ConstraintLevel::Position;
         add(positions.contradictions(mechanism, level, &terms, share));
     }
     if let Some(all) = JointsFirst::of_velocities(mechanism, t, q)? {
         // Rates that part the positions by nothing in the time of the run are none.
-        let slow = |i| per_second * mechanism.position_scale(&all.s, i);
-        let terms = |i| mechanism.prescribed_scale(&all.s, i) + slow(i);
+        let slow = |i| per_second * mechanism.scales(&all.s).position(i);
+        let terms = |i| mechanism.scales(&all.s).prescribed(i) + slow(i);
         let level = ConstraintLevel::Velocity;
         add(all.contradictions(mechanism, level, &terms, share));
     }

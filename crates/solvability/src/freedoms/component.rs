@@ -192,8 +192,8 @@ impl<'a> Component<'a> {
     /// centres of mass that stay where they are, motions along one axis.
     fn wishes(&self) -> Vec<Vec<Form>> {
         let bodies = || 0..self.mechanism.bodies().len();
-        let pinned = self.mechanism.constraint_ids().flat_map(|id| {
-            let place = self.mechanism.place(id, &self.s);
+        let pinned = self.mechanism.layout().constraint_ids().flat_map(|id| {
+            let place = self.mechanism.reactions(&self.s).place(id);
             let group = &self.mechanism.layout().groups[id.0];
             let bodies = group.bodies.iter().filter_map(|b| b.moving());
             bodies.map(move |b| self.point_at_rest(b, place))
@@ -208,7 +208,7 @@ impl<'a> Component<'a> {
     /// Forms that vanish where the bodies of a joint move as one; with the ground, where they are
     /// at rest.
     fn held(&self, group: usize) -> Vec<Form> {
-        let place = self.mechanism.place(ConstraintId(group), &self.s);
+        let place = self.mechanism.reactions(&self.s).place(ConstraintId(group));
         let all = &self.mechanism.layout().groups[group].bodies;
         let bodies: Vec<usize> = all.iter().filter_map(|b| b.moving()).collect();
         match bodies.as_slice() {

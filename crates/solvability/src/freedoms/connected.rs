@@ -134,7 +134,7 @@ impl<'a> Connected<'a> {
 
     /// Coordinates of a set.
     fn own(&self, set: &[usize], q: &[f64]) -> Vec<f64> {
-        let places = set.iter().flat_map(|&b| self.whole.coordinates(b));
+        let places = set.iter().flat_map(|&b| self.whole.space().coordinates(b));
         places.map(|k| q[k]).collect()
     }
 

@@ -160,11 +160,18 @@ fn joint_at<'m>(of: &Component<'m>, bodies: &[usize], centre: [f64; 2]) -> Optio
     for (k, group) in groups {
         let is_theirs = |b: &usize| group.bodies.contains(&BodyRef::Body(*b));
         if !bodies.iter().any(is_theirs)
-            || !is_at(of, mechanism.place(ConstraintId(k), &of.s), centre)
+            || !is_at(
+                of,
+                mechanism.reactions(&of.s).place(ConstraintId(k)),
+                centre,
+            )
         {
             continue;
         }
-        let holds = group.rows.clone().filter(|&row| !mechanism.is_angular(row));
+        let holds = group
+            .rows
+            .clone()
+            .filter(|&row| !mechanism.layout().is_angular(row));
         let holds = holds.count();
         if holds > named.map_or(0, |(most, _)| most) {
             named = Some((holds, &group.name));

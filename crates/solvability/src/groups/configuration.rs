@@ -115,7 +115,7 @@ impl<'a> Configuration<'a> {
     /// [`RequestError::UnknownReaction`]
     pub fn place(&self, id: ConstraintId) -> Result<[f64; 2], RequestError> {
         self.check_id(id)?;
-        Ok(self.mechanism.place(id, &self.s))
+        Ok(self.mechanism.reactions(&self.s).place(id))
     }
 
     /// The force of a reaction along a direction (global components; a unit vector gives N).
@@ -125,7 +125,7 @@ impl<'a> Configuration<'a> {
     pub fn force(&self, id: ConstraintId, along: [f64; 2]) -> Result<LinearForm, RequestError> {
         self.check_id(id)?;
         check("direction", &along, 2)?;
-        let map = self.mechanism.wrench_map(id, &self.s);
+        let map = self.mechanism.reactions(&self.s).wrench_map(id);
         let mut form = self.zero();
         self.add_wrench(
             &mut form,
@@ -143,7 +143,10 @@ impl<'a> Configuration<'a> {
     pub fn torque(&self, id: ConstraintId, about: [f64; 2]) -> Result<LinearForm, RequestError> {
         self.check_id(id)?;
         check("point", &about, 2)?;
-        let map = self.mechanism.wrench_map_about(id, about, &self.s);
+        let map = self
+            .mechanism
+            .reactions(&self.s)
+            .wrench_map_about(id, about);
         let mut form = self.zero();
         self.add_wrench(&mut form, &map, self.first_row(id), [0.0, 0.0, 1.0]);
         Ok(form)
@@ -165,7 +168,10 @@ impl<'a> Configuration<'a> {
 
     fn named_component(&self, id: ConstraintId, name: &str) -> Result<LinearForm, RequestError> {
         self.check_id(id)?;
-        let coefficients = self.mechanism.component_coefficients(id, name, &self.s);
+        let coefficients = self
+            .mechanism
+            .reactions(&self.s)
+            .component_coefficients(id, name);
         let Some(coefficients) = coefficients else {
             let group = &self.mechanism.layout().groups[id.0];
             let named = group.spec.component.map(|name| format!(", `{name}`"));
@@ -197,7 +203,10 @@ impl<'a> Configuration<'a> {
         }
         let mut forms = [(); 3].map(|()| self.zero());
         for (k, &body) in bodies.iter().enumerate() {
-            let map = self.mechanism.body_wrench_map(body, about, &self.s);
+            let map = self
+                .mechanism
+                .reactions(&self.s)
+                .body_wrench_map(body, about);
             let map = map.ok_or(RequestError::UnknownBody {
                 body,
                 bodies: self.mechanism.bodies().len(),
@@ -220,7 +229,10 @@ impl<'a> Configuration<'a> {
         coefficient: f64,
         about: [f64; 2],
     ) {
-        let map = self.mechanism.wrench_map_about(id, about, &self.s);
+        let map = self
+            .mechanism
+            .reactions(&self.s)
+            .wrench_map_about(id, about);
         for (form, along) in forms.iter_mut().zip(UNITS) {
             let along = along.map(|x| coefficient * x);
             self.add_wrench(form, &map, self.first_row(id), along);

@@ -130,7 +130,7 @@ impl Ground<'_> {
     /// Solving Ordinary Differential Equations I, section II.9 (1993).
     pub(super) fn flow(&self, q: &[f64], moved: Vec<f64>) -> Option<(Vec<f64>, Step)> {
         let velocity = |d: &[f64]| {
-            let (_, c) = self.at(&self.mechanism.displaced(q, 1.0, d));
+            let (_, c) = self.at(&self.mechanism.space().displaced(q, 1.0, d));
             self.followed(&c, self.kept).allowed(&moved)
         };
         let advanced = |d: &[f64], h: f64, v: &[f64]| -> Vec<f64> {
@@ -163,7 +163,7 @@ impl Ground<'_> {
                 .map(|((a, b), unit)| ((a - b) / unit).abs())
                 .fold(0.0, f64::max);
             if apart <= AGREED * self.size {
-                let there = self.mechanism.displaced(q, 1.0, best);
+                let there = self.mechanism.space().displaced(q, 1.0, best);
                 return Some((there, self.step(q, moved)));
             }
         }
@@ -173,7 +173,7 @@ impl Ground<'_> {
     fn step(&self, q: &[f64], moved: Vec<f64>) -> Step {
         let (first, c) = self.at(q);
         let positions = self.followed(&c, &self.holonomic());
-        let (middle, c) = self.at(&self.mechanism.displaced(q, 0.5, &moved));
+        let (middle, c) = self.at(&self.mechanism.space().displaced(q, 0.5, &moved));
         let velocities = self.followed(&c, self.kept);
         Step {
             first,
@@ -191,12 +191,16 @@ impl Step {
     pub(super) fn carry_back(&self, mechanism: &Mechanism, pose: &mut Vec<f64>, data: &mut [f64]) {
         let rows = mechanism.layout().rows();
         let (lambda, _) = self.velocities.split(pose, rows);
-        mechanism.add_power_by_data(&self.middle, &lambda, &self.moved, -1.0, data);
+        mechanism
+            .data()
+            .add_power(&self.middle, &lambda, &self.moved, -1.0, data);
         let mut turned = vec![0.0; pose.len()];
-        mechanism.add_power_by_pose(&self.middle, &lambda, &self.moved, &mut turned);
+        mechanism
+            .data()
+            .add_power_by_pose(&self.middle, &lambda, &self.moved, &mut turned);
         pose.iter_mut().zip(&turned).for_each(|(p, t)| *p -= t);
         let (lambda, free) = self.positions.split(pose, rows);
-        mechanism.add_phi_by_data(&self.first, &lambda, -1.0, data);
+        mechanism.data().add_phi(&self.first, &lambda, -1.0, data);
         *pose = free;
     }
 }

@@ -38,8 +38,9 @@ impl MeantMatrix {
     /// At the pose of the scratch, where Φ and C have been evaluated, for a mechanism of this size.
     pub(crate) fn new(mechanism: &Mechanism, s: &Scratch, size: f64, known: Known) -> Self {
         let uncertainty = mechanism
+            .layout()
             .dimension_scaling(size)
-            .apply(&mechanism.uncertainty(s, size, known));
+            .apply(&mechanism.scales(s).uncertainty(size, known));
         Self::of(mechanism, dimensionless(mechanism, s, size), uncertainty)
     }
 
@@ -148,7 +149,7 @@ fn row_blocks(mechanism: &Mechanism) -> Vec<usize> {
     for group in &layout.groups {
         let mut last = None;
         for row in group.rows.clone() {
-            let kind = mechanism.is_angular(row);
+            let kind = mechanism.layout().is_angular(row);
             if last != Some(kind) {
                 next += 1;
             }

@@ -176,8 +176,8 @@ impl Question<'_> {
         if candidate.weakest() > CLEAR {
             return None;
         }
-        let dimensions = self.mechanism.dimension_scaling(self.size);
-        let blocks = self.mechanism.data_blocks(self.s);
+        let dimensions = self.mechanism.layout().dimension_scaling(self.size);
+        let blocks = self.mechanism.data().blocks(self.s);
         let unit: Vec<f64> = blocks.iter().map(|b| self.unit(b, tolerance)).collect();
         let kept = candidate.kept.clone();
         let matrices = (&scaled, &dimensions, &scaling);

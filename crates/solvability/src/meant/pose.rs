@@ -227,9 +227,10 @@ impl<'a> Pose<'a> {
             .zip(&self.s.phi)
             .map(|(u, phi)| u * phi)
             .sum();
-        let mut gradient = vec![0.0; self.mechanism.data_count()];
+        let mut gradient = vec![0.0; self.mechanism.data().count()];
         self.mechanism
-            .add_phi_by_data(self.s, &u, 1.0, &mut gradient);
+            .data()
+            .add_phi(self.s, &u, 1.0, &mut gradient);
         Some((target, gradient))
     }
 
@@ -248,15 +249,18 @@ impl<'a> Pose<'a> {
             |x: &[f64], by: &[f64]| -> Vec<f64> { x.iter().zip(by).map(|(x, f)| x * f).collect() };
         let u = self.spread(u);
         let v = scaled(v, &self.columns);
-        let mut data = vec![0.0; self.mechanism.data_count()];
+        let mut data = vec![0.0; self.mechanism.data().count()];
         self.mechanism
-            .add_power_by_data(self.s, &u, &v, 1.0, &mut data);
+            .data()
+            .add_power(self.s, &u, &v, 1.0, &mut data);
         let mut turned = vec![0.0; v.len()];
         self.mechanism
+            .data()
             .add_power_by_pose(self.s, &u, &v, &mut turned);
         let (lambda, pose) = self.positions.split(&turned, u.len());
         self.mechanism
-            .add_phi_by_data(self.s, &lambda, -1.0, &mut data);
+            .data()
+            .add_phi(self.s, &lambda, -1.0, &mut data);
         let onto_kept = -lambda
             .iter()
             .zip(&self.s.phi)

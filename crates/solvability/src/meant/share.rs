@@ -2,7 +2,7 @@
 //! they make of dependencies.
 
 use linalg::{Matrix, Scaling, small_svd};
-use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch};
+use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch, System};
 use rank::RankDecision;
 
 use super::cone::{Bounds, Equation, least_change};
@@ -51,7 +51,7 @@ impl Question<'_> {
         scaling: &Scaling,
         lower: usize,
     ) -> Bounds {
-        let dimensions = self.mechanism.dimension_scaling(self.size);
+        let dimensions = self.mechanism.layout().dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, lower);
         let pose = Pose::new(
             self.mechanism,
@@ -60,7 +60,7 @@ impl Question<'_> {
             (scaled, &dimensions, scaling),
             candidate,
         );
-        let blocks = self.mechanism.data_blocks(self.s);
+        let blocks = self.mechanism.data().blocks(self.s);
         let known: Vec<f64> = blocks.iter().map(|b| ROUNDING * b.scale).collect();
         let noise = rounding(scaled);
         let mut equations = Vec::new();
@@ -101,7 +101,7 @@ impl Question<'_> {
     /// The largest tolerance that the scene states for a point or a length; for an angle if it
     /// states none for lengths, which are then known to their rounding.
     pub(super) fn tolerance(&self) -> Option<StatedTolerance> {
-        let blocks = self.mechanism.data_blocks(self.s);
+        let blocks = self.mechanism.data().blocks(self.s);
         let largest = |unit: DataUnit| {
             let of_unit = blocks.iter().filter(|b| b.unit == unit);
             of_unit.filter_map(|b| b.tolerance).reduce(f64::max)
@@ -124,11 +124,11 @@ impl Question<'_> {
         asked: &[usize],
     ) -> Vec<f64> {
         let (rank, scaling) = (decision.rank, &decision.scaling);
-        let dimensions = self.mechanism.dimension_scaling(self.size);
+        let dimensions = self.mechanism.layout().dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, rank);
         let matrices = (scaled, &dimensions, scaling);
         let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
-        let blocks = self.mechanism.data_blocks(self.s);
+        let blocks = self.mechanism.data().blocks(self.s);
         let svd = small_svd(scaled);
         let bases = [rank::orthonormal(decision), single(decision)].map(|z| z.transpose());
         let mut known = vec![0.0; scaled.nrows()];
@@ -161,11 +161,11 @@ impl Question<'_> {
     /// By what angle the force of each row turns with data within what they are known to, with the
     /// pose that follows them; and by what length it shifts beside its place, which are two points.
     pub(crate) fn turns(&self, scaled: &Matrix, decision: &RankDecision) -> Vec<[f64; 2]> {
-        let dimensions = self.mechanism.dimension_scaling(self.size);
+        let dimensions = self.mechanism.layout().dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, decision.rank);
         let matrices = (scaled, &dimensions, &decision.scaling);
         let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
-        let blocks = self.mechanism.data_blocks(self.s);
+        let blocks = self.mechanism.data().blocks(self.s);
         let of_row = |i: usize| {
             let bodies = scaled.row(i).chunks_exact(N_BODY).enumerate();
             let size = |force: &[f64]| force[0].hypot(force[1]);

@@ -7,6 +7,7 @@
 //! which rows depend on each other.
 
 use linalg::{Matrix, PivotedQr};
+use model::System;
 use rank::{Circuit, CoefficientReading, RankDecision};
 
 use super::pose::{Candidate, Pose, most_independent_of};
@@ -78,11 +79,11 @@ impl Question<'_> {
         if decision.redundancy == 0 || !decision.is_decided() {
             return Vec::new();
         }
-        let dimensions = self.mechanism.dimension_scaling(self.size);
+        let dimensions = self.mechanism.layout().dimension_scaling(self.size);
         let candidate = Candidate::of_rank(scaled, decision.rank);
         let matrices = (scaled, &dimensions, &decision.scaling);
         let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
-        let blocks = self.mechanism.data_blocks(self.s);
+        let blocks = self.mechanism.data().blocks(self.s);
         let is_open = |circuit: &Circuit| {
             let Some(of) = Fundamental::new(scaled, decision, circuit) else {
                 return true;

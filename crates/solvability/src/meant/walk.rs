@@ -119,11 +119,11 @@ fn step(
             let (ahead, taken) = ground.flow(q, moved)?;
             (ahead, Some(taken))
         }
-        false => (mechanism.displaced(q, 1.0, &moved), None),
+        false => (mechanism.space().displaced(q, 1.0, &moved), None),
     };
     let rows = ground.holonomic();
     let there = nearest_configuration(mechanism, ground.t, &rows, &ahead, Metric::Length).ok()?;
-    let correction = mechanism.difference_of(&there, &ahead);
+    let correction = mechanism.space().difference_of(&there, &ahead);
     let mut lengths = correction
         .iter()
         .zip(units)

@@ -144,7 +144,7 @@ impl Forms {
             let sum = |z: &Vec<f64>| z.iter().zip(&s.gamma).map(|(z, g)| z * g).sum();
             for z in stresses {
                 let scale =
-                    |(i, z): (usize, &f64)| z.abs() * mechanism.acceleration_scale(s, i, &v, size);
+                    |(i, z): (usize, &f64)| z.abs() * mechanism.scales(s).acceleration(i, &v, size);
                 terms = terms.max(z.iter().enumerate().map(scale).sum());
             }
             stresses.iter().map(sum).collect()

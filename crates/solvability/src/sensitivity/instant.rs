@@ -5,7 +5,9 @@ use std::borrow::Cow;
 
 use linalg::{KeptRowSaddle, Matrix, PivotedQr};
 use model::start::scene_size;
-use model::{ColumnKind, ConstraintId, DataBlock, DataGradients, DataUnit, Mechanism, System};
+use model::{
+    ColumnKind, ConstraintId, DataBlock, DataGradients, DataUnit, Derivatives, Mechanism, System,
+};
 
 use super::joined::Joined;
 use super::{Datum, MOVED, Sensitivity};
@@ -127,8 +129,8 @@ impl<'a> Instant<'a> {
         for (&i, l) in kept.iter().zip(of_kept) {
             lambda[i] = l;
         }
-        let mut derivatives = mechanism.derivatives();
-        mechanism.differentiate(&a, &lambda, &s, &mut derivatives);
+        let mut derivatives = Derivatives::of(mechanism);
+        derivatives.differentiate(mechanism, &a, &lambda, &s);
         let feels_velocities = (derivatives.gamma_dv.iter())
             .chain(force_dv.iter().copied())
             .any(|(.., value)| value != 0.0);
@@ -144,8 +146,8 @@ impl<'a> Instant<'a> {
         Ok(Self {
             c: feels_velocities.then(|| Follow::new(&rows, kept.to_vec(), &units)),
             phi_q: Follow::new(&rows, kept[..holonomic].to_vec(), &units),
-            blocks: mechanism.data_blocks(&s).into_iter().map(moved).collect(),
-            by_data: mechanism.data_gradients(&s, &lambda, &a, &v),
+            blocks: mechanism.data().blocks(&s).into_iter().map(moved).collect(),
+            by_data: mechanism.data().gradients(&s, &lambda, &a, &v),
             work: Work::new(n, m, kept.len()),
             mechanism,
             s,
@@ -163,10 +165,10 @@ impl<'a> Instant<'a> {
     pub(super) fn of(&mut self, id: ConstraintId) -> Result<Sensitivity, ChoiceError> {
         let mechanism = self.mechanism;
         let group = &mechanism.layout().groups[id.0];
-        let map = mechanism.wrench_map(id, &self.s);
+        let map = mechanism.reactions(&self.s).wrench_map(id);
         let first = self.kept.partition_point(|&row| row < group.rows.start);
         let own = self.kept.partition_point(|&row| row < group.rows.end) - first;
-        let n = mechanism.data_count();
+        let n = mechanism.data().count();
         let mut gradients = vec![0.0; own * n];
         for (k, gradient) in gradients.chunks_exact_mut(n.max(1)).enumerate() {
             self.gradient(first + k, gradient)?;
@@ -299,7 +301,7 @@ fn add_transposed(
 fn largest_load(mechanism: &Mechanism, force: &[f64], a: &[f64], size: f64) -> f64 {
     let inertial = mechanism.mass().iter().zip(a).map(|(m, a)| (m * a).abs());
     let applied = force.iter().map(|f| f.abs());
-    let kinds = mechanism.column_kinds();
+    let kinds = mechanism.layout().column_kinds();
     let larger = inertial.zip(applied).zip(&kinds).map(|((i, f), kind)| {
         let unit = match kind {
             ColumnKind::Translation => 1.0,
@@ -325,7 +327,7 @@ fn piece(mechanism: &Mechanism, group: usize) -> f64 {
 
 /// What would stop the fastest body within the size of the mechanism (N).
 fn largest_stop(mechanism: &Mechanism, v: &[f64], size: f64) -> f64 {
-    let kinds = mechanism.column_kinds();
+    let kinds = mechanism.layout().column_kinds();
     let of = |((m, v), kind): ((&f64, &f64), &ColumnKind)| {
         let unit = match kind {
             ColumnKind::Translation => size,
@@ -339,7 +341,7 @@ fn largest_stop(mechanism: &Mechanism, v: &[f64], size: f64) -> f64 {
 
 /// A force of 1 N on each body, and a torque of up to 1 N times the size.
 fn unit_loads(mechanism: &Mechanism, size: f64) -> Vec<f64> {
-    let kinds = mechanism.column_kinds();
+    let kinds = mechanism.layout().column_kinds();
     let number = |(j, kind): (usize, &ColumnKind)| {
         let (sin, cos) = (GOLDEN_ANGLE * (1 + j / COLUMNS) as f64).sin_cos();
         match (kind, j % COLUMNS) {

@@ -142,7 +142,7 @@ pub(super) fn each_joined<T: Send>(
     mechanism.pose(t, q, &mut s);
     mechanism.twist(v, &mut s);
     mechanism.force(&mut s);
-    let [by_q, by_v] = mechanism.force_derivatives(&s);
+    let [by_q, by_v] = model::Derivatives::of_forces(mechanism, &s);
     let [by_q, by_v] = [by_q, by_v].map(|all| sets.entries(&all));
     let found = sets.partition.map(mechanism, |part, extent| {
         let first = extent.groups().first();

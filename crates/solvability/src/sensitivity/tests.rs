@@ -158,8 +158,8 @@ fn reactions(mechanism: &Mechanism, t: f64) -> (Vec<f64>, Vec<f64>, Vec<[f64; 3]
     let inertial = mechanism.mass().iter().zip(&a).map(|(m, a)| m * a);
     let rest: Vec<f64> = s.force.iter().zip(inertial).map(|(f, i)| f - i).collect();
     let lambda = solved(&c, &rest, true);
-    let each = mechanism.constraint_ids().map(|id| {
-        let map = mechanism.wrench_map(id, &s);
+    let each = mechanism.layout().constraint_ids().map(|id| {
+        let map = mechanism.reactions(&s).wrench_map(id);
         let own = &lambda[layout.groups[id.0].rows.clone()];
         [0, 1, 2].map(|i| map.row(i).iter().zip(own).map(|(w, l)| w * l).sum())
     });

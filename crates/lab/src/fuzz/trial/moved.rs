@@ -149,7 +149,7 @@ impl Rows<'_> {
         mechanism.b(s);
         for i in 0..layout.rows() {
             if i < layout.m {
-                let (phi, scale) = (s.phi[i].abs(), mechanism.position_scale(s, i));
+                let (phi, scale) = (s.phi[i].abs(), mechanism.scales(s).position(i));
                 assert!(
                     phi <= RESIDUAL * scale,
                     "t = {t} s: |Φ| of row {} is {phi:e}, its terms {scale:e}",
@@ -158,14 +158,14 @@ impl Rows<'_> {
             }
             let (rate, scale) = (
                 layout.velocity_residual(s, i, v).abs(),
-                mechanism.velocity_scale(s, i, v),
+                mechanism.scales(s).velocity(i, v),
             );
             // What stands still is compared with the fastest row, and all of them with what
             // rounding of accelerations leaves within a second.
             let fastest = (0..layout.rows())
-                .map(|k| mechanism.velocity_scale(s, k, v))
+                .map(|k| mechanism.scales(s).velocity(k, v))
                 .fold(scale, f64::max);
-            let limit = RESIDUAL * fastest + REST * mechanism.position_scale(s, i).max(*size);
+            let limit = RESIDUAL * fastest + REST * mechanism.scales(s).position(i).max(*size);
             assert!(
                 rate <= limit,
                 "t = {t} s: |C·v − b| of row {} is {rate:e}, the largest terms {fastest:e}",

@@ -8,7 +8,7 @@ use joints::{
 };
 
 use super::*;
-use crate::description::{Body, Description, Drive, Force, Joint};
+use crate::description::{Body, BodyRef, Description, Drive, Force, Joint};
 use crate::function::Function;
 use crate::registry::PlaneForce;
 use crate::system::System;
@@ -168,10 +168,10 @@ fn products_are_differences_of_the_equations() {
     for seed in 0..8 {
         let [q, v, a, along] = [0.1, 0.2, 0.3, 0.4].map(|x| numbers(n, f64::from(seed) + x));
         let lambda = numbers(rows, f64::from(seed) + 0.5);
-        let (mut s, mut d) = (m.scratch(), m.derivatives());
+        let (mut s, mut d) = (m.scratch(), Derivatives::of(&m));
         m.pose(0.7, &q, &mut s);
         m.twist(&v, &mut s);
-        m.differentiate(&a, &lambda, &s, &mut d);
+        d.differentiate(&m, &a, &lambda, &s);
         let moved = |x: &[f64], h: f64| -> Vec<f64> {
             x.iter().zip(&along).map(|(x, d)| x + h * d).collect()
         };

@@ -138,7 +138,7 @@ fn functions_are_evaluated_once_at_each_time() {
 
 #[test]
 fn the_work_is_told_from_the_structure() {
-    let work = trolley().work();
+    let work = crate::Work::of(&trolley());
     assert_eq!(work.without_turning, [0, 1]);
     // Γ of the row of angles alone is zero; b is that of the drive.
     assert_eq!(

@@ -64,6 +64,7 @@ impl<'m> PathRecorder<'m> {
             .iter()
             .map(|&k| (Point::Centre(k), all[k].name.clone()));
         let contacts = mechanism
+            .layout()
             .constraint_ids()
             .filter(touches)
             .map(|id| (Point::Place(id), groups[id.0].name.clone()));
@@ -93,7 +94,7 @@ impl<'m> PathRecorder<'m> {
         for (point, path) in self.points.iter().zip(&mut self.paths) {
             let [x, y] = match *point {
                 Point::Centre(k) => [s.poses[k].x, s.poses[k].y],
-                Point::Place(id) => self.mechanism.place(id, s),
+                Point::Place(id) => self.mechanism.reactions(s).place(id),
             };
             path.x.push(x);
             path.y.push(y);

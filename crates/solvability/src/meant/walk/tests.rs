@@ -142,7 +142,7 @@ fn what_the_data_make_of_the_way_adds_up() {
         way.push(step);
     }
     assert!((q[0] - 0.4).abs() < 1e-14 && q[1].abs() < 1e-14, "{q:?}");
-    let (mut pose, mut data) = (vec![0.0, 1.0, 0.0], vec![0.0; mechanism.data_count()]);
+    let (mut pose, mut data) = (vec![0.0, 1.0, 0.0], vec![0.0; mechanism.data().count()]);
     for step in way.iter().rev() {
         step.carry_back(&mechanism, &mut pose, &mut data);
     }
@@ -150,7 +150,7 @@ fn what_the_data_make_of_the_way_adds_up() {
         assert!((pose - right).abs() < 1e-12, "{pose}");
     }
     let s = crate::mechanism::evaluated(&mechanism, 0.0, &q);
-    for block in mechanism.data_blocks(&s) {
+    for block in mechanism.data().blocks(&s) {
         let change = block.change(&data, 1.0);
         let right = if block.unit == DataUnit::Angle {
             0.4

@@ -44,7 +44,7 @@ fn relative(x: f64, y: f64, size: f64) -> f64 {
 /// What accelerations are made of, in units of the mechanism: Q/m, v²/L, or what they are.
 fn rate(prepared: &Prepared, exact: &[f64]) -> f64 {
     let mechanism = &prepared.mechanism;
-    let unit = |j: usize| mechanism.unit(j, prepared.assembly.size);
+    let unit = |j: usize| model::space::unit(j, prepared.assembly.size);
     let terms = (0..exact.len()).map(|j| {
         let speed = prepared.v[j] / unit(j);
         let weight = match mechanism.mass()[j] {
@@ -67,7 +67,7 @@ pub(super) fn of_accelerations(prepared: &Prepared, a: &[f64], exact: &[f64]) ->
     worst((0..a.len()).map(|j| {
         let alike = (0..a.len()).filter(|&l| kind(l) == kind(j));
         let size = match worst(alike.map(|l| exact[l])) {
-            0.0 => rate * mechanism.unit(j, prepared.assembly.size),
+            0.0 => rate * model::space::unit(j, prepared.assembly.size),
             largest => exact[j].abs().max(LEAST * largest),
         };
         relative(a[j], exact[j], size)

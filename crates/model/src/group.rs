@@ -1,0 +1,104 @@
+//! Joints and drives with their rows: names, sizes, and which components a reaction has.
+
+use std::ops::Range;
+
+use joints::spec::{ConstraintSpec, Entry};
+
+use crate::description::BodyRef;
+
+/// Place of a joint or drive in [`crate::Layout::groups`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct ConstraintId(pub usize);
+
+/// A joint or a drive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ConstraintKind {
+    /// Connects bodies.
+    Joint,
+    /// Prescribes a relative motion.
+    Drive,
+}
+
+/// A joint or drive with its rows.
+#[derive(Clone, Debug)]
+pub struct ConstraintGroup {
+    /// Its name.
+    pub name: String,
+    /// Joint or drive.
+    pub kind: ConstraintKind,
+    /// Facts of its definition.
+    pub spec: &'static ConstraintSpec,
+    /// Its bodies.
+    pub bodies: Vec<BodyRef>,
+    /// Its rows of C.
+    pub rows: Range<usize>,
+}
+
+/// Names of the three components of a planar wrench.
+pub const COMPONENTS: [&str; 3] = ["Fx", "Fy", "T"];
+
+/// Place of the torque in [`COMPONENTS`], and of the rotation among the degrees of freedom of a
+/// body.
+pub(crate) const TORQUE: usize = 2;
+
+impl ConstraintGroup {
+    /// Whether it only prescribes a motion: a drive, listed apart from the joints.
+    #[must_use]
+    pub fn is_drive(&self) -> bool {
+        self.kind == ConstraintKind::Drive
+    }
+
+    /// Components of the reaction that are not identically zero, as places in [`COMPONENTS`].
+    #[must_use]
+    pub fn components(&self) -> Vec<usize> {
+        let entries = self.wrench_entries();
+        (0..COMPONENTS.len())
+            .filter(|c| entries.iter().any(|[component, _]| component == c))
+            .collect()
+    }
+
+    /// Entries (component, row) of the map from multipliers to the reaction that are not
+    /// identically zero, sorted.
+    #[must_use]
+    pub fn wrench_entries(&self) -> Vec<[usize; 2]> {
+        let mut entries = self.spec.wrench.to_vec();
+        for (_, e) in self.repeated() {
+            entries.push([TORQUE, e.row]);
+            if e.dof < TORQUE {
+                entries.push([e.dof, e.row]);
+            }
+        }
+        entries.sort_unstable();
+        entries.dedup();
+        entries
+    }
+
+    /// Whether a row of this joint or drive has a force in its reaction.
+    #[must_use]
+    pub fn pushes(&self, row: usize) -> bool {
+        let entries = self.wrench_entries();
+        entries
+            .iter()
+            .any(|[component, at]| *at == row && *component < TORQUE)
+    }
+
+    /// Entries of the block of C, with their places in it, of other slots that the first body
+    /// takes, too.
+    pub(crate) fn repeated(&self) -> impl Iterator<Item = (usize, &'static Entry)> + '_ {
+        let is_repeated = |e: &Entry| e.slot > 0 && self.bodies.get(e.slot) == self.bodies.first();
+        self.spec
+            .c
+            .iter()
+            .enumerate()
+            .filter(move |(_, e)| is_repeated(e))
+    }
+}
+
+/// What a column of C belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ColumnKind {
+    /// A velocity in m/s; the generalised force is a force.
+    Translation,
+    /// An angular velocity in rad/s; the generalised force is a torque.
+    Rotation,
+}

@@ -1,0 +1,114 @@
+//! What a mechanism takes from its initial configuration: values that definitions keep, and how far
+//! the joints of a body are from its centre: by this its position is measured if it stands at the
+//! origin.
+//!
+//! Not here: the size of the whole mechanism ([`crate::size`]).
+
+use joints::Pose;
+
+use super::{Mechanism, N_BODY, pose_of};
+use crate::group::ConstraintId;
+use crate::size::scene_size;
+use crate::system::{Scratch, Site, System};
+
+/// Takes initial values of joints, drives and forces from a configuration.
+pub(crate) fn initialise(mechanism: &mut Mechanism, q: &[f64]) {
+    let poses = mechanism.space.poses(q);
+    for c in &mut mechanism.elements.constraints {
+        c.element.element_mut().initialise(&slots(&c.site, &poses));
+    }
+    for f in &mut mechanism.elements.forces {
+        f.element.element_mut().initialise(&slots(&f.site, &poses));
+    }
+    mechanism.reach = longest_arms(mechanism, q);
+}
+
+/// Returns the first requirement of a definition that does not hold at a configuration: who, and
+/// what.
+pub(crate) fn unmet_requirement(
+    mechanism: &Mechanism,
+    q: &[f64],
+) -> Option<(String, &'static str)> {
+    let poses = mechanism.space.poses(q);
+    let groups = mechanism.layout.groups.iter();
+    let constraints = mechanism.elements.constraints.iter().zip(groups);
+    let mut of_constraints = constraints.filter_map(|(c, group)| {
+        let (element, x) = (c.element.element(), slots(&c.site, &poses));
+        let words = element.spec().common.requirements;
+        let unmet = (0..words.len()).find(|&k| !element.requirement(k, &x))?;
+        Some((group.name.clone(), words[unmet]))
+    });
+    let mut of_forces = mechanism.elements.forces.iter().filter_map(|f| {
+        let (element, x) = (f.element.element(), slots(&f.site, &poses));
+        let words = element.spec().common.requirements;
+        let unmet = (0..words.len()).find(|&k| !element.requirement(k, &x))?;
+        Some((f.name.clone(), words[unmet]))
+    });
+    of_constraints.next().or_else(|| of_forces.next())
+}
+
+/// Poses of the bodies of an element.
+fn slots(site: &Site, poses: &[Pose]) -> Vec<Pose> {
+    site.bodies.iter().map(|&b| pose_of(poses, b)).collect()
+}
+
+/// An arm below this many roundings of its body's position is none: it is what is left of a
+/// difference of places.
+const ROUNDINGS: f64 = 4.0;
+
+/// The longest arm of each body at coordinates q (m), never zero: a body held at its centre is
+/// where its neighbours' arms put it, and where these have none either, as on shafts with gears,
+/// only the mechanism as a whole has a length.
+fn longest_arms(mechanism: &Mechanism, q: &[f64]) -> Vec<f64> {
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, q, &mut s);
+    mechanism.c(&mut s);
+    let own = own_arms(mechanism, &s);
+    let mut of_neighbours = vec![0.0_f64; own.len()];
+    for c in &mechanism.elements.constraints {
+        let longest = c.site.moving().map(|k| own[k]).fold(0.0, f64::max);
+        for k in c.site.moving() {
+            of_neighbours[k] = of_neighbours[k].max(longest);
+        }
+    }
+    let size = scene_size(mechanism, q);
+    let first_length = |arms: (f64, f64)| match arms {
+        (0.0, 0.0) => size,
+        (0.0, neighbours) => neighbours,
+        (own, _) => own,
+    };
+    own.into_iter()
+        .zip(of_neighbours)
+        .map(first_length)
+        .collect()
+}
+
+/// The longest arm of each body; zero where its joints are at its centre.
+fn own_arms(mechanism: &Mechanism, s: &Scratch) -> Vec<f64> {
+    let layout = mechanism.layout();
+    let mut arms = vec![0.0_f64; mechanism.bodies().len()];
+    let places = |i: &usize| *i < layout.m && !layout.is_angular(*i);
+    for (k, constraint) in mechanism.elements.constraints.iter().enumerate() {
+        let mut rows = constraint.rows.clone().filter(places).peekable();
+        if rows.peek().is_none() {
+            continue;
+        }
+        // A row along a slot does not feel the arm of a pin that moves along the slot here.
+        let [x, y] = mechanism.reactions(s).place(ConstraintId(k));
+        for body in constraint.site.moving() {
+            let at = &s.poses[body];
+            arms[body] = arms[body].max((x - at.x).abs()).max((y - at.y).abs());
+        }
+        for (j, c) in rows.flat_map(|i| layout.row(s, i)) {
+            if j % N_BODY == 2 {
+                arms[j / N_BODY] = arms[j / N_BODY].max(c.abs());
+            }
+        }
+    }
+    for (arm, at) in arms.iter_mut().zip(&s.poses) {
+        if *arm <= ROUNDINGS * f64::EPSILON * at.x.hypot(at.y) {
+            *arm = 0.0;
+        }
+    }
+    arms
+}

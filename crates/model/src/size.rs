@@ -1,0 +1,57 @@
+//! The length by which a mechanism is measured: how far its bodies and joints are apart.
+
+use crate::mechanism::Mechanism;
+use crate::system::{Scratch, System};
+use crate::uncertainty::ROUNDING;
+
+/// Places that are no farther apart than so many roundings of where they stand are one place.
+const COINCIDE: f64 = 1e3;
+
+/// Diagonal of the box around all bodies and joints; where these are one place, around all points
+/// of the joints; 1 m where these are, too.
+#[must_use]
+pub fn scene_size(mechanism: &Mechanism, q: &[f64]) -> f64 {
+    let mut s = mechanism.scratch();
+    mechanism.pose(0.0, q, &mut s);
+    size_of(mechanism, &s)
+}
+
+/// The same at the poses of the scratch.
+pub(crate) fn size_of(mechanism: &Mechanism, s: &Scratch) -> f64 {
+    let bodies = s.poses.iter().map(|p| [p.x, p.y]);
+    let places = mechanism
+        .layout()
+        .constraint_ids()
+        .map(|id| mechanism.reactions(s).place(id));
+    let mut points: Vec<[f64; 2]> = bodies.chain(places).collect();
+    if let Some(size) = diagonal(&points) {
+        return size;
+    }
+    let of_joints = mechanism
+        .layout()
+        .constraint_ids()
+        .flat_map(|id| mechanism.points(id));
+    points.extend(of_joints.map(|(body, p)| match body.moving() {
+        None => p,
+        Some(k) => {
+            let pose = &s.poses[k];
+            [
+                pose.x + pose.cos * p[0] - pose.sin * p[1],
+                pose.y + pose.sin * p[0] + pose.cos * p[1],
+            ]
+        }
+    }));
+    diagonal(&points).unwrap_or(1.0)
+}
+
+/// Diagonal of the box around points. `None` if they are one place.
+fn diagonal(points: &[[f64; 2]]) -> Option<f64> {
+    let span = |k: usize| {
+        let low = points.iter().fold(f64::INFINITY, |a, p| a.min(p[k]));
+        let high = points.iter().fold(f64::NEG_INFINITY, |a, p| a.max(p[k]));
+        high - low
+    };
+    let size = span(0).hypot(span(1));
+    let farthest = points.iter().map(|p| p[0].hypot(p[1])).fold(0.0, f64::max);
+    (size > COINCIDE * ROUNDING * farthest).then_some(size)
+}

@@ -1,0 +1,257 @@
+//! Which of the given velocities that no motion has is at fault, what it contradicts, and what to
+//! leave out.
+
+use rank::Circuit;
+
+use super::conflict::{CANCELLED, HeldVelocity, VelocityConflict};
+use super::error::StartError;
+use super::options::CorrectionLimit;
+use super::tier::Tier;
+use super::velocity::{Hold, Miss, Start};
+use crate::mechanism::N_BODY;
+use crate::system::{RowLabel, System};
+
+/// Velocities to leave out that are looked for.
+const LEFT_OUT: usize = 40;
+
+/// A velocity that rows forbid.
+struct Fault {
+    column: usize,
+    /// What prescribes a motion comes first.
+    rows: Vec<RowLabel>,
+    /// What prescribes a motion.
+    drives: Vec<String>,
+    /// Whether others that are held take part.
+    with_others: bool,
+}
+
+impl Start<'_> {
+    /// Why some rows have no velocities that may be taken, `miss` being what was found first.
+    ///
+    /// # Errors
+    /// [`StartError::NoVelocity`]: they have none, whichever are given.
+    pub(super) fn conflict(
+        &self,
+        rows: &[usize],
+        miss: Miss,
+    ) -> Result<VelocityConflict, StartError> {
+        let mechanism = self.equations.mechanism;
+        let columns = self.equations.columns(rows);
+        let mut nearest = self.written.clone();
+        let Some(column) = self.culprit(rows, &columns, &self.hold, &mut nearest)? else {
+            let row = match miss {
+                Miss::Open(row) => row,
+                Miss::Far => rows[0],
+            };
+            return Err(StartError::NoVelocity {
+                worst: mechanism.layout().labels[row].clone(),
+                residual: self.equations.residual(row, &nearest),
+            });
+        };
+        let mut v = self.written.clone();
+        let can_be_corrected = self
+            .solve(rows, &self.hold, CorrectionLimit::Any, &mut v)?
+            .is_none();
+        let (leave_out, hold, is_enough) = self.leave_out(rows, &columns)?;
+        // Of what is to be left out the one that then is farthest from what is given: the rest is
+        // not at fault.
+        let mut candidates = vec![column];
+        if is_enough && self.solve(rows, &hold, self.limit, &mut v)?.is_none() {
+            let by = |j: usize| self.equations.arm(j) * (v[j] - self.written[j]).abs();
+            let freed = columns.iter().copied().filter(|&j| hold[j] != self.hold[j]);
+            let mut freed: Vec<usize> = freed.filter(|&j| by(j) > 0.0).collect();
+            if !freed.is_empty() {
+                freed.sort_by(|&a, &b| by(b).total_cmp(&by(a)));
+                candidates = freed;
+                nearest.copy_from_slice(&v);
+            }
+        }
+        let Fault {
+            column,
+            rows: rows_at_fault,
+            drives,
+            with_others,
+        } = self.fault(rows, &candidates)?;
+        let body = &mechanism.bodies()[column / N_BODY];
+        Ok(VelocityConflict {
+            body: body.name.clone(),
+            coordinate: NAMES[column % N_BODY],
+            given: self.written[column],
+            is_kept: self.hold[column] == Hold::Kept,
+            nearest: nearest[column],
+            limit: self.allowed(column, &columns, &self.hold, &nearest),
+            rows: rows_at_fault,
+            with_others,
+            drives,
+            leave_out,
+            is_enough,
+            can_be_corrected,
+        })
+    }
+
+    /// The held velocity that is farthest from the nearest ones that fit, where all may move;
+    /// `None` if there are none. Writes these.
+    fn culprit(
+        &self,
+        rows: &[usize],
+        columns: &[usize],
+        hold: &[Hold],
+        nearest: &mut [f64],
+    ) -> Result<Option<usize>, StartError> {
+        let mut all = hold.to_vec();
+        for &j in columns.iter().filter(|&&j| hold[j] == Hold::Kept) {
+            all[j] = Hold::Given;
+        }
+        if self
+            .solve(rows, &all, CorrectionLimit::Any, nearest)?
+            .is_some()
+        {
+            return Ok(None);
+        }
+        let by = |j: usize| self.equations.arm(j) * (nearest[j] - self.written[j]).abs();
+        let held = || columns.iter().copied().filter(|&j| hold[j] != Hold::No);
+        let is_far = |j: &usize| {
+            (nearest[*j] - self.written[*j]).abs() > self.allowed(*j, columns, hold, nearest)
+        };
+        let farthest = |a: &usize, b: &usize| by(*a).total_cmp(&by(*b));
+        Ok(held()
+            .filter(is_far)
+            .max_by(farthest)
+            .or_else(|| held().max_by(farthest)))
+    }
+
+    /// The first of these velocities that rows forbid while the rest of what is held holds.
+    fn fault(&self, rows: &[usize], candidates: &[usize]) -> Result<Fault, StartError> {
+        let of = &self.equations;
+        let mut v = self.written.clone();
+        let mut tier = Tier::new(of, rows, |j| self.hold[j] == Hold::No)?;
+        tier.follow(of, &mut v)?;
+        let takes_part = |circuit: &Circuit, column: usize| {
+            let c = of.matrix(&circuit.rows, &[column]);
+            let terms = || {
+                circuit
+                    .coefficients
+                    .iter()
+                    .zip(c.as_slice())
+                    .map(|(z, c)| z * c)
+            };
+            let size: f64 = terms().map(f64::abs).sum();
+            terms().sum::<f64>().abs() > CANCELLED * size
+        };
+        let shortest = candidates.iter().find_map(|&column| {
+            let open = tier.open(of, &v).filter(|c| takes_part(c, column));
+            Some((column, open.min_by_key(|c| c.rows.len())?))
+        });
+        let (column, found, with_others) = match shortest {
+            Some((column, circuit)) => {
+                let columns = of.columns(&circuit.rows).into_iter();
+                let mut others = columns.filter(|&j| j != column && self.hold[j] != Hold::No);
+                let with_others = others.any(|j| takes_part(circuit, j));
+                (column, circuit.rows.clone(), with_others)
+            }
+            // Of large sets there are no circuits: the rows that do not hold.
+            None => {
+                let is_open = |&i: &usize| of.residual(i, &v).abs() > of.rounding(i, &v);
+                let open = rows.iter().copied().filter(is_open);
+                (candidates[0], open.collect::<Vec<_>>(), true)
+            }
+        };
+        let layout = of.mechanism.layout();
+        let prescribes = |i: &usize| {
+            let at = layout.groups.partition_point(|g| g.rows.end <= *i);
+            layout.groups[at].spec.rheonomic
+        };
+        let (drives, joints): (Vec<usize>, Vec<usize>) = found.into_iter().partition(prescribes);
+        let mut names: Vec<String> = drives
+            .iter()
+            .map(|&i| layout.labels[i].joint.clone())
+            .collect();
+        names.dedup();
+        let labels = drives
+            .into_iter()
+            .chain(joints)
+            .map(|i| layout.labels[i].clone());
+        Ok(Fault {
+            column,
+            rows: labels.collect(),
+            drives: names,
+            with_others,
+        })
+    }
+
+    /// Given velocities without which the others hold, the farthest off first, none of which could
+    /// stay; what is held then; and whether these are enough.
+    fn leave_out(
+        &self,
+        rows: &[usize],
+        columns: &[usize],
+    ) -> Result<(Vec<HeldVelocity>, Vec<Hold>, bool), StartError> {
+        let mut hold = self.hold.clone();
+        let mut v = self.written.clone();
+        let mut freed: Vec<(HeldVelocity, Vec<(usize, Hold)>)> = Vec::new();
+        while self.solve(rows, &hold, self.limit, &mut v)?.is_some() {
+            let mut nearest = self.written.clone();
+            let worst = self.culprit(rows, columns, &hold, &mut nearest)?;
+            let (Some(column), true) = (worst, freed.len() < LEFT_OUT) else {
+                let freed = freed.into_iter().map(|(what, _)| what);
+                return Ok((freed.collect(), hold, false));
+            };
+            freed.push(self.free(column, &mut hold));
+        }
+        let mut needed = Vec::new();
+        let last = freed.pop();
+        for (what, before) in freed {
+            let mut tried = hold.clone();
+            for &(j, was) in &before {
+                tried[j] = was;
+            }
+            // An entry of `keep` whose velocity is left out would hold zero.
+            let is_other = |&(j, was): &(usize, Hold)| {
+                was == Hold::Kept && hold[j] == Hold::No && self.is_written[j]
+            };
+            match before.iter().any(is_other)
+                || self.solve(rows, &tried, self.limit, &mut v)?.is_some()
+            {
+                false => hold = tried,
+                true => needed.push(what),
+            }
+        }
+        needed.extend(last.map(|(what, _)| what));
+        Ok((needed, hold, true))
+    }
+
+    /// Frees a velocity by what one who writes scenes can take away, and says how the velocities
+    /// were held that this frees.
+    fn free(&self, column: usize, hold: &mut [Hold]) -> (HeldVelocity, Vec<(usize, Hold)>) {
+        let body = self.equations.mechanism.bodies()[column / N_BODY]
+            .name
+            .clone();
+        let first = column - column % N_BODY;
+        let own = match column % N_BODY {
+            2 => column..column + 1,
+            _ => first..first + 2,
+        };
+        // An entry of `keep` goes before what it holds: without the latter it would hold zero.
+        if let Some(kept) = own.clone().find(|&j| hold[j] == Hold::Kept) {
+            let to = match self.is_written[kept] {
+                true => Hold::Given,
+                false => Hold::No,
+            };
+            let coordinate = NAMES[kept % N_BODY];
+            let before = std::mem::replace(&mut hold[kept], to);
+            return (
+                HeldVelocity::Keep { body, coordinate },
+                vec![(kept, before)],
+            );
+        }
+        let what = match column % N_BODY {
+            2 => HeldVelocity::AngularVelocity { body },
+            _ => HeldVelocity::Velocity { body },
+        };
+        let before = own.map(|j| (j, std::mem::replace(&mut hold[j], Hold::No)));
+        (what, before.collect())
+    }
+}
+
+/// Velocities of a body.
+const NAMES: [&str; N_BODY] = ["vx", "vy", "omega"];

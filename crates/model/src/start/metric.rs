@@ -1,0 +1,88 @@
+//! What all steps of a start share: weights, bounds, matrices of a few rows.
+
+use linalg::Matrix;
+
+use super::error::StartError;
+use crate::mechanism::{Mechanism, N_BODY};
+use crate::system::{Layout, Scratch, System};
+
+/// Rows that restrict a start, and the inverse weights of its coordinates.
+pub(super) type Restricting<'a> = (&'a [usize], &'a [f64]);
+
+/// Damping of the least-squares step, relative to rows of size one: small against any row that
+/// matters, large against rounding.
+pub(super) const DAMPING: f64 = 1e-10;
+
+/// Share of the scene's size (and of a radian, and of the fastest velocity) that a start may be
+/// corrected without being asked.
+pub(super) const SMALL_CORRECTION: f64 = 1e-3;
+
+/// A row counts as satisfied below this many roundings of its terms.
+pub(super) const ROUNDINGS: f64 = 10.0;
+
+/// Entries of the largest matrix of a correction: 1 GB.
+const MOST_ENTRIES: usize = 1 << 27;
+
+/// These rows of C; allocates.
+pub(super) fn dense_rows(
+    layout: &Layout,
+    s: &Scratch,
+    rows: &[usize],
+) -> Result<Matrix, StartError> {
+    let entries = rows.len().checked_mul(layout.n_v);
+    if entries.is_none_or(|entries| entries > MOST_ENTRIES) {
+        return Err(StartError::TooLarge {
+            rows: rows.len(),
+            columns: layout.n_v,
+            most: MOST_ENTRIES as f64,
+        });
+    }
+    let mut c = Matrix::zeros(rows.len(), layout.n_v);
+    for (k, &i) in rows.iter().enumerate() {
+        layout.scatter_row(s, i, c.row_mut(k));
+    }
+    Ok(c)
+}
+
+/// The row with the largest value, NaN above all.
+pub(super) fn largest(rows: impl Iterator<Item = (usize, f64)>) -> (usize, f64) {
+    rows.fold(
+        (0, 0.0),
+        |a, b| if b.1 > a.1 || b.1.is_nan() { b } else { a },
+    )
+}
+
+/// Masses, and inertias divided by the square of the size, below this share of the largest weigh as
+/// this share: what is lighter makes no difference to what is heavy, but its square would overflow.
+const LIGHTEST: f64 = 1e-30;
+
+/// Inverse weights of the coordinates in the mass metric; what has no mass or inertia weighs as the
+/// smallest one that has it.
+pub(super) fn weights(mechanism: &Mechanism, size: f64) -> Vec<f64> {
+    let unit = |k: usize| if k % N_BODY == 2 { size * size } else { 1.0 };
+    let comparable = mechanism
+        .mass()
+        .iter()
+        .enumerate()
+        .map(|(k, m)| m / unit(k));
+    let heaviest = comparable.filter(|m| m.is_finite()).fold(0.0, f64::max);
+    let least = |(k, &m): (usize, &f64)| match m > 0.0 {
+        true => m.max(LIGHTEST * heaviest * unit(k)),
+        false => m,
+    };
+    let mass: Vec<f64> = mechanism.mass().iter().enumerate().map(least).collect();
+    let smallest = |angles: bool| {
+        let of_kind = mass
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| (k % N_BODY == 2) == angles);
+        let positive = of_kind.map(|(_, &m)| m).filter(|&m| m > 0.0);
+        positive.fold(f64::INFINITY, f64::min)
+    };
+    let fallback = [smallest(false), smallest(true)].map(|m| if m.is_finite() { m } else { 1.0 });
+    let weight = |(k, &m): (usize, &f64)| match m > 0.0 {
+        true => 1.0 / m,
+        false => 1.0 / fallback[usize::from(k % N_BODY == 2)],
+    };
+    mass.iter().enumerate().map(weight).collect()
+}

@@ -1,0 +1,63 @@
+//! What a start may and may not do.
+
+use super::error::StartError;
+use crate::mechanism::{Mechanism, N_BODY};
+
+/// What a start may and may not do.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct StartOptions {
+    /// Coordinates and velocities that keep their described values exactly; a velocity that is not
+    /// given keeps zero.
+    pub keep: Vec<Coordinate>,
+    /// Whether a correction of more than a thousandth of the scene's size is accepted, or one of
+    /// given velocities by more than a thousandth of the fastest that hang together with them.
+    pub correction: CorrectionLimit,
+}
+
+/// How far a start may be corrected.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CorrectionLimit {
+    /// By a thousandth of the scene's size, and a thousandth of a radian; given velocities by a
+    /// thousandth of the fastest.
+    #[default]
+    Small,
+    /// By any amount.
+    Any,
+}
+
+/// One coordinate or velocity of a body.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coordinate {
+    /// Place of the body in the list.
+    pub body: usize,
+    /// 0 x, 1 y, 2 angle.
+    pub dof: usize,
+    /// Position or velocity.
+    pub level: KeepLevel,
+}
+
+/// Position or velocity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeepLevel {
+    /// `x`, `y` or `angle`
+    Position,
+    /// `vx`, `vy` or `omega`
+    Velocity,
+}
+
+/// Columns that are kept at a level.
+pub(super) fn kept_columns(
+    mechanism: &Mechanism,
+    options: &StartOptions,
+    level: KeepLevel,
+) -> Result<Vec<usize>, StartError> {
+    let bodies = mechanism.bodies().len();
+    let kept = options.keep.iter().filter(|c| c.level == level);
+    kept.map(
+        |&Coordinate { body, dof, .. }| match body < bodies && dof < N_BODY {
+            true => Ok(N_BODY * body + dof),
+            false => Err(StartError::NoCoordinate { body, dof, bodies }),
+        },
+    )
+    .collect()
+}
