@@ -8,13 +8,9 @@
 //! Source of the iteration: D. Ruiz, A scaling algorithm to equilibrate both rows and columns norms
 //! in matrices, RAL-TR-2001-034 (2001), with the maximum norm.
 
+use crate::limits::EQUILIBRATION_SWEEPS;
 use crate::powers::{STEP, exponent, power, scale};
 use crate::{Matrix, SparseMatrix};
-
-/// Sweeps of the iteration at most. Each one halves the exponents still to be balanced, and the
-/// exponents of `f64` span 2098 < 2¹², so more sweeps change nothing unless the pattern fights
-/// back.
-const SWEEPS_MAX: usize = 12;
 
 /// The diagonal matrices `D_r = diag(2^rows)` and `D_c = diag(2^cols)` of an equilibration.
 ///
@@ -96,7 +92,7 @@ fn ruiz((m, n): (usize, usize), entries: impl Iterator<Item = (usize, usize, i32
     let entries: Vec<(usize, usize, i32)> = entries.collect();
     let mut row_top = vec![None; m];
     let mut col_top = vec![None; n];
-    for _ in 0..SWEEPS_MAX {
+    for _ in 0..EQUILIBRATION_SWEEPS {
         row_top.fill(None);
         col_top.fill(None);
         for &(i, j, e) in &entries {

@@ -4,13 +4,8 @@
 //! Source: M. R. Hestenes, Inversion of matrices by biorthogonalization and related results, J.
 //! SIAM 6 (1958) 51–90.
 
+use crate::limits::{JACOBI_SWEEPS, ORTHOGONAL};
 use crate::{Matrix, kernels};
-
-/// Sweeps over all pairs of columns at most; convergence is quadratic, six are usual.
-const SWEEPS_MAX: usize = 40;
-
-/// Columns are orthogonal when the cosine between them is below this: a few roundings.
-const ORTHOGONAL: f64 = 4.0 * f64::EPSILON;
 
 /// `A = U·diag(σ)·Vᵀ` of an m×n matrix with k = min(m, n): left singular vectors in the columns of
 /// U (m×k), right ones in those of V (n×k), σ largest first. Where σ = 0 the columns of U, or of V
@@ -43,7 +38,7 @@ pub fn small_svd(a: &Matrix) -> SmallSvd {
     // Columns as rows: contiguous.
     let mut columns = a.transpose();
     let mut turned = Matrix::identity(n);
-    for _ in 0..SWEEPS_MAX {
+    for _ in 0..JACOBI_SWEEPS {
         let mut moved = false;
         for p in 0..n {
             for q in p + 1..n {

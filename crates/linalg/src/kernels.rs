@@ -4,6 +4,8 @@
 //! Not a BLAS: slices only, and a fixed order of summation, so that the same input gives the same
 //! bits on every platform. For that reason there is no `mul_add` here.
 
+use crate::limits::{SQUARE_MAX, SQUARE_MIN};
+
 /// `xᵀ·y` over the shorter length, summed in four interleaved partial sums.
 #[must_use]
 pub fn dot(x: &[f64], y: &[f64]) -> f64 {
@@ -33,11 +35,8 @@ pub fn axpy(s: f64, x: &[f64], y: &mut [f64]) {
 /// Euclidean norm, safe for entries whose squares leave the range of `f64`.
 #[must_use]
 pub fn norm(x: &[f64]) -> f64 {
-    // Squares of entries between these bounds neither overflow in sums nor lose digits.
-    const SMALL: f64 = 1e-140;
-    const LARGE: f64 = 1e140;
     let sum = dot(x, x);
-    if sum > SMALL * SMALL && sum < LARGE * LARGE {
+    if sum > SQUARE_MIN * SQUARE_MIN && sum < SQUARE_MAX * SQUARE_MAX {
         return sum.sqrt();
     }
     let largest = max_abs(x);

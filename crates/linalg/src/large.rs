@@ -10,12 +10,6 @@ use faer::MatRef;
 
 use crate::Matrix;
 
-/// Smaller dimension from which faer is used: up to about 200 our own kernel is faster, at 400 it
-/// takes 1.4 times as long, at 600 1.5 times (measured by
-/// `cargo run --release -p pfaff-linalg --features faer --example timings`). Our own gives the same
-/// bits on every processor, which faer's run-time choice of instructions does not.
-pub(crate) const CROSS_OVER: usize = 256;
-
 /// Singular values, largest first; `None` if faer's iteration did not converge.
 pub(crate) fn singular_values(a: &Matrix) -> Option<Vec<f64>> {
     let view = MatRef::from_row_major_slice(a.as_slice(), a.nrows(), a.ncols());

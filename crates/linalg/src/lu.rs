@@ -23,8 +23,32 @@ pub struct Lu {
     factors: Vec<f64>,
     /// Row i of `P·A` is row `permutation[i]` of A.
     permutation: Vec<usize>,
+    /// sign(P)
+    parity: f64,
     /// Scratch of `solve`.
     right: Vec<f64>,
+}
+
+/// A determinant whose value may be too large or too small for a number.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Determinant {
+    /// +1, −1, or 0.
+    pub sign: f64,
+    /// Natural logarithm of the absolute value, −∞ for zero.
+    pub log: f64,
+}
+
+impl Determinant {
+    /// That of a singular matrix.
+    pub const ZERO: Self = Self {
+        sign: 0.0,
+        log: f64::NEG_INFINITY,
+    };
+
+    /// The number itself.
+    pub fn value(self) -> f64 {
+        self.sign * self.log.exp()
+    }
 }
 
 /// A column without a pivot.
@@ -44,12 +68,22 @@ impl Lu {
             n,
             factors: vec![0.0; n * n],
             permutation: (0..n).collect(),
+            parity: 1.0,
             right: vec![0.0; n],
         };
         for i in 0..n {
             lu.factors[i * n + i] = 1.0;
         }
         lu
+    }
+
+    /// Takes another order n, at most that of [`Lu::new`] if nothing is to be allocated; factor
+    /// before anything else.
+    pub(crate) fn resize(&mut self, n: usize) {
+        self.n = n;
+        self.factors.resize(n * n, 0.0);
+        self.permutation.resize(n, 0);
+        self.right.resize(n, 0.0);
     }
 
     /// Factors the matrix with entries `entry(i, j)`.
@@ -61,6 +95,7 @@ impl Lu {
         mut entry: impl FnMut(usize, usize) -> f64,
     ) -> Result<(), SingularPivot> {
         let n = self.n;
+        self.parity = 1.0;
         for i in 0..n {
             self.permutation[i] = i;
             for j in 0..n {
@@ -78,6 +113,7 @@ impl Lu {
             let (upper, lower) = self.factors.split_at_mut((k + 1) * n);
             let row_k = &mut upper[k * n..];
             if at != k {
+                self.parity = -self.parity;
                 row_k.swap_with_slice(&mut lower[(at - k - 1) * n..(at - k) * n]);
             }
             for row in lower.chunks_exact_mut(n) {
@@ -87,6 +123,27 @@ impl Lu {
             }
         }
         Ok(())
+    }
+
+    /// The determinant of the matrix that was factored last.
+    ///
+    /// ```
+    /// let a = [[0.0, 2.0], [4.0, 1.0]];
+    /// let mut lu = linalg::Lu::new(2);
+    /// lu.factor(|i, j| a[i][j])?;
+    /// assert!((lu.determinant().value() + 8.0).abs() < 1e-14);
+    /// # Ok::<(), linalg::SingularPivot>(())
+    /// ```
+    pub fn determinant(&self) -> Determinant {
+        let pivots = (0..self.n).map(|k| self.factors[k * self.n + k]);
+        let one = Determinant {
+            sign: self.parity,
+            log: 0.0,
+        };
+        pivots.fold(one, |so_far, u| Determinant {
+            sign: so_far.sign * u.signum(),
+            log: so_far.log + u.abs().ln(),
+        })
     }
 
     /// `x ← A⁻¹·x`.

@@ -27,6 +27,9 @@
 
 mod factor;
 mod fill;
+mod free;
+mod lu;
+mod order;
 mod orientation;
 mod partition;
 mod refine;
@@ -34,17 +37,14 @@ mod solve;
 #[cfg(test)]
 mod tests;
 
+use crate::Lu;
 use crate::kernels::all_finite;
-use fill::{Fill, Lists};
+use crate::limits::{CANCELLED, GRADED_MASSES};
+use free::FreeMotions;
+use lu::TallLu;
+use order::Order;
 
 pub use refine::Refinement;
-
-/// Masses are graded from this spread on, see [`mass_spread`]: below it plain solutions keep about
-/// ten digits, and normally twelve.
-pub const GRADED_MASSES: f64 = 1e6;
-
-/// Where elimination leaves less than this share of a reduced mass, so many digits are gone.
-const CANCELLED: f64 = 1e-3;
 
 /// Solver of the saddle equations of n coordinates and r independent constraint rows.
 ///
@@ -61,56 +61,19 @@ const CANCELLED: f64 = 1e-3;
 /// ```
 #[derive(Debug, Clone)]
 pub struct KeptRowSaddle {
-    n: usize,
-    /// Rows in use: all of them, but where some were left out.
-    r: usize,
     rows: usize,
-    /// The row of C behind each row in use, ascending.
-    used: Vec<usize>,
-    /// The columns outside which each row of C is zero.
-    columns: Lists,
-    /// What elimination in the kept order leaves of that.
-    fill: Fill,
-    /// Row j: `U_0j … U_jj`, then column j of L below its unit diagonal. r×n, row-major.
-    lu: Vec<f64>,
-    /// 1/U_jj of each row in use: a product costs less than a quotient.
-    inverse: Vec<f64>,
-    /// Coordinates in the order in which a factorisation takes them up, and how many of them it may
-    /// solve for.
-    order: Vec<usize>,
-    solvable: usize,
-    order_parity: f64,
-    /// Position i of P·x is coordinate `permutation[i]`, coordinate j is at `place[j]`.
-    permutation: Vec<usize>,
-    place: Vec<usize>,
-    /// sign(P)
-    parity: f64,
-    /// Row c: `−L₁⁻ᵀ·L₂ᵀ·e_c`, the dependent part of the null vector c. k×r, row-major.
-    null_basis: Vec<f64>,
-    /// diag(M) in the order of P.
-    mass: Vec<f64>,
-    /// L·D·Lᵀ of NᵀMN: unit lower L with D on the diagonal. k×k, row-major.
-    reduced_mass: Vec<f64>,
-    /// Whether no row of the present factorisation was solved for another coordinate than that of
-    /// the order.
-    is_in_order: bool,
-    pivot_ratio: f64,
-    /// Smallest share of a diagonal entry of NᵀMN that its elimination left, infinite for k = 0.
-    mass_ratio: f64,
+    /// How a factorisation begins.
+    order: Order,
+    lu: TallLu,
+    free: FreeMotions,
     mass_spread: f64,
     is_graded: bool,
-    /// Scratch of `orientation`: Nᵀ·B, k×k.
-    bordered: Vec<f64>,
-    state: State,
+    is_factored: bool,
+    /// Scratch of `bordered`: Nᵀ·B, k×k.
+    border: Lu,
     /// Scratch of `solve`: P·a and P·(f − M·a), both n.
     y: Vec<f64>,
     g: Vec<f64>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum State {
-    Empty,
-    Factored,
 }
 
 /// Why the saddle equations have no (unique) solution.
@@ -271,35 +234,15 @@ impl KeptRowSaddle {
                 return Err(SaddleError::Column { row, column, n });
             }
         }
-        let columns = Lists::from_iter(columns);
-        let order = Vec::from_iter(0..n);
-        // Left out, rows become free motions: the largest k·r and k².
-        let most = |size: fn(usize, usize) -> usize| (0..=r).map(|r| size(n, r)).max().unwrap_or(0);
         Ok(Self {
-            n,
-            r,
             rows: r,
-            used: (0..r).collect(),
-            fill: Fill::new(&columns, &order),
-            columns,
-            lu: vec![0.0; r * n],
-            inverse: vec![0.0; r],
-            order,
-            solvable: n,
-            permutation: (0..n).collect(),
-            place: (0..n).collect(),
-            order_parity: 1.0,
-            parity: 1.0,
-            null_basis: vec![0.0; most(|n, r| (n - r) * r)],
-            mass: vec![0.0; n],
-            reduced_mass: vec![0.0; n * n],
-            is_in_order: true,
-            pivot_ratio: f64::INFINITY,
-            mass_ratio: f64::INFINITY,
+            order: Order::new(n, columns),
+            lu: TallLu::new(n, r),
+            free: FreeMotions::new(n, r),
             mass_spread: 1.0,
             is_graded: false,
-            bordered: vec![0.0; n * n],
-            state: State::Empty,
+            is_factored: false,
+            border: Lu::new(n),
             y: vec![0.0; n],
             g: vec![0.0; n],
         })
@@ -307,7 +250,7 @@ impl KeptRowSaddle {
 
     /// Number of coordinates n.
     pub fn n_coordinates(&self) -> usize {
-        self.n
+        self.lu.n
     }
 
     /// Number of constraint rows r.
@@ -317,12 +260,12 @@ impl KeptRowSaddle {
 
     /// Number of rows that the last factorisation left out, see [`KeptRowSaddle::factor_above`].
     pub fn n_left_out(&self) -> usize {
-        self.rows - self.r
+        self.rows - self.lu.r
     }
 
     /// Whether the last factorisation uses row `k`.
     pub fn uses(&self, k: usize) -> bool {
-        self.used[..self.r].binary_search(&k).is_ok()
+        self.lu.used().binary_search(&k).is_ok()
     }
 
     /// Whether the masses of the last factorisation are graded, so that light coordinates are
@@ -336,7 +279,7 @@ impl KeptRowSaddle {
     /// [`KeptRowSaddle::solve_refined`] has: [`mass_spread`] from [`GRADED_MASSES`] on, or
     /// elimination has left less than 1e-3 of a reduced mass.
     pub fn wants_refinement(&self) -> bool {
-        self.mass_spread >= GRADED_MASSES || self.mass_ratio < CANCELLED
+        self.mass_spread >= GRADED_MASSES || self.free.mass_ratio < CANCELLED
     }
 
     /// Smallest `|pivot| / largest entry of its row` of the last factorisation, rows left out
@@ -344,7 +287,7 @@ impl KeptRowSaddle {
     /// smoothly along a motion except where the pivot order changes, and falls towards zero as the
     /// kept rows become dependent.
     pub fn pivot_ratio(&self) -> f64 {
-        self.pivot_ratio
+        self.lu.pivot_ratio
     }
 }
 

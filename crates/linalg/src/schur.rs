@@ -49,7 +49,16 @@ pub use structure::SchurStructure;
 #[derive(Clone, Debug)]
 pub struct SchurSaddle {
     structure: SchurStructure,
-    /// Columns of L of each front, one after the other, the unit diagonal included.
+    factors: Factors,
+    is_factored: bool,
+    assembly: Assembly,
+    work: Work,
+}
+
+/// `S = L·D·Lᵀ`, and what it was made of.
+#[derive(Clone, Debug)]
+struct Factors {
+    /// Columns of L of each front, one after the other, below their unit diagonals.
     l: Vec<f64>,
     /// 1/D of each row in the order of elimination, 0 for a row left out.
     inverse: Vec<f64>,
@@ -59,12 +68,22 @@ pub struct SchurSaddle {
     inverse_mass: Vec<f64>,
     pivot_ratio: f64,
     n_left_out: usize,
-    is_factored: bool,
-    /// The present front, and updates that wait for their parents, the last one on top.
+}
+
+/// Scratch of a factorisation.
+#[derive(Clone, Debug)]
+struct Assembly {
+    /// The present front.
     front: Vec<f64>,
+    /// Updates that wait for their parents, the last one on top.
     waiting: Vec<f64>,
     /// C of one block, scaled by the roots of the inverse masses.
     element: Vec<f64>,
+}
+
+/// Scratch of a solution.
+#[derive(Clone, Debug)]
+struct Work {
     /// A right-hand side and its solution in the order of elimination, r.
     x: Vec<f64>,
     /// Entries of one front.
@@ -80,23 +99,29 @@ impl SchurSaddle {
     #[must_use]
     pub fn new(structure: SchurStructure) -> Self {
         let (n, r) = (structure.n_coordinates(), structure.n_rows());
-        let widest = structure.largest_front();
+        let size = &structure.size;
         Self {
-            l: vec![0.0; structure.n_entries()],
-            inverse: vec![0.0; r],
-            diagonal: vec![0.0; r],
-            inverse_mass: vec![0.0; n],
-            pivot_ratio: f64::INFINITY,
-            n_left_out: 0,
+            factors: Factors {
+                l: vec![0.0; size.entries],
+                inverse: vec![0.0; r],
+                diagonal: vec![0.0; r],
+                inverse_mass: vec![0.0; n],
+                pivot_ratio: f64::INFINITY,
+                n_left_out: 0,
+            },
             is_factored: false,
-            front: vec![0.0; widest * widest],
-            waiting: Vec::with_capacity(structure.n_waiting()),
-            element: vec![0.0; structure.largest_element()],
-            x: vec![0.0; r],
-            local: vec![0.0; widest],
-            free: vec![0.0; n],
-            terms: vec![0.0; n],
-            all: vec![0.0; n],
+            assembly: Assembly {
+                front: vec![0.0; size.front * size.front],
+                waiting: Vec::with_capacity(size.waiting),
+                element: vec![0.0; size.element],
+            },
+            work: Work {
+                x: vec![0.0; r],
+                local: vec![0.0; size.front],
+                free: vec![0.0; n],
+                terms: vec![0.0; n],
+                all: vec![0.0; n],
+            },
             structure,
         }
     }
@@ -111,18 +136,18 @@ impl SchurSaddle {
     /// before it do not imply: small near singular configurations, infinite without rows.
     #[must_use]
     pub fn pivot_ratio(&self) -> f64 {
-        self.pivot_ratio
+        self.factors.pivot_ratio
     }
 
     /// Rows that the last factorisation left out.
     #[must_use]
     pub fn n_left_out(&self) -> usize {
-        self.n_left_out
+        self.factors.n_left_out
     }
 
     /// Whether the last factorisation uses row k.
     #[must_use]
     pub fn uses(&self, k: usize) -> bool {
-        self.inverse[self.structure.place[k]] != 0.0
+        self.factors.inverse[self.structure.rows.place[k]] != 0.0
     }
 }

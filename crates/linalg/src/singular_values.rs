@@ -10,17 +10,10 @@
 //! Drmač, K. Veselić, New fast and accurate Jacobi SVD algorithm I, SIAM J. Matrix Anal. Appl. 29
 //! (2008) 1322–1342.
 
+use crate::limits::{JACOBI_SWEEPS, ZERO_SQUARED};
 use crate::{Matrix, PivotedQr, kernels, powers, qr};
 
 mod diagonal;
-
-/// Sweeps of Jacobi rotations at most; after a pivoted QR four to six are needed, convergence is
-/// quadratic.
-const SWEEPS_MAX: usize = 40;
-
-/// Squared rows below this (relative to a largest entry of one) are zero for every purpose; keeps
-/// the products of two of them clear of underflow.
-const ZERO_SQUARED: f64 = 1e-150;
 
 /// All `min(m, n)` singular values of `a`, largest first, to a small multiple of `eps·σ₁`.
 ///
@@ -34,7 +27,7 @@ const ZERO_SQUARED: f64 = 1e-150;
 /// ```
 pub fn singular_values(a: &Matrix) -> Vec<f64> {
     #[cfg(feature = "faer")]
-    if a.nrows().min(a.ncols()) >= crate::large::CROSS_OVER
+    if a.nrows().min(a.ncols()) >= crate::limits::FAER_FROM
         && let Some(sigma) = crate::large::singular_values(a)
     {
         return sigma;
@@ -128,7 +121,7 @@ fn orthogonalise_rows(r: &mut Matrix) {
     // The rounding error of a dot product: below it there is nothing left to rotate.
     let tolerance = f64::EPSILON * r.ncols() as f64;
     let mut squares = vec![0.0; n];
-    for _ in 0..SWEEPS_MAX {
+    for _ in 0..JACOBI_SWEEPS {
         for i in 0..n {
             squares[i] = kernels::dot(r.row(i), r.row(i));
         }

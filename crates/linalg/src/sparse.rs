@@ -2,6 +2,8 @@
 
 mod matrix;
 mod order;
+mod tree;
 
 pub use matrix::{SparseError, SparseMatrix};
 pub use order::minimum_degree;
+pub use tree::EliminationTree;

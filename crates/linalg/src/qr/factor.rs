@@ -1,10 +1,8 @@
 //! The factorisation: choose the longest remaining column, reflect, downdate the norms.
 
 use super::PivotedQr;
+use crate::limits::DOWNDATE_LIMIT;
 use crate::{Matrix, kernels};
-
-/// A downdated norm is recomputed once cancellation has eaten half of its digits (√eps).
-const DOWNDATE_LIMIT: f64 = 1.490_116_119_384_765_6e-8;
 
 /// Remaining length of one column.
 #[derive(Debug, Clone, Copy)]

@@ -2,6 +2,7 @@
 //! null space changes its sign where the rows lose their rank once, also if no step ends there.
 
 use super::KeptRowSaddle;
+use crate::lu::Determinant;
 
 impl KeptRowSaddle {
     /// Writes a basis of the null space of the factored rows, k = n − r vectors of n, one after the
@@ -10,7 +11,7 @@ impl KeptRowSaddle {
     /// # Panics
     /// If `frame` has not k·n entries.
     pub fn null_frame(&self, frame: &mut [f64]) {
-        let (n, r) = (self.n, self.r);
+        let (n, r) = (self.lu.n, self.lu.r);
         assert_eq!(
             frame.len(),
             (n - r) * n,
@@ -18,94 +19,64 @@ impl KeptRowSaddle {
             n - r
         );
         frame.fill(0.0);
+        let permutation = &self.lu.permutation;
         for (c, vector) in frame.chunks_exact_mut(n.max(1)).enumerate() {
-            for t in 0..r {
-                vector[self.permutation[t]] = self.null_basis[c * r + t];
+            for (&coordinate, &x) in permutation.iter().zip(self.free.dependent(r, c)) {
+                vector[coordinate] = x;
             }
-            vector[self.permutation[r + c]] = 1.0;
+            vector[permutation[r + c]] = 1.0;
         }
     }
 
-    /// The sign of `det [Cᵀ B]` for k vectors B, one after the other: +1, −1, or 0 if they border
-    /// nothing. Compare values for one B and neighbouring C only.
+    /// The determinant of `[Cᵀ B]` for k vectors B, one after the other.
     ///
-    /// With `P·Cᵀ = L·U` and the null space basis N it is `sign(P)·Π sign(u_jj)·sign det(Nᵀ·B)`.
+    /// With `P·Cᵀ = L·U` and the null space basis N it is `sign(P)·Π u_jj·det(Nᵀ·B)`.
     ///
     /// ```
     /// use linalg::KeptRowSaddle;
-    /// let side = |angle: f64| -> Result<f64, linalg::SaddleError> {
+    /// let determinant = |angle: f64| -> Result<f64, linalg::SaddleError> {
     ///     // The row turns; the frame stays the x-axis. They are parallel at angle 0.
     ///     let c = [angle.cos(), angle.sin()];
     ///     let mut saddle = KeptRowSaddle::new(2, 1)?;
     ///     saddle.factor(|_| &c, &[1.0, 1.0])?;
-    ///     Ok(saddle.orientation(&[1.0, 0.0]))
+    ///     Ok(saddle.bordered(&[1.0, 0.0]).value())
     /// };
-    /// assert_eq!(side(0.1)?, -side(-0.1)?);
-    /// assert_eq!(side(0.1)?, side(0.2)?);
+    /// assert!((determinant(0.1)? + 0.1_f64.sin()).abs() < 1e-15);
+    /// assert!((determinant(-0.2)? - 0.2_f64.sin()).abs() < 1e-15);
     /// # Ok::<(), linalg::SaddleError>(())
     /// ```
     ///
     /// # Panics
     /// If `frame` has not k·n entries.
-    pub fn orientation(&mut self, frame: &[f64]) -> f64 {
-        let (n, r) = (self.n, self.r);
+    pub fn bordered(&mut self, frame: &[f64]) -> Determinant {
+        let (n, r) = (self.lu.n, self.lu.r);
         let k = n - r;
         assert_eq!(frame.len(), k * n, "a frame of {k} vectors of {n}");
-        for (c, row) in self.bordered[..k * k]
-            .chunks_exact_mut(k.max(1))
-            .enumerate()
-        {
-            for (x, b) in row.iter_mut().zip(frame.chunks_exact(n)) {
-                let dependent = (0..r).map(|t| self.null_basis[c * r + t] * b[self.permutation[t]]);
-                *x = b[self.permutation[r + c]] + dependent.sum::<f64>();
-            }
-        }
-        let pivots: f64 = (0..r).map(|j| self.lu[j * n + j].signum()).product();
-        self.parity * pivots * determinant_sign(&mut self.bordered, k)
-    }
-}
-
-/// +1 for even permutations, −1 for odd ones.
-pub(super) fn parity(p: &[usize]) -> f64 {
-    let inversions: usize = (0..p.len())
-        .map(|i| p[i + 1..].iter().filter(|&&x| x < p[i]).count())
-        .sum();
-    if inversions.is_multiple_of(2) {
-        1.0
-    } else {
-        -1.0
-    }
-}
-
-/// Sign of the determinant of a k×k matrix, by elimination with partial pivoting in place.
-fn determinant_sign(a: &mut [f64], k: usize) -> f64 {
-    let mut sign = 1.0;
-    for j in 0..k {
-        let larger = |p: usize, i: usize| {
-            if a[i * k + j].abs() > a[p * k + j].abs() {
-                i
-            } else {
-                p
-            }
+        let permutation = &self.lu.permutation;
+        let free = &self.free;
+        self.border.resize(k);
+        let entry = |c: usize, l: usize| {
+            let b = &frame[l * n..(l + 1) * n];
+            let null = free.dependent(r, c).iter().zip(permutation);
+            b[permutation[r + c]] + null.map(|(x, &i)| x * b[i]).sum::<f64>()
         };
-        let at = (j..k).fold(j, larger);
-        if at != j {
-            for l in 0..k {
-                a.swap(at * k + l, j * k + l);
-            }
-            sign = -sign;
+        if self.border.factor(entry).is_err() {
+            return Determinant::ZERO;
         }
-        let pivot = a[j * k + j];
-        if pivot == 0.0 || pivot.is_nan() {
-            return 0.0;
-        }
-        sign *= pivot.signum();
-        for i in j + 1..k {
-            let factor = a[i * k + j] / pivot;
-            for l in j..k {
-                a[i * k + l] -= factor * a[j * k + l];
-            }
+        let (sign, log) = self.lu.pivots();
+        let border = self.border.determinant();
+        Determinant {
+            sign: sign * border.sign,
+            log: log + border.log,
         }
     }
-    sign
+
+    /// The sign of [`KeptRowSaddle::bordered`]: +1, −1, or 0 if the vectors border nothing. Compare
+    /// values for one B and neighbouring C only.
+    ///
+    /// # Panics
+    /// If `frame` has not k·n entries.
+    pub fn orientation(&mut self, frame: &[f64]) -> f64 {
+        self.bordered(frame).sign
+    }
 }

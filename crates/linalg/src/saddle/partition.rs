@@ -3,8 +3,7 @@
 //! and gives the same solutions; with it the free coordinates are coordinates of a manifold, and
 //! the rows determine the others.
 
-use super::orientation::parity;
-use super::{KeptRowSaddle, SaddleError, State, check_finite, check_length};
+use super::{KeptRowSaddle, SaddleError, check_finite, check_length};
 
 impl KeptRowSaddle {
     /// From the next factorisation on, solves for these coordinates: one for each row, in any
@@ -17,49 +16,42 @@ impl KeptRowSaddle {
     /// changed.
     pub fn partition(&mut self, dependent: &[usize]) -> Result<(), SaddleError> {
         check_length("dependent", dependent, self.rows)?;
-        let mut is_dependent = vec![false; self.n];
+        let mut is_dependent = vec![false; self.lu.n];
         for &coordinate in dependent {
             match is_dependent.get_mut(coordinate) {
                 Some(taken @ false) => *taken = true,
                 _ => {
                     return Err(SaddleError::Partition {
                         coordinate,
-                        n: self.n,
+                        n: self.lu.n,
                     });
                 }
             }
         }
-        let free = (0..self.n).filter(|&i| !is_dependent[i]);
-        self.order = dependent.iter().copied().chain(free).collect();
-        self.order_is_new();
-        self.solvable = self.rows;
+        let free = (0..self.lu.n).filter(|&i| !is_dependent[i]);
+        let order = dependent.iter().copied().chain(free);
+        self.order.change(order, self.rows);
         Ok(())
     }
 
     /// The coordinates that the last factorisation solved for, one for each row in use: with graded
     /// masses the light ones.
     pub fn solved_for(&self) -> &[usize] {
-        &self.permutation[..self.r]
+        &self.lu.permutation[..self.lu.r]
     }
 
     /// From the next factorisation on, takes coordinates up in the order of the last one. Each
     /// still solves for the largest entries, but where these are the same, or as large, nothing has
     /// to be moved.
     pub fn keep_order(&mut self) {
-        self.order.copy_from_slice(&self.permutation);
-        self.order_is_new();
+        let solvable = self.order.solvable;
+        let order = self.lu.permutation.iter().copied();
+        self.order.change(order, solvable);
     }
 
     /// From the next factorisation on, each one chooses for itself what it solves for.
     pub fn forget_partition(&mut self) {
-        self.order = (0..self.n).collect();
-        self.order_is_new();
-        self.solvable = self.n;
-    }
-
-    fn order_is_new(&mut self) {
-        self.fill.follow(&self.columns, &self.order);
-        self.order_parity = parity(&self.order);
+        self.order.change(0..self.lu.n, self.lu.n);
     }
 
     /// Overwrites the dependent entries of `x` so that `C·x = γ`, and leaves the free ones alone.
@@ -81,18 +73,18 @@ impl KeptRowSaddle {
     /// # Errors
     /// As [`KeptRowSaddle::solve`].
     pub fn complete(&mut self, gamma: &[f64], x: &mut [f64]) -> Result<(), SaddleError> {
-        if self.state != State::Factored {
+        if !self.is_factored {
             return Err(SaddleError::NotFactored);
         }
         check_length("gamma", gamma, self.rows)?;
-        check_length("x", x, self.n)?;
+        check_length("x", x, self.lu.n)?;
         check_finite("gamma", gamma, 0)?;
         check_finite("x", x, 0)?;
-        for (y, &coordinate) in self.y.iter_mut().zip(&self.permutation) {
+        for (y, &coordinate) in self.y.iter_mut().zip(&self.lu.permutation) {
             *y = x[coordinate];
         }
-        self.determine(gamma);
-        for (y, &coordinate) in self.y.iter().zip(&self.permutation) {
+        self.lu.determine(gamma, &mut self.y);
+        for (y, &coordinate) in self.y.iter().zip(&self.lu.permutation) {
             x[coordinate] = *y;
         }
         Ok(())
@@ -136,11 +128,11 @@ mod tests {
     fn a_kept_order_is_taken_up_first() {
         let mut saddle = KeptRowSaddle::new(4, 2).unwrap();
         saddle.factor(|k| &ROWS[k], &MASS).unwrap();
-        let permutation = saddle.permutation.clone();
+        let permutation = saddle.lu.permutation.clone();
         let (ratio, side) = (saddle.pivot_ratio(), saddle.orientation(&[1.0; 8]));
         saddle.keep_order();
         saddle.factor(|k| &ROWS[k], &MASS).unwrap();
-        assert_eq!(saddle.permutation, permutation);
+        assert_eq!(saddle.lu.permutation, permutation);
         assert_eq!(
             (saddle.pivot_ratio(), saddle.orientation(&[1.0; 8])),
             (ratio, side)
@@ -148,7 +140,7 @@ mod tests {
         // Entries that have become the largest are still solved for.
         let turned = [[1.0, 2.0, -1.0, 9.0], [0.0, 3.0, 1.0, -2.0]];
         saddle.factor(|k| &turned[k], &MASS).unwrap();
-        assert_eq!(saddle.permutation[0], 3);
+        assert_eq!(saddle.lu.permutation[0], 3);
     }
 
     #[test]

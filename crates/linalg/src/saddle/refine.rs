@@ -11,17 +11,7 @@
 use super::{KeptRowSaddle, SaddleError, check_length};
 use crate::Dd;
 use crate::kernels::max_abs;
-
-/// More rounds than these only happen where the equations are singular.
-const ROUNDS: usize = 8;
-
-/// What the next round would change, as a share: below the rounding of an `f64` there is nothing to
-/// gain.
-const SETTLED: f64 = 0.0625 * f64::EPSILON;
-
-/// Changes this much smaller than the largest unknown of their kind, twice running, are rounding of
-/// double-double numbers: 2⁻⁹⁶.
-const NOISE: f64 = 1.262_177_448_353_619e-29;
+use crate::limits::{REFINEMENT_NOISE, REFINEMENT_ROUNDS, SETTLED};
 
 /// Storage for the refinement of solutions of n coordinates and r rows.
 #[derive(Debug, Clone)]
@@ -65,7 +55,7 @@ impl Unknowns {
         self.x.fill(Dd::ZERO);
         self.before.fill(0.0);
         self.size.fill(0.0);
-        self.noise = NOISE * max_abs(&self.change);
+        self.noise = REFINEMENT_NOISE * max_abs(&self.change);
         self.add();
     }
 
@@ -142,9 +132,9 @@ impl KeptRowSaddle {
         a: &mut [f64],
         lambda: &mut [f64],
     ) -> Result<(), SaddleError> {
-        check_length("refinement of a", &refinement.force, self.n)?;
+        check_length("refinement of a", &refinement.force, self.lu.n)?;
         check_length("refinement of lambda", &refinement.gamma, self.rows)?;
-        check_length("a", a, self.n)?;
+        check_length("a", a, self.lu.n)?;
         check_length("lambda", lambda, self.rows)?;
         let Refinement {
             a: to_a,
@@ -175,7 +165,7 @@ impl KeptRowSaddle {
                 to_lambda.round_to(lambda);
                 return Ok(());
             }
-            if rounds == ROUNDS {
+            if rounds == REFINEMENT_ROUNDS {
                 return Err(SaddleError::Unrefined { rounds, change });
             }
             before = change;
@@ -193,13 +183,13 @@ impl KeptRowSaddle {
         let Refinement {
             a, lambda, force, ..
         } = refinement;
-        for (&coordinate, &m) in self.permutation.iter().zip(&self.mass) {
+        for (&coordinate, &m) in self.lu.permutation.iter().zip(&self.free.mass) {
             force[coordinate] = Dd::from(f[coordinate]) - a.x[coordinate] * m;
         }
         refinement.gamma.fill(0.0);
-        for &k in &self.used[..self.r] {
+        for &k in self.lu.used() {
             let c_k = row(k);
-            check_length("row of C", c_k, self.n)?;
+            check_length("row of C", c_k, self.lu.n)?;
             let mut left = Dd::from(gamma[k]);
             for (i, &c) in c_k.iter().enumerate().filter(|(_, c)| **c != 0.0) {
                 left -= a.x[i] * c;
@@ -350,15 +340,18 @@ mod tests {
     #[test]
     fn refinement_is_wanted_where_digits_are_lost() {
         let c = Matrix::from_rows(&[[1.0, -1.0]]);
-        assert!(!factored(&c, &[1.0, 9e5]).wants_refinement());
-        assert!(factored(&c, &[1.0, 2e6]).wants_refinement());
+        assert!(!factored(&c, &[1.0, 0.99e6]).wants_refinement());
+        assert!(factored(&c, &[1.0, 1.01e6]).wants_refinement());
         assert!(!factored(&c, &[1.0, 0.0]).wants_refinement());
         // Free are x and y, which hardly move relative to each other but with the heavy z.
         let c = Matrix::from_rows(&[[1.0, 1.0, 1.0]]);
         let mut saddle = KeptRowSaddle::new(3, 1).unwrap();
         saddle.partition(&[2]).unwrap();
-        saddle.factor(|k| c.row(k), &[1.0, 1.0, 1e5]).unwrap();
-        assert!(saddle.wants_refinement());
+        // Of 1 + m elimination leaves (1 + 2·m)/(1 + m).
+        for (heavy, wants) in [(1.9e3, false), (2.1e3, true), (1e5, true)] {
+            saddle.factor(|k| c.row(k), &[1.0, 1.0, heavy]).unwrap();
+            assert_eq!(saddle.wants_refinement(), wants);
+        }
     }
 
     #[test]
@@ -378,7 +371,13 @@ mod tests {
             )
             .unwrap_err();
         assert!(
-            matches!(error, SaddleError::Unrefined { rounds: ROUNDS, .. }),
+            matches!(
+                error,
+                SaddleError::Unrefined {
+                    rounds: REFINEMENT_ROUNDS,
+                    ..
+                }
+            ),
             "{error}"
         );
         assert_eq!((a, lambda), ([7.0; 3], [7.0]));

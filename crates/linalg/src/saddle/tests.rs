@@ -199,3 +199,41 @@ fn bad_input_is_named() {
         "f contains the value inf at 1, need finite numbers"
     );
 }
+
+#[test]
+fn masses_are_graded_from_their_spread_on() {
+    let cases = [
+        ([1.0, 1.0, 0.99e6], false),
+        ([1.0, 1.0, 1.01e6], true),
+        ([0.0, 1.0, 0.99e3], false),
+        ([0.0, 1.0, 1.01e3], true),
+    ];
+    for (mass, expected) in cases {
+        let mut saddle = KeptRowSaddle::new(3, 1).unwrap();
+        saddle.factor(|_| &[1.0, 0.5, 0.5], &mass).unwrap();
+        assert_eq!(saddle.is_graded(), expected, "{mass:?}");
+    }
+}
+
+/// The light coordinate is solved for if its entry is more than a tenth of the largest.
+#[test]
+fn graded_masses_choose_among_the_large_entries() {
+    for (entry, solved_for) in [(0.09, 0), (0.11, 1)] {
+        let mut saddle = KeptRowSaddle::new(2, 1).unwrap();
+        let row = [1.0, entry];
+        saddle.factor(|_| &row, &[1e7, 1.0]).unwrap();
+        assert_eq!(saddle.solved_for(), [solved_for]);
+    }
+}
+
+/// Elimination leaves exactly `left` of the second row.
+#[test]
+fn a_pivot_of_a_few_roundings_is_no_pivot() {
+    for (roundings, is_lost) in [(15.0, true), (17.0, false)] {
+        let left = roundings * f64::EPSILON;
+        let rows = [[1.0, 0.0], [1.0, left]];
+        let mut saddle = KeptRowSaddle::new(2, 2).unwrap();
+        let factored = saddle.factor(|k| &rows[k], &[1.0; 2]);
+        assert_eq!(factored.is_err(), is_lost, "{roundings}");
+    }
+}

@@ -1,12 +1,9 @@
 //! Factorisation: front by front, children before their parents.
 
-use super::SchurSaddle;
 use super::front::{add_element, add_update, eliminate};
+use super::{Assembly, Factors, SchurSaddle};
+use crate::limits::SCHUR_NOISE;
 use crate::{SaddleError, SparseMatrix};
-
-/// A row of which less than this share is left, in the metric of the inverse masses, is rounding
-/// noise: S has the square of it.
-const NOISE: f64 = 1e-7;
 
 impl SchurSaddle {
     /// Factors `S = C·M⁻¹·Cᵀ` for rows of the pattern of the structure and the diagonal of M.
@@ -19,14 +16,14 @@ impl SchurSaddle {
     ///   of it is left.
     pub fn factor(&mut self, c: &SparseMatrix, mass: &[f64]) -> Result<(), SaddleError> {
         self.factor_above(0.0, c, mass)?;
-        let Some(row) = (0..self.inverse.len()).find(|&k| !self.uses(k)) else {
+        let Some(row) = (0..self.structure.n_rows()).find(|&k| !self.uses(k)) else {
             return Ok(());
         };
         self.is_factored = false;
         let entries = c.row(row).1.iter();
         Err(SaddleError::RankLost {
             row,
-            pivot: NOISE,
+            pivot: SCHUR_NOISE,
             scale: entries.fold(0.0, |a: f64, x| a.max(x.abs())),
         })
     }
@@ -47,19 +44,21 @@ impl SchurSaddle {
         self.take_mass(mass)?;
         self.check_shape(c)?;
         self.take_diagonal(c);
-        let floor = floor.max(NOISE).powi(2);
+        let floor = floor.max(SCHUR_NOISE).powi(2);
         let (mut smallest, mut n_left_out) = (f64::INFINITY, 0);
-        let Self {
-            structure: s,
+        let s = &self.structure;
+        let Factors {
             l,
             inverse,
             diagonal,
             inverse_mass,
+            ..
+        } = &mut self.factors;
+        let Assembly {
             front,
             waiting,
             element,
-            ..
-        } = self;
+        } = &mut self.assembly;
         waiting.clear();
         for piece in &s.fronts {
             let f = piece.order();
@@ -71,10 +70,10 @@ impl SchurSaddle {
                 add_update(front, f, &waiting[from..], &s.in_parent[rest]);
                 waiting.truncate(from);
             }
-            for block in &s.elements[piece.elements.clone()] {
-                let columns = &s.columns[block.columns.clone()];
-                let at = &s.in_front[block.rows.clone()];
-                let entries = &s.entries[block.entries..][..at.len() * columns.len()];
+            for block in &s.elements.of_fronts[piece.elements.clone()] {
+                let columns = &s.elements.columns[block.columns.clone()];
+                let at = &s.elements.in_front[block.rows.clone()];
+                let entries = &s.elements.entries[block.entries..][..at.len() * columns.len()];
                 let weight = |k: usize| inverse_mass[columns[k] as usize];
                 add_element(front, f, at, (entries, c.values()), weight, element);
             }
@@ -82,7 +81,7 @@ impl SchurSaddle {
             let own = &mut inverse[pivots.clone()];
             let found = match eliminate(front, f, own, &diagonal[pivots.clone()], floor) {
                 Ok(found) => found,
-                Err(k) => return Err(not_finite(c, s.row[pivots.start + k])),
+                Err(k) => return Err(not_finite(c, s.rows.row[pivots.start + k])),
             };
             smallest = smallest.min(found.smallest);
             n_left_out += found.n_left_out;
@@ -96,14 +95,14 @@ impl SchurSaddle {
                 waiting.extend_from_slice(&front[k * f + k..(k + 1) * f]);
             }
         }
-        self.pivot_ratio = smallest.sqrt();
-        self.n_left_out = n_left_out;
+        self.factors.pivot_ratio = smallest.sqrt();
+        self.factors.n_left_out = n_left_out;
         self.is_factored = true;
         Ok(())
     }
 
     fn take_mass(&mut self, mass: &[f64]) -> Result<(), SaddleError> {
-        let expected = self.inverse_mass.len();
+        let expected = self.factors.inverse_mass.len();
         if mass.len() != expected {
             return Err(SaddleError::Length {
                 argument: "mass",
@@ -111,7 +110,8 @@ impl SchurSaddle {
                 expected,
             });
         }
-        for (index, (inverse, &value)) in self.inverse_mass.iter_mut().zip(mass).enumerate() {
+        for (index, (inverse, &value)) in self.factors.inverse_mass.iter_mut().zip(mass).enumerate()
+        {
             *inverse = 1.0 / value;
             if inverse.is_normal() && value > 0.0 {
                 continue;
@@ -134,7 +134,7 @@ impl SchurSaddle {
         let shapes = [
             ("rows", c.nrows(), s.n_rows()),
             ("columns", c.ncols(), s.n_coordinates()),
-            ("entries", c.nnz(), s.nnz),
+            ("entries", c.nnz(), s.rows.nnz),
         ];
         match shapes
             .into_iter()
@@ -150,9 +150,9 @@ impl SchurSaddle {
     }
 
     fn take_diagonal(&mut self, c: &SparseMatrix) {
-        let inverse_mass = &self.inverse_mass;
-        for (place, size) in self.diagonal.iter_mut().enumerate() {
-            let terms = self.structure.entries_at(place, c.values());
+        let inverse_mass = &self.factors.inverse_mass;
+        for (place, size) in self.factors.diagonal.iter_mut().enumerate() {
+            let terms = self.structure.rows.entries_at(place, c.values());
             *size = terms.map(|(j, x)| x * x * inverse_mass[j]).sum();
         }
     }

@@ -1,20 +1,9 @@
 //! Solution with the factors, and what rounding left of it.
 
-use super::SchurSaddle;
+use super::{Factors, SchurSaddle, Work};
 use crate::kernels::all_finite;
+use crate::limits::{SCHUR_CORRECTIONS, SCHUR_ENOUGH, SCHUR_POOR, SCHUR_PROGRESS};
 use crate::{SaddleError, SparseMatrix};
-
-/// Rows that miss by more than this share of their terms are corrected.
-const ENOUGH: f64 = 1e-14;
-
-/// Corrections at most.
-const ROUNDS: usize = 4;
-
-/// A correction has to leave less than this share, or it is of no use.
-const PROGRESS: f64 = 0.5;
-
-/// Rows that miss by more than this share of their terms after all corrections are not solved.
-const POOR: f64 = 1e-9;
 
 impl SchurSaddle {
     /// Solves `M·a + Cᵀ·λ = f`, `C·a = γ` with the rows of the last factorisation. Rows that are
@@ -44,39 +33,45 @@ impl SchurSaddle {
             [("f", f.len()), ("a", a.len())],
             [("gamma", gamma.len()), ("lambda", lambda.len())],
         )?;
-        for ((free, f), inverse) in self.free.iter_mut().zip(f).zip(&self.inverse_mass) {
+        for ((free, f), inverse) in self
+            .work
+            .free
+            .iter_mut()
+            .zip(f)
+            .zip(&self.factors.inverse_mass)
+        {
             *free = f * inverse;
         }
-        a.copy_from_slice(&self.free);
-        for (all, free) in self.all.iter_mut().zip(&self.free) {
+        a.copy_from_slice(&self.work.free);
+        for (all, free) in self.work.all.iter_mut().zip(&self.work.free) {
             *all = free.abs();
         }
         lambda.fill(0.0);
         self.take_residual(c, gamma, a);
-        if !all_finite(&self.x) {
+        if !all_finite(&self.work.x) {
             return Err(first_non_finite([("f", f), ("gamma", gamma)]));
         }
         self.substitute();
         self.add_solution(c, a, lambda);
         let mut before = f64::INFINITY;
-        for round in 1..=ROUNDS {
+        for round in 1..=SCHUR_CORRECTIONS {
             let misfit = self.take_misfit(c, gamma, a);
-            if misfit <= ENOUGH {
+            if misfit <= SCHUR_ENOUGH {
                 return Ok(());
             }
             if !misfit.is_finite() {
                 return Err(first_non_finite([("f", f), ("gamma", gamma)]));
             }
             // The first is that of the solution, which has nothing to be compared with.
-            if round > 1 && misfit > PROGRESS * before || round == ROUNDS {
+            if round > 1 && misfit > SCHUR_PROGRESS * before || round == SCHUR_CORRECTIONS {
                 let left = misfit.min(before);
-                return match left <= POOR || self.misfit_of_all(c, gamma, a) <= POOR {
-                    true => Ok(()),
-                    false => Err(SaddleError::Unrefined {
-                        rounds: round,
-                        change: misfit,
-                    }),
-                };
+                if left <= SCHUR_POOR || self.misfit_of_all(c, gamma, a) <= SCHUR_POOR {
+                    return Ok(());
+                }
+                return Err(SaddleError::Unrefined {
+                    rounds: round,
+                    change: misfit,
+                });
             }
             before = misfit;
             self.substitute();
@@ -102,20 +97,21 @@ impl SchurSaddle {
             [("f", f.len()), ("a", a.len())],
             [("lambda", lambda.len()), ("lambda", lambda.len())],
         )?;
-        for (k, free) in self.free.iter_mut().enumerate() {
-            *free = f[k] * self.inverse_mass[k] - a[k];
+        for (k, free) in self.work.free.iter_mut().enumerate() {
+            *free = f[k] * self.factors.inverse_mass[k] - a[k];
         }
-        for (place, x) in self.x.iter_mut().enumerate() {
-            let terms = self.structure.entries_at(place, c.values());
-            *x = terms.map(|(j, c)| c * self.free[j]).sum();
+        for (place, x) in self.work.x.iter_mut().enumerate() {
+            let terms = self.structure.rows.entries_at(place, c.values());
+            *x = terms.map(|(j, c)| c * self.work.free[j]).sum();
         }
         self.substitute();
-        for (x, &row) in self.x.iter().zip(&self.structure.row) {
+        for (x, &row) in self.work.x.iter().zip(&self.structure.rows.row) {
             lambda[row] = *x;
         }
-        match all_finite(lambda) {
-            true => Ok(()),
-            false => Err(first_non_finite([("f", f), ("a", a)])),
+        if all_finite(lambda) {
+            Ok(())
+        } else {
+            Err(first_non_finite([("f", f), ("a", a)]))
         }
     }
 
@@ -129,7 +125,7 @@ impl SchurSaddle {
             return Err(SaddleError::NotFactored);
         }
         self.check_shape(c)?;
-        let (n, r) = (self.inverse_mass.len(), self.inverse.len());
+        let (n, r) = (self.factors.inverse_mass.len(), self.factors.inverse.len());
         let lengths = of_n.map(|a| (a, n)).into_iter().chain(of_r.map(|a| (a, r)));
         match lengths
             .into_iter()
@@ -146,8 +142,8 @@ impl SchurSaddle {
 
     /// Writes `C·a − γ` of the rows in use to x, in the order of elimination.
     fn take_residual(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) {
-        let s = &self.structure;
-        let places = self.x.iter_mut().zip(&self.inverse);
+        let s = &self.structure.rows;
+        let places = self.work.x.iter_mut().zip(&self.factors.inverse);
         for (place, ((x, &inverse), &row)) in places.zip(&s.row).enumerate() {
             *x = match inverse {
                 0.0 => 0.0,
@@ -160,7 +156,7 @@ impl SchurSaddle {
 
     /// The same, and the largest as share of its terms.
     fn take_misfit(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
-        for ((terms, free), a) in self.terms.iter_mut().zip(&self.free).zip(a) {
+        for ((terms, free), a) in self.work.terms.iter_mut().zip(&self.work.free).zip(a) {
             *terms = free.abs().max(a.abs());
         }
         self.misfit(c, gamma, a)
@@ -169,14 +165,14 @@ impl SchurSaddle {
     /// The largest misfit as share of all that was added up: where multipliers balance,
     /// accelerations are what rounding leaves of them.
     fn misfit_of_all(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
-        std::mem::swap(&mut self.terms, &mut self.all);
+        std::mem::swap(&mut self.work.terms, &mut self.work.all);
         self.misfit(c, gamma, a)
     }
 
     fn misfit(&mut self, c: &SparseMatrix, gamma: &[f64], a: &[f64]) -> f64 {
         let mut largest = 0.0_f64;
-        let s = &self.structure;
-        let places = self.x.iter_mut().zip(&self.inverse);
+        let s = &self.structure.rows;
+        let places = self.work.x.iter_mut().zip(&self.factors.inverse);
         for (place, ((x, &inverse), &row)) in places.zip(&s.row).enumerate() {
             if inverse == 0.0 {
                 *x = 0.0;
@@ -185,7 +181,7 @@ impl SchurSaddle {
             let (mut sum, mut size) = (-gamma[row], gamma[row].abs());
             for (j, c) in s.entries_at(place, c.values()) {
                 sum += c * a[j];
-                size += c.abs() * self.terms[j];
+                size += c.abs() * self.work.terms[j];
             }
             *x = sum;
             let share = if sum == 0.0 { 0.0 } else { sum.abs() / size };
@@ -199,30 +195,25 @@ impl SchurSaddle {
     /// Adds the multipliers in x, and takes what they do to the motion; the sizes of what is taken
     /// add up.
     fn add_solution(&mut self, c: &SparseMatrix, a: &mut [f64], lambda: &mut [f64]) {
-        let s = &self.structure;
-        for (place, (&x, &row)) in self.x.iter().zip(&s.row).enumerate() {
+        let s = &self.structure.rows;
+        for (place, (&x, &row)) in self.work.x.iter().zip(&s.row).enumerate() {
             if x == 0.0 {
                 continue;
             }
             lambda[row] += x;
             for (j, c) in s.entries_at(place, c.values()) {
-                let term = c * x * self.inverse_mass[j];
+                let term = c * x * self.factors.inverse_mass[j];
                 a[j] -= term;
-                self.all[j] += term.abs();
+                self.work.all[j] += term.abs();
             }
         }
     }
 
     /// `x ← S⁻¹·x` in the order of elimination.
     fn substitute(&mut self) {
-        let Self {
-            structure: s,
-            l,
-            inverse,
-            x,
-            local,
-            ..
-        } = self;
+        let s = &self.structure;
+        let Factors { l, inverse, .. } = &self.factors;
+        let Work { x, local, .. } = &mut self.work;
         for front in &s.fronts {
             let (p, later) = (front.pivots.clone(), &s.later[front.rest.clone()]);
             let local = &mut local[..front.order()];

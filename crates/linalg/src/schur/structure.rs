@@ -9,13 +9,8 @@
 
 use std::ops::Range;
 
-use crate::{SparseMatrix, minimum_degree};
-
-/// A front becomes one with its parent where that leaves at most this share of zeros in the columns
-/// of both, or adds no more than a few entries: a front of its own costs as much as some ten
-/// products.
-const ZEROS: f64 = 0.15;
-const FEW_ZEROS: usize = 24;
+use crate::limits::{FRONT_FEW_ZEROS, FRONT_ZEROS};
+use crate::{EliminationTree, SparseMatrix};
 
 /// No entry of C.
 pub(super) const NONE: u32 = u32::MAX;
@@ -33,34 +28,92 @@ pub(super) const NONE: u32 = u32::MAX;
 /// ```
 #[derive(Clone, Debug)]
 pub struct SchurStructure {
+    pub(super) rows: Rows,
+    /// In the order of elimination; children before their parents, and the last child just before.
+    pub(super) fronts: Vec<Front>,
+    /// Later rows of all fronts, as places.
+    pub(super) later: Vec<u32>,
+    /// For each later row its index in the parent.
+    pub(super) in_parent: Vec<u32>,
+    pub(super) elements: Elements,
+    pub(super) size: Size,
+}
+
+/// C by rows in the order of elimination.
+#[derive(Clone, Debug)]
+pub(super) struct Rows {
+    /// Columns of C.
     n: usize,
     /// Entries of C.
     pub(super) nnz: usize,
     /// The row at each place of the order of elimination, and the place of each row.
     pub(super) row: Vec<usize>,
     pub(super) place: Vec<usize>,
-    /// For each place, where its columns begin in `row_columns` and its values in C; one more for
-    /// the end.
-    row_start: Vec<[u32; 2]>,
-    /// Columns of all rows, in the order of elimination.
-    row_columns: Vec<u32>,
-    /// In this order; children before their parents, and the last child just before.
-    pub(super) fronts: Vec<Front>,
-    /// Later rows of all fronts, as places.
-    pub(super) later: Vec<u32>,
-    /// For each later row its index in the parent.
-    pub(super) in_parent: Vec<u32>,
-    pub(super) elements: Vec<Element>,
+    /// For each place, where its columns begin in `columns` and its values in C; one more for the
+    /// end.
+    start: Vec<[u32; 2]>,
+    /// Columns of all rows.
+    columns: Vec<u32>,
+}
+
+impl Rows {
+    fn new(c: &SparseMatrix, row: Vec<usize>) -> Self {
+        let mut place = vec![0; row.len()];
+        row.iter().enumerate().for_each(|(k, &i)| place[i] = k);
+        let mut start = Vec::with_capacity(row.len() + 1);
+        let mut columns = Vec::with_capacity(c.nnz());
+        for &row in &row {
+            start.push([columns.len() as u32, c.start(row) as u32]);
+            columns.extend(c.row(row).0.iter().map(|&j| j as u32));
+        }
+        start.push([columns.len() as u32, 0]);
+        Self {
+            n: c.ncols(),
+            nnz: c.nnz(),
+            row,
+            place,
+            start,
+            columns,
+        }
+    }
+
+    /// Entries (column, value) of the row at a place, for the values of C.
+    pub(super) fn entries_at<'c>(
+        &'c self,
+        place: usize,
+        values: &'c [f64],
+    ) -> impl Iterator<Item = (usize, f64)> + 'c {
+        let [[first, value], [end, _]] = [self.start[place], self.start[place + 1]];
+        let columns = &self.columns[first as usize..end as usize];
+        let values = &values[value as usize..][..columns.len()];
+        columns
+            .iter()
+            .map(|&j| j as usize)
+            .zip(values.iter().copied())
+    }
+}
+
+/// Blocks of columns and the rows that touch them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Elements {
+    pub(super) of_fronts: Vec<Element>,
     /// Columns of all elements.
     pub(super) columns: Vec<u32>,
     /// For each row of all elements its index in the front.
     pub(super) in_front: Vec<u32>,
     /// For each row and column of all elements the entry of C, or [`NONE`].
     pub(super) entries: Vec<u32>,
-    n_entries: usize,
-    n_waiting: usize,
-    largest_front: usize,
-    largest_element: usize,
+}
+
+/// Storage and work of a factorisation.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Size {
+    /// Entries of L.
+    pub(super) entries: usize,
+    /// Most numbers that wait for their parents.
+    pub(super) waiting: usize,
+    pub(super) front: usize,
+    pub(super) element: usize,
     multiplications: f64,
 }
 
@@ -88,9 +141,9 @@ impl Front {
 /// A block of columns and the rows that touch it.
 #[derive(Clone, Debug)]
 pub(super) struct Element {
-    /// In `columns`.
+    /// In the columns of all elements.
     pub(super) columns: Range<usize>,
-    /// In `in_front`.
+    /// In `in_front` of all elements.
     pub(super) rows: Range<usize>,
     /// Where its part of `entries` begins, row by row.
     pub(super) entries: usize,
@@ -110,70 +163,46 @@ impl SchurStructure {
     /// Coordinates n.
     #[must_use]
     pub fn n_coordinates(&self) -> usize {
-        self.n
+        self.rows.n
     }
 
     /// Rows r.
     #[must_use]
     pub fn n_rows(&self) -> usize {
-        self.row.len()
+        self.rows.row.len()
     }
 
     /// Entries of L that are stored, below its diagonal.
     #[must_use]
     pub fn n_entries(&self) -> usize {
-        self.n_entries
+        self.size.entries
     }
 
     /// Multiplications of a factorisation, about.
     #[must_use]
     pub fn multiplications(&self) -> f64 {
-        self.multiplications
+        self.size.multiplications
     }
 
     /// Memory of a [`SchurSaddle`](crate::SchurSaddle) on it, in bytes.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let numbers = self.n_entries
-            + self.n_waiting
-            + self.largest_front * (self.largest_front + 1)
-            + 5 * self.n_rows()
-            + 3 * self.n;
-        let indices = 2 * (self.later.len() + self.row_start.len())
-            + self.row_columns.len()
-            + self.columns.len()
-            + self.in_front.len()
-            + self.entries.len();
-        let records =
-            self.fronts.len() * size_of::<Front>() + self.elements.len() * size_of::<Element>();
+        let Size {
+            entries,
+            waiting,
+            front,
+            ..
+        } = self.size;
+        let numbers =
+            entries + waiting + front * (front + 1) + 5 * self.n_rows() + 3 * self.n_coordinates();
+        let indices = 2 * (self.later.len() + self.rows.start.len())
+            + self.rows.columns.len()
+            + self.elements.columns.len()
+            + self.elements.in_front.len()
+            + self.elements.entries.len();
+        let records = self.fronts.len() * size_of::<Front>()
+            + self.elements.of_fronts.len() * size_of::<Element>();
         8 * numbers + 4 * indices + records
-    }
-
-    /// Entries (column, value) of the row at a place, for the values of C.
-    pub(super) fn entries_at<'c>(
-        &'c self,
-        place: usize,
-        values: &'c [f64],
-    ) -> impl Iterator<Item = (usize, f64)> + 'c {
-        let [[first, value], [end, _]] = [self.row_start[place], self.row_start[place + 1]];
-        let columns = &self.row_columns[first as usize..end as usize];
-        let values = &values[value as usize..][..columns.len()];
-        columns
-            .iter()
-            .map(|&j| j as usize)
-            .zip(values.iter().copied())
-    }
-
-    pub(super) fn n_waiting(&self) -> usize {
-        self.n_waiting
-    }
-
-    pub(super) fn largest_front(&self) -> usize {
-        self.largest_front
-    }
-
-    pub(super) fn largest_element(&self) -> usize {
-        self.largest_element
     }
 }
 
@@ -215,8 +244,6 @@ struct Nodes {
     rows: Vec<Vec<usize>>,
     /// Nodes that touch each block.
     touching: Vec<Vec<usize>>,
-    /// Blocks that each node touches.
-    touched: Vec<Vec<usize>>,
 }
 
 impl Nodes {
@@ -232,17 +259,17 @@ impl Nodes {
         let mut nodes = Self {
             rows: Vec::new(),
             touching: vec![Vec::new(); blocks.columns.len()],
-            touched: Vec::new(),
         };
+        let mut last = None;
         for (key, row) in keyed {
             // Rows without entries have nothing to do with each other.
-            let is_same = !key.is_empty() && nodes.touched.last() == Some(&key);
+            let is_same = !key.is_empty() && last.as_ref() == Some(&key);
             if !is_same {
                 for &block in &key {
                     nodes.touching[block].push(nodes.rows.len());
                 }
                 nodes.rows.push(Vec::new());
-                nodes.touched.push(key);
+                last = Some(key);
             }
             if let Some(rows) = nodes.rows.last_mut() {
                 rows.push(row);
@@ -265,8 +292,7 @@ struct Tree {
 impl Tree {
     fn new(nodes: &Nodes) -> Self {
         let n = nodes.rows.len();
-        let order = minimum_degree(n, &nodes.touching);
-        let (order, meets) = postordered(nodes, &order);
+        let (order, meets) = postordered(EliminationTree::new(n, &nodes.touching));
         let width = |k: usize| nodes.rows[order[k]].len();
         // Rows of a front, its columns, and zeros among their entries so far.
         let rows_of = |k: usize| meets[k].iter().map(|&j| width(j)).sum::<usize>();
@@ -287,7 +313,7 @@ impl Tree {
                 let all = zeros[k] + zeros[child] + missing;
                 let total = columns[child] + own;
                 let entries = total * (total + 1) / 2 + total * rest;
-                if all > FEW_ZEROS && all as f64 > ZEROS * entries as f64 {
+                if all > FRONT_FEW_ZEROS && all as f64 > FRONT_ZEROS * entries as f64 {
                     break;
                 }
                 merged[k] += 1 + merged[child];
@@ -309,40 +335,19 @@ impl Tree {
             .iter()
             .flat_map(|&node| nodes.rows[node].iter().copied())
             .collect();
-        let mut place = vec![0; row.len()];
-        row.iter().enumerate().for_each(|(k, &i)| place[i] = k);
         // First place of a row of each node place, and the front of each.
         let mut first = vec![0; n + 1];
         for k in 0..n {
             first[k + 1] = first[k] + nodes.rows[self.order[k]].len();
         }
         let mut s = SchurStructure {
-            n: c.ncols(),
-            nnz: c.nnz(),
-            row_start: Vec::with_capacity(row.len() + 1),
-            row_columns: Vec::with_capacity(c.nnz()),
-            row,
-            place,
+            rows: Rows::new(c, row),
             fronts: Vec::new(),
             later: Vec::new(),
             in_parent: Vec::new(),
-            elements: Vec::new(),
-            columns: Vec::new(),
-            in_front: Vec::new(),
-            entries: Vec::new(),
-            n_entries: 0,
-            n_waiting: 0,
-            largest_front: 0,
-            largest_element: 0,
-            multiplications: 0.0,
+            elements: Elements::default(),
+            size: Size::default(),
         };
-        for &row in &s.row {
-            s.row_start
-                .push([s.row_columns.len() as u32, c.start(row) as u32]);
-            let columns = c.row(row).0.iter();
-            s.row_columns.extend(columns.map(|&j| j as u32));
-        }
-        s.row_start.push([s.row_columns.len() as u32, 0]);
         let mut place_of_node = vec![0; n];
         self.order
             .iter()
@@ -364,7 +369,7 @@ impl Tree {
             end -= 1 + self.merged[end - 1];
         }
         ends.reverse();
-        let mut local = vec![0_u32; s.row.len()];
+        let mut local = vec![0_u32; s.n_rows()];
         let mut from = 0;
         for last in ends {
             let index = s.fronts.len();
@@ -384,22 +389,22 @@ impl Tree {
             for (k, at) in rest.clone().enumerate() {
                 local[s.later[at] as usize] = (pivots.len() + k) as u32;
             }
-            let elements = s.elements.len();
+            let elements = s.elements.of_fronts.len();
             for k in from..=last {
                 for &block in &blocks_at[k] {
                     s.add_element(c, blocks, nodes, block, &local);
                 }
             }
             s.fronts.push(Front {
-                elements: elements..s.elements.len(),
+                elements: elements..s.elements.of_fronts.len(),
                 children: Vec::new(),
-                l: s.n_entries,
+                l: s.size.entries,
                 pivots: pivots.clone(),
                 rest,
             });
-            s.n_entries += (0..pivots.len()).map(|k| order - 1 - k).sum::<usize>();
-            s.largest_front = s.largest_front.max(order);
-            s.multiplications += (0..pivots.len())
+            s.size.entries += (0..pivots.len()).map(|k| order - 1 - k).sum::<usize>();
+            s.size.front = s.size.front.max(order);
+            s.size.multiplications += (0..pivots.len())
                 .map(|k| 0.5 * ((order - k) * (order - k)) as f64)
                 .sum::<f64>();
             from = last + 1;
@@ -419,24 +424,24 @@ impl SchurStructure {
         local: &[u32],
     ) {
         let own = &blocks.columns[block];
-        let (columns, rows) = (self.columns.len(), self.in_front.len());
-        let entries = self.entries.len();
-        self.columns.extend(own.iter().map(|&j| j as u32));
+        let to = &mut self.elements;
+        let (columns, rows, entries) = (to.columns.len(), to.in_front.len(), to.entries.len());
+        to.columns.extend(own.iter().map(|&j| j as u32));
         let touching = nodes.touching[block].iter();
         let mut of_block: Vec<usize> = touching
             .flat_map(|&node| nodes.rows[node].iter().copied())
             .collect();
-        of_block.sort_unstable_by_key(|&row| self.place[row]);
+        of_block.sort_unstable_by_key(|&row| self.rows.place[row]);
         for row in of_block {
-            self.in_front.push(local[self.place[row]]);
+            to.in_front.push(local[self.rows.place[row]]);
             let (start, of_row) = (c.start(row), c.row(row).0);
             let entry = |j| of_row.binary_search(j).map_or(NONE, |k| (start + k) as u32);
-            self.entries.extend(own.iter().map(entry));
+            to.entries.extend(own.iter().map(entry));
         }
-        let rows = rows..self.in_front.len();
-        self.largest_element = self.largest_element.max(rows.len() * own.len());
-        self.elements.push(Element {
-            columns: columns..self.columns.len(),
+        let rows = rows..to.in_front.len();
+        self.size.element = self.size.element.max(rows.len() * own.len());
+        to.of_fronts.push(Element {
+            columns: columns..to.columns.len(),
             rows,
             entries,
         });
@@ -456,7 +461,7 @@ impl SchurStructure {
             };
             let parent = front_of[node_of(self.later[at] as usize)];
             waiting += triangle(&self.fronts[k]);
-            self.n_waiting = self.n_waiting.max(waiting);
+            self.size.waiting = self.size.waiting.max(waiting);
             let to = &self.fronts[parent];
             let (pivots, later) = (to.pivots.clone(), to.rest.clone());
             let mut next = later.start;
@@ -479,46 +484,17 @@ impl SchurStructure {
 
 /// Places and what they meet, renumbered such that children stand just before their parents, the
 /// one with the widest front last.
-fn postordered(nodes: &Nodes, order: &[usize]) -> (Vec<usize>, Vec<Vec<usize>>) {
-    let n = order.len();
-    let mut place = vec![0; n];
-    order
-        .iter()
-        .enumerate()
-        .for_each(|(k, &node)| place[node] = k);
-    let mut meets: Vec<Vec<usize>> = vec![Vec::new(); n];
-    let mut children: Vec<Vec<usize>> = vec![Vec::new(); n];
-    let mut seen = vec![usize::MAX; n];
-    // Blocks are met once, at the first of their nodes; later ones inherit them.
-    let mut is_met = vec![false; nodes.touching.len()];
-    for k in 0..n {
-        seen[k] = k;
-        let mut met = Vec::new();
-        let mut meet = |j: usize, met: &mut Vec<usize>| {
-            if j > k && std::mem::replace(&mut seen[j], k) != k {
-                met.push(j);
-            }
-        };
-        for &block in &nodes.touched[order[k]] {
-            if !std::mem::replace(&mut is_met[block], true) {
-                nodes.touching[block]
-                    .iter()
-                    .for_each(|&node| meet(place[node], &mut met));
-            }
-        }
-        for &child in &children[k] {
-            meets[child].iter().for_each(|&j| meet(j, &mut met));
-        }
-        met.sort_unstable();
-        if let Some(&parent) = met.first() {
-            children[parent].push(k);
-        }
-        meets[k] = met;
-    }
+fn postordered(tree: EliminationTree) -> (Vec<usize>, Vec<Vec<usize>>) {
+    let EliminationTree {
+        order,
+        beyond,
+        mut children,
+        ..
+    } = tree;
     // Depth first from the roots, without recursion.
+    let n = order.len();
     let mut renumbered = Vec::with_capacity(n);
-    let is_root = |k: &usize| meets[*k].is_empty();
-    for root in (0..n).filter(is_root) {
+    for root in (0..n).filter(|&k| beyond[k].is_empty()) {
         let mut stack = vec![(root, false)];
         while let Some((k, is_done)) = stack.pop() {
             if is_done {
@@ -526,23 +502,19 @@ fn postordered(nodes: &Nodes, order: &[usize]) -> (Vec<usize>, Vec<Vec<usize>>) 
                 continue;
             }
             stack.push((k, true));
-            children[k].sort_by_key(|&c| meets[c].len());
+            children[k].sort_by_key(|&c| beyond[c].len());
             stack.extend(children[k].iter().rev().map(|&c| (c, false)));
         }
     }
     let mut now = vec![0; n];
-    renumbered
-        .iter()
-        .enumerate()
-        .for_each(|(new, &old)| now[old] = new);
+    for (new, &old) in renumbered.iter().enumerate() {
+        now[old] = new;
+    }
     let order = renumbered.iter().map(|&old| order[old]).collect();
-    let meets = renumbered
-        .iter()
-        .map(|&old| {
-            let mut met: Vec<usize> = meets[old].iter().map(|&j| now[j]).collect();
-            met.sort_unstable();
-            met
-        })
-        .collect();
-    (order, meets)
+    let meets = renumbered.iter().map(|&old| {
+        let mut met: Vec<usize> = beyond[old].iter().map(|&j| now[j]).collect();
+        met.sort_unstable();
+        met
+    });
+    (order, meets.collect())
 }

@@ -186,3 +186,16 @@ fn bad_numbers_are_refused() {
         })
     ));
 }
+
+/// With masses of one, the share that the first of two rows leaves of the other is the sine of the
+/// angle between them.
+#[test]
+fn a_row_of_which_little_is_left_is_lost() {
+    for (sine, is_lost) in [(0.7e-7, true), (1.5e-7, false)] {
+        let c = SparseMatrix::from_rows(2, [[(0, 1.0), (1, 0.0)], [(0, 1.0), (1, sine)]]);
+        let c = c.expect("two rows");
+        let mut saddle = SchurSaddle::new(SchurStructure::new(&c, &[0..2]));
+        let factored = saddle.factor(&c, &[1.0; 2]);
+        assert_eq!(factored.is_err(), is_lost, "{sine}");
+    }
+}

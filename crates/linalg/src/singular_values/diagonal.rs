@@ -5,8 +5,7 @@
 //! columns with Wilkinson's shift makes an entry below the diagonal, which further rotations chase
 //! out. A block whose diagonal has a zero is cut there first.
 
-/// Steps at most for each value; two or three are needed.
-const STEPS_EACH: usize = 60;
+use crate::limits::QR_STEPS_EACH;
 
 /// Turns the diagonal `d` (n) and the superdiagonal `f` (n − 1) of a matrix with entries near one
 /// into singular values, unsorted and with any sign; false if the steps do not come to an end.
@@ -15,7 +14,7 @@ pub(super) fn iterate(d: &mut [f64], f: &mut [f64]) -> bool {
     let zero = f64::EPSILON * largest(d).max(largest(f));
     let stands = |x: f64| x.abs() > zero;
     let mut end = d.len();
-    for _ in 0..STEPS_EACH * d.len() {
+    for _ in 0..QR_STEPS_EACH * d.len() {
         // The last block that is not diagonal yet: begin..end.
         while end > 1 && !stands(f[end - 2]) {
             end -= 1;

@@ -14,8 +14,7 @@ use std::ops::Range;
 
 use super::factor::Wanted;
 use crate::structure::partition;
-use linalg::SparseMatrix;
-use linalg::minimum_degree;
+use linalg::{EliminationTree, SparseMatrix};
 
 /// A front of at most this many columns is not worth its own assembly.
 const SMALL: usize = 24;
@@ -62,10 +61,20 @@ impl Symbolic {
     pub(super) fn new(c: &SparseMatrix, blocks: &[Range<usize>]) -> Result<Self, TooDense> {
         let blocks = partition(c.ncols(), blocks.iter());
         let touched = Touched::new(c, &blocks);
-        let order = minimum_degree(blocks.len(), &touched.sets);
-        let tree = Tree::new(&touched, &order, |k| blocks[order[k]].len())?;
-        let supernodes = tree.amalgamate(|k| blocks[order[k]].len());
-        let columns = |k: &usize| blocks[order[*k]].iter().copied();
+        let mut work = 0.0;
+        let admit = |k: usize, order: &[usize], beyond: &[usize]| {
+            let size = |k: usize| blocks[order[k]].len();
+            let width = size(k) + beyond.iter().map(|&j| size(j)).sum::<usize>();
+            work += size(k) as f64 * (width as f64).powi(2);
+            if work > WORK_MAX {
+                return Err(TooDense { work });
+            }
+            Ok(())
+        };
+        let tree = EliminationTree::while_admitted(blocks.len(), &touched.sets, admit)?;
+        let block = |k: usize| &blocks[tree.order[k]];
+        let supernodes = amalgamate(&tree, |k| block(k).len());
+        let columns = |k: &usize| block(*k).iter().copied();
         let mut fronts = Vec::with_capacity(supernodes.len());
         for Supernode {
             pivots,
@@ -178,14 +187,6 @@ impl Touched {
     }
 }
 
-/// The elimination tree; nodes are the blocks in the order of elimination.
-struct Tree {
-    /// Sets of rows whose first block is the node.
-    led: Vec<Vec<usize>>,
-    /// Nodes that are joined to the node when it is eliminated, ascending; the first is its parent.
-    beyond: Vec<Vec<usize>>,
-}
-
 /// Nodes that are eliminated in one front.
 struct Supernode {
     /// Ascending along every path to the root.
@@ -195,103 +196,46 @@ struct Supernode {
     children: usize,
 }
 
-impl Tree {
-    /// `size` is the number of columns of a node.
-    fn new(
-        touched: &Touched,
-        order: &[usize],
-        size: impl Fn(usize) -> usize,
-    ) -> Result<Self, TooDense> {
-        let n = order.len();
-        let mut position = vec![0; n];
-        for (k, &block) in order.iter().enumerate() {
-            position[block] = k;
-        }
-        let mut led = vec![Vec::new(); n];
-        for (set, blocks) in touched.sets.iter().enumerate() {
-            if let Some(first) = blocks.iter().map(|&block| position[block]).min() {
-                led[first].push(set);
+/// Puts small fronts, and those that fit exactly, into their parents; the fronts in an order in
+/// which the children of each come right before it, with their descendants.
+fn amalgamate(tree: &EliminationTree, size: impl Fn(usize) -> usize) -> Vec<Supernode> {
+    let n = tree.order.len();
+    // Columns that are eliminated in the front of a node, and columns of the front.
+    let mut pivots: Vec<usize> = (0..n).map(&size).collect();
+    let mut width: Vec<usize> = (0..n)
+        .map(|k| pivots[k] + tree.beyond[k].iter().map(|&j| size(j)).sum::<usize>())
+        .collect();
+    let mut children = tree.children.clone();
+    let mut merged = vec![Vec::new(); n];
+    for k in 0..n {
+        let mut apart = Vec::new();
+        for child in std::mem::take(&mut children[k]) {
+            let together = pivots[child] + width[k];
+            if together == width[child] || together <= SMALL {
+                pivots[k] += pivots[child];
+                width[k] = together;
+                merged[k].push(child);
+                let own = std::mem::take(&mut children[child]);
+                apart.extend(own);
+            } else {
+                apart.push(child);
             }
         }
-        let mut children = vec![Vec::new(); n];
-        let mut beyond: Vec<Vec<usize>> = Vec::with_capacity(n);
-        let mut mark = vec![usize::MAX; n];
-        let mut work = 0.0;
-        for k in 0..n {
-            mark[k] = k;
-            let mut joined = Vec::new();
-            let own = led[k].iter().flat_map(|&set: &usize| &touched.sets[set]);
-            let own = own.map(|&block| position[block]);
-            let below = children[k].iter().flat_map(|&child: &usize| &beyond[child]);
-            for j in own.chain(below.copied()) {
-                if mark[j] != k {
-                    mark[j] = k;
-                    joined.push(j);
-                }
-            }
-            joined.sort_unstable();
-            let pivots = size(k);
-            let width = pivots + joined.iter().map(|&j| size(j)).sum::<usize>();
-            work += pivots as f64 * (width as f64).powi(2);
-            if work > WORK_MAX {
-                return Err(TooDense { work });
-            }
-            if let Some(&parent) = joined.first() {
-                children[parent].push(k);
-            }
-            beyond.push(joined);
-        }
-        Ok(Self { led, beyond })
+        children[k] = apart;
     }
-
-    /// Puts small fronts, and those that fit exactly, into their parents; the fronts in an order in
-    /// which the children of each come right before it, with their descendants.
-    fn amalgamate(&self, size: impl Fn(usize) -> usize) -> Vec<Supernode> {
-        let n = self.beyond.len();
-        // Columns that are eliminated in the front of a node, and columns of the front.
-        let mut pivots: Vec<usize> = (0..n).map(&size).collect();
-        let mut width: Vec<usize> = (0..n)
-            .map(|k| pivots[k] + self.beyond[k].iter().map(|&j| size(j)).sum::<usize>())
-            .collect();
-        let mut children = vec![Vec::new(); n];
-        let mut merged = vec![Vec::new(); n];
-        let mut roots = Vec::new();
-        for k in 0..n {
-            match self.beyond[k].first() {
-                Some(&parent) => children[parent].push(k),
-                None => roots.push(k),
-            }
-        }
-        for k in 0..n {
-            let mut apart = Vec::new();
-            for child in std::mem::take(&mut children[k]) {
-                let together = pivots[child] + width[k];
-                if together == width[child] || together <= SMALL {
-                    pivots[k] += pivots[child];
-                    width[k] = together;
-                    merged[k].push(child);
-                    let own = std::mem::take(&mut children[child]);
-                    apart.extend(own);
-                } else {
-                    apart.push(child);
-                }
-            }
-            children[k] = apart;
-        }
-        // Parents first, last child first; turned round, children come right before their parents.
-        let mut reversed = Vec::with_capacity(n);
-        let mut open = roots;
-        while let Some(k) = open.pop() {
-            reversed.push(Supernode {
-                pivots: with_merged(k, &merged),
-                top: k,
-                children: children[k].len(),
-            });
-            open.extend(&children[k]);
-        }
-        reversed.reverse();
-        reversed
+    // Parents first, last child first; turned round, children come right before their parents.
+    let mut reversed = Vec::with_capacity(n);
+    let mut open: Vec<usize> = (0..n).filter(|&k| tree.beyond[k].is_empty()).collect();
+    while let Some(k) = open.pop() {
+        reversed.push(Supernode {
+            pivots: with_merged(k, &merged),
+            top: k,
+            children: children[k].len(),
+        });
+        open.extend(&children[k]);
     }
+    reversed.reverse();
+    reversed
 }
 
 /// A node after all that were merged into it.

@@ -2,15 +2,15 @@
 //! these rows, bordered by a frozen frame of the motions that they allow at one instant. Rows and
 //! frame are frozen, so it is as smooth as the motion.
 
-use linalg::{Matrix, PivotedQr};
+use linalg::{Determinant, KeptRowSaddle, Lu, Matrix, PivotedQr};
 
 /// Rows and frame of one instant.
 pub(super) struct Border {
     kept: Vec<usize>,
     /// Rows: the frame.
     frame: Matrix,
-    /// Sign and logarithm of the determinant at the instant.
-    reference: (f64, f64),
+    /// The determinant at the instant.
+    reference: Determinant,
 }
 
 impl Border {
@@ -19,30 +19,36 @@ impl Border {
         let mut border = Self {
             kept: kept.to_vec(),
             frame: null_space(c, kept),
-            reference: (1.0, 0.0),
+            reference: Determinant::ZERO,
         };
         border.reference = border.determinant(c);
         border
     }
 
-    /// The determinant at another instant, relative to that where it was frozen: 1 there.
+    /// The determinant at another instant, relative to that where it was frozen: 1 there. Rows that
+    /// are dependent to working precision give zero.
     pub(super) fn value(&self, c: &Matrix) -> f64 {
-        let (sign, log) = self.determinant(c);
-        sign * self.reference.0 * (log - self.reference.1).exp()
+        let now = self.determinant(c);
+        now.sign * self.reference.sign * (now.log - self.reference.log).exp()
     }
 
     /// Volume of the frame in the null space of the same rows elsewhere: 1 where it has not turned.
     pub(super) fn overlap(&self, c: &Matrix) -> f64 {
-        let other = null_space(c, &self.kept);
-        determinant(self.frame.product(&other.transpose())).1.exp()
+        let common = self.frame.product(&null_space(c, &self.kept).transpose());
+        let mut lu = Lu::new(common.nrows());
+        match lu.factor(|i, j| common[(i, j)]) {
+            Ok(()) => lu.determinant().value().abs(),
+            Err(_) => 0.0,
+        }
     }
 
-    fn determinant(&self, c: &Matrix) -> (f64, f64) {
-        let (r, n) = (self.kept.len(), c.ncols());
-        determinant(Matrix::from_fn(n, n, |i, j| match i.checked_sub(r) {
-            Some(k) => self.frame[(k, j)],
-            None => c[(self.kept[i], j)],
-        }))
+    fn determinant(&self, c: &Matrix) -> Determinant {
+        let (n, rows) = (c.ncols(), self.kept.len());
+        let bordered = KeptRowSaddle::new(n, rows).and_then(|mut saddle| {
+            saddle.factor(|k| c.row(self.kept[k]), &vec![1.0; n])?;
+            Ok(saddle.bordered(self.frame.as_slice()))
+        });
+        bordered.unwrap_or(Determinant::ZERO)
     }
 }
 
@@ -50,40 +56,6 @@ impl Border {
 fn null_space(c: &Matrix, kept: &[usize]) -> Matrix {
     let qr = PivotedQr::of_rows(c.select_rows(kept));
     qr.q_columns(kept.len()..c.ncols()).transpose()
-}
-
-/// Sign and logarithm of the determinant, by elimination with partial pivoting: (0, −∞) for a
-/// singular matrix.
-fn determinant(mut a: Matrix) -> (f64, f64) {
-    let n = a.nrows();
-    let (mut sign, mut log) = (1.0, 0.0);
-    for j in 0..n {
-        let larger = |p: usize, i: usize| {
-            if a[(i, j)].abs() > a[(p, j)].abs() {
-                i
-            } else {
-                p
-            }
-        };
-        let at = (j..n).fold(j, larger);
-        if at != j {
-            a.swap_rows(at, j);
-            sign = -sign;
-        }
-        let pivot = a[(j, j)];
-        if pivot == 0.0 {
-            return (0.0, f64::NEG_INFINITY);
-        }
-        sign *= pivot.signum();
-        log += pivot.abs().ln();
-        for i in j + 1..n {
-            let factor = a[(i, j)] / pivot;
-            for l in j..n {
-                a[(i, l)] -= factor * a[(j, l)];
-            }
-        }
-    }
-    (sign, log)
 }
 
 #[cfg(test)]

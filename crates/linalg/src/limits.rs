@@ -1,0 +1,136 @@
+//! The table of limits: every number of this crate that somebody chose. Each says what it is, in
+//! which unit, what breaks if it is wrong (`Less`: if it were smaller, `More`: if it were larger),
+//! and which test fails then; `none` if there is none yet. `tests/all/limits.rs` reads it.
+
+// Singular values and scaling.
+
+/// Sweeps of an equilibration at most. Each one halves the exponents still to be balanced, and the
+/// exponents of `f64` span 2098 < 2¹², so more change nothing unless the pattern fights back.
+/// Unit: sweeps. Less: matrices of extreme entries stay badly scaled. More: time. Test: none.
+pub(crate) const EQUILIBRATION_SWEEPS: usize = 12;
+
+/// Sweeps of Jacobi rotations over all pairs of columns or rows at most; convergence is quadratic,
+/// four to six are usual.
+/// Unit: sweeps. Less: singular values are not accurate. More: time, where something is not a
+/// number. Test: none.
+pub(crate) const JACOBI_SWEEPS: usize = 40;
+
+/// Columns are orthogonal if the cosine between them is below this: a few roundings.
+/// Unit: 1. Less: rotations by rounding go on. More: singular values lose digits. Test: none.
+pub(crate) const ORTHOGONAL: f64 = 4.0 * f64::EPSILON;
+
+/// Squared rows below this, relative to a largest entry of one, are zero for every purpose; keeps
+/// the products of two of them clear of underflow.
+/// Unit: 1. Less: products underflow. More: small singular values become zero. Test: none.
+pub(crate) const ZERO_SQUARED: f64 = 1e-150;
+
+/// Steps of the implicit QR algorithm for each singular value at most; two or three are needed.
+/// Unit: steps. Less: large matrices have no singular values. More: time, where something is not a
+/// number. Test: none.
+pub(crate) const QR_STEPS_EACH: usize = 60;
+
+/// Smaller dimension from which faer finds singular values: up to about 200 our own kernel is
+/// faster, at 400 it takes 1.4 times as long, at 600 1.5 times (measured by
+/// `cargo run --release -p pfaff-linalg --features faer --example timings`). Our own gives the same
+/// bits on every processor, which faer's run-time choice of instructions does not.
+/// Unit: rows or columns. Less: other bits on other processors. More: time. Test: none.
+#[cfg(feature = "faer")]
+pub(crate) const FAER_FROM: usize = 256;
+
+/// A downdated norm is recomputed once cancellation has eaten half of its digits: √eps.
+/// Unit: share of the norm. Less: the longest column is not found. More: time. Test: none.
+pub(crate) const DOWNDATE_LIMIT: f64 = 1.490_116_119_384_765_6e-8;
+
+/// Squares of numbers above this do not lose digits in sums.
+/// Unit: 1. Less: norms of small vectors underflow. More: time. Test:
+/// `norm_survives_the_ends_of_the_range`.
+pub(crate) const SQUARE_MIN: f64 = 1e-140;
+
+/// Squares of numbers below this do not overflow in sums.
+/// Unit: 1. Less: time. More: norms of large vectors overflow. Test:
+/// `norm_survives_the_ends_of_the_range`.
+pub(crate) const SQUARE_MAX: f64 = 1e140;
+
+// Kept rows, solved densely.
+
+/// Masses are graded from this spread on, see [`mass_spread`](crate::mass_spread): below it plain
+/// solutions keep about ten digits, and normally twelve.
+/// Unit: heaviest by lightest mass. Less: time of refinement. More: digits are lost. Test:
+/// `refinement_is_wanted_where_digits_are_lost`.
+pub const GRADED_MASSES: f64 = 1e6;
+
+/// If some masses are zero, the others are graded from this spread on: nothing of a massless
+/// coordinate's own is left in NᵀMN to stand against what cancels there. Below it pivots by mass
+/// would only be smaller.
+/// Unit: heaviest by lightest mass that is not zero. Less: smaller pivots. More: digits are lost.
+/// Test: `masses_are_graded_from_their_spread_on`.
+pub(crate) const GRADED_BESIDE_MASSLESS: f64 = 1e3;
+
+/// If elimination leaves less than this share of a reduced mass, so many digits are gone.
+/// Unit: share of the mass. Less: digits are lost. More: time of refinement. Test:
+/// `refinement_is_wanted_where_digits_are_lost`.
+pub(crate) const CANCELLED: f64 = 1e-3;
+
+/// A pivot below this share of its row is rounding noise, whatever the configuration.
+/// Unit: share of the largest entry of the row. Less: noise is divided by. More: rows near a
+/// singular configuration are lost. Test: `a_pivot_of_a_few_roundings_is_no_pivot`.
+pub(crate) const PIVOT_FLOOR: f64 = 16.0 * f64::EPSILON;
+
+/// Graded masses choose among the entries above this share of the largest one: multipliers of the
+/// elimination stay below its inverse.
+/// Unit: share of the largest entry. Less: elimination grows. More: heavy coordinates are solved
+/// for. Test: `graded_masses_choose_among_the_large_entries`.
+pub(crate) const CANDIDATE: f64 = 0.1;
+
+/// Rounds of refinement at most; more than these only happen if the equations are singular.
+/// Unit: rounds. Less: solutions that converge slowly are refused. More: time before the refusal.
+/// Test: `rounds_that_do_not_converge_are_named`.
+pub(crate) const REFINEMENT_ROUNDS: usize = 8;
+
+/// What the next round of refinement would change, as a share: below the rounding of an `f64` there
+/// is nothing to gain.
+/// Unit: share of each unknown. Less: rounds without gain. More: the last bit is wrong. Test: none.
+pub(crate) const SETTLED: f64 = 0.0625 * f64::EPSILON;
+
+/// Changes this much smaller than the largest unknown of their kind, twice running, are rounding of
+/// double-double numbers: 2⁻⁹⁶.
+/// Unit: share of the largest unknown. Less: unknowns that are zero keep others waiting. More:
+/// small unknowns are not refined. Test:
+/// `unknowns_that_are_zero_do_not_keep_others_waiting`.
+pub(crate) const REFINEMENT_NOISE: f64 = 1.262_177_448_353_619e-29;
+
+// Kept rows, solved sparsely.
+
+/// A row of which less than this share is left, in the metric of the inverse masses, is rounding
+/// noise: the Schur complement has the square of it.
+/// Unit: share of the row. Less: noise is divided by. More: rows near a singular configuration are
+/// lost. Test: `a_row_of_which_little_is_left_is_lost`.
+pub(crate) const SCHUR_NOISE: f64 = 1e-7;
+
+/// Rows that miss by more than this are corrected.
+/// Unit: share of the terms of the row. Less: corrections of rounding. More: digits are lost. Test:
+/// none.
+pub(crate) const SCHUR_ENOUGH: f64 = 1e-14;
+
+/// Rows that miss by more than this after all corrections are not solved.
+/// Unit: share of the terms of the row. Less: good solutions are refused. More: poor ones are
+/// given. Test: none.
+pub(crate) const SCHUR_POOR: f64 = 1e-9;
+
+/// Corrections at most.
+/// Unit: corrections. Less: badly conditioned rows are refused. More: time. Test: none.
+pub(crate) const SCHUR_CORRECTIONS: usize = 4;
+
+/// A correction has to leave less than this, or it is of no use.
+/// Unit: share of the miss before. Less: slow corrections are given up. More: time. Test: none.
+pub(crate) const SCHUR_PROGRESS: f64 = 0.5;
+
+/// A front becomes one with its parent if that leaves at most this share of zeros in the columns
+/// of both.
+/// Unit: share of the entries. Less: many small fronts. More: products with zeros. Test: none.
+pub(crate) const FRONT_ZEROS: f64 = 0.15;
+
+/// A front becomes one with its parent if that adds no more than so many zeros: a front of its own
+/// costs as much as some ten products.
+/// Unit: entries. Less: many small fronts. More: products with zeros. Test: none.
+pub(crate) const FRONT_FEW_ZEROS: usize = 24;

@@ -1,0 +1,84 @@
+//! The elimination tree: which nodes are joined to a node when it is eliminated, from the pattern
+//! alone.
+
+use super::minimum_degree;
+
+/// Nodes in an order of elimination with little fill, see [`minimum_degree`], and what their
+/// elimination joins. Nodes are named by their *place* in this order.
+///
+/// ```
+/// use linalg::EliminationTree;
+/// // A chain 0 – 1 – 2 of two cliques: whatever comes first, nothing fills.
+/// let tree = EliminationTree::new(3, &[vec![0, 1], vec![1, 2]]);
+/// let joined: Vec<usize> = tree.beyond.iter().map(Vec::len).collect();
+/// assert_eq!(joined, [1, 1, 0]);
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EliminationTree {
+    /// The node at each place.
+    pub order: Vec<usize>,
+    /// Cliques whose first place it is.
+    pub led: Vec<Vec<usize>>,
+    /// Places that are joined to it when it is eliminated, ascending; the first is its parent.
+    pub beyond: Vec<Vec<usize>>,
+    /// Places whose parent it is, ascending.
+    pub children: Vec<Vec<usize>>,
+}
+
+impl EliminationTree {
+    /// The tree of `n` nodes, each of these sets of nodes being joined to each other.
+    #[must_use]
+    pub fn new(n: usize, cliques: &[Vec<usize>]) -> Self {
+        let tree =
+            Self::while_admitted(n, cliques, |_, _, _| Ok::<(), std::convert::Infallible>(()));
+        tree.unwrap_or_else(|never| match never {})
+    }
+
+    /// The same, as long as `admit` allows it: it sees each place, the order, and the places
+    /// beyond it.
+    ///
+    /// # Errors
+    /// The first one of `admit`.
+    pub fn while_admitted<E>(
+        n: usize,
+        cliques: &[Vec<usize>],
+        mut admit: impl FnMut(usize, &[usize], &[usize]) -> Result<(), E>,
+    ) -> Result<Self, E> {
+        let order = minimum_degree(n, cliques);
+        let mut place = vec![0; n];
+        for (k, &node) in order.iter().enumerate() {
+            place[node] = k;
+        }
+        let mut tree = Self {
+            led: vec![Vec::new(); n],
+            beyond: Vec::with_capacity(n),
+            children: vec![Vec::new(); n],
+            order,
+        };
+        for (clique, nodes) in cliques.iter().enumerate() {
+            if let Some(first) = nodes.iter().map(|&node| place[node]).min() {
+                tree.led[first].push(clique);
+            }
+        }
+        let mut mark = vec![usize::MAX; n];
+        for k in 0..n {
+            mark[k] = k;
+            let own = tree.led[k].iter().flat_map(|&clique| &cliques[clique]);
+            let own = own.map(|&node| place[node]);
+            let below = tree.children[k].iter().flat_map(|&c| &tree.beyond[c]);
+            let mut joined = Vec::new();
+            for j in own.chain(below.copied()) {
+                if std::mem::replace(&mut mark[j], k) != k {
+                    joined.push(j);
+                }
+            }
+            joined.sort_unstable();
+            tree.beyond.push(joined);
+            admit(k, &tree.order, &tree.beyond[k])?;
+            if let Some(&parent) = tree.beyond[k].first() {
+                tree.children[parent].push(k);
+            }
+        }
+        Ok(tree)
+    }
+}
