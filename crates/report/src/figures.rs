@@ -14,8 +14,9 @@
 mod axis;
 mod curve;
 mod decades;
+pub(crate) mod drawing;
 mod extremes;
-pub(crate) mod geometry;
+mod geometry;
 mod history;
 mod label;
 mod mechanism;
@@ -24,11 +25,12 @@ mod paths;
 mod plot;
 mod style;
 mod svg;
-pub(crate) mod symbol;
+mod symbol;
 mod work_precision;
 
 pub use extremes::extremes;
 pub use history::{Panel, Series, histories, history};
+pub(crate) use mechanism::LOOKS;
 pub use mechanism::{Labels, Marking, labelled_mechanism, mechanism};
 pub use paths::{Path, PathRecorder, paths};
 pub use style::{Pattern, Style};

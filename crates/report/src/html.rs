@@ -7,27 +7,23 @@
 //!
 //! | module | content |
 //! | --- | --- |
-//! | `recording` | rows of the run that are kept |
 //! | `comparison` | what several choices say of the same reaction |
-//! | `drawing_model`, `channel`, `data` | bodies, joints and curves as one JSON document, rounded |
+//! | `data` | bodies, joints and curves as one JSON document, rounded |
 //! | `document`, `verdicts`, `inputs` | the page around them |
 //! | `report.css`, `script/` | its looks, and what moves |
 
-mod channel;
 mod comparison;
 mod data;
 mod document;
-mod drawing_model;
 mod inputs;
-mod recording;
 mod verdicts;
 
 use model::Mechanism;
 
 use crate::documents::{AnalysisDocument, MakeUniqueDocument, RunDocument};
+use crate::recording::Recording;
 
 pub use comparison::{ComparedChoice, Comparison, Freedom};
-pub use recording::{Frame, Recording};
 
 /// What a page is made of.
 pub struct RunPage<'a> {

@@ -13,11 +13,13 @@
 //! | [`html`] | the page of a run, with its moving picture |
 //! | [`files`] | an output directory in which no half-written file is taken for a whole one |
 
+mod channel;
 pub mod documents;
 pub mod figures;
 pub mod files;
 pub mod html;
 mod page;
+mod recording;
 pub mod stress;
 pub mod sweep;
 pub mod tables;
@@ -27,9 +29,9 @@ pub use documents::{AnalysisDocument, Ending, PlanDocument, Run, RunDocument, wr
 pub use figures::{FigureError, Panel, Path, PathRecorder, Pattern, Series, Style};
 pub use files::{FileError, OutputDirectory, OutputFile};
 pub use html::{
-    ComparedChoice, Comparison, DriveCurve, Frame, Freedom, Origin, Recording, RunPage,
-    numbers_per_row, run_page,
+    ComparedChoice, Comparison, DriveCurve, Freedom, Origin, RunPage, numbers_per_row, run_page,
 };
+pub use recording::{Frame, Recording};
 pub use stress::{
     Judgement, StressDocument, StressFamily, StressRow, StressTable, Tally, stress_page,
 };

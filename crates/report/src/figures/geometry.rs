@@ -49,8 +49,6 @@ pub(crate) struct Site {
     pub(crate) symbol: Symbol,
     /// Where its only force acts on the other body; its place if there is no such point.
     pub(crate) end: [f64; 2],
-    /// Points of its bodies, the ground included.
-    pub(crate) attachments: Vec<(BodyRef, [f64; 2])>,
     /// Whether it holds a body to the ground.
     pub(crate) grounded: bool,
     /// Circles that roll on each other at its place, where it couples two rotations.
@@ -60,7 +58,8 @@ pub(crate) struct Site {
 /// A pitch circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Pitch {
-    pub(crate) centre: [f64; 2],
+    /// The body that it is centred on.
+    pub(crate) body: BodyRef,
     pub(crate) radius: f64,
 }
 
@@ -104,7 +103,6 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
         _ if rows.torques > 0 => Symbol::Weld,
         _ => Symbol::Pin,
     };
-    let attachments = attachments(group, place, end, s);
     let mesh = match (symbol, spec.rows.len()) {
         (Symbol::Rotation, 1) => mesh(group, map[(2, 0)], s),
         _ => None,
@@ -114,7 +112,6 @@ pub(crate) fn site(mechanism: &Mechanism, id: ConstraintId, s: &Scratch) -> Site
         pitch: mesh.map(|(_, circles)| circles),
         symbol,
         end,
-        attachments,
         grounded: spec.level == Level::Holonomic
             && group.kind == ConstraintKind::Joint
             && symbol != Symbol::Rotation
@@ -129,16 +126,13 @@ const LEAST_SLIP: f64 = 1e-2;
 /// = −r_j·ω_j outside of each other, r_i·ω_i = r_j·ω_j inside. The ratio is the torque on the first
 /// body, as rows of rotations are written with one for the second.
 fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 2], [Pitch; 2])> {
-    let centre = |body: &BodyRef| match body {
-        BodyRef::Body(k) => Some([s.poses[*k].x, s.poses[*k].y]),
-        BodyRef::Ground => None,
-    };
     // A ring that is part of the ground stands around the carrier.
     let wheel = |slot: usize| {
-        let body = group.bodies.get(slot)?;
-        centre(body).or_else(|| centre(group.bodies.get(2)?))
+        let around = [slot, 2].map(|slot| group.bodies.get(slot)?.moving());
+        let k = around[0].or(around[1])?;
+        Some((BodyRef::Body(k), [s.poses[k].x, s.poses[k].y]))
     };
-    let (a, b) = (wheel(0)?, wheel(1)?);
+    let ((first, a), (second, b)) = (wheel(0)?, wheel(1)?);
     let far = a.iter().chain(&b).fold(0.0, |far: f64, x| far.max(x.abs()));
     let apart = (b[0] - a[0]).hypot(b[1] - a[1]);
     let are_apart = apart > 1e-9 * far;
@@ -147,35 +141,15 @@ fn mesh(group: &ConstraintGroup, ratio: f64, s: &Scratch) -> Option<([f64; 2], [
     }
     let share = ratio / (ratio - 1.0);
     let point = [0, 1].map(|k| a[k] + share * (b[k] - a[k]));
-    let circle = |centre, share: f64| Pitch {
-        centre,
+    let circle = |body, share: f64| Pitch {
+        body,
         radius: share.abs() * apart,
     };
-    let circles = [circle(a, share), circle(b, 1.0 - share)];
+    let circles = [circle(first, share), circle(second, 1.0 - share)];
     point
         .iter()
         .all(|x| within(*x, 2.0 * LIMIT))
         .then_some((point, circles))
-}
-
-/// A point of each body: of the first its place, of others where the force acts on them, or their
-/// centres if none does.
-fn attachments(
-    group: &ConstraintGroup,
-    place: [f64; 2],
-    end: [f64; 2],
-    s: &Scratch,
-) -> Vec<(BodyRef, [f64; 2])> {
-    let pushed = |slot: usize| group.spec.c.iter().any(|e| e.slot == slot && e.dof < 2);
-    let points = group.bodies.iter().enumerate().map(|(slot, &body)| {
-        let point = match body {
-            _ if slot == 0 => place,
-            BodyRef::Body(k) if !pushed(slot) => [s.poses[k].x, s.poses[k].y],
-            _ => end,
-        };
-        (body, point)
-    });
-    points.collect()
 }
 
 /// Rows by what they transmit.

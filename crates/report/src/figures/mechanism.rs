@@ -1,21 +1,20 @@
-//! A mechanism to scale: bodies as rounded outlines through their joints, joints as symbols marked
-//! by the verdict of their reactions.
+//! The drawing of a mechanism as an SVG figure, to scale: it paints the [`DrawingModel`] at one
+//! time, with names and a legend.
 
-mod legend;
-mod names;
+use std::ops::Range;
 
-use model::{BodyRef, Mechanism, System};
+use model::reaction::ConstraintGroup;
+use model::{ConstraintKind, Mechanism, System};
 use solvability::ReactionVerdict;
 
 use super::FigureError;
-use super::axis::{DRAWABLE, round_step};
-use super::geometry::{Site, posed, sites};
-use super::outline::{double_area, hull, rounded};
-use super::style::{GREY, HATCH, HATCH_PITCH, INK, Mark, TEXT_SIZE, TITLE_SIZE};
-use super::svg::{Svg, number};
-use super::symbol::{ground, pitch_circle};
-use legend::Legend;
-use names::{Drawn, draw_names};
+use super::axis::{DRAWABLE, range, round_step};
+use super::drawing::{DrawingModel, DrawnForce, DrawnSite, Stage};
+use super::geometry::posed;
+use super::label::{Rect, Request, place};
+use super::svg::{Svg, number, text_width};
+use super::symbol::{SHAPES, SHORT, SPRING, Shape};
+use crate::recording::Frame;
 
 /// How joints and drives are marked.
 #[derive(Clone, Copy, Debug)]
@@ -43,17 +42,22 @@ const ROOM: [f64; 2] = [90.0, 60.0];
 /// Margin of the page, and room for the title (px).
 const MARGIN: f64 = 16.0;
 const TITLE: f64 = 30.0;
-/// Margin of a body around its joints (px).
-const FLESH: f64 = 11.0;
+/// Sizes of text (px), as in the style sheet.
+const NAME_SIZE: f64 = 13.0;
+const BODY_SIZE: f64 = 12.0;
+/// More names than this are a grey mass: names are then in the tool tips alone.
+const MAX_LABELS: usize = 300;
+/// Height of a line of the legend and width of a symbol in it (px).
+const LEGEND: [f64; 2] = [36.0, 50.0];
+/// What a rail reaches beyond its block (px).
+const RAIL: f64 = 30.0;
 
-/// Fills of bodies; pale, so that they are not mistaken for marks.
-const FLESHES: [&str; 6] = [
-    "#e6ebf0", "#efe9dc", "#e4ede1", "#ece4ee", "#f1e6e2", "#e0ecec",
-];
+/// The looks of pages and figures; the first rule names the colours.
+pub(crate) const LOOKS: &str = include_str!("picture.css");
 
 /// Draws a mechanism at coordinates q and time t.
 ///
-/// Bodies are hulls of the points where joints take hold of them and of their centres of mass:
+/// Bodies are hulls of the points where joints and forces hold them and of their centres of mass:
 /// their true shapes are unknown. Every symbol has its name, type and verdict as tool tip.
 ///
 /// # Errors
@@ -69,7 +73,7 @@ pub fn mechanism(
     labelled_mechanism(mechanism, t, q, marking, Labels::Names)
 }
 
-/// The same with other labels.
+/// Draws it with other labels.
 ///
 /// # Errors
 /// As [`mechanism()`].
@@ -80,39 +84,34 @@ pub fn labelled_mechanism(
     marking: Marking<'_>,
     labels: Labels,
 ) -> Result<String, FigureError> {
-    let mut s = mechanism.scratch();
-    posed(mechanism, t, q, &mut s)?;
+    posed(mechanism, t, q, &mut mechanism.scratch())?;
     let marks = marks(mechanism, marking)?;
-    let sites = sites(mechanism, &s);
-    let centres: Vec<[f64; 2]> = s.poses.iter().map(|p| [p.x, p.y]).collect();
-    let view = View::around(&sites, &centres);
-    let legend = Legend::of(mechanism, &sites, marking);
-    let height = view.bottom() + 34.0 + legend.height();
-
-    let mut svg = Svg::new(WIDTH, height, mechanism.name());
-    define_hatch(&mut svg);
-    heading(&mut svg, mechanism.name(), t);
-    let hulls = hulls(&sites, &centres, &view);
-    draw_bodies(&mut svg, mechanism, &hulls);
-    draw_centres(&mut svg, &centres, &view);
-    draw_joints(&mut svg, mechanism, &sites, &marks, &view);
-    let drawn = Drawn {
-        sites: &sites,
-        marks: &marks,
-        centres: &centres,
-        hulls: &hulls,
-        view: &view,
+    let bodies: Vec<usize> = (0..mechanism.bodies().len()).collect();
+    let stage = Stage {
+        mechanism,
+        bodies: &bodies,
+        frames: &[Frame::at_rest(t, q, mechanism.layout().n_v)],
     };
-    draw_names(&mut svg, mechanism, labels, &drawn);
-    scale_bar(&mut svg, &view);
-    legend.draw(&mut svg, view.bottom() + 30.0);
-    Ok(svg.finish())
+    let model = stage.drawing(DrawnForce::all(mechanism, &bodies));
+    let view = View::around(&model);
+    let legend = legend(mechanism, &model, marking);
+    let lines = legend.last().map_or(0.0, |entry| entry.at[1] + 1.0);
+    let height = view.bottom() + 24.0 + LEGEND[0] * lines + 6.0;
+    let picture = Picture {
+        groups: &mechanism.layout().groups,
+        svg: Svg::new(WIDTH, height, mechanism.name()),
+        model: &model,
+        marks,
+        view,
+    };
+    Ok(picture.paint(mechanism.name(), t, labels, &legend))
 }
 
-fn marks(mechanism: &Mechanism, marking: Marking<'_>) -> Result<Vec<Mark>, FigureError> {
+/// The class of each joint and drive.
+fn marks(mechanism: &Mechanism, marking: Marking<'_>) -> Result<Vec<&'static str>, FigureError> {
     let expected = mechanism.layout().groups.len();
     let verdicts = match marking {
-        Marking::Plain => return Ok(vec![Mark::Plain; expected]),
+        Marking::Plain => return Ok(vec!["plain"; expected]),
         Marking::Verdicts(verdicts) => verdicts,
     };
     if verdicts.len() != expected {
@@ -122,8 +121,57 @@ fn marks(mechanism: &Mechanism, marking: Marking<'_>) -> Result<Vec<Mark>, Figur
             expected,
         });
     }
-    let marks = verdicts.iter().map(|r| Mark::of(&r.wrench.verdict));
-    Ok(marks.collect())
+    Ok(verdicts.iter().map(|r| r.wrench.verdict.word()).collect())
+}
+
+/// A symbol with its meaning.
+struct Entry {
+    symbol: &'static str,
+    mark: &'static str,
+    words: String,
+    /// Place from the left (px), and line.
+    at: [f64; 2],
+}
+
+/// Marks of verdicts, then the symbols that occur, line by line.
+fn legend(mechanism: &Mechanism, model: &DrawingModel, marking: Marking<'_>) -> Vec<Entry> {
+    let verdicts = match marking {
+        Marking::Plain => &[][..],
+        Marking::Verdicts(_) => &["unique", "not_unique", "undecided"],
+    };
+    let verdicts = verdicts
+        .iter()
+        .map(|v| ("pin", *v, format!("reaction {}", v.replace('_', " "))));
+    let groups = &mechanism.layout().groups;
+    let kinds = model.sites.iter().zip(groups).map(|(site, group)| {
+        let kind = group.spec.common.scene_type;
+        let end = if group.kind == ConstraintKind::Drive {
+            " drive"
+        } else {
+            ""
+        };
+        (site.symbol, "plain", format!("{kind}{end}"))
+    });
+    let mut entries: Vec<Entry> = Vec::new();
+    let mut at = [MARGIN, 0.0];
+    for (symbol, mark, words) in verdicts.chain(kinds) {
+        if entries.iter().any(|e| e.words == words) {
+            continue;
+        }
+        let width = LEGEND[1] + text_width(&words, NAME_SIZE) + 10.0;
+        let is_first_kind = mark == "plain" && entries.last().is_some_and(|e| e.mark != mark);
+        if is_first_kind || at[0] + width > WIDTH - MARGIN {
+            at = [MARGIN, at[1] + 1.0];
+        }
+        entries.push(Entry {
+            symbol,
+            mark,
+            words,
+            at,
+        });
+        at[0] += width;
+    }
+    entries
 }
 
 /// From the plane of the mechanism (m) to the page (px).
@@ -137,15 +185,23 @@ struct View {
 }
 
 impl View {
-    fn around(sites: &[Site], centres: &[[f64; 2]]) -> Self {
-        let joints = sites.iter().flat_map(|s| {
-            let points = s.attachments.iter().map(|a| a.1);
-            points.chain([s.place]).chain(corners(s))
-        });
-        let points: Vec<[f64; 2]> = joints.chain(centres.iter().copied()).collect();
-        let range =
-            |k: usize| super::axis::range(points.iter().map(|p| p[k])).unwrap_or([0.0, 0.0]);
-        let (x, y) = (range(0), range(1));
+    fn around(model: &DrawingModel) -> Self {
+        let mut points = Vec::new();
+        for (k, body) in model.bodies.iter().enumerate() {
+            points.extend(body.outline.iter().map(|p| model.held(k as isize, *p)));
+        }
+        for site in &model.sites {
+            points.push(model.at(&site.place));
+            points.extend(site.end.as_ref().map(|end| model.at(end)));
+            for &(body, radius) in &site.wheels {
+                let ([x, y], r) = (model.centre(body), radius.0);
+                points.extend([[x - r, y - r], [x + r, y + r]]);
+            }
+        }
+        for &(body, x, y) in model.forces.iter().flat_map(|f| &f.points) {
+            points.push(model.held(body, [x, y]));
+        }
+        let [x, y] = [0, 1].map(|k| range(points.iter().map(|p| p[k])).unwrap_or([0.0, 0.0]));
         let (dx, dy) = (x[1] - x[0], y[1] - y[0]);
         let room = [WIDTH - 2.0 * ROOM[0], LARGEST_HEIGHT - 2.0 * ROOM[1]];
         let size = dx.max(dy);
@@ -176,147 +232,329 @@ impl View {
     }
 }
 
-/// What the pitch circles of a site reach.
-fn corners(site: &Site) -> impl Iterator<Item = [f64; 2]> {
-    let circles = site.pitch.into_iter().flatten();
-    circles.flat_map(|c| [-c.radius, c.radius].map(|r| [c.centre[0] + r, c.centre[1] + r]))
+/// A figure in the making.
+struct Picture<'a> {
+    groups: &'a [ConstraintGroup],
+    model: &'a DrawingModel,
+    marks: Vec<&'static str>,
+    view: View,
+    svg: Svg,
 }
 
-fn define_hatch(svg: &mut Svg) {
-    svg.element("defs").open();
-    svg.element("pattern")
-        .with("id", HATCH)
-        .with("patternUnits", "userSpaceOnUse")
-        .with("patternTransform", "rotate(45)")
-        .at([("width", HATCH_PITCH), ("height", HATCH_PITCH)])
-        .open();
-    svg.element("rect")
-        .at([("width", HATCH_PITCH), ("height", HATCH_PITCH)])
-        .with("fill", "#ffffff")
-        .empty();
-    svg.element("rect")
-        .at([("width", 0.45 * HATCH_PITCH), ("height", HATCH_PITCH)])
-        .with("fill", Mark::NotUnique.stroke())
-        .empty();
-    svg.close();
-    svg.close();
-}
+impl Picture<'_> {
+    fn paint(mut self, name: &str, t: f64, labels: Labels, legend: &[Entry]) -> String {
+        self.svg.element("style").text(&looks());
+        self.define_hatch();
+        self.svg
+            .element("text")
+            .at([("x", MARGIN), ("y", 28.0)])
+            .open();
+        self.svg
+            .element("tspan")
+            .with("font-weight", "bold")
+            .text(name);
+        let time = format!("t = {} s", shortened(t));
+        self.svg.element("tspan").with("dx", "8").text(&time);
+        self.svg.close();
+        self.bodies();
+        self.joints();
+        self.forces();
+        self.names(labels);
+        self.scale_bar();
+        self.legend(legend);
+        self.svg.finish()
+    }
 
-fn heading(svg: &mut Svg, name: &str, t: f64) {
-    svg.element("text")
-        .at([
-            ("x", MARGIN),
-            ("y", MARGIN + 12.0),
-            ("font-size", TITLE_SIZE),
-        ])
-        .with("fill", INK)
-        .open();
-    svg.element("tspan").with("font-weight", "bold").text(name);
-    svg.element("tspan")
-        .with("dx", "8")
-        .with("fill", GREY)
-        .with("font-size", &TEXT_SIZE.to_string())
-        .text(&format!("t = {} s", shortened(t)));
-    svg.close();
-}
+    fn define_hatch(&mut self) {
+        let square = [("width", 4.0), ("height", 4.0)];
+        let line = [("width", 1.8), ("height", 4.0)];
+        self.svg.element("defs").open();
+        self.svg
+            .element("pattern")
+            .with("id", "hatch")
+            .with("patternUnits", "userSpaceOnUse")
+            .with("patternTransform", "rotate(45)")
+            .at(square)
+            .open();
+        self.svg
+            .element("rect")
+            .with("class", "hatch-ground")
+            .at(square)
+            .empty();
+        self.svg
+            .element("rect")
+            .with("class", "hatch-line")
+            .at(line)
+            .empty();
+        self.svg.close();
+        self.svg.close();
+    }
 
-/// The outline of each body on the page, without its margin.
-fn hulls(sites: &[Site], centres: &[[f64; 2]], view: &View) -> Vec<Vec<[f64; 2]>> {
-    let mut points: Vec<Vec<[f64; 2]>> = centres.iter().map(|c| vec![view.to_page(*c)]).collect();
-    for (body, point) in sites.iter().flat_map(|s| &s.attachments) {
-        if let BodyRef::Body(k) = body {
-            points[*k].push(view.to_page(*point));
+    fn bodies(&mut self) {
+        for &k in &self.model.order {
+            let (body, scale) = (&self.model.bodies[k], self.view.scale);
+            let corners = body
+                .outline
+                .iter()
+                .map(|[x, y]| [x.0 * scale, -y.0 * scale]);
+            let corners: Vec<String> = corners.map(pair).collect();
+            let outline = format!("M{}L{}Z", corners.join("L"), corners[0]);
+            let at = self.view.to_page([body.x.first(), body.y.first()]);
+            self.group(&format!("body b{}", k % 6), at, body.angle.first());
+            self.svg.element("title").text(&body.name);
+            self.svg.element("g").with("class", "hull").open();
+            self.path("rim", &outline);
+            self.path("flesh", &outline);
+            self.svg.close();
+            self.strokes("centre");
+            self.svg.close();
         }
     }
-    points.iter().map(|p| hull(p)).collect()
-}
 
-fn draw_bodies(svg: &mut Svg, mechanism: &Mechanism, hulls: &[Vec<[f64; 2]>]) {
-    let mut order: Vec<usize> = (0..hulls.len()).collect();
-    order.sort_by(|&a, &b| double_area(&hulls[b]).total_cmp(&double_area(&hulls[a])));
-    for k in order {
-        svg.element("g").open();
-        svg.element("title").text(&mechanism.bodies()[k].name);
-        svg.element("path")
-            .with("d", &rounded(&hulls[k], FLESH))
-            .with("fill", FLESHES[k % FLESHES.len()])
-            .with("fill-opacity", "0.85")
-            .with("stroke", "#8d969e")
-            .with("stroke-width", "1.2")
-            .empty();
-        svg.close();
+    /// Opens a group at a place of the page, turned by an angle (rad).
+    fn group(&mut self, class: &str, [x, y]: [f64; 2], angle: f64) {
+        let turn = -angle.to_degrees() + 0.0;
+        let transform = format!(
+            "translate({} {}) rotate({})",
+            number(x),
+            number(y),
+            number(turn)
+        );
+        let group = self.svg.element("g").with("class", class);
+        group.with("transform", &transform).open();
     }
-}
 
-/// Centres of mass: a small cross in a ring.
-fn draw_centres(svg: &mut Svg, centres: &[[f64; 2]], view: &View) {
-    for c in centres {
-        let [x, y] = view.to_page(*c);
-        let (x, y) = (number(x), number(y));
-        svg.element("path")
-            .with(
-                "d",
-                &format!("M{x},{y} m-4,0 a4,4 0 1 1 8,0 a4,4 0 1 1 -8,0 h8 m-4,-4 v8"),
-            )
-            .with("fill", "none")
-            .with("stroke", GREY)
-            .empty();
+    fn path(&mut self, class: &str, d: &str) {
+        let path = self.svg.element("path").with("class", class);
+        path.with("d", d).empty();
     }
-}
 
-fn draw_joints(svg: &mut Svg, mechanism: &Mechanism, sites: &[Site], marks: &[Mark], view: &View) {
-    for circle in sites.iter().filter_map(|s| s.pitch).flatten() {
-        pitch_circle(svg, view.to_page(circle.centre), circle.radius * view.scale);
+    fn strokes(&mut self, symbol: &str) {
+        for (class, d) in Shape::named(symbol).strokes {
+            self.path(class, d);
+        }
     }
-    for site in sites.iter().filter(|s| s.grounded) {
-        ground(svg, view.to_page(site.place));
+
+    /// A symbol at a place of the page.
+    fn symbol(&mut self, symbol: &str, class: &str, at: [f64; 2], angle: f64, title: &str) {
+        self.group(class, at, angle);
+        if !title.is_empty() {
+            self.svg.element("title").text(title);
+        }
+        self.strokes(symbol);
+        self.svg.close();
     }
-    let mut order: Vec<usize> = (0..sites.len()).collect();
-    order.sort_by_key(|&k| sites[k].symbol.layer());
-    for k in order {
-        let group = &mechanism.layout().groups[k];
-        let words = match marks[k] {
-            Mark::Plain => String::new(),
-            mark => format!(": reaction {}", mark.words()),
+
+    fn joints(&mut self) {
+        let model = self.model;
+        for site in &model.sites {
+            let place = self.view.to_page(model.at(&site.place));
+            for &(body, radius) in &site.wheels {
+                let [cx, cy] = self.view.to_page(model.centre(body));
+                let wheel = self.svg.element("circle").with("class", "wheel");
+                wheel
+                    .at([("cx", cx), ("cy", cy), ("r", radius.0 * self.view.scale)])
+                    .empty();
+            }
+            if site.is_guided() {
+                self.rail(site, place);
+            } else if site.grounded {
+                self.symbol("foot", "", place, 0.0, "");
+            }
+        }
+        let layer = |k: &usize| SHAPES.iter().position(|s| s.name == model.sites[*k].symbol);
+        let mut order: Vec<usize> = (0..model.sites.len()).collect();
+        order.sort_by_key(layer);
+        for k in order {
+            let (site, group, mark) = (&model.sites[k], &self.groups[k], self.marks[k]);
+            let [place, shown] =
+                [&site.place, site.shown()].map(|p| self.view.to_page(model.at(p)));
+            let mut title = format!("{} ({})", group.name, group.spec.common.scene_type);
+            if mark != "plain" {
+                title += &format!(": reaction {}", mark.replace('_', " "));
+            }
+            let class = format!("site {mark}");
+            if let ("rod", Some(end)) = (site.symbol, &site.end) {
+                let end = self.view.to_page(model.at(end));
+                let line = format!("M{}L{}", pair(place), pair(end));
+                self.path(&format!("rod {mark}"), &line);
+                self.symbol("rod", &class, end, 0.0, &title);
+            }
+            self.symbol(site.symbol, &class, shown, model.angle(site), &title);
+        }
+    }
+
+    /// The guide of a block, hatched where it is part of the ground.
+    fn rail(&mut self, site: &DrawnSite, place: [f64; 2]) {
+        let (end, angle) = (
+            self.view.to_page(self.model.at(site.shown())),
+            self.model.angle(site),
+        );
+        let along = (end[0] - place[0]) * angle.cos() - (end[1] - place[1]) * angle.sin();
+        let (from, to) = (along.min(0.0) - RAIL, along.max(0.0) + RAIL);
+        let mut rail = format!("M{} 0H{}", number(from), number(to));
+        if site.grounded {
+            rail += &format!("M{} 11H{}", number(from), number(to));
+            let ticks = ((to - from - 6.0) / 8.0) as usize;
+            for k in 0..=ticks {
+                rail += &format!("M{} 11l-5 6", number(from + 6.0 + 8.0 * k as f64));
+            }
+        }
+        self.group("", place, angle);
+        self.path("rail", &rail);
+        self.svg.close();
+    }
+
+    fn forces(&mut self) {
+        let model = self.model;
+        for force in &model.forces {
+            let points = force
+                .points
+                .iter()
+                .map(|&(b, x, y)| (b, model.held(b, [x, y])));
+            let points: Vec<_> = points.map(|(b, p)| (b, self.view.to_page(p))).collect();
+            for &(_, at) in points.iter().filter(|(body, _)| *body < 0) {
+                self.symbol("foot", "", at, 0.0, "");
+            }
+            let title = format!("{} ({})", force.name, force.kind);
+            match points[..] {
+                [(_, a), (_, b), ..] => self.spring(a, b, &title),
+                [(_, at)] => self.symbol("load", "", at, 0.0, &title),
+                [] => {
+                    let body = force.bodies.iter().rfind(|b| **b >= 0).copied();
+                    let at = self.view.to_page(model.centre(body.unwrap_or(-1)));
+                    self.symbol("couple", "", at, 0.0, &title);
+                }
+            }
+        }
+    }
+
+    fn spring(&mut self, a: [f64; 2], b: [f64; 2], title: &str) {
+        let (dx, dy) = (b[0] - a[0], b[1] - a[1]);
+        let (length, angle) = (dx.hypot(dy), (-dy).atan2(dx));
+        if length <= SHORT {
+            return self.symbol("short spring", "", a, angle, title);
+        }
+        let points = SPRING.map(|[x, y]| pair([x * length, y]));
+        self.group("", a, angle);
+        self.svg.element("title").text(title);
+        self.path("spring", &format!("M{}", points.join("L")));
+        self.svg.close();
+    }
+
+    /// Names joints by the colours of their marks, then bodies.
+    fn names(&mut self, labels: Labels) {
+        let (model, view) = (self.model, &self.view);
+        if model.sites.len() + model.bodies.len() > MAX_LABELS {
+            return;
+        }
+        let texts: Vec<String> = self
+            .groups
+            .iter()
+            .map(|group| match labels {
+                Labels::Names => group.name.clone(),
+                Labels::NamesAndRows => format!("{} {}", group.name, rows(&group.rows)),
+            })
+            .collect();
+        let shown = model
+            .sites
+            .iter()
+            .map(|s| view.to_page(model.at(s.shown())));
+        let shown: Vec<[f64; 2]> = shown.collect();
+        let joints = texts.iter().zip(&shown).map(|(text, at)| Request {
+            text,
+            size: NAME_SIZE,
+            anchor: *at,
+        });
+        let centres = model
+            .bodies
+            .iter()
+            .map(|b| view.to_page([b.x.first(), b.y.first()]));
+        let centres: Vec<[f64; 2]> = centres.collect();
+        let bodies = model.bodies.iter().zip(&centres).map(|(body, at)| Request {
+            text: &body.name,
+            size: BODY_SIZE,
+            anchor: *at,
+        });
+        let requests: Vec<Request<'_>> = joints.chain(bodies).collect();
+        let mut symbols: Vec<Rect> = Vec::new();
+        for (site, at) in model.sites.iter().zip(&shown) {
+            symbols.push(Shape::named(site.symbol).around(*at, model.angle(site)));
+            if site.grounded && !site.is_guided() {
+                symbols.push(Shape::named("foot").around(*at, 0.0));
+            }
+        }
+        symbols.extend(
+            centres
+                .iter()
+                .map(|at| Shape::named("centre").around(*at, 0.0)),
+        );
+        let page = Rect {
+            centre: [0.5 * WIDTH, TITLE + 0.5 * view.height],
+            half: [0.5 * WIDTH - 4.0, 0.5 * view.height - 4.0],
         };
-        svg.element("g").open();
-        svg.element("title").text(&format!(
-            "{} ({}){words}",
-            group.name, group.spec.common.scene_type
-        ));
-        let [place, end] = [sites[k].place, sites[k].end].map(|p| view.to_page(p));
-        sites[k].symbol.draw(svg, place, end, marks[k]);
-        svg.close();
+        let places = place(&page, &symbols, &requests);
+        for (k, (request, rect)) in requests.iter().zip(places).enumerate() {
+            let Some(Rect { centre: [x, y], .. }) = rect else {
+                continue;
+            };
+            let class = match self.marks.get(k) {
+                Some(mark) => format!("name {mark}"),
+                None => "name body-name".to_owned(),
+            };
+            let text = self.svg.element("text").with("class", &class);
+            let text = text.at([("x", x), ("y", y + 0.36 * request.size)]);
+            text.with("text-anchor", "middle").text(request.text);
+        }
+    }
+
+    /// A round length, about a sixth of the page.
+    fn scale_bar(&mut self) {
+        let length = round_step(0.1 * WIDTH / self.view.scale);
+        let (y, pixels) = (self.view.bottom() + 2.0, length * self.view.scale);
+        self.svg.element("g").with("class", "scale").open();
+        let bar = format!("M{MARGIN} {}v8v-4h{}v-4v8", number(y - 4.0), number(pixels));
+        self.path("", &bar);
+        let text = self.svg.element("text");
+        text.at([("x", MARGIN + pixels + 8.0), ("y", y + 4.0)])
+            .text(&metres(length));
+        self.svg.close();
+    }
+
+    fn legend(&mut self, entries: &[Entry]) {
+        let top = self.view.bottom() + 24.0 + 0.5 * LEGEND[0];
+        for entry in entries {
+            let ([x, line], shape) = (entry.at, Shape::named(entry.symbol));
+            let y = top + LEGEND[0] * line;
+            let at = [x + 0.5 * LEGEND[1] - 4.0, y - shape.middle];
+            self.symbol(entry.symbol, &format!("site {}", entry.mark), at, 0.0, "");
+            let text = self.svg.element("text");
+            text.at([("x", x + LEGEND[1]), ("y", y + 4.0)])
+                .text(&entry.words);
+        }
     }
 }
 
-/// A round length, about a sixth of the page.
-fn scale_bar(svg: &mut Svg, view: &View) {
-    let length = round_step(0.1 * WIDTH / view.scale);
-    let (x0, y) = (MARGIN, view.bottom() + 2.0);
-    let x1 = x0 + length * view.scale;
-    svg.element("path")
-        .with(
-            "d",
-            &format!(
-                "M{},{} v8 M{},{} v8 M{},{} H{}",
-                number(x0),
-                number(y - 4.0),
-                number(x1),
-                number(y - 4.0),
-                number(x0),
-                number(y),
-                number(x1)
-            ),
-        )
-        .with("fill", "none")
-        .with("stroke", INK)
-        .with("stroke-width", "1.4")
-        .empty();
-    svg.element("text")
-        .at([("x", x1 + 8.0), ("y", y + 4.0), ("font-size", TEXT_SIZE)])
-        .with("fill", INK)
-        .text(&metres(length));
+/// The style sheet with colours of the light scheme instead of their names.
+fn looks() -> String {
+    let (colours, rules) = LOOKS.split_once("}\n").unwrap_or(("", LOOKS));
+    let named = colours.split(';').filter_map(|c| c.trim().split_once(": "));
+    named.fold(rules.to_owned(), |rules, (name, colour)| {
+        rules.replace(&format!("var({name})"), colour)
+    })
+}
+
+fn pair([x, y]: [f64; 2]) -> String {
+    format!("{} {}", number(x), number(y))
+}
+
+/// Rows as the user counts them.
+fn rows(rows: &Range<usize>) -> String {
+    match rows.len() {
+        0 => String::new(),
+        1 => rows.end.to_string(),
+        _ => format!("{}–{}", rows.start + 1, rows.end),
+    }
 }
 
 /// A time without the last digits of rounding: 0.3, not 0.30000000000000004.

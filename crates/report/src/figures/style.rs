@@ -1,8 +1,6 @@
 //! Colours, strokes and sizes. Colours are those of Okabe and Ito (2008), which remain apart for
 //! colour-blind readers; nothing is told by colour alone.
 
-use solvability::Verdict;
-
 /// Text and frames.
 pub(super) const INK: &str = "#222222";
 /// Axes, leaders, secondary text.
@@ -89,64 +87,3 @@ pub(super) fn dark_scheme() -> String {
     let rules: String = DARK.into_iter().map(rule).collect();
     format!("@media (prefers-color-scheme: dark){{{rules}}}")
 }
-
-/// How a symbol is filled, by the verdict of its reaction.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Mark {
-    Plain,
-    Unique,
-    NotUnique,
-    Undecided,
-}
-
-impl Mark {
-    /// Marks with a meaning, for the legend.
-    pub(super) const VERDICTS: [Self; 3] = [Self::Unique, Self::NotUnique, Self::Undecided];
-
-    pub(super) fn of(verdict: &Verdict) -> Self {
-        match verdict {
-            Verdict::Unique => Self::Unique,
-            Verdict::NotUnique => Self::NotUnique,
-            _ => Self::Undecided,
-        }
-    }
-
-    pub(super) fn words(self) -> &'static str {
-        match self {
-            Self::Plain => "",
-            Self::Unique => "unique",
-            Self::NotUnique => "not unique",
-            Self::Undecided => "undecided",
-        }
-    }
-
-    pub(super) fn stroke(self) -> &'static str {
-        match self {
-            Self::Plain => "#3b434a",
-            Self::Unique => "#0072b2",
-            Self::NotUnique => "#c44f00",
-            Self::Undecided => "#a3487c",
-        }
-    }
-
-    /// A colour, or the pattern that [`HATCH`] defines.
-    pub(super) fn fill(self) -> &'static str {
-        match self {
-            Self::Plain | Self::Undecided => "#ffffff",
-            Self::Unique => "#4fa3d6",
-            Self::NotUnique => "url(#hatch)",
-        }
-    }
-
-    pub(super) fn dashes(self) -> &'static str {
-        match self {
-            Self::Undecided => "2.5 2",
-            _ => "none",
-        }
-    }
-}
-
-/// Id of the hatch of non-unique reactions.
-pub(super) const HATCH: &str = "hatch";
-/// Distance of its lines (px).
-pub(super) const HATCH_PITCH: f64 = 3.6;

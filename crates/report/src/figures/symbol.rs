@@ -1,7 +1,9 @@
-//! Symbols of joints and drives, in pixels around their place. The mark of the verdict fills them.
+//! Symbols as data: strokes around a place (px, y down), lying along x. The SVG of a mechanism and
+//! the moving picture of a page paint the same strokes; their looks are those of `picture.css`.
 
-use super::style::{GREY, INK, Mark};
-use super::svg::{Svg, point_list};
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+use super::label::Rect;
 
 /// What a joint leaves free, as a picture. Directions are global unit vectors.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,259 +26,180 @@ pub(crate) enum Symbol {
     Drive { axis: Option<[f64; 2]> },
 }
 
-/// Half the sides of symbols (px).
-const PIN: f64 = 6.5;
-const WELD: f64 = 6.5;
-const BLOCK: [f64; 2] = [12.0, 7.5];
-const GUIDE: f64 = 27.0;
-const SLOT: [f64; 2] = [18.0, 7.0];
-const ROD_END: f64 = 4.5;
-const EDGE: [f64; 2] = [18.0, 4.2];
-const ROTATION: f64 = 8.5;
-/// Half the length of the arrow of a drive, half its width, and its distance from the axis.
-const ARROW: [f64; 3] = [19.0, 6.5, 19.0];
-/// Radius of the arrow of a rotary drive.
-const TURN: f64 = 15.0;
-
 impl Symbol {
-    /// Painted first are those that would hide others.
-    pub(super) fn layer(self) -> usize {
+    /// Its name in [`SHAPES`].
+    pub(crate) fn name(self) -> &'static str {
         match self {
-            Self::Rod => 0,
-            Self::Block { .. } | Self::Slot { .. } => 1,
-            Self::Edge { .. } => 2,
-            Self::Rotation | Self::Weld => 3,
-            Self::Drive { .. } => 4,
-            Self::Pin => 5,
+            Self::Pin => "pin",
+            Self::Weld => "weld",
+            Self::Block { .. } => "block",
+            Self::Slot { .. } => "slot",
+            Self::Rod => "rod",
+            Self::Edge { .. } => "edge",
+            Self::Rotation => "rotation",
+            Self::Drive { axis: Some(_) } => "push",
+            Self::Drive { axis: None } => "turn",
         }
     }
 
-    /// The same symbol lying along x, for a legend.
-    pub(super) fn lying(self) -> Self {
-        let x = [1.0, 0.0];
+    /// The direction that it lies along.
+    pub(crate) fn axis(self) -> Option<[f64; 2]> {
         match self {
-            Self::Block { .. } => Self::Block { axis: x },
-            Self::Slot { .. } => Self::Slot { axis: x },
-            Self::Edge { .. } => Self::Edge { along: x },
-            Self::Drive { axis: Some(_) } => Self::Drive { axis: Some(x) },
-            other => other,
-        }
-    }
-
-    /// Centre of the symbol relative to its place (px): arrows of drives stand beside their joints.
-    pub(super) fn offset(self) -> [f64; 2] {
-        match self {
-            Self::Drive { axis: Some(axis) } => {
-                // To the right of a vertical axis, below a horizontal one.
-                let normal = [-axis[1], -axis[0]];
-                let sign = if normal[0] < -1e-6 || (normal[0] < 1e-6 && normal[1] < 0.0) {
-                    -1.0
-                } else {
-                    1.0
-                };
-                [sign * ARROW[2] * normal[0], sign * ARROW[2] * normal[1]]
-            }
-            _ => [0.0, 0.0],
-        }
-    }
-
-    /// Half the sides of its bounding box on the page (px).
-    pub(super) fn half_box(self) -> [f64; 2] {
-        let turned = |[x, y]: [f64; 2], [c, s]: [f64; 2]| {
-            [x * c.abs() + y * s.abs(), x * s.abs() + y * c.abs()]
-        };
-        match self {
-            Self::Pin => [PIN, PIN],
-            Self::Weld => [WELD, WELD],
-            Self::Block { axis } => turned(BLOCK, axis),
-            Self::Slot { axis } => turned(SLOT, axis),
-            Self::Rod => [ROD_END, ROD_END],
-            Self::Edge { along } => turned(EDGE, along),
-            Self::Rotation => [ROTATION, ROTATION],
-            Self::Drive { axis: Some(axis) } => turned([ARROW[0], ARROW[1]], axis),
-            Self::Drive { axis: None } => [TURN, TURN],
-        }
-    }
-
-    /// Draws it at a place of the page; `end` is the point of the other body.
-    pub(super) fn draw(self, svg: &mut Svg, place: [f64; 2], end: [f64; 2], mark: Mark) {
-        match self {
-            Self::Rod => return rod(svg, place, end, mark),
-            Self::Block { .. } | Self::Slot { .. } => guide(svg, place, end),
-            _ => {}
-        }
-        let offset = self.offset();
-        let centre = [place[0] + offset[0], place[1] + offset[1]];
-        let transform = format!(
-            "translate({:.2} {:.2}) rotate({:.2})",
-            centre[0],
-            centre[1],
-            self.angle()
-        );
-        svg.element("g")
-            .with("transform", &transform)
-            .with("fill", mark.fill())
-            .with("stroke", mark.stroke())
-            .with("stroke-width", "1.6")
-            .with("stroke-dasharray", mark.dashes())
-            .with("stroke-linejoin", "round")
-            .open();
-        match self {
-            Self::Pin => circle(svg, PIN),
-            Self::Weld => {
-                rectangle(svg, [WELD, WELD], 0.0);
-                let (a, b) = (WELD, -WELD);
-                path(svg, &format!("M{b},{b} L{a},{a} M{b},{a} L{a},{b}"));
-            }
-            Self::Block { .. } => {
-                guide(svg, [-GUIDE, 0.0], [GUIDE, 0.0]);
-                rectangle(svg, BLOCK, 1.5);
-            }
-            Self::Slot { .. } => {
-                svg.element("g").with("fill", "#ffffff").open();
-                rectangle(svg, SLOT, SLOT[1]);
-                svg.close();
-                circle(svg, SLOT[1] - 2.0);
-            }
-            Self::Edge { .. } => rectangle(svg, EDGE, 2.5),
-            Self::Rotation => {
-                circle(svg, ROTATION);
-                circle(svg, 2.0);
-            }
-            Self::Drive { axis: Some(_) } => polygon(svg, &double_arrow()),
-            Self::Drive { axis: None } => polygon(svg, &turning_arrow()),
-            Self::Rod => {}
-        }
-        svg.close();
-    }
-
-    /// Angle on the page (degrees, clockwise because y points down there).
-    fn angle(self) -> f64 {
-        match self {
-            Self::Block { axis: [x, y] }
-            | Self::Slot { axis: [x, y] }
-            | Self::Edge { along: [x, y] }
-            | Self::Drive { axis: Some([x, y]) } => (-y).atan2(x).to_degrees(),
-            _ => 0.0,
+            Self::Block { axis } | Self::Slot { axis } | Self::Edge { along: axis } => Some(axis),
+            Self::Drive { axis } => axis,
+            _ => None,
         }
     }
 }
 
-/// The foot of a joint that holds to the ground, below its place.
-pub(super) fn ground(svg: &mut Svg, [x, y]: [f64; 2]) {
-    svg.element("g")
-        .with("transform", &format!("translate({x:.2} {y:.2})"))
-        .with("stroke", INK)
-        .with("stroke-width", "1.2")
-        .open();
-    svg.element("path")
-        .with("d", "M0,0 L-9,14 L9,14 Z")
-        .with("fill", "#ffffff")
-        .with("stroke-linejoin", "round")
-        .empty();
-    svg.element("path")
-        .with(
-            "d",
-            "M-15,14 L15,14 M-9,14 l-5,6 M-3,14 l-5,6 M3,14 l-5,6 M9,14 l-5,6 M15,14 l-5,6",
-        )
-        .with("fill", "none")
-        .empty();
-    svg.close();
+/// A symbol to paint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Shape {
+    pub(crate) name: &'static str,
+    /// Half the sides of its box, and the middle of the box above or below its place (px).
+    pub(crate) half: [f64; 2],
+    pub(crate) middle: f64,
+    /// Class and path data of each stroke, in the order of painting.
+    pub(crate) strokes: &'static [(&'static str, &'static str)],
 }
 
-/// Extent of the foot of the ground below a place (px).
-pub(super) const GROUND_DEPTH: f64 = 20.0;
+impl Shape {
+    /// The shape of this name; the first one if there is none.
+    pub(super) fn named(name: &str) -> Self {
+        SHAPES
+            .into_iter()
+            .find(|s| s.name == name)
+            .unwrap_or(SHAPES[0])
+    }
 
-fn rod(svg: &mut Svg, a: [f64; 2], b: [f64; 2], mark: Mark) {
-    svg.element("line")
-        .at([("x1", a[0]), ("y1", a[1]), ("x2", b[0]), ("y2", b[1])])
-        .with("stroke", mark.stroke())
-        .with("stroke-width", "2.4")
-        .with("stroke-dasharray", mark.dashes())
-        .empty();
-    for [x, y] in [a, b] {
-        svg.element("circle")
-            .at([("cx", x), ("cy", y), ("r", ROD_END)])
-            .with("fill", mark.fill())
-            .with("stroke", mark.stroke())
-            .with("stroke-width", "1.6")
-            .empty();
+    /// Its box on the page around a place (px), turned by an angle (rad).
+    pub(super) fn around(&self, at: [f64; 2], angle: f64) -> Rect {
+        let ((sin, cos), [x, y]) = (angle.sin_cos(), self.half);
+        Rect {
+            centre: [at[0] + sin * self.middle, at[1] + cos * self.middle],
+            half: [x * cos.abs() + y * sin.abs(), x * sin.abs() + y * cos.abs()],
+        }
     }
 }
 
-/// A dash-dotted centre line.
-fn guide(svg: &mut Svg, a: [f64; 2], b: [f64; 2]) {
-    svg.element("line")
-        .at([("x1", a[0]), ("y1", a[1]), ("x2", b[0]), ("y2", b[1])])
-        .with("stroke", GREY)
-        .with("stroke-width", "1.2")
-        .with("stroke-dasharray", "8 2.5 2 2.5")
-        .empty();
+const fn shape(
+    name: &'static str,
+    half: [f64; 2],
+    middle: f64,
+    strokes: &'static [(&'static str, &'static str)],
+) -> Shape {
+    Shape {
+        name,
+        half,
+        middle,
+        strokes,
+    }
 }
 
-/// A circle that rolls, dash-dotted.
-pub(super) fn pitch_circle(svg: &mut Svg, [x, y]: [f64; 2], radius: f64) {
-    svg.element("circle")
-        .at([("cx", x), ("cy", y), ("r", radius)])
-        .with("fill", "none")
-        .with("stroke", GREY)
-        .with("stroke-width", "1")
-        .with("stroke-dasharray", "8 2.5 2 2.5")
-        .empty();
-}
+const PIN: &str = "M-6.3 0a6.3 6.3 0 1 1 12.6 0a6.3 6.3 0 1 1-12.6 0Z";
+const CROSS: &str = "M-6.5-6.5L6.5 6.5M-6.5 6.5L6.5-6.5";
+const BLOCK: &str = "M-10.5-7.5h21a1.5 1.5 0 0 1 1.5 1.5v12a1.5 1.5 0 0 1-1.5 1.5h-21\
+                     a1.5 1.5 0 0 1-1.5-1.5v-12a1.5 1.5 0 0 1 1.5-1.5Z";
+const GROOVE: &str = "M-11-7h22a7 7 0 0 1 0 14h-22a7 7 0 0 1 0-14Z";
+const PEG: &str = "M-5 0a5 5 0 1 1 10 0a5 5 0 1 1-10 0Z";
+const END: &str = "M-4.5 0a4.5 4.5 0 1 1 9 0a4.5 4.5 0 1 1-9 0Z";
+const BLADE: &str = "M-14.5-4.4h29a2.5 2.5 0 0 1 2.5 2.5v3.8a2.5 2.5 0 0 1-2.5 2.5h-29\
+                     a2.5 2.5 0 0 1-2.5-2.5v-3.8a2.5 2.5 0 0 1 2.5-2.5Z";
+const WHEEL: &str = "M-8.5 0a8.5 8.5 0 1 1 17 0a8.5 8.5 0 1 1-17 0Z";
+const TURNS: &str = "M4.6 0A4.6 4.6 0 1 0-4.45 1.18L-5.96 1.57L-1.23 3.81L-1.78.47L-3.29.87\
+                     A3.4 3.4 0 1 1 3.4 0Z";
+const PUSH: &str = "M-19 19L-9 13.25V16.5H9V13.25L19 19L9 24.75V21.5H-9V24.75Z";
+const TURN: &str = "M15 0A15 15 0 1 0-14.01 5.37L-18.86 7.23L-6.37 11.33L-5.42 2.08L-10.27 3.94\
+                    A11 11 0 1 1 11 0Z";
+const COUPLE: &str = "M16 0A16 16 0 1 0-11.98 10.61L-13.92 12.34L-4.61 14.27L-8.53 7.56L-10.48 9.28\
+                      A14 14 0 1 1 14 0Z";
+const STAND: &str = "M0 0L-9 14H9Z";
+const GROUND: &str = "M-15 14H15M-9 14l-5 6M-3 14l-5 6M3 14l-5 6M9 14l-5 6M15 14l-5 6";
+const CENTRE: &str = "M-4 0H4M0-4V4M-4 0a4 4 0 1 1 8 0a4 4 0 1 1-8 0";
 
-fn circle(svg: &mut Svg, radius: f64) {
-    svg.element("circle").at([("r", radius)]).empty();
-}
+/// All symbols in the order in which they are painted: first those that would hide others.
+pub(crate) const SHAPES: [Shape; 14] = [
+    shape("rod", [5.0, 5.0], 0.0, &[("mark", END)]),
+    shape("block", [12.0, 7.5], 0.0, &[("mark", BLOCK)]),
+    shape(
+        "slot",
+        [18.0, 7.0],
+        0.0,
+        &[("groove", GROOVE), ("mark", PEG)],
+    ),
+    shape("edge", [17.0, 4.4], 0.0, &[("mark", BLADE)]),
+    shape(
+        "rotation",
+        [8.5, 8.5],
+        0.0,
+        &[("mark", WHEEL), ("thin", TURNS)],
+    ),
+    shape(
+        "weld",
+        [6.5, 6.5],
+        0.0,
+        &[("mark", "M-6.5-6.5h13v13h-13Z"), ("thin", CROSS)],
+    ),
+    shape("push", [19.0, 6.0], 19.0, &[("mark", PUSH)]),
+    shape("turn", [18.0, 15.0], 0.0, &[("mark", TURN)]),
+    shape("pin", [6.3, 6.3], 0.0, &[("mark", PIN)]),
+    // Not of joints: the ground below a place, centres of mass, applied forces and torques.
+    shape(
+        "foot",
+        [16.0, 10.0],
+        10.0,
+        &[("foot", STAND), ("foot", GROUND)],
+    ),
+    shape("centre", [4.0, 4.0], 0.0, &[("centre", CENTRE)]),
+    shape("load", [8.0, 7.0], -2.0, &[("load", "M0-9L8 5H-8Z")]),
+    shape("couple", [16.0, 15.0], 0.0, &[("load", COUPLE)]),
+    shape(
+        "short spring",
+        [5.0, 5.0],
+        0.0,
+        &[("spring", "M-5-5H5V5H-5Z")],
+    ),
+];
 
-fn rectangle(svg: &mut Svg, [x, y]: [f64; 2], corner: f64) {
-    svg.element("rect")
-        .at([
-            ("x", -x),
-            ("y", -y),
-            ("width", 2.0 * x),
-            ("height", 2.0 * y),
-            ("rx", corner),
-        ])
-        .empty();
-}
+/// A spring: x relative to its length, y in px.
+pub(crate) const SPRING: [[f64; 2]; 16] = [
+    [0.0, 0.0],
+    [0.1, 0.0],
+    [0.133, -6.0],
+    [0.2, 6.0],
+    [0.267, -6.0],
+    [0.333, 6.0],
+    [0.4, -6.0],
+    [0.467, 6.0],
+    [0.533, -6.0],
+    [0.6, 6.0],
+    [0.667, -6.0],
+    [0.733, 6.0],
+    [0.8, -6.0],
+    [0.867, 6.0],
+    [0.9, 0.0],
+    [1.0, 0.0],
+];
 
-fn path(svg: &mut Svg, d: &str) {
-    svg.element("path").with("d", d).empty();
-}
+/// A spring shorter than this has no room for coils (px).
+pub(crate) const SHORT: f64 = 4.0;
 
-fn polygon(svg: &mut Svg, points: &[[f64; 2]]) {
-    svg.element("polygon")
-        .with("points", &point_list(points.iter().copied()))
-        .empty();
-}
+/// The symbols by name, for scripts.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Shapes;
 
-fn double_arrow() -> Vec<[f64; 2]> {
-    let [l, w, _] = ARROW;
-    let (neck, shaft) = (l - 9.0, 0.4 * w);
-    let upper = [
-        [-l, 0.0],
-        [-neck, -w],
-        [-neck, -shaft],
-        [neck, -shaft],
-        [neck, -w],
-        [l, 0.0],
-    ];
-    let lower = [[neck, w], [neck, shaft], [-neck, shaft], [-neck, w]];
-    upper.into_iter().chain(lower).collect()
-}
-
-/// Three quarters of a turn, counter-clockwise on the page.
-fn turning_arrow() -> Vec<[f64; 2]> {
-    const STEPS: usize = 24;
-    let (outer, inner) = (TURN - 2.0, TURN - 6.0);
-    let at = |radius: f64, angle: f64| [radius * angle.cos(), -radius * angle.sin()];
-    let angle = |k: usize| (-30.0 + 240.0 * k as f64 / STEPS as f64).to_radians();
-    let (middle, tip) = (0.5 * (outer + inner), 0.5);
-    let mut points: Vec<[f64; 2]> = (0..=STEPS).map(|k| at(outer, angle(k))).collect();
-    points.push(at(middle + 5.5, angle(STEPS)));
-    points.push(at(middle, angle(STEPS) + tip));
-    points.push(at(middle - 5.5, angle(STEPS)));
-    points.extend((0..=STEPS).rev().map(|k| at(inner, angle(k))));
-    points
+impl Serialize for Shapes {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(Some(SHAPES.len()))?;
+        for Shape {
+            name,
+            half,
+            middle,
+            strokes,
+        } in SHAPES
+        {
+            map.serialize_entry(name, &(half, middle, strokes))?;
+        }
+        map.end()
+    }
 }

@@ -5,12 +5,12 @@ use model::reaction::COMPONENTS;
 use model::{Mechanism, System};
 use serde::Serialize;
 
-use super::channel::Channel;
 use super::comparison::{Comparison, Freedom};
-use super::drawing_model::{DrawingModel, DrawnForce, Stage};
-use super::recording::Frame;
 use super::{DriveCurve, RunPage};
+use crate::channel::Channel;
 use crate::documents::{EventDocument, ReactionDocument};
+use crate::figures::drawing::{DrawingModel, DrawnForce, Stage};
+use crate::recording::Frame;
 
 /// Joints and drives, and bodies, that are drawn and plotted at most.
 pub(super) const DRAWN_MAX: usize = 400;
@@ -433,5 +433,5 @@ const SHOWN: usize = 6;
 
 /// Levels of a curve, in digits.
 pub(super) fn levels() -> u64 {
-    super::channel::LEVELS as u64
+    crate::channel::LEVELS as u64
 }

@@ -5,6 +5,7 @@ use model::System;
 
 use super::data::{self, Cast, Data};
 use super::{RunPage, inputs, verdicts};
+use crate::figures::LOOKS;
 use crate::page::{add, safe, short};
 
 const STYLE: &str = include_str!("report.css");
@@ -49,7 +50,7 @@ fn open(out: &mut String, page: &RunPage<'_>) {
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n\
              <meta name=\"generator\" content=\"pfaff {}\">\n<title>{name} – pfaff</title>\n\
-             <style>\n{STYLE}</style>\n</head>\n<body>\n",
+             <style>\n{LOOKS}{STYLE}</style>\n</head>\n<body>\n",
             env!("CARGO_PKG_VERSION")
         ),
     );

@@ -67,7 +67,7 @@ function cubic(values, rates, instant) {
 const bodies = data.drawing.bodies.map((body, index) => ({
   index,
   name: body.name,
-  points: body.points,
+  outline: body.outline,
   x: decode(body.x),
   y: decode(body.y),
   angle: decode(body.angle),

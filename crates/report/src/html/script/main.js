@@ -316,9 +316,10 @@ function showSymbols() {
     shown.get(site.symbol).add(type);
   }
   for (const [symbol, types] of shown) {
-    const key = draw(null, "svg", { viewBox: "-22 -13 44 26", class: "symbol", "aria-hidden": "true" });
-    const shift = { push: "translate(0 -19)", turn: "translate(0 3) scale(0.7)" }[symbol] ?? "";
-    drawSymbol(draw(key, "g", { class: "site plain", transform: shift }), symbol);
+    const [[x, y], middle] = data.drawing.shapes[symbol];
+    const [width, height] = [2 * x + 4, 2 * y + 4];
+    const key = draw(null, "svg", { viewBox: `${-x - 2} ${middle - y - 2} ${width} ${height}`, width, height, class: "symbol", "aria-hidden": "true" });
+    drawSymbol(draw(key, "g", { class: "site plain" }), symbol);
     make(place, "span", { className: "entry" }, key, [...types].join(", "));
   }
 }

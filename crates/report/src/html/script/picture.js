@@ -1,6 +1,7 @@
 // The mechanism to scale, moved along the run. Symbols keep their size in pixels; bodies, grid and traces are to scale.
 
-const FLESH = 10;
+const FLESH = 20;
+const RIM = 22.4;
 const ARROW_LONG = 95;
 const MOVED_FAR = 2.2;
 const TRACE_POINTS = 600;
@@ -69,9 +70,15 @@ class Picture {
     for (const body of bodies) {
       const pose = poses.of(body.index);
       take([pose.x, pose.y]);
-      body.points.forEach((p) => take(pointOn(pose, p)));
+      body.outline.forEach((p) => take(pointOn(pose, p)));
     }
-    for (const site of this.sites) take(site.place(poses, instant));
+    for (const site of this.sites) {
+      take(site.place(poses, instant));
+      for (const [b, r] of site.joint.site.wheels) {
+        const { x, y } = poses.of(b);
+        [[x - r, y - r], [x + r, y + r]].forEach(take);
+      }
+    }
     for (const { points } of data.drawing.forces) points.forEach(([b, ...p]) => take(pointOn(poses.of(b), p)));
     return box;
   }
@@ -82,7 +89,11 @@ class Picture {
       const group = draw(layers.bodies, "g", { class: `body b${body.index % 6}`, tabindex: "-1" });
       draw(group, "title", {}, body.name);
       group.addEventListener("click", () => onBody(body.index));
-      return { group, flesh: draw(group, "path", { class: "flesh" }), centre: draw(group, "path", { class: "centre", d: "M-4 0H4M0-4V4M-4 0a4 4 0 1 1 8 0a4 4 0 1 1 -8 0" }) };
+      const hull = draw(group, "g", { class: "hull" });
+      const [rim, flesh] = ["rim", "flesh"].map((kind) => draw(hull, "path", { class: kind }));
+      const centre = draw(group, "g");
+      drawSymbol(centre, "centre");
+      return { group, rim, flesh, centre };
     });
     for (const site of this.sites) {
       const { joint } = site;
@@ -90,7 +101,8 @@ class Picture {
       const guided = isGuided(symbol);
       site.rail = guided ? draw(layers.rails, "path", { class: "rail" }) : null;
       site.foot = grounded && !guided ? draw(layers.feet, "g") : null;
-      if (site.foot) drawFoot(site.foot);
+      if (site.foot) drawSymbol(site.foot, "foot");
+      site.wheels = joint.site.wheels.map(([body, radius]) => ({ body, radius, circle: draw(layers.rails, "circle", { class: "wheel" }) }));
       site.rod = symbol === "rod" ? draw(layers.symbols, "path", { class: `rod ${joint.verdict}` }) : null;
       site.group = draw(layers.symbols, "g", { class: `site ${joint.verdict}` });
       draw(site.group, "title", {}, `${joint.name} (${joint.type}): reaction ${joint.verdict.replace("_", " ")}`);
@@ -104,12 +116,14 @@ class Picture {
       site.name = draw(layers.names, "text", { class: `name ${joint.verdict}` }, joint.name);
     }
     for (const f of this.forces) {
-      const kind = ["turn", "push", "spring"][Math.min(f.force.points.length, 2)];
+      const kind = ["couple", "load", "spring"][Math.min(f.force.points.length, 2)];
       f.kind = kind;
       f.feet = f.force.points.map(([b]) => (b < 0 ? draw(layers.feet, "g") : null));
-      f.feet.filter(Boolean).forEach(drawFoot);
-      f.path = draw(layers.springs, "path", { class: kind === "spring" ? "spring" : "load" });
-      draw(f.path, "title", {}, `${f.force.name} (${f.force.type})`);
+      f.feet.filter(Boolean).forEach((foot) => drawSymbol(foot, "foot"));
+      f.group = draw(layers.springs, "g");
+      draw(f.group, "title", {}, `${f.force.name} (${f.force.type})`);
+      if (kind === "spring") f.path = draw(f.group, "path", { class: "spring" });
+      else drawSymbol(f.group, kind);
     }
     this.bodyNames = bodies.map((body) => draw(layers.names, "text", { class: "name body-name" }, body.name));
     this.large = this.largeLoads();
@@ -164,13 +178,17 @@ class Picture {
 
   /** Outlines for the present scale. */
   shape() {
-    const corners = bodies.map((body) => hull([[0, 0], ...body.points].map(([x, y]) => [x * this.scale, -y * this.scale])));
-    corners.forEach((c, k) => {
-      this.bodyGroups[k].flesh.setAttribute("d", rounded(c, FLESH * this.symbolScale));
-      this.bodyGroups[k].centre.setAttribute("transform", `scale(${this.symbolScale})`);
+    bodies.forEach((body, k) => {
+      const { rim, flesh, centre } = this.bodyGroups[k];
+      const corners = body.outline.map(([x, y]) => `${(x * this.scale).toFixed(2)} ${(-y * this.scale).toFixed(2)}`);
+      for (const [path, width] of [[rim, RIM], [flesh, FLESH]]) {
+        path.setAttribute("d", `M${corners.join("L")}L${corners[0]}Z`);
+        path.style.strokeWidth = width * this.symbolScale;
+      }
+      centre.setAttribute("transform", `scale(${this.symbolScale})`);
     });
-    const order = [...corners.keys()].sort((a, b) => Math.abs(doubleArea(corners[b])) - Math.abs(doubleArea(corners[a])));
-    this.layers.bodies.append(...order.map((k) => this.bodyGroups[k].group));
+    this.layers.bodies.append(...data.drawing.order.map((k) => this.bodyGroups[k].group));
+    for (const { radius, circle } of this.sites.flatMap((site) => site.wheels)) circle.setAttribute("r", radius * this.scale);
     for (const site of this.sites) if (site.rail) site.rail.setAttribute("d", this.railOf(site));
     this.traces = [...this.traced].map((k) => this.traces?.find((t) => t.index === k) ?? this.newTrace(k));
   }
@@ -241,6 +259,7 @@ class Picture {
     put(site.twin, end, 0, this.symbolScale);
     site.rod?.setAttribute("d", `M${place}L${end}`);
     put(site.name, at);
+    for (const { body, circle } of site.wheels) put(circle, toPage(pointOn(poses.of(body), [0, 0])));
     this.moveLoads(site, place, instant, put);
   }
 
@@ -307,14 +326,13 @@ class Picture {
       const [a, b] = points;
       const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
       const turn = (Math.atan2(b[1] - a[1], b[0] - a[0]) * 180) / Math.PI;
-      f.path.setAttribute("d", length > 4 ? zigzag(length) : "M-5-5H5V5H-5Z");
-      f.path.setAttribute("transform", `translate(${a}) rotate(${turn})`);
+      f.path.setAttribute("d", length > 4 ? spring(length) : data.drawing.shapes["short spring"][2][0][1]);
+      f.group.setAttribute("transform", `translate(${a}) rotate(${turn})`);
       return;
     }
     const body = f.force.bodies.findLast((b) => b >= 0) ?? -1;
     const at = points[0] ?? toPage(pointOn(poses.of(body), [0, 0]));
-    f.path.setAttribute("d", f.kind === "push" ? "M0-9L8 5H-8Z" : turning(15, 4.4, 2, 8));
-    f.path.setAttribute("transform", `translate(${at}) scale(${this.symbolScale})`);
+    f.group.setAttribute("transform", `translate(${at}) scale(${this.symbolScale})`);
   }
 
   /** Lines at round numbers, and a bar that tells their distance. */

@@ -1,49 +1,4 @@
-// Shapes in pixels: outlines of bodies, symbols of joints, arrows. y points down, as on the page.
-
-/** Convex hull, without points on its sides. */
-function hull(points) {
-  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1])
-    .filter((p, k, all) => !k || p[0] !== all[k - 1][0] || p[1] !== all[k - 1][1]);
-  if (sorted.length < 3) return sorted;
-  const half = (list) => {
-    const chain = [];
-    for (const p of list) {
-      while (chain.length > 1 && cross(chain.at(-2), chain.at(-1), p) <= 1e-9) chain.pop();
-      chain.push(p);
-    }
-    return chain.slice(0, -1);
-  };
-  return [...half(sorted), ...half(sorted.toReversed())];
-}
-
-function cross(a, b, c) {
-  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-/** Twice the area of a polygon. */
-function doubleArea(corners) {
-  return corners.reduce((sum, a, k) => {
-    const b = corners[(k + 1) % corners.length];
-    return sum + a[0] * b[1] - a[1] * b[0];
-  }, 0);
-}
-
-/** Path data of a hull with a margin and round corners. */
-function rounded(corners, r) {
-  if (corners.length === 1) {
-    const [x, y] = corners[0];
-    return `M${x - r} ${y}a${r} ${r} 0 1 1 ${2 * r} 0a${r} ${r} 0 1 1 ${-2 * r} 0Z`;
-  }
-  const sides = corners.map((a, k) => {
-    const b = corners[(k + 1) % corners.length];
-    const length = Math.hypot(b[0] - a[0], b[1] - a[1]);
-    const n = [(r * (b[1] - a[1])) / length, (-r * (b[0] - a[0])) / length];
-    return [[a[0] + n[0], a[1] + n[1]], [b[0] + n[0], b[1] + n[1]]];
-  });
-  const at = ([x, y]) => `${x.toFixed(2)} ${y.toFixed(2)}`;
-  const turns = sides.map(([a, b], k) => `${k ? `A${r} ${r} 0 0 1 ` : "M"}${at(a)}L${at(b)}`);
-  return `${turns.join("")}A${r} ${r} 0 0 1 ${at(sides[0][0])}Z`;
-}
+// Shapes in pixels: the symbols of the drawing model, and arrows whose size depends on a load. y points down, as on the page.
 
 /** An arrow along x from 0 to `length`, head included. */
 function arrow(length, width = 3.2, head = 10) {
@@ -74,57 +29,15 @@ function turning(radius, angle, width = 2.6, head = 9) {
     + `L${at(inner, end)}A${inner} ${inner} 0 ${large} ${back} ${at(inner, 0)}Z`;
 }
 
-/** A spring of this length along x. */
-function zigzag(length) {
-  const [coils, end] = [6, Math.min(10, length * 0.15)];
-  const step = (length - 2 * end) / (2 * coils);
-  let d = `M0 0H${end.toFixed(2)}`;
-  for (let k = 0; k < 2 * coils; k += 1) {
-    d += `L${(end + (k + 0.5) * step).toFixed(2)} ${k % 2 ? 6 : -6}`;
-  }
-  return `${d}L${(length - end).toFixed(2)} 0H${length.toFixed(2)}`;
-}
-
-/** Draws what a joint leaves free, lying along x, into a group. */
+/** Paints a symbol of the drawing model, lying along x, into a group. */
 function drawSymbol(group, symbol) {
-  const box = (x, y, r) => draw(group, "rect", { x: -x, y: -y, width: 2 * x, height: 2 * y, rx: r, class: "mark" });
-  switch (symbol) {
-    case "weld":
-      box(6.5, 6.5, 0);
-      draw(group, "path", { d: "M-6.5-6.5L6.5 6.5M-6.5 6.5L6.5-6.5", class: "thin" });
-      break;
-    case "block":
-      box(12, 7.5, 1.5);
-      break;
-    case "slot":
-      draw(group, "rect", { x: -18, y: -7, width: 36, height: 14, rx: 7, class: "groove" });
-      draw(group, "circle", { r: 5, class: "mark" });
-      break;
-    case "edge":
-      box(17, 4.4, 2.5);
-      break;
-    case "rotation":
-      draw(group, "circle", { r: 8.5, class: "mark" });
-      draw(group, "path", { d: turning(4, 4.4, 1.2, 4), class: "thin" });
-      break;
-    case "push":
-      draw(group, "path", { d: doubleArrow(19, 5, 10), transform: "translate(0 19)", class: "mark" });
-      break;
-    case "turn":
-      draw(group, "path", { d: turning(13, 4.2, 4, 9), class: "mark" });
-      break;
-    case "rod":
-      draw(group, "circle", { r: 4.5, class: "mark" });
-      break;
-    default:
-      draw(group, "circle", { r: 6.2, class: "mark" });
-  }
+  const [, , strokes] = data.drawing.shapes[symbol];
+  for (const [kind, d] of strokes) draw(group, "path", { d, class: kind });
 }
 
-/** The ground below a point. */
-function drawFoot(group) {
-  draw(group, "path", { d: "M0 0L-9 14H9Z", class: "foot" });
-  draw(group, "path", { d: "M-15 14H15M-9 14l-5 6M-3 14l-5 6M3 14l-5 6M9 14l-5 6M15 14l-5 6", class: "foot" });
+/** Path data of a spring of this length along x. */
+function spring(length) {
+  return `M${data.drawing.spring.map(([x, y]) => `${(x * length).toFixed(2)} ${y}`).join("L")}`;
 }
 
 /** Hatches of one line style for each verdict; colours are those of the style sheet. */

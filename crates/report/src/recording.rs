@@ -29,6 +29,21 @@ pub struct Frame {
     pub multipliers: Vec<f64>,
 }
 
+impl Frame {
+    /// Coordinates alone: nothing moves, no reaction is known.
+    #[must_use]
+    pub fn at_rest(t: f64, q: &[f64], n_v: usize) -> Self {
+        Self {
+            t,
+            q: q.to_vec(),
+            v: vec![0.0; n_v],
+            work: 0.0,
+            reactions: Vec::new(),
+            multipliers: Vec::new(),
+        }
+    }
+}
+
 /// Rows of a run.
 #[derive(Clone, Debug)]
 pub struct Recording {

@@ -5,7 +5,7 @@ use serde::Serialize;
 use serde::ser::{SerializeSeq, Serializer};
 
 /// Levels of the range of a curve: rounding is half a level.
-pub(super) const LEVELS: f64 = 100_000.0;
+pub(crate) const LEVELS: f64 = 100_000.0;
 
 /// Digits of a number that stands alone.
 const DIGITS: usize = 6;
@@ -13,7 +13,7 @@ const DIGITS: usize = 6;
 /// A curve over the frames.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
-pub(super) enum Channel {
+pub(crate) enum Channel {
     /// The same number everywhere.
     Constant(Rounded),
     /// The value at level 0, the height of a level, and the differences of levels; `null` is a gap.
@@ -29,19 +29,30 @@ pub(super) enum Channel {
 
 /// A number with few digits.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Rounded(pub(super) f64);
+pub(crate) struct Rounded(pub(crate) f64);
 
 /// Differences of levels; nothing is a gap.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Steps(pub(super) Vec<Option<i64>>);
+pub(crate) struct Steps(pub(crate) Vec<Option<i64>>);
 
 impl Channel {
-    pub(super) fn new(values: impl Iterator<Item = f64> + Clone) -> Self {
+    pub(crate) fn new(values: impl Iterator<Item = f64> + Clone) -> Self {
         Self::above(0.0, values)
     }
 
+    /// Its value at the first frame.
+    pub(crate) fn first(&self) -> f64 {
+        match self {
+            Self::Constant(value) => value.0,
+            Self::Varying { o, s, d } => match d.0.first() {
+                Some(Some(level)) => o + s.value() * *level as f64,
+                _ => f64::NAN,
+            },
+        }
+    }
+
     /// Numbers of this size and below are rounding of zero.
-    pub(super) fn above(noise: f64, values: impl Iterator<Item = f64> + Clone) -> Self {
+    pub(crate) fn above(noise: f64, values: impl Iterator<Item = f64> + Clone) -> Self {
         let values = values.map(|x| if x.abs() <= noise { 0.0 } else { x });
         let finite = values.clone().filter(|x| x.is_finite());
         let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| {
@@ -77,7 +88,7 @@ impl Channel {
 
 impl Rounded {
     /// The number that is written.
-    pub(super) fn value(self) -> f64 {
+    pub(crate) fn value(self) -> f64 {
         match self.0.is_finite() && self.0 != 0.0 {
             true => format!("{:.*e}", DIGITS, self.0).parse().unwrap_or(self.0),
             false => self.0,

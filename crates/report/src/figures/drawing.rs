@@ -1,14 +1,16 @@
-//! What the moving picture of a page is drawn from: bodies with the points that joints and forces
-//! hold, joints as symbols that go with a body. Places that no body carries are told frame by
-//! frame.
+//! The one model of a drawing: outlines of bodies, joints as symbols that move with a body, wheels
+//! and applied forces. A page paints it at any time of a run, an SVG figure at one. Places that no
+//! body carries are given frame by frame.
 
-use model::{BodyRef, ConstraintId, ConstraintKind, Mechanism, Scratch, System};
+use joints::Pose;
+use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 use serde::Serialize;
 
-use super::channel::{Channel, Rounded};
-use super::recording::Frame;
-use crate::figures::geometry::{Site, site, sites};
-use crate::figures::symbol::Symbol;
+use super::geometry::{Site, site, sites};
+use super::outline::{double_area, hull};
+use super::symbol::{SPRING, Shapes, Symbol};
+use crate::channel::{Channel, Rounded};
+use crate::recording::Frame;
 
 /// Frames at which it is asked whether a place goes with a body.
 const PROBES: usize = 9;
@@ -24,13 +26,13 @@ type Held = (isize, Rounded, Rounded);
 
 /// A body.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct DrawnBody {
-    name: String,
-    /// Points that joints and forces hold, in its frame (m).
-    points: Vec<[Rounded; 2]>,
-    x: Channel,
-    y: Channel,
-    angle: Channel,
+pub(crate) struct DrawnBody {
+    pub(crate) name: String,
+    /// Convex hull of its centre and of the points that joints and forces hold, in its frame (m).
+    pub(crate) outline: Vec<[Rounded; 2]>,
+    pub(crate) x: Channel,
+    pub(crate) y: Channel,
+    pub(crate) angle: Channel,
     vx: Channel,
     vy: Channel,
     omega: Channel,
@@ -39,7 +41,7 @@ pub(super) struct DrawnBody {
 /// Where something is.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
-enum Place {
+pub(crate) enum Place {
     /// In the frame of a body.
     Of { b: isize, p: [Rounded; 2] },
     /// Somewhere else in each frame.
@@ -49,7 +51,7 @@ enum Place {
 /// Where something points.
 #[derive(Clone, Debug, Serialize)]
 #[serde(untagged)]
-enum Heading {
+pub(crate) enum Heading {
     /// At this angle in a body (rad).
     Of { b: isize, a: Rounded },
     /// Elsewhere in each frame.
@@ -58,73 +60,142 @@ enum Heading {
 
 /// A joint or drive.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct DrawnSite {
-    symbol: &'static str,
-    place: Place,
+pub(crate) struct DrawnSite {
+    pub(crate) symbol: &'static str,
+    pub(crate) place: Place,
     #[serde(skip_serializing_if = "Option::is_none")]
-    axis: Option<Heading>,
+    pub(crate) axis: Option<Heading>,
     /// The other end of a rod, the block of a guide.
     #[serde(skip_serializing_if = "Option::is_none")]
-    end: Option<Place>,
-    grounded: bool,
-    drive: bool,
-    bodies: Vec<isize>,
+    pub(crate) end: Option<Place>,
+    pub(crate) grounded: bool,
+    pub(crate) bodies: Vec<isize>,
+    /// Bodies with the radii of the pitch circles around their centres (m).
+    pub(crate) wheels: Vec<(isize, Rounded)>,
 }
 
 /// An applied force.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct DrawnForce {
-    name: String,
+pub(crate) struct DrawnForce {
+    pub(crate) name: String,
     #[serde(rename = "type")]
-    kind: &'static str,
-    points: Vec<Held>,
-    bodies: Vec<isize>,
+    pub(crate) kind: &'static str,
+    pub(crate) points: Vec<Held>,
+    pub(crate) bodies: Vec<isize>,
 }
 
 /// Everything that is drawn.
 #[derive(Clone, Debug, Serialize)]
-pub(super) struct DrawingModel {
-    pub(super) bodies: Vec<DrawnBody>,
-    pub(super) sites: Vec<DrawnSite>,
-    pub(super) forces: Vec<DrawnForce>,
+pub(crate) struct DrawingModel {
+    pub(crate) bodies: Vec<DrawnBody>,
+    pub(crate) sites: Vec<DrawnSite>,
+    pub(crate) forces: Vec<DrawnForce>,
+    /// Bodies in the order of painting, the largest first.
+    pub(crate) order: Vec<usize>,
+    shapes: Shapes,
+    spring: &'static [[f64; 2]],
+}
+
+impl DrawnSite {
+    /// Whether it slides on a rail.
+    pub(crate) fn is_guided(&self) -> bool {
+        matches!(self.symbol, "block" | "slot")
+    }
+
+    /// Where its symbol is: blocks are where they slide to.
+    pub(crate) fn shown(&self) -> &Place {
+        match &self.end {
+            Some(end) if self.is_guided() => end,
+            _ => &self.place,
+        }
+    }
+}
+
+/// Where things are at the first frame (global, m and rad).
+impl DrawingModel {
+    /// The centre of a body; the origin for the ground.
+    pub(crate) fn centre(&self, body: isize) -> [f64; 2] {
+        self.held(body, [Rounded(0.0); 2])
+    }
+
+    /// A point in the frame of a body.
+    pub(crate) fn held(&self, body: isize, [x, y]: [Rounded; 2]) -> [f64; 2] {
+        match usize::try_from(body) {
+            Ok(k) => {
+                let body = &self.bodies[k];
+                let pose = Pose::new(body.x.first(), body.y.first(), body.angle.first());
+                pose.to_global([x.0, y.0])
+            }
+            Err(_) => [x.0, y.0],
+        }
+    }
+
+    /// A place.
+    pub(crate) fn at(&self, place: &Place) -> [f64; 2] {
+        match place {
+            Place::Of { b, p } => self.held(*b, *p),
+            Place::Free { x, y } => [x.first(), y.first()],
+        }
+    }
+
+    /// The angle of a symbol.
+    pub(crate) fn angle(&self, site: &DrawnSite) -> f64 {
+        match &site.axis {
+            Some(Heading::Of { b, a }) => {
+                let turn = usize::try_from(*b).map_or(0.0, |k| self.bodies[k].angle.first());
+                turn + a.0
+            }
+            Some(Heading::Free { a }) => a.first(),
+            None => 0.0,
+        }
+    }
 }
 
 /// A mechanism with the frames of its bodies.
-pub(super) struct Stage<'a> {
+pub(crate) struct Stage<'a> {
     /// The mechanism, or the part of it that is drawn.
-    pub(super) mechanism: &'a Mechanism,
+    pub(crate) mechanism: &'a Mechanism,
     /// Its bodies among all.
-    pub(super) bodies: &'a [usize],
-    pub(super) frames: &'a [Frame],
+    pub(crate) bodies: &'a [usize],
+    pub(crate) frames: &'a [Frame],
 }
 
 impl Stage<'_> {
-    pub(super) fn drawing(&self, forces: Vec<DrawnForce>) -> DrawingModel {
+    pub(crate) fn drawing(&self, forces: Vec<DrawnForce>) -> DrawingModel {
         let probes = self.probes();
         let size = self.size();
-        let mut points = vec![Vec::new(); self.bodies.len()];
-        for id in self.mechanism.layout().constraint_ids() {
-            for (body, point) in self.mechanism.points(id) {
-                if let BodyRef::Body(k) = body {
-                    points[k].push(point.map(Rounded));
-                }
-            }
-        }
-        for &(body, x, y) in forces.iter().flat_map(|f| &f.points) {
-            if let Ok(k) = usize::try_from(body) {
-                points[k].push([x, y]);
-            }
-        }
+        let outlines = self.outlines(&forces);
+        let mut order: Vec<usize> = (0..outlines.len()).collect();
+        order.sort_by(|&a, &b| double_area(&outlines[b]).total_cmp(&double_area(&outlines[a])));
         let sites = self.mechanism.layout().constraint_ids();
         DrawingModel {
             sites: sites.map(|id| self.site(id, &probes, size)).collect(),
-            bodies: points
+            bodies: outlines
                 .into_iter()
                 .enumerate()
-                .map(|(k, p)| self.body(k, p))
+                .map(|(k, outline)| self.body(k, &outline))
                 .collect(),
             forces,
+            order,
+            shapes: Shapes,
+            spring: &SPRING,
         }
+    }
+
+    /// Outlines of the bodies, each in its frame.
+    fn outlines(&self, forces: &[DrawnForce]) -> Vec<Vec<[f64; 2]>> {
+        let mut points = vec![vec![[0.0; 2]]; self.bodies.len()];
+        let held = self.mechanism.layout().constraint_ids();
+        let held = held.flat_map(|id| self.mechanism.points(id));
+        for (body, point) in held.filter_map(|(b, p)| Some((b.moving()?, p))) {
+            points[body].push(point);
+        }
+        for &(body, x, y) in forces.iter().flat_map(|f| &f.points) {
+            if let Ok(k) = usize::try_from(body) {
+                points[k].push([x.0, y.0]);
+            }
+        }
+        points.iter().map(|p| hull(p)).collect()
     }
 
     /// Coordinates of its bodies in a frame.
@@ -170,7 +241,7 @@ impl Stage<'_> {
         range.map(reach).into_iter().fold(1e-12, f64::max)
     }
 
-    fn body(&self, k: usize, points: Vec<[Rounded; 2]>) -> DrawnBody {
+    fn body(&self, k: usize, outline: &[[f64; 2]]) -> DrawnBody {
         let at = self.bodies[k];
         let position =
             |axis: usize| Channel::new(self.frames.iter().map(move |f| f.q[3 * at + axis]));
@@ -178,7 +249,7 @@ impl Stage<'_> {
             |axis: usize| Channel::new(self.frames.iter().map(move |f| f.v[3 * at + axis]));
         DrawnBody {
             name: self.mechanism.bodies()[k].name.clone(),
-            points: distinct(points),
+            outline: outline.iter().map(|p| p.map(Rounded)).collect(),
             x: position(0),
             y: position(1),
             angle: position(2),
@@ -211,13 +282,16 @@ impl Stage<'_> {
             _ => None,
         };
         DrawnSite {
-            symbol: word(symbol),
+            symbol: symbol.name(),
             place: place(&|site, _| site.place),
-            axis: axis(symbol).map(|_| self.heading(id, probes, &carriers)),
+            axis: symbol.axis().map(|_| self.heading(id, probes, &carriers)),
             end,
             grounded: probes.first().is_some_and(|p| p.sites[id.0].grounded),
-            drive: group.kind == ConstraintKind::Drive,
             bodies: group.bodies.iter().map(|&b| index(b)).collect(),
+            wheels: probes.first().map_or_else(Vec::new, |p| {
+                let wheels = p.sites[id.0].pitch.iter().flatten();
+                wheels.map(|w| (index(w.body), Rounded(w.radius))).collect()
+            }),
         }
     }
 
@@ -250,7 +324,7 @@ impl Stage<'_> {
 
     fn heading(&self, id: ConstraintId, probes: &[Probe], carriers: &[BodyRef]) -> Heading {
         let angle = |site: &Site| {
-            let [x, y] = axis(site.symbol).unwrap_or([1.0, 0.0]);
+            let [x, y] = site.symbol.axis().unwrap_or([1.0, 0.0]);
             y.atan2(x)
         };
         for &body in carriers {
@@ -298,7 +372,7 @@ struct Probe {
 
 impl DrawnForce {
     /// The applied forces of a mechanism on bodies that are drawn.
-    pub(super) fn all(mechanism: &Mechanism, bodies: &[usize]) -> Vec<Self> {
+    pub(crate) fn all(mechanism: &Mechanism, bodies: &[usize]) -> Vec<Self> {
         let place = |body: &BodyRef| match *body {
             BodyRef::Ground => Some(GROUND),
             BodyRef::Body(k) => bodies.binary_search(&k).ok().map(|k| k as isize),
@@ -333,36 +407,4 @@ fn local(body: BodyRef, [x, y]: [f64; 2], s: &Scratch) -> [f64; 2] {
 
 fn turn(body: BodyRef, s: &Scratch) -> f64 {
     body.moving().map_or(0.0, |k| s.poses[k].angle)
-}
-
-fn distinct(points: Vec<[Rounded; 2]>) -> Vec<[Rounded; 2]> {
-    let mut kept: Vec<[Rounded; 2]> = Vec::new();
-    for p in points {
-        if !kept.contains(&p) {
-            kept.push(p);
-        }
-    }
-    kept
-}
-
-fn word(symbol: Symbol) -> &'static str {
-    match symbol {
-        Symbol::Pin => "pin",
-        Symbol::Weld => "weld",
-        Symbol::Block { .. } => "block",
-        Symbol::Slot { .. } => "slot",
-        Symbol::Rod => "rod",
-        Symbol::Edge { .. } => "edge",
-        Symbol::Rotation => "rotation",
-        Symbol::Drive { axis: Some(_) } => "push",
-        Symbol::Drive { axis: None } => "turn",
-    }
-}
-
-fn axis(symbol: Symbol) -> Option<[f64; 2]> {
-    match symbol {
-        Symbol::Block { axis } | Symbol::Slot { axis } | Symbol::Edge { along: axis } => Some(axis),
-        Symbol::Drive { axis } => axis,
-        _ => None,
-    }
 }
