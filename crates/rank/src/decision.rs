@@ -27,10 +27,11 @@ mod tests;
 mod uncertainty;
 mod within;
 
+use crate::limits::{CLEARANCE, HIDDEN, NEARLY_SINGULAR, NOISE_FACTOR, NOT_ROUNDING};
 use crate::strong_basis::{self, Basis};
 use linalg::{Matrix, PivotedQr, Scaling, kernels, powers::scale, singular_values};
 
-pub use certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant};
+pub use certificate::{Certificate, Grounds, NearlyRedundant};
 pub use coefficient::{CoefficientReading, Readings};
 pub use exact::certify_exact;
 pub use modular::ExactNullSpace;
@@ -40,25 +41,6 @@ pub use within::{RankReading, certify_rank, certify_within};
 pub(crate) use clear::{Size, independent, size};
 pub(crate) use coefficient::coefficient_noise;
 pub use explicit::{KeptRowsError, decide_dropping, decide_keeping};
-
-/// Factor between the noise estimate and the tolerance τ: rounding of an equilibrated matrix and
-/// the polished residual were each measured within a factor 4 of the singular value they cause.
-const NOISE_FACTOR: f64 = 10.0;
-
-/// The smallest non-zero singular value must clear τ by this factor, or the rank is undecided.
-const CLEARANCE: f64 = 1e3;
-
-/// Data that are known to less than this share of a row say nothing of it: what they hide is no
-/// redundancy.
-const HIDDEN: f64 = 0.01;
-
-/// What is above the root of eps in a matrix of size one is no rounding of its entries.
-const NOT_ROUNDING: f64 = 1.5e-8;
-
-/// A configuration is known to about √eps near a singular one, whatever its residual: Newton's
-/// method stops there as at a double root. A smallest singular value below this may be zero at the
-/// true configuration.
-pub const NEARLY_SINGULAR: f64 = 1e-7;
 
 /// Rank of a constraint matrix C (m×n), with the rows to keep and the evidence for it.
 #[derive(Debug, Clone, PartialEq)]

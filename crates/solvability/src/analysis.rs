@@ -1,6 +1,7 @@
 //! Ranks and verdicts of one configuration of a mechanism of any size: those of its parts, added up
 //! and numbered as in the whole.
 
+use crate::limits::ROWS_MAX;
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -10,7 +11,7 @@ use model::{ConstraintId, Known, Mechanism, System, Tolerance};
 use rank::{Evidence, KeptRowsError, NearlyRedundant, RankDecision};
 use rayon::prelude::*;
 
-use crate::certificate::{ROWS_MAX, Rows};
+use crate::certificate::Rows;
 use crate::large::judge_sparse;
 use crate::mechanism::{
     AnalysisError, Dependency, ReactionVerdict, decide_dropping, evaluated, judge,

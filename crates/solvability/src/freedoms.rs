@@ -24,9 +24,6 @@ use crate::mechanism::AnalysisError;
 use crate::state::{StateError, check_configuration};
 use connected::Connected;
 
-/// Motions that are told; of the others there is a count.
-pub const MOTIONS_TOLD: usize = 12;
-
 /// Rank and redundancy of the rows without those of drives.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WithoutDrives {

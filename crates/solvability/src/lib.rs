@@ -40,6 +40,7 @@ pub mod freedoms;
 pub mod generic;
 pub mod groups;
 mod large;
+mod limits;
 pub mod make_unique;
 pub mod matrices;
 mod meant;
@@ -78,12 +79,13 @@ pub use explain::{
 };
 pub use frames::{FrameForms, FrameVerdict, judge_frames};
 pub use freedoms::{
-    FreeMotion, FreeMotions, Freedoms, FreedomsWithoutDrives, LeftOut, MOTIONS_TOLD, WithoutDrives,
+    FreeMotion, FreeMotions, Freedoms, FreedomsWithoutDrives, LeftOut, WithoutDrives,
 };
-pub use generic::{Elsewhere, GENERIC_ROWS, Generic, generic, is_permanent};
+pub use generic::{Elsewhere, Generic, generic, is_permanent};
 pub use groups::{
     Configuration, Group, GroupVerdict, LinearForm, RequestError, Term, judge_groups,
 };
+pub use limits::{FRAGILE, KERNEL_MAX, MOTIONS_TOLD, MOVED, ONE_PART};
 pub use make_unique::{Allowed, Proposal, Proposals, make_unique};
 pub use matrices::{QueryError, Solvability};
 pub use mechanism::{
@@ -91,11 +93,11 @@ pub use mechanism::{
     decide_dropping, decide_holonomic,
 };
 pub use memory::memory_of_verdicts;
-pub use parts::{Extent, ONE_PART, PartAnalysis, PartDecision};
+pub use parts::{Extent, PartAnalysis, PartDecision};
 pub use questions::{EliminationError, Numbers, Questions};
 pub use rows::{RowDecision, Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows};
-pub use second_order::{Continuation, KERNEL_MAX, Undetermined, is_locked, second_order};
-pub use sensitivity::{Datum, FRAGILE, MOVED, Sensitivities, Sensitivity};
+pub use second_order::{Continuation, Undetermined, is_locked, second_order};
+pub use sensitivity::{Datum, Sensitivities, Sensitivity};
 pub use state::{State, StateError};
 pub use structure::structure;
 pub use units::{Nature, UnitCheck, UnitError, Units, check_units};

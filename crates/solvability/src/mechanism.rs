@@ -1,6 +1,7 @@
 //! Solvability of a mechanism at one configuration: ranks, and a verdict for every joint, drive,
 //! row and direction.
 
+use crate::limits::ROWS_MAX;
 use std::ops::Range;
 
 use linalg::Matrix;
@@ -10,7 +11,7 @@ use model::{ConstraintId, Known, Mechanism, Scratch, System};
 use rank::{KeptRowsError, RankDecision, RankError};
 
 use crate::analysis::Judged;
-use crate::certificate::{ROWS_MAX, Rows};
+use crate::certificate::Rows;
 use crate::freedoms::WithoutDrives;
 use crate::matrices::{Basis, QueryError, Solvability};
 use crate::parts::{Extent, PartAnalysis, PartDecision};
@@ -20,6 +21,9 @@ use crate::words;
 
 /// Components of a planar reaction that are forces; the torque follows.
 pub(crate) const TRANSLATIONS: usize = 2;
+
+/// Columns of C that a planar body has: two translations and its rotation.
+pub(crate) const COLUMNS: usize = 3;
 
 /// The verdict of a joint or drive.
 #[derive(Clone, Debug)]

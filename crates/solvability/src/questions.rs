@@ -7,13 +7,13 @@
 
 mod eliminations;
 
+use crate::limits::ROWS_MAX;
 use std::sync::{Arc, OnceLock};
 
 use model::{BodyRef, ConstraintId, Mechanism, System};
 use rayon::prelude::*;
 
 use crate::analysis::Analysis;
-use crate::certificate::ROWS_MAX;
 use crate::choices::{
     Choice, ChoiceError, Compliance, Distribution, Equations, Label, Solution, Value,
 };

@@ -2,6 +2,7 @@
 //! others agree with them. At the start they are those of the certificate; on the way other rows
 //! are chosen in `f64`, at the same rank.
 
+use crate::limits::{MOTION_CLEARANCE, ONE_ROUNDING, ROWS_MAX, SPARSE_FROM};
 use model::start::scene_size;
 use model::{Known, Mechanism, Scratch, System};
 use rank::{
@@ -9,9 +10,9 @@ use rank::{
     SparseRank,
 };
 
-use crate::certificate::{self, ROWS_MAX, inseparable};
+use crate::certificate::{self, inseparable};
 use crate::existence::{Contradiction, Ranks, contradictions};
-use crate::large::{SPARSE_FROM, decide_range};
+use crate::large::decide_range;
 use crate::mechanism::{
     AnalysisError, decide, decide_dropping, decide_holonomic, evaluated, uncertainty,
 };
@@ -181,14 +182,6 @@ impl DecidedPart {
     }
 }
 
-/// The factor between noise and tolerance of numbers in `f64`: that of [`rank::decide`].
-const NOISE_FACTOR: f64 = 10.0;
-/// By how much singular values must clear the tolerance: runs of the stress matrix keep their
-/// digits from a factor of thirty on.
-const CLEARANCE: f64 = 30.0;
-/// Data are known to several roundings, the numbers of a motion to one.
-const ONE_ROUNDING: f64 = f64::EPSILON / 2.0 / model::ROUNDING;
-
 /// Certified decisions as far as they hold for numbers in `f64` at the pose of the scratch:
 /// velocities and residuals of a motion, which are known to the rounding of its coordinates.
 fn in_double(
@@ -202,9 +195,9 @@ fn in_double(
         let rows: Vec<usize> = (0..decision.rank + decision.redundancy).collect();
         let known = ONE_ROUNDING * decision.scaling.apply(&known.select_rows(&rows)).max_abs();
         let entries = (rows.len() * decision.scaling.cols.len()) as f64;
-        let tolerance = NOISE_FACTOR * known.max(f64::EPSILON * entries.sqrt());
+        let tolerance = rank::NOISE_FACTOR * known.max(f64::EPSILON * entries.sqrt());
         // The rank is that of the certificate; numbers in `f64` may be too coarse to move by it.
-        let required = (CLEARANCE * tolerance).max(NEARLY_SINGULAR);
+        let required = (MOTION_CLEARANCE * tolerance).max(NEARLY_SINGULAR);
         let sigma = decision.evidence.sigma_r;
         let status = match decision.status {
             RankStatus::Decided if sigma < required => {

@@ -96,13 +96,6 @@ pub enum Undetermined {
     Open,
 }
 
-/// New motions that are examined at once.
-pub const KERNEL_MAX: usize = 4;
-
-/// The given motion may miss the equations by this share of their coefficients: its directions may
-/// come from neighbouring configurations.
-const REGULAR: f64 = 1e-6;
-
 /// Second-order test at time t, coordinates q on the constraints and velocities v with `C·v = b`,
 /// where `decision` is the rank there.
 ///

@@ -3,11 +3,6 @@
 
 use crate::RankDecision;
 
-/// Below this smallest singular value the rank as read stands, but the reactions it determines are
-/// large: of size 1/σ_r per unit of load, and anything known only to σ_r moves them by their own
-/// size.
-pub const NEARLY_REDUNDANT: f64 = 1e-3;
-
 /// The proof behind a rank, beside the numbers in [`Evidence`](crate::Evidence).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Certificate {

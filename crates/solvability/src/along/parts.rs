@@ -1,11 +1,11 @@
 //! A motion judged part by part: each set of joints on common cycles has a motion of its own, with
 //! its own passages.
 
+use crate::limits::ROWS_MAX;
 use model::{Mechanism, System};
 
 use super::{Along, AlongError, Passage, PassageKind, Stretch, judged_as_one, words};
 use crate::analysis::{Analysis, Judged};
-use crate::certificate::ROWS_MAX;
 use crate::parts::{Extent, Partition};
 use crate::second_order::Continuation;
 use crate::state::State;

@@ -10,6 +10,7 @@
 //! change that adds up they take nothing back. A gradient by the last pose is carried backwards to
 //! the data and to the pose where the walk began.
 
+use crate::limits::FOLLOWED;
 use linalg::{Matrix, PivotedQr};
 use model::{Mechanism, Scratch, System};
 
@@ -81,10 +82,6 @@ pub(super) struct Step {
 
 /// Substeps of a step, one number after the other until they agree.
 const SUBSTEPS: [usize; 4] = [2, 4, 6, 8];
-
-/// The difference of two results that agree, as a share of the size: what nonholonomic rows hold is
-/// met by nothing later, and must not be lost by steps that are too long.
-const AGREED: f64 = 1e-12;
 
 /// What a walk is made on.
 #[derive(Clone, Copy)]
@@ -162,7 +159,7 @@ impl Ground<'_> {
             let apart = apart
                 .map(|((a, b), unit)| ((a - b) / unit).abs())
                 .fold(0.0, f64::max);
-            if apart <= AGREED * self.size {
+            if apart <= FOLLOWED * self.size {
                 let there = self.mechanism.displaced(q, 1.0, best);
                 return Some((there, self.step(q, moved)));
             }
