@@ -5,7 +5,9 @@
 //! Not for motion: a run decides in `f64`, where a nearly redundant mechanism cannot be integrated
 //! anyway.
 
+use crate::error::AnalysisError;
 use crate::limits::{ASKED, COEFFICIENT_LARGE, ROWS_MAX, SAFELY, TOLERANCE_ROWS};
+use crate::pose::{dimensionless, evaluated, promising_holonomic};
 use std::borrow::Cow;
 
 use linalg::{DdMatrix, Matrix};
@@ -17,7 +19,6 @@ use rank::{
 };
 
 use crate::meant::{MeantMatrix, Nearness, Question, Reading};
-use crate::mechanism::{AnalysisError, dimensionless, evaluated, promising_holonomic};
 use crate::state::check_configuration;
 
 /// C of a mechanism without dimensions, with what its entries are known to.

@@ -8,6 +8,7 @@ mod minimise;
 mod value;
 
 use crate::limits::VALUE_ROUNDINGS;
+use crate::pose::dimensionless;
 use model::reaction::COMPONENTS;
 use model::{ConstraintId, System};
 use rank::{KeptRowsError, RankStatus};
@@ -19,7 +20,6 @@ pub use minimise::minimise;
 pub use value::{Label, Value};
 
 use crate::groups::{Configuration, LinearForm, RequestError, check};
-use crate::mechanism::dimensionless;
 use crate::parts::Extent;
 use crate::verdict::Verdict;
 use minimise::independent_columns;

@@ -10,13 +10,13 @@ mod demands;
 mod drives;
 
 use crate::limits::REST;
+use crate::pose::velocity_units;
 use std::collections::BTreeSet;
 
 use model::start::scene_size;
 use model::{ConstraintId, DataBlock, Mechanism, RowLabel, SHARED, Scratch, System};
 use rank::{Circuit, RankDecision};
 
-use crate::mechanism::velocity_units;
 use crate::state::{self, StateError};
 use crate::words;
 pub use demands::Demand;

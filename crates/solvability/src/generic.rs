@@ -9,13 +9,13 @@
 use crate::limits::{
     GENERIC_HALVINGS, GENERIC_STEP, GENERIC_STEPS, ONE_PART, POINTS, POINTS_APART, WALKS,
 };
+use crate::pose::velocity_units;
 use linalg::{Matrix, PivotedQr};
 use model::start::{Metric, nearest_configuration, scene_size};
 use model::{Mechanism, System};
 use rank::RankDecision;
 
 use crate::certificate::Rows;
-use crate::mechanism::velocity_units;
 
 /// Redundancy at other configurations of the same component.
 #[derive(Clone, Debug, PartialEq)]
@@ -162,7 +162,7 @@ fn has_lasting_function(mechanism: &Mechanism) -> bool {
 
 /// The rank at a point, if it is decided there.
 fn elsewhere(mechanism: &Mechanism, (t, q): &(f64, Vec<f64>), rows: &[usize]) -> Option<Elsewhere> {
-    let mut s = crate::mechanism::evaluated(mechanism, *t, q);
+    let mut s = crate::pose::evaluated(mechanism, *t, q);
     // Drives were left free: their rows say nothing of this configuration.
     for i in (0..mechanism.layout().m).filter(|i| !rows.contains(i)) {
         s.phi[i] = 0.0;

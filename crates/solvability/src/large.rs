@@ -5,7 +5,10 @@
 //! mechanism, at a cost that does not depend on the degree of redundancy. Dependencies are told
 //! where those rows that depend on others fall into small sets of cycles again.
 
+use crate::error::AnalysisError;
+use crate::judged::{Dependency, Judged, ReactionVerdict};
 use crate::limits::{ROWS_MAX, SPARE_COMBINATIONS};
+use crate::pose::evaluated;
 use std::ops::Range;
 
 use linalg::{Matrix, SparseMatrix, equilibrate_sparse};
@@ -13,10 +16,10 @@ use model::start::scene_size;
 use model::{ConstraintId, Known, Mechanism, Scratch, System};
 use rank::{Evidence, RankStatus, Sketch, SparseRank, SparseRankError, decide_sparse};
 
-use crate::analysis::{Judged, analyse};
+use crate::analysis::analyse;
 use crate::freedoms::WithoutDrives;
 use crate::matrices::{self, Basis};
-use crate::mechanism::{AnalysisError, Dependency, ReactionVerdict, Told, evaluated, reaction};
+use crate::mechanism::{Told, reaction};
 use crate::parts::{Extent, PartAnalysis, PartDecision, parts};
 
 /// A sparse decision of rows of C, and these rows.

@@ -1,11 +1,12 @@
 //! How much memory ranks and verdicts take, before it is taken.
 
+use crate::error::AnalysisError;
 use crate::limits::{DENSE_MATRICES, OF_VERDICT, ONE_PART, ROWS_MAX, SPARSE_FROM};
+use crate::pose::evaluated;
 use model::{Mechanism, System};
 use rank::SparsePattern;
 
 use crate::large::{blocks, rows_of, sketch_of};
-use crate::mechanism::{AnalysisError, evaluated};
 use crate::parts::parts;
 
 /// Bytes that ranks, kept rows and verdicts of a mechanism take at most, about, beside the

@@ -9,6 +9,8 @@
 //! it stands. Not here: how a part is judged.
 
 use crate::limits::{FIRST_NAMED, ONE_PART};
+use crate::pose::evaluated;
+use crate::row_decision::RowDecision;
 use std::borrow::Cow;
 
 use model::{BodyRef, Mechanism, Part, Places, Scratch, System};
@@ -16,8 +18,6 @@ use rank::{Certificate, Evidence, NearlyRedundant, RankDecision, RankStatus, cyc
 use rayon::prelude::*;
 
 use crate::freedoms::WithoutDrives;
-use crate::mechanism::evaluated;
-use crate::rows::RowDecision;
 use crate::words;
 
 /// Where a part is in its mechanism.

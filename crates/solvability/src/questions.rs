@@ -7,6 +7,7 @@
 
 mod eliminations;
 
+use crate::judged::ComponentVerdict;
 use crate::limits::ROWS_MAX;
 use std::sync::{Arc, OnceLock};
 
@@ -20,7 +21,6 @@ use crate::choices::{
 use crate::explain::{Explanation, ExplanationError, explain};
 use crate::frames::FrameVerdict;
 use crate::groups::{Configuration, Group, GroupVerdict, NO_REACTION, RequestError, Term, worst};
-use crate::mechanism::ComponentVerdict;
 use crate::parts::{ListedRows, PartAnalysis};
 use crate::units::{UnitCheck, UnitError, check_equations};
 use crate::verdict::{Judgement, Verdict};

@@ -2,128 +2,21 @@
 //! others agree with them. At the start they are those of the certificate; on the way other rows
 //! are chosen in `f64`, at the same rank.
 
+use crate::error::AnalysisError;
 use crate::limits::{MOTION_CLEARANCE, ONE_ROUNDING, ROWS_MAX, SPARSE_FROM};
+use crate::pose::{decide, decide_dropping, decide_holonomic, evaluated, uncertainty};
 use model::start::scene_size;
 use model::{Known, Mechanism, Scratch, System};
 use rank::{
     Doubt, Evidence, KeptRowsError, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankStatus,
-    SparseRank,
 };
 
 use crate::certificate::{self, inseparable};
 use crate::existence::{Contradiction, Ranks, contradictions};
 use crate::large::decide_range;
-use crate::mechanism::{
-    AnalysisError, decide, decide_dropping, decide_holonomic, evaluated, uncertainty,
-};
 use crate::parts::{Extent, ListedRows, Partition};
+use crate::row_decision::RowDecision;
 use crate::state::{StateError, check, check_configuration};
-
-/// Rank and rows to keep.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RowDecision {
-    /// r
-    pub rank: usize,
-    /// p
-    pub redundancy: usize,
-    /// r independent rows, ascending.
-    pub kept: Vec<usize>,
-    /// The others, ascending.
-    pub dropped: Vec<usize>,
-    /// Decided, or why not.
-    pub status: RankStatus,
-    /// Largest coefficient of a dependency that counts as zero.
-    pub support_tolerance: f64,
-}
-
-impl RowDecision {
-    /// Whether the rank is decided.
-    #[must_use]
-    pub fn is_decided(&self) -> bool {
-        self.status == RankStatus::Decided
-    }
-
-    /// Of nothing.
-    pub(crate) fn empty() -> Self {
-        Self {
-            rank: 0,
-            redundancy: 0,
-            kept: Vec::new(),
-            dropped: Vec::new(),
-            status: RankStatus::Decided,
-            support_tolerance: 0.0,
-        }
-    }
-
-    /// Adds the decision of a part; `row` tells which row of the whole is a row of the part.
-    pub(crate) fn add(&mut self, part: Self, row: impl Fn(usize) -> usize) {
-        self.rank += part.rank;
-        self.redundancy += part.redundancy;
-        self.kept.extend(part.kept.into_iter().map(&row));
-        self.dropped.extend(part.dropped.into_iter().map(&row));
-        if self.is_decided() {
-            self.status = part.status;
-        }
-        self.support_tolerance = self.support_tolerance.max(part.support_tolerance);
-    }
-
-    /// That of some of the rows, ascending, which no other row depends on: those of bodies that
-    /// nothing joins to others.
-    #[must_use]
-    pub fn of_rows(&self, rows: &[usize]) -> Self {
-        let own = |all: &[usize]| -> Vec<usize> {
-            let own = all.iter().filter_map(|row| rows.binary_search(row).ok());
-            own.collect()
-        };
-        let (kept, dropped) = (own(&self.kept), own(&self.dropped));
-        Self {
-            rank: kept.len(),
-            redundancy: dropped.len(),
-            kept,
-            dropped,
-            status: self.status,
-            support_tolerance: self.support_tolerance,
-        }
-    }
-
-    /// Puts the rows of several parts in order.
-    pub(crate) fn sort(&mut self) {
-        self.kept.sort_unstable();
-        self.dropped.sort_unstable();
-    }
-}
-
-impl From<&Self> for RowDecision {
-    fn from(decision: &Self) -> Self {
-        decision.clone()
-    }
-}
-
-impl From<&RankDecision> for RowDecision {
-    fn from(decision: &RankDecision) -> Self {
-        Self {
-            rank: decision.rank,
-            redundancy: decision.redundancy,
-            kept: decision.kept.clone(),
-            dropped: decision.dropped.clone(),
-            status: decision.status,
-            support_tolerance: rank::support_tolerance(decision),
-        }
-    }
-}
-
-impl From<&SparseRank> for RowDecision {
-    fn from(found: &SparseRank) -> Self {
-        Self {
-            rank: found.rank,
-            redundancy: found.redundancy,
-            kept: found.kept.clone(),
-            dropped: found.dropped.clone(),
-            status: found.status,
-            support_tolerance: found.noise(),
-        }
-    }
-}
 
 /// Rows of C, and of Φq alone, at one configuration, as they were decided there, part by part. The
 /// motion, the verdicts and the words take them from here.

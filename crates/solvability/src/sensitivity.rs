@@ -22,13 +22,13 @@ mod joined;
 mod tests;
 
 use crate::limits::{BEYOND, FRAGILE, MANY, ROWS_MAX};
+use crate::row_decision::RowDecision;
 use model::{ConstraintId, DataUnit, Layout, Mechanism, System};
 
 use crate::analysis::Analysis;
 use crate::choices::{ChoiceError, solution_under};
 use crate::groups::check;
 use crate::parts::{Extent, Partition};
-use crate::rows::RowDecision;
 use crate::words;
 use instant::Instant;
 use joined::{Joined, each_joined};

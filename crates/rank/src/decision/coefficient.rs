@@ -1,7 +1,7 @@
 //! Is a coefficient of the dependencies zero? The tolerance for T, Z and what is made of them, from
 //! the evidence of the rank.
 
-use super::RankDecision;
+use super::outcome::RankDecision;
 use crate::limits::{
     AS_READ, BEYOND_DOUBT, CERTAIN, COEFFICIENT_CLEARANCE, COMBINATION_SPREAD, NOISE_FACTOR,
     POSE_FACTOR, SOLVE_FACTOR, STATED_MAX, STATED_ZERO, TOLERANCE_MAX, VANISHED,

@@ -1,6 +1,6 @@
 //! What the entries of a matrix are known to, and the equilibration that goes with it.
 
-use super::RankError;
+use super::outcome::RankError;
 use crate::limits::SIGNIFICANT;
 use linalg::{Matrix, Scaling, equilibrate};
 

@@ -23,10 +23,11 @@
 use crate::limits::{LEFT, REFLECTORS_WIDTH, WORK_MAX};
 use std::ops::Range;
 
-use super::factor::{SparseQr, Tolerances, Wanted};
+use super::factor::{SparseQr, Tolerances};
 use super::front::OutsidePattern;
 use super::sketch::{Sketch, sketch};
 use super::smallest::smallest_singular_value;
+use super::symbolic::Wanted;
 use super::symbolic::{Symbolic, TooDense};
 use crate::decision::{required, tolerance};
 use crate::{RankError, RankStatus};

@@ -13,9 +13,15 @@
 use crate::limits::{SMALL_FRONT, WORK_MAX};
 use std::ops::Range;
 
-use super::factor::Wanted;
 use crate::structure::partition;
 use linalg::{EliminationTree, SparseMatrix};
+
+/// Which factor is kept; the other one is not stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    Q,
+    R,
+}
 
 /// Operations, counted or estimated, when the limit was passed.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,9 +1,11 @@
 //! Instants at which a reaction is unique that is not unique almost always, at the same rank: its
 //! margin falls to zero and rises again.
 
+use super::compare::{differences, verdicts};
+use super::data::{AlongError, Passage, PassageKind, Stretch};
 use super::passages::local_minima;
 use super::path::{Path, Sample};
-use super::{AlongError, Passage, PassageKind, Stretch, differences, search, verdicts, words};
+use super::{search, words};
 use crate::analysis::Analysis;
 use crate::limits::FINER;
 use crate::state::State;

@@ -3,6 +3,7 @@
 use crate::limits::{
     BENT, BESIDE_PASSAGE, MAY_PASS, MINIMUM_LOWER, OVERLAP, SAMPLE_HALVINGS, SINGULAR_INSTANT,
 };
+use crate::pose::velocity_units;
 use linalg::{Matrix, PivotedQr, least_squares_step};
 use model::{Mechanism, System};
 use rank::RankStatus;
@@ -10,10 +11,11 @@ use rank::RankStatus;
 use super::border::Border;
 use rank::NEARLY_REDUNDANT;
 
+use super::compare::differences;
+use super::data::{AlongError, Passage, PassageKind, Stretch};
 use super::path::{Path, Point, Sample, singular_value};
-use super::{AlongError, Passage, PassageKind, Stretch, differences, search, words};
+use super::{search, words};
 use crate::analysis::Analysis;
-use crate::mechanism::velocity_units;
 use crate::second_order::{Continuation, Undetermined, second_order};
 use crate::state::State;
 

@@ -1,17 +1,17 @@
 //! States of a motion on the constraints, and the samples that were taken of it.
 
+use crate::error::AnalysisError;
 use crate::limits::REGULAR_SAMPLE;
+use crate::pose::{dimensionless, evaluated, uncertainty};
 use linalg::{Matrix, Scaling};
 use model::start::{Metric, nearest_configuration, scene_size};
 use model::{Mechanism, Scratch, System};
 use rank::RankDecision;
 
-use super::AlongError;
+use super::data::AlongError;
 use crate::analysis::Analysis;
 use crate::certificate::Rows;
-use crate::mechanism::{
-    AnalysisError, Told, dimensionless, evaluated, judge, judge_reactions, uncertainty,
-};
+use crate::mechanism::{Told, judge, judge_reactions};
 use crate::state::{self, State};
 
 /// A motion of a mechanism.

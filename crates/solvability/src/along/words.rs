@@ -1,6 +1,6 @@
 //! Passages and stretches as sentences.
 
-use super::{Difference, Part, Passage, PassageKind, Stretch};
+use super::data::{Difference, Part, Passage, PassageKind, Stretch};
 use crate::analysis::Analysis;
 use crate::limits::{GIVEN_DIGITS, SEARCHED_DIGITS};
 

@@ -2,6 +2,8 @@
 //! decision, the dropped ones zero.
 
 use crate::limits::{AGREEMENT, ROWS_MAX};
+use crate::pose::velocity_units;
+use crate::row_decision::RowDecision;
 use linalg::{KeptRowSaddle, Matrix, SchurSaddle, SchurStructure};
 use model::{ColumnKind, Mechanism, Scratch, System};
 use rank::RankStatus;
@@ -9,9 +11,7 @@ use rank::RankStatus;
 use super::ChoiceError;
 use crate::groups::{RequestError, check};
 use crate::large::{blocks, rows_of};
-use crate::mechanism::velocity_units;
 use crate::parts::Extent;
-use crate::rows::RowDecision;
 
 /// `M·a + Cᵀ·λ = Q`, `C·a = Γ` at one instant.
 ///

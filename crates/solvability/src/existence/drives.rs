@@ -2,7 +2,9 @@
 //! come first: a redundant row is that of a drive where it can be, so that what misses is what a
 //! drive asks for, and no joint is blamed, however much drives differ.
 
+use crate::error::AnalysisError;
 use crate::limits::{DRIVE_HALVINGS, DRIVE_POSITIONS, DRIVE_STEPS, ONE_PART, RUNS_NOTICE, STRIDE};
+use crate::pose::{dimensionless, uncertainty};
 use linalg::Matrix;
 use model::start::{Metric, nearest_configuration, scene_size};
 use model::{ConstraintId, Mechanism, RowLabel, Scratch, System};
@@ -10,7 +12,6 @@ use rank::{RankDecision, circuits, components, decide_keeping};
 
 use super::{Comparison, ConstraintLevel, Contradiction};
 use crate::generic::{Elsewhere, generic};
-use crate::mechanism::{AnalysisError, dimensionless, uncertainty};
 use crate::state::check_configuration;
 
 /// Contradictions between drives and what else holds at time t and coordinates q, positions before

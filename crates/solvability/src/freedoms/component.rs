@@ -2,6 +2,7 @@
 //! each.
 
 use crate::limits::{AT_REST, TRIALS};
+use crate::pose::{COLUMNS, dimensionless, evaluated, velocity_units};
 use std::cmp::Reverse;
 use std::collections::VecDeque;
 
@@ -10,7 +11,6 @@ use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 
 use super::basis::{Form, Space, Subspace};
-use crate::mechanism::{COLUMNS, dimensionless, evaluated, velocity_units};
 
 /// Connected bodies at a configuration, as a mechanism of their own.
 pub(super) struct Component<'a> {

@@ -1,7 +1,7 @@
 //! Bodies that joints connect: sets with ranks of their own, told one after the other.
 
 use crate::limits::{MOTIONS_TOLD, ROWS_MAX};
-use crate::mechanism::COLUMNS;
+use crate::pose::COLUMNS;
 use model::{Mechanism, Part, System};
 
 use super::component::{Component, shared_rank};

@@ -9,7 +9,8 @@ use std::ops::Range;
 use linalg::{Matrix, PivotedQr};
 use rank::{CoefficientReading, ExactNullSpace, RankStatus, Readings};
 
-use super::{Mapped, QueryError};
+use super::Mapped;
+use super::error::QueryError;
 use crate::verdict::Judgement;
 
 /// Rows, what spans their part of the left null space, and how well both are known.

@@ -7,8 +7,8 @@ use crate::limits::{LARGEST_ROUNDING, LARGEST_TURN, ROUNDING_OF_MAP};
 use linalg::{Matrix, PivotedQr};
 use rank::{CoefficientReading, ExactNullSpace, RankStatus};
 
-use super::QueryError;
 use super::basis::{Basis, Noise, check_coefficients, combination, norm};
+use super::error::QueryError;
 use crate::verdict::{Judgement, Verdict};
 
 /// Why a component is open that the data do not tell from zero.

@@ -11,10 +11,9 @@
 //! the data and to the pose where the walk began.
 
 use crate::limits::FOLLOWED;
+use crate::pose::dimensionless;
 use linalg::{Matrix, PivotedQr};
 use model::{Mechanism, Scratch, System};
-
-use crate::mechanism::dimensionless;
 
 /// Rows that hold, independent and scaled.
 pub(super) struct Followed {
@@ -99,7 +98,7 @@ pub(super) struct Ground<'a> {
 impl Ground<'_> {
     /// C without dimensions at a configuration.
     fn at(&self, q: &[f64]) -> (Scratch, Matrix) {
-        let s = crate::mechanism::evaluated(self.mechanism, self.t, q);
+        let s = crate::pose::evaluated(self.mechanism, self.t, q);
         let c = dimensionless(self.mechanism, &s, self.size);
         (s, c)
     }

@@ -5,12 +5,11 @@
 //! the block of a joint's force rows, or of its moment rows, in the columns of the translation or
 //! of the rotation of one body. Each of these has one scale.
 
+use crate::pose::{COLUMNS, TRANSLATIONS, dimensionless};
 use std::ops::Range;
 
 use linalg::{DdMatrix, Matrix, Scaling, equilibrate_blocks};
 use model::{Known, Mechanism, Scratch, System};
-
-use crate::mechanism::{COLUMNS, TRANSLATIONS, dimensionless};
 
 /// C without dimensions with what its entries are known to.
 #[derive(Clone, Debug)]

@@ -144,7 +144,7 @@ impl Question<'_> {
         let scaled = match away.farthest() {
             None => lowest.scaled.clone(),
             Some(q) => {
-                let s = crate::mechanism::evaluated(self.mechanism, self.s.t, q);
+                let s = crate::pose::evaluated(self.mechanism, self.s.t, q);
                 lowest.scaling.apply(&self.dimensionless(&s))
             }
         };
@@ -220,7 +220,7 @@ impl Lower<'_> {
         let is_led = self.rows(held).iter().any(|&row| row >= m);
         let mut poses = vec![self.at(self.question.s, held, &[])];
         for (q, way) in walked.poses() {
-            let s = crate::mechanism::evaluated(self.question.mechanism, self.question.s.t, q);
+            let s = crate::pose::evaluated(self.question.mechanism, self.question.s.t, q);
             poses.push(self.at(&s, held, &way.collect::<Vec<_>>()));
         }
         let share = self.change(&poses, 1.0, Start::Known);

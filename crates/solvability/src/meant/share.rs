@@ -2,13 +2,13 @@
 //! they make of dependencies.
 
 use crate::limits::{ENTRY_ROUNDINGS, PAIRS};
+use crate::pose::{COLUMNS, dimensionless};
 use linalg::{Matrix, Scaling, small_svd};
 use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch};
 use rank::RankDecision;
 
 use super::cone::{Bounds, Equation, least_change};
 use super::pose::{Candidate, Pose};
-use crate::mechanism::{COLUMNS, dimensionless};
 
 /// A mechanism at a pose, some of whose rows are judged.
 pub(crate) struct Question<'a> {

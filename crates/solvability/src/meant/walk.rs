@@ -4,13 +4,13 @@
 use crate::limits::{
     OTHER_DIRECTIONS, WALK_CORRECTED, WALK_POSES, WALK_REACH, WALK_SMALL_STEPS, WALK_STEPS,
 };
+use crate::pose::{dimensionless, velocity_units};
 use linalg::Matrix;
 use model::start::{Metric, nearest_configuration};
 
 use super::follow::{Ground, Step};
 use super::pose::Candidate;
 use super::share::Question;
-use crate::mechanism::{dimensionless, velocity_units};
 
 /// Poses of a mechanism.
 pub(super) struct Walk {
@@ -89,7 +89,7 @@ fn step(
     heading: &mut Option<Vec<f64>>,
 ) -> Option<Option<Step>> {
     let (mechanism, units) = (ground.mechanism, ground.units);
-    let s = crate::mechanism::evaluated(mechanism, ground.t, q);
+    let s = crate::pose::evaluated(mechanism, ground.t, q);
     let free = free_directions(&dimensionless(mechanism, &s, ground.size), ground.kept);
     let direction = match heading.take() {
         // What is free of the last step.

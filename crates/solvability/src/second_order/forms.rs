@@ -5,13 +5,13 @@
 //! the regular motions and y the new ones. Both are orthonormal in dimensionless velocities.
 
 use crate::limits::{FORM_ROUNDING, KERNEL_MAX, REGULAR};
+use crate::pose::{dimensionless, evaluated, velocity_units};
 use linalg::{Matrix, PivotedQr};
 use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
 
-use super::Undetermined;
-use crate::mechanism::{dimensionless, evaluated, velocity_units};
+use super::undetermined::Undetermined;
 
 /// The forms, divided by their largest coefficient.
 pub(super) struct Forms {

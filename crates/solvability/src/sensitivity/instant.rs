@@ -2,6 +2,7 @@
 //! by all data.
 
 use crate::limits::{LOAD_ROUNDING, MOVED, PIECE, SAME_EFFECT};
+use crate::pose::{COLUMNS, velocity_units};
 use std::borrow::Cow;
 
 use linalg::{KeptRowSaddle, Matrix, PivotedQr};
@@ -11,7 +12,6 @@ use model::{ColumnKind, ConstraintId, DataBlock, DataGradients, DataUnit, Mechan
 use super::joined::Joined;
 use super::{Datum, Sensitivity};
 use crate::choices::ChoiceError;
-use crate::mechanism::{COLUMNS, velocity_units};
 
 /// Angle between the directions of successive unit loads (rad): the golden one, which comes near no
 /// simple fraction of a turn.

@@ -3,7 +3,7 @@
 //! Springs connect nothing here. What they carry is a load, and how it changes where the bodies of
 //! a set move belongs to the set; the bodies at their other ends stay where they are.
 
-use crate::mechanism::COLUMNS;
+use crate::pose::COLUMNS;
 use std::borrow::Cow;
 
 use model::{Mechanism, System};
