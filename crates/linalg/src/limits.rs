@@ -29,12 +29,12 @@ pub(crate) const ZERO_SQUARED: f64 = 1e-150;
 /// number. Test: none.
 pub(crate) const QR_STEPS_EACH: usize = 60;
 
+#[cfg(feature = "faer")]
 /// Smaller dimension from which faer finds singular values: up to about 200 our own kernel is
 /// faster, at 400 it takes 1.4 times as long, at 600 1.5 times (measured by
 /// `cargo run --release -p pfaff-linalg --features faer --example timings`). Our own gives the same
 /// bits on every processor, which faer's run-time choice of instructions does not.
 /// Unit: rows or columns. Less: other bits on other processors. More: time. Test: none.
-#[cfg(feature = "faer")]
 pub(crate) const FAER_FROM: usize = 256;
 
 /// A downdated norm is recomputed once cancellation has eaten half of its digits: √eps.

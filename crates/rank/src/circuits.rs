@@ -6,6 +6,7 @@
 //! `Z·y` that vanishes on a hyperplane of the dual, so the hyperplanes list all circuits, and the
 //! short ones among them say the same in fewer rows.
 
+use crate::limits::{HYPERPLANES_MAX, PIVOT_MIN};
 use std::cmp::Ordering;
 
 use crate::decision::{Size, size};
@@ -81,13 +82,6 @@ pub fn short_circuits(decision: &RankDecision) -> Vec<Circuit> {
     found.sort_by(by_length);
     found.iter().map(|z| circuit(decision, z)).collect()
 }
-
-/// Hyperplanes of one component that are tried at most.
-const HYPERPLANES_MAX: usize = 20_000;
-
-/// Vectors that span a hyperplane by less than this do not say where it lies: small coefficients
-/// would drown in the noise.
-const PIVOT_MIN: f64 = 1e-4;
 
 /// Equilibrated coefficients by row, zeros left out.
 type Sparse = Vec<(usize, f64)>;

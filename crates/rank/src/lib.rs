@@ -5,6 +5,7 @@ mod circuits;
 mod decision;
 mod deletions;
 mod dual;
+mod limits;
 mod null_space;
 mod prime_field;
 mod sparse;
@@ -15,12 +16,16 @@ mod weakest;
 pub use circuits::{Circuit, circuits, short_circuits};
 pub use decision::{
     Certificate, CoefficientReading, Doubt, Evidence, ExactNullSpace, Grounds, KeptRowsError,
-    NEARLY_REDUNDANT, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankError, RankReading,
-    RankStatus, Readings, Uncertainty, certify_exact, certify_rank, certify_within, decide,
-    decide_dropping, decide_keeping, promising_rows,
+    NearlyRedundant, RankDecision, RankError, RankReading, RankStatus, Readings, Uncertainty,
+    certify_exact, certify_rank, certify_within, decide, decide_dropping, decide_keeping,
+    promising_rows,
 };
 pub use deletions::{
     DeletionError, Limits, Substitutes, count_deletions, deletions, making_unique,
+};
+pub use limits::{
+    BEYOND_DOUBT, COEFFICIENT_ROUNDING, HIDDEN, NEARLY_REDUNDANT, NEARLY_SINGULAR, NOISE_FACTOR,
+    NOT_ROUNDING, SIGNIFICANT, STATED_ZERO,
 };
 pub use null_space::{
     Components, components, dependencies, open_rows, orthonormal, support_tolerance,

@@ -4,6 +4,7 @@
 //! Columns z with `Cᵀ·z = 0` are the self-stresses: multipliers may change by them without any
 //! force on any body. Not here: verdicts on joints and reactions, which need the grouping of rows.
 
+use crate::limits::COEFFICIENT_ROUNDING;
 use crate::{CoefficientReading, RankDecision};
 use linalg::{Matrix, PivotedQr, kernels};
 
@@ -79,7 +80,7 @@ pub fn open_rows(decision: &RankDecision) -> Vec<usize> {
     }
     // Open rows belong to all that their coefficients touch.
     for (noise, _) in support.noise.iter_mut().zip(&support.open).filter(|x| *x.1) {
-        *noise = TOUCHES;
+        *noise = COEFFICIENT_ROUNDING;
     }
     let is_open = |row: &usize| match decision.kept.binary_search(row) {
         Ok(i) => support.open[i],
@@ -93,9 +94,6 @@ pub fn open_rows(decision: &RankDecision) -> Vec<usize> {
     rows.sort_unstable();
     rows
 }
-
-/// Coefficients below this are rounding, whatever is stated.
-const TOUCHES: f64 = 1e-12;
 
 fn components_of(decision: &RankDecision, support: &Support) -> Components {
     let m = decision.rank + decision.redundancy;

@@ -13,6 +13,7 @@
 //! 519–521; the bases of the primality test after J. Sorenson, J. Webster, Strong pseudoprimes to
 //! twelve prime bases, Math. Comp. 86 (2017) 985–1003.
 
+use crate::limits::PRIMES_READY;
 use std::sync::LazyLock;
 
 /// Integers modulo an odd prime below 2⁶². Elements are [`Residue`]s.
@@ -129,17 +130,11 @@ impl PrimeField {
     }
 }
 
-/// Primes made once; more are made when they are asked for.
-const READY: usize = 64;
-
-/// Bits of every prime: `2⁶¹ < p < 2⁶²`.
-pub(crate) const PRIME_BITS: u32 = 61;
-
 /// Fields of different primes, always in the same order.
 pub(crate) fn fields() -> impl Iterator<Item = PrimeField> {
     static FIRST: LazyLock<(Vec<PrimeField>, Stream)> = LazyLock::new(|| {
         let mut stream = Stream(0x243f_6a88_85a3_08d3); // digits of π
-        ((&mut stream).take(READY).collect(), stream)
+        ((&mut stream).take(PRIMES_READY).collect(), stream)
     });
     let (ready, more) = &*FIRST;
     ready.iter().copied().chain(more.clone())
@@ -198,6 +193,7 @@ fn is_prime(n: u64) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::limits::PRIME_BITS;
 
     /// Against `u128` remainders, and Fermat's theorem through the inverse.
     #[test]
@@ -240,7 +236,7 @@ mod tests {
 
     #[test]
     fn primes_differ_and_have_their_bits() {
-        let mut primes: Vec<u64> = fields().take(READY + 3).map(PrimeField::p).collect();
+        let mut primes: Vec<u64> = fields().take(PRIMES_READY + 3).map(PrimeField::p).collect();
         assert!(
             primes
                 .iter()
@@ -248,6 +244,6 @@ mod tests {
         );
         primes.sort_unstable();
         primes.dedup();
-        assert_eq!(primes.len(), READY + 3);
+        assert_eq!(primes.len(), PRIMES_READY + 3);
     }
 }

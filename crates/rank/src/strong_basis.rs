@@ -11,14 +11,8 @@
 //! Source: M. Gu, S. C. Eisenstat, Efficient algorithms for computing a strong rank-revealing QR
 //! factorization, SIAM J. Sci. Comput. 17 (1996) 848–869, algorithm 4 with f = 2.
 
+use crate::limits::{COEFFICIENT_BOUND, EXCHANGE_ROUNDS};
 use linalg::{Matrix, PivotedQr, kernels};
-
-/// The bound f of Gu and Eisenstat: |T_ji| ≤ f.
-pub(crate) const COEFFICIENT_BOUND: f64 = 2.0;
-
-/// Rounds of "factor, then exchange". Exchanges within a round work on an updated T; a further
-/// round is needed only if its rounding errors mattered.
-pub(crate) const ROUNDS_MAX: usize = 8;
 
 /// A partition of the rows into a basis K and the rest D.
 pub(crate) struct Basis {
@@ -53,7 +47,7 @@ impl Basis {
 /// Improves the basis `kept` of `c` by exchanges until `|T_ji| ≤ 2`.
 pub(crate) fn bounded(c: &Matrix, mut kept: Vec<usize>) -> Basis {
     let mut basis = express(c, kept);
-    for _ in 0..ROUNDS_MAX {
+    for _ in 0..EXCHANGE_ROUNDS {
         if basis.t.max_abs() <= COEFFICIENT_BOUND {
             break;
         }

@@ -18,6 +18,7 @@
 
 mod cycles;
 mod graph;
+mod incidence;
 mod peel;
 #[cfg(test)]
 mod tests;
@@ -27,20 +28,12 @@ use std::ops::Range;
 use crate::{RankError, Uncertainty};
 use linalg::Matrix;
 
-pub use cycles::cycles;
+use incidence::Incidence;
 
-/// Rows that belong together, as those of a joint.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct RowGroup {
-    /// Its rows of C.
-    pub rows: Range<usize>,
-    /// Whether it acts between its blocks and the ground, not only among its blocks.
-    ///
-    /// `false` promises that its rows vanish on every rigid motion that its blocks have in common,
-    /// and that a rigid motion of one block has as many freedoms as the block has columns. Without
-    /// the promise say `true`: fewer bridges are found then.
-    pub ground: bool,
-}
+pub use cycles::cycles;
+pub use incidence::{Part, RowGroup};
+
+pub(crate) use incidence::partition;
 
 /// What is known of a row or group before any rank of the whole.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -51,17 +44,6 @@ pub enum Settled {
     Bridge,
     /// Open; the number of its part in [`Structure::open`].
     Open(usize),
-}
-
-/// Blocks and groups that have nothing to do with the others.
-#[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Part {
-    /// Groups, ascending.
-    pub groups: Vec<usize>,
-    /// Rows of these groups that are to be judged together, ascending.
-    pub rows: Vec<usize>,
-    /// Blocks that these rows touch, ascending.
-    pub blocks: Vec<usize>,
 }
 
 /// What the pattern settles.
@@ -153,95 +135,4 @@ pub fn structure<'a>(
         parts,
         open,
     })
-}
-
-/// Rows, groups and blocks, and which rows are still in play.
-struct Incidence {
-    /// The equilibrated matrix.
-    c: Matrix,
-    /// Columns of each block.
-    blocks: Vec<Vec<usize>>,
-    /// The groups as given; then one for each row of no group.
-    groups: Vec<Group>,
-    /// Blocks that each row touches, ascending.
-    touches: Vec<Vec<usize>>,
-    /// Rows not settled yet.
-    active: Vec<bool>,
-}
-
-struct Group {
-    rows: Vec<usize>,
-    ground: bool,
-}
-
-impl Incidence {
-    fn new(c: Matrix, groups: &[RowGroup], blocks: &[Range<usize>]) -> Self {
-        let grouped = groups.iter().map(|g| &g.rows);
-        let rows_of = partition(c.nrows(), grouped);
-        let ground = |k: usize| groups.get(k).is_none_or(|g| g.ground);
-        let blocks = partition(c.ncols(), blocks.iter());
-        let mut block_of = vec![0; c.ncols()];
-        for (b, columns) in blocks.iter().enumerate() {
-            columns.iter().for_each(|&column| block_of[column] = b);
-        }
-        let touches = |i: usize| {
-            let entries = c.row(i).iter().zip(&block_of);
-            let mut touched: Vec<usize> = entries
-                .filter(|(entry, _)| **entry != 0.0)
-                .map(|(_, b)| *b)
-                .collect();
-            touched.sort_unstable();
-            touched.dedup();
-            touched
-        };
-        let touches = (0..c.nrows()).map(touches).collect();
-        Self {
-            active: vec![true; c.nrows()],
-            c,
-            blocks,
-            groups: rows_of
-                .into_iter()
-                .enumerate()
-                .map(|(k, rows)| Group {
-                    rows,
-                    ground: ground(k),
-                })
-                .collect(),
-            touches,
-        }
-    }
-
-    /// Rows of a group that are still in play.
-    fn remaining(&self, group: usize) -> Vec<usize> {
-        let rows = self.groups[group].rows.iter().copied();
-        rows.filter(|&row| self.active[row]).collect()
-    }
-
-    /// Blocks that the remaining rows of a group touch, ascending.
-    fn blocks_of(&self, group: usize) -> Vec<usize> {
-        let rows = self.remaining(group);
-        let mut blocks: Vec<usize> = rows
-            .iter()
-            .flat_map(|&row| self.touches[row].iter().copied())
-            .collect();
-        blocks.sort_unstable();
-        blocks.dedup();
-        blocks
-    }
-}
-
-/// `0..n` split by ranges, the first range that has a number takes it; then one set for each number
-/// in no range.
-pub(crate) fn partition<'a>(
-    n: usize,
-    ranges: impl Iterator<Item = &'a Range<usize>>,
-) -> Vec<Vec<usize>> {
-    let mut free = vec![true; n];
-    let mut sets = Vec::new();
-    for range in ranges {
-        let cut = range.start.min(n)..range.end.min(n);
-        sets.push(cut.filter(|&k| std::mem::take(&mut free[k])).collect());
-    }
-    sets.extend((0..n).filter(|&k| free[k]).map(|k| vec![k]));
-    sets
 }

@@ -1,10 +1,8 @@
 //! The combination of rows that comes closest to zero: what nearly depends on each other, and by
 //! how much.
 
+use crate::limits::{DIRECTION_ROUNDING, INVERSE_ITERATIONS};
 use linalg::{Matrix, PivotedQr, kernels};
-
-/// Share of the longest direction below which one is rounding.
-const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 /// Weights of rows that nearly cancel.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,9 +12,6 @@ pub struct WeakestCombination {
     /// Unit weights of the rows.
     pub weights: Vec<f64>,
 }
-
-/// Inverse iterations; each gains the square of the gap between the two smallest singular values.
-const ITERATIONS: usize = 3;
 
 /// The smallest singular value of rows and its left singular vector, by inverse iteration with
 /// `C·Cᵀ = P·Rᵀ·R·Pᵀ`. Where rows are dependent to the last digit of `f64`, by one with
@@ -39,7 +34,7 @@ pub fn weakest_combination(rows: &Matrix) -> Option<WeakestCombination> {
 fn beside_rounding(rows: &Matrix) -> Matrix {
     let (r, n) = (rows.nrows(), rows.ncols());
     let largest = (0..r).map(|i| kernels::norm(rows.row(i)));
-    let rounding = ROUNDING * largest.fold(0.0, f64::max);
+    let rounding = DIRECTION_ROUNDING * largest.fold(0.0, f64::max);
     Matrix::from_fn(r, n + r, |i, j| match j.checked_sub(n) {
         None => rows[(i, j)],
         Some(k) if k == i => rounding,
@@ -56,7 +51,7 @@ fn by_inverse_iteration(rows: &Matrix) -> Option<WeakestCombination> {
     // Any start has a part along the weakest combination.
     let mut y: Vec<f64> = (0..r).map(|i| 1.0 + i as f64 / 7.0).collect();
     let mut growth = 0.0;
-    for _ in 0..ITERATIONS {
+    for _ in 0..INVERSE_ITERATIONS {
         let size = kernels::norm(&y);
         y.iter_mut().for_each(|y| *y /= size);
         qr.solve_r_transpose(&mut y);
@@ -88,7 +83,7 @@ mod tests {
             assert!((a.abs() - 0.5_f64.sqrt()).abs() < 1e-9 && (a + b).abs() < 1e-9);
             assert!(other.abs() < 1e-9, "{other}");
             assert!(
-                weakest.sigma <= 2.0 * ROUNDING * 1.5 * scale,
+                weakest.sigma <= 2.0 * DIRECTION_ROUNDING * 1.5 * scale,
                 "{}",
                 weakest.sigma
             );

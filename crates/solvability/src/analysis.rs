@@ -1,6 +1,11 @@
 //! Ranks and verdicts of one configuration of a mechanism of any size: those of its parts, added up
 //! and numbered as in the whole.
 
+use crate::error::AnalysisError;
+use crate::judged::{Dependency, Judged, ReactionVerdict};
+use crate::limits::ROWS_MAX;
+use crate::pose::{decide_dropping, evaluated};
+use crate::row_decision::RowDecision;
 use std::borrow::Cow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -10,13 +15,11 @@ use model::{ConstraintId, Known, Mechanism, System, Tolerance};
 use rank::{Evidence, KeptRowsError, NearlyRedundant, RankDecision};
 use rayon::prelude::*;
 
-use crate::certificate::{ROWS_MAX, Rows};
+use crate::certificate::Rows;
 use crate::large::judge_sparse;
-use crate::mechanism::{
-    AnalysisError, Dependency, ReactionVerdict, decide_dropping, evaluated, judge,
-};
+use crate::mechanism::judge;
 use crate::parts::{Extent, ListedRows, PartAnalysis, Partition};
-use crate::rows::{RowDecision, told_of_whole};
+use crate::rows::told_of_whole;
 use crate::state::check_configuration;
 
 /// The verdicts of one configuration.
@@ -192,39 +195,6 @@ impl Analysis {
         analysis.decision.sort();
         analysis.reactions.sort_unstable_by_key(|r| r.id.0);
         analysis
-    }
-}
-
-/// What is found of a part, in numbers of the part until it is placed.
-pub(crate) struct Judged {
-    pub(crate) part: PartAnalysis,
-    pub(crate) reactions: Vec<ReactionVerdict>,
-    pub(crate) dependencies: Vec<Dependency>,
-    pub(crate) warnings: Vec<String>,
-}
-
-impl Judged {
-    /// The same in numbers of the whole; warnings say of which part they are.
-    pub(crate) fn placed(mut self, whole: &Mechanism, extent: Extent) -> Self {
-        if extent.is_whole() {
-            return self;
-        }
-        for reaction in &mut self.reactions {
-            reaction.id = ConstraintId(extent.group(reaction.id.0));
-            for row in &mut reaction.rows {
-                row.row = extent.row(row.row);
-            }
-        }
-        for dependency in &mut self.dependencies {
-            for row in &mut dependency.rows {
-                *row = extent.row(*row);
-            }
-        }
-        for warning in &mut self.warnings {
-            *warning = format!("{}: {warning}", extent.name(whole));
-        }
-        self.part.extent = extent;
-        self
     }
 }
 

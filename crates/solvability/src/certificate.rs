@@ -5,6 +5,9 @@
 //! Not for motion: a run decides in `f64`, where a nearly redundant mechanism cannot be integrated
 //! anyway.
 
+use crate::error::AnalysisError;
+use crate::limits::{ASKED, COEFFICIENT_LARGE, ROWS_MAX, SAFELY, TOLERANCE_ROWS};
+use crate::pose::{dimensionless, evaluated, promising_holonomic};
 use std::borrow::Cow;
 
 use linalg::{DdMatrix, Matrix};
@@ -16,24 +19,7 @@ use rank::{
 };
 
 use crate::meant::{MeantMatrix, Nearness, Question, Reading};
-use crate::mechanism::{AnalysisError, dimensionless, evaluated, promising_holonomic};
 use crate::state::check_configuration;
-
-/// Rows up to which a rank is certified: the work grows with their cube.
-pub(crate) const ROWS_MAX: usize = 600;
-
-/// Rows up to which coefficients are read to a stated tolerance: the work grows with the number of
-/// rows times that of dependencies, and with the cube of both.
-const TOLERANCE_ROWS: usize = 200;
-
-/// Coefficients that are larger belong to their dependency beyond doubt.
-const SMALL: f64 = 1e-3;
-
-/// Coefficients below this share of their noise are zero beyond doubt.
-const SAFELY: f64 = 0.1;
-
-/// Coefficients of which it is asked what the rounding of the data makes of them.
-const ASKED: usize = 2_000;
 
 /// C of a mechanism without dimensions, with what its entries are known to.
 pub(crate) struct Rows<'a> {
@@ -168,7 +154,7 @@ impl<'a> Rows<'a> {
             let column = (0..t.nrows()).map(|j| t[(j, k)].abs());
             column
                 .into_iter()
-                .any(|x| (SAFELY * noise..SMALL).contains(&x))
+                .any(|x| (SAFELY * noise..COEFFICIENT_LARGE).contains(&x))
         };
         let rows = 0..decision.rank + decision.redundancy;
         let asked: Vec<usize> = rows.filter(|&i| has_tolerance || is_open(i)).collect();

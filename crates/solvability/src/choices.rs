@@ -7,6 +7,8 @@ mod error;
 mod minimise;
 mod value;
 
+use crate::limits::VALUE_ROUNDINGS;
+use crate::pose::dimensionless;
 use model::reaction::COMPONENTS;
 use model::{ConstraintId, System};
 use rank::{KeptRowsError, RankStatus};
@@ -18,7 +20,6 @@ pub use minimise::minimise;
 pub use value::{Label, Value};
 
 use crate::groups::{Configuration, LinearForm, RequestError, check};
-use crate::mechanism::dimensionless;
 use crate::parts::Extent;
 use crate::verdict::Verdict;
 use minimise::independent_columns;
@@ -174,9 +175,6 @@ impl Distribution {
     }
 }
 
-/// A number is known to so many roundings of the largest multiplier, each measured by its row.
-const ROUNDINGS: f64 = 4.0;
-
 impl Configuration<'_> {
     /// The distribution that a choice makes of one solution λ₀, as [`Equations::multipliers`] gives
     /// it.
@@ -261,7 +259,7 @@ impl Configuration<'_> {
         let equal = |(i, l): (usize, &f64)| (l / scaling.row_factor(i)).abs();
         let largest = lambda.iter().enumerate().map(equal).fold(0.0, f64::max);
         let size = form.size(|i| scaling.row_factor(i));
-        match value.abs() <= ROUNDINGS * f64::EPSILON * size * largest {
+        match value.abs() <= VALUE_ROUNDINGS * f64::EPSILON * size * largest {
             true => 0.0,
             false => value,
         }

@@ -9,21 +9,18 @@
 mod demands;
 mod drives;
 
+use crate::limits::REST;
+use crate::pose::velocity_units;
 use std::collections::BTreeSet;
 
 use model::start::scene_size;
 use model::{ConstraintId, DataBlock, Mechanism, RowLabel, SHARED, Scratch, System};
 use rank::{Circuit, RankDecision};
 
-use crate::mechanism::velocity_units;
 use crate::state::{self, StateError};
 use crate::words;
 pub use demands::Demand;
 pub use drives::{contradicting_drives, contradicting_drives_along};
-
-/// Rates of what is at rest to rounding (1/s): it moves by less than a hundred roundings of its
-/// place in a second.
-const REST: f64 = 100.0 * f64::EPSILON;
 
 /// Where rows are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -4,19 +4,16 @@
 //!
 //! Nothing is claimed of a sum or a component that has not been tested against all dependencies.
 
+use crate::limits::VISIBLE;
+use crate::pose::TRANSLATIONS;
 use model::reaction::COMPONENTS;
 use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 use rank::{Circuit, Settled};
 
 use crate::matrices::{QueryError, Solvability};
-use crate::mechanism::TRANSLATIONS;
 use crate::verdict::Verdict;
 use crate::words::{self, list, names};
-
-/// A component of a self-stress is zero below this share of its largest one: rounding of the
-/// dependence, drawn or said.
-const VISIBLE: f64 = 1e-9;
 
 /// What there is to say about the redundancy of a configuration.
 #[derive(Clone, Debug)]

@@ -13,28 +13,19 @@
 mod basis;
 mod component;
 mod connected;
+mod motions;
+mod ranks;
 mod words;
 
-use model::{Layout, Mechanism, System};
+use model::{Mechanism, System};
 
 use crate::analysis::Analysis;
-use crate::certificate::Rows;
-use crate::matrices::Solvability;
-use crate::mechanism::AnalysisError;
 use crate::state::{StateError, check_configuration};
 use connected::Connected;
+use motions::Decided;
 
-/// Motions that are told; of the others there is a count.
-pub const MOTIONS_TOLD: usize = 12;
-
-/// Rank and redundancy of the rows without those of drives.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct WithoutDrives {
-    /// Their rank.
-    pub rank: usize,
-    /// What they are more than that.
-    pub redundancy: usize,
-}
+pub use motions::{FreeMotion, FreeMotions, LeftOut};
+pub use ranks::WithoutDrives;
 
 /// What can move at a configuration, with the drives and without them.
 #[derive(Clone, Debug, PartialEq)]
@@ -63,81 +54,6 @@ pub struct FreedomsWithoutDrives {
     pub mobility: usize,
     /// What moves.
     pub motions: FreeMotions,
-}
-
-/// A basis of the velocities that rows allow.
-#[derive(Clone, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct FreeMotions {
-    /// In words and numbers, at most [`MOTIONS_TOLD`].
-    pub motions: Vec<FreeMotion>,
-    /// What is not told. `None` if everything is.
-    pub left_out: Option<LeftOut>,
-}
-
-/// Freedoms that are counted only.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LeftOut {
-    /// How many.
-    pub freedoms: usize,
-    /// Why.
-    pub reason: String,
-}
-
-/// One free motion; of a body that nothing holds, and of bodies that are joined to each other
-/// alone, the three that it has as a whole.
-#[derive(Clone, Debug, PartialEq)]
-#[non_exhaustive]
-pub struct FreeMotion {
-    /// What moves: "`crank` turns about `A`; with it `coupler` and `rocker` turn".
-    pub text: String,
-    /// One list for each freedom, with the bodies that move: their place among the bodies, vx, vy
-    /// (m/s) and ω (rad/s). The largest rotation is 1, or the fastest translation where nothing
-    /// turns.
-    pub velocities: Vec<Vec<(usize, [f64; 3])>>,
-}
-
-impl WithoutDrives {
-    /// From the decision of all rows. `None` if none is a drive's.
-    pub(crate) fn of(
-        layout: &Layout,
-        rows: &Rows,
-        solvability: &Solvability,
-        warnings: &mut Vec<String>,
-    ) -> Result<Option<Self>, AnalysisError> {
-        let drives = layout.drive_rows();
-        if drives.is_empty() {
-            return Ok(None);
-        }
-        let others = (0..layout.rows()).filter(|row| drives.binary_search(row).is_err());
-        let others: Vec<usize> = others.collect();
-        let rank = match (others.as_slice(), solvability.basis().rank_without(&drives)) {
-            ([], _) => 0,
-            (_, Some(rank)) => rank,
-            _ => {
-                let decision = rows.select(&others).decide()?;
-                if let rank::RankStatus::Undecided(doubt) = &decision.status {
-                    warnings.push(format!("the rank without drives is undecided: {doubt}"));
-                }
-                decision.rank
-            }
-        };
-        Ok(Some(Self {
-            rank,
-            redundancy: others.len() - rank,
-        }))
-    }
-}
-
-/// Ranks of rows that have been decided together: of the whole, or of a part that shares no cycle
-/// with others.
-pub(crate) struct Decided {
-    /// Rows of the whole, ascending.
-    pub(crate) rows: Vec<usize>,
-    /// Their rank.
-    pub(crate) rank: usize,
-    /// Without those of drives. `None` if there are none among them.
-    pub(crate) without_drives: Option<WithoutDrives>,
 }
 
 impl Analysis {

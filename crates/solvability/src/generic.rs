@@ -6,36 +6,16 @@
 //! left free: what they prescribe changes with time. Where other constraints depend on time, time
 //! moves too.
 
+use crate::limits::{
+    GENERIC_HALVINGS, GENERIC_STEP, GENERIC_STEPS, ONE_PART, POINTS, POINTS_APART, WALKS,
+};
+use crate::pose::velocity_units;
 use linalg::{Matrix, PivotedQr};
 use model::start::{Metric, nearest_configuration, scene_size};
 use model::{Mechanism, System};
 use rank::RankDecision;
 
 use crate::certificate::Rows;
-use crate::mechanism::velocity_units;
-
-/// Points compared.
-const POINTS: usize = 4;
-
-/// Walks at most, also those that lead nowhere.
-const WALKS: usize = 12;
-
-/// Steps from one point to the next.
-const STEPS: usize = 4;
-
-/// Length of a step: a share of the mechanism's size, or as many radians.
-const STEP: f64 = 0.2;
-
-/// A step is tried at this many halved lengths, because not every displacement can be assembled
-/// again.
-const HALVINGS: i32 = 5;
-
-/// Points must be this far from each other and from the given one, in the same measure.
-const APART: f64 = 0.1;
-
-/// Rows up to which other configurations are looked for: the work grows with their cube, and 600
-/// rows would take half a minute.
-pub const GENERIC_ROWS: usize = 250;
 
 /// Redundancy at other configurations of the same component.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,11 +42,11 @@ pub struct Elsewhere {
 
 /// Ranks at other configurations than (t, q), which must lie on the constraints. `None` if none was
 /// found at which the rank is decided (a structure that cannot move has none), if there are more
-/// than [`GENERIC_ROWS`], or if t and q are no configuration of this mechanism.
+/// than [`ONE_PART`], or if t and q are no configuration of this mechanism.
 #[must_use]
 pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
     crate::state::check_configuration(mechanism, t, q).ok()?;
-    if mechanism.layout().rows() > GENERIC_ROWS {
+    if mechanism.layout().rows() > ONE_PART {
         return None;
     }
     let rows = lasting_rows(mechanism);
@@ -81,7 +61,7 @@ pub fn generic(mechanism: &Mechanism, t: f64, q: &[f64]) -> Option<Generic> {
         };
         let is_new = |(t, q): &(f64, Vec<f64>)| {
             let moved = mechanism.space().difference_of(&there.1, q).into_iter();
-            there.0 != *t || length(moved, &units, size) >= APART
+            there.0 != *t || length(moved, &units, size) >= POINTS_APART
         };
         if visited.iter().all(is_new) {
             points.extend(elsewhere(mechanism, &there, &rows));
@@ -136,10 +116,10 @@ fn walk_from(
 ) -> Option<(f64, Vec<f64>)> {
     let moves_time = has_lasting_function(mechanism);
     // Walks of different lengths do not lead back.
-    let stride = STEP * (1.0 + 0.5 * spread(walk + 1));
+    let stride = GENERIC_STEP * (1.0 + 0.5 * spread(walk + 1));
     let (mut t, mut q) = from.clone();
     let mut heading: Option<Vec<f64>> = None;
-    for _ in 0..STEPS {
+    for _ in 0..GENERIC_STEPS {
         let directions = free_directions(mechanism, t, &q, rows, units)?;
         if directions.nrows() == 0 && !moves_time {
             return None;
@@ -153,7 +133,7 @@ fn walk_from(
         step.iter_mut().zip(units).for_each(|(d, unit)| *d *= unit);
         let largest = length(step.iter().copied(), units, size);
         let time = if moves_time { stride } else { 0.0 };
-        let next = (0..HALVINGS).find_map(|halving| {
+        let next = (0..GENERIC_HALVINGS).find_map(|halving| {
             let share = 0.5_f64.powi(halving);
             let factor = if largest > 0.0 {
                 stride * share / largest
@@ -182,7 +162,7 @@ fn has_lasting_function(mechanism: &Mechanism) -> bool {
 
 /// The rank at a point, if it is decided there.
 fn elsewhere(mechanism: &Mechanism, (t, q): &(f64, Vec<f64>), rows: &[usize]) -> Option<Elsewhere> {
-    let mut s = crate::mechanism::evaluated(mechanism, *t, q);
+    let mut s = crate::pose::evaluated(mechanism, *t, q);
     // Drives were left free: their rows say nothing of this configuration.
     for i in (0..mechanism.layout().m).filter(|i| !rows.contains(i)) {
         s.phi[i] = 0.0;

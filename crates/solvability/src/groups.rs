@@ -6,6 +6,7 @@ mod configuration;
 mod error;
 mod form;
 
+use crate::judged::ComponentVerdict;
 use model::reaction::COMPONENTS;
 use model::{ConstraintId, Mechanism, System};
 use rank::RankDecision;
@@ -15,7 +16,6 @@ pub use error::RequestError;
 pub(crate) use error::{check, check_finite};
 pub use form::LinearForm;
 
-use crate::mechanism::ComponentVerdict;
 use crate::verdict::{Judgement, Verdict};
 
 /// What is to be judged.

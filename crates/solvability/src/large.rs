@@ -5,6 +5,10 @@
 //! mechanism, at a cost that does not depend on the degree of redundancy. Dependencies are told
 //! where those rows that depend on others fall into small sets of cycles again.
 
+use crate::error::AnalysisError;
+use crate::judged::{Dependency, Judged, ReactionVerdict};
+use crate::limits::{ROWS_MAX, SPARE_COMBINATIONS};
+use crate::pose::evaluated;
 use std::ops::Range;
 
 use linalg::{Matrix, SparseMatrix, equilibrate_sparse};
@@ -12,18 +16,11 @@ use model::start::scene_size;
 use model::{ConstraintId, Known, Mechanism, Scratch, System};
 use rank::{Evidence, RankStatus, Sketch, SparseRank, SparseRankError, decide_sparse};
 
-use crate::analysis::{Judged, analyse};
-use crate::certificate::ROWS_MAX;
+use crate::analysis::analyse;
 use crate::freedoms::WithoutDrives;
 use crate::matrices::{self, Basis};
-use crate::mechanism::{AnalysisError, Dependency, ReactionVerdict, Told, evaluated, reaction};
+use crate::mechanism::{Told, reaction};
 use crate::parts::{Extent, PartAnalysis, PartDecision, parts};
-
-/// Sets of more rows are decided sparsely.
-pub(crate) const SPARSE_FROM: usize = 150;
-
-/// Combinations beyond the rows of the largest joint.
-const SPARE: usize = 4;
 
 /// A sparse decision of rows of C, and these rows.
 struct Decided {
@@ -155,7 +152,7 @@ pub(crate) fn sketch_of(mechanism: &Mechanism) -> Sketch {
     let most = groups.map(|group| group.rows.len()).max().unwrap_or(0);
     let default = Sketch::default();
     Sketch {
-        columns: default.columns.max(most + SPARE),
+        columns: default.columns.max(most + SPARE_COMBINATIONS),
         ..default
     }
 }

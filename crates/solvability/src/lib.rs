@@ -17,7 +17,9 @@
 //! | [`units`] | facts and choices told apart by a change of units |
 //! | [`mod@analysis`] | ranks and verdicts of a mechanism of any size |
 //! | [`mod@parts`] | its parts on common cycles, each judged alone |
-//! | [`mechanism`] | one part: joints, wrenches, directions |
+//! | `mechanism` | one part: joints, wrenches, directions |
+//! | `pose` | C at one configuration, without dimensions |
+//! | `judged` | what is found of a part |
 //! | `certificate` | the rank in double-double at a polished point |
 //! | [`questions`] | sums, frames, choices and deletions, by the parts that they touch |
 //! | [`mod@structure`] | what the shape settles before any rank |
@@ -33,20 +35,25 @@ pub mod along;
 pub mod analysis;
 mod certificate;
 pub mod choices;
+mod error;
 pub mod existence;
 pub mod explain;
 pub mod frames;
 pub mod freedoms;
 pub mod generic;
 pub mod groups;
+mod judged;
 mod large;
+mod limits;
 pub mod make_unique;
 pub mod matrices;
 mod meant;
-pub mod mechanism;
+mod mechanism;
 pub mod memory;
 pub mod parts;
+mod pose;
 pub mod questions;
+mod row_decision;
 pub mod rows;
 pub mod second_order;
 pub mod sensitivity;
@@ -69,6 +76,7 @@ pub use choices::{
     Choice, ChoiceError, Compliance, Distribution, Equations, Label, NormWeights, ReactionValues,
     Solution, Value, minimise, solution,
 };
+pub use error::AnalysisError;
 pub use existence::{
     ConstraintLevel, Contradiction, Demand, Ranks, contradicting_drives,
     contradicting_drives_along, contradictions,
@@ -78,24 +86,24 @@ pub use explain::{
 };
 pub use frames::{FrameForms, FrameVerdict, judge_frames};
 pub use freedoms::{
-    FreeMotion, FreeMotions, Freedoms, FreedomsWithoutDrives, LeftOut, MOTIONS_TOLD, WithoutDrives,
+    FreeMotion, FreeMotions, Freedoms, FreedomsWithoutDrives, LeftOut, WithoutDrives,
 };
-pub use generic::{Elsewhere, GENERIC_ROWS, Generic, generic, is_permanent};
+pub use generic::{Elsewhere, Generic, generic, is_permanent};
 pub use groups::{
     Configuration, Group, GroupVerdict, LinearForm, RequestError, Term, judge_groups,
 };
+pub use judged::{ComponentVerdict, Dependency, ReactionVerdict, RowVerdict};
+pub use limits::{FRAGILE, KERNEL_MAX, MOTIONS_TOLD, MOVED, ONE_PART};
 pub use make_unique::{Allowed, Proposal, Proposals, make_unique};
 pub use matrices::{QueryError, Solvability};
-pub use mechanism::{
-    AnalysisError, ComponentVerdict, Dependency, ReactionVerdict, RowVerdict, decide,
-    decide_dropping, decide_holonomic,
-};
 pub use memory::memory_of_verdicts;
-pub use parts::{Extent, ONE_PART, PartAnalysis, PartDecision};
+pub use parts::{Extent, PartAnalysis, PartDecision};
+pub use pose::{decide, decide_dropping, decide_holonomic};
 pub use questions::{EliminationError, Numbers, Questions};
-pub use rows::{RowDecision, Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows};
-pub use second_order::{Continuation, KERNEL_MAX, Undetermined, is_locked, second_order};
-pub use sensitivity::{Datum, FRAGILE, MOVED, Sensitivities, Sensitivity};
+pub use row_decision::RowDecision;
+pub use rows::{Rows, decide_holonomic_rows, decide_rows, decide_rows_dropping, rows};
+pub use second_order::{Continuation, Undetermined, is_locked, second_order};
+pub use sensitivity::{Datum, Sensitivities, Sensitivity};
 pub use state::{State, StateError};
 pub use structure::structure;
 pub use units::{Nature, UnitCheck, UnitError, Units, check_units};

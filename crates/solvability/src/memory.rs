@@ -1,18 +1,13 @@
 //! How much memory ranks and verdicts take, before it is taken.
 
+use crate::error::AnalysisError;
+use crate::limits::{DENSE_MATRICES, OF_VERDICT, ONE_PART, ROWS_MAX, SPARSE_FROM};
+use crate::pose::evaluated;
 use model::{Mechanism, System};
 use rank::SparsePattern;
 
-use crate::certificate::ROWS_MAX;
-use crate::large::{SPARSE_FROM, blocks, rows_of, sketch_of};
-use crate::mechanism::{AnalysisError, evaluated};
-use crate::parts::{ONE_PART, parts};
-
-/// Bytes of the verdict of a joint with its rows, its components and its name.
-const OF_VERDICT: usize = 1500;
-
-/// Matrices of all rows and columns that are held at once where a small mechanism is judged.
-const DENSE_MATRICES: usize = 24;
+use crate::large::{blocks, rows_of, sketch_of};
+use crate::parts::parts;
 
 /// Bytes that ranks, kept rows and verdicts of a mechanism take at most, about, beside the
 /// mechanism itself: the part with most rows, on each of `threads` threads, and all verdicts.

@@ -8,6 +8,9 @@
 //! Each part is measured by its own size: margins do not depend on how long the chain is in which
 //! it stands. Not here: how a part is judged.
 
+use crate::limits::{FIRST_NAMED, ONE_PART};
+use crate::pose::evaluated;
+use crate::row_decision::RowDecision;
 use std::borrow::Cow;
 
 use model::{BodyRef, Mechanism, Part, Places, Scratch, System};
@@ -15,17 +18,7 @@ use rank::{Certificate, Evidence, NearlyRedundant, RankDecision, RankStatus, cyc
 use rayon::prelude::*;
 
 use crate::freedoms::WithoutDrives;
-use crate::mechanism::evaluated;
-use crate::rows::RowDecision;
 use crate::words;
-
-/// A mechanism of at most so many rows is one part, whatever its cycles: all of its verdicts are
-/// then read from one null space, and it can be compared with itself at other configurations, which
-/// takes matrices of all rows and columns.
-pub const ONE_PART: usize = 250;
-
-/// Names that tell which part is meant.
-const NAMED: usize = 3;
 
 /// Where a part is in its mechanism.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -166,11 +159,11 @@ impl Extent {
     pub(crate) fn name(&self, whole: &Mechanism) -> String {
         let groups = &whole.layout().groups;
         let count = self.places().map_or(groups.len(), |p| p.groups.len());
-        let ids: Vec<_> = (0..count.min(NAMED))
+        let ids: Vec<_> = (0..count.min(FIRST_NAMED))
             .map(|k| model::ConstraintId(self.group(k)))
             .collect();
         let names = words::names(whole.layout(), &ids);
-        match count.checked_sub(NAMED) {
+        match count.checked_sub(FIRST_NAMED) {
             Some(more @ 1..) => format!("{} and {more} more", names.join(", ")),
             _ => words::list(&names),
         }

@@ -7,20 +7,20 @@
 
 mod eliminations;
 
+use crate::judged::ComponentVerdict;
+use crate::limits::ROWS_MAX;
 use std::sync::{Arc, OnceLock};
 
 use model::{BodyRef, ConstraintId, Mechanism, System};
 use rayon::prelude::*;
 
 use crate::analysis::Analysis;
-use crate::certificate::ROWS_MAX;
 use crate::choices::{
     Choice, ChoiceError, Compliance, Distribution, Equations, Label, Solution, Value,
 };
 use crate::explain::{Explanation, ExplanationError, explain};
 use crate::frames::FrameVerdict;
 use crate::groups::{Configuration, Group, GroupVerdict, NO_REACTION, RequestError, Term, worst};
-use crate::mechanism::ComponentVerdict;
 use crate::parts::{ListedRows, PartAnalysis};
 use crate::units::{UnitCheck, UnitError, check_equations};
 use crate::verdict::{Judgement, Verdict};

@@ -2,127 +2,21 @@
 //! others agree with them. At the start they are those of the certificate; on the way other rows
 //! are chosen in `f64`, at the same rank.
 
+use crate::error::AnalysisError;
+use crate::limits::{MOTION_CLEARANCE, ONE_ROUNDING, ROWS_MAX, SPARSE_FROM};
+use crate::pose::{decide, decide_dropping, decide_holonomic, evaluated, uncertainty};
 use model::start::scene_size;
 use model::{Known, Mechanism, Scratch, System};
 use rank::{
     Doubt, Evidence, KeptRowsError, NEARLY_SINGULAR, NearlyRedundant, RankDecision, RankStatus,
-    SparseRank,
 };
 
-use crate::certificate::{self, ROWS_MAX, inseparable};
+use crate::certificate::{self, inseparable};
 use crate::existence::{Contradiction, Ranks, contradictions};
-use crate::large::{SPARSE_FROM, decide_range};
-use crate::mechanism::{
-    AnalysisError, decide, decide_dropping, decide_holonomic, evaluated, uncertainty,
-};
+use crate::large::decide_range;
 use crate::parts::{Extent, ListedRows, Partition};
+use crate::row_decision::RowDecision;
 use crate::state::{StateError, check, check_configuration};
-
-/// Rank and rows to keep.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RowDecision {
-    /// r
-    pub rank: usize,
-    /// p
-    pub redundancy: usize,
-    /// r independent rows, ascending.
-    pub kept: Vec<usize>,
-    /// The others, ascending.
-    pub dropped: Vec<usize>,
-    /// Decided, or why not.
-    pub status: RankStatus,
-    /// Largest coefficient of a dependency that counts as zero.
-    pub support_tolerance: f64,
-}
-
-impl RowDecision {
-    /// Whether the rank is decided.
-    #[must_use]
-    pub fn is_decided(&self) -> bool {
-        self.status == RankStatus::Decided
-    }
-
-    /// Of nothing.
-    pub(crate) fn empty() -> Self {
-        Self {
-            rank: 0,
-            redundancy: 0,
-            kept: Vec::new(),
-            dropped: Vec::new(),
-            status: RankStatus::Decided,
-            support_tolerance: 0.0,
-        }
-    }
-
-    /// Adds the decision of a part; `row` tells which row of the whole is a row of the part.
-    pub(crate) fn add(&mut self, part: Self, row: impl Fn(usize) -> usize) {
-        self.rank += part.rank;
-        self.redundancy += part.redundancy;
-        self.kept.extend(part.kept.into_iter().map(&row));
-        self.dropped.extend(part.dropped.into_iter().map(&row));
-        if self.is_decided() {
-            self.status = part.status;
-        }
-        self.support_tolerance = self.support_tolerance.max(part.support_tolerance);
-    }
-
-    /// That of some of the rows, ascending, which no other row depends on: those of bodies that
-    /// nothing joins to others.
-    #[must_use]
-    pub fn of_rows(&self, rows: &[usize]) -> Self {
-        let own = |all: &[usize]| -> Vec<usize> {
-            let own = all.iter().filter_map(|row| rows.binary_search(row).ok());
-            own.collect()
-        };
-        let (kept, dropped) = (own(&self.kept), own(&self.dropped));
-        Self {
-            rank: kept.len(),
-            redundancy: dropped.len(),
-            kept,
-            dropped,
-            status: self.status,
-            support_tolerance: self.support_tolerance,
-        }
-    }
-
-    /// Puts the rows of several parts in order.
-    pub(crate) fn sort(&mut self) {
-        self.kept.sort_unstable();
-        self.dropped.sort_unstable();
-    }
-}
-
-impl From<&Self> for RowDecision {
-    fn from(decision: &Self) -> Self {
-        decision.clone()
-    }
-}
-
-impl From<&RankDecision> for RowDecision {
-    fn from(decision: &RankDecision) -> Self {
-        Self {
-            rank: decision.rank,
-            redundancy: decision.redundancy,
-            kept: decision.kept.clone(),
-            dropped: decision.dropped.clone(),
-            status: decision.status,
-            support_tolerance: rank::support_tolerance(decision),
-        }
-    }
-}
-
-impl From<&SparseRank> for RowDecision {
-    fn from(found: &SparseRank) -> Self {
-        Self {
-            rank: found.rank,
-            redundancy: found.redundancy,
-            kept: found.kept.clone(),
-            dropped: found.dropped.clone(),
-            status: found.status,
-            support_tolerance: found.noise(),
-        }
-    }
-}
 
 /// Rows of C, and of Φq alone, at one configuration, as they were decided there, part by part. The
 /// motion, the verdicts and the words take them from here.
@@ -181,14 +75,6 @@ impl DecidedPart {
     }
 }
 
-/// The factor between noise and tolerance of numbers in `f64`: that of [`rank::decide`].
-const NOISE_FACTOR: f64 = 10.0;
-/// By how much singular values must clear the tolerance: runs of the stress matrix keep their
-/// digits from a factor of thirty on.
-const CLEARANCE: f64 = 30.0;
-/// Data are known to several roundings, the numbers of a motion to one.
-const ONE_ROUNDING: f64 = f64::EPSILON / 2.0 / model::ROUNDING;
-
 /// Certified decisions as far as they hold for numbers in `f64` at the pose of the scratch:
 /// velocities and residuals of a motion, which are known to the rounding of its coordinates.
 fn in_double(
@@ -202,9 +88,9 @@ fn in_double(
         let rows: Vec<usize> = (0..decision.rank + decision.redundancy).collect();
         let known = ONE_ROUNDING * decision.scaling.apply(&known.select_rows(&rows)).max_abs();
         let entries = (rows.len() * decision.scaling.cols.len()) as f64;
-        let tolerance = NOISE_FACTOR * known.max(f64::EPSILON * entries.sqrt());
+        let tolerance = rank::NOISE_FACTOR * known.max(f64::EPSILON * entries.sqrt());
         // The rank is that of the certificate; numbers in `f64` may be too coarse to move by it.
-        let required = (CLEARANCE * tolerance).max(NEARLY_SINGULAR);
+        let required = (MOTION_CLEARANCE * tolerance).max(NEARLY_SINGULAR);
         let sigma = decision.evidence.sigma_r;
         let status = match decision.status {
             RankStatus::Decided if sigma < required => {

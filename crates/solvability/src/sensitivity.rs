@@ -21,31 +21,17 @@ mod joined;
 #[cfg(test)]
 mod tests;
 
+use crate::limits::{BEYOND, FRAGILE, MANY, ROWS_MAX};
+use crate::row_decision::RowDecision;
 use model::{ConstraintId, DataUnit, Layout, Mechanism, System};
 
 use crate::analysis::Analysis;
-use crate::certificate::ROWS_MAX;
 use crate::choices::{ChoiceError, solution_under};
 use crate::groups::check;
 use crate::parts::{Extent, Partition};
-use crate::rows::RowDecision;
 use crate::words;
 use instant::Instant;
 use joined::{Joined, each_joined};
-
-/// A point moves by this share of the mechanism's size (in long chains: of the size of its links),
-/// a direction by as many radians: what a careful workshop holds.
-pub const MOVED: f64 = 1e-4;
-
-/// A reaction that changes by more than this share of itself, or of the largest load, is fragile.
-pub const FRAGILE: f64 = 0.1;
-
-/// From this change on, relative to its size, the first order does not say how far a reaction
-/// changes: it says that none of its digits is left.
-const BEYOND: f64 = 1.0;
-
-/// From here on "several times" would be too little.
-const MANY: f64 = 30.0;
 
 /// Changes of a reaction with one point.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,11 +1,10 @@
 //! What the shape of a mechanism settles before any rank: reactions that are unique because of
 //! where they act. No verdict needs this; it says why some are no surprise.
 
+use crate::pose::{dimensionless, uncertainty};
 use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
 use rank::{RankError, RowGroup, Structure};
-
-use crate::mechanism::{dimensionless, uncertainty};
 
 /// Groups of the structure are joints and drives in the order of their rows, blocks are bodies. The
 /// scratch must hold Φ and C at coordinates q.

@@ -10,6 +10,7 @@
 
 mod rewrite;
 
+use crate::limits::{OF_ONE_JOINT, UNIT_ROUNDING};
 use model::reaction::COMPONENTS;
 use model::{ColumnKind, ConstraintId, Frame, Mechanism, System};
 use rank::{RankDecision, RankError};
@@ -75,12 +76,6 @@ pub enum UnitError {
     },
 }
 
-/// A change below this share of the largest force or torque is rounding.
-const ROUNDING: f64 = 1e-9;
-
-/// The unit of one joint alone is this much smaller than that of the others.
-const OF_ONE_JOINT: f64 = 1e3;
-
 /// The components of all reactions in all frames, at a state whose rank has been decided: which of
 /// them are facts, and which depend on the choice that a least norm makes. Of the decision only the
 /// rank and the residual of the constraints are used. Torques stand with the global frame.
@@ -145,7 +140,7 @@ pub(crate) fn check_equations(
         }
     }
     for check in &mut checks {
-        check.nature = match check.change <= ROUNDING {
+        check.nature = match check.change <= UNIT_ROUNDING {
             true => Nature::Fact,
             false => Nature::Choice,
         };

@@ -1,14 +1,12 @@
 //! Dependencies as sentences.
 
+use crate::limits::TELLABLE;
 use model::{BodyRef, ConstraintId, Layout, Mechanism, System};
 use rank::Circuit;
 
 use crate::explain::FreeDirection;
 use crate::matrices::Solvability;
 use crate::verdict::Verdict;
-
-/// More rows than this are not listed in a sentence.
-const TELLABLE: usize = 8;
 
 /// "`a`, `b` and `c`" without the quotes.
 pub(crate) fn list(words: &[String]) -> String {

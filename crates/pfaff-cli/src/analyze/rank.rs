@@ -2,7 +2,7 @@
 
 use pfaff::report::AnalysisDocument;
 use pfaff::report::documents::PartsDocument;
-use pfaff::solvability::GENERIC_ROWS;
+use pfaff::solvability::ONE_PART;
 
 use crate::output::{count, wrapped};
 
@@ -191,8 +191,8 @@ fn elsewhere(d: &AnalysisDocument) -> String {
                 cannot_move(d)
             )
         }
-        (_, None) if d.rows > GENERIC_ROWS => format!(
-            "not compared with other configurations: that takes long above {GENERIC_ROWS} rows"
+        (_, None) if d.rows > ONE_PART => format!(
+            "not compared with other configurations: that takes long above {ONE_PART} rows"
         ),
         (_, None) => "not compared with other configurations: none could be reached".to_owned(),
     }

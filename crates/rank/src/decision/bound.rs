@@ -7,11 +7,8 @@
 //! Source: N. J. Higham, Accuracy and Stability of Numerical Algorithms, 2nd ed. (2002), section
 //! 3.1 for γ_n.
 
+use crate::limits::BOUND_SLACK;
 use linalg::{Matrix, PivotedQr, kernels};
-
-/// Covers the rounding of norms and of the last few operations, each a few eps times the number of
-/// entries (below 2³⁰).
-const SLACK: f64 = 1e-6;
 
 /// Lower bound of σ_r of every matrix within `perturbation` (Frobenius norm) of the r×n matrix `a`;
 /// 0 if nothing is proved.
@@ -36,7 +33,8 @@ pub(super) fn smallest_singular_value(a: &Matrix, perturbation: f64) -> f64 {
     let gamma = unit / (1.0 - unit);
     let norm_x = x.frobenius_norm();
     let e = e.frobenius_norm() + gamma * (a.frobenius_norm() * norm_x + (r as f64).sqrt());
-    let bound = (1.0 - e * (1.0 + SLACK)) / norm_x * (1.0 - SLACK) - perturbation * (1.0 + SLACK);
+    let bound = (1.0 - e * (1.0 + BOUND_SLACK)) / norm_x * (1.0 - BOUND_SLACK)
+        - perturbation * (1.0 + BOUND_SLACK);
     bound.max(0.0)
 }
 

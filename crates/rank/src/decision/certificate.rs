@@ -1,13 +1,6 @@
 //! What a certificate of a rank says: a proof that the rank is at least r, and the grounds on which
 //! it is not more.
 
-use crate::RankDecision;
-
-/// Below this smallest singular value the rank as read stands, but the reactions it determines are
-/// large: of size 1/σ_r per unit of load, and anything known only to σ_r moves them by their own
-/// size.
-pub const NEARLY_REDUNDANT: f64 = 1e-3;
-
 /// The proof behind a rank, beside the numbers in [`Evidence`](crate::Evidence).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Certificate {
@@ -78,18 +71,4 @@ pub struct NearlyRedundant {
     /// Left singular vector of σ_r: weights (unit norm, length m) with which the equilibrated rows
     /// sum to a row of norm σ_r.
     pub direction: Vec<f64>,
-}
-
-impl RankDecision {
-    /// The warning that belongs to a decided rank with σ_r below 1e-3: as read the rank is r and
-    /// the verdicts hold, but reactions are of size 1/σ_r. Known for certified ranks only.
-    #[must_use]
-    pub fn nearly_redundant(&self) -> Option<&NearlyRedundant> {
-        self.evidence
-            .certificate
-            .as_ref()?
-            .nearly_redundant
-            .as_ref()
-            .filter(|_| self.is_decided())
-    }
 }

@@ -1,11 +1,9 @@
 //! Zero or not, with a clear gap between: the rule of rank decisions for single numbers, and for a
 //! few rows of a matrix that is equilibrated already.
 
-use super::{CLEARANCE, required, tolerance};
+use super::{required, tolerance};
+use crate::limits::{CLEARANCE, NOISE_MAX};
 use linalg::{Matrix, singular_values};
-
-/// Noise that reaches further hides numbers that matter: nothing is zero beside it.
-const NOISE_MAX: f64 = 1e-4;
 
 /// How a number reads against its noise.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,49 +1,11 @@
 //! Is a coefficient of the dependencies zero? The tolerance for T, Z and what is made of them, from
 //! the evidence of the rank.
 
-use super::{NOISE_FACTOR, RankDecision};
-
-/// Noise of coefficients over that of singular values: the triangular solves.
-const SOLVE_FACTOR: f64 = 10.0;
-
-/// No coefficient below this is certainly not zero: where a small part hangs on a large one, the
-/// rounding of the data of the large part reaches the small one amplified by the ratio of their
-/// sizes, which the first order does not show.
-const CERTAIN: f64 = 1e-9;
-
-/// Below this σ_r of a certified matrix the uncertainty of the data would hide all coefficients;
-/// they are those of the matrix as read.
-const AS_READ: f64 = 1e-6;
-
-/// A coefficient above the tolerance by this factor is certainly not zero; the tolerance is itself
-/// a tenfold bound of the noise.
-const CLEARANCE: f64 = 10.0;
-
-/// Evidence that cannot tell a coefficient of this size from zero calls nothing zero.
-const TOLERANCE_MAX: f64 = 1e-5;
-
-/// The same where the noise is that of a stated tolerance: of larger changes the first order says
-/// nothing.
-const STATED_MAX: f64 = 0.1;
-
-/// A coefficient above this is not called zero there: that data within the tolerance could make it
-/// zero does not say that they do, and what is told as none must not matter.
-const STATED_ZERO: f64 = 1e-3;
-
-/// By this factor a coefficient is certainly not zero there: all data together would have to be
-/// wrong by as many tolerances, as for ranks.
-const STATED_CLEARANCE: f64 = 3.0;
-
-/// A coefficient that has come out as small as this in double-double is zero, whatever the data are
-/// known to.
-const VANISHED: f64 = 1e-13;
-
-/// Random combinations of coefficients are zero and not zero only with this factor between them.
-const SPREAD: f64 = 1e4;
-
-/// Data move entries by themselves and through the pose that follows them, which links that are ten
-/// times shorter than others amplify. Never above what all entries together are known to, over σ_r.
-const POSE_FACTOR: f64 = 10.0;
+use super::outcome::RankDecision;
+use crate::limits::{
+    AS_READ, BEYOND_DOUBT, CERTAIN, COEFFICIENT_CLEARANCE, COMBINATION_SPREAD, NOISE_FACTOR,
+    POSE_FACTOR, SOLVE_FACTOR, STATED_MAX, STATED_ZERO, TOLERANCE_MAX, VANISHED,
+};
 
 /// How a coefficient of the equilibrated dependencies reads.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,7 +26,7 @@ pub enum CoefficientReading {
 impl CoefficientReading {
     /// Reads the size of a number known to `tolerance`.
     pub(crate) fn of(size: f64, tolerance: f64) -> Self {
-        let required = (CLEARANCE * tolerance).max(CERTAIN);
+        let required = (COEFFICIENT_CLEARANCE * tolerance).max(CERTAIN);
         if size <= tolerance && tolerance <= TOLERANCE_MAX {
             Self::Zero
         } else if size > required {
@@ -203,7 +165,7 @@ impl Readings {
     #[must_use]
     pub fn read(&self, size: f64, noise: f64) -> CoefficientReading {
         if self.has_tolerance {
-            let required = (STATED_CLEARANCE * noise).max(CERTAIN);
+            let required = (BEYOND_DOUBT * noise).max(CERTAIN);
             return match size {
                 _ if size <= noise.min(STATED_ZERO) && noise <= STATED_MAX => {
                     CoefficientReading::Zero
@@ -215,7 +177,7 @@ impl Readings {
                 },
             };
         }
-        let far_below = self.smallest / SPREAD;
+        let far_below = self.smallest / COMBINATION_SPREAD;
         match CoefficientReading::of(size, noise) {
             CoefficientReading::Zero if size > far_below => CoefficientReading::Unclear {
                 tolerance: far_below,

@@ -3,11 +3,12 @@
 //! Floating point proposes the rows, arithmetic modulo primes decides: there is no tolerance and
 //! nothing is ever undecided.
 
-use super::certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant};
+use super::certificate::{Certificate, Grounds, NearlyRedundant};
 use super::graded::Graded;
 use super::modular::{ExactBasis, Integers, exact_basis};
 use super::{Evidence, RankDecision, RankError, RankStatus, check_finite, gap, projected};
-use crate::strong_basis::{self, COEFFICIENT_BOUND};
+use crate::limits::{COEFFICIENT_BOUND, EXCHANGE_ROUNDS, NEARLY_REDUNDANT};
+use crate::strong_basis;
 use linalg::{Dd, DdMatrix, Matrix, equilibrate, kernels};
 
 /// Decides the rank of C (m×n) exactly: the entries are dyadic rationals, meant as they stand.
@@ -51,7 +52,7 @@ pub fn certify_exact(c: &Matrix) -> Result<RankDecision, RankError> {
     let mut order = graded.kept.clone();
     order.extend(&graded.left);
     let mut basis = exact_basis(&integers, &scaling, &order);
-    for _ in 0..strong_basis::ROUNDS_MAX {
+    for _ in 0..EXCHANGE_ROUNDS {
         if basis.t.max_abs() <= COEFFICIENT_BOUND {
             break;
         }

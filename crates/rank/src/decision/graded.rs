@@ -8,15 +8,9 @@
 //! the floor means.
 
 use super::bound;
+use crate::limits::{CORRECTIONS_MAX, LEVEL_SPREAD};
 use crate::strong_basis;
 use linalg::{Dd, DdMatrix, Matrix, PivotedQr, kernels, powers, singular_values};
-
-/// Singular values of one level, relative to its largest: above √eps, so that `f64` solves it with
-/// half of its digits to spare.
-const SPREAD: f64 = 1e-6;
-
-/// Corrections of T by double-double residuals; each gains at least eight digits.
-const CORRECTIONS_MAX: usize = 5;
 
 /// The rows of one level.
 struct Level {
@@ -81,7 +75,7 @@ impl Graded {
             let sigma = g.readings(exponent);
             let significant = sigma
                 .iter()
-                .filter(|&&s| s > floor && s >= SPREAD * sigma[0])
+                .filter(|&&s| s > floor && s >= LEVEL_SPREAD * sigma[0])
                 .count()
                 .min(most - g.kept.len());
             if significant == 0 {

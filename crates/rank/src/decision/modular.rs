@@ -11,16 +11,13 @@
 //! Source: mixed radix digits after H. L. Garner, The residue number system, IRE Trans. Electron.
 //! Comput. EC-8 (1959) 140–147.
 
+use crate::limits::{PRIME_BITS, WITNESSES};
 use std::cmp::{Ordering, Reverse};
 
-use crate::prime_field::{PRIME_BITS, PrimeField, Residue, fields};
+use crate::prime_field::{PrimeField, Residue, fields};
 use crate::strong_basis::complement;
 use linalg::powers::scale;
 use linalg::{Matrix, Scaling};
-
-/// Primes of the zero tests. A minor of thousands of bits is divisible by fewer than 2¹⁰ of the 2⁵⁵
-/// primes, so three agree by chance with probability below 2⁻¹³⁰.
-const WITNESSES: usize = 3;
 
 /// `A = D·C·D_c` with integer entries: mantissa·2^shift, and the exponents of D.
 pub(super) struct Integers {

@@ -6,7 +6,7 @@ use proptest::prelude::*;
 
 use super::*;
 use crate::components;
-use crate::strong_basis::COEFFICIENT_BOUND;
+use crate::limits::{CLEARANCE, COEFFICIENT_BOUND};
 
 /// SplitMix64 (Steele, Lea, Flood 2014): a seeded stream of test numbers.
 pub(super) struct Numbers(pub(super) u64);

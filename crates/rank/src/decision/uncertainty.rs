@@ -1,6 +1,7 @@
 //! What the entries of a matrix are known to, and the equilibration that goes with it.
 
-use super::RankError;
+use super::outcome::RankError;
+use crate::limits::SIGNIFICANT;
 use linalg::{Matrix, Scaling, equilibrate};
 
 /// What the entries of a matrix are known to.
@@ -44,11 +45,6 @@ pub(crate) struct Spread {
     /// Of all together (Frobenius norm), at most: no singular value is further off.
     pub(crate) norm: f64,
 }
-
-/// An entry sets the scale of its row and column only above this multiple of its uncertainty. Not
-/// less: an entry that is what several roundings left of larger terms must never be scaled up to
-/// size one; and nothing is lost, since the rank does not depend on scales.
-const SIGNIFICANT: f64 = 1e5;
 
 impl Uncertainty<'_> {
     /// The equilibration of the significant entries of `c`, and the uncertainty of the equilibrated

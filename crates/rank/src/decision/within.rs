@@ -5,22 +5,16 @@
 //! one that is merely small stays. If it stays, it is compared with what the data are known to,
 //! never with the rounding of `f64`.
 
-use super::certificate::{Certificate, Grounds, NEARLY_REDUNDANT, NearlyRedundant};
+use super::certificate::{Certificate, Grounds, NearlyRedundant};
 use super::graded::Graded;
 use super::perturbation;
 use super::{
-    Doubt, Evidence, HIDDEN, NOISE_FACTOR, RankDecision, RankError, RankStatus, Reading,
-    Uncertainty, check_finite, gap, projected,
+    Doubt, Evidence, RankDecision, RankError, RankStatus, Reading, Uncertainty, check_finite, gap,
+    projected,
 };
+use crate::limits::{CLEAR_OF_DATA, HIDDEN, NEARLY_REDUNDANT, NOISE_FACTOR, VANISHES};
 use crate::strong_basis::{self, Basis};
 use linalg::{Dd, DdMatrix, Scaling};
-
-/// σ_{r+1} vanishes if it falls by ten digits below the 1e-16 of `f64`; what remains is the
-/// polishing of the point in double-double.
-const VANISHES: f64 = 1e-26;
-
-/// Above this multiple of the tolerance a singular value is larger than the data can explain.
-const CLEAR_OF_DATA: f64 = 4.0;
 
 /// Decides the rank of C (m×n), evaluated in double-double at a polished point, of a model whose
 /// data are known to `uncertainty`.

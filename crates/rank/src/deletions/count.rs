@@ -4,10 +4,7 @@
 use super::{DeletionError, duals};
 use crate::RankDecision;
 use crate::dual::{Dual, Unclear, rank};
-
-/// Steps of deletion and contraction that one component may take; each costs about m·p²
-/// multiplications.
-const STEPS_MAX: usize = 20_000;
+use crate::limits::COUNT_STEPS;
 
 /// The number of admissible sets of p rows, the product over all components (rows that mix).
 ///
@@ -23,7 +20,7 @@ pub fn count_deletions(decision: &RankDecision) -> Result<u128, DeletionError> {
     let mut product = 1_u128;
     for dual in duals(decision)? {
         let redundancy = dual.dimension();
-        let mut steps = STEPS_MAX;
+        let mut steps = COUNT_STEPS;
         product = count(weighted(&dual), dual.noise, redundancy, &mut steps)?
             .and_then(|n| product.checked_mul(n))
             .ok_or(DeletionError::TooMany { redundancy })?;

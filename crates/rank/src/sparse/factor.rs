@@ -18,20 +18,13 @@ use std::ops::Range;
 
 use super::front::{Assembly, OutsidePattern};
 use super::reflectors::Reflectors;
-use super::symbolic::{Front, Symbolic};
+use super::symbolic::{Front, Symbolic, Wanted};
 use super::trapezoid::Trapezoid;
 use linalg::SparseMatrix;
 use linalg::kernels;
 
 #[cfg(test)]
 mod tests;
-
-/// Which factor is kept; the other one is not stored.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Wanted {
-    Q,
-    R,
-}
 
 /// What counts as zero.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -20,14 +20,15 @@
 //! space bases, pseudoinverse solutions, and basic solutions using SuiteSparseQR, ACM Trans. Math.
 //! Softw. 40 (2013) 7, for confirming a rank by inverse iteration.
 
+use crate::limits::{LEFT, REFLECTORS_WIDTH, WORK_MAX};
 use std::ops::Range;
 
-use super::factor::{SparseQr, Tolerances, Wanted};
+use super::factor::{SparseQr, Tolerances};
 use super::front::OutsidePattern;
-use super::reflectors::WIDTH;
 use super::sketch::{Sketch, sketch};
 use super::smallest::smallest_singular_value;
-use super::symbolic::{Symbolic, TooDense, WORK_MAX};
+use super::symbolic::Wanted;
+use super::symbolic::{Symbolic, TooDense};
 use crate::decision::{required, tolerance};
 use crate::{RankError, RankStatus};
 use linalg::SparseMatrix;
@@ -36,10 +37,6 @@ use linalg::{Matrix, Scaling, equilibrate_sparse};
 mod reading;
 #[cfg(test)]
 mod tests;
-
-/// How much shall be left of a kept row beside those kept before it, if there are enough of them.
-/// Long chains have rows of which 1e-3 is left.
-const LEFT: f64 = 1e-4;
 
 /// Rank of a sparse constraint matrix, with the rows to keep, random combinations of its left null
 /// space, and the evidence.
@@ -185,7 +182,8 @@ impl SparsePattern {
     pub fn bytes(&self, wanted: Sketch) -> usize {
         let rows = self.by_columns.nrows;
         let q = self.by_columns.bytes(Wanted::Q);
-        let vectors = size_of::<f64>() * rows * 2 * wanted.columns.next_multiple_of(WIDTH);
+        let vectors =
+            size_of::<f64>() * rows * 2 * wanted.columns.next_multiple_of(REFLECTORS_WIDTH);
         // The reflections of Cᵀ, a vector or two of the sketch, and then the triangle of the kept
         // rows.
         q + vectors + self.by_rows.bytes(Wanted::R)

@@ -3,11 +3,10 @@
 //! `Q = H₁·H₂⋯H_s` with `H = I − v·vᵀ`, `‖v‖² = 2`, and v sparse. Several vectors are turned at
 //! once, because the rows of v are looked up only once then.
 
-/// Vectors that are turned at once.
-pub(super) const WIDTH: usize = 8;
+use crate::limits::REFLECTORS_WIDTH;
 
-/// A row of [`WIDTH`] vectors.
-pub(super) type Lanes = [f64; WIDTH];
+/// A row of [`REFLECTORS_WIDTH`] vectors.
+pub(super) type Lanes = [f64; REFLECTORS_WIDTH];
 
 /// Reflections in the order in which they were applied to the rows of C.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -36,7 +35,7 @@ impl Reflectors {
     fn reflect(&self, k: usize, x: &mut [Lanes]) {
         let entries = k.checked_sub(1).map_or(0, |k| self.end[k])..self.end[k];
         let (rows, values) = (&self.row[entries.clone()], &self.value[entries]);
-        let mut product = [0.0; WIDTH];
+        let mut product = [0.0; REFLECTORS_WIDTH];
         for (&i, &v_i) in rows.iter().zip(values) {
             for (p, x) in product.iter_mut().zip(&x[i]) {
                 *p += v_i * x;

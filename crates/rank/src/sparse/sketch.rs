@@ -8,7 +8,8 @@
 
 use super::factor::SparseQr;
 use super::random;
-use super::reflectors::{Lanes, WIDTH};
+use super::reflectors::Lanes;
+use crate::limits::REFLECTORS_WIDTH;
 use linalg::Matrix;
 use linalg::SparseMatrix;
 
@@ -26,7 +27,7 @@ impl Default for Sketch {
     /// Eight combinations: joints of up to four rows.
     fn default() -> Self {
         Self {
-            columns: WIDTH,
+            columns: REFLECTORS_WIDTH,
             seed: 1,
         }
     }
@@ -38,8 +39,8 @@ pub(super) fn sketch(qr: &SparseQr, c: &SparseMatrix, wanted: Sketch) -> (Matrix
     let mut w = Matrix::zeros(m, k);
     let mut residual = 0.0;
     let scale = (k as f64).sqrt().recip();
-    for first in (0..k).step_by(WIDTH) {
-        let width = WIDTH.min(k - first);
+    for first in (0..k).step_by(REFLECTORS_WIDTH) {
+        let width = REFLECTORS_WIDTH.min(k - first);
         let mut x = random::uniform(m, wanted.seed, first as u64);
         for (x, is_live) in x.iter_mut().zip(&qr.is_live) {
             for (l, x) in x.iter_mut().enumerate() {
@@ -57,7 +58,7 @@ pub(super) fn sketch(qr: &SparseQr, c: &SparseMatrix, wanted: Sketch) -> (Matrix
 
 /// ‖Cᵀ·X‖².
 fn square_of_product(c: &SparseMatrix, x: &[Lanes]) -> f64 {
-    let mut product = vec![[0.0; WIDTH]; c.ncols()];
+    let mut product = vec![[0.0; REFLECTORS_WIDTH]; c.ncols()];
     for (i, x) in x.iter().enumerate() {
         for (j, c_ij) in c.entries(i) {
             for (p, x) in product[j].iter_mut().zip(x) {

@@ -9,18 +9,12 @@
 //! Numer. Anal. 20 (1983) 812–814, here with a bound that does not need the norm of x.
 
 use super::random::{self, DENSITY};
-use super::reflectors::{Lanes, WIDTH};
+use super::reflectors::Lanes;
 use super::trapezoid::Trapezoid;
-
-/// Solves with RᵀR. With q of them the bound is too low by at most `(√(3·r)/ε)^(1/2q)`: 4.3 at r =
-/// 10⁵, and 2.4 at r = 100.
-const SOLVES: i32 = 3;
+use crate::limits::{FAILURE, REFLECTORS_WIDTH, SOLVES};
 
 /// Not a stream of the sketch.
 const STREAM: u64 = u64::MAX;
-
-/// How likely the bound is none.
-const FAILURE: f64 = 1e-9;
 
 /// A lower bound of σ_r of R₁₁, for a random choice of vectors that fails once in 10⁹; infinite for
 /// rank 0, 0 where nothing is found. `n` is the number of columns of the matrix that was factored.
@@ -31,18 +25,18 @@ pub(super) fn smallest_singular_value(r: &Trapezoid, n: usize, seed: u64) -> f64
     let mut x = random::uniform(n, seed, STREAM);
     r.clear_dead(&mut x);
     // ‖A^q·x‖ of each vector as a product: powers of 1/σ leave the range of `f64`.
-    let mut logarithm = [0.0_f64; WIDTH];
+    let mut logarithm = [0.0_f64; REFLECTORS_WIDTH];
     for _ in 0..SOLVES {
         r.solve_normal(&mut x);
         let norms = norms(&x);
-        for l in 0..WIDTH {
+        for l in 0..REFLECTORS_WIDTH {
             logarithm[l] += norms[l].ln();
         }
         for x in &mut x {
-            (0..WIDTH).for_each(|l| x[l] /= norms[l]);
+            (0..REFLECTORS_WIDTH).for_each(|l| x[l] /= norms[l]);
         }
     }
-    let epsilon = FAILURE.powf(1.0 / WIDTH as f64) / DENSITY;
+    let epsilon = FAILURE.powf(1.0 / REFLECTORS_WIDTH as f64) / DENSITY;
     let largest = logarithm.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let bound = ((epsilon.ln() - largest) / f64::from(2 * SOLVES)).exp();
     match logarithm.iter().all(|l| l.is_finite()) {
@@ -53,9 +47,9 @@ pub(super) fn smallest_singular_value(r: &Trapezoid, n: usize, seed: u64) -> f64
 
 /// The norm of each vector.
 pub(super) fn norms(x: &[Lanes]) -> Lanes {
-    let mut squares = [0.0; WIDTH];
+    let mut squares = [0.0; REFLECTORS_WIDTH];
     for x in x {
-        (0..WIDTH).for_each(|l| squares[l] += x[l] * x[l]);
+        (0..REFLECTORS_WIDTH).for_each(|l| squares[l] += x[l] * x[l]);
     }
     squares.map(f64::sqrt)
 }

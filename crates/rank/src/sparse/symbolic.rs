@@ -10,18 +10,18 @@
 //! Sci. Stat. Comput. 7 (1986) 1190–1211, for the tree; T. A. Davis, Algorithm 915: SuiteSparseQR,
 //! ACM Trans. Math. Softw. 38 (2011) 8, for fronts that are factored completely.
 
+use crate::limits::{SMALL_FRONT, WORK_MAX};
 use std::ops::Range;
 
-use super::factor::Wanted;
 use crate::structure::partition;
 use linalg::{EliminationTree, SparseMatrix};
 
-/// A front of at most this many columns is not worth its own assembly.
-const SMALL: usize = 24;
-
-/// More operations than this take minutes, and their fronts gigabytes: a single dense front of 10⁴
-/// columns.
-pub(super) const WORK_MAX: f64 = 1e12;
+/// Which factor is kept; the other one is not stored.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Wanted {
+    Q,
+    R,
+}
 
 /// Operations, counted or estimated, when the limit was passed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -211,7 +211,7 @@ fn amalgamate(tree: &EliminationTree, size: impl Fn(usize) -> usize) -> Vec<Supe
         let mut apart = Vec::new();
         for child in std::mem::take(&mut children[k]) {
             let together = pivots[child] + width[k];
-            if together == width[child] || together <= SMALL {
+            if together == width[child] || together <= SMALL_FRONT {
                 pivots[k] += pivots[child];
                 width[k] = together;
                 merged[k].push(child);

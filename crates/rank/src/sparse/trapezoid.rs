@@ -1,6 +1,7 @@
 //! R, and triangular solves with its live columns.
 
-use super::reflectors::{Lanes, WIDTH};
+use super::reflectors::Lanes;
+use crate::limits::REFLECTORS_WIDTH;
 
 /// The rows of R in order of elimination. The first entry of each is its pivot; the columns of the
 /// pivots are the *live* ones, R₁₁, and no row has an entry in the pivot column of an earlier one.
@@ -64,7 +65,7 @@ impl Trapezoid {
         let mut is_live = vec![false; x.len()];
         self.live().for_each(|j| is_live[j] = true);
         for (x, _) in x.iter_mut().zip(is_live).filter(|(_, live)| !live) {
-            *x = [0.0; WIDTH];
+            *x = [0.0; REFLECTORS_WIDTH];
         }
     }
 

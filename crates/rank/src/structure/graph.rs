@@ -1,6 +1,6 @@
 //! The graph of blocks, ground and groups: its parts without the ground, and its bridges with it.
 
-use super::{Incidence, Part};
+use super::incidence::{Incidence, Part};
 
 /// Parts of the remaining rows, the ground left out, by their first row. Rows of one group stay
 /// together.

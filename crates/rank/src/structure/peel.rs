@@ -2,7 +2,7 @@
 
 use std::collections::VecDeque;
 
-use super::Incidence;
+use super::incidence::Incidence;
 use crate::decision::independent;
 use linalg::Matrix;
 

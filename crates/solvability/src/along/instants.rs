@@ -1,15 +1,15 @@
 //! Instants at which a reaction is unique that is not unique almost always, at the same rank: its
 //! margin falls to zero and rises again.
 
+use super::compare::{differences, verdicts};
+use super::data::{AlongError, Passage, PassageKind, Stretch};
 use super::passages::local_minima;
 use super::path::{Path, Sample};
-use super::{AlongError, Passage, PassageKind, Stretch, differences, search, verdicts, words};
+use super::{search, words};
 use crate::analysis::Analysis;
+use crate::limits::FINER;
 use crate::state::State;
 use crate::verdict::Verdict;
-
-/// A minimum, with a sample more on each side, is divided once more into so many intervals.
-const FINER: u8 = 16;
 
 /// Isolated instants outside the stretches that have verdicts of their own, and outside nearly
 /// singular intervals.

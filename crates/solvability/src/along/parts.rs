@@ -1,11 +1,13 @@
 //! A motion judged part by part: each set of joints on common cycles has a motion of its own, with
 //! its own passages.
 
+use crate::judged::Judged;
+use crate::limits::ROWS_MAX;
 use model::{Mechanism, System};
 
-use super::{Along, AlongError, Passage, PassageKind, Stretch, judged_as_one, words};
-use crate::analysis::{Analysis, Judged};
-use crate::certificate::ROWS_MAX;
+use super::data::{Along, AlongError, Passage, PassageKind, Stretch};
+use super::{judged_as_one, words};
+use crate::analysis::Analysis;
 use crate::parts::{Extent, Partition};
 use crate::second_order::Continuation;
 use crate::state::State;

@@ -1,37 +1,23 @@
 //! Instants at which the rank drops, or nearly does.
 
+use crate::limits::{
+    BENT, BESIDE_PASSAGE, MAY_PASS, MINIMUM_LOWER, OVERLAP, SAMPLE_HALVINGS, SINGULAR_INSTANT,
+};
+use crate::pose::velocity_units;
 use linalg::{Matrix, PivotedQr, least_squares_step};
 use model::{Mechanism, System};
 use rank::RankStatus;
 
 use super::border::Border;
-use super::path::{NEARLY_SINGULAR, Path, Point, Sample, singular_value};
-use super::{AlongError, Passage, PassageKind, Stretch, differences, search, words};
+use rank::NEARLY_REDUNDANT;
+
+use super::compare::differences;
+use super::data::{AlongError, Passage, PassageKind, Stretch};
+use super::path::{Path, Point, Sample, singular_value};
+use super::{search, words};
 use crate::analysis::Analysis;
-use crate::mechanism::velocity_units;
 use crate::second_order::{Continuation, Undetermined, second_order};
 use crate::state::State;
-
-/// A sign change belongs to a singular configuration if σ_r is below this there; otherwise rows or
-/// frame have turned.
-const SINGULAR: f64 = 1e-6;
-
-/// A frame has turned too far to compare signs if its overlap is below this.
-const OVERLAP: f64 = 0.5;
-
-/// A determinant that has fallen to this share may have passed zero twice.
-const SMALL: f64 = 0.1;
-
-/// An interval between samples is halved as often at most.
-const HALVINGS: usize = 8;
-
-/// Between two samples C is no farther from the first than this times their distance: a motion is
-/// nearly straight there.
-const BENT: f64 = 2.0;
-
-/// Directions of the regular motion are those at this share of the nearly singular interval beside
-/// the instant.
-const BESIDE: f64 = 1e-2;
 
 /// An instant where σ_r is smallest.
 #[derive(Clone, Copy)]
@@ -56,9 +42,9 @@ pub(super) fn passages<F: FnMut(f64) -> State>(
         if found.iter().any(|c| a <= c.t && c.t <= b) {
             continue;
         }
-        let least = search::minimum(bracket, NEARLY_SINGULAR, 0.0, |t| path.sigma(t))?;
+        let least = search::minimum(bracket, NEARLY_REDUNDANT, 0.0, |t| path.sigma(t))?;
         if let Some((t, sigma)) = least
-            && sigma < NEARLY_SINGULAR
+            && sigma < NEARLY_REDUNDANT
         {
             let proved = false;
             found.push(Candidate { t, sigma, proved });
@@ -79,15 +65,13 @@ pub(super) fn passages<F: FnMut(f64) -> State>(
 /// Brackets of the minima of a sampled function, at its ends too; none where it is constant, and
 /// none beside times at which it is not known, because it may fall on towards these.
 pub(super) fn local_minima(times: &[f64], values: &[Option<f64>]) -> Vec<[f64; 2]> {
-    /// What a minimum must be lower than the larger neighbour by.
-    const LOWER: f64 = 0.99;
     let last = times.len().saturating_sub(1);
     (0..times.len())
         .filter_map(|k| {
             let (first, last) = (k.saturating_sub(1), last.min(k + 1));
             let (before, here, after) = (values[first]?, values[k]?, values[last]?);
             let lowest = here <= before && here <= after;
-            let falls = here < LOWER * before.max(after);
+            let falls = here < MINIMUM_LOWER * before.max(after);
             (lowest && falls).then(|| [times[first], times[last]])
         })
         .collect()
@@ -128,7 +112,7 @@ fn sign_changes<F: FnMut(f64) -> State>(
     let mut found: Vec<Candidate> = Vec::new();
     let mut intervals: Vec<(End, End, usize)> = ends
         .windows(2)
-        .map(|w| (w[0].clone(), w[1].clone(), HALVINGS))
+        .map(|w| (w[0].clone(), w[1].clone(), SAMPLE_HALVINGS))
         .collect();
     while let Some((a, b, halvings)) = intervals.pop() {
         // No matrix so near to one of rank r has a lower rank.
@@ -144,7 +128,7 @@ fn sign_changes<F: FnMut(f64) -> State>(
             };
             let t = search::root([a.t, b.t], [1.0, value], 0.0, at)?;
             let sigma = path.sigma(t)?;
-            if sigma < SINGULAR {
+            if sigma < SINGULAR_INSTANT {
                 let proved = true;
                 found.push(Candidate { t, sigma, proved });
                 continue;
@@ -152,8 +136,8 @@ fn sign_changes<F: FnMut(f64) -> State>(
         }
         // The same the other way round: rows and frame of b.
         let back = Border::new(&b.matrix, &b.kept);
-        let doubtful = value < SMALL
-            || back.value(&a.matrix) < SMALL
+        let doubtful = value < MAY_PASS
+            || back.value(&a.matrix) < MAY_PASS
             || border.overlap(&b.matrix).min(back.overlap(&a.matrix)) < OVERLAP;
         if halvings > 0 && doubtful {
             let t = 0.5 * (a.t + b.t);
@@ -227,7 +211,7 @@ fn nearly_singular<F: FnMut(f64) -> State>(
     let after: Vec<&Sample> = samples.iter().filter(|s| s.t > t).collect();
     // The first sample outside, and the last one inside.
     let edges = [before, after].map(|side| {
-        let outside = side.iter().position(|s| s.sigma >= NEARLY_SINGULAR)?;
+        let outside = side.iter().position(|s| s.sigma >= NEARLY_REDUNDANT)?;
         let inside = outside.checked_sub(1).map_or(t, |k| side[k].t);
         Some([side[outside].t, inside])
     });
@@ -235,7 +219,7 @@ fn nearly_singular<F: FnMut(f64) -> State>(
     for (found, edge) in found.iter_mut().zip(edges) {
         if let Some(edge) = edge {
             *found = search::edge(edge, |t| {
-                Ok::<_, AlongError>(path.sigma(t)? - NEARLY_SINGULAR)
+                Ok::<_, AlongError>(path.sigma(t)? - NEARLY_REDUNDANT)
             })?;
         }
     }
@@ -275,11 +259,11 @@ fn regular_motions<F: FnMut(f64) -> State>(
         return Ok(Matrix::zeros(n, 0));
     }
     // The mean of both sides is wrong by the square of their distance only.
-    let distance = BESIDE * (to - t).min(t - from);
+    let distance = BESIDE_PASSAGE * (to - t).min(t - from);
     let sides = match distance > 0.0 {
         true => vec![t - distance, t + distance],
-        false if to > t => vec![t + BESIDE * (to - t)],
-        false => vec![t + BESIDE * (from - t)],
+        false if to > t => vec![t + BESIDE_PASSAGE * (to - t)],
+        false => vec![t + BESIDE_PASSAGE * (from - t)],
     };
     let mut frames = Vec::new();
     for t in sides {

@@ -1,23 +1,18 @@
 //! States of a motion on the constraints, and the samples that were taken of it.
 
+use crate::error::AnalysisError;
+use crate::limits::REGULAR_SAMPLE;
+use crate::pose::{dimensionless, evaluated, uncertainty};
 use linalg::{Matrix, Scaling};
 use model::start::{Metric, nearest_configuration, scene_size};
 use model::{Mechanism, Scratch, System};
 use rank::RankDecision;
 
-use super::AlongError;
+use super::data::AlongError;
 use crate::analysis::Analysis;
 use crate::certificate::Rows;
-use crate::mechanism::{
-    AnalysisError, Told, dimensionless, evaluated, judge, judge_reactions, uncertainty,
-};
+use crate::mechanism::{Told, judge, judge_reactions};
 use crate::state::{self, State};
-
-/// The smallest singular value below which a configuration is called nearly singular.
-pub(super) const NEARLY_SINGULAR: f64 = 1e-3;
-
-/// A sample that is singular beside the best one of the motion is not regular, whatever its value.
-const REGULAR: f64 = 0.1;
 
 /// A motion of a mechanism.
 pub(super) struct Path<'a, F> {
@@ -125,7 +120,7 @@ impl<'a, F: FnMut(f64) -> State> Path<'a, F> {
             };
         }
         let largest = self.samples.iter().map(|s| s.sigma).fold(0.0, f64::max);
-        let limit = NEARLY_SINGULAR.min(REGULAR * largest);
+        let limit = rank::NEARLY_REDUNDANT.min(REGULAR_SAMPLE * largest);
         for s in &mut self.samples {
             s.regular = s.decision.is_decided() && s.decision.rank == self.rank && s.sigma >= limit;
         }

@@ -2,11 +2,7 @@
 //! smallest. All may fail. Singular instants are found by these, along a motion that is known and
 //! within a step of one that is not.
 
-/// Halvings that bring any interval to rounding, and more.
-const ITERATIONS: usize = 120;
-
-/// Intervals are not divided below this share of their times.
-const RESOLUTION: f64 = 2.0 * f64::EPSILON;
+use crate::limits::{EDGE, FALL, RESOLUTION, SEARCH_ITERATIONS};
 
 /// A root of `f` between a and b, where `f(a) > 0 > f(b)`: secant steps with the Illinois
 /// modification, halvings where these gain too little, until a value is at most `enough`.
@@ -25,7 +21,7 @@ pub fn root<E>(
     let mut width = b - a;
     let mut slow = 0;
     let mut was_low = None;
-    for _ in 0..ITERATIONS {
+    for _ in 0..SEARCH_ITERATIONS {
         let secant = low.0 + (high.0 - low.0) * w_low / (w_low - w_high);
         let middle = 0.5 * (low.0 + high.0);
         let inside = secant > low.0 && secant < high.0;
@@ -61,9 +57,6 @@ pub fn root<E>(
     })
 }
 
-/// Where an edge is found to this share of its interval, one reads no more digits.
-const EDGE: f64 = 1e-10;
-
 /// The time between `outside` and `inside`, in either order, at which `f` falls below zero: not
 /// below outside, but inside.
 pub(super) fn edge<E>(
@@ -79,11 +72,6 @@ pub(super) fn edge<E>(
     let enough = EDGE * values[0].min(values[1].abs());
     Ok(direction * root(along, values, enough, |x| f(direction * x))?)
 }
-
-/// A convex function with these values around its minimum lies above
-/// `least − 1.62·(largest − least)` where it was asked at golden sections; the rest is room for
-/// functions that are not convex.
-const FALL: f64 = 4.0;
 
 /// Whether a function that was found to be no smaller than `least` around its minimum, and no
 /// larger than `largest`, may fall to `limit` between.
@@ -110,7 +98,7 @@ pub fn minimum<E>(
     let mut best = lower(lower((a, f64::INFINITY), (a, f_a)), (b, f_b));
     let (mut x, mut y) = (b - golden * (b - a), a + golden * (b - a));
     let (mut f_x, mut f_y) = (f(x)?, f(y)?);
-    for _ in 0..ITERATIONS {
+    for _ in 0..SEARCH_ITERATIONS {
         best = lower(lower(best, (x, f_x)), (y, f_y));
         let narrow = enough.max(RESOLUTION * a.abs().max(b.abs()));
         if b - a <= narrow || best.1 == 0.0 {

@@ -5,8 +5,12 @@
 //! margins that are not zero stay so nearby. So of several verdicts the one with the most reactions
 //! that are not unique is generic.
 
+use super::compare::{differences, verdicts};
+use super::data::Stretch;
 use super::path::{Path, Sample};
-use super::{Stretch, differences, ends_of_pieces, verdicts, words};
+use super::words;
+use model::{Mechanism, System};
+
 use crate::analysis::Analysis;
 use crate::verdict::Verdict;
 
@@ -79,4 +83,11 @@ fn most_generic<'a>(samples: impl Iterator<Item = &'a Sample>) -> Option<&'a Sam
         .map(|s| (standing(s), s))
         .max_by(|(a, s), (b, t)| a.cmp(b).then(s.sigma.total_cmp(&t.sigma)))
         .map(|(_, s)| s)
+}
+
+/// First and last time, and the break times between them.
+pub(super) fn ends_of_pieces(mechanism: &Mechanism, first: f64, last: f64) -> Vec<f64> {
+    let breaks = mechanism.layout().break_times.iter().copied();
+    let inside = breaks.filter(|t| first < *t && *t < last);
+    [first].into_iter().chain(inside).chain([last]).collect()
 }

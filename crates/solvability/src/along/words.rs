@@ -1,23 +1,17 @@
 //! Passages and stretches as sentences.
 
-use super::{Difference, Part, Passage, PassageKind, Stretch};
+use super::data::{Difference, Part, Passage, PassageKind, Stretch};
 use crate::analysis::Analysis;
-
-/// Digits of a time that was searched for: it is known as well as the motion, which a run knows to
-/// little more than its tolerance.
-const SEARCHED: i32 = 7;
-
-/// Digits of a time that a function of the scene gives.
-const GIVEN: i32 = 10;
+use crate::limits::{GIVEN_DIGITS, SEARCHED_DIGITS};
 
 /// What happens at an instant.
 pub(super) fn passage(p: &Passage, generic: &Analysis) -> String {
-    let time = format!("at t = {} s", digits(p.time, SEARCHED));
+    let time = format!("at t = {} s", digits(p.time, SEARCHED_DIGITS));
     let interval = p.nearly_singular.map_or(String::new(), |[from, to]| {
         format!(
             " (nearly singular from {} s to {} s)",
-            digits(from, SEARCHED),
-            digits(to, SEARCHED)
+            digits(from, SEARCHED_DIGITS),
+            digits(to, SEARCHED_DIGITS)
         )
     });
     let what = match &p.kind {
@@ -44,7 +38,7 @@ pub(super) fn passage(p: &Passage, generic: &Analysis) -> String {
 
 /// What holds on a stretch.
 pub(super) fn stretch(s: &Stretch, generic: &Analysis) -> String {
-    let (from, to) = (digits(s.from, GIVEN), digits(s.to, GIVEN));
+    let (from, to) = (digits(s.from, GIVEN_DIGITS), digits(s.to, GIVEN_DIGITS));
     let usual = generic.decision.redundancy;
     let rank = match s.redundancy == usual {
         true => "at the same rank".to_owned(),

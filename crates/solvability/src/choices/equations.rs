@@ -1,17 +1,17 @@
 //! The equations behind the multipliers, and one solution of them: on the kept rows of the rank
 //! decision, the dropped ones zero.
 
+use crate::limits::{AGREEMENT, ROWS_MAX};
+use crate::pose::velocity_units;
+use crate::row_decision::RowDecision;
 use linalg::{KeptRowSaddle, Matrix, SchurSaddle, SchurStructure};
 use model::{ColumnKind, Mechanism, Scratch, System};
 use rank::RankStatus;
 
 use super::ChoiceError;
-use crate::certificate::ROWS_MAX;
 use crate::groups::{RequestError, check};
 use crate::large::{blocks, rows_of};
-use crate::mechanism::velocity_units;
 use crate::parts::Extent;
-use crate::rows::RowDecision;
 
 /// `M·a + Cᵀ·λ = Q`, `C·a = Γ` at one instant.
 ///
@@ -54,10 +54,6 @@ pub struct Solution {
     /// λ: that of the kept rows, zero on the dropped ones. All others are `λ + Z·y`.
     pub multipliers: Vec<f64>,
 }
-
-/// Redundant accelerations agree to this share of their terms: that of rounding in velocities on
-/// the constraints, with room.
-const AGREEMENT: f64 = 1e-9;
 
 impl Equations {
     /// Those of a mechanism at time t, coordinates q and velocities v, which must satisfy the

@@ -1,14 +1,12 @@
 //! The solution with the least sum of weighted squares: minimum norms and elastic supports are both
 //! of this kind.
 
+use crate::limits::CHOICE_SOLVES;
 use linalg::{Matrix, PivotedQr};
 
 use super::ChoiceError;
 use crate::groups::{LinearForm, check, check_finite};
 use crate::matrices::Solvability;
-
-/// The first solve leaves its own rounding; the second removes what of it matters.
-const SOLVES: usize = 2;
 
 /// The λ that minimises `Σ weight·(ℓᵀ·λ)²` over all solutions `λ₀ + Z·y`: with the rows
 /// `√weight·ℓᵀ` in L, `Zᵀ·Lᵀ·L·Z·y = −Zᵀ·Lᵀ·L·λ₀`, solved by QR of L·Z. Directions of y that change
@@ -75,7 +73,7 @@ pub fn minimise(
         });
     }
     let mut lambda = lambda_0.to_vec();
-    for _ in 0..SOLVES {
+    for _ in 0..CHOICE_SOLVES {
         let pairs = terms.iter().zip(&roots);
         let mut y: Vec<f64> = pairs
             .map(|((form, _), r)| r * form.value(&lambda))

@@ -1,5 +1,6 @@
 //! Numbers of a distribution: facts, and choices under their names.
 
+use crate::limits::{FIRST_NAMED, NAMED_ROWS};
 use std::fmt;
 use std::sync::Arc;
 
@@ -65,10 +66,6 @@ impl fmt::Display for Label {
     }
 }
 
-/// Rows that a label names; of more it names the first few.
-const NAMED: usize = 12;
-const FIRST: usize = 3;
-
 impl Label {
     /// Of a choice where these joints and drives do not give way.
     pub(crate) fn of(layout: &Layout, choice: &Choice, rigid: &[ConstraintId]) -> Self {
@@ -100,8 +97,8 @@ impl Label {
                 let known = rows.iter().filter_map(|&i| layout.labels.get(i));
                 let labels: Vec<RowLabel> = known.cloned().collect();
                 // The label stands at every number.
-                let (told, more) = match labels.len() > NAMED {
-                    true => labels.split_at(FIRST),
+                let (told, more) = match labels.len() > NAMED_ROWS {
+                    true => labels.split_at(FIRST_NAMED),
                     false => (&labels[..], &[][..]),
                 };
                 let word = row_word(&labels);

@@ -2,40 +2,23 @@
 //! come first: a redundant row is that of a drive where it can be, so that what misses is what a
 //! drive asks for, and no joint is blamed, however much drives differ.
 
+use crate::error::AnalysisError;
+use crate::limits::{DRIVE_HALVINGS, DRIVE_POSITIONS, DRIVE_STEPS, ONE_PART, RUNS_NOTICE, STRIDE};
+use crate::pose::{dimensionless, uncertainty};
 use linalg::Matrix;
 use model::start::{Metric, nearest_configuration, scene_size};
 use model::{ConstraintId, Mechanism, RowLabel, Scratch, System};
 use rank::{RankDecision, circuits, components, decide_keeping};
 
 use super::{Comparison, ConstraintLevel, Contradiction};
-use crate::generic::{Elsewhere, GENERIC_ROWS, generic};
-use crate::mechanism::{AnalysisError, dimensionless, uncertainty};
+use crate::generic::{Elsewhere, generic};
 use crate::state::check_configuration;
-
-/// Positions after the start at which drives are compared along a motion.
-const POSITIONS: u32 = 12;
-
-/// What drives may change by from one position to the next (rad, or as a share of the size of the
-/// mechanism): a larger step may end on another branch of the joints, where drives that agree do
-/// not.
-const STRIDE: f64 = 0.1;
-
-/// Steps on the way at most: a dozen revolutions. What comes later is not known.
-const STEPS: usize = 800;
-
-/// A step that fails is halved so often at most: what is reached by smaller ones only is too near
-/// to a singular configuration to be followed.
-const HALVINGS: usize = 6;
-
-/// Share of their terms by which drives must differ before a run stops for it with certainty (runs
-/// compare to 1e-11, divided by pivots).
-const RUNS_NOTICE: f64 = 1e-9;
 
 /// Contradictions between drives and what else holds at time t and coordinates q, positions before
 /// velocities and the worst first: drives that ask for different positions or velocities, and
 /// drives that ask for what joints forbid. No velocities are needed. The joints must hold at q, and
 /// of the drives as many as are independent of them and of those before. Nothing is known of this
-/// where the rank is undecided in `f64`, and nothing is asked above [`GENERIC_ROWS`] rows.
+/// where the rank is undecided in `f64`, and nothing is asked above [`ONE_PART`] rows.
 ///
 /// # Errors
 /// - [`AnalysisError::State`]: t or q is not finite, or q has not n_q entries.
@@ -50,7 +33,7 @@ pub fn contradicting_drives(
 
 /// The first contradiction of drives on the way from the start to the last time, at a dozen
 /// positions after the start. Positions are those that the drives ask for; where they cannot be
-/// followed, or above [`GENERIC_ROWS`] rows, nothing is known; rows that depend on each other at
+/// followed, or above [`ONE_PART`] rows, nothing is known; rows that depend on each other at
 /// the start alone are left out. Drives that differ by less than a run would notice agree.
 ///
 /// # Errors
@@ -99,7 +82,7 @@ fn lasts(mechanism: &Mechanism, q: &[f64], contradiction: &Contradiction) -> boo
 /// Whether there is nothing to compare, or too much.
 fn is_beyond(mechanism: &Mechanism) -> bool {
     let layout = mechanism.layout();
-    layout.drive_rows().is_empty() || layout.rows() > GENERIC_ROWS
+    layout.drive_rows().is_empty() || layout.rows() > ONE_PART
 }
 
 /// Shows the positions on the way, until one cannot be reached or `see` has seen enough.
@@ -120,10 +103,10 @@ fn walk(
         q: start.to_vec(),
         steps: 0,
     };
-    for k in 1..=POSITIONS {
+    for k in 1..=DRIVE_POSITIONS {
         let to = match k {
-            POSITIONS => t_end,
-            k => t_end * f64::from(k) / f64::from(POSITIONS),
+            DRIVE_POSITIONS => t_end,
+            k => t_end * f64::from(k) / f64::from(DRIVE_POSITIONS),
         };
         // Where it ends, drives that differ have differed already.
         let is_there = way.go(to)?;
@@ -148,7 +131,7 @@ impl Way<'_> {
     /// Goes on to a later time. Returns whether it has been reached.
     fn go(&mut self, to: f64) -> Result<bool, AnalysisError> {
         while self.t < to {
-            if self.steps == STEPS {
+            if self.steps == DRIVE_STEPS {
                 return Ok(false);
             }
             self.steps += 1;
@@ -164,7 +147,7 @@ impl Way<'_> {
             let reached = loop {
                 match nearest_configuration(self.mechanism, next, kept, &self.q, Metric::Mass) {
                     Ok(there) => break Some(there),
-                    Err(_) if halvings < HALVINGS => next = self.t + 0.5 * (next - self.t),
+                    Err(_) if halvings < DRIVE_HALVINGS => next = self.t + 0.5 * (next - self.t),
                     Err(_) => break None,
                 }
                 halvings += 1;

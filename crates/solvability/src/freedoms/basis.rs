@@ -1,19 +1,11 @@
 //! Choosing readable vectors from a space of velocities: conditions are imposed one after the
 //! other, and each one that leaves something new stays. No rank is decided here.
 
+use crate::limits::{NEW_MOTION, SATISFIED};
 use linalg::{Matrix, PivotedQr};
 
 /// A linear form of the velocities: column and coefficient, at most about one.
 pub(super) type Form = Vec<(usize, f64)>;
-
-/// A velocity of length one satisfies a form below this: rounding of a null space, far below any
-/// freedom that is worth a word.
-const SATISFIED: f64 = 1e-9;
-
-/// A velocity of length one is new if it differs from the chosen ones by more than this. Above
-/// [`SATISFIED`], so that what is left by rounding of several conditions is not taken for a
-/// freedom.
-const NEW: f64 = 1e-6;
 
 /// The velocities that rows allow, and those that have been chosen of them.
 pub(super) struct Space<'a> {
@@ -97,7 +89,7 @@ impl<'a> Space<'a> {
 
     /// The column that differs most from what has been chosen, if one is new.
     fn newest(&self, y: &Subspace) -> Option<usize> {
-        let mut best = (NEW, None);
+        let mut best = (NEW_MOTION, None);
         for j in 0..y.ncols() {
             let column: Vec<f64> = (0..y.nrows()).map(|i| y[(i, j)]).collect();
             let size = norm(self.remainder(column).into_iter());

@@ -1,6 +1,8 @@
 //! Bodies that joints connect: the velocities that their rows leave free, as motions of few bodies
 //! each.
 
+use crate::limits::{AT_REST, TRIALS};
+use crate::pose::{COLUMNS, dimensionless, evaluated, velocity_units};
 use std::cmp::Reverse;
 use std::collections::VecDeque;
 
@@ -9,18 +11,6 @@ use model::start::scene_size;
 use model::{BodyRef, ConstraintId, Mechanism, Scratch, System};
 
 use super::basis::{Form, Space, Subspace};
-use crate::mechanism::{dimensionless, evaluated, velocity_units};
-
-/// Coordinates of a planar body.
-pub(super) const BODY: usize = 3;
-
-/// A velocity is zero below this share of the fastest one, rotations measured at the size of the
-/// mechanism: rounding of a null space.
-pub(super) const AT_REST: f64 = 1e-10;
-
-/// Joints and bodies × freedoms² up to which a motion of few joints is looked for from every joint;
-/// beyond, from as many as this allows.
-const TRIALS: usize = 2_000_000;
 
 /// Connected bodies at a configuration, as a mechanism of their own.
 pub(super) struct Component<'a> {
@@ -33,7 +23,7 @@ pub(super) struct Component<'a> {
 }
 
 /// Velocities of all bodies of a component: vx, vy (m/s), ω (rad/s).
-pub(super) type Velocities = Vec<[f64; BODY]>;
+pub(super) type Velocities = Vec<[f64; COLUMNS]>;
 
 /// How much moves.
 #[derive(Clone, Copy, Debug, Default, PartialEq, PartialOrd)]
@@ -88,7 +78,7 @@ impl<'a> Component<'a> {
         }
         let all = PivotedQr::of_columns(&free).q_columns(0..free.ncols());
         let mut space = Space::new(&all);
-        let is_free = space.left() >= BODY && space.take_out(&self.rigid());
+        let is_free = space.left() >= COLUMNS && space.take_out(&self.rigid());
         let mut motions = Vec::new();
         while motions.len() < most && space.left() > 0 {
             let Some(v) = self.next(&mut space) else {
@@ -199,9 +189,9 @@ impl<'a> Component<'a> {
             bodies.map(move |b| self.point_at_rest(b, place))
         });
         let one = |column: usize| vec![vec![(column, 1.0)]];
-        let turns = bodies().map(|b| one(BODY * b + 2));
-        let centres = bodies().map(|b| [one(BODY * b), one(BODY * b + 1)].concat());
-        let axes = bodies().flat_map(|b| [one(BODY * b + 1), one(BODY * b)]);
+        let turns = bodies().map(|b| one(COLUMNS * b + 2));
+        let centres = bodies().map(|b| [one(COLUMNS * b), one(COLUMNS * b + 1)].concat());
+        let axes = bodies().flat_map(|b| [one(COLUMNS * b + 1), one(COLUMNS * b)]);
         turns.chain(pinned).chain(centres).chain(axes).collect()
     }
 
@@ -228,7 +218,7 @@ impl<'a> Component<'a> {
     /// Forms that vanish where a point of a body is at rest.
     fn point_at_rest(&self, body: usize, [x, y]: [f64; 2]) -> Vec<Form> {
         let pose = &self.s.poses[body];
-        let first = BODY * body;
+        let first = COLUMNS * body;
         // Below one: the point is within the size of the mechanism, and turning is measured by it.
         let unit = self.units[first + 2];
         vec![
@@ -246,7 +236,7 @@ impl<'a> Component<'a> {
         let points = [a, b].map(|body| self.point_at_rest(body, place));
         let [one, other] = points;
         let mut forms: Vec<Form> = one.into_iter().zip(other).map(difference).collect();
-        forms.push(vec![(BODY * a + 2, 1.0), (BODY * b + 2, -1.0)]);
+        forms.push(vec![(COLUMNS * a + 2, 1.0), (COLUMNS * b + 2, -1.0)]);
         forms
     }
 
@@ -254,7 +244,7 @@ impl<'a> Component<'a> {
     /// without dimensions.
     fn rigid(&self) -> Vec<Vec<f64>> {
         let centre = self.s.poses.first().map_or([0.0; 2], |p| [p.x, p.y]);
-        let motion = |of: &dyn Fn(f64, f64) -> [f64; BODY]| -> Vec<f64> {
+        let motion = |of: &dyn Fn(f64, f64) -> [f64; COLUMNS]| -> Vec<f64> {
             let bodies = self.s.poses.iter();
             let moved = bodies.flat_map(|p| of(p.x - centre[0], p.y - centre[1]));
             moved.zip(&self.units).map(|(v, unit)| v / unit).collect()
@@ -279,10 +269,10 @@ impl<'a> Component<'a> {
         let scaled = v.iter().zip(&self.units).map(|(x, unit)| known(*x) * unit);
         let scaled: Vec<f64> = scaled.collect();
         let bodies: Velocities = scaled
-            .chunks_exact(BODY)
+            .chunks_exact(COLUMNS)
             .map(|b| [b[0], b[1], b[2]])
             .collect();
-        let largest = |of: fn(&[f64; BODY]) -> f64| bodies.iter().map(of).fold(0.0, f64::max);
+        let largest = |of: fn(&[f64; COLUMNS]) -> f64| bodies.iter().map(of).fold(0.0, f64::max);
         let unit = match (largest(|b| b[2].abs()), largest(|b| b[0].hypot(b[1]))) {
             (0.0, 0.0) => 1.0,
             (0.0, speed) => speed,
@@ -295,7 +285,7 @@ impl<'a> Component<'a> {
 
 /// Forms that vanish where a body is at rest.
 fn at_rest(body: usize) -> Vec<Form> {
-    (BODY * body..BODY * (body + 1))
+    (COLUMNS * body..COLUMNS * (body + 1))
         .map(|j| vec![(j, 1.0)])
         .collect()
 }

@@ -1,14 +1,11 @@
 //! Bodies that joints connect: sets with ranks of their own, told one after the other.
 
+use crate::limits::{MOTIONS_TOLD, ROWS_MAX};
+use crate::pose::COLUMNS;
 use model::{Mechanism, Part, System};
 
-use super::component::{BODY, Component, shared_rank};
-use super::{Decided, FreeMotion, FreeMotions, LeftOut, MOTIONS_TOLD, words};
-use crate::certificate::ROWS_MAX;
-
-/// Connected joints of more rows, or bodies of more coordinates, are not taken apart: a dense null
-/// space is made of them.
-const CONNECTED: usize = ROWS_MAX;
+use super::component::{Component, shared_rank};
+use super::{Decided, FreeMotion, FreeMotions, LeftOut, words};
 
 /// What has been said.
 #[derive(Default)]
@@ -55,7 +52,7 @@ impl<'a> Connected<'a> {
         let freedoms = self.whole.layout().n_v.saturating_sub(rank + told.freedoms);
         let reason = match told.too_large {
             0 => format!("the first {MOTIONS_TOLD} motions are told"),
-            _ => format!("connected joints of more than {CONNECTED} rows are not taken apart"),
+            _ => format!("connected joints of more than {ROWS_MAX} rows are not taken apart"),
         };
         FreeMotions {
             motions: told.motions,
@@ -98,7 +95,7 @@ impl<'a> Connected<'a> {
                 continue;
             }
             let is_large = |set: usize, rows: &[usize]| {
-                rows.len() > CONNECTED || BODY * self.sets[set].len() > CONNECTED
+                rows.len() > ROWS_MAX || COLUMNS * self.sets[set].len() > ROWS_MAX
             };
             let too_large = own.iter().any(|(set, rows)| is_large(*set, rows));
             let pivots = own.iter().map(|(set, rows)| match too_large {
@@ -112,7 +109,7 @@ impl<'a> Connected<'a> {
             }
         }
         for (k, rank) in ranks.iter_mut().enumerate() {
-            if size[k] > CONNECTED || BODY * self.sets[k].len() > CONNECTED {
+            if size[k] > ROWS_MAX || COLUMNS * self.sets[k].len() > ROWS_MAX {
                 *rank = None;
             }
         }
@@ -154,13 +151,13 @@ impl<'a> Connected<'a> {
 
     fn tell(&self, set: &[usize], t: f64, q: &[f64], rank: usize, told: &mut Told) {
         let most = MOTIONS_TOLD - told.motions.len().min(MOTIONS_TOLD);
-        if most == 0 || rank == BODY * set.len() {
+        if most == 0 || rank == COLUMNS * set.len() {
             return;
         }
         if self.is_alone(set) {
             let unit = |k: usize| std::array::from_fn(|i| f64::from(u8::from(i == k)));
-            let velocities = (0..BODY).map(|k| set.iter().map(|&b| (b, unit(k))).collect());
-            told.freedoms += BODY;
+            let velocities = (0..COLUMNS).map(|k| set.iter().map(|&b| (b, unit(k))).collect());
+            told.freedoms += COLUMNS;
             told.motions.push(FreeMotion {
                 text: words::free(self.whole, set),
                 velocities: velocities.collect(),
@@ -170,12 +167,12 @@ impl<'a> Connected<'a> {
         let part = self.part(set);
         let component = Component::new(&part.mechanism, t, &self.own(set, q));
         let found = component.motions(rank, most);
-        let numbered = |velocities: Vec<[f64; BODY]>| -> Vec<(usize, [f64; BODY])> {
+        let numbered = |velocities: Vec<[f64; COLUMNS]>| -> Vec<(usize, [f64; COLUMNS])> {
             let bodies = set.iter().copied().zip(velocities);
-            bodies.filter(|(_, v)| *v != [0.0; BODY]).collect()
+            bodies.filter(|(_, v)| *v != [0.0; COLUMNS]).collect()
         };
         if found.is_free {
-            told.freedoms += BODY;
+            told.freedoms += COLUMNS;
             let velocities = component.rigid_velocities().into_iter();
             told.motions.push(FreeMotion {
                 text: words::free(self.whole, set),

@@ -1,6 +1,7 @@
 //! Mechanisms whose free motions are written down by hand: points of a body at r move by v + ω × (p
 //! − r).
 
+use crate::limits::MOTIONS_TOLD;
 use joints::{
     Direction, Gear, KnifeEdge, Revolute, RevoluteAngleDrive, Translational,
     TranslationalDisplacementDrive,
@@ -8,7 +9,7 @@ use joints::{
 use model::start::assemble;
 use model::{Body, BodyRef, Description, Function, Mechanism, StartOptions};
 
-use super::{FreeMotions, Freedoms, MOTIONS_TOLD};
+use super::{FreeMotions, Freedoms};
 use crate::analyse;
 
 const GROUND: BodyRef = BodyRef::Ground;

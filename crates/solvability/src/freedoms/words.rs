@@ -1,20 +1,10 @@
 //! Free motions as sentences: what turns about which point, what slides, and what goes with it.
 
+use crate::limits::{NAMED_BODIES, SAME_PLACE, VISIBLE};
 use model::{BodyRef, ConstraintId, Mechanism, System};
 
 use super::component::{Component, Velocities};
 use crate::words::{list, short};
-
-/// Bodies that a sentence names.
-const NAMED: usize = 6;
-
-/// Two bodies move as one, and a joint stands at a point, to this share of the size of the
-/// mechanism: above the rounding of a null space, below any distance between joints that a drawing
-/// shows.
-const SAME: f64 = 1e-6;
-
-/// A coordinate below this share of the size is zero in a sentence.
-const ZERO: f64 = 1e-9;
 
 /// What a body does at an instant.
 enum Movement {
@@ -126,13 +116,13 @@ fn moves_as(of: &Component<'_>, v: &Velocities, leader: usize, body: usize) -> b
         a.max(x.hypot(*y)).max(turn.abs() * of.size)
     });
     let apart = (v[body][0] - carried[0]).hypot(v[body][1] - carried[1]);
-    apart.max((v[body][2] - turn).abs() * of.size) <= SAME * fastest
+    apart.max((v[body][2] - turn).abs() * of.size) <= SAME_PLACE * fastest
 }
 
 fn movement(of: &Component<'_>, v: &Velocities, body: usize) -> Movement {
     let ([x, y, turn], pose) = (v[body], &of.s.poses[body]);
     let speed = x.hypot(y);
-    if turn.abs() * of.size <= ZERO * speed {
+    if turn.abs() * of.size <= VISIBLE * speed {
         return Movement::Slide([x / speed, y / speed]);
     }
     Movement::Turn([pose.x - y / turn, pose.y + x / turn])
@@ -182,12 +172,12 @@ fn joint_at<'m>(of: &Component<'m>, bodies: &[usize], centre: [f64; 2]) -> Optio
 
 /// Whether two points are one, as far as the mechanism shows.
 fn is_at(of: &Component<'_>, [x, y]: [f64; 2], other: [f64; 2]) -> bool {
-    (x - other[0]).hypot(y - other[1]) <= SAME * of.size
+    (x - other[0]).hypot(y - other[1]) <= SAME_PLACE * of.size
 }
 
 /// "(0.25, −1)" without the quotes, in m.
 fn point(p: [f64; 2], size: f64) -> String {
-    let [x, y] = p.map(|x| short(if x.abs() > ZERO * size { x } else { 0.0 }));
+    let [x, y] = p.map(|x| short(if x.abs() > VISIBLE * size { x } else { 0.0 }));
     format!("({x}, {y})")
 }
 
@@ -195,10 +185,10 @@ fn point(p: [f64; 2], size: f64) -> String {
 fn named(mechanism: &Mechanism, bodies: &[usize]) -> String {
     let name = |&b: &usize| format!("`{}`", mechanism.bodies()[b].name);
     // One more is named rather than counted.
-    let told = if bodies.len() == NAMED + 1 {
-        NAMED + 1
+    let told = if bodies.len() == NAMED_BODIES + 1 {
+        NAMED_BODIES + 1
     } else {
-        NAMED
+        NAMED_BODIES
     };
     let mut names: Vec<String> = bodies.iter().take(told).map(name).collect();
     if bodies.len() > names.len() {

@@ -1,6 +1,7 @@
 //! A mechanism at a configuration whose rank has been decided: where the numbers of its reactions
 //! are made and judged.
 
+use crate::pose::{dimensionless, evaluated, uncertainty};
 use std::borrow::Cow;
 
 use linalg::Matrix;
@@ -11,7 +12,6 @@ use rank::RankDecision;
 use super::error::{RequestError, check};
 use super::form::LinearForm;
 use crate::matrices::Solvability;
-use crate::mechanism::{dimensionless, evaluated, uncertainty};
 use crate::verdict::Judgement;
 
 /// A mechanism at time t and coordinates q, with the rank of C there.

@@ -3,20 +3,15 @@
 //!
 //! Not here: where the null space comes from.
 
+use crate::limits::ROUNDING_OF_MAP;
 use std::ops::Range;
 
 use linalg::{Matrix, PivotedQr};
 use rank::{CoefficientReading, ExactNullSpace, RankStatus, Readings};
 
-use super::{Mapped, QueryError};
+use super::Mapped;
+use super::error::QueryError;
 use crate::verdict::Judgement;
-
-/// Entries of the map from multipliers to a reaction are products of a few numbers near one; below
-/// this share of the largest row a row is their rounding.
-pub(super) const ROUNDING_OF_MAP: f64 = 1e-14;
-
-/// The same in multiples of what the entries of C are known to.
-const MAP_FACTOR: f64 = 10.0;
 
 /// Rows, what spans their part of the left null space, and how well both are known.
 #[derive(Clone, Debug)]
@@ -170,7 +165,7 @@ impl Basis {
 
     /// A map is known as well as the entries of C, which stand at the same poses.
     pub(super) fn rounding_of_map(&self) -> f64 {
-        (MAP_FACTOR * self.known.uncertainty).max(ROUNDING_OF_MAP)
+        (rank::NOISE_FACTOR * self.known.uncertainty).max(ROUNDING_OF_MAP)
     }
 
     /// How many pivots are certainly not zero, if the others certainly are.

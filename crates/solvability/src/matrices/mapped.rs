@@ -3,30 +3,13 @@
 //! Not here: the rows themselves and their null space (`basis`), and where W comes from
 //! (`mechanism`).
 
+use crate::limits::{LARGEST_ROUNDING, LARGEST_TURN, ROUNDING_OF_MAP};
 use linalg::{Matrix, PivotedQr};
 use rank::{CoefficientReading, ExactNullSpace, RankStatus};
 
-use super::QueryError;
-use super::basis::{Basis, Noise, ROUNDING_OF_MAP, check_coefficients, combination, norm};
+use super::basis::{Basis, Noise, check_coefficients, combination, norm};
+use super::error::QueryError;
 use crate::verdict::{Judgement, Verdict};
-
-/// What the first order says of larger angles (rad) means nothing.
-const LARGEST_TURN: f64 = 0.1;
-
-/// A part of a unit vector above this is told, whatever a stated tolerance makes of it: without it
-/// the direction is another one.
-const LARGEST_ROUNDING: f64 = 1e-5;
-
-/// A component below this share of what its direction is known to is none, as data are beyond doubt
-/// within a third of their tolerance.
-const NONE: f64 = 1.0 / 3.0;
-
-/// A component above this share of its force matters, whatever its direction is known to: the limit
-/// of coefficients that are told as none.
-const SMALL: f64 = 1e-3;
-
-/// A component above this multiple of what its direction is known to is one, as for ranks.
-const SOME: f64 = 3.0;
 
 /// Why a component is open that the data do not tell from zero.
 const TURNED: &str = "the tolerance leaves open whether the force has this component";
@@ -121,10 +104,10 @@ impl<'a> Mapped<'a> {
         for i in 0..forces {
             let share = self.sizes[i] / whole;
             // Of larger turns the first order says nothing.
-            let is_near = turn >= LARGEST_TURN || share <= SOME * turn;
-            if share > SMALL && is_near {
+            let is_near = turn >= LARGEST_TURN || share <= rank::BEYOND_DOUBT * turn;
+            if share > rank::STATED_ZERO && is_near {
                 self.beside[i] = Beside::Open;
-            } else if share > 0.0 && share <= NONE * turn {
+            } else if share > 0.0 && share <= (1.0 / rank::BEYOND_DOUBT) * turn {
                 self.beside[i] = Beside::None {
                     margin: self.margin(i),
                 };

@@ -9,21 +9,8 @@
 //! Source: C. L. Lawson, Contributions to the theory of linear least maximum approximation, thesis,
 //! UCLA (1961); for vectors of several components the same weights serve all components of one.
 
+use crate::limits::{CONE_CLOSE, CONE_ITERATIONS, CONE_RESOLVED, LEAST_WEIGHT};
 use linalg::Lu;
-
-/// Iterations at most. Each costs a solution of as many equations as there are.
-const ITERATIONS: usize = 60;
-
-/// The bounds are close enough if they differ by this factor.
-const CLOSE: f64 = 1.05;
-
-/// An equation may miss by this share of its coefficients: near the root of eps the normal
-/// equations do not tell contradicting equations from agreeing ones, and no share is wanted to more
-/// digits.
-const RESOLVED: f64 = 1e-5;
-
-/// No weight falls below this share of the largest: changes that are not needed stay available.
-const LEAST_WEIGHT: f64 = 1e-9;
 
 /// One equation. Changes are shares of what the data are known to.
 #[derive(Clone, Debug)]
@@ -40,7 +27,8 @@ pub(super) struct Equation {
 impl Equation {
     fn slack(&self) -> f64 {
         let squares = self.parts.iter().map(|[x, y]| x * x + y * y);
-        self.rounding.max(RESOLVED * squares.sum::<f64>().sqrt())
+        self.rounding
+            .max(CONE_RESOLVED * squares.sum::<f64>().sqrt())
     }
 }
 
@@ -71,7 +59,7 @@ pub(super) fn least_change(equations: &[Equation]) -> Bounds {
     };
     let mut lu = Lu::new(e);
     let mut matrix = vec![0.0; e * e];
-    for _ in 0..ITERATIONS {
+    for _ in 0..CONE_ITERATIONS {
         for (i, left) in equations.iter().enumerate() {
             for (j, right) in equations.iter().enumerate().take(i + 1) {
                 let mut sum = 0.0;
@@ -107,7 +95,7 @@ pub(super) fn least_change(equations: &[Equation]) -> Bounds {
         }
         bounds.low = bounds.low.max(mean_square.sqrt());
         bounds.high = bounds.high.min(largest);
-        if bounds.high <= CLOSE * bounds.low {
+        if bounds.high <= CONE_CLOSE * bounds.low {
             break;
         }
         let total: f64 = shares.iter().zip(&weights).map(|(s, w)| s * w).sum();

@@ -10,10 +10,10 @@
 //! change that adds up they take nothing back. A gradient by the last pose is carried backwards to
 //! the data and to the pose where the walk began.
 
+use crate::limits::FOLLOWED;
+use crate::pose::dimensionless;
 use linalg::{Matrix, PivotedQr};
 use model::{Mechanism, Scratch, System};
-
-use crate::mechanism::dimensionless;
 
 /// Rows that hold, independent and scaled.
 pub(super) struct Followed {
@@ -82,10 +82,6 @@ pub(super) struct Step {
 /// Substeps of a step, one number after the other until they agree.
 const SUBSTEPS: [usize; 4] = [2, 4, 6, 8];
 
-/// The difference of two results that agree, as a share of the size: what nonholonomic rows hold is
-/// met by nothing later, and must not be lost by steps that are too long.
-const AGREED: f64 = 1e-12;
-
 /// What a walk is made on.
 #[derive(Clone, Copy)]
 pub(super) struct Ground<'a> {
@@ -102,7 +98,7 @@ pub(super) struct Ground<'a> {
 impl Ground<'_> {
     /// C without dimensions at a configuration.
     fn at(&self, q: &[f64]) -> (Scratch, Matrix) {
-        let s = crate::mechanism::evaluated(self.mechanism, self.t, q);
+        let s = crate::pose::evaluated(self.mechanism, self.t, q);
         let c = dimensionless(self.mechanism, &s, self.size);
         (s, c)
     }
@@ -162,7 +158,7 @@ impl Ground<'_> {
             let apart = apart
                 .map(|((a, b), unit)| ((a - b) / unit).abs())
                 .fold(0.0, f64::max);
-            if apart <= AGREED * self.size {
+            if apart <= FOLLOWED * self.size {
                 let there = self.mechanism.space().displaced(q, 1.0, best);
                 return Some((there, self.step(q, moved)));
             }

@@ -5,21 +5,11 @@
 //! the block of a joint's force rows, or of its moment rows, in the columns of the translation or
 //! of the rotation of one body. Each of these has one scale.
 
+use crate::pose::{COLUMNS, TRANSLATIONS, dimensionless};
 use std::ops::Range;
 
 use linalg::{DdMatrix, Matrix, Scaling, equilibrate_blocks};
 use model::{Known, Mechanism, Scratch, System};
-
-use crate::mechanism::dimensionless;
-
-/// Velocities of a planar body that are translations; the rotation follows.
-const TRANSLATIONS: usize = 2;
-
-/// An entry sets the scale of its row and column only above this multiple of what it is known to.
-const SIGNIFICANT: f64 = 1e5;
-
-/// Columns of a planar body.
-const N_BODY: usize = 3;
 
 /// C without dimensions with what its entries are known to.
 #[derive(Clone, Debug)]
@@ -102,7 +92,7 @@ impl MeantMatrix {
     /// up to size one, and the rank does not depend on scales.
     pub(crate) fn scaling(&self) -> Scaling {
         let significant = |i: usize, j: usize| match self.c[(i, j)] {
-            c if c.abs() > SIGNIFICANT * self.uncertainty[(i, j)] => c,
+            c if c.abs() > rank::SIGNIFICANT * self.uncertainty[(i, j)] => c,
             _ => 0.0,
         };
         let c = Matrix::from_fn(self.c.nrows(), self.c.ncols(), significant);
@@ -137,7 +127,7 @@ impl MeantMatrix {
 
 /// The block of each column: translation or rotation of its body.
 fn col_block(j: usize) -> usize {
-    2 * (j / N_BODY) + usize::from(j % N_BODY >= TRANSLATIONS)
+    2 * (j / COLUMNS) + usize::from(j % COLUMNS >= TRANSLATIONS)
 }
 
 /// The block of each row: the force rows or the moment rows of its joint. Rows of a block stand

@@ -5,23 +5,15 @@
 //! away from the pose on rows that are independent beyond doubt. Where it comes to it shows which
 //! of them are independent in general: those are kept again, one rank after the other.
 
+use crate::limits::{CLEAR_ENTRY, CURVED, PAIRS, WALKED};
 use linalg::{Matrix, PivotedQr, Scaling};
 use model::{DataBlock, Scratch, System};
 
 use super::cone::{Equation, least_change};
 use super::follow::Step;
 use super::pose::{Candidate, Gradient, Pose, most_independent_of};
-use super::reading::{FULL, LOWER};
-use super::share::{PAIRS, Question, StatedTolerance, equation, pairs, rounding};
+use super::share::{Question, StatedTolerance, equation, pairs, rounding};
 use super::walk::{Walk, walk};
-
-/// Equations of the first order are wrong by the square of the change, as a share of the size,
-/// times this: the change that serves all poses is up to ten times that of one entry, and second
-/// derivatives are of the order of ten where links are short.
-const CURVED: f64 = 100.0;
-
-/// Positions on a walk are met to this share of the size.
-const WALKED: f64 = 1e-12;
 
 /// What the data would have to be wrong by (m; angles times the size) for one rank less.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -94,7 +86,7 @@ impl Question<'_> {
         limit: f64,
     ) -> LeastRank {
         let share = |length: f64| length / tolerance.metres;
-        let is_near = |lower| self.lower(lower, FULL * tolerance.metres);
+        let is_near = |lower| self.lower(lower, rank::BEYOND_DOUBT * tolerance.metres);
         let stays = |nearness: Option<Nearness>| LeastRank {
             rank,
             nearness: nearness.or_else(|| self.nearness(rank, limit)),
@@ -119,7 +111,7 @@ impl Question<'_> {
                 false => asked.near(&asked.walked(), &asked.kept),
             };
             // Rows that are kept again may be singular here, and leave no way.
-            let is_unknown = !own.is_walked && share(own.everywhere) <= FULL;
+            let is_unknown = !own.is_walked && share(own.everywhere) <= rank::BEYOND_DOUBT;
             let near = match is_unknown && lower > first {
                 true => asked.near(&away, &lowest.kept),
                 false => own,
@@ -129,16 +121,16 @@ impl Question<'_> {
                 nearness: Some(near),
                 certainty,
             };
-            if share(near.everywhere) < LOWER {
+            if share(near.everywhere) < (1.0 / rank::BEYOND_DOUBT) {
                 return match near.is_walked {
                     true => found(lower, Certainty::Decided),
                     false => found(lower + 1, Certainty::OtherPoses),
                 };
             }
-            if share(near.everywhere) <= FULL {
+            if share(near.everywhere) <= rank::BEYOND_DOUBT {
                 return found(lower + 1, Certainty::From(near.everywhere));
             }
-            if share(near.at_least) <= FULL {
+            if share(near.at_least) <= rank::BEYOND_DOUBT {
                 return found(lower + 1, Certainty::OtherPoses);
             }
             last = (lower + 1 == rank).then_some(near);
@@ -152,7 +144,7 @@ impl Question<'_> {
         let scaled = match away.farthest() {
             None => lowest.scaled.clone(),
             Some(q) => {
-                let s = crate::mechanism::evaluated(self.mechanism, self.s.t, q);
+                let s = crate::pose::evaluated(self.mechanism, self.s.t, q);
                 lowest.scaling.apply(&self.dimensionless(&s))
             }
         };
@@ -173,7 +165,7 @@ impl Question<'_> {
         let tolerance = stated.map(|stated| stated.metres);
         let (scaled, scaling) = self.uniform(self.s);
         let candidate = Candidate::of_rows(&scaled, kept);
-        if candidate.weakest() > CLEAR {
+        if candidate.weakest() > CLEAR_ENTRY {
             return None;
         }
         let dimensions = self.mechanism.layout().dimension_scaling(self.size);
@@ -228,7 +220,7 @@ impl Lower<'_> {
         let is_led = self.rows(held).iter().any(|&row| row >= m);
         let mut poses = vec![self.at(self.question.s, held, &[])];
         for (q, way) in walked.poses() {
-            let s = crate::mechanism::evaluated(self.question.mechanism, self.question.s.t, q);
+            let s = crate::pose::evaluated(self.question.mechanism, self.question.s.t, q);
             poses.push(self.at(&s, held, &way.collect::<Vec<_>>()));
         }
         let share = self.change(&poses, 1.0, Start::Known);
@@ -328,11 +320,6 @@ enum Start {
     /// To the change of the data.
     AsData,
 }
-
-/// A weakest entry above this share of the size of C belongs to no change of data below a
-/// thousandth of the size: an entry changes by its own size, times what the pose answers, which is
-/// below the inverse of the entry.
-const CLEAR: f64 = 0.1;
 
 /// What has to vanish at a pose.
 struct Asked {

@@ -7,6 +7,7 @@
 //! `δq = −C_K⁺·(Φ_K + ∂Φ_K/∂d·δd)`, nothing along the motions that are left. Φ_K is not zero where
 //! rows contradict each other within a tolerance and the start shares what they miss.
 
+use crate::limits::{HOLONOMIC, RESOLVED};
 use linalg::{Matrix, PivotedQr, Scaling, small_svd};
 use model::{Mechanism, Scratch, System};
 
@@ -29,10 +30,6 @@ pub(super) struct Pose<'a> {
     pub(super) right: Matrix,
     pub(super) sigma: Vec<f64>,
 }
-
-/// A dependency whose nonholonomic rows weigh less than this share of the others is one of
-/// positions.
-const HOLONOMIC: f64 = 1e-6;
 
 /// Rows and columns of a scaled C that are kept for a rank, with the rest.
 pub(super) struct Candidate {
@@ -112,10 +109,6 @@ pub(super) fn most_independent_of(scaled: &Matrix, kept: &[usize]) -> Vec<usize>
     let rest = PivotedQr::of_rows(rest);
     rest.permutation().iter().map(|&j| others[j]).collect()
 }
-
-/// Singular vectors below this share of the largest singular value are rounding and need not be
-/// orthogonal to the others.
-const RESOLVED: f64 = 1e-13;
 
 /// An orthonormal basis that begins with singular vectors; those that are rounding are replaced.
 fn complete(columns: &Matrix, sigma: &[f64]) -> Matrix {

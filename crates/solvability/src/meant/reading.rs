@@ -4,43 +4,13 @@
 //! them the data decide: by what share of their uncertainty would they have to be wrong for the
 //! lower rank?
 
+use crate::limits::{CLEAR_OF_NOISE, CLEAR_OF_ROUNDING, CONFIRMED, NEAR_TOLD};
 use linalg::singular_values;
 use rank::{Doubt, Grounds, RankReading, RankStatus};
 
 use super::MeantMatrix;
 use super::near::{Certainty, Nearness};
 use super::share::{Question, StatedTolerance};
-
-/// A singular value that the uncertainty of a matrix of size one hides must be below this: what is
-/// above is not known to be zero.
-const HIDDEN: f64 = 0.01;
-
-/// What is above the root of eps in a matrix of size one is no rounding of its entries.
-const NOT_ROUNDING: f64 = 1.5e-8;
-
-/// Rounding of a singular value, in units of eps·√(m·n) of a matrix of size one.
-const ROUNDINGS: f64 = 10.0;
-
-/// Data that need less than this share of their uncertainty for the lower rank have it; by a factor
-/// of three, because bounds of the share and of the uncertainty are known to about that.
-pub(super) const LOWER: f64 = 1.0 / 3.0;
-
-/// Data that need more than this multiple of their uncertainty for the lower rank do not have it.
-pub(super) const FULL: f64 = 3.0;
-
-/// From this singular value on no rounding explains a lower rank in a matrix of size one: near a
-/// singular pose, where a singular value moves with the root of the data, it would have to be below
-/// √(FULL·eps) times a few.
-const CLEAR_OF_ROUNDING: f64 = 1e-6;
-
-/// The same as a multiple of what the entries are known to, where that is larger.
-const CLEAR_OF_NOISE: f64 = 1e3;
-
-/// Share of a singular value in f64 that double-double has to confirm.
-const SAME: f64 = 0.1;
-
-/// A lower rank is told where the data are nearer to it than this share of the size.
-const TOLD: f64 = 1e-3;
 
 /// What is read.
 pub(crate) struct Reading {
@@ -58,7 +28,7 @@ impl MeantMatrix {
         let scaling = self.scaling();
         let scaled = scaling.apply(&self.c);
         let sigma = singular_values(&scaled);
-        let rounding = ROUNDINGS * f64::EPSILON * (m as f64 * n as f64).sqrt();
+        let rounding = rank::NOISE_FACTOR * f64::EPSILON * (m as f64 * n as f64).sqrt();
         let noise = scaling
             .apply(&self.uncertainty)
             .frobenius_norm()
@@ -70,12 +40,12 @@ impl MeantMatrix {
         // The least rank that the data allow.
         for lower in clear..upper {
             let share = question.share_of_rounding(&scaled, &scaling, lower);
-            if share.high < LOWER {
+            if share.high < (1.0 / rank::BEYOND_DOUBT) {
                 rank = lower;
                 break;
             }
             // Digits behind a stated tolerance mean nothing: the walk decides.
-            if share.low <= FULL && question.tolerance().is_none() {
+            if share.low <= rank::BEYOND_DOUBT && question.tolerance().is_none() {
                 status = RankStatus::Undecided(Doubt::WithinRounding {
                     lower,
                     upper,
@@ -91,7 +61,10 @@ impl MeantMatrix {
                 sigma_max: hidden,
                 tolerance: noise,
             });
-        } else if noise > HIDDEN && hidden > NOT_ROUNDING && status == RankStatus::Decided {
+        } else if noise > rank::HIDDEN
+            && hidden > rank::NOT_ROUNDING
+            && status == RankStatus::Decided
+        {
             status = RankStatus::Undecided(Doubt::Hidden {
                 sigma: hidden,
                 tolerance: noise,
@@ -100,7 +73,7 @@ impl MeantMatrix {
         let (mut nearness, mut grounds) = (None, Grounds::WithinData);
         let tolerance = question.tolerance();
         let metres = tolerance.map_or(0.0, |stated| stated.metres);
-        let limit = (TOLD * question.size).max(FULL * metres);
+        let limit = (NEAR_TOLD * question.size).max(rank::BEYOND_DOUBT * metres);
         match (status, tolerance) {
             (RankStatus::Decided, None) => nearness = question.nearness(rank, limit),
             (RankStatus::Decided, Some(tolerance)) => {
@@ -138,7 +111,7 @@ impl MeantMatrix {
                 noise,
                 // What is not zero is the same in double-double, but for the digits that f64 has of
                 // it.
-                separation: sigma_r.map_or(0.0, |sigma_r| SAME * sigma_r),
+                separation: sigma_r.map_or(0.0, |sigma_r| CONFIRMED * sigma_r),
                 grounds,
             },
             nearness,

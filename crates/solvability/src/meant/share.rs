@@ -1,24 +1,14 @@
 //! By what share of their uncertainty the data would have to be wrong for a lower rank, and what
 //! they make of dependencies.
 
+use crate::limits::{ENTRY_ROUNDINGS, PAIRS};
+use crate::pose::{COLUMNS, dimensionless};
 use linalg::{Matrix, Scaling, small_svd};
 use model::{DataBlock, DataUnit, Mechanism, ROUNDING, Scratch, System};
 use rank::RankDecision;
 
 use super::cone::{Bounds, Equation, least_change};
 use super::pose::{Candidate, Pose};
-use crate::mechanism::dimensionless;
-
-/// Entries of one pose that are asked to vanish: pairs of this many left and right directions, the
-/// weakest first. More would be exact zeros beside the near one; leaving them out can only make the
-/// share smaller.
-pub(super) const PAIRS: usize = 4;
-
-/// Rounding of an entry of a scaled C between unit vectors, in units of eps·√(m·n).
-const ROUNDINGS: f64 = 16.0;
-
-/// Columns of a planar body, two translations and its rotation.
-const N_BODY: usize = 3;
 
 /// A mechanism at a pose, some of whose rows are judged.
 pub(crate) struct Question<'a> {
@@ -78,7 +68,7 @@ impl Question<'_> {
         let place = if by_angles { 0.0 } else { length };
         let turn = length / self.size;
         let of_body = |by: &[f64]| [[by[0] * place, by[1] * place], [by[2] * turn, 0.0]];
-        gradient.chunks_exact(N_BODY).flat_map(of_body).collect()
+        gradient.chunks_exact(COLUMNS).flat_map(of_body).collect()
     }
 
     /// Changes of where each body stands at the start, and of how it is turned, by what these are
@@ -167,7 +157,7 @@ impl Question<'_> {
         let pose = Pose::new(self.mechanism, self.s, self.places, matrices, candidate);
         let blocks = self.mechanism.data().blocks(self.s);
         let of_row = |i: usize| {
-            let bodies = scaled.row(i).chunks_exact(N_BODY).enumerate();
+            let bodies = scaled.row(i).chunks_exact(COLUMNS).enumerate();
             let size = |force: &[f64]| force[0].hypot(force[1]);
             let Some((body, force)) = bodies.max_by(|a, b| size(a.1).total_cmp(&size(b.1))) else {
                 return 0.0;
@@ -178,8 +168,8 @@ impl Question<'_> {
             }
             let (mut own, mut across) = (vec![0.0; scaled.nrows()], vec![0.0; scaled.ncols()]);
             own[i] = 1.0;
-            across[N_BODY * body] = -force[1] / size;
-            across[N_BODY * body + 1] = force[0] / size;
+            across[COLUMNS * body] = -force[1] / size;
+            across[COLUMNS * body + 1] = force[0] / size;
             let gradient = pose.gradient_between(&own, &across).data;
             let changes = blocks.iter().map(|b| b.change(&gradient, b.known_to()));
             changes.sum::<f64>() / size
@@ -239,7 +229,7 @@ pub(super) fn pairs(pose: &Pose<'_>) -> impl Iterator<Item = (usize, usize)> {
 }
 
 pub(super) fn rounding(scaled: &Matrix) -> f64 {
-    ROUNDINGS * f64::EPSILON * (scaled.nrows() as f64 * scaled.ncols() as f64).sqrt()
+    ENTRY_ROUNDINGS * f64::EPSILON * (scaled.nrows() as f64 * scaled.ncols() as f64).sqrt()
 }
 
 /// What has to vanish, with the changes of blocks by what they are known to.

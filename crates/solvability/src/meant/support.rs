@@ -13,9 +13,6 @@ use rank::{Circuit, CoefficientReading, RankDecision};
 use super::pose::{Candidate, Pose, most_independent_of};
 use super::share::Question;
 
-/// Coefficients of the scaled rows below this are rounding, whatever is stated.
-const ROUNDING: f64 = 1e-12;
-
 /// A dependency over independent rows that contain its other rows.
 struct Fundamental {
     /// Independent rows, ascending, as many as the rank.
@@ -92,7 +89,9 @@ impl Question<'_> {
                 let column: Vec<f64> = (0..scaled.ncols()).map(|j| of.inverse[(j, k)]).collect();
                 let gradient = pose.gradient_between(&of.z, &column).data;
                 let changes = blocks.iter().map(|b| b.change(&gradient, b.known_to()));
-                let rounding = decision.row_rounding(of.kept[k]).max(ROUNDING);
+                let rounding = decision
+                    .row_rounding(of.kept[k])
+                    .max(rank::COEFFICIENT_ROUNDING);
                 let known = changes.sum::<f64>().max(rounding);
                 let reading = decision.read_coefficient(of.t[k].abs(), known);
                 let right = match circuit.rows.contains(&of.kept[k]) {

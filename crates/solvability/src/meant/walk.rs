@@ -1,30 +1,16 @@
 //! Poses that a mechanism reaches on its kept rows: what is redundant is so at all of them, what is
 //! singular is so at one.
 
+use crate::limits::{
+    OTHER_DIRECTIONS, WALK_CORRECTED, WALK_POSES, WALK_REACH, WALK_SMALL_STEPS, WALK_STEPS,
+};
+use crate::pose::{dimensionless, velocity_units};
 use linalg::Matrix;
 use model::start::{Metric, nearest_configuration};
 
 use super::follow::{Ground, Step};
 use super::pose::Candidate;
 use super::share::Question;
-use crate::mechanism::{dimensionless, velocity_units};
-
-/// Poses to each side.
-const POSES: usize = 3;
-
-/// From one pose to the next: a share of the size, or radians. Short, so that the walk does not
-/// pass a singular pose onto another branch.
-const REACH: f64 = 0.05;
-
-/// Steps from one pose to the next.
-const STEPS: usize = 5;
-
-/// The same where such steps do not arrive.
-const SMALL_STEPS: usize = 40;
-
-/// The largest correction of a step onto the kept rows, as a share of the step: what is corrected
-/// by more may be on another branch.
-const CORRECTED: f64 = 0.5;
 
 /// Poses of a mechanism.
 pub(super) struct Walk {
@@ -68,15 +54,17 @@ pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
         let way: &mut Vec<Step> = &mut sides[side];
         let mut q = question.q.to_vec();
         let mut heading: Option<Vec<f64>> = None;
-        for _ in 0..POSES {
-            let next = [STEPS, SMALL_STEPS].into_iter().find_map(|steps| {
-                let (mut q, mut heading, mut taken) = (q.clone(), heading.clone(), Vec::new());
-                let stride = REACH / steps as f64 * size;
-                for _ in 0..steps {
-                    taken.extend(step(&ground, (*sign, stride), &mut q, &mut heading)?);
-                }
-                Some((q, heading, taken))
-            });
+        for _ in 0..WALK_POSES {
+            let next = [WALK_STEPS, WALK_SMALL_STEPS]
+                .into_iter()
+                .find_map(|steps| {
+                    let (mut q, mut heading, mut taken) = (q.clone(), heading.clone(), Vec::new());
+                    let stride = WALK_REACH / steps as f64 * size;
+                    for _ in 0..steps {
+                        taken.extend(step(&ground, (*sign, stride), &mut q, &mut heading)?);
+                    }
+                    Some((q, heading, taken))
+                });
             let Some((there, on, taken)) = next else {
                 break;
             };
@@ -85,7 +73,7 @@ pub(super) fn walk(question: &Question<'_>, kept: &[usize]) -> Walk {
             stops.push((q.clone(), side, way.len()));
         }
     }
-    let is_complete = is_still || stops.len() == 2 * POSES;
+    let is_complete = is_still || stops.len() == 2 * WALK_POSES;
     Walk {
         sides,
         stops,
@@ -101,7 +89,7 @@ fn step(
     heading: &mut Option<Vec<f64>>,
 ) -> Option<Option<Step>> {
     let (mechanism, units) = (ground.mechanism, ground.units);
-    let s = crate::mechanism::evaluated(mechanism, ground.t, q);
+    let s = crate::pose::evaluated(mechanism, ground.t, q);
     let free = free_directions(&dimensionless(mechanism, &s, ground.size), ground.kept);
     let direction = match heading.take() {
         // What is free of the last step.
@@ -128,7 +116,7 @@ fn step(
         .iter()
         .zip(units)
         .map(|(x, unit)| (x / unit).abs());
-    if lengths.any(|x| x.is_nan() || x > CORRECTED * stride) {
+    if lengths.any(|x| x.is_nan() || x > WALK_CORRECTED * stride) {
         return None;
     }
     *q = there;
@@ -144,11 +132,9 @@ fn free_directions(c: &Matrix, kept: &[usize]) -> Matrix {
 
 /// The first direction with a little of the others, so that no freedom stands still.
 fn mixed(free: &Matrix, side: f64) -> Vec<f64> {
-    /// Share of the other directions.
-    const OTHERS: f64 = 0.3;
     let share = |k: usize| match k {
         0 => side,
-        _ => side * OTHERS / k as f64,
+        _ => side * OTHER_DIRECTIONS / k as f64,
     };
     let shares: Vec<f64> = (0..free.nrows()).map(share).collect();
     free.transpose_times(&shares)

@@ -2,18 +2,10 @@
 //! motion and is positive definite in the new motions, `Σ w_s·M_s = [0 0; 0 G]` with `yᵀ·G·y > 0`.
 //! Then y = 0. For one new motion the proof exists whenever the statement is true.
 
+use crate::limits::{BLOCKED_CORRECTIONS, FORM_NOISE, MARGIN};
 use linalg::Matrix;
 
 use super::forms::Forms;
-
-/// Coefficients of the forms may be wrong by this.
-const NOISE: f64 = 1e-9;
-
-/// G must exceed this multiple of the identity; the combination w has size one.
-const MARGIN: f64 = 1e-5;
-
-/// Corrections of w at most.
-const CORRECTIONS: usize = 1000;
 
 /// Whether such a combination was found.
 pub(super) fn is_blocked(forms: &Forms) -> bool {
@@ -21,10 +13,10 @@ pub(super) fn is_blocked(forms: &Forms) -> bool {
     let mixed = Matrix::from_fn(forms.matrices.len(), x * y, |s, e| {
         forms.matrices[s][(e / y, x + e % y)]
     });
-    let Ok(decision) = rank::decide(&mixed, NOISE) else {
+    let Ok(decision) = rank::decide(&mixed, FORM_NOISE) else {
         return false;
     };
-    if !decision.is_decided() && mixed.max_abs() > NOISE {
+    if !decision.is_decided() && mixed.max_abs() > FORM_NOISE {
         return false;
     }
     let definite = combinations(&decision)
@@ -60,7 +52,7 @@ fn has_definite_combination(matrices: &[Matrix], n: usize) -> bool {
         .iter()
         .map(|m| (0..n).map(|i| m[(i, i)]).sum())
         .collect();
-    for _ in 0..CORRECTIONS {
+    for _ in 0..BLOCKED_CORRECTIONS {
         let size = w.iter().map(|w| w * w).sum::<f64>().sqrt();
         if size == 0.0 {
             return false;

@@ -1,25 +1,10 @@
 //! Other solutions of the quadratic equations, by Gauss–Newton iterations on the unit sphere from
 //! many starts.
 
+use crate::limits::{BRANCH_ITERATIONS, BRANCH_RESIDUAL, BRANCH_STARTS, OTHER_BRANCH, SAME_BRANCH};
 use linalg::{Matrix, least_squares_step};
 
 use super::forms::Forms;
-
-/// Iterations from one start; convergence to a simple solution is quadratic.
-const ITERATIONS: usize = 60;
-
-/// A solution meets the equations to this.
-const RESIDUAL: f64 = 1e-12;
-
-/// A solution belongs to another branch if its new motions (and, driven, its rate of time) exceed
-/// this.
-const APART: f64 = 1e-3;
-
-/// Starts for each expected branch.
-const STARTS: usize = 40;
-
-/// Solutions nearer to each other than this are one.
-const SAME: f64 = 1e-6;
 
 /// Branches listed at most: as many as there are for simple solutions.
 fn most(forms: &Forms) -> usize {
@@ -29,17 +14,17 @@ fn most(forms: &Forms) -> usize {
 /// Unit vectors a with `aᵀ·M_s·a = 0` for all forms that are not the motion itself, up to sign.
 pub(super) fn others(forms: &Forms) -> Vec<Vec<f64>> {
     let mut found: Vec<Vec<f64>> = Vec::new();
-    for start in 0..STARTS * most(forms) {
+    for start in 0..BRANCH_STARTS * most(forms) {
         let Some(a) = solve(forms, starting_point(forms.len(), start)) else {
             continue;
         };
         let is_new = |b: &Vec<f64>| {
             let overlap: f64 = a.iter().zip(b).map(|(a, b)| a * b).sum();
-            1.0 - overlap.abs() > SAME
+            1.0 - overlap.abs() > SAME_BRANCH
         };
         let y = a[forms.x()..].iter().map(|y| y * y).sum::<f64>().sqrt();
-        let possible = !forms.is_driven() || a[0].abs() > APART;
-        if y > APART && possible && found.iter().all(is_new) {
+        let possible = !forms.is_driven() || a[0].abs() > OTHER_BRANCH;
+        if y > OTHER_BRANCH && possible && found.iter().all(is_new) {
             found.push(a);
             if found.len() == most(forms) {
                 break;
@@ -69,7 +54,7 @@ fn unit(mut a: Vec<f64>) -> Vec<f64> {
     // The first entry that matters is positive.
     let sign = a
         .iter()
-        .find(|a| a.abs() > APART * size)
+        .find(|a| a.abs() > OTHER_BRANCH * size)
         .map_or(1.0, |a| a.signum());
     a.iter_mut().for_each(|a| *a *= sign / size);
     a
@@ -79,7 +64,7 @@ fn unit(mut a: Vec<f64>) -> Vec<f64> {
 fn solve(forms: &Forms, mut a: Vec<f64>) -> Option<Vec<f64>> {
     let (n, equations) = (forms.len(), forms.matrices.len() + 1);
     let weights = vec![1.0; n];
-    for _ in 0..ITERATIONS {
+    for _ in 0..BRANCH_ITERATIONS {
         let mut jacobian = Matrix::zeros(equations, n);
         let mut residual = vec![0.0; equations];
         for (s, form) in forms.matrices.iter().enumerate() {
@@ -89,7 +74,7 @@ fn solve(forms: &Forms, mut a: Vec<f64>) -> Option<Vec<f64>> {
                 *j = 2.0 * m;
             }
         }
-        let met = residual.iter().all(|r| r.abs() <= RESIDUAL);
+        let met = residual.iter().all(|r| r.abs() <= BRANCH_RESIDUAL);
         // The last row keeps the length.
         jacobian.row_mut(equations - 1).copy_from_slice(&a);
         let step = least_squares_step(&jacobian, &residual, &weights, f64::EPSILON).ok()?;

@@ -4,16 +4,14 @@
 //! becomes homogeneous: `a = (x₀, x₁, y)`, x₀ the rate of time (only where something is driven), x₁
 //! the regular motions and y the new ones. Both are orthonormal in dimensionless velocities.
 
+use crate::limits::{FORM_ROUNDING, KERNEL_MAX, REGULAR};
+use crate::pose::{dimensionless, evaluated, velocity_units};
 use linalg::{Matrix, PivotedQr};
 use model::start::scene_size;
 use model::{Mechanism, Scratch, System};
 use rank::{RankDecision, RankStatus};
 
-use super::{KERNEL_MAX, REGULAR, Undetermined};
-use crate::mechanism::{dimensionless, evaluated, velocity_units};
-
-/// Coefficients below this share of the terms that they are sums of are rounding.
-const ROUNDING: f64 = 1e-10;
+use super::undetermined::Undetermined;
 
 /// The forms, divided by their largest coefficient.
 pub(super) struct Forms {
@@ -186,7 +184,7 @@ impl Forms {
             .iter()
             .map(Matrix::max_abs)
             .fold(0.0, f64::max);
-        if self.y() > 0 && largest <= ROUNDING * terms {
+        if self.y() > 0 && largest <= FORM_ROUNDING * terms {
             return Err(Undetermined::NoTerms);
         }
         let mut residual = 0.0_f64;

@@ -1,6 +1,8 @@
 //! The equations of motion of joined bodies at one instant, solved, and the gradients of reactions
 //! by all data.
 
+use crate::limits::{LOAD_ROUNDING, MOVED, PIECE, SAME_EFFECT};
+use crate::pose::{COLUMNS, velocity_units};
 use std::borrow::Cow;
 
 use linalg::{KeptRowSaddle, Matrix, PivotedQr};
@@ -10,23 +12,8 @@ use model::{
 };
 
 use super::joined::Joined;
-use super::{Datum, MOVED, Sensitivity};
+use super::{Datum, Sensitivity};
 use crate::choices::ChoiceError;
-use crate::mechanism::velocity_units;
-
-/// A load below this share of what would stop the bodies within the size of the mechanism,
-/// m·v²/size, is the rounding of a motion without any.
-const LOAD_ROUNDING: f64 = 1e-9;
-
-/// Points move by a share of the size of the mechanism, but at most by that of so many times the
-/// reach of the bodies that they join: a chain of a hundred links is made link by link, and its
-/// holes are not a hundred times worse than those of one. In mechanisms of a few bodies it plays no
-/// part.
-const PIECE: f64 = 20.0;
-
-/// Of points whose effects differ by less than this factor, as those of two points that coincide,
-/// the first is told: reactions that hang on the same misfit are then told in one sentence.
-const SAME: f64 = 1.01;
 
 /// Angle between the directions of successive unit loads (rad): the golden one, which comes near no
 /// simple fraction of a turn.
@@ -200,7 +187,9 @@ impl<'a> Instant<'a> {
             .map(|(sum, (_, moved))| sum.sqrt() * moved)
             .collect();
         let largest = changes.iter().copied().fold(0.0, f64::max);
-        let first = changes.iter().position(|change| SAME * change >= largest);
+        let first = changes
+            .iter()
+            .position(|change| SAME_EFFECT * change >= largest);
         let by = first.filter(|_| largest > 0.0).map(|k| &self.blocks[k]);
         // Not a number where the equations are at their limit.
         let is_known = changes.iter().all(|change| change.is_finite());
@@ -352,6 +341,3 @@ fn unit_loads(mechanism: &Mechanism, size: f64) -> Vec<f64> {
     };
     kinds.iter().enumerate().map(number).collect()
 }
-
-/// Columns of a planar body.
-const COLUMNS: usize = 3;

@@ -3,6 +3,7 @@
 //! Springs connect nothing here. What they carry is a load, and how it changes where the bodies of
 //! a set move belongs to the set; the bodies at their other ends stay where they are.
 
+use crate::pose::COLUMNS;
 use std::borrow::Cow;
 
 use model::{Mechanism, System};
@@ -126,9 +127,6 @@ impl Sets {
         own
     }
 }
-
-/// Columns of a planar body.
-const COLUMNS: usize = 3;
 
 /// What `f` makes of each set of bodies that joints and drives connect, at time t, coordinates q
 /// and velocities v, on the threads of the pool of `rayon` from which this is called.

@@ -1,5 +1,6 @@
 //! Sensitivities by hand and by differences.
 
+use crate::limits::MOVED;
 use joints::{KnifeEdge, Line, PointOnLine, Revolute, RevoluteAngleDrive};
 use linalg::Matrix;
 use model::{Body, BodyRef, Description, Function};

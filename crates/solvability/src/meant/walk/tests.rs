@@ -11,7 +11,7 @@ fn walked(description: &Description, kept: &[usize]) -> (Mechanism, Vec<f64>, Wa
     let mut mechanism = Mechanism::build(description).expect("it builds");
     let start = assemble(&mut mechanism, &StartOptions::default()).expect("it assembles");
     let q = start.q;
-    let s = crate::mechanism::evaluated(&mechanism, 0.0, &q);
+    let s = crate::pose::evaluated(&mechanism, 0.0, &q);
     let places: Vec<usize> = (0..mechanism.layout().rows()).collect();
     let question = Question {
         mechanism: &mechanism,
@@ -62,7 +62,7 @@ fn a_long_arm_of_a_light_body_is_no_obstacle() {
     let (mechanism, _, walk) = walked(&d, &(0..8).collect::<Vec<_>>());
     assert!(walk.is_complete);
     for (q, _) in walk.poses() {
-        let s = crate::mechanism::evaluated(&mechanism, 0.0, q);
+        let s = crate::pose::evaluated(&mechanism, 0.0, q);
         let missed = s.phi.iter().fold(0.0_f64, |a, phi| a.max(phi.abs()));
         assert!(missed < 1e-13, "{missed:e}");
         let radius = q[6].hypot(q[7]);
@@ -149,7 +149,7 @@ fn what_the_data_make_of_the_way_adds_up() {
     for (pose, right) in pose.iter().zip([0.0, 1.0, 0.4]) {
         assert!((pose - right).abs() < 1e-12, "{pose}");
     }
-    let s = crate::mechanism::evaluated(&mechanism, 0.0, &q);
+    let s = crate::pose::evaluated(&mechanism, 0.0, &q);
     for block in mechanism.data().blocks(&s) {
         let change = block.change(&data, 1.0);
         let right = if block.unit == DataUnit::Angle {

@@ -62,7 +62,7 @@ fn a_part_is_asked_under_what_the_rest_does_to_it() {
         found.each
     };
     let (hung, pushed) = (loaded_beam(true), loaded_beam(false));
-    assert!(hung.layout().rows() > crate::certificate::ROWS_MAX);
+    assert!(hung.layout().rows() > crate::limits::ROWS_MAX);
     let (hung, pushed) = (sensitivities(&hung), sensitivities(&pushed));
     assert!(hung.iter().all(Option::is_some));
     for (hung, pushed) in hung.iter().zip(&pushed) {

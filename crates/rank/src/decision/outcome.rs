@@ -1,0 +1,245 @@
+//! What a rank decision says: the rank, the rows to keep, the numbers behind both, and why a rank is
+//! undecided or none.
+
+use super::certificate::{Certificate, NearlyRedundant};
+use linalg::{Matrix, Scaling, powers::scale};
+
+/// Rank of a constraint matrix C (m×n), with the rows to keep and the evidence for it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RankDecision {
+    /// r = rank C. If undecided: the reading with the larger gap.
+    pub rank: usize,
+    /// Degree of redundancy p = m − r.
+    pub redundancy: usize,
+    /// r independent rows K, ascending.
+    pub kept: Vec<usize>,
+    /// The other p rows D, ascending.
+    pub dropped: Vec<usize>,
+    /// T̃ = C̃_D·C̃_K⁺ (p×r) between the equilibrated rows: row `dropped[j]` = Σ T̃_ji · row
+    /// `kept[i]`. Its entries are at most 2 unless the caller chose the rows.
+    pub coefficients: Matrix,
+    /// The scaling under which the rank was decided.
+    pub scaling: Scaling,
+    /// The numbers behind the decision.
+    pub evidence: Evidence,
+    /// Decided, or why not.
+    pub status: RankStatus,
+}
+
+/// The numbers behind a rank decision; all of them belong to the equilibrated matrix.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Evidence {
+    /// All `min(m, n)` singular values, largest first; none of a sparse decision.
+    pub singular_values: Vec<f64>,
+    /// σ_r, infinite for rank 0.
+    pub sigma_r: f64,
+    /// σ_{r+1}, zero if r = min(m, n).
+    pub sigma_next: f64,
+    /// σ_r / σ_{r+1}, infinite if σ_{r+1} = 0.
+    pub gap: f64,
+    /// τ: below it a singular value counts as zero.
+    pub tolerance: f64,
+    /// The largest uncertainty of an equilibrated entry that the caller stated; 0 for exact
+    /// entries.
+    pub constraint_residual: f64,
+    /// Largest `‖row of C_D − T·C_K‖₂`: how far the dependencies are from exact.
+    pub dependence_residual: f64,
+    /// The proof, where one was asked for.
+    pub certificate: Option<Certificate>,
+}
+
+/// Whether the singular values leave room for another rank.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum RankStatus {
+    /// `σ_{r+1} ≤ τ` and `σ_r ≥ max(10³·τ, 10⁻⁷)`, or, with a certificate, what its [`Grounds`]
+    /// say.
+    Decided,
+    /// Two ranks can be read from the singular values; do not build on either.
+    Undecided(Doubt),
+}
+
+/// Why a rank is undecided, with the numbers.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Doubt {
+    /// Singular values between "certainly zero" and "certainly not".
+    #[error(
+        "singular value {sigma:.3e} lies between the tolerance {tolerance:.3e} and {required:.3e}: \
+         rank {lower} or {upper}; polish the point or decide in higher precision"
+    )]
+    NoClearGap {
+        /// Singular values that are certainly not zero.
+        lower: usize,
+        /// Singular values above the tolerance.
+        upper: usize,
+        /// The smallest one above the tolerance.
+        sigma: f64,
+        /// τ.
+        tolerance: f64,
+        /// max(10³·τ, 10⁻⁷).
+        required: f64,
+    },
+    /// A singular value that stays at every precision, about as large as what the data are known
+    /// to.
+    #[error(
+        "singular value {sigma:.3e} is the same at every precision and lies between {tolerance:.3e} and {required:.3e}, what \
+         the uncertainty of the data explains: rank {lower} or {upper}; know the data better, or change them by more than that"
+    )]
+    NearUncertainty {
+        /// Singular values that are larger than the data explain.
+        lower: usize,
+        /// Singular values above the tolerance.
+        upper: usize,
+        /// The smallest one above the tolerance.
+        sigma: f64,
+        /// τ.
+        tolerance: f64,
+        /// 4·τ.
+        required: f64,
+    },
+    /// Data that are wrong by about as much as they are rounded would have a lower rank.
+    #[error(
+        "singular value {sigma:.3e}: if the data were wrong by {share:.2} times their rounding, the rank would be {lower} instead of {upper}; \
+         give the data with more digits, or place the mechanism nearer to the origin"
+    )]
+    WithinRounding {
+        /// The rank that other data within the rounding have.
+        lower: usize,
+        /// The rank of the data as read.
+        upper: usize,
+        /// The singular value that vanishes then.
+        sigma: f64,
+        /// Largest change of a datum, as a share of its rounding.
+        share: f64,
+    },
+    /// The rank hangs on where in the tolerance the data are.
+    #[error(
+        "with data known to {tolerance:.1e} {unit} the rank is {lower} or {upper}: one row is redundant from about {from:.1e} {unit} on; \
+         state a tolerance below {:.1e} {unit} or above {:.1e} {unit}",
+        from / 3.0,
+        3.0 * from
+    )]
+    WithinTolerance {
+        /// The rank that data within the tolerance have.
+        lower: usize,
+        /// The rank of the data as read.
+        upper: usize,
+        /// Where the reading changes.
+        from: f64,
+        /// What is stated.
+        tolerance: f64,
+        /// The unit of both: `m`, or `rad` where a tolerance is stated for angles alone.
+        unit: &'static str,
+    },
+    /// At this pose the data within their tolerance have a lower rank; of too few other poses it is
+    /// known whether they have it there.
+    #[error(
+        "with data known to {tolerance:.1e} {unit} the rank at this pose is {lower}; whether it is {lower} or {upper} at others is open, \
+         because on the rows that are left too few of them are reached, or none that is known well enough; move the start, or know the data better"
+    )]
+    OtherPoses {
+        /// The rank that data within the tolerance have here.
+        lower: usize,
+        /// The rank that they may have elsewhere.
+        upper: usize,
+        /// What is stated.
+        tolerance: f64,
+        /// Its unit: `m`, or `rad` where a tolerance is stated for angles alone.
+        unit: &'static str,
+    },
+    /// Rows that are not zero are hidden by what the data are known to.
+    #[error(
+        "singular value {sigma:.3e} is not rounding, and lies below {tolerance:.3e}, what the uncertainty of the data explains, \
+         in a matrix of size one: nothing is known of these rows; place the mechanism nearer to the origin, or know the data better"
+    )]
+    Hidden {
+        /// The largest of those below the tolerance.
+        sigma: f64,
+        /// τ.
+        tolerance: f64,
+    },
+    /// The tolerance swallows every singular value of a matrix that is not zero.
+    #[error(
+        "tolerance {tolerance:.3e} exceeds the largest singular value {sigma_max:.3e} of a non-zero \
+         matrix: the constraint residual is too large to decide anything, polish the point first"
+    )]
+    NotPolished {
+        /// σ₁.
+        sigma_max: f64,
+        /// τ.
+        tolerance: f64,
+    },
+}
+
+/// Input that no rank can be decided for.
+#[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RankError {
+    /// An entry of C is NaN or infinite.
+    #[error("constraint matrix: entry in row {row}, column {col} is {value}, need a finite number")]
+    NonFinite {
+        /// Row of the entry.
+        row: usize,
+        /// Column of the entry.
+        col: usize,
+        /// The entry.
+        value: f64,
+    },
+    /// The stated uncertainty is none.
+    #[error("uncertainty is {value}, need a finite number that is not negative")]
+    Uncertainty {
+        /// What was given.
+        value: f64,
+    },
+    /// The stated uncertainty is that of another matrix.
+    #[error("uncertainty of {rows}×{cols} entries for a matrix of {expected_rows}×{expected_cols}")]
+    UncertaintyShape {
+        /// Rows given.
+        rows: usize,
+        /// Columns given.
+        cols: usize,
+        /// Rows of the matrix.
+        expected_rows: usize,
+        /// Columns of the matrix.
+        expected_cols: usize,
+    },
+}
+
+impl RankDecision {
+    /// T = C_D·C_K⁺ (p×r) in the row scaling of C: row `dropped[j]` = Σ T_ji · row `kept[i]`.
+    /// Leaves the range of `f64` where rows differ by more than that;
+    /// [`RankDecision::coefficients`] does not.
+    pub fn dependence(&self) -> Matrix {
+        // D_r,D·C_D = T̃·D_r,K·C_K, hence T = D_r,D⁻¹·T̃·D_r,K.
+        let rows = &self.scaling.rows;
+        Matrix::from_fn(self.redundancy, self.rank, |j, i| {
+            scale(
+                self.coefficients[(j, i)],
+                rows[self.kept[i]] - rows[self.dropped[j]],
+            )
+        })
+    }
+
+    /// T̃, the dependence between equilibrated rows; copies [`RankDecision::coefficients`].
+    pub fn equilibrated_dependence(&self) -> Matrix {
+        self.coefficients.clone()
+    }
+
+    /// Whether the rank is decided.
+    pub fn is_decided(&self) -> bool {
+        self.status == RankStatus::Decided
+    }
+
+    /// The warning that belongs to a decided rank with σ_r below 1e-3: as read the rank is r and
+    /// the verdicts hold, but reactions are of size 1/σ_r. Known for certified ranks only.
+    #[must_use]
+    pub fn nearly_redundant(&self) -> Option<&NearlyRedundant> {
+        self.evidence
+            .certificate
+            .as_ref()?
+            .nearly_redundant
+            .as_ref()
+            .filter(|_| self.is_decided())
+    }
+}

@@ -1,0 +1,103 @@
+//! What is found of a part: verdicts of its joints and drives, and its dependencies.
+
+use model::{ConstraintId, Mechanism};
+
+use crate::parts::{Extent, PartAnalysis};
+use crate::verdict::Judgement;
+
+/// The verdict of a joint or drive.
+#[derive(Clone, Debug)]
+pub struct ReactionVerdict {
+    /// Which one.
+    pub id: ConstraintId,
+    /// Its name.
+    pub name: String,
+    /// Its scene type.
+    pub kind: &'static str,
+    /// The wrench: unique iff `B_X = 0`, and no component is free where a row moves no body, as
+    /// between two parts of the ground.
+    pub wrench: Judgement,
+    /// All its multipliers: unique iff `Z_X = 0`.
+    pub multipliers: Judgement,
+    /// Each of its rows.
+    pub rows: Vec<RowVerdict>,
+    /// Each component of the reaction that is not identically zero.
+    pub components: Vec<ComponentVerdict>,
+    /// Those of them that are zero at this configuration under any load, as the force of an edge
+    /// along itself: unique, but no finding.
+    pub zero_components: Vec<&'static str>,
+    /// Basis of the unique directions, in these components.
+    pub unique_directions: Vec<Vec<f64>>,
+    /// The same without what is zero under any load: perpendicular to the directions along which
+    /// there is no reaction here. `None` if their number is undecided; there are no unique
+    /// directions then either.
+    pub live_directions: Option<Vec<Vec<f64>>>,
+    /// The largest part of the reaction that counts as zero within the tolerance of the scene only
+    /// for these to be unique; zero where none does.
+    pub directions_left_out: f64,
+}
+
+/// The verdict of one row.
+#[derive(Clone, Debug)]
+pub struct RowVerdict {
+    /// Row of C, from 0.
+    pub row: usize,
+    /// Its multiplier.
+    pub judgement: Judgement,
+}
+
+/// The verdict of one component of a reaction.
+#[derive(Clone, Debug)]
+pub struct ComponentVerdict {
+    /// `Fx`, `Fy` or `T`.
+    pub name: &'static str,
+    /// Its verdict.
+    pub judgement: Judgement,
+}
+
+/// A minimal set of dependent rows.
+#[derive(Clone, Debug)]
+pub struct Dependency {
+    /// Rows of C, from 0.
+    pub rows: Vec<usize>,
+    /// `Σ coefficient·row = 0`, the largest coefficient 1.
+    pub coefficients: Vec<f64>,
+    /// The largest coefficient (rows scaled) that counts as zero within the tolerance of the scene
+    /// only; zero where none does.
+    pub left_out: f64,
+    /// What it means.
+    pub text: String,
+}
+
+/// What is found of a part, in numbers of the part until it is placed.
+pub(crate) struct Judged {
+    pub(crate) part: PartAnalysis,
+    pub(crate) reactions: Vec<ReactionVerdict>,
+    pub(crate) dependencies: Vec<Dependency>,
+    pub(crate) warnings: Vec<String>,
+}
+
+impl Judged {
+    /// The same in numbers of the whole; warnings say of which part they are.
+    pub(crate) fn placed(mut self, whole: &Mechanism, extent: Extent) -> Self {
+        if extent.is_whole() {
+            return self;
+        }
+        for reaction in &mut self.reactions {
+            reaction.id = ConstraintId(extent.group(reaction.id.0));
+            for row in &mut reaction.rows {
+                row.row = extent.row(row.row);
+            }
+        }
+        for dependency in &mut self.dependencies {
+            for row in &mut dependency.rows {
+                *row = extent.row(*row);
+            }
+        }
+        for warning in &mut self.warnings {
+            *warning = format!("{}: {warning}", extent.name(whole));
+        }
+        self.part.extent = extent;
+        self
+    }
+}

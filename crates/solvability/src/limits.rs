@@ -1,0 +1,521 @@
+//! The table of limits: every number of this crate that somebody chose. Each says what it is, in
+//! which unit, what breaks if it is wrong (`Less`: if it were smaller, `More`: if it were larger),
+//! and which test fails then; `none` if there is none yet. `tests/all/limits.rs` reads it.
+
+// Ranks and certificates.
+
+/// Rows up to which a rank is certified: the work grows with their cube.
+/// Unit: rows. Less: ranks of large mechanisms are not certified. More: time. Test: none.
+pub(crate) const ROWS_MAX: usize = 600;
+
+/// Rows up to which coefficients are read to a stated tolerance: the work grows with the number of
+/// rows times that of dependencies, and with the cube of both.
+/// Unit: rows. Less: coefficients are read to rounding only. More: time. Test: none.
+pub(crate) const TOLERANCE_ROWS: usize = 200;
+
+/// Coefficients that are larger belong to their dependency beyond doubt.
+/// Unit: coefficient of the equilibrated dependencies. Less: time. More: coefficients that the data
+/// could make zero are believed. Test: none.
+pub(crate) const COEFFICIENT_LARGE: f64 = 1e-3;
+
+/// Coefficients below this share of their noise are zero beyond doubt.
+/// Unit: share of the noise. Less: time. More: coefficients that the data could make large are
+/// called zero. Test: none.
+pub(crate) const SAFELY: f64 = 0.1;
+
+/// Coefficients of which it is asked what the rounding of the data makes of them.
+/// Unit: coefficients. Less: coefficients near their noise are undecided. More: time. Test: none.
+pub(crate) const ASKED: usize = 2_000;
+
+/// Sets of more rows are decided sparsely.
+/// Unit: rows. Less: small sets lose their singular values. More: time. Test: none.
+pub(crate) const SPARSE_FROM: usize = 150;
+
+/// Combinations beyond the rows of the largest joint.
+/// Unit: combinations. Less: a rank is read from too few. More: time. Test: none.
+pub(crate) const SPARE_COMBINATIONS: usize = 4;
+
+/// A mechanism of at most so many rows is one part, whatever its cycles: all of its verdicts are
+/// then read from one null space, and it can be compared with itself at other configurations, which
+/// takes matrices of all rows and columns.
+/// Unit: rows. Less: small mechanisms are not compared with themselves elsewhere. More: time: it
+/// grows with their cube, and 600 rows take half a minute. Test: none.
+pub const ONE_PART: usize = 250;
+
+/// By how much singular values must clear the tolerance: runs of the stress matrix keep their
+/// digits from a factor of thirty on.
+/// Unit: multiples of the tolerance. Less: digits of the motion are lost. More: motions near
+/// singular poses are refused. Test: none.
+pub(crate) const MOTION_CLEARANCE: f64 = 30.0;
+
+/// Data are known to several roundings, the numbers of a motion to one.
+/// Unit: roundings of data. Less: the rank of a motion is read below its rounding. More: redundant
+/// rows near singular poses are doubted. Test: none.
+pub(crate) const ONE_ROUNDING: f64 = f64::EPSILON / 2.0 / model::ROUNDING;
+
+/// Entries of the map from multipliers to a reaction are products of a few numbers near one; below
+/// this share of the largest row a row is their rounding.
+/// Unit: share of the largest row. Less: rounding is a component of a reaction. More: small
+/// components are none. Test: none.
+pub(crate) const ROUNDING_OF_MAP: f64 = 1e-14;
+
+/// What the first order says of larger angles (rad) means nothing.
+/// Unit: rad. Less: coarse angles decide nothing. More: the first order is asked too much. Test:
+/// none.
+pub(crate) const LARGEST_TURN: f64 = 0.1;
+
+/// A part of a unit vector above this is told, whatever a stated tolerance makes of it: without it
+/// the direction is another one.
+/// Unit: part of a unit vector. Less: small parts are none. More: rounding is told. Test: none.
+pub(crate) const LARGEST_ROUNDING: f64 = 1e-5;
+
+// The mechanism that is meant.
+
+/// From this singular value on no rounding explains a lower rank in a matrix of size one: near a
+/// singular pose, where a singular value moves with the root of the data, it would have to be below
+/// √(3·eps) times a few.
+/// Unit: singular value of a matrix of size one. Less: rounding decides a rank. More: poses near
+/// singular ones are asked at length. Test: none.
+pub(crate) const CLEAR_OF_ROUNDING: f64 = 1e-6;
+
+/// The same as a multiple of what the entries are known to, where that is larger.
+/// Unit: multiples of the noise. Less: noise decides a rank. More: poses near singular ones are
+/// asked at length. Test: none.
+pub(crate) const CLEAR_OF_NOISE: f64 = 1e3;
+
+/// Share of a singular value in f64 that double-double has to confirm.
+/// Unit: share of a singular value. Less: rounding of `f64` is believed. More: ranks are not
+/// confirmed. Test: none.
+pub(crate) const CONFIRMED: f64 = 0.1;
+
+/// A lower rank is told where the data are nearer to it than this share of the size.
+/// Unit: share of the size. Less: near redundancy is not told. More: sound mechanisms are told to
+/// be near it. Test: none.
+pub(crate) const NEAR_TOLD: f64 = 1e-3;
+
+/// Equations of the first order are wrong by the square of the change, as a share of the size,
+/// times this: the change that serves all poses is up to ten times that of one entry, and second
+/// derivatives are of the order of ten where links are short.
+/// Unit: 1. Less: the first order is believed too far. More: near redundancy is not proved. Test:
+/// none.
+pub(crate) const CURVED: f64 = 100.0;
+
+/// Positions on a walk are met to this share of the size.
+/// Unit: share of the size. Less: walks do not arrive. More: poses are off the constraints. Test:
+/// none.
+pub(crate) const WALKED: f64 = 1e-12;
+
+/// A weakest entry above this share of the size of C belongs to no change of data below a
+/// thousandth of the size: an entry changes by its own size, times what the pose answers, which is
+/// below the inverse of the entry.
+/// Unit: share of the size of C. Less: time. More: near redundancy is not asked for. Test: none.
+pub(crate) const CLEAR_ENTRY: f64 = 0.1;
+
+/// A dependency whose nonholonomic rows weigh less than this share of the others is one of
+/// positions.
+/// Unit: share of the weights. Less: dependencies of positions are asked at one pose only. More:
+/// those of velocities are asked at other poses. Test: none.
+pub(crate) const HOLONOMIC: f64 = 1e-6;
+
+/// Singular vectors below this share of the largest singular value are rounding and need not be
+/// orthogonal to the others.
+/// Unit: share of the largest singular value. Less: rounding has to be orthogonal. More: small
+/// singular vectors are not. Test: none.
+pub(crate) const RESOLVED: f64 = 1e-13;
+
+/// Entries of one pose that are asked to vanish: pairs of this many left and right directions, the
+/// weakest first. More would be exact zeros beside the near one; leaving them out can only make the
+/// share smaller.
+/// Unit: pairs. Less: a share is too small. More: time, and exact zeros are asked for. Test: none.
+pub(crate) const PAIRS: usize = 4;
+
+/// Rounding of an entry of a scaled C between unit vectors, in units of eps·√(m·n).
+/// Unit: eps·√(m·n). Less: rounding of an entry is a change of data. More: shares are too small.
+/// Test: none.
+pub(crate) const ENTRY_ROUNDINGS: f64 = 16.0;
+
+/// Poses to each side.
+/// Unit: poses. Less: redundancy of one pose is called permanent. More: time. Test: none.
+pub(crate) const WALK_POSES: usize = 3;
+
+/// From one pose to the next: a share of the size, or radians. Short, so that the walk does not
+/// pass a singular pose onto another branch.
+/// Unit: share of the size, or rad. Less: poses are nearly the same. More: walks pass onto other
+/// branches. Test: none.
+pub(crate) const WALK_REACH: f64 = 0.05;
+
+/// Steps from one pose to the next.
+/// Unit: steps. Less: walks do not arrive. More: time. Test: none.
+pub(crate) const WALK_STEPS: usize = 5;
+
+/// The same where such steps do not arrive.
+/// Unit: steps. Less: walks near singular poses do not arrive. More: time. Test: none.
+pub(crate) const WALK_SMALL_STEPS: usize = 40;
+
+/// The largest correction of a step onto the kept rows, as a share of the step: what is corrected
+/// by more may be on another branch.
+/// Unit: share of the step. Less: walks along curved ways end. More: walks change the branch. Test:
+/// none.
+pub(crate) const WALK_CORRECTED: f64 = 0.5;
+
+/// Share of the other directions.
+/// Unit: share of a direction. Less: freedoms stand still. More: the way is that of all freedoms.
+/// Test: none.
+pub(crate) const OTHER_DIRECTIONS: f64 = 0.3;
+
+/// Iterations at most. Each costs a solution of as many equations as there are.
+/// Unit: iterations. Less: bounds of the share are wide. More: time. Test: none.
+pub(crate) const CONE_ITERATIONS: usize = 60;
+
+/// The bounds are close enough if they differ by this factor.
+/// Unit: 1. Less: time. More: bounds of the share are wide. Test: none.
+pub(crate) const CONE_CLOSE: f64 = 1.05;
+
+/// An equation may miss by this share of its coefficients: near the root of eps the normal
+/// equations do not tell contradicting equations from agreeing ones, and no share is wanted to more
+/// digits.
+/// Unit: share of the coefficients. Less: equations that agree contradict each other. More:
+/// equations that contradict each other agree. Test: none.
+pub(crate) const CONE_RESOLVED: f64 = 1e-5;
+
+/// No weight falls below this share of the largest: changes that are not needed stay available.
+/// Unit: share of the largest weight. Less: normal equations lose their digits. More: changes that
+/// are not needed remain. Test: none.
+pub(crate) const LEAST_WEIGHT: f64 = 1e-9;
+
+/// The difference of two results that agree, as a share of the size: what nonholonomic rows hold is
+/// met by nothing later, and must not be lost by steps that are too long.
+/// Unit: share of the size. Less: steps become too small. More: nonholonomic rows are lost. Test:
+/// none.
+pub(crate) const FOLLOWED: f64 = 1e-12;
+
+// Other configurations.
+
+/// Points compared.
+/// Unit: configurations. Less: chance calls redundancy permanent. More: time. Test: none.
+pub(crate) const POINTS: usize = 4;
+
+/// Walks at most, also those that lead nowhere.
+/// Unit: walks. Less: too few configurations are found. More: time. Test: none.
+pub(crate) const WALKS: usize = 12;
+
+/// Steps from one point to the next.
+/// Unit: steps. Less: configurations are near the given one. More: time. Test: none.
+pub(crate) const GENERIC_STEPS: usize = 4;
+
+/// Length of a step: a share of the mechanism's size, or as many radians.
+/// Unit: share of the size, or rad. Less: configurations are near the given one. More:
+/// configurations cannot be assembled. Test: none.
+pub(crate) const GENERIC_STEP: f64 = 0.2;
+
+/// A step is tried at this many halved lengths, because not every displacement can be assembled
+/// again.
+/// Unit: halvings. Less: walks end at once. More: time. Test: none.
+pub(crate) const GENERIC_HALVINGS: i32 = 5;
+
+/// Points must be this far from each other and from the given one, in the same measure.
+/// Unit: share of the size, or rad. Less: the same configuration is asked twice. More: too few
+/// configurations are found. Test: none.
+pub(crate) const POINTS_APART: f64 = 0.1;
+
+// Drives that contradict each other.
+
+/// Rates of what is at rest to rounding (1/s): it moves by less than a hundred roundings of its
+/// place in a second.
+/// Unit: 1/s. Less: rounding is a motion. More: slow motions are at rest. Test: none.
+pub(crate) const REST: f64 = 100.0 * f64::EPSILON;
+
+/// Positions after the start at which drives are compared along a motion.
+/// Unit: positions. Less: contradictions later on are not found. More: time. Test: none.
+pub(crate) const DRIVE_POSITIONS: u32 = 12;
+
+/// What drives may change by from one position to the next (rad, or as a share of the size of the
+/// mechanism): a larger step may end on another branch of the joints, where drives that agree do
+/// not.
+/// Unit: rad, or share of the size. Less: time. More: a step ends on another branch. Test: none.
+pub(crate) const STRIDE: f64 = 0.1;
+
+/// Steps on the way at most: a dozen revolutions. What comes later is not known.
+/// Unit: steps. Less: what comes after few revolutions is not known. More: time. Test: none.
+pub(crate) const DRIVE_STEPS: usize = 800;
+
+/// A step that fails is halved so often at most: what is reached by smaller ones only is too near
+/// to a singular configuration to be followed.
+/// Unit: halvings. Less: motions near singular poses are not followed. More: time. Test: none.
+pub(crate) const DRIVE_HALVINGS: usize = 6;
+
+/// Share of their terms by which drives must differ before a run stops for it with certainty (runs
+/// compare to 1e-11, divided by pivots).
+/// Unit: share of the terms. Less: rounding contradicts. More: runs stop for what was not told.
+/// Test: `small_differences_are_told_at_their_time`.
+pub(crate) const RUNS_NOTICE: f64 = 1e-9;
+
+// Motions along time.
+
+/// Halvings that bring any interval to rounding, and more.
+/// Unit: iterations. Less: times are not found to rounding. More: time, where nothing is found.
+/// Test: none.
+pub(crate) const SEARCH_ITERATIONS: usize = 120;
+
+/// Intervals are not divided below this share of their times.
+/// Unit: share of a time. Less: time. More: instants lose digits. Test: none.
+pub(crate) const RESOLUTION: f64 = 2.0 * f64::EPSILON;
+
+/// Where an edge is found to this share of its interval, one reads no more digits.
+/// Unit: share of the interval. Less: time. More: edges of stretches lose digits. Test:
+/// `edges_from_both_sides`.
+pub(crate) const EDGE: f64 = 1e-10;
+
+/// A convex function with these values around its minimum lies above `least − 1.62·(largest −
+/// least)` where it was asked at golden sections; the rest is room for functions that are not
+/// convex.
+/// Unit: 1. Less: minima are missed. More: time. Test: `minima_of_corners_and_parabolas`.
+pub(crate) const FALL: f64 = 4.0;
+
+/// A sample that is singular beside the best one of the motion is not regular, whatever its value.
+/// Unit: share of the largest singular value. Less: samples near a singular pose are regular. More:
+/// motions without regular samples. Test: none.
+pub(crate) const REGULAR_SAMPLE: f64 = 0.1;
+
+/// A minimum, with a sample more on each side, is divided once more into so many intervals.
+/// Unit: intervals. Less: minima between samples are missed. More: time. Test: none.
+pub(crate) const FINER: u8 = 16;
+
+/// A sign change belongs to a singular configuration if σ_r is below this there; otherwise rows or
+/// frame have turned.
+/// Unit: singular value of a matrix of size one. Less: passages are missed. More: rows that turn
+/// are passages. Test: none.
+pub(crate) const SINGULAR_INSTANT: f64 = 1e-6;
+
+/// A frame has turned too far to compare signs if its overlap is below this.
+/// Unit: volume. Less: signs of turned frames are compared. More: time. Test: none.
+pub(crate) const OVERLAP: f64 = 0.5;
+
+/// A determinant that has fallen to this share may have passed zero twice.
+/// Unit: share of the determinant. Less: double passages are missed. More: time. Test: none.
+pub(crate) const MAY_PASS: f64 = 0.1;
+
+/// An interval between samples is halved as often at most.
+/// Unit: halvings. Less: passages near each other are missed. More: time. Test: none.
+pub(crate) const SAMPLE_HALVINGS: usize = 8;
+
+/// Between two samples C is no farther from the first than this times their distance: a motion is
+/// nearly straight there.
+/// Unit: 1. Less: passages of curved motions are missed. More: time. Test: none.
+pub(crate) const BENT: f64 = 2.0;
+
+/// Directions of the regular motion are those at this share of the nearly singular interval beside
+/// the instant.
+/// Unit: share of the nearly singular interval. Less: directions are those of the singular pose.
+/// More: directions are those of elsewhere. Test: none.
+pub(crate) const BESIDE_PASSAGE: f64 = 1e-2;
+
+/// What a minimum must be lower than the larger neighbour by.
+/// Unit: share of the larger neighbour. Less: shallow minima are missed. More: rounding is a
+/// minimum. Test: none.
+pub(crate) const MINIMUM_LOWER: f64 = 0.99;
+
+/// Digits of a time that was searched for: it is known as well as the motion, which a run knows to
+/// little more than its tolerance.
+/// Unit: digits. Less: times that differ look the same. More: digits that are not known are told.
+/// Test: none.
+pub(crate) const SEARCHED_DIGITS: i32 = 7;
+
+/// Digits of a time that a function of the scene gives.
+/// Unit: digits. Less: times that differ look the same. More: digits that are rounding are told.
+/// Test: none.
+pub(crate) const GIVEN_DIGITS: i32 = 10;
+
+// Second order.
+
+/// New motions that are examined at once.
+/// Unit: motions. Less: uniqueness is undecided. More: time: it doubles with each. Test: none.
+pub const KERNEL_MAX: usize = 4;
+
+/// The given motion may miss the equations by this share of their coefficients: its directions may
+/// come from neighbouring configurations.
+/// Unit: share of the coefficients. Less: motions beside a singular pose are doubted. More: wrong
+/// motions are examined. Test: none.
+pub(crate) const REGULAR: f64 = 1e-6;
+
+/// Coefficients of the forms may be wrong by this.
+/// Unit: 1. Less: rounding of the forms is a proof. More: blocked motions are undecided. Test:
+/// none.
+pub(crate) const FORM_NOISE: f64 = 1e-9;
+
+/// G must exceed this multiple of the identity; the combination w has size one.
+/// Unit: multiples of the identity. Less: rounding is a proof. More: blocked motions are undecided.
+/// Test: none.
+pub(crate) const MARGIN: f64 = 1e-5;
+
+/// Corrections of w at most.
+/// Unit: corrections. Less: blocked motions are undecided. More: time. Test: none.
+pub(crate) const BLOCKED_CORRECTIONS: usize = 1000;
+
+/// Iterations from one start; convergence to a simple solution is quadratic.
+/// Unit: iterations. Less: branches are not found. More: time. Test: none.
+pub(crate) const BRANCH_ITERATIONS: usize = 60;
+
+/// A solution meets the equations to this.
+/// Unit: 1. Less: rounding refuses branches. More: what is no branch is one. Test: none.
+pub(crate) const BRANCH_RESIDUAL: f64 = 1e-12;
+
+/// A solution belongs to another branch if its new motions (and, driven, its rate of time) exceed
+/// this.
+/// Unit: share of the motion. Less: the given motion is another branch. More: branches are missed.
+/// Test: none.
+pub(crate) const OTHER_BRANCH: f64 = 1e-3;
+
+/// Starts for each expected branch.
+/// Unit: starts. Less: branches are missed. More: time. Test: none.
+pub(crate) const BRANCH_STARTS: usize = 40;
+
+/// Solutions nearer to each other than this are one.
+/// Unit: share of the motion. Less: one branch is told twice. More: two branches are told as one.
+/// Test: none.
+pub(crate) const SAME_BRANCH: f64 = 1e-6;
+
+/// Coefficients below this share of the terms that they are sums of are rounding.
+/// Unit: share of the terms. Less: rounding is a coefficient. More: small coefficients are none.
+/// Test: none.
+pub(crate) const FORM_ROUNDING: f64 = 1e-10;
+
+// Freedoms.
+
+/// Motions that are told; of the others there is a count.
+/// Unit: motions. Less: motions are counted only. More: sentences nobody reads. Test:
+/// `of_many_motions_the_first_are_told`.
+pub const MOTIONS_TOLD: usize = 12;
+
+/// A velocity of length one satisfies a form below this: rounding of a null space, far below any
+/// freedom that is worth a word.
+/// Unit: velocity of length one. Less: freedoms are missed by rounding. More: what moves is at
+/// rest. Test: none.
+pub(crate) const SATISFIED: f64 = 1e-9;
+
+/// A velocity of length one is new if it differs from the chosen ones by more than this. Above
+/// [`SATISFIED`], so that what is left by rounding of several conditions is not taken for a
+/// freedom.
+/// Unit: velocity of length one. Less: rounding is a freedom. More: freedoms are missed. Test:
+/// none.
+pub(crate) const NEW_MOTION: f64 = 1e-6;
+
+/// A velocity is zero below this share of the fastest one, rotations measured at the size of the
+/// mechanism: rounding of a null space.
+/// Unit: share of the fastest velocity. Less: rounding moves. More: slow bodies are at rest. Test:
+/// none.
+pub(crate) const AT_REST: f64 = 1e-10;
+
+/// Joints and bodies × freedoms² up to which a motion of few joints is looked for from every joint;
+/// beyond, from as many as this allows.
+/// Unit: joints and bodies times freedoms². Less: motions of few joints are missed. More: time.
+/// Test: none.
+pub(crate) const TRIALS: usize = 2_000_000;
+
+// Reactions by a choice, units, sensitivity.
+
+/// A number is known to so many roundings of the largest multiplier, each measured by its row.
+/// Unit: roundings of the largest multiplier. Less: rounding is told. More: digits are not. Test:
+/// none.
+pub(crate) const VALUE_ROUNDINGS: f64 = 4.0;
+
+/// Redundant accelerations agree to this share of their terms: that of rounding in velocities on
+/// the constraints, with room.
+/// Unit: share of the terms. Less: rounding contradicts. More: contradictions are solved. Test:
+/// `contradicting_drives_have_no_reactions`.
+pub(crate) const AGREEMENT: f64 = 1e-9;
+
+/// The first solve leaves its own rounding; the second removes what of it matters.
+/// Unit: solves. Less: rounding of the first remains. More: time. Test: none.
+pub(crate) const CHOICE_SOLVES: usize = 2;
+
+/// A change below this share of the largest force or torque is rounding.
+/// Unit: share of the largest force or torque. Less: rounding depends on units. More: what depends
+/// on units is called a fact. Test: none.
+pub(crate) const UNIT_ROUNDING: f64 = 1e-9;
+
+/// The unit of one joint alone is this much smaller than that of the others.
+/// Unit: 1. Less: a choice does not show. More: rounding does. Test: none.
+pub(crate) const OF_ONE_JOINT: f64 = 1e3;
+
+/// A point moves by this share of the mechanism's size (in long chains: of the size of its links),
+/// a direction by as many radians: what a careful workshop holds.
+/// Unit: share of the size, or rad. Less: fragile reactions are not found. More: all are fragile.
+/// Test: `a_beam_by_hand`.
+pub const MOVED: f64 = 1e-4;
+
+/// A reaction that changes by more than this share of itself, or of the largest load, is fragile.
+/// Unit: share of the reaction, or of the largest load. Less: all reactions are fragile. More: none
+/// is. Test: `a_beam_by_hand`.
+pub const FRAGILE: f64 = 0.1;
+
+/// From this change on, relative to its size, the first order does not say how far a reaction
+/// changes: it says that none of its digits is left.
+/// Unit: share of the reaction. Less: the first order is silent. More: the first order says too
+/// much. Test: `sentences_are_for_people`.
+pub(crate) const BEYOND: f64 = 1.0;
+
+/// From here on "several times" would be too little.
+/// Unit: 1. Less: numbers are not told. More: sentences exaggerate. Test:
+/// `sentences_are_for_people`.
+pub(crate) const MANY: f64 = 30.0;
+
+/// A load below this share of what would stop the bodies within the size of the mechanism,
+/// m·v²/size, is the rounding of a motion without any.
+/// Unit: share of what stops the bodies. Less: rounding is a load. More: small loads are none.
+/// Test: `without_any_load_unit_loads_are_asked`.
+pub(crate) const LOAD_ROUNDING: f64 = 1e-9;
+
+/// Points move by a share of the size of the mechanism, but at most by that of so many times the
+/// reach of the bodies that they join: a chain of a hundred links is made link by link, and its
+/// holes are not a hundred times worse than those of one. In mechanisms of a few bodies it plays no
+/// part.
+/// Unit: reaches of the bodies. Less: short chains are judged link by link. More: long chains are
+/// fragile. Test: none.
+pub(crate) const PIECE: f64 = 20.0;
+
+/// Of points whose effects differ by less than this factor, as those of two points that coincide,
+/// the first is told: reactions that hang on the same misfit are then told in one sentence.
+/// Unit: 1. Less: one misfit is told in many sentences. More: different misfits are told as one.
+/// Test: none.
+pub(crate) const SAME_EFFECT: f64 = 1.01;
+
+// Memory and words.
+
+/// Bytes of the verdict of a joint with its rows, its components and its name.
+/// Unit: bytes. Less: memory runs out. More: runs are refused. Test: none.
+pub(crate) const OF_VERDICT: usize = 1500;
+
+/// Matrices of all rows and columns that are held at once where a small mechanism is judged.
+/// Unit: matrices. Less: memory runs out. More: runs are refused. Test: none.
+pub(crate) const DENSE_MATRICES: usize = 24;
+
+/// A component of a self-stress is zero below this share of its largest one: rounding of the
+/// dependence, drawn or said.
+/// Unit: share of the largest number. Less: rounding is told. More: small numbers are not. Test:
+/// none.
+pub(crate) const VISIBLE: f64 = 1e-9;
+
+/// Two bodies move as one, and a joint stands at a point, to this share of the size of the
+/// mechanism: above the rounding of a null space, below any distance between joints that a drawing
+/// shows.
+/// Unit: share of the size. Less: one point is told as two. More: two points are told as one. Test:
+/// none.
+pub(crate) const SAME_PLACE: f64 = 1e-6;
+
+/// Bodies that a sentence names.
+/// Unit: bodies. Less: bodies are counted only. More: sentences nobody reads. Test: none.
+pub(crate) const NAMED_BODIES: usize = 6;
+
+/// Names that tell which part is meant.
+/// Unit: names. Less: one does not know which part is meant. More: sentences nobody reads. Test:
+/// none.
+pub(crate) const FIRST_NAMED: usize = 3;
+
+/// Rows that a label names; of more it names the first few.
+/// Unit: rows. Less: rows are counted only. More: labels nobody reads. Test: none.
+pub(crate) const NAMED_ROWS: usize = 12;
+
+/// More rows than this are not listed in a sentence.
+/// Unit: rows. Less: rows are counted only. More: sentences nobody reads. Test: none.
+pub(crate) const TELLABLE: usize = 8;

@@ -1,0 +1,109 @@
+//! A rank, and which rows to keep.
+
+use rank::{RankDecision, RankStatus, SparseRank};
+
+/// Rank and rows to keep.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RowDecision {
+    /// r
+    pub rank: usize,
+    /// p
+    pub redundancy: usize,
+    /// r independent rows, ascending.
+    pub kept: Vec<usize>,
+    /// The others, ascending.
+    pub dropped: Vec<usize>,
+    /// Decided, or why not.
+    pub status: RankStatus,
+    /// Largest coefficient of a dependency that counts as zero.
+    pub support_tolerance: f64,
+}
+
+impl RowDecision {
+    /// Whether the rank is decided.
+    #[must_use]
+    pub fn is_decided(&self) -> bool {
+        self.status == RankStatus::Decided
+    }
+
+    /// Of nothing.
+    pub(crate) fn empty() -> Self {
+        Self {
+            rank: 0,
+            redundancy: 0,
+            kept: Vec::new(),
+            dropped: Vec::new(),
+            status: RankStatus::Decided,
+            support_tolerance: 0.0,
+        }
+    }
+
+    /// Adds the decision of a part; `row` tells which row of the whole is a row of the part.
+    pub(crate) fn add(&mut self, part: Self, row: impl Fn(usize) -> usize) {
+        self.rank += part.rank;
+        self.redundancy += part.redundancy;
+        self.kept.extend(part.kept.into_iter().map(&row));
+        self.dropped.extend(part.dropped.into_iter().map(&row));
+        if self.is_decided() {
+            self.status = part.status;
+        }
+        self.support_tolerance = self.support_tolerance.max(part.support_tolerance);
+    }
+
+    /// That of some of the rows, ascending, which no other row depends on: those of bodies that
+    /// nothing joins to others.
+    #[must_use]
+    pub fn of_rows(&self, rows: &[usize]) -> Self {
+        let own = |all: &[usize]| -> Vec<usize> {
+            let own = all.iter().filter_map(|row| rows.binary_search(row).ok());
+            own.collect()
+        };
+        let (kept, dropped) = (own(&self.kept), own(&self.dropped));
+        Self {
+            rank: kept.len(),
+            redundancy: dropped.len(),
+            kept,
+            dropped,
+            status: self.status,
+            support_tolerance: self.support_tolerance,
+        }
+    }
+
+    /// Puts the rows of several parts in order.
+    pub(crate) fn sort(&mut self) {
+        self.kept.sort_unstable();
+        self.dropped.sort_unstable();
+    }
+}
+
+impl From<&Self> for RowDecision {
+    fn from(decision: &Self) -> Self {
+        decision.clone()
+    }
+}
+
+impl From<&RankDecision> for RowDecision {
+    fn from(decision: &RankDecision) -> Self {
+        Self {
+            rank: decision.rank,
+            redundancy: decision.redundancy,
+            kept: decision.kept.clone(),
+            dropped: decision.dropped.clone(),
+            status: decision.status,
+            support_tolerance: rank::support_tolerance(decision),
+        }
+    }
+}
+
+impl From<&SparseRank> for RowDecision {
+    fn from(found: &SparseRank) -> Self {
+        Self {
+            rank: found.rank,
+            redundancy: found.redundancy,
+            kept: found.kept.clone(),
+            dropped: found.dropped.clone(),
+            status: found.status,
+            support_tolerance: found.noise(),
+        }
+    }
+}
