@@ -28,9 +28,8 @@ fn the_robot_has_names_rows_and_verdicts() {
     );
     let svg = folder.read("robot.svg");
     for words in [
-        "<tspan>B</tspan>",
-        "3–4</tspan>",
-        ">18</tspan>",
+        ">B 3–4</text>",
+        ">W1 18</text>",
         "B (revolute): reaction not unique",
         ">steering<",
     ] {
