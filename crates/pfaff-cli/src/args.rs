@@ -315,9 +315,9 @@ pub(crate) struct New {
 pub(crate) struct View {
     /// Scene file, or - for standard input
     pub(crate) scene: PathBuf,
-    /// File for the picture; the name of the scene file with .svg, in this directory, where it is
-    /// not given
-    #[arg(long, value_name = "FILE.svg")]
+    /// File to write: a page (.html) or only its picture (.svg); by default a page with the name of
+    /// the scene file, in this directory
+    #[arg(long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
     /// Do not open it
     #[arg(long)]

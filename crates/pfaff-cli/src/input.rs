@@ -119,10 +119,11 @@ impl<'r> Source<'r> {
 }
 
 /// A file that cannot be read, with the scene beside it that was probably meant.
-pub(crate) fn unreadable(path: &Path, e: &io::Error) -> Failure {
-    let name = match path.as_os_str() == "-" {
-        true => "<stdin>".into(),
-        false => path.display().to_string(),
+pub fn unreadable(path: &Path, e: &io::Error) -> Failure {
+    let name = if path.as_os_str() == "-" {
+        "<stdin>".into()
+    } else {
+        path.display().to_string()
     };
     let near = match e.kind() {
         io::ErrorKind::NotFound => scene_beside(path),

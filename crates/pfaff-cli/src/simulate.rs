@@ -69,8 +69,8 @@ pub(crate) fn run(arguments: &Simulate, console: &Console<'_>) -> Outcome {
     }
 }
 
-/// How the report was made.
-fn origin() -> Origin {
+/// How a page was made.
+pub(crate) fn origin() -> Origin {
     let Provenance {
         versions, command, ..
     } = provenance();

@@ -1,11 +1,14 @@
-//! `pfaff view`: the assembled start as a picture, and the system's viewer for it.
+//! `pfaff view`: the page of the assembled start, or its picture as SVG, and the system's viewer for
+//! it.
 
 use std::env;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use pfaff::model::System;
 use pfaff::report::figures::{Labels, Marking, labelled_mechanism};
+use pfaff::report::{Frame, Recording, RunPage, run_page};
 use serde_json::json;
 
 use crate::args::View;
@@ -13,6 +16,7 @@ use crate::console::Console;
 use crate::input::Source;
 use crate::interrupt::Interrupt;
 use crate::output::{Failure, Outcome, count};
+use crate::simulate::origin;
 use crate::start::Start;
 
 pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
@@ -21,16 +25,20 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     let path = place(arguments)?;
     arguments.resources.apply()?;
     let start = Start::of(&source, arguments.resources)?;
-    let marking = Marking::Verdicts(&start.reactions);
-    let svg = labelled_mechanism(
-        &start.mechanism,
-        0.0,
-        &start.q,
-        marking,
-        Labels::NamesAndRows,
-    )
-    .map_err(|e| Failure::stopped(e.to_string()))?;
-    fs::write(&path, &svg)
+    let picture = if is_svg(&path) {
+        let marking = Marking::Verdicts(&start.reactions);
+        labelled_mechanism(
+            &start.mechanism,
+            0.0,
+            &start.q,
+            marking,
+            Labels::NamesAndRows,
+        )
+        .map_err(|e| Failure::stopped(e.to_string()))?
+    } else {
+        page(&start)
+    };
+    fs::write(&path, &picture)
         .map_err(|e| Failure::input(format!("cannot write `{}`: {e}", path.display())))?;
     let open = start
         .document
@@ -44,7 +52,7 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
             "ok": true,
             "scene": start.scene.name(),
             "file": path.display().to_string(),
-            "bytes": svg.len(),
+            "bytes": picture.len(),
             "reactions": start.reactions.len(),
             "not_unique": open,
             "fragile": fragile,
@@ -53,12 +61,11 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
         });
         return console.print(&format!("{facts:#}\n"));
     }
-    let opened = match arguments.no_open {
-        true => String::new(),
-        false => match show(&path) {
-            Ok(()) => String::new(),
-            Err(reason) => format!("not opened: {reason}\n"),
-        },
+    let opened = if arguments.no_open {
+        String::new()
+    } else {
+        let refused = show(&path).err();
+        refused.map_or_else(String::new, |reason| format!("not opened: {reason}\n"))
     };
     let fragile = match fragile {
         0 => String::new(),
@@ -73,15 +80,38 @@ pub(crate) fn run(arguments: &View, console: &Console<'_>) -> Outcome {
     ))
 }
 
+/// The page of a run, of which there is the start alone.
+fn page(start: &Start) -> String {
+    let mut recording = Recording::new(0.0, 1.0, 1);
+    let frame = Frame::at_rest(0.0, &start.q, start.mechanism.layout().n_v);
+    recording.frames.push(frame);
+    run_page(&RunPage {
+        mechanism: &start.mechanism,
+        analysis: Some(&start.document),
+        hints: &[],
+        run: None,
+        recording: &recording,
+        comparisons: &[],
+        drives: &[],
+        origin: &origin(),
+        scene: start.scene.text(),
+        options: &[],
+        left_out: &[],
+        work_precision: None,
+    })
+}
+
+fn is_svg(path: &Path) -> bool {
+    let end = path.extension();
+    end.is_some_and(|end| end.eq_ignore_ascii_case("svg"))
+}
+
 /// Where the picture goes.
 fn place(arguments: &View) -> Result<PathBuf, Failure> {
     let scene = &arguments.scene;
     let Some(path) = &arguments.out else {
-        let stem = match scene.as_os_str() == "-" {
-            true => None,
-            false => scene.file_stem(),
-        };
-        return Ok(Path::new(stem.unwrap_or("scene".as_ref())).with_extension("svg"));
+        let stem = scene.file_stem().filter(|_| scene.as_os_str() != "-");
+        return Ok(Path::new(stem.unwrap_or("scene".as_ref())).with_extension("html"));
     };
     let refused = |what: &str| {
         Err(Failure::input(format!(
@@ -93,8 +123,9 @@ fn place(arguments: &View) -> Result<PathBuf, Failure> {
         return refused("a directory, need a file");
     }
     match path.extension() {
-        Some(end) if end.eq_ignore_ascii_case("svg") => Ok(path.clone()),
-        _ => refused("need a name that ends with .svg"),
+        Some(end) if end.eq_ignore_ascii_case("html") => Ok(path.clone()),
+        _ if is_svg(path) => Ok(path.clone()),
+        _ => refused("need a name that ends with .html or .svg"),
     }
 }
 

@@ -2,7 +2,7 @@
 //! What the scene does not want is not computed for it; the page shows what there is.
 
 use dynamics::plan::Rows;
-use dynamics::{MotionFault, Plan, Sample};
+use dynamics::{MotionFault, MotionOptions, Plan, Prepared, Sample};
 use model::{Mechanism, Reaction, System};
 use rank::Limits;
 use report::documents::MakeUniqueDocument;
@@ -10,11 +10,11 @@ use report::{
     AnalysisDocument, DriveCurve, Frame, Origin, Recording, RunDocument, RunPage, numbers_per_row,
     run_page,
 };
+use scene::Scene;
 use solvability::{Allowed, Sensitivities, Verdict};
 
 use crate::comparison::compare;
 use crate::configuration::ConfigurationAnalysis;
-use crate::study::Study;
 
 /// Reactions that are not unique for which the page says what would make them so, and sets tried
 /// for each.
@@ -23,25 +23,34 @@ const HINT_TRIALS: usize = 2_000;
 
 /// Rows of a run whose page is being made.
 pub(crate) struct ReportBuilder<'a> {
-    study: &'a Study,
+    scene: &'a Scene,
+    prepared: &'a Prepared,
+    options: &'a MotionOptions,
     recording: Recording,
     compares: bool,
     ends_only: bool,
 }
 
 impl<'a> ReportBuilder<'a> {
-    pub(crate) fn new(study: &'a Study, plan: &Plan<'_>) -> Self {
+    pub(crate) fn new(
+        scene: &'a Scene,
+        prepared: &'a Prepared,
+        asked: &'a MotionOptions,
+        plan: &Plan<'_>,
+    ) -> Self {
         let options = plan.options();
-        let mechanism = &study.prepared.mechanism;
+        let mechanism = &prepared.mechanism;
         let rows = match plan.rows.value {
             Rows::Every | Rows::Interpolated => options.t_end / options.output_step + 1.0,
             Rows::Ends => 2.0,
         };
         Self {
-            study,
+            scene,
+            prepared,
+            options: asked,
             recording: Recording::new(options.t_end, rows, numbers_per_row(mechanism)),
             ends_only: plan.rows.value == Rows::Ends,
-            compares: study.prepared.decision.redundancy > 0,
+            compares: prepared.decision.redundancy > 0,
         }
     }
 
@@ -78,8 +87,7 @@ impl<'a> ReportBuilder<'a> {
         origin: &Origin,
         work_precision: Option<&str>,
     ) -> String {
-        let study = self.study;
-        let mechanism = &study.prepared.mechanism;
+        let mechanism = &self.prepared.mechanism;
         let choice = |k: usize| {
             run.reactions
                 .0
@@ -96,7 +104,7 @@ impl<'a> ReportBuilder<'a> {
             choice,
         );
         let (mut analysis, hints) = self.analysis(start);
-        analysis.warnings.extend(study.scene.cautions());
+        analysis.warnings.extend(self.scene.cautions());
         analysis.add_sensitivities(sensitivities, mechanism.layout());
         analysis.add_notes(mechanism.layout());
         if self.ends_only {
@@ -109,12 +117,12 @@ impl<'a> ReportBuilder<'a> {
             mechanism,
             analysis: Some(&analysis),
             hints: &hints,
-            run,
+            run: Some(run),
             recording: &self.recording,
             comparisons: &comparisons,
             drives: &self.drives(),
             origin,
-            scene: study.scene.text(),
+            scene: self.scene.text(),
             options: &self.options(),
             left_out: &left_out,
             work_precision,
@@ -126,7 +134,7 @@ impl<'a> ReportBuilder<'a> {
         &self,
         start: &ConfigurationAnalysis<'_>,
     ) -> (AnalysisDocument, Vec<MakeUniqueDocument>) {
-        let mut document = AnalysisDocument::new(self.study.scene.name(), &start.analysis, None);
+        let mut document = AnalysisDocument::new(self.scene.name(), &start.analysis, None);
         if let Ok(Some(explanation)) = start.explanation() {
             document.explain(&explanation, start.mechanism.layout());
         }
@@ -149,8 +157,8 @@ impl<'a> ReportBuilder<'a> {
 
     /// What drives prescribe at the frames.
     fn drives(&self) -> Vec<DriveCurve> {
-        let mechanism = &self.study.prepared.mechanism;
-        let drives = self.study.scene.description.drives.iter();
+        let mechanism = &self.prepared.mechanism;
+        let drives = self.scene.description.drives.iter();
         drives
             .map(|drive| {
                 let spec = drive.element.element().spec();
@@ -175,11 +183,8 @@ impl<'a> ReportBuilder<'a> {
     }
 
     fn options(&self) -> Vec<(String, String)> {
-        let Some(o) = &self.study.options else {
-            return Vec::new();
-        };
+        let o = self.options;
         let rows: Vec<String> = self
-            .study
             .prepared
             .decision
             .dropped

@@ -393,7 +393,9 @@ impl Study {
             )?),
             None => None,
         };
-        let mut report_builder = output.report.then(|| ReportBuilder::new(self, &plan));
+        let asked = self.options.as_ref().ok_or(StudyError::NoEnd)?;
+        let builder = || ReportBuilder::new(&self.scene, &self.prepared, asked, &plan);
+        let mut report_builder = output.report.then(builder);
         let interrupted = AtomicBool::new(false);
         let progress = Mutex::new(progress);
         let go_on = |t: f64| {

@@ -7,7 +7,7 @@
 //! | [`history()`], [`histories`] | quantities over time |
 //! | [`paths()`] | paths in the plane, with equal axes |
 //! | [`work_precision()`] | error against run time, scene by scene |
-//! | [`extremes()`] | error against what is made extreme, family by family |
+//! | [`extremes()`] | error over what is made extreme, panel by panel |
 //!
 //! Not here: which quantities are worth a figure, and pages around them.
 
@@ -28,7 +28,7 @@ mod svg;
 mod symbol;
 mod work_precision;
 
-pub use extremes::extremes;
+pub use extremes::{Extremes, extremes};
 pub use history::{Panel, Series, histories, history};
 pub(crate) use mechanism::LOOKS;
 pub use mechanism::{Labels, Marking, labelled_mechanism, mechanism};

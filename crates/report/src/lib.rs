@@ -8,9 +8,9 @@
 //! | [`documents`] | `analyze --json`, `plan --json` and `summary.json` |
 //! | [`figures`] | the mechanism with its verdicts, histories, paths in the plane: SVG |
 //! | [`mod@work_precision`] | error against run time: table, figure, page |
-//! | [`stress`] | stiff and extreme cases: what is right, and what came out |
 //! | [`mod@sweep`] | many runs: a journal that survives interruptions, CSV and Parquet |
 //! | [`html`] | the page of a run, with its moving picture |
+//! | [`page`] | what other pages share: head, end, style, how numbers are written |
 //! | [`files`] | an output directory in which no half-written file is taken for a whole one |
 
 mod channel;
@@ -18,9 +18,8 @@ pub mod documents;
 pub mod figures;
 pub mod files;
 pub mod html;
-mod page;
+pub mod page;
 mod recording;
-pub mod stress;
 pub mod sweep;
 pub mod tables;
 pub mod work_precision;
@@ -32,9 +31,6 @@ pub use html::{
     ComparedChoice, Comparison, DriveCurve, Freedom, Origin, RunPage, numbers_per_row, run_page,
 };
 pub use recording::{Frame, Recording};
-pub use stress::{
-    Judgement, StressDocument, StressFamily, StressRow, StressTable, Tally, stress_page,
-};
 pub use sweep::{SweepDocument, SweepPlan, SweepRow, SweepStatus};
 pub use tables::{ReactionTable, Selection, TableError, TrajectoryTable};
 pub use work_precision::{

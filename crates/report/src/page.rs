@@ -26,7 +26,8 @@ dt { font-weight: 600; } dd { margin: 0 0 .3em 1.5em; }
 ";
 
 /// The beginning of a page, up to its title.
-pub(crate) fn open(title: &str) -> String {
+#[must_use]
+pub fn open(title: &str) -> String {
     let title = safe(title);
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -36,7 +37,7 @@ pub(crate) fn open(title: &str) -> String {
 }
 
 /// The end of a page: how it was made.
-pub(crate) fn close(page: &mut String, p: &Provenance) {
+pub fn close(page: &mut String, p: &Provenance) {
     page.push_str("<h2>How it was made</h2>\n<dl>\n");
     for (what, value) in [
         ("Machine", &p.machine),
@@ -53,7 +54,7 @@ pub(crate) fn close(page: &mut String, p: &Provenance) {
 }
 
 /// Sentences.
-pub(crate) fn list(page: &mut String, sentences: &[String]) {
+pub fn list(page: &mut String, sentences: &[String]) {
     if sentences.is_empty() {
         return;
     }
@@ -65,7 +66,8 @@ pub(crate) fn list(page: &mut String, sentences: &[String]) {
 }
 
 /// An error with two digits.
-pub(crate) fn short(number: f64) -> String {
+#[must_use]
+pub fn short(number: f64) -> String {
     match number.is_finite() {
         true if number == 0.0 => "0".to_owned(),
         true => format!("{number:.1e}"),
@@ -75,7 +77,8 @@ pub(crate) fn short(number: f64) -> String {
 }
 
 /// A time with three digits in a unit that suits it.
-pub(crate) fn duration(seconds: f64) -> String {
+#[must_use]
+pub fn duration(seconds: f64) -> String {
     if !seconds.is_finite() {
         return "–".to_owned();
     }
@@ -94,14 +97,15 @@ pub(crate) fn duration(seconds: f64) -> String {
 }
 
 /// Text of a page.
-pub(crate) fn safe(text: &str) -> String {
+#[must_use]
+pub fn safe(text: &str) -> String {
     let mut out = String::new();
     escape(text, &mut out);
     out
 }
 
 /// Adds formatted text.
-pub(crate) fn add(page: &mut String, text: std::fmt::Arguments<'_>) {
+pub fn add(page: &mut String, text: std::fmt::Arguments<'_>) {
     // Writing to a string cannot fail.
     let _ = page.write_fmt(text);
 }

@@ -52,14 +52,17 @@ pub enum TableError {
 }
 
 /// A CSV writer with a fixed number of columns.
-pub(crate) struct Table<W: Write> {
+pub struct Table<W: Write> {
     name: &'static str,
     csv: csv::Writer<W>,
 }
 
 impl<W: Write> Table<W> {
     /// Writes the header.
-    pub(crate) fn new(name: &'static str, out: W, header: &[String]) -> Result<Self, TableError> {
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn new(name: &'static str, out: W, header: &[String]) -> Result<Self, TableError> {
         let csv = csv::WriterBuilder::new()
             .has_headers(false)
             .from_writer(out);
@@ -74,19 +77,28 @@ impl<W: Write> Table<W> {
     }
 
     /// Writes a row of any plain values.
-    pub(crate) fn record(&mut self, values: impl Serialize) -> Result<(), TableError> {
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn record(&mut self, values: impl Serialize) -> Result<(), TableError> {
         let written = self.csv.serialize(values);
         self.checked(written)
     }
 
     /// Hands on what is buffered.
-    pub(crate) fn flush(&mut self) -> Result<(), TableError> {
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn flush(&mut self) -> Result<(), TableError> {
         let written = self.csv.flush();
         self.checked(written.map_err(csv::Error::from))
     }
 
-    /// Everything written, the writer back.
-    pub(crate) fn finish(self) -> Result<W, TableError> {
+    /// Gives the writer back, everything written.
+    ///
+    /// # Errors
+    /// - [`TableError::Write`]: the writer failed.
+    pub fn finish(self) -> Result<W, TableError> {
         let table = self.name;
         self.csv.into_inner().map_err(|e| TableError::Write {
             table,

@@ -128,6 +128,7 @@ fn the_robot_has_all_names_and_verdicts_without_overlap() {
         assert!(texts.iter().any(|t| t == legend), "{legend}");
     }
     assert!(texts.iter().any(|t| t == "0.2 m"), "the scale");
+    assert!(!svg.contains("var("), "every colour is a number");
 }
 
 #[test]

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
 use pfaff_cli::console::Console;
+use pfaff_cli::input::unreadable;
 use pfaff_cli::output::{Failure, Outcome};
 
 use crate::fuzz::campaign::{Campaign, Tally};
@@ -21,7 +22,7 @@ pub(super) enum Fuzz {
     /// Tries many inputs; exit code 1 if one of them fails
     Run {
         /// How many
-        #[arg(long)]
+        #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
         inputs: u64,
         /// Seed of all inputs
         #[arg(long, default_value_t = 1)]
@@ -57,7 +58,7 @@ pub(super) enum Fuzz {
     /// Examines degenerate scenes by exact arithmetic; exit code 1 if an answer is wrong
     Exact {
         /// How many
-        #[arg(long, default_value_t = 20_000)]
+        #[arg(long, default_value_t = 20_000, value_parser = clap::value_parser!(u64).range(1..))]
         scenes: u64,
         /// Seed of all scenes
         #[arg(long, default_value_t = 1)]
@@ -93,7 +94,7 @@ pub(super) enum Fuzz {
 #[derive(Args)]
 pub(super) struct Drawings {
     /// How many
-    #[arg(long, default_value_t = 1_000)]
+    #[arg(long, default_value_t = 1_000, value_parser = clap::value_parser!(u64).range(1..))]
     drawings: u64,
     /// Seed of all scenes
     #[arg(long, default_value_t = 1)]
@@ -115,12 +116,25 @@ impl Drawings {
             return console.print(&outcome.map_or_else(String::new, |o| o.page()));
         }
         let clock = Instant::now();
-        let tally = rounded::Tally::of(suite, self.seed, self.from, self.drawings);
-        let (seconds, scenes) = (clock.elapsed().as_secs_f64(), self.drawings * suite.ways());
+        let scenes = self.drawings * suite.ways();
+        let bar = progress(scenes);
+        let done = || bar.inc(1);
+        let tally = rounded::Tally::of(suite, self.seed, self.from, self.drawings, done);
+        bar.finish_and_clear();
+        let seconds = clock.elapsed().as_secs_f64();
         let head = format!("seed {}: {scenes} scenes in {seconds:.1} s\n", self.seed);
         console.print(&(head + &tally.describe()))?;
         passed(tally.passes())
     }
+}
+
+/// How many are done; hidden if standard error is no terminal.
+fn progress(all: u64) -> ProgressBar {
+    let bar = ProgressBar::new(all);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len}, {per_sec}, {eta} left") {
+        bar.set_style(style);
+    }
+    bar
 }
 
 /// Exit code 1 if something failed; what failed has been said.
@@ -161,12 +175,7 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
                 found: found.clone(),
             };
             let clock = Instant::now();
-            let bar = ProgressBar::new(*inputs);
-            if let Ok(style) =
-                ProgressStyle::with_template("{bar:40} {pos}/{len}, {per_sec}, {eta} left")
-            {
-                bar.set_style(style);
-            }
+            let bar = progress(*inputs);
             let tally = campaign
                 .run(|done| bar.set_position(done))
                 .map_err(stopped)?;
@@ -177,12 +186,12 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
         }
         Fuzz::Try { file } => {
             let mut bytes = Vec::new();
-            if file.as_os_str() == "-" {
+            let read = if file.as_os_str() == "-" {
                 io::stdin().read_to_end(&mut bytes).map(drop)
             } else {
                 fs::read(file).map(|read| bytes = read)
-            }
-            .map_err(stopped)?;
+            };
+            read.map_err(|e| unreadable(file, &e))?;
             let text = String::from_utf8_lossy(&bytes);
             console.write(|mut out| answer(&mut out, &text))
         }
@@ -199,7 +208,9 @@ pub(super) fn run(arguments: &Fuzz, console: &Console<'_>) -> Outcome {
             keep,
         } => {
             let clock = Instant::now();
-            let tally = exact::tally::Tally::of(*seed, *from, *scenes);
+            let bar = progress(*scenes);
+            let tally = exact::tally::Tally::of(*seed, *from, *scenes, || bar.inc(1));
+            bar.finish_and_clear();
             let seconds = clock.elapsed().as_secs_f64();
             let head = format!("seed {seed}: {scenes} scenes in {seconds:.1} s\n");
             console.print(&(head + &tally.describe()))?;

@@ -4,12 +4,12 @@ use std::num::NonZeroUsize;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
-use crate::stress::{self, Family};
-use indicatif::{ProgressBar, ProgressStyle};
-use pfaff::report::{
-    OutputDirectory, OutputFile, StressDocument, StressFamily, StressRow, StressTable, TableError,
-    Tally, figures, stress_page, write_json,
+use crate::stress::{
+    self, Family, StressDocument, StressFamily, StressRow, StressTable, Tally, extremes,
+    stress_page,
 };
+use indicatif::{ProgressBar, ProgressStyle};
+use pfaff::report::{OutputDirectory, OutputFile, TableError, write_json};
 
 use super::Stress;
 use pfaff_cli::console::Console;
@@ -40,7 +40,7 @@ pub(super) fn run(arguments: &Stress, console: &Console<'_>) -> Outcome {
     finished.map_err(|e| stopped(&e))?;
     let mut json = Vec::new();
     write_json(&mut json, &document).map_err(|e| stopped(&e))?;
-    let figure = figures::extremes(&document.families);
+    let figure = extremes(&document.families);
     let page = stress_page(&document, &figure);
     for (name, text) in [
         ("stress.json", json.as_slice()),

@@ -1,13 +1,13 @@
 //! What is to be thought of an outcome: the only place where that is decided.
 
-use report::stress::Judgement;
+use crate::stress::Judgement;
 
 use crate::stress::case::{Expected, Outcome};
 
 /// Judges an outcome. An error that is NaN is within no bound.
 ///
 /// ```
-/// use report::stress::Judgement;
+/// use lab::stress::Judgement;
 /// use lab::stress::{Expected, Outcome, judge};
 ///
 /// let right = Expected::answer(1e-9, "closed form");

@@ -12,7 +12,7 @@ use std::sync::{Arc, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use report::stress::{Judgement, StressRow};
+use crate::stress::{Judgement, StressRow};
 
 use crate::stress::case::{Case, Family, Outcome};
 use crate::stress::judge::judge;

@@ -24,7 +24,7 @@ const SCENES: u64 = 384;
 
 #[test]
 fn no_answer_contradicts_exact_arithmetic() {
-    let tally = Tally::of(SEED, 0, SCENES);
+    let tally = Tally::of(SEED, 0, SCENES, || ());
     assert!(tally.passes(), "\n{}", tally.describe());
     assert_eq!(tally.contradicting, [0; 0], "\n{}", tally.describe());
 }
@@ -290,7 +290,7 @@ const DRAWINGS: u64 = 40;
 /// with the last ones, without a tolerance, nothing is undecided.
 #[test]
 fn with_few_digits_no_answer_is_wrong() {
-    let tally = rounded::Tally::of(Suite::Rounded, SEED, 0, DRAWINGS);
+    let tally = rounded::Tally::of(Suite::Rounded, SEED, 0, DRAWINGS, || ());
     assert_eq!(tally.wrong(), 0, "\n{}", tally.describe());
     let all = tally.by_way[&(rounded::DIGITS.len() - 1)].clone();
     assert_eq!(
@@ -307,7 +307,7 @@ fn with_few_digits_no_answer_is_wrong() {
 #[test]
 fn answers_that_were_wrong_once_are_right() {
     for drawn in [7, 62, 71, 127, 182, 231, 237, 278, 317] {
-        let tally = rounded::Tally::of(Suite::Rounded, SEED, drawn, 1);
+        let tally = rounded::Tally::of(Suite::Rounded, SEED, drawn, 1, || ());
         assert_eq!(tally.wrong(), 0, "{drawn}\n{}", tally.describe());
     }
 }
@@ -315,7 +315,7 @@ fn answers_that_were_wrong_once_are_right() {
 /// What is of full rank stays so below a third of what its data would have to be wrong by.
 #[test]
 fn no_tolerance_below_a_third_makes_a_row_redundant() {
-    let tally = rounded::Tally::of(Suite::FullRank, SEED, 0, DRAWINGS);
+    let tally = rounded::Tally::of(Suite::FullRank, SEED, 0, DRAWINGS, || ());
     assert!(tally.passes(), "\n{}", tally.describe());
 }
 

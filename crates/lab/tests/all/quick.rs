@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use report::stress::Tally;
+use lab::stress::Tally;
 
 #[test]
 fn nothing_is_silently_wrong() {

@@ -58,7 +58,7 @@ pub(super) const NEW: &str = "Examples:
 A file that is there already is not touched without --force.";
 
 pub(super) const VIEW: &str = "Examples:
-  pfaff view robot-trolley.toml                 writes robot-trolley.svg and opens it
+  pfaff view robot-trolley.toml                 writes the page robot-trolley.html and opens it
   pfaff view robot-trolley.toml --out picture.svg --no-open
 
 The start is assembled first. Joints are filled by the verdict of their reactions, and named with their rows. Bodies are drawn through their joints: a scene does not

@@ -12,6 +12,7 @@ mod documents;
 mod failures;
 #[cfg(target_os = "linux")]
 mod faults;
+mod folder;
 mod fragile;
 mod freedoms;
 mod library;
@@ -32,10 +33,11 @@ mod work_precision;
 mod wrong;
 
 use std::io::Write;
-use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 
 use lab::generate::{Kind, Order};
+
+use folder::{Folder, stderr, stdout};
 
 /// The published mechanism.
 const ROBOT: &str = concat!(
@@ -75,38 +77,4 @@ fn generated(kind: Kind, n: usize) -> String {
         .write(&mut scene)
         .expect("memory takes everything");
     String::from_utf8(scene).expect("UTF-8")
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).expect("UTF-8")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).expect("UTF-8")
-}
-
-/// A directory of one test, removed at its end.
-struct Folder(PathBuf);
-
-impl Folder {
-    fn new(name: &str) -> Self {
-        let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
-        let _ = std::fs::remove_dir_all(&path);
-        Self(path)
-    }
-
-    fn text(&self) -> &str {
-        self.0.to_str().expect("UTF-8")
-    }
-
-    fn read(&self, name: &str) -> String {
-        let path = self.0.join(name);
-        std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-    }
-}
-
-impl Drop for Folder {
-    fn drop(&mut self) {
-        let _ = std::fs::remove_dir_all(&self.0);
-    }
 }

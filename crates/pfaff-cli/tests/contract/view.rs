@@ -28,9 +28,8 @@ fn the_robot_has_names_rows_and_verdicts() {
     );
     let svg = folder.read("robot.svg");
     for words in [
-        "<tspan>B</tspan>",
-        "3–4</tspan>",
-        ">18</tspan>",
+        ">B 3–4</text>",
+        ">W1 18</text>",
         "B (revolute): reaction not unique",
         ">steering<",
     ] {
@@ -39,7 +38,7 @@ fn the_robot_has_names_rows_and_verdicts() {
 }
 
 #[test]
-fn the_picture_stands_beside_the_caller_and_nothing_is_opened_without_a_display() {
+fn the_page_is_written_beside_the_caller_and_nothing_is_opened_without_a_display() {
     let folder = place("view-here");
     let output = Command::new(env!("CARGO_BIN_EXE_pfaff"))
         .args(["view", ROBOT])
@@ -52,10 +51,17 @@ fn the_picture_stands_beside_the_caller_and_nothing_is_opened_without_a_display(
     assert_eq!(output.status.code(), Some(0), "{}", stderr(&output));
     let said = stdout(&output);
     assert!(
-        said.contains("written to robot-trolley.svg\nnot opened: "),
+        said.contains("written to robot-trolley.html\nnot opened: "),
         "{said}"
     );
-    assert!(folder.read("robot-trolley.svg").starts_with("<svg"));
+    // The page of a run without what only a run has.
+    let page = folder.read("robot-trolley.html");
+    assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>\n"));
+    assert!(page.contains("22 constraint rows have rank 20: two are redundant"));
+    assert!(page.contains("id=\"picture\"") && page.contains("id=\"verdicts\""));
+    for of_run in ["id=\"scrub\"", "id=\"curves\"", "Numbers of the run"] {
+        assert!(!page.contains(of_run), "{of_run}");
+    }
 }
 
 #[test]
@@ -96,7 +102,7 @@ fn wrong_places_and_wrong_scenes_are_refused() {
         ),
         (
             &["view", ROBOT, "--no-open", "--out", "robot.png"],
-            "need a name that ends with .svg",
+            "need a name that ends with .html or .svg",
         ),
         (
             &["view", ROBOT, "--no-open", "--out", &nowhere],

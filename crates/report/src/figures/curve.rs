@@ -1,14 +1,11 @@
-//! Curves with markers, and their legend.
+//! Curves with markers.
 
-use super::plot::{Frame, LEGEND_LINE};
-use super::style::{INK, Style, TEXT_SIZE};
-use super::svg::{Svg, point_list, text_width};
+use super::plot::{Frame, Sample};
+use super::style::Style;
+use super::svg::{Svg, point_list};
 
 /// Half the size of a marker (px).
 const HALF: f64 = 3.4;
-
-/// Length of a sample in the legend (px).
-const SAMPLE: f64 = 24.0;
 
 /// How a curve looks: colour and marker change together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -113,39 +110,9 @@ impl Curve {
     }
 }
 
-/// Places of the entries relative to the corner, and the number of lines.
-fn layout(entries: &[(&str, Look)], width: f64) -> (Vec<[f64; 2]>, usize) {
-    let (mut x, mut row) = (0.0, 0);
-    let mut places = Vec::with_capacity(entries.len());
-    for (name, _) in entries {
-        let w = SAMPLE + 6.0 + text_width(name, TEXT_SIZE) + 12.0;
-        if x > 0.0 && x + w > width {
-            (x, row) = (0.0, row + 1);
-        }
-        places.push([x, row as f64 * LEGEND_LINE]);
-        x += w;
-    }
-    (places, if entries.is_empty() { 0 } else { row + 1 })
-}
-
-/// Height of a legend (px).
-pub(super) fn legend_height(entries: &[(&str, Look)], width: f64) -> f64 {
-    layout(entries, width).1 as f64 * LEGEND_LINE
-}
-
-/// Draws a legend from its upper left corner.
-pub(super) fn legend(svg: &mut Svg, corner: [f64; 2], width: f64, entries: &[(&str, Look)]) {
-    for ([x, y], (name, look)) in layout(entries, width).0.into_iter().zip(entries) {
-        let (x, y) = (corner[0] + x, corner[1] + y + 0.5 * LEGEND_LINE);
-        look.line(svg, &[[x, y], [x + SAMPLE, y]]);
-        look.mark(svg, [x + 0.5 * SAMPLE, y]);
-        svg.element("text")
-            .at([
-                ("x", x + SAMPLE + 6.0),
-                ("y", y + 4.0),
-                ("font-size", TEXT_SIZE),
-            ])
-            .with("fill", INK)
-            .text(name);
+impl Sample for Look {
+    fn sample(self, svg: &mut Svg, [a, b]: [[f64; 2]; 2]) {
+        self.line(svg, &[a, b]);
+        self.mark(svg, [0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1])]);
     }
 }

@@ -1,12 +1,11 @@
-//! Error over what is made extreme: one panel for each family and each varied number, doubly
-//! logarithmic; each point is the worst of all cases at this value.
+//! Error over what is made extreme: one panel for each question and each varied number, doubly
+//! logarithmic.
 
-use super::curve::{Curve, Look, legend, legend_height};
+use super::curve::{Curve, Look};
 use super::decades::{Unit, decades};
-use super::plot::{Frame, Labels, line};
+use super::plot::{Frame, Labels, legend, legend_height, line};
 use super::style::{GREY, INK, TEXT_SIZE, TITLE_SIZE, dark_scheme};
 use super::svg::Svg;
-use crate::stress::{StressFamily, StressRow};
 
 /// Width of the figure (px).
 const WIDTH: f64 = 1120.0;
@@ -28,20 +27,24 @@ const COLUMNS: usize = 2;
 /// Errors shown, as powers of ten; what lies beyond, zero too, is drawn at the edge.
 const SHOWN: [f64; 2] = [-17.0, 1.0];
 
-/// One panel: cases of a family over the same number.
-struct Plot<'r> {
-    family: &'static str,
-    varied: &'static str,
-    series: Vec<(&'r str, Curve)>,
-    /// The bound of all its cases, where they have only one.
-    bound: Option<f64>,
+/// One panel: errors over a varied number.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Extremes<'a> {
+    /// What was asked.
+    pub title: &'a str,
+    /// The number that was varied.
+    pub varied: &'a str,
+    /// Names of curves with their points: the varied number and the error.
+    pub series: Vec<(&'a str, Vec<[f64; 2]>)>,
+    /// The largest error that is right, if all cases have the same.
+    pub bound: Option<f64>,
 }
 
-/// Errors of all families that vary a number; an empty text where none does. A dashed line is the
-/// bound. Refusals have no point.
+/// Errors over varied numbers, panel by panel; an empty text without panels. A dashed line is the
+/// bound. Of several errors at one number the largest has a point, NaN has none.
 #[must_use]
-pub fn extremes(families: &[StressFamily]) -> String {
-    let plots: Vec<Plot<'_>> = families.iter().flat_map(plots).collect();
+pub fn extremes(panels: &[Extremes<'_>]) -> String {
+    let plots: Vec<Plot<'_>> = panels.iter().map(Plot::of).collect();
     if plots.is_empty() {
         return String::new();
     }
@@ -64,69 +67,24 @@ pub fn extremes(families: &[StressFamily]) -> String {
     svg.finish()
 }
 
-/// The panels of a family, in the order in which its numbers appear.
-fn plots(family: &StressFamily) -> Vec<Plot<'_>> {
-    let mut names: Vec<&'static str> = Vec::new();
-    for (name, _) in family.rows.iter().filter_map(|row| row.varied) {
-        if !names.contains(&name) {
-            names.push(name);
-        }
-    }
-    let of = |varied: &'static str| {
-        let of_it = |row: &&StressRow| row.varied.is_some_and(|(name, _)| name == varied);
-        let rows: Vec<&StressRow> = family.rows.iter().filter(of_it).collect();
-        let first = rows.first().map_or(f64::NAN, |row| row.bound);
-        Plot {
-            family: family.name,
-            varied,
-            series: series(&rows),
-            bound: rows.iter().all(|row| row.bound == first).then_some(first),
-        }
-    };
-    names.into_iter().map(of).collect()
+/// A panel with its curves on the logarithmic plane.
+struct Plot<'a> {
+    panel: &'a Extremes<'a>,
+    curves: Vec<Curve>,
 }
 
-/// One curve for each formulation, or for each method where there is one formulation.
-fn series<'r>(rows: &[&'r StressRow]) -> Vec<(&'r str, Curve)> {
-    let alike = rows
-        .windows(2)
-        .all(|w| w[0].formulation == w[1].formulation);
-    let name = |row: &'r StressRow| match alike {
-        true => row.method.as_str(),
-        false => row.formulation.as_str(),
-    };
-    let mut names: Vec<&str> = Vec::new();
-    for row in rows {
-        if !names.contains(&name(row)) {
-            names.push(name(row));
+impl<'a> Plot<'a> {
+    fn of(panel: &'a Extremes<'a>) -> Self {
+        let series = panel.series.iter().enumerate();
+        Self {
+            panel,
+            curves: series.map(|(k, (_, points))| curve(k, points)).collect(),
         }
     }
-    let curve = |(k, own): (usize, &'r str)| {
-        let own_rows = rows.iter().filter(|row| name(row) == own);
-        let mut points: Vec<[f64; 2]> = Vec::new();
-        for row in own_rows.filter(|row| !row.error.is_nan()) {
-            let x = row.varied.map_or(f64::NAN, |(_, value)| value.log10());
-            let y = row.error.abs().log10().clamp(SHOWN[0], SHOWN[1]);
-            match points.iter_mut().find(|p| p[0] == x) {
-                Some(point) => point[1] = point[1].max(y),
-                None if x.is_finite() => points.push([x, y]),
-                None => {}
-            }
-        }
-        points.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let points = points.into_iter().map(Some).collect();
-        let look = Look::nth(k);
-        (own, Curve { look, points })
-    };
-    names.into_iter().enumerate().map(curve).collect()
-}
 
-impl Plot<'_> {
     fn looks(&self) -> Vec<(&str, Look)> {
-        self.series
-            .iter()
-            .map(|(name, c)| (*name, c.look))
-            .collect()
+        let names = self.panel.series.iter().map(|(name, _)| *name);
+        names.zip(self.curves.iter().map(|c| c.look)).collect()
     }
 
     fn draw(&self, svg: &mut Svg, [left, top]: [f64; 2], width: f64, head: f64) {
@@ -134,10 +92,14 @@ impl Plot<'_> {
             .at([("x", left), ("y", top + 14.0), ("font-size", TITLE_SIZE)])
             .with("font-weight", "bold")
             .with("fill", INK)
-            .text(&format!("{}: error over {}", self.family, self.varied));
+            .text(&format!(
+                "{}: error over {}",
+                self.panel.title, self.panel.varied
+            ));
         legend(svg, [left, top + TITLE], width, &self.looks());
-        let points = || self.series.iter().flat_map(|(_, curve)| curve.shown());
+        let points = || self.curves.iter().flat_map(Curve::shown);
         let bound = self
+            .panel
             .bound
             .filter(|b| *b > 0.0)
             .map(|b| b.log10().clamp(SHOWN[0], SHOWN[1]));
@@ -158,16 +120,34 @@ impl Plot<'_> {
             ])
             .with("text-anchor", "middle")
             .with("fill", GREY)
-            .text(self.varied);
+            .text(self.panel.varied);
         if let Some(bound) = bound {
             let [_, y] = frame.place(frame.x.min, bound);
             line(svg, [left, y], [left + width, y], GREY);
         }
-        for (_, curve) in &self.series {
+        for curve in &self.curves {
             curve.draw(svg, &frame);
         }
         if points().next().is_none() {
             frame.note(svg, "all cases were refused");
         }
+    }
+}
+
+/// The largest error at each number, as powers of ten.
+fn curve(k: usize, points: &[[f64; 2]]) -> Curve {
+    let mut worst: Vec<[f64; 2]> = Vec::new();
+    for [value, error] in points.iter().filter(|[_, error]| !error.is_nan()) {
+        let (x, y) = (value.log10(), error.abs().log10().clamp(SHOWN[0], SHOWN[1]));
+        match worst.iter_mut().find(|p| p[0] == x) {
+            Some(point) => point[1] = point[1].max(y),
+            None if x.is_finite() => worst.push([x, y]),
+            None => {}
+        }
+    }
+    worst.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    Curve {
+        look: Look::nth(k),
+        points: worst.into_iter().map(Some).collect(),
     }
 }

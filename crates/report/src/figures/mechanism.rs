@@ -537,7 +537,8 @@ impl Picture<'_> {
 
 /// The style sheet with colours of the light scheme instead of their names.
 fn looks() -> String {
-    let (colours, rules) = LOOKS.split_once("}\n").unwrap_or(("", LOOKS));
+    let root = LOOKS.split_once(":root {").map_or("", |(_, root)| root);
+    let (colours, rules) = root.split_once('}').unwrap_or(("", root));
     let named = colours.split(';').filter_map(|c| c.trim().split_once(": "));
     named.fold(rules.to_owned(), |rules, (name, colour)| {
         rules.replace(&format!("var({name})"), colour)

@@ -145,19 +145,31 @@ pub(super) fn line(svg: &mut Svg, a: [f64; 2], b: [f64; 2], colour: &str) {
 }
 
 /// Height of a line of a legend (px).
-pub(super) const LEGEND_LINE: f64 = 18.0;
+const LEGEND_LINE: f64 = 18.0;
 /// Length of the sample of a curve (px).
-const SAMPLE: f64 = 28.0;
+const SAMPLE: f64 = 24.0;
+
+/// How a curve looks, shown by a piece of it.
+pub(super) trait Sample: Copy {
+    /// Draws the piece between two points.
+    fn sample(self, svg: &mut Svg, ends: [[f64; 2]; 2]);
+}
+
+impl Sample for Style {
+    fn sample(self, svg: &mut Svg, ends: [[f64; 2]; 2]) {
+        stroke(svg, &ends, self);
+    }
+}
 
 /// A name and its curve.
-pub(super) type Entry<'a> = (&'a str, Style);
+pub(super) type Entry<'a, S = Style> = (&'a str, S);
 
 /// Places of the entries of a legend, relative to its corner, and the number of its lines.
-fn legend_layout(entries: &[Entry<'_>], width: f64) -> (Vec<[f64; 2]>, usize) {
+fn legend_layout<S>(entries: &[Entry<'_, S>], width: f64) -> (Vec<[f64; 2]>, usize) {
     let (mut x, mut row) = (0.0, 0);
     let mut places = Vec::with_capacity(entries.len());
     for (label, _) in entries {
-        let w = SAMPLE + 6.0 + text_width(label, TEXT_SIZE) + 18.0;
+        let w = SAMPLE + 6.0 + text_width(label, TEXT_SIZE) + 12.0;
         if x > 0.0 && x + w > width {
             (x, row) = (0.0, row + 1);
         }
@@ -168,15 +180,20 @@ fn legend_layout(entries: &[Entry<'_>], width: f64) -> (Vec<[f64; 2]>, usize) {
 }
 
 /// Height of a legend (px).
-pub(super) fn legend_height(entries: &[Entry<'_>], width: f64) -> f64 {
+pub(super) fn legend_height<S>(entries: &[Entry<'_, S>], width: f64) -> f64 {
     legend_layout(entries, width).1 as f64 * LEGEND_LINE
 }
 
 /// Draws a legend from its upper left corner.
-pub(super) fn legend(svg: &mut Svg, corner: [f64; 2], width: f64, entries: &[Entry<'_>]) {
+pub(super) fn legend<S: Sample>(
+    svg: &mut Svg,
+    corner: [f64; 2],
+    width: f64,
+    entries: &[Entry<'_, S>],
+) {
     for ([x, y], (label, style)) in legend_layout(entries, width).0.into_iter().zip(entries) {
         let (x, y) = (corner[0] + x, corner[1] + y + 0.5 * LEGEND_LINE);
-        stroke(svg, &[[x, y], [x + SAMPLE, y]], *style);
+        style.sample(svg, [[x, y], [x + SAMPLE, y]]);
         svg.element("text")
             .at([
                 ("x", x + SAMPLE + 6.0),

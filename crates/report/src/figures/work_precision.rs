@@ -2,9 +2,9 @@
 //! Down and to the left is better. Curves are told apart by colour and by marker; the page follows
 //! the light or dark scheme of the reader.
 
-use super::curve::{Curve, Look, legend, legend_height};
+use super::curve::{Curve, Look};
 use super::decades::{Unit, decades};
-use super::plot::{Frame, Labels, line};
+use super::plot::{Frame, Labels, legend, legend_height, line};
 use super::style::{GREY, INK, TEXT_SIZE, TITLE_SIZE, dark_scheme};
 use super::svg::Svg;
 use crate::work_precision::{CurveName, WorkPrecisionRow, WorkPrecisionScene};

@@ -6,7 +6,7 @@ use model::{Mechanism, System};
 use serde::Serialize;
 
 use super::comparison::{Comparison, Freedom};
-use super::{DriveCurve, RunPage};
+use super::run_page::{DriveCurve, RunPage};
 use crate::channel::Channel;
 use crate::documents::{EventDocument, ReactionDocument};
 use crate::figures::drawing::{DrawingModel, DrawnForce, Stage};
@@ -34,7 +34,6 @@ pub(super) struct Data<'a> {
     energy: Energy,
     residuals: Residuals,
     events: &'a [EventDocument],
-    t_end: f64,
 }
 
 /// A time with ten digits.
@@ -213,26 +212,23 @@ impl<'a> Data<'a> {
                 position: logarithmic(measured.position.iter().copied()),
                 velocity: logarithmic(measured.velocity.iter().copied()),
             },
-            events: &page.run.events,
-            t_end: page.run.t_end,
+            events: page.run.map_or(&[], |run| &run.events),
         }
     }
 }
 
 fn joint<'a>(page: &'a RunPage<'a>, k: usize, noise: f64) -> Joint<'a> {
     let group = &page.mechanism.layout().groups[k];
-    let (verdict, choice) = page
-        .run
-        .reactions
-        .0
-        .get(k)
-        .map_or(("undecided", None), |(_, r)| {
-            (
-                r.verdict.verdict,
-                r.choice.as_ref().map(ToString::to_string),
-            )
-        });
     let of_analysis: Option<&ReactionDocument> = page.analysis.and_then(|a| a.reactions.get(k));
+    let of_run = page
+        .run
+        .and_then(|run| run.reactions.0.get(k))
+        .map(|(_, r)| r);
+    let choice = of_run.and_then(|r| r.choice.as_ref().map(ToString::to_string));
+    let verdict = of_run
+        .map(|r| r.verdict.verdict)
+        .or(of_analysis.map(|r| r.wrench.verdict))
+        .unwrap_or("undecided");
     let components = of_analysis.map_or_else(Vec::new, |r| {
         let known = r.components.iter();
         known

@@ -1,10 +1,10 @@
 //! The page from its head to its scripts. Names and sentences from outside are escaped where they
 //! are put in.
 
-use model::System;
-
-use super::data::{self, Cast, Data};
-use super::{RunPage, inputs, verdicts};
+use super::data::{Cast, Data};
+use super::run_page::RunPage;
+use super::{inputs, verdicts};
+use crate::documents::{FreedomsDocument, RunDocument};
 use crate::figures::LOOKS;
 use crate::page::{add, safe, short};
 
@@ -34,9 +34,14 @@ pub(super) fn document(page: &RunPage<'_>) -> String {
     head(&mut out, page);
     motion(&mut out, page);
     verdicts::section(&mut out, page);
-    curves(&mut out, page);
+    if let Some(run) = page.run {
+        curves(&mut out, page, run);
+    }
     inputs::section(&mut out, page, &cast);
-    transport(&mut out);
+    out.push_str("</main>\n");
+    if page.run.is_some() {
+        transport(&mut out);
+    }
     close(&mut out, page, &cast);
     out
 }
@@ -60,13 +65,17 @@ fn head(out: &mut String, page: &RunPage<'_>) {
     add(
         out,
         format_args!(
-            "<header>\n<div class=\"head\"><div><p class=\"kicker\">Motion and reactions</p>\n<h1>{}</h1></div>\n\
+            "<header>\n<div class=\"head\"><div><p class=\"kicker\">{}</p>\n<h1>{}</h1></div>\n\
              <button id=\"theme\" type=\"button\">Dark</button></div>\n",
+            if page.run.is_some() {
+                "Motion and reactions"
+            } else {
+                "The start"
+            },
             safe(page.mechanism.name())
         ),
     );
-    let run = page.run;
-    if run.partial {
+    if let Some(run) = page.run.filter(|run| run.partial) {
         let why = run.error.as_deref().unwrap_or("it was interrupted");
         add(
             out,
@@ -81,7 +90,10 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         out,
         format_args!("<p class=\"answer\">{}</p>\n", answer(page)),
     );
-    let free = page.run.freedoms.sentences();
+    let free = page
+        .freedoms()
+        .map(FreedomsDocument::sentences)
+        .unwrap_or_default();
     if !free.is_empty() {
         out.push_str("<ul class=\"free-motions\">\n");
         for (lead, text) in &free {
@@ -91,30 +103,40 @@ fn head(out: &mut String, page: &RunPage<'_>) {
         out.push_str("</ul>\n");
     }
     tiles(out, page);
-    out.push_str(
-        "<nav aria-label=\"Sections\"><a href=\"#motion\">Motion</a> <a href=\"#verdicts\">Verdicts</a> \
-         <a href=\"#reactions\">Reactions</a> <a href=\"#curves\">Curves and checks</a> \
-         <a href=\"#inputs\">Inputs and versions</a></nav>\n</header>\n<main>\n",
+    let of_run = match page.run {
+        Some(_) => {
+            "<a href=\"#reactions\">Reactions</a> <a href=\"#curves\">Curves and checks</a> "
+        }
+        None => "",
+    };
+    add(
+        out,
+        format_args!(
+            "<nav aria-label=\"Sections\"><a href=\"#motion\">{}</a> <a href=\"#verdicts\">Verdicts</a> {of_run}\
+             <a href=\"#inputs\">Inputs and versions</a></nav>\n</header>\n<main>\n",
+            picture_title(page)
+        ),
     );
+}
+
+fn picture_title(page: &RunPage<'_>) -> &'static str {
+    if page.run.is_some() {
+        "Motion"
+    } else {
+        "Picture"
+    }
 }
 
 /// One or two sentences: what the reader wanted to know.
 fn answer(page: &RunPage<'_>) -> String {
+    let all = page.verdicts();
     let of = |word: &str| -> Vec<&str> {
-        let all = page.run.reactions.0.iter();
-        all.filter(|(_, r)| r.verdict.verdict == word)
-            .map(|(name, _)| name.as_str())
-            .collect()
+        let of_it = all.iter().filter(|(_, verdict, _)| *verdict == word);
+        of_it.map(|(name, ..)| *name).collect()
     };
     let (unique, open, doubt) = (of("unique"), of("not_unique"), of("undecided"));
-    let fragile: Vec<&str> = page
-        .run
-        .reactions
-        .0
-        .iter()
-        .filter(|(_, r)| r.data.fragile)
-        .map(|(name, _)| name.as_str())
-        .collect();
+    let fragile = all.iter().filter(|(.., is_fragile)| *is_fragile);
+    let fragile: Vec<&str> = fragile.map(|(name, ..)| *name).collect();
     let mut text = String::new();
     if let Some(a) = page.analysis {
         if a.rows == 0 {
@@ -130,11 +152,13 @@ fn answer(page: &RunPage<'_>) -> String {
             p => format!("{} are redundant", count(p)),
         };
         let mut freedoms = match a.mobility {
-            _ if page.run.freedoms.cannot_move => "the mechanism cannot move".to_owned(),
+            _ if page.freedoms().is_some_and(|f| f.cannot_move) => {
+                "the mechanism cannot move".to_owned()
+            }
             1 => "one freedom of motion is left".to_owned(),
             f => format!("{} freedoms of motion are left", count(f)),
         };
-        if let Some(without) = &page.run.freedoms.without_drives {
+        if let Some(without) = page.freedoms().and_then(|f| f.without_drives.as_ref()) {
             let left = count(without.mobility);
             freedoms += &format!(" with {}, {left} without", without.possessive());
         }
@@ -222,7 +246,6 @@ fn names_in_words(names: &[&str]) -> String {
 }
 
 fn tiles(out: &mut String, page: &RunPage<'_>) {
-    let run = page.run;
     let mut tiles: Vec<(String, &str)> = Vec::new();
     if let Some(a) = page.analysis {
         tiles.push((
@@ -231,27 +254,25 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
         ));
         tiles.push((a.redundancy.to_string(), "degree of redundancy"));
         tiles.push((a.mobility.to_string(), "freedoms of motion"));
-        if let Some(without) = &run.freedoms.without_drives {
+        if let Some(without) = page.freedoms().and_then(|f| f.without_drives.as_ref()) {
             tiles.push((without.mobility.to_string(), "without drives"));
         }
     }
-    let unique = run
-        .reactions
-        .0
+    let all = page.verdicts();
+    let unique = all
         .iter()
-        .filter(|(_, r)| r.verdict.verdict == "unique");
-    tiles.push((
-        format!("{} of {}", unique.count(), run.reactions.0.len()),
-        "reactions unique",
-    ));
-    let fragile = run.reactions.0.iter().filter(|(_, r)| r.data.fragile);
-    match fragile.count() {
+        .filter(|(_, verdict, _)| *verdict == "unique")
+        .count();
+    tiles.push((format!("{unique} of {}", all.len()), "reactions unique"));
+    match all.iter().filter(|(.., is_fragile)| *is_fragile).count() {
         0 => {}
         n => tiles.push((n.to_string(), "of them fragile")),
     }
-    tiles.push((format!("{} s", run.t_end), "of motion"));
-    tiles.push((short(run.max_position_residual), "largest |Φ|"));
-    tiles.push((short(run.energy_balance), "energy balance"));
+    if let Some(run) = page.run {
+        tiles.push((format!("{} s", run.t_end), "of motion"));
+        tiles.push((short(run.max_position_residual), "largest |Φ|"));
+        tiles.push((short(run.energy_balance), "energy balance"));
+    }
     out.push_str("<ul class=\"tiles\">\n");
     for (value, words) in tiles {
         add(
@@ -262,11 +283,22 @@ fn tiles(out: &mut String, page: &RunPage<'_>) {
     out.push_str("</ul>\n");
 }
 
+/// Controls of what only a run has.
+const OF_RUN: &str = "<fieldset class=\"option\"><legend>Arrows</legend><input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" \
+step=\"0.1\" value=\"0\" aria-label=\"Length of arrows\"></fieldset>\n\
+<fieldset class=\"option\"><legend>Trace and plot</legend><div id=\"bodies\"></div></fieldset>\n";
+
 /// The moving picture with what belongs to it.
 fn motion(out: &mut String, page: &RunPage<'_>) {
+    let title = picture_title(page);
+    add(
+        out,
+        format_args!(
+            "<section id=\"motion\" aria-labelledby=\"motion-title\">\n<h2 id=\"motion-title\">{title}</h2>\n"
+        ),
+    );
     out.push_str(
-        "<section id=\"motion\" aria-labelledby=\"motion-title\">\n<h2 id=\"motion-title\">Motion</h2>\n\
-         <noscript><p class=\"warning\">Picture and curves need scripts; verdicts and inputs below do not.</p></noscript>\n\
+        "<noscript><p class=\"warning\">Picture and curves need scripts; verdicts and inputs below do not.</p></noscript>\n\
          <div class=\"stage\">\n<div class=\"picture\">\n",
     );
     add(
@@ -284,16 +316,19 @@ fn motion(out: &mut String, page: &RunPage<'_>) {
          <div class=\"legend\" id=\"symbols\"></div>\n</div>\n<aside class=\"panel\" \
          aria-label=\"What the picture shows\">\n",
     );
-    if !page.run.reactions.0.is_empty() {
+    if !page.verdicts().is_empty() {
         out.push_str("<fieldset><legend>Reactions</legend>\n");
         legend(out, page);
         out.push_str("</fieldset>\n");
     }
     out.push_str(
-        "<fieldset class=\"option\"><legend>Show</legend><div id=\"options\"></div>\
-         <label>Arrows <input id=\"arrows\" type=\"range\" min=\"-2\" max=\"2\" step=\"0.1\" value=\"0\" \
-         aria-label=\"Length of arrows\"></label></fieldset>\n\
-         <fieldset class=\"option\"><legend>Trace and plot</legend><div id=\"bodies\"></div></fieldset>\n</aside>\n</div>\n\
+        "<fieldset class=\"option\"><legend>Show</legend><div id=\"options\"></div></fieldset>\n",
+    );
+    if page.run.is_some() {
+        out.push_str(OF_RUN);
+    }
+    out.push_str(
+        "</aside>\n</div>\n\
          <p class=\"grey\">Bodies are drawn through the points that joints and forces hold and their centres of mass: their true shapes \
          are unknown. Drag to move, Ctrl and wheel to zoom, click a joint for its reaction, a body for its trace.</p>\n</section>\n",
     );
@@ -304,13 +339,8 @@ fn legend(out: &mut String, page: &RunPage<'_>) {
     const MARK: &str = "<g transform=\"translate(17 11)\" class=\"site VERDICT\"><circle class=\"mark\" r=\"6.5\"/></g>";
     const ARROW: &str = "<path class=\"force\" d=\"M2 9.4H22V6L32 11L22 16V12.6H2Z\"/>";
     const FREE: &str = "<path class=\"free\" d=\"M1 11L10 4V8H24V4L33 11L24 18V14H10V18Z\"/>";
-    let occurs = |word: &str| {
-        page.run
-            .reactions
-            .0
-            .iter()
-            .any(|(_, r)| r.verdict.verdict == word)
-    };
+    let all = page.verdicts();
+    let occurs = |word: &str| all.iter().any(|(_, verdict, _)| *verdict == word);
     let mut row = |picture: &str, words: &str| {
         add(
             out,
@@ -328,14 +358,16 @@ fn legend(out: &mut String, page: &RunPage<'_>) {
             row(&MARK.replace("VERDICT", verdict), words);
         }
     }
-    row(ARROW, "determined part, on the first body");
+    if page.run.is_some() {
+        row(ARROW, "determined part, on the first body");
+    }
     if !page.comparisons.is_empty() {
         row(FREE, "direction in which the model leaves it open");
     }
 }
 
 /// Places for the curves; scripts fill them.
-fn curves(out: &mut String, page: &RunPage<'_>) {
+fn curves(out: &mut String, page: &RunPage<'_>, run: &RunDocument) {
     out.push_str(
         "<section id=\"reactions\" aria-labelledby=\"reactions-title\">\n<h2 id=\"reactions-title\">Reactions</h2>\n\
          <div class=\"picker\"><label for=\"joint\">Joint or drive</label> <select id=\"joint\"></select> \
@@ -354,7 +386,7 @@ fn curves(out: &mut String, page: &RunPage<'_>) {
         out.push_str("<div id=\"drive-curves\" hidden></div>\n");
     }
     out.push_str("<h2>Energy and checks</h2>\n<div class=\"curves\" id=\"energy-curves\"></div>\n");
-    events(out, page);
+    events(out, run);
     if let Some(figure) = page.work_precision {
         out.push_str("<h2>Error against run time</h2>\n");
         add(
@@ -368,12 +400,12 @@ fn curves(out: &mut String, page: &RunPage<'_>) {
     out.push_str("</section>\n");
 }
 
-fn events(out: &mut String, page: &RunPage<'_>) {
-    if page.run.events.is_empty() {
+fn events(out: &mut String, run: &RunDocument) {
+    if run.events.is_empty() {
         return;
     }
     out.push_str("<h3>Events</h3>\n<ul>\n");
-    for event in page.run.events.iter().take(verdicts::MOST) {
+    for event in run.events.iter().take(verdicts::MOST) {
         add(
             out,
             format_args!(
@@ -388,7 +420,7 @@ fn events(out: &mut String, page: &RunPage<'_>) {
 
 fn transport(out: &mut String) {
     out.push_str(
-        "</main>\n<div class=\"transport\" role=\"group\" aria-label=\"Time\">\n\
+        "<div class=\"transport\" role=\"group\" aria-label=\"Time\">\n\
          <button id=\"play\" type=\"button\" aria-label=\"Play\">▶</button>\n\
          <div class=\"track\"><div id=\"marks\"></div><input id=\"scrub\" type=\"range\" aria-label=\"Time (s)\"></div>\n\
          <span id=\"time\"></span>\n<label>Speed <select id=\"speed\"></select></label>\n\
@@ -450,39 +482,4 @@ fn encoded(text: &str) -> String {
         }
     }
     out
-}
-
-/// What is drawn of a large mechanism, in words.
-pub(super) fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
-    let mut told = Vec::new();
-    let groups = page.mechanism.layout().groups.len();
-    if !cast.is_whole() {
-        told.push(format!(
-            "The picture and the curves show {} of {groups} joints and drives, those of the first {} bodies (of {}).",
-            cast.joints().len(),
-            cast.bodies().len(),
-            page.mechanism.bodies().len()
-        ));
-    }
-    if page.recording.stride > 1 {
-        told.push(format!(
-            "One in {} rows of output is kept: {} of {}. trajectory.csv and reactions.csv have all that was asked for.",
-            page.recording.stride,
-            page.recording.frames.len(),
-            page.recording.rows()
-        ));
-    }
-    if page.drives.len() > data::DRIVES_MAX {
-        told.push(format!(
-            "{} of {} drives are plotted.",
-            data::DRIVES_MAX,
-            page.drives.len()
-        ));
-    }
-    told.push(format!(
-        "Each curve is rounded to 1/{} of its range; between rows the picture follows cubics through positions and velocities.",
-        data::levels()
-    ));
-    told.extend(page.left_out.iter().cloned());
-    told
 }

@@ -1,8 +1,11 @@
-//! What somebody needs to get the same run again: scene, options, versions, numbers; and what the
-//! page leaves out.
+//! What is needed to get the same page again: scene, options, versions, numbers of the run; and
+//! what the page leaves out.
 
-use super::data::Cast;
-use super::{RunPage, document};
+use model::System;
+
+use super::data::{self, Cast};
+use super::run_page::RunPage;
+use crate::documents::RunDocument;
 use crate::page::{add, duration, list, safe, short};
 
 /// Bytes of a scene that a page carries.
@@ -19,13 +22,26 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
     for (what, value) in page.options {
         pair(out, &safe(what), &safe(value));
     }
-    out.push_str("</dl>\n<h3>Numbers of the run</h3>\n<dl>\n");
-    numbers(out, page);
+    out.push_str("</dl>\n");
+    if let Some(run) = page.run {
+        of_run(out, run);
+    }
+    if let Some(text) = page.scene {
+        scene(out, text);
+    }
+    out.push_str("<h3>What the page leaves out</h3>\n");
+    list(out, &left_out(page, cast));
+    out.push_str("</section>\n");
+}
+
+fn of_run(out: &mut String, run: &RunDocument) {
+    out.push_str("<h3>Numbers of the run</h3>\n<dl>\n");
+    numbers(out, run);
     out.push_str("</dl>\n<details><summary>What was decided before the run</summary>\n<dl>\n");
-    for (what, taken) in &page.run.plan.0 {
+    for (what, taken) in &run.plan.0 {
         pair(out, &safe(what), &safe(taken));
     }
-    for component in &page.run.components {
+    for component in &run.components {
         for (what, taken) in component.plan.0.iter().take(8) {
             pair(
                 out,
@@ -35,16 +51,9 @@ pub(super) fn section(out: &mut String, page: &RunPage<'_>, cast: &Cast) {
         }
     }
     out.push_str("</dl>\n</details>\n");
-    if let Some(text) = page.scene {
-        scene(out, text);
-    }
-    out.push_str("<h3>What the page leaves out</h3>\n");
-    list(out, &document::left_out(page, cast));
-    out.push_str("</section>\n");
 }
 
-fn numbers(out: &mut String, page: &RunPage<'_>) {
-    let run = page.run;
+fn numbers(out: &mut String, run: &RunDocument) {
     let numbers = [
         (
             "Method",
@@ -110,4 +119,41 @@ fn scene(out: &mut String, text: &str) {
 
 fn pair(out: &mut String, what: &str, value: &str) {
     add(out, format_args!("<dt>{what}</dt><dd>{value}</dd>\n"));
+}
+
+/// What is drawn of a large mechanism, in words.
+fn left_out(page: &RunPage<'_>, cast: &Cast) -> Vec<String> {
+    let mut told = Vec::new();
+    let groups = page.mechanism.layout().groups.len();
+    if !cast.is_whole() {
+        told.push(format!(
+            "The picture and the curves show {} of {groups} joints and drives, those of the first {} bodies (of {}).",
+            cast.joints().len(),
+            cast.bodies().len(),
+            page.mechanism.bodies().len()
+        ));
+    }
+    if page.recording.stride > 1 {
+        told.push(format!(
+            "One in {} rows of output is kept: {} of {}. trajectory.csv and reactions.csv have all that was asked for.",
+            page.recording.stride,
+            page.recording.frames.len(),
+            page.recording.rows()
+        ));
+    }
+    if page.drives.len() > data::DRIVES_MAX {
+        told.push(format!(
+            "{} of {} drives are plotted.",
+            data::DRIVES_MAX,
+            page.drives.len()
+        ));
+    }
+    if page.run.is_some() {
+        told.push(format!(
+        "Each curve is rounded to 1/{} of its range; between rows the picture follows cubics through positions and velocities.",
+        data::levels()
+    ));
+    }
+    told.extend(page.left_out.iter().cloned());
+    told
 }

@@ -1,7 +1,7 @@
 //! Verdicts in words: the table of joints and drives, what mixes, and what would make reactions
 //! unique. Static text, so that it is there without scripts and on paper.
 
-use super::RunPage;
+use super::run_page::RunPage;
 use crate::documents::ReactionDocument;
 use crate::page::{add, safe, short};
 
@@ -79,7 +79,7 @@ fn table(out: &mut String, reactions: &[&ReactionDocument]) {
     out.push_str(
         "<p class=\"grey\">The margin tells how far a reaction is from unique: it is the norm of its part of the left null space of the \
          constraint matrix, rows and columns equilibrated. Rows are counted from 1. Fx and Fy are global: where bodies turn, \
-         other components are determined later than at the start, and the curves below say which.</p>\n",
+         other components are determined later than at the start; the curves of a run say which.</p>\n",
     );
 }
 

@@ -285,13 +285,14 @@ impl Tally {
         }
     }
 
-    /// Examines the scenes of some drawings of a seed.
+    /// Examines the scenes of some drawings of a seed; `done` is called after each of them.
     #[must_use]
-    pub fn of(suite: Suite, seed: u64, from: u64, drawings: u64) -> Self {
+    pub fn of(suite: Suite, seed: u64, from: u64, drawings: u64, done: impl Fn() + Sync) -> Self {
         let of_drawing = |drawn: u64| {
             let mut tally = Self::new(suite);
             for outcome in outcomes(suite, seed, drawn) {
                 tally.note(drawn * suite.ways() + outcome.way as u64, &outcome);
+                done();
             }
             tally
         };

@@ -136,9 +136,9 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Examines scenes `from..from + scenes` of a seed.
+    /// Examines scenes `from..from + scenes` of a seed; `done` is called after each of them.
     #[must_use]
-    pub fn of(seed: u64, from: u64, scenes: u64) -> Self {
+    pub fn of(seed: u64, from: u64, scenes: u64, done: impl Fn() + Sync) -> Self {
         let ways = Writing::ALL.len() as u64;
         let drawings: Vec<u64> = (from / ways..(from + scenes).div_ceil(ways)).collect();
         let of_drawing = |&drawing: &u64| {
@@ -150,6 +150,7 @@ impl Tally {
                 let outcome = outcome(seed, number);
                 ranks.extend(outcome.rank);
                 tally.note(number, &outcome);
+                done();
             }
             ranks.dedup();
             if ranks.len() > 1 {

@@ -140,7 +140,7 @@ mod tests {
         let right = Question::Accelerations.right();
         assert_eq!(
             judge(&right, &found),
-            report::stress::Judgement::SilentlyWrong
+            crate::stress::Judgement::SilentlyWrong
         );
         // Ten grams in a ton more than the reference knows of.
         let scene = scenes().remove(0);

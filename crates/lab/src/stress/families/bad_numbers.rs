@@ -267,7 +267,7 @@ fn first_row(text: &str) -> Result<Outcome, Outcome> {
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

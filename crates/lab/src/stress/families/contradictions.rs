@@ -182,8 +182,8 @@ fn velocities_part(options: &MotionOptions) -> Result<Outcome, Outcome> {
 
 #[cfg(test)]
 mod tests {
+    use crate::stress::Judgement;
     use dynamics::Method;
-    use report::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

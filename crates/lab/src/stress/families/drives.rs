@@ -242,7 +242,7 @@ motion = {{ type = "linear-table", times = {times}, values = {values} }}
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

@@ -177,7 +177,7 @@ fn twice(tie: Tie, rows: usize, copies: usize) -> Result<Outcome, Outcome> {
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

@@ -128,7 +128,7 @@ fn off_circle(row: &Row, _: &Summary, x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

@@ -89,7 +89,7 @@ fn torque(prepared: &Prepared, options: &MotionOptions) -> Outcome {
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

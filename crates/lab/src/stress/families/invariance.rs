@@ -295,7 +295,7 @@ fn off(was: &[f64], is: &[f64], change: &Change, by: [f64; 2], angle: f64) -> f6
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

@@ -112,7 +112,7 @@ fn jacobi(u: f64, m: f64) -> [f64; 3] {
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

@@ -241,7 +241,7 @@ fn falling(d: &Description, right: &[f64], options: &MotionOptions) -> Result<Ou
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

@@ -184,7 +184,7 @@ fn about_the_wheel(d: &Description, options: &MotionOptions) -> Result<Outcome, 
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

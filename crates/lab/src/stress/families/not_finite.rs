@@ -123,7 +123,7 @@ fn pulled(options: &MotionOptions) -> Outcome {
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

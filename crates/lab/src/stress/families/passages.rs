@@ -114,7 +114,7 @@ fn off(row: &Row, angle: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

@@ -94,7 +94,7 @@ fn off(row: &Row, omega: f64, t: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

@@ -282,7 +282,7 @@ fn steered(displacement: f64) -> Result<Outcome, Outcome> {
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

@@ -144,7 +144,7 @@ fn turned(ratio: f64) -> Result<Outcome, Outcome> {
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

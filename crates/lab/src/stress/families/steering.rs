@@ -153,7 +153,7 @@ fn off(row: &Row, right: &[f64; 5]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

@@ -279,7 +279,7 @@ damping = [0.0, 0.0, 0.0]
 
 #[cfg(test)]
 mod tests {
-    use report::stress::Judgement;
+    use crate::stress::Judgement;
 
     use super::*;
     use crate::stress::judge;

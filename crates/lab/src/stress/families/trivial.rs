@@ -75,7 +75,7 @@ mod tests {
         let right = Expected::answer(1e-13, "parabola");
         assert_eq!(
             judge(&right, &found),
-            report::stress::Judgement::SilentlyWrong
+            crate::stress::Judgement::SilentlyWrong
         );
     }
 }

@@ -94,6 +94,7 @@ function setUpOptions(picture) {
   ];
   for (const [key, words] of options) {
     if (key === "follow" && !picture.travels) continue;
+    if (key === "forces" && !joints.some((j) => j.wrench)) continue;
     if (key === "freedom" && !joints.some((j) => j.freedom)) continue;
     const box = make(null, "input", { type: "checkbox", checked: picture.show[key] });
     box.addEventListener("change", () => {
@@ -102,13 +103,17 @@ function setUpOptions(picture) {
     });
     make(byId("options"), "label", {}, box, words);
   }
+  for (const [id, factor] of [["zoom-in", 1.3], ["zoom-out", 1 / 1.3], ["zoom-reset", 0]]) {
+    byId(id).addEventListener("click", () => picture.zoomBy(factor));
+  }
+}
+
+/** The length of arrows. */
+function setUpArrows(picture) {
   byId("arrows").addEventListener("input", (event) => {
     picture.arrowScale = 2 ** Number(event.target.value);
     picture.moveTo(clock.t);
   });
-  for (const [id, factor] of [["zoom-in", 1.3], ["zoom-out", 1 / 1.3], ["zoom-reset", 0]]) {
-    byId(id).addEventListener("click", () => picture.zoomBy(factor));
-  }
 }
 
 /** Bodies whose traces and curves are shown. */
@@ -324,25 +329,31 @@ function showSymbols() {
   }
 }
 
+/** What only a run has: time, curves, traces. */
+function setUpRun(picture, handlers) {
+  setUpTransport();
+  const refresh = setUpMotion(picture);
+  handlers.body = setUpBodies(picture, refresh);
+  handlers.joint = setUpReactions(picture);
+  setUpArrows(picture);
+  setUpChecks();
+  setUpKeys();
+}
+
 function start() {
   setUpTheme();
   setUpPrint();
   if (!frameCount) return;
-  setUpTransport();
   const handlers = {};
   const picture = new Picture(byId("picture"), {
     onJoint: (index) => handlers.joint?.(index),
     onBody: (index) => handlers.body?.(index),
   });
-  const refresh = setUpMotion(picture);
-  handlers.body = setUpBodies(picture, refresh);
-  handlers.joint = setUpReactions(picture);
   setUpOptions(picture);
-  setUpChecks();
-  setUpKeys();
-  clock.listeners.push((t) => picture.moveTo(t), (t) => charts.forEach((chart) => chart.moveTo(t)));
   placeNamesAtRest(picture);
   showSymbols();
+  if (byId("play")) setUpRun(picture, handlers);
+  clock.listeners.push((t) => picture.moveTo(t), (t) => charts.forEach((chart) => chart.moveTo(t)));
   clock.set(tFirst);
   if (!matchMedia("(prefers-reduced-motion: reduce)").matches) clock.play();
   // For tests, and for the curious.

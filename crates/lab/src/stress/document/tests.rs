@@ -1,7 +1,7 @@
 //! What a reader of table, document and page finds.
 
 use super::*;
-use crate::figures;
+use crate::stress::{StressTable, extremes, stress_page};
 
 fn row(case: &str, error: f64, judgement: Judgement) -> StressRow {
     StressRow {
@@ -47,7 +47,7 @@ fn document() -> StressDocument {
 #[test]
 fn the_page_shows_what_does_not_pass_first_and_the_worst_of_it_before_the_rest() {
     let document = document();
-    let page = stress_page(&document, &figures::extremes(&document.families));
+    let page = stress_page(&document, &extremes(&document.families));
     let place = |text: &str| {
         page.find(text)
             .unwrap_or_else(|| panic!("no `{text}` in\n{page}"))
@@ -79,9 +79,9 @@ fn a_table_has_a_line_for_each_case() {
 #[test]
 fn a_figure_has_a_point_for_each_worst_answer() {
     let mut family = document().families.remove(0);
-    let figure = figures::extremes(std::slice::from_ref(&family));
+    let figure = extremes(std::slice::from_ref(&family));
     // One in the legend, one for both answers at 1e-6, of which the worst is shown.
     assert_eq!(figure.matches("<polygon").count(), 2);
     family.rows.clear();
-    assert_eq!(figures::extremes(&[family]), "");
+    assert_eq!(extremes(&[family]), "");
 }

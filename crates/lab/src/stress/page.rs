@@ -1,8 +1,8 @@
 //! `report.html` of the stiff and extreme cases: one file that opens offline. What does not pass
 //! stands first.
 
-use super::{Judgement, StressDocument, StressFamily, StressRow};
-use crate::page::{add, close, duration, open, safe, short};
+use super::document::{Judgement, StressDocument, StressFamily, StressRow};
+use report::page::{add, close, duration, open, safe, short};
 
 const EXPLANATION: &str = "<p>Each case has its right answer: a closed form, a value in exact arithmetic, another derivation, or the error that has \
 to come; never what the program said before. An answer within its bound is <em>right</em>; an error that says what is wrong is <em>refused by name</em>. An \
@@ -10,7 +10,7 @@ error where an answer exists, or one that does not say what is wrong, does not p
 answer beyond its bound, an answer where none exists, a panic, or nothing at all within the time allowed. Cells are errors, in the units of the bound beside \
 them; hold the pointer over a cell for what came out.</p>\n";
 
-/// The page; `figure` is the SVG of [`crate::figures::extremes()`].
+/// The page; `figure` is the SVG of [`super::extremes`].
 #[must_use]
 pub fn stress_page(document: &StressDocument, figure: &str) -> String {
     let mut page = open("Stiff and extreme cases");

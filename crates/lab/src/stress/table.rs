@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use super::StressRow;
-use crate::tables::{Table, TableError};
+use super::document::StressRow;
+use report::tables::{Table, TableError};
 
 /// Columns; more may follow.
 const HEADER: [&str; 12] = [

@@ -1,18 +1,12 @@
-//! Stiff and extreme cases: what is right and what came out, as a table, a document and a page.
+//! Stiff and extreme cases: what is right and what came out, as a document.
 //!
 //! Not here: the cases, and the judge.
 
-mod page;
-mod table;
 #[cfg(test)]
 mod tests;
 
+use report::Provenance;
 use serde::Serialize;
-
-use crate::work_precision::Provenance;
-
-pub use page::stress_page;
-pub use table::StressTable;
 
 /// What is to be thought of one outcome.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -120,7 +114,7 @@ impl Tally {
     /// Counts.
     ///
     /// ```
-    /// use report::stress::{Judgement, Tally};
+    /// use lab::stress::{Judgement, Tally};
     ///
     /// let tally = Tally::of([Judgement::Right, Judgement::Refused, Judgement::Limit]);
     /// assert_eq!(tally.last_line(), "right 1, refused by name 2, silently wrong 0");

@@ -1,0 +1,67 @@
+//! Errors over what is made extreme: one panel for each family and each varied number.
+
+use report::figures::{self, Extremes};
+
+use super::document::{StressFamily, StressRow};
+
+/// The figure of all families that vary a number; an empty text if none does. A dashed line is the
+/// bound of all cases of a panel, if they have only one. Refusals have no point.
+#[must_use]
+pub fn extremes(families: &[StressFamily]) -> String {
+    let panels: Vec<Extremes<'_>> = families.iter().flat_map(panels).collect();
+    figures::extremes(&panels)
+}
+
+/// The panels of a family, in the order in which its numbers appear.
+fn panels(family: &StressFamily) -> Vec<Extremes<'_>> {
+    let varied = family.rows.iter().filter_map(|row| row.varied);
+    let panel = |varied: &'static str| {
+        let of_it = |row: &&StressRow| row.varied.is_some_and(|(name, _)| name == varied);
+        let rows: Vec<&StressRow> = family.rows.iter().filter(of_it).collect();
+        let first = rows.first().map_or(f64::NAN, |row| row.bound);
+        Extremes {
+            title: family.name,
+            varied,
+            series: series(&rows),
+            bound: rows.iter().all(|row| row.bound == first).then_some(first),
+        }
+    };
+    distinct(varied.map(|(name, _)| name))
+        .into_iter()
+        .map(panel)
+        .collect()
+}
+
+/// One curve for each formulation, or for each method where there is one formulation.
+fn series<'r>(rows: &[&'r StressRow]) -> Vec<(&'r str, Vec<[f64; 2]>)> {
+    let alike = rows
+        .windows(2)
+        .all(|w| w[0].formulation == w[1].formulation);
+    let name = |row: &'r StressRow| {
+        if alike {
+            row.method.as_str()
+        } else {
+            row.formulation.as_str()
+        }
+    };
+    let curve = |own: &'r str| {
+        let rows = rows.iter().filter(|row| name(row) == own);
+        let points = rows.map(|row| [row.varied.map_or(f64::NAN, |(_, x)| x), row.error]);
+        (own, points.collect())
+    };
+    distinct(rows.iter().map(|row| name(row)))
+        .into_iter()
+        .map(curve)
+        .collect()
+}
+
+/// Names in the order of their first appearance.
+fn distinct<'a>(names: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut first: Vec<&str> = Vec::new();
+    for name in names {
+        if !first.contains(&name) {
+            first.push(name);
+        }
+    }
+    first
+}
