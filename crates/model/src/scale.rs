@@ -14,11 +14,17 @@ impl Mechanism {
     /// arm of its body, because it is where the arms put it. Needs C there.
     #[must_use]
     pub fn position_scale(&self, s: &Scratch, i: usize) -> f64 {
-        let at = |j: usize| {
-            let pose = &s.poses[j / N_BODY];
-            [pose.x, pose.y, pose.angle][j % N_BODY]
+        let term = |(j, c): (usize, f64)| {
+            let body = j / N_BODY;
+            let pose = &s.poses[body];
+            let (at, least) = match j - N_BODY * body {
+                0 => (pose.x, self.reach(body)),
+                1 => (pose.y, self.reach(body)),
+                _ => (pose.angle, 1.0),
+            };
+            let at = at.abs();
+            c.abs() * if at > least { at } else { least }
         };
-        let term = |(j, c): (usize, f64)| c.abs() * at(j).abs().max(self.least(j));
         self.layout().row(s, i).map(term).sum()
     }
 
